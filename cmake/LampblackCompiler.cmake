@@ -1,0 +1,24 @@
+# Compiler settings shared by every target, as the interface library `lampblack_options`.
+add_library(lampblack_options INTERFACE)
+target_compile_features(lampblack_options INTERFACE cxx_std_20)
+target_compile_options(lampblack_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wconversion -Wno-sign-conversion
+  # Value-preserving: no code here reads errno of <cmath> or installs floating-point traps.
+  -fno-math-errno -fno-trapping-math)
+if(LAMPBLACK_NATIVE)
+  target_compile_options(lampblack_options INTERFACE -march=native)
+endif()
+if(LAMPBLACK_WERROR)
+  target_compile_options(lampblack_options INTERFACE -Werror)
+endif()
+if(LAMPBLACK_SANITIZE)
+  target_compile_options(lampblack_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined
+                                                     -fno-omit-frame-pointer)
+  target_link_options(lampblack_options INTERFACE -fsanitize=address,undefined)
+endif()
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
+  set(CMAKE_C_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
+endif()

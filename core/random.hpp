@@ -1,0 +1,67 @@
+// Counter-based random numbers (Philox4x32-10; Salmon, Moraes, Dror, Shaw 2011). A stream is keyed by what it is for -
+// (seed, owner, purpose), owner being a global cell, trajectory or repeat - so that results do not depend on which rank
+// draws them. The state is one counter: saving it makes a restart exact.
+#pragma once
+
+#include <Random123/philox.h>
+
+#include <cmath>
+#include <cstdint>
+
+namespace lampblack {
+
+class RandomStream {
+ public:
+  RandomStream(std::uint64_t seed, std::uint64_t owner, std::uint32_t purpose)
+      : key_{{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)}},
+        owner_(owner),
+        purpose_(purpose) {}
+
+  // Uniform in the open interval (0, 1), 53 random bits: never 0 or 1, so that its logarithm is finite.
+  double uniform() {
+    const std::uint64_t bits = next64() >> 11;
+    return (static_cast<double>(bits) + 0.5) * 0x1.0p-53;
+  }
+
+  // Exponentially distributed waiting time with the given rate (1/s, positive).
+  double exponential(double rate) { return -std::log(uniform()) / rate; }
+
+  // Uniform index in [0, n); n positive. The bias is below n/2^64 (multiply-shift, Lemire 2019).
+  std::uint64_t below(std::uint64_t n) {
+    return static_cast<std::uint64_t>((static_cast<unsigned __int128>(next64()) * n) >> 64);
+  }
+
+  // Number of 64-bit words drawn so far; restoring it restores the stream exactly.
+  [[nodiscard]] std::uint64_t position() const { return position_; }
+  void seek(std::uint64_t position) {
+    position_ = position;
+    if (position_ % 2 == 1) generateBlock();
+  }
+
+ private:
+  std::uint64_t next64() {
+    if (position_ % 2 == 0) generateBlock();
+    const std::uint64_t word = block_[position_ % 2];
+    ++position_;
+    return word;
+  }
+
+  // One Philox call gives two 64-bit words. The counter holds 32 bits of block number low and owner and purpose above:
+  // 2^33 words a stream, ample for one owner and purpose.
+  void generateBlock() {
+    const r123::Philox4x32::ctr_type counter{{static_cast<std::uint32_t>(position_ / 2),
+                                              static_cast<std::uint32_t>(owner_),
+                                              static_cast<std::uint32_t>(owner_ >> 32), purpose_}};
+    const auto words = r123::Philox4x32{}(counter, key_);
+    block_[0] = words[0] | (static_cast<std::uint64_t>(words[1]) << 32);
+    block_[1] = words[2] | (static_cast<std::uint64_t>(words[3]) << 32);
+  }
+
+  r123::Philox4x32::key_type key_;
+  std::uint64_t owner_;
+  std::uint32_t purpose_;
+  std::uint64_t position_ = 0;
+  std::uint64_t block_[2] = {0, 0};
+};
+
+}  // namespace lampblack
