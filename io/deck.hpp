@@ -1,0 +1,98 @@
+// A run's input deck: a YAML file checked against a DeckSchema, with `--set a.b=c` on top. Every key is known, has its
+// type, its unit and its range before anybody asks for it, so that the code that uses a deck cannot meet a bad one. All
+// values are SI. Reading is strict: unknown and repeated keys are errors, and a message shows the line they stand in.
+#pragma once
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/errors.hpp"
+#include "io/deck_node.hpp"
+#include "io/deck_schema.hpp"
+
+namespace lampblack {
+
+// One checked value; a list holds several numbers or texts.
+struct DeckValue {
+  DeckKey key;
+  std::string path;  // "mesh.z[0].cells"
+  bool isDefault = false;
+  std::vector<double> numbers;         // quantity, number (SI)
+  std::vector<std::int64_t> integers;  // integer, boolean (0 or 1)
+  std::vector<std::string> texts;      // string, choice
+};
+
+class Deck {
+ public:
+  // Reads and checks a deck. `overrides` are the arguments of --set, "a.b=c" each, applied in order; c is YAML. Throws
+  // InputError for everything that can be wrong with the file, the overrides or the values.
+  static Deck load(const std::filesystem::path& path, const std::vector<std::string>& overrides,
+                   const DeckSchema& schema);
+  // The same, collectively: rank 0 reads the file, all ranks check the same text and raise the same error.
+  static Deck load(const std::filesystem::path& path, const std::vector<std::string>& overrides,
+                   const DeckSchema& schema, MPI_Comm comm);
+  // The same from text; `path` is what messages call it and what relative paths start from.
+  static Deck parse(std::string text, const std::filesystem::path& path, const std::vector<std::string>& overrides,
+                    const DeckSchema& schema);
+
+  // Typed access by path, list items by index: "mesh.z[0].cells". Asking for a key that the schema does not declare,
+  // with another type, or that is optional and absent is a mistake of the caller: std::logic_error.
+  [[nodiscard]] double quantity(std::string_view key) const;  // SI
+  [[nodiscard]] double number(std::string_view key) const;
+  [[nodiscard]] std::int64_t integer(std::string_view key) const;
+  [[nodiscard]] bool boolean(std::string_view key) const;
+  [[nodiscard]] std::string string(std::string_view key) const;
+  [[nodiscard]] std::string choice(std::string_view key) const;
+  [[nodiscard]] std::vector<double> quantities(std::string_view key) const;  // lists and vectors
+  [[nodiscard]] std::vector<double> numbers(std::string_view key) const;
+  [[nodiscard]] std::vector<std::int64_t> integers(std::string_view key) const;
+  [[nodiscard]] std::vector<std::string> strings(std::string_view key) const;  // strings and choices
+
+  // The same for optional keys: empty where the deck does not say.
+  [[nodiscard]] std::optional<double> optionalQuantity(std::string_view key) const;
+  [[nodiscard]] std::optional<double> optionalNumber(std::string_view key) const;
+  [[nodiscard]] std::optional<std::int64_t> optionalInteger(std::string_view key) const;
+  [[nodiscard]] std::optional<bool> optionalBoolean(std::string_view key) const;
+  [[nodiscard]] std::optional<std::string> optionalString(std::string_view key) const;  // string or choice
+
+  // Whether the deck has this key or section; a key with a default is always there.
+  [[nodiscard]] bool has(std::string_view key) const;
+  // Whether the deck itself says it, rather than a default.
+  [[nodiscard]] bool isGiven(std::string_view key) const;
+  // Names in a map, in the order of the file; empty where it is absent.
+  [[nodiscard]] std::vector<std::string> children(std::string_view section) const;
+  // Number of items of a list; 0 where it is absent.
+  [[nodiscard]] std::size_t size(std::string_view list) const;
+
+  // An InputError about this key or section, pointing at where it stands in the deck (or the section it should be in).
+  [[nodiscard]] InputError error(std::string_view key, const std::string& message) const;
+
+  // Everything the run was told, defaults included, in SI: a deck that can be read again.
+  [[nodiscard]] std::string resolved() const;
+  [[nodiscard]] std::string resolvedJson() const;
+
+  [[nodiscard]] const std::filesystem::path& path() const { return source_->path; }
+  // A file named in the deck: relative names start from the deck's folder.
+  [[nodiscard]] std::filesystem::path resolvePath(const std::string& name) const;
+
+ private:
+  Deck() = default;
+  [[nodiscard]] const DeckValue* find(std::string_view key) const;
+  [[nodiscard]] const DeckValue& get(std::string_view key, KeyType type, bool list) const;
+  [[nodiscard]] const DeckNode* nodeAt(std::string_view key) const;
+
+  std::shared_ptr<const DeckSource> source_;
+  DeckNode root_;
+  std::vector<DeckValue> values_;  // in the order of the schema
+  std::map<std::string, std::size_t, std::less<>> index_;
+};
+
+}  // namespace lampblack

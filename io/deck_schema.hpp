@@ -1,0 +1,117 @@
+// What a deck may say. Each key is declared once - path, type, unit, range, default, one line of prose - next to the
+// code that uses it; the reader, `lampblack check`, the reference page and the JSON schema are all made from this
+// declaration.
+//
+//   DeckSchema schema;
+//   schema.section("boundaries", Presence::required, "Named parts of the surface and what happens there.")
+//       .add(choiceKey("boundaries.*.type", {"inlet", "outlet", "wall"}, "Kind of boundary."))
+//       .add(quantityKey("boundaries.*.velocity", units::velocity, "Velocity along the inward normal.").optional())
+//       .add(integerKey("mesh.z[].cells", "Cells of this segment.").atLeast(1));
+//
+// A path is names joined by dots; `*` stands for a name the user chooses and `[]` for the items of a list.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/units.hpp"
+
+namespace lampblack {
+
+enum class KeyType { quantity, number, integer, boolean, string, choice };
+
+// A key that is absent: `required` is an error, `optional` leaves it unset, `defaulted` takes the default.
+enum class Presence { required, optional, defaulted };
+
+// A limit of the allowed range, in SI.
+struct Bound {
+  double value = 0.0;
+  bool exclusive = false;
+};
+
+// One key. Made by the functions below; required until told otherwise.
+class DeckKey {
+ public:
+  DeckKey(std::string path, KeyType type, std::string doc) : path(std::move(path)), type(type), doc(std::move(doc)) {}
+
+  DeckKey& optional();
+  DeckKey& byDefault(std::string text);  // as it would stand in a deck: "1 atm", "[0, 0, 1]", "true"
+  DeckKey& atLeast(double si);           // range, inclusive
+  DeckKey& atMost(double si);
+  DeckKey& above(double si);  // range, exclusive
+  DeckKey& below(double si);
+  DeckKey& list();                   // a list of any length of this type
+  DeckKey& list(std::size_t count);  // a list of exactly `count`, for instance a vector
+
+  std::string path;
+  KeyType type;
+  std::string doc;
+  units::Dimension dimension;
+  std::vector<std::string> choices;
+  Presence presence = Presence::required;
+  std::string defaultText;
+  std::optional<Bound> minimum;
+  std::optional<Bound> maximum;
+  bool isList = false;
+  std::optional<std::size_t> count;
+};
+
+DeckKey quantityKey(std::string path, const units::Dimension& dimension, std::string doc);
+DeckKey numberKey(std::string path, std::string doc);  // a plain number; "5 %" is 0.05
+DeckKey integerKey(std::string path, std::string doc);
+DeckKey booleanKey(std::string path, std::string doc);
+DeckKey stringKey(std::string path, std::string doc);
+DeckKey choiceKey(std::string path, std::vector<std::string> choices, std::string doc);
+DeckKey vectorKey(std::string path, const units::Dimension& dimension, std::string doc);  // three components
+
+// "a velocity (for instance '20 cm/s')", "an integer from 1 to 64", "one of: inlet, outlet, wall".
+std::string expectation(const DeckKey& key);
+
+// The same limits in words, without the type: "above 0 K", "0 to 1"; empty when there are none.
+std::string rangeText(const DeckKey& key);
+
+// A map or list that needs saying more than that it exists. Sections that are not declared are always looked into, so
+// that their required keys are required and their defaults hold. An `optional` section that is absent is skipped with
+// everything in it; a `required` one must be there and not be empty.
+struct DeckSection {
+  std::string path;
+  Presence presence = Presence::optional;
+  std::string doc;
+};
+
+class DeckSchema {
+ public:
+  // std::logic_error for a path declared twice, or a key that is also a section.
+  DeckSchema& add(DeckKey key);
+  DeckSchema& section(std::string path, Presence presence, std::string doc);
+  DeckSchema& add(const DeckSchema& other);  // everything another schema declares
+
+  [[nodiscard]] const std::vector<DeckKey>& keys() const { return keys_; }
+
+  // The same declarations as a tree, one node for each part of a path, in order of declaration.
+  struct Node {
+    std::string name;  // "mesh", "*" or "[]"
+    std::string path;  // "boundaries.*"
+    const DeckKey* key = nullptr;
+    const DeckSection* section = nullptr;
+    std::vector<Node> children;
+
+    [[nodiscard]] const Node* child(const std::string& childName) const;  // exact, nullptr if none
+  };
+  // Refers to this schema, which has to live as long.
+  [[nodiscard]] Node tree() const;
+
+ private:
+  std::vector<DeckKey> keys_;
+  std::vector<DeckSection> sections_;
+};
+
+// The reference page: a table of keys for each section.
+std::string markdownReference(const DeckSchema& schema);
+
+// A JSON schema (draft 2020-12) for editors that check YAML while it is typed.
+std::string jsonSchema(const DeckSchema& schema);
+
+}  // namespace lampblack

@@ -1,0 +1,35 @@
+// The history of a run: one row of numbers a step (or every few), to a CSV file that can be followed while the run goes
+// on, and to the results file as a table at the end.
+#pragma once
+
+#include <mpi.h>
+
+#include <filesystem>
+#include <fstream>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/results_writer.hpp"
+
+namespace lampblack {
+
+class HistoryWriter {
+ public:
+  // Rank 0 writes `path`, with a header "time [s],steps [1],...". InputError (rank 0) where it cannot be made.
+  HistoryWriter(MPI_Comm comm, const std::filesystem::path& path, std::vector<TableColumn> columns);
+
+  // One value for each column; only rank 0's count.
+  void row(std::span<const double> values);
+
+  // Collective: the same rows as a table of the results file.
+  void writeTo(ResultsWriter& results, const std::string& path = "/history") const;
+
+ private:
+  int rank_ = 0;
+  std::vector<TableColumn> columns_;
+  std::vector<double> rows_;
+  std::ofstream csv_;
+};
+
+}  // namespace lampblack

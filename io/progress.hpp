@@ -1,0 +1,51 @@
+// How far a run has come, from rank 0: one line that updates itself on a terminal, one line every few seconds in a log
+// file. The time to go is judged from the simulated time covered so far.
+#pragma once
+
+#include <mpi.h>
+
+#include <chrono>
+#include <cstdint>
+#include <iosfwd>
+#include <string>
+
+namespace lampblack {
+
+class Progress {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  // Simulated time runs from `start` to `end`, s. Prints to standard output, which is asked whether it is a terminal.
+  Progress(MPI_Comm comm, double start, double end);
+  // The same on any stream; `now` is for tests.
+  Progress(std::ostream& out, bool terminal, double start, double end, Clock::time_point now = Clock::now());
+
+  // Say where the run is; prints only when it is time to. `extras` is appended: "Tmax 2103 K  fv 0.31 ppm".
+  void update(std::int64_t step, double time, double dt, const std::string& extras = {},
+              Clock::time_point now = Clock::now());
+  // Prints the last state in any case and ends the line. Before other output, too, so that lines do not mix.
+  void finish(Clock::time_point now = Clock::now());
+
+  static constexpr std::chrono::milliseconds terminalInterval{200};
+  static constexpr std::chrono::milliseconds logInterval{5000};
+
+ private:
+  [[nodiscard]] std::string line(Clock::time_point now) const;
+  void print(Clock::time_point now);
+
+  std::ostream* out_;  // nullptr on ranks other than 0
+  bool terminal_;
+  double start_;
+  double end_;
+  Clock::time_point begun_;
+  Clock::time_point last_;
+  bool printed_ = false;
+  bool pending_ = false;
+  std::size_t width_ = 0;
+  std::int64_t step_ = 0;
+  double time_ = 0.0;
+  double dt_ = 0.0;
+  std::string extras_;
+};
+
+}  // namespace lampblack

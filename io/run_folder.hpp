@@ -1,0 +1,35 @@
+// The folder a run writes to. It is made when missing, and refused when it already holds a run - finished, failed or
+// still going - so that nothing is overwritten unless the user says so.
+#pragma once
+
+#include <mpi.h>
+
+#include <filesystem>
+#include <string>
+
+#include "core/errors.hpp"
+
+namespace lampblack {
+
+class RunFolder {
+ public:
+  // Collective: rank 0 looks and makes, all ranks raise the same InputError. With `force` the files of the earlier run
+  // (those named below and no others) are removed.
+  static RunFolder prepare(const std::filesystem::path& path, bool force, MPI_Comm comm);
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] std::filesystem::path results() const { return path_ / "results.h5"; }
+  [[nodiscard]] std::filesystem::path runRecord() const { return path_ / "run.json"; }
+  [[nodiscard]] std::filesystem::path history() const { return path_ / "history.csv"; }
+  [[nodiscard]] std::filesystem::path file(const std::string& name) const { return path_ / name; }
+
+ private:
+  explicit RunFolder(std::filesystem::path path) : path_(std::move(path)) {}
+  std::filesystem::path path_;
+};
+
+// Writes a file so that a reader sees the old or the new one and never half of it: temporary name, then rename.
+// InputError where it cannot be written. Not collective.
+void writeFileAtomically(const std::filesystem::path& path, const std::string& content);
+
+}  // namespace lampblack

@@ -1,0 +1,47 @@
+// run.json: what was run, with what, how it went and what it cost. Written at the start (status "running"), and again
+// at the end; a file that still says "running" after its process is gone belongs to a run that died.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "io/report.hpp"
+
+namespace lampblack {
+
+enum class RunStatus { running, done, failed };
+
+struct RunRecord {
+  RunStatus status = RunStatus::running;
+  std::string message;                 // why it failed
+  std::string deckPath;                // absolute
+  std::string deckJson;                // Deck::resolvedJson()
+  std::vector<std::string> overrides;  // --set
+  std::string version;                 // Lampblack's
+  std::string gitHash;
+  std::map<std::string, std::string> libraries;  // "PETSc": "3.18.5"
+  int ranks = 1;
+  std::uint64_t seed = 0;
+  std::string started;         // ISO 8601, UTC
+  std::string finished;        // empty while running
+  double wallTime = 0.0;       // s
+  double simulatedTime = 0.0;  // s
+  std::int64_t steps = 0;
+  std::int64_t cells = 0;
+  double peakMemoryPerRank = 0.0;  // bytes, the largest
+  std::vector<StageTime> stages;
+};
+
+// The record as JSON text.
+std::string toJson(const RunRecord& record);
+
+// Writes it with writeFileAtomically(). Call on rank 0 only.
+void writeRunRecord(const std::filesystem::path& path, const RunRecord& record);
+
+// The time now, UTC, as "2024-05-01T12:00:00Z".
+std::string utcNow();
+
+}  // namespace lampblack
