@@ -1,1 +1,67 @@
 #include "core/errors.hpp"
+
+#include <vector>
+
+namespace lampblack {
+namespace {
+
+enum class Kind : int { bug = 1, input = 2, numerics = 3 };
+
+struct Failure {
+  Kind kind = Kind::bug;
+  std::string message;
+};
+
+Failure describe(const std::exception_ptr& error) {
+  try {
+    std::rethrow_exception(error);
+  } catch (const InputError& e) {
+    return {Kind::input, e.what()};
+  } catch (const NumericsError& e) {
+    return {Kind::numerics, e.what()};
+  } catch (const std::exception& e) {
+    return {Kind::bug, e.what()};
+  } catch (...) {
+    return {Kind::bug, "an exception that is not a std::exception"};
+  }
+}
+
+}  // namespace
+
+void raiseCollectively(MPI_Comm comm, const std::exception_ptr& error) {
+  int rank = 0;
+  int size = 1;
+  MPI_Comm_rank(comm, &rank);
+  MPI_Comm_size(comm, &size);
+  int firstFailing = error ? rank : size;
+  MPI_Allreduce(MPI_IN_PLACE, &firstFailing, 1, MPI_INT, MPI_MIN, comm);
+  if (firstFailing == size) return;
+
+  Failure failure;
+  if (rank == firstFailing) failure = describe(error);
+  int header[2] = {static_cast<int>(failure.kind), static_cast<int>(failure.message.size())};
+  MPI_Bcast(header, 2, MPI_INT, firstFailing, comm);
+  failure.message.resize(static_cast<std::size_t>(header[1]));
+  MPI_Bcast(failure.message.data(), header[1], MPI_CHAR, firstFailing, comm);
+  switch (static_cast<Kind>(header[0])) {
+    case Kind::input:
+      throw InputError(failure.message);
+    case Kind::numerics:
+      throw NumericsError(failure.message);
+    case Kind::bug:
+      break;
+  }
+  throw std::runtime_error(failure.message);
+}
+
+void collectively(MPI_Comm comm, const std::function<void()>& work) {
+  std::exception_ptr error;
+  try {
+    work();
+  } catch (...) {
+    error = std::current_exception();
+  }
+  raiseCollectively(comm, error);
+}
+
+}  // namespace lampblack

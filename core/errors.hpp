@@ -1,6 +1,11 @@
-// The two ways a run may end in error. Anything else that is thrown is a bug in Lampblack.
+// The two ways a run may end in error, and how an error on one rank becomes the error of all. Anything else that is
+// thrown is a bug in Lampblack.
 #pragma once
 
+#include <mpi.h>
+
+#include <exception>
+#include <functional>
 #include <stdexcept>
 #include <string>
 
@@ -17,5 +22,12 @@ class NumericsError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+// Collective. If any rank passes an exception, every rank throws the one of the lowest such rank, with its message and,
+// for InputError and NumericsError, its type (std::runtime_error otherwise). Does nothing when no rank failed.
+void raiseCollectively(MPI_Comm comm, const std::exception_ptr& error);
+
+// Collective. Runs `work`, which must not communicate, and raises its failure on all ranks.
+void collectively(MPI_Comm comm, const std::function<void()>& work);
 
 }  // namespace lampblack

@@ -1,0 +1,14 @@
+// Splits a graph into parts of equal weight with METIS (Karypis and Kumar 1998).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace lampblack {
+
+// Part of each vertex of a graph in compressed rows (`start`, `neighbours`), vertices weighted by `weight` (empty:
+// equal; otherwise positive values on any scale). Deterministic. NumericsError if METIS fails.
+std::vector<int> partitionGraph(const std::vector<std::int64_t>& start, const std::vector<std::int64_t>& neighbours,
+                                const std::vector<double>& weight, int parts);
+
+}  // namespace lampblack

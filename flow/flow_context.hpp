@@ -1,0 +1,28 @@
+// What every flow operator of one run shares: mesh, halo exchange, gas models and boundary conditions.
+#pragma once
+
+#include <vector>
+
+#include "chemistry/mechanism.hpp"
+#include "chemistry/thermo.hpp"
+#include "chemistry/transport.hpp"
+#include "core/halo_exchange.hpp"
+#include "core/mesh.hpp"
+#include "flow/boundary.hpp"
+
+namespace lampblack {
+
+struct FlowContext {
+  const Mesh& mesh;
+  HaloExchange& halo;
+  const Mechanism& mechanism;
+  const Thermo& thermo;
+  Transport& transport;
+  std::vector<BoundaryCondition> boundaries;  // index: patch of the mesh
+
+  [[nodiscard]] const BoundaryCondition& boundaryOf(int face) const {
+    return boundaries[mesh.patch[face - mesh.interiorFaces]];
+  }
+};
+
+}  // namespace lampblack

@@ -1,0 +1,31 @@
+#include "flow/state.hpp"
+
+#include <utility>
+
+namespace lampblack {
+
+State::State(const Mesh& mesh, std::size_t speciesCount, std::vector<CarriedScalar> carriedScalars)
+    : species(static_cast<int>(speciesCount)), scalars(std::move(carriedScalars)) {
+  const auto cells = static_cast<std::size_t>(mesh.cells);
+  velocity.assign(2 * cells, 0.0);
+  pressure.assign(cells, 0.0);
+  temperature.assign(cells, 0.0);
+  density.assign(cells, 0.0);
+  enthalpy.assign(cells, 0.0);
+  Y.assign(cells * speciesCount, 0.0);
+  carried.assign(cells * scalars.size(), 0.0);
+  carriedDiffusivity.assign(cells * scalars.size(), 0.0);
+  balance.assign(cells * speciesCount, 0.0);
+  massFlux.assign(static_cast<std::size_t>(mesh.faces), 0.0);
+}
+
+void State::updateHalo(HaloExchange& halo) {
+  std::vector<FieldView> fields{{velocity, 2}, {pressure, 1}, {temperature, 1}, {density, 1}, {enthalpy, 1}, {Y, species}};
+  if (!scalars.empty()) {
+    fields.push_back({carried, carriedCount()});
+    fields.push_back({carriedDiffusivity, carriedCount()});
+  }
+  halo.update(fields);
+}
+
+}  // namespace lampblack

@@ -1,0 +1,58 @@
+// The reacting flow in structure-of-arrays form: owned cells, then halo cells.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/halo_exchange.hpp"
+#include "core/mesh.hpp"
+
+namespace lampblack {
+
+// A quantity that the flow carries without knowing what it means (soot number, sections, moments): its density per
+// volume is transported by the gas velocity, thermophoresis if asked for, and a diffusivity that its model sets.
+struct CarriedScalar {
+  std::string name;
+  std::string unit;
+  std::string description;
+  bool thermophoretic = true;
+};
+
+struct State {
+  State(const Mesh& mesh, std::size_t species, std::vector<CarriedScalar> carried);
+
+  int species = 0;
+  std::vector<CarriedScalar> scalars;
+  [[nodiscard]] int carriedCount() const { return static_cast<int>(scalars.size()); }
+
+  double thermodynamicPressure = 101325.0;  // Pa, uniform
+  std::vector<double> velocity;             // m/s, 2 a cell
+  std::vector<double> pressure;             // Pa, hydrodynamic
+  std::vector<double> temperature;          // K
+  std::vector<double> density;              // kg/m^3, of the gas
+  std::vector<double> enthalpy;             // J/kg, of the gas, formation included
+  std::vector<double> Y;                    // mass fractions of the gas, `species` a cell
+  std::vector<double> carried;              // per m^3, carriedCount() a cell
+  std::vector<double> carriedDiffusivity;   // m^2/s, carriedCount() a cell; set by the model that owns the scalar
+
+  // The mean reaction rate of the last step (kg/m^3/s, `species` a cell), by which balanced splitting couples transport
+  // and reaction; zero in plain Strang splitting.
+  std::vector<double> balance;
+
+  // kg/s (per metre depth or radian) through each face, positive from low to high or outwards.
+  std::vector<double> massFlux;
+
+  // Fills the halo of everything a neighbour needs.
+  void updateHalo(HaloExchange& halo);
+};
+
+// Advances the state by one physical process; the driver strings them together.
+class Operator {
+ public:
+  virtual ~Operator() = default;
+  virtual void advance(State& state, double time, double dt) = 0;  // collective
+  [[nodiscard]] virtual const char* name() const = 0;
+};
+
+}  // namespace lampblack
