@@ -1,0 +1,55 @@
+// Surface growth and oxidation of soot by the HACA mechanism of Appel, Bockhorn and Frenklach (2000; thesis tables 7.1
+// and 9.1): C-H sites are opened by H and OH, and the open (radical) sites, in steady state, take acetylene or oxygen;
+// OH also oxidises at a fraction of its collision rate. What one event moves between gas and soot:
+//   growth:           C2H2            -> 2 C(s) + H2
+//   oxidation by O2:  O2 + 2 CH_x(s)  -> 2 CO + x H2
+//   oxidation by OH:  OH + CH_x(s)    -> CO + H + (x/2) H2
+// where x is the soot's own hydrogen-to-carbon ratio.
+#pragma once
+
+#include <cmath>
+
+#include "particles/soot_gas.hpp"
+
+namespace lampblack {
+
+// Events per unit area divided by the concentration of the gas reactant, m/s: events of growth are
+// growth * [C2H2] * area in mol/s.
+struct SurfaceRates {
+  double growth = 0;
+  double oxidationO2 = 0;
+  double oxidationOH = 0;
+};
+
+class SurfaceChemistry {
+ public:
+  // Rate constants at one temperature (K); evaluate once and use for every particle and sub-step.
+  SurfaceChemistry(const SootModelOptions& options, double temperature);
+
+  // Fraction of sites that react, in [0, 1] (ABF 2000; thesis eqs. 7-47 to 7-49), or the constant of the options.
+  // `meanCarbonAtoms`: mean number of carbon atoms of a particle of the population, mu_1, above 1.
+  [[nodiscard]] double alpha(double meanCarbonAtoms) const;
+
+  // `gas` needs H, H2, OH, H2O, O2, C2H2 (SootGasState or SootCellGas), mol/m3.
+  template <class Gas>
+  [[nodiscard]] SurfaceRates rates(const Gas& gas, double alpha) const {
+    const double opening = k1_ * gas.H + k2_ * gas.OH;
+    const double closing =
+        k1r_ * gas.H2 + k2r_ * gas.H2O + k3_ * gas.H + k4_ * gas.C2H2 + k5_ * gas.O2;  // thesis eq. 7-46
+    const double radicals = closing > 0 ? alpha * sites_ * opening / closing : 0;
+    return {growthOn_ * k4_ * radicals, oxidationOn_ * k5_ * radicals, oxidationOn_ * ohFlux_};
+  }
+
+ private:
+  double k1_, k1r_, k2_, k2r_, k3_, k4_, k5_;  // m3/mol/s
+  double sites_;                               // mol/m2
+  double ohFlux_;                              // m/s, efficiency times a quarter of the mean speed of OH
+  double a_, b_;
+  double growthOn_, oxidationOn_;
+  std::optional<double> alpha_;
+};
+
+// alpha(T, mu1) of ABF 2000, bounded to [0, 1]; mu1 > 1.
+[[nodiscard]] double activeSiteFraction(double temperature, double meanCarbonAtoms);
+
+}  // namespace lampblack

@@ -1,0 +1,148 @@
+#include "particles/two_equation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/errors.hpp"
+#include "particles/two_equation_state.hpp"
+
+namespace lampblack {
+namespace {
+
+double sphereDiameter(double volume) {
+  return std::cbrt(6 * volume / constants::pi);
+}
+
+}  // namespace
+
+TwoEquationSoot::TwoEquationSoot(SootModelOptions options) : options_(std::move(options)), dimers_(options_) {
+  nucleusCarbon_ = dimers_.smallestNucleus() / constants::avogadro;
+  nucleusDiameter_ = sphereDiameter(nucleusCarbon_ * options_.carbonWeight / options_.sootDensity);
+}
+
+double TwoEquationSoot::thermophoreticCoefficient() {
+  return 0.75 / (1 + constants::pi / 8);
+}
+
+double TwoEquationSoot::meanDiameter(const Population& population) const {
+  if (!(population.number > 0) || !(population.mass() > 0)) return 0;
+  return sphereDiameter(population.mass() / (options_.sootDensity * population.number));
+}
+
+double TwoEquationSoot::surfaceArea(const Population& population) const {
+  const double d = meanDiameter(population);
+  return constants::pi * d * d * std::max(population.number, 0.0);
+}
+
+double TwoEquationSoot::diffusivity(const SootGasState& gas, const Population& population) const {
+  const double d = std::max(meanDiameter(population), nucleusDiameter_);
+  return constants::boltzmann * gas.temperature / (3 * constants::pi * gas.viscosity * d) *
+         slipCorrection(2 * meanFreePath(gas) / d);
+}
+
+TwoEquationSoot::Frozen TwoEquationSoot::freeze(const SootGasState& gas) const {
+  if (!(gas.temperature > 0) || !(gas.pressure > 0) || !(gas.viscosity > 0) || !(gas.meanMolecularWeight > 0)) {
+    throw NumericsError(fmt::format("soot: gas at T = {} K, p = {} Pa, viscosity {} Pa s, W = {} kg/mol",
+                                    gas.temperature, gas.pressure, gas.viscosity, gas.meanMolecularWeight));
+  }
+  return {SurfaceChemistry(options_, gas.temperature), gas.temperature,
+          freeMolecularPrefactor(gas.temperature, options_.vanDerWaals), continuumPrefactor(gas),
+          2 * meanFreePath(gas)};
+}
+
+TwoEquationSoot::Rates TwoEquationSoot::rates(const Frozen& frozen, const State& state) const {
+  Rates r;
+  dimers_.lossRates(frozen.temperature, state.pah, r.pahLoss);
+  r.number = state.number;
+  r.carbon = state.carbon;
+  const double mass = state.carbon * options_.carbonWeight + state.hydrogen * options_.hydrogenWeight;
+  if (!(state.number > 0) || !(mass > 0)) return r;
+  r.particleMass = mass / state.number;
+  r.diameter = sphereDiameter(r.particleMass / options_.sootDensity);
+  const double d = r.diameter, area = constants::pi * d * d * state.number;
+  const double meanCarbon = std::max(state.carbon / state.number, nucleusCarbon_) * constants::avogadro;
+  const SurfaceRates surface = frozen.surface.rates(state.gas, frozen.surface.alpha(std::max(meanCarbon, 2.0)));
+  r.growth = surface.growth * area;
+  r.oxidationO2 = surface.oxidationO2 * area;
+  r.oxidationOH = surface.oxidationOH * area;
+  if (options_.coagulation) {
+    const double slip = slipCorrection(frozen.twiceMeanFreePath / d);
+    const double fm = freeMolecularKernel(frozen.freeMolecular, r.particleMass, d, r.particleMass, d);
+    r.coagulation = 0.5 * harmonicMean(fm, 4 * frozen.continuum * slip);
+  }
+  return r;
+}
+
+TwoEquationSoot::Sources TwoEquationSoot::sources(const SootGasState& gas, const Population& population) const {
+  const Frozen frozen = freeze(gas);
+  State state;
+  state.number = std::max(population.number, 0.0);
+  state.carbon = std::max(population.carbon, 0.0) / options_.carbonWeight;
+  state.hydrogen = std::max(population.hydrogen, 0.0) / options_.hydrogenWeight;
+  const auto positive = [](double x) { return std::max(x, 0.0); };
+  state.gas = {positive(gas.H),
+               positive(gas.H2),
+               positive(gas.OH),
+               positive(gas.H2O),
+               positive(gas.O2),
+               positive(gas.C2H2),
+               0,
+               {}};
+  const std::size_t n = dimers_.size();
+  for (std::size_t i = 0; i < n; ++i) state.pah[i] = positive(gas.pah[i]);
+  const Rates r = rates(frozen, state);
+
+  Sources s;
+  PahArray consumption{};
+  for (std::size_t i = 0; i < n; ++i) consumption[i] = r.pahLoss[i] * state.pah[i];
+  const DimerProduction dimer = dimers_.production(frozen.temperature, {consumption.data(), n});
+  const double self = options_.inception ? dimer.selfCollision : 0;
+  const double withParticles =
+      options_.condensation && r.diameter > 0 && dimer.rate > 0
+          ? state.number * DimerModel::particleCollision(dimer, frozen.freeMolecular, r.particleMass, r.diameter)
+          : 0;
+  double carbon = 0, hydrogen = 0;  // mol/m3/s into soot
+  if (self + withParticles > 0) {
+    s.dimerNumber = steadyDimers(dimer.rate, self, withParticles);
+    for (std::size_t i = 0; i < n; ++i) {
+      s.pah[i] = -consumption[i];
+      carbon += dimers_.carbonAtoms(i) * consumption[i];
+      hydrogen += dimers_.hydrogenAtoms(i) * consumption[i];
+    }
+    const double mass = carbon * options_.carbonWeight + hydrogen * options_.hydrogenWeight;
+    const double condensing = withParticles * s.dimerNumber / dimer.rate;
+    s.condensation = condensing * mass;
+    s.nucleation = mass - s.condensation;
+    s.nucleationNumber = 0.5 * self * s.dimerNumber * s.dimerNumber;
+  }
+  const double growth = r.growth * state.gas.C2H2, byO2 = r.oxidationO2 * state.gas.O2,
+               byOH = r.oxidationOH * state.gas.OH;
+  const double x = state.carbon > 0 ? state.hydrogen / state.carbon : 0;
+  const double perCarbon = options_.carbonWeight + x * options_.hydrogenWeight;
+  carbon += 2 * growth - 2 * byO2 - byOH;
+  hydrogen -= x * (2 * byO2 + byOH);
+  s.growth = 2 * growth * options_.carbonWeight;
+  s.oxidationO2 = -2 * byO2 * perCarbon;
+  s.oxidationOH = -byOH * perCarbon;
+  s.C2H2 = -growth;
+  s.O2 = -byO2;
+  s.OH = -byOH;
+  s.CO = 2 * byO2 + byOH;
+  s.H = byOH;
+  s.H2 = growth + x * byO2 + 0.5 * x * byOH;
+  s.carbon = carbon * options_.carbonWeight;
+  s.hydrogen = hydrogen * options_.hydrogenWeight;
+  s.coagulationNumber = -r.coagulation * state.number * state.number;
+  s.number = s.nucleationNumber + s.coagulationNumber;
+  // A mean particle that is no more than a nucleus cannot shrink: it goes (see the theory page).
+  if (state.number > 0 && state.carbon <= state.number * nucleusCarbon_ * (1 + 1e-9)) {
+    s.oxidationNumber = std::min(0.0, carbon / nucleusCarbon_ - s.number);
+    s.number += s.oxidationNumber;
+  }
+  return s;
+}
+
+}  // namespace lampblack
