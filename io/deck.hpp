@@ -90,6 +90,7 @@ class Deck {
   [[nodiscard]] const DeckNode* nodeAt(std::string_view key) const;
 
   std::shared_ptr<const DeckSource> source_;
+  std::shared_ptr<const DeckSchema> schema_;
   DeckNode root_;
   std::vector<DeckValue> values_;  // in the order of the schema
   std::map<std::string, std::size_t, std::less<>> index_;

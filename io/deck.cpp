@@ -1,0 +1,219 @@
+#include "io/deck.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "io/deck_check.hpp"
+
+namespace lampblack {
+namespace {
+
+constexpr std::uintmax_t largestDeck = 16U << 20U;  // bytes; a deck is a page or two
+
+std::string readFile(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) throw InputError(fmt::format("{}: there is no such file", path.string()));
+  if (std::filesystem::is_directory(status)) {
+    throw InputError(fmt::format("{}: this is a folder; name the deck in it", path.string()));
+  }
+  const auto size = std::filesystem::file_size(path, error);
+  if (!error && size > largestDeck) throw InputError(fmt::format("{}: too large for a deck", path.string()));
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (!file) throw InputError(fmt::format("{}: the file cannot be read", path.string()));
+  return text.str();
+}
+
+// Rank 0's text on all ranks.
+std::string broadcast(std::string text, MPI_Comm comm) {
+  auto size = static_cast<std::int64_t>(text.size());
+  MPI_Bcast(&size, 1, MPI_INT64_T, 0, comm);
+  text.resize(static_cast<std::size_t>(size));
+  MPI_Bcast(text.data(), static_cast<int>(size), MPI_CHAR, 0, comm);
+  return text;
+}
+
+}  // namespace
+
+Deck Deck::parse(std::string text, const std::filesystem::path& path, const std::vector<std::string>& overrides,
+                 const DeckSchema& schema) {
+  Deck deck;
+  const auto source = std::make_shared<DeckSource>(DeckSource{path, std::move(text), overrides});
+  deck.source_ = source;
+  deck.schema_ = std::make_shared<DeckSchema>(schema);
+  deck.root_ = parseDeck(*source);
+  for (std::size_t i = 0; i < overrides.size(); ++i) applyOverride(deck.root_, *source, i);
+  deck.values_ = checkDeck(*source, deck.root_, schema);
+  for (std::size_t i = 0; i < deck.values_.size(); ++i) deck.index_.emplace(deck.values_[i].path, i);
+  return deck;
+}
+
+Deck Deck::load(const std::filesystem::path& path, const std::vector<std::string>& overrides,
+                const DeckSchema& schema) {
+  return parse(readFile(path), path, overrides, schema);
+}
+
+Deck Deck::load(const std::filesystem::path& path, const std::vector<std::string>& overrides, const DeckSchema& schema,
+                MPI_Comm comm) {
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  std::string text;
+  std::string failure;
+  if (rank == 0) {
+    try {
+      text = readFile(path);
+    } catch (const InputError& error) {
+      failure = error.what();
+    }
+  }
+  failure = broadcast(std::move(failure), comm);
+  if (!failure.empty()) throw InputError(failure);
+  return parse(broadcast(std::move(text), comm), path, overrides, schema);
+}
+
+const DeckValue* Deck::find(std::string_view key) const {
+  const auto found = index_.find(key);
+  return found == index_.end() ? nullptr : &values_[found->second];
+}
+
+const DeckValue& Deck::get(std::string_view key, KeyType type, bool list) const {
+  const DeckValue* value = find(key);
+  if (value == nullptr) {
+    throw std::logic_error(
+        fmt::format("deck key '{}' is {}", key, isDeclared(*schema_, key) ? "optional and not given" : "not declared"));
+  }
+  const bool text = type == KeyType::string && value->key.type == KeyType::choice;
+  if ((value->key.type != type && !text) || value->key.isList != list) {
+    throw std::logic_error(fmt::format("deck key '{}' is declared with another type than it is asked for", key));
+  }
+  return *value;
+}
+
+double Deck::quantity(std::string_view key) const {
+  return get(key, KeyType::quantity, false).numbers[0];
+}
+double Deck::number(std::string_view key) const {
+  return get(key, KeyType::number, false).numbers[0];
+}
+std::int64_t Deck::integer(std::string_view key) const {
+  return get(key, KeyType::integer, false).integers[0];
+}
+bool Deck::boolean(std::string_view key) const {
+  return get(key, KeyType::boolean, false).integers[0] != 0;
+}
+std::string Deck::string(std::string_view key) const {
+  return get(key, KeyType::string, false).texts[0];
+}
+std::string Deck::choice(std::string_view key) const {
+  return get(key, KeyType::choice, false).texts[0];
+}
+
+std::vector<double> Deck::quantities(std::string_view key) const {
+  return get(key, KeyType::quantity, true).numbers;
+}
+std::vector<double> Deck::numbers(std::string_view key) const {
+  return get(key, KeyType::number, true).numbers;
+}
+std::vector<std::int64_t> Deck::integers(std::string_view key) const {
+  return get(key, KeyType::integer, true).integers;
+}
+std::vector<std::string> Deck::strings(std::string_view key) const {
+  return get(key, KeyType::string, true).texts;
+}
+
+bool Deck::has(std::string_view key) const {
+  return find(key) != nullptr || nodeAt(key) != nullptr;
+}
+
+bool Deck::isGiven(std::string_view key) const {
+  return nodeAt(key) != nullptr;
+}
+
+namespace {
+
+// Reads with `read` where the deck has the key; a key nobody declared is still a mistake.
+template <typename Read>
+auto optionally(const Deck& deck, const DeckSchema& schema, std::string_view key, Read read)
+    -> std::optional<decltype(read())> {
+  if (deck.isGiven(key) || deck.has(key) || !isDeclared(schema, key)) return read();
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<double> Deck::optionalQuantity(std::string_view key) const {
+  return optionally(*this, *schema_, key, [&] { return quantity(key); });
+}
+std::optional<double> Deck::optionalNumber(std::string_view key) const {
+  return optionally(*this, *schema_, key, [&] { return number(key); });
+}
+std::optional<std::int64_t> Deck::optionalInteger(std::string_view key) const {
+  return optionally(*this, *schema_, key, [&] { return integer(key); });
+}
+std::optional<bool> Deck::optionalBoolean(std::string_view key) const {
+  return optionally(*this, *schema_, key, [&] { return boolean(key); });
+}
+std::optional<std::string> Deck::optionalString(std::string_view key) const {
+  return optionally(*this, *schema_, key, [&] { return string(key); });
+}
+
+namespace {
+
+// The part of the tree under a path, or nullptr; `deepest` is the last part on the way that is there.
+const DeckNode* descend(const DeckNode& root, std::string_view path, const DeckNode** deepest) {
+  const DeckNode* node = &root;
+  *deepest = node;
+  for (const std::string& part : splitDeckPath(path)) {
+    if (node->kind == DeckNode::Kind::list) {
+      std::size_t item = 0;
+      const auto [end, status] = std::from_chars(part.data(), part.data() + part.size(), item);
+      if (status != std::errc{} || end != part.data() + part.size() || item >= node->children.size()) return nullptr;
+      node = &node->children[item];
+    } else {
+      node = node->child(part);
+    }
+    if (node == nullptr) return nullptr;
+    *deepest = node;
+  }
+  return node;
+}
+
+}  // namespace
+
+const DeckNode* Deck::nodeAt(std::string_view key) const {
+  const DeckNode* deepest = nullptr;
+  return descend(root_, key, &deepest);
+}
+
+std::vector<std::string> Deck::children(std::string_view section) const {
+  std::vector<std::string> names;
+  const DeckNode* node = section.empty() ? &root_ : nodeAt(section);
+  if (node == nullptr || node->kind != DeckNode::Kind::map) return names;
+  for (const DeckNode& child : node->children) names.push_back(child.name);
+  return names;
+}
+
+std::size_t Deck::size(std::string_view list) const {
+  const DeckNode* node = nodeAt(list);
+  return node != nullptr && node->kind == DeckNode::Kind::list ? node->children.size() : 0;
+}
+
+InputError Deck::error(std::string_view key, const std::string& message) const {
+  const DeckNode* deepest = nullptr;
+  const DeckNode* node = descend(root_, key, &deepest);
+  const bool leaf = node != nullptr && node->kind == DeckNode::Kind::scalar;
+  return deckError(*source_, leaf ? node->at : deepest->nameAt, std::string(key), message);
+}
+
+std::filesystem::path Deck::resolvePath(const std::string& name) const {
+  const std::filesystem::path file(name);
+  return file.is_absolute() ? file : source_->path.parent_path() / file;
+}
+
+}  // namespace lampblack

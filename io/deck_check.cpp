@@ -1,0 +1,145 @@
+#include "io/deck_check.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "io/deck_value.hpp"
+#include "io/nearest.hpp"
+
+namespace lampblack {
+namespace {
+
+using SchemaNode = DeckSchema::Node;
+
+std::string join(const std::string& path, const std::string& name) {
+  return path.empty() ? name : path + "." + name;
+}
+
+class Checker {
+ public:
+  Checker(const DeckSource& source, const DeckSchema& schema) : source_(source), schema_(schema) {}
+
+  // First every name, then every value: a misspelt required key is reported as misspelt, not as missing.
+  std::vector<DeckValue> check(const DeckNode& root) {
+    const SchemaNode tree = schema_.tree();
+    checkNames(tree, root, "");
+    readSection(tree, &root, "", root);
+    return std::move(values_);
+  }
+
+ private:
+  void checkNames(const SchemaNode& schema, const DeckNode& node, const std::string& path) {
+    if (schema.key != nullptr) return;
+    if (const SchemaNode* item = schema.child("[]")) {
+      for (std::size_t i = 0; i < node.children.size() && node.kind == DeckNode::Kind::list; ++i) {
+        checkNames(*item, node.children[i], fmt::format("{}[{}]", path, i));
+      }
+      return;
+    }
+    if (node.kind != DeckNode::Kind::map) return;
+    const SchemaNode* any = schema.child("*");
+    for (const DeckNode& child : node.children) {
+      const SchemaNode* known = schema.child(child.name);
+      const std::string childPath = join(path, child.name);
+      if (known == nullptr && any != nullptr && child.name.find_first_of(".[]") != std::string::npos) {
+        throw deckError(source_, child.nameAt, childPath, "a name may not contain '.', '[' or ']'");
+      }
+      if (known == nullptr) known = any;
+      if (known == nullptr) throw unknown(schema, child, childPath);
+      checkNames(*known, child, childPath);
+    }
+  }
+
+  InputError unknown(const SchemaNode& schema, const DeckNode& node, const std::string& path) const {
+    std::vector<std::string> here;
+    for (const SchemaNode& child : schema.children) here.push_back(child.name);
+    std::string hint = didYouMean(node.name, here);
+    if (hint.empty()) {  // perhaps it is right elsewhere
+      for (const DeckKey& key : schema_.keys()) {
+        if (key.path.ends_with("." + node.name) || key.path == node.name) {
+          hint = fmt::format("; did you mean '{}'?", key.path);
+          break;
+        }
+      }
+    }
+    return deckError(
+        source_, node.nameAt, path,
+        fmt::format("unknown key '{}'{} Known here: {}", node.name, hint.empty() ? "." : hint, fmt::join(here, ", ")));
+  }
+
+  // `node` may be absent (nullptr); `enclosing` is the nearest part of the deck that is there.
+  void read(const SchemaNode& schema, const DeckNode* node, const std::string& path, const DeckNode& enclosing) {
+    if (schema.key == nullptr) {
+      readSection(schema, node, path, enclosing);
+    } else if (node != nullptr) {
+      values_.push_back(readDeckValue(source_, *schema.key, path, *node));
+    } else if (schema.key->presence == Presence::defaulted) {
+      values_.push_back(defaultDeckValue(*schema.key, path));
+    } else if (schema.key->presence == Presence::required) {
+      throw deckError(source_, enclosing.nameAt, path,
+                      fmt::format("this key is missing; expected {}. {}", expectation(*schema.key), schema.key->doc));
+    }
+  }
+
+  void readSection(const SchemaNode& schema, const DeckNode* node, const std::string& path, const DeckNode& enclosing) {
+    const bool empty = node == nullptr || node->kind == DeckNode::Kind::null;
+    if (schema.section != nullptr) {
+      const bool hollow = empty || (node->kind != DeckNode::Kind::scalar && node->children.empty());
+      if (schema.section->presence == Presence::required && hollow) {
+        throw deckError(source_, node ? node->nameAt : enclosing.nameAt, path,
+                        fmt::format("this section is missing or empty. {}", schema.section->doc));
+      }
+      if (schema.section->presence == Presence::optional && node == nullptr) return;
+    }
+    const DeckNode& here = node ? *node : enclosing;
+    if (const SchemaNode* item = schema.child("[]")) {
+      if (empty) return;
+      if (node->kind != DeckNode::Kind::list) throw wrongKind("a list", *node, path);
+      for (std::size_t i = 0; i < node->children.size(); ++i) {
+        read(*item, &node->children[i], fmt::format("{}[{}]", path, i), here);
+      }
+      return;
+    }
+    if (!empty && node->kind != DeckNode::Kind::map) throw wrongKind("a map of keys", *node, path);
+    for (const SchemaNode& child : schema.children) {
+      if (child.name != "*") {
+        read(child, empty ? nullptr : node->child(child.name), join(path, child.name), here);
+        continue;
+      }
+      for (std::size_t i = 0; !empty && i < node->children.size(); ++i) {
+        const DeckNode& entry = node->children[i];
+        if (schema.child(entry.name) == nullptr) read(child, &entry, join(path, entry.name), here);
+      }
+    }
+  }
+
+  InputError wrongKind(const std::string& expected, const DeckNode& node, const std::string& path) const {
+    return deckError(source_, node.at.line > 0 ? node.at : node.nameAt, path,
+                     fmt::format("expected {}, found {}", expected, foundText(node)));
+  }
+
+  const DeckSource& source_;
+  const DeckSchema& schema_;
+  std::vector<DeckValue> values_;
+};
+
+}  // namespace
+
+std::vector<DeckValue> checkDeck(const DeckSource& source, const DeckNode& root, const DeckSchema& schema) {
+  return Checker(source, schema).check(root);
+}
+
+bool isDeclared(const DeckSchema& schema, std::string_view path) {
+  const std::vector<std::string> parts = splitDeckPath(path);
+  for (const DeckKey& key : schema.keys()) {
+    const std::vector<std::string> pattern = splitDeckPath(key.path);
+    bool match = pattern.size() == parts.size();
+    for (std::size_t i = 0; match && i < parts.size(); ++i) {
+      match = pattern[i] == "*" || pattern[i].empty() || pattern[i] == parts[i];
+    }
+    if (match) return true;
+  }
+  return false;
+}
+
+}  // namespace lampblack

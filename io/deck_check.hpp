@@ -1,0 +1,15 @@
+// Checks a deck's tree against a schema and reads every value.
+#pragma once
+
+#include "io/deck.hpp"
+
+namespace lampblack {
+
+// All values of the deck with the defaults filled in, in the order of the schema. InputError for unknown keys, missing
+// required keys, and values that are not what their key says.
+std::vector<DeckValue> checkDeck(const DeckSource& source, const DeckNode& root, const DeckSchema& schema);
+
+// Whether a path such as "mesh.z[0].cells" is one of the schema's keys.
+bool isDeclared(const DeckSchema& schema, std::string_view path);
+
+}  // namespace lampblack

@@ -1,0 +1,180 @@
+// The schema as documents: the reference page for people and the JSON schema for editors.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "io/deck_schema.hpp"
+#include "io/json.hpp"
+
+namespace lampblack {
+namespace {
+
+using Node = DeckSchema::Node;
+
+std::string typeText(const DeckKey& key) {
+  std::string one;
+  switch (key.type) {
+    case KeyType::quantity: {
+      const std::string unit = units::siUnit(key.dimension);
+      one = units::describe(key.dimension);
+      if (one.starts_with("a ")) one = one.substr(2);
+      if (one.starts_with("an ")) one = one.substr(3);
+      if (!unit.empty() && !one.starts_with("quantity in")) one += fmt::format(" ({})", unit);
+      break;
+    }
+    case KeyType::number:
+      one = "number";
+      break;
+    case KeyType::integer:
+      one = "integer";
+      break;
+    case KeyType::boolean:
+      one = "true or false";
+      break;
+    case KeyType::string:
+      one = "text";
+      break;
+    case KeyType::choice:
+      one = fmt::format("`{}`", fmt::join(key.choices, "`, `"));
+      break;
+  }
+  if (key.isList) one = key.count ? fmt::format("list of {}: {}", *key.count, one) : fmt::format("list of {}", one);
+  if (const std::string range = rangeText(key); !range.empty()) one += ", " + range;
+  return one;
+}
+
+std::string cell(std::string text) {
+  for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.replace(at, 1, "\\|");
+  return text;
+}
+
+void writeMarkdown(const Node& node, std::string& out) {
+  std::string rows;
+  for (const Node& child : node.children) {
+    if (child.key == nullptr) continue;
+    const std::string standard = child.key->presence == Presence::defaulted  ? "`" + child.key->defaultText + "`"
+                                 : child.key->presence == Presence::optional ? "-"
+                                                                             : "**required**";
+    rows += fmt::format("| `{}` | {} | {} | {} |\n", cell(child.path), cell(typeText(*child.key)), cell(standard),
+                        cell(child.key->doc));
+  }
+  const bool top = node.path.empty();
+  if (!rows.empty() || node.section != nullptr) {
+    out += top ? "\n## Top level\n\n" : fmt::format("\n## `{}`\n\n", node.path);
+    if (node.section != nullptr) {
+      const char* presence = node.section->presence == Presence::required ? "Required. " : "Optional. ";
+      out += fmt::format("{}{}\n\n", node.section->presence == Presence::defaulted ? "" : presence, node.section->doc);
+    }
+    if (!rows.empty()) out += "| key | what | default | meaning |\n|---|---|---|---|\n" + rows;
+  }
+  for (const Node& child : node.children) {
+    if (child.key == nullptr) writeMarkdown(child, out);
+  }
+}
+
+void writeItem(const DeckKey& key, JsonWriter& json) {
+  switch (key.type) {
+    case KeyType::quantity:
+    case KeyType::number: {
+      json.key("type").beginArray().value("number").value("string").endArray();
+      break;
+    }
+    case KeyType::integer:
+      json.field("type", "integer");
+      break;
+    case KeyType::boolean:
+      json.field("type", "boolean");
+      break;
+    case KeyType::string:
+      json.key("type").beginArray().value("string").value("number").endArray();
+      break;
+    case KeyType::choice:
+      json.key("enum").beginArray();
+      for (const std::string& choice : key.choices) json.value(choice);
+      json.endArray();
+      break;
+  }
+  // With a text ("20 cm/s") these limits are not looked at by an editor; `lampblack check` does.
+  if (key.minimum) json.field(key.minimum->exclusive ? "exclusiveMinimum" : "minimum", key.minimum->value);
+  if (key.maximum) json.field(key.maximum->exclusive ? "exclusiveMaximum" : "maximum", key.maximum->value);
+}
+
+void writeKey(const DeckKey& key, JsonWriter& json) {
+  json.beginObject();
+  json.field("description", fmt::format("{} Expected: {}.", key.doc, expectation(key)));
+  if (key.isList) {
+    json.field("type", "array");
+    if (key.count) {
+      json.field("minItems", static_cast<std::uint64_t>(*key.count));
+      json.field("maxItems", static_cast<std::uint64_t>(*key.count));
+    }
+    json.key("items").beginObject();
+    writeItem(key, json);
+    json.endObject();
+  } else {
+    writeItem(key, json);
+  }
+  if (key.presence == Presence::defaulted && !key.isList) json.field("x-default", key.defaultText);
+  json.endObject();
+}
+
+void writeSchema(const Node& node, JsonWriter& json) {
+  if (node.key != nullptr) {
+    writeKey(*node.key, json);
+    return;
+  }
+  json.beginObject();
+  if (node.path.empty()) {
+    json.field("$schema", "https://json-schema.org/draft/2020-12/schema");
+    json.field("title", "Lampblack deck");
+  }
+  if (node.section != nullptr) json.field("description", node.section->doc);
+  if (const Node* item = node.child("[]")) {
+    json.field("type", "array");
+    json.key("items");
+    writeSchema(*item, json);
+    json.endObject();
+    return;
+  }
+  // A section may be left with nothing in it ("output:").
+  json.key("type").beginArray().value("object").value("null").endArray();
+  json.key("properties").beginObject();
+  for (const Node& child : node.children) {
+    if (child.name == "*") continue;
+    json.key(child.name);
+    writeSchema(child, json);
+  }
+  json.endObject();
+  json.key("required").beginArray();
+  for (const Node& child : node.children) {
+    const bool key = child.key != nullptr && child.key->presence == Presence::required;
+    const bool section = child.section != nullptr && child.section->presence == Presence::required;
+    if (child.name != "*" && (key || section)) json.value(child.name);
+  }
+  json.endArray();
+  json.key("additionalProperties");
+  if (const Node* any = node.child("*")) {
+    writeSchema(*any, json);
+  } else {
+    json.value(false);
+  }
+  json.endObject();
+}
+
+}  // namespace
+
+std::string markdownReference(const DeckSchema& schema) {
+  std::string text =
+      "# Deck reference\n\n"
+      "Every key a deck may have. `*` stands for a name you choose, `[]` for an item of a list. A quantity is a number "
+      "with a unit (`20 cm/s`); a bare number is in the unit shown.\n";
+  writeMarkdown(schema.tree(), text);
+  return text;
+}
+
+std::string jsonSchema(const DeckSchema& schema) {
+  JsonWriter json;
+  writeSchema(schema.tree(), json);
+  return json.text() + "\n";
+}
+
+}  // namespace lampblack

@@ -1,0 +1,184 @@
+#include "io/deck_schema.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <stdexcept>
+
+#include "io/deck_node.hpp"
+
+namespace lampblack {
+
+DeckKey& DeckKey::optional() {
+  presence = Presence::optional;
+  return *this;
+}
+
+DeckKey& DeckKey::byDefault(std::string text) {
+  presence = Presence::defaulted;
+  defaultText = std::move(text);
+  return *this;
+}
+
+DeckKey& DeckKey::atLeast(double si) {
+  minimum = Bound{si, false};
+  return *this;
+}
+
+DeckKey& DeckKey::atMost(double si) {
+  maximum = Bound{si, false};
+  return *this;
+}
+
+DeckKey& DeckKey::above(double si) {
+  minimum = Bound{si, true};
+  return *this;
+}
+
+DeckKey& DeckKey::below(double si) {
+  maximum = Bound{si, true};
+  return *this;
+}
+
+DeckKey& DeckKey::list() {
+  isList = true;
+  return *this;
+}
+
+DeckKey& DeckKey::list(std::size_t n) {
+  isList = true;
+  count = n;
+  return *this;
+}
+
+DeckKey quantityKey(std::string path, const units::Dimension& dimension, std::string doc) {
+  DeckKey key(std::move(path), KeyType::quantity, std::move(doc));
+  key.dimension = dimension;
+  return key;
+}
+
+DeckKey numberKey(std::string path, std::string doc) {
+  return {std::move(path), KeyType::number, std::move(doc)};
+}
+DeckKey integerKey(std::string path, std::string doc) {
+  return {std::move(path), KeyType::integer, std::move(doc)};
+}
+DeckKey booleanKey(std::string path, std::string doc) {
+  return {std::move(path), KeyType::boolean, std::move(doc)};
+}
+DeckKey stringKey(std::string path, std::string doc) {
+  return {std::move(path), KeyType::string, std::move(doc)};
+}
+
+DeckKey choiceKey(std::string path, std::vector<std::string> choices, std::string doc) {
+  DeckKey key(std::move(path), KeyType::choice, std::move(doc));
+  key.choices = std::move(choices);
+  return key;
+}
+
+DeckKey vectorKey(std::string path, const units::Dimension& dimension, std::string doc) {
+  return quantityKey(std::move(path), dimension, std::move(doc)).list(3);
+}
+
+std::string rangeText(const DeckKey& key) {
+  const std::string unit = key.type == KeyType::quantity ? units::siUnit(key.dimension) : "";
+  const std::string suffix = unit.empty() ? "" : " " + unit;
+  const auto& low = key.minimum;
+  const auto& high = key.maximum;
+  if (low && high && !low->exclusive && !high->exclusive) {
+    return fmt::format("from {} to {}{}", low->value, high->value, suffix);
+  }
+  std::string text;
+  if (low) text = fmt::format("{} {}{}", low->exclusive ? "above" : "at least", low->value, suffix);
+  if (low && high) text += " and ";
+  if (high) text += fmt::format("{} {}{}", high->exclusive ? "below" : "at most", high->value, suffix);
+  return text;
+}
+
+std::string expectation(const DeckKey& key) {
+  std::string one;
+  switch (key.type) {
+    case KeyType::quantity:
+      one = units::describe(key.dimension);
+      if (const std::string example = units::example(key.dimension); !example.empty()) {
+        one += fmt::format(" (for instance '{}')", example);
+      }
+      break;
+    case KeyType::number:
+      one = "a number";
+      break;
+    case KeyType::integer:
+      one = "an integer";
+      break;
+    case KeyType::boolean:
+      one = "true or false";
+      break;
+    case KeyType::string:
+      one = "a text";
+      break;
+    case KeyType::choice:
+      one = fmt::format("one of: {}", fmt::join(key.choices, ", "));
+      break;
+  }
+  if (const std::string range = rangeText(key); !range.empty()) one += " " + range;
+  if (!key.isList) return one;
+  return key.count ? fmt::format("a list of {}, each {}", *key.count, one) : fmt::format("a list, each item {}", one);
+}
+
+const DeckSchema::Node* DeckSchema::Node::child(const std::string& childName) const {
+  for (const Node& node : children) {
+    if (node.name == childName) return &node;
+  }
+  return nullptr;
+}
+
+DeckSchema& DeckSchema::add(DeckKey key) {
+  for (const DeckKey& other : keys_) {
+    if (other.path == key.path || other.path.starts_with(key.path + ".") || other.path.starts_with(key.path + "[") ||
+        key.path.starts_with(other.path + ".") || key.path.starts_with(other.path + "[")) {
+      throw std::logic_error(fmt::format("deck key '{}' clashes with '{}'", key.path, other.path));
+    }
+  }
+  if (key.type == KeyType::choice && key.choices.empty()) {
+    throw std::logic_error(fmt::format("deck key '{}' has no choices", key.path));
+  }
+  keys_.push_back(std::move(key));
+  return *this;
+}
+
+DeckSchema& DeckSchema::section(std::string path, Presence presence, std::string doc) {
+  for (const DeckSection& other : sections_) {
+    if (other.path == path) throw std::logic_error(fmt::format("deck section '{}' is declared twice", path));
+  }
+  sections_.push_back({std::move(path), presence, std::move(doc)});
+  return *this;
+}
+
+DeckSchema& DeckSchema::add(const DeckSchema& other) {
+  for (const DeckKey& key : other.keys_) add(key);
+  for (const DeckSection& part : other.sections_) section(part.path, part.presence, part.doc);
+  return *this;
+}
+
+DeckSchema::Node DeckSchema::tree() const {
+  Node root;
+  const auto place = [&root](const std::string& path) {
+    Node* node = &root;
+    for (std::string part : splitDeckPath(path)) {
+      if (part.empty()) part = "[]";
+      if (node->child(part) == nullptr) {
+        Node made;
+        made.name = part;
+        made.path = part == "[]" ? node->path + part : (node->path.empty() ? "" : node->path + ".") + part;
+        node->children.push_back(std::move(made));
+      }
+      node = const_cast<Node*>(node->child(part));
+    }
+    return node;
+  };
+  for (const DeckKey& key : keys_) place(key.path)->key = &key;
+  for (const DeckSection& section : sections_) place(section.path)->section = &section;
+  return root;
+}
+
+}  // namespace lampblack

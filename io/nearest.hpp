@@ -1,0 +1,21 @@
+// The nearest known name to one that is not known, for "did you mean".
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lampblack {
+
+// Insertions, deletions, replacements and swaps of neighbours that make one text the other (optimal string alignment;
+// Damerau 1964), letters compared without case.
+std::size_t editDistance(std::string_view a, std::string_view b);
+
+// The nearest of the known names when it is near enough to be meant: at most a third of the letters differ (one in
+// short names). Empty when none is.
+std::string nearestName(std::string_view name, const std::vector<std::string>& known);
+
+// "; did you mean 'velocity'?" or nothing.
+std::string didYouMean(std::string_view name, const std::vector<std::string>& known);
+
+}  // namespace lampblack

@@ -1,0 +1,335 @@
+#include "io/units.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+#include <optional>
+
+#include "core/errors.hpp"
+
+namespace lampblack::units {
+namespace {
+
+struct NamedDimension {
+  Dimension dimension;
+  std::string_view phrase;   // with its article
+  std::string_view example;  // as written in a deck
+  std::string_view unit;     // SI
+};
+
+constexpr std::array<NamedDimension, 32> namedDimensions{{
+    {dimensionless, "a plain number", "0.5", ""},
+    {length, "a length", "8 mm", "m"},
+    {time, "a time", "10 us", "s"},
+    {mass, "a mass", "2 g", "kg"},
+    {temperature, "a temperature", "298 K", "K"},
+    {amount, "an amount of substance", "1 mol", "mol"},
+    {angle, "an angle", "30 deg", "rad"},
+    {area, "an area", "2 cm^2", "m^2"},
+    {volume, "a volume", "5 cm^3", "m^3"},
+    {frequency, "a rate", "50 1/s", "1/s"},
+    {velocity, "a velocity", "20 cm/s", "m/s"},
+    {acceleration, "an acceleration", "9.81 m/s^2", "m/s^2"},
+    {density, "a density", "1800 kg/m^3", "kg/m^3"},
+    {force, "a force", "1 N", "N"},
+    {pressure, "a pressure", "1 atm", "Pa"},
+    {energy, "an energy", "50 mJ", "J"},
+    {watt, "a power", "1 kW", "W"},
+    {massFlow, "a mass flow", "2 g/min", "kg/s"},
+    {massFlux, "a mass flux", "0.06 g/cm^2/s", "kg/m^2/s"},
+    {volumeFlow, "a volume flow", "3 L/min", "m^3/s"},
+    {viscosity, "a viscosity", "1.8e-5 Pa s", "Pa s"},
+    {diffusivity, "a diffusivity", "0.2 cm^2/s", "m^2/s"},
+    {conductivity, "a thermal conductivity", "0.026 W/m/K", "W/m/K"},
+    {heatFlux, "a heat flux", "10 kW/m^2", "W/m^2"},
+    {molarEnergy, "a molar energy", "50 kJ/mol", "J/mol"},
+    {molarMass, "a molar mass", "28 g/mol", "kg/mol"},
+    {concentration, "a concentration", "40 mol/m^3", "mol/m^3"},
+    {specificEnergy, "a specific energy", "1 MJ/kg", "J/kg"},
+    {temperatureGradient, "a temperature gradient", "100 K/mm", "K/m"},
+    {absorption, "an inverse length", "10 1/m", "1/m"},
+    {perArea, "a number per area", "2.3e19 1/m^2", "1/m^2"},
+    {perVolume, "a number per volume", "1e15 1/m^3", "1/m^3"},
+}};
+
+const NamedDimension* nameOf(const Dimension& dimension) {
+  for (const NamedDimension& named : namedDimensions) {
+    if (named.dimension == dimension) return &named;
+  }
+  return nullptr;
+}
+
+struct Symbol {
+  std::string_view name;
+  Unit unit;
+  bool takesPrefix = false;
+};
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+// Defining constants: BIPM, The International System of Units, 9th edition (2019); atm and Torr: CGPM 1954.
+constexpr std::array<Symbol, 31> symbols{{
+    {"m", {1.0, 0.0, length}, true},
+    {"g", {1e-3, 0.0, mass}, true},
+    {"s", {1.0, 0.0, time}, true},
+    {"K", {1.0, 0.0, temperature}, true},
+    {"mol", {1.0, 0.0, amount}, true},
+    {"rad", {1.0, 0.0, angle}, true},
+    {"deg", {degree, 0.0, angle}},
+    {"°", {degree, 0.0, angle}},
+    {"degC", {1.0, 273.15, temperature}},
+    {"°C", {1.0, 273.15, temperature}},
+    {"min", {60.0, 0.0, time}},
+    {"h", {3600.0, 0.0, time}},
+    {"Hz", {1.0, 0.0, frequency}, true},
+    {"N", {1.0, 0.0, force}, true},
+    {"Pa", {1.0, 0.0, pressure}, true},
+    {"bar", {1e5, 0.0, pressure}, true},
+    {"atm", {101325.0, 0.0, pressure}},
+    {"Torr", {101325.0 / 760.0, 0.0, pressure}},
+    {"J", {1.0, 0.0, energy}, true},
+    {"cal", {4.184, 0.0, energy}, true},
+    {"eV", {1.602176634e-19, 0.0, energy}, true},
+    {"W", {1.0, 0.0, watt}, true},
+    {"L", {1e-3, 0.0, volume}, true},
+    {"l", {1e-3, 0.0, volume}, true},
+    {"P", {0.1, 0.0, viscosity}, true},
+    {"t", {1e3, 0.0, mass}},
+    {"%", {1e-2, 0.0, dimensionless}},
+    {"ppm", {1e-6, 0.0, dimensionless}},
+    {"ppb", {1e-9, 0.0, dimensionless}},
+    {"Å", {1e-10, 0.0, length}},
+    {"um", {1e-6, 0.0, length}},
+}};
+
+struct Prefix {
+  std::string_view name;
+  double factor;
+};
+
+constexpr std::array<Prefix, 15> prefixes{{{"f", 1e-15},
+                                           {"p", 1e-12},
+                                           {"n", 1e-9},
+                                           {"u", 1e-6},
+                                           {"\u00b5", 1e-6},
+                                           {"\u03bc", 1e-6},
+                                           {"m", 1e-3},
+                                           {"c", 1e-2},
+                                           {"d", 1e-1},
+                                           {"h", 1e2},
+                                           {"k", 1e3},
+                                           {"M", 1e6},
+                                           {"G", 1e9},
+                                           {"T", 1e12},
+                                           {"da", 1e1}}};
+
+std::optional<Unit> findSymbol(std::string_view name) {
+  for (const Symbol& symbol : symbols) {
+    if (symbol.name == name) return symbol.unit;
+  }
+  for (const Symbol& symbol : symbols) {
+    if (!symbol.takesPrefix || !name.ends_with(symbol.name)) continue;
+    const std::string_view front = name.substr(0, name.size() - symbol.name.size());
+    for (const Prefix& prefix : prefixes) {
+      if (prefix.name == front) return Unit{prefix.factor * symbol.unit.factor, 0.0, symbol.unit.dimension};
+    }
+  }
+  return std::nullopt;
+}
+
+std::string_view trim(std::string_view text) {
+  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
+  while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
+  return text;
+}
+
+bool isDigit(char c) {
+  return c >= '0' && c <= '9';
+}
+bool endsSymbol(char c) {
+  return isDigit(c) || c == ' ' || c == '\t' || c == '*' || c == '/' || c == '^' || c == '(' || c == ')' || c == '-' ||
+         c == '+';
+}
+
+// Recursive descent over: expression = power { ("*" | "/" | blank) power }, power = (symbol | 1 | "(" expression ")")
+// ["^"] [exponent].
+class UnitParser {
+ public:
+  explicit UnitParser(std::string_view text) : text_(text) {}
+
+  Unit parse() {
+    const Unit unit = expression(0);
+    if (position_ < text_.size()) fail(fmt::format("'{}' is not expected here", text_.substr(position_)));
+    if (!std::isfinite(unit.factor) || unit.factor == 0.0) fail("its size is out of range");
+    return unit;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& why) const {
+    throw InputError(fmt::format("the unit '{}' cannot be read: {}", text_, why));
+  }
+
+  void skipBlanks() {
+    while (position_ < text_.size() && (text_[position_] == ' ' || text_[position_] == '\t')) ++position_;
+  }
+
+  Unit expression(int depth) {
+    if (depth > 20) fail("too many parentheses");
+    skipBlanks();
+    Unit left = factor(depth);
+    bool divided = false;
+    for (;;) {
+      const std::size_t before = position_;
+      skipBlanks();
+      if (position_ >= text_.size() || text_[position_] == ')') return left;
+      const char sign = text_[position_];
+      const bool product = sign == '*' || sign == '/';
+      if (product) ++position_;
+      if (!product && before == position_ && sign != '(') fail(fmt::format("'{}' is not expected", sign));
+      if (!product && divided) fail("after '/' a blank is ambiguous; write 'W/m/K' or 'W/(m K)'");
+      divided = divided || sign == '/';
+      skipBlanks();
+      const Unit right = factor(depth);
+      if (left.offset != 0.0 || right.offset != 0.0) fail("degC stands alone; use K here");
+      left = sign == '/' ? Unit{left.factor / right.factor, 0.0, left.dimension / right.dimension}
+                         : Unit{left.factor * right.factor, 0.0, left.dimension * right.dimension};
+    }
+  }
+
+  Unit factor(int depth) {
+    Unit base;
+    if (position_ >= text_.size()) fail("it ends too early");
+    if (text_[position_] == '(') {
+      ++position_;
+      base = expression(depth + 1);
+      if (position_ >= text_.size() || text_[position_] != ')') fail("')' is missing");
+      ++position_;
+    } else if (text_[position_] == '1' && (position_ + 1 == text_.size() || !isDigit(text_[position_ + 1]))) {
+      ++position_;
+      return base;
+    } else {
+      const std::size_t start = position_;
+      while (position_ < text_.size() && !endsSymbol(text_[position_])) ++position_;
+      const std::string_view name = text_.substr(start, position_ - start);
+      if (name.empty()) fail(fmt::format("'{}' is not expected", text_.substr(start, 1)));
+      const auto known = findSymbol(name);
+      if (!known) fail(fmt::format("'{}' is not a unit known here", name));
+      base = *known;
+    }
+    const int exponent = readExponent();
+    if (exponent == 1) return base;
+    if (base.offset != 0.0) fail("degC stands alone; use K here");
+    return {std::pow(base.factor, exponent), 0.0, power(base.dimension, exponent)};
+  }
+
+  int readExponent() {
+    bool marked = false;
+    if (position_ < text_.size() && text_[position_] == '^') {
+      marked = true;
+      ++position_;
+    }
+    std::size_t end = position_;
+    if (end < text_.size() && (text_[end] == '-' || text_[end] == '+')) ++end;
+    while (end < text_.size() && isDigit(text_[end])) ++end;
+    if (end == position_) {
+      if (marked) fail("'^' needs an integer");
+      return 1;
+    }
+    std::string_view digits = text_.substr(position_, end - position_);
+    if (digits.front() == '+') digits.remove_prefix(1);
+    int exponent = 0;
+    const auto [last, status] = std::from_chars(digits.data(), digits.data() + digits.size(), exponent);
+    if (status != std::errc{} || last != digits.data() + digits.size() || std::abs(exponent) > 9) {
+      fail(fmt::format("the power '{}' is not an integer from -9 to 9", digits));
+    }
+    position_ = end;
+    return exponent;
+  }
+
+  std::string_view text_;
+  std::size_t position_ = 0;
+};
+
+// The number at the start of a text, and how much of the text it takes; nothing when there is none.
+std::optional<std::pair<double, std::size_t>> leadingNumber(std::string_view text) {
+  const std::size_t sign = !text.empty() && text.front() == '+' ? 1 : 0;
+  double value = 0.0;
+  const auto [end, status] = std::from_chars(text.data() + sign, text.data() + text.size(), value);
+  if (status == std::errc::invalid_argument || (sign == 1 && text.size() > 1 && text[1] == '-')) return std::nullopt;
+  const auto used = static_cast<std::size_t>(end - text.data());
+  if (status == std::errc::result_out_of_range || !std::isfinite(value)) {
+    throw InputError(fmt::format("'{}' is not a finite number", text.substr(0, used)));
+  }
+  return std::pair{value, used};
+}
+
+std::string expected(const Dimension& dimension) {
+  const std::string sample = example(dimension);
+  return sample.empty() ? describe(dimension) : fmt::format("{} (for instance '{}')", describe(dimension), sample);
+}
+
+}  // namespace
+
+std::string describe(const Dimension& dimension) {
+  const NamedDimension* named = nameOf(dimension);
+  return named ? std::string(named->phrase) : fmt::format("a quantity in {}", siUnit(dimension));
+}
+
+std::string example(const Dimension& dimension) {
+  const NamedDimension* named = nameOf(dimension);
+  return named ? std::string(named->example) : std::string();
+}
+
+std::string siUnit(const Dimension& dimension) {
+  if (const NamedDimension* named = nameOf(dimension)) return std::string(named->unit);
+  const std::array<std::pair<const char*, int>, 6> bases{{{"kg", dimension.mass},
+                                                          {"m", dimension.length},
+                                                          {"s", dimension.time},
+                                                          {"K", dimension.temperature},
+                                                          {"mol", dimension.amount},
+                                                          {"rad", dimension.angle}}};
+  std::string text;
+  for (const auto& [name, exponent] : bases) {
+    if (exponent == 0) continue;
+    if (!text.empty()) text += ' ';
+    text += exponent == 1 ? name : fmt::format("{}^{}", name, exponent);
+  }
+  return text;
+}
+
+Unit parseUnit(std::string_view text) {
+  return UnitParser(trim(text)).parse();
+}
+
+double parseNumber(std::string_view text) {
+  text = trim(text);
+  const auto number = leadingNumber(text);
+  if (!number || number->second != text.size()) throw InputError(fmt::format("'{}' is not a number", text));
+  return number->first;
+}
+
+double parseQuantity(std::string_view text, const Dimension& dimension) {
+  text = trim(text);
+  const auto number = leadingNumber(text);
+  if (!number) throw InputError(fmt::format("expected {}, found '{}'", expected(dimension), text));
+  const std::string_view rest = trim(text.substr(number->second));
+  if (rest.empty()) return number->first;
+  Unit unit;
+  try {
+    unit = parseUnit(rest);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("expected {}, found '{}': {}", expected(dimension), text, error.what()));
+  }
+  if (unit.dimension != dimension) {
+    throw InputError(fmt::format("expected {}, found '{}', {}", expected(dimension), text, describe(unit.dimension)));
+  }
+  const double value = unit.factor * number->first + unit.offset;
+  if (!std::isfinite(value)) throw InputError(fmt::format("'{}' is not a finite number", text));
+  return value;
+}
+
+}  // namespace lampblack::units
