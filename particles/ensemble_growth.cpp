@@ -1,0 +1,136 @@
+// The deterministic part of an ensemble: condensation of dimers, surface growth and oxidation of every particle, and
+// the choice of the splitting step.
+#include <algorithm>
+#include <cmath>
+
+#include "particles/ensemble.hpp"
+#include "particles/ensemble_medium.hpp"
+
+namespace lampblack {
+
+double Ensemble::dimerCollisionSum(const Medium& medium) const {
+  if (!medium.condensing) return 0;
+  double sum = 0;
+  for (std::size_t i = 0; i < size(); ++i) sum += medium.collision(masses_[i], diameters_[i]);
+  return sum;
+}
+
+double Ensemble::dimerNumber(const Medium& medium, double collisionSum) const {
+  const double withParticles = std::max(collisionSum, 0.0) / sampleVolume_;
+  if (!(medium.selfCollision + withParticles > 0)) return 0;
+  return steadyDimers(medium.dimer.rate, medium.selfCollision, withParticles);
+}
+
+double Ensemble::splitStep(const Medium& medium, double dilutionRate, double remaining) const {
+  double fastest = std::abs(dilutionRate);
+  const bool growing = size() > 0 && (medium.condensing || medium.surfaceActive);
+  if (growing || (medium.condensing && medium.selfCollision > 0)) {
+    const double sum = dimerCollisionSum(medium);
+    const double dimers = dimerNumber(medium, sum);
+    if (medium.selfCollision > 0) {
+      // Inception changes the share of dimers that condense.
+      const double inception = 0.5 * medium.selfCollision * dimers * dimers;
+      const double scale = sum / sampleVolume_ + 2 * std::sqrt(medium.dimer.rate * medium.selfCollision);
+      fastest = std::max(fastest, inception * medium.collision(medium.nucleusMass, medium.nucleusDiameter) / scale);
+    }
+    if (growing) {
+      const double n = static_cast<double>(size());
+      double mass = 0, area = 0, moment0 = 0;
+      for (std::size_t i = 0; i < size(); ++i) {
+        mass += masses_[i];
+        area += constants::pi * diameters_[i] * diameters_[i];
+        moment0 += diameters_[i];
+      }
+      const SurfaceRates rates = medium.surface.rates(medium.gas, 1.0);
+      const double perArea = std::abs(2 * rates.growth * medium.gas.C2H2) +
+                             std::abs(2 * rates.oxidationO2 * medium.gas.O2 + rates.oxidationOH * medium.gas.OH);
+      const double massRate =
+          perArea * options_.soot.carbonWeight * area + (medium.condensing ? sum * dimers * medium.dimer.mass : 0);
+      // Growth changes collision rates by way of the diameter: a third of the relative change of mass.
+      fastest = std::max(fastest, massRate / (3 * mass));
+      if (options_.soot.coagulation && n > 1) {
+        // Coagulation at the rate of equal spheres of the mean diameter.
+        const PairKernel kernel(options_.kernel, medium.gas, options_.soot.vanDerWaals,
+                                PairKernel::Bound::freeMolecular, options_.verificationScale);
+        const auto mean = kernel.terms(mass / n, moment0 / n);
+        fastest = std::max(fastest, 0.5 * kernel.value(mean, mean) * n / sampleVolume_);
+      }
+    }
+  }
+  return fastest * remaining > options_.splitTolerance ? options_.splitTolerance / fastest : remaining;
+}
+
+void Ensemble::grow(const Medium& medium, double dt) {
+  if (size() == 0 || !(medium.condensing || medium.surfaceActive)) return;
+  const SootModelOptions& soot = options_.soot;
+  const double condensing =
+      medium.condensing ? dimerNumber(medium, dimerCollisionSum(medium)) * medium.dimer.mass * medium.freeMolecular : 0;
+
+  double growthFlux = 0, oxidationFlux = 0;  // kg carbon/m2/s
+  if (medium.surfaceActive) {
+    double carbon = 0;
+    for (std::size_t i = 0; i < size(); ++i) carbon += masses_[i] - hydrogen_[i];
+    const double perParticle =
+        carbon * constants::avogadro / (soot.carbonWeight * static_cast<double>(size()));  // mu_1
+    const double meanCarbon = std::max({perParticle, dimers_.smallestNucleus(), 2.0});
+    const SurfaceRates rates = medium.surface.rates(medium.gas, medium.surface.alpha(meanCarbon));
+    growthFlux = 2 * rates.growth * std::max(medium.gas.C2H2, 0.0) * soot.carbonWeight;
+    oxidationFlux =
+        (2 * rates.oxidationO2 * std::max(medium.gas.O2, 0.0) + rates.oxidationOH * std::max(medium.gas.OH, 0.0)) *
+        soot.carbonWeight;
+  }
+
+  const double rho = soot.sootDensity, dimerMass = std::max(medium.dimer.mass, 1e-300), dd = medium.dimer.diameter;
+  const double leastCarbon = dimers_.smallestNucleus() * soot.carbonWeight / constants::avogadro * (1 - 1e-9);
+  for (std::size_t i = size(); i-- > 0;) {
+    const double startMass = masses_[i];
+    const double startFraction = hydrogen_[i] / startMass;
+    // The diameter changes at an almost constant rate, whatever the size: integrate it, not the mass.
+    const double lossFlux = oxidationFlux / (1 - startFraction);  // hydrogen leaves with its carbon
+    const auto condensation = [&](double d, double m) {           // kg/s
+      return condensing > 0 ? condensing * std::sqrt(1 / dimerMass + 1 / m) * (dd + d) * (dd + d) : 0;
+    };
+    const auto massAt = [&](double d) { return rho * constants::pi / 6 * d * d * d; };
+    const auto speed = [&](double d) {
+      return 2 / rho * (growthFlux - lossFlux + condensation(d, massAt(d)) / (constants::pi * d * d));
+    };
+    const double d0 = diameters_[i];
+    double d = d0, rest = dt, fraction = startFraction;
+    bool gone = false;
+    while (rest > 0) {
+      const double v0 = speed(d);
+      double step = rest;
+      if (std::abs(v0) * step > 0.5 * d) step = 0.5 * d / std::abs(v0);
+      const double middle = d + 0.5 * step * v0;
+      d += step * speed(middle);
+      const double area = constants::pi * middle * middle, m = massAt(middle);
+      const double gainCondensed = condensation(middle, m), gain = gainCondensed + growthFlux * area;
+      if (gain > 0) {
+        const double target = gainCondensed / gain * medium.dimerHydrogenFraction;
+        fraction = target + (fraction - target) * std::exp(-gain * step / m);
+      }
+      rest = step < rest ? rest - step : 0;
+      if (d < d0 && massAt(d) * (1 - fraction) < leastCarbon) {
+        gone = true;
+        break;
+      }
+    }
+    if (gone) {
+      removeParticle(i);
+      ++counters_.oxidised;
+      continue;
+    }
+    const double ratio = d / d0;
+    masses_[i] = startMass * ratio * ratio * ratio;
+    hydrogen_[i] = masses_[i] * fraction;
+    diameters_[i] = d;
+  }
+  if (size() == 0) {
+    restart();
+    return;
+  }
+  while (doubleIfDepleted()) {
+  }
+}
+
+}  // namespace lampblack
