@@ -11,14 +11,16 @@ namespace lampblack {
 
 std::vector<double> gradedAxis(double from, const std::vector<AxisSegment>& segments, double refinement) {
   if (segments.empty()) throw InputError("a mesh axis needs at least one segment");
-  if (!(refinement > 0.0)) throw InputError(fmt::format("mesh refinement must be positive, found {}", refinement));
+  if (!(refinement > 0.0) || !std::isfinite(refinement))
+    throw InputError(fmt::format("mesh refinement must be positive, found {}", refinement));
   std::vector<double> vertices{from};
   for (const AxisSegment& segment : segments) {
     if (segment.cells < 1) throw InputError(fmt::format("a mesh axis segment has {} cells; at least 1", segment.cells));
-    if (!(segment.to > vertices.back()))
+    if (!(segment.to > vertices.back()) || !std::isfinite(segment.to))
       throw InputError(fmt::format("a mesh axis segment ends at {} m, not beyond its start at {} m", segment.to,
                                    vertices.back()));
-    if (!(segment.ratio > 0.0)) throw InputError(fmt::format("grading ratio must be positive, found {}", segment.ratio));
+    if (!(segment.ratio > 0.0) || !std::isfinite(segment.ratio))
+      throw InputError(fmt::format("grading ratio must be positive, found {}", segment.ratio));
     const int cells = std::max(1, static_cast<int>(std::lround(segment.cells * refinement)));
     const double start = vertices.back();
     const double length = segment.to - start;

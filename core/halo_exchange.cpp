@@ -1,6 +1,8 @@
 #include "core/halo_exchange.hpp"
 
 #include <algorithm>
+#include <stdexcept>
+#include <utility>
 
 namespace lampblack {
 
@@ -23,8 +25,10 @@ HaloExchange::HaloExchange(const Mesh& mesh) : comm_(mesh.comm) {
   for (std::size_t r = 0; r < ranks; ++r) {
     if (wanted[r] == 0 && asked[r] == 0) continue;
     Neighbour neighbour{static_cast<int>(r), {}, mesh.owned + wantedStart[r], wanted[r], {}, {}};
-    for (int i = askedStart[r]; i < askedStart[r + 1]; ++i)
+    for (int i = askedStart[r]; i < askedStart[r + 1]; ++i) {
       neighbour.send.push_back(mesh.findOwned(askedNatural[static_cast<std::size_t>(i)]));
+      if (neighbour.send.back() < 0) throw std::logic_error("HaloExchange: asked for a cell that is not owned here");
+    }
     neighbours_.push_back(std::move(neighbour));
   }
 }

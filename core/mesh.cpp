@@ -1,265 +1,200 @@
 #include "core/mesh.hpp"
 
 #include <fmt/format.h>
-#include <petscdmplex.h>
-#include <petscpartitioner.h>
-#include <petscsf.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <stdexcept>
+#include <utility>
 
 #include "core/errors.hpp"
-#include "core/partition.hpp"
-#include "core/petsc.hpp"
+#include "core/mesh_distribution.hpp"
 
 namespace lampblack {
 namespace {
 
-using IndexPair = std::array<PetscInt, 2>;
+// A face by its cells, before it has metrics.
+struct FaceLink {
+  int low, high, axis;  // local cells; high is -1 on the boundary
+  double sign;
+  std::int64_t key;  // the same on any number of ranks
+};
 
-// A box whose vertices have whole-number coordinates, so that a point's natural index can be read off its position on
-// any rank after distribution.
-PetscDm createIndexBox(MPI_Comm comm, const std::array<int, 2>& cellsAlong) {
-  const PetscInt faces[2] = {cellsAlong[0], cellsAlong[1]};
-  const PetscReal lower[2] = {0.0, 0.0};
-  const PetscReal upper[2] = {static_cast<PetscReal>(cellsAlong[0]), static_cast<PetscReal>(cellsAlong[1])};
-  PetscDm dm;
-  checkPetsc(DMPlexCreateBoxMesh(comm, 2, PETSC_FALSE, faces, lower, upper, nullptr, PETSC_TRUE, dm.put()));
-  checkPetsc(DMSetBasicAdjacency(dm.get(), PETSC_TRUE, PETSC_FALSE));
-  return dm;
-}
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
-IndexPair cellIndex(DM dm, PetscInt cell) {
-  PetscReal centroid[3] = {0.0, 0.0, 0.0};
-  checkPetsc(DMPlexComputeCellGeometryFVM(dm, cell, nullptr, centroid, nullptr));
-  return {static_cast<PetscInt>(std::floor(centroid[0])), static_cast<PetscInt>(std::floor(centroid[1]))};
-}
-
-// Distributes the box by METIS through PETSc's shell partitioner, with one layer of halo cells.
-PetscDm distribute(MPI_Comm comm, PetscDm dm, const std::array<int, 2>& cellsAlong, const std::vector<double>& weight) {
-  int rank = 0;
-  int ranks = 1;
-  MPI_Comm_rank(comm, &rank);
-  MPI_Comm_size(comm, &ranks);
-  if (ranks == 1) return dm;
-
-  PetscInt graphCells = 0;
-  PetscInt* start = nullptr;
-  PetscInt* neighbours = nullptr;
-  checkPetsc(DMPlexCreatePartitionerGraph(dm.get(), 0, &graphCells, &start, &neighbours, nullptr));
-  std::vector<PetscInt> sizes(static_cast<std::size_t>(ranks), 0);
-  std::vector<PetscInt> points;
-  collectively(comm, [&] {
-    if (graphCells == 0) return;
-    const std::vector<std::int64_t> rowStart(start, start + graphCells + 1);
-    const std::vector<std::int64_t> adjacency(neighbours, neighbours + start[graphCells]);
-    std::vector<double> graphWeight;
-    if (!weight.empty()) {
-      for (PetscInt c = 0; c < graphCells; ++c) {
-        const IndexPair index = cellIndex(dm.get(), c);
-        graphWeight.push_back(weight[static_cast<std::size_t>(index[0] + index[1] * cellsAlong[0])]);
-      }
-    }
-    const std::vector<int> part = partitionGraph(rowStart, adjacency, graphWeight, ranks);
-    for (int r = 0; r < ranks; ++r) {
-      for (PetscInt c = 0; c < graphCells; ++c) {
-        if (part[static_cast<std::size_t>(c)] != r) continue;
-        points.push_back(c);
-        ++sizes[static_cast<std::size_t>(r)];
-      }
-    }
-  });
-  checkPetsc(PetscFree(start));
-  checkPetsc(PetscFree(neighbours));
-
-  PetscPartitioner partitioner = nullptr;
-  checkPetsc(DMPlexGetPartitioner(dm.get(), &partitioner));
-  checkPetsc(PetscPartitionerSetType(partitioner, PETSCPARTITIONERSHELL));
-  checkPetsc(PetscPartitionerShellSetPartition(partitioner, ranks, rank == 0 ? sizes.data() : nullptr,
-                                               rank == 0 ? points.data() : nullptr));
-  PetscDm distributed;
-  checkPetsc(DMPlexDistribute(dm.get(), 1, nullptr, distributed.put()));
-  if (distributed.get() == nullptr) throw NumericsError("DMPlex did not distribute the mesh");
-  return distributed;
-}
-
-// Owner rank of each local cell point: this rank unless the point is a leaf of the point SF.
-std::vector<int> ownerOfCells(DM dm, PetscInt cellStart, PetscInt cellEnd, int rank) {
-  std::vector<int> owner(static_cast<std::size_t>(cellEnd - cellStart), rank);
-  PetscSF sf = nullptr;
-  PetscInt leaves = 0;
-  const PetscInt* local = nullptr;
-  const PetscSFNode* remote = nullptr;
-  checkPetsc(DMGetPointSF(dm, &sf));
-  checkPetsc(PetscSFGetGraph(sf, nullptr, &leaves, &local, &remote));
-  for (PetscInt i = 0; i < leaves; ++i) {
-    const PetscInt point = local != nullptr ? local[i] : i;
-    if (point >= cellStart && point < cellEnd) owner[static_cast<std::size_t>(point - cellStart)] = static_cast<int>(remote[i].rank);
-  }
-  return owner;
-}
-
-void checkSpec(const MeshSpec& spec) {
+void checkInput(const MeshSpec& spec, const std::vector<double>& cellWeight) {
   for (int axis = 0; axis < 2; ++axis) {
-    const auto& v = spec.vertices[static_cast<std::size_t>(axis)];
+    const auto& v = spec.vertices[at(axis)];
     if (v.size() < 2) throw InputError(fmt::format("mesh axis {} has no cells; at least 1 is needed", axis));
     for (std::size_t i = 1; i < v.size(); ++i)
       if (!(v[i] > v[i - 1])) throw InputError(fmt::format("the vertices of mesh axis {} do not increase", axis));
+    if (!std::isfinite(v.front()) || !std::isfinite(v.back()))
+      throw InputError(fmt::format("the vertices of mesh axis {} are not finite", axis));
   }
   if (spec.geometry == Geometry::Axisymmetric && spec.vertices[0].front() < 0.0)
     throw InputError("an axisymmetric mesh needs radii of zero or more");
+  const std::size_t cells = (spec.vertices[0].size() - 1) * (spec.vertices[1].size() - 1);
+  if (!cellWeight.empty() && cellWeight.size() != cells)
+    throw std::invalid_argument(fmt::format("Mesh: {} cell weights for {} cells", cellWeight.size(), cells));
+}
+
+// (i, j) of a natural cell.
+std::array<int, 2> indexOf(const Mesh& mesh, std::int64_t natural) {
+  return {static_cast<int>(natural % mesh.cellsAlong[0]), static_cast<int>(natural / mesh.cellsAlong[0])};
+}
+
+// Local order: owned cells by natural index, then halo cells by (owner, natural index). Returns the local index of each
+// of the box's cells.
+std::vector<int> orderCells(Mesh& mesh, const LocalBox& box) {
+  mesh.cells = static_cast<int>(box.cells.size());
+  std::vector<int> order(box.cells.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int a, int b) {
+    const auto key = [&](const LocalBox::Cell& cell) {
+      return std::make_pair(cell.owner == mesh.rank ? -1 : cell.owner, cell.natural);
+    };
+    return key(box.cells[at(a)]) < key(box.cells[at(b)]);
+  });
+  std::vector<int> localOf(box.cells.size());
+  for (int local = 0; local < mesh.cells; ++local) {
+    const int point = order[at(local)];
+    const LocalBox::Cell& cell = box.cells[at(point)];
+    localOf[at(point)] = local;
+    mesh.naturalCell.push_back(cell.natural);
+    if (cell.owner == mesh.rank)
+      ++mesh.owned;
+    else
+      mesh.haloRank.push_back(cell.owner);
+  }
+  return localOf;
+}
+
+void measureCells(Mesh& mesh) {
+  const auto& x = mesh.spec.vertices;
+  for (std::int64_t natural : mesh.naturalCell) {
+    const auto [column, row] = indexOf(mesh, natural);
+    const std::size_t i = at(column);
+    const std::size_t j = at(row);
+    mesh.centre.push_back({0.5 * (x[0][i] + x[0][i + 1]), 0.5 * (x[1][j] + x[1][j + 1])});
+    mesh.planarArea.push_back((x[0][i + 1] - x[0][i]) * (x[1][j + 1] - x[1][j]));
+    mesh.volume.push_back(mesh.axisymmetric() ? mesh.planarArea.back() * mesh.centre.back()[0]
+                                              : mesh.planarArea.back());
+  }
+}
+
+// The faces of owned cells: interior ones by (low natural index, axis), then boundary ones by (natural index, side), so
+// that a cell meets its faces in the same order on any number of ranks.
+std::vector<FaceLink> orderFaces(Mesh& mesh, const LocalBox& box, const std::vector<int>& localOf) {
+  std::vector<FaceLink> interior;
+  for (const LocalBox::InteriorFace& face : box.interior) {
+    int low = localOf[at(face.a)];
+    int high = localOf[at(face.b)];
+    if (low >= mesh.owned && high >= mesh.owned) continue;
+    if (mesh.naturalCell[at(low)] > mesh.naturalCell[at(high)]) std::swap(low, high);
+    const std::int64_t natural = mesh.naturalCell[at(low)];
+    const int axis = indexOf(mesh, natural)[0] != indexOf(mesh, mesh.naturalCell[at(high)])[0] ? 0 : 1;
+    interior.push_back({low, high, axis, 1.0, natural * 2 + axis});
+  }
+  std::vector<FaceLink> boundary;
+  for (const LocalBox::BoundaryFace& face : box.boundary) {
+    const int cell = localOf[at(face.cell)];
+    if (cell >= mesh.owned) continue;
+    const std::int64_t key = mesh.naturalCell[at(cell)] * 4 + face.axis * 2 + (face.atMax ? 1 : 0);
+    boundary.push_back({cell, -1, face.axis, face.atMax ? 1.0 : -1.0, key});
+  }
+  const auto byKey = [](const FaceLink& a, const FaceLink& b) { return a.key < b.key; };
+  std::sort(interior.begin(), interior.end(), byKey);
+  std::sort(boundary.begin(), boundary.end(), byKey);
+  mesh.interiorFaces = static_cast<int>(interior.size());
+  mesh.faces = mesh.interiorFaces + static_cast<int>(boundary.size());
+  interior.insert(interior.end(), boundary.begin(), boundary.end());
+  return interior;
+}
+
+void measureFaces(Mesh& mesh, const std::vector<FaceLink>& links) {
+  const auto& x = mesh.spec.vertices;
+  for (const FaceLink& face : links) {
+    const std::size_t normal = at(face.axis);
+    const std::size_t along = 1 - normal;
+    const auto index = indexOf(mesh, mesh.naturalCell[at(face.low)]);
+    const std::size_t i = at(index[along]);
+    const std::size_t layer = at(index[normal] + (face.sign > 0 ? 1 : 0));
+    std::array<double, 2> middle{};
+    middle[normal] = x[normal][layer];
+    middle[along] = 0.5 * (x[along][i] + x[along][i + 1]);
+    mesh.low.push_back(face.low);
+    mesh.high.push_back(face.high);
+    mesh.normalAxis.push_back(face.axis);
+    mesh.normalSign.push_back(face.sign);
+    mesh.faceCentre.push_back(middle);
+    mesh.planarLength.push_back(x[along][i + 1] - x[along][i]);
+    mesh.area.push_back(mesh.axisymmetric() ? mesh.planarLength.back() * middle[0] : mesh.planarLength.back());
+    const double toLow = std::abs(middle[normal] - mesh.centre[at(face.low)][normal]);
+    const double toHigh = face.high >= 0 ? std::abs(mesh.centre[at(face.high)][normal] - middle[normal]) : 0.0;
+    mesh.distance.push_back(toLow + toHigh);
+    mesh.lowWeight.push_back(toHigh / (toLow + toHigh));
+  }
+}
+
+// Index of the first patch that holds a boundary face, or -1.
+int findPatch(const Mesh& mesh, int face) {
+  const int axis = mesh.normalAxis[at(face)];
+  const bool atMax = mesh.normalSign[at(face)] > 0;
+  const double along = mesh.faceCentre[at(face)][at(1 - axis)];
+  const auto& patches = mesh.spec.patches;
+  const auto holds = [&](const BoundaryPatch& patch) {
+    return patch.axis == axis && patch.atMax == atMax && along >= patch.from && along <= patch.to;
+  };
+  const auto found = std::find_if(patches.begin(), patches.end(), holds);
+  return found == patches.end() ? -1 : static_cast<int>(found - patches.begin());
+}
+
+// Collective, as a patch may be missing on one rank only.
+void assignPatches(Mesh& mesh) {
+  collectively(mesh.comm, [&] {
+    for (int face = mesh.interiorFaces; face < mesh.faces; ++face) {
+      const int found = findPatch(mesh, face);
+      if (found < 0)
+        throw InputError(fmt::format("the boundary face at ({:.6g}, {:.6g}) m belongs to no boundary",
+                                     mesh.faceCentre[at(face)][0], mesh.faceCentre[at(face)][1]));
+      mesh.patch.push_back(found);
+    }
+  });
+}
+
+// The rows of faceOfCell, each in face order.
+void linkCellsToFaces(Mesh& mesh) {
+  const auto eachSide = [&](auto&& visit) {
+    for (int face = 0; face < mesh.faces; ++face) {
+      visit(face, mesh.low[at(face)]);
+      if (mesh.high[at(face)] >= 0) visit(face, mesh.high[at(face)]);
+    }
+  };
+  std::vector<int> next(at(mesh.cells) + 1, 0);
+  eachSide([&](int, int cell) { ++next[at(cell) + 1]; });
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  mesh.faceStart = next;
+  mesh.faceOfCell.resize(at(next.back()));
+  eachSide([&](int face, int cell) { mesh.faceOfCell[at(next[at(cell)]++)] = face; });
 }
 
 }  // namespace
 
 Mesh::Mesh(MPI_Comm communicator, MeshSpec meshSpec, const std::vector<double>& cellWeight)
     : comm(communicator), spec(std::move(meshSpec)) {
-  checkSpec(spec);
+  collectively(comm, [&] { checkInput(spec, cellWeight); });
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &ranks);
-  const auto& x = spec.vertices;
-  cellsAlong = {static_cast<int>(x[0].size()) - 1, static_cast<int>(x[1].size()) - 1};
+  cellsAlong = {static_cast<int>(spec.vertices[0].size()) - 1, static_cast<int>(spec.vertices[1].size()) - 1};
   totalCells = static_cast<std::int64_t>(cellsAlong[0]) * cellsAlong[1];
 
-  const PetscDm dm = distribute(comm, createIndexBox(comm, cellsAlong), cellsAlong, cellWeight);
-  PetscInt cellStart = 0;
-  PetscInt cellEnd = 0;
-  PetscInt faceBegin = 0;
-  PetscInt faceEnd = 0;
-  checkPetsc(DMPlexGetHeightStratum(dm.get(), 0, &cellStart, &cellEnd));
-  checkPetsc(DMPlexGetHeightStratum(dm.get(), 1, &faceBegin, &faceEnd));
-
-  // Local order: owned cells by natural index, then halo cells by (owner, natural index).
-  cells = static_cast<int>(cellEnd - cellStart);
-  const std::vector<int> owner = ownerOfCells(dm.get(), cellStart, cellEnd, rank);
-  std::vector<std::int64_t> natural(static_cast<std::size_t>(cells));
-  for (int c = 0; c < cells; ++c) {
-    const IndexPair index = cellIndex(dm.get(), cellStart + c);
-    natural[static_cast<std::size_t>(c)] = index[0] + static_cast<std::int64_t>(index[1]) * cellsAlong[0];
-  }
-  std::vector<int> order(static_cast<std::size_t>(cells));
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](int a, int b) {
-    const auto key = [&](int c) {
-      const int o = owner[static_cast<std::size_t>(c)];
-      return std::make_pair(o == rank ? -1 : o, natural[static_cast<std::size_t>(c)]);
-    };
-    return key(a) < key(b);
-  });
-  std::vector<int> localOf(static_cast<std::size_t>(cells));
-  for (int l = 0; l < cells; ++l) {
-    const auto point = static_cast<std::size_t>(order[static_cast<std::size_t>(l)]);
-    localOf[point] = l;
-    naturalCell.push_back(natural[point]);
-    if (owner[point] == rank)
-      ++owned;
-    else
-      haloRank.push_back(owner[point]);
-  }
-
-  const bool axisym = axisymmetric();
-  std::vector<std::array<int, 2>> index;
-  for (std::int64_t n : naturalCell) {
-    const std::array<int, 2> ij{static_cast<int>(n % cellsAlong[0]), static_cast<int>(n / cellsAlong[0])};
-    index.push_back(ij);
-    const auto i = static_cast<std::size_t>(ij[0]);
-    const auto j = static_cast<std::size_t>(ij[1]);
-    centre.push_back({0.5 * (x[0][i] + x[0][i + 1]), 0.5 * (x[1][j] + x[1][j + 1])});
-    planarArea.push_back((x[0][i + 1] - x[0][i]) * (x[1][j + 1] - x[1][j]));
-    volume.push_back(axisym ? planarArea.back() * centre.back()[0] : planarArea.back());
-  }
-
-  struct Face {
-    int low, high, axis;
-    double sign;
-    std::int64_t key;
-  };
-  std::vector<Face> interior;
-  std::vector<Face> boundary;
-  for (PetscInt f = faceBegin; f < faceEnd; ++f) {
-    PetscInt supportSize = 0;
-    const PetscInt* support = nullptr;
-    checkPetsc(DMPlexGetSupportSize(dm.get(), f, &supportSize));
-    checkPetsc(DMPlexGetSupport(dm.get(), f, &support));
-    if (supportSize == 2) {
-      int a = localOf[static_cast<std::size_t>(support[0] - cellStart)];
-      int b = localOf[static_cast<std::size_t>(support[1] - cellStart)];
-      if (a >= owned && b >= owned) continue;
-      if (naturalCell[static_cast<std::size_t>(a)] > naturalCell[static_cast<std::size_t>(b)]) std::swap(a, b);
-      const int axis = index[static_cast<std::size_t>(a)][0] != index[static_cast<std::size_t>(b)][0] ? 0 : 1;
-      interior.push_back({a, b, axis, 1.0, naturalCell[static_cast<std::size_t>(a)] * 2 + axis});
-    } else {
-      const int c = localOf[static_cast<std::size_t>(support[0] - cellStart)];
-      if (c >= owned) continue;
-      PetscReal position[3] = {0.0, 0.0, 0.0};
-      checkPetsc(DMPlexComputeCellGeometryFVM(dm.get(), f, nullptr, position, nullptr));
-      const int axis = position[0] < 1e-6 || position[0] > cellsAlong[0] - 1e-6 ? 0 : 1;
-      const double sign = position[axis] < 1e-6 ? -1.0 : 1.0;
-      boundary.push_back({c, -1, axis, sign, naturalCell[static_cast<std::size_t>(c)] * 4 + axis * 2 + (sign > 0 ? 1 : 0)});
-    }
-  }
-  const auto byKey = [](const Face& a, const Face& b) { return a.key < b.key; };
-  std::sort(interior.begin(), interior.end(), byKey);
-  std::sort(boundary.begin(), boundary.end(), byKey);
-  interiorFaces = static_cast<int>(interior.size());
-  faces = interiorFaces + static_cast<int>(boundary.size());
-  interior.insert(interior.end(), boundary.begin(), boundary.end());
-
-  std::string missingPatch;
-  for (const Face& face : interior) {
-    const auto c = static_cast<std::size_t>(face.low);
-    const auto normal = static_cast<std::size_t>(face.axis);
-    const std::size_t along = 1 - normal;
-    const auto i = static_cast<std::size_t>(index[c][along]);
-    const auto layer = static_cast<std::size_t>(index[c][normal] + (face.sign > 0 ? 1 : 0));
-    std::array<double, 2> middle{};
-    middle[normal] = x[normal][layer];
-    middle[along] = 0.5 * (x[along][i] + x[along][i + 1]);
-    low.push_back(face.low);
-    high.push_back(face.high);
-    normalAxis.push_back(face.axis);
-    normalSign.push_back(face.sign);
-    faceCentre.push_back(middle);
-    planarLength.push_back(x[along][i + 1] - x[along][i]);
-    area.push_back(axisym ? planarLength.back() * middle[0] : planarLength.back());
-    const double toLow = std::abs(middle[normal] - centre[c][normal]);
-    if (face.high >= 0) {
-      const double toHigh = std::abs(centre[static_cast<std::size_t>(face.high)][normal] - middle[normal]);
-      distance.push_back(toLow + toHigh);
-      lowWeight.push_back(toHigh / (toLow + toHigh));
-      continue;
-    }
-    distance.push_back(toLow);
-    lowWeight.push_back(0.0);
-    int found = -1;
-    for (std::size_t p = 0; p < spec.patches.size() && found < 0; ++p) {
-      const BoundaryPatch& candidate = spec.patches[p];
-      if (candidate.axis == face.axis && candidate.atMax == (face.sign > 0) && middle[along] >= candidate.from &&
-          middle[along] <= candidate.to)
-        found = static_cast<int>(p);
-    }
-    if (found < 0 && missingPatch.empty())
-      missingPatch = fmt::format("the boundary face at ({:.6g}, {:.6g}) m belongs to no boundary", middle[0], middle[1]);
-    patch.push_back(found);
-  }
-  collectively(comm, [&] {
-    if (!missingPatch.empty()) throw InputError(missingPatch);
-  });
-
-  std::vector<int> count(static_cast<std::size_t>(cells) + 1, 0);
-  const auto eachSide = [&](auto&& visit) {
-    for (int f = 0; f < faces; ++f) {
-      visit(f, low[static_cast<std::size_t>(f)]);
-      if (high[static_cast<std::size_t>(f)] >= 0) visit(f, high[static_cast<std::size_t>(f)]);
-    }
-  };
-  eachSide([&](int, int c) { ++count[static_cast<std::size_t>(c) + 1]; });
-  std::partial_sum(count.begin(), count.end(), count.begin());
-  faceStart = count;
-  faceOfCell.resize(static_cast<std::size_t>(count.back()));
-  eachSide([&](int f, int c) { faceOfCell[static_cast<std::size_t>(count[static_cast<std::size_t>(c)]++)] = f; });
-
+  const LocalBox box = distributeBox(comm, cellsAlong, cellWeight);
+  const std::vector<int> localOf = orderCells(*this, box);
+  measureCells(*this);
+  measureFaces(*this, orderFaces(*this, box, localOf));
+  assignPatches(*this);
+  linkCellsToFaces(*this);
 }
 
 int Mesh::findOwned(std::int64_t natural) const {

@@ -34,8 +34,9 @@ struct MeshSpec {
 
 class Mesh {
  public:
-  // Collective. `cellWeight` (one per cell in natural order, or empty for equal weights) is the expected cost that METIS
-  // balances. InputError when an axis has no cells, a radius is negative, or a boundary face belongs to no patch.
+  // Collective. `cellWeight` (one per cell in natural order, or empty for equal weights) is the expected cost that
+  // METIS balances. Every rank owns at least one cell. InputError, on all ranks, when an axis has no cells, there are
+  // fewer cells than ranks, a radius is negative, or a boundary face belongs to no patch.
   Mesh(MPI_Comm comm, MeshSpec spec, const std::vector<double>& cellWeight = {});
 
   MPI_Comm comm;
@@ -70,7 +71,8 @@ class Mesh {
   std::vector<std::array<double, 2>> faceCentre;   // m
   std::vector<int> patch;                          // of boundary faces, index face - interiorFaces
 
-  // Faces of each cell in compressed rows: faceOfCell[faceStart[c] .. faceStart[c+1]).
+  // Faces of each cell in compressed rows: faceOfCell[faceStart[c] .. faceStart[c+1]). An owned cell has all its faces,
+  // in an order that does not depend on the ranks; a halo cell has those it shares with owned cells.
   std::vector<int> faceStart;
   std::vector<int> faceOfCell;
 

@@ -5,28 +5,51 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/errors.hpp"
 
 namespace lampblack {
+namespace {
+
+// METIS takes whole weights and sums them in idx_t: the mean becomes 1000, or what 2^30 in all leaves to each. Empty
+// (equal weights) when the weights have no positive, finite sum.
+std::vector<idx_t> wholeWeights(const std::vector<double>& weight) {
+  const double sum = std::accumulate(weight.begin(), weight.end(), 0.0);
+  if (!(sum > 0.0) || !std::isfinite(sum)) return {};
+  const double scale = std::min(1000.0 * static_cast<double>(weight.size()), 0x1p30) / sum;
+  std::vector<idx_t> whole;
+  for (double w : weight) whole.push_back(std::max<idx_t>(1, static_cast<idx_t>(std::lround(w * scale))));
+  return whole;
+}
+
+// METIS may leave a part empty when vertices are few or one outweighs the others; such a part takes a vertex from the
+// part that has most of them.
+void fillEmptyParts(std::vector<idx_t>& part, int parts) {
+  std::vector<int> size(static_cast<std::size_t>(parts), 0);
+  for (idx_t p : part) ++size[static_cast<std::size_t>(p)];
+  for (int p = 0; p < parts; ++p) {
+    if (size[static_cast<std::size_t>(p)] > 0) continue;
+    const auto largest = std::max_element(size.begin(), size.end());
+    *std::find(part.begin(), part.end(), static_cast<idx_t>(largest - size.begin())) = p;
+    --*largest;
+    ++size[static_cast<std::size_t>(p)];
+  }
+}
+
+}  // namespace
 
 std::vector<int> partitionGraph(const std::vector<std::int64_t>& start, const std::vector<std::int64_t>& neighbours,
                                 const std::vector<double>& weight, int parts) {
   const std::size_t vertices = start.size() - 1;
   if (parts <= 1) return std::vector<int>(vertices, 0);
   if (vertices < static_cast<std::size_t>(parts))
-    throw InputError(fmt::format("the mesh has {} cells, fewer than the {} ranks it is to be spread over", vertices, parts));
+    throw InputError(
+        fmt::format("the mesh has {} cells, fewer than the {} ranks it is to be spread over", vertices, parts));
 
   std::vector<idx_t> rowStart(start.begin(), start.end());
   std::vector<idx_t> adjacency(neighbours.begin(), neighbours.end());
-  std::vector<idx_t> vertexWeight;
-  if (!weight.empty()) {
-    // METIS takes integers: the mean weight becomes 1000.
-    double sum = 0.0;
-    for (double w : weight) sum += w;
-    const double scale = 1000.0 * static_cast<double>(vertices) / sum;
-    for (double w : weight) vertexWeight.push_back(std::max<idx_t>(1, static_cast<idx_t>(std::lround(w * scale))));
-  }
+  std::vector<idx_t> vertexWeight = wholeWeights(weight);
   idx_t options[METIS_NOPTIONS];
   METIS_SetDefaultOptions(options);
   options[METIS_OPTION_SEED] = 1;
@@ -41,6 +64,7 @@ std::vector<int> partitionGraph(const std::vector<std::int64_t>& start, const st
                                vertexWeight.empty() ? nullptr : vertexWeight.data(), nullptr, nullptr, &partCount,
                                nullptr, nullptr, options, &cut, part.data());
   if (status != METIS_OK) throw NumericsError(fmt::format("METIS could not partition the mesh (status {})", status));
+  fillEmptyParts(part, parts);
   return {part.begin(), part.end()};
 }
 

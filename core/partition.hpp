@@ -7,7 +7,8 @@
 namespace lampblack {
 
 // Part of each vertex of a graph in compressed rows (`start`, `neighbours`), vertices weighted by `weight` (empty:
-// equal; otherwise positive values on any scale). Deterministic. NumericsError if METIS fails.
+// equal; otherwise zero or more, on any scale). Every part gets at least one vertex. Deterministic. InputError when
+// there are fewer vertices than parts, NumericsError if METIS fails.
 std::vector<int> partitionGraph(const std::vector<std::int64_t>& start, const std::vector<std::int64_t>& neighbours,
                                 const std::vector<double>& weight, int parts);
 

@@ -10,6 +10,12 @@
 
 namespace lampblack {
 
+// Maps a random word to the open interval (0, 1) by its upper 52 bits: the middles of 2^52 equal steps, each of them a
+// double, so that neither end is ever rounded to and the mean is exactly 1/2.
+constexpr double openUnitInterval(std::uint64_t word) {
+  return (static_cast<double>(word >> 12) + 0.5) * 0x1.0p-52;
+}
+
 class RandomStream {
  public:
   RandomStream(std::uint64_t seed, std::uint64_t owner, std::uint32_t purpose)
@@ -17,11 +23,8 @@ class RandomStream {
         owner_(owner),
         purpose_(purpose) {}
 
-  // Uniform in the open interval (0, 1), 53 random bits: never 0 or 1, so that its logarithm is finite.
-  double uniform() {
-    const std::uint64_t bits = next64() >> 11;
-    return (static_cast<double>(bits) + 0.5) * 0x1.0p-53;
-  }
+  // Uniform in the open interval (0, 1): never 0 or 1, so that its logarithm is finite and not zero.
+  double uniform() { return openUnitInterval(next64()); }
 
   // Exponentially distributed waiting time with the given rate (1/s, positive).
   double exponential(double rate) { return -std::log(uniform()) / rate; }

@@ -12,20 +12,33 @@ std::size_t Timers::stage(const char* name) {
   return names_.size() - 1;
 }
 
-double Timers::seconds(const char* name) { return seconds_[stage(name)]; }
+double Timers::seconds(const char* name) const {
+  const auto it = std::find(names_.begin(), names_.end(), name);
+  return it == names_.end() ? 0.0 : seconds_[static_cast<std::size_t>(it - names_.begin())];
+}
 
 std::vector<Timers::Stage> Timers::gather(MPI_Comm comm) const {
   int ranks = 1;
   MPI_Comm_size(comm, &ranks);
-  const int count = static_cast<int>(seconds_.size());
-  std::vector<double> least(seconds_.size());
-  std::vector<double> sum(seconds_.size());
-  std::vector<double> most(seconds_.size());
-  MPI_Allreduce(seconds_.data(), least.data(), count, MPI_DOUBLE, MPI_MIN, comm);
-  MPI_Allreduce(seconds_.data(), sum.data(), count, MPI_DOUBLE, MPI_SUM, comm);
-  MPI_Allreduce(seconds_.data(), most.data(), count, MPI_DOUBLE, MPI_MAX, comm);
+  // Ranks may have met the stages in another order, or not all of them: rank 0 lists them, each ended by a zero.
+  std::string list;
+  for (const std::string& name : names_) list.append(name).push_back('\0');
+  int length = static_cast<int>(list.size());
+  MPI_Bcast(&length, 1, MPI_INT, 0, comm);
+  list.resize(static_cast<std::size_t>(length));
+  MPI_Bcast(list.data(), length, MPI_CHAR, 0, comm);
+
   std::vector<Stage> stages;
-  for (std::size_t i = 0; i < seconds_.size(); ++i) stages.push_back({names_[i], least[i], sum[i] / ranks, most[i]});
+  for (std::size_t start = 0; start < list.size(); start += stages.back().name.size() + 1) {
+    const char* name = list.c_str() + start;
+    const double own = seconds(name);
+    Stage stage{name, own, own, own};
+    MPI_Allreduce(&own, &stage.least, 1, MPI_DOUBLE, MPI_MIN, comm);
+    MPI_Allreduce(&own, &stage.mean, 1, MPI_DOUBLE, MPI_SUM, comm);
+    MPI_Allreduce(&own, &stage.most, 1, MPI_DOUBLE, MPI_MAX, comm);
+    stage.mean /= ranks;
+    stages.push_back(stage);
+  }
   return stages;
 }
 

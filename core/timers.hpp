@@ -10,7 +10,7 @@ namespace lampblack {
 
 class Timers {
  public:
-  // Adds the time until the scope ends to the stage `name` (created at first use; all ranks use the same order).
+  // Adds the time until the scope ends to the stage `name` (created at first use).
   class Scope {
    public:
     Scope(Timers& timers, const char* name) : timers_(timers), stage_(timers.stage(name)), start_(MPI_Wtime()) {}
@@ -28,8 +28,9 @@ class Timers {
     std::string name;
     double least, mean, most;  // s, over the ranks
   };
-  [[nodiscard]] std::vector<Stage> gather(MPI_Comm comm) const;  // collective
-  [[nodiscard]] double seconds(const char* name);                // of this rank
+  // Collective. The stages of rank 0, in its order of first use; a rank that never entered one counts as zero.
+  [[nodiscard]] std::vector<Stage> gather(MPI_Comm comm) const;
+  [[nodiscard]] double seconds(const char* name) const;  // of this rank; zero for a stage never entered
 
  private:
   friend class Scope;

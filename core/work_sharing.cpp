@@ -1,7 +1,12 @@
 #include "core/work_sharing.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <exception>
+#include <limits>
 #include <numeric>
+#include <stdexcept>
+#include <utility>
 
 #include "core/errors.hpp"
 
@@ -12,9 +17,73 @@ constexpr int itemsTag = 21;
 constexpr int resultsTag = 22;
 
 double imbalance(const std::vector<double>& cost) {
+  if (cost.empty()) return 1.0;
   const double sum = std::accumulate(cost.begin(), cost.end(), 0.0);
   const double most = *std::max_element(cost.begin(), cost.end());
   return sum > 0.0 ? most * static_cast<double>(cost.size()) / sum : 1.0;
+}
+
+// Items on their way to another rank, and the room for what comes back.
+struct Parcel {
+  int peer;
+  std::vector<std::size_t> item;
+  std::vector<double> input, output;
+};
+
+// Keeps the first failure and skips everything after it: the run is lost, only the communication has to be completed.
+class FirstFailure {
+ public:
+  template <typename Work>
+  void unlessFailed(Work&& work) {
+    if (error_) return;
+    try {
+      work();
+    } catch (...) {
+      error_ = std::current_exception();
+    }
+  }
+  [[nodiscard]] const std::exception_ptr& error() const { return error_; }
+
+ private:
+  std::exception_ptr error_;
+};
+
+std::span<double> slot(std::vector<double>& values, std::size_t item, std::size_t size) {
+  return {values.data() + item * size, size};
+}
+
+// This rank's total cost; not a number when its items are not valid, which every rank then notices.
+double totalCost(const WorkSharing::Items& items) {
+  const auto& cost = items.cost;
+  const bool valid = items.inputSize > 0 &&
+                     std::all_of(cost.begin(), cost.end(), [](double c) { return c >= 0.0 && std::isfinite(c); });
+  return valid ? std::accumulate(cost.begin(), cost.end(), 0.0) : std::numeric_limits<double>::quiet_NaN();
+}
+
+// Chooses the items that leave this rank: the dearest, so that few of them travel.
+std::vector<Parcel> chooseParcels(const SharingPlan& plan, int rank, const std::vector<double>& cost) {
+  std::vector<Parcel> parcels;
+  std::vector<std::size_t> byCost;
+  std::size_t next = 0;
+  for (const auto& transfer : plan.transfers) {
+    if (transfer.from != rank) continue;
+    if (byCost.empty()) {
+      byCost.resize(cost.size());
+      std::iota(byCost.begin(), byCost.end(), std::size_t{0});
+      std::stable_sort(byCost.begin(), byCost.end(),
+                       [&](std::size_t a, std::size_t b) { return cost[a] > cost[b]; });
+    }
+    Parcel parcel{transfer.to, {}, {}, {}};
+    double left = transfer.cost;
+    for (; next < byCost.size() && left > 0.0 && cost[byCost[next]] > 0.0; ++next) {
+      const std::size_t item = byCost[next];
+      if (cost[item] > left * 1.5) continue;  // would overshoot; a cheaper one fits better
+      left -= cost[item];
+      parcel.item.push_back(item);
+    }
+    parcels.push_back(std::move(parcel));
+  }
+  return parcels;
 }
 
 }  // namespace
@@ -45,69 +114,37 @@ WorkSharing::Statistics WorkSharing::run(const Items& items) {
   int ranks = 1;
   MPI_Comm_rank(comm_, &rank);
   MPI_Comm_size(comm_, &ranks);
-  const std::size_t count = items.cost.size();
 
-  double localCost = std::accumulate(items.cost.begin(), items.cost.end(), 0.0);
+  const double ownCost = totalCost(items);
   std::vector<double> costOfRank(static_cast<std::size_t>(ranks));
-  MPI_Allgather(&localCost, 1, MPI_DOUBLE, costOfRank.data(), 1, MPI_DOUBLE, comm_);
+  MPI_Allgather(&ownCost, 1, MPI_DOUBLE, costOfRank.data(), 1, MPI_DOUBLE, comm_);
+  for (double cost : costOfRank)
+    if (!std::isfinite(cost))
+      throw std::invalid_argument("WorkSharing: inputSize is zero, or a cost is negative or not finite");
   SharingPlan plan = planSharing(costOfRank);
   if (!enabled_) plan.transfers.clear();
 
-  // The dearest items travel, so that few of them do.
-  std::vector<std::size_t> byCost(count);
-  std::iota(byCost.begin(), byCost.end(), std::size_t{0});
-  std::stable_sort(byCost.begin(), byCost.end(),
-                   [&](std::size_t a, std::size_t b) { return items.cost[a] > items.cost[b]; });
-  std::vector<char> away(count, 0);
-  struct Parcel {
-    int peer;
-    std::vector<std::size_t> item;
-    std::vector<double> input, output;
-  };
-  std::vector<Parcel> sent;
+  FirstFailure guard;
+  std::vector<Parcel> sent = chooseParcels(plan, rank, items.cost);
+  std::vector<char> away(items.cost.size(), 0);
   std::vector<MPI_Request> requests;
-  std::size_t next = 0;
-  for (const auto& transfer : plan.transfers) {
-    if (transfer.from != rank) continue;
-    Parcel parcel{transfer.to, {}, {}, {}};
-    double left = transfer.cost;
-    for (; next < count && left > 0.0; ++next) {
-      const std::size_t item = byCost[next];
-      if (items.cost[item] > left * 1.5) continue;  // would overshoot; a cheaper one fits better
-      left -= items.cost[item];
-      away[item] = 1;
-      parcel.item.push_back(item);
-    }
+  for (Parcel& parcel : sent) {
     parcel.input.resize(parcel.item.size() * items.inputSize);
     parcel.output.resize(parcel.item.size() * items.outputSize);
-    for (std::size_t i = 0; i < parcel.item.size(); ++i)
-      items.pack(parcel.item[i], {parcel.input.data() + i * items.inputSize, items.inputSize});
-    sent.push_back(std::move(parcel));
-  }
-  for (Parcel& parcel : sent) {
-    requests.resize(requests.size() + 2);
-    MPI_Isend(parcel.input.data(), static_cast<int>(parcel.input.size()), MPI_DOUBLE, parcel.peer, itemsTag, comm_,
-              &requests[requests.size() - 2]);
-    MPI_Irecv(parcel.output.data(), static_cast<int>(parcel.output.size()), MPI_DOUBLE, parcel.peer, resultsTag, comm_,
-              &requests[requests.size() - 1]);
-  }
-
-  double busy = 0.0;
-  std::exception_ptr error;
-  const auto advance = [&](std::span<const double> input, std::span<double> output) {
-    if (error) return;  // the run is lost; only the communication has to be completed
-    try {
-      items.advance(input, output);
-    } catch (...) {
-      error = std::current_exception();
+    for (std::size_t i = 0; i < parcel.item.size(); ++i) {
+      away[parcel.item[i]] = 1;
+      guard.unlessFailed([&] { items.pack(parcel.item[i], slot(parcel.input, i, items.inputSize)); });
     }
-  };
+    MPI_Isend(parcel.input.data(), static_cast<int>(parcel.input.size()), MPI_DOUBLE, parcel.peer, itemsTag, comm_,
+              &requests.emplace_back());
+    MPI_Irecv(parcel.output.data(), static_cast<int>(parcel.output.size()), MPI_DOUBLE, parcel.peer, resultsTag, comm_,
+              &requests.emplace_back());
+  }
 
   // Others' items first, so that they travel back while this rank advances its own.
+  double busy = 0.0;
   std::vector<std::vector<double>> returned;
-  std::vector<MPI_Request> returning;
-  returned.reserve(plan.transfers.size());
-  returning.reserve(plan.transfers.size());
+  returned.reserve(plan.transfers.size());  // MPI keeps pointers to the elements' values
   for (const auto& transfer : plan.transfers) {
     if (transfer.to != rank) continue;
     MPI_Status status;
@@ -120,34 +157,41 @@ WorkSharing::Statistics WorkSharing::run(const Items& items) {
     std::vector<double>& output = returned.emplace_back(foreign * items.outputSize);
     const double start = MPI_Wtime();
     for (std::size_t i = 0; i < foreign; ++i)
-      advance({input.data() + i * items.inputSize, items.inputSize},
-              {output.data() + i * items.outputSize, items.outputSize});
+      guard.unlessFailed(
+          [&] { items.advance(slot(input, i, items.inputSize), slot(output, i, items.outputSize)); });
     busy += MPI_Wtime() - start;
-    returning.emplace_back();
     MPI_Isend(output.data(), static_cast<int>(output.size()), MPI_DOUBLE, transfer.from, resultsTag, comm_,
-              &returning.back());
+              &requests.emplace_back());
   }
 
   std::vector<double> input(items.inputSize);
   std::vector<double> output(items.outputSize);
+  int allArrived = requests.empty() ? 1 : 0;
   const double start = MPI_Wtime();
-  for (std::size_t item = 0; item < count; ++item) {
+  for (std::size_t item = 0; item < items.cost.size(); ++item) {
     if (away[item]) continue;
-    items.pack(item, input);
-    advance(input, output);
-    if (!error) items.unpack(item, output);
+    std::fill(input.begin(), input.end(), 0.0);
+    std::fill(output.begin(), output.end(), 0.0);
+    guard.unlessFailed([&] {
+      items.pack(item, input);
+      items.advance(input, output);
+      items.unpack(item, output);
+    });
+    // MPI moves large parcels only while it is called: without this, the receivers would wait for this loop's end.
+    if (!allArrived)
+      MPI_Testall(static_cast<int>(requests.size()), requests.data(), &allArrived, MPI_STATUSES_IGNORE);
   }
   busy += MPI_Wtime() - start;
-
   MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
-  MPI_Waitall(static_cast<int>(returning.size()), returning.data(), MPI_STATUSES_IGNORE);
-  raiseCollectively(comm_, error);
+  raiseCollectively(comm_, guard.error());
+
   Statistics statistics;
-  for (const Parcel& parcel : sent) {
+  for (Parcel& parcel : sent) {
     statistics.itemsSent += parcel.item.size();
     for (std::size_t i = 0; i < parcel.item.size(); ++i)
-      items.unpack(parcel.item[i], {parcel.output.data() + i * items.outputSize, items.outputSize});
+      guard.unlessFailed([&] { items.unpack(parcel.item[i], slot(parcel.output, i, items.outputSize)); });
   }
+  raiseCollectively(comm_, guard.error());
   statistics.imbalanceBefore = plan.imbalanceBefore;
   std::vector<double> busyOfRank(static_cast<std::size_t>(ranks));
   MPI_Allgather(&busy, 1, MPI_DOUBLE, busyOfRank.data(), 1, MPI_DOUBLE, comm_);

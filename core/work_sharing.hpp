@@ -29,10 +29,10 @@ class WorkSharing {
  public:
   struct Items {
     std::vector<double> cost;  // of each item, in seconds or any common unit; zero or more
-    std::size_t inputSize = 0;
+    std::size_t inputSize = 0;   // values an item, at least 1 and alike on all ranks, also where there are no items
     std::size_t outputSize = 0;
-    std::function<void(std::size_t item, std::span<double> input)> pack;
-    // Advances one item; runs on any rank.
+    std::function<void(std::size_t item, std::span<double> input)> pack;  // `input` comes zeroed
+    // Advances one item; runs on any rank. `output` comes zeroed.
     std::function<void(std::span<const double> input, std::span<double> output)> advance;
     std::function<void(std::size_t item, std::span<const double> output)> unpack;
   };
@@ -44,8 +44,9 @@ class WorkSharing {
 
   explicit WorkSharing(MPI_Comm comm, bool enabled = true) : comm_(comm), enabled_(enabled) {}
 
-  // Collective. Advances all items of all ranks. A failing item stops every rank with its message, after the
-  // communication has been completed.
+  // Collective. Advances all items of all ranks. A failing item (in any of its three functions) stops every rank with
+  // its message, after the communication has been completed; some items have been unpacked by then, others not.
+  // std::invalid_argument on all ranks when inputSize is zero or a cost is negative or not finite.
   Statistics run(const Items& items);
 
  private:
