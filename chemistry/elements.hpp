@@ -1,0 +1,13 @@
+// Standard atomic weights of the elements.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+namespace lampblack {
+
+// kg/mol; the name is matched without regard to letter case ("AR", "Ar"). Abridged standard atomic weights, IUPAC 2021
+// (Prohaska et al., Pure Appl. Chem. 94 (2022) 573-600). Empty if the element is unknown here.
+std::optional<double> standardAtomicWeight(std::string_view element);
+
+}  // namespace lampblack

@@ -1,0 +1,48 @@
+// Thermodynamics of an ideal-gas mixture from NASA-7 data (thesis eqs 6-13..6-17). Holds flat copies of the species
+// data; no call allocates. An object has a small workspace, so use one per thread.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "chemistry/mechanism.hpp"
+#include "chemistry/nasa7.hpp"
+
+namespace lampblack {
+
+class Thermo {
+ public:
+  // Enthalpies are inverted to temperatures in this range only.
+  static constexpr double minTemperature = 100.0;   // K
+  static constexpr double maxTemperature = 6000.0;  // K
+
+  explicit Thermo(const Mechanism& mechanism);
+
+  std::size_t numSpecies() const { return weights_.size(); }
+  std::span<const double> molecularWeights() const { return weights_; }  // kg/mol
+
+  double meanMolecularWeight(std::span<const double> Y) const;          // kg/mol
+  double density(double T, double p, std::span<const double> Y) const;  // kg/m3
+  double cpMass(double T, std::span<const double> Y) const;             // J/kg/K
+  double enthalpyMass(double T, std::span<const double> Y) const;       // J/kg, with enthalpies of formation
+  void speciesEnthalpies(double T, std::span<double> h) const;          // J/kg
+  void speciesCp(double T, std::span<double> cp) const;                 // J/kg/K
+  void speciesCpSlope(double T, std::span<double> slope) const;         // d cp_k/dT, J/kg/K2
+
+  // The temperature at which the mixture has enthalpy h (J/kg), by Newton's method inside a shrinking bracket, to
+  // round-off. NumericsError if it lies outside [minTemperature, maxTemperature] or an input is not finite.
+  double temperatureFromEnthalpy(double h, std::span<const double> Y, double guess) const;
+
+  void massToMole(std::span<const double> Y, std::span<double> X) const;
+  void moleToMass(std::span<const double> X, std::span<double> Y) const;
+
+ private:
+  Nasa7Table table_;
+  std::vector<double> weights_;         // kg/mol
+  std::vector<double> inverseWeights_;  // mol/kg
+  std::vector<double> gasConstants_;    // R/W_k, J/kg/K
+  mutable std::vector<double> work_;
+};
+
+}  // namespace lampblack
