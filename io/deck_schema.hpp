@@ -34,7 +34,8 @@ struct Bound {
 // One key. Made by the functions below; required until told otherwise.
 class DeckKey {
  public:
-  DeckKey(std::string path, KeyType type, std::string doc) : path(std::move(path)), type(type), doc(std::move(doc)) {}
+  DeckKey(std::string keyPath, KeyType keyType, std::string keyDoc)
+      : path(std::move(keyPath)), type(keyType), doc(std::move(keyDoc)) {}
 
   DeckKey& optional();
   DeckKey& byDefault(std::string text);  // as it would stand in a deck: "1 atm", "[0, 0, 1]", "true"

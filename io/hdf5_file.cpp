@@ -1,0 +1,149 @@
+#include "io/hdf5_file.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+namespace lampblack::hdf5 {
+namespace {
+
+// Finds out on rank 0, with plain C, whether the file can be made: MPI-IO's own complaints say little.
+void probe(MPI_Comm comm, const std::filesystem::path& path) {
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  int reason = 0;
+  if (rank == 0) {
+    if (std::FILE* file = std::fopen(path.c_str(), "wb")) {
+      std::fclose(file);
+    } else {
+      reason = errno;
+    }
+  }
+  MPI_Bcast(&reason, 1, MPI_INT, 0, comm);
+  if (reason != 0) {
+    throw InputError(fmt::format("{}: the file cannot be written: {}", path.string(), std::strerror(reason)));
+  }
+}
+
+}  // namespace
+
+ParallelFile::ParallelFile(MPI_Comm comm, const std::filesystem::path& path) : name_(path.string()) {
+  probe(comm, path);
+  Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make HDF5 access properties");
+  check(H5Pset_fapl_mpio(access, comm, MPI_INFO_NULL), "use MPI-IO");
+  check(H5Pset_coll_metadata_write(access, true), "write metadata collectively");
+  check(H5Pset_all_coll_metadata_ops(access, true), "read metadata collectively");
+  check(H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST), "choose the file format");
+  file_ = Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "create " + name_);
+
+  linkCreation_ = Handle(H5Pcreate(H5P_LINK_CREATE), H5Pclose, "make HDF5 link properties");
+  check(H5Pset_create_intermediate_group(linkCreation_, 1), "make groups on the way");
+  check(H5Pset_char_encoding(linkCreation_, H5T_CSET_UTF8), "name in UTF-8");
+  transfer_ = Handle(H5Pcreate(H5P_DATASET_XFER), H5Pclose, "make HDF5 transfer properties");
+  check(H5Pset_dxpl_mpio(transfer_, H5FD_MPIO_COLLECTIVE), "transfer collectively");
+}
+
+void ParallelFile::writeAny(const std::string& path, const std::vector<std::int64_t>& dims, std::int64_t firstRow,
+                            std::int64_t rows, const void* data, hid_t fileType, hid_t memoryType) {
+  const std::string what = fmt::format("write {} to {}", path, name_);
+  const std::vector<hsize_t> shape(dims.begin(), dims.end());
+  const int rank = static_cast<int>(shape.size());
+  Handle space(shape.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(rank, shape.data(), nullptr), H5Sclose, what);
+  Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, what);
+  check(H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER), what);
+  // Time stamps would make two files with the same data differ.
+  check(H5Pset_obj_track_times(creation, false), what);
+  Handle dataset(H5Dcreate2(file_, path.c_str(), fileType, space, linkCreation_, creation, H5P_DEFAULT), H5Dclose,
+                 what);
+
+  std::vector<hsize_t> block = shape;
+  hsize_t values = 1;
+  if (!block.empty()) {
+    block[0] = static_cast<hsize_t>(rows);
+    for (const hsize_t extent : block) values *= extent;
+    for (const hsize_t extent : shape) {
+      if (extent == 0) return;  // an empty dataset: it exists, and no rank has anything to write
+    }
+  } else if (rows == 0) {
+    values = 0;
+  }
+  Handle memory(H5Screate_simple(1, &values, nullptr), H5Sclose, what);
+  if (values == 0) {
+    check(H5Sselect_none(space), what);
+    check(H5Sselect_none(memory), what);
+  } else if (!block.empty()) {
+    std::vector<hsize_t> start(block.size(), 0);
+    start[0] = static_cast<hsize_t>(firstRow);
+    check(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr), what);
+  }
+  const double nothing = 0.0;  // some MPI-IO layers dislike a null pointer even for no bytes
+  check(H5Dwrite(dataset, memoryType, memory, space, transfer_, data != nullptr ? data : &nothing), what);
+  dataset.close(what);
+}
+
+void ParallelFile::write(const std::string& path, const std::vector<std::int64_t>& dims, std::int64_t firstRow,
+                         std::int64_t rows, const double* data) {
+  writeAny(path, dims, firstRow, rows, data, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE);
+}
+
+void ParallelFile::write(const std::string& path, const std::vector<std::int64_t>& dims, std::int64_t firstRow,
+                         std::int64_t rows, const std::int64_t* data) {
+  writeAny(path, dims, firstRow, rows, data, H5T_STD_I64LE, H5T_NATIVE_INT64);
+}
+
+void ParallelFile::group(const std::string& path) {
+  // H5Lexists wants every group on the way to exist, so the path is looked at piece by piece.
+  for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
+    const std::string part = path.substr(0, end);
+    if (part.size() > 1) {
+      const htri_t exists = H5Lexists(file_, part.c_str(), H5P_DEFAULT);
+      check(exists, fmt::format("look for {} in {}", part, name_));
+      if (exists == 0) {
+        Handle made(H5Gcreate2(file_, part.c_str(), linkCreation_, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
+                    fmt::format("make {} in {}", part, name_));
+      }
+    }
+    if (end == std::string::npos) return;
+  }
+}
+
+void ParallelFile::attributeAny(const std::string& path, const std::string& name, hid_t fileType, hid_t memoryType,
+                                const void* value) {
+  const std::string what = fmt::format("write the attribute {} of {} to {}", name, path, name_);
+  Handle object(H5Oopen(file_, path.c_str(), H5P_DEFAULT), H5Oclose, what);
+  const htri_t exists = H5Aexists(object, name.c_str());
+  check(exists, what);
+  if (exists > 0) check(H5Adelete(object, name.c_str()), what);
+  Handle space(H5Screate(H5S_SCALAR), H5Sclose, what);
+  Handle attribute(H5Acreate2(object, name.c_str(), fileType, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, what);
+  check(H5Awrite(attribute, memoryType, value), what);
+}
+
+void ParallelFile::attribute(const std::string& path, const std::string& name, const std::string& value) {
+  // Attributes in the object header end at 64 KiB: longer texts are cut there rather than lost.
+  const std::string text = value.size() > 60000 ? value.substr(0, 60000) + "\n# cut" : value;
+  Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "make a text type");
+  check(H5Tset_size(type, text.size() + 1), "size a text type");
+  check(H5Tset_cset(type, H5T_CSET_UTF8), "set a text's encoding");
+  attributeAny(path, name, type, type, text.c_str());
+}
+
+void ParallelFile::attribute(const std::string& path, const std::string& name, double value) {
+  attributeAny(path, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &value);
+}
+
+void ParallelFile::attribute(const std::string& path, const std::string& name, std::int64_t value) {
+  attributeAny(path, name, H5T_STD_I64LE, H5T_NATIVE_INT64, &value);
+}
+
+void ParallelFile::flush() {
+  check(H5Fflush(file_, H5F_SCOPE_GLOBAL), "flush " + name_);
+}
+
+void ParallelFile::close() {
+  file_.close("close " + name_);
+}
+
+}  // namespace lampblack::hdf5

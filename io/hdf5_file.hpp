@@ -1,0 +1,55 @@
+// One HDF5 file that all ranks of a communicator write together: groups, attributes and datasets of which each rank
+// holds a contiguous slab. Everything here is collective.
+#pragma once
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "io/hdf5_handle.hpp"
+
+namespace lampblack::hdf5 {
+
+class ParallelFile {
+ public:
+  // Creates or replaces the file. InputError, the same on all ranks, where that is not possible.
+  ParallelFile(MPI_Comm comm, const std::filesystem::path& path);
+
+  // A dataset of shape `dims`; this rank writes the rows [firstRow, firstRow + rows) of the first dimension (rows may
+  // be 0). Missing groups on the way are made. A scalar has no dims and is written by the ranks with rows > 0.
+  void write(const std::string& path, const std::vector<std::int64_t>& dims, std::int64_t firstRow, std::int64_t rows,
+             const double* data);
+  void write(const std::string& path, const std::vector<std::int64_t>& dims, std::int64_t firstRow, std::int64_t rows,
+             const std::int64_t* data);
+
+  // Makes a group and those above it; nothing where it exists.
+  void group(const std::string& path);
+
+  // Attributes of a group or dataset that exists; "/" is the file itself. A later value replaces an earlier one.
+  void attribute(const std::string& path, const std::string& name, const std::string& value);
+  void attribute(const std::string& path, const std::string& name, double value);
+  void attribute(const std::string& path, const std::string& name, std::int64_t value);
+
+  void flush();
+  void close();
+  // Leaves the file as it is; for when the other ranks cannot take part any more.
+  void abandon() { file_.release(); }
+  [[nodiscard]] bool isOpen() const { return file_.isOpen(); }
+
+ private:
+  void writeAny(const std::string& path, const std::vector<std::int64_t>& dims, std::int64_t firstRow,
+                std::int64_t rows, const void* data, hid_t fileType, hid_t memoryType);
+  void attributeAny(const std::string& path, const std::string& name, hid_t fileType, hid_t memoryType,
+                    const void* value);
+
+  QuietErrors quiet_;
+  std::string name_;
+  Handle file_;
+  Handle linkCreation_;
+  Handle transfer_;
+};
+
+}  // namespace lampblack::hdf5

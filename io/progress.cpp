@@ -1,0 +1,75 @@
+#include "io/progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <iostream>
+
+#include "io/report.hpp"
+
+namespace lampblack {
+namespace {
+
+std::ostream* rankZeroOutput(MPI_Comm comm) {
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  return rank == 0 ? &std::cout : nullptr;
+}
+
+}  // namespace
+
+Progress::Progress(MPI_Comm comm, double start, double end)
+    : out_(rankZeroOutput(comm)),
+      terminal_(isatty(STDOUT_FILENO) == 1),
+      start_(start),
+      end_(end),
+      begun_(Clock::now()),
+      last_(begun_) {}
+
+Progress::Progress(std::ostream& out, bool terminal, double start, double end, Clock::time_point now)
+    : out_(&out), terminal_(terminal), start_(start), end_(end), begun_(now), last_(now) {}
+
+std::string Progress::line(Clock::time_point now) const {
+  const double span = end_ - start_;
+  const double done = span > 0.0 ? std::clamp((time_ - start_) / span, 0.0, 1.0) : 1.0;
+  const double elapsed = std::chrono::duration<double>(now - begun_).count();
+  std::string text = fmt::format("step {:>6}  t {:.4g} s  dt {:.3g} s  {:5.1f} %", step_, time_, dt_, 100.0 * done);
+  if (done > 0.0 && done < 1.0) text += "  to go " + formatDuration(elapsed * (1.0 - done) / done);
+  if (!extras_.empty()) text += "  " + extras_;
+  return text;
+}
+
+void Progress::print(Clock::time_point now) {
+  const std::string text = line(now);
+  if (terminal_) {
+    // The line before may have been longer: cover what is left of it.
+    *out_ << '\r' << text << std::string(width_ > text.size() ? width_ - text.size() : 0, ' ');
+    width_ = text.size();
+  } else {
+    *out_ << text << '\n';
+  }
+  out_->flush();
+  last_ = now;
+  printed_ = true;
+  pending_ = false;
+}
+
+void Progress::update(std::int64_t step, double time, double dt, const std::string& extras, Clock::time_point now) {
+  if (out_ == nullptr) return;
+  step_ = step;
+  time_ = time;
+  dt_ = dt;
+  extras_ = extras;
+  pending_ = true;
+  if (!printed_ || now - last_ >= (terminal_ ? terminalInterval : logInterval)) print(now);
+}
+
+void Progress::finish(Clock::time_point now) {
+  if (out_ == nullptr) return;
+  if (pending_) print(now);
+  if (terminal_ && width_ > 0) *out_ << std::endl;
+  width_ = 0;
+}
+
+}  // namespace lampblack

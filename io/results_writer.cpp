@@ -1,0 +1,277 @@
+#include "io/results_writer.hpp"
+
+#include <fmt/format.h>
+
+#include <exception>
+#include <numeric>
+#include <optional>
+#include <stdexcept>
+
+#include "io/block_exchange.hpp"
+#include "io/hdf5_file.hpp"
+#include "io/run_folder.hpp"
+#include "io/run_record.hpp"
+#include "io/xdmf.hpp"
+
+namespace lampblack {
+namespace {
+
+constexpr std::int64_t formatVersion = 1;
+
+std::string fromRankZero(std::string text, MPI_Comm comm) {
+  int size = static_cast<int>(text.size());
+  MPI_Bcast(&size, 1, MPI_INT, 0, comm);
+  text.resize(static_cast<std::size_t>(size));
+  MPI_Bcast(text.data(), size, MPI_CHAR, 0, comm);
+  return text;
+}
+
+// The same decision on all ranks, so that a mistake of one ends in the same error on all of them.
+void agree(MPI_Comm comm, bool good, const std::string& otherwise) {
+  int flag = good ? 1 : 0;
+  MPI_Allreduce(MPI_IN_PLACE, &flag, 1, MPI_INT, MPI_MIN, comm);
+  if (flag == 0) throw std::logic_error(otherwise);
+}
+
+std::filesystem::path partName(const std::filesystem::path& path) {
+  return path.string() + ".part";
+}
+
+}  // namespace
+
+struct ResultsWriter::Implementation {
+  Implementation(MPI_Comm communicator, std::filesystem::path finalPath, const MeshOutput& mesh)
+      : comm(communicator),
+        path(std::move(finalPath)),
+        file(communicator, partName(path)),
+        cells(communicator, mesh.globalCell, mesh.totalCells),
+        exceptionsAtStart(std::uncaught_exceptions()) {
+    MPI_Comm_rank(comm, &rank);
+    xdmfMesh = {mesh.dimension, mesh.totalCells, mesh.totalVertices};
+  }
+
+  MPI_Comm comm;
+  std::filesystem::path path;
+  hdf5::ParallelFile file;
+  BlockExchange cells;
+  XdmfMesh xdmfMesh;
+  std::vector<XdmfStep> steps;
+  std::optional<XdmfStep> open;
+  int rank = 0;
+  int exceptionsAtStart;
+
+  void describe(const std::string& dataset, const std::string& unit, const std::string& description) {
+    file.attribute(dataset, "unit", unit);
+    file.attribute(dataset, "description", description);
+  }
+
+  // Values of the cells (or vertices) of `exchange`, stored in global order.
+  template <typename T>
+  void writeOrdered(const BlockExchange& exchange, const std::string& name, std::span<const T> values, int width,
+                    const std::string& unit, const std::string& description) {
+    const std::vector<T> block = exchange.toBlock(values, width);
+    std::vector<std::int64_t> dims{exchange.total()};
+    if (width > 1) dims.push_back(width);
+    file.write(name, dims, exchange.first(), exchange.count(), block.data());
+    describe(name, unit, description);
+  }
+
+  template <typename T>
+  void cellField(const std::string& name, const std::string& unit, int components, std::span<const T> values,
+                 const std::string& description) {
+    if (!open) throw std::logic_error(fmt::format("field '{}' is written outside a step", name));
+    if (name.empty() || name.find_first_of("/:") != std::string::npos) {
+      throw std::logic_error(fmt::format("'{}' cannot name a field", name));
+    }
+    agree(comm, components > 0 && values.size() % static_cast<std::size_t>(components) == 0,
+          fmt::format("field '{}' does not have its components for each cell", name));
+    std::vector<T> padded;
+    if (components == 2) {
+      padded.assign(values.size() / 2 * 3, T{0});
+      for (std::size_t i = 0; i < values.size(); ++i) padded[i / 2 * 3 + i % 2] = values[i];
+      values = padded;
+      components = 3;
+    }
+    writeOrdered(cells, open->group + "/" + name, values, components, unit, description);
+    open->fields.push_back({name, components, std::is_integral_v<T>});
+  }
+
+  template <typename T>
+  void dataset(const std::string& name, std::vector<std::int64_t> dims, std::span<const T> data,
+               const std::string& unit, const std::string& description, int fromRank) {
+    int count = static_cast<int>(dims.size());
+    MPI_Bcast(&count, 1, MPI_INT, fromRank, comm);
+    dims.resize(static_cast<std::size_t>(count));
+    MPI_Bcast(dims.data(), count, MPI_INT64_T, fromRank, comm);
+    const std::int64_t size = std::accumulate(dims.begin(), dims.end(), std::int64_t{1}, std::multiplies<>());
+    agree(comm, rank != fromRank || static_cast<std::int64_t>(data.size()) == size,
+          fmt::format("dataset '{}' does not have as many values as its shape says", name));
+    const std::int64_t rows = rank != fromRank ? 0 : dims.empty() ? 1 : dims[0];
+    file.write(name, dims, 0, rows, data.data());
+    describe(name, unit, description);
+  }
+
+  void writeXdmf(const std::string& file5) const {
+    if (rank != 0) return;
+    std::filesystem::path beside = path;
+    beside.replace_extension(".xdmf");
+    writeFileAtomically(beside, xdmfText(file5, xdmfMesh, steps));
+  }
+};
+
+ResultsWriter::ResultsWriter(MPI_Comm comm, std::filesystem::path path, const RunInfo& run, const MeshOutput& mesh) {
+  const std::size_t n = mesh.globalCell.size();
+  const int corners = mesh.dimension == 2 ? 4 : 8;
+  agree(comm, mesh.dimension == 2 || mesh.dimension == 3, "a mesh to write has two or three dimensions");
+  agree(comm,
+        mesh.connectivity.size() == n * static_cast<std::size_t>(corners) && mesh.cellVolume.size() == n &&
+            mesh.cellCentre.size() == 3 * n && (mesh.owner.empty() || mesh.owner.size() == n) &&
+            mesh.vertexCoordinates.size() == 3 * mesh.globalVertex.size(),
+        "the arrays of a mesh to write do not fit each other");
+  self_ = std::make_unique<Implementation>(comm, std::move(path), mesh);
+  agree(comm, self_->cells.coversOnce(), "a mesh to write has to have each cell on exactly one rank");
+  const BlockExchange vertices(comm, mesh.globalVertex, mesh.totalVertices);
+  agree(comm, vertices.covers(), "a mesh to write has to have each vertex on a rank");
+
+  hdf5::ParallelFile& file = self_->file;
+  file.attribute("/", "file_type", std::string("lampblack results"));
+  file.attribute("/", "format_version", formatVersion);
+  file.attribute("/", "lampblack_version", run.version);
+  file.attribute("/", "git_hash", run.gitHash);
+  file.attribute("/", "date", fromRankZero(run.date.empty() ? utcNow() : run.date, comm));
+  file.attribute("/", "deck", run.deckResolved);
+
+  file.group("/mesh");
+  file.attribute("/mesh", "dimension", static_cast<std::int64_t>(mesh.dimension));
+  file.attribute("/mesh", "cells", mesh.totalCells);
+  file.attribute("/mesh", "vertices", mesh.totalVertices);
+  const auto write = [&]<typename T>(const BlockExchange& exchange, const char* name, const std::vector<T>& values,
+                                     int width, const char* unit, const char* description) {
+    self_->writeOrdered(exchange, fmt::format("/mesh/{}", name), std::span<const T>(values), width, unit, description);
+  };
+  write(vertices, "vertices", mesh.vertexCoordinates, 3, "m", "Coordinates of the vertices");
+  write(self_->cells, "cells", mesh.connectivity, corners, "1", "Vertices of each cell, counter-clockwise");
+  write(self_->cells, "cellVolume", mesh.cellVolume, 1, "m^3", "Volume of each cell");
+  write(self_->cells, "cellCentre", mesh.cellCentre, 3, "m", "Centre of each cell");
+  std::vector<std::int64_t> owner(mesh.owner.begin(), mesh.owner.end());
+  if (mesh.owner.empty()) owner.assign(n, self_->rank);
+  write(self_->cells, "owner", owner, 1, "1", "Rank that owned each cell at the start");
+  file.group("/steps");
+  file.flush();
+}
+
+ResultsWriter::~ResultsWriter() {
+  if (!self_ || !self_->file.isOpen()) return;
+  if (std::uncaught_exceptions() > self_->exceptionsAtStart) {
+    self_->file.abandon();
+    return;
+  }
+  try {
+    closePartial();
+  } catch (const std::exception&) {
+    // What ended with endStep() is on disk already; a destructor has nobody to tell.
+    self_->file.abandon();
+  }
+}
+
+void ResultsWriter::beginStep(std::int64_t step, double time) {
+  if (self_->open) throw std::logic_error("a step of the results is begun before the last one ended");
+  self_->open = XdmfStep{fmt::format("/steps/{:06}", step), time, {}};
+  self_->file.group(self_->open->group);
+  self_->file.attribute(self_->open->group, "step", step);
+  self_->file.attribute(self_->open->group, "time", time);
+}
+
+void ResultsWriter::cellField(const std::string& name, const std::string& unit, int components,
+                              std::span<const double> ownedValues, const std::string& description) {
+  self_->cellField(name, unit, components, ownedValues, description);
+}
+
+void ResultsWriter::cellField(const std::string& name, const std::string& unit, int components,
+                              std::span<const std::int64_t> ownedValues, const std::string& description) {
+  self_->cellField(name, unit, components, ownedValues, description);
+}
+
+void ResultsWriter::endStep() {
+  if (!self_->open) throw std::logic_error("a step of the results is ended that was not begun");
+  self_->steps.push_back(std::move(*self_->open));
+  self_->open.reset();
+  self_->file.flush();
+  self_->writeXdmf(self_->path.filename().string());
+}
+
+void ResultsWriter::table(const std::string& path, const std::vector<TableColumn>& columns,
+                          std::span<const double> rows) {
+  if (columns.empty()) throw std::logic_error("a table has no columns");
+  const std::size_t width = columns.size();
+  agree(self_->comm, self_->rank != 0 || rows.size() % width == 0,
+        fmt::format("table '{}' does not have whole rows", path));
+  const std::size_t count = rows.size() / width;
+  self_->file.group(path);
+  std::vector<double> column(count);
+  for (std::size_t c = 0; c < width; ++c) {
+    for (std::size_t r = 0; r < count; ++r) column[r] = rows[r * width + c];
+    dataset(path + "/" + columns[c].name, {static_cast<std::int64_t>(count)}, column, columns[c].unit,
+            columns[c].description);
+  }
+}
+
+void ResultsWriter::dataset(const std::string& path, const std::vector<std::int64_t>& dims,
+                            std::span<const double> data, const std::string& unit, const std::string& description,
+                            int fromRank) {
+  self_->dataset(path, dims, data, unit, description, fromRank);
+}
+
+void ResultsWriter::dataset(const std::string& path, const std::vector<std::int64_t>& dims,
+                            std::span<const std::int64_t> data, const std::string& unit, const std::string& description,
+                            int fromRank) {
+  self_->dataset(path, dims, data, unit, description, fromRank);
+}
+
+namespace {
+
+// A dataset that is there is found as a link; H5Lexists of a dataset path is also true, so no group is made over it.
+template <typename T>
+void setAttribute(hdf5::ParallelFile& file, const std::string& path, const std::string& name, const T& value) {
+  file.group(path);
+  file.attribute(path, name, value);
+}
+
+}  // namespace
+
+void ResultsWriter::attribute(const std::string& path, const std::string& name, const std::string& value) {
+  setAttribute(self_->file, path, name, value);
+}
+void ResultsWriter::attribute(const std::string& path, const std::string& name, double value) {
+  setAttribute(self_->file, path, name, value);
+}
+void ResultsWriter::attribute(const std::string& path, const std::string& name, std::int64_t value) {
+  setAttribute(self_->file, path, name, value);
+}
+
+void ResultsWriter::close() {
+  if (!self_->file.isOpen()) return;
+  if (self_->open) throw std::logic_error("the results are closed inside a step");
+  self_->file.close();
+  int failure = 0;
+  if (self_->rank == 0) {
+    std::error_code error;
+    std::filesystem::rename(partName(self_->path), self_->path, error);
+    failure = error.value();
+  }
+  MPI_Bcast(&failure, 1, MPI_INT, 0, self_->comm);
+  if (failure != 0) {
+    throw NumericsError(fmt::format("{} cannot be renamed to {}: {}", partName(self_->path).string(),
+                                    self_->path.string(), std::generic_category().message(failure)));
+  }
+  self_->writeXdmf(self_->path.filename().string());
+}
+
+void ResultsWriter::closePartial() {
+  if (!self_->file.isOpen()) return;
+  self_->open.reset();
+  self_->file.close();
+  self_->writeXdmf(partName(self_->path).filename().string());
+}
+
+}  // namespace lampblack

@@ -1,0 +1,83 @@
+#include "io/xdmf.hpp"
+
+#include <fmt/format.h>
+
+namespace lampblack {
+namespace {
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+std::string dataItem(const std::string& dimensions, const char* type, const std::string& where) {
+  return fmt::format("<DataItem Dimensions=\"{}\" NumberType=\"{}\" Precision=\"8\" Format=\"HDF\">{}</DataItem>",
+                     dimensions, type, escaped(where));
+}
+
+// ParaView takes 1, 3, 6 or 9 components for what they are; anything else is a matrix.
+const char* attributeType(int components) {
+  switch (components) {
+    case 1:
+      return "Scalar";
+    case 3:
+      return "Vector";
+    case 6:
+      return "Tensor6";
+    case 9:
+      return "Tensor";
+    default:
+      return "Matrix";
+  }
+}
+
+}  // namespace
+
+std::string xdmfText(const std::string& file, const XdmfMesh& mesh, const std::vector<XdmfStep>& steps) {
+  const bool flat = mesh.dimension == 2;
+  const std::string meshText = fmt::format(
+      "        <Topology TopologyType=\"{}\" NumberOfElements=\"{}\">\n          {}\n        </Topology>\n"
+      "        <Geometry GeometryType=\"XYZ\">\n          {}\n        </Geometry>\n",
+      flat ? "Quadrilateral" : "Hexahedron", mesh.cells,
+      dataItem(fmt::format("{} {}", mesh.cells, flat ? 4 : 8), "Int", file + ":/mesh/cells"),
+      dataItem(fmt::format("{} 3", mesh.vertices), "Float", file + ":/mesh/vertices"));
+  std::string text =
+      "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n"
+      "    <Grid Name=\"run\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+  for (const XdmfStep& step : steps) {
+    text += fmt::format("      <Grid Name=\"{}\" GridType=\"Uniform\">\n        <Time Value=\"{}\"/>\n{}",
+                        escaped(step.group), step.time, meshText);
+    for (const XdmfField& field : step.fields) {
+      const std::string dimensions =
+          field.components == 1 ? fmt::format("{}", mesh.cells) : fmt::format("{} {}", mesh.cells, field.components);
+      text += fmt::format(
+          "        <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"Cell\">\n          {}\n"
+          "        </Attribute>\n",
+          escaped(field.name), attributeType(field.components),
+          dataItem(dimensions, field.isInteger ? "Int" : "Float",
+                   fmt::format("{}:{}/{}", file, step.group, field.name)));
+    }
+    text += "      </Grid>\n";
+  }
+  return text + "    </Grid>\n  </Domain>\n</Xdmf>\n";
+}
+
+}  // namespace lampblack

@@ -1,0 +1,32 @@
+// The XDMF file that tells ParaView (and meshio) what is in a results file: XDMF 3, one grid for each step in a
+// temporal collection, all data by reference to the HDF5 file.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace lampblack {
+
+struct XdmfField {
+  std::string name;
+  int components = 1;
+  bool isInteger = false;
+};
+
+struct XdmfStep {
+  std::string group;  // "/steps/000123"
+  double time = 0.0;
+  std::vector<XdmfField> fields;
+};
+
+struct XdmfMesh {
+  int dimension = 2;
+  std::int64_t cells = 0;
+  std::int64_t vertices = 0;
+};
+
+// The whole file as text; `file` is the HDF5 file's name beside it.
+std::string xdmfText(const std::string& file, const XdmfMesh& mesh, const std::vector<XdmfStep>& steps);
+
+}  // namespace lampblack
