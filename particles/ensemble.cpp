@@ -83,8 +83,13 @@ bool Ensemble::doubleIfDepleted() {
   return true;
 }
 
-void Ensemble::advance(const SootGasState& gas, double dilutionRate, double dt) {
+void Ensemble::advance(const SootGasState& given, double dilutionRate, double dt) {
   if (!(dt > 0)) return;
+  SootGasState gas = given;  // with what transport left negative as zero; PAH by the dimer model itself
+  for (const auto species : {&SootGasState::H, &SootGasState::H2, &SootGasState::OH, &SootGasState::H2O,
+                             &SootGasState::O2, &SootGasState::C2H2}) {
+    gas.*species = std::max(gas.*species, 0.0);
+  }
   if (!(gas.temperature > 0) || !(gas.pressure > 0) || !(gas.viscosity > 0) || !(gas.meanMolecularWeight > 0)) {
     throw NumericsError(fmt::format("soot ensemble {}: gas at T = {} K, p = {} Pa, viscosity {} Pa s, W = {} kg/mol",
                                     options_.owner, gas.temperature, gas.pressure, gas.viscosity,

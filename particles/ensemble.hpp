@@ -80,6 +80,12 @@ class Ensemble {
   [[nodiscard]] double dimerCollisionSum(const Medium& medium) const;
   [[nodiscard]] double dimerNumber(const Medium& medium, double collisionSum) const;
   [[nodiscard]] double splitStep(const Medium& medium, double dilutionRate, double remaining) const;
+  struct Fluxes {
+    double condensation = 0;           // dimers times their mass times the collision prefactor
+    double growth = 0, oxidation = 0;  // kg carbon/m2/s
+  };
+  // Of the population at the middle of a step of growth.
+  [[nodiscard]] Fluxes fluxes(const Medium& medium, double dt) const;
   void grow(const Medium& medium, double dt);
   void jump(const Medium& medium, double dt);
   [[nodiscard]] PairKernel buildTree(const Medium& medium);

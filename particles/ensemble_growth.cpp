@@ -60,26 +60,53 @@ double Ensemble::splitStep(const Medium& medium, double dilutionRate, double rem
   return fastest * remaining > options_.splitTolerance ? options_.splitTolerance / fastest : remaining;
 }
 
+Ensemble::Fluxes Ensemble::fluxes(const Medium& medium, double dt) const {
+  const SootModelOptions& soot = options_.soot;
+  const double rho = soot.sootDensity, n = static_cast<double>(size());
+  // Sums over the population, and how fast those grow per unit of each flux.
+  double collisions = 0, collisionsBySurface = 0, collisionsByDimers = 0, carbon = 0, area = 0;
+  for (std::size_t i = 0; i < size(); ++i) {
+    const double m = masses_[i], d = diameters_[i], surface = constants::pi * d * d;
+    carbon += m - hydrogen_[i];
+    area += surface;
+    if (!medium.condensing) continue;
+    const double collision = medium.collision(m, d);
+    const double share = medium.dimer.mass / (m + medium.dimer.mass);
+    const double perDiameter = collision * (2 / (medium.dimer.diameter + d) - 1.5 * share / d);  // d collision / d d
+    collisions += collision;
+    collisionsBySurface += perDiameter * 2 / rho;
+    collisionsByDimers += perDiameter * 2 / rho * collision / surface;
+  }
+  Fluxes flux;
+  const auto surfaceFluxes = [&](double carbonMass) {
+    const double meanCarbon =
+        std::max({carbonMass * constants::avogadro / (soot.carbonWeight * n), dimers_.smallestNucleus(), 2.0});  // mu_1
+    const SurfaceRates rates = medium.surface.rates(medium.gas, medium.surface.alpha(meanCarbon));
+    flux.growth = 2 * rates.growth * medium.gas.C2H2 * soot.carbonWeight;
+    flux.oxidation = (2 * rates.oxidationO2 * medium.gas.O2 + rates.oxidationOH * medium.gas.OH) * soot.carbonWeight;
+  };
+  if (medium.surfaceActive) surfaceFluxes(carbon);
+  double dimers = medium.condensing ? dimerNumber(medium, collisions) : 0;
+  // Both at the middle of the step, to first order: makes the whole second order.
+  const double half = 0.5 * dt, surface = flux.growth - flux.oxidation;
+  const double perDimer = dimers * medium.dimer.mass;
+  if (medium.surfaceActive) {
+    const double dimerCarbon = perDimer * (1 - medium.dimerHydrogenFraction);
+    surfaceFluxes(std::max(0.5 * carbon, carbon + half * (surface * area + dimerCarbon * collisions)));
+  }
+  if (medium.condensing) {
+    const double change = half * (surface * collisionsBySurface + perDimer * collisionsByDimers);
+    dimers = dimerNumber(medium, collisions * std::clamp(1 + change / collisions, 0.5, 2.0));
+  }
+  flux.condensation = dimers * medium.dimer.mass * medium.freeMolecular;
+  return flux;
+}
+
 void Ensemble::grow(const Medium& medium, double dt) {
   if (size() == 0 || !(medium.condensing || medium.surfaceActive)) return;
   const SootModelOptions& soot = options_.soot;
-  const double condensing =
-      medium.condensing ? dimerNumber(medium, dimerCollisionSum(medium)) * medium.dimer.mass * medium.freeMolecular : 0;
-
-  double growthFlux = 0, oxidationFlux = 0;  // kg carbon/m2/s
-  if (medium.surfaceActive) {
-    double carbon = 0;
-    for (std::size_t i = 0; i < size(); ++i) carbon += masses_[i] - hydrogen_[i];
-    const double perParticle =
-        carbon * constants::avogadro / (soot.carbonWeight * static_cast<double>(size()));  // mu_1
-    const double meanCarbon = std::max({perParticle, dimers_.smallestNucleus(), 2.0});
-    const SurfaceRates rates = medium.surface.rates(medium.gas, medium.surface.alpha(meanCarbon));
-    growthFlux = 2 * rates.growth * std::max(medium.gas.C2H2, 0.0) * soot.carbonWeight;
-    oxidationFlux =
-        (2 * rates.oxidationO2 * std::max(medium.gas.O2, 0.0) + rates.oxidationOH * std::max(medium.gas.OH, 0.0)) *
-        soot.carbonWeight;
-  }
-
+  const Fluxes flux = fluxes(medium, dt);
+  const double condensing = flux.condensation, growthFlux = flux.growth, oxidationFlux = flux.oxidation;
   const double rho = soot.sootDensity, dimerMass = std::max(medium.dimer.mass, 1e-300), dd = medium.dimer.diameter;
   const double leastCarbon = dimers_.smallestNucleus() * soot.carbonWeight / constants::avogadro * (1 - 1e-9);
   for (std::size_t i = size(); i-- > 0;) {
@@ -98,7 +125,7 @@ void Ensemble::grow(const Medium& medium, double dt) {
     double d = d0, rest = dt, fraction = startFraction;
     bool gone = false;
     while (rest > 0) {
-      const double v0 = speed(d);
+      const double v0 = speed(d), from = d;
       double step = rest;
       if (std::abs(v0) * step > 0.5 * d) step = 0.5 * d / std::abs(v0);
       const double middle = d + 0.5 * step * v0;
@@ -106,8 +133,15 @@ void Ensemble::grow(const Medium& medium, double dt) {
       const double area = constants::pi * middle * middle, m = massAt(middle);
       const double gainCondensed = condensation(middle, m), gain = gainCondensed + growthFlux * area;
       if (gain > 0) {
+        // What is gained dilutes what was there: exactly by the ratio of masses where nothing is lost.
+        const double net = gain - lossFlux * area, ratio = from / d;
         const double target = gainCondensed / gain * medium.dimerHydrogenFraction;
-        fraction = target + (fraction - target) * std::exp(-gain * step / m);
+        double kept = ratio * ratio * ratio;
+        if (lossFlux > 0) {
+          const double share = std::abs(net * step) > 1e-3 * m ? -std::log(kept) / net : step / m;
+          kept = std::exp(-gain * share);
+        }
+        fraction = target + (fraction - target) * kept;
       }
       rest = step < rest ? rest - step : 0;
       if (d < d0 && massAt(d) * (1 - fraction) < leastCarbon) {
