@@ -144,14 +144,33 @@ class TreeBuilder : public YAML::EventHandler {
   std::vector<Open> stack_;
 };
 
-DeckNode parseYaml(const std::string& text, TreeBuilder& builder) {
-  std::istringstream stream(text);
-  YAML::Parser parser(stream);
-  if (parser.HandleNextDocument(builder)) {
-    TreeBuilder second;
-    if (parser.HandleNextDocument(second)) {
-      throw StructureError{YAML::Mark::null_mark(), "", "it holds several YAML documents ('---'); a deck is one"};
-    }
+// Takes events and does nothing: to see whether a text is YAML at all.
+class NoBuilder : public YAML::EventHandler {
+ public:
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t, const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+};
+
+// Throws YAML::Exception where the text is not YAML, StructureError where it is not a deck.
+DeckNode parseYaml(const std::string& text) {
+  const auto read = [&text](YAML::EventHandler& first, YAML::EventHandler& second) {
+    std::istringstream stream(text);
+    YAML::Parser parser(stream);
+    return parser.HandleNextDocument(first) && parser.HandleNextDocument(second);
+  };
+  // A first pass, because half a list can look like an odd key until the parser reaches its end.
+  NoBuilder nothing;
+  read(nothing, nothing);
+  TreeBuilder builder;
+  if (read(builder, nothing)) {
+    throw StructureError{YAML::Mark::null_mark(), "", "it holds several YAML documents ('---'); a deck is one"};
   }
   return std::move(builder.root);
 }
@@ -185,8 +204,7 @@ DeckNode parseDeck(const DeckSource& source) {
   }
   DeckNode root;
   try {
-    TreeBuilder builder;
-    root = parseYaml(source.text, builder);
+    root = parseYaml(source.text);
   } catch (const StructureError& error) {
     throw fail(error);
   } catch (const YAML::Exception& error) {
@@ -227,8 +245,7 @@ void applyOverride(DeckNode& root, const DeckSource& source, std::size_t i) {
   const std::string valueText = text.substr(equals + 1);
   DeckNode value;
   try {
-    TreeBuilder builder;
-    value = parseYaml(valueText, builder);
+    value = parseYaml(valueText);
   } catch (const StructureError& error) {
     throw fail(error.message, equals + 1, valueText.size(), key);
   } catch (const YAML::Exception& error) {

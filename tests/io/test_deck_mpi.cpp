@@ -1,0 +1,44 @@
+#include <fstream>
+
+#include "tests/io/sample_deck.hpp"
+
+namespace lampblack {
+namespace {
+
+// Whether all ranks hold the same text.
+bool sameEverywhere(const std::string& text) {
+  const auto hash = static_cast<unsigned long>(std::hash<std::string>{}(text));
+  unsigned long low = hash;
+  unsigned long high = hash;
+  MPI_Allreduce(MPI_IN_PLACE, &low, 1, MPI_UNSIGNED_LONG, MPI_MIN, MPI_COMM_WORLD);
+  MPI_Allreduce(MPI_IN_PLACE, &high, 1, MPI_UNSIGNED_LONG, MPI_MAX, MPI_COMM_WORLD);
+  return low == high;
+}
+
+TEST(DeckOnRanks, IsReadByTheFirstAndKnownToAll) {
+  int rank = 0;
+  int ranks = 1;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  const auto path = std::filesystem::temp_directory_path() / ("lampblack_deck_" + std::to_string(ranks) + ".yaml");
+  if (rank == 0) std::ofstream(path) << test::sampleText;
+  const Deck deck = Deck::load(path, {"seed=3"}, test::sampleSchema(), MPI_COMM_WORLD);
+  EXPECT_EQ(deck.integer("seed"), 3);
+  EXPECT_TRUE(sameEverywhere(deck.resolved()));
+  MPI_Barrier(MPI_COMM_WORLD);
+  if (rank == 0) std::filesystem::remove(path);
+}
+
+TEST(DeckOnRanks, FailsAlikeOnAll) {
+  std::string message;
+  try {
+    (void)Deck::load("/nowhere/deck.yaml", {}, test::sampleSchema(), MPI_COMM_WORLD);
+  } catch (const InputError& error) {
+    message = error.what();
+  }
+  EXPECT_EQ(message, "/nowhere/deck.yaml: there is no such file");
+  EXPECT_TRUE(sameEverywhere(message));
+}
+
+}  // namespace
+}  // namespace lampblack

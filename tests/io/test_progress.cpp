@@ -1,0 +1,41 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "io/progress.hpp"
+
+namespace lampblack {
+namespace {
+
+using std::chrono::seconds;
+using testing::HasSubstr;
+
+TEST(Progress, PrintsALineEveryFewSecondsToALog) {
+  std::ostringstream out;
+  const auto start = Progress::Clock::now();
+  Progress progress(out, false, 0.0, 10.0, start);
+  for (int i = 1; i <= 10; ++i) progress.update(i, i, 1.0, "Tmax 2000 K", start + seconds(i));
+  progress.finish(start + seconds(11));
+  const std::string text = out.str();
+  // At 1 s (the first), 6 s, and 10 s, which finish() still prints.
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 3);
+  EXPECT_THAT(text, HasSubstr("step      6  t 6 s  dt 1 s   60.0 %  to go 4.00 s  Tmax 2000 K\n"));
+  EXPECT_THAT(text, HasSubstr("100.0 %"));
+}
+
+TEST(Progress, KeepsOneLineOnATerminal) {
+  std::ostringstream out;
+  const auto start = Progress::Clock::now();
+  Progress progress(out, true, 0.0, 10.0, start);
+  progress.update(1, 1.0, 1.0, "a long remark", start + seconds(1));
+  progress.update(2, 2.0, 1.0, "", start + seconds(2));
+  EXPECT_EQ(out.str().find('\n'), std::string::npos);
+  const std::size_t second = out.str().rfind('\r');
+  EXPECT_GE(out.str().size() - second, second) << "the shorter line has to cover the longer one";
+  progress.finish();
+  EXPECT_EQ(out.str().back(), '\n');
+}
+
+}  // namespace
+}  // namespace lampblack
