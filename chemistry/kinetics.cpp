@@ -1,5 +1,6 @@
 #include "chemistry/kinetics.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "chemistry/vector_math.hpp"
@@ -134,8 +135,10 @@ void Kinetics::updateProgress() {
     for (std::size_t i = 0; i < numReversible_; ++i) reverse[i] = k[i] * c[p0[i]] * c[p1[i]] * c[p2[i]];
   }
   for (const auto& general : general_) {
-    for (const auto& t : general.forwardOrders) forward_[general.reaction] *= std::pow(c[t.species], t.coefficient);
-    for (const auto& t : general.reverseOrders) reverse_[general.reaction] *= std::pow(c[t.species], t.coefficient);
+    for (const auto& t : general.forwardOrders)
+      forward_[general.reaction] *= std::pow(std::max(c[t.species], 0.0), t.coefficient);
+    for (const auto& t : general.reverseOrders)
+      reverse_[general.reaction] *= std::pow(std::max(c[t.species], 0.0), t.coefficient);
   }
   const double* __restrict factor = factor_.data();
   const double* __restrict forward = forward_.data();

@@ -37,7 +37,7 @@ bool ReactorSystem::prepare(const double* y) {
   const double rho = density_;
   const double* __restrict inverse = inverseWeights_.data();
   double* __restrict c = c_.data();
-  for (std::size_t k = 0; k < n; ++k) c[k] = (y[k] > 0 ? y[k] : 0.0) * rho * inverse[k];
+  for (std::size_t k = 0; k < n; ++k) c[k] = y[k] * rho * inverse[k];
   return true;
 }
 
