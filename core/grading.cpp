@@ -17,8 +17,8 @@ std::vector<double> gradedAxis(double from, const std::vector<AxisSegment>& segm
   for (const AxisSegment& segment : segments) {
     if (segment.cells < 1) throw InputError(fmt::format("a mesh axis segment has {} cells; at least 1", segment.cells));
     if (!(segment.to > vertices.back()) || !std::isfinite(segment.to))
-      throw InputError(fmt::format("a mesh axis segment ends at {} m, not beyond its start at {} m", segment.to,
-                                   vertices.back()));
+      throw InputError(
+          fmt::format("a mesh axis segment ends at {} m, not beyond its start at {} m", segment.to, vertices.back()));
     if (!(segment.ratio > 0.0) || !std::isfinite(segment.ratio))
       throw InputError(fmt::format("grading ratio must be positive, found {}", segment.ratio));
     const int cells = std::max(1, static_cast<int>(std::lround(segment.cells * refinement)));

@@ -28,8 +28,8 @@ class HaloExchange {
  private:
   struct Neighbour {
     int rank;
-    std::vector<int> send;   // owned cells the neighbour sees
-    int firstHalo, halo;     // its cells here: [firstHalo, firstHalo + halo)
+    std::vector<int> send;  // owned cells the neighbour sees
+    int firstHalo, halo;    // its cells here: [firstHalo, firstHalo + halo)
     std::vector<double> sendBuffer, receiveBuffer;
   };
   MPI_Comm comm_;

@@ -21,7 +21,9 @@ struct FaceLink {
   std::int64_t key;  // the same on any number of ranks
 };
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
+std::size_t at(int index) {
+  return static_cast<std::size_t>(index);
+}
 
 void checkInput(const MeshSpec& spec, const std::vector<double>& cellWeight) {
   for (int axis = 0; axis < 2; ++axis) {

@@ -49,11 +49,11 @@ class Mesh {
   // Cells: [0, owned) are this rank's, [owned, cells) are halo.
   int owned = 0;
   int cells = 0;
-  std::vector<std::int64_t> naturalCell;           // i + j * cellsAlong[0], the same on any number of ranks
-  std::vector<int> haloRank;                       // owner of cell owned + i
-  std::vector<std::array<double, 2>> centre;       // m
-  std::vector<double> volume;                      // m^3 (planar: per metre depth) or m^3/rad
-  std::vector<double> planarArea;                  // m^2
+  std::vector<std::int64_t> naturalCell;      // i + j * cellsAlong[0], the same on any number of ranks
+  std::vector<int> haloRank;                  // owner of cell owned + i
+  std::vector<std::array<double, 2>> centre;  // m
+  std::vector<double> volume;                 // m^3 (planar: per metre depth) or m^3/rad
+  std::vector<double> planarArea;             // m^2
 
   // Faces: [0, interiorFaces) lie between two local cells, of which at least one is owned; the rest are boundary faces
   // of owned cells. The unit normal points from `low` to `high`, or out of the domain; `low` has the smaller natural
@@ -61,15 +61,15 @@ class Mesh {
   int interiorFaces = 0;
   int faces = 0;
   std::vector<int> low;
-  std::vector<int> high;                           // -1 on boundary faces
-  std::vector<int> normalAxis;                     // axis of the normal
-  std::vector<double> normalSign;                  // +1 or -1 along that axis
-  std::vector<double> area;                        // metric area
-  std::vector<double> planarLength;                // m
-  std::vector<double> distance;                    // m, centre to centre, or centre to boundary face
-  std::vector<double> lowWeight;                   // linear interpolation weight of `low` at the face
-  std::vector<std::array<double, 2>> faceCentre;   // m
-  std::vector<int> patch;                          // of boundary faces, index face - interiorFaces
+  std::vector<int> high;                          // -1 on boundary faces
+  std::vector<int> normalAxis;                    // axis of the normal
+  std::vector<double> normalSign;                 // +1 or -1 along that axis
+  std::vector<double> area;                       // metric area
+  std::vector<double> planarLength;               // m
+  std::vector<double> distance;                   // m, centre to centre, or centre to boundary face
+  std::vector<double> lowWeight;                  // linear interpolation weight of `low` at the face
+  std::vector<std::array<double, 2>> faceCentre;  // m
+  std::vector<int> patch;                         // of boundary faces, index face - interiorFaces
 
   // Faces of each cell in compressed rows: faceOfCell[faceStart[c] .. faceStart[c+1]). An owned cell has all its faces,
   // in an order that does not depend on the ranks; a halo cell has those it shares with owned cells.

@@ -23,8 +23,26 @@ std::vector<idx_t> wholeWeights(const std::vector<double>& weight) {
   return whole;
 }
 
-// METIS may leave a part empty when vertices are few or one outweighs the others; such a part takes a vertex from the
-// part that has most of them.
+// Runs of successive vertices of about equal weight, for graphs too small for METIS (which then complains on stdout).
+std::vector<int> partitionInOrder(std::size_t vertices, const std::vector<idx_t>& weight, int parts) {
+  const double total =
+      weight.empty() ? static_cast<double>(vertices) : std::accumulate(weight.begin(), weight.end(), 0.0);
+  std::vector<int> part;
+  double before = 0.0;
+  for (std::size_t v = 0; v < vertices; ++v) {
+    const double own = weight.empty() ? 1.0 : static_cast<double>(weight[v]);
+    const int wanted = static_cast<int>((before + 0.5 * own) / total * parts);
+    // At most one part further than the last vertex, and no further back than leaves a vertex to every part to come.
+    const int furthest = part.empty() ? 0 : part.back() + 1;
+    const int nearest = std::max(part.empty() ? 0 : part.back(), parts - static_cast<int>(vertices - v));
+    part.push_back(std::clamp(wanted, nearest, std::min(furthest, parts - 1)));
+    before += own;
+  }
+  return part;
+}
+
+// METIS may leave a part empty when one vertex outweighs the others; such a part takes a vertex from the part that has
+// most of them.
 void fillEmptyParts(std::vector<idx_t>& part, int parts) {
   std::vector<int> size(static_cast<std::size_t>(parts), 0);
   for (idx_t p : part) ++size[static_cast<std::size_t>(p)];
@@ -47,9 +65,12 @@ std::vector<int> partitionGraph(const std::vector<std::int64_t>& start, const st
     throw InputError(
         fmt::format("the mesh has {} cells, fewer than the {} ranks it is to be spread over", vertices, parts));
 
+  constexpr std::size_t fewVertices = 8;  // a part
+  std::vector<idx_t> vertexWeight = wholeWeights(weight);
+  if (vertices < fewVertices * static_cast<std::size_t>(parts)) return partitionInOrder(vertices, vertexWeight, parts);
+
   std::vector<idx_t> rowStart(start.begin(), start.end());
   std::vector<idx_t> adjacency(neighbours.begin(), neighbours.end());
-  std::vector<idx_t> vertexWeight = wholeWeights(weight);
   idx_t options[METIS_NOPTIONS];
   METIS_SetDefaultOptions(options);
   options[METIS_OPTION_SEED] = 1;
@@ -59,10 +80,9 @@ std::vector<int> partitionGraph(const std::vector<std::int64_t>& start, const st
   idx_t partCount = parts;
   idx_t cut = 0;
   std::vector<idx_t> part(vertices);
-  const int status =
-      METIS_PartGraphRecursive(&vertexCount, &constraints, rowStart.data(), adjacency.data(),
-                               vertexWeight.empty() ? nullptr : vertexWeight.data(), nullptr, nullptr, &partCount,
-                               nullptr, nullptr, options, &cut, part.data());
+  const int status = METIS_PartGraphRecursive(&vertexCount, &constraints, rowStart.data(), adjacency.data(),
+                                              vertexWeight.empty() ? nullptr : vertexWeight.data(), nullptr, nullptr,
+                                              &partCount, nullptr, nullptr, options, &cut, part.data());
   if (status != METIS_OK) throw NumericsError(fmt::format("METIS could not partition the mesh (status {})", status));
   fillEmptyParts(part, parts);
   return {part.begin(), part.end()};

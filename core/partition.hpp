@@ -1,4 +1,5 @@
-// Splits a graph into parts of equal weight with METIS (Karypis and Kumar 1998).
+// Splits a graph into parts of equal weight with METIS (Karypis and Kumar 1998); a graph of fewer than eight vertices a
+// part is split in vertex order.
 #pragma once
 
 #include <cstdint>

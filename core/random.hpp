@@ -31,7 +31,8 @@ class RandomStream {
 
   // Uniform index in [0, n); n positive. The bias is below n/2^64 (multiply-shift, Lemire 2019).
   std::uint64_t below(std::uint64_t n) {
-    return static_cast<std::uint64_t>((static_cast<unsigned __int128>(next64()) * n) >> 64);
+    __extension__ using Wide = unsigned __int128;
+    return static_cast<std::uint64_t>((static_cast<Wide>(next64()) * n) >> 64);
   }
 
   // Number of 64-bit words drawn so far; restoring it restores the stream exactly.

@@ -60,25 +60,25 @@ double totalCost(const WorkSharing::Items& items) {
   return valid ? std::accumulate(cost.begin(), cost.end(), 0.0) : std::numeric_limits<double>::quiet_NaN();
 }
 
-// Chooses the items that leave this rank: the dearest, so that few of them travel.
-std::vector<Parcel> chooseParcels(const SharingPlan& plan, int rank, const std::vector<double>& cost) {
+// Chooses the items that leave this rank and marks them in `away`: the dearest, so that few of them travel.
+std::vector<Parcel> chooseParcels(const SharingPlan& plan, int rank, const std::vector<double>& cost,
+                                  std::vector<char>& away) {
   std::vector<Parcel> parcels;
   std::vector<std::size_t> byCost;
-  std::size_t next = 0;
   for (const auto& transfer : plan.transfers) {
     if (transfer.from != rank) continue;
     if (byCost.empty()) {
       byCost.resize(cost.size());
       std::iota(byCost.begin(), byCost.end(), std::size_t{0});
-      std::stable_sort(byCost.begin(), byCost.end(),
-                       [&](std::size_t a, std::size_t b) { return cost[a] > cost[b]; });
+      std::stable_sort(byCost.begin(), byCost.end(), [&](std::size_t a, std::size_t b) { return cost[a] > cost[b]; });
     }
     Parcel parcel{transfer.to, {}, {}, {}};
     double left = transfer.cost;
-    for (; next < byCost.size() && left > 0.0 && cost[byCost[next]] > 0.0; ++next) {
-      const std::size_t item = byCost[next];
-      if (cost[item] > left * 1.5) continue;  // would overshoot; a cheaper one fits better
+    for (std::size_t item : byCost) {
+      if (!(left > 0.0) || !(cost[item] > 0.0)) break;
+      if (away[item] || cost[item] > left * 1.5) continue;  // the latter would overshoot; a cheaper one fits better
       left -= cost[item];
+      away[item] = 1;
       parcel.item.push_back(item);
     }
     parcels.push_back(std::move(parcel));
@@ -125,14 +125,13 @@ WorkSharing::Statistics WorkSharing::run(const Items& items) {
   if (!enabled_) plan.transfers.clear();
 
   FirstFailure guard;
-  std::vector<Parcel> sent = chooseParcels(plan, rank, items.cost);
   std::vector<char> away(items.cost.size(), 0);
+  std::vector<Parcel> sent = chooseParcels(plan, rank, items.cost, away);
   std::vector<MPI_Request> requests;
   for (Parcel& parcel : sent) {
     parcel.input.resize(parcel.item.size() * items.inputSize);
     parcel.output.resize(parcel.item.size() * items.outputSize);
     for (std::size_t i = 0; i < parcel.item.size(); ++i) {
-      away[parcel.item[i]] = 1;
       guard.unlessFailed([&] { items.pack(parcel.item[i], slot(parcel.input, i, items.inputSize)); });
     }
     MPI_Isend(parcel.input.data(), static_cast<int>(parcel.input.size()), MPI_DOUBLE, parcel.peer, itemsTag, comm_,
@@ -157,8 +156,7 @@ WorkSharing::Statistics WorkSharing::run(const Items& items) {
     std::vector<double>& output = returned.emplace_back(foreign * items.outputSize);
     const double start = MPI_Wtime();
     for (std::size_t i = 0; i < foreign; ++i)
-      guard.unlessFailed(
-          [&] { items.advance(slot(input, i, items.inputSize), slot(output, i, items.outputSize)); });
+      guard.unlessFailed([&] { items.advance(slot(input, i, items.inputSize), slot(output, i, items.outputSize)); });
     busy += MPI_Wtime() - start;
     MPI_Isend(output.data(), static_cast<int>(output.size()), MPI_DOUBLE, transfer.from, resultsTag, comm_,
               &requests.emplace_back());
@@ -178,8 +176,7 @@ WorkSharing::Statistics WorkSharing::run(const Items& items) {
       items.unpack(item, output);
     });
     // MPI moves large parcels only while it is called: without this, the receivers would wait for this loop's end.
-    if (!allArrived)
-      MPI_Testall(static_cast<int>(requests.size()), requests.data(), &allArrived, MPI_STATUSES_IGNORE);
+    if (!allArrived) MPI_Testall(static_cast<int>(requests.size()), requests.data(), &allArrived, MPI_STATUSES_IGNORE);
   }
   busy += MPI_Wtime() - start;
   MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);

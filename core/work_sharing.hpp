@@ -28,8 +28,8 @@ SharingPlan planSharing(const std::vector<double>& costOfRank, double tolerance 
 class WorkSharing {
  public:
   struct Items {
-    std::vector<double> cost;  // of each item, in seconds or any common unit; zero or more
-    std::size_t inputSize = 0;   // values an item, at least 1 and alike on all ranks, also where there are no items
+    std::vector<double> cost;   // of each item, in seconds or any common unit; zero or more
+    std::size_t inputSize = 0;  // values an item, at least 1 and alike on all ranks, also where there are no items
     std::size_t outputSize = 0;
     std::function<void(std::size_t item, std::span<double> input)> pack;  // `input` comes zeroed
     // Advances one item; runs on any rank. `output` comes zeroed.
@@ -37,8 +37,8 @@ class WorkSharing {
     std::function<void(std::size_t item, std::span<const double> output)> unpack;
   };
   struct Statistics {
-    double imbalanceBefore = 1.0;   // of the estimated cost
-    double imbalanceAfter = 1.0;    // of the measured time spent in `advance`
+    double imbalanceBefore = 1.0;  // of the estimated cost
+    double imbalanceAfter = 1.0;   // of the measured time spent in `advance`
     std::size_t itemsSent = 0;
   };
 

@@ -1,0 +1,101 @@
+// What the MPI tests of core share: reductions and a mesh whose every metric is known.
+#pragma once
+
+#include <mpi.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/grading.hpp"
+#include "core/mesh.hpp"
+
+namespace lampblack::test {
+
+inline int worldRank() {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  return rank;
+}
+
+inline int worldSize() {
+  int size = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &size);
+  return size;
+}
+
+inline double sumOverRanks(double value) {
+  MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+  return value;
+}
+
+inline double maxOverRanks(double value) {
+  MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+  return value;
+}
+
+// All ranks' bytes, rank after rank, on every rank.
+template <typename T>
+std::vector<T> gatherAll(const std::vector<T>& own) {
+  const auto ranks = static_cast<std::size_t>(worldSize());
+  const int bytes = static_cast<int>(own.size() * sizeof(T));
+  std::vector<int> count(ranks);
+  MPI_Allgather(&bytes, 1, MPI_INT, count.data(), 1, MPI_INT, MPI_COMM_WORLD);
+  std::vector<int> start(ranks + 1, 0);
+  for (std::size_t r = 0; r < ranks; ++r) start[r + 1] = start[r] + count[r];
+  std::vector<T> all(static_cast<std::size_t>(start.back()) / sizeof(T));
+  MPI_Allgatherv(own.data(), bytes, MPI_BYTE, all.data(), count.data(), start.data(), MPI_BYTE, MPI_COMM_WORLD);
+  return all;
+}
+
+// Runs `work` and returns the message of the `Error` it throws (empty: threw nothing; "other: ..." for another type),
+// so that all ranks' messages can be compared.
+template <typename Error, typename Work>
+std::string messageOf(Work&& work) {
+  try {
+    work();
+  } catch (const Error& e) {
+    return e.what();
+  } catch (const std::exception& e) {
+    return std::string("other: ") + e.what();
+  }
+  return {};
+}
+
+// True on all ranks when all ranks have the same text.
+inline bool sameOnAllRanks(const std::string& text) {
+  const auto all = gatherAll(std::vector<char>(text.begin(), text.end()));
+  std::string repeated;
+  for (int r = 0; r < worldSize(); ++r) repeated += text;
+  return maxOverRanks(std::string(all.begin(), all.end()) == repeated ? 0.0 : 1.0) == 0.0;
+}
+
+// 15 x 11 cells graded along both axes, from 0 to 0.02 m along the first (from the axis, when axisymmetric) and from
+// -0.01 to 0.03 m along the second; the low end of the second axis is split into two patches at 0.01 m.
+inline MeshSpec gradedBox(Geometry geometry) {
+  MeshSpec spec;
+  spec.geometry = geometry;
+  spec.vertices = {gradedAxis(0.0, {{0.01, 9, 3.0}, {0.02, 6, 0.5}}), gradedAxis(-0.01, {{0.03, 11, 0.25}})};
+  spec.patches = {{"fuel", 1, false, -1.0, 0.01},
+                  {"coflow", 1, false},
+                  {"outlet", 1, true},
+                  {"inner", 0, false},
+                  {"outer", 0, true}};
+  return spec;
+}
+
+// Unit cells, one patch a side.
+inline MeshSpec unitBox(int columns, int rows) {
+  MeshSpec spec;
+  spec.vertices = {gradedAxis(0.0, {{static_cast<double>(columns), columns, 1.0}}),
+                   gradedAxis(0.0, {{static_cast<double>(rows), rows, 1.0}})};
+  spec.patches = {{"left", 0, false}, {"right", 0, true}, {"bottom", 1, false}, {"top", 1, true}};
+  return spec;
+}
+
+inline std::size_t at(int index) {
+  return static_cast<std::size_t>(index);
+}
+
+}  // namespace lampblack::test
