@@ -90,7 +90,8 @@ class Ensemble {
   void jump(const Medium& medium, double dt);
   [[nodiscard]] PairKernel buildTree(const Medium& medium);
   void coagulate(const PairKernel& kernel, std::size_t i, std::size_t j);
-  void incept(const Medium& medium, const PairKernel& kernel);
+  // Returns by how much the collision sum of the population with dimers changes.
+  double incept(const Medium& medium, const PairKernel& kernel);
   void setParticle(const PairKernel& kernel, std::size_t i, double mass, double hydrogen);
   void removeParticle(std::size_t i);
   bool doubleIfDepleted();

@@ -57,22 +57,26 @@ void Ensemble::coagulate(const PairKernel& kernel, std::size_t i, std::size_t j)
   ++counters_.coagulations;
 }
 
-void Ensemble::incept(const Medium& medium, const PairKernel& kernel) {
+double Ensemble::incept(const Medium& medium, const PairKernel& kernel) {
   ++counters_.inceptions;
   const std::size_t n = size();
+  const double added = medium.condensing ? medium.collision(medium.nucleusMass, medium.nucleusDiameter) : 0;
   if (n < options_.capacity) {
     masses_.push_back(0);
     hydrogen_.push_back(0);
     diameters_.push_back(0);
     setParticle(kernel, n, medium.nucleusMass, medium.nucleusHydrogen);
     filled_ = filled_ || n + 1 == options_.capacity;
-    return;
+    return added;
   }
   // Full: of the n + 1 particles one, drawn uniformly, goes, and the sample shrinks with them.
   ++counters_.contractions;
   sampleVolume_ *= static_cast<double>(n) / static_cast<double>(n + 1);
   const auto victim = static_cast<std::size_t>(random_.below(n + 1));
-  if (victim < n) setParticle(kernel, victim, medium.nucleusMass, medium.nucleusHydrogen);
+  if (victim == n) return 0;
+  const double removed = medium.condensing ? medium.collision(masses_[victim], diameters_[victim]) : 0;
+  setParticle(kernel, victim, medium.nucleusMass, medium.nucleusHydrogen);
+  return added - removed;
 }
 
 void Ensemble::jump(const Medium& medium, double dt) {
@@ -100,9 +104,7 @@ void Ensemble::jump(const Medium& medium, double dt) {
 
     const double choice = random_.uniform() * rate;
     if (choice >= coagulationRate) {
-      incept(medium, kernel);
-      // A contraction may have taken any particle: only then is the sum made anew.
-      if (tracking) collisionSum = size() > n ? collisionSum + collision(n) : dimerCollisionSum(medium);
+      collisionSum += incept(medium, kernel);
       continue;
     }
     // The bound's pairs: one drawn by ab and one uniformly, or one by a and one by b.

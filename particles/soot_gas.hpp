@@ -70,7 +70,7 @@ struct SootModelOptions {
   bool condensation = true;  // off: dimers only nucleate
   bool surfaceGrowth = true;
   bool oxidation = true;
-  double relativeTolerance = 1e-3;  // of the local error of a sub-step of TwoEquationSoot::advance
+  double relativeTolerance = 4e-3;  // of the local error of a sub-step of TwoEquationSoot::advance
 };
 
 }  // namespace lampblack

@@ -1,0 +1,110 @@
+// Cost of the soot models: a cell of the two-equation model, and coagulation events of ensembles.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <vector>
+
+#include "particles/ensemble.hpp"
+#include "particles/two_equation.hpp"
+
+namespace {
+
+using namespace lampblack;
+
+struct Flame {
+  std::vector<double> pah;
+  SootGasState gas;
+  explicit Flame(double pahFraction) {
+    const double T = 1700, c = constants::oneAtmosphere / (constants::gasConstant * T);
+    pah = {pahFraction * c};
+    gas = {T,         constants::oneAtmosphere,
+           0.028 * c, 6e-5,
+           0.028,     1e-3 * c,
+           0.03 * c,  1e-4 * c,
+           0.08 * c,  1e-4 * c,
+           0.03 * c,  pah};
+  }
+  Flame(const Flame&) = delete;
+  Flame& operator=(const Flame&) = delete;
+};
+
+SootModelOptions naphthalene() {
+  SootModelOptions options;
+  options.pah = {{"A2", 10, 8, 2.0e-3}};
+  return options;
+}
+
+// One cell over range(0) nanoseconds; the population and gas are put back every time.
+void twoEquationAdvance(benchmark::State& state) {
+  const Flame flame(2e-5);
+  const TwoEquationSoot model(naphthalene());
+  const double dt = 1e-9 * static_cast<double>(state.range(0));
+  for (auto _ : state) {
+    std::vector<double> pah = flame.pah;
+    const auto& g = flame.gas;
+    SootCellGas cell{g.H, g.H2, g.OH, g.H2O, g.O2, g.C2H2, 0, pah};
+    TwoEquationSoot::Population soot{1e17, 2e-4, 6e-6};
+    benchmark::DoNotOptimize(model.advance(g, dt, soot, cell));
+    benchmark::DoNotOptimize(soot);
+  }
+}
+BENCHMARK(twoEquationAdvance)->Arg(1000)->Arg(10000)->Arg(100000);
+
+void twoEquationNothing(benchmark::State& state) {
+  const Flame flame(0);
+  const TwoEquationSoot model(naphthalene());
+  std::vector<double> pah = flame.pah;
+  const auto& g = flame.gas;
+  SootCellGas cell{g.H, g.H2, g.OH, g.H2O, g.O2, g.C2H2, 0, pah};
+  TwoEquationSoot::Population soot;
+  for (auto _ : state) benchmark::DoNotOptimize(model.advance(g, 1e-5, soot, cell));
+}
+BENCHMARK(twoEquationNothing);
+
+void twoEquationSources(benchmark::State& state) {
+  const Flame flame(2e-5);
+  const TwoEquationSoot model(naphthalene());
+  for (auto _ : state) benchmark::DoNotOptimize(model.sources(flame.gas, {1e17, 2e-4, 6e-6}));
+}
+BENCHMARK(twoEquationSources);
+
+// Coagulation alone from equal spheres, until an eighth of the number is left: real events a second.
+void coagulation(benchmark::State& state, CoagulationKernel kernel) {
+  const Flame flame(0);
+  EnsembleOptions options;
+  options.capacity = static_cast<std::size_t>(state.range(0));
+  options.kernel = kernel;
+  options.soot.surfaceGrowth = options.soot.oxidation = false;
+  const std::vector<double> masses(options.capacity, 1e-23);
+  double events = 0;
+  for (auto _ : state) {
+    Ensemble ensemble(options);
+    ensemble.initialise(masses, 0.04, 1e18);
+    ensemble.advance(flame.gas, 0, 3e-3);
+    events += static_cast<double>(ensemble.counters().coagulations);
+  }
+  state.counters["events/s"] = benchmark::Counter(events, benchmark::Counter::kIsRate);
+}
+BENCHMARK_CAPTURE(coagulation, freeMolecular, CoagulationKernel::freeMolecular)->Arg(1000)->Arg(10000)->Arg(100000);
+BENCHMARK_CAPTURE(coagulation, transition, CoagulationKernel::transition)->Arg(1000)->Arg(10000)->Arg(100000);
+
+// Everything on, from nothing, over 2 ms of a sooting gas: jumps (real, fictitious and inceptions) a second.
+void sootingGas(benchmark::State& state) {
+  const Flame flame(2e-5);
+  EnsembleOptions options;
+  options.capacity = static_cast<std::size_t>(state.range(0));
+  options.soot = naphthalene();
+  double jumps = 0;
+  for (auto _ : state) {
+    Ensemble ensemble(options);
+    ensemble.advance(flame.gas, 0, 2e-3);
+    const auto& c = ensemble.counters();
+    jumps += static_cast<double>(c.coagulations + c.fictitious + c.inceptions);
+  }
+  state.counters["jumps/s"] = benchmark::Counter(jumps, benchmark::Counter::kIsRate);
+}
+BENCHMARK(sootingGas)->Arg(1000)->Arg(10000);
+
+}  // namespace
+
+BENCHMARK_MAIN();
