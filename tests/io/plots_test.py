@@ -1,0 +1,121 @@
+"""Makes a results folder that looks like a small flame, and has scripts/plot and scripts/compare_centreline work on it.
+
+Exit code 77 (skipped) where a Python package is missing.
+"""
+
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+try:
+    import h5py
+    import matplotlib  # noqa: F401
+    import numpy as np
+except ImportError as error:
+    print(f"SKIPPED: {error}; scripts/setup installs it")
+    sys.exit(77)
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+NR, NZ = 20, 40
+FLAME = 4.53e-3  # m, between the samples so that the peak has to be interpolated
+
+
+def write(group, name, values, unit="1"):
+    group.create_dataset(name, data=values).attrs["unit"] = unit
+
+
+def synthetic_results(folder, with_fields=True):
+    r, z = np.linspace(0, 10e-3, NR + 1), np.linspace(0, 8e-3, NZ + 1)
+    vertices = np.array([(x, y, 0.0) for y in z for x in r])
+    corner = [(j * (NR + 1) + i) for j in range(NZ) for i in range(NR)]
+    cells = np.array([(v, v + 1, v + NR + 2, v + NR + 1) for v in corner])
+    centres = vertices[cells].mean(axis=1)
+    x, y = centres[:, 0], centres[:, 1]
+    bell = 1.0 - ((y - FLAME) / 4e-3) ** 2  # a parabola: the interpolated peak is exact
+    folder.mkdir(parents=True)
+    with h5py.File(folder / "results.h5", "w") as file:
+        mesh = file.create_group("mesh")
+        write(mesh, "vertices", vertices, "m")
+        write(mesh, "cells", cells)
+        write(mesh, "cellCentre", centres, "m")
+        step = file.create_group("steps/000010")
+        step.attrs["time"], step.attrs["step"] = 0.04, 10
+        if not with_fields:
+            return centres
+        write(step, "temperature", 300 + 2000 * bell, "K")
+        write(step, "velocity", np.stack([20 * x, 0.2 - 50 * y, 0 * x], axis=1), "m/s")
+        write(step, "X_C2H2", 0.08 * bell)
+        write(step, "X_A1", 4e-4 * bell)
+        write(step, "X_C10H8", 1.6e-4 * bell)
+        write(step, "soot_volume_fraction", 3e-7 * np.maximum(bell, 0) ** 4)
+        path = file.create_group("trajectories/0")
+        times = np.linspace(0, 0.02, 9)
+        edges = np.geomspace(1e-9, 1e-7, 25)
+        middle = np.sqrt(edges[1:] * edges[:-1])
+        mean = 2e-9 + 1e-6 * times
+        write(path, "time", times, "s")
+        write(path, "temperature", 1500 + 0 * times, "K")
+        write(path, "mean_diameter", mean, "m")
+        write(path, "bin_edges", edges, "m")
+        write(path, "size_distribution", 1e15 * np.exp(-(np.log(middle / mean[:, None]) ** 2)), "1/m^3")
+        history = file.create_group("history")
+        write(history, "time", times, "s")
+        write(history, "dt", 1e-5 + 0 * times, "s")
+        write(history, "mass_error", 1e-12 * (1 + times))
+    return centres
+
+
+def run(*command):
+    result = subprocess.run([str(c) for c in command], capture_output=True, text=True, check=False)
+    print(result.stdout + result.stderr)
+    return result
+
+
+def test_pictures_are_made_and_missing_fields_named(work):
+    synthetic_results(work / "run")
+    result = run(ROOT / "scripts" / "plot", work / "run")
+    assert result.returncode == 0
+    names = {p.stem for p in (work / "run" / "pictures").glob("*.png")}
+    assert names == {"temperature", "C2H2", "A2", "soot_volume_fraction", "velocity", "centreline",
+                     "size_distributions", "history"}, names
+    assert "not drawn - centreline profile of X_OH: the results hold no such field" in result.stdout
+
+
+def test_empty_results_are_said_to_be_empty(work):
+    synthetic_results(work / "bare", with_fields=False)
+    result = run(ROOT / "scripts" / "plot", work / "bare")
+    assert result.returncode == 2
+    assert "nothing to draw" in result.stderr
+    assert run(ROOT / "scripts" / "plot", work).returncode == 2
+
+
+def test_reference_is_found_beside_the_deck_and_compared(work):
+    synthetic_results(work / "flame")
+    case = work / "case"
+    (case / "reference").mkdir(parents=True)
+    z = np.linspace(0, 8e-3, 33)
+    bell = 1.0 - ((z - 4.5e-3) / 4e-3) ** 2
+    rows = ["z_m,u_m_s,T_K,X_C2H2"] + [f"{a},{0.2 - 50 * a},{300 + 2000 * b},{0.1 * b}" for a, b in zip(z, bell)]
+    reference = case / "reference" / "cantera.csv"
+    reference.write_text("\n".join(rows) + "\n", encoding="utf-8")
+    (work / "flame" / "run.json").write_text(json.dumps({"deck_path": str(case / "deck.yaml")}), encoding="utf-8")
+    assert run(ROOT / "scripts" / "plot", work / "flame").returncode == 0
+
+    result = run(ROOT / "scripts" / "compare_centreline", work / "flame", reference, "--json")
+    rows = {row["quantity"]: row for row in json.loads(result.stdout)}
+    assert abs(rows["T, K"]["peak"] - 2300.0) < 1e-6
+    assert abs(rows["T, K"]["z_m"] - FLAME) < 1e-9
+    assert abs(rows["T, K"]["shift_m"] - 3e-5) < 1e-9
+    assert abs(rows["X C2H2"]["deviation"] + 0.2) < 1e-9
+    assert "deviation" in run(ROOT / "scripts" / "compare_centreline", work / "flame", reference).stdout
+    assert run(ROOT / "scripts" / "compare_centreline", work / "flame", work / "none.csv").returncode == 2
+
+
+if __name__ == "__main__":
+    for name, test in list(globals().items()):
+        if name.startswith("test_"):
+            with tempfile.TemporaryDirectory() as folder:
+                test(pathlib.Path(folder))
+            print(f"ok  {name}")

@@ -1,0 +1,1 @@
+"""Reading results of Lampblack and making pictures of them."""

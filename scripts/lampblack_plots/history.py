@@ -1,0 +1,47 @@
+"""The history of a run: each column over simulated time, errors of budgets together on a logarithmic axis."""
+
+import numpy as np
+
+from .style import plt
+
+MOST_PANELS = 12
+
+
+def _is_error(name):
+    return any(word in name.lower() for word in ("error", "budget", "residual", "imbalance", "drift"))
+
+
+def plot_history(results, pictures):
+    columns = results.history()
+    if "time" not in columns or len(columns["time"][1]) < 2:
+        pictures.skip("history", "there is none, or it has fewer than two rows")
+        return
+    time = columns["time"][1] * 1e3
+    errors = {name: column for name, column in columns.items() if _is_error(name)}
+    others = {n: c for n, c in columns.items() if n not in errors and n not in ("time", "step", "steps")}
+    shown = dict(list(others.items())[:MOST_PANELS])
+    if len(others) > len(shown):
+        pictures.skip("some columns of the history", f"{MOST_PANELS} of {len(others)} are shown")
+    count = len(shown) + (1 if errors else 0)
+    if count == 0:
+        pictures.skip("history", "it has no columns besides the time")
+        return
+    width = 2 if count > 1 else 1
+    rows = (count + width - 1) // width
+    figure, panels = plt.subplots(rows, width, figsize=(4.8 * width, 2.3 * rows), squeeze=False, sharex=True)
+    places = list(panels.flat)
+    for axes, (name, (unit, values)) in zip(places, shown.items()):
+        axes.plot(time, values, color="tab:blue")
+        axes.set_ylabel(f"{name}, {unit}" if unit not in ("", "1") else name)
+    if errors:
+        axes = places[len(shown)]
+        for name, (_, values) in errors.items():
+            size = np.abs(values)
+            axes.semilogy(time, np.where(size > 0, size, np.nan), label=name, lw=1.0)
+        axes.set_ylabel("errors, absolute")
+        axes.legend(fontsize=7)
+    for axes in places[count:]:
+        axes.set_axis_off()
+    for axes in panels[-1]:
+        axes.set_xlabel("time, ms")
+    pictures.save(figure, "history")

@@ -1,0 +1,79 @@
+"""Pictures of a field over the r-z plane, mirrored about the axis so that they look like the flame."""
+
+import numpy as np
+from matplotlib import tri
+from matplotlib.collections import PolyCollection
+
+from .style import plt, scaled_fraction
+
+# Name of the picture, field, title, colour map, whether it is a small fraction.
+PLANES = [
+    ("temperature", "temperature", "Temperature", "inferno", False),
+    ("C2H2", "X_C2H2", "C$_2$H$_2$ mole fraction", "viridis", True),
+    ("A2", "X_A2", "Naphthalene (A2) mole fraction", "viridis", True),
+    ("soot_volume_fraction", "soot_volume_fraction", "Soot volume fraction", "magma", True),
+    ("velocity", "velocity", "Velocity", "cividis", False),
+]
+
+
+def _draw(axes, results, values, colours, limits):
+    """The cells in their colours, and the mirrored ones."""
+    polygons = results.vertices[results.cells][:, :, :2] * 1e3
+    sides = [polygons, polygons * np.array([-1.0, 1.0])] if results.touches_axis() else [polygons]
+    drawn = None
+    for side in sides:
+        drawn = PolyCollection(side, array=values, cmap=colours, edgecolors="face", linewidths=0.2)
+        drawn.set_clim(*limits)
+        axes.add_collection(drawn)
+    axes.autoscale_view()
+    axes.set_aspect("equal")
+    axes.set_xlabel("r, mm")
+    axes.set_ylabel("z, mm")
+    return drawn
+
+
+def _streamlines(axes, results, velocity):
+    """Streamlines on a regular grid between the cells."""
+    x, y = results.centres[:, 0] * 1e3, results.centres[:, 1] * 1e3
+    grid_x, grid_y = np.linspace(x.min(), x.max(), 90), np.linspace(y.min(), y.max(), 120)
+    mesh = tri.Triangulation(x, y)
+    at = np.meshgrid(grid_x, grid_y)
+    u = np.ma.filled(tri.LinearTriInterpolator(mesh, velocity[:, 0])(*at), 0.0)
+    v = np.ma.filled(tri.LinearTriInterpolator(mesh, velocity[:, 1])(*at), 0.0)
+    style = {"density": 0.9, "color": "white", "linewidth": 0.6, "arrowsize": 0.7}
+    axes.streamplot(grid_x, grid_y, u, v, **style)
+    if results.touches_axis():
+        axes.streamplot(-grid_x[::-1], grid_y, -u[:, ::-1], v[:, ::-1], **style)
+
+
+def plot_planes(results, pictures):
+    if not results.is_plane:
+        pictures.skip("plane pictures", "the mesh is three-dimensional; open results.xdmf in ParaView")
+        return
+    if not results.steps:
+        pictures.skip("plane pictures", "no step was written")
+        return
+    step = results.steps[-1]
+    for name, field, title, colours, is_fraction in PLANES:
+        values = results.field(field)
+        if values is None:
+            pictures.skip(f"{name} picture", f"the results hold no field '{field}'")
+            continue
+        velocity = None
+        if values.ndim == 2:
+            velocity, values = values, np.linalg.norm(values, axis=1)
+        if not np.all(np.isfinite(values)):
+            pictures.skip(f"{name} picture", "the field has values that are not finite")
+            continue
+        unit = str(results.fields(step)[field].attrs.get("unit", "")) if field in results.fields(step) else ""
+        if is_fraction:
+            values, unit = scaled_fraction(values)
+        figure, axes = plt.subplots(figsize=(6.4, 5.2))
+        low = 0.0 if is_fraction or velocity is not None else float(values.min())
+        high = float(values.max())
+        drawn = _draw(axes, results, values, colours, (low, high if high > low else low + 1.0))
+        if velocity is not None and results.centres.shape[0] > 3:
+            _streamlines(axes, results, velocity)
+        figure.colorbar(drawn, ax=axes, label=f"{title}, {unit}" if unit not in ("", "1") else title)
+        axes.set_title(f"{title} at t = {results.time(step) * 1e3:.3g} ms, largest {high:.4g} {unit}".rstrip())
+        pictures.save(figure, name)

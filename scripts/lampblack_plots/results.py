@@ -1,0 +1,113 @@
+"""A results folder: the mesh, the steps, their fields, trajectories, history and run record."""
+
+import json
+import pathlib
+
+import h5py
+import numpy as np
+
+
+class ResultsError(Exception):
+    """The folder does not hold results that can be read."""
+
+
+# Other names that mechanisms use for the same species.
+ALIASES = {"A1": ["A1", "C6H6"], "A2": ["A2", "C10H8"], "A4": ["A4", "C16H10"]}
+
+
+class Results:
+    def __init__(self, folder):
+        self.folder = pathlib.Path(folder)
+        candidates = [self.folder / "results.h5", self.folder / "results.h5.part"]
+        path = next((p for p in candidates if p.is_file()), None)
+        if path is None:
+            raise ResultsError(f"{self.folder}: there is no results.h5 here")
+        try:
+            self.file = h5py.File(path, "r")
+        except OSError as error:
+            raise ResultsError(f"{path}: cannot be opened ({error}); is the run still going?") from error
+        self.partial = path.name.endswith(".part")
+        if "mesh" not in self.file or "cellCentre" not in self.file["mesh"]:
+            raise ResultsError(f"{path}: holds no mesh")
+        mesh = self.file["mesh"]
+        self.centres = mesh["cellCentre"][()]
+        self.vertices = mesh["vertices"][()]
+        self.cells = mesh["cells"][()]
+        self.is_plane = self.cells.shape[1] == 4
+
+    @property
+    def steps(self):
+        """Names of the steps in order of time."""
+        group = self.file.get("steps", {})
+        return sorted(group, key=lambda name: int(name))
+
+    def time(self, step):
+        return float(self.file["steps"][step].attrs.get("time", np.nan))
+
+    def fields(self, step):
+        return self.file["steps"][step]
+
+    def field(self, name, step=None):
+        """A field of a step (the last one), or None where it was not written."""
+        steps = self.steps
+        if not steps:
+            return None
+        group = self.fields(step or steps[-1])
+        names = [name]
+        if name.startswith("X_"):
+            names += ["X_" + alias for alias in ALIASES.get(name[2:], [])]
+        by_lower = {key.lower(): key for key in group}
+        for candidate in names:
+            if candidate in group:
+                return group[candidate][()]
+            if candidate.lower() in by_lower:
+                return group[by_lower[candidate.lower()]][()]
+        return None
+
+    def centreline(self):
+        """Cells of the column nearest the axis, sorted by z; and their z in m."""
+        r = self.centres[:, 0]
+        near = r.min() + 1e-6 * max(np.ptp(r), 1e-300)
+        column = np.flatnonzero(r <= near)
+        column = column[np.argsort(self.centres[column, 1])]
+        return column, self.centres[column, 1]
+
+    def touches_axis(self):
+        """Whether the mesh is the right half of something mirrored about r = 0."""
+        r = self.vertices[:, 0]
+        return bool(r.min() > -1e-12 and r.min() < 1e-9 + 1e-6 * np.ptp(r)) and not self._is_planar()
+
+    def _is_planar(self):
+        mesh = self.record().get("deck") or {}
+        mesh = mesh.get("mesh") if isinstance(mesh, dict) else {}
+        words = [str(value).lower() for value in mesh.values()] if isinstance(mesh, dict) else []
+        return "planar" in words or "cartesian" in words
+
+    def record(self):
+        """run.json, or nothing where it is missing or damaged."""
+        try:
+            return json.loads((self.folder / "run.json").read_text(encoding="utf-8"))
+        except (OSError, ValueError):
+            return {}
+
+    def trajectories(self):
+        group = self.file.get("trajectories", {})
+        return {name: group[name] for name in group}
+
+    def history(self):
+        """Columns of the history as {name: (unit, values)}, from the results file or else from history.csv."""
+        group = self.file.get("history")
+        if group is not None:
+            return {name: (str(group[name].attrs.get("unit", "")), group[name][()]) for name in group}
+        path = self.folder / "history.csv"
+        if not path.is_file():
+            return {}
+        lines = path.read_text(encoding="utf-8").splitlines()
+        if len(lines) < 2:
+            return {}
+        rows = [[float(x) for x in line.split(",")] for line in lines[1:] if line.count(",") == lines[0].count(",")]
+        columns = {}
+        for c, head in enumerate(lines[0].split(",")):
+            name, _, unit = head.partition(" [")
+            columns[name] = (unit.rstrip("]"), np.array([row[c] for row in rows]))
+        return columns
