@@ -118,6 +118,15 @@ void Kinetics::updateFactors() {
   for (std::size_t i = 0; i < n; ++i) factor_[f.reaction[i]] = lnF[i];
 }
 
+double Kinetics::power(double concentration, double exponent) {
+  if (exponent == std::floor(exponent) && exponent >= 0 && exponent <= 4) {
+    double value = 1;
+    for (int i = 0; i < static_cast<int>(exponent); ++i) value *= concentration;
+    return value;
+  }
+  return std::pow(std::max(concentration, 0.0), exponent);
+}
+
 void Kinetics::updateProgress() {
   const double* __restrict c = c_.data();
   {
@@ -136,9 +145,9 @@ void Kinetics::updateProgress() {
   }
   for (const auto& general : general_) {
     for (const auto& t : general.forwardOrders)
-      forward_[general.reaction] *= std::pow(std::max(c[t.species], 0.0), t.coefficient);
+      forward_[general.reaction] *= power(c[t.species], t.coefficient);
     for (const auto& t : general.reverseOrders)
-      reverse_[general.reaction] *= std::pow(std::max(c[t.species], 0.0), t.coefficient);
+      reverse_[general.reaction] *= power(c[t.species], t.coefficient);
   }
   const double* __restrict factor = factor_.data();
   const double* __restrict forward = forward_.data();

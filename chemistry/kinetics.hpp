@@ -46,7 +46,8 @@ class Kinetics {
   void equilibriumConstants(double T, std::span<double> Kc);
 
  private:
-  // A reaction with more than three reactants or products, decimal coefficients or orders: handled by explicit powers.
+  // A reaction with more than three reactants, or products if reversible, decimal coefficients or orders: handled by
+  // explicit powers. Decimal powers of negative concentrations count as zero.
   struct GeneralReaction {
     std::size_t reaction = 0;  // internal number
     std::vector<StoichiometricTerm> forwardOrders, reverseOrders;
@@ -77,6 +78,7 @@ class Kinetics {
     double value = 0, byM = 0, byT = 0;
   };
 
+  static double power(double concentration, double exponent);
   void orderReactions(const Mechanism& mechanism);
   void setRates(const Mechanism& mechanism);
   void setSlots(const Mechanism& mechanism);

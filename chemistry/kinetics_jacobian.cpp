@@ -44,9 +44,9 @@ void Kinetics::generalDerivatives() {
       const auto& orders = isForward ? general.forwardOrders : general.reverseOrders;
       for (const auto& term : orders) {
         double d = (isForward ? kf_[i] : -kr_[i]) * factor_[i] * term.coefficient *
-                   std::pow(std::max(c_[term.species], 0.0), term.coefficient - 1);
+                   power(c_[term.species], term.coefficient - 1);
         for (const auto& other : orders)
-          if (other.species != term.species) d *= std::pow(std::max(c_[other.species], 0.0), other.coefficient);
+          if (other.species != term.species) d *= power(c_[other.species], other.coefficient);
         derivatives_[at++] = std::isfinite(d) ? d : 0.0;  // an order below one at zero concentration has no slope
       }
     }

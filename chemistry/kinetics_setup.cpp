@@ -80,8 +80,9 @@ void Kinetics::setSlots(const Mechanism& mechanism) {
   for (std::size_t i = 0; i < numReactions_; ++i) {
     const auto& reaction = mechanism.reaction(original_[i]);
     std::array<std::int32_t, 3> left{none, none, none}, right{none, none, none};
-    const bool fits =
-        fillSlots(reaction.reactants, left) && fillSlots(reaction.products, right) && reaction.orders.empty();
+    // The products of an irreversible reaction are no concentrations of any rate.
+    const bool fits = fillSlots(reaction.reactants, left) &&
+                      (!reaction.reversible || fillSlots(reaction.products, right)) && reaction.orders.empty();
     if (!fits) {
       left = right = {none, none, none};
       GeneralReaction general{i, reaction.reactants, reaction.products};

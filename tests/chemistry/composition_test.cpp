@@ -1,1 +1,45 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "core/errors.hpp"
+#include "tests/chemistry/table.hpp"
+
+namespace {
+
+using namespace lampblack;
+using ::testing::HasSubstr;
+
+std::string messageOf(const std::string& text) {
+  try {
+    parseComposition(lampblack::testing::hydrogen(), text);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Composition, IsNormalisedToMoleFractions) {
+  const auto& mechanism = lampblack::testing::hydrogen();
+  for (const char* text : {"H2: 2, O2: 1, N2: 5", "  H2:2 O2:1 N2:5 ", "O2: 1e0,H2 : 2.0,N2: 5"}) {
+    const auto X = parseComposition(mechanism, text);
+    EXPECT_DOUBLE_EQ(X[mechanism.speciesIndex("H2")], 0.25) << text;
+    EXPECT_DOUBLE_EQ(X[mechanism.speciesIndex("O2")], 0.125) << text;
+    EXPECT_DOUBLE_EQ(X[mechanism.speciesIndex("N2")], 0.625) << text;
+    EXPECT_EQ(X[mechanism.speciesIndex("OH")], 0.0);
+  }
+}
+
+TEST(Composition, SaysWhatIsWrong) {
+  EXPECT_THAT(messageOf("H2: 1, H2O3: 1"), HasSubstr("nearest known name is 'H2O"));
+  EXPECT_THAT(messageOf("h2o: 1"), HasSubstr("'H2O'"));
+  EXPECT_THAT(messageOf("H2: -1, O2: 2"), HasSubstr("negative amount of 'H2'"));
+  EXPECT_THAT(messageOf("H2: 0, O2: 0"), HasSubstr("all amounts are zero"));
+  EXPECT_THAT(messageOf("H2: 1, H2: 2"), HasSubstr("twice"));
+  EXPECT_THAT(messageOf("H2: one"), HasSubstr("expected a number"));
+  EXPECT_THAT(messageOf("H2: 1x, O2: 1"), HasSubstr("expected a number"));
+  EXPECT_THAT(messageOf("H2: nan"), HasSubstr("expected a number"));
+  EXPECT_THAT(messageOf("H2 1"), HasSubstr("expected ':'"));
+  EXPECT_THAT(messageOf(" "), HasSubstr("empty composition"));
+}
+
+}  // namespace

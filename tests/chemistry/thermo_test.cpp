@@ -1,1 +1,93 @@
+#include "chemistry/thermo.hpp"
+
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/constants.hpp"
+#include "core/errors.hpp"
+#include "tests/chemistry/table.hpp"
+
+namespace {
+
+using namespace lampblack;
+using lampblack::testing::hydrogen;
+using lampblack::testing::Table;
+
+// The table has 13 digits.
+TEST(Thermo, AgreesWithCanteraForMixturesAndSpecies) {
+  const auto& mechanism = hydrogen();
+  const Thermo thermo(mechanism);
+  const Table states("kinetics_h2o2_states.csv"), mixture("kinetics_h2o2_mixture.csv"),
+      species("kinetics_h2o2_species.csv");
+  const std::size_t n = mechanism.numSpecies();
+  std::vector<double> Y(n), cp(n), h(n);
+  for (std::size_t s = 0; s < states.size(); ++s) {
+    const double T = states.number(s, "T"), p = states.number(s, "p");
+    thermo.moleToMass(states.moleFractions(s, mechanism), Y);
+    EXPECT_NEAR(thermo.meanMolecularWeight(Y) * 1e3 / mixture.number(s, "W"), 1, 1e-12);
+    EXPECT_NEAR(thermo.density(T, p, Y) / mixture.number(s, "rho"), 1, 1e-12);
+    EXPECT_NEAR(thermo.cpMass(T, Y) / mixture.number(s, "cp"), 1, 1e-12);
+    EXPECT_NEAR(thermo.enthalpyMass(T, Y) / mixture.number(s, "h"), 1, 1e-11);
+    thermo.speciesCp(T, cp);
+    thermo.speciesEnthalpies(T, h);
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::size_t row = s * n + k;
+      ASSERT_EQ(species.text(row, "species"), mechanism.speciesName(k));
+      const double W = mechanism.molecularWeights()[k];
+      EXPECT_NEAR(1e3 * cp[k] * W / species.number(row, "cp"), 1, 1e-12);
+      EXPECT_NEAR(1e3 * h[k] * W, species.number(row, "h"), 1e-11 * 1e8);
+    }
+  }
+}
+
+TEST(Thermo, TemperatureComesBackFromEnthalpyWhateverTheGuess) {
+  const auto& mechanism = lampblack::testing::ethylene();
+  const Thermo thermo(mechanism);
+  const Table states("counterflow_c2h4_states.csv");
+  std::vector<double> Y(mechanism.numSpecies());
+  for (std::size_t s = 0; s < states.size(); ++s) {
+    const double T = states.number(s, "T");
+    thermo.moleToMass(states.moleFractions(s, mechanism), Y);
+    const double h = thermo.enthalpyMass(T, Y);
+    for (const double guess : {T, T + 50, 300.0, 3000.0, -1.0, 1e9, std::nan("")})
+      EXPECT_NEAR(thermo.temperatureFromEnthalpy(h, Y, guess), T, 1e-9) << guess;
+  }
+}
+
+TEST(Thermo, EnthalpyOutsideTheRangeIsAnError) {
+  const auto& mechanism = hydrogen();
+  const Thermo thermo(mechanism);
+  std::vector<double> Y(mechanism.numSpecies(), 0.0);
+  Y[mechanism.speciesIndex("N2")] = 1;
+  EXPECT_THROW(thermo.temperatureFromEnthalpy(1e9, Y, 1000), NumericsError);
+  EXPECT_THROW(thermo.temperatureFromEnthalpy(-1e9, Y, 1000), NumericsError);
+  EXPECT_THROW(thermo.temperatureFromEnthalpy(std::nan(""), Y, 1000), NumericsError);
+}
+
+TEST(Thermo, MassAndMoleFractionsAreInverse) {
+  const auto& mechanism = hydrogen();
+  const Thermo thermo(mechanism);
+  const auto X = parseComposition(mechanism, "H2: 0.3, O2: 0.2, N2: 0.5");
+  std::vector<double> Y(X.size()), back(X.size());
+  thermo.moleToMass(X, Y);
+  thermo.massToMole(Y, back);
+  for (std::size_t k = 0; k < X.size(); ++k) EXPECT_NEAR(back[k], X[k], 1e-15);
+}
+
+// The data's two ranges meet at the middle temperature: cp and h jump there only by the digits of the fit.
+TEST(Thermo, RangesJoin) {
+  const auto& mechanism = lampblack::testing::ethylene();
+  const Thermo thermo(mechanism);
+  std::vector<double> below(mechanism.numSpecies()), above(mechanism.numSpecies());
+  for (std::size_t k = 0; k < mechanism.numSpecies(); ++k) {
+    const double T = mechanism.species(k).thermo.midTemperature;
+    thermo.speciesEnthalpies(T, below);
+    thermo.speciesEnthalpies(T * (1 + 1e-12), above);
+    EXPECT_NEAR(above[k], below[k], 3e-3 * constants::gasConstant / mechanism.molecularWeights()[k] * T)
+        << mechanism.speciesName(k);
+  }
+}
+
+}  // namespace

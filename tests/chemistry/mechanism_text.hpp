@@ -1,0 +1,47 @@
+// Small mechanisms written out in a test, read through a temporary file.
+#pragma once
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "chemistry/mechanism.hpp"
+
+namespace lampblack::testing {
+
+// Writes the text to a file, reads it as a mechanism, removes the file.
+inline Mechanism readFileText(const std::string& text) {
+  const auto path = std::filesystem::temp_directory_path() / ("lampblack_mechanism_" + std::to_string(::getpid()) + ".yaml");
+  std::ofstream(path) << text;
+  struct Remove {
+    std::filesystem::path path;
+    ~Remove() { std::filesystem::remove(path); }
+  } remove{path};
+  return Mechanism::fromFile(path.string());
+}
+
+// Lines 1 to 6 are fixed; the phase's species stand in line 4, `species` starts after line 6. *t and *u are thermodynamic data of something
+// at least as smooth as nitrogen.
+inline std::string mechanismText(const std::string& phaseSpecies, const std::string& species,
+                                 const std::string& reactions) {
+  return "units: {length: cm, quantity: mol, activation-energy: cal/mol}\n"
+         "thermo: [&t {model: NASA7, temperature-ranges: [200, 1000, 6000], data: [[3.5, 1e-4, 0, 0, 0, -900, 4], [3.6, 1e-4, "
+         "0, 0, 0, -1000, 3.4]]}, &u {model: NASA7, temperature-ranges: [200, 6000], data: [[2.9, 2e-4, 1e-8, 0, 0, -5900, "
+         "3]]}]\n"
+         "phases:\n"
+         "- {name: gas, thermo: ideal-gas, " +
+         phaseSpecies +
+         "}\n"
+         "\n"
+         "species:" +
+         species + "\nreactions:\n  " + reactions + "\n";
+}
+
+inline Mechanism readText(const std::string& phaseSpecies, const std::string& species, const std::string& reactions) {
+  return readFileText(mechanismText(phaseSpecies, species, reactions));
+}
+
+}  // namespace lampblack::testing
