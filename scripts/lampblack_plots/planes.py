@@ -32,6 +32,13 @@ def _draw(axes, results, values, colours, limits):
     return drawn
 
 
+def _figure_size(results):
+    """As wide as the plane wants at a height that suits, with room for the colour bar."""
+    width, height = np.ptp(results.vertices[:, 0]), np.ptp(results.vertices[:, 1])
+    ratio = height / max(width * (2.0 if results.touches_axis() else 1.0), 1e-300)
+    return (7.0, float(np.clip(1.2 + 5.0 * ratio, 2.6, 9.0)))
+
+
 def _streamlines(axes, results, velocity):
     """Streamlines on a regular grid between the cells."""
     x, y = results.centres[:, 0] * 1e3, results.centres[:, 1] * 1e3
@@ -68,7 +75,7 @@ def plot_planes(results, pictures):
         unit = str(results.fields(step)[field].attrs.get("unit", "")) if field in results.fields(step) else ""
         if is_fraction:
             values, unit = scaled_fraction(values)
-        figure, axes = plt.subplots(figsize=(6.4, 5.2))
+        figure, axes = plt.subplots(figsize=_figure_size(results))
         low = 0.0 if is_fraction or velocity is not None else float(values.min())
         high = float(values.max())
         drawn = _draw(axes, results, values, colours, (low, high if high > low else low + 1.0))
