@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "core/errors.hpp"
@@ -85,6 +86,7 @@ bool Ensemble::doubleIfDepleted() {
 
 void Ensemble::advance(const SootGasState& given, double dilutionRate, double dt) {
   if (!(dt > 0)) return;
+  if (given.pah.size() != dimers_.size()) throw std::invalid_argument("soot: PAH concentrations and PAH list differ");
   SootGasState gas = given;  // with what transport left negative as zero; PAH by the dimer model itself
   for (const auto species : {&SootGasState::H, &SootGasState::H2, &SootGasState::OH, &SootGasState::H2O,
                              &SootGasState::O2, &SootGasState::C2H2}) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "core/errors.hpp"
@@ -77,6 +78,7 @@ TwoEquationSoot::Rates TwoEquationSoot::rates(const Frozen& frozen, const State&
 }
 
 TwoEquationSoot::Sources TwoEquationSoot::sources(const SootGasState& gas, const Population& population) const {
+  if (gas.pah.size() != dimers_.size()) throw std::invalid_argument("soot: PAH concentrations and PAH list differ");
   const Frozen frozen = freeze(gas);
   State state;
   state.number = std::max(population.number, 0.0);

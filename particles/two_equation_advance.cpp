@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "core/errors.hpp"
 #include "particles/two_equation.hpp"
@@ -169,6 +170,7 @@ TwoEquationSoot::Report TwoEquationSoot::integrate(const Frozen& frozen, State& 
 TwoEquationSoot::Report TwoEquationSoot::advance(const SootGasState& gas, double dt, Population& population,
                                                  SootCellGas& cell) const {
   const std::size_t n = dimers_.size();
+  if (cell.pah.size() != n) throw std::invalid_argument("soot: PAH concentrations and PAH list differ");
   double totalPah = 0;
   for (std::size_t i = 0; i < n; ++i) totalPah += std::max(cell.pah[i], 0.0);
   if (!(dt > 0) || (totalPah < negligiblePah && population.carbon < negligibleCarbon)) return {};

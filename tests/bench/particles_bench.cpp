@@ -105,6 +105,53 @@ void sootingGas(benchmark::State& state) {
 }
 BENCHMARK(sootingGas)->Arg(1000)->Arg(10000);
 
+// Accuracy, not time: relative error of number and carbon after two steps of 0.1 ms, at a tolerance of range(0) 1e-5.
+void twoEquationAccuracy(benchmark::State& state) {
+  const Flame flame(2e-5);
+  const auto run = [&](double tolerance) {
+    SootModelOptions options = naphthalene();
+    options.relativeTolerance = tolerance;
+    const TwoEquationSoot model(options);
+    std::vector<double> pah = flame.pah;
+    const auto& g = flame.gas;
+    SootCellGas cell{g.H, g.H2, g.OH, g.H2O, g.O2, g.C2H2, 0, pah};
+    TwoEquationSoot::Population soot{1e17, 2e-5, 6e-7};
+    for (int k = 0; k < 2; ++k) model.advance(g, 1e-4, soot, cell);
+    return soot;
+  };
+  const auto exact = run(1e-8);
+  TwoEquationSoot::Population soot;
+  for (auto _ : state) soot = run(1e-5 * static_cast<double>(state.range(0)));
+  state.counters["number"] = std::abs(soot.number / exact.number - 1);
+  state.counters["carbon"] = std::abs(soot.carbon / exact.carbon - 1);
+}
+BENCHMARK(twoEquationAccuracy)->Arg(100)->Arg(400)->Arg(2000);
+
+// Accuracy: mean and standard error over 400 repeats of the sooting gas at a splitting tolerance of range(0) 1e-4.
+void splittingAccuracy(benchmark::State& state) {
+  const Flame flame(2e-5);
+  EnsembleOptions options;
+  options.capacity = 1024;
+  options.soot = naphthalene();
+  options.splitTolerance = 1e-4 * static_cast<double>(state.range(0));
+  const int repeats = 400;
+  double number = 0, squares = 0, volume = 0;
+  for (auto _ : state) {
+    for (int repeat = 0; repeat < repeats; ++repeat) {
+      options.owner = static_cast<std::uint64_t>(repeat);
+      Ensemble ensemble(options);
+      ensemble.advance(flame.gas, 0, 2e-3);
+      number += ensemble.numberDensity() / repeats;
+      squares += std::pow(ensemble.numberDensity(), 2) / repeats;
+      volume += ensemble.volumeFraction() / repeats;
+    }
+  }
+  state.counters["number"] = number;
+  state.counters["error"] = std::sqrt((squares - number * number) / repeats);
+  state.counters["fv"] = volume;
+}
+BENCHMARK(splittingAccuracy)->Arg(2000)->Arg(500)->Arg(125)->Iterations(1);
+
 }  // namespace
 
 BENCHMARK_MAIN();
