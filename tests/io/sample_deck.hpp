@@ -1,4 +1,4 @@
-// A small schema and a deck that satisfies it, shared by the tests of decks.
+// A deck that satisfies the sample schema, and ways to spoil it, shared by the tests of decks.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -8,32 +8,9 @@
 #include <vector>
 
 #include "io/deck.hpp"
+#include "tests/io/sample_schema.hpp"
 
 namespace lampblack::test {
-
-inline DeckSchema sampleSchema() {
-  DeckSchema schema;
-  schema.add(choiceKey("problem", {"flow", "reactor", "flame1d"}, "What is computed."))
-      .add(stringKey("mechanism", "Mechanism file."))
-      .add(quantityKey("pressure", units::pressure, "Thermodynamic pressure.").byDefault("1 atm").above(0.0))
-      .section("mesh", Presence::required, "The mesh.")
-      .add(quantityKey("mesh.z[].to", units::length, "End of the segment."))
-      .add(integerKey("mesh.z[].cells", "Cells of the segment.").atLeast(1).atMost(100000))
-      .section("boundaries", Presence::required, "Named boundaries.")
-      .add(choiceKey("boundaries.*.type", {"inlet", "outlet", "wall"}, "Kind."))
-      .add(quantityKey("boundaries.*.velocity", units::velocity, "Inward velocity.").optional())
-      .add(quantityKey("boundaries.*.temperature", units::temperature, "Temperature.").byDefault("25 degC").above(0.0))
-      .add(numberKey("boundaries.*.composition.*", "Mole fraction.").atLeast(0.0).atMost(1.0))
-      .add(quantityKey("time.end", units::time, "End of the run.").above(0.0))
-      .add(booleanKey("time.adaptive", "Choose the step.").byDefault("true"))
-      .section("particles", Presence::optional, "Particles, where wanted.")
-      .add(integerKey("particles.count", "Per ensemble."))
-      .add(quantityKey("particles.sites", units::perArea, "Sites.").byDefault("2.3e19 1/m^2"))
-      .add(vectorKey("gravity", units::acceleration, "Gravity.").byDefault("[0, 0, -9.81 m/s^2]"))
-      .add(stringKey("output.fields", "Fields.").list().byDefault("[temperature, velocity]"))
-      .add(integerKey("seed", "Seed.").byDefault("1"));
-  return schema;
-}
 
 inline const std::string sampleText = R"(# a flame
 problem: flow
