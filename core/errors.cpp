@@ -26,7 +26,18 @@ Failure describe(const std::exception_ptr& error) {
   }
 }
 
+// An error that every rank has raised: the error it is, and a mark to know it by.
+struct CollectiveMark {
+  virtual ~CollectiveMark() = default;
+};
+template <typename Error>
+struct Collective : Error, CollectiveMark {
+  using Error::Error;
+};
+
 }  // namespace
+
+bool isCollective(const std::exception& error) { return dynamic_cast<const CollectiveMark*>(&error) != nullptr; }
 
 void raiseCollectively(MPI_Comm comm, const std::exception_ptr& error) {
   int rank = 0;
@@ -45,13 +56,13 @@ void raiseCollectively(MPI_Comm comm, const std::exception_ptr& error) {
   MPI_Bcast(failure.message.data(), header[1], MPI_CHAR, firstFailing, comm);
   switch (static_cast<Kind>(header[0])) {
     case Kind::input:
-      throw InputError(failure.message);
+      throw Collective<InputError>(failure.message);
     case Kind::numerics:
-      throw NumericsError(failure.message);
+      throw Collective<NumericsError>(failure.message);
     case Kind::bug:
       break;
   }
-  throw std::runtime_error(failure.message);
+  throw Collective<std::runtime_error>(failure.message);
 }
 
 void collectively(MPI_Comm comm, const std::function<void()>& work) {

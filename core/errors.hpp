@@ -27,6 +27,9 @@ class NumericsError : public std::runtime_error {
 // for InputError and NumericsError, its type (std::runtime_error otherwise). Does nothing when no rank failed.
 void raiseCollectively(MPI_Comm comm, const std::exception_ptr& error);
 
+// Whether this error was raised on all ranks together, by raiseCollectively or collectively.
+bool isCollective(const std::exception& error);
+
 // Collective. Runs `work`, which must not communicate, and raises its failure on all ranks.
 void collectively(MPI_Comm comm, const std::function<void()>& work);
 

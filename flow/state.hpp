@@ -11,12 +11,13 @@
 namespace lampblack {
 
 // A quantity that the flow carries without knowing what it means (soot number, sections, moments): its density per
-// volume is transported by the gas velocity, thermophoresis if asked for, and a diffusivity that its model sets.
+// volume is transported by the gas velocity, thermophoresis, and a diffusivity that its model sets.
 struct CarriedScalar {
   std::string name;
   std::string unit;
   std::string description;
-  bool thermophoretic = true;
+  // Drift velocity -thermophoresis * (mu/rho) * grad T / T; 0: none.
+  double thermophoresis = 0.0;
 };
 
 struct State {
@@ -36,8 +37,8 @@ struct State {
   std::vector<double> carried;              // per m^3, carriedCount() a cell
   std::vector<double> carriedDiffusivity;   // m^2/s, carriedCount() a cell; set by the model that owns the scalar
 
-  // The mean reaction rate of the last step (kg/m^3/s, `species` a cell), by which balanced splitting couples transport
-  // and reaction; zero in plain Strang splitting.
+  // The mean reaction rate of the last step (kg/m^3/s, `species` a cell), which the transport stage takes as a source
+  // where the reactions are coupled to it (ReactionOperator); zero in Strang splitting.
   std::vector<double> balance;
 
   // kg/s (per metre depth or radian) through each face, positive from low to high or outwards.
@@ -52,6 +53,8 @@ class Operator {
  public:
   virtual ~Operator() = default;
   virtual void advance(State& state, double time, double dt) = 0;  // collective
+  // Called once when all operators have advanced by a whole step.
+  virtual void endStep(State&) {}
   [[nodiscard]] virtual const char* name() const = 0;
 };
 

@@ -1,0 +1,67 @@
+// What a deck with `problem: flow` asks for, checked and in SI: the bridge from the words of the deck to the operators.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "chemistry/mechanism.hpp"
+#include "core/mesh.hpp"
+#include "flow/boundary.hpp"
+#include "flow/mixing_layer.hpp"
+#include "flow/reaction_operator.hpp"
+#include "io/deck.hpp"
+#include "particles/soot_gas.hpp"
+
+namespace lampblack {
+
+struct TimeControl {
+  double end = 0.0;          // s
+  double firstStep = 1e-6;   // s
+  double maximumStep = 1.0;  // s
+  double courant = 0.5;
+  double growth = 1.2;       // of the step from one to the next, at most
+};
+
+struct OutputControl {
+  double interval = 0.0;          // s between field outputs
+  int historySteps = 1;           // steps between rows of the history
+  std::vector<std::size_t> species;  // mole fractions written
+};
+
+struct TrajectoryStart {
+  double r = 0.0, z = 0.0;  // m; x and y in planar geometry
+};
+
+struct TrajectoryRequest {
+  std::vector<TrajectoryStart> starts;
+  double duration = 0.0;   // s, at most
+  double timeStep = 0.0;   // s, between samples of the gas
+  int particles = 0;       // capacity of each ensemble
+  int bins = 0;            // of the size distribution
+  double smallest = 0.0, largest = 0.0;  // m, diameter range of the bins
+};
+
+struct FlowCase {
+  std::string title;
+  std::shared_ptr<const Mechanism> mechanism;
+  double pressure = 0.0;  // Pa
+  std::uint64_t seed = 0;
+  MeshSpec mesh;
+  std::vector<BoundaryCondition> boundaries;  // in the order of mesh.patches
+  MixingLayer initial;
+  TimeControl time;
+  OutputControl output;
+  ReactionOperator::Options chemistry;
+  std::optional<SootModelOptions> soot;
+  std::optional<TrajectoryRequest> trajectories;
+};
+
+// All keys a flow deck may have.
+DeckSchema flowSchema();
+
+// Reads the mechanism and checks what the schema cannot: names of species, patches, sides. InputError otherwise.
+FlowCase readFlowCase(const Deck& deck);
+
+}  // namespace lampblack

@@ -1,0 +1,284 @@
+#include "app/flow_run.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <vector>
+
+#include "app/build_info.hpp"
+#include "app/flow_case.hpp"
+#include "app/flow_output.hpp"
+#include "app/soot_operator.hpp"
+#include "app/trajectories.hpp"
+#include "core/errors.hpp"
+#include "core/timers.hpp"
+#include "flow/time_step.hpp"
+#include "io/progress.hpp"
+#include "io/report.hpp"
+#include "io/run_folder.hpp"
+#include "io/run_record.hpp"
+
+namespace lampblack {
+namespace {
+
+double peakMemory(MPI_Comm comm) {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  double bytes = 1024.0 * static_cast<double>(usage.ru_maxrss);
+  MPI_Allreduce(MPI_IN_PLACE, &bytes, 1, MPI_DOUBLE, MPI_MAX, comm);
+  return bytes;
+}
+
+// One run: the operators of one step and everything that watches them.
+class FlowRun {
+ public:
+  FlowRun(MPI_Comm comm, FlowCase flowCase)
+      : comm_(comm),
+        case_(std::move(flowCase)),
+        mesh_(comm, case_.mesh),
+        halo_(mesh_),
+        thermo_(*case_.mechanism),
+        transport_(*case_.mechanism),
+        context_{mesh_, halo_, *case_.mechanism, thermo_, transport_, case_.boundaries},
+        state_(mesh_, case_.mechanism->numSpecies(),
+               case_.soot ? SootOperator::carriedScalars() : std::vector<CarriedScalar>{}),
+        flow_(context_, state_),
+        chemistry_(context_, case_.chemistry) {
+    state_.thermodynamicPressure = case_.pressure;
+    if (case_.soot) soot_ = std::make_unique<SootOperator>(context_, *case_.soot);
+    collectively(comm_, [&] { setMixingLayer(context_, case_.initial, state_); });
+    flow_.initialise(state_, case_.time.firstStep);
+    chemistry_.endStep(state_);
+    budget_ = std::make_unique<Budget>(
+        context_, massAndElements(*case_.mechanism, case_.soot ? SootOperator::elementMass(*case_.mechanism)
+                                                               : std::vector<std::vector<double>>{}),
+        state_);
+  }
+
+  void run(const RunFolder& folder, const RunInfo& info) {
+    ResultsWriter results(comm_, folder.results(), info, meshOutput(mesh_));
+    HistoryWriter history(comm_, folder.history(), historyColumns(budget_->lines(state_)));
+    Progress progress(comm_, 0.0, case_.time.end);
+    output(results);
+    double nextOutput = case_.output.interval;
+    double dt = case_.time.firstStep;
+    while (time_ < case_.time.end * (1.0 - 1e-12)) {
+      dt = chooseStep(dt, std::min(nextOutput, case_.time.end));
+      step(dt);
+      const bool due = time_ >= nextOutput * (1.0 - 1e-12) || time_ >= case_.time.end * (1.0 - 1e-12);
+      if (due || steps_ % case_.output.historySteps == 0) {
+        const HistoryRow row = observe(dt);
+        history.row(historyValues(row));
+        progress.update(steps_, time_, dt,
+                        fmt::format("Tmax {:.0f} K  fv {:.3g} ppm", row.extremes.maximumTemperature,
+                                    1e6 * row.peakVolumeFraction));
+      }
+      if (due) {
+        output(results);
+        nextOutput += case_.output.interval;
+      }
+    }
+    progress.finish();
+    if (case_.trajectories) {
+      const Timers::Scope scope(timers_, "trajectories");
+      runTrajectories(context_, case_, state_, flow_.properties(), *soot_, results);
+    }
+    const Timers::Scope scope(timers_, "output");
+    history.writeTo(results);
+    results.close();
+  }
+
+  void report(double wallTime, RunRecord& record) {
+    ClosingReport closing;
+    closing.ranks = mesh_.ranks;
+    closing.cells = mesh_.totalCells;
+    closing.steps = steps_;
+    closing.wallTime = wallTime;
+    closing.peakMemoryPerRank = peakMemory(comm_);
+    for (const auto& stage : timers_.gather(comm_)) closing.stages.push_back({stage.name, stage.least, stage.mean, stage.most});
+    if (sharedStages_ > 0)
+      closing.imbalances.push_back({"chemistry", imbalanceBefore_ / sharedStages_, imbalanceAfter_ / sharedStages_});
+    record.stages = closing.stages;
+    record.peakMemoryPerRank = closing.peakMemoryPerRank;
+    record.steps = steps_;
+    record.cells = mesh_.totalCells;
+    record.simulatedTime = time_;
+    if (mesh_.rank != 0) return;
+    std::cout << formatReport(closing);
+    fmt::print("peak temperature {:.1f} K at {} = ({:.3f}, {:.3f}) mm\n", last_.extremes.maximumTemperature,
+               mesh_.axisymmetric() ? "(r, z)" : "(x, y)", 1e3 * peakTemperature_.place[0], 1e3 * peakTemperature_.place[1]);
+    if (soot_)
+      fmt::print("peak soot volume fraction {:.4g} ppm at ({:.3f}, {:.3f}) mm\n", 1e6 * last_.peakVolumeFraction,
+                 1e3 * peakSoot_.place[0], 1e3 * peakSoot_.place[1]);
+    for (const Budget::Line& line : last_.budget) fmt::print("budget of {:<5} closed to {:.2e} of the inflow\n", line.name, line.error);
+    fmt::print("sum of mass fractions 1 to {:.1e}; most negative mass fraction {:.1e} (nothing is clipped)\n",
+               last_.extremes.massFractionSumError, last_.extremes.minimumMassFraction);
+    if (last_.limitedOxidations > 0)
+      fmt::print("soot oxidation was limited by the oxidiser left in {:.0f} sub-steps\n", last_.limitedOxidations);
+  }
+
+ private:
+  struct Peak {
+    double value = 0.0;
+    std::array<double, 2> place{};
+  };
+
+  double chooseStep(double previous, double until) const {
+    // In Strang splitting a step has two transport stages of half its length, and the Courant number is theirs.
+    const double stages = case_.chemistry.deferred ? 1.0 : 2.0;
+    double dt = std::min({case_.time.maximumStep, previous * case_.time.growth,
+                          stages * convectiveTimeStep(mesh_, state_, case_.time.courant)});
+    if (steps_ == 0) dt = std::min(dt, case_.time.firstStep);
+    // Land on the output without a sliver of a step before it.
+    const double left = until - time_;
+    if (dt >= left) return left;
+    return left < 2.0 * dt ? 0.5 * left : dt;
+  }
+
+  void advance(Operator& op, double dt) {
+    const Timers::Scope scope(timers_, op.name());
+    op.advance(state_, time_, dt);
+  }
+
+  void step(double dt) {
+    if (case_.chemistry.deferred) {
+      transport(dt);
+      advance(chemistry_, dt);
+      if (soot_) advance(*soot_, dt);
+    } else {
+      // Strang splitting around the chemistry, which costs most and so is solved once a step.
+      transport(0.5 * dt);
+      if (soot_) advance(*soot_, 0.5 * dt);
+      advance(chemistry_, dt);
+      if (soot_) advance(*soot_, 0.5 * dt);
+      transport(0.5 * dt);
+    }
+    chemistry_.endStep(state_);
+    time_ += dt;
+    ++steps_;
+  }
+
+  void transport(double dt) {
+    advance(flow_, dt);
+    budget_->addStep(flow_.boundaryAmounts());
+  }
+
+  Peak peakOf(const std::function<double(int)>& value) const {
+    struct {
+      double value;
+      int rank;
+    } best{-1.0, mesh_.rank};
+    Peak peak;
+    for (int c = 0; c < mesh_.owned; ++c) {
+      const double v = value(c);
+      if (v > best.value) {
+        best.value = v;
+        peak.place = mesh_.centre[c];
+      }
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &best, 1, MPI_DOUBLE_INT, MPI_MAXLOC, comm_);
+    MPI_Bcast(peak.place.data(), 2, MPI_DOUBLE, best.rank, comm_);
+    peak.value = best.value;
+    return peak;
+  }
+
+  HistoryRow observe(double dt) {
+    const Timers::Scope scope(timers_, "monitoring");
+    HistoryRow row;
+    row.step = steps_;
+    row.time = time_;
+    row.dt = dt;
+    row.extremes = extremesOf(context_, state_);
+    row.transport = flow_.diagnostics();
+    row.chemistry = chemistry_.takeDiagnostics();
+    imbalanceBefore_ += row.chemistry.imbalanceBefore * row.chemistry.stages;
+    imbalanceAfter_ += row.chemistry.imbalanceAfter * row.chemistry.stages;
+    sharedStages_ += row.chemistry.stages;
+    row.budget = budget_->lines(state_);
+    peakTemperature_ = peakOf([&](int c) { return state_.temperature[c]; });
+    if (soot_) {
+      peakSoot_ = peakOf([&](int c) { return soot_->model().volumeFraction(soot_->populationOf(state_, c)); });
+      row.peakVolumeFraction = peakSoot_.value;
+      double limited = static_cast<double>(soot_->limitedOxidations());
+      MPI_Allreduce(MPI_IN_PLACE, &limited, 1, MPI_DOUBLE, MPI_SUM, comm_);
+      row.limitedOxidations = limited;
+    }
+    last_ = row;
+    return row;
+  }
+
+  void output(ResultsWriter& results) {
+    const Timers::Scope scope(timers_, "output");
+    writeFields(results, context_, case_, state_, flow_.properties(), soot_.get(), steps_, time_);
+  }
+
+  MPI_Comm comm_;
+  FlowCase case_;
+  Mesh mesh_;
+  HaloExchange halo_;
+  Thermo thermo_;
+  Transport transport_;
+  FlowContext context_;
+  State state_;
+  TransportOperator flow_;
+  ReactionOperator chemistry_;
+  std::unique_ptr<SootOperator> soot_;
+  std::unique_ptr<Budget> budget_;
+  Timers timers_;
+  double time_ = 0.0;
+  std::int64_t steps_ = 0;
+  HistoryRow last_;
+  Peak peakTemperature_, peakSoot_;
+  double imbalanceBefore_ = 0.0, imbalanceAfter_ = 0.0;
+  int sharedStages_ = 0;
+};
+
+}  // namespace
+
+void runFlow(MPI_Comm comm, const Deck& deck, const RunOptions& options) {
+  const double start = MPI_Wtime();
+  FlowCase flowCase;
+  collectively(comm, [&] { flowCase = readFlowCase(deck); });
+  const RunFolder folder = RunFolder::prepare(options.folder, options.force, comm);
+
+  RunRecord record;
+  record.deckPath = std::filesystem::absolute(deck.path()).string();
+  record.deckJson = deck.resolvedJson();
+  record.overrides = options.overrides;
+  record.version = buildVersion();
+  record.gitHash = buildGitHash();
+  record.libraries = libraryVersions();
+  record.seed = flowCase.seed;
+  record.started = utcNow();
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  MPI_Comm_size(comm, &record.ranks);
+  const auto writeRecord = [&] {
+    if (rank == 0) writeRunRecord(folder.runRecord(), record);
+  };
+  writeRecord();
+  try {
+    FlowRun run(comm, std::move(flowCase));
+    run.run(folder, {record.version, record.gitHash, deck.resolved(), record.started});
+    record.wallTime = MPI_Wtime() - start;
+    run.report(record.wallTime, record);
+    record.status = RunStatus::done;
+    record.finished = utcNow();
+    writeRecord();
+  } catch (const std::exception& error) {
+    record.status = RunStatus::failed;
+    record.message = error.what();
+    record.finished = utcNow();
+    record.wallTime = MPI_Wtime() - start;
+    writeRecord();
+    throw;
+  }
+  if (rank == 0) fmt::print("results in {}\n", folder.path().string());
+}
+
+}  // namespace lampblack

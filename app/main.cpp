@@ -1,0 +1,111 @@
+// The lampblack command. Exit codes: 0 done; 2 the input is wrong; 3 the numbers failed; 1 a bug in Lampblack.
+#include <petscsys.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <iostream>
+
+#include "app/build_info.hpp"
+#include "app/flow_case.hpp"
+#include "app/flow_run.hpp"
+#include "core/errors.hpp"
+#include "core/petsc.hpp"
+
+namespace {
+
+using namespace lampblack;
+
+constexpr int exitBug = 1;
+constexpr int exitInput = 2;
+constexpr int exitNumerics = 3;
+
+struct Arguments {
+  std::string deck;
+  std::vector<std::string> overrides;
+  std::string folder;
+  bool force = false;
+  bool json = false;
+};
+
+void check(const Arguments& arguments) {
+  const Deck deck = Deck::load(arguments.deck, arguments.overrides, flowSchema(), PETSC_COMM_WORLD);
+  FlowCase flowCase;
+  collectively(PETSC_COMM_WORLD, [&] { flowCase = readFlowCase(deck); });
+  const Mesh mesh(PETSC_COMM_WORLD, flowCase.mesh);
+  if (mesh.rank == 0)
+    std::cout << arguments.deck << " is a valid deck: " << mesh.totalCells << " cells, " << flowCase.mechanism->numSpecies()
+              << " species, " << flowCase.mechanism->numReactions() << " reactions.\n";
+}
+
+void run(const Arguments& arguments) {
+  const Deck deck = Deck::load(arguments.deck, arguments.overrides, flowSchema(), PETSC_COMM_WORLD);
+  runFlow(PETSC_COMM_WORLD, deck, {arguments.folder, arguments.force, arguments.overrides});
+}
+
+void reference(const Arguments& arguments) {
+  std::cout << (arguments.json ? jsonSchema(flowSchema()) : markdownReference(flowSchema()));
+}
+
+// Ends the run with the message of the failure. An error that all ranks raised together is told by rank 0; one that only
+// this rank knows of ends the others at once.
+int fail(const char* kind, const std::exception& error, int code) {
+  int rank = 0;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  const bool everywhere = isCollective(error);
+  if (rank == 0 || !everywhere) {
+    std::cout.flush();
+    std::cerr << "lampblack: " << kind << error.what() << std::endl;
+  }
+  if (!everywhere) MPI_Abort(PETSC_COMM_WORLD, code);
+  return code;
+}
+
+int execute(const Arguments& arguments, void (*command)(const Arguments&)) {
+  try {
+    command(arguments);
+    return 0;
+  } catch (const InputError& error) {
+    return fail("", error, exitInput);
+  } catch (const NumericsError& error) {
+    return fail("numerics: ", error, exitNumerics);
+  } catch (const std::exception& error) {
+    return fail("internal error (a bug in Lampblack): ", error, exitBug);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Lampblack: soot in reacting flows."};
+  app.set_version_flag("--version", buildVersion() + " (" + buildGitHash() + ")");
+  app.require_subcommand(1);
+  Arguments arguments;
+  void (*command)(const Arguments&) = nullptr;
+
+  CLI::App* runCommand = app.add_subcommand("run", "Run a deck.");
+  runCommand->add_option("deck", arguments.deck, "Input deck (YAML).")->required();
+  runCommand->add_option("--set", arguments.overrides, "Override a key: a.b=c.")->allow_extra_args(false);
+  runCommand->add_option("--out", arguments.folder, "Folder for the results.")->default_val("results/run");
+  runCommand->add_flag("--force", arguments.force, "Replace an earlier run in that folder.");
+  runCommand->callback([&] { command = run; });
+
+  CLI::App* checkCommand = app.add_subcommand("check", "Read everything a deck names and run nothing.");
+  checkCommand->add_option("deck", arguments.deck, "Input deck (YAML).")->required();
+  checkCommand->add_option("--set", arguments.overrides, "Override a key: a.b=c.")->allow_extra_args(false);
+  checkCommand->callback([&] { command = check; });
+
+  CLI::App* referenceCommand = app.add_subcommand("deck-reference", "Print all keys of a deck.");
+  referenceCommand->add_flag("--json-schema", arguments.json, "As a JSON schema for editors.");
+  referenceCommand->callback([&] { command = reference; });
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : exitInput;
+  }
+  // PETSc reads its own options from the environment and from a file, not from our command line.
+  if (PetscInitializeNoArguments() != 0) return exitBug;
+  checkPetsc(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr));
+  const int code = execute(arguments, command);
+  return PetscFinalize() == 0 ? code : exitBug;
+}

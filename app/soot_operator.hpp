@@ -1,0 +1,54 @@
+// Couples the dimer two-equation soot model to the flow: soot number and its carbon and hydrogen mass are scalars that
+// the flow carries; what soot takes from or gives to the gas changes the gas's species, mass and enthalpy.
+//
+// Energy: gas and new soot together keep their enthalpy. Soot carbon has the enthalpy of graphite, soot hydrogen that of
+// H2 at the same temperature. The soot's own sensible heat is not followed along its path.
+#pragma once
+
+#include <vector>
+
+#include "flow/flow_context.hpp"
+#include "flow/gas_properties.hpp"
+#include "flow/state.hpp"
+#include "particles/two_equation.hpp"
+
+namespace lampblack {
+
+// Enthalpy of graphite, J/kg of carbon (NASA polynomial of Gurvich's data; Burcat and Ruscic 2005).
+double graphiteEnthalpy(double temperature);
+
+class SootOperator : public Operator {
+ public:
+  // Positions of the model's scalars among State::scalars.
+  enum Scalar { number = 0, carbon = 1, hydrogen = 2 };
+  static std::vector<CarriedScalar> carriedScalars();
+  // Mass of each element of the mechanism in one unit of each scalar, for budgets.
+  static std::vector<std::vector<double>> elementMass(const Mechanism& mechanism);
+
+  SootOperator(const FlowContext& context, SootModelOptions options);
+
+  void advance(State& state, double time, double dt) override;
+  [[nodiscard]] const char* name() const override { return "particles"; }
+
+  [[nodiscard]] const TwoEquationSoot& model() const { return model_; }
+  [[nodiscard]] TwoEquationSoot::Population populationOf(const State& state, int cell) const;
+  // The gas of a cell as the model sees it; `pah` is storage for its concentrations.
+  [[nodiscard]] SootGasState gasOf(const State& state, int cell, double viscosity, std::vector<double>& pah) const;
+  // Species indices of the model's PAH list.
+  [[nodiscard]] const std::vector<std::size_t>& pahSpecies() const { return pah_; }
+
+  // Sums over all owned cells and steps so far: sub-steps in which oxidation was limited by the oxidiser there was.
+  [[nodiscard]] long limitedOxidations() const { return limitedOxidations_; }
+
+ private:
+  void advanceCell(State& state, int cell, double viscosity, double dt);
+
+  const FlowContext& context_;
+  TwoEquationSoot model_;
+  std::size_t H_, H2_, OH_, H2O_, O2_, C2H2_, CO_;
+  std::vector<std::size_t> pah_;
+  std::vector<double> speciesEnthalpy_, partialDensity_, pahConcentration_, pahState_;
+  long limitedOxidations_ = 0;
+};
+
+}  // namespace lampblack

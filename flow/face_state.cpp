@@ -1,0 +1,106 @@
+#include "flow/face_state.hpp"
+
+#include <algorithm>
+
+#include "core/constants.hpp"
+#include "flow/limiter.hpp"
+
+namespace lampblack {
+namespace {
+
+// The two cells of an interior face as an upwind scheme sees them.
+struct Upwind {
+  int up, down;
+  double fraction;    // distance up -> face over up -> down
+  double direction;   // signed distance up -> down along the face's axis
+};
+
+Upwind upwindOf(const Mesh& m, int face, double flux) {
+  if (flux >= 0.0) return {m.low[face], m.high[face], 1.0 - m.lowWeight[face], m.distance[face]};
+  return {m.high[face], m.low[face], m.lowWeight[face], -m.distance[face]};
+}
+
+}  // namespace
+
+FaceState::FaceState(const FlowContext& context, int species, int carried)
+    : context_(context), species_(species), carried_(carried), gradient_(context.mesh) {
+  const Mesh& m = context.mesh;
+  const auto faces = static_cast<std::size_t>(m.faces);
+  const auto boundary = static_cast<std::size_t>(m.boundaryFaces());
+  const auto cells = static_cast<std::size_t>(m.cells);
+  temperature.resize(faces);
+  density.resize(faces);
+  enthalpy.resize(faces);
+  Y.resize(faces * species);
+  boundaryTemperature_.resize(boundary);
+  boundaryY_.resize(boundary * species);
+  boundaryCarried_.resize(boundary * carried);
+  perMass_.resize(cells * carried);
+  temperatureGradient_.resize(cells * 2);
+  YGradient_.resize(cells * species * 2);
+  carriedGradient_.resize(cells * carried * 2);
+}
+
+void FaceState::prepare(const State& state) {
+  const Mesh& m = context_.mesh;
+  for (int c = 0; c < m.cells; ++c)
+    for (int s = 0; s < carried_; ++s) perMass_[c * carried_ + s] = state.carried[c * carried_ + s] / state.density[c];
+  for (int face = m.interiorFaces; face < m.faces; ++face) {
+    const BoundaryCondition& boundary = context_.boundaryOf(face);
+    const int b = face - m.interiorFaces;
+    const int c = m.low[face];
+    const bool inlet = boundary.kind == BoundaryKind::Inlet;
+    const bool given = inlet || (boundary.kind == BoundaryKind::Wall && boundary.isothermal);
+    boundaryTemperature_[b] = given ? boundary.temperature : state.temperature[c];
+    const double* values = inlet && boundary.fixedComposition ? boundary.Y.data() : &state.Y[c * species_];
+    std::copy_n(values, species_, &boundaryY_[b * species_]);
+    for (int s = 0; s < carried_; ++s) boundaryCarried_[b * carried_ + s] = perMass_[c * carried_ + s];
+  }
+  gradient_.compute(state.temperature, boundaryTemperature_, 1, temperatureGradient_);
+  gradient_.compute(state.Y, boundaryY_, species_, YGradient_);
+  std::vector<FieldView> gradients{{temperatureGradient_, 2}, {YGradient_, 2 * species_}};
+  if (carried_ > 0) {
+    gradient_.compute(perMass_, boundaryCarried_, carried_, carriedGradient_);
+    gradients.push_back({carriedGradient_, 2 * carried_});
+  }
+  context_.halo.update(gradients);
+}
+
+void FaceState::interpolate(const State& state, std::span<const double> direction) {
+  const Mesh& m = context_.mesh;
+  const int n = species_;
+  for (int face = 0; face < m.faces; ++face) {
+    double* y = &Y[static_cast<std::size_t>(face) * n];
+    if (m.high[face] >= 0) {
+      const Upwind u = upwindOf(m, face, direction[face]);
+      const int axis = m.normalAxis[face];
+      temperature[face] = limitedFaceValue(state.temperature[u.up], state.temperature[u.down],
+                                           temperatureGradient_[2 * u.up + axis] * u.direction, u.fraction);
+      const double* up = &state.Y[static_cast<std::size_t>(u.up) * n];
+      const double* down = &state.Y[static_cast<std::size_t>(u.down) * n];
+      const double* slope = &YGradient_[static_cast<std::size_t>(u.up) * n * 2];
+      double sum = 0.0;
+      for (int k = 0; k < n; ++k)
+        sum += y[k] = limitedFaceValue(up[k], down[k], slope[2 * k + axis] * u.direction, u.fraction);
+      for (int k = 0; k < n; ++k) y[k] /= sum;
+    } else {
+      const BoundaryCondition& boundary = context_.boundaryOf(face);
+      const bool enters = boundary.kind == BoundaryKind::Inlet ||
+                          (boundary.kind == BoundaryKind::Outlet && direction[face] < 0.0);
+      const int c = m.low[face];
+      temperature[face] = enters ? boundary.temperature : state.temperature[c];
+      std::copy_n(enters ? boundary.Y.data() : &state.Y[static_cast<std::size_t>(c) * n], n, y);
+    }
+    const std::span<const double> mixture{y, static_cast<std::size_t>(n)};
+    density[face] = context_.thermo.density(temperature[face], state.thermodynamicPressure, mixture);
+    enthalpy[face] = context_.thermo.enthalpyMass(temperature[face], mixture);
+  }
+}
+
+double FaceState::carriedPerMass(int face, int scalar, double direction) const {
+  const Upwind u = upwindOf(context_.mesh, face, direction);
+  const double slope = carriedGradient_[(u.up * carried_ + scalar) * 2 + context_.mesh.normalAxis[face]] * u.direction;
+  return limitedFaceValue(perMass_[u.up * carried_ + scalar], perMass_[u.down * carried_ + scalar], slope, u.fraction);
+}
+
+}  // namespace lampblack

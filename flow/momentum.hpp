@@ -1,0 +1,43 @@
+// Momentum of the low-Mach equations (thesis of F. Wang 2025, eqs. 6-2 and 6-5): limited upwind convection by the face
+// mass flux, implicit viscosity, and the pressure gradient of the last step, to be corrected by the projection.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "flow/flow_context.hpp"
+#include "flow/gas_properties.hpp"
+#include "flow/gradient.hpp"
+#include "flow/implicit_diffusion.hpp"
+#include "flow/projection.hpp"
+#include "flow/state.hpp"
+
+namespace lampblack {
+
+class Momentum {
+ public:
+  explicit Momentum(const FlowContext& context);
+
+  // Collective. Advances velocity and pressure over dt so that the face velocities have the given divergence (1/s,
+  // owned cells). `newDensity` (cells, halo filled) is the density at the end of the step.
+  // `faceVelocity` (m/s, every face) receives the projected normal velocities.
+  Projection::Result advance(State& state, const GasProperties& properties, std::span<const double> newDensity,
+                             std::span<const double> divergence, double dt, std::span<double> faceVelocity);
+
+ private:
+  void boundaryVelocities(const State& state);
+  void predict(State& state, const GasProperties& properties, std::span<const double> newDensity, double dt);
+  void explicitStress(const State& state, const GasProperties& properties);
+  void pressureGradient(std::span<const double> pressure);
+
+  const FlowContext& context_;
+  Gradient gradient_;
+  ImplicitDiffusion diffusion_;
+  Projection projection_;
+  std::vector<char> skipPressure_;                 // boundary faces without a given pressure
+  std::vector<double> boundaryVelocity_, boundaryPressure_;
+  std::vector<double> velocityGradient_, pressureGradient_;
+  std::vector<double> diagonal_, conductance_, source_, predicted_;
+};
+
+}  // namespace lampblack

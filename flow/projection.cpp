@@ -1,0 +1,138 @@
+#include "flow/projection.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/errors.hpp"
+
+namespace lampblack {
+
+Projection::Projection(const FlowContext& context, double tolerance) : context_(context), tolerance_(tolerance) {
+  const Mesh& m = context.mesh;
+  if (std::none_of(context.boundaries.begin(), context.boundaries.end(),
+                   [](const BoundaryCondition& b) { return b.kind == BoundaryKind::Outlet; }))
+    throw InputError("no boundary is an outlet; a closed domain is not supported yet");
+
+  PetscInt first = 0;
+  const PetscInt owned = m.owned;
+  MPI_Exscan(&owned, &first, 1, MPIU_INT, MPI_SUM, m.comm);
+  std::vector<double> row(m.cells);
+  for (int c = 0; c < m.owned; ++c) row[c] = static_cast<double>(first + c);
+  context.halo.update(row, 1);
+  for (double r : row) row_.push_back(static_cast<PetscInt>(r));
+
+  checkPetsc(MatCreateAIJ(m.comm, owned, owned, PETSC_DETERMINE, PETSC_DETERMINE, 5, nullptr, 4, nullptr, matrix_.put()));
+  checkPetsc(MatCreateVecs(matrix_.get(), solution_.put(), rightSide_.put()));
+  checkPetsc(KSPCreate(m.comm, solver_.put()));
+  checkPetsc(KSPSetType(solver_.get(), KSPCG));
+  PC preconditioner = nullptr;
+  checkPetsc(KSPGetPC(solver_.get(), &preconditioner));
+  checkPetsc(PCSetType(preconditioner, PCHYPRE));
+  checkPetsc(PCHYPRESetType(preconditioner, "boomeramg"));
+  checkPetsc(KSPSetNormType(solver_.get(), KSP_NORM_UNPRECONDITIONED));
+  checkPetsc(KSPSetInitialGuessNonzero(solver_.get(), PETSC_TRUE));
+  checkPetsc(KSPSetOptionsPrefix(solver_.get(), "pressure_"));
+  checkPetsc(KSPSetFromOptions(solver_.get()));
+}
+
+void Projection::assemble(double dt, std::span<const double> inverseDensity) {
+  const Mesh& m = context_.mesh;
+  conductance_.resize(m.faces);
+  for (int face = 0; face < m.faces; ++face) {
+    const bool open = m.high[face] >= 0 || context_.boundaryOf(face).kind == BoundaryKind::Outlet;
+    conductance_[face] = open ? dt * inverseDensity[face] * m.area[face] / m.distance[face] : 0.0;
+  }
+  checkPetsc(MatZeroEntries(matrix_.get()));
+  for (int face = 0; face < m.faces; ++face) {
+    const double g = conductance_[face];
+    const PetscInt low = row_[m.low[face]];
+    if (m.high[face] < 0) {
+      checkPetsc(MatSetValue(matrix_.get(), low, low, g, ADD_VALUES));
+      continue;
+    }
+    const PetscInt high = row_[m.high[face]];
+    if (m.low[face] < m.owned) {
+      checkPetsc(MatSetValue(matrix_.get(), low, low, g, ADD_VALUES));
+      checkPetsc(MatSetValue(matrix_.get(), low, high, -g, ADD_VALUES));
+    }
+    if (m.high[face] < m.owned) {
+      checkPetsc(MatSetValue(matrix_.get(), high, high, g, ADD_VALUES));
+      checkPetsc(MatSetValue(matrix_.get(), high, low, -g, ADD_VALUES));
+    }
+  }
+  checkPetsc(MatAssemblyBegin(matrix_.get(), MAT_FINAL_ASSEMBLY));
+  checkPetsc(MatAssemblyEnd(matrix_.get(), MAT_FINAL_ASSEMBLY));
+}
+
+Projection::Result Projection::solve(double dt, std::span<const double> inverseDensity,
+                                     std::span<const double> divergence, std::span<double> faceVelocity,
+                                     std::span<double> pressure) {
+  const Mesh& m = context_.mesh;
+  assemble(dt, inverseDensity);
+
+  // Net outflow of the uncorrected velocities beyond the wanted one; the pressure has to take it away.
+  std::vector<double> excess(m.owned);
+  for (int c = 0; c < m.owned; ++c) excess[c] = -divergence[c] * m.volume[c];
+  double flowScale = 0.0;
+  for (int face = 0; face < m.faces; ++face) {
+    const double flow = m.area[face] * faceVelocity[face];
+    if (m.low[face] < m.owned) excess[m.low[face]] += flow;
+    if (m.high[face] >= 0 && m.high[face] < m.owned) excess[m.high[face]] -= flow;
+    flowScale = std::max(flowScale, std::abs(flow));
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &flowScale, 1, MPI_DOUBLE, MPI_MAX, m.comm);
+  double* right = nullptr;
+  double* guess = nullptr;
+  checkPetsc(VecGetArray(rightSide_.get(), &right));
+  checkPetsc(VecGetArray(solution_.get(), &guess));
+  for (int c = 0; c < m.owned; ++c) {
+    right[c] = -excess[c];
+    guess[c] = pressure[c];
+  }
+  checkPetsc(VecRestoreArray(rightSide_.get(), &right));
+  checkPetsc(VecRestoreArray(solution_.get(), &guess));
+
+  // The tolerance is absolute: a fraction of the largest face flow, so that continuity holds alike in every step.
+  checkPetsc(KSPSetTolerances(solver_.get(), 1e-14, tolerance_ * std::max(flowScale, 1e-300), PETSC_DEFAULT, 500));
+  checkPetsc(KSPSetOperators(solver_.get(), matrix_.get(), matrix_.get()));
+  checkPetsc(KSPSetReusePreconditioner(solver_.get(), iterationsAfterSetup_ >= 0 ? PETSC_TRUE : PETSC_FALSE));
+  checkPetsc(KSPSolve(solver_.get(), rightSide_.get(), solution_.get()));
+  KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
+  PetscInt iterations = 0;
+  checkPetsc(KSPGetConvergedReason(solver_.get(), &reason));
+  checkPetsc(KSPGetIterationNumber(solver_.get(), &iterations));
+  if (reason < 0)
+    throw NumericsError(fmt::format("the pressure solve failed (PETSc reason {}) after {} iterations",
+                                    static_cast<int>(reason), static_cast<int>(iterations)));
+  if (iterationsAfterSetup_ < 0)
+    iterationsAfterSetup_ = static_cast<int>(iterations);
+  else if (iterations > 2 * iterationsAfterSetup_ + 3)
+    iterationsAfterSetup_ = -1;  // the preconditioner has aged: set it up anew next time
+
+  const double* solved = nullptr;
+  checkPetsc(VecGetArrayRead(solution_.get(), &solved));
+  std::copy_n(solved, m.owned, pressure.begin());
+  checkPetsc(VecRestoreArrayRead(solution_.get(), &solved));
+  context_.halo.update(pressure, 1);
+
+  for (int face = 0; face < m.faces; ++face) {
+    if (m.area[face] <= 0.0) continue;
+    const double beyond = m.high[face] >= 0 ? pressure[m.high[face]] : 0.0;
+    faceVelocity[face] -= conductance_[face] / m.area[face] * (beyond - pressure[m.low[face]]);
+  }
+  Result result{static_cast<int>(iterations), 0.0};
+  std::vector<double> net(m.owned, 0.0);
+  for (int face = 0; face < m.faces; ++face) {
+    const double flow = m.area[face] * faceVelocity[face];
+    if (m.low[face] < m.owned) net[m.low[face]] += flow;
+    if (m.high[face] >= 0 && m.high[face] < m.owned) net[m.high[face]] -= flow;
+  }
+  for (int c = 0; c < m.owned; ++c)
+    result.continuityError = std::max(result.continuityError, std::abs(net[c] / m.volume[c] - divergence[c]));
+  MPI_Allreduce(MPI_IN_PLACE, &result.continuityError, 1, MPI_DOUBLE, MPI_MAX, m.comm);
+  return result;
+}
+
+}  // namespace lampblack

@@ -1,0 +1,44 @@
+// Pressure projection on face fluxes: finds the hydrodynamic pressure p for which the face velocities
+//   u_f = uhat_f - (dt / rho_f) dp/dn
+// have the given divergence in every cell, with a compact stencil so that pressure cannot decouple (Rhie and Chow 1983).
+// Conjugate gradients with BoomerAMG; the preconditioner is kept until the iterations grow.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/petsc.hpp"
+#include "flow/flow_context.hpp"
+
+namespace lampblack {
+
+class Projection {
+ public:
+  // Collective. InputError when no boundary is an Outlet: the pressure level would be free.
+  Projection(const FlowContext& context, double tolerance = 1e-9);
+
+  struct Result {
+    int iterations = 0;
+    double continuityError = 0.0;  // 1/s, largest |divergence of u_f - target| of any cell
+  };
+
+  // Collective. `faceVelocity` (m/s, normal, every face; prescribed on all boundary faces but outlets) is corrected in
+  // place; `pressure` (cells) is the initial guess and the solution, halo filled. `inverseDensity`: 1/rho at each face;
+  // `divergence`: target in each owned cell (1/s).
+  Result solve(double dt, std::span<const double> inverseDensity, std::span<const double> divergence,
+               std::span<double> faceVelocity, std::span<double> pressure);
+
+ private:
+  void assemble(double dt, std::span<const double> inverseDensity);
+
+  const FlowContext& context_;
+  double tolerance_;
+  std::vector<PetscInt> row_;  // global matrix row of every local cell
+  std::vector<double> conductance_;
+  PetscMatrix matrix_;
+  PetscVector rightSide_, solution_;
+  PetscSolver solver_;
+  int iterationsAfterSetup_ = -1;
+};
+
+}  // namespace lampblack

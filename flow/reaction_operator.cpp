@@ -1,0 +1,121 @@
+#include "flow/reaction_operator.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/errors.hpp"
+
+namespace lampblack {
+
+// How a cell is packed for the trip to another rank and back.
+struct ReactionOperator::Layout {
+  // in: centre (2), enthalpy, guess of the temperature, pressure, first step, Y, constant source
+  static constexpr std::size_t inHeader = 6;
+  // out: temperature, next first step, seconds, solver steps, retries, skipped, Y
+  static constexpr std::size_t outHeader = 6;
+};
+
+ReactionOperator::ReactionOperator(const FlowContext& context, Options options)
+    : context_(context),
+      options_(options),
+      reactor_(context.mechanism, options.reactor),
+      sharing_(context.mesh.comm, options.shareWork),
+      cost_(context.mesh.owned, 1e-4),
+      initialStep_(context.mesh.owned, 0.0) {}
+
+void ReactionOperator::pack(const State& state, std::size_t cell, double dt, std::span<double> in) const {
+  const auto n = static_cast<std::size_t>(state.species);
+  const double* Y = &state.Y[cell * n];
+  const double* before = before_.empty() ? Y : &before_[cell * n];
+  in[0] = context_.mesh.centre[cell][0];
+  in[1] = context_.mesh.centre[cell][1];
+  in[2] = state.enthalpy[cell];
+  in[3] = state.temperature[cell];
+  in[4] = state.thermodynamicPressure;
+  in[5] = initialStep_[cell];
+  const std::span<double> start = in.subspan(Layout::inHeader, n);
+  const std::span<double> source = in.subspan(Layout::inHeader + n, n);
+  std::copy_n(before, n, start.begin());
+  // Deferred: what transport alone has changed since then, at a constant rate.
+  for (std::size_t k = 0; k < n; ++k)
+    source[k] = options_.deferred ? (Y[k] - before[k]) / dt - state.balance[cell * n + k] / state.density[cell] : 0.0;
+}
+
+void ReactionOperator::solve(double time, double dt, std::span<const double> in, std::span<double> out) {
+  const double start = MPI_Wtime();
+  const std::size_t n = context_.mechanism.numSpecies();
+  const std::span<double> Y = out.subspan(Layout::outHeader);
+  std::ranges::copy(in.subspan(Layout::inHeader, n), Y.begin());
+  try {
+    ConstantPressureReactor::Cell cell{context_.thermo.temperatureFromEnthalpy(in[2], Y, in[3]), in[4], Y, {}, in[5]};
+    if (options_.deferred) cell.source = in.subspan(Layout::inHeader + n);
+    const auto result = reactor_.advance(cell, dt);
+    out[0] = cell.temperature;
+    out[1] = cell.initialStep;
+    out[3] = result.steps;
+    out[4] = result.retries;
+    out[5] = result.skipped ? 1.0 : 0.0;
+  } catch (const NumericsError& error) {
+    throw NumericsError(fmt::format("chemistry failed in the cell at ({:.6g}, {:.6g}) m at time {:.6g} s: {}", in[0],
+                                    in[1], time, error.what()));
+  }
+  out[2] = MPI_Wtime() - start;
+}
+
+void ReactionOperator::unpack(State& state, std::size_t cell, double dt, std::span<const double> out) {
+  const auto n = static_cast<std::size_t>(state.species);
+  for (std::size_t k = 0; k < n; ++k) {
+    double& Y = state.Y[cell * n + k];
+    const double reacted = out[Layout::outHeader + k];
+    if (options_.deferred) state.balance[cell * n + k] += state.density[cell] * (reacted - Y) / dt;
+    Y = reacted;
+  }
+  state.temperature[cell] = out[0];
+  initialStep_[cell] = out[1];
+  // A smoothed cost: one solve's time is noisy on a shared machine.
+  cost_[cell] = 0.5 * (cost_[cell] + out[2]);
+  diagnostics_.solverSteps += out[3];
+  diagnostics_.retries += out[4];
+  diagnostics_.skippedCells += out[5];
+  diagnostics_.integratedCells += 1.0 - out[5];
+}
+
+void ReactionOperator::advance(State& state, double time, double dt) {
+  const auto n = static_cast<std::size_t>(state.species);
+  WorkSharing::Items items;
+  items.cost = cost_;
+  items.inputSize = Layout::inHeader + 2 * n;
+  items.outputSize = Layout::outHeader + n;
+  items.pack = [&](std::size_t cell, std::span<double> in) { pack(state, cell, dt, in); };
+  items.advance = [&](std::span<const double> in, std::span<double> out) { solve(time, dt, in, out); };
+  items.unpack = [&](std::size_t cell, std::span<const double> out) { unpack(state, cell, dt, out); };
+  const auto statistics = sharing_.run(items);
+  diagnostics_.imbalanceBefore += statistics.imbalanceBefore;
+  diagnostics_.imbalanceAfter += statistics.imbalanceAfter;
+  ++diagnostics_.stages;
+  state.updateHalo(context_.halo);
+}
+
+void ReactionOperator::endStep(State& state) {
+  if (!options_.deferred) return;
+  before_.assign(state.Y.begin(), state.Y.begin() + static_cast<std::ptrdiff_t>(cost_.size()) * state.species);
+}
+
+ReactionOperator::Diagnostics ReactionOperator::takeDiagnostics() {
+  Diagnostics all = diagnostics_;
+  double sums[4] = {all.solverSteps, all.integratedCells, all.skippedCells, all.retries};
+  MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, context_.mesh.comm);
+  all.solverSteps = sums[0];
+  all.integratedCells = sums[1];
+  all.skippedCells = sums[2];
+  all.retries = sums[3];
+  if (all.stages > 0) {
+    all.imbalanceBefore /= all.stages;
+    all.imbalanceAfter /= all.stages;
+  }
+  diagnostics_ = {};
+  return all;
+}
+
+}  // namespace lampblack

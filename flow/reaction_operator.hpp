@@ -1,0 +1,57 @@
+// Chemistry in every cell: one stiff solve at constant pressure and enthalpy, shared between the ranks.
+//
+// Coupling with transport. Strang splitting integrates the reactions alone. Deferred coupling integrates them from the
+// state before the transport stage with the transport as a constant source, while the transport stage was given the
+// last step's mean reaction rate (State::balance): one sweep of spectral deferred corrections (Nonaka, Bell, Day,
+// Gilet, Almgren, Minion 2012). It is first order in time, but a steady flame is a steady state of it whatever the step,
+// and the stiff solver, which then starts in equilibrium with the transport, needs few steps.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "chemistry/reactor.hpp"
+#include "core/work_sharing.hpp"
+#include "flow/flow_context.hpp"
+#include "flow/state.hpp"
+
+namespace lampblack {
+
+class ReactionOperator : public Operator {
+ public:
+  struct Options {
+    bool deferred = true;  // otherwise Strang splitting
+    bool shareWork = true;
+    ConstantPressureReactor::Options reactor;
+  };
+  struct Diagnostics {  // of all ranks and all stages since the last call of takeDiagnostics()
+    double solverSteps = 0.0;
+    double integratedCells = 0.0, skippedCells = 0.0, retries = 0.0;
+    double imbalanceBefore = 0.0, imbalanceAfter = 0.0;  // means over stages
+    int stages = 0;
+  };
+
+  ReactionOperator(const FlowContext& context, Options options);
+
+  void advance(State& state, double time, double dt) override;
+  void endStep(State& state) override;
+  [[nodiscard]] const char* name() const override { return "chemistry"; }
+  Diagnostics takeDiagnostics();  // collective
+
+ private:
+  struct Layout;
+  void pack(const State& state, std::size_t cell, double dt, std::span<double> in) const;
+  void solve(double time, double dt, std::span<const double> in, std::span<double> out);
+  void unpack(State& state, std::size_t cell, double dt, std::span<const double> out);
+
+  const FlowContext& context_;
+  Options options_;
+  ConstantPressureReactor reactor_;
+  WorkSharing sharing_;
+  std::vector<double> cost_;         // s, of each owned cell's last solve
+  std::vector<double> initialStep_;  // s, first internal step of the next solve
+  std::vector<double> before_;       // mass fractions at the end of the last step, species a owned cell; deferred only
+  Diagnostics diagnostics_;
+};
+
+}  // namespace lampblack

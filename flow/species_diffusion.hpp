@@ -1,0 +1,36 @@
+// Mixture-averaged species diffusion (thesis of F. Wang 2025, eqs. 6-6 to 6-9): fluxes along mole-fraction gradients
+//   j_k = -rho D_k (grad Y_k + Y_k grad ln W) + Y_k c,   c such that the fluxes sum to zero at every face,
+// the first term implicit. The fluxes are evaluated from the implicit solution, so that what leaves one cell enters the
+// next to the last bit, whatever the linear solver's tolerance.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "flow/flow_context.hpp"
+#include "flow/gas_properties.hpp"
+#include "flow/implicit_diffusion.hpp"
+#include "flow/state.hpp"
+
+namespace lampblack {
+
+class SpeciesDiffusion {
+ public:
+  explicit SpeciesDiffusion(const FlowContext& context) : context_(context), diffusion_(context.mesh, context.halo) {}
+
+  // Collective. `content` (kg, species a owned cell): rho Y V at the end of the step without diffusion;
+  // `newMass` (kg, a owned cell): the gas's mass then. Fills `flux` (kg/s, species a face, low to high or outwards).
+  ImplicitDiffusion::Result computeFlux(const State& state, const GasProperties& properties,
+                                        std::span<const double> content, std::span<const double> newMass, double dt,
+                                        std::span<double> flux);
+
+ private:
+  const FlowContext& context_;
+  ImplicitDiffusion diffusion_;
+  std::vector<double> conductance_, weightSlope_, diagonal_, source_, solution_;
+
+  // Flux of the implicit gradient (0 or 1 times) and explicit terms through a face, from mass fractions of both sides.
+  void faceFlux(int face, bool gradientTerm, const double* low, const double* high, double lowWeight, double* flux) const;
+};
+
+}  // namespace lampblack

@@ -1,0 +1,13 @@
+// The convective time step of a state.
+#pragma once
+
+#include "core/mesh.hpp"
+#include "flow/state.hpp"
+
+namespace lampblack {
+
+// Collective. The largest step (s) at which in no cell the volume that flows out exceeds `courant` of the cell's; with
+// no flow at all, infinity.
+double convectiveTimeStep(const Mesh& mesh, const State& state, double courant);
+
+}  // namespace lampblack

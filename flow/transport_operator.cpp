@@ -1,0 +1,305 @@
+#include "flow/transport_operator.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/constants.hpp"
+#include "core/errors.hpp"
+
+namespace lampblack {
+namespace {
+
+// Adds what flows through each face to the owned cells on its two sides: `flux` has `components` values a face, taken
+// positive from low to high.
+void addFaceFluxes(const Mesh& m, std::span<const double> flux, int components, double dt, std::span<double> content) {
+  for (int face = 0; face < m.faces; ++face) {
+    const int low = m.low[face];
+    const int high = m.high[face];
+    const double* f = flux.data() + static_cast<std::ptrdiff_t>(face) * components;
+    if (low < m.owned) {
+      double* c = content.data() + static_cast<std::ptrdiff_t>(low) * components;
+      for (int k = 0; k < components; ++k) c[k] -= dt * f[k];
+    }
+    if (high >= 0 && high < m.owned) {
+      double* c = content.data() + static_cast<std::ptrdiff_t>(high) * components;
+      for (int k = 0; k < components; ++k) c[k] += dt * f[k];
+    }
+  }
+}
+
+}  // namespace
+
+TransportOperator::TransportOperator(const FlowContext& context, const State& state, Options options)
+    : context_(context),
+      options_(options),
+      faces_(context, state.species, state.carriedCount()),
+      speciesDiffusion_(context),
+      heatDiffusion_(context.mesh, context.halo),
+      momentum_(context) {
+  const auto faces = static_cast<std::size_t>(context.mesh.faces);
+  const auto owned = static_cast<std::size_t>(context.mesh.owned);
+  const auto cells = static_cast<std::size_t>(context.mesh.cells);
+  content_.resize(owned * state.species);
+  heatContent_.resize(owned);
+  newMass_.resize(owned);
+  newDensity_.resize(cells);
+  speciesFlux_.assign(faces * state.species, 0.0);
+  enthalpyFlux_.assign(faces, 0.0);
+  heatFlux_.assign(faces, 0.0);
+  divergence_.assign(owned, 0.0);
+  faceVelocity_.assign(faces, 0.0);
+  temperature_.resize(cells);
+  carriedFlux_.assign(faces * state.carriedCount(), 0.0);
+}
+
+void TransportOperator::initialise(State& state, double dt) {
+  const Mesh& m = context_.mesh;
+  state.updateHalo(context_.halo);
+  properties_.update(context_, state);
+  std::fill(state.massFlux.begin(), state.massFlux.end(), 0.0);
+  std::copy(state.density.begin(), state.density.end(), newDensity_.begin());
+  std::fill(divergence_.begin(), divergence_.end(), 0.0);
+  momentum_.advance(state, properties_, newDensity_, divergence_, dt, faceVelocity_);
+  faces_.prepare(state);
+  faces_.interpolate(state, faceVelocity_);
+  for (int face = 0; face < m.faces; ++face)
+    state.massFlux[face] = faces_.density[face] * faceVelocity_[face] * m.area[face];
+}
+
+// Content of the owned cells after convection and the balance term alone.
+void TransportOperator::addConvection(const State& state, double dt) {
+  const Mesh& m = context_.mesh;
+  const int n = state.species;
+  for (int c = 0; c < m.owned; ++c) {
+    for (int k = 0; k < n; ++k) {
+      const std::size_t i = static_cast<std::size_t>(c) * n + k;
+      content_[i] = m.volume[c] * (state.density[c] * state.Y[i] + dt * state.balance[i]);
+    }
+    heatContent_[c] = m.volume[c] * state.density[c] * state.enthalpy[c];
+    newMass_[c] = m.volume[c] * state.density[c];
+  }
+  for (int face = 0; face < m.faces; ++face) {
+    const double amount = dt * state.massFlux[face];
+    const double heat = amount * faces_.enthalpy[face];
+    const double* y = &faces_.Y[static_cast<std::size_t>(face) * n];
+    const auto give = [&](int cell, double sign) {
+      if (cell < 0 || cell >= m.owned) return;
+      double* content = &content_[static_cast<std::size_t>(cell) * n];
+      for (int k = 0; k < n; ++k) content[k] += sign * amount * y[k];
+      heatContent_[cell] += sign * heat;
+      newMass_[cell] += sign * amount;
+    };
+    give(m.low[face], -1.0);
+    give(m.high[face], 1.0);
+  }
+}
+
+// Enthalpy carried by diffusing species, then implicit conduction of what temperature that leaves.
+void TransportOperator::computeHeatFlux(const State& state, double dt) {
+  const Mesh& m = context_.mesh;
+  const int n = state.species;
+  std::vector<double> speciesEnthalpy(n);
+  for (int face = 0; face < m.faces; ++face) {
+    const double* flux = &speciesFlux_[static_cast<std::size_t>(face) * n];
+    const int low = m.low[face];
+    const double T = m.high[face] >= 0 ? m.lowWeight[face] * state.temperature[low] +
+                                             (1.0 - m.lowWeight[face]) * state.temperature[m.high[face]]
+                                       : faces_.boundaryTemperature()[face - m.interiorFaces];
+    context_.thermo.speciesEnthalpies(T, speciesEnthalpy);
+    double sum = 0.0;
+    for (int k = 0; k < n; ++k) sum += flux[k] * speciesEnthalpy[k];
+    enthalpyFlux_[face] = sum;
+  }
+
+  std::vector<double> content = content_;
+  std::vector<double> heat = heatContent_;
+  addFaceFluxes(m, speciesFlux_, n, dt, content);
+  addFaceFluxes(m, enthalpyFlux_, 1, dt, heat);
+  std::vector<double> diagonal(m.owned);
+  std::vector<double> source(m.owned);
+  std::vector<double> conductance(m.faces);
+  collectively(m.comm, [&] {
+    for (int c = 0; c < m.owned; ++c) {
+      double* y = &content[static_cast<std::size_t>(c) * n];
+      for (int k = 0; k < n; ++k) y[k] /= newMass_[c];
+      const double T = context_.thermo.temperatureFromEnthalpy(
+          heat[c] / newMass_[c], {y, static_cast<std::size_t>(n)}, state.temperature[c]);
+      diagonal[c] = newMass_[c] * properties_.heatCapacity[c] / dt;
+      source[c] = diagonal[c] * T;
+      temperature_[c] = T;
+    }
+  });
+  for (int face = 0; face < m.faces; ++face) {
+    const int low = m.low[face];
+    const double metric = m.area[face] / m.distance[face];
+    if (m.high[face] >= 0) {
+      const double w = m.lowWeight[face];
+      conductance[face] = metric * (w * properties_.conductivity[low] + (1.0 - w) * properties_.conductivity[m.high[face]]);
+      continue;
+    }
+    const BoundaryCondition& boundary = context_.boundaryOf(face);
+    const bool given = boundary.kind == BoundaryKind::Inlet || (boundary.kind == BoundaryKind::Wall && boundary.isothermal);
+    conductance[face] = given ? metric * properties_.conductivity[low] : 0.0;
+    diagonal[low] += conductance[face];
+    source[low] += conductance[face] * boundary.temperature;
+  }
+  heatDiffusion_.solve(1, diagonal, conductance, source, temperature_);
+  for (int face = 0; face < m.faces; ++face) {
+    const double beyond =
+        m.high[face] >= 0 ? temperature_[m.high[face]] : context_.boundaryOf(face).temperature;
+    heatFlux_[face] = conductance[face] * (temperature_[m.low[face]] - beyond);
+  }
+}
+
+void TransportOperator::computeDivergence(const State& state, double dt) {
+  const Mesh& m = context_.mesh;
+  const int n = state.species;
+  const auto molecularWeights = context_.mechanism.molecularWeights();
+  // Mass and enthalpy that diffusion and the balance term bring in, kg/s and W.
+  std::vector<double> species(static_cast<std::size_t>(m.owned) * n);
+  std::vector<double> heat(m.owned, 0.0);
+  for (int c = 0; c < m.owned; ++c)
+    for (int k = 0; k < n; ++k) {
+      const std::size_t i = static_cast<std::size_t>(c) * n + k;
+      species[i] = m.volume[c] * state.balance[i];
+    }
+  addFaceFluxes(m, speciesFlux_, n, 1.0, species);
+  addFaceFluxes(m, enthalpyFlux_, 1, 1.0, heat);
+  addFaceFluxes(m, heatFlux_, 1, 1.0, heat);
+  std::vector<double> h(n);
+  for (int c = 0; c < m.owned; ++c) {
+    context_.thermo.speciesEnthalpies(state.temperature[c], h);
+    const double* brought = &species[static_cast<std::size_t>(c) * n];
+    double sensible = heat[c];
+    double moles = 0.0;
+    for (int k = 0; k < n; ++k) {
+      sensible -= h[k] * brought[k];
+      moles += brought[k] / molecularWeights[k];
+    }
+    const double mass = state.density[c] * m.volume[c];
+    const double W = properties_.molecularWeight[c];
+    const double equationOfState = state.density[c] * constants::gasConstant * state.temperature[c] / W;
+    divergence_[c] = sensible / (mass * properties_.heatCapacity[c] * state.temperature[c]) + W * moles / mass +
+                     options_.driftGain * (equationOfState / state.thermodynamicPressure - 1.0) / dt;
+  }
+}
+
+void TransportOperator::updateFluxes(State& state) {
+  const Mesh& m = context_.mesh;
+  faces_.interpolate(state, faceVelocity_);
+  for (int face = 0; face < m.faces; ++face)
+    state.massFlux[face] = faces_.density[face] * faceVelocity_[face] * m.area[face];
+}
+
+void TransportOperator::advanceCarried(State& state, double dt) {
+  const Mesh& m = context_.mesh;
+  const int n = state.carriedCount();
+  if (n == 0) return;
+  const auto temperatureGradient = faces_.temperatureGradient();
+  for (int face = 0; face < m.faces; ++face) {
+    double* flux = &carriedFlux_[static_cast<std::size_t>(face) * n];
+    std::fill_n(flux, n, 0.0);
+    const int low = m.low[face];
+    const int high = m.high[face];
+    if (m.area[face] <= 0.0) continue;
+    if (high < 0) {
+      // Particles leave with the gas; nothing enters with it, and walls take none.
+      if (state.massFlux[face] > 0.0)
+        for (int s = 0; s < n; ++s) flux[s] = state.massFlux[face] * state.carried[low * n + s] / state.density[low];
+      continue;
+    }
+    const double w = m.lowWeight[face];
+    const int axis = m.normalAxis[face];
+    const auto mean = [&](const std::vector<double>& field) { return w * field[low] + (1.0 - w) * field[high]; };
+    const double slope = w * temperatureGradient[2 * low + axis] + (1.0 - w) * temperatureGradient[2 * high + axis];
+    const double drift = -mean(properties_.viscosity) / mean(state.density) * slope / mean(state.temperature);
+    for (int s = 0; s < n; ++s) {
+      const double velocity = faceVelocity_[face] + state.scalars[s].thermophoresis * drift;
+      const double diffusivity = w * state.carriedDiffusivity[low * n + s] + (1.0 - w) * state.carriedDiffusivity[high * n + s];
+      const double step = state.carried[high * n + s] / state.density[high] - state.carried[low * n + s] / state.density[low];
+      flux[s] = faces_.density[face] * m.area[face] *
+                (velocity * faces_.carriedPerMass(face, s, velocity) - diffusivity * step / m.distance[face]);
+    }
+  }
+  std::vector<double> content(static_cast<std::size_t>(m.owned) * n);
+  for (int c = 0; c < m.owned; ++c)
+    for (int s = 0; s < n; ++s) content[c * n + s] = m.volume[c] * state.carried[c * n + s];
+  addFaceFluxes(m, carriedFlux_, n, dt, content);
+  for (int c = 0; c < m.owned; ++c)
+    for (int s = 0; s < n; ++s) state.carried[c * n + s] = content[c * n + s] / m.volume[c];
+}
+
+void TransportOperator::finish(State& state, double dt) {
+  const Mesh& m = context_.mesh;
+  const int n = state.species;
+  addFaceFluxes(m, speciesFlux_, n, dt, content_);
+  addFaceFluxes(m, enthalpyFlux_, 1, dt, heatContent_);
+  addFaceFluxes(m, heatFlux_, 1, dt, heatContent_);
+  diagnostics_.pressureDrift = 0.0;
+  for (int c = 0; c < m.owned; ++c) {
+    const double* content = &content_[static_cast<std::size_t>(c) * n];
+    double mass = 0.0;
+    for (int k = 0; k < n; ++k) mass += content[k];
+    double* y = &state.Y[static_cast<std::size_t>(c) * n];
+    for (int k = 0; k < n; ++k) y[k] = content[k] / mass;
+    state.density[c] = mass / m.volume[c];
+    state.enthalpy[c] = heatContent_[c] / mass;
+    const std::span<const double> mixture{y, static_cast<std::size_t>(n)};
+    state.temperature[c] = context_.thermo.temperatureFromEnthalpy(state.enthalpy[c], mixture, temperature_[c]);
+    const double equationOfState = state.density[c] * constants::gasConstant * state.temperature[c] /
+                                   context_.thermo.meanMolecularWeight(mixture);
+    diagnostics_.pressureDrift =
+        std::max(diagnostics_.pressureDrift, std::abs(equationOfState / state.thermodynamicPressure - 1.0));
+  }
+}
+
+void TransportOperator::recordBoundary(const State& state, double dt) {
+  const Mesh& m = context_.mesh;
+  const int n = state.species;
+  const int scalars = state.carriedCount();
+  boundary_ = {std::vector<double>(n, 0.0), std::vector<double>(n, 0.0), std::vector<double>(scalars, 0.0),
+               std::vector<double>(scalars, 0.0)};
+  const auto book = [dt](double outward, double& in, double& out) { (outward < 0.0 ? in : out) += dt * std::abs(outward); };
+  for (int face = m.interiorFaces; face < m.faces; ++face) {
+    for (int k = 0; k < n; ++k) {
+      const std::size_t i = static_cast<std::size_t>(face) * n + k;
+      book(state.massFlux[face] * faces_.Y[i] + speciesFlux_[i], boundary_.speciesIn[k], boundary_.speciesOut[k]);
+    }
+    for (int s = 0; s < scalars; ++s)
+      book(carriedFlux_[static_cast<std::size_t>(face) * scalars + s], boundary_.carriedIn[s], boundary_.carriedOut[s]);
+    book(state.massFlux[face] * faces_.enthalpy[face] + enthalpyFlux_[face] + heatFlux_[face], boundary_.enthalpyIn,
+         boundary_.enthalpyOut);
+  }
+}
+
+void TransportOperator::advance(State& state, double, double dt) {
+  const Mesh& m = context_.mesh;
+  // A failing temperature inversion on one rank must stop all of them.
+  collectively(m.comm, [&] { properties_.update(context_, state); });
+  faces_.prepare(state);
+  faces_.interpolate(state, state.massFlux);
+
+  // Diffusion with the last step's mass flux.
+  addConvection(state, dt);
+  for (int c = 0; c < m.owned; ++c) newDensity_[c] = newMass_[c] / m.volume[c];
+  context_.halo.update(newDensity_, 1);
+  diagnostics_.speciesIterations =
+      speciesDiffusion_.computeFlux(state, properties_, content_, newMass_, dt, speciesFlux_).iterations;
+  computeHeatFlux(state, dt);
+
+  // Velocity, pressure and mass flux for exactly this diffusion.
+  computeDivergence(state, dt);
+  const auto projected = momentum_.advance(state, properties_, newDensity_, divergence_, dt, faceVelocity_);
+  diagnostics_.continuityError = projected.continuityError;
+  diagnostics_.pressureIterations = projected.iterations;
+  updateFluxes(state);
+
+  addConvection(state, dt);
+  advanceCarried(state, dt);
+  collectively(m.comm, [&] { finish(state, dt); });
+  recordBoundary(state, dt);
+  MPI_Allreduce(MPI_IN_PLACE, &diagnostics_.pressureDrift, 1, MPI_DOUBLE, MPI_MAX, m.comm);
+  state.updateHalo(context_.halo);
+}
+
+}  // namespace lampblack
