@@ -4,11 +4,17 @@ import numpy as np
 
 from .style import plt
 
-MOST_PANELS = 12
+MOST_PANELS = 8
+# Shown first where there are more columns than panels.
+FIRST = ("dt", "maximum_temperature", "peak_soot_volume_fraction", "minimum_mass_fraction", "imbalance_after")
 
 
 def _is_error(name):
-    return any(word in name.lower() for word in ("error", "budget", "residual", "imbalance", "drift"))
+    return any(word in name.lower() for word in ("error", "residual", "drift"))
+
+
+def _is_shown(name):
+    return name not in ("time", "step", "steps") and not name.endswith(("_content", "_inflow", "_outflow"))
 
 
 def plot_history(results, pictures):
@@ -18,8 +24,9 @@ def plot_history(results, pictures):
         return
     time = columns["time"][1] * 1e3
     errors = {name: column for name, column in columns.items() if _is_error(name)}
-    others = {n: c for n, c in columns.items() if n not in errors and n not in ("time", "step", "steps")}
-    shown = dict(list(others.items())[:MOST_PANELS])
+    others = [name for name in columns if name not in errors and _is_shown(name)]
+    others.sort(key=lambda name: FIRST.index(name) if name in FIRST else len(FIRST))
+    shown = {name: columns[name] for name in others[:MOST_PANELS]}
     if len(others) > len(shown):
         pictures.skip("some columns of the history", f"{MOST_PANELS} of {len(others)} are shown")
     count = len(shown) + (1 if errors else 0)
