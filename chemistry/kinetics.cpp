@@ -144,10 +144,8 @@ void Kinetics::updateProgress() {
     for (std::size_t i = 0; i < numReversible_; ++i) reverse[i] = k[i] * c[p0[i]] * c[p1[i]] * c[p2[i]];
   }
   for (const auto& general : general_) {
-    for (const auto& t : general.forwardOrders)
-      forward_[general.reaction] *= power(c[t.species], t.coefficient);
-    for (const auto& t : general.reverseOrders)
-      reverse_[general.reaction] *= power(c[t.species], t.coefficient);
+    for (const auto& t : general.forwardOrders) forward_[general.reaction] *= power(c[t.species], t.coefficient);
+    for (const auto& t : general.reverseOrders) reverse_[general.reaction] *= power(c[t.species], t.coefficient);
   }
   const double* __restrict factor = factor_.data();
   const double* __restrict forward = forward_.data();

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "chemistry/collision_integrals.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 
@@ -33,7 +32,7 @@ double relaxation(double wellDepth, double T) {
 
 }  // namespace
 
-PureGas::PureGas(const Mechanism& mechanism) {
+PureGas::PureGas(const Mechanism& mechanism, CollisionIntegrals integrals) : integrals_(integrals) {
   for (std::size_t k = 0; k < mechanism.numSpecies(); ++k) {
     const auto& species = mechanism.species(k);
     if (!species.transport)
@@ -69,7 +68,7 @@ PureGas::Pair PureGas::pair(std::size_t j, std::size_t k) const {
 double PureGas::viscosity(std::size_t k, double T) const {
   const auto p = pair(k, k);
   return 5.0 / 16.0 * std::sqrt(pi * molecules_[k].mass * boltzmann * T) /
-         (pi * p.diameter * p.diameter * collisionIntegral22(T / p.wellDepth, p.reducedDipole));
+         (pi * p.diameter * p.diameter * collisionIntegral22(T / p.wellDepth, p.reducedDipole, integrals_));
 }
 
 double PureGas::diffusionTimesPressure(std::size_t j, std::size_t k, double T) const {
@@ -77,17 +76,17 @@ double PureGas::diffusionTimesPressure(std::size_t j, std::size_t k, double T) c
   const double mj = molecules_[j].mass, mk = molecules_[k].mass;
   const double kT = boltzmann * T;
   return 3.0 / 16.0 * std::sqrt(2.0 * pi * kT * kT * kT * (mj + mk) / (mj * mk)) /
-         (pi * p.diameter * p.diameter * collisionIntegral11(T / p.wellDepth, p.reducedDipole));
+         (pi * p.diameter * p.diameter * collisionIntegral11(T / p.wellDepth, p.reducedDipole, integrals_));
 }
 
-double PureGas::conductivity(std::size_t k, double T) const {
+// Eqs 6-23..6-33 with Cv = cp - R, ordered by what multiplies cp.
+PureGas::EuckenFactors PureGas::euckenFactors(std::size_t k, double T) const {
   const auto& m = molecules_[k];
-  const double mu = viscosity(k, T);
+  if (m.data.shape == MoleculeShape::Atom) return {2.5 * 1.5, 0.0};
   // rho D_kk / mu with rho = p W/(R T)
-  const double schmidt = diffusionTimesPressure(k, k, T) * m.weight / (gasConstant * T) / mu;
+  const double schmidt = diffusionTimesPressure(k, k, T) * m.weight / (gasConstant * T) / viscosity(k, T);
   const double cvTrans = 1.5;  // heat capacities in units of R
-  const double cvRot = m.data.shape == MoleculeShape::Atom ? 0.0 : m.data.shape == MoleculeShape::Linear ? 1.0 : 1.5;
-  const double cvVib = m.data.shape == MoleculeShape::Atom ? 0.0 : cpOverR(m.thermo, T) - 1.0 - cvTrans - cvRot;
+  const double cvRot = m.data.shape == MoleculeShape::Linear ? 1.0 : 1.5;
   const double zRot =
       m.data.rotationalRelaxation * relaxation(m.data.wellDepth, 298.0) / relaxation(m.data.wellDepth, T);
   const double A = 2.5 - schmidt;
@@ -95,7 +94,13 @@ double PureGas::conductivity(std::size_t k, double T) const {
   const double ratio = 2.0 / pi * A / B;
   const double fTrans = 2.5 * (1.0 - ratio * cvRot / cvTrans);
   const double fRot = schmidt * (1.0 + ratio);
-  return mu / m.weight * gasConstant * (fTrans * cvTrans + fRot * cvRot + schmidt * cvVib);
+  return {fTrans * cvTrans + fRot * cvRot - schmidt * (1.0 + cvTrans + cvRot), schmidt};
+}
+
+double PureGas::conductivity(std::size_t k, double T) const {
+  const auto eucken = euckenFactors(k, T);
+  return viscosity(k, T) / molecules_[k].weight * gasConstant *
+         (eucken.rigid + eucken.vibrating * cpOverR(molecules_[k].thermo, T));
 }
 
 }  // namespace lampblack

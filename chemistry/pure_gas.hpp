@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "chemistry/collision_integrals.hpp"
 #include "chemistry/mechanism.hpp"
 
 namespace lampblack {
@@ -12,11 +13,16 @@ namespace lampblack {
 class PureGas {
  public:
   // InputError naming the species if one has no transport data.
-  explicit PureGas(const Mechanism& mechanism);
+  explicit PureGas(const Mechanism& mechanism, CollisionIntegrals integrals = CollisionIntegrals::NeufeldBrokaw);
 
   std::size_t size() const { return molecules_.size(); }
   double viscosity(std::size_t k, double T) const;     // Pa s, eq. 6-22
   double conductivity(std::size_t k, double T) const;  // W/m/K, eqs 6-23..6-33
+  // The conductivity's parts that are smooth in temperature: lambda = mu R/W (rigid + vibrating cp/R).
+  struct EuckenFactors {
+    double rigid = 0, vibrating = 0;
+  };
+  EuckenFactors euckenFactors(std::size_t k, double T) const;
   // Binary diffusion coefficient times pressure, m2/s Pa, eq. 6-34 (first Chapman-Enskog approximation); symmetric.
   double diffusionTimesPressure(std::size_t j, std::size_t k, double T) const;
 
@@ -35,6 +41,7 @@ class PureGas {
   Pair pair(std::size_t j, std::size_t k) const;
 
   std::vector<Molecule> molecules_;
+  CollisionIntegrals integrals_;
 };
 
 }  // namespace lampblack

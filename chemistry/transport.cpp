@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "chemistry/polynomial_fit.hpp"
 #include "chemistry/pure_gas.hpp"
+#include "core/constants.hpp"
 #include "core/errors.hpp"
 
 namespace lampblack {
@@ -16,76 +16,93 @@ namespace {
 
 constexpr double kTrace = 1e-12;  // added to every mole fraction
 
-double scaledLog(double T) {
-  static const double middle = 0.5 * (std::log(Transport::maxTemperature) + std::log(Transport::minTemperature));
-  static const double half = 0.5 * (std::log(Transport::maxTemperature) - std::log(Transport::minTemperature));
-  return (std::log(T) - middle) / half;
-}
+const double kMiddle = 0.5 * (std::log(Transport::maxTemperature) + std::log(Transport::minTemperature));
+const double kHalf = 0.5 * (std::log(Transport::maxTemperature) - std::log(Transport::minTemperature));
 
-// out += M x for a matrix of ld-row columns
-void addProduct(const double* __restrict M, std::size_t ld, const double* x, std::size_t n, double* __restrict out) {
-  for (std::size_t j = 0; j < n; ++j) {
-    const double value = x[j];
-    const double* __restrict column = M + j * ld;
-    for (std::size_t k = 0; k < ld; ++k) out[k] += column[k] * value;
+constexpr std::size_t kBlock = 16;  // rows of a matrix that are summed in registers
+
+// out = M x for a matrix of n columns of ld rows, ld a multiple of kBlock
+void multiply(const double* __restrict M, std::size_t ld, const double* __restrict x, std::size_t n,
+              double* __restrict out) {
+  for (std::size_t block = 0; block < ld; block += kBlock) {
+    double sum[kBlock] = {};
+    const double* __restrict column = M + block;
+    for (std::size_t j = 0; j < n; ++j, column += ld)
+      for (std::size_t i = 0; i < kBlock; ++i) sum[i] += column[i] * x[j];
+    for (std::size_t i = 0; i < kBlock; ++i) out[block + i] = sum[i];
   }
 }
 
 }  // namespace
 
-Transport::Transport(const Mechanism& mechanism)
+Transport::Transport(const Mechanism& mechanism, CollisionIntegrals integrals)
     : n_(mechanism.numSpecies()),
-      ld_((n_ + 7) / 8 * 8),
+      ld_((n_ + kBlock - 1) / kBlock * kBlock),
+      table_(mechanism.allSpecies()),
       weights_(mechanism.molecularWeights().begin(), mechanism.molecularWeights().end()) {
-  fit(mechanism);
-  setWilke(mechanism);
-  for (auto* work : {&x_, &root_, &inverseRoot_, &lambda_, &sum0_, &sum1_, &sum2_, &resist_}) work->assign(ld_, 0.0);
+  for (const double W : weights_) gasConstants_.push_back(constants::gasConstant / W);
+  for (auto* work : {&cp_, &x_, &y_, &z_, &root_, &a_, &b_, &sum0_, &sum1_, &sum2_, &resist_, &own_})
+    work->assign(ld_, 0.0);
+  const PureGas gas(mechanism, integrals);
+  fit(gas);
+  setWilke();
+  fitError_ = measureFitError(gas);
 }
 
-void Transport::fit(const Mechanism& mechanism) {
-  const PureGas gas(mechanism);
-  // Chebyshev points of ln T for the fit, twice as many and shifted for the error.
+void Transport::fit(const PureGas& gas) {
+  // Least squares at Chebyshev points of ln T.
   constexpr std::size_t points = 40;
   std::vector<double> s, T;
-  const double middle = 0.5 * (std::log(maxTemperature) + std::log(minTemperature));
-  const double half = 0.5 * (std::log(maxTemperature) - std::log(minTemperature));
   for (std::size_t i = 0; i < points; ++i) {
-    s.push_back(-std::cos((static_cast<double>(i) + 0.5) / points * 3.14159265358979323846));
-    T.push_back(std::exp(middle + half * s.back()));
+    s.push_back(-std::cos((static_cast<double>(i) + 0.5) / points * constants::pi));
+    T.push_back(std::exp(kMiddle + kHalf * s.back()));
   }
-  const PolynomialFit polynomial(s, kTerms);
-  std::vector<double> values(points);
-  std::array<double, kTerms> a{};
-  const auto approximate = [&](auto&& function, int power) {
+  std::vector<double> values(points), a;
+  const auto approximate = [&](const PolynomialFit& polynomial, std::size_t terms, auto&& function) {
     for (std::size_t i = 0; i < points; ++i) values[i] = function(T[i]);
+    a.assign(terms, 0.0);
     polynomial.solve(values, a);
-    for (std::size_t i = 0; i < 2 * points; ++i) {
-      const double at = -1.0 + 2.0 * static_cast<double>(i) / (2.0 * points - 1.0);
-      double sum = 0;
-      for (std::size_t m = kTerms; m-- > 0;) sum = sum * at + a[m];
-      const double exact = function(std::exp(middle + half * at));
-      fitError_ = std::max(fitError_, power * std::abs(sum / exact - 1.0));
-    }
   };
-  viscosity_.assign(kTerms * ld_, 0.0);
-  conductivity_.assign(kTerms * ld_, 0.0);
-  resistance_.assign(kTerms * ld_ * n_, 0.0);
+  const PolynomialFit pure(s, kPureTerms), pairs(s, kPairTerms);
+  viscosity_.assign(kPureTerms * ld_, 0.0);
+  rigid_ = vibrating_ = viscosity_;
+  ownResistance_.assign(kPairTerms * ld_, 0.0);
+  resistance_.assign(kPairTerms * ld_ * n_, 0.0);
   for (std::size_t k = 0; k < n_; ++k) {
-    approximate([&](double t) { return std::sqrt(gas.viscosity(k, t) / std::sqrt(t)); }, 2);
-    for (std::size_t m = 0; m < kTerms; ++m) viscosity_[m * ld_ + k] = a[m];
-    approximate([&](double t) { return gas.conductivity(k, t) / std::sqrt(t); }, 1);
-    for (std::size_t m = 0; m < kTerms; ++m) conductivity_[m * ld_ + k] = a[m];
+    approximate(pure, kPureTerms, [&](double t) { return std::sqrt(gas.viscosity(k, t) / std::sqrt(t)); });
+    for (std::size_t m = 0; m < kPureTerms; ++m) viscosity_[m * ld_ + k] = a[m];
+    approximate(pure, kPureTerms, [&](double t) { return gas.euckenFactors(k, t).rigid; });
+    for (std::size_t m = 0; m < kPureTerms; ++m) rigid_[m * ld_ + k] = a[m];
+    approximate(pure, kPureTerms, [&](double t) { return gas.euckenFactors(k, t).vibrating; });
+    for (std::size_t m = 0; m < kPureTerms; ++m) vibrating_[m * ld_ + k] = a[m];
     for (std::size_t j = 0; j <= k; ++j) {
-      approximate([&](double t) { return t * std::sqrt(t) / gas.diffusionTimesPressure(j, k, t); }, 1);
-      for (std::size_t m = 0; m < kTerms; ++m)
+      approximate(pairs, kPairTerms, [&](double t) { return t * std::sqrt(t) / gas.diffusionTimesPressure(j, k, t); });
+      for (std::size_t m = 0; m < kPairTerms; ++m)
         resistance_[(m * n_ + j) * ld_ + k] = resistance_[(m * n_ + k) * ld_ + j] = a[m];
     }
+    for (std::size_t m = 0; m < kPairTerms; ++m) ownResistance_[m * ld_ + k] = a[m];  // j = k came last
   }
+}
+
+double Transport::measureFitError(const PureGas& gas) const {
+  double error = 0;
+  const auto compare = [&](double fitted, double exact) { error = std::max(error, std::abs(fitted / exact - 1.0)); };
+  constexpr std::size_t points = 41;  // not those of the fit
+  for (std::size_t i = 0; i < points; ++i) {
+    const double s = 2.0 * static_cast<double>(i) / (points - 1.0) - 1.0;
+    const double T = std::clamp(std::exp(kMiddle + kHalf * s), minTemperature, maxTemperature);
+    for (std::size_t k = 0; k < n_; ++k) {
+      compare(speciesViscosity(T, k), gas.viscosity(k, T));
+      compare(speciesConductivity(T, k), gas.conductivity(k, T));
+      for (std::size_t j = 0; j <= k; ++j) compare(binaryDiffusion(T, 1.0, j, k), gas.diffusionTimesPressure(j, k, T));
+    }
+  }
+  return error;
 }
 
 // Phi_kj = A_kj (1 + B_kj sqrt(mu_k/mu_j))^2 with A = (8 (1 + W_k/W_j))^(-1/2), B = (W_j/W_k)^(1/4), multiplied out.
-void Transport::setWilke(const Mechanism& mechanism) {
-  const auto W = mechanism.molecularWeights();
+void Transport::setWilke() {
+  const auto& W = weights_;
   for (auto* matrix : {&wilke0_, &wilke1_, &wilke2_}) matrix->assign(n_ * ld_, 0.0);
   for (std::size_t j = 0; j < n_; ++j) {
     for (std::size_t k = 0; k < n_; ++k) {
@@ -98,19 +115,24 @@ void Transport::setWilke(const Mechanism& mechanism) {
   }
 }
 
-double Transport::basis(double T, double* powers) const {
+Transport::Basis Transport::basis(double T) const {
   if (!(T >= minTemperature && T <= maxTemperature))
     throw NumericsError(fmt::format("transport properties at {:.6g} K; they are known from {} to {} K", T,
                                     minTemperature, maxTemperature));
-  const double s = scaledLog(T);
-  powers[0] = 1.0;
-  for (std::size_t m = 1; m < kTerms; ++m) powers[m] = powers[m - 1] * s;
-  return std::sqrt(T);
+  Basis result{};
+  const double s = (std::log(T) - kMiddle) / kHalf;
+  result.powers[0] = 1.0;
+  for (std::size_t m = 1; m < kPureTerms; ++m) result.powers[m] = result.powers[m - 1] * s;
+  result.rootT = std::sqrt(T);
+  return result;
+}
+
+double Transport::conductivity(double viscosity, std::size_t k, double rigid, double vibrating, double cpOverR) const {
+  return viscosity * gasConstants_[k] * (rigid + vibrating * cpOverR);
 }
 
 Transport::Mixture Transport::mixture(double T, double p, std::span<const double> X, std::span<double> D) {
-  std::array<double, kTerms> powers{};
-  const double rootT = basis(T, powers.data());
+  const auto at = basis(T);
   const std::size_t n = n_, ld = ld_;
   double total = 0, meanWeight = 0;
   for (std::size_t k = 0; k < n; ++k) {
@@ -121,74 +143,71 @@ Transport::Mixture Transport::mixture(double T, double p, std::span<const double
     x_[k] /= total;
     meanWeight += x_[k] * weights_[k];
   }
-  for (auto* sum : {&root_, &lambda_, &sum0_, &sum1_, &sum2_, &resist_}) std::fill(sum->begin(), sum->end(), 0.0);
-  addProduct(viscosity_.data(), ld, powers.data(), kTerms, root_.data());
-  addProduct(conductivity_.data(), ld, powers.data(), kTerms, lambda_.data());
+  multiply(viscosity_.data(), ld, at.powers, kPureTerms, root_.data());
+  multiply(rigid_.data(), ld, at.powers, kPureTerms, a_.data());
+  multiply(vibrating_.data(), ld, at.powers, kPureTerms, b_.data());
+  table_.cpOverR(T, cp_.data());
 
   Mixture result;
   double sum = 0, inverseSum = 0;
   for (std::size_t k = 0; k < n; ++k) {
-    sum += x_[k] * lambda_[k];
-    inverseSum += x_[k] / lambda_[k];
+    const double lambda = conductivity(root_[k] * root_[k], k, a_[k], b_[k], cp_[k]);
+    sum += x_[k] * lambda;
+    inverseSum += x_[k] / lambda;
   }
-  result.conductivity = 0.5 * rootT * (sum + 1.0 / inverseSum);
+  result.conductivity = 0.5 * at.rootT * (sum + 1.0 / inverseSum);
 
-  std::array<double, 3> weighted{};
   for (std::size_t j = 0; j < n; ++j) {
     const double inverse = 1.0 / root_[j];
-    weighted = {x_[j], x_[j] * inverse, x_[j] * inverse * inverse};
-    const double* __restrict a = &wilke0_[j * ld], * __restrict b = &wilke1_[j * ld], * __restrict c = &wilke2_[j * ld];
-    double* __restrict s0 = sum0_.data(), * __restrict s1 = sum1_.data(), * __restrict s2 = sum2_.data();
-    for (std::size_t k = 0; k < ld; ++k) {
-      s0[k] += a[k] * weighted[0];
-      s1[k] += b[k] * weighted[1];
-      s2[k] += c[k] * weighted[2];
-    }
+    y_[j] = x_[j] * inverse;
+    z_[j] = y_[j] * inverse;
   }
+  multiply(wilke0_.data(), ld, x_.data(), n, sum0_.data());
+  multiply(wilke1_.data(), ld, y_.data(), n, sum1_.data());
+  multiply(wilke2_.data(), ld, z_.data(), n, sum2_.data());
   double viscosity = 0;
   for (std::size_t k = 0; k < n; ++k) {
     const double square = root_[k] * root_[k];
     viscosity += x_[k] * square / (sum0_[k] + root_[k] * sum1_[k] + square * sum2_[k]);
   }
-  result.viscosity = rootT * viscosity;
+  result.viscosity = at.rootT * viscosity;
 
   // sum_{j != k} X_j T^(3/2)/(p D_jk): the polynomials' coefficients are summed over the species first.
-  for (std::size_t m = 0; m < kTerms; ++m) {
-    std::fill(sum0_.begin(), sum0_.end(), 0.0);
-    addProduct(&resistance_[m * n * ld], ld, x_.data(), n, sum0_.data());
-    for (std::size_t k = 0; k < ld; ++k) resist_[k] += powers[m] * sum0_[k];
+  std::fill(resist_.begin(), resist_.end(), 0.0);
+  for (std::size_t m = 0; m < kPairTerms; ++m) {
+    multiply(&resistance_[m * n * ld], ld, x_.data(), n, sum0_.data());
+    for (std::size_t k = 0; k < ld; ++k) resist_[k] += at.powers[m] * sum0_[k];
   }
-  const double scale = T * rootT / p;
-  for (std::size_t k = 0; k < n; ++k) {
-    double own = 0;
-    for (std::size_t m = 0; m < kTerms; ++m) own += powers[m] * resistance_[(m * n + k) * ld + k];
-    D[k] = scale * (meanWeight - x_[k] * weights_[k]) / (meanWeight * (resist_[k] - x_[k] * own));
-  }
+  multiply(ownResistance_.data(), ld, at.powers, kPairTerms, own_.data());
+  const double scale = T * at.rootT / (p * meanWeight);
+  for (std::size_t k = 0; k < n; ++k)
+    D[k] = scale * (meanWeight - x_[k] * weights_[k]) / (resist_[k] - x_[k] * own_[k]);
   return result;
 }
 
 double Transport::binaryDiffusion(double T, double p, std::size_t j, std::size_t k) const {
-  std::array<double, kTerms> powers{};
-  const double rootT = basis(T, powers.data());
+  const auto at = basis(T);
   double resistance = 0;
-  for (std::size_t m = 0; m < kTerms; ++m) resistance += powers[m] * resistance_[(m * n_ + j) * ld_ + k];
-  return T * rootT / (p * resistance);
+  for (std::size_t m = 0; m < kPairTerms; ++m) resistance += at.powers[m] * resistance_[(m * n_ + j) * ld_ + k];
+  return T * at.rootT / (p * resistance);
 }
 
 double Transport::speciesViscosity(double T, std::size_t k) const {
-  std::array<double, kTerms> powers{};
-  const double rootT = basis(T, powers.data());
+  const auto at = basis(T);
   double root = 0;
-  for (std::size_t m = 0; m < kTerms; ++m) root += powers[m] * viscosity_[m * ld_ + k];
-  return rootT * root * root;
+  for (std::size_t m = 0; m < kPureTerms; ++m) root += at.powers[m] * viscosity_[m * ld_ + k];
+  return at.rootT * root * root;
 }
 
 double Transport::speciesConductivity(double T, std::size_t k) const {
-  std::array<double, kTerms> powers{};
-  const double rootT = basis(T, powers.data());
-  double value = 0;
-  for (std::size_t m = 0; m < kTerms; ++m) value += powers[m] * conductivity_[m * ld_ + k];
-  return rootT * value;
+  const auto at = basis(T);
+  double rigid = 0, vibrating = 0;
+  for (std::size_t m = 0; m < kPureTerms; ++m) {
+    rigid += at.powers[m] * rigid_[m * ld_ + k];
+    vibrating += at.powers[m] * vibrating_[m * ld_ + k];
+  }
+  table_.cpOverR(T, cp_.data());
+  return conductivity(speciesViscosity(T, k), k, rigid, vibrating, cp_[k]);
 }
 
 }  // namespace lampblack

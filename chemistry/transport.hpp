@@ -7,18 +7,23 @@
 #include <span>
 #include <vector>
 
+#include "chemistry/collision_integrals.hpp"
 #include "chemistry/mechanism.hpp"
+#include "chemistry/nasa7.hpp"
 
 namespace lampblack {
 
+class PureGas;
+
 class Transport {
  public:
-  // Range of the polynomials; outside it the members throw NumericsError.
-  static constexpr double minTemperature = 100.0;   // K
-  static constexpr double maxTemperature = 6000.0;  // K
+  // Range of the polynomials; outside it the members throw NumericsError. That of most data: NASA-7 polynomials enter
+  // the conductivity.
+  static constexpr double minTemperature = 200.0;   // K
+  static constexpr double maxTemperature = 3500.0;  // K
 
   // InputError if a species has no transport data.
-  explicit Transport(const Mechanism& mechanism);
+  explicit Transport(const Mechanism& mechanism, CollisionIntegrals integrals = CollisionIntegrals::NeufeldBrokaw);
 
   struct Mixture {
     double viscosity = 0;     // Pa s, eq. 6-18
@@ -39,19 +44,32 @@ class Transport {
   double largestFitError() const { return fitError_; }
 
  private:
-  static constexpr std::size_t kTerms = 8;  // coefficients a polynomial
+  // Coefficients of the polynomials in ln T scaled to [-1, 1].
+  static constexpr std::size_t kPureTerms = 8;
+  static constexpr std::size_t kPairTerms = 6;
+  struct Basis {
+    double powers[kPureTerms];
+    double rootT;
+  };
 
-  void fit(const Mechanism& mechanism);
-  void setWilke(const Mechanism& mechanism);
-  double basis(double T, double* powers) const;  // powers of the scaled ln T; returns sqrt(T)
+  void fit(const PureGas& gas);
+  void setWilke();
+  double measureFitError(const PureGas& gas) const;
+  Basis basis(double T) const;
+  double conductivity(double viscosity, std::size_t k, double rigid, double vibrating, double cpOverR) const;
 
-  std::size_t n_ = 0, ld_ = 0;
+  std::size_t n_ = 0, ld_ = 0;  // species; the same, padded
+  Nasa7Table table_;
   std::vector<double> weights_;                   // kg/mol
-  std::vector<double> viscosity_, conductivity_;  // [term][species]: sqrt(mu / sqrt T), lambda / sqrt T
-  std::vector<double> resistance_;                // [pair][...]: T^(3/2) / (p D_jk), columns j of ld_ rows k, [term]
-  std::vector<double> wilke0_, wilke1_, wilke2_;  // eq. 6-19 expanded in sqrt(mu_k/mu_j)
+  std::vector<double> gasConstants_;              // R/W_k, J/kg/K
+  std::vector<double> viscosity_;                 // [term][species]: sqrt(mu / sqrt T)
+  std::vector<double> rigid_, vibrating_;         // [term][species]: Eucken factors
+  std::vector<double> resistance_;                // [term][species j][species k]: T^(3/2) / (p D_jk)
+  std::vector<double> ownResistance_;             // [term][species]: the same for j = k
+  std::vector<double> wilke0_, wilke1_, wilke2_;  // [species j][species k]: eq. 6-19 expanded in sqrt(mu_k/mu_j)
   double fitError_ = 0;
-  std::vector<double> x_, root_, inverseRoot_, lambda_, sum0_, sum1_, sum2_, resist_;
+  mutable std::vector<double> cp_;
+  std::vector<double> x_, y_, z_, root_, a_, b_, sum0_, sum1_, sum2_, resist_, own_;
 };
 
 }  // namespace lampblack

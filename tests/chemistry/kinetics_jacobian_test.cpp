@@ -49,9 +49,8 @@ TEST(KineticsJacobian, AgreesWithDifferencesOfTheRates) {
           EXPECT_NEAR(J[j * n + k], slope[k], 1e-8 * largest + 1e-11 * std::abs(wdot[k] / c[j]))
               << mechanism->speciesName(k) << " by " << mechanism->speciesName(j) << " at " << T;
       }
-      const auto slope = difference(n, T, 0.2, [&](double value, std::vector<double>& out) {
-        kinetics.netProductionRates(value, c, out);
-      });
+      const auto slope = difference(
+          n, T, 0.2, [&](double value, std::vector<double>& out) { kinetics.netProductionRates(value, c, out); });
       double largest = 0;
       for (const double s : slope) largest = std::max(largest, std::abs(s));
       for (std::size_t k = 0; k < n; ++k)

@@ -134,8 +134,7 @@ TEST(Kinetics, ElementPotentialsGiveNoReaction) {
       c[k] = constants::oneAtmosphere / (constants::gasConstant * T) * std::exp(exponent);
     }
     kinetics.ratesOfProgress(T, c, qf, qr);
-    for (std::size_t r = 0; r < reactions; ++r)
-      EXPECT_NEAR(qf[r] / qr[r], 1, 1e-11) << mechanism.reaction(r).equation;
+    for (std::size_t r = 0; r < reactions; ++r) EXPECT_NEAR(qf[r] / qr[r], 1, 1e-11) << mechanism.reaction(r).equation;
   }
 }
 
@@ -146,7 +145,9 @@ TEST(Kinetics, FalloffReachesItsLimits) {
   std::size_t falloff = 0;
   while (mechanism.reaction(falloff).type != Reaction::Type::Falloff) ++falloff;
   const auto& reaction = mechanism.reaction(falloff);
-  const auto k = [](const Arrhenius& a, double T) { return a.A * std::pow(T, a.b) * std::exp(-a.activationTemperature / T); };
+  const auto k = [](const Arrhenius& a, double T) {
+    return a.A * std::pow(T, a.b) * std::exp(-a.activationTemperature / T);
+  };
   const double T = 1300;
   std::vector<double> c(mechanism.numSpecies(), 0.0), kf(mechanism.numReactions()), kr(mechanism.numReactions());
   const auto N2 = mechanism.speciesIndex("N2");

@@ -33,7 +33,9 @@ std::string withReaction(const std::string& reaction) {
                        reaction);
 }
 
-std::string reactionMessage(const std::string& entry) { return messageOf(withReaction("- {" + entry + "}")); }
+std::string reactionMessage(const std::string& entry) {
+  return messageOf(withReaction("- {" + entry + "}"));
+}
 
 const std::string kRate = "rate-constant: {A: 1.0, b: 0, Ea: 0}";
 
@@ -48,8 +50,9 @@ TEST(MechanismErrors, UnreadableFiles) {
 }
 
 TEST(MechanismErrors, ReactionsThatDoNotBalance) {
-  EXPECT_THAT(reactionMessage("equation: H + O2 <=> HO2 + H, " + kRate),
-              AllOf(HasSubstr(".yaml:12:"), HasSubstr("'H + O2 <=> HO2 + H' does not balance"), HasSubstr("2 on the right")));
+  EXPECT_THAT(
+      reactionMessage("equation: H + O2 <=> HO2 + H, " + kRate),
+      AllOf(HasSubstr(".yaml:12:"), HasSubstr("'H + O2 <=> HO2 + H' does not balance"), HasSubstr("2 on the right")));
 }
 
 TEST(MechanismErrors, UndeclaredSpecies) {
@@ -69,11 +72,11 @@ TEST(MechanismErrors, DuplicatesMustBeMarked) {
               "no error");
   EXPECT_THAT(reactionMessage(reaction + ", duplicate: true"), HasSubstr("no other one like it"));
   // The reverse of an irreversible reaction is another reaction; that of a reversible one is not.
-  EXPECT_THAT(messageOf(withReaction("- {equation: H + O2 => HO2, " + kRate + "}\n  - {equation: HO2 => H + O2, " + kRate +
-                                     "}")),
+  EXPECT_THAT(messageOf(withReaction("- {equation: H + O2 => HO2, " + kRate + "}\n  - {equation: HO2 => H + O2, " +
+                                     kRate + "}")),
               "no error");
-  EXPECT_THAT(messageOf(withReaction("- {equation: H + O2 <=> HO2, " + kRate + "}\n  - {equation: HO2 => H + O2, " + kRate +
-                                     "}")),
+  EXPECT_THAT(messageOf(withReaction("- {equation: H + O2 <=> HO2, " + kRate + "}\n  - {equation: HO2 => H + O2, " +
+                                     kRate + "}")),
               HasSubstr("duplicate: true"));
 }
 
@@ -94,7 +97,8 @@ TEST(MechanismErrors, WhatIsNotSupportedYetIsNamed) {
 TEST(MechanismErrors, UnknownKeysNameTheNearest) {
   EXPECT_THAT(reactionMessage("equation: H + O2 <=> HO2, rate-constnt: {A: 1, b: 0, Ea: 0}"),
               AllOf(HasSubstr(":12:"), HasSubstr("unknown key 'rate-constnt'"), HasSubstr("'rate-constant'")));
-  EXPECT_THAT(reactionMessage("equation: H + O2 <=> HO2, rate-constant: {A: 1, n: 0, Ea: 0}"), HasSubstr("unknown key 'n'"));
+  EXPECT_THAT(reactionMessage("equation: H + O2 <=> HO2, rate-constant: {A: 1, n: 0, Ea: 0}"),
+              HasSubstr("unknown key 'n'"));
   EXPECT_THAT(reactionMessage("equation: H + O2 <=> HO2, efficiencies: {AR: 1}, " + kRate),
               HasSubstr("unknown key 'efficiencies'"));
 }
@@ -111,8 +115,9 @@ TEST(MechanismErrors, RatesOutOfRange) {
   EXPECT_THAT(reactionMessage("equation: H + O2 <=> HO2, rate-constant: {A: .nan, b: 0, Ea: 0}"),
               HasSubstr("expected a number"));
   EXPECT_THAT(reactionMessage("equation: H + O2 <=> HO2"), HasSubstr("expected 'rate-constant'"));
-  EXPECT_THAT(reactionMessage("equation: H + O2 (+M) <=> HO2 (+M), type: falloff, high-P-rate-constant: {A: 1, b: 0, Ea: 0}"),
-              HasSubstr("expected 'low-P-rate-constant'"));
+  EXPECT_THAT(
+      reactionMessage("equation: H + O2 (+M) <=> HO2 (+M), type: falloff, high-P-rate-constant: {A: 1, b: 0, Ea: 0}"),
+      HasSubstr("expected 'low-P-rate-constant'"));
 }
 
 TEST(MechanismErrors, EquationsThatCannotBeRead) {
@@ -121,7 +126,8 @@ TEST(MechanismErrors, EquationsThatCannotBeRead) {
     EXPECT_THAT(reactionMessage(std::string("equation: ") + equation + ", " + kRate), HasSubstr(":12:")) << equation;
   EXPECT_THAT(reactionMessage("equation: H + O2 (+M) <=> HO2 (+M), " + kRate), HasSubstr("needs 'type: falloff'"));
   EXPECT_THAT(reactionMessage("equation: H + O2 <=> HO2, type: falloff"), HasSubstr("needs '(+M)'"));
-  EXPECT_THAT(reactionMessage("equation: H + O2 <=> HO2, type: three-body, " + kRate), HasSubstr("needs 'M' or a collider"));
+  EXPECT_THAT(reactionMessage("equation: H + O2 <=> HO2, type: three-body, " + kRate),
+              HasSubstr("needs 'M' or a collider"));
 }
 
 TEST(MechanismErrors, SpeciesThatMakeNoSense) {

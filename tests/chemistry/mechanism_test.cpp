@@ -78,7 +78,8 @@ TEST(Mechanism, DifferentWaysToWriteARateAgree) {
   const std::string forms[] = {
       "[{equation: H + O2 + AR <=> HO2 + AR, " + rate + "}]",
       "[{equation: H + O2 + AR <=> HO2 + AR, type: three-body, " + rate + "}]",
-      "[{equation: H + O2 + M <=> HO2 + M, type: three-body, default-efficiency: 0, efficiencies: {AR: 1}, " + rate + "}]",
+      "[{equation: H + O2 + M <=> HO2 + M, type: three-body, default-efficiency: 0, efficiencies: {AR: 1}, " + rate +
+          "}]",
       "[{equation: H + O2 + M <=> HO2 + M, efficiencies: {H: 0, O2: 0, HO2: 0, N2: 0}, " + rate + "}]",
       "[{equation: H + O2 + AR = HO2 + AR, rate-constant: [7.0e+17, -0.8, 1 kcal/mol]}]",
       "[{equation: H + O2 + AR <=> HO2 + AR, rate-constant: {A: 7.0e+17, b: -0.8, Ea: 4.184 kJ/mol}}]",

@@ -14,7 +14,8 @@ namespace lampblack::testing {
 
 // Writes the text to a file, reads it as a mechanism, removes the file.
 inline Mechanism readFileText(const std::string& text) {
-  const auto path = std::filesystem::temp_directory_path() / ("lampblack_mechanism_" + std::to_string(::getpid()) + ".yaml");
+  const auto path =
+      std::filesystem::temp_directory_path() / ("lampblack_mechanism_" + std::to_string(::getpid()) + ".yaml");
   std::ofstream(path) << text;
   struct Remove {
     std::filesystem::path path;
@@ -23,13 +24,15 @@ inline Mechanism readFileText(const std::string& text) {
   return Mechanism::fromFile(path.string());
 }
 
-// Lines 1 to 6 are fixed; the phase's species stand in line 4, `species` starts after line 6. *t and *u are thermodynamic data of something
-// at least as smooth as nitrogen.
+// Lines 1 to 6 are fixed; the phase's species stand in line 4, `species` starts after line 6. *t and *u are
+// thermodynamic data of something at least as smooth as nitrogen.
 inline std::string mechanismText(const std::string& phaseSpecies, const std::string& species,
                                  const std::string& reactions) {
   return "units: {length: cm, quantity: mol, activation-energy: cal/mol}\n"
-         "thermo: [&t {model: NASA7, temperature-ranges: [200, 1000, 6000], data: [[3.5, 1e-4, 0, 0, 0, -900, 4], [3.6, 1e-4, "
-         "0, 0, 0, -1000, 3.4]]}, &u {model: NASA7, temperature-ranges: [200, 6000], data: [[2.9, 2e-4, 1e-8, 0, 0, -5900, "
+         "thermo: [&t {model: NASA7, temperature-ranges: [200, 1000, 6000], data: [[3.5, 1e-4, 0, 0, 0, -900, 4], "
+         "[3.6, 1e-4, "
+         "0, 0, 0, -1000, 3.4]]}, &u {model: NASA7, temperature-ranges: [200, 6000], data: [[2.9, 2e-4, 1e-8, 0, 0, "
+         "-5900, "
          "3]]}]\n"
          "phases:\n"
          "- {name: gas, thermo: ideal-gas, " +
