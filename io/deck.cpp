@@ -64,17 +64,13 @@ Deck Deck::load(const std::filesystem::path& path, const std::vector<std::string
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
   std::string text;
-  std::string failure;
-  if (rank == 0) {
-    try {
-      text = readFile(path);
-    } catch (const InputError& error) {
-      failure = error.what();
-    }
-  }
-  failure = broadcast(std::move(failure), comm);
-  if (!failure.empty()) throw InputError(failure);
-  return parse(broadcast(std::move(text), comm), path, overrides, schema);
+  collectively(comm, [&] {
+    if (rank == 0) text = readFile(path);
+  });
+  text = broadcast(std::move(text), comm);
+  std::optional<Deck> deck;
+  collectively(comm, [&] { deck = parse(std::move(text), path, overrides, schema); });
+  return std::move(*deck);
 }
 
 const DeckValue* Deck::find(std::string_view key) const {

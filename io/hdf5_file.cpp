@@ -13,18 +13,14 @@ namespace {
 void probe(MPI_Comm comm, const std::filesystem::path& path) {
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
-  int reason = 0;
-  if (rank == 0) {
-    if (std::FILE* file = std::fopen(path.c_str(), "wb")) {
-      std::fclose(file);
-    } else {
-      reason = errno;
+  collectively(comm, [&] {
+    if (rank != 0) return;
+    std::FILE* file = std::fopen(path.c_str(), "wb");
+    if (file == nullptr) {
+      throw InputError(fmt::format("{}: the file cannot be written: {}", path.string(), std::strerror(errno)));
     }
-  }
-  MPI_Bcast(&reason, 1, MPI_INT, 0, comm);
-  if (reason != 0) {
-    throw InputError(fmt::format("{}: the file cannot be written: {}", path.string(), std::strerror(reason)));
-  }
+    std::fclose(file);
+  });
 }
 
 }  // namespace

@@ -4,12 +4,26 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <iostream>
+#include <string_view>
 
 #include "io/report.hpp"
 
 namespace lampblack {
 namespace {
+
+// Open MPI hands each rank a terminal of its own making, whatever the user's output is; then the launcher's output
+// tells (on another node than the launcher's it is a pipe, which is right, too).
+bool writesToTerminal() {
+  if (isatty(STDOUT_FILENO) != 1) return false;
+  if (std::getenv("OMPI_COMM_WORLD_RANK") == nullptr) return true;
+  char target[256];
+  const std::string output = fmt::format("/proc/{}/fd/1", getppid());
+  const ssize_t size = readlink(output.c_str(), target, sizeof target);
+  const std::string_view name(target, size > 0 ? static_cast<std::size_t>(size) : 0);
+  return name.starts_with("/dev/pts/") || name.starts_with("/dev/tty");
+}
 
 std::ostream* rankZeroOutput(MPI_Comm comm) {
   int rank = 0;
@@ -21,7 +35,7 @@ std::ostream* rankZeroOutput(MPI_Comm comm) {
 
 Progress::Progress(MPI_Comm comm, double start, double end)
     : out_(rankZeroOutput(comm)),
-      terminal_(isatty(STDOUT_FILENO) == 1),
+      terminal_(writesToTerminal()),
       start_(start),
       end_(end),
       begun_(Clock::now()),

@@ -253,17 +253,15 @@ void ResultsWriter::close() {
   if (!self_->file.isOpen()) return;
   if (self_->open) throw std::logic_error("the results are closed inside a step");
   self_->file.close();
-  int failure = 0;
-  if (self_->rank == 0) {
+  collectively(self_->comm, [this] {
+    if (self_->rank != 0) return;
     std::error_code error;
     std::filesystem::rename(partName(self_->path), self_->path, error);
-    failure = error.value();
-  }
-  MPI_Bcast(&failure, 1, MPI_INT, 0, self_->comm);
-  if (failure != 0) {
-    throw NumericsError(fmt::format("{} cannot be renamed to {}: {}", partName(self_->path).string(),
-                                    self_->path.string(), std::generic_category().message(failure)));
-  }
+    if (error) {
+      throw NumericsError(fmt::format("{} cannot be renamed to {}: {}", partName(self_->path).string(),
+                                      self_->path.string(), error.message()));
+    }
+  });
   self_->writeXdmf(self_->path.filename().string());
 }
 

@@ -66,19 +66,9 @@ void prepareHere(const fs::path& path, bool force) {
 RunFolder RunFolder::prepare(const fs::path& path, bool force, MPI_Comm comm) {
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
-  std::string failure;
-  if (rank == 0) {
-    try {
-      prepareHere(path, force);
-    } catch (const InputError& error) {
-      failure = error.what();
-    }
-  }
-  int size = static_cast<int>(failure.size());
-  MPI_Bcast(&size, 1, MPI_INT, 0, comm);
-  failure.resize(static_cast<std::size_t>(size));
-  MPI_Bcast(failure.data(), size, MPI_CHAR, 0, comm);
-  if (!failure.empty()) throw InputError(failure);
+  collectively(comm, [&] {
+    if (rank == 0) prepareHere(path, force);
+  });
   return RunFolder(path);
 }
 

@@ -29,15 +29,30 @@ TEST(DeckOnRanks, IsReadByTheFirstAndKnownToAll) {
   if (rank == 0) std::filesystem::remove(path);
 }
 
-TEST(DeckOnRanks, FailsAlikeOnAll) {
-  std::string message;
+// The message of the error that loading raises, which all ranks have to raise together.
+std::string failureOf(const std::filesystem::path& path) {
   try {
-    (void)Deck::load("/nowhere/deck.yaml", {}, test::sampleSchema(), MPI_COMM_WORLD);
+    (void)Deck::load(path, {"seed=many"}, test::sampleSchema(), MPI_COMM_WORLD);
   } catch (const InputError& error) {
-    message = error.what();
+    EXPECT_TRUE(isCollective(error));
+    EXPECT_TRUE(sameEverywhere(error.what()));
+    return error.what();
   }
-  EXPECT_EQ(message, "/nowhere/deck.yaml: there is no such file");
-  EXPECT_TRUE(sameEverywhere(message));
+  return "accepted";
+}
+
+TEST(DeckOnRanks, FailsAlikeOnAll) {
+  int rank = 0;
+  int ranks = 1;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  EXPECT_EQ(failureOf("/nowhere/deck.yaml"), "/nowhere/deck.yaml: there is no such file");
+  const auto path = std::filesystem::temp_directory_path() / ("lampblack_bad_deck_" + std::to_string(ranks) + ".yaml");
+  if (rank == 0) std::ofstream(path) << test::sampleText;
+  MPI_Barrier(MPI_COMM_WORLD);
+  EXPECT_THAT(failureOf(path), testing::HasSubstr("--set seed=many: seed: expected an integer, found 'many'"));
+  MPI_Barrier(MPI_COMM_WORLD);
+  if (rank == 0) std::filesystem::remove(path);
 }
 
 }  // namespace

@@ -43,6 +43,7 @@ class RunFolders : public testing::Test {
     try {
       (void)RunFolder::prepare(folder, false, MPI_COMM_WORLD);
     } catch (const InputError& error) {
+      EXPECT_TRUE(isCollective(error));
       return error.what();
     }
     return "accepted";
