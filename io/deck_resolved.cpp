@@ -1,7 +1,8 @@
 // The deck as the run understood it, defaults included: as a deck that can be read again, and as JSON.
 #include <fmt/format.h>
 
-#include <charconv>
+#include <algorithm>
+#include <map>
 
 #include "io/deck.hpp"
 #include "io/json.hpp"
@@ -27,18 +28,27 @@ struct Branch {
   }
 };
 
-Branch treeOf(const std::vector<DeckValue>& values) {
+using Index = std::map<std::string, std::size_t, std::less<>>;
+
+// The sections as the deck has them, empty ones included: that a section is there can mean something.
+void addSections(const DeckNode& node, const std::string& path, const Index& values, Branch& branch) {
+  branch.isList = node.kind == DeckNode::Kind::list;
+  for (std::size_t i = 0; i < node.children.size(); ++i) {
+    const DeckNode& child = node.children[i];
+    const std::string name = branch.isList ? std::to_string(i) : child.name;
+    const std::string childPath =
+        branch.isList ? fmt::format("{}[{}]", path, i) : (path.empty() ? "" : path + ".") + name;
+    Branch& made = branch.child(name);
+    if (!values.contains(childPath)) addSections(child, childPath, values, made);
+  }
+}
+
+Branch treeOf(const DeckNode& deck, const std::vector<DeckValue>& values, const Index& index) {
   Branch root;
+  addSections(deck, "", index, root);
   for (const DeckValue& value : values) {
     Branch* branch = &root;
-    std::size_t at = 0;
-    for (const std::string& part : splitDeckPath(value.path)) {
-      branch->isList = branch->isList || (at > 0 && value.path[at - 1] == '[');
-      branch = &branch->child(part);
-      at += part.size();
-      while (at < value.path.size() && value.path[at] == ']') ++at;
-      ++at;
-    }
+    for (const std::string& part : splitDeckPath(value.path)) branch = &branch->child(part);
     branch->value = &value;
   }
   return root;
@@ -135,13 +145,13 @@ void writeJson(const Branch& branch, JsonWriter& json) {
 
 std::string Deck::resolved() const {
   std::string text;
-  writeYaml(treeOf(values_), text, 0);
+  writeYaml(treeOf(root_, values_, index_), text, 0);
   return text;
 }
 
 std::string Deck::resolvedJson() const {
   JsonWriter json;
-  writeJson(treeOf(values_), json);
+  writeJson(treeOf(root_, values_, index_), json);
   return json.text();
 }
 

@@ -4,6 +4,7 @@ import numpy as np
 from matplotlib import tri
 from matplotlib.collections import PolyCollection
 
+from .results import unit_of
 from .style import plt, scaled_fraction
 
 # Name of the picture, field, title, colour map, whether it is a small fraction.
@@ -72,7 +73,7 @@ def plot_planes(results, pictures):
         if not np.all(np.isfinite(values)):
             pictures.skip(f"{name} picture", "the field has values that are not finite")
             continue
-        unit = str(results.fields(step)[field].attrs.get("unit", "")) if field in results.fields(step) else ""
+        unit = unit_of(results.fields(step)[field]) if field in results.fields(step) else ""
         if is_fraction:
             values, unit = scaled_fraction(values)
         figure, axes = plt.subplots(figsize=_figure_size(results))

@@ -15,6 +15,12 @@ class ResultsError(Exception):
 ALIASES = {"A1": ["A1", "C6H6"], "A2": ["A2", "C10H8"], "A4": ["A4", "C16H10"]}
 
 
+def unit_of(dataset):
+    """The unit of a dataset; h5py gives texts of fixed length as bytes."""
+    unit = dataset.attrs.get("unit", "")
+    return unit.decode("utf-8") if isinstance(unit, bytes) else str(unit)
+
+
 class Results:
     def __init__(self, folder):
         self.folder = pathlib.Path(folder)
@@ -98,7 +104,7 @@ class Results:
         """Columns of the history as {name: (unit, values)}, from the results file or else from history.csv."""
         group = self.file.get("history")
         if group is not None:
-            return {name: (str(group[name].attrs.get("unit", "")), group[name][()]) for name in group}
+            return {name: (unit_of(group[name]), group[name][()]) for name in group}
         path = self.folder / "history.csv"
         if not path.is_file():
             return {}

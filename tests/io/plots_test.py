@@ -23,7 +23,8 @@ FLAME = 4.53e-3  # m, between the samples so that the peak has to be interpolate
 
 
 def write(group, name, values, unit="1"):
-    group.create_dataset(name, data=values).attrs["unit"] = unit
+    # Texts of fixed length, as the program writes them.
+    group.create_dataset(name, data=values).attrs["unit"] = np.bytes_(unit)
 
 
 def synthetic_results(folder, with_fields=True):
@@ -81,6 +82,16 @@ def test_pictures_are_made_and_missing_fields_named(work):
     assert names == {"temperature", "C2H2", "A2", "soot_volume_fraction", "velocity", "centreline",
                      "size_distributions", "history"}, names
     assert "not drawn - centreline profile of X_OH: the results hold no such field" in result.stdout
+
+
+def test_units_are_read_as_text(work):
+    sys.path.insert(0, str(ROOT / "scripts"))
+    from lampblack_plots.results import Results, unit_of
+
+    synthetic_results(work / "run")
+    results = Results(work / "run")
+    assert unit_of(results.fields("000010")["temperature"]) == "K"
+    assert results.history()["dt"][0] == "s"
 
 
 def test_empty_results_are_said_to_be_empty(work):

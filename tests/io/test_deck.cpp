@@ -79,6 +79,14 @@ TEST(Deck, ResolvedIsADeckThatReadsBackTheSame) {
   EXPECT_THAT(resolved, testing::HasSubstr("pressure: 101325 Pa\n"));
 }
 
+TEST(Deck, ResolvedKeepsSectionsThatAreThereAndEmpty) {
+  const Deck deck = sampleDeck({"mesh={z: []}", "boundaries.fuel.composition={}"});
+  const Deck again = sampleDeck({}, deck.resolved());
+  EXPECT_TRUE(again.has("mesh.z"));
+  EXPECT_TRUE(again.has("boundaries.fuel.composition"));
+  EXPECT_EQ(again.resolved(), deck.resolved());
+}
+
 TEST(Deck, ResolvedJsonHasSiNumbers) {
   const std::string json = sampleDeck().resolvedJson();
   EXPECT_THAT(json, testing::HasSubstr("\"pressure\": 101325"));
