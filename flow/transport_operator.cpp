@@ -35,6 +35,7 @@ TransportOperator::TransportOperator(const FlowContext& context, const State& st
       faces_(context, state.species, state.carriedCount()),
       speciesDiffusion_(context),
       heatDiffusion_(context.mesh, context.halo),
+      carriedDiffusion_(context.mesh, context.halo),
       momentum_(context) {
   const auto faces = static_cast<std::size_t>(context.mesh.faces);
   const auto owned = static_cast<std::size_t>(context.mesh.owned);
@@ -215,18 +216,45 @@ void TransportOperator::advanceCarried(State& state, double dt) {
     const double drift = -mean(properties_.viscosity) / mean(state.density) * slope / mean(state.temperature);
     for (int s = 0; s < n; ++s) {
       const double velocity = faceVelocity_[face] + state.scalars[s].thermophoresis * drift;
-      const double diffusivity = w * state.carriedDiffusivity[low * n + s] + (1.0 - w) * state.carriedDiffusivity[high * n + s];
-      const double step = state.carried[high * n + s] / state.density[high] - state.carried[low * n + s] / state.density[low];
-      flux[s] = faces_.density[face] * m.area[face] *
-                (velocity * faces_.carriedPerMass(face, s, velocity) - diffusivity * step / m.distance[face]);
+      flux[s] = faces_.density[face] * m.area[face] * velocity * faces_.carriedPerMass(face, s, velocity);
     }
   }
   std::vector<double> content(static_cast<std::size_t>(m.owned) * n);
   for (int c = 0; c < m.owned; ++c)
     for (int s = 0; s < n; ++s) content[c * n + s] = m.volume[c] * state.carried[c * n + s];
   addFaceFluxes(m, carriedFlux_, n, dt, content);
+  diffuseCarried(state, dt, content);
   for (int c = 0; c < m.owned; ++c)
     for (int s = 0; s < n; ++s) state.carried[c * n + s] = content[c * n + s] / m.volume[c];
+}
+
+// Implicit: particles of a nucleus's size diffuse almost like molecules.
+void TransportOperator::diffuseCarried(const State& state, double dt, std::span<double> content) {
+  const Mesh& m = context_.mesh;
+  const int n = state.carriedCount();
+  std::vector<double> diagonal(content.size());
+  std::vector<double> conductance(static_cast<std::size_t>(m.interiorFaces) * n);
+  std::vector<double> perMass(static_cast<std::size_t>(m.cells) * n);
+  std::vector<double> source(content.size());
+  for (int c = 0; c < m.owned; ++c)
+    for (int s = 0; s < n; ++s) {
+      diagonal[c * n + s] = newMass_[c] / dt;
+      source[c * n + s] = content[c * n + s] / dt;
+      perMass[c * n + s] = content[c * n + s] / newMass_[c];
+    }
+  for (int face = 0; face < m.interiorFaces; ++face) {
+    const double w = m.lowWeight[face];
+    const double metric = faces_.density[face] * m.area[face] / m.distance[face];
+    for (int s = 0; s < n; ++s)
+      conductance[face * n + s] = metric * (w * state.carriedDiffusivity[m.low[face] * n + s] +
+                                            (1.0 - w) * state.carriedDiffusivity[m.high[face] * n + s]);
+  }
+  carriedDiffusion_.solve(n, diagonal, conductance, source, perMass);
+  std::vector<double> flux(carriedFlux_.size(), 0.0);
+  for (int face = 0; face < m.interiorFaces; ++face)
+    for (int s = 0; s < n; ++s)
+      flux[face * n + s] = conductance[face * n + s] * (perMass[m.low[face] * n + s] - perMass[m.high[face] * n + s]);
+  addFaceFluxes(m, flux, n, dt, content);
 }
 
 void TransportOperator::finish(State& state, double dt) {

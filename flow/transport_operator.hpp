@@ -61,6 +61,7 @@ class TransportOperator : public Operator {
   void computeDivergence(const State& state, double dt);
   void updateFluxes(State& state);
   void advanceCarried(State& state, double dt);
+  void diffuseCarried(const State& state, double dt, std::span<double> content);
   void finish(State& state, double dt);
   void recordBoundary(const State& state, double dt);
 
@@ -69,7 +70,7 @@ class TransportOperator : public Operator {
   GasProperties properties_;
   FaceState faces_;
   SpeciesDiffusion speciesDiffusion_;
-  ImplicitDiffusion heatDiffusion_;
+  ImplicitDiffusion heatDiffusion_, carriedDiffusion_;
   Momentum momentum_;
   Diagnostics diagnostics_;
   BoundaryAmounts boundary_;
