@@ -151,6 +151,10 @@ void readOutput(const Deck& deck, FlowCase& flowCase) {
 
 void readSoot(const Deck& deck, FlowCase& flowCase) {
   if (!deck.has("soot")) return;
+  if (deck.choice("soot.model") == "none") {
+    if (deck.has("trajectories")) flowCase.notes.push_back("soot.model is none: the trajectories of the deck are left out");
+    return;
+  }
   const Mechanism& mechanism = *flowCase.mechanism;
   SootModelOptions options;
   options.sootDensity = deck.quantity("soot.density");
@@ -180,6 +184,7 @@ void readSoot(const Deck& deck, FlowCase& flowCase) {
 
 void readTrajectories(const Deck& deck, FlowCase& flowCase) {
   if (!deck.has("trajectories")) return;
+  if (deck.has("soot") && deck.choice("soot.model") == "none") return;
   if (!flowCase.soot) throw deck.error("trajectories", "trajectories need a 'soot' section: it names the particle model");
   TrajectoryRequest options;
   options.duration = deck.quantity("trajectories.duration");

@@ -56,6 +56,7 @@ struct FlowCase {
   ReactionOperator::Options chemistry;
   std::optional<SootModelOptions> soot;
   std::optional<TrajectoryRequest> trajectories;
+  std::vector<std::string> notes;  // what the user should be told before the run
 };
 
 // All keys a flow deck may have.

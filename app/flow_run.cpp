@@ -245,6 +245,10 @@ void runFlow(MPI_Comm comm, const Deck& deck, const RunOptions& options) {
   FlowCase flowCase;
   collectively(comm, [&] { flowCase = readFlowCase(deck); });
   const RunFolder folder = RunFolder::prepare(options.folder, options.force, comm);
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  if (rank == 0)
+    for (const std::string& note : flowCase.notes) fmt::print("note: {}\n", note);
 
   RunRecord record;
   record.deckPath = std::filesystem::absolute(deck.path()).string();
@@ -255,8 +259,6 @@ void runFlow(MPI_Comm comm, const Deck& deck, const RunOptions& options) {
   record.libraries = libraryVersions();
   record.seed = flowCase.seed;
   record.started = utcNow();
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &record.ranks);
   const auto writeRecord = [&] {
     if (rank == 0) writeRunRecord(folder.runRecord(), record);

@@ -66,6 +66,9 @@ void addTimeAndOutput(DeckSchema& schema) {
 
 void addParticles(DeckSchema& schema) {
   schema.section("soot", Presence::optional, "The dimer two-equation soot model, carried by the flow; absent: no soot.")
+      .add(choiceKey("soot.model", {"two_equation", "none"},
+                     "none: as if the sections soot and trajectories were absent (for a gas-only run by --set).")
+               .byDefault("two_equation"))
       .add(stringKey("soot.pah", "Species that dimerise.").list().byDefault("[A2]"))
       .add(quantityKey("soot.density", units::density, "Of the particles.").byDefault("1850 kg/m^3").above(0))
       .add(numberKey("soot.alpha", "Constant fraction of active sites; absent: the ABF function of temperature and size.")
