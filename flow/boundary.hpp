@@ -8,7 +8,7 @@ namespace lampblack {
 
 enum class BoundaryKind {
   Inlet,     // given normal velocity, temperature and composition
-  Outlet,    // hydrodynamic pressure zero; what flows back in has the given temperature and composition
+  Outlet,    // pressure zero, total pressure zero for what flows back in at the given temperature and composition
   Wall,      // impermeable to flow and species
   Symmetry,  // the axis, or a plane of symmetry
 };

@@ -49,6 +49,23 @@ void Momentum::boundaryVelocities(const State& state) {
   }
 }
 
+// Gas that leaves meets the ambient pressure, zero; gas that is drawn in has been accelerated from rest, so that its
+// total pressure is zero (Bernoulli), which also keeps entrainment from running away.
+void Momentum::outletPressures(const State& state) {
+  const Mesh& m = context_.mesh;
+  for (int face = m.interiorFaces; face < m.faces; ++face) {
+    const BoundaryCondition& boundary = context_.boundaryOf(face);
+    if (boundary.kind != BoundaryKind::Outlet) continue;
+    double pressure = 0.0;
+    if (state.massFlux[face] < 0.0) {
+      const double rho = context_.thermo.density(boundary.temperature, state.thermodynamicPressure, boundary.Y);
+      const double velocity = state.massFlux[face] / (rho * m.area[face]);
+      pressure = -0.5 * rho * velocity * velocity;
+    }
+    boundaryPressure_[face - m.interiorFaces] = pressure;
+  }
+}
+
 void Momentum::pressureGradient(std::span<const double> pressure) {
   gradient_.compute(pressure, boundaryPressure_, 1, pressureGradient_, skipPressure_);
 }
@@ -87,6 +104,7 @@ void Momentum::explicitStress(const State& state, const GasProperties& propertie
 void Momentum::predict(State& state, const GasProperties& properties, std::span<const double> newDensity, double dt) {
   const Mesh& m = context_.mesh;
   boundaryVelocities(state);
+  outletPressures(state);
   gradient_.compute(state.velocity, boundaryVelocity_, 2, velocityGradient_);
   context_.halo.update(velocityGradient_, 4);
   pressureGradient(state.pressure);
@@ -166,7 +184,8 @@ Projection::Result Momentum::advance(State& state, const GasProperties& properti
                          : boundary.kind == BoundaryKind::Inlet ? -boundary.speed
                                                                 : 0.0;
   }
-  const Projection::Result result = projection_.solve(dt, inverseDensity, divergence, faceVelocity, state.pressure);
+  const Projection::Result result = 
+      projection_.solve(dt, inverseDensity, divergence, boundaryPressure_, faceVelocity, state.pressure);
   pressureGradient(state.pressure);
   for (int c = 0; c < m.owned; ++c)
     for (int i = 0; i < 2; ++i)

@@ -26,6 +26,7 @@ class Momentum {
 
  private:
   void boundaryVelocities(const State& state);
+  void outletPressures(const State& state);
   void predict(State& state, const GasProperties& properties, std::span<const double> newDensity, double dt);
   void explicitStress(const State& state, const GasProperties& properties);
   void pressureGradient(std::span<const double> pressure);

@@ -67,8 +67,8 @@ void Projection::assemble(double dt, std::span<const double> inverseDensity) {
 }
 
 Projection::Result Projection::solve(double dt, std::span<const double> inverseDensity,
-                                     std::span<const double> divergence, std::span<double> faceVelocity,
-                                     std::span<double> pressure) {
+                                     std::span<const double> divergence, std::span<const double> boundaryPressure,
+                                     std::span<double> faceVelocity, std::span<double> pressure) {
   const Mesh& m = context_.mesh;
   assemble(dt, inverseDensity);
 
@@ -81,6 +81,7 @@ Projection::Result Projection::solve(double dt, std::span<const double> inverseD
     if (m.low[face] < m.owned) excess[m.low[face]] += flow;
     if (m.high[face] >= 0 && m.high[face] < m.owned) excess[m.high[face]] -= flow;
     flowScale = std::max(flowScale, std::abs(flow));
+    if (m.high[face] < 0) excess[m.low[face]] -= conductance_[face] * boundaryPressure[face - m.interiorFaces];
   }
   MPI_Allreduce(MPI_IN_PLACE, &flowScale, 1, MPI_DOUBLE, MPI_MAX, m.comm);
   double* right = nullptr;
@@ -119,7 +120,7 @@ Projection::Result Projection::solve(double dt, std::span<const double> inverseD
 
   for (int face = 0; face < m.faces; ++face) {
     if (m.area[face] <= 0.0) continue;
-    const double beyond = m.high[face] >= 0 ? pressure[m.high[face]] : 0.0;
+    const double beyond = m.high[face] >= 0 ? pressure[m.high[face]] : boundaryPressure[face - m.interiorFaces];
     faceVelocity[face] -= conductance_[face] / m.area[face] * (beyond - pressure[m.low[face]]);
   }
   Result result{static_cast<int>(iterations), 0.0};

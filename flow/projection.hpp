@@ -24,9 +24,9 @@ class Projection {
 
   // Collective. `faceVelocity` (m/s, normal, every face; prescribed on all boundary faces but outlets) is corrected in
   // place; `pressure` (cells) is the initial guess and the solution, halo filled. `inverseDensity`: 1/rho at each face;
-  // `divergence`: target in each owned cell (1/s).
+  // `divergence`: target in each owned cell (1/s); `boundaryPressure` (Pa): at each boundary face, read at outlets.
   Result solve(double dt, std::span<const double> inverseDensity, std::span<const double> divergence,
-               std::span<double> faceVelocity, std::span<double> pressure);
+               std::span<const double> boundaryPressure, std::span<double> faceVelocity, std::span<double> pressure);
 
  private:
   void assemble(double dt, std::span<const double> inverseDensity);

@@ -181,7 +181,7 @@ void TransportOperator::computeDivergence(const State& state, double dt) {
     const double W = properties_.molecularWeight[c];
     const double equationOfState = state.density[c] * constants::gasConstant * state.temperature[c] / W;
     divergence_[c] = sensible / (mass * properties_.heatCapacity[c] * state.temperature[c]) + W * moles / mass +
-                     options_.driftGain * (equationOfState / state.thermodynamicPressure - 1.0) / dt;
+                     (equationOfState / state.thermodynamicPressure - 1.0) / std::max(dt, options_.driftTime);
   }
 }
 

@@ -2,7 +2,7 @@
 //
 // Densities (rho Y_k, rho h, carried scalars) are advanced in conservative form by one face mass flux. The flux comes
 // from velocities projected onto the divergence that the equation of state demands (Day and Bell 2000),
-//   div u = (1/(rho cp T)) (E - sum_k h_k M_k) + sum_k (W/W_k) M_k / rho + gain (p_eos/p0 - 1)/dt,
+//   div u = (1/(rho cp T)) (E - sum_k h_k M_k) + sum_k (W/W_k) M_k / rho + (p_eos/p0 - 1)/max(dt, driftTime),
 // with E and M_k the enthalpy and mass that diffusion and the balance term bring into a cell - evaluated from the very
 // fluxes, implicit ones included, that the scalars are then advanced with. The last term takes away what remains of
 // p_eos - p0 after a step (volume discrepancy; Nonaka et al. 2012).
@@ -25,7 +25,9 @@ namespace lampblack {
 class TransportOperator : public Operator {
  public:
   struct Options {
-    double driftGain = 1.0;  // share of the pressure drift taken away in a step
+    // s, in which p_eos - p0 is taken away, but at least a step: a start's very short steps would otherwise turn a drift
+    // of a per cent into a gust.
+    double driftTime = 2e-5;
   };
   struct Diagnostics {
     double continuityError = 0.0;   // 1/s
