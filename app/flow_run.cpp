@@ -53,7 +53,8 @@ class FlowRun {
     if (case_.soot) soot_ = std::make_unique<SootOperator>(context_, *case_.soot);
     collectively(comm_, [&] { setMixingLayer(context_, case_.initial, state_); });
     flow_.initialise(state_, case_.time.firstStep);
-    chemistry_.endStep(state_);
+    planStep();
+    for (Operator* op : operators_) op->endStep(state_);
     budget_ = std::make_unique<Budget>(
         context_, massAndElements(*case_.mechanism, case_.soot ? SootOperator::elementMass(*case_.mechanism)
                                                                : std::vector<std::vector<double>>{}),
@@ -123,6 +124,25 @@ class FlowRun {
   }
 
  private:
+  // A step is a sequence of operators, each over its share of the step.
+  struct Stage {
+    Operator* op;
+    double share;
+  };
+  void planStep() {
+    operators_ = {&flow_, &chemistry_};
+    if (soot_) operators_.push_back(soot_.get());
+    if (case_.chemistry.deferred) {
+      for (Operator* op : operators_) stages_.push_back({op, 1.0});
+      return;
+    }
+    // Strang splitting around the chemistry, which costs most and so is solved once a step.
+    stages_.push_back({&flow_, 0.5});
+    if (soot_) stages_.push_back({soot_.get(), 0.5});
+    stages_.push_back({&chemistry_, 1.0});
+    for (std::size_t i = stages_.size() - 1; i-- > 0;) stages_.push_back(stages_[i]);
+  }
+
   struct Peak {
     double value = 0.0;
     std::array<double, 2> place{};
@@ -140,32 +160,15 @@ class FlowRun {
     return left < 2.0 * dt ? 0.5 * left : dt;
   }
 
-  void advance(Operator& op, double dt) {
-    const Timers::Scope scope(timers_, op.name());
-    op.advance(state_, time_, dt);
-  }
-
   void step(double dt) {
-    if (case_.chemistry.deferred) {
-      transport(dt);
-      advance(chemistry_, dt);
-      if (soot_) advance(*soot_, dt);
-    } else {
-      // Strang splitting around the chemistry, which costs most and so is solved once a step.
-      transport(0.5 * dt);
-      if (soot_) advance(*soot_, 0.5 * dt);
-      advance(chemistry_, dt);
-      if (soot_) advance(*soot_, 0.5 * dt);
-      transport(0.5 * dt);
+    for (const Stage& stage : stages_) {
+      const Timers::Scope scope(timers_, stage.op->name());
+      stage.op->advance(state_, time_, stage.share * dt);
+      if (stage.op == &flow_) budget_->addStep(flow_.boundaryAmounts());
     }
-    chemistry_.endStep(state_);
+    for (Operator* op : operators_) op->endStep(state_);
     time_ += dt;
     ++steps_;
-  }
-
-  void transport(double dt) {
-    advance(flow_, dt);
-    budget_->addStep(flow_.boundaryAmounts());
   }
 
   Peak peakOf(const std::function<double(int)>& value) const {
@@ -228,6 +231,8 @@ class FlowRun {
   TransportOperator flow_;
   ReactionOperator chemistry_;
   std::unique_ptr<SootOperator> soot_;
+  std::vector<Operator*> operators_;
+  std::vector<Stage> stages_;
   std::unique_ptr<Budget> budget_;
   Timers timers_;
   double time_ = 0.0;
