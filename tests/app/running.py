@@ -1,0 +1,69 @@
+"""What the tests of the executable share: a case to spoil, and runs on any number of ranks."""
+
+import dataclasses
+import hashlib
+import os
+import pathlib
+import shutil
+import subprocess
+
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
+MECHANISM = "ethylene_bisetti2012_47.yaml"
+
+
+@dataclasses.dataclass
+class Result:
+    code: int | None
+    out: str
+    err: str
+
+
+def environment() -> dict:
+    """Open MPI refuses to run as root unless told twice; each rank is one thread."""
+    env = dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
+    if os.geteuid() == 0:
+        env.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+    return env
+
+
+class Program:
+    """The executable on a number of ranks; `mpiexec` is ready for that number to follow ("mpirun -n")."""
+
+    def __init__(self, executable: str, mpiexec: list, ranks: int):
+        # One rank does without mpirun. Quiet: mpirun's own remarks about a rank's exit code are no message of ours.
+        launcher = [mpiexec[0], "-q", *mpiexec[1:], str(ranks), "--oversubscribe"] if ranks > 1 else []
+        self.command = [*launcher, executable]
+        self.ranks = ranks
+
+    def __call__(self, *arguments, timeout: float = 30) -> Result:
+        """Runs it. A run that hangs ends after `timeout` seconds, without an exit code."""
+        try:
+            done = subprocess.run([*self.command, *map(str, arguments)], env=environment(), stdin=subprocess.DEVNULL,
+                                  capture_output=True, text=True, errors="replace", timeout=timeout, check=False)
+        except subprocess.TimeoutExpired:
+            return Result(None, "", f"still running after {timeout} s")
+        return Result(done.returncode, done.stdout, done.stderr)
+
+
+def settings(*pairs: str) -> list:
+    """Arguments of the command line for "key=value" pairs."""
+    return [word for pair in pairs for word in ("--set", pair)]
+
+
+def small_case(folder: pathlib.Path) -> pathlib.Path:
+    """Puts the tests' own case and its mechanism below a folder; returns the deck."""
+    deck = folder / "flame/deck.yaml"
+    mechanism = folder / "mechanisms" / MECHANISM
+    for source, target in ((SOURCE / "tests/app/flame.yaml", deck), (SOURCE / "cases/mechanisms" / MECHANISM, mechanism)):
+        target.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(source, target)
+    return deck
+
+
+def snapshot(folder: pathlib.Path) -> dict:
+    """Every file below a folder: contents and time of the last change. Empty where there is no folder."""
+    return {
+        str(path.relative_to(folder)): (path.stat().st_mtime_ns,
+                                        hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else "folder")
+        for path in sorted(folder.rglob("*"))
+    }

@@ -1,0 +1,202 @@
+"""Every way in which a run's input can be wrong ends in exit code 2 and exactly one message, and leaves no trace.
+
+Usage: wrong_input_test.py EXECUTABLE RANKS MPIEXEC...
+
+The message names the place (file, line, key) and what was expected. Nothing else is printed, no folder is made, and a
+folder that holds another run stays as it is, to the last byte and time stamp.
+"""
+
+import concurrent.futures
+import dataclasses
+import json
+import pathlib
+import re
+import sys
+import tempfile
+
+import running
+
+MECHANISM_KEY = f"mechanism: ../mechanisms/{running.MECHANISM}"
+SOOT = "soot:\n  pah: [A2]\n"
+# A line of the deck under a message, or the mark below it.
+QUOTE = re.compile(r"^ *(\d+|--set)? \| ")
+
+
+@dataclasses.dataclass
+class Wrong:
+    """One mistake: an edit of the deck (or settings), the line (a text in it) and key it is in, and what to be told."""
+    name: str
+    old: str = ""
+    new: str = ""
+    at: str = ""
+    key: str = ""
+    expected: tuple = ()
+    settings: tuple = ()
+
+
+MISTAKES = [
+    Wrong("unknown key", "  geometry: axisymmetric", "  geometri: axisymmetric", "geometri:", "mesh.geometri",
+          ("unknown key 'geometri'", "did you mean 'geometry'?")),
+    Wrong("unknown boundary key", "    velocity: 20", "    velocty: 20", "velocty", "boundaries.fuel.velocty",
+          ("did you mean 'velocity'?",)),
+    Wrong("repeated key", "pressure: 1 atm", "pressure: 1 atm\npressure: 2 atm", "pressure: 2 atm", "pressure",
+          ("line",)),
+    Wrong("wrong unit", "  end: 10 us", "  end: 50 mm", "end: 50 mm", "time.end",
+          ("expected a time", "found '50 mm', a length")),
+    Wrong("no unit", "  end: 10 us", "  end: 50", "end: 50", "time.end", ("expected a time", "found '50'")),
+    Wrong("word for a number", "  courant: 0.5", "  courant: half", "courant: half", "time.courant",
+          ("expected a plain number", "found 'half'")),
+    Wrong("unknown species in a composition", "\"C2H4: 1\"", "\"C2H4X: 1\"", "C2H4X", "boundaries.fuel.composition",
+          ("unknown species 'C2H4X'", "nearest", "'C2H4'")),
+    Wrong("missing composition", "    composition: \"C2H4: 1\"\n", "", "  fuel:", "boundaries.fuel",
+          ("inlet needs the key 'composition'",)),
+    Wrong("empty composition", "\"C2H4: 1\"", "\"\"", "composition: \"\"", "boundaries.fuel.composition"),
+    Wrong("unknown species in the output", "species: [all]", "species: [OHH]", "OHH", "output.species",
+          ("unknown species 'OHH'", "'OH'")),
+    Wrong("unknown PAH", "pah: [A2]", "pah: [A22]", "A22", "soot.pah", ("unknown species 'A22'", "'A2'")),
+    Wrong("negative temperature", "299 K", "-5 K", "-5 K", "boundaries.fuel.temperature",
+          ("expected a temperature above 0 K", "found '-5 K'")),
+    Wrong("temperature beyond the gas data", "299 K", "9000 K", "9000 K", "boundaries.fuel.temperature",
+          ("expected", "9000 K")),
+    Wrong("missing mechanism", MECHANISM_KEY, "mechanism: nowhere.yaml", "nowhere", "mechanism",
+          ("nowhere.yaml: cannot open the mechanism file",)),
+    Wrong("garbage mechanism", MECHANISM_KEY, "mechanism: garbage.yaml", "garbage", "mechanism",
+          ("garbage.yaml:2: not valid YAML",)),
+    Wrong("binary mechanism", MECHANISM_KEY, "mechanism: binary.yaml", "binary", "mechanism", ("binary.yaml",)),
+    Wrong("mechanism of something else", MECHANISM_KEY, "mechanism: deck.yaml", "mechanism: deck", "mechanism",
+          ("no 'phases'",)),
+    Wrong("zero cells", "{to: 10 mm, cells: 4}", "{to: 10 mm, cells: 0}", "cells: 0", "mesh.r[0].cells",
+          ("expected an integer at least 1", "found '0'")),
+    Wrong("no cells along an axis", "  r:\n    - {to: 10 mm, cells: 4}\n    - {to: 14 mm, cells: 2}\n",
+          "", "mesh:", "mesh", ("no cells along r",)),
+    Wrong("segments backwards", "{to: 14 mm", "{to: 9 mm", "  r:", "mesh.r"),
+    Wrong("boundary faces without a patch", "    to: 10 mm", "    to: 5 mm", "boundaries:",
+          "boundaries", ("face", "belongs to no boundary")),
+    Wrong("no outlet", "{type: outlet, side: r-max", "{type: wall, side: r-max", "boundaries:", "boundaries",
+          ("one boundary has to be an outlet",)),
+    Wrong("a side of the other geometry", "{type: symmetry, side: r-min}", "{type: symmetry, side: x-min}", "x-min",
+          "boundaries.axis.side", ("the axes of this mesh are r and z",)),
+    Wrong("a stream that is no inlet", "  low: fuel", "  low: fuell", "fuell", "initial.low",
+          ("'fuell' is not an inlet", "fuel, oxidiser")),
+    Wrong("trajectories without soot", SOOT, "", "trajectories:", "trajectories", ("need a 'soot' section",)),
+    Wrong("trajectory outside", "{r: 2 mm, z: 4.5 mm}", "{r: 2 mm, z: 45 mm}", "z: 45 mm", "trajectories.start[1]",
+          ("outside the mesh",)),
+    Wrong("unknown key in --set", key="mesh.refinment", expected=("did you mean 'refinement'?",),
+          settings=("mesh.refinment=1",)),
+    Wrong("wrong unit in --set", key="time.end", expected=("expected a time", "found '1 m', a length"),
+          settings=("time.end=1 m",)),
+    Wrong("--set without a value", key="time.end", expected=("expected 'key=value'",), settings=("time.end",)),
+    Wrong("not YAML", "pressure: 1 atm", "pressure: [1 atm", "", ""),
+]
+
+USAGE = [
+    ("unknown option", ("run", "DECK", "--frobnicate"), "--frobnicate"),
+    ("no subcommand", (), "subcommand"),
+    ("unknown subcommand", ("walk", "DECK"), ""),
+    ("no deck", ("run",), "deck"),
+    ("--set without an argument", ("run", "DECK", "--set"), "--set"),
+    ("missing deck", ("run", "nowhere/deck.yaml"), "nowhere/deck.yaml"),
+]
+
+
+class Checker:
+    def __init__(self, program: running.Program, folder: pathlib.Path):
+        self.program = program
+        self.folder = folder
+        self.failures = 0
+
+    def require(self, name: str, result: running.Result, problems: list) -> None:
+        if result.code != 2:
+            problems.append(f"exit code {result.code}, expected 2")
+        if result.out:
+            problems.append("something on standard output")
+        if not problems:
+            print(f"ok      {name}")
+            return
+        self.failures += 1
+        print(f"FAILED  {name}: {'; '.join(problems)}\n{result.out}{result.err}")
+
+    def one_message(self, err: str) -> list:
+        """Problems of a standard error that is to hold one message, with the place quoted below it at most."""
+        lines = err.splitlines()
+        if not lines or not lines[0].startswith("lampblack: "):
+            return ["the first line is no message of lampblack"]
+        return [f"more than one message: '{line}'" for line in lines[1:] if not QUOTE.match(line)]
+
+    def mistake(self, wrong: Wrong) -> None:
+        deck = running.small_case(self.folder)
+        text = deck.read_text(encoding="utf-8")
+        assert text.count(wrong.old) == 1 or not wrong.old, f"{wrong.name}: '{wrong.old}' is not once in the deck"
+        if wrong.old:
+            text = text.replace(wrong.old, wrong.new)
+            deck.write_text(text, encoding="utf-8")
+        (deck.parent / "garbage.yaml").write_text("species: [1, 2\n}: - x", encoding="utf-8")
+        (deck.parent / "binary.yaml").write_bytes(bytes(range(256)) * 8)
+        before = running.snapshot(self.folder)
+        result = self.program("run", deck, *running.settings(*wrong.settings), "--out", self.folder / "out")
+        problems = self.one_message(result.err)
+        message = result.err.split("\n", 1)[0]
+        place = f"--set {wrong.settings[0]}: " if wrong.settings else f"{deck}:"
+        if wrong.at:
+            place += str(text[:text.index(wrong.at)].count("\n") + 1) + ":"
+        if not message.startswith(f"lampblack: {place}"):
+            problems.append(f"does not start with 'lampblack: {place}'")
+        if wrong.key and not re.search(rf"(^|[: '\"]){re.escape(wrong.key)}(:|'| )", message):
+            problems.append(f"does not name the key {wrong.key}")
+        problems += [f"does not say \"{part}\"" for part in wrong.expected if part not in message]
+        if running.snapshot(self.folder) != before:
+            problems.append("left something behind")
+        self.require(wrong.name, result, problems)
+
+    def usage(self, name: str, arguments: tuple, expected: str) -> None:
+        deck = running.small_case(self.folder)
+        before = running.snapshot(self.folder)
+        result = self.program(*[deck if word == "DECK" else word for word in arguments])
+        lines = [line for line in result.err.splitlines() if line.strip()]
+        # The message, and where to find help.
+        problems = [] if 1 <= len(lines) <= 2 and len(set(lines)) == len(lines) else ["not exactly one message"]
+        if expected not in result.err:
+            problems.append(f"does not say \"{expected}\"")
+        if running.snapshot(self.folder) != before:
+            problems.append("left something behind")
+        self.require(f"usage: {name}", result, problems)
+
+    def occupied(self, name: str, files: dict) -> None:
+        """Another run in the output folder: whole, failed or cut off."""
+        deck = running.small_case(self.folder)
+        out = self.folder / "occupied"
+        out.mkdir()
+        for file, text in files.items():
+            (out / file).write_text(text, encoding="utf-8")
+        before = running.snapshot(self.folder)
+        result = self.program("run", deck, "--out", out)
+        problems = self.one_message(result.err)
+        problems += [f"does not say \"{part}\"" for part in (f"{out}: ", "--out", "--force") if part not in result.err]
+        if running.snapshot(self.folder) != before:
+            problems.append("changed the other run")
+        self.require(f"occupied folder: {name}", result, problems)
+
+
+def main(executable: str, ranks: str, *mpiexec: str) -> int:
+    program = running.Program(executable, list(mpiexec), int(ranks))
+
+    def check(task: tuple) -> int:
+        method, *arguments = task
+        with tempfile.TemporaryDirectory() as folder:
+            checker = Checker(program, pathlib.Path(folder))
+            getattr(checker, method)(*arguments)
+            return checker.failures
+
+    tasks = [("mistake", wrong) for wrong in MISTAKES] + [("usage", *case) for case in USAGE]
+    run = {"results.h5": "not to be lost", "results.xdmf": "<Xdmf/>", "history.csv": "time [s]\n0\n", "notes.txt": "mine"}
+    tasks += [("occupied", status, {"run.json": json.dumps({"status": status}), **run})
+              for status in ("done", "failed", "running")]
+    tasks += [("occupied", "results only", {"results.h5.part": "not to be lost"})]
+    # mpirun mostly waits, so that several at a time take little longer than one.
+    with concurrent.futures.ThreadPoolExecutor(4) as pool:
+        failures = sum(pool.map(check, tasks))
+    print(f"{len(tasks) - failures} passed, {failures} failed on {ranks} rank(s)")
+    return 1 if failures else 0
+
+
+sys.exit(main(*sys.argv[1:]))
