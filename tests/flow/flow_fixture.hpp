@@ -1,0 +1,147 @@
+// What the flow tests share: the hydrogen mechanism's gas models, a box mesh with its boundary conditions, states to
+// start from, and reductions over the ranks.
+#pragma once
+
+#include <mpi.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/grading.hpp"
+#include "flow/flow_context.hpp"
+#include "flow/state.hpp"
+
+namespace lampblack::test {
+
+inline constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+// One gas for all tests of an executable: its transport fits are made once.
+struct Gas {
+  explicit Gas(const std::string& file)
+      : mechanism(Mechanism::fromFile(std::string(LAMPBLACK_SOURCE_DIR) + "/cases/mechanisms/" + file)),
+        thermo(mechanism),
+        transport(mechanism) {}
+  static Gas& hydrogen() {
+    static Gas gas("hydrogen_h2o2_10.yaml");
+    return gas;
+  }
+  // Mass fractions of a mixture given by mole fractions, "H2: 2, N2: 1".
+  [[nodiscard]] std::vector<double> massFractions(std::string_view moles) const {
+    const auto X = parseComposition(mechanism, moles);
+    std::vector<double> Y(X.size());
+    thermo.moleToMass(X, Y);
+    return Y;
+  }
+  Mechanism mechanism;
+  Thermo thermo;
+  Transport transport;
+};
+
+inline double sumOverRanks(double value) {
+  MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+  return value;
+}
+inline double maxOverRanks(double value) {
+  MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+  return value;
+}
+inline double minOverRanks(double value) {
+  return -maxOverRanks(-value);
+}
+inline std::size_t at(std::ptrdiff_t index) {
+  return static_cast<std::size_t>(index);
+}
+
+// One part of the surface and what happens there.
+struct Side {
+  BoundaryPatch patch;
+  BoundaryCondition condition;
+};
+inline Side side(BoundaryKind kind, int axis, bool atMax) {
+  Side s;
+  s.patch = {"", axis, atMax};
+  s.condition.kind = kind;
+  s.condition.slip = true;
+  s.patch.name = s.condition.name = std::string(axis == 0 ? "x" : "y") + (atMax ? "max" : "min");
+  return s;
+}
+inline Side opening(BoundaryKind kind, int axis, bool atMax, double speed, double temperature, std::vector<double> Y) {
+  Side s = side(kind, axis, atMax);
+  s.condition.speed = speed;
+  s.condition.temperature = temperature;
+  s.condition.Y = std::move(Y);
+  return s;
+}
+
+struct Box {
+  Box(Geometry geometry, std::array<std::vector<double>, 2> vertices, const std::vector<Side>& sides,
+      Gas& gasOfBox = Gas::hydrogen())
+      : gas(gasOfBox),
+        mesh(MPI_COMM_WORLD, specOf(geometry, std::move(vertices), sides)),
+        halo(mesh),
+        context{mesh, halo, gas.mechanism, gas.thermo, gas.transport, {}} {
+    for (const Side& s : sides) context.boundaries.push_back(s.condition);
+  }
+
+  // A state at 1 atm of what `set` says at each cell's centre: velocity, temperature, mass fractions.
+  struct Local {
+    std::array<double, 2> velocity{0.0, 0.0};
+    double temperature = 300.0;
+    std::vector<double> Y;
+  };
+  State state(const std::function<Local(const std::array<double, 2>&)>& set, std::vector<CarriedScalar> carried = {}) {
+    const std::size_t n = gas.mechanism.numSpecies();
+    State s(mesh, n, std::move(carried));
+    for (int c = 0; c < mesh.cells; ++c) {
+      const Local local = set(mesh.centre[at(c)]);
+      for (int i = 0; i < 2; ++i) s.velocity[at(2 * c + i)] = local.velocity[at(i)];
+      s.temperature[at(c)] = local.temperature;
+      s.density[at(c)] = gas.thermo.density(local.temperature, s.thermodynamicPressure, local.Y);
+      s.enthalpy[at(c)] = gas.thermo.enthalpyMass(local.temperature, local.Y);
+      std::copy(local.Y.begin(), local.Y.end(), s.Y.begin() + static_cast<std::ptrdiff_t>(at(c) * n));
+    }
+    return s;
+  }
+
+  Gas& gas;
+  Mesh mesh;
+  HaloExchange halo;
+  FlowContext context;
+
+ private:
+  static MeshSpec specOf(Geometry geometry, std::array<std::vector<double>, 2> vertices,
+                         const std::vector<Side>& sides) {
+    MeshSpec spec;
+    spec.geometry = geometry;
+    spec.vertices = std::move(vertices);
+    for (const Side& s : sides) spec.patches.push_back(s.patch);
+    return spec;
+  }
+};
+
+inline std::vector<double> uniformAxis(double to, int cells) {
+  return gradedAxis(0.0, {{to, cells, 1.0}});
+}
+
+// Mass, species or any cell quantity, summed over the domain: volume times `perVolume`.
+inline double integral(const Mesh& mesh, const std::function<double(int)>& perVolume) {
+  double sum = 0.0;
+  for (int c = 0; c < mesh.owned; ++c) sum += mesh.volume[at(c)] * perVolume(c);
+  return sumOverRanks(sum);
+}
+
+// Largest value of any owned cell of any rank.
+inline double largest(const Mesh& mesh, const std::function<double(int)>& value) {
+  double most = -std::numeric_limits<double>::infinity();
+  for (int c = 0; c < mesh.owned; ++c) most = std::max(most, value(c));
+  return maxOverRanks(most);
+}
+
+}  // namespace lampblack::test
