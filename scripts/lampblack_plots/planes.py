@@ -54,6 +54,30 @@ def _streamlines(axes, results, velocity):
         axes.streamplot(-grid_x[::-1], grid_y, -u[:, ::-1], v[:, ::-1], **style)
 
 
+def _plot_flame(results, pictures):
+    """The flame at a glance: temperature on the left of the axis, soot on the right."""
+    temperature, soot = results.field("temperature"), results.field("soot_volume_fraction")
+    if temperature is None or soot is None or not results.touches_axis() or not np.all(np.isfinite(soot)):
+        return
+    soot, unit = scaled_fraction(soot)
+    width, height = _figure_size(results)
+    figure, axes = plt.subplots(figsize=(width + 3.0, height + 0.4))
+    polygons = results.vertices[results.cells][:, :, :2] * 1e3
+    for side, values, colours, label, place in (
+        (-1.0, temperature, "inferno", "T, K", "left"),
+        (1.0, soot, "magma", f"soot volume fraction, {unit}", "right"),
+    ):
+        drawn = PolyCollection(polygons * np.array([side, 1.0]), array=values, cmap=colours, edgecolors="face", linewidths=0.2)
+        axes.add_collection(drawn)
+        figure.colorbar(drawn, ax=axes, label=label, location=place, pad=0.12 if place == "left" else 0.02)
+    axes.autoscale_view()
+    axes.set_aspect("equal")
+    axes.set_xlabel("r, mm")
+    axes.set_ylabel("z, mm")
+    axes.set_title(f"{results.time(results.steps[-1]) * 1e3:.3g} ms")
+    pictures.save(figure, "flame")
+
+
 def plot_planes(results, pictures):
     if not results.is_plane:
         pictures.skip("plane pictures", "the mesh is three-dimensional; open results.xdmf in ParaView")
@@ -62,6 +86,7 @@ def plot_planes(results, pictures):
         pictures.skip("plane pictures", "no step was written")
         return
     step = results.steps[-1]
+    _plot_flame(results, pictures)
     for name, field, title, colours, is_fraction in PLANES:
         values = results.field(field)
         if values is None:

@@ -24,7 +24,7 @@ def _distribution(axes, group):
         axes.loglog(centres, shown, color=shade, marker=".", markersize=3, label=f"{times[i]:.3g} ms")
     axes.set_xlabel("diameter, nm")
     axes.set_ylabel("dN/dlog$_{10}$d, 1/cm$^3$")
-    axes.legend(fontsize=7, title="time", title_fontsize=7)
+    axes.legend(fontsize=7, title="time", title_fontsize=7, loc="upper left", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.2)
     return True
 
 
@@ -42,6 +42,13 @@ def _path(axes, group):
     axes.set_xlabel("time along the path, ms")
 
 
+def _start(group):
+    if "position" not in group:
+        return ""
+    r, z = group["position"][0] * 1e3
+    return f" from ({r:.3g}, {z:.3g}) mm"
+
+
 def plot_sizes(results, pictures):
     usable = {}
     for name, group in results.trajectories().items():
@@ -57,10 +64,10 @@ def plot_sizes(results, pictures):
         spread = np.linspace(0, len(names) - 1, MOST_TRAJECTORIES).astype(int)
         pictures.skip("some trajectories", f"{MOST_TRAJECTORIES} of {len(names)} are shown")
         names = [names[i] for i in spread]
-    figure, panels = plt.subplots(len(names), 2, figsize=(9.5, 3.0 * len(names)), squeeze=False)
+    figure, panels = plt.subplots(len(names), 2, figsize=(10.5, 3.0 * len(names)), squeeze=False)
     for row, name in zip(panels, names):
         if not _distribution(row[0], usable[name]):
             row[0].text(0.5, 0.5, "no particles on this path", ha="center", transform=row[0].transAxes)
         _path(row[1], usable[name])
-        row[0].set_title(f"trajectory {name}", loc="left", fontsize=10)
+        row[0].set_title(f"trajectory {name}{_start(usable[name])}", loc="left", fontsize=10)
     pictures.save(figure, "size_distributions")
