@@ -149,8 +149,8 @@ void SootOperator::advance(State& state, double time, double dt) {
       try {
         advanceCell(state, c, viscosity, dt);
       } catch (const NumericsError& error) {
-        throw NumericsError(fmt::format("soot failed in the cell at ({:.6g}, {:.6g}) m at time {:.6g} s: {}",
-                                        m.centre[c][0], m.centre[c][1], time, error.what()));
+        throw NumericsError(fmt::format("soot failed in cell {} at ({:.6g}, {:.6g}) m at time {:.6g} s: {}",
+                                        m.naturalCell[c], m.centre[c][0], m.centre[c][1], time, error.what()));
       }
       const double diffusivity = model_.diffusivity(gasOf(state, c, viscosity, pahState_), populationOf(state, c));
       for (int s = 0; s < 3; ++s)

@@ -10,8 +10,8 @@ namespace lampblack {
 
 // How a cell is packed for the trip to another rank and back.
 struct ReactionOperator::Layout {
-  // in: centre (2), enthalpy, guess of the temperature, pressure, first step, Y, constant source
-  static constexpr std::size_t inHeader = 6;
+  // in: centre (2), enthalpy, guess of the temperature, pressure, first step, natural number, Y, constant source
+  static constexpr std::size_t inHeader = 7;
   // out: temperature, next first step, seconds, solver steps, retries, skipped, Y
   static constexpr std::size_t outHeader = 6;
 };
@@ -34,6 +34,7 @@ void ReactionOperator::pack(const State& state, std::size_t cell, double dt, std
   in[3] = state.temperature[cell];
   in[4] = state.thermodynamicPressure;
   in[5] = initialStep_[cell];
+  in[6] = static_cast<double>(context_.mesh.naturalCell[cell]);
   const std::span<double> start = in.subspan(Layout::inHeader, n);
   const std::span<double> source = in.subspan(Layout::inHeader + n, n);
   std::copy_n(before, n, start.begin());
@@ -57,8 +58,8 @@ void ReactionOperator::solve(double time, double dt, std::span<const double> in,
     out[4] = result.retries;
     out[5] = result.skipped ? 1.0 : 0.0;
   } catch (const NumericsError& error) {
-    throw NumericsError(fmt::format("chemistry failed in the cell at ({:.6g}, {:.6g}) m at time {:.6g} s: {}", in[0],
-                                    in[1], time, error.what()));
+    throw NumericsError(fmt::format("chemistry failed in cell {:.0f} at ({:.6g}, {:.6g}) m at time {:.6g} s: {}", in[6],
+                                    in[0], in[1], time, error.what()));
   }
   out[2] = MPI_Wtime() - start;
 }
