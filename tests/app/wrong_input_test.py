@@ -43,7 +43,6 @@ MISTAKES = [
           ("line",)),
     Wrong("wrong unit", "  end: 10 us", "  end: 50 mm", "end: 50 mm", "time.end",
           ("expected a time", "found '50 mm', a length")),
-    Wrong("no unit", "  end: 10 us", "  end: 50", "end: 50", "time.end", ("expected a time", "found '50'")),
     Wrong("word for a number", "  courant: 0.5", "  courant: half", "courant: half", "time.courant",
           ("expected a plain number", "found 'half'")),
     Wrong("unknown species in a composition", "\"C2H4: 1\"", "\"C2H4X: 1\"", "C2H4X", "boundaries.fuel.composition",

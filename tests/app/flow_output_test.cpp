@@ -1,0 +1,69 @@
+// The mesh as the results file gets it, and the history's rows and columns.
+#include "app/flow_output.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "tests/app/app_fixture.hpp"
+#include "tests/core/mpi_support.hpp"
+
+namespace lampblack {
+namespace {
+
+using test::at;
+
+TEST(MeshOutput, HasCounterClockwiseQuadrilateralsInGlobalNumbers) {
+  const FlowCase flowCase = readFlowCase(test::flameDeck());
+  const Mesh mesh(MPI_COMM_WORLD, flowCase.mesh);
+  const MeshOutput out = meshOutput(mesh);
+  EXPECT_EQ(out.dimension, 2);
+  EXPECT_EQ(out.totalCells, 60);
+  EXPECT_EQ(out.totalVertices, 7 * 11);
+  ASSERT_EQ(out.globalCell.size(), at(mesh.owned));
+  ASSERT_EQ(out.connectivity.size(), 4 * at(mesh.owned));
+  ASSERT_EQ(out.vertexCoordinates.size(), 3 * out.globalVertex.size());
+  EXPECT_TRUE(std::is_sorted(out.globalVertex.begin(), out.globalVertex.end()));
+
+  std::map<std::int64_t, std::array<double, 2>> vertices;
+  for (std::size_t v = 0; v < out.globalVertex.size(); ++v)
+    vertices[out.globalVertex[v]] = {out.vertexCoordinates[3 * v], out.vertexCoordinates[3 * v + 1]};
+  for (std::size_t c = 0; c < at(mesh.owned); ++c) {
+    double area = 0.0;
+    std::array<double, 2> middle{};
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::int64_t here = out.connectivity[4 * c + k];
+      const std::int64_t next = out.connectivity[4 * c + (k + 1) % 4];
+      ASSERT_TRUE(vertices.contains(here)) << "a corner this rank does not send";
+      const auto& a = vertices[here];
+      const auto& b = vertices[next];
+      area += 0.5 * (a[0] * b[1] - a[1] * b[0]);
+      for (std::size_t axis = 0; axis < 2; ++axis) middle[axis] += 0.25 * a[axis];
+      // Vertices are numbered along the first axis first.
+      EXPECT_EQ(a[0], mesh.spec.vertices[0][static_cast<std::size_t>(here % 7)]);
+      EXPECT_EQ(a[1], mesh.spec.vertices[1][static_cast<std::size_t>(here / 7)]);
+    }
+    EXPECT_NEAR(area, mesh.planarArea[c], 1e-12 * mesh.planarArea[c]) << "positive: counter-clockwise";
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      EXPECT_NEAR(middle[axis], mesh.centre[c][axis], 1e-15);
+      EXPECT_EQ(out.cellCentre[3 * c + axis], mesh.centre[c][axis]);
+    }
+    EXPECT_EQ(out.cellVolume[c], mesh.volume[c]);
+    EXPECT_EQ(out.globalCell[c], mesh.naturalCell[c]);
+  }
+  // All ranks together: each cell once, the volume of the cylinder per radian.
+  std::vector<std::int64_t> cells = test::gatherAll(out.globalCell);
+  std::sort(cells.begin(), cells.end());
+  for (std::size_t i = 0; i < cells.size(); ++i) EXPECT_EQ(cells[i], static_cast<std::int64_t>(i));
+  double volume = 0.0;
+  for (double v : out.cellVolume) volume += v;
+  EXPECT_NEAR(test::sumOverRanks(volume), 0.5 * 14e-3 * 14e-3 * 8e-3, 1e-18);
+}
+
+TEST(History, HasAValueForEveryColumn) {
+  HistoryRow row;
+  row.budget = {{}, {}};
+  EXPECT_EQ(historyColumns(row.budget).size(), historyValues(row).size());
+}
+
+}  // namespace
+}  // namespace lampblack

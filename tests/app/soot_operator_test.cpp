@@ -1,0 +1,114 @@
+// What the coupling of soot and gas keeps: mass, elements, enthalpy, and every bit of a cell without soot.
+#include <cstring>
+
+#include "tests/app/app_fixture.hpp"
+
+namespace lampblack {
+namespace {
+
+using test::Flame;
+
+constexpr double carbonWeight = 12.011e-3;  // kg/mol
+
+// What a cell holds per volume, soot included.
+struct Contents {
+  double mass = 0.0, enthalpy = 0.0;
+  std::vector<double> elements;
+};
+
+// The enthalpy of soot is that of graphite and H2 at the temperature `sootTemperature`.
+Contents contentsOf(const Flame& flame, int cell, double sootTemperature) {
+  const Mechanism& mechanism = *flame.flowCase.mechanism;
+  const auto Y = flame.massFractions(cell);
+  const auto c = static_cast<std::size_t>(cell);
+  const double rho = flame.state.density[c];
+  const double* soot = &flame.state.carried[3 * c];
+  const double carbon = soot[SootOperator::carbon];
+  const double hydrogen = soot[SootOperator::hydrogen];
+  std::vector<double> h(mechanism.numSpecies());
+  flame.thermo.speciesEnthalpies(sootTemperature, h);
+  Contents contents;
+  contents.mass = rho + carbon + hydrogen;
+  contents.enthalpy = rho * flame.state.enthalpy[c] + carbon * graphiteEnthalpy(sootTemperature) +
+                      hydrogen * h[mechanism.speciesIndex("H2")];
+  const auto scalarElements = SootOperator::elementMass(mechanism);
+  for (std::size_t e = 0; e < mechanism.numElements(); ++e) {
+    double mass = 0.0;
+    for (std::size_t k = 0; k < mechanism.numSpecies(); ++k)
+      mass += rho * Y[k] / mechanism.molecularWeights()[k] * mechanism.atoms(k, e) * mechanism.atomicWeight(e);
+    for (std::size_t s = 0; s < 3; ++s) mass += soot[s] * scalarElements[s][e];
+    contents.elements.push_back(mass);
+  }
+  return contents;
+}
+
+TEST(SootOperator, KeepsMassElementsAndEnthalpy) {
+  Flame flame(MPI_COMM_WORLD, test::sootingGas);
+  SootOperator soot(flame.context, *flame.flowCase.soot);
+  double worst = 0.0;
+  for (int step = 0; step < 20; ++step) {
+    const std::vector<double> temperature = flame.state.temperature;
+    std::vector<Contents> before;
+    for (int c = 0; c < flame.mesh.owned; ++c)
+      before.push_back(contentsOf(flame, c, temperature[static_cast<std::size_t>(c)]));
+    soot.advance(flame.state, step * 1e-4, 1e-4);
+    for (int c = 0; c < flame.mesh.owned; ++c) {
+      const auto cell = static_cast<std::size_t>(c);
+      const Contents after = contentsOf(flame, c, temperature[cell]);
+      const Contents& start = before[cell];
+      worst = std::max(worst, std::abs(after.mass / start.mass - 1.0));
+      for (std::size_t e = 0; e < start.elements.size(); ++e)
+        if (start.elements[e] > 0.0) worst = std::max(worst, std::abs(after.elements[e] / start.elements[e] - 1.0));
+      // Against the gas's sensible enthalpy, as that of formation may cancel it.
+      worst = std::max(worst, std::abs(after.enthalpy - start.enthalpy) / (start.mass * 1e6));
+      EXPECT_NEAR(flame.thermo.enthalpyMass(flame.state.temperature[cell], flame.massFractions(c)),
+                  flame.state.enthalpy[cell], 1e-3);
+    }
+  }
+  RecordProperty("worst_relative_change", std::to_string(worst));
+  EXPECT_LT(worst, 1e-13);
+  // Something has happened: soot of the order of a ppm, made of carbon and hydrogen of the gas.
+  for (int c = 0; c < flame.mesh.owned; ++c) {
+    const auto population = soot.populationOf(flame.state, c);
+    EXPECT_GT(soot.model().volumeFraction(population), 1e-9);
+    EXPECT_GT(population.number, 1e12);
+    EXPECT_GT(population.hydrogen, 0.0);
+    EXPECT_GT(flame.state.carriedDiffusivity[3 * static_cast<std::size_t>(c)], 0.0);
+  }
+}
+
+TEST(SootOperator, LeavesEveryBitOfACellWithoutSoot) {
+  const auto gas = [](const std::array<double, 2>& x) {
+    return x[1] < 4e-3 ? test::sootingGas(x) : test::Gas{300.0 + 1e4 * x[0], "C2H4: 0.3, N2: 0.5, O2: 0.2"};
+  };
+  Flame flame(MPI_COMM_WORLD, gas);
+  SootOperator soot(flame.context, *flame.flowCase.soot);
+  const State before = flame.state;
+  soot.advance(flame.state, 0.0, 1e-4);
+  const auto same = [](const std::vector<double>& a, const std::vector<double>& b, int cell, int components) {
+    const std::size_t start = static_cast<std::size_t>(cell) * static_cast<std::size_t>(components);
+    return std::memcmp(&a[start], &b[start], sizeof(double) * static_cast<std::size_t>(components)) == 0;
+  };
+  for (int c = 0; c < flame.mesh.owned; ++c) {
+    const bool cold = flame.mesh.centre[static_cast<std::size_t>(c)][1] > 4e-3;
+    EXPECT_EQ(same(flame.state.Y, before.Y, c, before.species), cold);
+    EXPECT_EQ(same(flame.state.density, before.density, c, 1), cold);
+    EXPECT_EQ(same(flame.state.enthalpy, before.enthalpy, c, 1), cold);
+    EXPECT_EQ(same(flame.state.temperature, before.temperature, c, 1), cold);
+    EXPECT_EQ(same(flame.state.carried, before.carried, c, 3), cold);
+  }
+}
+
+TEST(SootOperator, GraphiteHasTheEnthalpyOfTheTables) {
+  EXPECT_NEAR(graphiteEnthalpy(298.15) * carbonWeight, 0.0, 1.0);  // J/mol
+  // JANAF: 11.795 kJ/mol above 298.15 K, heat capacity 21.610 J/mol/K at 1000 K.
+  EXPECT_NEAR(graphiteEnthalpy(1000.0) * carbonWeight, 11795.0, 60.0);
+  for (double T : {998.0, 1002.0})
+    EXPECT_NEAR((graphiteEnthalpy(T + 1.0) - graphiteEnthalpy(T - 1.0)) / 2.0 * carbonWeight, 21.61, 0.2);
+  // The two polynomials meet.
+  EXPECT_NEAR(graphiteEnthalpy(std::nextafter(1000.0, 0.0)) * carbonWeight, graphiteEnthalpy(1000.0) * carbonWeight,
+              1.0);
+}
+
+}  // namespace
+}  // namespace lampblack
