@@ -140,6 +140,7 @@ class ReactionReader {
     if (const YAML::Node standard = node_["default-efficiency"]; standard.IsDefined()) {
       if (named) fail(standard, "a collider named in the equation excludes 'default-efficiency'");
       body.defaultEfficiency = yaml_.number(standard, "default-efficiency");
+      if (body.defaultEfficiency < 0) fail(standard, "expected an efficiency of zero or more");
     }
     if (const YAML::Node list = node_["efficiencies"]; list.IsDefined()) {
       yaml_.requireMap(list, "efficiencies");

@@ -2,9 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/chemistry/measured.hpp"
+
 namespace {
 
 using namespace lampblack;
+using lampblack::testing::measured;
+using lampblack::testing::raise;
 
 // Values without dipole of Monchick, Mason, J. Chem. Phys. 35 (1961) 1676-1697; Omega(1,1)* from A* = Omega22/Omega11.
 const struct {
@@ -13,13 +17,22 @@ const struct {
               {5.0, 0.92676, 1.0997}, {10.0, 0.82435, 1.1107}, {50.0, 0.65099, 1.1297}};
 
 TEST(CollisionIntegrals, FollowTheLennardJonesTables) {
+  double neufeld = 0, thesis11 = 0, thesis22 = 0;
   for (const auto& row : kTable) {
+    const double omega11 = row.omega22 / row.A;
+    raise(neufeld, collisionIntegral11(row.T, 0) / omega11 - 1);
+    raise(neufeld, collisionIntegral22(row.T, 0) / row.omega22 - 1);
+    raise(thesis11, collisionIntegral11(row.T, 0, CollisionIntegrals::ThesisFits) / omega11 - 1);
+    raise(thesis22, collisionIntegral22(row.T, 0, CollisionIntegrals::ThesisFits) / row.omega22 - 1);
     EXPECT_NEAR(collisionIntegral11(row.T, 0) / (row.omega22 / row.A), 1, 0.004) << row.T;
     EXPECT_NEAR(collisionIntegral22(row.T, 0) / row.omega22, 1, 0.004) << row.T;
     EXPECT_NEAR(collisionIntegral11(row.T, 0, CollisionIntegrals::ThesisFits) / (row.omega22 / row.A), 1, 0.01)
         << row.T;
     EXPECT_NEAR(collisionIntegral22(row.T, 0, CollisionIntegrals::ThesisFits) / row.omega22, 1, 0.025) << row.T;
   }
+  measured("Neufeld", neufeld);
+  measured("thesis fit of (1,1)", thesis11);
+  measured("thesis fit of (2,2)", thesis22);
 }
 
 // Dipoles attract: they raise the integral, most where it is cold.

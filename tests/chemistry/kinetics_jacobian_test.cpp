@@ -6,6 +6,7 @@
 #include "chemistry/kinetics.hpp"
 #include "chemistry/reactor_system.hpp"
 #include "core/constants.hpp"
+#include "tests/chemistry/measured.hpp"
 #include "tests/chemistry/table.hpp"
 
 namespace {
@@ -13,6 +14,8 @@ namespace {
 using namespace lampblack;
 using lampblack::testing::ethylene;
 using lampblack::testing::hydrogen;
+using lampblack::testing::measured;
+using lampblack::testing::raise;
 using lampblack::testing::Table;
 
 // Central differences of fourth order with a relative step h have an error of about h^4 + eps/h: 1e-11 at h = 1e-3
@@ -29,6 +32,7 @@ std::vector<double> difference(std::size_t n, double value, double step, Rates&&
 }
 
 TEST(KineticsJacobian, AgreesWithDifferencesOfTheRates) {
+  double worst = 0, worstByT = 0;
   for (const auto* mechanism : {&hydrogen(), &ethylene()}) {
     Kinetics kinetics(*mechanism);
     const std::size_t n = mechanism->numSpecies();
@@ -45,18 +49,24 @@ TEST(KineticsJacobian, AgreesWithDifferencesOfTheRates) {
         double largest = 0;
         for (const double s : slope) largest = std::max(largest, std::abs(s));
         // Each entry against the round-off of the rate it is a difference of, and its column's size.
-        for (std::size_t k = 0; k < n; ++k)
+        for (std::size_t k = 0; k < n; ++k) {
+          if (largest > 0) raise(worst, (J[j * n + k] - slope[k]) / largest);
           EXPECT_NEAR(J[j * n + k], slope[k], 1e-8 * largest + 1e-11 * std::abs(wdot[k] / c[j]))
               << mechanism->speciesName(k) << " by " << mechanism->speciesName(j) << " at " << T;
+        }
       }
       const auto slope = difference(
           n, T, 0.2, [&](double value, std::vector<double>& out) { kinetics.netProductionRates(value, c, out); });
       double largest = 0;
       for (const double s : slope) largest = std::max(largest, std::abs(s));
-      for (std::size_t k = 0; k < n; ++k)
+      for (std::size_t k = 0; k < n; ++k) {
+        raise(worstByT, (byT[k] - slope[k]) / largest);
         EXPECT_NEAR(byT[k], slope[k], 1e-8 * largest) << mechanism->speciesName(k) << " by T at " << T;
+      }
     }
   }
+  measured("by concentration, of the column's largest", worst);
+  measured("by temperature, of the largest", worstByT);
 }
 
 TEST(KineticsJacobian, TheReactorsJacobianAgreesWithDifferences) {
@@ -69,6 +79,7 @@ TEST(KineticsJacobian, TheReactorsJacobianAgreesWithDifferences) {
   source[mechanism.speciesIndex("O2")] = 30;
   source[mechanism.speciesIndex("CO2")] = -30;
   system.setConditions(constants::oneAtmosphere, source);
+  double worst = 0;
   for (const std::size_t s : {8UL, 14UL, 18UL}) {
     std::vector<double> y(size), f(size), J(size * size);
     thermo.moleToMass(states.moleFractions(s, mechanism), {y.data(), n});
@@ -86,9 +97,13 @@ TEST(KineticsJacobian, TheReactorsJacobianAgreesWithDifferences) {
       });
       double largest = 0;
       for (const double v : slope) largest = std::max(largest, std::abs(v));
-      for (std::size_t k = 0; k < size; ++k) EXPECT_NEAR(J[j * size + k], slope[k], 1e-7 * largest) << k << " by " << j;
+      for (std::size_t k = 0; k < size; ++k) {
+        raise(worst, (J[j * size + k] - slope[k]) / largest);
+        EXPECT_NEAR(J[j * size + k], slope[k], 1e-7 * largest) << k << " by " << j;
+      }
     }
   }
+  measured("reactor, of the column's largest", worst);
 }
 
 }  // namespace

@@ -120,6 +120,12 @@ TEST(MechanismErrors, RatesOutOfRange) {
       HasSubstr("expected 'low-P-rate-constant'"));
 }
 
+TEST(MechanismErrors, NegativeEfficiencies) {
+  for (const char* key : {"default-efficiency: -1", "efficiencies: {AR: -1}"})
+    EXPECT_THAT(reactionMessage(std::string("equation: H + O2 + M <=> HO2 + M, ") + key + ", " + kRate),
+                AllOf(HasSubstr(":12:"), HasSubstr("efficiency of zero or more")));
+}
+
 TEST(MechanismErrors, EquationsThatCannotBeRead) {
   for (const char* equation : {"H + O2 HO2", "H + <=> HO2", "H O2 <=> HO2", "H + O2 + M <=> HO2", "H + O2 (+M) <=> HO2",
                                "-1 H + O2 <=> HO2", "<=> HO2", "M <=> M", "'H + O2 <=> '", "''"})

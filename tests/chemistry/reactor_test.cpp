@@ -9,6 +9,7 @@
 #include "chemistry/reactor_system.hpp"
 #include "chemistry/thermo.hpp"
 #include "core/constants.hpp"
+#include "tests/chemistry/measured.hpp"
 #include "tests/chemistry/table.hpp"
 
 namespace {
@@ -16,6 +17,8 @@ namespace {
 using namespace lampblack;
 using lampblack::testing::ethylene;
 using lampblack::testing::hydrogen;
+using lampblack::testing::measured;
+using lampblack::testing::raise;
 using lampblack::testing::Table;
 using Options = ConstantPressureReactor::Options;
 
@@ -62,37 +65,54 @@ Options tight() {
 // correlated: within 1e-4 of a mass fraction, and 1e-8 where there is nearly nothing.
 TEST(Reactor, DefaultTolerancesFollowATightRun) {
   ConstantPressureReactor coarse(ethylene()), fine(ethylene(), tight());
+  double worstT = 0, worstY = 0, worstMajor = 0;
   for (std::size_t row = 0; row < kFlameStates; row += 3) {
     for (const double dt : {1e-6, 1e-4}) {
       auto a = flameState(row), b = a;
       advance(coarse, a, dt);
       advance(fine, b, dt);
+      raise(worstT, a.T / b.T - 1);
       EXPECT_NEAR(a.T, b.T, 2e-5 * b.T) << row << " " << dt;
-      for (std::size_t k = 0; k < a.Y.size(); ++k)
+      for (std::size_t k = 0; k < a.Y.size(); ++k) {
+        raise(worstY, a.Y[k] - b.Y[k]);
+        if (b.Y[k] > 1e-6) raise(worstMajor, a.Y[k] / b.Y[k] - 1);
         EXPECT_NEAR(a.Y[k], b.Y[k], 1e-4 * std::abs(b.Y[k]) + 1e-8) << ethylene().speciesName(k) << " " << row;
+      }
     }
   }
+  measured("temperature, relative", worstT);
+  measured("mass fractions", worstY);
+  measured("mass fractions above 1e-6, relative", worstMajor);
 }
 
 TEST(Reactor, ConservesEnthalpyMassAndElements) {
   ConstantPressureReactor reactor(ethylene());
   const Thermo thermo(ethylene());
+  double worstH = 0, worstSum = 0, worstElement = 0;
   for (std::size_t row = 0; row < kFlameStates; ++row) {
     auto state = flameState(row);
     const auto start = state;
     advance(reactor, state, 1e-4);
     const double cp = thermo.cpMass(state.T, state.Y);
-    EXPECT_NEAR(thermo.enthalpyMass(state.T, state.Y), thermo.enthalpyMass(start.T, start.Y), 1e-9 * cp * state.T);
-    EXPECT_NEAR(std::accumulate(state.Y.begin(), state.Y.end(), 0.0),
-                std::accumulate(start.Y.begin(), start.Y.end(), 0.0), 5e-15);
+    const double heat = thermo.enthalpyMass(state.T, state.Y) - thermo.enthalpyMass(start.T, start.Y);
+    const double mass =
+        std::accumulate(state.Y.begin(), state.Y.end(), 0.0) - std::accumulate(start.Y.begin(), start.Y.end(), 0.0);
+    raise(worstH, heat / (cp * state.T));
+    raise(worstSum, mass);
+    EXPECT_NEAR(heat, 0, 1e-9 * cp * state.T);
+    EXPECT_NEAR(mass, 0, 5e-15);
     for (std::size_t i = 0; i < ethylene().numElements(); ++i) {
       double change = 0;
       for (std::size_t k = 0; k < state.Y.size(); ++k)
         change += (state.Y[k] - start.Y[k]) / ethylene().molecularWeights()[k] * ethylene().atoms(k, i) *
                   ethylene().atomicWeight(i);
+      raise(worstElement, change);
       EXPECT_NEAR(change, 0, 1e-12) << ethylene().elementName(i) << " " << row;
     }
   }
+  measured("enthalpy, of cp T", worstH);
+  measured("sum of mass fractions", worstSum);
+  measured("element mass fractions", worstElement);
 }
 
 // Cantera 3.2.0, rtol 1e-10, atol 1e-18: H2/air, phi = 1, 1200 K, 1 atm; time of the steepest rise of T 45.33140 us,
@@ -114,8 +134,10 @@ TEST(Reactor, HydrogenIgnitesWhenCanteraSays) {
   const double a = T[steepest] - T[steepest - 1], b = T[steepest + 1] - T[steepest],
                c = T[steepest + 2] - T[steepest + 1];
   const double delay = dt * (static_cast<double>(steepest) + 0.5 + 0.5 * (a - c) / (a - 2 * b + c));
+  measured("ignition delay, relative", delay / 4.533140e-5 - 1);
   EXPECT_NEAR(delay / 4.533140e-5, 1, 1e-4);
   advance(reactor, state, 2.07e-3);
+  measured("end temperature, K", state.T - 2763.319735);
   EXPECT_NEAR(state.T, 2763.319735, 1e-3);
 }
 
@@ -179,35 +201,53 @@ TEST(Reactor, ColdCellsAreSkippedAtTheCostOfTwoEvaluations) {
   EXPECT_NEAR(air.T, 300.0, 1e-9);
 }
 
-// Skipping must not hide chemistry: along the way to ignition of C2H4/air and of H2/air, with steps small enough that
-// the first ones change next to nothing, the run that may skip ends where the run that integrates every step does.
+// Time (s) at which the gas is 300 K hotter, from a walk in intervals of dt; INFINITY if it does not get there.
+struct Ignition {
+  double delay = INFINITY;
+  int skipped = 0;
+};
+
+Ignition ignite(const Mechanism& mechanism, const Options& options, const char* mixture, double T, double dt,
+                int steps) {
+  ConstantPressureReactor reactor(mechanism, options);
+  State state{T, std::vector<double>(mechanism.numSpecies())};
+  Thermo(mechanism).moleToMass(parseComposition(mechanism, mixture), state.Y);
+  Ignition result;
+  for (int i = 0; i < steps; ++i) {
+    const double before = state.T;
+    result.skipped += advance(reactor, state, dt).skipped ? 1 : 0;
+    if (state.T <= T + 300) continue;
+    result.delay = dt * (i + (T + 300 - before) / (state.T - before));
+    break;
+  }
+  return result;
+}
+
+// Skipping must not hide chemistry: on the way to ignition, in intervals so short that the first ones change next to
+// nothing, skipping moves the delay by less than the tolerances do. Ethylene needs a few radicals to begin with: no
+// reaction of this mechanism starts from C2H4 and O2 alone.
 TEST(Reactor, SkippingDoesNotDelayIgnition) {
   const struct {
     const Mechanism& mechanism;
     const char* mixture;
     double T, dt;
     int steps;
-  } cases[] = {{ethylene(), "C2H4: 1, O2: 3, N2: 11.28", 1100, 2e-5, 60},
-               {hydrogen(), "H2: 2, O2: 1, N2: 3.76", 950, 1e-6, 400},
-               {ethylene(), "C2H4: 1, O2: 3, N2: 11.28", 700, 1e-3, 20}};
+  } cases[] = {{hydrogen(), "H2: 2, O2: 1, N2: 3.76", 1000, 2e-7, 2000},
+               {ethylene(), "C2H4: 1, O2: 3, N2: 11.28, H: 1e-11", 1400, 1e-6, 300}};
+  double bySkipping = 0, byTolerances = 0;
   for (const auto& c : cases) {
-    ConstantPressureReactor skipping(c.mechanism), always(c.mechanism, {1e-8, 1e-16, 100000, 0.0});
-    State a{c.T, std::vector<double>(c.mechanism.numSpecies())};
-    Thermo(c.mechanism).moleToMass(parseComposition(c.mechanism, c.mixture), a.Y);
-    auto b = a;
-    int skipped = 0;
-    double largest = 0, scale = 0;
-    for (int i = 0; i < c.steps; ++i) {
-      skipped += advance(skipping, a, c.dt).skipped ? 1 : 0;
-      const double before = b.T;
-      advance(always, b, c.dt);
-      // In units of the temperature's own change over one step: the delay in steps.
-      largest = std::max(largest, std::abs(a.T - b.T));
-      scale = std::max(scale, std::abs(b.T - before));
-    }
-    std::printf("skipped %d largest %g scale %g end %g\n", skipped, largest, scale, a.T);
-    EXPECT_LT(largest, 0.05 * scale + 1e-6) << c.mixture << " " << c.T << ", skipped " << skipped;
+    const auto skipping = ignite(c.mechanism, {}, c.mixture, c.T, c.dt, c.steps);
+    const auto always = ignite(c.mechanism, {1e-6, 1e-12, 20000, 0.0}, c.mixture, c.T, c.dt, c.steps);
+    const auto exact = ignite(c.mechanism, {1e-10, 1e-20, 100000, 0.0}, c.mixture, c.T, c.dt, c.steps);
+    ASSERT_TRUE(std::isfinite(exact.delay)) << c.mixture;
+    EXPECT_GT(skipping.skipped, 10) << c.mixture;
+    EXPECT_LT(std::abs(skipping.delay - always.delay), std::abs(always.delay - exact.delay)) << c.mixture;
+    EXPECT_NEAR(skipping.delay / exact.delay, 1, 0.01) << c.mixture;
+    raise(bySkipping, skipping.delay / always.delay - 1);
+    raise(byTolerances, always.delay / exact.delay - 1);
   }
+  measured("ignition delay by skipping, relative", bySkipping);
+  measured("ignition delay by the tolerances, relative", byTolerances);
 }
 
 }  // namespace

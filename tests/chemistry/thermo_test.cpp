@@ -7,12 +7,15 @@
 
 #include "core/constants.hpp"
 #include "core/errors.hpp"
+#include "tests/chemistry/measured.hpp"
 #include "tests/chemistry/table.hpp"
 
 namespace {
 
 using namespace lampblack;
 using lampblack::testing::hydrogen;
+using lampblack::testing::measured;
+using lampblack::testing::raise;
 using lampblack::testing::Table;
 
 // The table has 13 digits.
@@ -23,9 +26,13 @@ TEST(Thermo, AgreesWithCanteraForMixturesAndSpecies) {
       species("kinetics_h2o2_species.csv");
   const std::size_t n = mechanism.numSpecies();
   std::vector<double> Y(n), cp(n), h(n);
+  double worst = 0, worstH = 0;
   for (std::size_t s = 0; s < states.size(); ++s) {
     const double T = states.number(s, "T"), p = states.number(s, "p");
     thermo.moleToMass(states.moleFractions(s, mechanism), Y);
+    raise(worst, thermo.density(T, p, Y) / mixture.number(s, "rho") - 1);
+    raise(worst, thermo.cpMass(T, Y) / mixture.number(s, "cp") - 1);
+    raise(worstH, thermo.enthalpyMass(T, Y) / mixture.number(s, "h") - 1);
     EXPECT_NEAR(thermo.meanMolecularWeight(Y) * 1e3 / mixture.number(s, "W"), 1, 1e-12);
     EXPECT_NEAR(thermo.density(T, p, Y) / mixture.number(s, "rho"), 1, 1e-12);
     EXPECT_NEAR(thermo.cpMass(T, Y) / mixture.number(s, "cp"), 1, 1e-12);
@@ -40,6 +47,8 @@ TEST(Thermo, AgreesWithCanteraForMixturesAndSpecies) {
       EXPECT_NEAR(1e3 * h[k] * W, species.number(row, "h"), 1e-11 * 1e8);
     }
   }
+  measured("density and heat capacity", worst);
+  measured("enthalpy", worstH);
 }
 
 TEST(Thermo, TemperatureComesBackFromEnthalpyWhateverTheGuess) {
@@ -47,13 +56,18 @@ TEST(Thermo, TemperatureComesBackFromEnthalpyWhateverTheGuess) {
   const Thermo thermo(mechanism);
   const Table states("counterflow_c2h4_states.csv");
   std::vector<double> Y(mechanism.numSpecies());
+  double worst = 0;
   for (std::size_t s = 0; s < states.size(); ++s) {
     const double T = states.number(s, "T");
     thermo.moleToMass(states.moleFractions(s, mechanism), Y);
     const double h = thermo.enthalpyMass(T, Y);
-    for (const double guess : {T, T + 50, 300.0, 3000.0, -1.0, 1e9, std::nan("")})
-      EXPECT_NEAR(thermo.temperatureFromEnthalpy(h, Y, guess), T, 1e-9) << guess;
+    for (const double guess : {T, T + 50, 300.0, 3000.0, -1.0, 1e9, std::nan("")}) {
+      const double found = thermo.temperatureFromEnthalpy(h, Y, guess);
+      raise(worst, found - T);
+      EXPECT_NEAR(found, T, 1e-9) << guess;
+    }
   }
+  measured("temperature from enthalpy, K", worst);
 }
 
 TEST(Thermo, EnthalpyOutsideTheRangeIsAnError) {
