@@ -24,8 +24,8 @@ class ReactorSystem {
   // The pressure (Pa) and the source (1/s, may be empty) of the evaluations that follow.
   void setConditions(double pressure, std::span<const double> source);
 
-  // f = dy/dt. Rates follow mass action through zero: negative mass fractions are negative concentrations. False, with f
-  // undefined, if the state is outside the range of the data (Thermo::minTemperature..maxTemperature) or not finite.
+  // f = dy/dt. Rates follow mass action through zero: negative mass fractions are negative concentrations. False, with
+  // f undefined, if the state is outside the range of the data (Thermo::minTemperature..maxTemperature) or not finite.
   bool rates(const double* y, double* f);
   // The chemical part of dY_k/dt alone.
   bool chemicalRates(const double* y, double* f);
