@@ -12,7 +12,7 @@ import tempfile
 import running
 
 # More than double precision has.
-TOO_MUCH = ("chemistry.relative_tolerance=1e-16", "chemistry.absolute_tolerance=1e-40")
+TOO_MUCH = ("chemistry.relative_tolerance=1e-18", "chemistry.absolute_tolerance=1e-40")
 
 
 def main(executable: str, ranks: str, *mpiexec: str) -> None:

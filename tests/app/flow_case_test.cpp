@@ -8,7 +8,6 @@ namespace lampblack {
 namespace {
 
 using testing::ElementsAre;
-using testing::HasSubstr;
 
 TEST(FlowCase, ReadsTheShippedDeck) {
   const Deck deck = Deck::load(test::sourceFolder / "cases/counterflow_ethylene/deck.yaml", {}, flowSchema());
@@ -106,9 +105,10 @@ TEST(FlowSchema, BothReferencesListEveryKey) {
   for (const DeckKey& key : schema.keys()) {
     std::string name = key.path.substr(key.path.rfind('.') + 1);
     if (name.ends_with("[]")) name.resize(name.size() - 2);
-    EXPECT_THAT(page, HasSubstr("`" + name + "`")) << key.path;
-    EXPECT_THAT(page, HasSubstr(key.doc)) << key.path;
-    EXPECT_THAT(json, HasSubstr("\"" + name + "\"")) << key.path;
+    // Not by HasSubstr, which would print the whole page.
+    EXPECT_NE(page.find("`" + key.path + "`"), std::string::npos) << key.path;
+    EXPECT_NE(page.find(key.doc), std::string::npos) << key.path;
+    EXPECT_NE(json.find("\"" + name + "\""), std::string::npos) << key.path;
   }
 }
 

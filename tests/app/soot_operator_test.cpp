@@ -1,5 +1,6 @@
 // What the coupling of soot and gas keeps: mass, elements, enthalpy, and every bit of a cell without soot.
 #include <cstring>
+#include <sstream>
 
 #include "tests/app/app_fixture.hpp"
 
@@ -65,7 +66,9 @@ TEST(SootOperator, KeepsMassElementsAndEnthalpy) {
                   flame.state.enthalpy[cell], 1e-3);
     }
   }
-  RecordProperty("worst_relative_change", std::to_string(worst));
+  std::ostringstream number;
+  number << worst;
+  RecordProperty("worst_relative_change", number.str());
   EXPECT_LT(worst, 1e-13);
   // Something has happened: soot of the order of a ppm, made of carbon and hydrogen of the gas.
   for (int c = 0; c < flame.mesh.owned; ++c) {
