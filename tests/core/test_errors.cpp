@@ -52,6 +52,16 @@ TEST(Collectively, WhatIsNoStandardExceptionIsStillReportedByAll) {
   EXPECT_NE(messageOf<std::runtime_error>([&] { collectively(MPI_COMM_WORLD, odd); }), "");
 }
 
+TEST(Collectively, ErrorRaisedOnAllRanksIsKnownAsSuch) {
+  try {
+    collectively(MPI_COMM_WORLD, [] { throw NumericsError("on all ranks"); });
+    ADD_FAILURE() << "nothing was thrown";
+  } catch (const NumericsError& e) {
+    EXPECT_TRUE(isCollective(e));
+  }
+  EXPECT_FALSE(isCollective(NumericsError("on one rank")));
+}
+
 TEST(Collectively, MessagesOfAnyLengthArriveWhole) {
   for (const std::size_t length : {std::size_t{0}, std::size_t{1}, std::size_t{100000}}) {
     const std::string expected(length, 'x');

@@ -4,6 +4,7 @@
 #include <limits>
 #include <set>
 
+#include "core/gather.hpp"
 #include "core/halo_exchange.hpp"
 #include "mpi_support.hpp"
 
@@ -82,6 +83,13 @@ TEST_F(Halo, RepeatedUpdatesFollowTheOwnersValues) {
     halo.update(values, 3);
     expectFilled(mesh, values, field, 3);
   }
+}
+
+TEST_F(Halo, GatheredFieldIsInNaturalOrderOnEveryRank) {
+  const auto all = gatherNatural(mesh, ownedOnly(mesh, 2, 3), 3);
+  ASSERT_EQ(all.size(), 3 * static_cast<std::size_t>(mesh.totalCells));
+  for (std::int64_t natural = 0; natural < mesh.totalCells; ++natural)
+    for (int k = 0; k < 3; ++k) EXPECT_EQ(all[static_cast<std::size_t>(natural) * 3 + at(k)], valueAt(natural, 2, k));
 }
 
 TEST_F(Halo, NoFieldsIsNoError) {
