@@ -37,7 +37,7 @@ TEST_P(ChemistryFailure, IsToldAlikeOnAllRanks) {
     }
   });
   EXPECT_THAT(message,
-              AllOf(HasSubstr("chemistry failed in the cell at (0.00125, 0.0036) m"), HasSubstr("time 0.00025 s"),
+              AllOf(HasSubstr("chemistry failed in cell 24 at (0.00125, 0.0036) m"), HasSubstr("time 0.00025 s"),
                     HasSubstr("T = 1750 K"), HasSubstr("p = 101325 Pa"), HasSubstr("dt = 1e-05 s"),
                     HasSubstr("C2H4: 0.0"), HasSubstr("O2: 0."), HasSubstr("CVode")));
   EXPECT_TRUE(collective);
