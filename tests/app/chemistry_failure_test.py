@@ -20,7 +20,7 @@ def main(executable: str, ranks: str, *mpiexec: str) -> None:
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         deck = running.small_case(folder)
-        result = program("run", deck, *running.settings(*TOO_MUCH), "--out", folder / "out", timeout=45)
+        result = program("run", deck, *running.settings(*TOO_MUCH), "--out", folder / "out", timeout=120)
         assert result.code == 3, f"exit code {result.code}, expected 3\n{result.out}{result.err}"
         lines = result.err.splitlines()
         assert len(lines) == 1, f"expected one line on standard error\n{result.err}"

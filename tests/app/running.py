@@ -35,7 +35,7 @@ class Program:
         self.command = [*launcher, executable]
         self.ranks = ranks
 
-    def __call__(self, *arguments, timeout: float = 30) -> Result:
+    def __call__(self, *arguments, timeout: float = 60) -> Result:
         """Runs it. A run that hangs ends after `timeout` seconds, without an exit code."""
         try:
             done = subprocess.run([*self.command, *map(str, arguments)], env=environment(), stdin=subprocess.DEVNULL,
