@@ -4,7 +4,7 @@ Usage: rank_independence_test.py EXECUTABLE MPIEXEC... Exit code 77 (skipped) wh
 
 Ranks differ in the order of sums in the pressure solver, whose error (1e-9 of the face flows) the chemistry then sees,
 and in how its steps fall. Solved to 1e-9, the chemistry adds nothing visible: fields were seen to agree to 2e-8 of their
-largest value. The bound, 1e-7, leaves room for other machines; an error of the halo or of the numbering is above 1e-3.
+largest value. The bound, 1e-7, leaves room for other machines.
 """
 
 import json
