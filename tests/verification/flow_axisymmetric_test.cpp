@@ -113,8 +113,9 @@ TEST_F(FlowAxisymmetric, RadialSourceFlowKeepsTheFluxAndIsSecondOrder) {
                        e[0], e[1], e[2], std::log2(e[0] / e[1]), std::log2(e[1] / e[2])));
   EXPECT_GT(std::log2(error[0] / error[1]), 1.7);
   EXPECT_GT(std::log2(error[1] / error[2]), 1.7);
-  // The outlet takes the velocity of the cell before it, which is first order in the last few cells.
-  EXPECT_GT(std::log2(nearOutlet[1] / nearOutlet[2]), 0.8);
+  // The outlet takes the velocity of the cell before it and no viscous flux: first order in the last few cells, of
+  // which 0.5 allows for the mixture with second-order terms on such meshes.
+  EXPECT_GT(std::log2(nearOutlet[1] / nearOutlet[2]), 0.5);
 }
 
 }  // namespace
