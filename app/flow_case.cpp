@@ -106,6 +106,25 @@ void readBoundaries(const Deck& deck, const Mechanism& mechanism, FlowCase& flow
     throw deck.error("boundaries", "one boundary has to be an outlet; closed domains are not supported yet");
 }
 
+// Every face of the surface belongs to a boundary; the first that does not is told before anything is made.
+void checkCoverage(const Deck& deck, const MeshSpec& mesh) {
+  for (int axis = 0; axis < 2; ++axis)
+    for (const bool atMax : {false, true}) {
+      const auto& along = mesh.vertices[static_cast<std::size_t>(1 - axis)];
+      const auto& across = mesh.vertices[static_cast<std::size_t>(axis)];
+      for (std::size_t i = 0; i + 1 < along.size(); ++i) {
+        std::array<double, 2> face{};
+        face[static_cast<std::size_t>(axis)] = atMax ? across.back() : across.front();
+        const double place = face[static_cast<std::size_t>(1 - axis)] = 0.5 * (along[i] + along[i + 1]);
+        if (std::none_of(mesh.patches.begin(), mesh.patches.end(), [&](const BoundaryPatch& p) {
+              return p.axis == axis && p.atMax == atMax && place >= p.from && place <= p.to;
+            }))
+          throw deck.error("boundaries",
+                           fmt::format("the boundary face at ({:.6g}, {:.6g}) m belongs to no boundary", face[0], face[1]));
+      }
+    }
+}
+
 Stream streamOf(const Deck& deck, const std::string& key, const FlowCase& flowCase) {
   const std::string name = deck.string(key);
   for (const BoundaryCondition& boundary : flowCase.boundaries)
@@ -220,6 +239,7 @@ FlowCase readFlowCase(const Deck& deck) {
     throw deck.error("mechanism", error.what());
   }
   readBoundaries(deck, *flowCase.mechanism, flowCase);
+  checkCoverage(deck, flowCase.mesh);
   readInitial(deck, flowCase);
   flowCase.time = {deck.quantity("time.end"), deck.quantity("time.first_step"), deck.quantity("time.maximum_step"),
                    deck.number("time.courant"), deck.number("time.growth")};

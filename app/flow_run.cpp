@@ -248,10 +248,17 @@ class FlowRun {
 void runFlow(MPI_Comm comm, const Deck& deck, const RunOptions& options) {
   const double start = MPI_Wtime();
   FlowCase flowCase;
-  collectively(comm, [&] { flowCase = readFlowCase(deck); });
-  const RunFolder folder = RunFolder::prepare(options.folder, options.force, comm);
   int rank = 0;
+  int ranks = 1;
   MPI_Comm_rank(comm, &rank);
+  MPI_Comm_size(comm, &ranks);
+  collectively(comm, [&] {
+    flowCase = readFlowCase(deck);
+    const std::size_t cells = (flowCase.mesh.vertices[0].size() - 1) * (flowCase.mesh.vertices[1].size() - 1);
+    if (cells < static_cast<std::size_t>(ranks))
+      throw deck.error("mesh", fmt::format("{} cells cannot be spread over {} ranks", cells, ranks));
+  });
+  const RunFolder folder = RunFolder::prepare(options.folder, options.force, comm);
   if (rank == 0)
     for (const std::string& note : flowCase.notes) fmt::print("note: {}\n", note);
 
@@ -264,7 +271,7 @@ void runFlow(MPI_Comm comm, const Deck& deck, const RunOptions& options) {
   record.libraries = libraryVersions();
   record.seed = flowCase.seed;
   record.started = utcNow();
-  MPI_Comm_size(comm, &record.ranks);
+  record.ranks = ranks;
   const auto writeRecord = [&] {
     if (rank == 0) writeRunRecord(folder.runRecord(), record);
   };

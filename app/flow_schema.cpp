@@ -15,6 +15,9 @@ void addMesh(DeckSchema& schema) {
   }
 }
 
+// K; the transport properties are fitted up to here (chemistry/transport.hpp).
+constexpr double hottest = 3500;
+
 void addBoundaries(DeckSchema& schema) {
   schema.section("boundaries", Presence::required, "Named parts of the surface and what happens there.")
       .add(choiceKey("boundaries.*.type", {"inlet", "outlet", "wall", "symmetry"}, "Kind of boundary."))
@@ -26,7 +29,8 @@ void addBoundaries(DeckSchema& schema) {
       .add(quantityKey("boundaries.*.temperature", units::temperature,
                        "inlet: of the stream; outlet: of entrained gas; wall: isothermal at this temperature.")
                .optional()
-               .above(0))
+               .above(0)
+               .atMost(hottest))
       .add(stringKey("boundaries.*.composition", "inlet, outlet (entrained gas): mole fractions, 'C2H4: 1, N2: 3'.").optional())
       .add(choiceKey("boundaries.*.species", {"flux", "fixed"},
                      "inlet: fix the total species flux (no diffusive loss into the nozzle) or the mass fractions.")
@@ -46,7 +50,8 @@ void addInitial(DeckSchema& schema) {
       .add(quantityKey("initial.temperature", units::temperature,
                        "burnt: upper limit of the temperature; hot: peak of the hot layer.")
                .byDefault("2200 K")
-               .above(0))
+               .above(0)
+               .atMost(hottest))
       .add(quantityKey("initial.hot_position", units::length, "hot: centre of the hot layer.").optional())
       .add(quantityKey("initial.hot_width", units::length, "hot: half width of the hot layer.").optional().above(0));
 }
@@ -95,7 +100,7 @@ void addParticles(DeckSchema& schema) {
 DeckSchema flowSchema() {
   DeckSchema schema;
   schema.add(choiceKey("problem", {"flow"}, "What is solved."))
-      .add(stringKey("title", "One line for reports and pictures.").byDefault(""))
+      .add(stringKey("title", "One line for reports and pictures.").byDefault("''"))
       .add(stringKey("mechanism", "Mechanism file in Cantera's YAML format, relative to the deck."))
       .add(quantityKey("pressure", units::pressure, "Thermodynamic pressure.").byDefault("1 atm").above(0))
       .add(integerKey("seed", "Of all random numbers.").byDefault("1").atLeast(0));

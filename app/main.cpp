@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <iostream>
+#include <sstream>
 
 #include "app/build_info.hpp"
 #include "app/flow_case.hpp"
@@ -98,14 +99,23 @@ int main(int argc, char** argv) {
   referenceCommand->add_flag("--json-schema", arguments.json, "As a JSON schema for editors.");
   referenceCommand->callback([&] { command = reference; });
 
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : exitInput;
-  }
   // PETSc reads its own options from the environment and from a file, not from our command line.
   if (PetscInitializeNoArguments() != 0) return exitBug;
   checkPetsc(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr));
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    // Help and mistakes alike are told once.
+    std::ostringstream out, message;
+    const int status = app.exit(error, out, message) == 0 ? 0 : exitInput;
+    int rank = 0;
+    MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+    if (rank == 0) {
+      std::cout << out.str() << std::flush;
+      if (!message.str().empty()) std::cerr << "lampblack: " << message.str() << std::flush;
+    }
+    return PetscFinalize() == 0 ? status : exitBug;
+  }
   const int code = execute(arguments, command);
   return PetscFinalize() == 0 ? code : exitBug;
 }

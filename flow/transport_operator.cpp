@@ -56,7 +56,7 @@ TransportOperator::TransportOperator(const FlowContext& context, const State& st
 void TransportOperator::initialise(State& state, double dt) {
   const Mesh& m = context_.mesh;
   state.updateHalo(context_.halo);
-  properties_.update(context_, state);
+  collectively(m.comm, [&] { properties_.update(context_, state); });
   std::fill(state.massFlux.begin(), state.massFlux.end(), 0.0);
   std::copy(state.density.begin(), state.density.end(), newDensity_.begin());
   std::fill(divergence_.begin(), divergence_.end(), 0.0);
@@ -302,7 +302,7 @@ void TransportOperator::recordBoundary(const State& state, double dt) {
 
 void TransportOperator::advance(State& state, double, double dt) {
   const Mesh& m = context_.mesh;
-  // A failing temperature inversion on one rank must stop all of them.
+  // A temperature out of range on one rank must stop all of them.
   collectively(m.comm, [&] { properties_.update(context_, state); });
   faces_.prepare(state);
   faces_.interpolate(state, state.massFlux);

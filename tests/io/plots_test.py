@@ -79,7 +79,7 @@ def test_pictures_are_made_and_missing_fields_named(work):
     result = run(ROOT / "scripts" / "plot", work / "run")
     assert result.returncode == 0
     names = {p.stem for p in (work / "run" / "pictures").glob("*.png")}
-    assert names == {"temperature", "C2H2", "A2", "soot_volume_fraction", "velocity", "centreline",
+    assert names == {"flame", "temperature", "C2H2", "A2", "soot_volume_fraction", "velocity", "centreline",
                      "size_distributions", "history"}, names
     assert "not drawn - centreline profile of X_OH: the results hold no such field" in result.stdout
 

@@ -61,7 +61,7 @@ check "run finds that folder again" 0 "flame-2 holds a finished run" "${run[@]}"
 check "run computes again with --force" 0 "results/flame --force" "${run[@]}" cases/flame --force
 check "run passes on the refusal of a folder that was asked for" 2 "this folder holds a finished run already" \
   "${run[@]}" cases/flame --set a.b=2 --out results/flame
-check "run on more ranks than processors" 0 "they will take turns" "${run[@]}" cases/flame --ranks $(($(nproc) + 1)) --out many
+check "run on more ranks than processors" 0 "they will take turns" "${run[@]}" cases/flame --ranks $(($(env -u OMP_NUM_THREADS -u OMP_THREAD_LIMIT nproc) + 1)) --out many
 check "run names a deck that is not there" 2 "there is no such deck" "${run[@]}" cases/none
 check "run refuses unknown options" 1 "unknown option --rank" "${run[@]}" cases/flame --rank 2
 check "test refuses unknown options" 1 "unknown option --fast" "$root/scripts/test" --fast
