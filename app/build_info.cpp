@@ -10,9 +10,13 @@
 
 namespace lampblack {
 
-std::string buildVersion() { return LAMPBLACK_VERSION; }
+std::string buildVersion() {
+  return LAMPBLACK_VERSION;
+}
 
-std::string buildGitHash() { return LAMPBLACK_GIT_HASH; }
+std::string buildGitHash() {
+  return LAMPBLACK_GIT_HASH;
+}
 
 std::map<std::string, std::string> libraryVersions() {
   char mpi[MPI_MAX_LIBRARY_VERSION_STRING];

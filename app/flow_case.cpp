@@ -22,7 +22,8 @@ MeshSpec readMesh(const Deck& deck) {
   MeshSpec spec;
   spec.geometry = deck.choice("mesh.geometry") == "axisymmetric" ? Geometry::Axisymmetric : Geometry::Planar;
   const AxisNames names = axisNames(spec.geometry);
-  const AxisNames others = axisNames(spec.geometry == Geometry::Axisymmetric ? Geometry::Planar : Geometry::Axisymmetric);
+  const AxisNames others =
+      axisNames(spec.geometry == Geometry::Axisymmetric ? Geometry::Planar : Geometry::Axisymmetric);
   for (const std::string& other : others)
     if (deck.has("mesh." + other))
       throw deck.error("mesh." + other, fmt::format("a {} mesh has the axes {} and {}", deck.choice("mesh.geometry"),
@@ -33,10 +34,12 @@ MeshSpec readMesh(const Deck& deck) {
     std::vector<AxisSegment> segments;
     for (std::size_t i = 0; i < deck.size(list); ++i) {
       const std::string item = fmt::format("{}[{}].", list, i);
-      segments.push_back({deck.quantity(item + "to"), static_cast<int>(deck.integer(item + "cells")), deck.number(item + "ratio")});
+      segments.push_back(
+          {deck.quantity(item + "to"), static_cast<int>(deck.integer(item + "cells")), deck.number(item + "ratio")});
     }
     if (segments.empty())
-      throw deck.error("mesh", fmt::format("the mesh has no cells along {}: expected a list '{}' of segments", names[axis], names[axis]));
+      throw deck.error("mesh", fmt::format("the mesh has no cells along {}: expected a list '{}' of segments",
+                                           names[axis], names[axis]));
     try {
       spec.vertices[axis] = gradedAxis(0.0, segments, refinement);
     } catch (const InputError& error) {
@@ -91,8 +94,10 @@ void readBoundaries(const Deck& deck, const Mechanism& mechanism, FlowCase& flow
       if (!deck.has(section + ".composition")) throw deck.error(section, what + " needs the key 'composition'");
       boundary.Y = readComposition(deck, section + ".composition", mechanism);
     }
-    if (type == "inlet") boundary.speed = requiredQuantity(deck, section, "velocity", "an inlet");
-    else if (deck.has(section + ".velocity")) throw deck.error(section + ".velocity", "only an inlet has a velocity");
+    if (type == "inlet")
+      boundary.speed = requiredQuantity(deck, section, "velocity", "an inlet");
+    else if (deck.has(section + ".velocity"))
+      throw deck.error(section + ".velocity", "only an inlet has a velocity");
     if (type == "symmetry") boundary.kind = BoundaryKind::Symmetry;
     if (type == "wall") {
       boundary.isothermal = hasTemperature;
@@ -119,8 +124,8 @@ void checkCoverage(const Deck& deck, const MeshSpec& mesh) {
         if (std::none_of(mesh.patches.begin(), mesh.patches.end(), [&](const BoundaryPatch& p) {
               return p.axis == axis && p.atMax == atMax && place >= p.from && place <= p.to;
             }))
-          throw deck.error("boundaries",
-                           fmt::format("the boundary face at ({:.6g}, {:.6g}) m belongs to no boundary", face[0], face[1]));
+          throw deck.error("boundaries", fmt::format("the boundary face at ({:.6g}, {:.6g}) m belongs to no boundary",
+                                                     face[0], face[1]));
       }
     }
 }
@@ -171,7 +176,8 @@ void readOutput(const Deck& deck, FlowCase& flowCase) {
 void readSoot(const Deck& deck, FlowCase& flowCase) {
   if (!deck.has("soot")) return;
   if (deck.choice("soot.model") == "none") {
-    if (deck.has("trajectories")) flowCase.notes.push_back("soot.model is none: the trajectories of the deck are left out");
+    if (deck.has("trajectories"))
+      flowCase.notes.push_back("soot.model is none: the trajectories of the deck are left out");
     return;
   }
   const Mechanism& mechanism = *flowCase.mechanism;
@@ -194,7 +200,8 @@ void readSoot(const Deck& deck, FlowCase& flowCase) {
                              static_cast<int>(std::lround(mechanism.atoms(k, hydrogen))),
                              sticking ? *sticking : stickingCoefficientByMass(mechanism.molecularWeights()[k])});
     }
-    for (const char* name : {"H", "H2", "OH", "H2O", "O2", "C2H2", "CO"}) static_cast<void>(mechanism.speciesIndex(name));
+    for (const char* name : {"H", "H2", "OH", "H2O", "O2", "C2H2", "CO"})
+      static_cast<void>(mechanism.speciesIndex(name));
   } catch (const InputError& error) {
     throw deck.error("soot.pah", error.what());
   }
@@ -204,7 +211,8 @@ void readSoot(const Deck& deck, FlowCase& flowCase) {
 void readTrajectories(const Deck& deck, FlowCase& flowCase) {
   if (!deck.has("trajectories")) return;
   if (deck.has("soot") && deck.choice("soot.model") == "none") return;
-  if (!flowCase.soot) throw deck.error("trajectories", "trajectories need a 'soot' section: it names the particle model");
+  if (!flowCase.soot)
+    throw deck.error("trajectories", "trajectories need a 'soot' section: it names the particle model");
   TrajectoryRequest options;
   options.duration = deck.quantity("trajectories.duration");
   options.timeStep = deck.quantity("trajectories.time_step");

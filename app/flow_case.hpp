@@ -21,12 +21,12 @@ struct TimeControl {
   double firstStep = 1e-6;   // s
   double maximumStep = 1.0;  // s
   double courant = 0.5;
-  double growth = 1.2;       // of the step from one to the next, at most
+  double growth = 1.2;  // of the step from one to the next, at most
 };
 
 struct OutputControl {
-  double interval = 0.0;          // s between field outputs
-  int historySteps = 1;           // steps between rows of the history
+  double interval = 0.0;             // s between field outputs
+  int historySteps = 1;              // steps between rows of the history
   std::vector<std::size_t> species;  // mole fractions written
 };
 
@@ -36,10 +36,10 @@ struct TrajectoryStart {
 
 struct TrajectoryRequest {
   std::vector<TrajectoryStart> starts;
-  double duration = 0.0;   // s, at most
-  double timeStep = 0.0;   // s, between samples of the gas
-  int particles = 0;       // capacity of each ensemble
-  int bins = 0;            // of the size distribution
+  double duration = 0.0;                 // s, at most
+  double timeStep = 0.0;                 // s, between samples of the gas
+  int particles = 0;                     // capacity of each ensemble
+  int bins = 0;                          // of the size distribution
   double smallest = 0.0, largest = 0.0;  // m, diameter range of the bins
 };
 

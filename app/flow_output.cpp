@@ -50,8 +50,7 @@ void writeFields(ResultsWriter& results, const FlowContext& context, const FlowC
   std::vector<double> column(owned);
   std::vector<double> X(n);
   std::vector<double> all(owned * n);
-  for (std::size_t c = 0; c < owned; ++c)
-    context.thermo.massToMole({&state.Y[c * n], n}, {&all[c * n], n});
+  for (std::size_t c = 0; c < owned; ++c) context.thermo.massToMole({&state.Y[c * n], n}, {&all[c * n], n});
   for (std::size_t k : flowCase.output.species) {
     for (std::size_t c = 0; c < owned; ++c) column[c] = all[c * n + k];
     const std::string& name = context.mechanism.speciesName(k);
@@ -94,7 +93,8 @@ std::vector<TableColumn> historyColumns(const std::vector<Budget::Line>& budget)
       {"imbalance_before", "1", "busiest rank's chemistry cost over the mean, as partitioned"},
       {"imbalance_after", "1", "the same as measured, with work sharing"},
       {"peak_soot_volume_fraction", "1", "largest soot volume fraction"},
-      {"limited_oxidations", "1", "sub-steps since the start in which soot oxidation was limited by the oxidiser left"}};
+      {"limited_oxidations", "1",
+       "sub-steps since the start in which soot oxidation was limited by the oxidiser left"}};
   for (const Budget::Line& line : budget) {
     columns.push_back({line.name + "_content", "kg/rad", line.name + " in the domain (planar: kg/m)"});
     columns.push_back({line.name + "_inflow", "kg/rad", line.name + " that came in since the start"});

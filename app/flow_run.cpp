@@ -56,8 +56,9 @@ class FlowRun {
     planStep();
     for (Operator* op : operators_) op->endStep(state_);
     budget_ = std::make_unique<Budget>(
-        context_, massAndElements(*case_.mechanism, case_.soot ? SootOperator::elementMass(*case_.mechanism)
-                                                               : std::vector<std::vector<double>>{}),
+        context_,
+        massAndElements(*case_.mechanism,
+                        case_.soot ? SootOperator::elementMass(*case_.mechanism) : std::vector<std::vector<double>>{}),
         state_);
   }
 
@@ -75,9 +76,9 @@ class FlowRun {
       if (due || steps_ % case_.output.historySteps == 0) {
         const HistoryRow row = observe(dt);
         history.row(historyValues(row));
-        progress.update(steps_, time_, dt,
-                        fmt::format("Tmax {:.0f} K  fv {:.3g} ppm", row.extremes.maximumTemperature,
-                                    1e6 * row.peakVolumeFraction));
+        progress.update(
+            steps_, time_, dt,
+            fmt::format("Tmax {:.0f} K  fv {:.3g} ppm", row.extremes.maximumTemperature, 1e6 * row.peakVolumeFraction));
       }
       if (due) {
         output(results);
@@ -101,7 +102,8 @@ class FlowRun {
     closing.steps = steps_;
     closing.wallTime = wallTime;
     closing.peakMemoryPerRank = peakMemory(comm_);
-    for (const auto& stage : timers_.gather(comm_)) closing.stages.push_back({stage.name, stage.least, stage.mean, stage.most});
+    for (const auto& stage : timers_.gather(comm_))
+      closing.stages.push_back({stage.name, stage.least, stage.mean, stage.most});
     if (sharedStages_ > 0)
       closing.imbalances.push_back({"chemistry", imbalanceBefore_ / sharedStages_, imbalanceAfter_ / sharedStages_});
     record.stages = closing.stages;
@@ -112,11 +114,13 @@ class FlowRun {
     if (mesh_.rank != 0) return;
     std::cout << formatReport(closing);
     fmt::print("peak temperature {:.1f} K at {} = ({:.3f}, {:.3f}) mm\n", last_.extremes.maximumTemperature,
-               mesh_.axisymmetric() ? "(r, z)" : "(x, y)", 1e3 * peakTemperature_.place[0], 1e3 * peakTemperature_.place[1]);
+               mesh_.axisymmetric() ? "(r, z)" : "(x, y)", 1e3 * peakTemperature_.place[0],
+               1e3 * peakTemperature_.place[1]);
     if (soot_)
       fmt::print("peak soot volume fraction {:.4g} ppm at ({:.3f}, {:.3f}) mm\n", 1e6 * last_.peakVolumeFraction,
                  1e3 * peakSoot_.place[0], 1e3 * peakSoot_.place[1]);
-    for (const Budget::Line& line : last_.budget) fmt::print("budget of {:<5} closed to {:.2e} of the inflow\n", line.name, line.error);
+    for (const Budget::Line& line : last_.budget)
+      fmt::print("budget of {:<5} closed to {:.2e} of the inflow\n", line.name, line.error);
     fmt::print("sum of mass fractions 1 to {:.1e}; most negative mass fraction {:.1e} (nothing is clipped)\n",
                last_.extremes.massFractionSumError, last_.extremes.minimumMassFraction);
     if (last_.limitedOxidations > 0)

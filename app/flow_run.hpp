@@ -1,8 +1,9 @@
 // Runs a deck with `problem: flow` from start to report.
 #pragma once
 
-#include <filesystem>
 #include <mpi.h>
+
+#include <filesystem>
 
 #include "io/deck.hpp"
 

@@ -4,14 +4,17 @@ namespace lampblack {
 namespace {
 
 void addMesh(DeckSchema& schema) {
-  schema.add(choiceKey("mesh.geometry", {"axisymmetric", "planar"}, "Axes r and z, or x and y.").byDefault("axisymmetric"))
+  schema
+      .add(
+          choiceKey("mesh.geometry", {"axisymmetric", "planar"}, "Axes r and z, or x and y.").byDefault("axisymmetric"))
       .add(numberKey("mesh.refinement", "Multiplies the cell count of every segment.").byDefault("1").above(0));
   for (const std::string axis : {"r", "z", "x", "y"}) {
     const std::string list = "mesh." + axis;
     schema.section(list, Presence::optional, "Segments of the " + axis + " axis, one after the other from zero.")
         .add(quantityKey(list + "[].to", units::length, "End of the segment.").above(0))
         .add(integerKey(list + "[].cells", "Cells of the segment.").atLeast(1))
-        .add(numberKey(list + "[].ratio", "Last cell size over first; above 1 the cells grow.").byDefault("1").above(0));
+        .add(
+            numberKey(list + "[].ratio", "Last cell size over first; above 1 the cells grow.").byDefault("1").above(0));
   }
 }
 
@@ -25,13 +28,16 @@ void addBoundaries(DeckSchema& schema) {
                      "Side of the box it lies on."))
       .add(quantityKey("boundaries.*.from", units::length, "Start along the side.").optional())
       .add(quantityKey("boundaries.*.to", units::length, "End along the side.").optional())
-      .add(quantityKey("boundaries.*.velocity", units::velocity, "inlet: normal velocity into the domain.").optional().atLeast(0))
+      .add(quantityKey("boundaries.*.velocity", units::velocity, "inlet: normal velocity into the domain.")
+               .optional()
+               .atLeast(0))
       .add(quantityKey("boundaries.*.temperature", units::temperature,
                        "inlet: of the stream; outlet: of entrained gas; wall: isothermal at this temperature.")
                .optional()
                .above(0)
                .atMost(hottest))
-      .add(stringKey("boundaries.*.composition", "inlet, outlet (entrained gas): mole fractions, 'C2H4: 1, N2: 3'.").optional())
+      .add(stringKey("boundaries.*.composition", "inlet, outlet (entrained gas): mole fractions, 'C2H4: 1, N2: 3'.")
+               .optional())
       .add(choiceKey("boundaries.*.species", {"flux", "fixed"},
                      "inlet: fix the total species flux (no diffusive loss into the nozzle) or the mass fractions.")
                .byDefault("flux"))
@@ -40,8 +46,9 @@ void addBoundaries(DeckSchema& schema) {
 
 void addInitial(DeckSchema& schema) {
   schema.section("initial", Presence::required, "The start: two streams that mix across a burnt or hot layer.")
-      .add(choiceKey("initial.layer", {"burnt", "hot"},
-                     "burnt: complete combustion where the streams meet; hot: cold mixture with a hot layer that ignites it.")
+      .add(choiceKey(
+               "initial.layer", {"burnt", "hot"},
+               "burnt: complete combustion where the streams meet; hot: cold mixture with a hot layer that ignites it.")
                .byDefault("burnt"))
       .add(stringKey("initial.low", "Boundary whose stream fills the low end of the axis."))
       .add(stringKey("initial.high", "Boundary whose stream fills the high end."))
@@ -60,13 +67,18 @@ void addTimeAndOutput(DeckSchema& schema) {
   schema.add(quantityKey("time.end", units::time, "Simulated time.").above(0))
       .add(quantityKey("time.first_step", units::time, "First time step.").byDefault("1 us").above(0))
       .add(quantityKey("time.maximum_step", units::time, "Largest time step.").byDefault("1 ms").above(0))
-      .add(numberKey("time.courant", "Share of a cell's volume that may flow out in a step.").byDefault("0.5").above(0).atMost(1))
+      .add(numberKey("time.courant", "Share of a cell's volume that may flow out in a step.")
+               .byDefault("0.5")
+               .above(0)
+               .atMost(1))
       .add(numberKey("time.growth", "Largest ratio of successive steps.").byDefault("1.2").above(1))
       .add(quantityKey("output.interval", units::time, "Time between field outputs; the last state is always written.")
                .optional()
                .above(0))
       .add(integerKey("output.history_steps", "Steps between rows of the history.").byDefault("1").atLeast(1))
-      .add(stringKey("output.species", "Species whose mole fractions are written; 'all' writes every one.").list().byDefault("[all]"));
+      .add(stringKey("output.species", "Species whose mole fractions are written; 'all' writes every one.")
+               .list()
+               .byDefault("[all]"));
 }
 
 void addParticles(DeckSchema& schema) {
@@ -76,19 +88,26 @@ void addParticles(DeckSchema& schema) {
                .byDefault("two_equation"))
       .add(stringKey("soot.pah", "Species that dimerise.").list().byDefault("[A2]"))
       .add(quantityKey("soot.density", units::density, "Of the particles.").byDefault("1850 kg/m^3").above(0))
-      .add(numberKey("soot.alpha", "Constant fraction of active sites; absent: the ABF function of temperature and size.")
+      .add(numberKey("soot.alpha",
+                     "Constant fraction of active sites; absent: the ABF function of temperature and size.")
                .optional()
                .atLeast(0)
                .atMost(1))
-      .add(numberKey("soot.oh_efficiency", "Reaction probability of an OH collision.").byDefault("0.13").atLeast(0).atMost(1))
+      .add(numberKey("soot.oh_efficiency", "Reaction probability of an OH collision.")
+               .byDefault("0.13")
+               .atLeast(0)
+               .atMost(1))
       .add(numberKey("soot.van_der_waals", "Enhancement of dimer and particle collisions.").byDefault("2.2").above(0))
       .section("trajectories", Presence::optional,
                "Stochastic ensembles that ride along streamlines of the final flow; needs the soot section.")
       .add(quantityKey("trajectories.duration", units::time, "Longest ride.").byDefault("50 ms").above(0))
-      .add(quantityKey("trajectories.time_step", units::time, "Between samples of the gas.").byDefault("50 us").above(0))
+      .add(
+          quantityKey("trajectories.time_step", units::time, "Between samples of the gas.").byDefault("50 us").above(0))
       .add(integerKey("trajectories.particles", "Capacity of each ensemble.").byDefault("4096").atLeast(16))
       .add(integerKey("trajectories.bins", "Bins of the size distribution.").byDefault("60").atLeast(2))
-      .add(quantityKey("trajectories.smallest", units::length, "Lower end of the bins (diameter).").byDefault("0.5 nm").above(0))
+      .add(quantityKey("trajectories.smallest", units::length, "Lower end of the bins (diameter).")
+               .byDefault("0.5 nm")
+               .above(0))
       .add(quantityKey("trajectories.largest", units::length, "Upper end of the bins.").byDefault("200 nm").above(0))
       .section("trajectories.start", Presence::required, "Where the ensembles start.")
       .add(quantityKey("trajectories.start[].r", units::length, "Radius (planar: x).").atLeast(0))
@@ -109,13 +128,16 @@ DeckSchema flowSchema() {
   addInitial(schema);
   addTimeAndOutput(schema);
   schema
-      .add(choiceKey("chemistry.coupling", {"deferred", "strang"},
-                     "deferred: reactions see the transport as a constant source, so that a steady flame does not depend "
-                     "on the time step; strang: Strang splitting.")
+      .add(choiceKey(
+               "chemistry.coupling", {"deferred", "strang"},
+               "deferred: reactions see the transport as a constant source, so that a steady flame does not depend "
+               "on the time step; strang: Strang splitting.")
                .byDefault("deferred"))
       .add(booleanKey("chemistry.share_work", "Send stiff cells to less busy ranks.").byDefault("true"))
       .add(numberKey("chemistry.relative_tolerance", "Of the stiff solver.").byDefault("1e-6").above(0).below(1))
-      .add(numberKey("chemistry.absolute_tolerance", "Of the stiff solver, in mass fraction.").byDefault("1e-12").above(0));
+      .add(numberKey("chemistry.absolute_tolerance", "Of the stiff solver, in mass fraction.")
+               .byDefault("1e-12")
+               .above(0));
   addParticles(schema);
   return schema;
 }

@@ -34,8 +34,9 @@ void check(const Arguments& arguments) {
   collectively(PETSC_COMM_WORLD, [&] { flowCase = readFlowCase(deck); });
   const Mesh mesh(PETSC_COMM_WORLD, flowCase.mesh);
   if (mesh.rank == 0)
-    std::cout << arguments.deck << " is a valid deck: " << mesh.totalCells << " cells, " << flowCase.mechanism->numSpecies()
-              << " species, " << flowCase.mechanism->numReactions() << " reactions.\n";
+    std::cout << arguments.deck << " is a valid deck: " << mesh.totalCells << " cells, "
+              << flowCase.mechanism->numSpecies() << " species, " << flowCase.mechanism->numReactions()
+              << " reactions.\n";
 }
 
 void run(const Arguments& arguments) {
@@ -47,8 +48,8 @@ void reference(const Arguments& arguments) {
   std::cout << (arguments.json ? jsonSchema(flowSchema()) : markdownReference(flowSchema()));
 }
 
-// Ends the run with the message of the failure. An error that all ranks raised together is told by rank 0; one that only
-// this rank knows of ends the others at once.
+// Ends the run with the message of the failure. An error that all ranks raised together is told by rank 0; one that
+// only this rank knows of ends the others at once.
 int fail(const char* kind, const std::exception& error, int code) {
   int rank = 0;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);

@@ -12,8 +12,10 @@ namespace lampblack {
 
 double graphiteEnthalpy(double T) {
   // a1..a6 of H/RT = a1 + a2 T/2 + a3 T^2/3 + a4 T^3/4 + a5 T^4/5 + a6/T, below and above 1000 K.
-  static constexpr double low[6] = {-3.10872072e-01, 4.40353686e-03, 1.90394118e-06, -6.38546966e-09, 2.98964248e-12, -1.08650794e+02};
-  static constexpr double high[6] = {1.45571829e+00, 1.71702216e-03, -6.97562786e-07, 1.35277032e-10, -9.67590652e-15, -6.95138814e+02};
+  static constexpr double low[6] = {-3.10872072e-01, 4.40353686e-03, 1.90394118e-06,
+                                    -6.38546966e-09, 2.98964248e-12, -1.08650794e+02};
+  static constexpr double high[6] = {1.45571829e+00, 1.71702216e-03,  -6.97562786e-07,
+                                     1.35277032e-10, -9.67590652e-15, -6.95138814e+02};
   constexpr double carbonWeight = 12.011e-3;  // kg/mol
   const double* a = T < 1000.0 ? low : high;
   return constants::gasConstant / carbonWeight *
@@ -141,11 +143,13 @@ void SootOperator::advance(State& state, double time, double dt) {
       double* scalars = &state.carried[static_cast<std::size_t>(c) * state.carriedCount()];
       const bool empty = scalars[carbon] < TwoEquationSoot::negligibleCarbon && pahMass < 1e-15;
       if (empty) {
-        for (int s = 0; s < 3; ++s) state.carriedDiffusivity[static_cast<std::size_t>(c) * state.carriedCount() + s] = 0.0;
+        for (int s = 0; s < 3; ++s)
+          state.carriedDiffusivity[static_cast<std::size_t>(c) * state.carriedCount() + s] = 0.0;
         continue;
       }
       context_.thermo.massToMole(Y, X);
-      const double viscosity = context_.transport.mixture(state.temperature[c], state.thermodynamicPressure, X, D).viscosity;
+      const double viscosity =
+          context_.transport.mixture(state.temperature[c], state.thermodynamicPressure, X, D).viscosity;
       try {
         advanceCell(state, c, viscosity, dt);
       } catch (const NumericsError& error) {

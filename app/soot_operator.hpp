@@ -1,8 +1,8 @@
 // Couples the dimer two-equation soot model to the flow: soot number and its carbon and hydrogen mass are scalars that
 // the flow carries; what soot takes from or gives to the gas changes the gas's species, mass and enthalpy.
 //
-// Energy: gas and new soot together keep their enthalpy. Soot carbon has the enthalpy of graphite, soot hydrogen that of
-// H2 at the same temperature. The soot's own sensible heat is not followed along its path.
+// Energy: gas and new soot together keep their enthalpy. Soot carbon has the enthalpy of graphite, soot hydrogen that
+// of H2 at the same temperature. The soot's own sensible heat is not followed along its path.
 #pragma once
 
 #include <vector>

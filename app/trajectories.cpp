@@ -17,7 +17,9 @@ namespace {
 class GasOnPath {
  public:
   GasOnPath(const FlowContext& context, const State& state, const GasProperties& properties, const SootOperator& soot)
-      : pressure_(state.thermodynamicPressure), pahCount_(soot.pahSpecies().size()), width_(fixed + static_cast<int>(pahCount_)) {
+      : pressure_(state.thermodynamicPressure),
+        pahCount_(soot.pahSpecies().size()),
+        width_(fixed + static_cast<int>(pahCount_)) {
     const int owned = context.mesh.owned;
     std::vector<double> local(static_cast<std::size_t>(owned) * width_);
     std::vector<double> pah;
@@ -38,7 +40,8 @@ class GasOnPath {
     sample.time = point.time;
     sample.position = {point.position[0], point.position[1], 0.0};
     sample.divergence = point.divergence;
-    sample.gas = {value(0), pressure_, value(1), value(2), value(3), value(4), value(5), value(6), value(7), value(8), value(9), {}};
+    sample.gas = {value(0), pressure_, value(1), value(2), value(3), value(4),
+                  value(5), value(6),  value(7), value(8), value(9), {}};
     for (std::size_t i = 0; i < pahCount_; ++i) sample.pah.push_back(value(fixed + static_cast<int>(i)));
     return sample;
   }
@@ -52,7 +55,8 @@ class GasOnPath {
 };
 
 void writeTrajectory(ResultsWriter& results, std::size_t id, int owner, const std::vector<TrajectorySample>& samples,
-                     const std::vector<TrajectoryRecord>& records, const std::vector<double>& binEdges, std::size_t bins) {
+                     const std::vector<TrajectoryRecord>& records, const std::vector<double>& binEdges,
+                     std::size_t bins) {
   const std::string group = fmt::format("/trajectories/{}/", id);
   const auto rows = static_cast<std::int64_t>(records.size());
   const auto column = [&](const std::string& name, const std::string& unit, const std::string& description, auto&& of) {
@@ -63,7 +67,8 @@ void writeTrajectory(ResultsWriter& results, std::size_t id, int owner, const st
   column("time", "s", "time along the path", [&](std::size_t i) { return records[i].time; });
   column("temperature", "K", "gas temperature", [&](std::size_t i) { return samples[i].gas.temperature; });
   column("number_density", "1/m^3", "particles per volume", [&](std::size_t i) { return records[i].numberDensity; });
-  column("volume_fraction", "1", "particle volume per volume", [&](std::size_t i) { return records[i].volumeFraction; });
+  column("volume_fraction", "1", "particle volume per volume",
+         [&](std::size_t i) { return records[i].volumeFraction; });
   column("mean_diameter", "m", "number mean of the diameter", [&](std::size_t i) { return records[i].meanDiameter; });
   column("geometric_standard_deviation", "1", "of the diameter, by number",
          [&](std::size_t i) { return records[i].geometricStandardDeviation; });
@@ -74,7 +79,8 @@ void writeTrajectory(ResultsWriter& results, std::size_t id, int owner, const st
     distribution.insert(distribution.end(), record.distribution.begin(), record.distribution.end());
   }
   results.dataset(group + "position", {rows, 2}, position, "m", "radius and axial position (planar: x and y)", owner);
-  results.dataset(group + "bin_edges", {static_cast<std::int64_t>(bins) + 1}, binEdges, "m", "diameters between the bins", owner);
+  results.dataset(group + "bin_edges", {static_cast<std::int64_t>(bins) + 1}, binEdges, "m",
+                  "diameters between the bins", owner);
   results.dataset(group + "size_distribution", {rows, static_cast<std::int64_t>(bins)}, distribution, "1/m^3",
                   "dN/dlog10(d)", owner);
 }
@@ -94,8 +100,8 @@ void runTrajectories(const FlowContext& context, const FlowCase& flowCase, const
   options.bins = static_cast<std::size_t>(request.bins);
   std::vector<double> binEdges;
   for (int b = 0; b <= request.bins; ++b)
-    binEdges.push_back(std::pow(10.0, options.logDiameterMin +
-                                          (options.logDiameterMax - options.logDiameterMin) * b / request.bins));
+    binEdges.push_back(
+        std::pow(10.0, options.logDiameterMin + (options.logDiameterMax - options.logDiameterMin) * b / request.bins));
 
   const std::size_t count = request.starts.size();
   std::vector<std::vector<TrajectorySample>> samples(count);

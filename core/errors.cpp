@@ -37,7 +37,9 @@ struct Collective : Error, CollectiveMark {
 
 }  // namespace
 
-bool isCollective(const std::exception& error) { return dynamic_cast<const CollectiveMark*>(&error) != nullptr; }
+bool isCollective(const std::exception& error) {
+  return dynamic_cast<const CollectiveMark*>(&error) != nullptr;
+}
 
 void raiseCollectively(MPI_Comm comm, const std::exception_ptr& error) {
   int rank = 0;

@@ -8,8 +8,8 @@
 
 namespace lampblack {
 
-// Collective. `values`: `components` a cell, owned cells first. Returns totalCells * components values in natural order,
-// the same on every rank.
+// Collective. `values`: `components` a cell, owned cells first. Returns totalCells * components values in natural
+// order, the same on every rank.
 std::vector<double> gatherNatural(const Mesh& mesh, std::span<const double> values, int components);
 
 }  // namespace lampblack

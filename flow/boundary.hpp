@@ -16,14 +16,14 @@ enum class BoundaryKind {
 struct BoundaryCondition {
   std::string name;
   BoundaryKind kind = BoundaryKind::Wall;
-  double speed = 0.0;         // m/s, Inlet: normal velocity into the domain
-  double temperature = 0.0;   // K, Inlet, Outlet (entrained gas), isothermal Wall
-  std::vector<double> Y;      // mass fractions, Inlet and Outlet (entrained gas)
+  double speed = 0.0;        // m/s, Inlet: normal velocity into the domain
+  double temperature = 0.0;  // K, Inlet, Outlet (entrained gas), isothermal Wall
+  std::vector<double> Y;     // mass fractions, Inlet and Outlet (entrained gas)
   // Inlet: true fixes the mass fractions at the face; false fixes the total species flux, convection and diffusion
   // together, at the fed flux (no diffusive loss into the nozzle).
   bool fixedComposition = false;
-  bool isothermal = false;    // Wall: at `temperature`; otherwise adiabatic
-  bool slip = false;          // Wall
+  bool isothermal = false;  // Wall: at `temperature`; otherwise adiabatic
+  bool slip = false;        // Wall
 };
 
 }  // namespace lampblack

@@ -39,7 +39,8 @@ std::vector<double> Budget::contents(const State& state) const {
   std::vector<double> species(n, 0.0);
   std::vector<double> carried(scalars, 0.0);
   for (int c = 0; c < m.owned; ++c) {
-    for (int k = 0; k < n; ++k) species[k] += m.volume[c] * state.density[c] * state.Y[static_cast<std::size_t>(c) * n + k];
+    for (int k = 0; k < n; ++k)
+      species[k] += m.volume[c] * state.density[c] * state.Y[static_cast<std::size_t>(c) * n + k];
     for (int s = 0; s < scalars; ++s) carried[s] += m.volume[c] * state.carried[c * scalars + s];
   }
   std::vector<double> contents;

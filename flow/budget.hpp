@@ -18,8 +18,8 @@ struct ConservedQuantity {
   std::vector<double> perCarried;  // per unit of each carried scalar
 };
 
-// Total mass and the mass of every element of the mechanism; `carriedMass[s][e]` is the mass of element e in one unit of
-// carried scalar s.
+// Total mass and the mass of every element of the mechanism; `carriedMass[s][e]` is the mass of element e in one unit
+// of carried scalar s.
 std::vector<ConservedQuantity> massAndElements(const Mechanism& mechanism,
                                                const std::vector<std::vector<double>>& carriedMass);
 
@@ -27,8 +27,8 @@ class Budget {
  public:
   struct Line {
     std::string name;
-    double content = 0.0;        // kg (per radian or metre depth) in the domain
-    double inflow = 0.0;         // kg since the start, and out
+    double content = 0.0;  // kg (per radian or metre depth) in the domain
+    double inflow = 0.0;   // kg since the start, and out
     double outflow = 0.0;
     // |content now - content at the start - inflow + outflow| over the inflow (or over the content at the start where
     // that is larger than the inflow of an early step).
@@ -50,8 +50,8 @@ class Budget {
 // Extremes of the state that every history row reports. Collective.
 struct StateExtremes {
   double maximumTemperature = 0.0;
-  double minimumMassFraction = 0.0;        // most negative; limited interpolation keeps it near round-off
-  double massFractionSumError = 0.0;       // largest |sum Y - 1|
+  double minimumMassFraction = 0.0;   // most negative; limited interpolation keeps it near round-off
+  double massFractionSumError = 0.0;  // largest |sum Y - 1|
 };
 StateExtremes extremesOf(const FlowContext& context, const State& state);
 

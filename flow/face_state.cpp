@@ -11,8 +11,8 @@ namespace {
 // The two cells of an interior face as an upwind scheme sees them.
 struct Upwind {
   int up, down;
-  double fraction;    // distance up -> face over up -> down
-  double direction;   // signed distance up -> down along the face's axis
+  double fraction;   // distance up -> face over up -> down
+  double direction;  // signed distance up -> down along the face's axis
 };
 
 Upwind upwindOf(const Mesh& m, int face, double flux) {
@@ -85,8 +85,8 @@ void FaceState::interpolate(const State& state, std::span<const double> directio
       for (int k = 0; k < n; ++k) y[k] /= sum;
     } else {
       const BoundaryCondition& boundary = context_.boundaryOf(face);
-      const bool enters = boundary.kind == BoundaryKind::Inlet ||
-                          (boundary.kind == BoundaryKind::Outlet && direction[face] < 0.0);
+      const bool enters =
+          boundary.kind == BoundaryKind::Inlet || (boundary.kind == BoundaryKind::Outlet && direction[face] < 0.0);
       const int c = m.low[face];
       temperature[face] = enters ? boundary.temperature : state.temperature[c];
       std::copy_n(enters ? boundary.Y.data() : &state.Y[static_cast<std::size_t>(c) * n], n, y);

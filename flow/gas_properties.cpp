@@ -15,12 +15,14 @@ void GasProperties::update(const FlowContext& context, const State& state) {
   X_.resize(n);
   const auto molecularWeights = context.mechanism.molecularWeights();
   for (int cell = 0; cell < cells; ++cell) {
-    const std::span<const double> Y{state.Y.data() + static_cast<std::ptrdiff_t>(cell) * n, static_cast<std::size_t>(n)};
+    const std::span<const double> Y{state.Y.data() + static_cast<std::ptrdiff_t>(cell) * n,
+                                    static_cast<std::size_t>(n)};
     const double T = state.temperature[cell];
     double moles = 0.0;
     for (int k = 0; k < n; ++k) moles += X_[k] = std::max(Y[k], 0.0) / molecularWeights[k];
     for (double& x : X_) x /= moles;
-    const std::span<double> D{massDiffusivity.data() + static_cast<std::ptrdiff_t>(cell) * n, static_cast<std::size_t>(n)};
+    const std::span<double> D{massDiffusivity.data() + static_cast<std::ptrdiff_t>(cell) * n,
+                              static_cast<std::size_t>(n)};
     const auto mixture = context.transport.mixture(T, state.thermodynamicPressure, X_, D);
     for (double& d : D) d *= state.density[cell];
     viscosity[cell] = mixture.viscosity;

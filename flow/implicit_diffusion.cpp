@@ -65,8 +65,11 @@ ImplicitDiffusion::Result ImplicitDiffusion::solve(int fields, std::span<const d
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, m.comm);
   const std::vector<double> sourceNorm(sums.begin() + static_cast<std::ptrdiff_t>(2 * n), sums.end());
   std::vector<double> rz(sums.begin(), sums.begin() + static_cast<std::ptrdiff_t>(n));
-  std::vector<double> rr(sums.begin() + static_cast<std::ptrdiff_t>(n), sums.begin() + static_cast<std::ptrdiff_t>(2 * n));
-  const auto converged = [&](std::size_t k) { return rr[k] <= tolerance * tolerance * sourceNorm[k] || rr[k] < 1e-300; };
+  std::vector<double> rr(sums.begin() + static_cast<std::ptrdiff_t>(n),
+                         sums.begin() + static_cast<std::ptrdiff_t>(2 * n));
+  const auto converged = [&](std::size_t k) {
+    return rr[k] <= tolerance * tolerance * sourceNorm[k] || rr[k] < 1e-300;
+  };
 
   Result result;
   std::vector<double> step(n);

@@ -63,7 +63,8 @@ class CompleteCombustion {
   }
   [[nodiscard]] bool onlyCarbonAndHydrogen(std::size_t k) const {
     for (std::size_t e = 0; e < mechanism_.numElements(); ++e)
-      if (mechanism_.atoms(k, e) > 0.0 && e != elements_[0].value_or(e + 1) && e != elements_[1].value_or(e + 1)) return false;
+      if (mechanism_.atoms(k, e) > 0.0 && e != elements_[0].value_or(e + 1) && e != elements_[1].value_or(e + 1))
+        return false;
     return true;
   }
 

@@ -132,7 +132,8 @@ void Momentum::predict(State& state, const GasProperties& properties, std::span<
       const int down = fromLow ? high : low;
       const double fraction = fromLow ? 1.0 - m.lowWeight[face] : m.lowWeight[face];
       const double direction = fromLow ? m.distance[face] : -m.distance[face];
-      const double mu = m.lowWeight[face] * properties.viscosity[low] + (1.0 - m.lowWeight[face]) * properties.viscosity[high];
+      const double mu =
+          m.lowWeight[face] * properties.viscosity[low] + (1.0 - m.lowWeight[face]) * properties.viscosity[high];
       for (int i = 0; i < 2; ++i) {
         const double slope = velocityGradient_[4 * up + 2 * i + axis] * direction;
         const double value =
@@ -180,11 +181,11 @@ Projection::Result Momentum::advance(State& state, const GasProperties& properti
     }
     inverseDensity[face] = 1.0 / newDensity[low];
     const BoundaryCondition& boundary = context_.boundaryOf(face);
-    faceVelocity[face] = boundary.kind == BoundaryKind::Outlet ? m.normalSign[face] * predicted_[2 * low + axis]
+    faceVelocity[face] = boundary.kind == BoundaryKind::Outlet  ? m.normalSign[face] * predicted_[2 * low + axis]
                          : boundary.kind == BoundaryKind::Inlet ? -boundary.speed
                                                                 : 0.0;
   }
-  const Projection::Result result = 
+  const Projection::Result result =
       projection_.solve(dt, inverseDensity, divergence, boundaryPressure_, faceVelocity, state.pressure);
   pressureGradient(state.pressure);
   for (int c = 0; c < m.owned; ++c)

@@ -35,7 +35,7 @@ class Momentum {
   Gradient gradient_;
   ImplicitDiffusion diffusion_;
   Projection projection_;
-  std::vector<char> skipPressure_;                 // boundary faces without a given pressure
+  std::vector<char> skipPressure_;  // boundary faces without a given pressure
   std::vector<double> boundaryVelocity_, boundaryPressure_;
   std::vector<double> velocityGradient_, pressureGradient_;
   std::vector<double> diagonal_, conductance_, source_, predicted_;

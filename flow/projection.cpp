@@ -23,7 +23,8 @@ Projection::Projection(const FlowContext& context, double tolerance) : context_(
   context.halo.update(row, 1);
   for (double r : row) row_.push_back(static_cast<PetscInt>(r));
 
-  checkPetsc(MatCreateAIJ(m.comm, owned, owned, PETSC_DETERMINE, PETSC_DETERMINE, 5, nullptr, 4, nullptr, matrix_.put()));
+  checkPetsc(
+      MatCreateAIJ(m.comm, owned, owned, PETSC_DETERMINE, PETSC_DETERMINE, 5, nullptr, 4, nullptr, matrix_.put()));
   checkPetsc(MatCreateVecs(matrix_.get(), solution_.put(), rightSide_.put()));
   checkPetsc(KSPCreate(m.comm, solver_.put()));
   checkPetsc(KSPSetType(solver_.get(), KSPCG));

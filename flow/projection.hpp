@@ -1,7 +1,7 @@
 // Pressure projection on face fluxes: finds the hydrodynamic pressure p for which the face velocities
 //   u_f = uhat_f - (dt / rho_f) dp/dn
-// have the given divergence in every cell, with a compact stencil so that pressure cannot decouple (Rhie and Chow 1983).
-// Conjugate gradients with BoomerAMG; the preconditioner is kept until the iterations grow.
+// have the given divergence in every cell, with a compact stencil so that pressure cannot decouple (Rhie and Chow
+// 1983). Conjugate gradients with BoomerAMG; the preconditioner is kept until the iterations grow.
 #pragma once
 
 #include <span>

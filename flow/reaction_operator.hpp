@@ -3,8 +3,8 @@
 // Coupling with transport. Strang splitting integrates the reactions alone. Deferred coupling integrates them from the
 // state before the transport stage with the transport as a constant source, while the transport stage was given the
 // last step's mean reaction rate (State::balance): one sweep of spectral deferred corrections (Nonaka, Bell, Day,
-// Gilet, Almgren, Minion 2012). It is first order in time, but a steady flame is a steady state of it whatever the step,
-// and the stiff solver, which then starts in equilibrium with the transport, needs few steps.
+// Gilet, Almgren, Minion 2012). It is first order in time, but a steady flame is a steady state of it whatever the
+// step, and the stiff solver, which then starts in equilibrium with the transport, needs few steps.
 #pragma once
 
 #include <span>

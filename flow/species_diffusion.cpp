@@ -55,7 +55,8 @@ ImplicitDiffusion::Result SpeciesDiffusion::computeFlux(const State& state, cons
     if (high >= 0) {
       const double w = m.lowWeight[face];
       for (int k = 0; k < n; ++k)
-        g[k] = metric * (w * properties.massDiffusivity[at(low) + k] + (1.0 - w) * properties.massDiffusivity[at(high) + k]);
+        g[k] = metric *
+               (w * properties.massDiffusivity[at(low) + k] + (1.0 - w) * properties.massDiffusivity[at(high) + k]);
       weightSlope_[face] = std::log(properties.molecularWeight[high] / properties.molecularWeight[low]);
       faceFlux(face, false, &state.Y[at(low)], &state.Y[at(high)], w, explicitFlux);
     } else if (dirichlet(face)) {

@@ -30,7 +30,8 @@ class SpeciesDiffusion {
   std::vector<double> conductance_, weightSlope_, diagonal_, source_, solution_;
 
   // Flux of the implicit gradient (0 or 1 times) and explicit terms through a face, from mass fractions of both sides.
-  void faceFlux(int face, bool gradientTerm, const double* low, const double* high, double lowWeight, double* flux) const;
+  void faceFlux(int face, bool gradientTerm, const double* low, const double* high, double lowWeight,
+                double* flux) const;
 };
 
 }  // namespace lampblack

@@ -20,7 +20,8 @@ State::State(const Mesh& mesh, std::size_t speciesCount, std::vector<CarriedScal
 }
 
 void State::updateHalo(HaloExchange& halo) {
-  std::vector<FieldView> fields{{velocity, 2}, {pressure, 1}, {temperature, 1}, {density, 1}, {enthalpy, 1}, {Y, species}};
+  std::vector<FieldView> fields{{velocity, 2}, {pressure, 1}, {temperature, 1},
+                                {density, 1},  {enthalpy, 1}, {Y, species}};
   if (!scalars.empty()) {
     fields.push_back({carried, carriedCount()});
     fields.push_back({carriedDiffusivity, carriedCount()});

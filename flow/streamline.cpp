@@ -63,7 +63,8 @@ BilinearPoint Streamlines::locate(const std::array<double, 2>& position) const {
     const auto& x = centre_[axis];
     if (x.size() < 2) continue;
     const auto above = std::upper_bound(x.begin(), x.end(), position[axis]);
-    const auto i = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(above - x.begin() - 1, 0, static_cast<std::ptrdiff_t>(x.size()) - 2));
+    const auto i = static_cast<std::size_t>(
+        std::clamp<std::ptrdiff_t>(above - x.begin() - 1, 0, static_cast<std::ptrdiff_t>(x.size()) - 2));
     base[axis] = i;
     // Constant beyond the outermost centres.
     share[axis] = std::clamp((position[axis] - x[i]) / (x[i + 1] - x[i]), 0.0, 1.0);

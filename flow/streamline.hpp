@@ -25,10 +25,10 @@ struct BilinearPoint {
 };
 
 struct PathPoint {
-  double time;                      // s
-  std::array<double, 2> position;   // m
+  double time;                     // s
+  std::array<double, 2> position;  // m
   BilinearPoint place;
-  double divergence;                // 1/s, of the particles' velocity
+  double divergence;  // 1/s, of the particles' velocity
 };
 
 class Streamlines {

@@ -123,8 +123,8 @@ void TransportOperator::computeHeatFlux(const State& state, double dt) {
     for (int c = 0; c < m.owned; ++c) {
       double* y = &content[static_cast<std::size_t>(c) * n];
       for (int k = 0; k < n; ++k) y[k] /= newMass_[c];
-      const double T = context_.thermo.temperatureFromEnthalpy(
-          heat[c] / newMass_[c], {y, static_cast<std::size_t>(n)}, state.temperature[c]);
+      const double T = context_.thermo.temperatureFromEnthalpy(heat[c] / newMass_[c], {y, static_cast<std::size_t>(n)},
+                                                               state.temperature[c]);
       diagonal[c] = newMass_[c] * properties_.heatCapacity[c] / dt;
       source[c] = diagonal[c] * T;
       temperature_[c] = T;
@@ -135,19 +135,20 @@ void TransportOperator::computeHeatFlux(const State& state, double dt) {
     const double metric = m.area[face] / m.distance[face];
     if (m.high[face] >= 0) {
       const double w = m.lowWeight[face];
-      conductance[face] = metric * (w * properties_.conductivity[low] + (1.0 - w) * properties_.conductivity[m.high[face]]);
+      conductance[face] =
+          metric * (w * properties_.conductivity[low] + (1.0 - w) * properties_.conductivity[m.high[face]]);
       continue;
     }
     const BoundaryCondition& boundary = context_.boundaryOf(face);
-    const bool given = boundary.kind == BoundaryKind::Inlet || (boundary.kind == BoundaryKind::Wall && boundary.isothermal);
+    const bool given =
+        boundary.kind == BoundaryKind::Inlet || (boundary.kind == BoundaryKind::Wall && boundary.isothermal);
     conductance[face] = given ? metric * properties_.conductivity[low] : 0.0;
     diagonal[low] += conductance[face];
     source[low] += conductance[face] * boundary.temperature;
   }
   heatDiffusion_.solve(1, diagonal, conductance, source, temperature_);
   for (int face = 0; face < m.faces; ++face) {
-    const double beyond =
-        m.high[face] >= 0 ? temperature_[m.high[face]] : context_.boundaryOf(face).temperature;
+    const double beyond = m.high[face] >= 0 ? temperature_[m.high[face]] : context_.boundaryOf(face).temperature;
     heatFlux_[face] = conductance[face] * (temperature_[m.low[face]] - beyond);
   }
 }
@@ -274,8 +275,8 @@ void TransportOperator::finish(State& state, double dt) {
     state.enthalpy[c] = heatContent_[c] / mass;
     const std::span<const double> mixture{y, static_cast<std::size_t>(n)};
     state.temperature[c] = context_.thermo.temperatureFromEnthalpy(state.enthalpy[c], mixture, temperature_[c]);
-    const double equationOfState = state.density[c] * constants::gasConstant * state.temperature[c] /
-                                   context_.thermo.meanMolecularWeight(mixture);
+    const double equationOfState =
+        state.density[c] * constants::gasConstant * state.temperature[c] / context_.thermo.meanMolecularWeight(mixture);
     diagnostics_.pressureDrift =
         std::max(diagnostics_.pressureDrift, std::abs(equationOfState / state.thermodynamicPressure - 1.0));
   }
@@ -287,7 +288,9 @@ void TransportOperator::recordBoundary(const State& state, double dt) {
   const int scalars = state.carriedCount();
   boundary_ = {std::vector<double>(n, 0.0), std::vector<double>(n, 0.0), std::vector<double>(scalars, 0.0),
                std::vector<double>(scalars, 0.0)};
-  const auto book = [dt](double outward, double& in, double& out) { (outward < 0.0 ? in : out) += dt * std::abs(outward); };
+  const auto book = [dt](double outward, double& in, double& out) {
+    (outward < 0.0 ? in : out) += dt * std::abs(outward);
+  };
   for (int face = m.interiorFaces; face < m.faces; ++face) {
     for (int k = 0; k < n; ++k) {
       const std::size_t i = static_cast<std::size_t>(face) * n + k;

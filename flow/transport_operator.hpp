@@ -25,13 +25,13 @@ namespace lampblack {
 class TransportOperator : public Operator {
  public:
   struct Options {
-    // s, in which p_eos - p0 is taken away, but at least a step: a start's very short steps would otherwise turn a drift
-    // of a per cent into a gust.
+    // s, in which p_eos - p0 is taken away, but at least a step: a start's very short steps would otherwise turn a
+    // drift of a per cent into a gust.
     double driftTime = 2e-5;
   };
   struct Diagnostics {
-    double continuityError = 0.0;   // 1/s
-    double pressureDrift = 0.0;     // largest |p_eos - p0| / p0 after the step
+    double continuityError = 0.0;  // 1/s
+    double pressureDrift = 0.0;    // largest |p_eos - p0| / p0 after the step
     int pressureIterations = 0;
     int speciesIterations = 0;
   };
@@ -77,16 +77,16 @@ class TransportOperator : public Operator {
   Diagnostics diagnostics_;
   BoundaryAmounts boundary_;
 
-  std::vector<double> content_;        // kg, rho Y V of the owned cells as it is being advanced
-  std::vector<double> heatContent_;    // J, rho h V
-  std::vector<double> newMass_;        // kg
-  std::vector<double> newDensity_;     // kg/m^3, cells
-  std::vector<double> speciesFlux_;    // kg/s, diffusion, species a face
-  std::vector<double> enthalpyFlux_;   // W, of the diffusing species, a face
-  std::vector<double> heatFlux_;       // W, conduction, a face
-  std::vector<double> divergence_;     // 1/s, owned cells
-  std::vector<double> faceVelocity_;   // m/s
-  std::vector<double> temperature_;    // K, cells, implicit
+  std::vector<double> content_;       // kg, rho Y V of the owned cells as it is being advanced
+  std::vector<double> heatContent_;   // J, rho h V
+  std::vector<double> newMass_;       // kg
+  std::vector<double> newDensity_;    // kg/m^3, cells
+  std::vector<double> speciesFlux_;   // kg/s, diffusion, species a face
+  std::vector<double> enthalpyFlux_;  // W, of the diffusing species, a face
+  std::vector<double> heatFlux_;      // W, conduction, a face
+  std::vector<double> divergence_;    // 1/s, owned cells
+  std::vector<double> faceVelocity_;  // m/s
+  std::vector<double> temperature_;   // K, cells, implicit
   std::vector<double> carriedFlux_;
 };
 
