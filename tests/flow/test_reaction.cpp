@@ -174,8 +174,7 @@ TEST_F(Reacting, FailureNamesTheCellOnAllRanks) {
   } catch (const NumericsError& error) {
     message = error.what();
   }
-  for (const char* part :
-       {"at (0.00", ") m", "at time 0.125 s", "T = 1", "p = 101325 Pa", "H2: 0.", "N2: 0."})
+  for (const char* part : {"at (0.00", ") m", "at time 0.125 s", "T = 1", "p = 101325 Pa", "H2: 0.", "N2: 0."})
     EXPECT_THAT(message, testing::HasSubstr(part));
 }
 

@@ -43,9 +43,14 @@ class Diffusing : public testing::Test {
     for (std::size_t k = 0; k < fuel.size(); ++k) local.Y.push_back(share * fuel[k] + (1.0 - share) * air[k]);
     return local;
   }
+  // Three gases, each with its own wave: the species' ratios of differences differ, and so do their limiters.
   Box::Local mixed(const std::array<double, 2>& x) const {
     const double share = 0.5 + 0.5 * std::sin(400.0 * x[0]) * std::cos(300.0 * x[1]);
-    return blend(share, 400.0 + 1200.0 * share * (1.0 - share));
+    const double steam = 0.3 + 0.2 * std::sin(900.0 * x[0] + 500.0 * x[1]);
+    Box::Local local = blend(share, 400.0 + 1200.0 * share * (1.0 - share));
+    for (double& y : local.Y) y *= 1.0 - steam;
+    local.Y[gas.mechanism.speciesIndex("H2O")] += steam;
+    return local;
   }
   // Inlet of given composition, outlet, symmetry and wall: every kind of boundary.
   std::vector<Side> sides() const {
