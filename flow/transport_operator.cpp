@@ -5,29 +5,9 @@
 
 #include "core/constants.hpp"
 #include "core/errors.hpp"
+#include "flow/face_fluxes.hpp"
 
 namespace lampblack {
-namespace {
-
-// Adds what flows through each face to the owned cells on its two sides: `flux` has `components` values a face, taken
-// positive from low to high.
-void addFaceFluxes(const Mesh& m, std::span<const double> flux, int components, double dt, std::span<double> content) {
-  for (int face = 0; face < m.faces; ++face) {
-    const int low = m.low[face];
-    const int high = m.high[face];
-    const double* f = flux.data() + static_cast<std::ptrdiff_t>(face) * components;
-    if (low < m.owned) {
-      double* c = content.data() + static_cast<std::ptrdiff_t>(low) * components;
-      for (int k = 0; k < components; ++k) c[k] -= dt * f[k];
-    }
-    if (high >= 0 && high < m.owned) {
-      double* c = content.data() + static_cast<std::ptrdiff_t>(high) * components;
-      for (int k = 0; k < components; ++k) c[k] += dt * f[k];
-    }
-  }
-}
-
-}  // namespace
 
 TransportOperator::TransportOperator(const FlowContext& context, const State& state, Options options)
     : context_(context),
@@ -35,8 +15,8 @@ TransportOperator::TransportOperator(const FlowContext& context, const State& st
       faces_(context, state.species, state.carriedCount()),
       speciesDiffusion_(context),
       heatDiffusion_(context.mesh, context.halo),
-      carriedDiffusion_(context.mesh, context.halo),
-      momentum_(context) {
+      momentum_(context),
+      carried_(context, state.carriedCount()) {
   const auto faces = static_cast<std::size_t>(context.mesh.faces);
   const auto owned = static_cast<std::size_t>(context.mesh.owned);
   const auto cells = static_cast<std::size_t>(context.mesh.cells);
@@ -50,7 +30,6 @@ TransportOperator::TransportOperator(const FlowContext& context, const State& st
   divergence_.assign(owned, 0.0);
   faceVelocity_.assign(faces, 0.0);
   temperature_.resize(cells);
-  carriedFlux_.assign(faces * state.carriedCount(), 0.0);
 }
 
 void TransportOperator::initialise(State& state, double dt) {
@@ -193,71 +172,6 @@ void TransportOperator::updateFluxes(State& state) {
     state.massFlux[face] = faces_.density[face] * faceVelocity_[face] * m.area[face];
 }
 
-void TransportOperator::advanceCarried(State& state, double dt) {
-  const Mesh& m = context_.mesh;
-  const int n = state.carriedCount();
-  if (n == 0) return;
-  const auto temperatureGradient = faces_.temperatureGradient();
-  for (int face = 0; face < m.faces; ++face) {
-    double* flux = &carriedFlux_[static_cast<std::size_t>(face) * n];
-    std::fill_n(flux, n, 0.0);
-    const int low = m.low[face];
-    const int high = m.high[face];
-    if (m.area[face] <= 0.0) continue;
-    if (high < 0) {
-      // Particles leave with the gas; nothing enters with it, and walls take none.
-      if (state.massFlux[face] > 0.0)
-        for (int s = 0; s < n; ++s) flux[s] = state.massFlux[face] * state.carried[low * n + s] / state.density[low];
-      continue;
-    }
-    const double w = m.lowWeight[face];
-    const int axis = m.normalAxis[face];
-    const auto mean = [&](const std::vector<double>& field) { return w * field[low] + (1.0 - w) * field[high]; };
-    const double slope = w * temperatureGradient[2 * low + axis] + (1.0 - w) * temperatureGradient[2 * high + axis];
-    const double drift = -mean(properties_.viscosity) / mean(state.density) * slope / mean(state.temperature);
-    for (int s = 0; s < n; ++s) {
-      const double velocity = faceVelocity_[face] + state.scalars[s].thermophoresis * drift;
-      flux[s] = faces_.density[face] * m.area[face] * velocity * faces_.carriedPerMass(face, s, velocity);
-    }
-  }
-  std::vector<double> content(static_cast<std::size_t>(m.owned) * n);
-  for (int c = 0; c < m.owned; ++c)
-    for (int s = 0; s < n; ++s) content[c * n + s] = m.volume[c] * state.carried[c * n + s];
-  addFaceFluxes(m, carriedFlux_, n, dt, content);
-  diffuseCarried(state, dt, content);
-  for (int c = 0; c < m.owned; ++c)
-    for (int s = 0; s < n; ++s) state.carried[c * n + s] = content[c * n + s] / m.volume[c];
-}
-
-// Implicit: particles of a nucleus's size diffuse almost like molecules.
-void TransportOperator::diffuseCarried(const State& state, double dt, std::span<double> content) {
-  const Mesh& m = context_.mesh;
-  const int n = state.carriedCount();
-  std::vector<double> diagonal(content.size());
-  std::vector<double> conductance(static_cast<std::size_t>(m.interiorFaces) * n);
-  std::vector<double> perMass(static_cast<std::size_t>(m.cells) * n);
-  std::vector<double> source(content.size());
-  for (int c = 0; c < m.owned; ++c)
-    for (int s = 0; s < n; ++s) {
-      diagonal[c * n + s] = newMass_[c] / dt;
-      source[c * n + s] = content[c * n + s] / dt;
-      perMass[c * n + s] = content[c * n + s] / newMass_[c];
-    }
-  for (int face = 0; face < m.interiorFaces; ++face) {
-    const double w = m.lowWeight[face];
-    const double metric = faces_.density[face] * m.area[face] / m.distance[face];
-    for (int s = 0; s < n; ++s)
-      conductance[face * n + s] = metric * (w * state.carriedDiffusivity[m.low[face] * n + s] +
-                                            (1.0 - w) * state.carriedDiffusivity[m.high[face] * n + s]);
-  }
-  carriedDiffusion_.solve(n, diagonal, conductance, source, perMass);
-  std::vector<double> flux(carriedFlux_.size(), 0.0);
-  for (int face = 0; face < m.interiorFaces; ++face)
-    for (int s = 0; s < n; ++s)
-      flux[face * n + s] = conductance[face * n + s] * (perMass[m.low[face] * n + s] - perMass[m.high[face] * n + s]);
-  addFaceFluxes(m, flux, n, dt, content);
-}
-
 void TransportOperator::finish(State& state, double dt) {
   const Mesh& m = context_.mesh;
   const int n = state.species;
@@ -297,7 +211,8 @@ void TransportOperator::recordBoundary(const State& state, double dt) {
       book(state.massFlux[face] * faces_.Y[i] + speciesFlux_[i], boundary_.speciesIn[k], boundary_.speciesOut[k]);
     }
     for (int s = 0; s < scalars; ++s)
-      book(carriedFlux_[static_cast<std::size_t>(face) * scalars + s], boundary_.carriedIn[s], boundary_.carriedOut[s]);
+      book(carried_.flux()[static_cast<std::size_t>(face) * scalars + s], boundary_.carriedIn[s],
+           boundary_.carriedOut[s]);
     book(state.massFlux[face] * faces_.enthalpy[face] + enthalpyFlux_[face] + heatFlux_[face], boundary_.enthalpyIn,
          boundary_.enthalpyOut);
   }
@@ -326,7 +241,7 @@ void TransportOperator::advance(State& state, double, double dt) {
   updateFluxes(state);
 
   addConvection(state, dt);
-  advanceCarried(state, dt);
+  carried_.advance(state, properties_, faces_, faceVelocity_, newMass_, dt);
   collectively(m.comm, [&] { finish(state, dt); });
   recordBoundary(state, dt);
   MPI_Allreduce(MPI_IN_PLACE, &diagnostics_.pressureDrift, 1, MPI_DOUBLE, MPI_MAX, m.comm);

@@ -12,6 +12,7 @@
 
 #include <vector>
 
+#include "flow/carried_transport.hpp"
 #include "flow/face_state.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/gas_properties.hpp"
@@ -62,8 +63,6 @@ class TransportOperator : public Operator {
   void computeHeatFlux(const State& state, double dt);
   void computeDivergence(const State& state, double dt);
   void updateFluxes(State& state);
-  void advanceCarried(State& state, double dt);
-  void diffuseCarried(const State& state, double dt, std::span<double> content);
   void finish(State& state, double dt);
   void recordBoundary(const State& state, double dt);
 
@@ -72,8 +71,9 @@ class TransportOperator : public Operator {
   GasProperties properties_;
   FaceState faces_;
   SpeciesDiffusion speciesDiffusion_;
-  ImplicitDiffusion heatDiffusion_, carriedDiffusion_;
+  ImplicitDiffusion heatDiffusion_;
   Momentum momentum_;
+  CarriedTransport carried_;
   Diagnostics diagnostics_;
   BoundaryAmounts boundary_;
 
@@ -87,7 +87,6 @@ class TransportOperator : public Operator {
   std::vector<double> divergence_;    // 1/s, owned cells
   std::vector<double> faceVelocity_;  // m/s
   std::vector<double> temperature_;   // K, cells, implicit
-  std::vector<double> carriedFlux_;
 };
 
 }  // namespace lampblack
