@@ -72,6 +72,12 @@ void ReactionOperator::unpack(State& state, std::size_t cell, double dt, std::sp
     if (options_.deferred) state.balance[cell * n + k] += state.density[cell] * (reacted - Y) / dt;
     Y = reacted;
   }
+  if (options_.deferred) {
+    // No net mass: the reactor keeps the sum of Y, so that round-off in the balance would feed on itself.
+    double net = 0.0;
+    for (std::size_t k = 0; k < n; ++k) net += state.balance[cell * n + k];
+    for (std::size_t k = 0; k < n; ++k) state.balance[cell * n + k] -= net * state.Y[cell * n + k];
+  }
   state.temperature[cell] = out[0];
   initialStep_[cell] = out[1];
   // A smoothed cost: one solve's time is noisy on a shared machine.

@@ -126,7 +126,7 @@ TEST_F(Reacting, BudgetsCloseWithTransportInBothCouplings) {
     const double h0 = integral(box.mesh, [&](int c) { return state.density[at(c)] * state.enthalpy[at(c)]; });
     double heat = 0.0;
     double gross = 0.0;
-    const int steps = 10;
+    const int steps = 300;
     for (int i = 0; i < steps; ++i) {
       const double dt = std::min(2e-5, convectiveTimeStep(box.mesh, state, 0.4));
       if (!deferred) chemistry.advance(state, 0.0, 0.5 * dt);
@@ -146,9 +146,9 @@ TEST_F(Reacting, BudgetsCloseWithTransportInBothCouplings) {
         }
         net = std::max(net, std::abs(sum));
       }
-      // The rate is a difference of mass fractions over the step, added to that of the last step: a round-off of
-      // epsilon rho/dt a species in each step so far.
-      EXPECT_LE(net, 10.0 * (i + 1) * epsilon * 1.2 / dt);
+      // The rate is a difference of mass fractions over the step, a round-off of epsilon rho/dt a species; its net mass
+      // may not add up over the steps.
+      EXPECT_LE(net, 10.0 * epsilon * 1.2 / dt);
       // Strang splitting leaves the balance alone.
       EXPECT_EQ(maxOverRanks(scale) > 0.0, deferred);
     }
