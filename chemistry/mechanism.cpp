@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "chemistry/mechanism_checks.hpp"
-#include "chemistry/nearest_name.hpp"
 #include "core/errors.hpp"
+#include "core/nearest_name.hpp"
 
 namespace lampblack {
 
@@ -42,7 +42,7 @@ std::size_t Mechanism::speciesIndex(std::string_view name) const {
   std::vector<std::string_view> names;
   for (const auto& s : species_) names.push_back(s.name);
   throw InputError(fmt::format("unknown species '{}' in mechanism {}; the nearest known name is '{}'", name, file_,
-                               nearestName(name, names)));
+                               closestName(name, names)));
 }
 
 std::optional<std::size_t> Mechanism::findElement(std::string_view name) const {
@@ -56,7 +56,7 @@ std::size_t Mechanism::elementIndex(std::string_view name) const {
   std::vector<std::string_view> names;
   for (const auto& e : elements_) names.push_back(e.name);
   throw InputError(fmt::format("unknown element '{}' in mechanism {}; the nearest known name is '{}'", name, file_,
-                               nearestName(name, names)));
+                               closestName(name, names)));
 }
 
 }  // namespace lampblack

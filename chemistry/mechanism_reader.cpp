@@ -6,11 +6,11 @@
 
 #include "chemistry/elements.hpp"
 #include "chemistry/mechanism.hpp"
-#include "chemistry/nearest_name.hpp"
 #include "chemistry/reaction_reader.hpp"
 #include "chemistry/yaml_access.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
+#include "core/nearest_name.hpp"
 
 namespace lampblack {
 
@@ -76,7 +76,7 @@ class MechanismReader {
       if (!found)
         yaml_.fail(entry, fmt::format("species '{}' of the phase is not declared under 'species'; the nearest name is "
                                       "'{}'",
-                                      name, nearestName(name, views)));
+                                      name, closestName(name, views)));
     }
     if (speciesNodes_.empty()) yaml_.fail(phase, "the phase has no species");
   }

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include "chemistry/nearest_name.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
+#include "core/nearest_name.hpp"
 
 namespace lampblack {
 
@@ -65,7 +65,7 @@ void YamlAccess::allowOnly(const YAML::Node& map, std::initializer_list<std::str
     for (const auto k : known) allowed = allowed || k == key;
     if (!allowed)
       fail(entry.first,
-           fmt::format("{}: unknown key '{}'; the nearest known key is '{}'", what, key, nearestName(key, known)));
+           fmt::format("{}: unknown key '{}'; the nearest known key is '{}'", what, key, closestName(key, known)));
   }
 }
 

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/nearest_name.hpp"
 #include "io/deck_value.hpp"
-#include "io/nearest.hpp"
 
 namespace lampblack {
 namespace {

@@ -8,7 +8,7 @@
 #include <functional>
 #include <stdexcept>
 
-#include "io/nearest.hpp"
+#include "core/nearest_name.hpp"
 
 namespace lampblack {
 namespace {

@@ -1,6 +1,6 @@
 #include <stdexcept>
 
-#include "io/nearest.hpp"
+#include "core/nearest_name.hpp"
 #include "tests/io/sample_deck.hpp"
 
 namespace lampblack {

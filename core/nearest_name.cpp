@@ -1,4 +1,4 @@
-#include "io/nearest.hpp"
+#include "core/nearest_name.hpp"
 
 #include <fmt/format.h>
 
@@ -42,6 +42,12 @@ std::string nearestName(std::string_view name, const std::vector<std::string>& k
     }
   }
   return best;
+}
+
+std::string_view closestName(std::string_view name, std::span<const std::string_view> known) {
+  const auto closest =
+      std::ranges::min_element(known, {}, [&](std::string_view candidate) { return editDistance(name, candidate); });
+  return closest == known.end() ? std::string_view{} : *closest;
 }
 
 std::string didYouMean(std::string_view name, const std::vector<std::string>& known) {
