@@ -1,7 +1,7 @@
 // Timings of the chemistry room on states along a counterflow ethylene flame (47 species, 224 reactions). Each number
 // is the best of several rounds.
 //
-//   bench_chemistry [mechanism.yaml]
+//   build/release/tests/bench/chemistry_bench      (configured with -DLAMPBLACK_BENCH=ON)
 #include <algorithm>
 #include <chrono>
 #include <cmath>
