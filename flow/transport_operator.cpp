@@ -41,9 +41,7 @@ void TransportOperator::initialise(State& state, double dt) {
   std::fill(divergence_.begin(), divergence_.end(), 0.0);
   momentum_.advance(state, properties_, newDensity_, divergence_, dt, faceVelocity_);
   faces_.prepare(state);
-  faces_.interpolate(state, faceVelocity_);
-  for (int face = 0; face < m.faces; ++face)
-    state.massFlux[face] = faces_.density[face] * faceVelocity_[face] * m.area[face];
+  updateFluxes(state);
 }
 
 // Content of the owned cells after convection and the balance term alone.
