@@ -1,8 +1,11 @@
 // Kinetics' construction: flat tables from the list of reactions.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "chemistry/kinetics.hpp"
+#include "core/errors.hpp"
 
 namespace lampblack {
 
@@ -44,10 +47,19 @@ std::vector<StoichiometricTerm> netStoichiometry(const Reaction& reaction) {
   return net;
 }
 
+void requireSupported(const Mechanism& mechanism, const Reaction& reaction) {
+  const bool known = reaction.type == Reaction::Type::Elementary || reaction.type == Reaction::Type::ThreeBody ||
+                     (reaction.type == Reaction::Type::Falloff && !reaction.sri);
+  if (!known)
+    throw InputError(fmt::format("{}:{}: reaction '{}': rates of this type are not computed yet", mechanism.fileName(),
+                                 reaction.line, reaction.equation));
+}
+
 }  // namespace
 
 Kinetics::Kinetics(const Mechanism& mechanism)
     : numSpecies_(mechanism.numSpecies()), numReactions_(mechanism.numReactions()), table_(mechanism.allSpecies()) {
+  for (const auto& reaction : mechanism.reactions()) requireSupported(mechanism, reaction);
   orderReactions(mechanism);
   setRates(mechanism);
   setSlots(mechanism);

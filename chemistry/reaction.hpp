@@ -23,6 +23,32 @@ struct TroeBroadening {
   std::optional<double> T2;
 };
 
+// Broadening of a fall-off curve by the SRI formula (Stewart, Larson, Golden 1989):
+// F = d T^e (a exp(-b/T) + exp(-T/c))^X, X = 1/(1 + (log10 Pr)^2).
+struct SriBroadening {
+  double a = 0;
+  double b = 0;  // K
+  double c = 0;  // K; zero means the term exp(-T/c) is zero
+  double d = 1;
+  double e = 0;
+};
+
+// One entry of a rate constant that is tabulated over pressure: ln k is linear in ln p between the pressures, constant
+// beyond the first and the last. Entries of the same pressure add up.
+struct PressureRate {
+  double pressure = 0;  // Pa
+  Arrhenius rate;
+};
+
+// log10 k = sum_ij coefficients[i * numPressure + j] T_i(Tr) T_j(Pr) with the Chebyshev polynomials of the first kind
+// of the reduced inverse temperature and the reduced logarithm of pressure; k in SI units with mol.
+struct ChebyshevRate {
+  double minTemperature = 0, maxTemperature = 0;  // K
+  double minPressure = 0, maxPressure = 0;        // Pa
+  std::size_t numTemperature = 0, numPressure = 0;
+  std::vector<double> coefficients;
+};
+
 struct StoichiometricTerm {
   std::size_t species = 0;
   double coefficient = 0;
@@ -35,19 +61,32 @@ struct ThirdBody {
 };
 
 struct Reaction {
-  enum class Type { Elementary, ThreeBody, Falloff };
+  enum class Type {
+    Elementary,
+    ThreeBody,
+    Falloff,              // k = k_inf Pr/(1+Pr) F, Pr = k_0 [M]/k_inf
+    ChemicallyActivated,  // k = k_0 1/(1+Pr) F, the same Pr
+    PressureLog,          // pressureRates
+    Chebyshev,
+  };
 
   std::string equation;
   Type type = Type::Elementary;
   std::vector<StoichiometricTerm> reactants;  // species appear once, the third body of [M] not at all
   std::vector<StoichiometricTerm> products;
-  std::vector<StoichiometricTerm> orders;  // forward orders where they differ from the coefficients
+  // Forward orders where they differ from the coefficients; may name species that are no reactants (coefficient zero),
+  // and may be negative. Only of irreversible reactions.
+  std::vector<StoichiometricTerm> orders;
   bool reversible = true;
   bool duplicate = false;
-  Arrhenius rate;                      // high-pressure limit of a fall-off reaction
-  Arrhenius lowPressureRate;           // fall-off only
-  std::optional<TroeBroadening> troe;  // fall-off only; absent means Lindemann
-  std::optional<ThirdBody> thirdBody;  // three-body and fall-off
+  // High-pressure limit of fall-off and chemically activated reactions; unused where the constant depends on pressure.
+  Arrhenius rate;
+  Arrhenius lowPressureRate;                // fall-off and chemically activated
+  std::optional<TroeBroadening> troe;       // of these two; with neither, Lindemann (F = 1)
+  std::optional<SriBroadening> sri;         // of these two
+  std::optional<ThirdBody> thirdBody;       // three-body, and these two
+  std::vector<PressureRate> pressureRates;  // PressureLog, in rising order of pressure
+  std::optional<ChebyshevRate> chebyshev;   // Chebyshev
   int line = 0;
 };
 

@@ -1,6 +1,6 @@
 #include "chemistry/reactor.hpp"
 
-#include <cvode/cvode.h>
+#include <cvodes/cvodes.h>
 #include <fmt/format.h>
 #include <sunmatrix/sunmatrix_dense.h>
 

@@ -9,6 +9,9 @@
 
 namespace lampblack {
 
+// The standard state of all thermodynamic data is the ideal gas at 1 atm: a reader of data for another pressure shifts
+// the entropy constant.
+//
 // NASA seven-coefficient polynomials (thesis eqs 6-15..6-17): `low` holds up to and including `midTemperature`, `high`
 // above. A file that gives a single range has low == high.
 struct Nasa7 {
@@ -17,6 +20,12 @@ struct Nasa7 {
   double maxTemperature = 0;  // K
   std::array<double, 7> low{};
   std::array<double, 7> high{};
+};
+
+// NASA nine-coefficient polynomials (McBride, Zehe, Gordon 2002): a1..a7 and the constants b1, b2 of each range.
+struct Nasa9 {
+  std::vector<double> temperatures;           // K, bounds of the ranges, one more than ranges
+  std::vector<std::array<double, 9>> ranges;  // cp/R = a1 T^-2 + a2 T^-1 + a3 + a4 T + a5 T^2 + a6 T^3 + a7 T^4
 };
 
 enum class MoleculeShape { Atom, Linear, Nonlinear };
@@ -36,6 +45,7 @@ struct Species {
   std::vector<double> atoms;   // per element of the mechanism
   double molecularWeight = 0;  // kg/mol
   Nasa7 thermo;
+  std::optional<Nasa9> nasa9;  // where given, it replaces `thermo`, which then holds only the range of temperature
   std::optional<TransportData> transport;
   int line = 0;  // where the file declares it
 };

@@ -1,6 +1,6 @@
 #include "chemistry/sundials_handles.hpp"
 
-#include <cvode/cvode.h>
+#include <cvodes/cvodes.h>
 #include <fmt/format.h>
 
 #include "core/errors.hpp"
