@@ -21,48 +21,48 @@ void Kinetics::updateTemperature(double T) {
   temperature_ = T;
   const double lnT = std::log(T), inverseT = 1.0 / T;
   {
-    const double* __restrict lnA = lnA_.data();
-    const double* __restrict b = b_.data();
-    const double* __restrict Ta = Ta_.data();
+    const double* __restrict lnA = tables_.lnA.data();
+    const double* __restrict b = tables_.b.data();
+    const double* __restrict Ta = tables_.Ta.data();
     double* __restrict lnk = lnkf_.data();
     double* __restrict k = kf_.data();
-    for (std::size_t i = 0; i < numReactions_; ++i) {
+    for (std::size_t i = 0; i < tables_.numReactions; ++i) {
       lnk[i] = lnA[i] + b[i] * lnT - Ta[i] * inverseT;
       k[i] = vectormath::expOne(lnk[i]);
     }
   }
-  table_.gibbsOverRT(T, lnT, gibbs_.data());
+  thermo_.gibbsOverRT(T, lnT, gibbs_.data());
   // ln Kc = -sum nu g/RT + sum nu ln(p0/RT); kr = kf/Kc
   const double lnStandard = std::log(constants::oneAtmosphere / constants::gasConstant) - lnT;
   {
     const double* __restrict g = gibbs_.data();
     const double* __restrict lnk = lnkf_.data();
-    const double* __restrict nuSum = nuSum_.data();
+    const double* __restrict nuSum = tables_.nuSum.data();
     double* __restrict lnkr = lnkr_.data();
     double* __restrict k = kr_.data();
-    const std::int32_t *__restrict r0 = reactant_[0].data(), *__restrict r1 = reactant_[1].data(),
-                       *__restrict r2 = reactant_[2].data(), *__restrict p0 = product_[0].data(),
-                       *__restrict p1 = product_[1].data(), *__restrict p2 = product_[2].data();
-    for (std::size_t i = 0; i < numReversible_; ++i) {
+    const std::int32_t *__restrict r0 = tables_.reactant[0].data(), *__restrict r1 = tables_.reactant[1].data(),
+                       *__restrict r2 = tables_.reactant[2].data(), *__restrict p0 = tables_.product[0].data(),
+                       *__restrict p1 = tables_.product[1].data(), *__restrict p2 = tables_.product[2].data();
+    for (std::size_t i = 0; i < tables_.numReversible; ++i) {
       const double gibbsChange = (g[p0[i]] + g[p1[i]] + g[p2[i]]) - (g[r0[i]] + g[r1[i]] + g[r2[i]]);
       lnkr[i] = lnk[i] + gibbsChange - nuSum[i] * lnStandard;
     }
-    for (const auto& general : general_)
-      if (general.reaction < numReversible_)
-        for (const auto& term : netTerms_[general.reaction])
+    for (const auto& general : tables_.general)
+      if (general.reaction < tables_.numReversible)
+        for (const auto& term : tables_.netTerms[general.reaction])
           lnkr[general.reaction] += term.coefficient * g[term.species];
-    for (std::size_t i = 0; i < numReversible_; ++i) k[i] = vectormath::expOne(lnkr[i]);
+    for (std::size_t i = 0; i < tables_.numReversible; ++i) k[i] = vectormath::expOne(lnkr[i]);
   }
-  if (anyNegative_)
-    for (std::size_t i = 0; i < numReactions_; ++i) {
-      kf_[i] *= sign_[i];
-      kr_[i] *= sign_[i];
+  if (tables_.anyNegative)
+    for (std::size_t i = 0; i < tables_.numReactions; ++i) {
+      kf_[i] *= tables_.sign[i];
+      kr_[i] *= tables_.sign[i];
     }
   updateFalloffLimits(T, lnT);
 }
 
 void Kinetics::updateFalloffLimits(double T, double lnT) {
-  const auto& f = falloff_;
+  const auto& f = tables_.falloff;
   const std::size_t n = f.reaction.size();
   const double inverseT = 1.0 / T;
   double* terms = troeTerms_.data();
@@ -83,13 +83,13 @@ void Kinetics::updateFalloffLimits(double T, double lnT) {
 
 void Kinetics::updateConcentrations(std::span<const double> concentrations) {
   double total = 0;
-  for (std::size_t k = 0; k < numSpecies_; ++k) {
+  for (std::size_t k = 0; k < tables_.numSpecies; ++k) {
     c_[k] = concentrations[k];
     total += concentrations[k];
   }
-  for (std::size_t s = 0; s < sets_.size(); ++s) {
-    double M = sets_[s].base * total;
-    for (const auto& e : sets_[s].excess) M += e.coefficient * c_[e.species];
+  for (std::size_t s = 0; s < tables_.sets.size(); ++s) {
+    double M = tables_.sets[s].base * total;
+    for (const auto& e : tables_.sets[s].excess) M += e.coefficient * c_[e.species];
     M_[s] = M;
   }
 }
@@ -98,8 +98,8 @@ void Kinetics::updateConcentrations(std::span<const double> concentrations) {
 // log F = log Fcent / (1 + f^2), f = (x + c)/(n - 0.14 (x + c)), x = log Pr, c = -0.4 - 0.67 log Fcent,
 // n = 0.75 - 1.27 log Fcent (logarithms to base 10).
 void Kinetics::updateFactors() {
-  for (const auto& use : threeBody_) factor_[use.reaction] = M_[use.set];
-  const auto& f = falloff_;
+  for (const auto& use : tables_.threeBody) factor_[use.reaction] = M_[use.set];
+  const auto& f = tables_.falloff;
   const std::size_t n = f.reaction.size();
   double* __restrict Pr = falloffWork_.data();
   double* __restrict lnF = falloffWork_.data() + n;
@@ -130,20 +130,20 @@ double Kinetics::power(double concentration, double exponent) {
 void Kinetics::updateProgress() {
   const double* __restrict c = c_.data();
   {
-    const std::int32_t *__restrict r0 = reactant_[0].data(), *__restrict r1 = reactant_[1].data(),
-                       *__restrict r2 = reactant_[2].data();
+    const std::int32_t *__restrict r0 = tables_.reactant[0].data(), *__restrict r1 = tables_.reactant[1].data(),
+                       *__restrict r2 = tables_.reactant[2].data();
     const double* __restrict k = kf_.data();
     double* __restrict forward = forward_.data();
-    for (std::size_t i = 0; i < numReactions_; ++i) forward[i] = k[i] * c[r0[i]] * c[r1[i]] * c[r2[i]];
+    for (std::size_t i = 0; i < tables_.numReactions; ++i) forward[i] = k[i] * c[r0[i]] * c[r1[i]] * c[r2[i]];
   }
   {
-    const std::int32_t *__restrict p0 = product_[0].data(), *__restrict p1 = product_[1].data(),
-                       *__restrict p2 = product_[2].data();
+    const std::int32_t *__restrict p0 = tables_.product[0].data(), *__restrict p1 = tables_.product[1].data(),
+                       *__restrict p2 = tables_.product[2].data();
     const double* __restrict k = kr_.data();
     double* __restrict reverse = reverse_.data();
-    for (std::size_t i = 0; i < numReversible_; ++i) reverse[i] = k[i] * c[p0[i]] * c[p1[i]] * c[p2[i]];
+    for (std::size_t i = 0; i < tables_.numReversible; ++i) reverse[i] = k[i] * c[p0[i]] * c[p1[i]] * c[p2[i]];
   }
-  for (const auto& general : general_) {
+  for (const auto& general : tables_.general) {
     for (const auto& t : general.forwardOrders) forward_[general.reaction] *= power(c[t.species], t.coefficient);
     for (const auto& t : general.reverseOrders) reverse_[general.reaction] *= power(c[t.species], t.coefficient);
   }
@@ -151,15 +151,15 @@ void Kinetics::updateProgress() {
   const double* __restrict forward = forward_.data();
   const double* __restrict reverse = reverse_.data();
   double* __restrict progress = progress_.data();
-  for (std::size_t i = 0; i < numReactions_; ++i) progress[i] = factor[i] * (forward[i] - reverse[i]);
+  for (std::size_t i = 0; i < tables_.numReactions; ++i) progress[i] = factor[i] * (forward[i] - reverse[i]);
 }
 
 void Kinetics::sumProduction(const double* progress, double* out) const {
-  const std::int32_t* __restrict reaction = rowReaction_.data();
-  const double* __restrict nu = rowNu_.data();
-  for (std::size_t k = 0; k < numSpecies_; ++k) {
+  const std::int32_t* __restrict reaction = tables_.rowReaction.data();
+  const double* __restrict nu = tables_.rowNu.data();
+  for (std::size_t k = 0; k < tables_.numSpecies; ++k) {
     double a = 0, b = 0, c = 0, d = 0;
-    for (std::size_t e = rows_[k]; e < rows_[k + 1]; e += 4) {
+    for (std::size_t e = tables_.rows[k]; e < tables_.rows[k + 1]; e += 4) {
       a += nu[e] * progress[reaction[e]];
       b += nu[e + 1] * progress[reaction[e + 1]];
       c += nu[e + 2] * progress[reaction[e + 2]];
@@ -183,9 +183,9 @@ void Kinetics::ratesOfProgress(double T, std::span<const double> concentrations,
   updateConcentrations(concentrations);
   updateFactors();
   updateProgress();
-  for (std::size_t i = 0; i < numReactions_; ++i) {
-    forward[original_[i]] = factor_[i] * forward_[i];
-    reverse[original_[i]] = factor_[i] * reverse_[i];
+  for (std::size_t i = 0; i < tables_.numReactions; ++i) {
+    forward[tables_.original[i]] = factor_[i] * forward_[i];
+    reverse[tables_.original[i]] = factor_[i] * reverse_[i];
   }
 }
 
@@ -194,23 +194,23 @@ void Kinetics::rateConstants(double T, std::span<const double> concentrations, s
   updateTemperature(T);
   updateConcentrations(concentrations);
   updateFactors();
-  for (std::size_t i = 0; i < numReactions_; ++i) {
-    forward[original_[i]] = kf_[i];
-    reverse[original_[i]] = kr_[i];
+  for (std::size_t i = 0; i < tables_.numReactions; ++i) {
+    forward[tables_.original[i]] = kf_[i];
+    reverse[tables_.original[i]] = kr_[i];
   }
-  for (const auto i : falloff_.reaction) {
-    forward[original_[i]] *= factor_[i];
-    reverse[original_[i]] *= factor_[i];
+  for (const auto i : tables_.falloff.reaction) {
+    forward[tables_.original[i]] *= factor_[i];
+    reverse[tables_.original[i]] *= factor_[i];
   }
 }
 
 void Kinetics::equilibriumConstants(double T, std::span<double> Kc) {
   updateTemperature(T);
   const double lnStandard = std::log(constants::oneAtmosphere / (constants::gasConstant * T));
-  for (std::size_t i = 0; i < numReactions_; ++i) {
-    double lnK = nuSum_[i] * lnStandard;
-    for (const auto& term : netTerms_[i]) lnK -= term.coefficient * gibbs_[term.species];
-    Kc[original_[i]] = std::exp(lnK);
+  for (std::size_t i = 0; i < tables_.numReactions; ++i) {
+    double lnK = tables_.nuSum[i] * lnStandard;
+    for (const auto& term : tables_.netTerms[i]) lnK -= term.coefficient * gibbs_[term.species];
+    Kc[tables_.original[i]] = std::exp(lnK);
   }
 }
 

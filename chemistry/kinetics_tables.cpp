@@ -1,0 +1,174 @@
+#include "chemistry/kinetics_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/errors.hpp"
+
+namespace lampblack {
+
+namespace {
+
+// ln k of a rate constant of zero: its exponential vanishes beside any other rate.
+constexpr double kLogOfZero = -1e4;
+
+double lnMagnitude(double A) {
+  return A == 0 ? kLogOfZero : std::log(std::abs(A));
+}
+
+// The species of one side, each as often as its coefficient says; empty if that is not possible in three slots.
+bool fillSlots(const std::vector<StoichiometricTerm>& terms, std::array<std::int32_t, 3>& slots) {
+  std::size_t used = 0;
+  for (const auto& term : terms) {
+    if (term.coefficient != std::floor(term.coefficient) || term.coefficient > 3) return false;
+    for (int i = 0; i < static_cast<int>(term.coefficient); ++i) {
+      if (used == 3) return false;
+      slots[used++] = static_cast<std::int32_t>(term.species);
+    }
+  }
+  return true;
+}
+
+std::vector<StoichiometricTerm> netStoichiometry(const Reaction& reaction) {
+  std::vector<StoichiometricTerm> net;
+  const auto add = [&](std::size_t species, double coefficient) {
+    for (auto& term : net)
+      if (term.species == species) {
+        term.coefficient += coefficient;
+        return;
+      }
+    net.push_back({species, coefficient});
+  };
+  for (const auto& t : reaction.reactants) add(t.species, -t.coefficient);
+  for (const auto& t : reaction.products) add(t.species, t.coefficient);
+  std::erase_if(net, [](const auto& t) { return t.coefficient == 0; });
+  return net;
+}
+
+void requireSupported(const Mechanism& mechanism, const Reaction& reaction) {
+  const bool known = reaction.type == Reaction::Type::Elementary || reaction.type == Reaction::Type::ThreeBody ||
+                     (reaction.type == Reaction::Type::Falloff && !reaction.sri);
+  if (!known)
+    throw InputError(fmt::format("{}:{}: reaction '{}': rates of this type are not computed yet", mechanism.fileName(),
+                                 reaction.line, reaction.equation));
+}
+
+}  // namespace
+
+KineticsTables::KineticsTables(const Mechanism& mechanism)
+    : numSpecies(mechanism.numSpecies()), numReactions(mechanism.numReactions()) {
+  for (const auto& reaction : mechanism.reactions()) requireSupported(mechanism, reaction);
+  orderReactions(mechanism);
+  setRates(mechanism);
+  setSlots(mechanism);
+  setThirdBodies(mechanism);
+  setProductionTable();
+}
+
+void KineticsTables::orderReactions(const Mechanism& mechanism) {
+  for (const bool reversible : {true, false})
+    for (std::size_t r = 0; r < numReactions; ++r)
+      if (mechanism.reaction(r).reversible == reversible) original.push_back(r);
+  for (const auto& reaction : mechanism.reactions()) numReversible += reaction.reversible ? 1 : 0;
+}
+
+void KineticsTables::setRates(const Mechanism& mechanism) {
+  for (const auto r : original) {
+    const auto& rate = mechanism.reaction(r).rate;
+    lnA.push_back(lnMagnitude(rate.A));
+    b.push_back(rate.b);
+    Ta.push_back(rate.activationTemperature);
+    sign.push_back(rate.A < 0 ? -1.0 : 1.0);
+    anyNegative = anyNegative || rate.A < 0;
+  }
+}
+
+void KineticsTables::setSlots(const Mechanism& mechanism) {
+  const auto none = static_cast<std::int32_t>(numSpecies);
+  for (std::size_t i = 0; i < numReactions; ++i) {
+    const auto& reaction = mechanism.reaction(original[i]);
+    std::array<std::int32_t, 3> left{none, none, none}, right{none, none, none};
+    // The products of an irreversible reaction are no concentrations of any rate.
+    const bool fits = fillSlots(reaction.reactants, left) &&
+                      (!reaction.reversible || fillSlots(reaction.products, right)) && reaction.orders.empty();
+    if (!fits) {
+      left = right = {none, none, none};
+      GeneralReaction entry{i, reaction.reactants, reaction.products};
+      for (auto& term : entry.forwardOrders)
+        for (const auto& order : reaction.orders)
+          if (order.species == term.species) term.coefficient = order.coefficient;
+      if (!reaction.reversible) entry.reverseOrders.clear();
+      general.push_back(std::move(entry));
+    }
+    for (std::size_t s = 0; s < 3; ++s) {
+      reactant[s].push_back(left[s]);
+      product[s].push_back(right[s]);
+    }
+    netTerms.push_back(netStoichiometry(reaction));
+    double sum = 0;
+    for (const auto& t : netTerms.back()) sum += t.coefficient;
+    nuSum.push_back(sum);
+  }
+}
+
+std::size_t KineticsTables::thirdBodySet(const ThirdBody& body) {
+  ThirdBodySet set;
+  set.base = body.defaultEfficiency;
+  set.efficiencies.assign(numSpecies, set.base);
+  for (const auto& e : body.efficiencies) set.efficiencies[e.species] = e.coefficient;
+  for (std::size_t i = 0; i < sets.size(); ++i)
+    if (sets[i].base == set.base && sets[i].efficiencies == set.efficiencies) return i;
+  for (std::size_t k = 0; k < numSpecies; ++k)
+    if (set.efficiencies[k] != set.base) set.excess.push_back({k, set.efficiencies[k] - set.base});
+  sets.push_back(std::move(set));
+  return sets.size() - 1;
+}
+
+void KineticsTables::setThirdBodies(const Mechanism& mechanism) {
+  for (std::size_t i = 0; i < numReactions; ++i) {
+    const auto& reaction = mechanism.reaction(original[i]);
+    if (reaction.type == Reaction::Type::Elementary) continue;
+    const auto set = thirdBodySet(*reaction.thirdBody);
+    if (reaction.type == Reaction::Type::ThreeBody) {
+      threeBody.push_back({i, set});
+      continue;
+    }
+    auto& f = falloff;
+    f.reaction.push_back(i);
+    f.set.push_back(set);
+    f.lnA.push_back(lnMagnitude(reaction.lowPressureRate.A));
+    f.b.push_back(reaction.lowPressureRate.b);
+    f.Ta.push_back(reaction.lowPressureRate.activationTemperature);
+    const auto troe = reaction.troe.value_or(TroeBroadening{1.0, 0.0, 0.0, std::nullopt});
+    const bool lindemann = !reaction.troe;
+    const bool hasT3 = troe.T3 != 0, hasT1 = troe.T1 != 0 || lindemann, hasT2 = troe.T2.value_or(0) != 0;
+    f.w3.push_back(hasT3 ? 1.0 - troe.A : 0.0);
+    f.w1.push_back(hasT1 ? troe.A : 0.0);
+    f.w2.push_back(hasT2 ? 1.0 : 0.0);
+    f.inverseT3.push_back(hasT3 ? 1.0 / troe.T3 : 0.0);
+    f.inverseT1.push_back(troe.T1 != 0 ? 1.0 / troe.T1 : 0.0);
+    f.T2.push_back(hasT2 ? *troe.T2 : 0.0);
+  }
+}
+
+void KineticsTables::setProductionTable() {
+  const auto none = static_cast<std::int32_t>(numReactions);
+  rows.push_back(0);
+  for (std::size_t k = 0; k < numSpecies; ++k) {
+    for (std::size_t i = 0; i < numReactions; ++i)
+      for (const auto& term : netTerms[i])
+        if (term.species == k) {
+          rowReaction.push_back(static_cast<std::int32_t>(i));
+          rowNu.push_back(term.coefficient);
+        }
+    while (rowReaction.size() % 4 != 0) {
+      rowReaction.push_back(none);
+      rowNu.push_back(0.0);
+    }
+    rows.push_back(rowReaction.size());
+  }
+}
+
+}  // namespace lampblack
