@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <functional>
 #include <iostream>
 #include <sstream>
 
@@ -62,9 +63,9 @@ int fail(const char* kind, const std::exception& error, int code) {
   return code;
 }
 
-int execute(const Arguments& arguments, void (*command)(const Arguments&)) {
+int execute(const std::function<void()>& command) {
   try {
-    command(arguments);
+    command();
     return 0;
   } catch (const InputError& error) {
     return fail("", error, exitInput);
@@ -82,23 +83,23 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", buildVersion() + " (" + buildGitHash() + ")");
   app.require_subcommand(1);
   Arguments arguments;
-  void (*command)(const Arguments&) = nullptr;
+  std::function<void()> command;
 
   CLI::App* runCommand = app.add_subcommand("run", "Run a deck.");
   runCommand->add_option("deck", arguments.deck, "Input deck (YAML).")->required();
   runCommand->add_option("--set", arguments.overrides, "Override a key: a.b=c.")->allow_extra_args(false);
   runCommand->add_option("--out", arguments.folder, "Folder for the results.")->default_val("results/run");
   runCommand->add_flag("--force", arguments.force, "Replace an earlier run in that folder.");
-  runCommand->callback([&] { command = run; });
+  runCommand->callback([&] { command = [&] { run(arguments); }; });
 
   CLI::App* checkCommand = app.add_subcommand("check", "Read everything a deck names and run nothing.");
   checkCommand->add_option("deck", arguments.deck, "Input deck (YAML).")->required();
   checkCommand->add_option("--set", arguments.overrides, "Override a key: a.b=c.")->allow_extra_args(false);
-  checkCommand->callback([&] { command = check; });
+  checkCommand->callback([&] { command = [&] { check(arguments); }; });
 
   CLI::App* referenceCommand = app.add_subcommand("deck-reference", "Print all keys of a deck.");
   referenceCommand->add_flag("--json-schema", arguments.json, "As a JSON schema for editors.");
-  referenceCommand->callback([&] { command = reference; });
+  referenceCommand->callback([&] { command = [&] { reference(arguments); }; });
 
   // PETSc reads its own options from the environment and from a file, not from our command line.
   if (PetscInitializeNoArguments() != 0) return exitBug;
@@ -117,6 +118,6 @@ int main(int argc, char** argv) {
     }
     return PetscFinalize() == 0 ? status : exitBug;
   }
-  const int code = execute(arguments, command);
+  const int code = execute(command);
   return PetscFinalize() == 0 ? code : exitBug;
 }
