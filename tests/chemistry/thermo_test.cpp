@@ -18,39 +18,6 @@ using lampblack::testing::measured;
 using lampblack::testing::raise;
 using lampblack::testing::Table;
 
-// The table has 13 digits.
-TEST(Thermo, AgreesWithCanteraForMixturesAndSpecies) {
-  const auto& mechanism = hydrogen();
-  const Thermo thermo(mechanism);
-  const Table states("kinetics_h2o2_states.csv"), mixture("kinetics_h2o2_mixture.csv"),
-      species("kinetics_h2o2_species.csv");
-  const std::size_t n = mechanism.numSpecies();
-  std::vector<double> Y(n), cp(n), h(n);
-  double worst = 0, worstH = 0;
-  for (std::size_t s = 0; s < states.size(); ++s) {
-    const double T = states.number(s, "T"), p = states.number(s, "p");
-    thermo.moleToMass(states.moleFractions(s, mechanism), Y);
-    raise(worst, thermo.density(T, p, Y) / mixture.number(s, "rho") - 1);
-    raise(worst, thermo.cpMass(T, Y) / mixture.number(s, "cp") - 1);
-    raise(worstH, thermo.enthalpyMass(T, Y) / mixture.number(s, "h") - 1);
-    EXPECT_NEAR(thermo.meanMolecularWeight(Y) * 1e3 / mixture.number(s, "W"), 1, 1e-12);
-    EXPECT_NEAR(thermo.density(T, p, Y) / mixture.number(s, "rho"), 1, 1e-12);
-    EXPECT_NEAR(thermo.cpMass(T, Y) / mixture.number(s, "cp"), 1, 1e-12);
-    EXPECT_NEAR(thermo.enthalpyMass(T, Y) / mixture.number(s, "h"), 1, 1e-11);
-    thermo.speciesCp(T, cp);
-    thermo.speciesEnthalpies(T, h);
-    for (std::size_t k = 0; k < n; ++k) {
-      const std::size_t row = s * n + k;
-      ASSERT_EQ(species.text(row, "species"), mechanism.speciesName(k));
-      const double W = mechanism.molecularWeights()[k];
-      EXPECT_NEAR(1e3 * cp[k] * W / species.number(row, "cp"), 1, 1e-12);
-      EXPECT_NEAR(1e3 * h[k] * W, species.number(row, "h"), 1e-11 * 1e8);
-    }
-  }
-  measured("density and heat capacity", worst);
-  measured("enthalpy", worstH);
-}
-
 TEST(Thermo, TemperatureComesBackFromEnthalpyWhateverTheGuess) {
   const auto& mechanism = lampblack::testing::ethylene();
   const Thermo thermo(mechanism);
