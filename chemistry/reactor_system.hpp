@@ -1,6 +1,13 @@
-// The equations of a constant-pressure adiabatic reactor in the unknowns (Y_1..Y_N, T):
-//   dY_k/dt = W_k wdot_k / rho + S_k,   dT/dt = -(1/cp) sum_k h_k dY_k/dt,
-// with a constant source S_k that brings its own enthalpy, and their analytic Jacobian.
+// The equations of a well-mixed reactor of constant pressure or constant density in the unknowns (Y_1..Y_N, T), and
+// their analytic Jacobian:
+//   dY_k/dt = W_k wdot_k / rho + S_k - r Y_k
+//   constant pressure:  cp dT/dt = q - r h - sum_k h_k dY_k/dt      (dh/dt = q - r h)
+//   constant density:   cv dT/dt = q - r u - sum_k u_k dY_k/dt      (du/dt = q - r u)
+// with a constant source S_k, a removal rate r and a heating q, all zero in a closed adiabatic reactor. Where the
+// temperature is given, dT/dt is a given number instead.
+//
+// A source alone (r = q = 0) brings the enthalpy (energy) that keeps the mixture's. A perfectly stirred reactor of
+// residence time tau and constant pressure has S = Y_in/tau, r = 1/tau, q = h_in/tau; losses to a wall lower q.
 #pragma once
 
 #include <cstddef>
@@ -15,13 +22,28 @@ namespace lampblack {
 
 class ReactorSystem {
  public:
+  enum class Held { Pressure, Density };
+  enum class Energy { Conserved, GivenTemperature };
+
+  struct Conditions {
+    Held held = Held::Pressure;
+    double value = 0;  // Pa or kg/m3
+    Energy energy = Energy::Conserved;
+    double temperatureRate = 0;      // dT/dt, K/s, where the temperature is given
+    std::span<const double> source;  // S, 1/s, a value a species; copied; may be empty
+    double removal = 0;              // r, 1/s
+    double heating = 0;              // q, J/kg/s
+  };
+
   explicit ReactorSystem(const Mechanism& mechanism);
 
   std::size_t numSpecies() const { return weights_.size(); }
   std::size_t size() const { return weights_.size() + 1; }
   Thermo& thermo() { return thermo_; }
 
-  // The pressure (Pa) and the source (1/s, may be empty) of the evaluations that follow.
+  // What holds for the evaluations that follow.
+  void setConditions(const Conditions& conditions);
+  // Constant pressure (Pa), energy conserved, and a source (1/s, may be empty).
   void setConditions(double pressure, std::span<const double> source);
 
   // f = dy/dt. Rates follow mass action through zero: negative mass fractions are negative concentrations. False, with
@@ -32,17 +54,27 @@ class ReactorSystem {
   // J[i + ld*j] = d f_i / d y_j; also leaves f.
   bool jacobian(const double* y, double* f, double* J, std::size_t ld);
 
+  // Of the state of the last evaluation.
+  double density() const { return density_; }    // kg/m3
+  double pressure() const { return pressure_; }  // Pa
+
  private:
   bool prepare(const double* y);
+  void speciesEnergies(double T);
+  double temperatureSlope(const double* y, const double* f);
+  void speciesBlock(double* J, std::size_t ld) const;
+  void temperatureRow(const double* y, const double* f, double* J, std::size_t ld);
 
   Thermo thermo_;
   Kinetics kinetics_;
   std::vector<double> weights_, inverseWeights_;
+  Conditions conditions_;
   std::vector<double> source_;
-  bool hasSource_ = false;
-  double pressure_ = 0;
-  double density_ = 0, meanWeight_ = 0;
-  std::vector<double> c_, wdot_, h_, cp_, cpSlope_, rowSum_, byT_;
+  double density_ = 0, pressure_ = 0, meanWeight_ = 0;
+  std::vector<double> c_, wdot_;
+  // Enthalpies and cp at constant pressure, internal energies and cv at constant density; J/kg, J/kg/K, J/kg/K2.
+  std::vector<double> energy_, capacity_, capacitySlope_, gasConstants_;
+  std::vector<double> excess_, byT_;
 };
 
 }  // namespace lampblack

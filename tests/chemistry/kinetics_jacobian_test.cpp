@@ -4,8 +4,6 @@
 #include <cmath>
 
 #include "chemistry/kinetics.hpp"
-#include "chemistry/reactor_system.hpp"
-#include "core/constants.hpp"
 #include "tests/chemistry/measured.hpp"
 #include "tests/chemistry/table.hpp"
 
@@ -16,7 +14,6 @@ using lampblack::testing::ethylene;
 using lampblack::testing::hydrogen;
 using lampblack::testing::measured;
 using lampblack::testing::raise;
-using lampblack::testing::Table;
 
 // Central differences of fourth order with a relative step h have an error of about h^4 + eps/h: 1e-11 at h = 1e-3
 // where the rates are polynomials of low degree, and a little more through the fall-off curves.
@@ -67,43 +64,6 @@ TEST(KineticsJacobian, AgreesWithDifferencesOfTheRates) {
   }
   measured("by concentration, of the column's largest", worst);
   measured("by temperature, of the largest", worstByT);
-}
-
-TEST(KineticsJacobian, TheReactorsJacobianAgreesWithDifferences) {
-  const auto& mechanism = ethylene();
-  ReactorSystem system(mechanism);
-  const std::size_t n = mechanism.numSpecies(), size = n + 1;
-  const Table states("counterflow_c2h4_states.csv");
-  const Thermo thermo(mechanism);
-  std::vector<double> source(n, 0.0);
-  source[mechanism.speciesIndex("O2")] = 30;
-  source[mechanism.speciesIndex("CO2")] = -30;
-  system.setConditions(constants::oneAtmosphere, source);
-  double worst = 0;
-  for (const std::size_t s : {8UL, 14UL, 18UL}) {
-    std::vector<double> y(size), f(size), J(size * size);
-    thermo.moleToMass(states.moleFractions(s, mechanism), {y.data(), n});
-    y[n] = states.number(s, "T");
-    ASSERT_TRUE(system.jacobian(y.data(), f.data(), J.data(), size));
-    std::vector<double> rates(size);
-    ASSERT_TRUE(system.rates(y.data(), rates.data()));
-    for (std::size_t i = 0; i < size; ++i) EXPECT_NEAR(f[i], rates[i], 1e-12 * std::abs(rates[n]));
-    for (std::size_t j = 0; j < size; ++j) {
-      const double step = j == n ? 0.1 : std::max(1e-5, 1e-3 * y[j]);
-      const auto slope = difference(size, y[j], step, [&](double value, std::vector<double>& out) {
-        auto changed = y;
-        changed[j] = value;
-        system.rates(changed.data(), out.data());
-      });
-      double largest = 0;
-      for (const double v : slope) largest = std::max(largest, std::abs(v));
-      for (std::size_t k = 0; k < size; ++k) {
-        raise(worst, (J[j * size + k] - slope[k]) / largest);
-        EXPECT_NEAR(J[j * size + k], slope[k], 1e-7 * largest) << k << " by " << j;
-      }
-    }
-  }
-  measured("reactor, of the column's largest", worst);
 }
 
 }  // namespace
