@@ -10,6 +10,7 @@
 #include "app/build_info.hpp"
 #include "app/flow_case.hpp"
 #include "app/flow_run.hpp"
+#include "app/gas_command.hpp"
 #include "core/errors.hpp"
 #include "core/petsc.hpp"
 
@@ -100,6 +101,8 @@ int main(int argc, char** argv) {
   CLI::App* referenceCommand = app.add_subcommand("deck-reference", "Print all keys of a deck.");
   referenceCommand->add_flag("--json-schema", arguments.json, "As a JSON schema for editors.");
   referenceCommand->callback([&] { command = [&] { reference(arguments); }; });
+
+  addGasCommand(app, command);
 
   // PETSc reads its own options from the environment and from a file, not from our command line.
   if (PetscInitializeNoArguments() != 0) return exitBug;

@@ -1,0 +1,19 @@
+// What `lampblack gas` prints: one JSON object (docs/formats.md) or tables for people.
+#pragma once
+
+#include <string>
+
+#include "app/gas_properties.hpp"
+
+namespace lampblack {
+
+std::string gasJson(const Mechanism& mechanism, const GasProperties& gas);
+
+struct GasTables {
+  bool allSpecies = false;  // also those that are neither present nor produced
+  bool reactions = false;   // rate constants
+};
+
+std::string gasText(const Mechanism& mechanism, const GasProperties& gas, const GasTables& tables);
+
+}  // namespace lampblack

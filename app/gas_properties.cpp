@@ -1,0 +1,108 @@
+#include "app/gas_properties.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "chemistry/kinetics.hpp"
+#include "chemistry/nasa7.hpp"
+#include "chemistry/thermo.hpp"
+#include "chemistry/transport.hpp"
+#include "core/constants.hpp"
+#include "core/errors.hpp"
+
+namespace lampblack {
+namespace {
+
+// Of the ideal mixture: sum_k Y_k/W_k (s_k - R ln(X_k p/p0)).
+double entropyMass(const Mechanism& mechanism, const GasProperties& gas) {
+  const Nasa7Table table(mechanism.allSpecies());
+  std::vector<double> s(table.size());
+  table.entropyOverR(gas.temperature, std::log(gas.temperature), s.data());
+  const double lnPressure = std::log(gas.pressure / constants::oneAtmosphere);
+  double sum = 0;
+  for (std::size_t k = 0; k < s.size(); ++k) {
+    const double X = gas.moleFractions[k];
+    if (X > 0) sum += X * (s[k] - std::log(X) - lnPressure);
+  }
+  return sum * constants::gasConstant / gas.meanMolecularWeight;
+}
+
+void requireFinite(const GasProperties& gas) {
+  const auto check = [&](std::span<const double> values, const char* what) {
+    if (!std::ranges::all_of(values, [](double v) { return std::isfinite(v); }))
+      throw NumericsError(
+          fmt::format("{} at {:.6g} K and {:.6g} Pa are not finite numbers", what, gas.temperature, gas.pressure));
+  };
+  const double mixture[] = {gas.density, gas.meanMolecularWeight, gas.cpMass, gas.enthalpyMass, gas.entropyMass};
+  check(mixture, "the thermodynamic properties");
+  check(gas.forwardConstants, "the forward rate constants");
+  check(gas.reverseConstants, "the reverse rate constants");
+  check(gas.netProductionRates, "the net production rates");
+}
+
+void setTransport(const Mechanism& mechanism, GasProperties& gas) {
+  try {
+    GasTransport result;
+    Transport transport(mechanism);
+    result.mixtureDiffusion.resize(mechanism.numSpecies());
+    const auto mixture = transport.mixture(gas.temperature, gas.pressure, gas.moleFractions, result.mixtureDiffusion);
+    result.viscosity = mixture.viscosity;
+    result.thermalConductivity = mixture.conductivity;
+    gas.transport = std::move(result);
+  } catch (const std::runtime_error& error) {
+    gas.transportNote = error.what();
+  }
+}
+
+}  // namespace
+
+GasProperties gasProperties(const Mechanism& mechanism, double T, double p, std::span<const double> X) {
+  const std::size_t n = mechanism.numSpecies();
+  GasProperties gas;
+  gas.temperature = T;
+  gas.pressure = p;
+  gas.moleFractions.assign(X.begin(), X.end());
+  gas.massFractions.resize(n);
+  const Thermo thermo(mechanism);
+  thermo.moleToMass(X, gas.massFractions);
+  gas.meanMolecularWeight = thermo.meanMolecularWeight(gas.massFractions);
+  gas.density = thermo.density(T, p, gas.massFractions);
+  gas.cpMass = thermo.cpMass(T, gas.massFractions);
+  gas.enthalpyMass = thermo.enthalpyMass(T, gas.massFractions);
+  gas.entropyMass = entropyMass(mechanism, gas);
+
+  std::vector<double> concentrations(n);
+  for (std::size_t k = 0; k < n; ++k) concentrations[k] = X[k] * p / (constants::gasConstant * T);
+  Kinetics kinetics(mechanism);
+  gas.netProductionRates.resize(n);
+  kinetics.netProductionRates(T, concentrations, gas.netProductionRates);
+  gas.forwardConstants.resize(mechanism.numReactions());
+  gas.reverseConstants.resize(mechanism.numReactions());
+  kinetics.rateConstants(T, concentrations, gas.forwardConstants, gas.reverseConstants);
+  requireFinite(gas);
+  setTransport(mechanism, gas);
+  return gas;
+}
+
+std::string rangeWarning(const Mechanism& mechanism, double T) {
+  std::size_t outside = 0;
+  const Species* narrowest = nullptr;
+  double distance = 0;
+  for (const Species& species : mechanism.allSpecies()) {
+    const double beyond = std::max(species.thermo.minTemperature - T, T - species.thermo.maxTemperature);
+    if (!(beyond > 0)) continue;
+    ++outside;
+    if (beyond <= distance) continue;
+    distance = beyond;
+    narrowest = &species;
+  }
+  if (outside == 0) return {};
+  return fmt::format(
+      "{:.6g} K is outside the range of the thermodynamic data of {} species, whose polynomials are "
+      "extrapolated; the narrowest range is that of '{}', {:.6g} to {:.6g} K",
+      T, outside, narrowest->name, narrowest->thermo.minTemperature, narrowest->thermo.maxTemperature);
+}
+
+}  // namespace lampblack

@@ -1,0 +1,42 @@
+// All properties of a gas at one state, gathered from the models of the chemistry room for `lampblack gas`.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "chemistry/mechanism.hpp"
+
+namespace lampblack {
+
+struct GasTransport {
+  double viscosity = 0;                  // Pa s
+  double thermalConductivity = 0;        // W/m/K
+  std::vector<double> mixtureDiffusion;  // m2/s, of mass fluxes by gradients of mole fractions
+};
+
+struct GasProperties {
+  double temperature = 0;          // K
+  double pressure = 0;             // Pa
+  double density = 0;              // kg/m3
+  double meanMolecularWeight = 0;  // kg/mol
+  double cpMass = 0;               // J/kg/K, at frozen composition
+  double enthalpyMass = 0;         // J/kg, with enthalpies of formation
+  double entropyMass = 0;          // J/kg/K
+  std::vector<double> moleFractions, massFractions;
+  std::vector<double> netProductionRates;                  // mol/m3/s
+  std::vector<double> forwardConstants, reverseConstants;  // (m3/mol)^(order-1)/s, in file order
+  std::optional<GasTransport> transport;
+  std::string transportNote;  // why there is no transport
+};
+
+// All of it at T (K), p (Pa) and mole fractions X that sum to one. Without transport data, or outside the range of
+// temperature of the transport properties, `transport` is empty. NumericsError if a number is not finite.
+GasProperties gasProperties(const Mechanism& mechanism, double T, double p, std::span<const double> X);
+
+// Says that T is outside the range of thermodynamic data, and names the species whose range ends first; empty if
+// inside.
+std::string rangeWarning(const Mechanism& mechanism, double T);
+
+}  // namespace lampblack
