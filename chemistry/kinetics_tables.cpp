@@ -11,13 +11,6 @@ namespace lampblack {
 
 namespace {
 
-// ln k of a rate constant of zero: its exponential vanishes beside any other rate.
-constexpr double kLogOfZero = -1e4;
-
-double lnMagnitude(double A) {
-  return A == 0 ? kLogOfZero : std::log(std::abs(A));
-}
-
 // The species of one side, each as often as its coefficient says; empty if that is not possible in three slots.
 bool fillSlots(const std::vector<StoichiometricTerm>& terms, std::array<std::int32_t, 3>& slots) {
   std::size_t used = 0;
@@ -47,23 +40,32 @@ std::vector<StoichiometricTerm> netStoichiometry(const Reaction& reaction) {
   return net;
 }
 
-void requireSupported(const Mechanism& mechanism, const Reaction& reaction) {
-  const bool known = reaction.type == Reaction::Type::Elementary || reaction.type == Reaction::Type::ThreeBody ||
-                     (reaction.type == Reaction::Type::Falloff && !reaction.sri);
-  if (!known)
-    throw InputError(fmt::format("{}:{}: reaction '{}': rates of this type are not computed yet", mechanism.fileName(),
-                                 reaction.line, reaction.equation));
+// The coefficients of the reactants, replaced or joined by the orders given; orders of zero are left out.
+std::vector<StoichiometricTerm> forwardOrders(const Mechanism& mechanism, const Reaction& reaction) {
+  if (reaction.reversible && !reaction.orders.empty())
+    throw InputError(fmt::format("{}:{}: reaction '{}': orders are for irreversible reactions only; expected '=>'",
+                                 mechanism.fileName(), reaction.line, reaction.equation));
+  auto orders = reaction.reactants;
+  for (const auto& given : reaction.orders) {
+    const auto same =
+        std::find_if(orders.begin(), orders.end(), [&](const auto& t) { return t.species == given.species; });
+    if (same != orders.end())
+      same->coefficient = given.coefficient;
+    else
+      orders.push_back(given);
+  }
+  std::erase_if(orders, [](const auto& t) { return t.coefficient == 0; });
+  return orders;
 }
 
 }  // namespace
 
 KineticsTables::KineticsTables(const Mechanism& mechanism)
     : numSpecies(mechanism.numSpecies()), numReactions(mechanism.numReactions()) {
-  for (const auto& reaction : mechanism.reactions()) requireSupported(mechanism, reaction);
   orderReactions(mechanism);
   setRates(mechanism);
   setSlots(mechanism);
-  setThirdBodies(mechanism);
+  setFactors(mechanism);
   setProductionTable();
 }
 
@@ -76,7 +78,8 @@ void KineticsTables::orderReactions(const Mechanism& mechanism) {
 
 void KineticsTables::setRates(const Mechanism& mechanism) {
   for (const auto r : original) {
-    const auto& rate = mechanism.reaction(r).rate;
+    const auto& reaction = mechanism.reaction(r);
+    const auto rate = baseRate(mechanism, reaction);
     lnA.push_back(lnMagnitude(rate.A));
     b.push_back(rate.b);
     Ta.push_back(rate.activationTemperature);
@@ -95,10 +98,7 @@ void KineticsTables::setSlots(const Mechanism& mechanism) {
                       (!reaction.reversible || fillSlots(reaction.products, right)) && reaction.orders.empty();
     if (!fits) {
       left = right = {none, none, none};
-      GeneralReaction entry{i, reaction.reactants, reaction.products};
-      for (auto& term : entry.forwardOrders)
-        for (const auto& order : reaction.orders)
-          if (order.species == term.species) term.coefficient = order.coefficient;
+      GeneralReaction entry{i, forwardOrders(mechanism, reaction), reaction.products};
       if (!reaction.reversible) entry.reverseOrders.clear();
       general.push_back(std::move(entry));
     }
@@ -126,30 +126,28 @@ std::size_t KineticsTables::thirdBodySet(const ThirdBody& body) {
   return sets.size() - 1;
 }
 
-void KineticsTables::setThirdBodies(const Mechanism& mechanism) {
+void KineticsTables::setFactors(const Mechanism& mechanism) {
+  pressureLog.points.push_back(0);
+  pressureLog.rates.push_back(0);
   for (std::size_t i = 0; i < numReactions; ++i) {
     const auto& reaction = mechanism.reaction(original[i]);
-    if (reaction.type == Reaction::Type::Elementary) continue;
-    const auto set = thirdBodySet(*reaction.thirdBody);
-    if (reaction.type == Reaction::Type::ThreeBody) {
-      threeBody.push_back({i, set});
-      continue;
+    switch (reaction.type) {
+      case Reaction::Type::Elementary:
+        break;
+      case Reaction::Type::ThreeBody:
+        threeBody.push_back({i, thirdBodySet(*reaction.thirdBody)});
+        break;
+      case Reaction::Type::Falloff:
+      case Reaction::Type::ChemicallyActivated:
+        addFalloff(i, mechanism);
+        break;
+      case Reaction::Type::PressureLog:
+        addPressureLog(i, mechanism);
+        break;
+      case Reaction::Type::Chebyshev:
+        addChebyshev(i, mechanism);
+        break;
     }
-    auto& f = falloff;
-    f.reaction.push_back(i);
-    f.set.push_back(set);
-    f.lnA.push_back(lnMagnitude(reaction.lowPressureRate.A));
-    f.b.push_back(reaction.lowPressureRate.b);
-    f.Ta.push_back(reaction.lowPressureRate.activationTemperature);
-    const auto troe = reaction.troe.value_or(TroeBroadening{1.0, 0.0, 0.0, std::nullopt});
-    const bool lindemann = !reaction.troe;
-    const bool hasT3 = troe.T3 != 0, hasT1 = troe.T1 != 0 || lindemann, hasT2 = troe.T2.value_or(0) != 0;
-    f.w3.push_back(hasT3 ? 1.0 - troe.A : 0.0);
-    f.w1.push_back(hasT1 ? troe.A : 0.0);
-    f.w2.push_back(hasT2 ? 1.0 : 0.0);
-    f.inverseT3.push_back(hasT3 ? 1.0 / troe.T3 : 0.0);
-    f.inverseT1.push_back(troe.T1 != 0 ? 1.0 / troe.T1 : 0.0);
-    f.T2.push_back(hasT2 ? *troe.T2 : 0.0);
   }
 }
 
