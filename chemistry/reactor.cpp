@@ -14,6 +14,7 @@
 
 #include "chemistry/dense_lu.hpp"
 #include "chemistry/reactor_system.hpp"
+#include "chemistry/short_vector.hpp"
 #include "chemistry/sundials_handles.hpp"
 #include "core/errors.hpp"
 
@@ -125,10 +126,8 @@ ConstantPressureReactor::Impl::Impl(const Mechanism& mechanismIn, const Options&
   using sundials::check;
   for (auto* work : {&start, &predicted, &chemical, &chemicalEnd, &scratch}) work->assign(n + 1, 0.0);
   const auto length = static_cast<sunindextype>(n + 1);
-  y.reset(N_VNew_Serial(length, context.get()));
-  check(y.get(), "N_VNew_Serial");
-  tolerances.reset(N_VNew_Serial(length, context.get()));
-  check(tolerances.get(), "N_VNew_Serial");
+  y = sundials::makeShortVector(n + 1, context.get());
+  tolerances = sundials::makeShortVector(n + 1, context.get());
   matrix.reset(SUNDenseMatrix(length, length, context.get()));
   check(matrix.get(), "SUNDenseMatrix");
   linearSolver.reset(SUNLinSolNewEmpty(context.get()));

@@ -1,0 +1,71 @@
+// States to time reactors on: a flame of methane, and ignitions of ethylene with any mechanism that knows it.
+#pragma once
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "chemistry/mechanism.hpp"
+#include "chemistry/reactor.hpp"
+#include "chemistry/thermo.hpp"
+#include "core/constants.hpp"
+#include "tests/chemistry/table.hpp"
+
+namespace lampblack::bench {
+
+struct GasState {
+  double T = 0;           // K
+  double p = 0;           // Pa
+  std::vector<double> Y;  // mass fractions
+};
+
+inline Mechanism shippedMechanism(const std::string& name) {
+  return Mechanism::fromFile(testing::sourcePath("cases/mechanisms/" + name + ".yaml"));
+}
+
+// Every tenth of a thousand states along a premixed flame of methane and air, GRI-Mech 3.0, 1 atm.
+inline std::vector<GasState> methaneFlameStates(const Mechanism& mechanism) {
+  const testing::Table table("reactor_states_ch4_flame.csv");
+  std::vector<GasState> states;
+  for (std::size_t row = 0; row < table.size(); ++row) {
+    GasState state{table.number(row, "T"), table.number(row, "p"), {}};
+    double sum = 0;
+    for (std::size_t k = 0; k < mechanism.numSpecies(); ++k) {
+      state.Y.push_back(std::max(0.0, table.number(row, "Y_" + mechanism.speciesName(k))));
+      sum += state.Y.back();
+    }
+    for (double& value : state.Y) value /= sum;
+    states.push_back(state);
+  }
+  return states;
+}
+
+// Hot, partly reacted mixtures of ethylene and air at 1 atm: igniting at constant pressure from 1400 K, stoichiometric
+// and at twice that, as they are at 20 temperatures each on the way to equilibrium. A trace of H starts the mechanisms
+// that have no first step of their own.
+inline std::vector<GasState> ethyleneIgnitionStates(const Mechanism& mechanism) {
+  ConstantPressureReactor reactor(mechanism, {1e-8, 1e-15, 100000, 0.0});
+  std::vector<GasState> states;
+  for (const char* mixture : {"C2H4: 1, O2: 3, N2: 11.28, H: 1e-5", "C2H4: 2, O2: 3, N2: 11.28, H: 1e-5"}) {
+    GasState gas{1400.0, constants::oneAtmosphere, std::vector<double>(mechanism.numSpecies())};
+    Thermo(mechanism).moleToMass(parseComposition(mechanism, mixture), gas.Y);
+    std::vector<GasState> path{gas};
+    const double dt = 1e-6;
+    for (int i = 0; i < 1000; ++i) {
+      ConstantPressureReactor::Cell cell{gas.T, gas.p, gas.Y, {}, 0.0};
+      reactor.advance(cell, dt);
+      gas.T = cell.temperature;
+      path.push_back(gas);
+    }
+    const auto [coldest, hottest] =
+        std::minmax_element(path.begin(), path.end(), [](const auto& a, const auto& b) { return a.T < b.T; });
+    for (int i = 0; i < 20; ++i) {
+      const double T = coldest->T + (i + 0.5) / 20 * (hottest->T - coldest->T);
+      states.push_back(*std::find_if(path.begin(), path.end(), [&](const auto& s) { return s.T >= T; }));
+    }
+  }
+  return states;
+}
+
+}  // namespace lampblack::bench
