@@ -9,12 +9,6 @@
 
 namespace lampblack {
 
-namespace {
-
-constexpr double kSmallestTotal = 1e-300;  // mol/m3, keeps the logarithm of the pressure finite
-
-}  // namespace
-
 // Everything that depends on temperature alone; nothing to do if it has not changed.
 void Kinetics::updateTemperature(double T) {
   if (T == temperature_) return;
@@ -84,7 +78,7 @@ void Kinetics::updateFactors() {
     factor_[r] = multiplier_[r] * falloffFactors[i];
   }
   if (tables_.pressureLog.reaction.empty() && tables_.chebyshev.reaction.empty()) return;
-  lnPressure_ = std::log(constants::gasConstant * temperature_ * std::max(totalConcentration_, kSmallestTotal));
+  lnPressure_ = std::log(constants::gasConstant * temperature_ * std::max(totalConcentration_, smallestConcentration));
   for (std::size_t i = 0; i < tables_.pressureLog.reaction.size(); ++i) {
     const auto r = tables_.pressureLog.reaction[i];
     const double lnk = pressureRates_.logarithmic(tables_, i, lnPressure_);

@@ -4,7 +4,7 @@
 // call: changing only the concentrations is cheaper.
 //
 // All quantities are SI with mol: concentrations mol/m3, rates mol/m3/s, rate constants (m3/mol)^(order-1)/s. Pressure,
-// where a rate constant depends on it, is R T sum c.
+// where a rate constant depends on it, is R T sum c, of at least 1e-10 mol/m3.
 //
 // Errors: InputError at construction for rate constants that make no sense (named with file and line), NumericsError at
 // evaluation if the constants a reaction has at one pressure add up to nothing positive at this temperature.

@@ -75,7 +75,7 @@ void Kinetics::factorDerivatives(double* values, double* common) {
     }
   }
   // p = R T sum c: d ln p/d c_j = 1/sum c, d ln p/dT = 1/T.
-  const double byTotal = totalConcentration_ > 0 ? 1.0 / totalConcentration_ : 0.0;
+  const double byTotal = totalConcentration_ > smallestConcentration ? 1.0 / totalConcentration_ : 0.0;
   const double T = temperature_;
   const auto addPressure = [&](std::size_t r, const PressureRates::Slope& slope) {
     const double lnBaseByT = (tables_.b[r] + tables_.Ta[r] / T) / T;

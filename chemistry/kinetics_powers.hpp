@@ -9,7 +9,7 @@
 
 namespace lampblack {
 
-inline constexpr double smallestConcentration = 1e-10;  // mol/m3, s above
+inline constexpr double smallestConcentration = 1e-10;  // mol/m3, s above; also the least sum that sets a pressure
 
 inline double concentrationPower(double c, double n) {
   if (n == 1) return c;
