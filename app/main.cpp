@@ -11,6 +11,7 @@
 #include "app/flow_case.hpp"
 #include "app/flow_run.hpp"
 #include "app/gas_command.hpp"
+#include "app/mechanism_command.hpp"
 #include "core/errors.hpp"
 #include "core/petsc.hpp"
 
@@ -103,6 +104,7 @@ int main(int argc, char** argv) {
   referenceCommand->callback([&] { command = [&] { reference(arguments); }; });
 
   addGasCommand(app, command);
+  addMechanismCommand(app, command);
 
   // PETSc reads its own options from the environment and from a file, not from our command line.
   if (PetscInitializeNoArguments() != 0) return exitBug;
