@@ -243,6 +243,7 @@ class ThermoReader {
     const bool noHigh = absent(std::span(a).first(7)), noLow = absent(std::span(a).last(7));
     if (noHigh && noLow) fail(first_, "all coefficients are zero or blank");
     // One range only: the coefficients of the other are missing, or the middle temperature is an end.
+    const bool sameRanges = result.low == result.high;
     if (noLow)
       result.low = result.high;
     else if (noHigh || T[1] >= T[2])
@@ -251,8 +252,9 @@ class ThermoReader {
       result.low = result.high;
     else
       return result;
-    warnings.push_back(fmt::format("{}: species '{}' has one range of temperature, which holds from {} to {} K",
-                                   source_.place(lines_[first_].number), name_, T[0], T[2]));
+    if (!sameRanges)
+      warnings.push_back(fmt::format("{}: species '{}' has one range of temperature, which is taken from {} to {} K",
+                                     source_.place(lines_[first_].number), name_, T[0], T[2]));
     result.midTemperature = T[2];
     return result;
   }
