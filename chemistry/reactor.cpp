@@ -2,7 +2,6 @@
 
 #include <cvodes/cvodes.h>
 #include <fmt/format.h>
-#include <sunmatrix/sunmatrix_dense.h>
 
 #include <algorithm>
 #include <chrono>
@@ -12,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "chemistry/dense_lu.hpp"
+#include "chemistry/reactor_linear_solver.hpp"
 #include "chemistry/reactor_system.hpp"
 #include "chemistry/short_vector.hpp"
 #include "chemistry/sundials_handles.hpp"
@@ -49,26 +48,19 @@ struct ConstantPressureReactor::Impl {
   [[noreturn]] void giveUp(const Cell& cell, double dt) const;
 
   static int rhs(realtype t, N_Vector y, N_Vector f, void* data);
-  static int linearSystem(realtype t, N_Vector y, N_Vector f, SUNMatrix A, booleantype jacobianOk, booleantype* current,
-                          realtype gamma, void* data, N_Vector w1, N_Vector w2, N_Vector w3);
-  static int solve(SUNLinearSolver solver, SUNMatrix A, N_Vector x, N_Vector b, realtype tolerance);
-  static int setUp(SUNLinearSolver solver, SUNMatrix A);
   static void keepMessage(int code, const char* module, const char* function, char* message, void* data);
 
   const Mechanism& mechanism;
   Options options;
   ReactorSystem system;
   std::size_t n;  // species
-  DenseLu lu;
-  std::vector<double> J;  // saved Jacobian, same layout as lu
   std::vector<double> start, predicted, chemical, chemicalEnd, scratch;
   double startSum = 0, enthalpy = 0;
   std::string reason;
 
   sundials::Context context;
   sundials::Vector y, tolerances;
-  sundials::Matrix matrix;
-  sundials::LinearSolver linearSolver;
+  ReactorLinearSolver linearSolver;
   sundials::Cvode cvode;
 };
 
@@ -77,42 +69,12 @@ int ConstantPressureReactor::Impl::rhs(realtype /*t*/, N_Vector y, N_Vector f, v
   return self.system.rates(N_VGetArrayPointer(y), N_VGetArrayPointer(f)) ? 0 : 1;
 }
 
-// I - gamma J straight into the storage of the LU; the SUNMatrix is a formality of the interface.
-int ConstantPressureReactor::Impl::linearSystem(realtype /*t*/, N_Vector y, N_Vector /*f*/, SUNMatrix /*A*/,
-                                                booleantype jacobianOk, booleantype* current, realtype gamma,
-                                                void* data, N_Vector w1, N_Vector /*w2*/, N_Vector /*w3*/) {
-  auto& self = *static_cast<Impl*>(data);
-  const std::size_t size = self.n + 1, ld = self.lu.leadingDimension();
-  if (jacobianOk == SUNFALSE) {
-    if (!self.system.jacobian(N_VGetArrayPointer(y), N_VGetArrayPointer(w1), self.J.data(), ld)) return 1;
-    *current = SUNTRUE;
-  } else {
-    *current = SUNFALSE;
-  }
-  const double* __restrict from = self.J.data();
-  double* __restrict to = self.lu.column(0);
-  for (std::size_t i = 0; i < ld * size; ++i) to[i] = -gamma * from[i];
-  for (std::size_t i = 0; i < size; ++i) to[i * ld + i] += 1.0;
-  return 0;
-}
-
-int ConstantPressureReactor::Impl::setUp(SUNLinearSolver solver, SUNMatrix /*A*/) {
-  return static_cast<Impl*>(solver->content)->lu.factorise() ? SUNLS_SUCCESS : SUNLS_LUFACT_FAIL;
-}
-
-int ConstantPressureReactor::Impl::solve(SUNLinearSolver solver, SUNMatrix /*A*/, N_Vector x, N_Vector b,
-                                         realtype /*tolerance*/) {
-  auto& self = *static_cast<Impl*>(solver->content);
-  const double* from = N_VGetArrayPointer(b);
-  double* to = N_VGetArrayPointer(x);
-  if (from != to) std::copy_n(from, self.n + 1, to);
-  self.lu.solve(to);
-  return SUNLS_SUCCESS;
-}
-
 void ConstantPressureReactor::Impl::keepMessage(int code, const char* /*module*/, const char* function, char* message,
                                                 void* data) {
-  if (code < 0) static_cast<Impl*>(data)->reason = fmt::format("{}: {}", function, message);
+  auto& self = *static_cast<Impl*>(data);
+  if (code >= 0) return;
+  self.reason = fmt::format("{}: {}", function, message);
+  if (!self.system.refusal().empty()) self.reason += fmt::format(" ({})", self.system.refusal());
 }
 
 ConstantPressureReactor::Impl::Impl(const Mechanism& mechanismIn, const Options& optionsIn)
@@ -120,27 +82,12 @@ ConstantPressureReactor::Impl::Impl(const Mechanism& mechanismIn, const Options&
       options(optionsIn),
       system(mechanismIn),
       n(mechanismIn.numSpecies()),
-      lu(n + 1),
-      J(lu.leadingDimension() * (n + 1), 0.0),
-      context(sundials::makeContext()) {
+      context(sundials::makeContext()),
+      linearSolver(system, context.get()) {
   using sundials::check;
   for (auto* work : {&start, &predicted, &chemical, &chemicalEnd, &scratch}) work->assign(n + 1, 0.0);
-  const auto length = static_cast<sunindextype>(n + 1);
   y = sundials::makeShortVector(n + 1, context.get());
   tolerances = sundials::makeShortVector(n + 1, context.get());
-  matrix.reset(SUNDenseMatrix(length, length, context.get()));
-  check(matrix.get(), "SUNDenseMatrix");
-  linearSolver.reset(SUNLinSolNewEmpty(context.get()));
-  check(linearSolver.get(), "SUNLinSolNewEmpty");
-  linearSolver->content = this;
-  linearSolver->ops->gettype = [](SUNLinearSolver) { return SUNLINEARSOLVER_DIRECT; };
-  linearSolver->ops->setup = setUp;
-  linearSolver->ops->solve = solve;
-  linearSolver->ops->free = [](SUNLinearSolver solver) {
-    solver->content = nullptr;
-    SUNLinSolFreeEmpty(solver);
-    return int{SUNLS_SUCCESS};
-  };
   cvode.reset(CVodeCreate(CV_BDF, context.get()));
   check(cvode.get(), "CVodeCreate");
   void* memory = cvode.get();
@@ -149,8 +96,7 @@ ConstantPressureReactor::Impl::Impl(const Mechanism& mechanismIn, const Options&
   check(CVodeSVtolerances(memory, options.relativeTolerance, tolerances.get()), "CVodeSVtolerances");
   check(CVodeSetUserData(memory, this), "CVodeSetUserData");
   check(CVodeSetErrHandlerFn(memory, keepMessage, this), "CVodeSetErrHandlerFn");
-  check(CVodeSetLinearSolver(memory, linearSolver.get(), matrix.get()), "CVodeSetLinearSolver");
-  check(CVodeSetLinSysFn(memory, linearSystem), "CVodeSetLinSysFn");
+  linearSolver.attach(memory);
 }
 
 void ConstantPressureReactor::Impl::checkInput(const Cell& cell, double dt) const {
@@ -210,6 +156,7 @@ bool ConstantPressureReactor::Impl::integratePiece(double dt, double firstStep, 
   check(CVodeSetStopTime(memory, dt), "CVodeSetStopTime");
   realtype reached = 0;
   reason.clear();
+  system.clearRefusal();
   const int flag = CVode(memory, dt, y.get(), &reached, CV_NORMAL);
   long steps = 0, rhsCalls = 0, jacobians = 0;
   check(CVodeGetNumSteps(memory, &steps), "CVodeGetNumSteps");

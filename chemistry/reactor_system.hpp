@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "chemistry/kinetics.hpp"
@@ -35,11 +36,22 @@ class ReactorSystem {
     double heating = 0;              // q, J/kg/s
   };
 
+  // J in parts, the sum of a sparse matrix with a full last row and column and of a product of two vectors:
+  // J_ij = S_ij + u_i v_j. S_kj of the species has the entries of pattern(); v_j = 1/W_j of the species, v_T = 0.
+  struct SparseJacobian {
+    std::vector<double> species;            // S_kj, an entry each
+    std::vector<double> temperatureRow;     // S_Tj, a value a species
+    std::vector<double> temperatureColumn;  // S_iT, a value an unknown
+    std::vector<double> product;            // u_i, a value an unknown
+  };
+
   explicit ReactorSystem(const Mechanism& mechanism);
 
   std::size_t numSpecies() const { return weights_.size(); }
   std::size_t size() const { return weights_.size() + 1; }
   Thermo& thermo() { return thermo_; }
+  std::span<const double> inverseWeights() const { return inverseWeights_; }  // mol/kg
+  const SparsePattern& pattern() const { return kinetics_.jacobianPattern(); }
 
   // What holds for the evaluations that follow.
   void setConditions(const Conditions& conditions);
@@ -53,6 +65,12 @@ class ReactorSystem {
   bool chemicalRates(const double* y, double* f);
   // J[i + ld*j] = d f_i / d y_j; also leaves f.
   bool jacobian(const double* y, double* f, double* J, std::size_t ld);
+  // The same; sizes its argument.
+  bool sparseJacobian(const double* y, double* f, SparseJacobian& J);
+
+  // Why an evaluation returned false last; empty if none has since clearRefusal().
+  const std::string& refusal() const { return refusal_; }
+  void clearRefusal() { refusal_.clear(); }
 
   // Of the state of the last evaluation.
   double density() const { return density_; }    // kg/m3
@@ -60,10 +78,15 @@ class ReactorSystem {
 
  private:
   bool prepare(const double* y);
+  bool refuse(std::string reason);
+  bool accept(const double* f);
   void speciesEnergies(double T);
   double temperatureSlope(const double* y, const double* f);
+  void finishExcess(double T, double* temperatureColumn);
+  void finishRates(const double* y, double* f);
   void speciesBlock(double* J, std::size_t ld) const;
-  void temperatureRow(const double* y, const double* f, double* J, std::size_t ld);
+  void sparseColumns(SparseJacobian& J) const;
+  double temperatureDiagonal(const double* y, const double* f, const double* temperatureColumn);
 
   Thermo thermo_;
   Kinetics kinetics_;
@@ -72,9 +95,11 @@ class ReactorSystem {
   std::vector<double> source_;
   double density_ = 0, pressure_ = 0, meanWeight_ = 0;
   std::vector<double> c_, wdot_;
+  double inverseCapacity_ = 0;  // 1/(mixture's heat capacity); 0 where the temperature is given
   // Enthalpies and cp at constant pressure, internal energies and cv at constant density; J/kg, J/kg/K, J/kg/K2.
   std::vector<double> energy_, capacity_, capacitySlope_, gasConstants_;
-  std::vector<double> excess_, byT_;
+  std::vector<double> excess_, byT_, common_;
+  std::string refusal_;
 };
 
 }  // namespace lampblack

@@ -106,6 +106,39 @@ TEST_P(EveryReactor, JacobianAgreesWithDifferences) {
   measured("of the column's largest", worst);
 }
 
+// The two forms of the Jacobian are the same sums in another order.
+TEST_P(EveryReactor, SparseJacobianIsTheDenseOne) {
+  ReactorSystem system(ethylene());
+  const std::size_t size = system.size(), n = size - 1;
+  double worst = 0;
+  for (const std::size_t row : {8UL, 14UL, 18UL}) {
+    const auto y = flameState(row);
+    system.setConditions(conditions(y));
+    std::vector<double> f(size), J(size * size), rates(size), sum(size * size, 0.0);
+    ReactorSystem::SparseJacobian parts;
+    ASSERT_TRUE(system.jacobian(y.data(), f.data(), J.data(), size));
+    ASSERT_TRUE(system.sparseJacobian(y.data(), rates.data(), parts));
+    for (std::size_t i = 0; i < size; ++i) EXPECT_NEAR(f[i], rates[i], 1e-14 * std::abs(f[i]));
+    const auto& pattern = system.pattern();
+    for (std::size_t j = 0; j < n; ++j) {
+      for (auto e = pattern.columnStart[j]; e < pattern.columnStart[j + 1]; ++e)
+        sum[j * size + pattern.row[e]] += parts.species[e];
+      sum[j * size + n] = parts.temperatureRow[j];
+      for (std::size_t i = 0; i < size; ++i) sum[j * size + i] += parts.product[i] * system.inverseWeights()[j];
+    }
+    for (std::size_t i = 0; i < size; ++i) sum[n * size + i] = parts.temperatureColumn[i];
+    for (std::size_t j = 0; j < size; ++j) {
+      double largest = 0;
+      for (std::size_t i = 0; i < size; ++i) largest = std::max(largest, std::abs(J[j * size + i]));
+      for (std::size_t i = 0; i < size; ++i) {
+        raise(worst, (sum[j * size + i] - J[j * size + i]) / largest);
+        EXPECT_NEAR(sum[j * size + i], J[j * size + i], 1e-12 * largest) << i << " by " << j;
+      }
+    }
+  }
+  measured("of the column's largest", worst);
+}
+
 // What the energy equation says, from the thermodynamics of the mixture instead: the enthalpy (internal energy) along
 // the direction of f changes at the rate q - r h (q - r u). Differences of fourth order over a small time.
 class ConservingReactor : public EveryReactor {};
