@@ -1,16 +1,13 @@
 #include "app/flow_run.hpp"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <vector>
 
-#include "app/build_info.hpp"
 #include "app/flow_case.hpp"
 #include "app/flow_output.hpp"
 #include "app/soot_operator.hpp"
@@ -20,19 +17,9 @@
 #include "flow/time_step.hpp"
 #include "io/progress.hpp"
 #include "io/report.hpp"
-#include "io/run_folder.hpp"
-#include "io/run_record.hpp"
 
 namespace lampblack {
 namespace {
-
-double peakMemory(MPI_Comm comm) {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  double bytes = 1024.0 * static_cast<double>(usage.ru_maxrss);
-  MPI_Allreduce(MPI_IN_PLACE, &bytes, 1, MPI_DOUBLE, MPI_MAX, comm);
-  return bytes;
-}
 
 // One run: the operators of one step and everything that watches them.
 class FlowRun {
@@ -249,6 +236,14 @@ class FlowRun {
 
 }  // namespace
 
+std::string checkFlow(MPI_Comm comm, const Deck& deck) {
+  FlowCase flowCase;
+  collectively(comm, [&] { flowCase = readFlowCase(deck); });
+  const Mesh mesh(comm, flowCase.mesh);
+  return fmt::format("{} cells, {} species, {} reactions", mesh.totalCells, flowCase.mechanism->numSpecies(),
+                     flowCase.mechanism->numReactions());
+}
+
 void runFlow(MPI_Comm comm, const Deck& deck, const RunOptions& options) {
   const double start = MPI_Wtime();
   FlowCase flowCase;
@@ -262,41 +257,14 @@ void runFlow(MPI_Comm comm, const Deck& deck, const RunOptions& options) {
     if (cells < static_cast<std::size_t>(ranks))
       throw deck.error("mesh", fmt::format("{} cells cannot be spread over {} ranks", cells, ranks));
   });
-  const RunFolder folder = RunFolder::prepare(options.folder, options.force, comm);
-  if (rank == 0)
-    for (const std::string& note : flowCase.notes) fmt::print("note: {}\n", note);
-
-  RunRecord record;
-  record.deckPath = std::filesystem::absolute(deck.path()).string();
-  record.deckJson = deck.resolvedJson();
-  record.overrides = options.overrides;
-  record.version = buildVersion();
-  record.gitHash = buildGitHash();
-  record.libraries = libraryVersions();
-  record.seed = flowCase.seed;
-  record.started = utcNow();
-  record.ranks = ranks;
-  const auto writeRecord = [&] {
-    if (rank == 0) writeRunRecord(folder.runRecord(), record);
-  };
-  writeRecord();
-  try {
+  const std::uint64_t seed = flowCase.seed;
+  recordedRun(comm, deck, options, seed, [&](const RunFolder& folder, const RunInfo& info, RunRecord& record) {
+    if (rank == 0)
+      for (const std::string& note : flowCase.notes) fmt::print("note: {}\n", note);
     FlowRun run(comm, std::move(flowCase));
-    run.run(folder, {record.version, record.gitHash, deck.resolved(), record.started});
-    record.wallTime = MPI_Wtime() - start;
-    run.report(record.wallTime, record);
-    record.status = RunStatus::done;
-    record.finished = utcNow();
-    writeRecord();
-  } catch (const std::exception& error) {
-    record.status = RunStatus::failed;
-    record.message = error.what();
-    record.finished = utcNow();
-    record.wallTime = MPI_Wtime() - start;
-    writeRecord();
-    throw;
-  }
-  if (rank == 0) fmt::print("results in {}\n", folder.path().string());
+    run.run(folder, info);
+    run.report(MPI_Wtime() - start, record);
+  });
 }
 
 }  // namespace lampblack

@@ -1,21 +1,19 @@
-// Runs a deck with `problem: flow` from start to report.
+// Checks and runs a deck with `problem: flow`.
 #pragma once
 
 #include <mpi.h>
 
-#include <filesystem>
+#include <string>
 
+#include "app/recorded_run.hpp"
 #include "io/deck.hpp"
 
 namespace lampblack {
 
-struct RunOptions {
-  std::filesystem::path folder;  // results go here
-  bool force = false;            // replace an earlier run in `folder`
-  std::vector<std::string> overrides;
-};
+// Collective. The size of the case in words. InputError.
+std::string checkFlow(MPI_Comm comm, const Deck& deck);
 
-// Collective. InputError, NumericsError as they come; the run folder then says so.
+// Collective. From start to report. InputError, NumericsError as they come; the run folder then says so.
 void runFlow(MPI_Comm comm, const Deck& deck, const RunOptions& options);
 
 }  // namespace lampblack

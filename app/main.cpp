@@ -8,10 +8,12 @@
 #include <sstream>
 
 #include "app/build_info.hpp"
-#include "app/flow_case.hpp"
-#include "app/flow_run.hpp"
 #include "app/gas_command.hpp"
+<<<<<<< HEAD
 #include "app/mechanism_command.hpp"
+=======
+#include "app/problem.hpp"
+>>>>>>> 3d3b44d (Closed reactors: 'problem: reactor' with ignition delays and their sensitivities; one table of problems)
 #include "core/errors.hpp"
 #include "core/petsc.hpp"
 
@@ -32,23 +34,20 @@ struct Arguments {
 };
 
 void check(const Arguments& arguments) {
-  const Deck deck = Deck::load(arguments.deck, arguments.overrides, flowSchema(), PETSC_COMM_WORLD);
-  FlowCase flowCase;
-  collectively(PETSC_COMM_WORLD, [&] { flowCase = readFlowCase(deck); });
-  const Mesh mesh(PETSC_COMM_WORLD, flowCase.mesh);
-  if (mesh.rank == 0)
-    std::cout << arguments.deck << " is a valid deck: " << mesh.totalCells << " cells, "
-              << flowCase.mechanism->numSpecies() << " species, " << flowCase.mechanism->numReactions()
-              << " reactions.\n";
+  const Deck deck = Deck::load(arguments.deck, arguments.overrides, deckKinds(), PETSC_COMM_WORLD);
+  const std::string found = problemOf(deck).check(PETSC_COMM_WORLD, deck);
+  int rank = 0;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  if (rank == 0) std::cout << arguments.deck << " is a valid deck: " << found << ".\n";
 }
 
 void run(const Arguments& arguments) {
-  const Deck deck = Deck::load(arguments.deck, arguments.overrides, flowSchema(), PETSC_COMM_WORLD);
-  runFlow(PETSC_COMM_WORLD, deck, {arguments.folder, arguments.force, arguments.overrides});
+  const Deck deck = Deck::load(arguments.deck, arguments.overrides, deckKinds(), PETSC_COMM_WORLD);
+  problemOf(deck).run(PETSC_COMM_WORLD, deck, {arguments.folder, arguments.force, arguments.overrides});
 }
 
 void reference(const Arguments& arguments) {
-  std::cout << (arguments.json ? jsonSchema(flowSchema()) : markdownReference(flowSchema()));
+  std::cout << (arguments.json ? jsonSchema(deckKinds()) : markdownReference(deckKinds()));
 }
 
 // Ends the run with the message of the failure. An error that all ranks raised together is told by rank 0; one that

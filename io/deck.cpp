@@ -39,19 +39,46 @@ std::string broadcast(std::string text, MPI_Comm comm) {
   return text;
 }
 
+// Rank 0 reads the file, all ranks parse the same text.
+template <typename Schema>
+Deck loadCollectively(const std::filesystem::path& path, const std::vector<std::string>& overrides,
+                      const Schema& schema, MPI_Comm comm) {
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  std::string text;
+  collectively(comm, [&] {
+    if (rank == 0) text = readFile(path);
+  });
+  text = broadcast(std::move(text), comm);
+  std::optional<Deck> deck;
+  collectively(comm, [&] { deck = Deck::parse(std::move(text), path, overrides, schema); });
+  return std::move(*deck);
+}
+
 }  // namespace
+
+Deck::Deck(std::string text, const std::filesystem::path& path, const std::vector<std::string>& overrides,
+           const std::function<const DeckSchema&(const DeckSource&, const DeckNode&)>& choose) {
+  const auto source = std::make_shared<DeckSource>(DeckSource{path, std::move(text), overrides});
+  source_ = source;
+  root_ = parseDeck(*source);
+  for (std::size_t i = 0; i < overrides.size(); ++i) applyOverride(root_, *source, i);
+  schema_ = std::make_shared<DeckSchema>(choose(*source, root_));
+  values_ = checkDeck(*source, root_, *schema_);
+  for (std::size_t i = 0; i < values_.size(); ++i) index_.emplace(values_[i].path, i);
+}
 
 Deck Deck::parse(std::string text, const std::filesystem::path& path, const std::vector<std::string>& overrides,
                  const DeckSchema& schema) {
-  Deck deck;
-  const auto source = std::make_shared<DeckSource>(DeckSource{path, std::move(text), overrides});
-  deck.source_ = source;
-  deck.schema_ = std::make_shared<DeckSchema>(schema);
-  deck.root_ = parseDeck(*source);
-  for (std::size_t i = 0; i < overrides.size(); ++i) applyOverride(deck.root_, *source, i);
-  deck.values_ = checkDeck(*source, deck.root_, schema);
-  for (std::size_t i = 0; i < deck.values_.size(); ++i) deck.index_.emplace(deck.values_[i].path, i);
-  return deck;
+  return {std::move(text), path, overrides,
+          [&](const DeckSource&, const DeckNode&) -> const DeckSchema& { return schema; }};
+}
+
+Deck Deck::parse(std::string text, const std::filesystem::path& path, const std::vector<std::string>& overrides,
+                 const DeckKinds& kinds) {
+  return {std::move(text), path, overrides, [&](const DeckSource& source, const DeckNode& root) -> const DeckSchema& {
+            return chooseKind(source, root, kinds).schema;
+          }};
 }
 
 Deck Deck::load(const std::filesystem::path& path, const std::vector<std::string>& overrides,
@@ -61,16 +88,12 @@ Deck Deck::load(const std::filesystem::path& path, const std::vector<std::string
 
 Deck Deck::load(const std::filesystem::path& path, const std::vector<std::string>& overrides, const DeckSchema& schema,
                 MPI_Comm comm) {
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
-  std::string text;
-  collectively(comm, [&] {
-    if (rank == 0) text = readFile(path);
-  });
-  text = broadcast(std::move(text), comm);
-  std::optional<Deck> deck;
-  collectively(comm, [&] { deck = parse(std::move(text), path, overrides, schema); });
-  return std::move(*deck);
+  return loadCollectively(path, overrides, schema, comm);
+}
+
+Deck Deck::load(const std::filesystem::path& path, const std::vector<std::string>& overrides, const DeckKinds& kinds,
+                MPI_Comm comm) {
+  return loadCollectively(path, overrides, kinds, comm);
 }
 
 const DeckValue* Deck::find(std::string_view key) const {

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -39,9 +40,14 @@ class Deck {
   // The same, collectively: rank 0 reads the file, all ranks check the same text and raise the same error.
   static Deck load(const std::filesystem::path& path, const std::vector<std::string>& overrides,
                    const DeckSchema& schema, MPI_Comm comm);
+  // The same where the deck itself says which kind it is; InputError where it names none of the kinds.
+  static Deck load(const std::filesystem::path& path, const std::vector<std::string>& overrides, const DeckKinds& kinds,
+                   MPI_Comm comm);
   // The same from text; `path` is what messages call it and what relative paths start from.
   static Deck parse(std::string text, const std::filesystem::path& path, const std::vector<std::string>& overrides,
                     const DeckSchema& schema);
+  static Deck parse(std::string text, const std::filesystem::path& path, const std::vector<std::string>& overrides,
+                    const DeckKinds& kinds);
 
   // Typed access by path, list items by index: "mesh.z[0].cells". Asking for a key that the schema does not declare,
   // with another type, or that is optional and absent is a mistake of the caller: std::logic_error.
@@ -84,7 +90,8 @@ class Deck {
   [[nodiscard]] std::filesystem::path resolvePath(const std::string& name) const;
 
  private:
-  Deck() = default;
+  Deck(std::string text, const std::filesystem::path& path, const std::vector<std::string>& overrides,
+       const std::function<const DeckSchema&(const DeckSource&, const DeckNode&)>& choose);
   [[nodiscard]] const DeckValue* find(std::string_view key) const;
   [[nodiscard]] const DeckValue& get(std::string_view key, KeyType type, bool list) const;
   [[nodiscard]] const DeckNode* nodeAt(std::string_view key) const;

@@ -129,6 +129,24 @@ std::vector<DeckValue> checkDeck(const DeckSource& source, const DeckNode& root,
   return Checker(source, schema).check(root);
 }
 
+const DeckKind& chooseKind(const DeckSource& source, const DeckNode& root, const DeckKinds& kinds) {
+  std::vector<std::string> names;
+  for (const DeckKind& kind : kinds.kinds) names.push_back(kind.name);
+  const DeckNode* node = root.child(kinds.key);
+  if (node == nullptr) {
+    for (const DeckNode& child : root.children)
+      if (const std::string hint = didYouMean(child.name, {kinds.key}); !hint.empty())
+        throw deckError(source, child.nameAt, child.name, fmt::format("unknown key '{}'{}", child.name, hint));
+    throw deckError(source, root.nameAt, kinds.key,
+                    fmt::format("this key is missing; expected one of: {}", fmt::join(names, ", ")));
+  }
+  for (const DeckKind& kind : kinds.kinds)
+    if (node->kind == DeckNode::Kind::scalar && node->text == kind.name) return kind;
+  throw deckError(source, node->at.line > 0 || node->at.overrideIndex >= 0 ? node->at : node->nameAt, kinds.key,
+                  fmt::format("expected one of: {}; found {}{}", fmt::join(names, ", "), foundText(*node),
+                              didYouMean(node->text, names)));
+}
+
 bool isDeclared(const DeckSchema& schema, std::string_view path) {
   const std::vector<std::string> parts = splitDeckPath(path);
   for (const DeckKey& key : schema.keys()) {

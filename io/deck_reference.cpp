@@ -10,6 +10,10 @@ namespace {
 
 using Node = DeckSchema::Node;
 
+constexpr const char* introduction =
+    "Every key a deck may have. `*` stands for a name you choose, `[]` for an item of a list. A quantity is a number "
+    "with a unit (`20 cm/s`); a bare number is in the unit shown.\n";
+
 std::string typeText(const DeckKey& key) {
   std::string one;
   switch (key.type) {
@@ -47,7 +51,8 @@ std::string cell(std::string text) {
   return text;
 }
 
-void writeMarkdown(const Node& node, std::string& out) {
+// `level`: of the headings.
+void writeMarkdown(const Node& node, int level, std::string& out) {
   std::string rows;
   for (const Node& child : node.children) {
     if (child.key == nullptr) continue;
@@ -59,7 +64,8 @@ void writeMarkdown(const Node& node, std::string& out) {
   }
   const bool top = node.path.empty();
   if (!rows.empty() || node.section != nullptr) {
-    out += top ? "\n## Top level\n\n" : fmt::format("\n## `{}`\n\n", node.path);
+    const std::string mark(static_cast<std::size_t>(level), '#');
+    out += top ? fmt::format("\n{} Top level\n\n", mark) : fmt::format("\n{} `{}`\n\n", mark, node.path);
     if (node.section != nullptr) {
       const char* presence = node.section->presence == Presence::required ? "Required. " : "Optional. ";
       out += fmt::format("{}{}\n\n", node.section->presence == Presence::defaulted ? "" : presence, node.section->doc);
@@ -67,7 +73,7 @@ void writeMarkdown(const Node& node, std::string& out) {
     if (!rows.empty()) out += "| key | what | default | meaning |\n|---|---|---|---|\n" + rows;
   }
   for (const Node& child : node.children) {
-    if (child.key == nullptr) writeMarkdown(child, out);
+    if (child.key == nullptr) writeMarkdown(child, level, out);
   }
 }
 
@@ -117,16 +123,18 @@ void writeKey(const DeckKey& key, JsonWriter& json) {
   json.endObject();
 }
 
+void writeTitle(JsonWriter& json) {
+  json.field("$schema", "https://json-schema.org/draft/2020-12/schema");
+  json.field("title", "Lampblack deck");
+}
+
 void writeSchema(const Node& node, JsonWriter& json) {
   if (node.key != nullptr) {
     writeKey(*node.key, json);
     return;
   }
   json.beginObject();
-  if (node.path.empty()) {
-    json.field("$schema", "https://json-schema.org/draft/2020-12/schema");
-    json.field("title", "Lampblack deck");
-  }
+  if (node.path.empty()) writeTitle(json);
   if (node.section != nullptr) json.field("description", node.section->doc);
   if (const Node* item = node.child("[]")) {
     json.field("type", "array");
@@ -163,17 +171,48 @@ void writeSchema(const Node& node, JsonWriter& json) {
 }  // namespace
 
 std::string markdownReference(const DeckSchema& schema) {
-  std::string text =
-      "# Deck reference\n\n"
-      "Every key a deck may have. `*` stands for a name you choose, `[]` for an item of a list. A quantity is a number "
-      "with a unit (`20 cm/s`); a bare number is in the unit shown.\n";
-  writeMarkdown(schema.tree(), text);
+  std::string text = std::string("# Deck reference\n\n") + introduction;
+  writeMarkdown(schema.tree(), 2, text);
+  return text;
+}
+
+std::string markdownReference(const DeckKinds& kinds) {
+  std::string text = std::string("# Deck reference\n\n") + introduction;
+  text += fmt::format("\nThe key `{}` chooses what a deck is about; the other keys depend on it.\n\n", kinds.key);
+  for (const DeckKind& kind : kinds.kinds)
+    text += fmt::format("- [`{0}: {1}`](#{0}-{1}): {2}\n", kinds.key, kind.name, kind.doc);
+  for (const DeckKind& kind : kinds.kinds) {
+    text += fmt::format("\n## {}: {}\n\n{}\n", kinds.key, kind.name, kind.doc);
+    writeMarkdown(kind.schema.tree(), 3, text);
+  }
   return text;
 }
 
 std::string jsonSchema(const DeckSchema& schema) {
   JsonWriter json;
   writeSchema(schema.tree(), json);
+  return json.text() + "\n";
+}
+
+// One conditional subschema a kind: editors then know the keys of the kind that is being written.
+std::string jsonSchema(const DeckKinds& kinds) {
+  JsonWriter json;
+  json.beginObject();
+  writeTitle(json);
+  json.field("type", "object");
+  json.key("properties").beginObject().key(kinds.key).beginObject().key("enum").beginArray();
+  for (const DeckKind& kind : kinds.kinds) json.value(kind.name);
+  json.endArray().endObject().endObject();
+  json.key("required").beginArray().value(kinds.key).endArray();
+  json.key("allOf").beginArray();
+  for (const DeckKind& kind : kinds.kinds) {
+    json.beginObject().key("if").beginObject().key("properties").beginObject().key(kinds.key).beginObject();
+    json.field("const", kind.name).endObject().endObject().endObject();
+    json.key("then");
+    writeSchema(kind.schema.tree(), json);
+    json.endObject();
+  }
+  json.endArray().endObject();
   return json.text() + "\n";
 }
 

@@ -109,10 +109,24 @@ class DeckSchema {
   std::vector<DeckSection> sections_;
 };
 
-// The reference page: a table of keys for each section.
+// Decks of several kinds, told apart by the choice at one key of the top level ("problem"). The schema of each kind
+// declares that key too, with its own name as the only choice.
+struct DeckKind {
+  std::string name;
+  std::string doc;  // one line
+  DeckSchema schema;
+};
+struct DeckKinds {
+  std::string key;
+  std::vector<DeckKind> kinds;
+};
+
+// The reference page: a table of keys for each section; of several kinds, a part for each.
 std::string markdownReference(const DeckSchema& schema);
+std::string markdownReference(const DeckKinds& kinds);
 
 // A JSON schema (draft 2020-12) for editors that check YAML while it is typed.
 std::string jsonSchema(const DeckSchema& schema);
+std::string jsonSchema(const DeckKinds& kinds);
 
 }  // namespace lampblack

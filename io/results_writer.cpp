@@ -47,14 +47,14 @@ struct ResultsWriter::Implementation {
         cells(communicator, mesh.globalCell, mesh.totalCells),
         exceptionsAtStart(std::uncaught_exceptions()) {
     MPI_Comm_rank(comm, &rank);
-    xdmfMesh = {mesh.dimension, mesh.totalCells, mesh.totalVertices};
+    if (mesh.totalCells > 0) xdmfMesh = {mesh.dimension, mesh.totalCells, mesh.totalVertices};
   }
 
   MPI_Comm comm;
   std::filesystem::path path;
   hdf5::ParallelFile file;
   BlockExchange cells;
-  XdmfMesh xdmfMesh;
+  std::optional<XdmfMesh> xdmfMesh;
   std::vector<XdmfStep> steps;
   std::optional<XdmfStep> open;
   int rank = 0;
@@ -111,11 +111,20 @@ struct ResultsWriter::Implementation {
     describe(name, unit, description);
   }
 
+  void describeRun(const RunInfo& run) {
+    file.attribute("/", "file_type", std::string("lampblack results"));
+    file.attribute("/", "format_version", formatVersion);
+    file.attribute("/", "lampblack_version", run.version);
+    file.attribute("/", "git_hash", run.gitHash);
+    file.attribute("/", "date", fromRankZero(run.date.empty() ? utcNow() : run.date, comm));
+    file.attribute("/", "deck", run.deckResolved);
+  }
+
   void writeXdmf(const std::string& file5) const {
-    if (rank != 0) return;
+    if (rank != 0 || !xdmfMesh) return;
     std::filesystem::path beside = path;
     beside.replace_extension(".xdmf");
-    writeFileAtomically(beside, xdmfText(file5, xdmfMesh, steps));
+    writeFileAtomically(beside, xdmfText(file5, *xdmfMesh, steps));
   }
 };
 
@@ -133,14 +142,8 @@ ResultsWriter::ResultsWriter(MPI_Comm comm, std::filesystem::path path, const Ru
   const BlockExchange vertices(comm, mesh.globalVertex, mesh.totalVertices);
   agree(comm, vertices.covers(), "a mesh to write has to have each vertex on a rank");
 
+  self_->describeRun(run);
   hdf5::ParallelFile& file = self_->file;
-  file.attribute("/", "file_type", std::string("lampblack results"));
-  file.attribute("/", "format_version", formatVersion);
-  file.attribute("/", "lampblack_version", run.version);
-  file.attribute("/", "git_hash", run.gitHash);
-  file.attribute("/", "date", fromRankZero(run.date.empty() ? utcNow() : run.date, comm));
-  file.attribute("/", "deck", run.deckResolved);
-
   file.group("/mesh");
   file.attribute("/mesh", "dimension", static_cast<std::int64_t>(mesh.dimension));
   file.attribute("/mesh", "cells", mesh.totalCells);
@@ -158,6 +161,12 @@ ResultsWriter::ResultsWriter(MPI_Comm comm, std::filesystem::path path, const Ru
   write(self_->cells, "owner", owner, 1, "1", "Rank that owned each cell at the start");
   file.group("/steps");
   file.flush();
+}
+
+ResultsWriter::ResultsWriter(MPI_Comm comm, std::filesystem::path path, const RunInfo& run)
+    : self_(std::make_unique<Implementation>(comm, std::move(path), MeshOutput{})) {
+  self_->describeRun(run);
+  self_->file.flush();
 }
 
 ResultsWriter::~ResultsWriter() {

@@ -52,6 +52,8 @@ class ResultsWriter {
   // std::logic_error (on all ranks) where the mesh does not number each cell exactly once. Later failures to write are
   // NumericsErrors.
   ResultsWriter(MPI_Comm comm, std::filesystem::path path, const RunInfo& run, const MeshOutput& mesh);
+  // The same without a mesh: tables and datasets only, and no XDMF file.
+  ResultsWriter(MPI_Comm comm, std::filesystem::path path, const RunInfo& run);
   ~ResultsWriter();
   ResultsWriter(const ResultsWriter&) = delete;
   ResultsWriter& operator=(const ResultsWriter&) = delete;

@@ -42,6 +42,7 @@ std::string toJson(const RunRecord& record) {
     json.field("average_s", stage.average).field("maximum_s", stage.maximum).endObject();
   }
   json.endArray();
+  if (!record.resultsJson.empty()) json.key("results").raw(record.resultsJson);
   json.field("deck_path", record.deckPath);
   json.key("overrides").beginArray();
   for (const std::string& override : record.overrides) json.value(override);

@@ -33,6 +33,7 @@ struct RunRecord {
   std::int64_t cells = 0;
   double peakMemoryPerRank = 0.0;  // bytes, the largest
   std::vector<StageTime> stages;
+  std::string resultsJson;  // what came out, one object; may be empty
 };
 
 // The record as JSON text.

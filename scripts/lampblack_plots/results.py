@@ -33,6 +33,10 @@ class Results:
         except OSError as error:
             raise ResultsError(f"{path}: cannot be opened ({error}); is the run still going?") from error
         self.partial = path.name.endswith(".part")
+        # A reactor has no mesh; its results are tables.
+        self.is_reactor = "mesh" not in self.file and self.record().get("deck", {}).get("problem") == "reactor"
+        if self.is_reactor:
+            return
         if "mesh" not in self.file or "cellCentre" not in self.file["mesh"]:
             raise ResultsError(f"{path}: holds no mesh")
         mesh = self.file["mesh"]
@@ -99,6 +103,11 @@ class Results:
     def trajectories(self):
         group = self.file.get("trajectories", {})
         return {name: group[name] for name in group}
+
+    def ignition_delays(self):
+        """Seconds by the name of the criterion; nan where it was not met."""
+        group = self.file.get("ignition", {})
+        return {name: float(group[name]["delay"][()]) for name in group}
 
     def history(self):
         """Columns of the history as {name: (unit, values)}, from the results file or else from history.csv."""

@@ -1,0 +1,113 @@
+#include "app/gas_input.hpp"
+
+#include <fmt/format.h>
+
+#include "chemistry/thermo.hpp"
+#include "core/errors.hpp"
+
+namespace lampblack {
+namespace {
+
+// Runs `read` and lets what is wrong point at a key of the deck.
+template <typename Read>
+auto at(const Deck& deck, const std::string& key, Read read) {
+  try {
+    return read();
+  } catch (const InputError& error) {
+    throw deck.error(key, error.what());
+  }
+}
+
+// Oxygen atoms a mole of this mixture needs to burn completely; negative where it has some to give.
+double oxygenNeed(const Mechanism& mechanism, const std::vector<double>& X) {
+  double need = 0;
+  for (const auto& [name, atoms] : {std::pair{"C", 2.0}, {"H", 0.5}, {"S", 2.0}, {"Si", 2.0}, {"O", -1.0}}) {
+    const auto element = mechanism.findElement(name);
+    if (!element) continue;
+    for (std::size_t k = 0; k < X.size(); ++k) need += atoms * X[k] * mechanism.atoms(k, *element);
+  }
+  return need;
+}
+
+}  // namespace
+
+void addMixtureKeys(DeckSchema& schema, const std::string& section) {
+  schema.add(stringKey(section + ".composition", "Mole fractions, 'CH4: 1, O2: 2, N2: 7.52'; any sum.").optional())
+      .add(stringKey(section + ".mass_fractions", "Mass fractions instead, in the same way.").optional())
+      .add(stringKey(section + ".fuel", "Or a fuel (mole fractions), with oxidizer and equivalence_ratio.").optional())
+      .add(stringKey(section + ".oxidizer", "What it burns with (mole fractions), 'O2: 1, N2: 3.76'.").optional())
+      .add(numberKey(section + ".equivalence_ratio", "Of fuel and oxidizer; 1 is stoichiometric.")
+               .optional()
+               .atLeast(0));
+}
+
+std::vector<double> mixByEquivalenceRatio(const Mechanism& mechanism, const std::vector<double>& fuel,
+                                          const std::vector<double>& oxidizer, double ratio) {
+  const double need = oxygenNeed(mechanism, fuel), spare = -oxygenNeed(mechanism, oxidizer);
+  if (!(need > 0)) throw InputError("the fuel needs no oxygen, so that there is no equivalence ratio");
+  if (!(spare > 0)) throw InputError("the oxidizer has no oxygen to give, so that there is no equivalence ratio");
+  std::vector<double> X(fuel.size());
+  double sum = 0;
+  for (std::size_t k = 0; k < X.size(); ++k) sum += X[k] = ratio * spare / need * fuel[k] + oxidizer[k];
+  for (double& x : X) x /= sum;
+  return X;
+}
+
+std::vector<double> readMixture(const Deck& deck, const std::string& section, const Mechanism& mechanism) {
+  const auto has = [&](const char* name) { return deck.has(section + "." + name); };
+  const bool byRatio = has("fuel") || has("oxidizer") || has("equivalence_ratio");
+  const int ways = (has("composition") ? 1 : 0) + (has("mass_fractions") ? 1 : 0) + (byRatio ? 1 : 0);
+  if (ways != 1)
+    throw deck.error(section, fmt::format("{}; expected one of: 'composition', 'mass_fractions', or 'fuel' with "
+                                          "'oxidizer' and 'equivalence_ratio'",
+                                          ways == 0 ? "the mixture is missing" : "the mixture is given twice"));
+  const auto read = [&](const char* name) {
+    const std::string key = section + "." + name;
+    if (!deck.has(key))
+      throw deck.error(section, fmt::format("'fuel', 'oxidizer' and 'equivalence_ratio' belong together; '{}' is "
+                                            "missing",
+                                            name));
+    return at(deck, key, [&] { return parseComposition(mechanism, deck.string(key)); });
+  };
+  if (has("mass_fractions")) return read("mass_fractions");
+  std::vector<double> X;
+  if (has("composition")) {
+    X = read("composition");
+  } else {
+    const auto fuel = read("fuel"), oxidizer = read("oxidizer");
+    if (!has("equivalence_ratio")) read("equivalence_ratio");
+    X = at(deck, section, [&] {
+      return mixByEquivalenceRatio(mechanism, fuel, oxidizer, deck.number(section + ".equivalence_ratio"));
+    });
+  }
+  std::vector<double> Y(X.size());
+  Thermo(mechanism).moleToMass(X, Y);
+  return Y;
+}
+
+std::shared_ptr<const Mechanism> readMechanism(const Deck& deck) {
+  return at(deck, "mechanism", [&] {
+    return std::make_shared<const Mechanism>(Mechanism::fromFile(deck.resolvePath(deck.string("mechanism")).string()));
+  });
+}
+
+double neededQuantity(const Deck& deck, const std::string& section, const std::string& name, const std::string& why) {
+  const auto value = deck.optionalQuantity(section + "." + name);
+  if (!value) throw deck.error(section, fmt::format("{} needs the key '{}'", why, name));
+  return *value;
+}
+
+std::vector<std::size_t> readSpeciesList(const Deck& deck, const std::string& key, const Mechanism& mechanism) {
+  std::vector<std::size_t> species;
+  for (const std::string& name : deck.strings(key)) {
+    if (name == "all") {
+      species.clear();
+      for (std::size_t k = 0; k < mechanism.numSpecies(); ++k) species.push_back(k);
+      return species;
+    }
+    species.push_back(at(deck, key, [&] { return mechanism.speciesIndex(name); }));
+  }
+  return species;
+}
+
+}  // namespace lampblack

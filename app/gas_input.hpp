@@ -1,0 +1,34 @@
+// How decks name a gas: the keys of a mixture in a section of the deck, and reading them. The same words for every
+// problem that has mixtures.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "chemistry/mechanism.hpp"
+#include "io/deck.hpp"
+
+namespace lampblack {
+
+// Adds `composition`, `mass_fractions`, and `fuel`, `oxidizer`, `equivalence_ratio` below `section` ("initial").
+void addMixtureKeys(DeckSchema& schema, const std::string& section);
+
+// The mass fractions a section names, in one of the three ways. InputError where it names none or several.
+std::vector<double> readMixture(const Deck& deck, const std::string& section, const Mechanism& mechanism);
+
+// Mole fractions of fuel and oxidizer (mole fractions each) mixed at an equivalence ratio: the fuel's need of oxygen
+// atoms (2 C + H/2 + 2 S + 2 Si - O) over what the oxidizer has to give. InputError where there is no such ratio.
+std::vector<double> mixByEquivalenceRatio(const Mechanism& mechanism, const std::vector<double>& fuel,
+                                          const std::vector<double>& oxidizer, double ratio);
+
+// The mechanism a deck names by its key `mechanism`. InputError at that key.
+std::shared_ptr<const Mechanism> readMechanism(const Deck& deck);
+
+// A quantity that is optional in the schema and needed here: "<why> needs the key '<name>'".
+double neededQuantity(const Deck& deck, const std::string& section, const std::string& name, const std::string& why);
+
+// Numbers of the species a key lists by name; all of them for "all". InputError at that key.
+std::vector<std::size_t> readSpeciesList(const Deck& deck, const std::string& key, const Mechanism& mechanism);
+
+}  // namespace lampblack

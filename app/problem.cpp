@@ -1,0 +1,35 @@
+#include "app/problem.hpp"
+
+#include <stdexcept>
+
+#include "app/flow_case.hpp"
+#include "app/flow_run.hpp"
+#include "app/reactor_case.hpp"
+#include "app/reactor_run.hpp"
+
+namespace lampblack {
+
+const std::vector<Problem>& problems() {
+  static const std::vector<Problem> table{
+      {"flow", "A reacting flow on a mesh, with or without soot.", flowSchema, checkFlow, runFlow},
+      {"reactor",
+       "Reactors without space: closed at constant pressure or volume, perfectly stirred, plug flow, networks.",
+       reactorSchema, checkReactor, runReactor},
+  };
+  return table;
+}
+
+DeckKinds deckKinds() {
+  DeckKinds kinds{"problem", {}};
+  for (const Problem& problem : problems()) kinds.kinds.push_back({problem.name, problem.doc, problem.schema()});
+  return kinds;
+}
+
+const Problem& problemOf(const Deck& deck) {
+  const std::string name = deck.choice("problem");
+  for (const Problem& problem : problems())
+    if (problem.name == name) return problem;
+  throw std::logic_error("a deck was read with another list of problems");
+}
+
+}  // namespace lampblack

@@ -1,0 +1,101 @@
+"""Pictures of a reactor run: temperature and main species over time or place, the ignition, what it depends on."""
+
+import csv
+
+import numpy as np
+
+from .style import plt
+
+MOST_SPECIES = 8
+MOST_REACTIONS = 15
+
+
+def plot_reactor(results, pictures):
+    columns = {name: values for name, (_, values) in results.history().items()}
+    if "temperature" in columns:
+        delays = {name: time for name, time in results.ignition_delays().items() if np.isfinite(time)}
+        if "position" in columns:
+            factor, unit = _unit(np.max(columns["position"]), (("m", 1.0), ("cm", 1e2), ("mm", 1e3)))
+            _plot_history(columns, columns["position"] * factor, f"z, {unit}", {}, pictures)
+        else:
+            shown = 2.5 * max(delays.values()) if delays else np.max(columns["time"])
+            factor, unit = _unit(shown, (("s", 1.0), ("ms", 1e3), ("us", 1e6), ("ns", 1e9)))
+            delays = {name: time * factor for name, time in delays.items()}
+            _plot_history(columns, columns["time"] * factor, f"time, {unit}", delays, pictures)
+            _plot_ignition(columns, columns["time"] * factor, f"time, {unit}", delays, pictures)
+    _plot_sensitivities(results, pictures)
+
+
+def _unit(largest, units):
+    """Factor and name of the unit in which the largest value is at least one."""
+    return next(((factor, name) for name, factor in units if largest * factor >= 1.0), units[-1][::-1])
+
+
+def _main_species(columns):
+    """The fractions that are largest and that change."""
+    names = [name for name in columns if name.startswith(("X_", "Y_"))]
+    moving = [name for name in names if np.ptp(columns[name]) > 0.02 * np.max(np.abs(columns[name]), initial=1e-300)]
+    return sorted(moving or names, key=lambda name: -np.max(columns[name]))[:MOST_SPECIES]
+
+
+def _plot_history(columns, axis, label, delays, pictures):
+    figure, (above, below) = plt.subplots(2, 1, figsize=(6.4, 6.4), sharex=True)
+    above.plot(axis, columns["temperature"], color="tab:red")
+    above.set_ylabel("temperature, K")
+    for name in _main_species(columns):
+        below.semilogy(axis, np.where(columns[name] > 0, columns[name], np.nan), label=name[2:])
+    below.set_ylim(1e-6, 1.5)
+    below.set_ylabel("mole fraction" if any(name.startswith("X_") for name in columns) else "mass fraction")
+    below.set_xlabel(label)
+    below.legend(fontsize=8, ncol=2)
+    for value in delays.values():
+        above.axvline(value, color="0.6", lw=0.6, ls=":")
+        below.axvline(value, color="0.6", lw=0.6, ls=":")
+    if delays:
+        above.set_xlim(0, min(axis[-1], 2.5 * max(delays.values())))
+    pictures.save(figure, "reactor")
+
+
+def _plot_ignition(columns, axis, label, delays, pictures):
+    """dT/dt and the marks of ignition, around the steepest rise."""
+    if "max_dTdt" not in delays:
+        return
+    tau = delays["max_dTdt"]
+    rate = columns["temperature_rate"]
+    figure, axes = plt.subplots(figsize=(6.4, 4.0))
+    axes.plot(axis, rate, color="black", marker=".", ms=3, lw=1.0)
+    for colour, (name, value) in enumerate(delays.items()):
+        axes.axvline(value, color=f"C{colour}", lw=1.2, label=f"{name}: {value:.5g} {label.split(', ')[1]}")
+    # Where the rate is noticeable, and all marks.
+    high = axis[rate > 0.01 * np.max(rate)]
+    low, top = min(high.min(), *delays.values()), max(high.max(), *delays.values())
+    margin = 0.1 * max(top - low, 0.01 * tau)
+    axes.set_xlim(max(0.0, low - margin), top + margin)
+    axes.set_ylabel("dT/dt, K/s")
+    axes.set_xlabel(label)
+    axes.legend(fontsize=8)
+    pictures.save(figure, "ignition")
+
+
+def _plot_sensitivities(results, pictures):
+    path = results.folder / "sensitivities.csv"
+    if not path.is_file():
+        return
+    with open(path, newline="", encoding="utf-8") as file:
+        header, *rows = list(csv.reader(file))
+    if len(header) < 3 or not rows:
+        pictures.skip("sensitivities", "no criterion of ignition was met")
+        return
+    values = np.array([[float(word) for word in row[2:]] for row in rows])
+    order = np.argsort(-np.max(np.abs(values), axis=1))[:MOST_REACTIONS][::-1]
+    figure, axes = plt.subplots(figsize=(7.0, 0.8 + 0.32 * len(order)))
+    places = np.arange(len(order))
+    height = 0.8 / values.shape[1]
+    for c in range(values.shape[1]):
+        name = header[2 + c].split(" [")[0]
+        axes.barh(places + (c - 0.5 * (values.shape[1] - 1)) * height, values[order, c], height=height, label=name)
+    axes.set_yticks(places, [f"{rows[i][0]}: {rows[i][1]}" for i in order], fontsize=8)
+    axes.axvline(0, color="black", lw=0.8)
+    axes.set_xlabel("d ln(ignition delay) / d ln k")
+    axes.legend(fontsize=8)
+    pictures.save(figure, "sensitivity")
