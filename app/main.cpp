@@ -9,11 +9,8 @@
 
 #include "app/build_info.hpp"
 #include "app/gas_command.hpp"
-<<<<<<< HEAD
 #include "app/mechanism_command.hpp"
-=======
 #include "app/problem.hpp"
->>>>>>> 3d3b44d (Closed reactors: 'problem: reactor' with ignition delays and their sensitivities; one table of problems)
 #include "core/errors.hpp"
 #include "core/petsc.hpp"
 
