@@ -27,7 +27,9 @@ double largest(const std::vector<double>& x) {
 
 }  // namespace
 
-void EquilibriumPath::setMixture(std::size_t numElements, std::vector<double> atoms, std::span<const double> amounts) {
+void EquilibriumPath::setMixture(Constant constant, std::size_t numElements, std::vector<double> atoms,
+                                 std::span<const double> amounts) {
+  constant_ = constant;
   n_ = amounts.size();
   components_.setSpecies(numElements, n_, std::move(atoms));
   mixture_.assign(amounts.begin(), amounts.end());
@@ -42,8 +44,9 @@ void EquilibriumPath::startFrom(std::span<const double> lnAmounts) {
   double total = 0;
   for (std::size_t j = 0; j < n_; ++j) total += start_[j] = std::exp(lnAmounts[j]);
   endG_.resize(n_);
-  for (std::size_t j = 0; j < n_; ++j) endG_[j] = std::log(total) - lnAmounts[j];
-  z_.assign(1, std::log(total));
+  const double lnTotal = constant_ == Constant::Pressure ? std::log(total) : 0.0;
+  for (std::size_t j = 0; j < n_; ++j) endG_[j] = lnTotal - lnAmounts[j];
+  z_.assign(1, lnTotal);
 }
 
 // Of component i in a composition; what is left by cancellation is no amount.
@@ -160,6 +163,11 @@ void EquilibriumPath::evaluate() {
     }
   }
   matrix_[m * m - 1] -= total;
+  if (constant_ == Constant::Volume) {
+    residual_[c] = 0;
+    for (std::size_t k = 0; k < c; ++k) matrix_[c * m + k] = matrix_[k * m + c] = 0;
+    matrix_[m * m - 1] = -total;
+  }
   ++iterations_;
 }
 
@@ -230,6 +238,7 @@ bool EquilibriumPath::setTangent(Stage stage) {
     for (std::size_t j = 0; j < n_; ++j) change_[j] = endDg_[j] - startDg_[j];
     weightedSums(change_, tangent_);
   }
+  if (constant_ == Constant::Volume) tangent_.back() = 0;
   solve(tangent_);
   return std::isfinite(largest(tangent_));
 }
@@ -290,6 +299,7 @@ void EquilibriumPath::sensitivity(std::span<const double> dg, std::span<double> 
   factorise();
   componentPotentials(dg, change_);
   weightedSums(change_, tangent_);
+  if (constant_ == Constant::Volume) tangent_.back() = 0;
   solve(tangent_);
   for (std::size_t j = 0; j < n_; ++j) {
     dLnAmounts[j] = components_.remainder()[j] * tangent_[c] - change_[j];

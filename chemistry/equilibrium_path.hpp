@@ -5,7 +5,8 @@
 // Unknowns are the logarithms of the amounts of the components (equilibrium_components.hpp) and of the total amount N.
 // Species j, made of nu_ij components i, has n_j = exp(sum_i nu_ij ln n_i + d_j ln N - dg_j) with d_j = 1 - sum_i nu_ij
 // and dg_j = g_j - sum_i nu_ij g_i, where g_j = G_j/RT at the pressure of the mixture. The equations are
-// sum_j nu_ij n_j = q_i, the components' amounts, and sum_j n_j = N.
+// sum_j nu_ij n_j = q_i, the components' amounts, and sum_j n_j = N. At constant volume g_j = G_j/RT - ln(p0 V/RT) with
+// G_j at the standard pressure p0, ln N is replaced by zero, and the last equation drops out.
 #pragma once
 
 #include <cstddef>
@@ -18,10 +19,12 @@ namespace lampblack {
 
 class EquilibriumPath {
  public:
+  enum class Constant { Pressure, Volume };
   enum class Outcome { Found, Lost, SpeciesExcluded };
 
   // Species that may be present, and a composition (moles, not negative) that has the elements of the mixture.
-  void setMixture(std::size_t numElements, std::vector<double> atoms, std::span<const double> amounts);
+  void setMixture(Constant constant, std::size_t numElements, std::vector<double> atoms,
+                  std::span<const double> amounts);
 
   // The composition to start from, ln of moles; it need not have the elements of the mixture.
   void startFrom(std::span<const double> lnAmounts);
@@ -58,6 +61,7 @@ class EquilibriumPath {
   void weightedSums(const std::vector<double>& values, std::vector<double>& sums) const;
 
   EquilibriumComponents components_;
+  Constant constant_ = Constant::Pressure;
   std::size_t n_ = 0;
   std::vector<double> mixture_, start_;       // moles that define the elements at the end and start of the path
   std::vector<double> startG_, endG_;         // potentials there
