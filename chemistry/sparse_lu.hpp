@@ -47,16 +47,21 @@ class SparseLu {
   void eliminate(Pattern& pattern);
   void setLists(const Pattern& pattern);
   void load(const AlignedVector& values, double factor, std::span<const double> diagonal);
-  bool finishColumn(std::size_t k);
+  void finishColumn(std::size_t k);
   void updateColumns(std::size_t k);
+  bool accept() const;
+  void solveLower(double* x) const;
+  void solveUpper(double* x) const;
 
-  // Column k of the factors: its blocks in use, those of U in rows before k and of L in rows after k, and the later
-  // columns that L is subtracted from. Blocks are named by their first row.
+  // Column k of the factors: its blocks in use, those of U in earlier rows, of L in later rows, and the later columns
+  // that L is subtracted from. Blocks are named by their first row; the block of the diagonal is always of L, as the
+  // first, and never of `upper`: its part of U is in diagonalUpper_.
   struct Column {
     std::uint32_t used = 0, usedEnd = 0;
     std::uint32_t upper = 0, upperEnd = 0;
     std::uint32_t lower = 0, lowerEnd = 0;
     std::uint32_t changed = 0, changedEnd = 0;
+    bool lowerInDiagonalBlock = false;
   };
 
   std::size_t n_ = 0, ld_ = 0;
@@ -68,10 +73,13 @@ class SparseLu {
   std::vector<std::uint32_t> used_, upper_, lower_;
   std::vector<std::uint32_t> changed_;  // columns, as offsets into matrix_
 
-  AlignedVector matrix_;  // columns ld_ apart; after the factorisation U without its diagonal
-  AlignedVector l_;       // blocks in the order of lower_
-  AlignedVector x_;       // right-hand side in the order of elimination
-  std::vector<double> inverseDiagonal_;
+  AlignedVector matrix_;           // columns ld_ apart; after the factorisation U in the blocks of upper_
+  AlignedVector l_;                // blocks in the order of lower_, zero in rows up to the diagonal
+  AlignedVector diagonalUpper_;    // a block a column: U before the diagonal in its block, over the pivot
+  AlignedVector inverseDiagonal_;  // one over the pivots
+  AlignedVector innerRows_;        // 1 for rows outside the border
+  AlignedVector growth_;           // one block: the largest multipliers; one: zero if all are finite
+  AlignedVector x_;                // right-hand side in the order of elimination
 };
 
 }  // namespace lampblack
