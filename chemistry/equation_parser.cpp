@@ -70,10 +70,12 @@ ParsedSide parseSide(std::string_view text, std::string_view equation) {
       haveCoefficient = true;
     } else {
       if (!expectTerm) throw InputError(fmt::format("equation '{}': expected '+' before '{}'", equation, word));
-      if (word == "M" && !haveCoefficient)
+      if (word == "M" && !haveCoefficient) {
+        if (side.hasM) throw InputError(fmt::format("equation '{}': expected 'M' once on a side", equation));
         side.hasM = true;
-      else
+      } else {
         addTerm(side.terms, word, coefficient);
+      }
       expectTerm = false;
       haveCoefficient = false;
       coefficient = 1;

@@ -11,12 +11,13 @@
 namespace lampblack {
 
 Mechanism::Mechanism(std::string file, std::string description, std::vector<Element> elements,
-                     std::vector<Species> species, std::vector<Reaction> reactions)
+                     std::vector<Species> species, std::vector<Reaction> reactions, std::vector<std::string> warnings)
     : file_(std::move(file)),
       description_(std::move(description)),
       elements_(std::move(elements)),
       species_(std::move(species)),
-      reactions_(std::move(reactions)) {
+      reactions_(std::move(reactions)),
+      warnings_(std::move(warnings)) {
   for (std::size_t k = 0; k < species_.size(); ++k) {
     auto& s = species_[k];
     s.molecularWeight = 0;

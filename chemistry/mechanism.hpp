@@ -22,14 +22,15 @@ struct Element {
 
 class Mechanism {
  public:
-  // Reads Cantera's YAML format: the first ideal-gas phase, NASA-7 species, gas transport data, elementary, three-body
-  // and fall-off (Lindemann, Troe) reactions. Throws InputError with file, line and what was expected; what the format
+  // Reads Cantera's YAML format: the first ideal-gas phase, species with NASA-7 or NASA-9 and gas transport data,
+  // reactions of the types of reaction.hpp. Throws InputError with file, line and what was expected; what the format
   // knows but Lampblack does not (other rate types, other polynomials) is such an error too.
   static Mechanism fromFile(const std::string& path);
 
   // Takes finished data, e.g. from a reader of another format; the same physical checks apply (mechanism_checks.hpp).
+  // `warnings` are those of the reader.
   Mechanism(std::string file, std::string description, std::vector<Element> elements, std::vector<Species> species,
-            std::vector<Reaction> reactions);
+            std::vector<Reaction> reactions, std::vector<std::string> warnings = {});
 
   std::size_t numSpecies() const { return species_.size(); }
   std::size_t numElements() const { return elements_.size(); }
@@ -37,6 +38,8 @@ class Mechanism {
 
   const std::string& fileName() const { return file_; }
   const std::string& description() const { return description_; }
+  // What may be wrong but can be computed with, each with file and line.
+  const std::vector<std::string>& warnings() const { return warnings_; }
 
   const std::string& speciesName(std::size_t k) const { return species_[k].name; }
   // Throws InputError naming the nearest known species.
@@ -61,6 +64,7 @@ class Mechanism {
   std::vector<Element> elements_;
   std::vector<Species> species_;
   std::vector<Reaction> reactions_;
+  std::vector<std::string> warnings_;
   std::vector<double> molecularWeights_;
   std::unordered_map<std::string, std::size_t> speciesByName_;
 };

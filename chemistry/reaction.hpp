@@ -88,6 +88,7 @@ struct Reaction {
   std::vector<PressureRate> pressureRates;  // PressureLog, in rising order of pressure
   std::optional<ChebyshevRate> chebyshev;   // Chebyshev
   int line = 0;
+  std::string file;  // empty if it is the mechanism's
 };
 
 }  // namespace lampblack

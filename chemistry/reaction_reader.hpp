@@ -1,20 +1,28 @@
-// Reads one entry of the `reactions` list of a Cantera YAML file.
+// Reads one entry of a list of reactions of a Cantera YAML file.
 #pragma once
 
 #include <functional>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "chemistry/reaction.hpp"
 #include "chemistry/yaml_access.hpp"
 
 namespace lampblack {
 
-// Index of a species of the phase; empty if it is not declared.
-using SpeciesFinder = std::function<std::optional<std::size_t>(std::string_view)>;
+// What a reaction needs to know about the phase it belongs to.
+struct ReactionScope {
+  // Index of a species of the phase; empty if it is not declared.
+  std::function<std::optional<std::size_t>(std::string_view)> findSpecies;
+  bool skipUndeclaredSpecies = false;      // leave out reactions of species that the phase does not have
+  bool skipUndeclaredThirdBodies = false;  // leave out efficiencies of such species
+};
 
-// Throws InputError with file, line and equation.
-Reaction readReaction(const YamlAccess& yaml, const FileUnits& units, const YAML::Node& node,
-                      const SpeciesFinder& findSpecies);
+// Empty if the scope leaves the reaction out. Throws InputError with file, line and equation. Numbers without a unit
+// are in `units`, unless the entry has units of its own. Warnings (file and line) are appended.
+std::optional<Reaction> readReaction(const YamlAccess& yaml, const UnitSystem& units, const YAML::Node& node,
+                                     const ReactionScope& scope, std::vector<std::string>& warnings);
 
 }  // namespace lampblack

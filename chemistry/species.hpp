@@ -47,7 +47,8 @@ struct Species {
   Nasa7 thermo;
   std::optional<Nasa9> nasa9;  // where given, it replaces `thermo`, which then holds only the range of temperature
   std::optional<TransportData> transport;
-  int line = 0;  // where the file declares it
+  int line = 0;      // where the file declares it
+  std::string file;  // empty if it is the mechanism's
 };
 
 }  // namespace lampblack

@@ -6,6 +6,10 @@
 #include <initializer_list>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
+
+#include "chemistry/mechanism_units.hpp"
 
 namespace lampblack {
 
@@ -18,31 +22,55 @@ class YamlAccess {
   static int line(const YAML::Node& node);
   [[noreturn]] void fail(const YAML::Node& node, std::string_view message) const;
 
-  // The named member of a map; InputError at the map's line if it is missing.
-  YAML::Node member(const YAML::Node& map, const char* key, std::string_view what) const;
-  std::string text(const YAML::Node& node, std::string_view what) const;
+  const std::string& text(const YAML::Node& node, std::string_view what) const;
   double number(const YAML::Node& node, std::string_view what) const;
   bool flag(const YAML::Node& node, std::string_view what) const;
+  // A number that stands alone times `factor`, or one with a unit of the expected dimension ("10 bar"), in SI with mol.
+  double quantity(const YAML::Node& node, const MechanismUnit& expected, double factor, std::string_view what) const;
+  // The same for an activation energy, in K.
+  double activationTemperature(const YAML::Node& node, const UnitSystem& units, std::string_view what) const;
   void requireMap(const YAML::Node& node, std::string_view what) const;
   void requireSequence(const YAML::Node& node, std::string_view what) const;
-  // InputError naming the nearest allowed key if the map has another one.
-  void allowOnly(const YAML::Node& map, std::initializer_list<std::string_view> keys, std::string_view what) const;
+
+  // The units of a `units` map on top of those that hold around it.
+  UnitSystem units(const YAML::Node& map, UnitSystem around) const;
 
  private:
   std::string file_;
 };
 
-// The units of a file in SI: 1 file unit = factor SI units. Cantera's defaults are SI with kmol.
-struct FileUnits {
-  double length = 1;                 // m
-  double time = 1;                   // s
-  double quantity = 1e3;             // mol
-  double activationTemperature = 0;  // K per file unit of Ea
+// The entries of a map node, listed once; a key given twice is an error. Keeps a reference to the YamlAccess.
+class YamlMap {
+ public:
+  // `what` names the map in messages.
+  YamlMap(const YamlAccess& yaml, const YAML::Node& map, std::string what);
 
-  static FileUnits read(const YamlAccess& yaml, const YAML::Node& units);
+  struct Entry {
+    std::string_view key;
+    YAML::Node keyNode, value;
+  };
+  const std::vector<Entry>& entries() const { return entries_; }
+  const YAML::Node& node() const { return node_; }
+  const std::string& what() const { return what_; }
+  void rename(std::string what) { what_ = std::move(what); }
+
+  // The value of a key; null if it is missing.
+  const YAML::Node* find(std::string_view key) const;
+  bool has(std::string_view key) const { return find(key) != nullptr; }
+  // The value of a key; InputError at the map's line if it is missing.
+  const YAML::Node& at(std::string_view key) const;
+  // InputError naming the nearest allowed key if the map has another one.
+  void allowOnly(std::initializer_list<std::string_view> keys) const;
+
+  // The values of optional keys.
+  bool flag(std::string_view key, bool standard) const;
+  double number(std::string_view key, double standard) const;
+
+ private:
+  const YamlAccess& yaml_;
+  YAML::Node node_;
+  std::string what_;
+  std::vector<Entry> entries_;
 };
-
-// Factor to K of an activation energy unit such as "cal/mol" or "K"; 0 if unknown.
-double activationUnitInKelvin(std::string_view unit);
 
 }  // namespace lampblack
