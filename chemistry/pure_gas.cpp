@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "chemistry/species_thermo.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 
@@ -17,11 +18,6 @@ using constants::gasConstant;
 using constants::pi;
 
 constexpr double coulomb = 4.0 * pi * constants::vacuumPermittivity;
-
-double cpOverR(const Nasa7& thermo, double T) {
-  const auto& a = T <= thermo.midTemperature ? thermo.low : thermo.high;
-  return a[0] + T * (a[1] + T * (a[2] + T * (a[3] + T * a[4])));
-}
 
 // Temperature dependence of rotational relaxation, eq. 6-30 (Parker 1959; Brau and Jonkman 1970).
 double relaxation(double wellDepth, double T) {
@@ -40,7 +36,7 @@ PureGas::PureGas(const Mechanism& mechanism, CollisionIntegrals integrals) : int
           fmt::format("{}:{}: species '{}' has no transport data; expected a 'transport' entry of model gas",
                       mechanism.fileName(), species.line, species.name));
     molecules_.push_back(
-        {*species.transport, species.thermo, species.molecularWeight, species.molecularWeight / constants::avogadro});
+        {*species.transport, species, species.molecularWeight, species.molecularWeight / constants::avogadro});
   }
 }
 
@@ -100,7 +96,7 @@ PureGas::EuckenFactors PureGas::euckenFactors(std::size_t k, double T) const {
 double PureGas::conductivity(std::size_t k, double T) const {
   const auto eucken = euckenFactors(k, T);
   return viscosity(k, T) / molecules_[k].weight * gasConstant *
-         (eucken.rigid + eucken.vibrating * cpOverR(molecules_[k].thermo, T));
+         (eucken.rigid + eucken.vibrating * cpOverR(molecules_[k].species, T));
 }
 
 }  // namespace lampblack

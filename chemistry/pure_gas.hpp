@@ -29,7 +29,7 @@ class PureGas {
  private:
   struct Molecule {
     TransportData data;
-    Nasa7 thermo;
+    Species species;
     double weight = 0;  // kg/mol
     double mass = 0;    // kg
   };

@@ -48,8 +48,8 @@ TEST_P(CanteraReference, Thermodynamics) {
   const Thermo thermo(mechanism);
   const auto states = table("states"), mixture = table("mixture"), species = table("species");
   const std::size_t n = mechanism.numSpecies();
-  std::vector<double> Y(n), cp(n), h(n);
-  double worst = 0, worstCp = 0, worstEnthalpy = 0;
+  std::vector<double> Y(n), cp(n), h(n), entropy(n);
+  double worst = 0, worstCp = 0, worstEnthalpy = 0, worstEntropy = 0;
   for (std::size_t s = 0; s < states.size(); ++s) {
     const double T = states.number(s, "T"), p = states.number(s, "p");
     thermo.moleToMass(states.moleFractions(s, mechanism), Y);
@@ -57,22 +57,27 @@ TEST_P(CanteraReference, Thermodynamics) {
     raise(worst, thermo.density(T, p, Y) / mixture.number(s, "rho") - 1);
     raise(worst, thermo.cpMass(T, Y) / mixture.number(s, "cp") - 1);
     raise(worstEnthalpy, (thermo.enthalpyMass(T, Y) - mixture.number(s, "h")) / (mixture.number(s, "cp") * T));
+    raise(worstEntropy, thermo.entropyMass(T, p, Y) / mixture.number(s, "s") - 1);
     thermo.speciesCp(T, cp);
     thermo.speciesEnthalpies(T, h);
+    thermo.speciesEntropies(T, entropy);
     for (std::size_t k = 0; k < n; ++k) {
       const std::size_t row = s * n + k;
       ASSERT_EQ(species.text(row, "species"), mechanism.speciesName(k));
       const double W = 1e3 * mechanism.molecularWeights()[k];
       raise(worstCp, cp[k] * W / species.number(row, "cp") - 1);
+      raise(worstEntropy, entropy[k] * W / species.number(row, "s") - 1);
       raise(worstEnthalpy, (h[k] * W - species.number(row, "h")) / (species.number(row, "cp") * T));
     }
   }
   measured("mixture weight, density and heat capacity", worst);
   measured("species heat capacity", worstCp);
   measured("enthalpy, of cp T", worstEnthalpy);
+  measured("entropy, mixture and species", worstEntropy);
   EXPECT_LT(worst, 1e-12);
   EXPECT_LT(worstCp, 1e-12);
   EXPECT_LT(worstEnthalpy, 1e-11);
+  EXPECT_LT(worstEntropy, 1e-12);
 }
 
 // Rate constants exclude [M] there as here; those of fall-off reactions are effective.

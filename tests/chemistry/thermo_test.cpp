@@ -37,6 +37,55 @@ TEST(Thermo, TemperatureComesBackFromEnthalpyWhateverTheGuess) {
   measured("temperature from enthalpy, K", worst);
 }
 
+TEST(Thermo, TemperatureComesBackFromInternalEnergyWhateverTheGuess) {
+  const auto& mechanism = lampblack::testing::ethylene();
+  const Thermo thermo(mechanism);
+  const Table states("counterflow_c2h4_states.csv");
+  std::vector<double> Y(mechanism.numSpecies());
+  double worst = 0;
+  for (std::size_t s = 0; s < states.size(); ++s) {
+    const double T = states.number(s, "T");
+    thermo.moleToMass(states.moleFractions(s, mechanism), Y);
+    const double u = thermo.internalEnergyMass(T, Y);
+    for (const double guess : {T, T + 50, 300.0, 3000.0, -1.0, 1e9, std::nan("")})
+      raise(worst, thermo.temperatureFromInternalEnergy(u, Y, guess) - T);
+  }
+  measured("temperature from internal energy, K", worst);
+  EXPECT_LT(worst, 1e-9);
+  EXPECT_THROW(thermo.temperatureFromInternalEnergy(1e9, Y, 1000), NumericsError);
+}
+
+// u = h - p/rho, cv = cp - R/W, g = h - T s, and the mixture's from those of the species.
+TEST(Thermo, EnergiesAndEntropiesFitTogether) {
+  const auto& mechanism = hydrogen();
+  const Thermo thermo(mechanism);
+  const std::size_t n = mechanism.numSpecies();
+  const double T = 1234, p = 3e5;
+  std::vector<double> Y(n), h(n), u(n), s(n), g(n);
+  thermo.moleToMass(parseComposition(mechanism, "H2: 0.3, O2: 0.2, N2: 0.5"), Y);
+  EXPECT_NEAR(thermo.internalEnergyMass(T, Y) / (thermo.enthalpyMass(T, Y) - p / thermo.density(T, p, Y)), 1, 1e-13);
+  EXPECT_NEAR(thermo.cvMass(T, Y) / (thermo.cpMass(T, Y) - p / (thermo.density(T, p, Y) * T)), 1, 1e-14);
+  thermo.speciesEnthalpies(T, h);
+  thermo.speciesInternalEnergies(T, u);
+  thermo.speciesEntropies(T, s);
+  thermo.speciesGibbs(T, g);
+  double mixture = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double RT = constants::gasConstant * T / mechanism.molecularWeights()[k];
+    EXPECT_NEAR(u[k], h[k] - RT, 1e-13 * std::abs(h[k]));
+    EXPECT_NEAR(g[k], h[k] - T * s[k], 1e-13 * std::abs(T * s[k]));
+    mixture += Y[k] * u[k];
+  }
+  EXPECT_NEAR(mixture / thermo.internalEnergyMass(T, Y), 1, 1e-13);
+  // Pressure and mixing: a gas alone at 1 atm has its standard entropy.
+  std::vector<double> alone(n, 0.0);
+  const auto N2 = mechanism.speciesIndex("N2");
+  alone[N2] = 1;
+  const double R = constants::gasConstant / mechanism.molecularWeights()[N2];
+  EXPECT_NEAR(thermo.entropyMass(T, constants::oneAtmosphere, alone), s[N2], 1e-13 * s[N2]);
+  EXPECT_NEAR(thermo.entropyMass(T, 2 * constants::oneAtmosphere, alone), s[N2] - R * std::log(2.0), 1e-13 * s[N2]);
+}
+
 TEST(Thermo, EnthalpyOutsideTheRangeIsAnError) {
   const auto& mechanism = hydrogen();
   const Thermo thermo(mechanism);
