@@ -4,10 +4,14 @@
 #include <petscsys.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "app/gas_input.hpp"
 #include "app/gas_output.hpp"
 #include "app/gas_properties.hpp"
 #include "chemistry/thermo.hpp"
@@ -21,8 +25,23 @@ struct Arguments {
   std::string mechanism;
   std::string temperature, pressure;
   std::string moleFractions, massFractions;
+  std::string fuel, oxidizer;
+  std::optional<double> ratio;
+  bool equilibrium = false;
+  std::string constant;  // "HP", ... as the option that asks for it; empty if none does
   bool json = false;
   GasTables tables;
+};
+
+struct EquilibriumOption {
+  const char *name, *constant, *help;
+};
+constexpr EquilibriumOption equilibriumOptions[] = {
+    {"--tp", "TP", "Equilibrium at constant temperature and pressure, as --equilibrium."},
+    {"--hp", "HP", "Equilibrium at constant enthalpy and pressure: the adiabatic flame."},
+    {"--sp", "SP", "Equilibrium at constant entropy and pressure."},
+    {"--tv", "TV", "Equilibrium at constant temperature and volume."},
+    {"--uv", "UV", "Equilibrium at constant internal energy and volume: the explosion in a bomb."},
 };
 
 double positiveQuantity(const std::string& option, const std::string& text, const units::Dimension& dimension) {
@@ -47,26 +66,56 @@ std::vector<double> composition(const Mechanism& mechanism, const char* option, 
 
 // Mole fractions of the gas that the options describe.
 std::vector<double> moleFractions(const Arguments& arguments, const Mechanism& mechanism) {
+  const bool byRatio = !arguments.fuel.empty() || !arguments.oxidizer.empty() || arguments.ratio;
+  const int ways = (arguments.moleFractions.empty() ? 0 : 1) + (arguments.massFractions.empty() ? 0 : 1) + byRatio;
+  if (ways != 1)
+    throw InputError(
+        fmt::format("the composition is {}; expected one of --X \"CH4:1, O2:2\", --Y, or --fuel with "
+                    "--oxidizer and --phi",
+                    ways == 0 ? "missing" : "given twice"));
   if (!arguments.moleFractions.empty()) return composition(mechanism, "--X", arguments.moleFractions);
-  if (arguments.massFractions.empty())
-    throw InputError("the composition is missing: expected --X \"CH4:1, O2:2\" or --Y");
+  if (byRatio) {
+    if (arguments.fuel.empty() || arguments.oxidizer.empty() || !arguments.ratio)
+      throw InputError("--fuel, --oxidizer and --phi belong together; expected all three");
+    if (!(*arguments.ratio >= 0) || !std::isfinite(*arguments.ratio))
+      throw InputError(fmt::format("--phi: expected a number of at least 0, found {}", *arguments.ratio));
+    return mixByEquivalenceRatio(mechanism, composition(mechanism, "--fuel", arguments.fuel),
+                                 composition(mechanism, "--oxidizer", arguments.oxidizer), *arguments.ratio);
+  }
   const auto Y = composition(mechanism, "--Y", arguments.massFractions);
   std::vector<double> X(Y.size());
   Thermo(mechanism).massToMole(Y, X);
   return X;
 }
 
+void chooseConstant(Arguments& arguments, const EquilibriumOption& option) {
+  if (!arguments.constant.empty() && arguments.constant != option.constant)
+    throw CLI::ValidationError(option.name,
+                               "there is one equilibrium at a time; expected one of --tp, --hp, --sp, "
+                               "--tv, --uv");
+  arguments.constant = option.constant;
+}
+
 struct Answer {
-  std::string warning, text;
+  std::vector<std::string> warnings;
+  std::string text;
 };
 
+// The gas of the options, brought to the equilibrium they ask for.
 Answer answer(const Arguments& arguments) {
+  const Mechanism mechanism = Mechanism::fromFile(arguments.mechanism);
   const double T = positiveQuantity("--T", arguments.temperature, units::temperature);
   const double p = positiveQuantity("--p", arguments.pressure, units::pressure);
-  const Mechanism mechanism = Mechanism::fromFile(arguments.mechanism);
-  auto gas = gasProperties(mechanism, T, p, moleFractions(arguments, mechanism));
-  return {rangeWarning(mechanism, gas.temperature),
-          arguments.json ? gasJson(mechanism, gas) : gasText(mechanism, gas, arguments.tables)};
+  const auto X = moleFractions(arguments, mechanism);
+  const std::string constant = arguments.constant.empty() && arguments.equilibrium ? "TP" : arguments.constant;
+  const GasProperties gas =
+      constant.empty() ? gasProperties(mechanism, T, p, X) : gasAtEquilibrium(mechanism, T, p, X, constant);
+  Answer result;
+  result.warnings.push_back(rangeWarning(mechanism, T));
+  if (gas.temperature != T) result.warnings.push_back(rangeWarning(mechanism, gas.temperature));
+  std::erase(result.warnings, "");
+  result.text = arguments.json ? gasJson(mechanism, gas) : gasText(mechanism, gas, arguments.tables);
+  return result;
 }
 
 void run(const Arguments& arguments) {
@@ -75,7 +124,7 @@ void run(const Arguments& arguments) {
   int rank = 0;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   if (rank != 0) return;
-  if (!result.warning.empty()) std::cerr << "lampblack: warning: " << result.warning << std::endl;
+  for (const std::string& warning : result.warnings) std::cerr << "lampblack: warning: " << warning << std::endl;
   std::cout << result.text << std::flush;
 }
 
@@ -87,9 +136,15 @@ void addGasCommand(CLI::App& app, std::function<void()>& command) {
   gas->add_option("mechanism", arguments->mechanism, "Mechanism file (YAML).")->required();
   gas->add_option("-T,--T", arguments->temperature, "Temperature: 1500, \"1500 K\".")->required();
   gas->add_option("-p,--p", arguments->pressure, "Pressure: 101325, \"1 atm\".")->default_val("1 atm");
-  CLI::Option* byMole =
-      gas->add_option("-X,--X", arguments->moleFractions, "Mole fractions, scaled to one: \"CH4:1, O2:2, N2:7.52\".");
-  gas->add_option("-Y,--Y", arguments->massFractions, "Mass fractions, scaled to one.")->excludes(byMole);
+  gas->add_option("-X,--X", arguments->moleFractions, "Mole fractions, scaled to one: \"CH4:1, O2:2, N2:7.52\".");
+  gas->add_option("-Y,--Y", arguments->massFractions, "Mass fractions, scaled to one.");
+  gas->add_option("--fuel", arguments->fuel, "Mole fractions of a fuel, with --oxidizer and --phi.");
+  gas->add_option("--oxidizer", arguments->oxidizer, "Mole fractions of what it burns with: \"O2:1, N2:3.76\".");
+  gas->add_option("--phi", arguments->ratio, "Equivalence ratio of the two.");
+  gas->add_flag("--equilibrium", arguments->equilibrium, "Equilibrium at this temperature and pressure.");
+  for (const EquilibriumOption& option : equilibriumOptions)
+    gas->add_flag_callback(
+        option.name, [arguments, &option] { chooseConstant(*arguments, option); }, option.help);
   gas->add_flag("--json", arguments->json, "One JSON object (docs/formats.md) in place of tables.");
   gas->add_flag("--all", arguments->tables.allSpecies, "Tables: every species, also those that are not there.");
   gas->add_flag("--reactions", arguments->tables.reactions, "Tables: the rate constants too.");

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "io/json.hpp"
 
@@ -13,6 +14,12 @@ namespace {
 // Species below these are left out of the table: a mole fraction, and a share of the largest production rate.
 constexpr double leastFraction = 1e-12;
 constexpr double leastRate = 1e-9;
+
+const std::map<std::string, std::string> constantNames = {{"TP", "temperature and pressure"},
+                                                          {"HP", "enthalpy and pressure"},
+                                                          {"SP", "entropy and pressure"},
+                                                          {"TV", "temperature and volume"},
+                                                          {"UV", "internal energy and volume"}};
 
 void bySpecies(JsonWriter& json, const char* key, const Mechanism& mechanism, const std::vector<double>& values) {
   json.key(key).beginObject();
@@ -29,6 +36,8 @@ void inFileOrder(JsonWriter& json, const char* key, const std::vector<double>& v
 std::string stateTable(const Mechanism& mechanism, const GasProperties& gas) {
   std::string out = fmt::format("{}: {} species, {} reactions\n\n", mechanism.fileName(), mechanism.numSpecies(),
                                 mechanism.numReactions());
+  if (!gas.equilibrium.empty())
+    out += fmt::format("  equilibrium at constant {}\n\n", constantNames.at(gas.equilibrium));
   const auto line = [&](const char* name, double value, const char* unit) {
     out += fmt::format("  {:<24}{:>14.7g} {}\n", name, value, unit);
   };
@@ -56,7 +65,8 @@ std::size_t widestName(const Mechanism& mechanism) {
 
 std::string speciesTable(const Mechanism& mechanism, const GasProperties& gas, bool all) {
   const std::size_t width = widestName(mechanism);
-  double fastest = 0;
+  // At equilibrium net rates are what rounding leaves.
+  double fastest = gas.equilibrium.empty() ? 0 : INFINITY;
   for (const double rate : gas.netProductionRates) fastest = std::max(fastest, std::abs(rate));
   std::string out = fmt::format("\n  {:<{}}{:>14}{:>14}", "species", width, "X", "Y");
   if (gas.transport) out += fmt::format("{:>14}", "D [m^2/s]");
@@ -75,8 +85,8 @@ std::string speciesTable(const Mechanism& mechanism, const GasProperties& gas, b
     out += fmt::format("{:>18.5e}\n", gas.netProductionRates[k]);
   }
   if (hidden > 0)
-    out += fmt::format("  {} more are below X = {:g} and {:g} of the largest rate (--all shows them)\n", hidden,
-                       leastFraction, leastRate);
+    out += fmt::format("  {} more are below X = {:g}{} (--all shows them)\n", hidden, leastFraction,
+                       gas.equilibrium.empty() ? fmt::format(" and {:g} of the largest rate", leastRate) : "");
   return out;
 }
 
@@ -116,6 +126,8 @@ std::string gasJson(const Mechanism& mechanism, const GasProperties& gas) {
   inFileOrder(json, "reverse_rate_constants", gas.reverseConstants);
   bySpecies(json, "net_production_rates", mechanism, gas.netProductionRates);
   bySpecies(json, "mass_fractions", mechanism, gas.massFractions);
+  json.key("equilibrium");
+  gas.equilibrium.empty() ? json.null() : json.value(gas.equilibrium);
   if (!gas.transport) json.field("transport_note", gas.transportNote);
   json.endObject();
   return json.text() + "\n";

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "chemistry/equilibrium.hpp"
 #include "chemistry/kinetics.hpp"
 #include "chemistry/nasa7.hpp"
 #include "chemistry/thermo.hpp"
@@ -27,6 +28,33 @@ double entropyMass(const Mechanism& mechanism, const GasProperties& gas) {
     if (X > 0) sum += X * (s[k] - std::log(X) - lnPressure);
   }
   return sum * constants::gasConstant / gas.meanMolecularWeight;
+}
+
+GasProperties thermodynamics(const Mechanism& mechanism, double T, double p, std::span<const double> X) {
+  GasProperties gas;
+  gas.temperature = T;
+  gas.pressure = p;
+  gas.moleFractions.assign(X.begin(), X.end());
+  gas.massFractions.resize(X.size());
+  const Thermo thermo(mechanism);
+  thermo.moleToMass(X, gas.massFractions);
+  gas.meanMolecularWeight = thermo.meanMolecularWeight(gas.massFractions);
+  gas.density = thermo.density(T, p, gas.massFractions);
+  gas.cpMass = thermo.cpMass(T, gas.massFractions);
+  gas.enthalpyMass = thermo.enthalpyMass(T, gas.massFractions);
+  gas.entropyMass = entropyMass(mechanism, gas);
+  return gas;
+}
+
+void setRates(const Mechanism& mechanism, GasProperties& gas) {
+  auto concentrations = gas.moleFractions;
+  for (double& c : concentrations) c *= gas.pressure / (constants::gasConstant * gas.temperature);
+  Kinetics kinetics(mechanism);
+  gas.netProductionRates.resize(mechanism.numSpecies());
+  kinetics.netProductionRates(gas.temperature, concentrations, gas.netProductionRates);
+  gas.forwardConstants.resize(mechanism.numReactions());
+  gas.reverseConstants.resize(mechanism.numReactions());
+  kinetics.rateConstants(gas.temperature, concentrations, gas.forwardConstants, gas.reverseConstants);
 }
 
 void requireFinite(const GasProperties& gas) {
@@ -59,30 +87,35 @@ void setTransport(const Mechanism& mechanism, GasProperties& gas) {
 }  // namespace
 
 GasProperties gasProperties(const Mechanism& mechanism, double T, double p, std::span<const double> X) {
-  const std::size_t n = mechanism.numSpecies();
-  GasProperties gas;
-  gas.temperature = T;
-  gas.pressure = p;
-  gas.moleFractions.assign(X.begin(), X.end());
-  gas.massFractions.resize(n);
-  const Thermo thermo(mechanism);
-  thermo.moleToMass(X, gas.massFractions);
-  gas.meanMolecularWeight = thermo.meanMolecularWeight(gas.massFractions);
-  gas.density = thermo.density(T, p, gas.massFractions);
-  gas.cpMass = thermo.cpMass(T, gas.massFractions);
-  gas.enthalpyMass = thermo.enthalpyMass(T, gas.massFractions);
-  gas.entropyMass = entropyMass(mechanism, gas);
-
-  std::vector<double> concentrations(n);
-  for (std::size_t k = 0; k < n; ++k) concentrations[k] = X[k] * p / (constants::gasConstant * T);
-  Kinetics kinetics(mechanism);
-  gas.netProductionRates.resize(n);
-  kinetics.netProductionRates(T, concentrations, gas.netProductionRates);
-  gas.forwardConstants.resize(mechanism.numReactions());
-  gas.reverseConstants.resize(mechanism.numReactions());
-  kinetics.rateConstants(T, concentrations, gas.forwardConstants, gas.reverseConstants);
+  GasProperties gas = thermodynamics(mechanism, T, p, X);
+  setRates(mechanism, gas);
   requireFinite(gas);
   setTransport(mechanism, gas);
+  return gas;
+}
+
+GasProperties gasAtEquilibrium(const Mechanism& mechanism, double T, double p, std::span<const double> X,
+                               const std::string& constant) {
+  const GasProperties start = thermodynamics(mechanism, T, p, X);
+  const Thermo thermo(mechanism);
+  Equilibrium equilibrium(mechanism);
+  std::vector<double> Y = start.massFractions, result(Y.size());
+  if (constant == "TP")
+    equilibrium.atTemperatureAndPressure(T, p, Y);
+  else if (constant == "TV")
+    equilibrium.atTemperatureAndDensity(T, start.density, Y);
+  else if (constant == "HP")
+    T = equilibrium.atEnthalpyAndPressure(start.enthalpyMass, p, Y);
+  else if (constant == "SP")
+    T = equilibrium.atEntropyAndPressure(start.entropyMass, p, Y);
+  else if (constant == "UV")
+    T = equilibrium.atEnergyAndDensity(start.enthalpyMass - p / start.density, start.density, Y);
+  else
+    throw std::logic_error("unknown pair of constant quantities " + constant);
+  if (constant == "TV" || constant == "UV") p *= start.density / thermo.density(T, p, Y);
+  thermo.massToMole(Y, result);
+  GasProperties gas = gasProperties(mechanism, T, p, result);
+  gas.equilibrium = constant;
   return gas;
 }
 

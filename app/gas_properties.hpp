@@ -17,6 +17,7 @@ struct GasTransport {
 };
 
 struct GasProperties {
+  std::string equilibrium;         // "HP": what was held constant on the way to equilibrium; empty if it was not sought
   double temperature = 0;          // K
   double pressure = 0;             // Pa
   double density = 0;              // kg/m3
@@ -34,6 +35,11 @@ struct GasProperties {
 // All of it at T (K), p (Pa) and mole fractions X that sum to one. Without transport data, or outside the range of
 // temperature of the transport properties, `transport` is empty. NumericsError if a number is not finite.
 GasProperties gasProperties(const Mechanism& mechanism, double T, double p, std::span<const double> X);
+
+// The same at the chemical equilibrium that T, p and X turn into while two quantities stay constant: "TP", "HP", "SP",
+// "TV" or "UV" (temperature, pressure, enthalpy, entropy, volume, internal energy). NumericsError if there is none.
+GasProperties gasAtEquilibrium(const Mechanism& mechanism, double T, double p, std::span<const double> X,
+                               const std::string& constant);
 
 // Says that T is outside the range of thermodynamic data, and names the species whose range ends first; empty if
 // inside.

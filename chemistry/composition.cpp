@@ -29,7 +29,7 @@ std::vector<double> parseComposition(const Mechanism& mechanism, std::string_vie
   auto rest = trimmed(text);
   if (rest.empty()) throw InputError("empty composition; expected pairs such as 'C2H4: 1, N2: 3'");
   while (!rest.empty()) {
-    const auto colon = rest.find(':');
+    const auto colon = rest.find_first_of(":=");
     if (colon == std::string_view::npos)
       throw InputError(fmt::format("composition '{}': expected ':' and an amount after '{}'", text, rest));
     const auto name = trimmed(rest.substr(0, colon));

@@ -1,0 +1,140 @@
+"""The options of `lampblack gas`: ways to say the same, equilibria, and what is told when wrong.
+
+Usage: gas_options_test.py EXECUTABLE RANKS MPIEXEC...
+"""
+
+import json
+import sys
+
+import running
+
+MECHANISMS = running.SOURCE / "cases/mechanisms"
+METHANE = MECHANISMS / "methane_gri30_53.yaml"
+HYDROGEN = MECHANISMS / "hydrogen_h2o2_10.yaml"
+SILICA = MECHANISMS / "silica_teos_29.yaml"
+AIR = "O2:1, N2:3.76"
+FLAME = ("--T", "1400", "--p", "101325", "--X", "CH4:1, O2:2, N2:7.52")
+# Cantera 3.2.0 (T_equil_HP of the reference tables).
+FLAME_TEMPERATURE = 2697.883232506094
+
+# What is wrong, the arguments, and words that the message has.
+MISTAKES = [
+    ("no composition", (HYDROGEN, "--T", "1500"), ("composition is missing", "--X", "--Y", "--phi")),
+    ("two compositions", (HYDROGEN, "--T", "1500", "--X", AIR, "--Y", AIR), ("given twice",)),
+    ("half a ratio", (HYDROGEN, "--T", "1500", "--fuel", "H2:1", "--phi", "1"), ("--oxidizer", "all three")),
+    ("ratio below zero", (HYDROGEN, "--T", "1500", "--fuel", "H2:1", "--oxidizer", AIR, "--phi", "-1"),
+     ("--phi", "at least 0", "-1")),
+    ("fuel that does not burn", (HYDROGEN, "--T", "1500", "--fuel", "AR:1", "--oxidizer", AIR, "--phi", "1"),
+     ("the fuel needs no oxygen",)),
+    ("unknown species", (HYDROGEN, "--T", "1500", "--X", "H2:1, O22:1"), ("--X", "unknown species 'O22'", "'O2'")),
+    ("composition without amounts", (HYDROGEN, "--T", "1500", "--X", "H2"), ("--X", "expected ':'")),
+    ("wrong unit", (HYDROGEN, "--T", "1500 Pa", "--X", AIR), ("--T", "expected a temperature", "a pressure")),
+    ("cold", (HYDROGEN, "--T", "-5", "--X", AIR), ("--T", "temperature above zero", "'-5'")),
+    ("vacuum", (HYDROGEN, "--T", "300", "--p", "0", "--X", AIR), ("--p", "pressure above zero")),
+    ("not a number", (HYDROGEN, "--T", "nan", "--X", AIR), ("--T",)),
+    ("no temperature", (HYDROGEN, "--X", AIR), ("--T",)),
+    ("no mechanism", ("nowhere.yaml", "--T", "300", "--X", AIR), ("nowhere.yaml", "cannot open")),
+    ("two equilibria", (HYDROGEN, "--T", "300", "--X", AIR, "--hp", "--uv"), ("one equilibrium at a time",)),
+]
+
+
+class Checker:
+    def __init__(self, program: running.Program):
+        self.program = program
+        self.failures = 0
+
+    def require(self, what: str, holds: bool, details: str = "") -> None:
+        self.failures += not holds
+        print(f"{'ok' if holds else 'FAILED':8}{what}{'' if holds else ': ' + details}")
+
+    def gas(self, *arguments) -> dict:
+        result = self.program("gas", *arguments, "--json")
+        if result.code != 0:
+            raise AssertionError(f"{arguments}: exit code {result.code}\n{result.err}")
+        return json.loads(result.out)
+
+    def close(self, what: str, value: float, expected: float, relative: float) -> None:
+        self.require(what, abs(value / expected - 1) <= relative, f"{value}, expected {expected}")
+
+    def same_gas(self, what: str, *arguments) -> None:
+        """Arguments that describe stoichiometric methane/air at 1 bar and 1500 K."""
+        if not hasattr(self, "plain"):
+            self.plain = self.gas(METHANE, "--T", "1500", "--p", "1e5", "--X", "CH4:1, O2:2, N2:7.52")
+        self.close(what, self.gas(METHANE, *arguments)["entropy_mass"], self.plain["entropy_mass"], 1e-14)
+
+
+def spellings(check: Checker) -> None:
+    check.same_gas("units", "--T", "1.5 kK", "--p", "1 bar", "--X", "CH4:1, O2:2, N2:7.52")
+    check.same_gas("amounts of any sum", "--T", "1500", "--p", "1e5", "--X", "CH4=0.5 O2=1 N2=3.76")
+    check.same_gas("equivalence ratio", "--T", "1500", "--p", "1e5", "--fuel", "CH4:3", "--oxidizer", AIR,
+                   "--phi", "1")
+    fractions = check.plain["mass_fractions"]
+    check.same_gas("mass fractions", "--T", "1500", "--p", "1e5", "--Y",
+                   ", ".join(f"{name}: {value}" for name, value in fractions.items()))
+    check.require("one atmosphere unless told", check.gas(METHANE, "--T", "300", "--X", AIR)["pressure"] == 101325)
+
+
+def equilibria(check: Checker) -> None:
+    start = check.gas(METHANE, *FLAME)
+    for options in (("--hp",), ("--equilibrium", "--hp"), ("--hp", "--equilibrium")):
+        flame = check.gas(METHANE, *FLAME, *options)
+        check.close(" ".join(options), flame["temperature"], FLAME_TEMPERATURE, 1e-9)
+        check.require("  says so", flame["equilibrium"] == "HP")
+        check.close("  same enthalpy", flame["enthalpy_mass"], start["enthalpy_mass"], 1e-12)
+    for options in (("--equilibrium",), ("--tp",)):
+        burnt = check.gas(METHANE, "--T", str(flame["temperature"]), *FLAME[2:], *options)
+        check.close(" ".join(options), burnt["mole_fractions"]["CO"], flame["mole_fractions"]["CO"], 1e-9)
+        check.require("  same temperature", burnt["temperature"] == flame["temperature"])
+    bomb = check.gas(METHANE, *FLAME, "--uv")
+    check.close("--uv: same density", bomb["density"], start["density"], 1e-12)
+    check.close("--uv: same energy", bomb["enthalpy_mass"] - bomb["pressure"] / bomb["density"],
+                start["enthalpy_mass"] - start["pressure"] / start["density"], 1e-11)
+    check.close("--tv: same density", check.gas(METHANE, *FLAME, "--tv")["density"], start["density"], 1e-12)
+    check.close("--sp: same entropy", check.gas(METHANE, *FLAME, "--sp")["entropy_mass"], start["entropy_mass"], 1e-12)
+    check.require("no equilibrium unless asked for", start["equilibrium"] is None)
+
+
+def tables(check: Checker) -> None:
+    result = check.program("gas", METHANE, *FLAME, "--reactions")
+    check.require("tables", result.code == 0 and result.err == "" and "CH4 " in result.out and "325  " in result.out)
+    check.require("only what is there", "C3H8" not in result.out.split("rate constants")[0])
+    everything = check.program("gas", METHANE, *FLAME, "--all")
+    check.require("--all", "C3H8" in everything.out)
+
+
+def without_transport(check: Checker) -> None:
+    gas = check.gas(SILICA, "--T", "1500", "--X", "C8H20O4SI:1, N2:9")
+    check.require("no transport data: null and why",
+                  gas["viscosity"] is None and gas["thermal_conductivity"] is None
+                  and gas["mixture_diffusion_coefficients"] is None and gas["thermal_diffusion_coefficients"] is None
+                  and "has no transport data" in gas["transport_note"])
+    check.require("no transport data: rates all the same", any(gas["net_production_rates"].values()))
+
+
+def beyond_the_data(check: Checker) -> None:
+    result = check.program("gas", METHANE, "--T", "5500", "--X", AIR, "--json")
+    check.require("a warning beyond the range of the data",
+                  result.code == 0 and result.err.count("lampblack: warning: ") == 1 and "narrowest" in result.err
+                  and json.loads(result.out)["temperature"] == 5500, result.err)
+    result = check.program("gas", HYDROGEN, "--T", "9000", "--X", "AR:1", "--hp", "--json")
+    check.require("no such equilibrium: an error of the numbers",
+                  result.code == 3 and result.out == "" and "no temperature between" in result.err, result.err)
+
+
+def mistakes(check: Checker) -> None:
+    for name, arguments, words in MISTAKES:
+        result = check.program("gas", *arguments, "--json")
+        told = result.err.startswith("lampblack: ") and all(word in result.err for word in words)
+        check.require(name, result.code == 2 and result.out == "" and told,
+                      f"exit code {result.code}\n{result.out}{result.err}")
+
+
+def main() -> int:
+    check = Checker(running.Program(sys.argv[1], sys.argv[3:], int(sys.argv[2])))
+    for part in (spellings, equilibria, tables, without_transport, beyond_the_data, mistakes):
+        part(check)
+    return 1 if check.failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
