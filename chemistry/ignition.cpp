@@ -11,6 +11,13 @@ namespace lampblack {
 
 using Kind = IgnitionCriterion::Kind;
 
+namespace {
+
+// A largest fraction of fewer absolute tolerances is noise.
+constexpr double kNoise = 1e4;
+
+}  // namespace
+
 IgnitionQuantity::IgnitionQuantity(const Mechanism& mechanism, OdeSystem& system)
     : mechanism_(mechanism), system_(system), f_(system.size()), J_(system.size() * system.size()) {}
 
@@ -20,16 +27,25 @@ void IgnitionQuantity::prepare(double t, const double* y, bool withJacobian) {
   if (!good) throw NumericsError(fmt::format("this is not a state of a gas: {}", system_.describe(t, y)));
 }
 
-double IgnitionQuantity::meanWeight(const double* y) const {
-  double moles = 0;
-  for (std::size_t k = 0; k < mechanism_.numSpecies(); ++k) moles += y[k] / mechanism_.molecularWeights()[k];
-  return 1.0 / moles;
+double IgnitionQuantity::moles(const double* Y) const {
+  const auto W = mechanism_.molecularWeights();
+  double sum = 0;
+  for (std::size_t k = 0; k < W.size(); ++k) sum += Y[k] / W[k];
+  return sum;
+}
+
+IgnitionQuantity::MoleFraction IgnitionQuantity::moleFraction(std::size_t k, const double* y) const {
+  const double M = moles(y);
+  return {y[k] / mechanism_.molecularWeights()[k] / M, M};
+}
+
+double IgnitionQuantity::moleFractionChange(std::size_t k, const MoleFraction& at, const double* s) const {
+  return (s[k] / mechanism_.molecularWeights()[k] - at.X * moles(s)) / at.M;
 }
 
 // Of the temperature's rate the slope is (J f)_T: the rates of an adiabatic reactor do not depend on time themselves.
 IgnitionQuantity::Value IgnitionQuantity::of(const IgnitionCriterion& criterion, const double* y) const {
   const std::size_t n = mechanism_.numSpecies(), k = criterion.species;
-  const auto W = mechanism_.molecularWeights();
   switch (criterion.kind) {
     case Kind::TemperatureRate: {
       double slope = 0;
@@ -37,8 +53,7 @@ IgnitionQuantity::Value IgnitionQuantity::of(const IgnitionCriterion& criterion,
       return {f_[n], slope};
     }
     case Kind::MoleFraction:
-      // X_k = Y_k Wbar/W_k, d Wbar/dY_j = -Wbar^2/W_j
-      return {y[k] * meanWeight(y) / W[k], derivative(criterion, y, f_.data(), nullptr)};
+      return {moleFraction(k, y).X, moleFractionChange(k, moleFraction(k, y), f_.data())};
     case Kind::MassFraction:
       return {y[k], f_[k]};
     case Kind::TemperatureRise:
@@ -47,21 +62,21 @@ IgnitionQuantity::Value IgnitionQuantity::of(const IgnitionCriterion& criterion,
   return {};
 }
 
-double IgnitionQuantity::derivative(const IgnitionCriterion& criterion, const double* y, const double* s,
-                                    const double* sDot) const {
+double IgnitionQuantity::change(const IgnitionCriterion& criterion, const double* y, const double* s,
+                                const double* sDot) const {
   const std::size_t n = mechanism_.numSpecies(), k = criterion.species;
-  const auto W = mechanism_.molecularWeights();
   switch (criterion.kind) {
     case Kind::TemperatureRate:
       return sDot[n];
     case Kind::MoleFraction: {
-      const double Wbar = meanWeight(y);
-      double moles = 0;
-      for (std::size_t j = 0; j < n; ++j) moles += s[j] / W[j];
-      return Wbar / W[k] * (s[k] - y[k] * Wbar * moles);
+      // dX/dt = (dY_k/dt/W_k - X dM/dt)/M
+      const MoleFraction at = moleFraction(k, y);
+      const double slope = moleFractionChange(k, at, f_.data());
+      return moleFractionChange(k, at, sDot) -
+             (moleFractionChange(k, at, s) * moles(f_.data()) + slope * moles(s)) / at.M;
     }
     case Kind::MassFraction:
-      return s[k];
+      return sDot[k];
     case Kind::TemperatureRise:
       return s[n];
   }
@@ -132,7 +147,9 @@ void IgnitionMonitor::locate(std::size_t i, const StiffIntegrator& integrator, d
     if (events_[i]) return;
     event.width = criterion.rise / std::max(value.slope, 1e-300);
   } else {
-    if (!(value.value > 0) || (events_[i] && events_[i]->value >= value.value)) return;
+    const bool isFraction = criterion.kind != Kind::TemperatureRate;
+    const double noise = isFraction ? kNoise * integrator.options().absoluteTolerance : 0.0;
+    if (!(value.value > noise) || (events_[i] && events_[i]->value >= value.value)) return;
     event.width = std::sqrt(std::abs(value.value / slopeOfSignal));
   }
   events_[i] = event;

@@ -45,11 +45,18 @@ class IgnitionQuantity {
   // Prepares the rates (and, for dT/dt, the Jacobian) of a state; NumericsError where it is no state of a gas.
   void prepare(double t, const double* y, bool withJacobian);
   Value of(const IgnitionCriterion& criterion, const double* y) const;
-  // d value / d p for sensitivities s of the state and sDot of its rates; no need to prepare().
-  double derivative(const IgnitionCriterion& criterion, const double* y, const double* s, const double* sDot) const;
+  // What goes with a change s of the prepared state and sDot of its rates: the change of dT/dt itself, of the slope of
+  // a fraction, or of a temperature.
+  double change(const IgnitionCriterion& criterion, const double* y, const double* s, const double* sDot) const;
 
  private:
-  double meanWeight(const double* y) const;
+  // X_k = (Y_k/W_k)/M, M = sum Y/W: the change of X_k with that of Y.
+  struct MoleFraction {
+    double X = 0, M = 0;
+  };
+  MoleFraction moleFraction(std::size_t k, const double* y) const;
+  double moles(const double* Y) const;
+  double moleFractionChange(std::size_t k, const MoleFraction& at, const double* s) const;
 
   const Mechanism& mechanism_;
   OdeSystem& system_;
@@ -57,7 +64,7 @@ class IgnitionQuantity {
 };
 
 // Watches an integration step by step. Of several maxima the highest inside the time counts; a quantity that is largest
-// at the beginning or the end has none.
+// at the beginning or the end has none, and a fraction that stays below 1e4 absolute tolerances is noise.
 class IgnitionMonitor {
  public:
   IgnitionMonitor(const Mechanism& mechanism, OdeSystem& system, std::vector<IgnitionCriterion> criteria);

@@ -20,25 +20,26 @@ struct Sample {
   int position = 0;  // -2..2 spacings from tau
 };
 
-// The quantity and its derivatives by the parameters at the points around one tau.
+// What is known around one tau. Of the largest dT/dt: that rate and its derivatives by the parameters at five points.
+// Of the others, at tau alone: the derivatives by the parameters and by time of what is zero there.
 struct Stencil {
   double spacing = 0;
   std::array<double, 5> value{};
   std::array<std::vector<double>, 5> byParameter;
-  double slope = 0;  // of a temperature, at tau
+  double byTime = 0;
 };
 
 double spacingOf(const IgnitionEvent& event) {
   return kSpacing * std::min(event.width, event.time);
 }
 
-// d tau/dp of a maximum: -(d a'/dp)/a'' by five-point formulas.
+// d tau/dp of the largest a: -(d a'/dp)/a'' by five-point formulas.
 double byMaximum(const Stencil& s, std::size_t p) {
   const auto& d = s.byParameter;
-  const double firstOfDerivative = (d[0][p] - 8 * d[1][p] + 8 * d[3][p] - d[4][p]) / (12 * s.spacing);
+  const double slopeByParameter = (d[0][p] - 8 * d[1][p] + 8 * d[3][p] - d[4][p]) / (12 * s.spacing);
   const auto& a = s.value;
   const double second = (-a[0] + 16 * a[1] - 30 * a[2] + 16 * a[3] - a[4]) / (12 * s.spacing * s.spacing);
-  return -firstOfDerivative / second;
+  return -slopeByParameter / second;
 }
 
 class Sampler {
@@ -57,36 +58,32 @@ class Sampler {
     const IgnitionCriterion& criterion = criteria_[sample.criterion];
     Stencil& stencil = stencils_[sample.criterion];
     const auto at = static_cast<std::size_t>(sample.position + 2);
-    const bool withRates = criterion.kind == Kind::TemperatureRate;
+    const double* y = y_.data();
     integrator.interpolate(sample.time, y_);
     integrator.interpolateSensitivities(sample.time, s_);
-    quantity_.prepare(sample.time, y_.data(), withRates);
-    const IgnitionQuantity::Value value = quantity_.of(criterion, y_.data());
-    stencil.value[at] = value.value;
-    if (sample.position == 0) stencil.slope = value.slope;
-    if (withRates) prepareRates(sample.time);
+    quantity_.prepare(sample.time, y, true);
+    reactor_.jacobian(sample.time, y, f_.data(), J_.data(), reactor_.size());
+    reactor_.prepareParameters(sample.time, y);
+    stencil.value[at] = quantity_.of(criterion, y).value;
+    timesJacobian(f_);
+    stencil.byTime = quantity_.change(criterion, y, f_.data(), sDot_.data());
     stencil.byParameter[at].resize(s_.size());
     for (std::size_t p = 0; p < s_.size(); ++p) {
-      if (withRates) ratesOfSensitivity(p);
-      stencil.byParameter[at][p] = quantity_.derivative(criterion, y_.data(), s_[p].data(), sDot_.data());
+      timesJacobian(s_[p]);
+      reactor_.addByParameter(p, sDot_.data());
+      stencil.byParameter[at][p] = quantity_.change(criterion, y, s_[p].data(), sDot_.data());
     }
   }
 
   Stencil& stencil(std::size_t criterion) { return stencils_[criterion]; }
 
  private:
-  void prepareRates(double time) {
-    reactor_.jacobian(time, y_.data(), f_.data(), J_.data(), reactor_.size());
-    reactor_.prepareParameters(time, y_.data());
-  }
-
-  // ds/dt = J s + df/dp
-  void ratesOfSensitivity(std::size_t p) {
+  // sDot = J s
+  void timesJacobian(const std::vector<double>& s) {
     const std::size_t n = reactor_.size();
     std::fill(sDot_.begin(), sDot_.end(), 0.0);
     for (std::size_t j = 0; j < n; ++j)
-      for (std::size_t i = 0; i < n; ++i) sDot_[i] += J_[i + j * n] * s_[p][j];
-    reactor_.addByParameter(p, sDot_.data());
+      for (std::size_t i = 0; i < n; ++i) sDot_[i] += J_[i + j * n] * s[j];
   }
 
   ClosedReactor& reactor_;
@@ -102,7 +99,7 @@ std::vector<Sample> samplesAround(const std::vector<IgnitionCriterion>& criteria
   std::vector<Sample> samples;
   for (std::size_t i = 0; i < events.size(); ++i) {
     if (!events[i]) continue;
-    const int reach = criteria[i].kind == Kind::TemperatureRise ? 0 : 2;
+    const int reach = criteria[i].kind == Kind::TemperatureRate ? 2 : 0;
     for (int position = -reach; position <= reach; ++position)
       samples.push_back({events[i]->time + position * spacingOf(*events[i]), i, position});
   }
@@ -133,8 +130,9 @@ IgnitionSensitivities ignitionSensitivities(const Mechanism& mechanism, ClosedRe
     Stencil& stencil = sampler.stencil(i);
     stencil.spacing = spacingOf(*events[i]);
     for (std::size_t p = 0; p < reactor.numParameters(); ++p) {
-      const double byParameter = criteria[i].kind == Kind::TemperatureRise ? -stencil.byParameter[2][p] / stencil.slope
-                                                                           : byMaximum(stencil, p);
+      const double byParameter = criteria[i].kind == Kind::TemperatureRate
+                                     ? byMaximum(stencil, p)
+                                     : -stencil.byParameter[2][p] / stencil.byTime;
       result.values[i].push_back(byParameter / events[i]->time);
     }
   }

@@ -1,7 +1,8 @@
 // How ignition delays answer to the rate constants: d ln tau / d ln k of each reaction, from the forward sensitivities
-// of CVODES. The delay is a zero of a derivative along the solution; the theorem of implicit functions gives its
-// derivative: with a(t, p) the quantity of which the largest value marks ignition, d tau/dp = -(d a'/dp) / a''. The
-// time derivatives are taken by five-point formulas in the time around tau (docs/theory/reactors.md).
+// of CVODES. The delay is a zero of some G(t, p) along the solution; the theorem of implicit functions gives its
+// derivative, d tau/dp = -(dG/dp)/(dG/dt). For fractions of species and a rise of temperature both are analytic; for
+// the largest dT/dt, where G is the second derivative of T, five-point formulas around tau are used
+// (docs/theory/reactors.md). Slowing down all reactions alike stretches time: the sum over all reactions is -1.
 #pragma once
 
 #include <vector>

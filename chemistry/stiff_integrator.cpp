@@ -64,6 +64,7 @@ struct StiffIntegrator::Impl {
   std::unique_ptr<VectorArray> sensitivities;
   std::string reason;
   double end = 0;
+  long steps = 0;
 
   sundials::Context context;
   sundials::Vector y, interpolated, tolerances;
@@ -176,7 +177,6 @@ StiffIntegrator::Impl::Impl(OdeSystem& systemIn, const Options& optionsIn)
   check(CVodeSetErrHandlerFn(memory, keepMessage, this), "CVodeSetErrHandlerFn");
   check(CVodeSetLinearSolver(memory, linearSolver.get(), matrix.get()), "CVodeSetLinearSolver");
   check(CVodeSetLinSysFn(memory, linearSystem), "CVodeSetLinSysFn");
-  check(CVodeSetMaxNumSteps(memory, options.maximumSteps), "CVodeSetMaxNumSteps");
   check(CVodeSetMaxErrTestFails(memory, 20), "CVodeSetMaxErrTestFails");
   if (options.maximumStep > 0) check(CVodeSetMaxStep(memory, options.maximumStep), "CVodeSetMaxStep");
 }
@@ -187,6 +187,7 @@ void StiffIntegrator::Impl::reinitialise(double time, std::span<const double> st
   check(CVodeReInit(cvode.get(), time, y.get()), "CVodeReInit");
   check(CVodeSetStopTime(cvode.get(), endTime), "CVodeSetStopTime");
   end = endTime;
+  steps = 0;
   reason.clear();
 }
 
@@ -222,7 +223,11 @@ void StiffIntegrator::step() {
   auto& self = *impl_;
   realtype reached = time_;
   const double before = time_;
-  const int flag = CVode(self.cvode.get(), self.end, self.y.get(), &reached, CV_ONE_STEP);
+  int flag = CV_TOO_MUCH_WORK;
+  if (self.steps++ < self.options.maximumSteps)
+    flag = CVode(self.cvode.get(), self.end, self.y.get(), &reached, CV_ONE_STEP);
+  else
+    self.reason = fmt::format("{} steps were taken", self.options.maximumSteps);
   if (flag < 0) {
     // CVODES leaves the last good state in y.
     throw NumericsError(fmt::format("the integration cannot go on at {:.6g}: {}; {}", reached,
@@ -251,6 +256,10 @@ void StiffIntegrator::interpolateSensitivities(double time, std::vector<std::vec
     const double* from = N_VGetArrayPointer(impl_->interpolated.get());
     s[p].assign(from, from + impl_->n);
   }
+}
+
+const StiffIntegrator::Options& StiffIntegrator::options() const {
+  return impl_->options;
 }
 
 StiffIntegrator::Statistics StiffIntegrator::statistics() const {

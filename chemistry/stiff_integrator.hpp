@@ -37,7 +37,7 @@ class StiffIntegrator {
   void stopAt(double time);
 
   // One internal step, which ends at the next stop at the latest. NumericsError, naming time and state, where the
-  // integration cannot go on.
+  // integration cannot go on or has taken the most steps it may.
   void step();
 
   double time() const { return time_; }
@@ -49,6 +49,7 @@ class StiffIntegrator {
   void interpolateSensitivities(double time, std::vector<std::vector<double>>& s) const;
 
   Statistics statistics() const;
+  const Options& options() const;
 
  private:
   struct Impl;

@@ -1,0 +1,175 @@
+// Ignition delays against Cantera, their independence of the steps, and their sensitivities against repeated runs and
+// an exact sum.
+#include "chemistry/ignition.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "chemistry/closed_reactor.hpp"
+#include "chemistry/ignition_sensitivity.hpp"
+#include "chemistry/thermo.hpp"
+#include "core/constants.hpp"
+#include "tests/chemistry/measured.hpp"
+#include "tests/chemistry/table.hpp"
+
+namespace {
+
+using namespace lampblack;
+using lampblack::testing::hydrogen;
+using lampblack::testing::measured;
+using lampblack::testing::raise;
+using lampblack::testing::sourcePath;
+using Held = ReactorSystem::Held;
+using Kind = IgnitionCriterion::Kind;
+
+const StiffIntegrator::Options kDefault{};
+
+GasState mixture(const Mechanism& mechanism, const char* X, double T) {
+  GasState state{T, constants::oneAtmosphere, std::vector<double>(mechanism.numSpecies())};
+  Thermo(mechanism).moleToMass(parseComposition(mechanism, X), state.Y);
+  return state;
+}
+
+std::vector<IgnitionCriterion> allCriteria(const Mechanism& mechanism) {
+  const std::size_t OH = mechanism.speciesIndex("OH");
+  return {{Kind::TemperatureRate, 0, 0.0, "max_dTdt"},
+          {Kind::MoleFraction, OH, 0.0, "max_X_OH"},
+          {Kind::MassFraction, OH, 0.0, "max_Y_OH"},
+          {Kind::TemperatureRise, 0, 400.0, "rise_400K"}};
+}
+
+struct Run {
+  std::vector<std::optional<IgnitionEvent>> events;
+  double endTemperature = 0;
+};
+
+Run ignite(const Mechanism& mechanism, const GasState& state, double end, Held held = Held::Pressure,
+           const StiffIntegrator::Options& options = kDefault) {
+  ClosedReactor reactor(mechanism, state, held);
+  StiffIntegrator integrator(reactor, options);
+  IgnitionMonitor monitor(mechanism, reactor, allCriteria(mechanism));
+  const auto start = reactor.initialState();
+  integrator.start(0.0, start, end);
+  monitor.begin(0.0, start.data());
+  while (integrator.time() < end) {
+    integrator.step();
+    monitor.observe(integrator);
+  }
+  return {monitor.events(), integrator.state().back()};
+}
+
+// Cantera 3.2.0 at rtol 1e-10, atol 1e-18. Its delays by dT/dt and by OH are those of a step's end, so that at the flat
+// maximum of OH they are as far off as the steps are apart; the rise is interpolated.
+struct Reference {
+  const char* mechanism;
+  const char* mixture;
+  double T, end;
+  double dTdt, rise, largestY, endTemperature;
+  double resolution;  // of largestY
+};
+
+class IgnitionReference : public ::testing::TestWithParam<Reference> {};
+
+TEST_P(IgnitionReference, DelaysAndEndTemperatureAreCanteras) {
+  const Reference& reference = GetParam();
+  const auto mechanism = Mechanism::fromFile(sourcePath(std::string("cases/mechanisms/") + reference.mechanism));
+  const auto run = ignite(mechanism, mixture(mechanism, reference.mixture, reference.T), reference.end);
+  for (const auto& event : run.events) ASSERT_TRUE(event);
+  measured("largest dT/dt, relative", run.events[0]->time / reference.dTdt - 1);
+  measured("largest mass fraction of OH, relative", run.events[2]->time / reference.largestY - 1);
+  measured("rise by 400 K, relative", run.events[3]->time / reference.rise - 1);
+  measured("end temperature, K", run.endTemperature - reference.endTemperature);
+  EXPECT_NEAR(run.events[0]->time / reference.dTdt, 1, 2e-6);
+  EXPECT_NEAR(run.events[2]->time / reference.largestY, 1, reference.resolution);
+  EXPECT_NEAR(run.events[3]->time / reference.rise, 1, 2e-6);
+  EXPECT_NEAR(run.endTemperature, reference.endTemperature, 1e-4);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cantera, IgnitionReference,
+                         ::testing::Values(Reference{"hydrogen_h2o2_10.yaml", "H2: 2, O2: 1, N2: 3.76", 1200,
+                                                     2.128889684e-3, 4.533140061231591e-05, 4.670195131454844e-05,
+                                                     9.830949901908176e-05, 2763.319735151931, 1e-4},
+                                           Reference{"methane_gri30_53.yaml", "CH4: 1, O2: 2, N2: 7.52", 1400,
+                                                     0.105422582554969, 0.003437526306525981, 0.003424685936341753,
+                                                     0.003464835657555304, 2697.8832325, 1e-5}),
+                         [](const auto& test) { return std::string(test.param.mechanism).substr(0, 7); });
+
+// The delay is found inside the steps: loose and tight steps agree to their tolerances, and a step that is a hundredth
+// of the default changes nothing.
+TEST(Ignition, DelayDoesNotDependOnTheSteps) {
+  const GasState state = mixture(hydrogen(), "H2: 2, O2: 1, N2: 3.76", 1200);
+  const auto free = ignite(hydrogen(), state, 2e-4);
+  const auto fine = ignite(hydrogen(), state, 2e-4, Held::Pressure, {1e-9, 1e-15, 2e-8, 1000000});
+  for (std::size_t i = 0; i < free.events.size(); ++i) {
+    measured(allCriteria(hydrogen())[i].name, free.events[i]->time / fine.events[i]->time - 1);
+    EXPECT_NEAR(free.events[i]->time / fine.events[i]->time, 1, 1e-6) << i;
+  }
+}
+
+TEST(Ignition, AMixtureThatDoesNotIgniteHasNoDelay) {
+  const auto run = ignite(hydrogen(), mixture(hydrogen(), "H2: 2, O2: 1, N2: 3.76", 700), 1e-4);
+  for (const auto& event : run.events) EXPECT_FALSE(event);
+}
+
+Mechanism withFasterReaction(const Mechanism& mechanism, std::size_t r, double factor) {
+  std::vector<Element> elements;
+  for (std::size_t i = 0; i < mechanism.numElements(); ++i)
+    elements.push_back({mechanism.elementName(i), mechanism.atomicWeight(i)});
+  std::vector<Reaction> reactions(mechanism.reactions().begin(), mechanism.reactions().end());
+  reactions[r].rate.A *= factor;
+  reactions[r].lowPressureRate.A *= factor;
+  return {
+      mechanism.fileName(), "", elements, {mechanism.allSpecies().begin(), mechanism.allSpecies().end()}, reactions};
+}
+
+class IgnitionSensitivity : public ::testing::TestWithParam<Held> {};
+
+// Central differences of delays with a rate constant 0.5 % up and down: their own error is of the square of that, and
+// 1e-8 of the delays over 1e-2.
+TEST_P(IgnitionSensitivity, MatchesRepeatedRuns) {
+  const GasState state = mixture(hydrogen(), "H2: 2, O2: 1, N2: 3.76", 1200);
+  const auto criteria = allCriteria(hydrogen());
+  const auto run = ignite(hydrogen(), state, 4e-4, GetParam());
+  ClosedReactor reactor(hydrogen(), state, GetParam());
+  const std::vector<std::size_t> reactions{2, 5, 7, 10, 14, 16, 20, 21};  // fall-off, third bodies, chain branching
+  reactor.setParameters(reactions);
+  const auto sensitivities = ignitionSensitivities(hydrogen(), reactor, kDefault, criteria, run.events);
+  double worst = 0;
+  for (std::size_t p = 0; p < reactions.size(); ++p) {
+    const double factor = 1.005;
+    const auto up = ignite(withFasterReaction(hydrogen(), reactions[p], factor), state, 4e-4, GetParam());
+    const auto down = ignite(withFasterReaction(hydrogen(), reactions[p], 1 / factor), state, 4e-4, GetParam());
+    for (std::size_t i = 0; i < criteria.size(); ++i) {
+      const double difference = std::log(up.events[i]->time / down.events[i]->time) / (2 * std::log(factor));
+      raise(worst, sensitivities.values[i][p] - difference);
+      EXPECT_NEAR(sensitivities.values[i][p], difference, 0.002 * std::abs(difference) + 2e-4)
+          << criteria[i].name << " " << hydrogen().reaction(reactions[p]).equation;
+    }
+  }
+  measured("largest difference of d ln tau/d ln k", worst);
+}
+
+// All reactions slowed down alike stretch time: the sensitivities add up to -1.
+TEST_P(IgnitionSensitivity, AddsUpToMinusOne) {
+  const GasState state = mixture(hydrogen(), "H2: 1, O2: 1, N2: 3.76", 1100);
+  const auto criteria = allCriteria(hydrogen());
+  const auto run = ignite(hydrogen(), state, 1e-3, GetParam());
+  ClosedReactor reactor(hydrogen(), state, GetParam());
+  std::vector<std::size_t> reactions;
+  for (std::size_t r = 0; r < hydrogen().numReactions(); ++r) reactions.push_back(r);
+  reactor.setParameters(reactions);
+  const auto sensitivities = ignitionSensitivities(hydrogen(), reactor, kDefault, criteria, run.events);
+  for (std::size_t i = 0; i < criteria.size(); ++i) {
+    ASSERT_TRUE(run.events[i]) << criteria[i].name;
+    double sum = 0;
+    for (const double value : sensitivities.values[i]) sum += value;
+    measured(criteria[i].name + ", sum + 1", sum + 1);
+    EXPECT_NEAR(sum, -1, 2e-3) << criteria[i].name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Held, IgnitionSensitivity, ::testing::Values(Held::Pressure, Held::Density),
+                         [](const auto& test) { return test.param == Held::Pressure ? "Pressure" : "Volume"; });
+
+}  // namespace
