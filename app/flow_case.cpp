@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "app/gas_input.hpp"
 #include "core/errors.hpp"
 #include "core/grading.hpp"
 
@@ -239,9 +240,8 @@ FlowCase readFlowCase(const Deck& deck) {
   flowCase.pressure = deck.quantity("pressure");
   flowCase.seed = static_cast<std::uint64_t>(deck.integer("seed"));
   flowCase.mesh = readMesh(deck);
+  flowCase.mechanism = readMechanism(deck);
   try {
-    flowCase.mechanism =
-        std::make_shared<const Mechanism>(Mechanism::fromFile(deck.resolvePath(deck.string("mechanism")).string()));
     static_cast<void>(Transport(*flowCase.mechanism));
   } catch (const InputError& error) {
     throw deck.error("mechanism", error.what());

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "chemistry/thermo.hpp"
+#include "app/warnings.hpp"
 #include "core/errors.hpp"
 
 namespace lampblack {
@@ -87,7 +88,10 @@ std::vector<double> readMixture(const Deck& deck, const std::string& section, co
 
 std::shared_ptr<const Mechanism> readMechanism(const Deck& deck) {
   return at(deck, "mechanism", [&] {
-    return std::make_shared<const Mechanism>(Mechanism::fromFile(deck.resolvePath(deck.string("mechanism")).string()));
+    auto mechanism =
+        std::make_shared<const Mechanism>(Mechanism::fromFile(deck.resolvePath(deck.string("mechanism")).string()));
+    printWarnings(mechanism->warnings());
+    return mechanism;
   });
 }
 

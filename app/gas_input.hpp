@@ -22,7 +22,7 @@ std::vector<double> readMixture(const Deck& deck, const std::string& section, co
 std::vector<double> mixByEquivalenceRatio(const Mechanism& mechanism, const std::vector<double>& fuel,
                                           const std::vector<double>& oxidizer, double ratio);
 
-// The mechanism a deck names by its key `mechanism`. InputError at that key.
+// The mechanism a deck names by its key `mechanism`; rank 0 prints its warnings. InputError at that key.
 std::shared_ptr<const Mechanism> readMechanism(const Deck& deck);
 
 // A quantity that is optional in the schema and needed here: "<why> needs the key '<name>'".

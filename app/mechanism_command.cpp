@@ -16,6 +16,7 @@
 #include "chemistry/chemkin_reader.hpp"
 #include "chemistry/mechanism.hpp"
 #include "chemistry/mechanism_writer.hpp"
+#include "app/warnings.hpp"
 #include "core/errors.hpp"
 
 namespace lampblack {
@@ -101,11 +102,12 @@ void run(const Arguments& arguments) {
   collectively(PETSC_COMM_WORLD, [&] {
     checkOutput(arguments);
     const Mechanism mechanism = read(arguments, warnings);
+    warnings.insert(warnings.end(), mechanism.warnings().begin(), mechanism.warnings().end());
     text = summary(mechanism);
     if (rank == 0 && !arguments.output.empty()) writeMechanism(mechanism, arguments.output);
   });
+  printWarnings(warnings);
   if (rank != 0) return;
-  for (const auto& warning : warnings) std::cerr << "lampblack: warning: " << warning << '\n';
   std::cout << text;
   if (!arguments.output.empty()) std::cout << "written to " << arguments.output << '\n';
   std::cout << std::flush;

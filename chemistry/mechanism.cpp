@@ -22,14 +22,17 @@ Mechanism::Mechanism(std::string file, std::string description, std::vector<Elem
     auto& s = species_[k];
     s.molecularWeight = 0;
     for (std::size_t i = 0; i < elements_.size(); ++i) s.molecularWeight += s.atoms[i] * elements_[i].atomicWeight;
+    const auto& where = s.file.empty() ? file_ : s.file;
     if (!speciesByName_.emplace(s.name, k).second)
-      throw InputError(fmt::format("{}:{}: species '{}' is declared twice", file_, s.line, s.name));
+      throw InputError(fmt::format("{}:{}: species '{}' is declared twice", where, s.line, s.name));
     if (!(s.molecularWeight > 0))
       throw InputError(fmt::format("{}:{}: species '{}' has no atoms; expected a composition with a positive mass",
-                                   file_, s.line, s.name));
+                                   where, s.line, s.name));
     molecularWeights_.push_back(s.molecularWeight);
   }
-  checkReactions(file_, elements_, species_, reactions_);
+  checkBalances(file_, elements_, species_, reactions_);
+  checkDuplicates(file_, species_, reactions_, warnings_);
+  checkThermo(file_, species_, warnings_);
 }
 
 std::optional<std::size_t> Mechanism::findSpecies(std::string_view name) const {

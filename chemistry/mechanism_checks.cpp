@@ -4,87 +4,74 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "chemistry/mechanism.hpp"
+#include "chemistry/species_thermo.hpp"
 #include "core/errors.hpp"
 
 namespace lampblack {
 
 namespace {
 
-using Side = std::vector<std::pair<std::size_t, double>>;
+struct Values {
+  double cp = 0, h = 0, s = 0;  // of R, RT and R
+};
 
-Side sorted(const std::vector<StoichiometricTerm>& terms) {
-  Side side;
-  for (const auto& t : terms) side.emplace_back(t.species, t.coefficient);
-  std::sort(side.begin(), side.end());
-  return side;
+// The texts of what jumps from below to above a bound of two ranges; empty if all meet.
+std::string jumps(const Values& below, const Values& above) {
+  std::string text;
+  const auto compare = [&](const char* name, double low, double high, double limit) {
+    if (!(std::abs(high - low) > limit)) return;
+    text += fmt::format("{}{} by {:.3g} ({:.6g} below, {:.6g} above)", text.empty() ? "" : ", ", name, high - low, low,
+                        high);
+  };
+  compare("cp/R", below.cp, above.cp, 0.01 * (std::abs(below.cp) + 1e-4));
+  compare("h/RT", below.h, above.h, 1e-3 * std::abs(below.cp));
+  compare("s/R", below.s, above.s, 1e-3 * std::abs(std::abs(below.s) + below.cp));
+  return text;
 }
 
-double efficiency(const ThirdBody& body, std::size_t species) {
-  for (const auto& e : body.efficiencies)
-    if (e.species == species) return e.coefficient;
-  return body.defaultEfficiency;
+Values valuesAt(const std::array<double, 7>& a, double T) {
+  return {cpOverR(a, T), enthalpyOverRT(a, T), entropyOverR(a, T, std::log(T))};
 }
 
-bool shareCollider(const Reaction& a, const Reaction& b, std::size_t numSpecies) {
-  if (!a.thirdBody || !b.thirdBody) return true;
-  for (std::size_t k = 0; k < numSpecies; ++k)
-    if (efficiency(*a.thirdBody, k) > 0 && efficiency(*b.thirdBody, k) > 0) return true;
-  return false;
-}
-
-void checkBalance(const std::string& file, std::span<const Element> elements, std::span<const Species> species,
-                  const Reaction& reaction) {
-  for (std::size_t i = 0; i < elements.size(); ++i) {
-    double left = 0, right = 0;
-    for (const auto& t : reaction.reactants) left += t.coefficient * species[t.species].atoms[i];
-    for (const auto& t : reaction.products) right += t.coefficient * species[t.species].atoms[i];
-    // Lumped reactions carry decimal coefficients with a few digits.
-    if (std::abs(left - right) > 1e-4 * std::max({1.0, left, right}))
-      throw InputError(fmt::format("{}:{}: reaction '{}' does not balance: {} atoms of {} on the left, {} on the right",
-                                   file, reaction.line, reaction.equation, left, elements[i].name, right));
-  }
+Values valuesAt(const std::array<double, 9>& a, double T) {
+  return {cpOverR(a, T), enthalpyOverRT(a, T, std::log(T)), entropyOverR(a, T, std::log(T))};
 }
 
 }  // namespace
 
-void checkReactions(const std::string& file, std::span<const Element> elements, std::span<const Species> species,
-                    std::span<const Reaction> reactions) {
-  // Reactions of the same kind between the same two sets of species, in either direction.
-  struct Key {
-    Reaction::Type type;
-    Side first, second;
-    auto operator<=>(const Key&) const = default;
-  };
-  std::map<Key, std::vector<std::size_t>> groups;
-  std::vector<bool> forward(reactions.size());
-  for (std::size_t r = 0; r < reactions.size(); ++r) {
-    checkBalance(file, elements, species, reactions[r]);
-    auto left = sorted(reactions[r].reactants), right = sorted(reactions[r].products);
-    forward[r] = left <= right;
-    if (!forward[r]) std::swap(left, right);
-    groups[Key{reactions[r].type, left, right}].push_back(r);
-  }
-  for (const auto& [key, members] : groups) {
-    for (const auto r : members) {
-      bool partner = false;
-      for (const auto other : members) {
-        if (r == other) continue;
-        const auto &a = reactions[r], &b = reactions[other];
-        if (forward[r] != forward[other] && !a.reversible && !b.reversible) continue;
-        if (!shareCollider(a, b, species.size())) continue;
-        partner = true;
-        if (!a.duplicate)
-          throw InputError(
-              fmt::format("{}:{}: reaction '{}' is the same as '{}' at line {}; expected both to be marked "
-                          "'duplicate: true'",
-                          file, std::max(a.line, b.line), a.equation, b.equation, std::min(a.line, b.line)));
+void checkBalances(const std::string& file, std::span<const Element> elements, std::span<const Species> species,
+                   std::span<const Reaction> reactions) {
+  for (const auto& reaction : reactions)
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      double left = 0, right = 0;
+      for (const auto& t : reaction.reactants) left += t.coefficient * species[t.species].atoms[i];
+      for (const auto& t : reaction.products) right += t.coefficient * species[t.species].atoms[i];
+      // Lumped reactions carry decimal coefficients with a few digits.
+      if (std::abs(left - right) > 1e-4 * std::max({1.0, left, right}))
+        throw InputError(
+            fmt::format("{}:{}: reaction '{}' does not balance: {} atoms of {} on the left, {} on the right",
+                        reaction.file.empty() ? file : reaction.file, reaction.line, reaction.equation, left,
+                        elements[i].name, right));
+    }
+}
+
+void checkThermo(const std::string& file, std::span<const Species> species, std::vector<std::string>& warnings) {
+  for (const auto& s : species) {
+    const auto warn = [&](const Values& below, const Values& above, double T) {
+      if (const auto text = jumps(below, above); !text.empty())
+        warnings.push_back(fmt::format("{}:{}: species '{}': the thermodynamic data jump at {:.6g} K: {}",
+                                       s.file.empty() ? file : s.file, s.line, s.name, T, text));
+    };
+    if (s.nasa9) {
+      for (std::size_t i = 0; i + 1 < s.nasa9->ranges.size(); ++i) {
+        const double T = s.nasa9->temperatures[i + 1];
+        warn(valuesAt(s.nasa9->ranges[i], T), valuesAt(s.nasa9->ranges[i + 1], T), T);
       }
-      if (!partner && reactions[r].duplicate)
-        throw InputError(fmt::format("{}:{}: reaction '{}' is marked as a duplicate, but there is no other one like it",
-                                     file, reactions[r].line, reactions[r].equation));
+    } else if (s.thermo.midTemperature < s.thermo.maxTemperature) {
+      const double T = s.thermo.midTemperature;
+      warn(valuesAt(s.thermo.low, T), valuesAt(s.thermo.high, T), T);
     }
   }
 }

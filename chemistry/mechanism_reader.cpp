@@ -5,6 +5,7 @@
 
 #include "chemistry/elements.hpp"
 #include "chemistry/mechanism.hpp"
+#include "chemistry/mechanism_checks.hpp"
 #include "chemistry/mechanism_sections.hpp"
 #include "chemistry/reaction_reader.hpp"
 #include "chemistry/species_reader.hpp"
@@ -28,6 +29,7 @@ class MechanismReader {
     readElements();
     readSpeciesEntries();
     readReactions();
+    settleColliders();
     std::string description;
     if (const YAML::Node text = files_.main().root["description"]; text.IsDefined())
       description = yaml_.text(text, "description");
@@ -219,6 +221,30 @@ class MechanismReader {
       if (!reaction) continue;
       if (section.file != &files_.main()) reaction->file = section.file->yaml.file();
       reactions_.push_back(std::move(*reaction));
+    }
+  }
+
+  // What the phase wants done about a collider that acts by its own reaction and by that with M. Left alone, it is a
+  // warning of the mechanism.
+  void settleColliders() {
+    const auto* node = phase_.find("explicit-third-body-duplicates");
+    if (node == nullptr || isWord(node, "warn")) return;
+    const auto& rule = yaml_.text(*node, phase_.what());
+    if (rule != "error" && rule != "mark-duplicate" && rule != "modify-efficiency")
+      yaml_.fail(*node, fmt::format("{}: expected warn, error, mark-duplicate or modify-efficiency, found '{}'",
+                                    phase_.what(), rule));
+    for (const auto& pair : findColliderPairs(species_, reactions_)) {
+      auto &mixture = reactions_[pair.mixture], &named = reactions_[pair.named];
+      if (rule == "error")
+        throw InputError(fmt::format("{}:{}: reaction '{}' has the collider {} of '{}' at line {} a second time",
+                                     named.file.empty() ? yaml_.file() : named.file, named.line, named.equation,
+                                     species_[pair.collider].name, mixture.equation, mixture.line));
+      if (rule == "mark-duplicate") {
+        mixture.duplicate = named.duplicate = true;
+      } else {
+        std::erase_if(mixture.thirdBody->efficiencies, [&](const auto& e) { return e.species == pair.collider; });
+        mixture.thirdBody->efficiencies.push_back({pair.collider, 0.0});
+      }
     }
   }
 

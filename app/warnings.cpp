@@ -1,0 +1,18 @@
+#include "app/warnings.hpp"
+
+#include <petscsys.h>
+
+#include <iostream>
+
+namespace lampblack {
+
+void printWarnings(const std::vector<std::string>& warnings) {
+  int rank = 0;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  if (rank != 0 || warnings.empty()) return;
+  std::cout.flush();
+  for (const auto& warning : warnings) std::cerr << "lampblack: warning: " << warning << '\n';
+  std::cerr.flush();
+}
+
+}  // namespace lampblack
