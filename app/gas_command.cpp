@@ -14,6 +14,7 @@
 #include "app/gas_input.hpp"
 #include "app/gas_output.hpp"
 #include "app/gas_properties.hpp"
+#include "app/warnings.hpp"
 #include "chemistry/thermo.hpp"
 #include "core/errors.hpp"
 #include "io/units.hpp"
@@ -111,6 +112,7 @@ Answer answer(const Arguments& arguments) {
   const GasProperties gas =
       constant.empty() ? gasProperties(mechanism, T, p, X) : gasAtEquilibrium(mechanism, T, p, X, constant);
   Answer result;
+  result.warnings = mechanism.warnings();
   result.warnings.push_back(rangeWarning(mechanism, T));
   if (gas.temperature != T) result.warnings.push_back(rangeWarning(mechanism, gas.temperature));
   std::erase(result.warnings, "");
@@ -121,10 +123,10 @@ Answer answer(const Arguments& arguments) {
 void run(const Arguments& arguments) {
   Answer result;
   collectively(PETSC_COMM_WORLD, [&] { result = answer(arguments); });
+  printWarnings(result.warnings);
   int rank = 0;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   if (rank != 0) return;
-  for (const std::string& warning : result.warnings) std::cerr << "lampblack: warning: " << warning << std::endl;
   std::cout << result.text << std::flush;
 }
 

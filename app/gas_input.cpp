@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "chemistry/thermo.hpp"
 #include "app/warnings.hpp"
+#include "chemistry/thermo.hpp"
 #include "core/errors.hpp"
 
 namespace lampblack {

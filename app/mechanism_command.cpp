@@ -13,10 +13,10 @@
 #include <utility>
 #include <vector>
 
+#include "app/warnings.hpp"
 #include "chemistry/chemkin_reader.hpp"
 #include "chemistry/mechanism.hpp"
 #include "chemistry/mechanism_writer.hpp"
-#include "app/warnings.hpp"
 #include "core/errors.hpp"
 
 namespace lampblack {

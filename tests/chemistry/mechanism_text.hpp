@@ -30,10 +30,9 @@ inline std::string mechanismText(const std::string& phaseSpecies, const std::str
                                  const std::string& reactions) {
   return "units: {length: cm, quantity: mol, activation-energy: cal/mol}\n"
          "thermo: [&t {model: NASA7, temperature-ranges: [200, 1000, 6000], data: [[3.5, 1e-4, 0, 0, 0, -900, 4], "
-         "[3.6, 1e-4, "
-         "0, 0, 0, -1000, 3.4]]}, &u {model: NASA7, temperature-ranges: [200, 6000], data: [[2.9, 2e-4, 1e-8, 0, 0, "
-         "-5900, "
-         "3]]}]\n"
+         "[3.52, 1e-4, 0, 0, 0, -920, 3.861845]]}, &u {model: NASA7, temperature-ranges: [200, 6000], data: [[2.9, "
+         "2e-4, "
+         "1e-8, 0, 0, -5900, 3]]}]\n"
          "phases:\n"
          "- {name: gas, thermo: ideal-gas, " +
          phaseSpecies +

@@ -1,0 +1,114 @@
+// What a mechanism warns of: data that jump, and colliders that act twice.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/errors.hpp"
+#include "tests/chemistry/mechanism_text.hpp"
+#include "tests/chemistry/table.hpp"
+
+namespace {
+
+using namespace lampblack;
+using lampblack::testing::readFileText;
+using lampblack::testing::readText;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+// Constant heat capacities of 3.5 R below 1000 K and `cp` above; h and s meet for b1 = -900, b2 = 4 if cp = 3.5.
+std::vector<std::string> warningsOf(double cp, double b1, double b2) {
+  return readText(
+             "species: [N2]",
+             fmt::format("\n- name: N2\n  composition: {{N: 2}}\n  thermo: {{model: NASA7, temperature-ranges: [200, "
+                         "1000, 3000], data: [[3.5, 0, 0, 0, 0, -900, 4], [{}, 0, 0, 0, 0, {}, {}]]}}",
+                         cp, b1, b2),
+             "[]")
+      .warnings();
+}
+
+TEST(MechanismWarnings, RangesThatJump) {
+  EXPECT_THAT(warningsOf(3.5, -900, 4), IsEmpty());
+  EXPECT_THAT(warningsOf(3.5, -903.4, 4), IsEmpty());  // 0.001 cp/R = 0.0035
+  EXPECT_THAT(warningsOf(3.5, -903.6, 4),
+              ElementsAre(AllOf(HasSubstr(".yaml:7: species 'N2': the thermodynamic data jump at 1000 K: h/RT by "
+                                          "-0.0036 (2.6 below, 2.5964 above)"),
+                                Not(HasSubstr("cp/R")), Not(HasSubstr("s/R")))));
+  // s/R = 3.5 ln 1000 + 4 = 28.177; 0.001 of s/R + cp/R is 0.0317
+  EXPECT_THAT(warningsOf(3.5, -900, 4.031), IsEmpty());
+  EXPECT_THAT(warningsOf(3.5, -900, 4.5), ElementsAre(HasSubstr("1000 K: s/R by 0.5 (28.1771 below, 28.6771 above)")));
+  EXPECT_THAT(warningsOf(3.6, -900, 4), ElementsAre(AllOf(HasSubstr("cp/R by 0.1 (3.5 below, 3.6 above), h/RT by 0.1"),
+                                                          HasSubstr("s/R by 0.69"))));
+}
+
+TEST(MechanismWarnings, RangesOfNasa9ThatJump) {
+  const auto mechanism =
+      readText("species: [N2]",
+               "\n- {name: N2, composition: {N: 2}, thermo: {model: NASA9, temperature-ranges: [200, "
+               "500, 1000, 3000], data: [[0, 0, 3.5, 0, 0, 0, 0, 0, 4], [0, 0, 3.5, 0, 0, 0, 0, 0, 4], "
+               "[0, 0, 3.5, 0, 0, 0, 0, 10, 4]]}}",
+               "[]");
+  EXPECT_THAT(mechanism.warnings(), ElementsAre(HasSubstr("jump at 1000 K: h/RT by 0.01 (3.5 below, 3.51 above)")));
+}
+
+// Three of the fits of KM2 do not meet in enthalpy by more than half an RT; GRI-Mech's all do.
+TEST(MechanismWarnings, OfPublishedMechanisms) {
+  EXPECT_THAT(Mechanism::fromFile(lampblack::testing::sourcePath("cases/mechanisms/methane_gri30_53.yaml")).warnings(),
+              IsEmpty());
+  const auto warnings =
+      Mechanism::fromFile(lampblack::testing::sourcePath("cases/mechanisms/ethylene_km2_202.yaml")).warnings();
+  EXPECT_THAT(warnings, ::testing::Contains(HasSubstr("species 'C4H5-2': the thermodynamic data jump at 1000 K")));
+  EXPECT_EQ(warnings.size(), 5U);
+}
+
+// Lines 7 to 10 hold the species, 12 and 13 the reactions.
+Mechanism colliders(const std::string& phase, const std::string& mixture, const std::string& named) {
+  const std::string rate = "rate-constant: [1, 0, 0]";
+  return readText("species: [H, O2, HO2, AR]" + phase, R"(
+- {name: H, composition: {H: 1}, thermo: *t}
+- {name: O2, composition: {O: 2}, thermo: *t}
+- {name: HO2, composition: {H: 1, O: 2}, thermo: *t}
+- {name: AR, composition: {Ar: 1}, thermo: *t})",
+                  "- {equation: H + O2 + M <=> HO2 + M, " + mixture + rate +
+                      "}\n  - {equation: H + O2 + AR <=> HO2 + AR, " + named + rate + "}");
+}
+
+TEST(MechanismWarnings, CollidersThatActTwice) {
+  EXPECT_THAT(
+      colliders("", "", "").warnings(),
+      ElementsAre(AllOf(HasSubstr(".yaml:13: reaction 'H + O2 + AR <=> HO2 + AR' has the collider AR of 'H + O2 + M "
+                                  "<=> HO2 + M' at line 12 a second time"))));
+  EXPECT_THAT(colliders("", "efficiencies: {AR: 0}, ", "").warnings(), IsEmpty());
+  EXPECT_THAT(colliders("", "duplicate: true, ", "duplicate: true, ").warnings(), IsEmpty());
+}
+
+TEST(MechanismWarnings, CollidersAsThePhaseWantsThem) {
+  const std::string key = ", explicit-third-body-duplicates: ";
+  EXPECT_EQ(colliders(key + "warn", "", "").warnings().size(), 1U);
+  EXPECT_THROW(colliders(key + "error", "", ""), InputError);
+  EXPECT_THAT(colliders(key + "mark-duplicate", "", "").warnings(), IsEmpty());
+  const auto modified = colliders(key + "modify-efficiency", "efficiencies: {AR: 0.5, H: 2}, ", "");
+  EXPECT_THAT(modified.warnings(), IsEmpty());
+  double H = 0, AR = 1;
+  for (const auto& e : modified.reaction(0).thirdBody->efficiencies) (e.species == 0 ? H : AR) = e.coefficient;
+  EXPECT_EQ(H, 2);
+  EXPECT_EQ(AR, 0);
+}
+
+// Marked as duplicates, reactions of different types belong together; unmarked they are no error.
+TEST(MechanismWarnings, DuplicatesOfDifferentTypes) {
+  const std::string plog = "type: pressure-dependent-Arrhenius, rate-constants: [{P: 1, A: 1, b: 0, Ea: 0}]";
+  for (const std::string mark : {"", ", duplicate: true"}) {
+    const auto mechanism = readText("species: [H, O2, HO2]", R"(
+- {name: H, composition: {H: 1}, thermo: *t}
+- {name: O2, composition: {O: 2}, thermo: *t}
+- {name: HO2, composition: {H: 1, O: 2}, thermo: *t})",
+                                    "- {equation: H + O2 <=> HO2, rate-constant: [1, 0, 0]" + mark +
+                                        "}\n  - {equation: HO2 <=> H + O2, " + plog + mark + "}");
+    EXPECT_THAT(mechanism.warnings(), IsEmpty());
+  }
+}
+
+}  // namespace
