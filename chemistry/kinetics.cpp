@@ -20,10 +20,14 @@ void Kinetics::updateTemperature(double T) {
     const double* __restrict lnA = tables_.lnA.data();
     const double* __restrict b = tables_.b.data();
     const double* __restrict Ta = tables_.Ta.data();
-    for (std::size_t i = 0; i < tables_.numReactions; ++i) {
-      lnkf[i] = lnA[i] + b[i] * lnT - Ta[i] * inverseT;
-      kf[i] = vectormath::expOne(lnkf[i]);
-    }
+    const auto evaluate = [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        lnkf[i] = lnA[i] + b[i] * lnT - Ta[i] * inverseT;
+        kf[i] = vectormath::expOne(lnkf[i]);
+      }
+    };
+    evaluate(0, tables_.constantBegin);
+    evaluate(tables_.constantEnd, tables_.numReactions);
   }
   thermo_.gibbsOverRT(T, lnT, gibbs_.data());
   // ln Kc = -sum nu g/RT + sum nu ln(p0/RT); kr = kf/Kc

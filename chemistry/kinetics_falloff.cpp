@@ -11,6 +11,15 @@ namespace {
 constexpr double kLn10 = 2.30258509299404568402;
 constexpr double kTiny = 1e-300;  // keeps logarithms of vanishing pressures and broadenings finite
 
+// One array each, so that the compiler sees that it may vectorise.
+void expInPlace(double* x, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) x[i] = vectormath::expOne(x[i]);
+}
+
+void logInPlace(double* x, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) x[i] = vectormath::logOne(x[i]);
+}
+
 }  // namespace
 
 FalloffFactors::FalloffFactors(const KineticsTables& tables) {
@@ -24,20 +33,23 @@ void FalloffFactors::setTemperature(const KineticsTables& tables, double T, doub
   const auto& f = tables.falloff;
   const std::size_t n = ratio_.size();
   const double inverseT = 1.0 / T;
-  double* __restrict terms = terms_.data();
   double* __restrict ratio = ratio_.data();
+  double* __restrict terms = terms_.data();
   for (std::size_t i = 0; i < n; ++i) {
     ratio[i] = f.direction[i] * (f.lnA[i] + f.b[i] * lnT - f.Ta[i] * inverseT - lnBase[f.reaction[i]]);
     terms[i] = -T * f.inverseT3[i];
     terms[n + i] = -T * f.inverseT1[i];
     terms[2 * n + i] = -f.T2[i] * inverseT;
   }
-  vectormath::exp(ratio, ratio, n);
-  vectormath::exp(terms, terms, 3 * n);
+  expInPlace(ratio, n);
+  expInPlace(terms, 3 * n);
   double* __restrict lnFcent = lnFcent_.data();
   for (std::size_t i = 0; i < n; ++i) {
     const double centre = f.w3[i] * terms[i] + f.w1[i] * terms[n + i] + f.w2[i] * terms[2 * n + i];
-    lnFcent[i] = vectormath::logOne(centre > kTiny ? centre : kTiny);
+    lnFcent[i] = centre > kTiny ? centre : kTiny;
+  }
+  logInPlace(lnFcent, n);
+  for (std::size_t i = 0; i < n; ++i) {
     const double log10Fcent = lnFcent[i] * (1.0 / kLn10);
     shift_[i] = f.shift0[i] + f.shift1[i] * log10Fcent;
     width_[i] = f.width0[i] + f.width1[i] * log10Fcent;

@@ -35,6 +35,10 @@ void Kinetics::findThirdSlots() {
 void Kinetics::sizeWorkspace() {
   const std::size_t n = tables_.numReactions;
   for (auto* array : {&lnkf_, &kf_, &kr_, &forward_, &reverse_, &factorByT_}) array->assign(n, 0.0);
+  for (std::size_t i = tables_.constantBegin; i < tables_.constantEnd; ++i) {
+    lnkf_[i] = tables_.lnA[i];
+    kf_[i] = std::exp(lnkf_[i]);
+  }
   lnkr_.assign(tables_.numReversible, 0.0);
   gibbs_.assign(tables_.numSpecies + 1, 0.0);
   enthalpy_.assign(tables_.numSpecies + 1, 0.0);

@@ -70,10 +70,21 @@ KineticsTables::KineticsTables(const Mechanism& mechanism)
 }
 
 void KineticsTables::orderReactions(const Mechanism& mechanism) {
-  for (const bool reversible : {true, false})
-    for (std::size_t r = 0; r < numReactions; ++r)
-      if (mechanism.reaction(r).reversible == reversible) original.push_back(r);
-  for (const auto& reaction : mechanism.reactions()) numReversible += reaction.reversible ? 1 : 0;
+  const auto isConstant = [&](const Reaction& reaction) {
+    const auto rate = baseRate(mechanism, reaction);
+    return rate.A > 0 && rate.b == 0 && rate.activationTemperature == 0;
+  };
+  const auto append = [&](bool reversible, bool constant) {
+    for (std::size_t r = 0; r < numReactions; ++r) {
+      const auto& reaction = mechanism.reaction(r);
+      if (reaction.reversible == reversible && isConstant(reaction) == constant) original.push_back(r);
+    }
+    return original.size();
+  };
+  constantBegin = append(true, false);
+  numReversible = append(true, true);
+  constantEnd = append(false, true);
+  append(false, false);
 }
 
 void KineticsTables::setRates(const Mechanism& mechanism) {

@@ -4,7 +4,8 @@
 // Every reaction has a base rate constant of Arrhenius form; its rate of progress is factor (kf prod c - kr prod c)
 // with kr = kf/Kc of the base constant and a factor of 1, [M], or what `falloff`, `pressureLog` or `chebyshev` say.
 //
-// Reactions have internal numbers: reversible ones first, otherwise in the mechanism's order. Units are SI with mol.
+// Reactions have internal numbers: reversible ones first, those with a base constant independent of temperature side by
+// side, otherwise in the mechanism's order. Units are SI with mol.
 #pragma once
 
 #include <array>
@@ -69,7 +70,8 @@ struct KineticsTables {
   std::size_t numSpecies = 0;
   std::size_t numReactions = 0;
   std::size_t numReversible = 0;
-  std::vector<std::size_t> original;  // mechanism's number of each internal reaction
+  std::size_t constantBegin = 0, constantEnd = 0;  // range of the reactions with b = Ta = 0 and a positive A
+  std::vector<std::size_t> original;               // mechanism's number of each internal reaction
 
   // Per reaction: base constant k = sign exp(lnA + b ln T - Ta/T), the sum of the net coefficients, and the species of
   // at most three reactants and products; numSpecies marks an empty slot, a constant concentration of one.
