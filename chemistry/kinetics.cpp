@@ -122,19 +122,22 @@ void Kinetics::updateProgress() {
   for (std::size_t i = 0; i < tables_.numReactions; ++i) progress[i] = factor[i] * (forward[i] - reverse[i]);
 }
 
-void Kinetics::sumProduction(const double* progress, double* out) const {
-  const std::int32_t* __restrict reaction = tables_.rowReaction.data();
-  const double* __restrict nu = tables_.rowNu.data();
+void Kinetics::sumProduction(double* out) {
+  const std::size_t n = tables_.numReactions;
+  double* __restrict q = progress_.data();
+  for (std::size_t i = 0; i < n; ++i) q[n + i] = -q[i];
+  const std::int32_t* __restrict source = tables_.rowSource.data();
   for (std::size_t k = 0; k < tables_.numSpecies; ++k) {
     double a = 0, b = 0, c = 0, d = 0;
     for (std::size_t e = tables_.rows[k]; e < tables_.rows[k + 1]; e += 4) {
-      a += nu[e] * progress[reaction[e]];
-      b += nu[e + 1] * progress[reaction[e + 1]];
-      c += nu[e + 2] * progress[reaction[e + 2]];
-      d += nu[e + 3] * progress[reaction[e + 3]];
+      a += q[source[e]];
+      b += q[source[e + 1]];
+      c += q[source[e + 2]];
+      d += q[source[e + 3]];
     }
     out[k] = (a + b) + (c + d);
   }
+  for (const auto& term : tables_.decimalTerms) out[term.species] += term.nu * q[term.reaction];
 }
 
 void Kinetics::update(double T, std::span<const double> concentrations) {
@@ -146,7 +149,7 @@ void Kinetics::update(double T, std::span<const double> concentrations) {
 void Kinetics::netProductionRates(double T, std::span<const double> concentrations, std::span<double> wdot) {
   update(T, concentrations);
   updateProgress();
-  sumProduction(progress_.data(), wdot.data());
+  sumProduction(wdot.data());
 }
 
 }  // namespace lampblack

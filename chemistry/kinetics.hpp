@@ -85,7 +85,7 @@ class Kinetics {
   void updateConcentrations(std::span<const double> concentrations);
   void updateFactors();
   void updateProgress();
-  void sumProduction(const double* progress, double* out) const;
+  void sumProduction(double* out);  // of progress_
 
   void slotDerivatives();
   void generalDerivatives();

@@ -1,6 +1,6 @@
 #include "chemistry/kinetics_falloff.hpp"
 
-#include <cmath>
+#include <algorithm>
 
 #include "chemistry/vector_math.hpp"
 
@@ -25,7 +25,8 @@ void logInPlace(double* x, std::size_t n) {
 FalloffFactors::FalloffFactors(const KineticsTables& tables) {
   const std::size_t n = tables.falloff.reaction.size();
   terms_.assign(3 * n, 0.0);
-  for (auto* array : {&ratio_, &lnFcent_, &shift_, &width_, &lnScale_, &pr_, &values_}) array->assign(n, 0.0);
+  for (auto* array : {&ratio_, &lnFcent_, &shift_, &width_, &lnScale_, &pr_, &u_, &values_, &byM_, &byT_})
+    array->assign(n, 0.0);
 }
 
 void FalloffFactors::setTemperature(const KineticsTables& tables, double T, double lnT, const double* lnBase) {
@@ -68,41 +69,59 @@ std::span<const double> FalloffFactors::evaluate(const KineticsTables& tables, c
   const double *__restrict lnFcent = lnFcent_.data(), *__restrict shift = shift_.data(),
                            *__restrict width = width_.data(), *__restrict slope = f.slope.data(),
                            *__restrict lnScale = lnScale_.data(), *__restrict direction = f.direction.data();
+  double* __restrict u = u_.data();
   double* __restrict values = values_.data();
+  std::copy_n(pr, n, u);
+  logInPlace(u, n);
   for (std::size_t i = 0; i < n; ++i) {
-    const double u = vectormath::logOne(pr[i]) * (1.0 / kLn10) + shift[i];
-    const double h = u / (width[i] - slope[i] * u);
-    const double F = vectormath::expOne(lnScale[i] + lnFcent[i] / (1.0 + h * h));
-    values[i] = F * (direction[i] > 0 ? pr[i] : 1.0) / (1.0 + pr[i]);
+    u[i] = u[i] * (1.0 / kLn10) + shift[i];
+    const double h = u[i] / (width[i] - slope[i] * u[i]);
+    values[i] = lnScale[i] + lnFcent[i] / (1.0 + h * h);
   }
+  expInPlace(values, n);
+  for (std::size_t i = 0; i < n; ++i) values[i] *= (direction[i] > 0 ? pr[i] : 1.0) / (1.0 + pr[i]);
   return values_;
 }
 
-FalloffFactors::Slope FalloffFactors::slope(const KineticsTables& tables, std::size_t i, double M) const {
+// By the chain rule through u and log10 Fcent. Pr/[M] is the ratio; where Pr has vanished, fall-off is proportional to
+// it and an activated reaction does not change.
+void FalloffFactors::evaluateSlopes(const KineticsTables& tables) {
   const auto& f = tables.falloff;
-  const std::size_t n = ratio_.size(), r = f.reaction[i];
-  const bool activated = f.direction[i] < 0;
-  const double pr = pr_[i], lnFcent = lnFcent_[i];
-  const double u = vectormath::logOne(pr) / kLn10 + shift_[i];
-  const double d = width_[i] - f.slope[i] * u;
-  const double h = u / d, spread = 1.0 + h * h;
-  const double lnFByH = -2.0 * lnFcent * h / (spread * spread);
-  const double lnFByLnPr = lnFByH * width_[i] / (d * d) / kLn10;
-  const double hByLog10Fcent = (f.shift1[i] * d - u * (f.width1[i] - f.slope[i] * f.shift1[i])) / (d * d);
-  const double lnFByLnFcent = 1.0 / spread + lnFByH * hByLog10Fcent / kLn10;
-  const double centre = f.w3[i] * terms_[i] + f.w1[i] * terms_[n + i] + f.w2[i] * terms_[2 * n + i];
-  const double centreByT = -f.w3[i] * f.inverseT3[i] * terms_[i] - f.w1[i] * f.inverseT1[i] * terms_[n + i] +
-                           f.w2[i] * f.T2[i] / (T_ * T_) * terms_[2 * n + i];
-  const double lnFcentByT = centre > kTiny ? centreByT / centre : 0.0;
-  const double lnPrByT = f.direction[i] * ((f.b[i] - tables.b[r]) / T_ + (f.Ta[i] - tables.Ta[r]) / (T_ * T_));
-  const double lnValueByLnPr = (activated ? -pr : 1.0) / (1.0 + pr) + lnFByLnPr;
-  Slope slope;
-  slope.byT = values_[i] * (lnValueByLnPr * lnPrByT + lnFByLnFcent * lnFcentByT + f.scaleExponent[i] / T_);
-  if (pr > kTiny)
-    slope.byM = values_[i] * lnValueByLnPr / M;
-  else if (!activated)
-    slope.byM = values_[i] / pr * ratio_[i];
-  return slope;
+  const std::size_t n = ratio_.size();
+  const double inverseT = 1.0 / T_, T2Scale = inverseT * inverseT;
+  double* __restrict byM = byM_.data();
+  double* __restrict byT = byT_.data();
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto r = f.reaction[i];
+    byM[i] = f.b[i] - tables.b[r];
+    byT[i] = f.Ta[i] - tables.Ta[r];
+  }
+  const double *__restrict pr = pr_.data(), *__restrict u = u_.data(), *__restrict values = values_.data(),
+                           *__restrict ratio = ratio_.data(), *__restrict terms = terms_.data();
+  const double* __restrict lnFcent = lnFcent_.data(), * __restrict width = width_.data();
+  const double *__restrict direction = f.direction.data(), *__restrict slope = f.slope.data(),
+                           *__restrict shift1 = f.shift1.data(), *__restrict width1 = f.width1.data(),
+                           *__restrict scaleExponent = f.scaleExponent.data();
+  const double *__restrict w3 = f.w3.data(), *__restrict w1 = f.w1.data(), *__restrict w2 = f.w2.data(),
+                           *__restrict inverseT3 = f.inverseT3.data(), *__restrict inverseT1 = f.inverseT1.data(),
+                           *__restrict T2 = f.T2.data();
+  for (std::size_t i = 0; i < n; ++i) {
+    const double d = width[i] - slope[i] * u[i], inverseD = 1.0 / d;
+    const double h = u[i] * inverseD, spread = 1.0 / (1.0 + h * h);
+    const double lnFByH = -2.0 * lnFcent[i] * h * spread * spread;
+    const double lnFByLnPr = lnFByH * width[i] * inverseD * inverseD * (1.0 / kLn10);
+    const double hByLog10Fcent = (shift1[i] * d - u[i] * (width1[i] - slope[i] * shift1[i])) * inverseD * inverseD;
+    const double lnFByLnFcent = spread + lnFByH * hByLog10Fcent * (1.0 / kLn10);
+    const double term3 = w3[i] * terms[i], term1 = w1[i] * terms[n + i], term2 = w2[i] * terms[2 * n + i];
+    const double centre = term3 + term1 + term2;
+    const double centreByT = -inverseT3[i] * term3 - inverseT1[i] * term1 + T2[i] * T2Scale * term2;
+    const double lnFcentByT = centre > kTiny ? centreByT / (centre > kTiny ? centre : 1.0) : 0.0;
+    const double lnPrByT = direction[i] * (byM[i] + byT[i] * inverseT) * inverseT;
+    const double lnValueByLnPr = (direction[i] > 0 ? 1.0 : -pr[i]) / (1.0 + pr[i]) + lnFByLnPr;
+    const double vanished = direction[i] > 0 ? 1.0 : 0.0;
+    byM[i] = values[i] / pr[i] * ratio[i] * (pr[i] > kTiny ? lnValueByLnPr : vanished);
+    byT[i] = values[i] * (lnValueByLnPr * lnPrByT + lnFByLnFcent * lnFcentByT + scaleExponent[i] * inverseT);
+  }
 }
 
 }  // namespace lampblack

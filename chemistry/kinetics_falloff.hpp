@@ -22,18 +22,18 @@ class FalloffFactors {
   // The factors of all entries at the temperature set; [M] of every set of efficiencies in mol/m3.
   std::span<const double> evaluate(const KineticsTables& tables, const double* M);
 
-  // Partial derivatives of the factor of entry i with respect to its [M] and to T.
-  struct Slope {
-    double byM = 0, byT = 0;
-  };
-  Slope slope(const KineticsTables& tables, std::size_t i, double M) const;
+  // Partial derivatives of the factors last evaluated, with respect to [M] and to T. Call evaluateSlopes first.
+  void evaluateSlopes(const KineticsTables& tables);
+  std::span<const double> byM() const { return byM_; }
+  std::span<const double> byT() const { return byT_; }
 
  private:
   double T_ = 0;
   std::vector<double> ratio_;  // k_low/k_high, so that Pr = ratio [M]
   std::vector<double> terms_;  // the three exponentials of Fcent, one block each
   std::vector<double> lnFcent_, shift_, width_, lnScale_;
-  std::vector<double> pr_, values_;
+  std::vector<double> pr_, u_, values_;
+  std::vector<double> byM_, byT_;
 };
 
 }  // namespace lampblack

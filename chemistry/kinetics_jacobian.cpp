@@ -61,10 +61,10 @@ void Kinetics::addSetColumn(std::size_t set, std::size_t reaction, double factor
 void Kinetics::factorDerivatives(double* values, double* common) {
   for (const auto& use : tables_.threeBody) addSetColumn(use.set, use.reaction, 1.0);
   const auto& falloff = tables_.falloff;
+  falloff_.evaluateSlopes(tables_);
   for (std::size_t i = 0; i < falloff.reaction.size(); ++i) {
-    const auto slope = falloff_.slope(tables_, i, M_[falloff.set[i]]);
-    addSetColumn(falloff.set[i], falloff.reaction[i], slope.byM);
-    factorByT_[falloff.reaction[i]] = multiplier_[falloff.reaction[i]] * slope.byT;
+    addSetColumn(falloff.set[i], falloff.reaction[i], falloff_.byM()[i]);
+    factorByT_[falloff.reaction[i]] = multiplier_[falloff.reaction[i]] * falloff_.byT()[i];
   }
   for (std::size_t s = 0; s < tables_.sets.size(); ++s) {
     double* column = setColumns_.data() + s * tables_.numSpecies;
@@ -130,7 +130,7 @@ void Kinetics::netProductionRatesAndSparseJacobian(double T, std::span<const dou
   jacobianTable_.addMassAction(sources_.data(), values.data());
   factorDerivatives(values.data(), common.data());
   progressTemperatureDerivatives();
-  sumProduction(progress_.data(), temperatureDerivative.data());
+  sumProduction(temperatureDerivative.data());
 }
 
 void Kinetics::netProductionRatesAndJacobian(double T, std::span<const double> concentrations, std::span<double> wdot,

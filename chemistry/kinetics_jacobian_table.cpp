@@ -103,13 +103,15 @@ void JacobianTable::setGroups(const KineticsTables& tables) {
 
 // Rows = 0: any number of them.
 template <std::size_t Rows>
-void JacobianTable::addGroup(const Group& group, const double* sources, double* values) const {
+void JacobianTable::addGroup(const Group& group, const double* sources, double* __restrict values) const {
   const std::size_t rows = Rows == 0 ? group.numRows : Rows;
-  const std::uint32_t* position = group.position.data();
-  const double* nu = group.nu.data();
-  const auto addSide = [&](const double* slot, std::size_t count) {
-    for (std::size_t s = 0; s < count; ++s, slot += numReactions_, position += rows)
-      for (std::size_t k = 0; k < rows; ++k) values[position[k]] += nu[k] * *slot;
+  const std::uint32_t* __restrict position = group.position.data();
+  const double* __restrict nu = group.nu.data();
+  const auto addSide = [&](const double* __restrict slot, std::size_t count) {
+    for (std::size_t s = 0; s < count; ++s, slot += numReactions_, position += rows) {
+      const double derivative = *slot;
+      for (std::size_t k = 0; k < rows; ++k) values[position[k]] += nu[k] * derivative;
+    }
   };
   for (const auto i : group.reaction) {
     addSide(sources + i, group.numReactants);

@@ -51,7 +51,7 @@ class JacobianTable {
   };
 
   template <std::size_t Rows>
-  void addGroup(const Group& group, const double* sources, double* values) const;
+  void addGroup(const Group& group, const double* sources, double* __restrict values) const;
   void setPattern(const KineticsTables& tables);
   void setGroups(const KineticsTables& tables);
   std::uint32_t position(std::size_t row, std::size_t column) const;

@@ -46,7 +46,7 @@ void Kinetics::sizeWorkspace() {
   M_.assign(tables_.sets.size(), 0.0);
   multiplier_.assign(n, 1.0);
   factor_.assign(n, 1.0);
-  progress_.assign(n + 1, 0.0);
+  progress_.assign(2 * n + 1, 0.0);
   sources_.assign(jacobianTable_.numSources(), 0.0);
   setColumns_.assign(tables_.sets.size() * tables_.numSpecies, 0.0);
   sparseValues_.assign(jacobianPattern().numEntries(), 0.0);

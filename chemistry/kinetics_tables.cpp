@@ -163,20 +163,21 @@ void KineticsTables::setFactors(const Mechanism& mechanism) {
 }
 
 void KineticsTables::setProductionTable() {
-  const auto none = static_cast<std::int32_t>(numReactions);
-  rows.push_back(0);
-  for (std::size_t k = 0; k < numSpecies; ++k) {
-    for (std::size_t i = 0; i < numReactions; ++i)
-      for (const auto& term : netTerms[i])
-        if (term.species == k) {
-          rowReaction.push_back(static_cast<std::int32_t>(i));
-          rowNu.push_back(term.coefficient);
-        }
-    while (rowReaction.size() % 4 != 0) {
-      rowReaction.push_back(none);
-      rowNu.push_back(0.0);
+  std::vector<std::vector<std::size_t>> sources(numSpecies);
+  for (std::size_t i = 0; i < numReactions; ++i)
+    for (const auto& term : netTerms[i]) {
+      const double count = std::abs(term.coefficient);
+      if (count != std::floor(count) || count > 4)
+        decimalTerms.push_back({term.species, i, term.coefficient});
+      else
+        sources[term.species].insert(sources[term.species].end(), static_cast<std::size_t>(count),
+                                     term.coefficient > 0 ? i : numReactions + i);
     }
-    rows.push_back(rowReaction.size());
+  rows.push_back(0);
+  for (const auto& row : sources) {
+    for (const auto source : row) rowSource.push_back(static_cast<std::int32_t>(source));
+    while (rowSource.size() % 4 != 0) rowSource.push_back(static_cast<std::int32_t>(2 * numReactions));
+    rows.push_back(rowSource.size());
   }
 }
 

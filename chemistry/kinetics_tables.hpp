@@ -87,11 +87,16 @@ struct KineticsTables {
   PressureLog pressureLog;
   Chebyshev chebyshev;
 
-  // wdot_k = sum over the entries rows[k]..rows[k+1] of rowNu * q[rowReaction]; rows are padded to multiples of four
-  // with reaction numReactions and coefficient zero.
+  // wdot_k = sum of signedProgress[rowSource[e]] over the entries rows[k] <= e < rows[k+1], where signedProgress holds
+  // q of all reactions, then -q, then a zero; a coefficient of two makes two entries. Rows are padded to multiples of
+  // four with the zero. Coefficients that are no whole numbers are in decimalTerms instead: wdot_k += nu q.
+  struct DecimalTerm {
+    std::size_t species = 0, reaction = 0;
+    double nu = 0;
+  };
   std::vector<std::size_t> rows;
-  std::vector<std::int32_t> rowReaction;
-  std::vector<double> rowNu;
+  std::vector<std::int32_t> rowSource;
+  std::vector<DecimalTerm> decimalTerms;
 
  private:
   void orderReactions(const Mechanism& mechanism);
