@@ -46,9 +46,9 @@ void addBoundaries(DeckSchema& schema) {
 
 void addInitial(DeckSchema& schema) {
   schema.section("initial", Presence::required, "The start: two streams that mix across a burnt or hot layer.")
-      .add(choiceKey(
-               "initial.layer", {"burnt", "hot"},
-               "burnt: complete combustion where the streams meet; hot: cold mixture with a hot layer that ignites it.")
+      .add(choiceKey("initial.layer", {"burnt", "hot"},
+                     "burnt: complete combustion where the streams meet (without CO2 in the mechanism: equilibrium); "
+                     "hot: cold mixture with a hot layer that ignites it.")
                .byDefault("burnt"))
       .add(stringKey("initial.low", "Boundary whose stream fills the low end of the axis."))
       .add(stringKey("initial.high", "Boundary whose stream fills the high end."))

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "core/errors.hpp"
+#include "chemistry/equilibrium.hpp"
 
 namespace lampblack {
 namespace {
@@ -16,9 +16,12 @@ class CompleteCombustion {
     for (const char* element : {"C", "H", "O"}) elements_.push_back(mechanism.findElement(element));
     for (const char* name : {"CO2", "CO", "H2O", "O2"}) products_.push_back(mechanism.findSpecies(name));
     for (const char* name : {"H", "OH"}) radicals_.push_back(mechanism.findSpecies(name));
-    for (const auto* list : {&products_, &radicals_})
-      for (const auto& species : *list)
-        if (!species) throw InputError("a burnt layer needs CO2, CO, H2O, O2, H and OH in the mechanism");
+  }
+
+  // Whether the mechanism has the products, and the radicals.
+  [[nodiscard]] bool possible() const {
+    const auto known = [](const std::optional<std::size_t>& species) { return species.has_value(); };
+    return std::ranges::all_of(products_, known) && std::ranges::all_of(radicals_, known);
   }
 
   void burn(std::vector<double>& Y) const {
@@ -77,13 +80,22 @@ class CompleteCombustion {
   std::vector<std::optional<std::size_t>> radicals_;  // H, OH
 };
 
+// Brings a mixture to equilibrium at its enthalpy, or at `hottest` if that is less. Returns the temperature.
+double burnToEquilibrium(Equilibrium& equilibrium, double enthalpy, double pressure, double hottest,
+                         std::vector<double>& Y) {
+  const double T = equilibrium.atEnthalpyAndPressure(enthalpy, pressure, Y);
+  if (T <= hottest) return T;
+  equilibrium.atTemperatureAndPressure(hottest, pressure, Y);
+  return hottest;
+}
+
 }  // namespace
 
 void setMixingLayer(const FlowContext& context, const MixingLayer& layer, State& state) {
   const Mesh& m = context.mesh;
   const auto n = static_cast<std::size_t>(state.species);
-  std::optional<CompleteCombustion> combustion;
-  if (layer.burnt) combustion.emplace(context.mechanism);
+  const CompleteCombustion combustion(context.mechanism);
+  Equilibrium equilibrium(context.mechanism);
   std::vector<double> Y(n);
   const double lowEnthalpy = context.thermo.enthalpyMass(layer.low.temperature, layer.low.Y);
   const double highEnthalpy = context.thermo.enthalpyMass(layer.high.temperature, layer.high.Y);
@@ -93,9 +105,11 @@ void setMixingLayer(const FlowContext& context, const MixingLayer& layer, State&
     for (std::size_t k = 0; k < n; ++k) Y[k] = share * layer.low.Y[k] + (1.0 - share) * layer.high.Y[k];
     const double h = share * lowEnthalpy + (1.0 - share) * highEnthalpy;
     double T = context.thermo.temperatureFromEnthalpy(h, Y, layer.low.temperature);
-    if (combustion) {
-      combustion->burn(Y);
+    if (layer.burnt && combustion.possible()) {
+      combustion.burn(Y);
       T = std::min(context.thermo.temperatureFromEnthalpy(h, Y, 1500.0), std::max(T, layer.temperature));
+    } else if (layer.burnt) {
+      T = burnToEquilibrium(equilibrium, h, state.thermodynamicPressure, std::max(T, layer.temperature), Y);
     } else {
       const double away = (x - layer.hotPosition) / layer.hotWidth;
       T = std::max(T, T + (layer.temperature - T) * std::exp(-away * away));
