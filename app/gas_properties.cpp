@@ -7,7 +7,6 @@
 
 #include "chemistry/equilibrium.hpp"
 #include "chemistry/kinetics.hpp"
-#include "chemistry/nasa7.hpp"
 #include "chemistry/thermo.hpp"
 #include "chemistry/transport.hpp"
 #include "core/constants.hpp"
@@ -15,20 +14,6 @@
 
 namespace lampblack {
 namespace {
-
-// Of the ideal mixture: sum_k Y_k/W_k (s_k - R ln(X_k p/p0)).
-double entropyMass(const Mechanism& mechanism, const GasProperties& gas) {
-  const Nasa7Table table(mechanism.allSpecies());
-  std::vector<double> s(table.size());
-  table.entropyOverR(gas.temperature, std::log(gas.temperature), s.data());
-  const double lnPressure = std::log(gas.pressure / constants::oneAtmosphere);
-  double sum = 0;
-  for (std::size_t k = 0; k < s.size(); ++k) {
-    const double X = gas.moleFractions[k];
-    if (X > 0) sum += X * (s[k] - std::log(X) - lnPressure);
-  }
-  return sum * constants::gasConstant / gas.meanMolecularWeight;
-}
 
 GasProperties thermodynamics(const Mechanism& mechanism, double T, double p, std::span<const double> X) {
   GasProperties gas;
@@ -42,7 +27,7 @@ GasProperties thermodynamics(const Mechanism& mechanism, double T, double p, std
   gas.density = thermo.density(T, p, gas.massFractions);
   gas.cpMass = thermo.cpMass(T, gas.massFractions);
   gas.enthalpyMass = thermo.enthalpyMass(T, gas.massFractions);
-  gas.entropyMass = entropyMass(mechanism, gas);
+  gas.entropyMass = thermo.entropyMass(T, p, gas.massFractions);
   return gas;
 }
 
@@ -109,7 +94,7 @@ GasProperties gasAtEquilibrium(const Mechanism& mechanism, double T, double p, s
   else if (constant == "SP")
     T = equilibrium.atEntropyAndPressure(start.entropyMass, p, Y);
   else if (constant == "UV")
-    T = equilibrium.atEnergyAndDensity(start.enthalpyMass - p / start.density, start.density, Y);
+    T = equilibrium.atEnergyAndDensity(thermo.internalEnergyMass(T, Y), start.density, Y);
   else
     throw std::logic_error("unknown pair of constant quantities " + constant);
   if (constant == "TV" || constant == "UV") p *= start.density / thermo.density(T, p, Y);

@@ -10,7 +10,7 @@
 
 #include "chemistry/equilibrium_path.hpp"
 #include "chemistry/mechanism.hpp"
-#include "chemistry/nasa7.hpp"
+#include "chemistry/species_thermo.hpp"
 
 namespace lampblack {
 
@@ -48,7 +48,7 @@ class Equilibrium {
   std::string state(double T) const;
 
   const Mechanism& mechanism_;
-  Nasa7Table thermo_;
+  SpeciesThermo thermo_;
   Constant constant_ = Constant::Pressure;
   double pressureOrDensity_ = 0;
   double mass_ = 0;                  // kg, of the one mol in amounts_

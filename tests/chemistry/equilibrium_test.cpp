@@ -141,8 +141,8 @@ TEST_P(EquilibriumOf, BalancesReactionsAndKeepsAtoms) {
   EXPECT_LT(worstAtoms, 1e-12);
 }
 
-// An equilibrium found again from its enthalpy, energy and density. Not at 1000 K, where many polynomials change range
-// and their enthalpies jump by 1e-8 or so.
+// An equilibrium found again from its enthalpy, entropy, energy and density. Not at 1000 K, where many polynomials
+// change range and their enthalpies jump by 1e-8 or so.
 TEST_P(EquilibriumOf, IsTheSameFromAnyPairOfProperties) {
   const auto mechanism = shipped(GetParam());
   const Thermo thermo(mechanism);
@@ -160,7 +160,9 @@ TEST_P(EquilibriumOf, IsTheSameFromAnyPairOfProperties) {
     auto again = start;
     raise(worst, equilibrium.atEnthalpyAndPressure(h, state.p, again) / T - 1);
     again = start;
-    raise(worst, equilibrium.atEnergyAndDensity(h - state.p / density, density, again) / T - 1);
+    raise(worst, equilibrium.atEntropyAndPressure(thermo.entropyMass(T, state.p, Y), state.p, again) / T - 1);
+    again = start;
+    raise(worst, equilibrium.atEnergyAndDensity(thermo.internalEnergyMass(T, Y), density, again) / T - 1);
     again = start;
     equilibrium.atTemperatureAndDensity(T, density, again);
     for (std::size_t k = 0; k < Y.size(); ++k) raise(worst, again[k] - Y[k]);
