@@ -33,10 +33,10 @@ bool isYaml(const std::string& path) {
   return extension == ".yaml" || extension == ".yml";
 }
 
-Mechanism read(const Arguments& arguments, std::vector<std::string>& warnings) {
+Mechanism read(const Arguments& arguments) {
   if (!isYaml(arguments.mechanism)) {
     const auto optional = [](const std::string& path) { return path.empty() ? std::nullopt : std::optional(path); };
-    return readChemkin({arguments.mechanism, optional(arguments.thermo), optional(arguments.transport)}, warnings);
+    return readChemkin({arguments.mechanism, optional(arguments.thermo), optional(arguments.transport)});
   }
   if (!arguments.thermo.empty())
     throw InputError(
@@ -101,8 +101,8 @@ void run(const Arguments& arguments) {
   std::string text;
   collectively(PETSC_COMM_WORLD, [&] {
     checkOutput(arguments);
-    const Mechanism mechanism = read(arguments, warnings);
-    warnings.insert(warnings.end(), mechanism.warnings().begin(), mechanism.warnings().end());
+    const Mechanism mechanism = read(arguments);
+    warnings = mechanism.warnings();
     text = summary(mechanism);
     if (rank == 0 && !arguments.output.empty()) writeMechanism(mechanism, arguments.output);
   });

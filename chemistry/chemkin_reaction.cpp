@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "chemistry/rate_checks.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 
@@ -37,6 +38,7 @@ class ReactionBuilder {
     reaction_.orders = ordersThatDiffer(forwardOrders_, reaction_.reactants);
     if (equation_.hasM || low_ || high_) reaction_.thirdBody = thirdBody();
     setRates();
+    if (const auto problem = rateProblem(reaction_); !problem.empty()) fail(entry_.line, problem);
     std::vector<Reaction> result{reaction_};
     if (reverse_ && (*reverse_)[0] != 0) result.push_back(reversed());
     return result;
@@ -165,8 +167,6 @@ class ReactionBuilder {
     refuse(!forwardOrders_.empty() && equation_.reversible && !reverse_,
            "FORD needs an irreversible reaction ('=>' or REV): the reverse rate would contradict equilibrium");
     refuse(!reverseOrders_.empty() && !(reverse_ && (*reverse_)[0] != 0), "RORD needs REV with a rate of its own");
-    refuse((low_ || high_) && (!(entry_.rate[0] > 0) || !((low_ ? *low_ : *high_)[0] > 0)),
-           "expected positive A in both limits of a reaction with LOW or HIGH");
   }
 
   static std::vector<StoichiometricTerm> ordersThatDiffer(const std::vector<StoichiometricTerm>& orders,

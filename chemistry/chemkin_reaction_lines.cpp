@@ -72,6 +72,11 @@ class ReactionLines {
       const auto end = std::min(rest.find_first_of(" \t/"), rest.size());
       item.key = rest.substr(0, end);
       rest = trimmed(rest.substr(end));
+      if (fortranNumber(item.key))
+        source_.fail(line.number,
+                     fmt::format("cannot read '{}': expected a keyword or a species before '/', found '{}'; is "
+                                 "a '/' missing before it?",
+                                 trimmed(line.text), item.key));
       if (item.key.empty()) source_.fail(line.number, "stray '/'; expected a keyword or a species before it");
       if (rest.starts_with('/')) {
         item.slashes = true;
@@ -83,7 +88,7 @@ class ReactionLines {
         const std::string_view separators = key == "FORD" || key == "RORD" ? " \t" : " \t,";
         for (const auto word : chemkinWords(rest.substr(1, close - 1), separators)) item.values.emplace_back(word);
         rest = trimmed(rest.substr(close + 1));
-        if (key == "UNITS") rest = unitPerMole(rest);
+        if (key == "UNITS") rest = unitPerMole(rest, item);
       } else if (!isChemkinKeyword(item.key)) {
         explain(line, item.key);
       }
@@ -93,14 +98,14 @@ class ReactionLines {
     }
   }
 
-  // "UNITS/KCAL/MOLE/": the slash inside the unit.
-  static std::string_view unitPerMole(std::string_view rest) {
-    for (const std::string_view mole : {"MOLES", "MOLE", "MOL"}) {
-      if (!upperCase(rest).starts_with(mole)) continue;
-      const auto behind = trimmed(rest.substr(mole.size()));
-      if (behind.starts_with('/')) return trimmed(behind.substr(1));
-    }
-    return rest;
+  // "UNITS/KCAL/MOLE MOLES/": the slash inside the unit is not its end.
+  static std::string_view unitPerMole(std::string_view rest, ChemkinAuxiliary& item) {
+    const auto close = rest.find('/');
+    if (close == std::string_view::npos) return rest;
+    const auto words = chemkinWords(rest.substr(0, close), " \t,");
+    if (words.empty() || !upperCase(words[0]).starts_with("MOL")) return rest;
+    item.values.insert(item.values.end(), words.begin() + 1, words.end());
+    return trimmed(rest.substr(close + 1));
   }
 
   [[noreturn]] void explain(const ChemkinLine& line, std::string_view key) const {

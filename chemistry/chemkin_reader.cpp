@@ -34,10 +34,18 @@ std::string elementName(std::string_view symbol) {
   return name;
 }
 
+// The first ten.
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min<std::size_t>(10, names.size()); ++i)
+    text += fmt::format("{}{}", i == 0 ? "" : ", ", names[i]);
+  return names.size() > 10 ? text + ", ..." : text;
+}
+
 class ChemkinReader {
  public:
-  ChemkinReader(const ChemkinText& mechanism, std::vector<std::string>& warnings)
-      : source_(mechanism), warnings_(warnings), sections_(splitChemkinSections(source_, nullptr, warnings)) {}
+  explicit ChemkinReader(const ChemkinText& mechanism)
+      : source_(mechanism), sections_(splitChemkinSections(source_, nullptr, warnings_)) {}
 
   Mechanism read(const std::optional<ChemkinText>& thermo, const std::optional<ChemkinText>& transport) {
     for (const auto& section : sections_)
@@ -54,7 +62,7 @@ class ChemkinReader {
     applyTransport(transport.has_value());
     readReactions();
     return Mechanism(source_.file(), source_.heading(), std::move(elements_), std::move(species_),
-                     std::move(reactions_));
+                     std::move(reactions_), std::move(warnings_));
   }
 
  private:
@@ -159,22 +167,20 @@ class ChemkinReader {
   }
 
   void applyThermo() {
-    std::string missing;
-    std::size_t count = 0;
+    std::vector<std::string> missing;
     for (auto& species : species_) {
       const auto found = thermo_.find(species.name);
       if (found == thermo_.end()) {
-        if (++count <= 10)
-          missing += fmt::format("{}'{}' (line {})", missing.empty() ? "" : ", ", species.name, species.line);
+        missing.push_back(fmt::format("'{}' (line {})", species.name, species.line));
         continue;
       }
       species.thermo = found->second.thermo;
       species.atoms.assign(elements_.size(), 0.0);
       for (const auto& [symbol, atoms] : found->second.atoms) setAtoms(species, symbol, atoms, found->second.place);
     }
-    if (count > 0)
-      throw InputError(fmt::format("{}: no thermodynamic data for {} of {} species: {}{}", source_.file(), count,
-                                   species_.size(), missing, count > 10 ? ", ..." : ""));
+    if (!missing.empty())
+      throw InputError(fmt::format("{}: no thermodynamic data for {} of {} species: {}", source_.file(), missing.size(),
+                                   species_.size(), listed(missing)));
   }
 
   void setAtoms(Species& species, const std::string& symbol, double count, const std::string& place) const {
@@ -193,14 +199,17 @@ class ChemkinReader {
   }
 
   void applyTransport(bool given) {
+    std::vector<std::string> missing;
     for (auto& species : species_) {
       const auto found = transport_.find(species.name);
-      if (found != transport_.end())
+      if (found == transport_.end())
+        missing.push_back(species.name);
+      else
         species.transport = found->second.data;
-      else if (given || haveTransport_)
-        warnings_.push_back(
-            fmt::format("{}: species '{}' has no transport data", source_.place(species.line), species.name));
     }
+    if ((given || haveTransport_) && !missing.empty())
+      warnings_.push_back(fmt::format("{}: no transport data for {} of {} species: {}", source_.file(), missing.size(),
+                                      species_.size(), listed(missing)));
   }
 
   void readReactions() {
@@ -253,7 +262,7 @@ class ChemkinReader {
   }
 
   ChemkinSource source_;
-  std::vector<std::string>& warnings_;
+  std::vector<std::string> warnings_;
   std::vector<ChemkinSection> sections_;
   std::vector<Element> elements_;
   std::vector<Species> species_;
@@ -268,17 +277,17 @@ class ChemkinReader {
 
 }  // namespace
 
-Mechanism readChemkin(const ChemkinFiles& files, std::vector<std::string>& warnings) {
+Mechanism readChemkin(const ChemkinFiles& files) {
   const auto load = [](const std::optional<std::string>& path) -> std::optional<ChemkinText> {
     if (!path) return std::nullopt;
     return loadChemkinText(*path);
   };
-  return parseChemkin(loadChemkinText(files.mechanism), load(files.thermo), load(files.transport), warnings);
+  return parseChemkin(loadChemkinText(files.mechanism), load(files.thermo), load(files.transport));
 }
 
 Mechanism parseChemkin(const ChemkinText& mechanism, const std::optional<ChemkinText>& thermo,
-                       const std::optional<ChemkinText>& transport, std::vector<std::string>& warnings) {
-  return ChemkinReader(mechanism, warnings).read(thermo, transport);
+                       const std::optional<ChemkinText>& transport) {
+  return ChemkinReader(mechanism).read(thermo, transport);
 }
 
 }  // namespace lampblack

@@ -4,7 +4,6 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "chemistry/chemkin_text.hpp"
 #include "chemistry/mechanism.hpp"
@@ -18,11 +17,12 @@ struct ChemkinFiles {
 };
 
 // Reads and converts to SI units with mol. What is doubtful but can be used (data given twice, a species without
-// transport data) is told in `warnings`; what cannot be used is an InputError with file, line and what was expected.
-Mechanism readChemkin(const ChemkinFiles& files, std::vector<std::string>& warnings);
+// transport data) is told in the mechanism's warnings; what cannot be used is an InputError with file, line and what
+// was expected.
+Mechanism readChemkin(const ChemkinFiles& files);
 
 // The same with the files in memory.
 Mechanism parseChemkin(const ChemkinText& mechanism, const std::optional<ChemkinText>& thermo,
-                       const std::optional<ChemkinText>& transport, std::vector<std::string>& warnings);
+                       const std::optional<ChemkinText>& transport);
 
 }  // namespace lampblack

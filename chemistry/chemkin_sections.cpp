@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
+#include <utility>
 
 #include "core/nearest_name.hpp"
 
@@ -23,64 +25,103 @@ std::optional<Kind> sectionKind(std::string_view word) {
   return std::nullopt;
 }
 
+bool isEnd(std::string_view word) {
+  return upperCase(word) == "END";
+}
+
+std::string joined(std::span<const std::string_view> words) {
+  std::string text;
+  for (const auto word : words) text += fmt::format("{}{}", text.empty() ? "" : " ", word);
+  return text;
+}
+
 bool isList(Kind kind) {
   return kind == Kind::Elements || kind == Kind::Species;
 }
+
+class SectionSplitter {
+ public:
+  SectionSplitter(const ChemkinSource& source, const Kind* implied, std::vector<std::string>& warnings)
+      : source_(source), implied_(implied), warnings_(warnings) {}
+
+  std::vector<ChemkinSection> split() {
+    for (const auto& line : source_.lines()) takeLine(line);
+    return std::move(sections_);
+  }
+
+ private:
+  void takeLine(const ChemkinLine& line) {
+    auto words = chemkinWords(line.text);
+    if (const auto kind = sectionKind(words[0])) {
+      sections_.push_back({*kind, {}, {}, line.number});
+      open_ = true;
+      words.erase(words.begin());
+      if (isList(*kind))
+        takeList(words, line.number);
+      else
+        sections_.back().options.assign(words.begin(), words.end());
+      return;
+    }
+    const bool ends = isEnd(words[0]);
+    if (!open_ && !ended_ && implied_ != nullptr) {
+      sections_.push_back({*implied_, {}, {}, line.number});
+      open_ = true;
+    }
+    if (!open_) {
+      if (!ends) takeStray(line, words[0]);
+    } else if (isList(sections_.back().kind)) {
+      takeList(words, line.number);
+    } else if (ends) {
+      close();
+    } else {
+      sections_.back().lines.push_back(line);
+    }
+  }
+
+  // Names up to END; what stands behind it in the same line is like a line of its own.
+  void takeList(std::span<const std::string_view> words, int number) {
+    const auto end = std::ranges::find_if(words, isEnd);
+    if (const auto names = joined({words.begin(), end}); !names.empty())
+      sections_.back().lines.push_back({names, number});
+    if (end == words.end()) return;
+    close();
+    if (end + 1 != words.end()) takeLine({joined({end + 1, words.end()}), number});
+  }
+
+  void takeStray(const ChemkinLine& line, std::string_view word) {
+    const auto upper = upperCase(word);
+    if (upper.starts_with("SITE") || upper.starts_with("BULK") || upper.starts_with("MATERIAL") ||
+        upper.starts_with("SURFACE"))
+      source_.fail(line.number, fmt::format("'{}': mechanisms of surfaces are not supported", word));
+    if (!ended_)
+      source_.fail(line.number,
+                   fmt::format("expected ELEMENTS, SPECIES, THERMO, REACTIONS or TRANSPORT, found '{}'{}", word,
+                               didYouMean(word, {"ELEMENTS", "SPECIES", "THERMO", "REACTIONS", "TRANSPORT"})));
+    if (line.text.find('=') != std::string::npos)
+      source_.fail(line.number, "a reaction behind END; expected it in the section REACTIONS");
+    const auto keyword = didYouMean(word, {"ELEMENTS", "SPECIES", "THERMO", "REACTIONS", "TRANSPORT"});
+    if (!keyword.empty()) source_.fail(line.number, fmt::format("'{}' begins no section{}", word, keyword));
+    if (!warned_) warnings_.push_back(fmt::format("{}: text behind END is ignored", source_.place(line.number)));
+    warned_ = true;
+  }
+
+  void close() {
+    open_ = false;
+    ended_ = true;
+  }
+
+  const ChemkinSource& source_;
+  const Kind* implied_;
+  std::vector<std::string>& warnings_;
+  std::vector<ChemkinSection> sections_;
+  bool open_ = false, ended_ = false, warned_ = false;
+};
 
 }  // namespace
 
 std::vector<ChemkinSection> splitChemkinSections(const ChemkinSource& source, const Kind* implied,
                                                  std::vector<std::string>& warnings) {
-  std::vector<ChemkinSection> sections;
-  bool open = false, ended = false, warned = false;
-  for (const auto& line : source.lines()) {
-    auto words = chemkinWords(line.text);
-    const auto kind = sectionKind(words[0]);
-    if (kind) {
-      sections.push_back({*kind, {}, {}, line.number});
-      open = true;
-      if (!isList(*kind)) {
-        sections.back().options.assign(words.begin() + 1, words.end());
-        continue;
-      }
-      words.erase(words.begin());
-    } else if (const auto first = upperCase(words[0]);
-               first == "SITE" || first == "BULK" || first == "MATERIAL" || first == "SURFACE") {
-      source.fail(line.number, fmt::format("'{}': mechanisms of surfaces are not supported", words[0]));
-    }
-    if (!open && !ended && implied != nullptr) {
-      sections.push_back({*implied, {}, {}, line.number});
-      open = true;
-    }
-    const bool list = open && isList(sections.back().kind);
-    const auto end = std::ranges::find_if(words.begin(), list ? words.end() : words.begin() + 1,
-                                          [](auto word) { return upperCase(word) == "END"; });
-    const bool ends = !words.empty() && end != (list ? words.end() : words.begin() + 1);
-    if (!open) {
-      if (ends) continue;
-      if (!ended)
-        source.fail(line.number,
-                    fmt::format("expected ELEMENTS, SPECIES, THERMO, REACTIONS or TRANSPORT, found '{}'{}", words[0],
-                                didYouMean(words[0], {"ELEMENTS", "SPECIES", "THERMO", "REACTIONS", "TRANSPORT"})));
-      if (line.text.find('=') != std::string::npos)
-        source.fail(line.number, "a reaction behind END; expected it in the section REACTIONS");
-      if (!warned) warnings.push_back(fmt::format("{}: text behind END is ignored", source.place(line.number)));
-      warned = true;
-      continue;
-    }
-    if (list) {
-      std::string text;
-      for (auto word = words.begin(); word != end; ++word) text += fmt::format("{} ", *word);
-      if (!text.empty()) sections.back().lines.push_back({text, line.number});
-    } else if (!ends) {
-      sections.back().lines.push_back(line);
-    }
-    if (ends) {
-      open = false;
-      ended = true;
-    }
-  }
-  return sections;
+  return SectionSplitter(source, implied, warnings).split();
 }
 
 }  // namespace lampblack

@@ -187,7 +187,7 @@ class ThermoReader {
       inColumns = inColumns && value && fields[i].find(' ') == std::string_view::npos;
       if (value) T[i] = *value;
     }
-    if (inColumns && T[0] < T[2]) return T;
+    if (inColumns && T[0] >= 0 && T[0] < T[2]) return T;
     // Slipped: the numbers after the phase, in their order low, high, mid.
     auto words = chemkinWords(columns(card, 45, 35));
     if (!words.empty() && words[0].size() == 1 && std::isalpha(static_cast<unsigned char>(words[0][0])) != 0)
@@ -200,7 +200,7 @@ class ThermoReader {
       if (!value) break;
       T[order[read]] = *value;
     }
-    if (read < 2 || !(T[0] < T[2]))
+    if (read < 2 || !(T[0] >= 0 && T[0] < T[2]))
       fail(first_,
            fmt::format("expected a low temperature in columns 46 to 55 and a higher one in 56 to 65, found '{}'",
                        trimmed(columns(card, 45, 29))));

@@ -36,9 +36,13 @@ std::vector<std::string> words(std::string_view text) {
   return joined;
 }
 
+// Leaves `value` alone unless the whole word is a number ("2", but not the species "2-C4H8").
 bool readNumber(const std::string& word, double& value) {
-  const auto parsed = std::from_chars(word.data(), word.data() + word.size(), value);
-  return parsed.ec == std::errc{} && parsed.ptr == word.data() + word.size();
+  double number = 0;
+  const auto parsed = std::from_chars(word.data(), word.data() + word.size(), number);
+  if (parsed.ec != std::errc{} || parsed.ptr != word.data() + word.size()) return false;
+  value = number;
+  return true;
 }
 
 void addTerm(ParsedEquation::Side& side, const std::string& name, double coefficient) {

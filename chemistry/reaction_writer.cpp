@@ -55,7 +55,6 @@ class ReactionWriter {
         [[fallthrough]];
       case Type::Elementary:
         writeArrhenius("rate-constant", reaction_.rate);
-        if (reaction_.rate.A < 0) line("negative-A", "true");
         break;
       case Type::Falloff:
       case Type::ChemicallyActivated:
@@ -74,6 +73,7 @@ class ReactionWriter {
         writeChebyshev(*reaction_.chebyshev);
         break;
     }
+    if (reaction_.rate.A < 0) line("negative-A", "true");
   }
 
   void writeBroadening() {

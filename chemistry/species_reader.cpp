@@ -26,7 +26,8 @@ void readComposition(const YamlAccess& yaml, const YAML::Node& node, const std::
     if (found == elements.end())
       yaml.fail(entry.keyNode, fmt::format("{}: element '{}' is not declared in the phase", owner, entry.key));
     const double count = yaml.number(entry.value, composition.what());
-    if (count < 0) yaml.fail(entry.value, fmt::format("{}: expected zero or more atoms", owner));
+    if (count < 0 && entry.key != "E")  // a cation lacks electrons
+      yaml.fail(entry.value, fmt::format("{}: expected zero or more atoms", owner));
     species.atoms[static_cast<std::size_t>(found - elements.begin())] = count;
   }
 }

@@ -106,9 +106,9 @@ std::string yamlBlock(std::string_view text) {
   const bool edges = !text.empty() && text.front() != ' ' && text.front() != '\n' && text.back() != '\n';
   if (!lines || !edges) return quoted(text);
   std::string result = "|-\n  ";
-  for (const char c : text) {
-    result += c;
-    if (c == '\n') result += "  ";
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    result += text[i];
+    if (text[i] == '\n' && text[i + 1] != '\n') result += "  ";
   }
   return result;
 }

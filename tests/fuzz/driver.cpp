@@ -96,7 +96,10 @@ class Mutator {
                                                 "\xc3", "\xff",  "99999999999999999999",
                                                 "true", "\0",    "@",
                                                 "`",    ">-",    "? ",
-                                                "1/",   "[[[[",  "a.b"};
+                                                "1/",   "[[[[",  "a.b",
+                                                "/",    "(+M)",  "+M",
+                                                "=",    "=>",    "END\n",
+                                                "!",    "DUP\n", " REV/1 0 0/\n"};
     const std::size_t at = below(text.size() + 1);
     const std::size_t length = std::min(below(1U << below(8)) + 1, text.size() - at);
     switch (below(8)) {

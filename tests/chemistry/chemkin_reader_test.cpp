@@ -1,0 +1,233 @@
+// Sections, thermodynamic cards and transport lines of CHEMKIN files, tidy and untidy.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "chemistry/chemkin_text.hpp"
+#include "chemistry/elements.hpp"
+#include "core/constants.hpp"
+#include "tests/chemistry/chemkin_support.hpp"
+
+namespace {
+
+using namespace lampblack;
+using lampblack::testing::chemkinThermo;
+using lampblack::testing::readChemkinText;
+using lampblack::testing::thermoCards;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+const std::array<double, 7> kHigh{2.5, 1e-3, 0, 0, 0, -1000, 4};
+const std::array<double, 7> kLow{1.5, 2e-3, 0, 0, 0, -500, 9.90775528};
+
+TEST(ChemkinText, FortranNumbers) {
+  const std::pair<const char*, double> numbers[] = {{"1", 1},
+                                                    {" -2.5 ", -2.5},
+                                                    {"+3.", 3},
+                                                    {".5", 0.5},
+                                                    {"0.", 0},
+                                                    {"1e3", 1e3},
+                                                    {"1.E+03", 1e3},
+                                                    {"1.d+05", 1e5},
+                                                    {"-1.5D-02", -0.015},
+                                                    {"1.0-300", 1e-300},
+                                                    {"1.25+10", 1.25e10},
+                                                    {"1.2E 05", 1.2e5},
+                                                    {"1.2E+ 5", 1.2e5},
+                                                    {"1e-999", 0},
+                                                    {"0.12345678E+02", 12.345678}};
+  for (const auto& [text, value] : numbers) EXPECT_EQ(fortranNumber(text).value_or(-77), value) << text;
+  for (const char* text : {"", " ", "-", ".", "e5", "1e", "1e+", "1.2.3", "1 2", "0x10", "inf", "nan", "1e999", "1e5x",
+                           "1,5", "--1", "1e5.0"})
+    EXPECT_FALSE(fortranNumber(text)) << text;
+}
+
+TEST(ChemkinText, LinesKeepTheirNumbers) {
+  const ChemkinSource source(
+      {"a", "\xef\xbb\xbf! First author,\tJ. Chem. 1 (2000)\r\n!  second line !!\r\n\r\n A B ! x\n\n\tC \rD"});
+  EXPECT_EQ(source.heading(), "First author, J. Chem. 1 (2000)\n second line");
+  ASSERT_EQ(source.lines().size(), 3U);
+  EXPECT_EQ(source.lines()[0].text, " A B");
+  EXPECT_EQ(source.lines()[0].number, 4);
+  EXPECT_EQ(source.lines()[1].number, 6);
+  EXPECT_EQ(source.lines()[2].text, "D");
+  EXPECT_EQ(source.lines()[2].number, 7);
+}
+
+TEST(ChemkinReader, ElementsWithWeightsOfTheirOwn) {
+  const auto mechanism = readChemkinText("elements h d /2.014/ E/5.5E-4/\n AR HE\nspecies H AR end", nullptr);
+  ASSERT_EQ(mechanism.numElements(), 5U);
+  EXPECT_EQ(mechanism.elementName(3), "Ar");  // as the YAML format has it
+  EXPECT_EQ(mechanism.atomicWeight(0), *standardAtomicWeight("H"));
+  EXPECT_EQ(mechanism.atomicWeight(1), 2.014 * 1e-3);
+  EXPECT_EQ(mechanism.atomicWeight(2), 5.5e-4 * 1e-3);
+  EXPECT_EQ(mechanism.elementName(4), "He");
+  // Without a weight, an electron is one of CODATA 2018: 5.485 799 090 65e-4 g/mol.
+  EXPECT_NEAR(readChemkinText("ELEM E H END SPEC H END").atomicWeight(0), 5.48579909065e-7, 1e-20);
+}
+
+TEST(ChemkinReader, SectionsMayBeShortAndLackTheirEnds) {
+  std::vector<std::string> warnings;
+  const auto mechanism = readChemkinText(
+      "! of somebody\nELEM\nH O\nH\nSPEC\nH2 O2\nOH H2\nther\n" + thermoCards("OH", "H   1O   1") +
+          thermoCards("H2", "H   2") +
+          "TRAN\nO2 1 107.4 3.458 0 1.6 3.8\nREAC\nH2+O2=2OH 1E13 0 0\nEND\nno more than a note\nand another\n",
+      &warnings, thermoCards("O2", "O   2"));
+  EXPECT_EQ(mechanism.numSpecies(), 3U);
+  EXPECT_EQ(mechanism.numReactions(), 1U);
+  EXPECT_EQ(mechanism.description(), "of somebody");
+  EXPECT_THAT(warnings, ElementsAre(AllOf(HasSubstr("chem.inp:22:"), HasSubstr("text behind END is ignored")),
+                                    AllOf(HasSubstr("chem.inp:4:"), HasSubstr("element 'H' is declared twice")),
+                                    AllOf(HasSubstr("chem.inp:7:"), HasSubstr("'H2' is declared already in line 6")),
+                                    HasSubstr("no transport data for 2 of 3 species: H2, OH")));
+}
+
+// What a mechanism says itself goes before the separate files; neither is a duplicate.
+TEST(ChemkinReader, DataOfTheMechanismGoFirst) {
+  std::vector<std::string> warnings;
+  const auto mechanism = readChemkinText(
+      "ELEM H END SPEC H2 H END\nTHERMO\n" + thermoCards("H2", "H   2", "   200.000  6000.000 1000.00") +
+          "END\nTRANSPORT\nH2 1 40 3 0 0 300\nEND",
+      &warnings, thermoCards("H2", "H   2") + thermoCards("H", "H   1") + thermoCards("H", "H   1"),
+      "H2 1 38. 2.92 0.0 .79 280. ! a comment\nH 0 145 2.05 0 0 0 Warnatz\nXX what\nH 0 145 2.05 0 0 0\nEND");
+  EXPECT_EQ(mechanism.species(0).thermo.minTemperature, 200);
+  EXPECT_EQ(mechanism.species(0).transport->wellDepth, 40);
+  EXPECT_EQ(mechanism.species(1).transport->shape, MoleculeShape::Atom);
+  EXPECT_THAT(warnings, ElementsAre(AllOf(HasSubstr("therm.dat:9:"), HasSubstr("'H' has thermodynamic data already at "
+                                                                               "therm.dat:5; the first holds")),
+                                    AllOf(HasSubstr("tran.dat:4:"), HasSubstr("at tran.dat:2"))));
+}
+
+TEST(ChemkinReader, TransportIsConverted) {
+  const auto mechanism = readChemkinText("ELEM H O END SPEC H2O END", nullptr, chemkinThermo(),
+                                         "TRANSPORT ALL\nH2O 2 572.400 2.605 1.844 1.5 4.000\nEND");
+  const auto& t = *mechanism.species(0).transport;
+  EXPECT_EQ(t.shape, MoleculeShape::Nonlinear);
+  EXPECT_EQ(t.wellDepth, 572.4);
+  EXPECT_DOUBLE_EQ(t.diameter, 2.605e-10);
+  EXPECT_DOUBLE_EQ(t.dipole, 1.844 * 3.33564095198e-30);
+  EXPECT_DOUBLE_EQ(t.polarizability, 1.5e-30);
+  EXPECT_EQ(t.rotationalRelaxation, 4);
+}
+
+// One species, the given text as its data.
+Mechanism withThermo(const std::string& thermo, std::vector<std::string>* warnings = nullptr,
+                     const std::string& name = "CH4") {
+  return readChemkinText("ELEMENTS C H O N AR SI END SPECIES " + name + " END", warnings, thermo);
+}
+
+void expectMethane(const Mechanism& mechanism) {
+  const auto& species = mechanism.species(0);
+  EXPECT_EQ(mechanism.atoms(0, 0), 1);
+  EXPECT_EQ(mechanism.atoms(0, 1), 4);
+  EXPECT_NEAR(species.molecularWeight, 0.012011 + 4 * 0.001008, 1e-16);
+  EXPECT_EQ(species.thermo.high, kHigh);
+  EXPECT_EQ(species.thermo.low, kLow);
+  EXPECT_EQ(species.thermo.minTemperature, 300);
+  EXPECT_EQ(species.thermo.midTemperature, 1000);
+  EXPECT_EQ(species.thermo.maxTemperature, 5000);
+}
+
+TEST(ChemkinThermo, Columns) {
+  for (const char* header :
+       {"THERMO ALL\n 200. 1000. 6000.\n", "THERMO\n", "", "thermo all\n 200 1000 6000 9/9/99\n"}) {
+    SCOPED_TRACE(header);
+    std::vector<std::string> warnings;
+    expectMethane(withThermo(header + thermoCards("CH4 of somebody", "C   1H   4"), &warnings));
+    EXPECT_THAT(warnings, IsEmpty());
+  }
+}
+
+TEST(ChemkinThermo, BlankTemperaturesAreTheDefaults) {
+  const auto read = [](const std::string& header, const std::string& temperatures) {
+    const auto T = withThermo(header + thermoCards("CH4", "C   1H   4", temperatures)).species(0).thermo;
+    return std::vector<double>{T.minTemperature, T.midTemperature, T.maxTemperature};
+  };
+  const std::string header = "THERMO\n   250.000  1200.000  4000.000\n";
+  EXPECT_THAT(read(header, "   300.000  5000.000"), ElementsAre(300, 1200, 5000));
+  EXPECT_THAT(read(header, ""), ElementsAre(250, 1200, 4000));
+  EXPECT_THAT(read("THERMO\n", "   300.000  5000.000"), ElementsAre(300, 1000, 5000));
+  EXPECT_THAT(read(header, "   300.000  5000.0001391.500"), ElementsAre(300, 1391.5, 5000));
+  // Out of their columns.
+  EXPECT_THAT(read(header, " 300.  5000.  1391."), ElementsAre(300, 1391, 5000));
+  EXPECT_THAT(read(header, "     0300.00   5000.00  1391.00"), ElementsAre(300, 1391, 5000));
+}
+
+TEST(ChemkinThermo, ElementsInEveryForm) {
+  const auto atoms = [](const std::string& thermo) {
+    const auto mechanism = withThermo(thermo);
+    return mechanism.species(0).atoms;  // of C, H, O, N, Ar, Si
+  };
+  EXPECT_THAT(atoms(thermoCards("CH4", "C   1H   4O   2N   3")), ElementsAre(1, 4, 2, 3, 0, 0));
+  EXPECT_THAT(atoms(thermoCards("CH4", "c  1.h  4.     0    0")), ElementsAre(1, 4, 0, 0, 0, 0));
+  EXPECT_THAT(atoms(thermoCards("CH4", "C   1H   400  0AR  0")), ElementsAre(1, 4, 0, 0, 0, 0));
+  EXPECT_THAT(atoms(thermoCards("CH4", "C 1  H 4  SI01.N 0.5")), ElementsAre(1, 4, 0, 0.5, 0, 1));
+  EXPECT_THAT(atoms(thermoCards("CH4", "C  10H  20")), ElementsAre(10, 20, 0, 0, 0, 0));
+  // The fifth element, in columns 74 to 78.
+  auto cards = thermoCards("CH4", "C   1H   4O   2N   3");
+  cards.replace(73, 5, "AR  5");
+  EXPECT_THAT(atoms(cards), ElementsAre(1, 4, 2, 3, 5, 0));
+  // As many as there are, behind '&'.
+  const auto rest = thermoCards("CH4", "").substr(81);
+  auto first = thermoCards("CH4", "").substr(0, 80);
+  EXPECT_THAT(atoms(first + "&\nC 12 H 120 &\nO 2.5\n" + rest), ElementsAre(12, 120, 2.5, 0, 0, 0));
+  first = thermoCards("CH4", "C   1H   4").substr(0, 80);
+  EXPECT_THAT(atoms(first + " &\n N 2\n" + rest), ElementsAre(1, 4, 0, 2, 0, 0));
+}
+
+TEST(ChemkinThermo, UntidyCards) {
+  const auto tidy = thermoCards("CH4", "C   1H   4");
+  // No numbers of the cards, comments and blank lines between them, text behind.
+  const auto first = tidy.substr(0, 79), second = tidy.substr(81, 75), third = tidy.substr(162, 75),
+             fourth = tidy.substr(243, 60);
+  expectMethane(
+      withThermo("! data\n" + first + "\n\n" + second + "\n! more\n" + third + " ! x\n" + fourth + "\nEND\nrest"));
+  expectMethane(withThermo(std::string("\n") + first + "1 from a table\r\n" + second + "    2\r\n" + third +
+                           "    3\r\n" + fourth + " 1.0000000E+01     4\r\n"));
+  // Blank coefficients are zero.
+  const std::string blank(15, ' ');
+  expectMethane(withThermo(first + "1\n" + second.substr(0, 30) + blank + blank + blank + "    2\n" + third +
+                           "    3\n" + fourth + "                   4\n"));
+  // Numbers as Fortran writes them, in the second card.
+  expectMethane(withThermo(first +
+                           "1\n  2.5           1.0-03         0.             0.D+00         0              2\n" +
+                           third + "    3\n" + fourth + "\n"));
+  expectMethane(withThermo(first +
+                           "1\n 0.25000000E 01 1.00000000D-03 0.00000000E+00 0.00000000E+00 0.00000000E+00    2\n" +
+                           third + "    3\n" + fourth + "\n"));
+  // Out of columns, but as many words as coefficients.
+  expectMethane(withThermo(first + "1\n2.5 1.0e-3 0. 0. 0. 2\n-1000. 4.0 1.5 2e-3 0. 3\n0 0 -5.0e2 9.90775528 4\n"));
+  // Tabulators instead of blanks.
+  expectMethane(withThermo("CH4\t\t\tC   1H   4\t    G   300.000  5000.000 1000.00      1\n" + second + "\n" + third +
+                           "\n" + fourth + "\n"));
+  // Other species around it, even damaged ones, do not matter.
+  expectMethane(withThermo(thermoCards("CH5", "??  1") + "notes\n" + thermoCards("CO", "C   1O   1").substr(0, 200) +
+                           "\n" + tidy + thermoCards("X", "").substr(0, 100)));
+}
+
+TEST(ChemkinThermo, LongNames) {
+  const std::string name = "C10H7CH2OOH-12345X";
+  auto cards = thermoCards(name + "L12/95", "C   1H   4");
+  expectMethane(withThermo(cards, nullptr, name));
+  expectMethane(withThermo(thermoCards("A-name-of-22-letters-X", "C   1H   4"), nullptr, "A-name-of-22-letters-X"));
+}
+
+TEST(ChemkinThermo, OneRange) {
+  const auto tidy = thermoCards("CH4", "C   1H   4");
+  std::vector<std::string> warnings;
+  // The middle temperature is the highest: the lower range holds.
+  auto thermo =
+      withThermo(thermoCards("CH4", "C   1H   4", "   300.000  5000.0005000.00"), &warnings).species(0).thermo;
+  EXPECT_EQ(thermo.low, kLow);
+  EXPECT_EQ(thermo.high, kLow);
+  EXPECT_EQ(thermo.midTemperature, 5000);
+  EXPECT_THAT(warnings, ElementsAre(HasSubstr("therm.dat:1: species 'CH4' has one range of temperature")));
+  // The coefficients of the lower range are missing.
+  thermo = withThermo(tidy.substr(0, 162) + tidy.substr(162, 30) + "\n" + "\n  0.\n", &warnings).species(0).thermo;
+  EXPECT_EQ(thermo.low, kHigh);
+  EXPECT_EQ(thermo.high, kHigh);
+  EXPECT_THAT(warnings, ElementsAre(HasSubstr("one range")));
+}
+
+}  // namespace

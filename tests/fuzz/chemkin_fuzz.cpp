@@ -1,0 +1,52 @@
+// The CHEMKIN reader accepts files or says what is wrong with them; nothing else. What it accepts is written as YAML
+// that reads back as the same mechanism.
+#include <unistd.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "chemistry/chemkin_reader.hpp"
+#include "chemistry/mechanism_writer.hpp"
+#include "core/errors.hpp"
+
+namespace {
+
+// An input holds up to three files: mechanism, thermodynamic data, transport data, with this line between them.
+constexpr std::string_view separator = "\n!====\n";
+
+std::optional<lampblack::ChemkinText> takeFile(std::string_view& rest, const char* name, bool& more) {
+  if (!more) return std::nullopt;
+  const auto end = rest.find(separator);
+  more = end != std::string_view::npos;
+  lampblack::ChemkinText file{name, std::string(rest.substr(0, end))};
+  if (more) rest.remove_prefix(end + separator.size());
+  return file;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  std::string_view rest(reinterpret_cast<const char*>(data), size);
+  bool more = true;
+  const auto mechanism = takeFile(rest, "chem.inp", more);
+  const auto thermo = takeFile(rest, "therm.dat", more);
+  const auto transport = takeFile(rest, "tran.dat", more);
+  std::string text;
+  try {
+    text = lampblack::mechanismYaml(lampblack::parseChemkin(*mechanism, thermo, transport));
+  } catch (const lampblack::InputError&) {
+    return 0;
+  }
+  static const std::string path =
+      (std::filesystem::temp_directory_path() / ("chemkin_fuzz_" + std::to_string(getpid()) + ".yaml")).string();
+  std::ofstream(path, std::ios::binary | std::ios::trunc) << text;
+  if (lampblack::mechanismYaml(lampblack::Mechanism::fromFile(path)) != text)
+    throw std::runtime_error("the YAML reads back as another mechanism");
+  std::filesystem::remove(path);
+  return 0;
+}
