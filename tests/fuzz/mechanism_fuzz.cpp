@@ -1,12 +1,54 @@
-// The mechanism reader accepts a file or says what is wrong with it; nothing else.
+// The mechanism reader accepts a file or says what is wrong with it; nothing else. What it accepts holds finite
+// numbers.
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <span>
+#include <stdexcept>
 
 #include "chemistry/mechanism.hpp"
 #include "core/errors.hpp"
+
+namespace {
+
+using namespace lampblack;
+
+void requireFinite(std::span<const double> values) {
+  if (!std::ranges::all_of(values, [](double v) { return std::isfinite(v); }))
+    throw std::runtime_error("the reader accepted a number that is not finite");
+}
+
+void requireFinite(const Arrhenius& rate) {
+  requireFinite(std::array{rate.A, rate.b, rate.activationTemperature});
+}
+
+void requireFinite(const Mechanism& mechanism) {
+  requireFinite(mechanism.molecularWeights());
+  for (const auto& species : mechanism.allSpecies()) {
+    requireFinite(species.thermo.low);
+    requireFinite(species.thermo.high);
+    requireFinite(
+        std::array{species.thermo.minTemperature, species.thermo.midTemperature, species.thermo.maxTemperature});
+    if (species.nasa9)
+      for (const auto& range : species.nasa9->ranges) requireFinite(range);
+  }
+  for (const auto& reaction : mechanism.reactions()) {
+    requireFinite(reaction.rate);
+    requireFinite(reaction.lowPressureRate);
+    for (const auto& entry : reaction.pressureRates) {
+      requireFinite(std::array{entry.pressure});
+      requireFinite(entry.rate);
+    }
+    if (reaction.chebyshev) requireFinite(reaction.chebyshev->coefficients);
+  }
+}
+
+}  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const std::string path =
@@ -16,8 +58,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     file.write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
   }
   try {
-    (void)lampblack::Mechanism::fromFile(path);
-  } catch (const lampblack::InputError&) {
+    requireFinite(Mechanism::fromFile(path));
+  } catch (const InputError&) {
   }
   std::filesystem::remove(path);
   return 0;
