@@ -21,7 +21,7 @@
 #include "chemistry/kinetics_pressure.hpp"
 #include "chemistry/kinetics_tables.hpp"
 #include "chemistry/mechanism.hpp"
-#include "chemistry/nasa7.hpp"
+#include "chemistry/species_thermo.hpp"
 #include "chemistry/sparse_pattern.hpp"
 
 namespace lampblack {
@@ -95,7 +95,7 @@ class Kinetics {
 
   KineticsTables tables_;
   JacobianTable jacobianTable_;
-  Nasa7Table thermo_;
+  SpeciesThermo thermo_;
   FalloffFactors falloff_;
   PressureRates pressureRates_;
   std::vector<std::size_t> internal_;                 // internal number of the mechanism's reaction
