@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "chemistry/species_thermo.hpp"
 #include "core/constants.hpp"
 #include "tests/chemistry/table.hpp"
 
@@ -37,7 +38,7 @@ TEST(Kinetics, ForwardAndReverseBalanceAtEquilibrium) {
 TEST(Kinetics, ElementPotentialsGiveNoReaction) {
   const auto& mechanism = hydrogen();
   Kinetics kinetics(mechanism);
-  const Nasa7Table table(mechanism.allSpecies());
+  const SpeciesThermo table(mechanism.allSpecies());
   const std::size_t n = mechanism.numSpecies(), reactions = mechanism.numReactions();
   std::vector<double> g(n), c(n), qf(reactions), qr(reactions);
   for (const double T : {1200.0, 2400.0}) {
