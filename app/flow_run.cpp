@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "app/failed_cell.hpp"
 #include "app/flow_case.hpp"
 #include "app/flow_output.hpp"
 #include "app/soot_operator.hpp"
@@ -261,6 +262,10 @@ void runFlow(MPI_Comm comm, const Deck& deck, const RunOptions& options) {
   recordedRun(comm, deck, options, seed, [&](const RunFolder& folder, const RunInfo& info, RunRecord& record) {
     if (rank == 0)
       for (const std::string& note : flowCase.notes) fmt::print("note: {}\n", note);
+    flowCase.chemistry.keepFailed = [folder, mechanism = flowCase.mechanism](std::int64_t cell,
+                                                                             const FailedCell& failed) {
+      return keepFailedCell(folder, *mechanism, cell, failed);
+    };
     FlowRun run(comm, std::move(flowCase));
     run.run(folder, info);
     run.report(MPI_Wtime() - start, record);

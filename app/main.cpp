@@ -11,6 +11,7 @@
 #include "app/gas_command.hpp"
 #include "app/mechanism_command.hpp"
 #include "app/problem.hpp"
+#include "app/replay_command.hpp"
 #include "core/errors.hpp"
 #include "core/petsc.hpp"
 
@@ -101,6 +102,7 @@ int main(int argc, char** argv) {
 
   addGasCommand(app, command);
   addMechanismCommand(app, command);
+  addReplayCommand(app, command);
 
   // PETSc reads its own options from the environment and from a file, not from our command line.
   if (PetscInitializeNoArguments() != 0) return exitBug;

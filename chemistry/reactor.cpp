@@ -1,21 +1,17 @@
 #include "chemistry/reactor.hpp"
 
-#include <cvodes/cvodes.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "chemistry/reactor_linear_solver.hpp"
+#include "chemistry/reactor_failure.hpp"
+#include "chemistry/reactor_integrator.hpp"
 #include "chemistry/reactor_system.hpp"
-#include "chemistry/short_vector.hpp"
-#include "chemistry/sundials_handles.hpp"
-#include "core/errors.hpp"
 
 namespace lampblack {
 
@@ -26,77 +22,39 @@ struct Attempt {
   double firstStep;  // s; 0: the solver's choice
   double toleranceFactor;
   int stepsFactor;
-  int pieces;
+  int parts;
 };
 
 // Largest deviation of the sum of mass fractions that may be put down to round-off and removed by rescaling.
 constexpr double kSumTolerance = 1e-9;
 
+using Event = ConstantPressureReactor::Event;
+
 }  // namespace
 
 struct ConstantPressureReactor::Impl {
   Impl(const Mechanism& mechanismIn, const Options& optionsIn);
-  Impl(const Impl&) = delete;
-  Impl& operator=(const Impl&) = delete;
 
   void checkInput(const Cell& cell, double dt) const;
   bool skip(Cell& cell, double dt, Result& result);
-  std::optional<double> integrate(const Cell& cell, double dt, const Attempt& attempt, Result& result);
-  bool integratePiece(double dt, double firstStep, int maxSteps, double toleranceFactor, double& lastStep,
-                      Result& result);
-  bool accept(Cell& cell);
+  bool integrate(const Cell& cell, double dt, const Attempt& attempt, Event event, const Observer& observer,
+                 Result& result);
+  bool accept(Cell& cell, double* out);
   [[noreturn]] void giveUp(const Cell& cell, double dt) const;
-
-  static int rhs(realtype t, N_Vector y, N_Vector f, void* data);
-  static void keepMessage(int code, const char* module, const char* function, char* message, void* data);
 
   const Mechanism& mechanism;
   Options options;
-  ReactorSystem system;
   std::size_t n;  // species
-  std::vector<double> start, predicted, chemical, chemicalEnd, scratch;
+  ReactorSystem system;
+  ReactorIntegrator integrator;
+  std::vector<double> start, predicted, chemical, chemicalEnd;
   double startSum = 0, enthalpy = 0;
   std::string reason;
-
-  sundials::Context context;
-  sundials::Vector y, tolerances;
-  ReactorLinearSolver linearSolver;
-  sundials::Cvode cvode;
 };
 
-int ConstantPressureReactor::Impl::rhs(realtype /*t*/, N_Vector y, N_Vector f, void* data) {
-  auto& self = *static_cast<Impl*>(data);
-  return self.system.rates(N_VGetArrayPointer(y), N_VGetArrayPointer(f)) ? 0 : 1;
-}
-
-void ConstantPressureReactor::Impl::keepMessage(int code, const char* /*module*/, const char* function, char* message,
-                                                void* data) {
-  auto& self = *static_cast<Impl*>(data);
-  if (code >= 0) return;
-  self.reason = fmt::format("{}: {}", function, message);
-  if (!self.system.refusal().empty()) self.reason += fmt::format(" ({})", self.system.refusal());
-}
-
 ConstantPressureReactor::Impl::Impl(const Mechanism& mechanismIn, const Options& optionsIn)
-    : mechanism(mechanismIn),
-      options(optionsIn),
-      system(mechanismIn),
-      n(mechanismIn.numSpecies()),
-      context(sundials::makeContext()),
-      linearSolver(system, context.get()) {
-  using sundials::check;
-  for (auto* work : {&start, &predicted, &chemical, &chemicalEnd, &scratch}) work->assign(n + 1, 0.0);
-  y = sundials::makeShortVector(n + 1, context.get());
-  tolerances = sundials::makeShortVector(n + 1, context.get());
-  cvode.reset(CVodeCreate(CV_BDF, context.get()));
-  check(cvode.get(), "CVodeCreate");
-  void* memory = cvode.get();
-  check(CVodeInit(memory, rhs, 0.0, y.get()), "CVodeInit");
-  N_VConst(1e-12, tolerances.get());
-  check(CVodeSVtolerances(memory, options.relativeTolerance, tolerances.get()), "CVodeSVtolerances");
-  check(CVodeSetUserData(memory, this), "CVodeSetUserData");
-  check(CVodeSetErrHandlerFn(memory, keepMessage, this), "CVodeSetErrHandlerFn");
-  linearSolver.attach(memory);
+    : mechanism(mechanismIn), options(optionsIn), n(mechanismIn.numSpecies()), system(mechanismIn), integrator(system) {
+  for (auto* work : {&start, &predicted, &chemical, &chemicalEnd}) work->assign(n + 1, 0.0);
 }
 
 void ConstantPressureReactor::Impl::checkInput(const Cell& cell, double dt) const {
@@ -136,55 +94,54 @@ bool ConstantPressureReactor::Impl::skip(Cell& cell, double dt, Result& result) 
     if (!(std::abs(chemicalEnd[k]) * dt < options.negligibleChange)) return false;
     if (!(0.5 * dt * std::abs(chemicalEnd[k] - chemical[k]) < options.absoluteTolerance)) return false;
   }
-  double* out = N_VGetArrayPointer(y.get());
-  for (std::size_t k = 0; k < n; ++k) out[k] = predicted[k] + 0.5 * dt * (chemicalEnd[k] - chemical[k]);
-  out[n] = predicted[n];
-  return accept(cell);
+  for (std::size_t k = 0; k < n; ++k) predicted[k] += 0.5 * dt * (chemicalEnd[k] - chemical[k]);
+  return accept(cell, predicted.data());
 }
 
-bool ConstantPressureReactor::Impl::integratePiece(double dt, double firstStep, int maxSteps, double toleranceFactor,
-                                                   double& lastStep, Result& result) {
-  using sundials::check;
-  void* memory = cvode.get();
-  N_VConst(options.absoluteTolerance * toleranceFactor, tolerances.get());
-  // A temperature error of the relative tolerance is enough; its absolute part only guards the weights.
-  N_VGetArrayPointer(tolerances.get())[n] = options.relativeTolerance * toleranceFactor;
-  check(CVodeReInit(memory, 0.0, y.get()), "CVodeReInit");
-  check(CVodeSVtolerances(memory, options.relativeTolerance * toleranceFactor, tolerances.get()), "CVodeSVtolerances");
-  check(CVodeSetInitStep(memory, std::min(firstStep, dt)), "CVodeSetInitStep");
-  check(CVodeSetMaxNumSteps(memory, maxSteps), "CVodeSetMaxNumSteps");
-  check(CVodeSetStopTime(memory, dt), "CVodeSetStopTime");
-  realtype reached = 0;
-  reason.clear();
-  system.clearRefusal();
-  const int flag = CVode(memory, dt, y.get(), &reached, CV_NORMAL);
-  long steps = 0, rhsCalls = 0, jacobians = 0;
-  check(CVodeGetNumSteps(memory, &steps), "CVodeGetNumSteps");
-  check(CVodeGetNumRhsEvals(memory, &rhsCalls), "CVodeGetNumRhsEvals");
-  check(CVodeGetNumJacEvals(memory, &jacobians), "CVodeGetNumJacEvals");
-  check(CVodeGetLastStep(memory, &lastStep), "CVodeGetLastStep");
-  result.steps += static_cast<int>(steps);
-  result.rhsEvaluations += static_cast<int>(rhsCalls);
-  result.jacobianEvaluations += static_cast<int>(jacobians);
-  return flag >= 0;
-}
-
-// The last internal step if the attempt succeeded; the state is then in y.
-std::optional<double> ConstantPressureReactor::Impl::integrate(const Cell& cell, double dt, const Attempt& attempt,
-                                                               Result& result) {
+// Leaves the end in the integrator's state.
+bool ConstantPressureReactor::Impl::integrate(const Cell& cell, double dt, const Attempt& attempt, Event event,
+                                              const Observer& observer, Result& result) {
   system.setConditions(cell.pressure, cell.source);
-  std::copy(start.begin(), start.end(), N_VGetArrayPointer(y.get()));
-  double lastStep = 0;
-  for (int piece = 0; piece < attempt.pieces; ++piece)
-    if (!integratePiece(dt / attempt.pieces, attempt.firstStep, options.maxSteps * attempt.stepsFactor,
-                        attempt.toleranceFactor, lastStep, result))
-      return std::nullopt;
-  return lastStep;
+  std::copy(start.begin(), start.end(), integrator.state());
+  const ReactorIntegrator::Interval part{
+      dt / attempt.parts, attempt.firstStep, options.relativeTolerance * attempt.toleranceFactor,
+      options.absoluteTolerance * attempt.toleranceFactor, options.maxSteps * attempt.stepsFactor};
+  double begin = 0;
+  ReactorIntegrator::Watcher watcher;
+  if (observer) {
+    event.relativeTolerance = part.relativeTolerance;
+    event.absoluteTolerance = part.absoluteTolerance;
+    event.firstStep = part.firstStep;
+    event.maxSteps = part.maxSteps;
+    event.parts = attempt.parts;
+    observer(event);
+    watcher = [&](const ReactorIntegrator::Step& step) {
+      Event taken;
+      taken.kind = Event::Kind::Step;
+      taken.attempt = event.attempt;
+      taken.time = begin + step.time;
+      taken.stepSize = step.size;
+      taken.order = step.order;
+      taken.temperature = step.temperature;
+      observer(taken);
+    };
+  }
+  ReactorIntegrator::Work work;
+  bool arrived = true;
+  for (int i = 0; arrived && i < attempt.parts; ++i) {
+    begin = i * part.duration;
+    arrived = integrator.advance(part, work, watcher);
+  }
+  result.steps += work.steps;
+  result.rhsEvaluations += work.rhsEvaluations;
+  result.jacobianEvaluations += work.jacobianEvaluations;
+  reason = integrator.reason();
+  return arrived;
 }
 
-// Takes y over into the cell: removes the round-off of the sum, recovers the temperature from the constant enthalpy.
-bool ConstantPressureReactor::Impl::accept(Cell& cell) {
-  double* out = N_VGetArrayPointer(y.get());
+// Takes the state in `out` over into the cell: removes the round-off of the sum, recovers the temperature from the
+// constant enthalpy.
+bool ConstantPressureReactor::Impl::accept(Cell& cell, double* out) {
   double sum = 0;
   for (std::size_t k = 0; k < n; ++k) sum += out[k];
   if (!(std::abs(sum - startSum) < kSumTolerance)) {
@@ -210,10 +167,14 @@ void ConstantPressureReactor::Impl::giveUp(const Cell& cell, double dt) const {
   for (std::size_t k = 0; k < n; ++k)
     if (!(std::abs(cell.Y[k]) <= 1e-6))
       composition += fmt::format("{}{}: {:.6g}", composition.empty() ? "" : ", ", mechanism.speciesName(k), cell.Y[k]);
-  throw NumericsError(fmt::format(
+  const std::string why = reason.empty() ? "this is not a state of a gas" : reason;
+  const auto message = fmt::format(
       "the chemistry of a cell could not be advanced: T = {:.6g} K, p = {:.6g} Pa, "
       "dt = {:.6g} s, mass fractions {{{}}}; {}",
-      cell.temperature, cell.pressure, dt, composition, reason.empty() ? "this is not a state of a gas" : reason));
+      cell.temperature, cell.pressure, dt, composition, why);
+  throw ReactorFailure(message, {cell.temperature, cell.pressure, dt, cell.initialStep,
+                                 std::vector<double>(cell.Y.begin(), cell.Y.end()),
+                                 std::vector<double>(cell.source.begin(), cell.source.end()), options, why});
 }
 
 ConstantPressureReactor::ConstantPressureReactor(const Mechanism& mechanism, const Options& options)
@@ -222,7 +183,7 @@ ConstantPressureReactor::~ConstantPressureReactor() = default;
 ConstantPressureReactor::ConstantPressureReactor(ConstantPressureReactor&&) noexcept = default;
 ConstantPressureReactor& ConstantPressureReactor::operator=(ConstantPressureReactor&&) noexcept = default;
 
-ConstantPressureReactor::Result ConstantPressureReactor::advance(Cell& cell, double dt) {
+ConstantPressureReactor::Result ConstantPressureReactor::advance(Cell& cell, double dt, const Observer& observer) {
   auto& self = *impl_;
   const auto begin = std::chrono::steady_clock::now();
   Result result;
@@ -245,9 +206,18 @@ ConstantPressureReactor::Result ConstantPressureReactor::advance(Cell& cell, dou
   const Attempt attempts[] = {{cell.initialStep, 1.0, 1, 1}, {1e-9 * dt, 0.1, 2, 1}, {1e-9 * dt, 0.01, 2, 16}};
   std::string firstReason;
   for (const auto& attempt : attempts) {
-    const auto lastStep = self.integrate(cell, dt, attempt, result);
-    if (lastStep && self.accept(cell)) {
-      cell.initialStep = *lastStep;
+    Event event;
+    event.attempt = result.retries + 1;
+    const bool done =
+        self.integrate(cell, dt, attempt, event, observer, result) && self.accept(cell, self.integrator.state());
+    if (observer) {
+      event.kind = done ? Event::Kind::Done : Event::Kind::Failed;
+      event.temperature = done ? cell.temperature : self.integrator.state()[self.n];
+      event.reason = done ? "" : self.reason;
+      observer(event);
+    }
+    if (done) {
+      cell.initialStep = self.integrator.lastStep();
       return finish();
     }
     if (firstReason.empty()) firstReason = self.reason;

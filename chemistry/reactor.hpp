@@ -3,8 +3,10 @@
 // inputs alone, bit for bit, never on what the object did before; one object per thread or rank.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
+#include <string>
 
 #include "chemistry/mechanism.hpp"
 
@@ -40,6 +42,21 @@ class ConstantPressureReactor {
     double seconds = 0;  // wall clock of the call
   };
 
+  // What an observer is told: that an attempt begins, of each of its steps, how it ended.
+  struct Event {
+    enum class Kind { Attempt, Step, Failed, Done };
+    Kind kind = Kind::Attempt;
+    int attempt = 0;  // from 1
+    // Of an attempt.
+    double relativeTolerance = 0, absoluteTolerance = 0, firstStep = 0;
+    int maxSteps = 0, parts = 0;
+    // Of a step; the time counts from the beginning of the interval.
+    double time = 0, stepSize = 0, temperature = 0;
+    int order = 0;
+    std::string reason;  // of a failure
+  };
+  using Observer = std::function<void(const Event&)>;
+
   ConstantPressureReactor(const Mechanism& mechanism, const Options& options);
   explicit ConstantPressureReactor(const Mechanism& mechanism) : ConstantPressureReactor(mechanism, Options{}) {}
   ~ConstantPressureReactor();
@@ -48,10 +65,11 @@ class ConstantPressureReactor {
 
   // Advances the cell by dt seconds. The mixture's enthalpy (J/kg, with formation) is constant: the source carries the
   // enthalpy that keeps it so. On return the temperature belongs to that enthalpy to round-off and the sum of Y is that
-  // of the start to about 1e-15. Throws NumericsError, with the cell unchanged, if the input is not a gas or the
-  // integration fails also with a small first step, tighter tolerances, more steps and a divided interval; the message
-  // has T, p, dt, the composition and the solver's reason.
-  Result advance(Cell& cell, double dt);
+  // of the start to about 1e-15. Throws ReactorFailure (reactor_failure.hpp), with the cell unchanged, if the input is
+  // not a gas or the integration fails also with a small first step, tighter tolerances, more steps and a divided
+  // interval; the message has T, p, dt, the composition and the solver's reason. An observer changes nothing but the
+  // time it takes.
+  Result advance(Cell& cell, double dt, const Observer& observer = {});
 
  private:
   struct Impl;

@@ -48,6 +48,10 @@ void ReactionOperator::solve(double time, double dt, std::span<const double> in,
   const std::size_t n = context_.mechanism.numSpecies();
   const std::span<double> Y = out.subspan(Layout::outHeader);
   std::ranges::copy(in.subspan(Layout::inHeader, n), Y.begin());
+  const auto failure = [&](const std::string& reason) {
+    return NumericsError(fmt::format("chemistry failed in cell {:.0f} at ({:.6g}, {:.6g}) m at time {:.6g} s: {}",
+                                     in[6], in[0], in[1], time, reason));
+  };
   try {
     ConstantPressureReactor::Cell cell{context_.thermo.temperatureFromEnthalpy(in[2], Y, in[3]), in[4], Y, {}, in[5]};
     if (options_.deferred) cell.source = in.subspan(Layout::inHeader + n);
@@ -57,9 +61,12 @@ void ReactionOperator::solve(double time, double dt, std::span<const double> in,
     out[3] = result.steps;
     out[4] = result.retries;
     out[5] = result.skipped ? 1.0 : 0.0;
+  } catch (const ReactorFailure& error) {
+    const auto kept =
+        options_.keepFailed ? options_.keepFailed(static_cast<std::int64_t>(in[6]), error.cell()) : std::string();
+    throw failure(error.what() + kept);
   } catch (const NumericsError& error) {
-    throw NumericsError(fmt::format("chemistry failed in cell {:.0f} at ({:.6g}, {:.6g}) m at time {:.6g} s: {}", in[6],
-                                    in[0], in[1], time, error.what()));
+    throw failure(error.what());
   }
   out[2] = MPI_Wtime() - start;
 }

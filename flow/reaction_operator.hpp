@@ -7,10 +7,14 @@
 // step, and the stiff solver, which then starts in equilibrium with the transport, needs few steps.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "chemistry/reactor.hpp"
+#include "chemistry/reactor_failure.hpp"
 #include "core/work_sharing.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/state.hpp"
@@ -23,6 +27,9 @@ class ReactionOperator : public Operator {
     bool deferred = true;  // otherwise Strang splitting
     bool shareWork = true;
     ConstantPressureReactor::Options reactor;
+    // Keeps a cell that cannot be advanced, on the rank that tried; what it returns is added to the message. Called at
+    // most once on each rank, as the first failure ends its work. May be empty.
+    std::function<std::string(std::int64_t naturalCell, const FailedCell& failed)> keepFailed;
   };
   struct Diagnostics {  // of all ranks and all stages since the last call of takeDiagnostics()
     double solverSteps = 0.0;

@@ -30,6 +30,16 @@ std::string stateOf(const fs::path& folder) {
   return fs::exists(folder / "results.h5") ? "the results of a run" : "parts of a run";
 }
 
+void removeFailedCells(const fs::path& folder) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(RunFolder::failedCellPrefix) || !name.ends_with(".yaml")) continue;
+    fs::remove(entry.path(), error);
+    if (error) throw InputError(fmt::format("{}: cannot be removed: {}", entry.path().string(), error.message()));
+  }
+}
+
 // Throws on rank 0 only.
 void prepareHere(const fs::path& path, bool force) {
   std::error_code error;
@@ -50,6 +60,7 @@ void prepareHere(const fs::path& path, bool force) {
       throw InputError(fmt::format("{}: cannot be removed: {}", (path / name).string(), error.message()));
     }
   }
+  removeFailedCells(path);
   fs::create_directories(path, error);
   if (error) throw InputError(fmt::format("{}: the folder cannot be made: {}", path.string(), error.message()));
   const fs::path probe = path / ".writable";

@@ -4,6 +4,7 @@
 
 #include <mpi.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -21,6 +22,11 @@ class RunFolder {
   [[nodiscard]] std::filesystem::path results() const { return path_ / "results.h5"; }
   [[nodiscard]] std::filesystem::path runRecord() const { return path_ / "run.json"; }
   [[nodiscard]] std::filesystem::path history() const { return path_ / "history.csv"; }
+  // What a cell that could not be advanced leaves, by its number.
+  static constexpr const char* failedCellPrefix = "failed_cell_";
+  [[nodiscard]] std::filesystem::path failedCell(std::int64_t cell) const {
+    return path_ / (failedCellPrefix + std::to_string(cell) + ".yaml");
+  }
   [[nodiscard]] std::filesystem::path file(const std::string& name) const { return path_ / name; }
 
  private:
