@@ -36,28 +36,28 @@ std::string bySpecies(const Mechanism& mechanism, std::span<const double> values
   return out;
 }
 
+YAML::Node load(const std::string& path) {
+  try {
+    return YAML::LoadFile(path);
+  } catch (const YAML::BadFile&) {
+    throw InputError(fmt::format("{}: cannot be opened", path));
+  } catch (const YAML::Exception& error) {
+    throw InputError(fmt::format("{}:{}: {}", path, error.mark.line + 1, error.msg));
+  }
+}
+
 class Reader {
  public:
-  explicit Reader(const std::string& path) : yaml_(path) {
-    try {
-      root_ = YAML::LoadFile(path);
-    } catch (const YAML::BadFile&) {
-      throw InputError(fmt::format("{}: cannot be opened", path));
-    } catch (const YAML::Exception& error) {
-      throw InputError(fmt::format("{}:{}: {}", path, error.mark.line + 1, error.msg));
-    }
-    yaml_.requireMap(root_, "a replay file");
-    yaml_.allowOnly(root_,
-                    {"mechanism", "temperature", "pressure", "duration", "first_step", "relative_tolerance",
-                     "absolute_tolerance", "max_steps", "negligible_change", "mass_fractions", "source", "reason"},
-                    "a replay file");
+  explicit Reader(const std::string& path) : yaml_(path), file_(yaml_, load(path), "a replay file") {
+    file_.allowOnly({"mechanism", "temperature", "pressure", "duration", "first_step", "relative_tolerance",
+                     "absolute_tolerance", "max_steps", "negligible_change", "mass_fractions", "source", "reason"});
   }
 
   std::string mechanism() const {
     namespace fs = std::filesystem;
-    const fs::path path = yaml_.text(member("mechanism"), "mechanism");
-    return path.is_absolute() ? path.string()
-                              : (fs::path(yaml_.file()).parent_path() / path).lexically_normal().string();
+    const fs::path path = yaml_.text(file_.at("mechanism"), "mechanism");
+    if (path.is_absolute()) return path.string();
+    return (fs::path(yaml_.file()).parent_path() / path).lexically_normal().string();
   }
 
   FailedCell cell(const Mechanism& mechanism) const {
@@ -71,17 +71,15 @@ class Reader {
     cell.options.negligibleChange = value("negligible_change");
     const double steps = positive("max_steps");
     if (steps != std::floor(steps) || steps > 1e9)
-      yaml_.fail(member("max_steps"), "max_steps: expected a whole number");
+      yaml_.fail(file_.at("max_steps"), "max_steps: expected a whole number");
     cell.options.maxSteps = static_cast<int>(steps);
     cell.Y = bySpecies(mechanism, "mass_fractions");
-    if (root_["source"].IsDefined()) cell.source = bySpecies(mechanism, "source");
-    cell.reason = yaml_.text(member("reason"), "reason");
+    if (file_.has("source")) cell.source = bySpecies(mechanism, "source");
+    cell.reason = yaml_.text(file_.at("reason"), "reason");
     return cell;
   }
 
  private:
-  YAML::Node member(const char* key) const { return yaml_.member(root_, key, "a replay file"); }
-
   // Any number, .nan and .inf among them.
   double number(const YAML::Node& node, const std::string& what) const {
     double result = 0;
@@ -89,41 +87,36 @@ class Reader {
       yaml_.fail(node, fmt::format("{}: expected a number", what));
     return result;
   }
-  double value(const char* key) const { return number(member(key), key); }
+  double value(const char* key) const { return number(file_.at(key), key); }
 
   double positive(const char* key) const {
     const double result = value(key);
     if (!(result > 0) || !std::isfinite(result))
-      yaml_.fail(member(key), fmt::format("{}: expected a number above zero", key));
+      yaml_.fail(file_.at(key), fmt::format("{}: expected a number above zero", key));
     return result;
   }
 
   std::vector<double> bySpecies(const Mechanism& mechanism, const char* key) const {
-    const YAML::Node map = member(key);
-    yaml_.requireMap(map, key);
+    const YamlMap map(yaml_, file_.at(key), key);
     std::vector<double> values(mechanism.numSpecies());
-    std::vector<char> given(values.size(), 0);
-    for (const auto& entry : map) {
-      const std::string name = yaml_.text(entry.first, key);
+    for (const auto& entry : map.entries()) {
       std::size_t k = 0;
       try {
-        k = mechanism.speciesIndex(name);
+        k = mechanism.speciesIndex(entry.key);
       } catch (const InputError& error) {
-        yaml_.fail(entry.first, error.what());
+        yaml_.fail(entry.keyNode, error.what());
       }
-      if (given[k] != 0) yaml_.fail(entry.first, fmt::format("{}: '{}' is given twice", key, name));
-      given[k] = 1;
-      values[k] = number(entry.second, fmt::format("{} of {}", key, name));
+      values[k] = number(entry.value, fmt::format("{} of {}", key, entry.key));
     }
     for (std::size_t k = 0; k < values.size(); ++k)
-      if (given[k] == 0)
-        yaml_.fail(map, fmt::format("{}: '{}' is missing; expected a value for each of the {} species of {}", key,
-                                    mechanism.speciesName(k), values.size(), mechanism.fileName()));
+      if (!map.has(mechanism.speciesName(k)))
+        yaml_.fail(map.node(), fmt::format("{}: '{}' is missing; expected a value for each of the {} species of {}",
+                                           key, mechanism.speciesName(k), values.size(), mechanism.fileName()));
     return values;
   }
 
   YamlAccess yaml_;
-  YAML::Node root_;
+  YamlMap file_;
 };
 
 }  // namespace
