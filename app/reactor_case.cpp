@@ -1,14 +1,15 @@
 #include "app/reactor_case.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <charconv>
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
 #include "app/gas_input.hpp"
+#include "app/reactor_case_parts.hpp"
 #include "core/errors.hpp"
-#include "core/nearest_name.hpp"
 
 namespace lampblack {
 namespace {
@@ -37,117 +38,133 @@ TemperatureProfile readProfileFile(const std::filesystem::path& path) {
   return {std::move(points), std::move(temperatures)};
 }
 
-std::optional<TemperatureProfile> readEnergy(const Deck& deck, const GasState& initial) {
+// The points of a profile stand in the key `points` ("time" or "position").
+TemperatureProfile readProfile(const Deck& deck, const std::string& points) {
+  const std::string section = "temperature_profile", other = points == "time" ? "position" : "time";
+  if (!deck.has(section)) throw deck.error("reactor.energy", "'profile' needs the section 'temperature_profile'");
+  if (deck.has(section + "." + other))
+    throw deck.error(section + "." + other,
+                     fmt::format("the profile of a {} goes over '{}'", deck.choice("reactor.type"), points));
+  const bool listed = deck.has(section + "." + points) || deck.has(section + ".temperature");
+  if (listed == deck.has(section + ".file"))
+    throw deck.error(section, fmt::format("expected either '{}' and 'temperature' or 'file'", points));
+  try {
+    if (!listed) return readProfileFile(deck.resolvePath(deck.string(section + ".file")));
+    for (const std::string& name : {points, std::string("temperature")})
+      if (!deck.has(section + "." + name))
+        throw InputError(fmt::format("'{}' and 'temperature' belong together", points));
+    return {deck.quantities(section + "." + points), deck.quantities(section + ".temperature")};
+  } catch (const InputError& error) {
+    throw deck.error(listed ? section : section + ".file", error.what());
+  }
+}
+
+// `own`: the temperature of the start or the inlet.
+std::optional<TemperatureProfile> readEnergy(const Deck& deck, double own, const std::string& points) {
+  const std::string energy = deck.choice("reactor.energy");
+  if (energy == "adiabatic") return std::nullopt;
+  if (energy == "isothermal") return TemperatureProfile(deck.optionalQuantity("reactor.temperature").value_or(own));
+  return readProfile(deck, points);
+}
+
+// Keys and sections that only some types of reactor have. A deck that has one of them in vain is told so.
+void refuseOthers(const Deck& deck, const std::string& type) {
+  struct Part {
+    const char* path;
+    std::vector<std::string> types;
+  };
+  const std::vector<std::string> closed{"constant_pressure", "constant_volume"};
+  const std::vector<Part> parts{
+      {"initial", {"constant_pressure", "constant_volume", "stirred"}},
+      {"inlet", {"stirred", "plug_flow"}},
+      {"inlet.velocity", {"plug_flow"}},
+      {"network", {"network"}},
+      {"temperature_profile", {"constant_pressure", "constant_volume", "plug_flow"}},
+      {"reactor.length", {"plug_flow"}},
+      {"reactor.area", {"plug_flow"}},
+      {"reactor.volume", {"stirred"}},
+      {"reactor.residence_time", {"stirred"}},
+      {"reactor.heat_loss", {"stirred"}},
+      {"reactor.start", {"stirred", "network"}},
+      {"time.end", {"constant_pressure", "constant_volume", "stirred"}},
+      {"time.maximum_step", {"constant_pressure", "constant_volume", "stirred"}},
+      {"output.interval", {"constant_pressure", "constant_volume", "stirred"}},
+      {"output.spacing", {"plug_flow"}},
+      {"ignition", closed},
+      {"sensitivity", closed},
+  };
+  for (const Part& part : parts)
+    if (deck.isGiven(part.path) && std::find(part.types.begin(), part.types.end(), type) == part.types.end())
+      throw deck.error(part.path, fmt::format("a reactor of type {} does not have this; it belongs to: {}", type,
+                                              fmt::join(part.types, ", ")));
   const std::string energy = deck.choice("reactor.energy");
   if (energy != "profile" && deck.has("temperature_profile"))
     throw deck.error("temperature_profile",
                      fmt::format("reactor.energy is {}; a profile needs 'energy: profile'", energy));
-  if (energy == "isothermal") return TemperatureProfile(initial.temperature);
-  if (energy == "adiabatic") return std::nullopt;
-  const std::string section = "temperature_profile";
-  if (!deck.has(section)) throw deck.error("reactor.energy", "'profile' needs the section 'temperature_profile'");
-  const bool points = deck.has(section + ".time") || deck.has(section + ".temperature");
-  if (points == deck.has(section + ".file"))
-    throw deck.error(section, "expected either 'time' and 'temperature' or 'file'");
-  try {
-    if (!points) return readProfileFile(deck.resolvePath(deck.string(section + ".file")));
-    for (const char* name : {".time", ".temperature"})
-      if (!deck.has(section + name)) throw InputError("'time' and 'temperature' belong together");
-    return TemperatureProfile(deck.quantities(section + ".time"), deck.quantities(section + ".temperature"));
-  } catch (const InputError& error) {
-    throw deck.error(points ? section : section + ".file", error.what());
-  }
+  if (energy != "isothermal" && deck.has("reactor.temperature"))
+    throw deck.error("reactor.temperature", fmt::format("reactor.energy is {}; a temperature of the reactor needs "
+                                                        "'energy: isothermal'",
+                                                        energy));
+  if (energy != "adiabatic" && type == "network")
+    throw deck.error("reactor.energy", "in a network each reactor may have a 'temperature' of its own");
+  if (energy == "profile" && type == "stirred")
+    throw deck.error("reactor.energy", "a stirred reactor has one temperature: 'isothermal' with 'temperature'");
 }
 
-void readIgnition(const Deck& deck, ReactorCase& reactorCase) {
-  using Kind = IgnitionCriterion::Kind;
+void readClosed(const Deck& deck, ReactorCase& reactorCase) {
+  if (!deck.has("initial")) throw deck.error("initial", "a closed reactor needs the section 'initial'");
+  reactorCase.initial = {deck.quantity("initial.temperature"), deck.quantity("pressure"),
+                         readMixture(deck, "initial", *reactorCase.mechanism)};
+  reactorCase.profile = readEnergy(deck, reactorCase.initial.temperature, "time");
+  reactorCase.end = neededQuantity(deck, "time", "end", "a closed reactor");
+  reactorcase::readIgnition(deck, reactorCase);
+  reactorcase::readSensitivity(deck, reactorCase);
+}
+
+void readPlugFlow(const Deck& deck, ReactorCase& reactorCase) {
+  if (!deck.has("inlet")) throw deck.error("inlet", "a plug flow needs the section 'inlet'");
   const Mechanism& mechanism = *reactorCase.mechanism;
-  const bool adiabatic = !reactorCase.profile;
-  auto& criteria = reactorCase.ignition;
-  if (adiabatic && deck.boolean("ignition.temperature_rate"))
-    criteria.push_back({Kind::TemperatureRate, 0, 0.0, "max_dTdt"});
-  if (!deck.isGiven("ignition.species") && !mechanism.findSpecies("OH")) {
-    // The default is for mechanisms that have it.
-  } else {
-    for (const std::size_t k : readSpeciesList(deck, "ignition.species", mechanism)) {
-      criteria.push_back({Kind::MoleFraction, k, 0.0, "max_X_" + mechanism.speciesName(k)});
-      criteria.push_back({Kind::MassFraction, k, 0.0, "max_Y_" + mechanism.speciesName(k)});
-    }
-  }
-  if (const auto rise = deck.optionalQuantity("ignition.temperature_rise")) {
-    if (!adiabatic) throw deck.error("ignition.temperature_rise", "the temperature of this reactor is given");
-    criteria.push_back({Kind::TemperatureRise, 0, *rise, fmt::format("rise_{:g}K", *rise)});
-  }
-}
-
-// An equation without blanks, for comparisons.
-std::string bare(std::string text) {
-  std::erase_if(text, [](char c) { return c == ' ' || c == '\t'; });
-  return text;
-}
-
-std::vector<std::size_t> reactionsNamed(const Mechanism& mechanism, const std::string& text) {
-  std::size_t number = 0;
-  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (status == std::errc{} && end == text.data() + text.size()) {
-    if (number < 1 || number > mechanism.numReactions())
-      throw InputError(fmt::format("there is no reaction {}; expected 1 to {}", number, mechanism.numReactions()));
-    return {number - 1};
-  }
-  std::vector<std::size_t> found;
-  std::vector<std::string> known;
-  for (std::size_t r = 0; r < mechanism.numReactions(); ++r) {
-    known.push_back(mechanism.reaction(r).equation);
-    if (bare(known.back()) == bare(text)) found.push_back(r);
-  }
-  if (found.empty())
-    throw InputError(fmt::format("no reaction '{}' in the mechanism{}", text, didYouMean(text, known)));
-  return found;
-}
-
-void readSensitivity(const Deck& deck, ReactorCase& reactorCase) {
-  if (!deck.has("sensitivity")) return;
-  const Mechanism& mechanism = *reactorCase.mechanism;
-  auto& reactions = reactorCase.sensitivities;
-  if (reactorCase.ignition.empty())
-    throw deck.error("sensitivity", "there is no criterion of ignition, so that there is no delay");
-  for (const std::string& text : deck.strings("sensitivity.reactions")) {
-    if (text == "all") {
-      reactions.clear();
-      for (std::size_t r = 0; r < mechanism.numReactions(); ++r) reactions.push_back(r);
-      return;
-    }
-    try {
-      const auto found = reactionsNamed(mechanism, text);
-      reactions.insert(reactions.end(), found.begin(), found.end());
-    } catch (const InputError& error) {
-      throw deck.error("sensitivity.reactions", error.what());
-    }
-  }
-  if (reactions.empty()) throw deck.error("sensitivity.reactions", "expected at least one reaction, or 'all'");
+  GasState& inlet = reactorCase.inlet;
+  inlet = {deck.quantity("inlet.temperature"), deck.quantity("pressure"), readMixture(deck, "inlet", mechanism)};
+  reactorCase.length = neededQuantity(deck, "reactor", "length", "a plug flow");
+  reactorCase.profile = readEnergy(deck, inlet.temperature, "position");
+  if (deck.has("inlet.velocity") == deck.has("inlet.mass_flow"))
+    throw deck.error("inlet", "a plug flow needs either 'velocity' or 'mass_flow'");
+  if (const auto velocity = deck.optionalQuantity("inlet.velocity"))
+    reactorCase.massFlux = *velocity * Thermo(mechanism).density(inlet.temperature, inlet.pressure, inlet.Y);
+  else
+    reactorCase.massFlux =
+        deck.quantity("inlet.mass_flow") / neededQuantity(deck, "reactor", "area", "a plug flow with a mass flow");
+  reactorCase.output.interval = deck.optionalQuantity("output.spacing");
 }
 
 }  // namespace
 
 ReactorCase readReactorCase(const Deck& deck) {
   ReactorCase reactorCase;
+  const std::string type = deck.choice("reactor.type");
+  refuseOthers(deck, type);
   reactorCase.title = deck.string("title");
   reactorCase.mechanism = readMechanism(deck);
-  reactorCase.type =
-      deck.choice("reactor.type") == "constant_pressure" ? ReactorType::ConstantPressure : ReactorType::ConstantVolume;
-  if (!deck.has("initial")) throw deck.error("initial", "a closed reactor needs the section 'initial'");
-  reactorCase.initial = {deck.quantity("initial.temperature"), deck.quantity("pressure"),
-                         readMixture(deck, "initial", *reactorCase.mechanism)};
-  reactorCase.profile = readEnergy(deck, reactorCase.initial);
-  reactorCase.end = deck.quantity("time.end");
   reactorCase.integrator = {deck.number("integrator.relative_tolerance"), deck.number("integrator.absolute_tolerance"),
                             deck.optionalQuantity("time.maximum_step").value_or(0.0),
                             static_cast<long>(deck.integer("integrator.maximum_steps"))};
   reactorCase.output = {deck.optionalQuantity("output.interval"),
                         readSpeciesList(deck, "output.species", *reactorCase.mechanism),
                         deck.choice("output.fractions") == "mass"};
-  readIgnition(deck, reactorCase);
-  readSensitivity(deck, reactorCase);
+  if (type == "constant_pressure" || type == "constant_volume") {
+    reactorCase.type = type == "constant_pressure" ? ReactorType::ConstantPressure : ReactorType::ConstantVolume;
+    readClosed(deck, reactorCase);
+  } else if (type == "plug_flow") {
+    reactorCase.type = ReactorType::PlugFlow;
+    readPlugFlow(deck, reactorCase);
+  } else if (type == "stirred") {
+    reactorCase.type = ReactorType::Stirred;
+    reactorcase::readStirred(deck, reactorCase);
+  } else {
+    reactorCase.type = ReactorType::Network;
+    reactorcase::readNetwork(deck, reactorCase);
+  }
   return reactorCase;
 }
 

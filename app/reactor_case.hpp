@@ -10,12 +10,14 @@
 #include "chemistry/closed_reactor.hpp"
 #include "chemistry/ignition.hpp"
 #include "chemistry/mechanism.hpp"
+#include "chemistry/network_solver.hpp"
+#include "chemistry/reactor_network.hpp"
 #include "chemistry/stiff_integrator.hpp"
 #include "io/deck.hpp"
 
 namespace lampblack {
 
-enum class ReactorType { ConstantPressure, ConstantVolume };
+enum class ReactorType { ConstantPressure, ConstantVolume, Stirred, PlugFlow, Network };
 
 struct ReactorOutput {
   std::optional<double> interval;    // s (plug flow: m) between rows; every step otherwise
@@ -27,13 +29,23 @@ struct ReactorCase {
   std::string title;
   std::shared_ptr<const Mechanism> mechanism;
   ReactorType type = ReactorType::ConstantPressure;
-  GasState initial;
-  std::optional<TemperatureProfile> profile;  // a given temperature
-  double end = 0.0;                           // s
   StiffIntegrator::Options integrator;
   ReactorOutput output;
+  std::optional<TemperatureProfile> profile;  // a given temperature of a closed reactor or a plug flow
+
+  // Closed reactors.
+  GasState initial;
+  double end = 0.0;  // s; stirred: of a transient, 0 where the steady state is wanted
   std::vector<IgnitionCriterion> ignition;
   std::vector<std::size_t> sensitivities;  // reactions
+
+  // Plug flow.
+  GasState inlet;
+  double massFlux = 0.0, length = 0.0;  // kg/m2/s, m
+
+  // Stirred reactors.
+  ReactorNetwork network;
+  NetworkStart start;
 };
 
 // All keys a reactor deck may have.

@@ -11,14 +11,78 @@ DeckKey temperatureKey(std::string path, std::string doc) {
       .atMost(Thermo::maxTemperature);
 }
 
+// What a stirred reactor has, alone or in a network.
+void addVesselKeys(DeckSchema& schema, const std::string& section) {
+  schema
+      .add(quantityKey(section + ".volume", units::volume, "Of a stirred reactor; or residence_time.")
+               .optional()
+               .above(0))
+      .add(quantityKey(section + ".residence_time", units::time,
+                       "Of a stirred reactor: mass inside over mass flow; the volume follows from it.")
+               .optional()
+               .above(0))
+      .section(section + ".heat_loss", Presence::optional, "Of a stirred reactor with an energy equation.")
+      .add(quantityKey(section + ".heat_loss.conductance", units::watt / units::temperature,
+                       "Heat lost a kelvin above the surroundings.")
+               .atLeast(0))
+      .add(temperatureKey(section + ".heat_loss.surroundings", "Temperature of the surroundings.").byDefault("300 K"));
+}
+
 void addReactor(DeckSchema& schema) {
   schema
-      .add(choiceKey("reactor.type", {"constant_pressure", "constant_volume"},
-                     "constant_pressure, constant_volume: closed and well mixed."))
+      .add(choiceKey("reactor.type", {"constant_pressure", "constant_volume", "stirred", "plug_flow", "network"},
+                     "constant_pressure, constant_volume: closed and well mixed, from the section initial; stirred: "
+                     "perfectly stirred with a stream through it; plug_flow: a stream along a duct; network: stirred "
+                     "reactors joined by streams."))
       .add(choiceKey("reactor.energy", {"adiabatic", "isothermal", "profile"},
-                     "adiabatic; isothermal: the temperature of the start is kept; profile: it follows "
-                     "temperature_profile.")
-               .byDefault("adiabatic"));
+                     "adiabatic (a stirred reactor may lose heat even so); isothermal: the temperature of the start or "
+                     "of the inlet is kept, or reactor.temperature; profile: it follows temperature_profile.")
+               .byDefault("adiabatic"))
+      .add(temperatureKey("reactor.temperature", "isothermal: the temperature, if not that of the start or inlet.")
+               .optional())
+      .add(choiceKey("reactor.start", {"burnt", "fresh"},
+                     "stirred, network: the steady state is searched from the equilibrium of what flows in, or from "
+                     "what flows in as it is.")
+               .byDefault("burnt"))
+      .add(quantityKey("reactor.length", units::length, "plug_flow: of the duct.").optional().above(0))
+      .add(quantityKey("reactor.area", units::area, "plug_flow: cross-section, where the inlet has a mass_flow.")
+               .optional()
+               .above(0));
+  addVesselKeys(schema, "reactor");
+  schema.section("inlet", Presence::optional, "stirred, plug_flow: the stream that comes in.")
+      .add(temperatureKey("inlet.temperature", "Temperature."))
+      .add(quantityKey("inlet.mass_flow", units::massFlow, "stirred (with a volume), plug_flow (with an area).")
+               .optional()
+               .above(0))
+      .add(quantityKey("inlet.velocity", units::velocity, "plug_flow: instead of mass_flow.").optional().above(0));
+  addMixtureKeys(schema, "inlet");
+}
+
+void addNetwork(DeckSchema& schema) {
+  schema.section("network", Presence::optional, "Stirred reactors of one pressure and the streams between them.")
+      .section("network.reactors", Presence::required, "Named reactors.")
+      .add(temperatureKey("network.reactors.*.temperature", "Where it is given; the energy equation otherwise.")
+               .optional());
+  addVesselKeys(schema, "network.reactors.*");
+  schema.section("network.inlets", Presence::required, "Named streams from outside.")
+      .add(stringKey("network.inlets.*.to", "The reactor it flows into."))
+      .add(quantityKey("network.inlets.*.mass_flow", units::massFlow, "Mass flow.").above(0))
+      .add(temperatureKey("network.inlets.*.temperature", "Temperature."));
+  addMixtureKeys(schema, "network.inlets.*");
+  schema
+      .section("network.connections", Presence::optional,
+               "Streams between reactors. What a reactor does not pass on leaves the network.")
+      .add(stringKey("network.connections[].from", "The reactor it leaves."))
+      .add(stringKey("network.connections[].to", "The reactor it flows into."))
+      .add(numberKey("network.connections[].fraction",
+                     "Of all that flows through the reactor it leaves; 1 if neither "
+                     "this nor mass_flow is given.")
+               .optional()
+               .above(0)
+               .atMost(1))
+      .add(quantityKey("network.connections[].mass_flow", units::massFlow, "Instead of a fraction.")
+               .optional()
+               .above(0));
 }
 
 void addProfile(DeckSchema& schema) {
@@ -26,10 +90,16 @@ void addProfile(DeckSchema& schema) {
       .section("temperature_profile", Presence::optional,
                "The temperature where reactor.energy is profile: straight lines between points, constant beyond them. "
                "Points here or in a file.")
-      .add(quantityKey("temperature_profile.time", units::time, "Times of the points, rising.").list().optional())
+      .add(quantityKey("temperature_profile.time", units::time, "Closed reactors: times of the points, rising.")
+               .list()
+               .optional())
+      .add(quantityKey("temperature_profile.position", units::length, "plug_flow: places of the points, rising.")
+               .list()
+               .optional())
       .add(temperatureKey("temperature_profile.temperature", "Temperatures of the points.").list().optional())
       .add(stringKey("temperature_profile.file",
-                     "Instead: a CSV file of two columns, time in s and temperature in K; a first line of names and "
+                     "Instead: a CSV file of two columns, time in s (place in m) and temperature in K; a first line of "
+                     "names and "
                      "lines that begin with # are skipped. Relative to the deck.")
                .optional());
 }
@@ -37,7 +107,8 @@ void addProfile(DeckSchema& schema) {
 void addIgnition(DeckSchema& schema) {
   schema
       .section("ignition", Presence::defaulted,
-               "What marks ignition. Delays are found on the integrator's dense output, well below its steps.")
+               "What marks ignition in a closed reactor. Delays are found on the integrator's dense output, well below "
+               "its steps.")
       .add(booleanKey("ignition.temperature_rate", "The largest dT/dt (of adiabatic reactors).").byDefault("true"))
       .add(stringKey("ignition.species",
                      "The largest mole and the largest mass fraction of these species; OH only where the mechanism has "
@@ -69,11 +140,17 @@ DeckSchema reactorSchema() {
                .byDefault("1 atm")
                .above(0));
   addReactor(schema);
-  schema.section("initial", Presence::optional, "The gas at the start of a closed reactor.")
+  schema.section("initial", Presence::optional, "The gas at the start of a closed or, if wanted, stirred reactor.")
       .add(temperatureKey("initial.temperature", "Temperature."));
   addMixtureKeys(schema, "initial");
   addProfile(schema);
-  schema.add(quantityKey("time.end", units::time, "Simulated time.").above(0))
+  addNetwork(schema);
+  schema
+      .add(quantityKey("time.end", units::time,
+                       "Simulated time of a closed reactor. A stirred reactor with it is a transient, without it the "
+                       "steady state is searched.")
+               .optional()
+               .above(0))
       .add(quantityKey("time.maximum_step", units::time, "Largest step of the integrator.").optional().above(0));
   addIgnition(schema);
   schema.add(numberKey("integrator.relative_tolerance", "Of the stiff solver.").byDefault("1e-9").above(0).below(1))
@@ -84,6 +161,8 @@ DeckSchema reactorSchema() {
       .add(quantityKey("output.interval", units::time, "Time between rows; absent: each step of the integrator.")
                .optional()
                .above(0))
+      .add(
+          quantityKey("output.spacing", units::length, "plug_flow: distance between rows instead.").optional().above(0))
       .add(stringKey("output.species", "Species whose fractions are written; 'all' writes every one.")
                .list()
                .byDefault("[all]"))

@@ -74,7 +74,8 @@ std::vector<std::vector<std::size_t>> solutionOrder(const ReactorNetwork& networ
   return groups;
 }
 
-GasState startOf(const Mechanism& mechanism, const ReactorNetwork& network, NetworkStart start) {
+GasState startOf(const Mechanism& mechanism, const ReactorNetwork& network, const NetworkStart& start) {
+  if (start.given) return *start.given;
   const Thermo thermo(mechanism);
   GasState state{0, network.pressure, std::vector<double>(mechanism.numSpecies(), 0.0)};
   double total = 0, enthalpy = 0, temperature = 0;
@@ -85,24 +86,29 @@ GasState startOf(const Mechanism& mechanism, const ReactorNetwork& network, Netw
     enthalpy += share * thermo.enthalpyMass(stream.temperature, stream.Y);
     temperature += share * stream.temperature;
   }
-  state.temperature = start == NetworkStart::Burnt
-                          ? Equilibrium(mechanism).atEnthalpyAndPressure(enthalpy, network.pressure, state.Y)
-                          : thermo.temperatureFromEnthalpy(enthalpy, state.Y, temperature);
+  state.temperature = start.burnt ? Equilibrium(mechanism).atEnthalpyAndPressure(enthalpy, network.pressure, state.Y)
+                                  : thermo.temperatureFromEnthalpy(enthalpy, state.Y, temperature);
   return state;
 }
 
+std::vector<double> startUnknowns(const Mechanism& mechanism, const ReactorNetwork& network,
+                                  const NetworkStart& start) {
+  const GasState begin = startOf(mechanism, network, start);
+  std::vector<double> y;
+  for (const StirredReactor& reactor : network.reactors) {
+    y.insert(y.end(), begin.Y.begin(), begin.Y.end());
+    y.push_back(reactor.temperature.value_or(begin.temperature));
+  }
+  return y;
+}
+
 std::vector<ReactorSteadyState> solveNetwork(const Mechanism& mechanism, const ReactorNetwork& network,
-                                             NetworkStart start) {
+                                             const NetworkStart& start) {
   std::vector<ReactorSteadyState> solved(network.reactors.size());
   for (const auto& group : solutionOrder(network)) {
     NetworkSystem system(mechanism, partOf(network, group, solved));
     const ReactorNetwork& part = system.network();
-    const GasState begin = startOf(mechanism, part, start);
-    std::vector<double> y;
-    for (const StirredReactor& reactor : part.reactors) {
-      y.insert(y.end(), begin.Y.begin(), begin.Y.end());
-      y.push_back(reactor.temperature.value_or(begin.temperature));
-    }
+    const std::vector<double> y = startUnknowns(mechanism, part, start);
     double slowest = 0;
     for (std::size_t i = 0; i < group.size(); ++i) slowest = std::max(slowest, system.residenceTime(y.data(), i));
     const SteadyState steady = findSteadyState(system, y, slowest);

@@ -2,6 +2,7 @@
 // along the stream; those of a recycle together.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "chemistry/mechanism.hpp"
@@ -9,9 +10,12 @@
 
 namespace lampblack {
 
-// Where the transient to the steady state begins: with the equilibrium of what flows in (at constant enthalpy, or the
-// given temperature), or with what flows in as it is.
-enum class NetworkStart { Burnt, Fresh };
+// Where the transient to the steady state begins: with the equilibrium of what flows in (at constant enthalpy), with
+// what flows in as it is, or with a given gas. A given temperature of a reactor holds in any case.
+struct NetworkStart {
+  bool burnt = true;
+  std::optional<GasState> given = std::nullopt;
+};
 
 struct ReactorSteadyState {
   GasState state;
@@ -29,10 +33,13 @@ struct ReactorSteadyState {
 std::vector<std::vector<std::size_t>> solutionOrder(const ReactorNetwork& network);
 
 // The start of a reactor, or of all in a group, fed by `inflows` alone: mass fractions and temperature.
-GasState startOf(const Mechanism& mechanism, const ReactorNetwork& network, NetworkStart start);
+GasState startOf(const Mechanism& mechanism, const ReactorNetwork& network, const NetworkStart& start);
+
+// The same as unknowns of NetworkSystem.
+std::vector<double> startUnknowns(const Mechanism& mechanism, const ReactorNetwork& network, const NetworkStart& start);
 
 // In the order of the reactors. NumericsError as findSteadyState.
 std::vector<ReactorSteadyState> solveNetwork(const Mechanism& mechanism, const ReactorNetwork& network,
-                                             NetworkStart start);
+                                             const NetworkStart& start);
 
 }  // namespace lampblack

@@ -23,6 +23,7 @@ def plot_reactor(results, pictures):
             delays = {name: time * factor for name, time in delays.items()}
             _plot_history(columns, columns["time"] * factor, f"time, {unit}", delays, pictures)
             _plot_ignition(columns, columns["time"] * factor, f"time, {unit}", delays, pictures)
+    _plot_reactors(results, pictures)
     _plot_sensitivities(results, pictures)
 
 
@@ -75,6 +76,27 @@ def _plot_ignition(columns, axis, label, delays, pictures):
     axes.set_xlabel(label)
     axes.legend(fontsize=8)
     pictures.save(figure, "ignition")
+
+
+def _plot_reactors(results, pictures):
+    """Temperature and main species of each reactor in a network."""
+    table = results.reactors()
+    if not table:
+        return
+    names, columns = table
+    places = np.arange(len(names))
+    figure, (above, below) = plt.subplots(2, 1, figsize=(2.4 + 0.9 * max(4, len(names)), 6.4), sharex=True)
+    above.plot(places, columns["temperature"], "o-", color="tab:red")
+    above.set_ylabel("temperature, K")
+    species = sorted((name for name in columns if name.startswith(("X_", "Y_"))), key=lambda n: -np.max(columns[n]))
+    pollutants = [name for name in species if name[2:] in ("NO", "CO", "OH")]
+    for name in list(dict.fromkeys(species[:MOST_SPECIES] + pollutants)):
+        below.semilogy(places, np.where(columns[name] > 0, columns[name], np.nan), "o-", ms=4, label=name[2:])
+    below.set_ylim(1e-7, 1.5)
+    below.set_ylabel("mole fraction" if any(name.startswith("X_") for name in columns) else "mass fraction")
+    below.set_xticks(places, names, rotation=30, ha="right")
+    below.legend(fontsize=8, ncol=3)
+    pictures.save(figure, "reactors")
 
 
 def _plot_sensitivities(results, pictures):

@@ -109,6 +109,15 @@ class Results:
         group = self.file.get("ignition", {})
         return {name: float(group[name]["delay"][()]) for name in group}
 
+    def reactors(self):
+        """Names and columns {name: values} of the reactors in a network, or nothing."""
+        group = self.file.get("reactors")
+        if group is None:
+            return None
+        names = group.attrs["names"]
+        names = names.decode("utf-8") if isinstance(names, bytes) else str(names)
+        return names.split(","), {name: group[name][()] for name in group}
+
     def history(self):
         """Columns of the history as {name: (unit, values)}, from the results file or else from history.csv."""
         group = self.file.get("history")

@@ -26,6 +26,8 @@ using lampblack::testing::readText;
 constexpr double kAtm = constants::oneAtmosphere;
 constexpr double kRate = 1000;  // 1/s
 
+const NetworkStart kFresh{false};
+
 // A => B of first order; both weigh the same, so that volumes stay.
 const Mechanism& firstOrder() {
   static const Mechanism mechanism = readText(
@@ -131,7 +133,7 @@ TEST(SteadyState, OfAStirredReactorOfFirstOrder) {
         network.reactors[0].volume.reset();
         network.reactors[0].residenceTime = tau;
       }
-      const auto result = solveNetwork(firstOrder(), network, NetworkStart::Fresh);
+      const auto result = solveNetwork(firstOrder(), network, kFresh);
       const double exact = 1 / (1 + kRate * tau);
       measured("relative error", result[0].state.Y[0] / exact - 1);
       EXPECT_NEAR(result[0].state.Y[0] / exact, 1, 1e-10);
@@ -154,7 +156,7 @@ TEST(SteadyState, OfReactorsInARow) {
     if (i > 0) network.streams.push_back({i - 1, i, 1.0});
   }
   EXPECT_EQ(solutionOrder(network).size(), count);
-  const auto result = solveNetwork(firstOrder(), network, NetworkStart::Fresh);
+  const auto result = solveNetwork(firstOrder(), network, kFresh);
   const double exact = std::pow(1 + kRate * tau / count, -static_cast<double>(count));
   measured("relative error", result.back().state.Y[0] / exact - 1);
   EXPECT_NEAR(result.back().state.Y[0] / exact, 1, 1e-9);
@@ -172,7 +174,7 @@ TEST(SteadyState, OfARecycle) {
     reactor.temperature = 900;
   }
   EXPECT_EQ(solutionOrder(network).size(), 1U);
-  const auto result = solveNetwork(firstOrder(), network, NetworkStart::Fresh);
+  const auto result = solveNetwork(firstOrder(), network, kFresh);
   const double Da = kRate * tau, a = 1 + R + Da;
   const double first = 1 / (a - R * (1 + R) / a), second = (1 + R) * first / a;
   measured("relative error", result[1].state.Y[0] / second - 1);
@@ -183,7 +185,7 @@ TEST(SteadyState, OfARecycle) {
 // Burning hydrogen in the network with recycle and heat loss: elements and energy that come in go out.
 TEST(SteadyState, ConservesElementsAndEnergy) {
   const ReactorNetwork network = recycling();
-  const auto result = solveNetwork(hydrogen(), network, NetworkStart::Burnt);
+  const auto result = solveNetwork(hydrogen(), network, NetworkStart{});
   const Thermo thermo(hydrogen());
   EXPECT_GT(result[0].state.temperature, 1500);
   double heat = network.reactors[1].conductance * (result[1].state.temperature - network.reactors[1].surroundings);
@@ -215,11 +217,11 @@ TEST(SteadyState, ConservesElementsAndEnergy) {
 // inflow, the distance falling with the residence time.
 TEST(SteadyState, BlowsOutOrComesToEquilibrium) {
   const GasState feed = hydrogenAir(300);
-  const GasState burnt = startOf(hydrogen(), {kAtm, {}, {{0, 1.0, 300, feed.Y}}, {}}, NetworkStart::Burnt);
+  const GasState burnt = startOf(hydrogen(), {kAtm, {}, {{0, 1.0, 300, feed.Y}}, {}}, NetworkStart{});
   const auto temperatureAt = [&](double tau) {
     StirredReactor reactor;
     reactor.residenceTime = tau;
-    return solveNetwork(hydrogen(), {kAtm, {reactor}, {{0, 1.0, 300, feed.Y}}, {}}, NetworkStart::Burnt)[0]
+    return solveNetwork(hydrogen(), {kAtm, {reactor}, {{0, 1.0, 300, feed.Y}}, {}}, NetworkStart{})[0]
         .state.temperature;
   };
   EXPECT_NEAR(temperatureAt(1e-6), 300, 1e-6);

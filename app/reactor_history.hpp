@@ -1,0 +1,38 @@
+// The history of a reactor on rank 0: rows at the integrator's steps or at regular points, to history.csv while the run
+// goes on and to the results file at its end.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "chemistry/stiff_integrator.hpp"
+#include "chemistry/temperature_profile.hpp"
+#include "io/history.hpp"
+
+namespace lampblack {
+
+class ReactorHistory {
+ public:
+  using MakeRow = std::function<std::vector<double>(double at, std::span<const double> y)>;
+
+  explicit ReactorHistory(std::vector<TableColumn> columns) : columns_(std::move(columns)) {}
+
+  // Rank 0. InputError where the file cannot be made.
+  void open(const std::filesystem::path& path);
+  // Integrates from the integrator's start to `end` and writes rows: the start, each step (or each `interval`, by
+  // interpolation), and the end. The kinks of a profile are stops. `afterStep` is called after each step.
+  void follow(StiffIntegrator& integrator, const std::optional<double>& interval, double end,
+              const std::optional<TemperatureProfile>& profile, const MakeRow& makeRow,
+              const std::function<void()>& afterStep);
+  // Collective.
+  void writeTo(ResultsWriter& results) const;
+
+ private:
+  std::vector<TableColumn> columns_;
+  std::optional<HistoryWriter> writer_;  // of rank 0
+};
+
+}  // namespace lampblack

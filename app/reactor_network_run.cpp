@@ -1,0 +1,155 @@
+// Stirred reactors: the transient of one, the steady state of one or of a network.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/reactor_driver.hpp"
+#include "app/reactor_history.hpp"
+#include "app/reactor_output.hpp"
+#include "io/report.hpp"
+
+namespace lampblack {
+namespace {
+
+std::vector<TableColumn> stirredColumns(const ReactorCase& reactorCase) {
+  std::vector<TableColumn> columns{{"time", "s", "time"},
+                                   {"temperature", "K", "gas temperature"},
+                                   {"density", "kg/m^3", "density"},
+                                   {"residence_time", "s", "mass inside over mass flow in"},
+                                   {"heat_release", "W/m^3", "heat set free by the reactions"}};
+  for (auto& column : speciesColumns(*reactorCase.mechanism, reactorCase.output)) columns.push_back(std::move(column));
+  return columns;
+}
+
+class StirredTransientDriver : public ReactorDriver {
+ public:
+  explicit StirredTransientDriver(const ReactorCase& reactorCase)
+      : case_(reactorCase), history_(stirredColumns(reactorCase)) {}
+
+  void compute(const RunFolder& folder) override {
+    const double begin = MPI_Wtime();
+    NetworkSystem system(*case_.mechanism, case_.network);
+    StiffIntegrator integrator(system, case_.integrator);
+    integrator.start(0.0, startUnknowns(*case_.mechanism, case_.network, case_.start), case_.end);
+    history_.open(folder.history());
+    const std::size_t n = case_.mechanism->numSpecies();
+    history_.follow(
+        integrator, case_.output.interval, case_.end, std::nullopt,
+        [&](double time, std::span<const double> y) {
+          std::vector<double> row{time, y[n], system.density(y.data()), system.residenceTime(y.data(), 0),
+                                  system.heatRelease(y.data(), 0)};
+          appendSpecies(*case_.mechanism, case_.output, y.first(n), row);
+          return row;
+        },
+        [] {});
+    steps_ = integrator.statistics().steps;
+    temperature_ = integrator.state()[n];
+    seconds_ = MPI_Wtime() - begin;
+  }
+
+  void write(ResultsWriter& results) const override { history_.writeTo(results); }
+  void record(JsonWriter& json) const override { json.field("final_temperature_K", temperature_); }
+  void print() const override {
+    fmt::print("T = {:.4f} K after {:g} s\n{} steps of the integrator in {}\n", temperature_, case_.end, steps_,
+               formatDuration(seconds_));
+  }
+  long steps() const override { return steps_; }
+  double simulatedTime() const override { return case_.end; }
+
+ private:
+  const ReactorCase& case_;
+  ReactorHistory history_;
+  long steps_ = 0;
+  double temperature_ = 0, seconds_ = 0;
+};
+
+class SteadyNetworkDriver : public ReactorDriver {
+ public:
+  explicit SteadyNetworkDriver(const ReactorCase& reactorCase) : case_(reactorCase) {}
+
+  void compute(const RunFolder& folder) override {
+    const double begin = MPI_Wtime();
+    reactors_ = solveNetwork(*case_.mechanism, case_.network, case_.start);
+    seconds_ = MPI_Wtime() - begin;
+    const auto table = columns();
+    std::string text = "name";
+    for (const TableColumn& column : table) text += fmt::format(",{} [{}]", column.name, column.unit);
+    for (std::size_t r = 0; r < reactors_.size(); ++r) {
+      text += "\n" + case_.network.reactors[r].name;
+      for (const double value : row(reactors_[r])) text += fmt::format(",{}", value);
+    }
+    writeFileAtomically(folder.file("reactors.csv"), text + "\n");
+  }
+
+  void write(ResultsWriter& results) const override {
+    std::vector<double> rows;
+    for (const ReactorSteadyState& reactor : reactors_)
+      for (const double value : row(reactor)) rows.push_back(value);
+    results.table("/reactors", columns(), rows);
+    std::string names;
+    for (const StirredReactor& reactor : case_.network.reactors) names += (names.empty() ? "" : ",") + reactor.name;
+    results.attribute("/reactors", "names", names);
+  }
+
+  void record(JsonWriter& json) const override {
+    json.key("reactors").beginObject();
+    for (std::size_t r = 0; r < reactors_.size(); ++r) {
+      json.key(case_.network.reactors[r].name).beginObject();
+      json.field("temperature_K", reactors_[r].state.temperature);
+      json.field("residence_time_s", reactors_[r].residenceTime).field("residual", reactors_[r].residual).endObject();
+    }
+    json.endObject();
+  }
+
+  void print() const override {
+    fmt::print("{:<16} {:>10} {:>14} {:>12} {:>12} {:>12} {:>10}\n", "reactor", "T, K", "residence, s", "volume, m3",
+               "flow, kg/s", "heat, W", "residual");
+    for (std::size_t r = 0; r < reactors_.size(); ++r) {
+      const ReactorSteadyState& s = reactors_[r];
+      fmt::print("{:<16} {:>10.4f} {:>14.6e} {:>12.4e} {:>12.4e} {:>12.4e} {:>10.1e}\n", case_.network.reactors[r].name,
+                 s.state.temperature, s.residenceTime, s.volume, s.massFlow, s.heatRelease * s.volume, s.residual);
+    }
+    fmt::print("{} steps of the integrator in {}\n", steps(), formatDuration(seconds_));
+  }
+
+  long steps() const override {
+    long sum = 0;
+    for (const auto& group : solutionOrder(case_.network)) sum += reactors_[group.front()].steps;
+    return sum;
+  }
+  double simulatedTime() const override { return 0.0; }
+
+ private:
+  std::vector<TableColumn> columns() const {
+    std::vector<TableColumn> columns{{"temperature", "K", "gas temperature"},
+                                     {"density", "kg/m^3", "density"},
+                                     {"volume", "m^3", "volume"},
+                                     {"residence_time", "s", "mass inside over mass flow"},
+                                     {"mass_flow", "kg/s", "mass flow through the reactor"},
+                                     {"heat_release", "W/m^3", "heat set free by the reactions"}};
+    for (auto& column : speciesColumns(*case_.mechanism, case_.output)) columns.push_back(std::move(column));
+    return columns;
+  }
+
+  std::vector<double> row(const ReactorSteadyState& s) const {
+    std::vector<double> row{s.state.temperature, s.density, s.volume, s.residenceTime, s.massFlow, s.heatRelease};
+    appendSpecies(*case_.mechanism, case_.output, s.state.Y, row);
+    return row;
+  }
+
+  const ReactorCase& case_;
+  std::vector<ReactorSteadyState> reactors_;
+  double seconds_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<ReactorDriver> stirredTransientDriver(const ReactorCase& reactorCase) {
+  return std::make_unique<StirredTransientDriver>(reactorCase);
+}
+
+std::unique_ptr<ReactorDriver> steadyNetworkDriver(const ReactorCase& reactorCase) {
+  return std::make_unique<SteadyNetworkDriver>(reactorCase);
+}
+
+}  // namespace lampblack
