@@ -144,6 +144,27 @@ TEST(BatchKinetics, AgreesWithKineticsForEveryRateType) {
     measured(BatchKinetics::name(instructions), differenceFromKinetics(mechanism, states, instructions));
 }
 
+// Every other species by nine coefficients in three ranges that do not meet: which one holds at a bound matters.
+TEST(BatchKinetics, AgreesWithKineticsForNasa9) {
+  const auto& base = lampblack::testing::hydrogen();
+  std::vector<Element> elements;
+  for (std::size_t i = 0; i < base.numElements(); ++i) elements.push_back({base.elementName(i), base.atomicWeight(i)});
+  std::vector<Species> species(base.allSpecies().begin(), base.allSpecies().end());
+  for (std::size_t k = 0; k < species.size(); k += 2) {
+    const auto range = [&](const std::array<double, 7>& a, double cold) {
+      return std::array<double, 9>{cold * 3e3, cold * -50, a[0], a[1], a[2], a[3], a[4], a[5], a[6]};
+    };
+    const auto& thermo = species[k].thermo;
+    species[k].nasa9 =
+        Nasa9{{200, 700, 1000, 6000}, {range(thermo.low, 1.0), range(thermo.low, -0.5), range(thermo.high, 0.7)}};
+  }
+  const Mechanism mechanism("nasa9", "", elements, species, {base.reactions().begin(), base.reactions().end()});
+  auto states = anyStates(mechanism.numSpecies(), 40);
+  for (const std::size_t i : {4, 5, 6}) states.T[i] = i == 5 ? 1000.0 : 700.0;
+  for (const auto instructions : availableInstructions())
+    measured(BatchKinetics::name(instructions), differenceFromKinetics(mechanism, states, instructions));
+}
+
 // Mass action is followed through zero, as by Kinetics; an empty gas does nothing.
 TEST(BatchKinetics, AgreesWithKineticsBelowZeroAndInVacuum) {
   const auto mechanism = RateTypes::mechanism();
