@@ -17,13 +17,7 @@ struct Avx2Vector : PortableVector<32> {
   static bool none(Mask mask) { return _mm256_movemask_pd(reinterpret_cast<D>(mask)) == 0; }
   static bool every(Mask mask) { return _mm256_movemask_pd(reinterpret_cast<D>(mask)) == 15; }
   static D select(Mask mask, D yes, D no) { return _mm256_blendv_pd(no, yes, reinterpret_cast<D>(mask)); }
-  static Exponent takeExponent(D& x) {
-    x = smaller(all(1022.0), larger(all(-1020.0), x));
-    const D shifter = all(6755399441055744.0);  // as in PortableVector
-    const D sum = x + shifter;
-    x = x - (sum - shifter);
-    return {reinterpret_cast<U>(sum) << 52U};
-  }
+  static D withinExponents(D x) { return smaller(all(1022.0), larger(all(-1020.0), x)); }
 };
 
 }  // namespace

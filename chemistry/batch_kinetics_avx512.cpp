@@ -25,14 +25,13 @@ struct Avx512Vector : PortableVector<64> {
   static Mask both(Mask a, Mask b) { return static_cast<Mask>(a & b); }
   static bool none(Mask mask) { return mask == 0; }
   static bool every(Mask mask) { return mask == everyLane; }
-  // No limits: the instruction that raises knows zero and infinity.
-  static Exponent takeExponent(D& x) {
+  static D withinExponents(D x) { return x; }  // the instruction that raises knows zero and infinity
+  static Exponent takeExponentInside(D& x) {
     const D rest = _mm512_maskz_reduce_pd(everyLane, x, _MM_FROUND_TO_NEAREST_INT);
     const D n = x - rest;
     x = rest;
     return {n};
   }
-  static D fl(D x) { return _mm512_maskz_reduce_pd(everyLane, x, 1); }
   static D raise(D x, Exponent n) { return _mm512_maskz_scalef_pd(everyLane, x, n.n); }
   static D lower(D x, Exponent n) { return _mm512_maskz_scalef_pd(everyLane, x, -n.n); }
 };

@@ -109,7 +109,7 @@ class BatchConstants {
     for (std::size_t i = 0; i < view.exponentials.size; ++i) {
       const D x = exponent(view.exponentials.data[i], t);
       if constexpr (ByProducts)
-        V::store(work.E + i * lanes, exp2<V>(x));
+        V::store(work.E + i * lanes, exp2Inside<V>(x));
       else
         V::store(work.X + i * lanes, x);
     }

@@ -81,7 +81,9 @@ class BatchKernel {
   template <bool ByProducts>
   static void rates(const BatchView& view, const BatchWork& work, const Temperature& t, double* wdot) {
     Constants::template all<ByProducts>(view, work, t);
-    for (std::size_t k = 0; k <= view.numSpecies; ++k) V::store(wdot + k * lanes, D{});
+    // Of a temperature that is no number there are no rates.
+    const D start = ByProducts ? D{} : t.T - t.T;
+    for (std::size_t k = 0; k <= view.numSpecies; ++k) V::store(wdot + k * lanes, start);
     for (std::size_t i = 0; i < view.groups.size; ++i) group<ByProducts>(view.groups.data[i], work, wdot);
     for (std::size_t i = 0; i < view.general.size; ++i) general<ByProducts>(view, view.general.data[i], work, wdot);
   }

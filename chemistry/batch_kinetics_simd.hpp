@@ -40,9 +40,10 @@ struct PortableVector {
   }
   static bool every(Mask mask) { return none(~mask); }
 
-  // The nearest whole number to x, which is left with the rest. Beyond the exponents of normal numbers: their limits.
-  static Exponent takeExponent(D& x) {
-    x = smaller(all(1022.0), larger(all(-1020.0), x));
+  // x, or the nearest of the exponents of normal numbers.
+  static D withinExponents(D x) { return smaller(all(1022.0), larger(all(-1020.0), x)); }
+  // The nearest whole number to x, which is left with the rest; for |x| within exponents.
+  static Exponent takeExponentInside(D& x) {
     const D shifter = all(6755399441055744.0);  // 1.5 * 2^52: the sum has the whole number in its lowest bits
     const D sum = x + shifter;
     x = x - (sum - shifter);
@@ -96,48 +97,63 @@ concept IsDoubled = requires {
   typename V::Half;
 };
 
-// 2^x = E(r^2) + r O(r^2) with |r| <= 1/2, 2^-x = E - r O: polynomials nearest to cosh and sinh (Chebyshev), whose
-// error is below 1e-17.
+// 2^r of |r| <= 1/2 by the polynomial nearest to it (Chebyshev), relative error 3e-16.
 template <class V>
-struct HalvesOfPower {
-  typename V::D even, odd;
-  explicit HalvesOfPower(typename V::D r) {
-    const auto y = r * r;
-    even = V::multiplyAdd(V::all(0x1.e6228acd1c6e5p-28), y, V::all(0x1.62bfc2c86d700p-20));
-    even = V::multiplyAdd(even, y, V::all(0x1.430913112c61bp-13));
-    even = V::multiplyAdd(even, y, V::all(0x1.3b2ab6fb9f1a5p-7));
-    even = V::multiplyAdd(even, y, V::all(0x1.ebfbdff82c5aep-3));
-    even = V::multiplyAdd(even, y, V::all(1.0));
-    odd = V::multiplyAdd(V::all(0x1.e9ec1fcb69a7fp-32), y, V::all(0x1.b524ebd13a55fp-24));
-    odd = V::multiplyAdd(odd, y, V::all(0x1.ffcbfc6da6ed1p-17));
-    odd = V::multiplyAdd(odd, y, V::all(0x1.5d87fe78a3f9cp-10));
-    odd = V::multiplyAdd(odd, y, V::all(0x1.c6b08d704a0c6p-5));
-    odd = V::multiplyAdd(odd, y, V::all(0x1.62e42fefa39efp-1));
-  }
-};
+typename V::D powerOfRest(typename V::D r) {
+  auto p = V::multiplyAdd(V::all(0x1.e6063f7217bc6p-28), r, V::all(0x1.b675bca4eeebbp-24));
+  p = V::multiplyAdd(p, r, V::all(0x1.62bfd47773353p-20));
+  p = V::multiplyAdd(p, r, V::all(0x1.ffcb54062e698p-17));
+  p = V::multiplyAdd(p, r, V::all(0x1.430913096fd9fp-13));
+  p = V::multiplyAdd(p, r, V::all(0x1.5d87fe9d7a584p-10));
+  p = V::multiplyAdd(p, r, V::all(0x1.3b2ab6fba1ddap-7));
+  p = V::multiplyAdd(p, r, V::all(0x1.c6b08d703ce49p-5));
+  p = V::multiplyAdd(p, r, V::all(0x1.ebfbdff82c598p-3));
+  p = V::multiplyAdd(p, r, V::all(0x1.62e42fefa3a19p-1));
+  return V::multiplyAdd(p, r, V::all(1.0));
+}
 
+// Of |x| <= 1000 only: elsewhere a number, or none, without meaning.
 template <class V>
-typename V::D exp2(typename V::D x) {
+typename V::D exp2Inside(typename V::D x) {
   if constexpr (IsDoubled<V>) {
-    return {exp2<typename V::Half>(x.a), exp2<typename V::Half>(x.b)};
+    return {exp2Inside<typename V::Half>(x.a), exp2Inside<typename V::Half>(x.b)};
   } else {
-    const auto n = V::takeExponent(x);
-    const HalvesOfPower<V> p(x);
-    return V::raise(V::multiplyAdd(p.odd, x, p.even), n);
+    const auto n = V::takeExponentInside(x);
+    return V::raise(powerOfRest<V>(x), n);
   }
 }
 
-// 2^x and 2^-x
+template <class V>
+typename V::D exp2(typename V::D x) {
+  if constexpr (IsDoubled<V>)
+    return {exp2<typename V::Half>(x.a), exp2<typename V::Half>(x.b)};
+  else
+    return exp2Inside<V>(V::withinExponents(x));
+}
+
+// 2^x and 2^-x: E(r^2) + r O(r^2) and E - r O with polynomials nearest to cosh and sinh (Chebyshev), whose error is
+// below 1e-17.
 template <class V>
 void exp2Both(typename V::D x, typename V::D& power, typename V::D& inverse) {
   if constexpr (IsDoubled<V>) {
     exp2Both<typename V::Half>(x.a, power.a, inverse.a);
     exp2Both<typename V::Half>(x.b, power.b, inverse.b);
   } else {
-    const auto n = V::takeExponent(x);
-    const HalvesOfPower<V> p(x);
-    power = V::raise(V::multiplyAdd(p.odd, x, p.even), n);
-    inverse = V::lower(V::multiplyAdd(-p.odd, x, p.even), n);
+    x = V::withinExponents(x);
+    const auto n = V::takeExponentInside(x);
+    const auto y = x * x;
+    auto even = V::multiplyAdd(V::all(0x1.e6228acd1c6e5p-28), y, V::all(0x1.62bfc2c86d700p-20));
+    even = V::multiplyAdd(even, y, V::all(0x1.430913112c61bp-13));
+    even = V::multiplyAdd(even, y, V::all(0x1.3b2ab6fb9f1a5p-7));
+    even = V::multiplyAdd(even, y, V::all(0x1.ebfbdff82c5aep-3));
+    even = V::multiplyAdd(even, y, V::all(1.0));
+    auto odd = V::multiplyAdd(V::all(0x1.e9ec1fcb69a7fp-32), y, V::all(0x1.b524ebd13a55fp-24));
+    odd = V::multiplyAdd(odd, y, V::all(0x1.ffcbfc6da6ed1p-17));
+    odd = V::multiplyAdd(odd, y, V::all(0x1.5d87fe78a3f9cp-10));
+    odd = V::multiplyAdd(odd, y, V::all(0x1.c6b08d704a0c6p-5));
+    odd = V::multiplyAdd(odd, y, V::all(0x1.62e42fefa39efp-1));
+    power = V::raise(V::multiplyAdd(odd, x, even), n);
+    inverse = V::lower(V::multiplyAdd(-odd, x, even), n);
   }
 }
 

@@ -247,6 +247,27 @@ TEST(BatchKinetics, TouchesNothingBetweenTheRows) {
   }
 }
 
+TEST(BatchKinetics, ATemperatureThatIsNoNumberHasNoRates) {
+  const auto& mechanism = lampblack::testing::hydrogen();
+  auto states = anyStates(mechanism.numSpecies(), 10);
+  for (const auto instructions : availableInstructions()) {
+    BatchKinetics kinetics(mechanism, instructions);
+    const auto expected = rates(kinetics, states);
+    auto broken = states;
+    broken.T[3] = std::nan("");
+    broken.T[9] = INFINITY;
+    const auto wdot = rates(kinetics, broken);
+    for (std::size_t k = 0; k < states.numSpecies; ++k)
+      for (std::size_t i = 0; i < states.size(); ++i) {
+        const std::size_t at = k * states.size() + i;
+        if (i == 3 || i == 9)
+          EXPECT_TRUE(std::isnan(wdot[at])) << k;
+        else
+          EXPECT_EQ(wdot[at], expected[at]);
+      }
+  }
+}
+
 TEST(BatchKinetics, WantsArraysThatHoldTheBatch) {
   const auto& mechanism = lampblack::testing::hydrogen();
   BatchKinetics kinetics(mechanism);
