@@ -1,36 +1,92 @@
 #include "chemistry/collision_integrals.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "chemistry/monchick_mason_tables.hpp"
 
 namespace lampblack {
 
 namespace {
 
-double thesisFit(const std::array<double, 6>& a, double T, double delta) {
-  const double nonpolar = a[0] * std::pow(T, -a[1]) + std::pow(T + a[2], -a[3]);
-  const double polar = (std::exp(a[4] / T) - std::exp(-a[5] / T)) * delta * delta / (2.0 + 2.5 * delta);
-  return nonpolar * (1.0 + polar);
+using monchickMason::Table;
+using Column = std::array<double, monchickMason::temperatures.size()>;
+using Row = std::array<double, monchickMason::dipoles.size()>;
+
+Column logarithms(const Column& values) {
+  Column result;
+  std::transform(values.begin(), values.end(), result.begin(), [](double value) { return std::log(value); });
+  return result;
 }
 
-double brokaw(double T, double delta) {
-  return 0.19 * delta * delta / T;
+// What every entry of a row contributes to the value at one dipole moment: a spline is linear in its values.
+Row weightsAt(double dipole) {
+  Row weights;
+  for (std::size_t j = 0; j < weights.size(); ++j) {
+    Row unit{};
+    unit[j] = 1.0;
+    weights[j] = CubicSpline(monchickMason::dipoles, unit, CubicSpline::Start::Flat)(dipole);
+  }
+  return weights;
+}
+
+Column columnAt(const Table& table, double dipole) {
+  const Row weights = weightsAt(dipole);
+  Column column{};
+  for (std::size_t i = 0; i < column.size(); ++i)
+    for (std::size_t j = 0; j < weights.size(); ++j) column[i] += weights[j] * table[i][j];
+  return column;
+}
+
+CubicSpline splineOf(const Column& column) {
+  static const Column knots = logarithms(monchickMason::temperatures);
+  return {knots, column};
+}
+
+const double kColdest = std::log(monchickMason::temperatures.front());
+const double kHottest = std::log(monchickMason::temperatures.back());
+
+double thesisFit(const std::array<double, 6>& a, double logT, double dipole) {
+  const double T = std::exp(logT);
+  const double nonpolar = a[0] * std::exp(-a[1] * logT) + std::pow(T + a[2], -a[3]);
+  const double polar = (std::exp(a[4] / T) - std::exp(-a[5] / T)) * dipole * dipole / (2.0 + 2.5 * dipole);
+  return nonpolar * (1.0 + polar);
 }
 
 }  // namespace
 
-double collisionIntegral11(double T, double delta, CollisionIntegrals source) {
-  if (source == CollisionIntegrals::ThesisFits)
-    return thesisFit({1.0548, 0.15504, 0.55909, 2.1705, 0.093193, 1.5}, T, delta);
-  return 1.06036 * std::pow(T, -0.15610) + 0.19300 * std::exp(-0.47635 * T) + 1.03587 * std::exp(-1.52996 * T) +
-         1.76474 * std::exp(-3.89411 * T) + brokaw(T, delta);
+ReducedIntegrals::ReducedIntegrals(double reducedDipole, CollisionIntegrals source)
+    : dipole_(std::min(std::abs(reducedDipole), largestDipole)),
+      source_(source),
+      logOmega22_(splineOf(logarithms(columnAt(monchickMason::omega22, dipole_)))),
+      ratioA_(splineOf(columnAt(monchickMason::ratioA, dipole_))),
+      ratioB_(splineOf(columnAt(monchickMason::ratioB, dipole_))),
+      ratioC_(splineOf(columnAt(monchickMason::ratioC, dipole_))) {}
+
+double ReducedIntegrals::omega11(double logT) const {
+  if (source_ == CollisionIntegrals::ThesisFits)
+    return thesisFit({1.0548, 0.15504, 0.55909, 2.1705, 0.093193, 1.5}, logT, dipole_);
+  return std::exp(logOmega22_(logT)) / ratioA_(std::max(logT, kColdest));
 }
 
-double collisionIntegral22(double T, double delta, CollisionIntegrals source) {
-  if (source == CollisionIntegrals::ThesisFits)
-    return thesisFit({1.0413, 0.11930, 0.43628, 1.6041, 0.095661, 2.0}, T, delta);
-  return 1.16145 * std::pow(T, -0.14874) + 0.52487 * std::exp(-0.77320 * T) + 2.16178 * std::exp(-2.43787 * T) -
-         6.435e-4 * std::pow(T, 0.14874) * std::sin(18.0323 * std::pow(T, -0.76830) - 7.27371) + brokaw(T, delta);
+double ReducedIntegrals::omega22(double logT) const {
+  if (source_ == CollisionIntegrals::ThesisFits)
+    return thesisFit({1.0413, 0.11930, 0.43628, 1.6041, 0.095661, 2.0}, logT, dipole_);
+  return std::exp(logOmega22_(logT));
+}
+
+double ReducedIntegrals::ratioA(double logT) const {
+  if (source_ == CollisionIntegrals::ThesisFits) return omega22(logT) / omega11(logT);
+  return ratioA_(std::max(logT, kColdest));
+}
+
+double ReducedIntegrals::ratioB(double logT) const {
+  return ratioB_(std::clamp(logT, kColdest, kHottest));
+}
+
+double ReducedIntegrals::ratioC(double logT) const {
+  return ratioC_(std::clamp(logT, kColdest, kHottest));
 }
 
 }  // namespace lampblack

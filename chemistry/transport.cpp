@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
-#include "chemistry/polynomial_fit.hpp"
-#include "chemistry/pure_gas.hpp"
+#include "chemistry/lanes.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 
@@ -16,103 +16,33 @@ namespace {
 
 constexpr double kTrace = 1e-12;  // added to every mole fraction
 
-const double kMiddle = 0.5 * (std::log(Transport::maxTemperature) + std::log(Transport::minTemperature));
-const double kHalf = 0.5 * (std::log(Transport::maxTemperature) - std::log(Transport::minTemperature));
+// sum_m powers[m] a[m] of eight species, in rows of ld values
+template <std::size_t Terms>
+Lanes evaluate(const double* a, const double* powers, std::size_t ld) {
+  Lanes sum = loadLanes(a) * powers[0];
+  for (std::size_t m = 1; m < Terms; ++m) sum += loadLanes(a + m * ld) * powers[m];
+  return sum;
+}
 
-constexpr std::size_t kBlock = 16;  // rows of a matrix that are summed in registers
-
-// out = M x for a matrix of n columns of ld rows, ld a multiple of kBlock
-void multiply(const double* __restrict M, std::size_t ld, const double* __restrict x, std::size_t n,
-              double* __restrict out) {
-  for (std::size_t block = 0; block < ld; block += kBlock) {
-    double sum[kBlock] = {};
-    const double* __restrict column = M + block;
-    for (std::size_t j = 0; j < n; ++j, column += ld)
-      for (std::size_t i = 0; i < kBlock; ++i) sum[i] += column[i] * x[j];
-    for (std::size_t i = 0; i < kBlock; ++i) out[block + i] = sum[i];
-  }
+// out[r] = M x[r] for blocks of eight rows of M, so many at once that the sums do not wait for each other
+template <std::size_t Blocks, std::size_t Vectors>
+void multiplyBlocks(const double* M, std::size_t n, std::size_t ld, const std::array<const double*, Vectors>& x,
+                    const std::array<double*, Vectors>& out, std::size_t first) {
+  std::array<std::array<Lanes, Vectors>, Blocks> sums{};
+  for (std::size_t j = 0; j < n; ++j)
+    for (std::size_t b = 0; b < Blocks; ++b) {
+      const Lanes entries = loadLanes(M + j * ld + first + b * laneCount);
+      for (std::size_t r = 0; r < Vectors; ++r) sums[b][r] += entries * x[r][j];
+    }
+  for (std::size_t b = 0; b < Blocks; ++b)
+    for (std::size_t r = 0; r < Vectors; ++r) storeLanes(out[r] + first + b * laneCount, sums[b][r]);
 }
 
 }  // namespace
 
-Transport::Transport(const Mechanism& mechanism, CollisionIntegrals integrals)
-    : n_(mechanism.numSpecies()),
-      ld_((n_ + kBlock - 1) / kBlock * kBlock),
-      table_(mechanism.allSpecies()),
-      weights_(mechanism.molecularWeights().begin(), mechanism.molecularWeights().end()) {
-  for (const double W : weights_) gasConstants_.push_back(constants::gasConstant / W);
-  for (auto* work : {&cp_, &x_, &y_, &z_, &root_, &a_, &b_, &sum0_, &sum1_, &sum2_, &resist_, &own_})
-    work->assign(ld_, 0.0);
-  const PureGas gas(mechanism, integrals);
-  fit(gas);
-  setWilke();
-  fitError_ = measureFitError(gas);
-}
-
-void Transport::fit(const PureGas& gas) {
-  // Least squares at Chebyshev points of ln T.
-  constexpr std::size_t points = 40;
-  std::vector<double> s, T;
-  for (std::size_t i = 0; i < points; ++i) {
-    s.push_back(-std::cos((static_cast<double>(i) + 0.5) / points * constants::pi));
-    T.push_back(std::exp(kMiddle + kHalf * s.back()));
-  }
-  std::vector<double> values(points), a;
-  const auto approximate = [&](const PolynomialFit& polynomial, std::size_t terms, auto&& function) {
-    for (std::size_t i = 0; i < points; ++i) values[i] = function(T[i]);
-    a.assign(terms, 0.0);
-    polynomial.solve(values, a);
-  };
-  const PolynomialFit pure(s, kPureTerms), pairs(s, kPairTerms);
-  viscosity_.assign(kPureTerms * ld_, 0.0);
-  rigid_ = vibrating_ = viscosity_;
-  ownResistance_.assign(kPairTerms * ld_, 0.0);
-  resistance_.assign(kPairTerms * ld_ * n_, 0.0);
-  for (std::size_t k = 0; k < n_; ++k) {
-    approximate(pure, kPureTerms, [&](double t) { return std::sqrt(gas.viscosity(k, t) / std::sqrt(t)); });
-    for (std::size_t m = 0; m < kPureTerms; ++m) viscosity_[m * ld_ + k] = a[m];
-    approximate(pure, kPureTerms, [&](double t) { return gas.euckenFactors(k, t).rigid; });
-    for (std::size_t m = 0; m < kPureTerms; ++m) rigid_[m * ld_ + k] = a[m];
-    approximate(pure, kPureTerms, [&](double t) { return gas.euckenFactors(k, t).vibrating; });
-    for (std::size_t m = 0; m < kPureTerms; ++m) vibrating_[m * ld_ + k] = a[m];
-    for (std::size_t j = 0; j <= k; ++j) {
-      approximate(pairs, kPairTerms, [&](double t) { return t * std::sqrt(t) / gas.diffusionTimesPressure(j, k, t); });
-      for (std::size_t m = 0; m < kPairTerms; ++m)
-        resistance_[(m * n_ + j) * ld_ + k] = resistance_[(m * n_ + k) * ld_ + j] = a[m];
-    }
-    for (std::size_t m = 0; m < kPairTerms; ++m) ownResistance_[m * ld_ + k] = a[m];  // j = k came last
-  }
-}
-
-double Transport::measureFitError(const PureGas& gas) const {
-  double error = 0;
-  const auto compare = [&](double fitted, double exact) { error = std::max(error, std::abs(fitted / exact - 1.0)); };
-  constexpr std::size_t points = 41;  // not those of the fit
-  for (std::size_t i = 0; i < points; ++i) {
-    const double s = 2.0 * static_cast<double>(i) / (points - 1.0) - 1.0;
-    const double T = std::clamp(std::exp(kMiddle + kHalf * s), minTemperature, maxTemperature);
-    for (std::size_t k = 0; k < n_; ++k) {
-      compare(speciesViscosity(T, k), gas.viscosity(k, T));
-      compare(speciesConductivity(T, k), gas.conductivity(k, T));
-      for (std::size_t j = 0; j <= k; ++j) compare(binaryDiffusion(T, 1.0, j, k), gas.diffusionTimesPressure(j, k, T));
-    }
-  }
-  return error;
-}
-
-// Phi_kj = A_kj (1 + B_kj sqrt(mu_k/mu_j))^2 with A = (8 (1 + W_k/W_j))^(-1/2), B = (W_j/W_k)^(1/4), multiplied out.
-void Transport::setWilke() {
-  const auto& W = weights_;
-  for (auto* matrix : {&wilke0_, &wilke1_, &wilke2_}) matrix->assign(n_ * ld_, 0.0);
-  for (std::size_t j = 0; j < n_; ++j) {
-    for (std::size_t k = 0; k < n_; ++k) {
-      const double A = 1.0 / std::sqrt(8.0 * (1.0 + W[k] / W[j]));
-      const double B = std::pow(W[j] / W[k], 0.25);
-      wilke0_[j * ld_ + k] = A;
-      wilke1_[j * ld_ + k] = 2.0 * A * B;
-      wilke2_[j * ld_ + k] = A * B * B;
-    }
-  }
+double Transport::fitVariable(double T) {
+  static const double atColdest = std::cbrt(1.0 / minTemperature), atHottest = std::cbrt(1.0 / maxTemperature);
+  return (2.0 * std::cbrt(1.0 / T) - atColdest - atHottest) / (atColdest - atHottest);
 }
 
 Transport::Basis Transport::basis(double T) const {
@@ -120,76 +50,132 @@ Transport::Basis Transport::basis(double T) const {
     throw NumericsError(fmt::format("transport properties at {:.6g} K; they are known from {} to {} K", T,
                                     minTemperature, maxTemperature));
   Basis result{};
-  const double s = (std::log(T) - kMiddle) / kHalf;
+  const double s = fitVariable(T);
   result.powers[0] = 1.0;
-  for (std::size_t m = 1; m < kPureTerms; ++m) result.powers[m] = result.powers[m - 1] * s;
+  for (std::size_t m = 1; m < kMostTerms; ++m) result.powers[m] = result.powers[m - 1] * s;
   result.rootT = std::sqrt(T);
   return result;
 }
 
-double Transport::conductivity(double viscosity, std::size_t k, double rigid, double vibrating, double cpOverR) const {
-  return viscosity * gasConstants_[k] * (rigid + vibrating * cpOverR);
+void Transport::setMoleFractions(std::span<const double> X) {
+  for (std::size_t k = 0; k < n_; ++k) x_[k] = std::max(X[k], 0.0) + kTrace;
+  const double scale = 1.0 / sumOf(x_.data(), n_);
+  for (std::size_t k = 0; k < n_; ++k) x_[k] *= scale;
+  meanWeight_ = dot(x_.data(), weights_.data(), n_);
+}
+
+// Phi_kj = (8 (1 + W_k/W_j))^(-1/2) (1 + (mu_k/mu_j)^(1/2) (W_j/W_k)^(1/4))^2, multiplied out: with
+// u = (mu/T^(1/2))^(1/2) W^(-1/4) and S_kj = (8 (W_k + W_j))^(-1/2),
+// sum_j X_j Phi_kj = sum_j S_kj X_j W_j^(1/2) (1 + 2 u_k/u_j + u_k^2/u_j^2).
+void Transport::wilkeSums(const Basis& at) {
+  for (std::size_t j = 0; j < ld_; j += laneCount) {
+    const Lanes root = evaluate<kPureTerms>(&viscosity_[j], at.powers, ld_);
+    const Lanes u = root * loadLanes(&quarterRoots_[j]);
+    const Lanes a = loadLanes(&x_[j]) * loadLanes(&roots_[j]);
+    const Lanes b = a / u;
+    storeLanes(&root_[j], root);
+    storeLanes(&u_[j], u);
+    storeLanes(&a_[j], a);
+    storeLanes(&b_[j], b);
+    storeLanes(&c_[j], b / u);
+  }
+  const std::array<const double*, 3> vectors{a_.data(), b_.data(), c_.data()};
+  const std::array<double*, 3> sums{sum0_.data(), sum1_.data(), sum2_.data()};
+  std::size_t row = 0;
+  for (; row + 4 * laneCount <= ld_; row += 4 * laneCount)
+    multiplyBlocks<4>(wilke_.data(), n_, ld_, vectors, sums, row);
+  for (; row < ld_; row += laneCount) multiplyBlocks<1>(wilke_.data(), n_, ld_, vectors, sums, row);
+  for (std::size_t k = 0; k < n_; ++k) wilkeSum_[k] = sum0_[k] + u_[k] * (2.0 * sum1_[k] + u_[k] * sum2_[k]);
+}
+
+Transport::Mixture Transport::viscosityAndConductivity(double T, const Basis& at) {
+  wilkeSums(at);
+  table_.cpOverR(T, cp_.data());
+  for (std::size_t k = 0; k < ld_; k += laneCount) {
+    const Lanes root = loadLanes(&root_[k]), wilke = loadLanes(&wilkeSum_[k]);
+    const Lanes rigid = evaluate<kPureTerms>(&rigid_[k], at.powers, ld_);
+    const Lanes vibrating = evaluate<kPureTerms>(&vibrating_[k], at.powers, ld_);
+    const Lanes viscosity = root * root;
+    const Lanes lambda = viscosity * loadLanes(&gasConstants_[k]) * (rigid + vibrating * loadLanes(&cp_[k]));
+    const Lanes inverse = 1.0 / (wilke * lambda);
+    storeLanes(&a_[k], viscosity * lambda * inverse);
+    storeLanes(&b_[k], lambda);
+    storeLanes(&c_[k], wilke * inverse);
+  }
+  const double arithmetic = dot(x_.data(), b_.data(), n_), harmonic = 1.0 / dot(x_.data(), c_.data(), n_);
+  return {at.rootT * dot(x_.data(), a_.data(), n_), 0.5 * at.rootT * (arithmetic + harmonic)};
 }
 
 Transport::Mixture Transport::mixture(double T, double p, std::span<const double> X, std::span<double> D) {
   const auto at = basis(T);
-  const std::size_t n = n_, ld = ld_;
-  double total = 0, meanWeight = 0;
-  for (std::size_t k = 0; k < n; ++k) {
-    x_[k] = std::max(X[k], 0.0) + kTrace;
-    total += x_[k];
+  setMoleFractions(X);
+  const auto result = viscosityAndConductivity(T, at);
+  if (model_ == DiffusionModel::MixtureAveraged) {
+    averagedDiffusion(T, p, at, D);
+  } else {
+    const double cp = dot(x_.data(), cp_.data(), n_);  // of the mixture, in units of R
+    const double thermal = result.conductivity * T / (p * cp);
+    for (std::size_t k = 0; k < n_; ++k) D[k] = thermal * inverseLewis_[k];
   }
-  for (std::size_t k = 0; k < n; ++k) {
-    x_[k] /= total;
-    meanWeight += x_[k] * weights_[k];
-  }
-  multiply(viscosity_.data(), ld, at.powers, kPureTerms, root_.data());
-  multiply(rigid_.data(), ld, at.powers, kPureTerms, a_.data());
-  multiply(vibrating_.data(), ld, at.powers, kPureTerms, b_.data());
-  table_.cpOverR(T, cp_.data());
-
-  Mixture result;
-  double sum = 0, inverseSum = 0;
-  for (std::size_t k = 0; k < n; ++k) {
-    const double lambda = conductivity(root_[k] * root_[k], k, a_[k], b_[k], cp_[k]);
-    sum += x_[k] * lambda;
-    inverseSum += x_[k] / lambda;
-  }
-  result.conductivity = 0.5 * at.rootT * (sum + 1.0 / inverseSum);
-
-  for (std::size_t j = 0; j < n; ++j) {
-    const double inverse = 1.0 / root_[j];
-    y_[j] = x_[j] * inverse;
-    z_[j] = y_[j] * inverse;
-  }
-  multiply(wilke0_.data(), ld, x_.data(), n, sum0_.data());
-  multiply(wilke1_.data(), ld, y_.data(), n, sum1_.data());
-  multiply(wilke2_.data(), ld, z_.data(), n, sum2_.data());
-  double viscosity = 0;
-  for (std::size_t k = 0; k < n; ++k) {
-    const double square = root_[k] * root_[k];
-    viscosity += x_[k] * square / (sum0_[k] + root_[k] * sum1_[k] + square * sum2_[k]);
-  }
-  result.viscosity = at.rootT * viscosity;
-
-  // sum_{j != k} X_j T^(3/2)/(p D_jk): the polynomials' coefficients are summed over the species first.
-  std::fill(resist_.begin(), resist_.end(), 0.0);
-  for (std::size_t m = 0; m < kPairTerms; ++m) {
-    multiply(&resistance_[m * n * ld], ld, x_.data(), n, sum0_.data());
-    for (std::size_t k = 0; k < ld; ++k) resist_[k] += at.powers[m] * sum0_[k];
-  }
-  multiply(ownResistance_.data(), ld, at.powers, kPairTerms, own_.data());
-  const double scale = T * at.rootT / (p * meanWeight);
-  for (std::size_t k = 0; k < n; ++k)
-    D[k] = scale * (meanWeight - x_[k] * weights_[k]) / (resist_[k] - x_[k] * own_[k]);
   return result;
+}
+
+void Transport::averagedDiffusion(double T, double p, const Basis& at, std::span<double> D) {
+  resistance_.multiply<1>(at.powers, {x_.data()}, {sum0_.data()});
+  const double scale = T * at.rootT / (p * meanWeight_);
+  for (std::size_t k = 0; k < n_; ++k) D[k] = scale * (meanWeight_ - x_[k] * weights_[k]) / sum0_[k];
+}
+
+void Transport::molarDiffusion(double T, double p, std::span<const double> X, std::span<double> D) {
+  const auto at = basis(T);
+  setMoleFractions(X);
+  resistance_.multiply<1>(at.powers, {x_.data()}, {sum0_.data()});
+  const double scale = T * at.rootT / p;
+  for (std::size_t k = 0; k < n_; ++k) D[k] = scale * (1.0 - x_[k]) / sum0_[k];
+}
+
+void Transport::massDiffusion(double T, double p, std::span<const double> X, std::span<double> D) {
+  const auto at = basis(T);
+  setMoleFractions(X);
+  for (std::size_t k = 0; k < n_; ++k) a_[k] = x_[k] * weights_[k];
+  resistance_.multiply<2>(at.powers, {x_.data(), a_.data()}, {sum0_.data(), sum1_.data()});
+  const double scale = T * at.rootT / p;
+  for (std::size_t k = 0; k < n_; ++k) D[k] = scale / (sum0_[k] + x_[k] / (meanWeight_ - a_[k]) * sum1_[k]);
+}
+
+// DT_k = W_k W D_k sum_j (6/5 C*_kj - 1)/((W_k + W_j) D_kj) (Y_k a_j - Y_j a_k), then the sum's share Y_k taken off,
+// with a_k = 15/4 mu_k/W_k X_k/(X_k + 1.065 sum_{j!=k} X_j Phi_kj), which is the translational conductivity over R of
+// species k in the mixture (Mason, Saxena, Phys. Fluids 1 (1958) 361-369).
+void Transport::thermalDiffusion(double T, double p, std::span<const double> X, std::span<double> DT) {
+  const auto at = basis(T);
+  setMoleFractions(X);
+  averagedDiffusion(T, p, at, DT);
+  wilkeSums(at);
+  for (std::size_t k = 0; k < n_; ++k) {
+    const double viscosity = at.rootT * root_[k] * root_[k];
+    a_[k] = 3.75 * viscosity / weights_[k] * x_[k] / (x_[k] + 1.065 * (wilkeSum_[k] - x_[k]));
+    b_[k] = x_[k] * weights_[k] / meanWeight_;
+  }
+  thermal_.multiply<2>(at.powers, {a_.data(), b_.data()}, {sum0_.data(), sum1_.data()});
+  const double scale = p / (T * at.rootT);  // turns resistances to 1/D
+  double total = 0;
+  for (std::size_t k = 0; k < n_; ++k) {
+    DT[k] *= scale * weights_[k] * meanWeight_ * (b_[k] * sum0_[k] - a_[k] * sum1_[k]);
+    total += DT[k];
+  }
+  for (std::size_t k = 0; k < n_; ++k) DT[k] -= b_[k] * total;
 }
 
 double Transport::binaryDiffusion(double T, double p, std::size_t j, std::size_t k) const {
   const auto at = basis(T);
-  double resistance = 0;
-  for (std::size_t m = 0; m < kPairTerms; ++m) resistance += at.powers[m] * resistance_[(m * n_ + j) * ld_ + k];
-  return T * at.rootT / (p * resistance);
+  return T * at.rootT / (p * pairResistance(at, j, k));
+}
+
+double Transport::pairResistance(const Basis& at, std::size_t j, std::size_t k) const {
+  if (j != k) return resistance_.value(j, k, at.powers);
+  double sum = 0;
+  for (std::size_t m = 0; m < kPairTerms; ++m) sum += at.powers[m] * ownResistance_[m * ld_ + k];
+  return sum;
 }
 
 double Transport::speciesViscosity(double T, std::size_t k) const {
@@ -207,7 +193,7 @@ double Transport::speciesConductivity(double T, std::size_t k) const {
     vibrating += at.powers[m] * vibrating_[m * ld_ + k];
   }
   table_.cpOverR(T, cp_.data());
-  return conductivity(speciesViscosity(T, k), k, rigid, vibrating, cp_[k]);
+  return speciesViscosity(T, k) * gasConstants_[k] * (rigid + vibrating * cp_[k]);
 }
 
 }  // namespace lampblack
