@@ -19,7 +19,7 @@ void addMesh(DeckSchema& schema) {
 }
 
 // K; the transport properties are fitted up to here (chemistry/transport.hpp).
-constexpr double hottest = 3500;
+constexpr double hottest = 4000;
 
 void addBoundaries(DeckSchema& schema) {
   schema.section("boundaries", Presence::required, "Named parts of the surface and what happens there.")

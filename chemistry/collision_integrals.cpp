@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "chemistry/monchick_mason_tables.hpp"
+#include "chemistry/polynomial_fit.hpp"
 
 namespace lampblack {
 
@@ -39,13 +41,31 @@ Column columnAt(const Table& table, double dipole) {
   return column;
 }
 
-CubicSpline splineOf(const Column& column) {
-  static const Column knots = logarithms(monchickMason::temperatures);
-  return {knots, column};
+const Column kLogTemperatures = logarithms(monchickMason::temperatures);
+const double kColdest = kLogTemperatures.front();
+const double kHottest = kLogTemperatures.back();
+
+// The same with the entries from T* = 0.5 up replaced by a polynomial through them.
+Column smoothed(Column column) {
+  constexpr std::size_t first = 4, count = column.size() - first, terms = 9;
+  static_assert(monchickMason::temperatures[first] == 0.5);
+  std::array<double, count> s;
+  const double coldest = kLogTemperatures[first];
+  for (std::size_t i = 0; i < count; ++i)
+    s[i] = (2.0 * kLogTemperatures[first + i] - coldest - kHottest) / (kHottest - coldest);
+  std::array<double, terms> a;
+  PolynomialFit(s, terms).solve(std::span(column).subspan(first), a);
+  for (std::size_t i = 0; i < count; ++i) {
+    double sum = 0;
+    for (std::size_t m = terms; m-- > 0;) sum = sum * s[i] + a[m];
+    column[first + i] = sum;
+  }
+  return column;
 }
 
-const double kColdest = std::log(monchickMason::temperatures.front());
-const double kHottest = std::log(monchickMason::temperatures.back());
+CubicSpline splineOf(const Column& column) {
+  return {kLogTemperatures, column};
+}
 
 double thesisFit(const std::array<double, 6>& a, double logT, double dipole) {
   const double T = std::exp(logT);
@@ -60,9 +80,9 @@ ReducedIntegrals::ReducedIntegrals(double reducedDipole, CollisionIntegrals sour
     : dipole_(std::min(std::abs(reducedDipole), largestDipole)),
       source_(source),
       logOmega22_(splineOf(logarithms(columnAt(monchickMason::omega22, dipole_)))),
-      ratioA_(splineOf(columnAt(monchickMason::ratioA, dipole_))),
-      ratioB_(splineOf(columnAt(monchickMason::ratioB, dipole_))),
-      ratioC_(splineOf(columnAt(monchickMason::ratioC, dipole_))) {}
+      ratioA_(splineOf(smoothed(columnAt(monchickMason::ratioA, dipole_)))),
+      ratioB_(splineOf(smoothed(columnAt(monchickMason::ratioB, dipole_)))),
+      ratioC_(splineOf(smoothed(columnAt(monchickMason::ratioC, dipole_)))) {}
 
 double ReducedIntegrals::omega11(double logT) const {
   if (source_ == CollisionIntegrals::ThesisFits)

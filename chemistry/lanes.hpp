@@ -1,5 +1,5 @@
-// Eight doubles that are computed with at once, and sums over arrays in that many parts, which the compiler may not
-// rearrange itself. Where registers are narrower the compiler takes several.
+// Eight doubles from anywhere in memory that are computed with at once, and their sums. Where registers are narrower
+// the compiler takes several.
 #pragma once
 
 #include <cstddef>
@@ -44,21 +44,13 @@ inline Lanes sumsOfLanes(const Lanes* v) {
          __builtin_shufflevector(twos[0], twos[1], 4, 5, 6, 7, 12, 13, 14, 15);
 }
 
-// sum_i a_i and sum_i a_i b_i
+// sum_i a_i
 inline double sumOf(const double* a, std::size_t n) {
   Lanes sums{};
   std::size_t i = 0;
   for (; i + laneCount <= n; i += laneCount) sums += loadLanes(a + i);
   double sum = sumOfLanes(sums);
   for (; i < n; ++i) sum += a[i];
-  return sum;
-}
-inline double dot(const double* a, const double* b, std::size_t n) {
-  Lanes sums{};
-  std::size_t i = 0;
-  for (; i + laneCount <= n; i += laneCount) sums += loadLanes(a + i) * loadLanes(b + i);
-  double sum = sumOfLanes(sums);
-  for (; i < n; ++i) sum += a[i] * b[i];
   return sum;
 }
 

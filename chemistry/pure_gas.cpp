@@ -128,9 +128,9 @@ double PureGas::rotationalHeatCapacity(std::size_t k) const {
   return 1.5;
 }
 
-double PureGas::rotationalRelaxation(std::size_t k, double T) const {
+double PureGas::rotationalRelaxation(std::size_t k, double T, double least) const {
   const auto& data = molecules_[k].data;
-  return data.rotationalRelaxation * relaxation(data.wellDepth, 298.0) / relaxation(data.wellDepth, T);
+  return std::max(data.rotationalRelaxation, least) * relaxation(data.wellDepth, 298.0) / relaxation(data.wellDepth, T);
 }
 
 // Eqs 6-23..6-33 with Cv = cp - R, ordered by what multiplies cp.

@@ -25,8 +25,9 @@ class PureGas {
   EuckenFactors euckenFactors(std::size_t k, double T) const;
   double conductivity(std::size_t k, double T, double cpOverR) const;  // W/m/K
 
-  double rotationalHeatCapacity(std::size_t k) const;          // in units of R: 0, 1 or 3/2 by shape
-  double rotationalRelaxation(std::size_t k, double T) const;  // collision number, eq. 6-30
+  double rotationalHeatCapacity(std::size_t k) const;  // in units of R: 0, 1 or 3/2 by shape
+  // Collision number, eq. 6-30; it counts as `least` at 298 K if the data have less.
+  double rotationalRelaxation(std::size_t k, double T, double least = 0.0) const;
 
   // T^(3/2) (K^(3/2)) over the binary diffusion coefficient (eq. 6-34, the first Chapman-Enskog approximation) times
   // pressure (m2/s Pa); symmetric, and a slow function of temperature.

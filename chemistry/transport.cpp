@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "chemistry/dot.hpp"
 #include "chemistry/lanes.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
@@ -45,10 +46,14 @@ double Transport::fitVariable(double T) {
   return (2.0 * std::cbrt(1.0 / T) - atColdest - atHottest) / (atColdest - atHottest);
 }
 
-Transport::Basis Transport::basis(double T) const {
+void Transport::requireInRange(double T) {
   if (!(T >= minTemperature && T <= maxTemperature))
     throw NumericsError(fmt::format("transport properties at {:.6g} K; they are known from {} to {} K", T,
                                     minTemperature, maxTemperature));
+}
+
+Transport::Basis Transport::basis(double T) const {
+  requireInRange(T);
   Basis result{};
   const double s = fitVariable(T);
   result.powers[0] = 1.0;
@@ -90,7 +95,7 @@ void Transport::wilkeSums(const Basis& at) {
 
 Transport::Mixture Transport::viscosityAndConductivity(double T, const Basis& at) {
   wilkeSums(at);
-  table_.cpOverR(T, cp_.data());
+  thermo_.cpOverR(T, cp_.data());
   for (std::size_t k = 0; k < ld_; k += laneCount) {
     const Lanes root = loadLanes(&root_[k]), wilke = loadLanes(&wilkeSum_[k]);
     const Lanes rigid = evaluate<kPureTerms>(&rigid_[k], at.powers, ld_);
@@ -192,7 +197,7 @@ double Transport::speciesConductivity(double T, std::size_t k) const {
     rigid += at.powers[m] * rigid_[m * ld_ + k];
     vibrating += at.powers[m] * vibrating_[m * ld_ + k];
   }
-  table_.cpOverR(T, cp_.data());
+  thermo_.cpOverR(T, cp_.data());
   return speciesViscosity(T, k) * gasConstants_[k] * (rigid + vibrating * cp_[k]);
 }
 

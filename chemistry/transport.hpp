@@ -9,8 +9,8 @@
 
 #include "chemistry/collision_integrals.hpp"
 #include "chemistry/mechanism.hpp"
-#include "chemistry/nasa7.hpp"
 #include "chemistry/pair_polynomials.hpp"
+#include "chemistry/species_thermo.hpp"
 
 namespace lampblack {
 
@@ -34,6 +34,8 @@ class Transport {
   // Range of the polynomials; outside it the members throw NumericsError.
   static constexpr double minTemperature = 200.0;   // K
   static constexpr double maxTemperature = 4000.0;  // K
+
+  static void requireInRange(double T);
 
   // InputError if a species has no transport data or, for constant Lewis numbers, no positive Lewis number.
   explicit Transport(const Mechanism& mechanism, const TransportOptions& options = {});
@@ -93,7 +95,7 @@ class Transport {
   std::size_t n_ = 0, ld_ = 0;  // species; the same, padded
   DiffusionModel model_;
   std::vector<double> inverseLewis_;
-  Nasa7Table table_;
+  SpeciesThermo thermo_;
   std::vector<double> weights_;               // kg/mol
   std::vector<double> roots_, quarterRoots_;  // W^(1/2), W^(-1/4)
   std::vector<double> gasConstants_;          // R/W_k, J/kg/K

@@ -53,7 +53,7 @@ Transport::Transport(const Mechanism& mechanism, const TransportOptions& options
       ld_(paddedToLanes(n_)),
       model_(options.diffusion),
       inverseLewis_(inverseLewisNumbers(mechanism, options)),
-      table_(mechanism.allSpecies()),
+      thermo_(mechanism.allSpecies()),
       weights_(mechanism.molecularWeights().begin(), mechanism.molecularWeights().end()),
       resistance_(n_),
       thermal_(n_),
