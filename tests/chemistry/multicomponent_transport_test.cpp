@@ -1,0 +1,161 @@
+#include "chemistry/multicomponent_transport.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/constants.hpp"
+#include "core/errors.hpp"
+#include "tests/chemistry/measured.hpp"
+#include "tests/chemistry/table.hpp"
+
+namespace {
+
+using namespace lampblack;
+using lampblack::testing::ethylene;
+using lampblack::testing::hydrogen;
+using lampblack::testing::measured;
+using lampblack::testing::raise;
+using lampblack::testing::Table;
+
+struct Reference {
+  const char* tables;
+  const char* mechanism;
+};
+
+class MulticomponentReference : public ::testing::TestWithParam<Reference> {
+ protected:
+  Table table(const std::string& kind) const {
+    return Table(std::string("transport_") + GetParam().tables + "_" + kind + ".csv");
+  }
+};
+
+// Cantera solves the same equations with polynomials in ln T for the properties of pairs. Thermal diffusion
+// coefficients, which change sign, are compared relative to themselves or to a hundredth of the mixture's largest.
+TEST_P(MulticomponentReference, AgreesWithCantera) {
+  const auto mechanism =
+      Mechanism::fromFile(lampblack::testing::sourcePath(std::string("cases/mechanisms/") + GetParam().mechanism));
+  MulticomponentTransport transport(mechanism);
+  const auto states = table("states"), mixture = table("mixture"), species = table("species");
+  const std::size_t n = mechanism.numSpecies();
+  std::vector<double> DT(n);
+  double viscosity = 0, conductivity = 0, thermal = 0, sums = 0;
+  for (std::size_t s = 0; s < states.size(); ++s) {
+    const auto result =
+        transport.mixture(states.number(s, "T"), states.number(s, "p"), states.moleFractions(s, mechanism), DT);
+    raise(viscosity, result.viscosity / mixture.number(s, "mu_mixavg") - 1);
+    raise(conductivity, result.conductivity / mixture.number(s, "lambda_multi") - 1);
+    double largest = 0;
+    for (std::size_t k = 0; k < n; ++k) largest = std::max(largest, std::abs(species.number(s * n + k, "DT_multi")));
+    for (std::size_t k = 0; k < n; ++k) {
+      const double expected = species.number(s * n + k, "DT_multi");
+      raise(thermal, (DT[k] - expected) / std::max(std::abs(expected), 0.01 * largest));
+    }
+    raise(sums, std::accumulate(DT.begin(), DT.end(), 0.0) / largest);
+  }
+  measured("viscosity", viscosity);
+  measured("conductivity", conductivity);
+  measured("thermal diffusion", thermal);
+  measured("sum of thermal diffusion", sums);
+  EXPECT_LT(viscosity, 0.001);
+  EXPECT_LT(conductivity, 0.001);
+  EXPECT_LT(thermal, 0.01);
+  EXPECT_LT(sums, 1e-12);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cantera, MulticomponentReference,
+                         ::testing::Values(Reference{"h2o2", "hydrogen_h2o2_10.yaml"},
+                                           Reference{"gri30", "methane_gri30_53.yaml"}),
+                         [](const auto& reference) { return std::string(reference.param.tables); });
+
+// Two gases, eight others absent: D_12 = D_21 is the binary coefficient.
+TEST(MulticomponentTransport, TwoGasesHaveTheBinaryCoefficient) {
+  const auto& mechanism = hydrogen();
+  MulticomponentTransport transport(mechanism);
+  const PureGas gas(mechanism);
+  const std::size_t n = mechanism.numSpecies(), H2 = mechanism.speciesIndex("H2"), N2 = mechanism.speciesIndex("N2");
+  std::vector<double> D(n * n);
+  transport.diffusion(600, 3e5, parseComposition(mechanism, "H2: 0.2, N2: 0.8"), D);
+  const double binary = gas.diffusionTimesPressure(H2, N2, 600) / 3e5;
+  EXPECT_NEAR(D[H2 * n + N2] / binary, 1, 1e-12);
+  EXPECT_NEAR(D[N2 * n + H2] / binary, 1, 1e-12);
+  EXPECT_EQ(D[H2 * n + H2], 0);
+}
+
+// The fluxes of the coefficients satisfy the Stefan-Maxwell equations, grad X_i = sum_j X_i X_j/D_ij (V_j - V_i), with
+// the binary coefficients, and carry no mass on the whole.
+TEST(MulticomponentTransport, FluxesSolveTheStefanMaxwellEquations) {
+  const auto& mechanism = ethylene();
+  MulticomponentTransport transport(mechanism);
+  const PureGas gas(mechanism);
+  const std::size_t n = mechanism.numSpecies();
+  const double T = 1400, p = 1e5;
+  const auto W = mechanism.molecularWeights();
+  std::vector<double> X(n), gradient(n), D(n * n), velocity(n);
+  double total = 0, mean = 0, slope = 0;
+  for (std::size_t k = 0; k < n; ++k) total += X[k] = 1.0 + std::sin(static_cast<double>(3 * k));
+  for (std::size_t k = 0; k < n; ++k) {
+    X[k] /= total;
+    mean += X[k] * W[k];
+    slope += gradient[k] = std::cos(static_cast<double>(5 * k));
+  }
+  for (double& g : gradient) g -= slope / static_cast<double>(n);
+  transport.diffusion(T, p, X, D);
+  const double density = p * mean / (constants::gasConstant * T);
+  double net = 0, size = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    double flux = 0;
+    for (std::size_t j = 0; j < n; ++j) flux += density * W[k] / (mean * mean) * W[j] * D[k * n + j] * gradient[j];
+    velocity[k] = flux / (density * X[k] * W[k] / mean);
+    net += flux;
+    size += std::abs(flux);
+  }
+  EXPECT_LT(std::abs(net), 1e-12 * size);
+  double worst = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    double sum = 0;
+    for (std::size_t j = 0; j < n; ++j)
+      sum += X[i] * X[j] * p / gas.diffusionTimesPressure(i, j, T) * (velocity[j] - velocity[i]);
+    raise(worst, sum - gradient[i]);  // gradients are of order one
+  }
+  measured("Stefan-Maxwell", worst);
+  EXPECT_LT(worst, 1e-9);
+}
+
+// A monatomic gas alone conducts as 15/4 R/W mu in first approximation; absent species change nothing.
+TEST(MulticomponentTransport, ArgonAloneConductsAsKineticTheorySays) {
+  const auto& mechanism = hydrogen();
+  MulticomponentTransport transport(mechanism);
+  const std::size_t AR = mechanism.speciesIndex("AR");
+  std::vector<double> DT(mechanism.numSpecies());
+  const auto result = transport.mixture(500, 1e5, parseComposition(mechanism, "AR: 1"), DT);
+  const double viscosity = PureGas(mechanism).viscosity(AR, 500);
+  EXPECT_NEAR(result.conductivity / (3.75 * constants::gasConstant / mechanism.molecularWeights()[AR] * viscosity), 1,
+              1e-12);
+  for (std::size_t k = 0; k < DT.size(); ++k) EXPECT_NEAR(DT[k], 0, 1e-14 * viscosity) << mechanism.speciesName(k);
+}
+
+TEST(MulticomponentTransport, IsFiniteAtTheEdges) {
+  const auto& mechanism = ethylene();
+  MulticomponentTransport transport(mechanism);
+  const std::size_t n = mechanism.numSpecies();
+  std::vector<double> DT(n), D(n * n);
+  for (const double T : {Transport::minTemperature, Transport::maxTemperature})
+    for (const double p : {0.1, 1e7})
+      for (const char* composition : {"N2: 1", "H: 1", "C2H4: 1, O2: 1e-15"}) {
+        const auto X = parseComposition(mechanism, composition);
+        const auto result = transport.mixture(T, p, X, DT);
+        transport.diffusion(T, p, X, D);
+        EXPECT_TRUE(std::isfinite(result.viscosity) && result.viscosity > 0);
+        EXPECT_TRUE(std::isfinite(result.conductivity) && result.conductivity > 0);
+        EXPECT_TRUE(std::ranges::all_of(DT, [](double v) { return std::isfinite(v); }));
+        EXPECT_TRUE(std::ranges::all_of(D, [](double v) { return std::isfinite(v); }));
+      }
+  const std::vector<double> X(n, 1.0 / static_cast<double>(n));
+  EXPECT_THROW(transport.mixture(199, 1e5, X, DT), NumericsError);
+  EXPECT_THROW(transport.diffusion(4001, 1e5, X, D), NumericsError);
+}
+
+}  // namespace
