@@ -64,10 +64,6 @@ std::vector<double> readMixture(const Deck& deck, const std::string& section, co
                                           ways == 0 ? "the mixture is missing" : "the mixture is given twice"));
   const auto read = [&](const char* name) {
     const std::string key = section + "." + name;
-    if (!deck.has(key))
-      throw deck.error(section, fmt::format("'fuel', 'oxidizer' and 'equivalence_ratio' belong together; '{}' is "
-                                            "missing",
-                                            name));
     return at(deck, key, [&] { return parseComposition(mechanism, deck.string(key)); });
   };
   if (has("mass_fractions")) return read("mass_fractions");
@@ -75,8 +71,12 @@ std::vector<double> readMixture(const Deck& deck, const std::string& section, co
   if (has("composition")) {
     X = read("composition");
   } else {
+    for (const char* name : {"fuel", "oxidizer", "equivalence_ratio"})
+      if (!has(name))
+        throw deck.error(section, fmt::format("'fuel', 'oxidizer' and 'equivalence_ratio' belong together; '{}' is "
+                                              "missing",
+                                              name));
     const auto fuel = read("fuel"), oxidizer = read("oxidizer");
-    if (!has("equivalence_ratio")) read("equivalence_ratio");
     X = at(deck, section, [&] {
       return mixByEquivalenceRatio(mechanism, fuel, oxidizer, deck.number(section + ".equivalence_ratio"));
     });

@@ -1,0 +1,72 @@
+// What reactor decks become: mixtures, flows in balance, the shipped cases.
+#include "app/reactor_case.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "app/gas_input.hpp"
+#include "app/problem.hpp"
+#include "chemistry/thermo.hpp"
+#include "core/errors.hpp"
+#include "tests/app/app_fixture.hpp"
+
+namespace lampblack {
+namespace {
+
+ReactorCase shipped(const std::string& name) {
+  return readReactorCase(Deck::load(test::sourceFolder / "cases" / name / "deck.yaml", {}, reactorSchema()));
+}
+
+TEST(ReactorCase, ShippedDecksAreValid) {
+  for (const auto& entry : std::filesystem::directory_iterator(test::sourceFolder / "cases")) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with("reactor_")) continue;
+    EXPECT_NO_THROW(shipped(name)) << name;
+  }
+}
+
+TEST(ReactorCase, AnEquivalenceRatioIsThatOfTheAtoms) {
+  const ReactorCase methane = shipped("reactor_ignition_methane");
+  const Mechanism& mechanism = *methane.mechanism;
+  std::vector<double> Y(mechanism.numSpecies());
+  Thermo(mechanism).moleToMass(parseComposition(mechanism, "CH4: 1, O2: 2, N2: 7.52"), Y);
+  for (std::size_t k = 0; k < Y.size(); ++k) EXPECT_NEAR(methane.initial.Y[k], Y[k], 1e-15);
+  // Oxygen in the fuel counts: CO + H2 + CH3OH need 1/2 + 1/2 + 3/2 O2.
+  const auto X = mixByEquivalenceRatio(mechanism, parseComposition(mechanism, "CO: 1, H2: 1, CH3OH: 1"),
+                                       parseComposition(mechanism, "O2: 1, N2: 3.76"), 2.0);
+  EXPECT_NEAR((X[mechanism.speciesIndex("CO")] * 0.5 + X[mechanism.speciesIndex("H2")] * 0.5 +
+               X[mechanism.speciesIndex("CH3OH")] * 1.5) /
+                  X[mechanism.speciesIndex("O2")],
+              2.0, 1e-12);
+}
+
+// 50 g/s come in and 30 % go round once more: F = 50 + 0.3 F.
+TEST(ReactorCase, FlowsOfANetworkAreInBalance) {
+  const ReactorNetwork network = shipped("reactor_network_combustor").network;
+  ASSERT_EQ(network.reactors.size(), 6U);
+  EXPECT_NEAR(network.throughflow(0), 0.05 / 0.7, 1e-15);
+  EXPECT_NEAR(network.throughflow(1), 0.3 * 0.05 / 0.7, 1e-15);
+  EXPECT_NEAR(network.throughflow(5), 0.13, 1e-15);
+}
+
+TEST(ReactorCase, ReactionsAreNamedByNumberOrEquation) {
+  const auto path = test::sourceFolder / "cases/reactor_ignition_hydrogen/deck.yaml";
+  const auto read = [&](const std::string& reactions) {
+    return readReactorCase(Deck::load(path, {"sensitivity.reactions=" + reactions}, reactorSchema())).sensitivities;
+  };
+  EXPECT_EQ(read("['11', 'O+H2<=>H + OH']"), (std::vector<std::size_t>{10, 2}));
+  EXPECT_EQ(read("[all]").size(), 29U);
+  EXPECT_THROW(read("['0']"), InputError);
+}
+
+TEST(Problems, ADeckChoosesItsProblem) {
+  const auto deck = test::sourceFolder / "cases/reactor_ignition_hydrogen/deck.yaml";
+  EXPECT_EQ(problemOf(Deck::load(deck, {}, deckKinds(), MPI_COMM_SELF)).name, "reactor");
+  const auto flow = test::sourceFolder / "cases/counterflow_ethylene/deck.yaml";
+  EXPECT_EQ(problemOf(Deck::load(flow, {}, deckKinds(), MPI_COMM_SELF)).name, "flow");
+  EXPECT_THROW(Deck::load(flow, {"problem=fluid"}, deckKinds(), MPI_COMM_SELF), InputError);
+}
+
+}  // namespace
+}  // namespace lampblack
