@@ -28,6 +28,24 @@ TEST(DeckReference, JsonSchemaIsStrictAndKnowsWildcardsAndLists) {
   EXPECT_THAT(json, HasSubstr("\"minItems\": 3"));
 }
 
+// Two kinds of deck: a part of the page each, and a condition each in the JSON schema; a deck is read by its own kind.
+TEST(DeckKinds, AreChosenByTheirKey) {
+  DeckSchema one, two;
+  one.add(choiceKey("problem", {"one"}, "Kind.")).add(integerKey("cells", "Cells."));
+  two.add(choiceKey("problem", {"two"}, "Kind.")).add(stringKey("name", "Name."));
+  const DeckKinds kinds{"problem", {{"one", "The first.", one}, {"two", "The second.", two}}};
+  const std::string page = markdownReference(kinds);
+  EXPECT_THAT(page, HasSubstr("## problem: one\n\nThe first.\n\n### Top level"));
+  EXPECT_THAT(page, HasSubstr("- [`problem: two`](#problem-two): The second."));
+  EXPECT_THAT(jsonSchema(kinds), HasSubstr("\"const\": \"two\""));
+  EXPECT_EQ(Deck::parse("problem: two\nname: a", "deck.yaml", {}, kinds).string("name"), "a");
+  EXPECT_EQ(Deck::parse("problem: two\ncells: 3", "deck.yaml", {"problem=one"}, kinds).integer("cells"), 3);
+  EXPECT_THROW((void)Deck::parse("problem: two\ncells: 3", "deck.yaml", {}, kinds), InputError);
+  EXPECT_THROW((void)Deck::parse("problem: three", "deck.yaml", {}, kinds), InputError);
+  EXPECT_THROW((void)Deck::parse("problem: [one]", "deck.yaml", {}, kinds), InputError);
+  EXPECT_THROW((void)Deck::parse("cells: 3", "deck.yaml", {}, kinds), InputError);
+}
+
 TEST(DeckSchema, RefusesContradictionsOfItsOwn) {
   DeckSchema schema = test::sampleSchema();
   EXPECT_THROW(schema.add(integerKey("seed", "Again.")), std::logic_error);

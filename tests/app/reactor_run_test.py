@@ -1,0 +1,104 @@
+"""Reactor runs as users meet them: what the files say about ignition, a network and a transient, on any number of ranks.
+
+Usage: reactor_run_test.py EXECUTABLE RANKS MPIEXEC...
+Exit code 77 (skipped) where a Python package is missing.
+"""
+
+import csv
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import running
+
+try:
+    import h5py
+    import matplotlib  # noqa: F401
+    import numpy as np
+except ImportError as error:
+    print(f"SKIPPED: {error}; scripts/setup installs it")
+    sys.exit(77)
+
+CASES = running.SOURCE / "cases"
+
+
+def run(program, name, folder, *pairs):
+    out = folder / name
+    result = program("run", CASES / name / "deck.yaml", "--out", out, *running.settings(*pairs), timeout=200)
+    assert result.code == 0, result.err
+    record = json.loads((out / "run.json").read_text(encoding="utf-8"))
+    assert record["status"] == "done" and not (out / "results.xdmf").exists()
+    return out, record["results"], result.out
+
+
+def rows_of(path):
+    with open(path, newline="", encoding="utf-8") as file:
+        head, *rows = list(csv.reader(file))
+    return head, rows
+
+
+def ignition(program, folder):
+    """Delays as Cantera 3.2 has them (tests/chemistry/ignition_test.cpp), the same in all files."""
+    out, results, text = run(program, "reactor_ignition_hydrogen", folder)
+    delay = results["ignition_delays_s"]["max_dTdt"]
+    assert abs(delay / 4.533140061e-5 - 1) < 2e-6, delay
+    assert f"{delay:.6e} s" in text, text
+    head, rows = rows_of(out / "sensitivities.csv")
+    assert head[:3] == ["reaction", "equation", "max_dTdt [1]"] and len(rows) == 29
+    column = np.array([float(row[2]) for row in rows])
+    assert abs(column.sum() + 1) < 1e-3, column.sum()
+    with h5py.File(out / "results.h5", "r") as file:
+        assert file["ignition/max_dTdt/delay"][()] == delay
+        assert np.array_equal(file["sensitivity/max_dTdt"][()], column)
+        assert np.array_equal(file["sensitivity/reaction"][()], np.arange(1, 30))
+        names, history = rows_of(out / "history.csv")
+        table = np.array(history, dtype=float)
+        assert len(file["history"]) == len(names)
+        for c, name in enumerate(names):
+            assert np.array_equal(file["history"][name.split(" [")[0]][()], table[:, c]), name
+        assert file["history/time"][-1] == 2e-3
+    done = subprocess.run([sys.executable, running.SOURCE / "scripts/plot", out], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    for picture in ("reactor", "ignition", "sensitivity"):
+        assert (out / "pictures" / f"{picture}.png").stat().st_size > 5000, picture
+
+
+def regular_output(program, folder):
+    """Rows at a regular interval, the end included, and mass fractions of the chosen species."""
+    out, _, _ = run(program, "reactor_ignition_hydrogen", folder, "output.interval=30 us", "time.end=100 us",
+                    "output.species=[OH, H2O]", "output.fractions=mass")
+    head, rows = rows_of(out / "history.csv")
+    assert head[-2:] == ["Y_OH [1]", "Y_H2O [1]"], head
+    assert np.allclose([float(row[0]) for row in rows], [0, 3e-5, 6e-5, 9e-5, 1e-4], rtol=1e-12)
+
+
+def network(program, folder):
+    out, results, _ = run(program, "reactor_network_combustor", folder)
+    head, rows = rows_of(out / "reactors.csv")
+    assert [row[0] for row in rows] == list(results["reactors"])
+    with h5py.File(out / "results.h5", "r") as file:
+        temperature = file["reactors/temperature"][()]
+        assert file["reactors"].attrs["names"].decode() == ",".join(results["reactors"])
+    assert head[1] == "temperature [K]" and np.array_equal([float(row[1]) for row in rows], temperature)
+    assert list(temperature) == [reactor["temperature_K"] for reactor in results["reactors"].values()]
+
+
+def transient(program, folder):
+    """A lit stirred reactor comes to rest at its steady state."""
+    _, steady, _ = run(program, "reactor_stirred_methane", folder / "steady")
+    _, after, _ = run(program, "reactor_stirred_methane", folder, "time.end=60 ms", "output.interval=10 ms")
+    difference = after["final_temperature_K"] - steady["reactors"]["reactor"]["temperature_K"]
+    assert abs(difference) < 1e-3, difference
+
+
+def main(executable, ranks, *mpiexec):
+    program = running.Program(executable, list(mpiexec), int(ranks))
+    for test in (ignition, regular_output, network, transient):
+        with tempfile.TemporaryDirectory() as folder:
+            test(program, pathlib.Path(folder))
+        print(f"ok  {test.__name__}")
+
+
+main(*sys.argv[1:])
