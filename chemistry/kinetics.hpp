@@ -21,8 +21,8 @@
 #include "chemistry/kinetics_pressure.hpp"
 #include "chemistry/kinetics_tables.hpp"
 #include "chemistry/mechanism.hpp"
-#include "chemistry/species_thermo.hpp"
 #include "chemistry/sparse_pattern.hpp"
+#include "chemistry/species_thermo.hpp"
 
 namespace lampblack {
 

@@ -33,6 +33,16 @@ constexpr std::array<std::pair<std::string_view, Type>, 14> kTypes{{
     {"Chebyshev", Type::Chebyshev},
 }};
 
+bool has(const ParsedEquation::Side& side, std::string_view name) {
+  return std::any_of(side.begin(), side.end(), [&](const auto& term) { return term.first == name; });
+}
+
+// "(+AR)", or "AR" on both sides.
+bool isCollider(const ParsedEquation& parsed, std::string_view name) {
+  if (parsed.hasM || !parsed.falloffCollider.empty()) return name == parsed.falloffCollider;
+  return has(parsed.reactants, name) && has(parsed.products, name);
+}
+
 // A species that the phase does not have.
 struct Undeclared {
   std::string name;
@@ -61,6 +71,7 @@ class ReactionReader {
       readThirdBody(parsed);
     } catch (const Undeclared& species) {
       if (scope_.skipUndeclaredSpecies) return std::nullopt;
+      if (scope_.skipUndeclaredThirdBodies && isCollider(parsed, species.name)) return std::nullopt;
       fail(entry_.node(), fmt::format("species '{}' is not declared in the phase", species.name));
     }
     readRates(yaml_, units_, entry_, reaction_, warnings_);

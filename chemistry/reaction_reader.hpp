@@ -16,8 +16,9 @@ namespace lampblack {
 struct ReactionScope {
   // Index of a species of the phase; empty if it is not declared.
   std::function<std::optional<std::size_t>(std::string_view)> findSpecies;
-  bool skipUndeclaredSpecies = false;      // leave out reactions of species that the phase does not have
-  bool skipUndeclaredThirdBodies = false;  // leave out efficiencies of such species
+  bool skipUndeclaredSpecies = false;  // leave out reactions of species that the phase does not have
+  bool skipUndeclaredThirdBodies =
+      false;  // leave out efficiencies of such species, and reactions they alone collide in
 };
 
 // Empty if the scope leaves the reaction out. Throws InputError with file, line and equation. Numbers without a unit

@@ -82,6 +82,18 @@ TEST(MechanismSections, UndeclaredSpeciesAreLeftOutWhereThePhaseSaysSo) {
               AllOf(HasSubstr(":12:"), HasSubstr("'CO' is not declared")));
 }
 
+// Named alone, an undeclared third body takes the whole reaction with it.
+TEST(MechanismSections, UndeclaredCollidersAreLeftOutWhereThePhaseSaysSo) {
+  const std::string reactions =
+      "list:\n- {equation: H + O2 + AR => HO2 + AR, rate-constant: [1, 0, 0]}\n- {equation: H + O2 (+AR) => HO2 (+AR), "
+      "type: falloff, low-P-rate-constant: [1, 0, 0], high-P-rate-constant: [1, 0, 0]}\n- {equation: H + O2 => HO2, "
+      "rate-constant: [1, 0, 0]}\n";
+  EXPECT_THAT(messageOf(file("reactions: [list]") + reactions), HasSubstr("'AR' is not declared"));
+  const auto mechanism = readFileText(file("skip-undeclared-third-bodies: true, reactions: [list]") + reactions);
+  ASSERT_EQ(mechanism.numReactions(), 1U);
+  EXPECT_EQ(mechanism.reaction(0).equation, "H + O2 => HO2");
+}
+
 TEST(MechanismSections, SpeciesOfUndeclaredElements) {
   EXPECT_THAT(messageOf(file("elements: [H, O]")), AllOf(HasSubstr(":7:"), HasSubstr("element 'C' is not declared")));
   EXPECT_THAT(names(readFileText(file("elements: [H, O], skip-undeclared-elements: true, reactions: none"))),

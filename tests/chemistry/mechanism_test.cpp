@@ -48,12 +48,26 @@ TEST(Mechanism, RateConstantsAreConvertedToMolAndMetres) {
   EXPECT_EQ(falloff.troe->T2.value(), 5182.0);
 }
 
+// NO, N, Y, on and the like are truth values to a YAML 1.1 reader.
 TEST(Mechanism, ReadsNamesThatLookLikeBooleans) {
-  const auto mechanism = readText("species: [N2, NO]", R"(
-- {name: N2, composition: {N: 2}, thermo: *t}
-- {name: NO, composition: {N: 1, O: 1}, thermo: *t})",
-                                  "[]");
+  const auto mechanism =
+      readText("elements: [N, O, Y], species: [N, NO, O, Y, on]", R"(
+- {name: N, composition: {N: 1}, thermo: *t}
+- {name: NO, composition: {N: 1, O: 1}, thermo: *t}
+- {name: O, composition: {O: 1}, thermo: *t}
+- {name: Y, composition: {Y: 1}, thermo: *t}
+- {name: on, composition: {O: 1, N: 1}, thermo: *t}
+
+elements:
+- {symbol: Y, atomic-weight: 88.90584})",
+               "[{equation: NO + M <=> N + O + M, rate-constant: [1, 0, 0], efficiencies: {NO: 2, Y: "
+               "3, N: 4}}]");
   EXPECT_EQ(mechanism.speciesName(1), "NO");
+  EXPECT_EQ(mechanism.speciesName(3), "Y");
+  EXPECT_EQ(mechanism.speciesName(4), "on");
+  EXPECT_EQ(mechanism.atoms(1, mechanism.elementIndex("N")), 1);
+  EXPECT_NEAR(mechanism.molecularWeights()[3], 0.08890584, 1e-12);
+  EXPECT_EQ(mechanism.reaction(0).thirdBody->efficiencies.size(), 3U);
 }
 
 TEST(Mechanism, OneTemperatureRangeHoldsEverywhere) {
