@@ -29,7 +29,8 @@ struct Arguments {
   std::string fuel, oxidizer;
   std::optional<double> ratio;
   bool equilibrium = false;
-  std::string constant;  // "HP", ... as the option that asks for it; empty if none does
+  std::string constant;                       // "HP", ... as the option that asks for it; empty if none does
+  std::string transport, collisionIntegrals;  // empty: the default
   bool json = false;
   GasTables tables;
 };
@@ -109,8 +110,12 @@ Answer answer(const Arguments& arguments) {
   const double p = positiveQuantity("--p", arguments.pressure, units::pressure);
   const auto X = moleFractions(arguments, mechanism);
   const std::string constant = arguments.constant.empty() && arguments.equilibrium ? "TP" : arguments.constant;
-  const GasProperties gas =
+  GasTransportChoice transport;
+  if (!arguments.transport.empty()) transport.model = transportModel(arguments.transport);
+  if (!arguments.collisionIntegrals.empty()) transport.integrals = collisionIntegrals(arguments.collisionIntegrals);
+  GasProperties gas =
       constant.empty() ? gasProperties(mechanism, T, p, X) : gasAtEquilibrium(mechanism, T, p, X, constant);
+  addTransport(mechanism, transport, !arguments.transport.empty() || !arguments.collisionIntegrals.empty(), gas);
   Answer result;
   result.warnings = mechanism.warnings();
   result.warnings.push_back(rangeWarning(mechanism, T));
@@ -147,6 +152,8 @@ void addGasCommand(CLI::App& app, std::function<void()>& command) {
   for (const EquilibriumOption& option : equilibriumOptions)
     gas->add_flag_callback(
         option.name, [arguments, &option] { chooseConstant(*arguments, option); }, option.help);
+  gas->add_option("--transport", arguments->transport, "mixture-averaged (default), multicomponent or unity-lewis.");
+  gas->add_option("--collision-integrals", arguments->collisionIntegrals, "monchick-mason (default) or thesis.");
   gas->add_flag("--json", arguments->json, "One JSON object (docs/formats.md) in place of tables.");
   gas->add_flag("--all", arguments->tables.allSpecies, "Tables: every species, also those that are not there.");
   gas->add_flag("--reactions", arguments->tables.reactions, "Tables: the rate constants too.");

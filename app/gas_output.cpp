@@ -27,6 +27,14 @@ void bySpecies(JsonWriter& json, const char* key, const Mechanism& mechanism, co
   json.endObject();
 }
 
+void multicomponentDiffusion(JsonWriter& json, const Mechanism& mechanism, const std::vector<double>& D) {
+  const std::size_t n = mechanism.numSpecies();
+  json.key("multicomponent_diffusion_coefficients").beginObject();
+  for (std::size_t k = 0; k < n; ++k)
+    bySpecies(json, mechanism.speciesName(k).c_str(), mechanism, {D.begin() + k * n, D.begin() + (k + 1) * n});
+  json.endObject();
+}
+
 void inFileOrder(JsonWriter& json, const char* key, const std::vector<double>& values) {
   json.key(key).beginArray();
   for (const double value : values) json.value(value);
@@ -51,6 +59,7 @@ std::string stateTable(const Mechanism& mechanism, const GasProperties& gas) {
   if (gas.transport) {
     line("viscosity", gas.transport->viscosity, "Pa s");
     line("thermal conductivity", gas.transport->thermalConductivity, "W/m/K");
+    out += fmt::format("  {:<24}{:>14}\n", "transport", transportModelName(gas.transport->choice.model));
   } else {
     out += fmt::format("  no transport properties: {}\n", gas.transportNote);
   }
@@ -69,7 +78,9 @@ std::string speciesTable(const Mechanism& mechanism, const GasProperties& gas, b
   double fastest = gas.equilibrium.empty() ? 0 : INFINITY;
   for (const double rate : gas.netProductionRates) fastest = std::max(fastest, std::abs(rate));
   std::string out = fmt::format("\n  {:<{}}{:>14}{:>14}", "species", width, "X", "Y");
+  const bool soret = gas.transport && !gas.transport->thermalDiffusion.empty();
   if (gas.transport) out += fmt::format("{:>14}", "D [m^2/s]");
+  if (soret) out += fmt::format("{:>15}", "DT [kg/m/s]");
   out += fmt::format("{:>18}\n", "rate [mol/m^3/s]");
   std::size_t hidden = 0;
   for (std::size_t k = 0; k < mechanism.numSpecies(); ++k) {
@@ -82,6 +93,7 @@ std::string speciesTable(const Mechanism& mechanism, const GasProperties& gas, b
     out += fmt::format("  {:<{}}{:>14.5e}{:>14.5e}", mechanism.speciesName(k), width, gas.moleFractions[k],
                        gas.massFractions[k]);
     if (gas.transport) out += fmt::format("{:>14.5e}", gas.transport->mixtureDiffusion[k]);
+    if (soret) out += fmt::format("{:>15.5e}", gas.transport->thermalDiffusion[k]);
     out += fmt::format("{:>18.5e}\n", gas.netProductionRates[k]);
   }
   if (hidden > 0)
@@ -116,19 +128,26 @@ std::string gasJson(const Mechanism& mechanism, const GasProperties& gas) {
     json.key("viscosity").null().key("thermal_conductivity").null();
   }
   bySpecies(json, "mole_fractions", mechanism, gas.moleFractions);
-  if (gas.transport) {
-    bySpecies(json, "mixture_diffusion_coefficients", mechanism, gas.transport->mixtureDiffusion);
-  } else {
-    json.key("mixture_diffusion_coefficients").null();
-  }
-  json.key("thermal_diffusion_coefficients").null();
+  const auto orNull = [&](const char* key, const std::vector<double>* values) {
+    if (values && !values->empty()) {
+      bySpecies(json, key, mechanism, *values);
+    } else {
+      json.key(key).null();
+    }
+  };
+  orNull("mixture_diffusion_coefficients", gas.transport ? &gas.transport->mixtureDiffusion : nullptr);
+  orNull("thermal_diffusion_coefficients", gas.transport ? &gas.transport->thermalDiffusion : nullptr);
   inFileOrder(json, "forward_rate_constants", gas.forwardConstants);
   inFileOrder(json, "reverse_rate_constants", gas.reverseConstants);
   bySpecies(json, "net_production_rates", mechanism, gas.netProductionRates);
   bySpecies(json, "mass_fractions", mechanism, gas.massFractions);
   json.key("equilibrium");
   gas.equilibrium.empty() ? json.null() : json.value(gas.equilibrium);
+  json.key("transport_model");
+  gas.transport ? json.value(transportModelName(gas.transport->choice.model)) : json.null();
   if (!gas.transport) json.field("transport_note", gas.transportNote);
+  if (gas.transport && !gas.transport->multicomponentDiffusion.empty())
+    multicomponentDiffusion(json, mechanism, gas.transport->multicomponentDiffusion);
   json.endObject();
   return json.text() + "\n";
 }

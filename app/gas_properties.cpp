@@ -8,7 +8,6 @@
 #include "chemistry/equilibrium.hpp"
 #include "chemistry/kinetics.hpp"
 #include "chemistry/thermo.hpp"
-#include "chemistry/transport.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 
@@ -55,27 +54,12 @@ void requireFinite(const GasProperties& gas) {
   check(gas.netProductionRates, "the net production rates");
 }
 
-void setTransport(const Mechanism& mechanism, GasProperties& gas) {
-  try {
-    GasTransport result;
-    Transport transport(mechanism);
-    result.mixtureDiffusion.resize(mechanism.numSpecies());
-    const auto mixture = transport.mixture(gas.temperature, gas.pressure, gas.moleFractions, result.mixtureDiffusion);
-    result.viscosity = mixture.viscosity;
-    result.thermalConductivity = mixture.conductivity;
-    gas.transport = std::move(result);
-  } catch (const std::runtime_error& error) {
-    gas.transportNote = error.what();
-  }
-}
-
 }  // namespace
 
 GasProperties gasProperties(const Mechanism& mechanism, double T, double p, std::span<const double> X) {
   GasProperties gas = thermodynamics(mechanism, T, p, X);
   setRates(mechanism, gas);
   requireFinite(gas);
-  setTransport(mechanism, gas);
   return gas;
 }
 
@@ -102,6 +86,23 @@ GasProperties gasAtEquilibrium(const Mechanism& mechanism, double T, double p, s
   GasProperties gas = gasProperties(mechanism, T, p, result);
   gas.equilibrium = constant;
   return gas;
+}
+
+void addTransport(const Mechanism& mechanism, const GasTransportChoice& choice, bool needed, GasProperties& gas) {
+  const auto compute = [&] {
+    gas.transport = gasTransport(mechanism, gas.temperature, gas.pressure, gas.moleFractions, choice);
+  };
+  if (needed) {
+    compute();
+    return;
+  }
+  try {
+    compute();
+  } catch (const InputError& error) {
+    gas.transportNote = error.what();
+  } catch (const NumericsError& error) {
+    gas.transportNote = error.what();
+  }
 }
 
 std::string rangeWarning(const Mechanism& mechanism, double T) {

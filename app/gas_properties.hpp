@@ -6,15 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "app/gas_transport.hpp"
 #include "chemistry/mechanism.hpp"
 
 namespace lampblack {
-
-struct GasTransport {
-  double viscosity = 0;                  // Pa s
-  double thermalConductivity = 0;        // W/m/K
-  std::vector<double> mixtureDiffusion;  // m2/s, of mass fluxes by gradients of mole fractions
-};
 
 struct GasProperties {
   std::string equilibrium;         // "HP": what was held constant on the way to equilibrium; empty if it was not sought
@@ -32,14 +27,18 @@ struct GasProperties {
   std::string transportNote;  // why there is no transport
 };
 
-// All of it at T (K), p (Pa) and mole fractions X that sum to one. Without transport data, or outside the range of
-// temperature of the transport properties, `transport` is empty. NumericsError if a number is not finite.
+// All of it at T (K), p (Pa) and mole fractions X that sum to one; `transport` is left empty. NumericsError if a number
+// is not finite.
 GasProperties gasProperties(const Mechanism& mechanism, double T, double p, std::span<const double> X);
 
 // The same at the chemical equilibrium that T, p and X turn into while two quantities stay constant: "TP", "HP", "SP",
 // "TV" or "UV" (temperature, pressure, enthalpy, entropy, volume, internal energy). NumericsError if there is none.
 GasProperties gasAtEquilibrium(const Mechanism& mechanism, double T, double p, std::span<const double> X,
                                const std::string& constant);
+
+// Adds the transport properties. Without transport data, or outside the range of temperature of the model, that is an
+// error if they are `needed` (InputError, NumericsError), else a note.
+void addTransport(const Mechanism& mechanism, const GasTransportChoice& choice, bool needed, GasProperties& gas);
 
 // Says that T is outside the range of thermodynamic data, and names the species whose range ends first; empty if
 // inside.
