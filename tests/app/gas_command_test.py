@@ -72,6 +72,32 @@ def mole_fractions(row: dict) -> str:
     return ", ".join(f"{name[2:]}: {value}" for name, value in row.items() if name.startswith("X_"))
 
 
+def compare_transport(program: running.Program, name: str, worst: Worst) -> None:
+    """Collision integrals come from the same tables, through other fits: viscosity, conductivity and diffusion to 0.5 %,
+    thermal diffusion, which hangs on their small differences, to 1 % of the largest."""
+    mechanism = running.SOURCE / "cases/mechanisms" / MECHANISMS[name]
+    species = by_state(table(f"transport_{name}_species.csv"))
+    mixture = by_state(table(f"transport_{name}_mixture.csv"))
+    for state in table(f"transport_{name}_states.csv"):
+        arguments = ("gas", mechanism, "--T", state["T"], "--p", state["p"], "--X", mole_fractions(state), "--json")
+        rows, [row] = species[state["state"]], mixture[state["state"]]
+        for model, conductivity, thermal in (("mixture-averaged", "lambda_mixavg", "DT_mixavg_model"),
+                                             ("multicomponent", "lambda_multi", "DT_multi")):
+            result = program(*arguments, "--transport", model)
+            assert result.code == 0, result.err
+            gas = json.loads(result.out)
+            assert gas["transport_model"] == model
+            worst.relative(f"{name} viscosity", gas["viscosity"], float(row["mu_mixavg"]), 5e-3)
+            worst.relative(f"{name} {model} conductivity", gas["thermal_conductivity"], float(row[conductivity]), 5e-3)
+            largest = max(abs(float(entry[thermal])) for entry in rows)
+            for entry in rows:
+                worst.relative(f"{name} mixture diffusion coefficients",
+                               gas["mixture_diffusion_coefficients"][entry["species"]], float(entry["D_mix_avg"]), 5e-3)
+                worst.compare(f"{name} {model} thermal diffusion, of the largest",
+                              gas["thermal_diffusion_coefficients"][entry["species"]], float(entry[thermal]), largest,
+                              1e-2)
+
+
 def compare(program: running.Program, name: str, worst: Worst) -> None:
     mechanism = running.SOURCE / "cases/mechanisms" / MECHANISMS[name]
     reactants_and_products = orders(mechanism)
@@ -111,6 +137,7 @@ def main() -> int:
     worst = Worst()
     for name in MECHANISMS:
         compare(program, name, worst)
+        compare_transport(program, name, worst)
     return 0 if worst.report() else 1
 
 
