@@ -14,6 +14,7 @@
 #include "app/gas_input.hpp"
 #include "app/gas_output.hpp"
 #include "app/gas_properties.hpp"
+#include "app/mechanism_files.hpp"
 #include "app/warnings.hpp"
 #include "chemistry/thermo.hpp"
 #include "core/errors.hpp"
@@ -23,7 +24,7 @@ namespace lampblack {
 namespace {
 
 struct Arguments {
-  std::string mechanism;
+  MechanismFiles files;
   std::string temperature, pressure;
   std::string moleFractions, massFractions;
   std::string fuel, oxidizer;
@@ -105,7 +106,7 @@ struct Answer {
 
 // The gas of the options, brought to the equilibrium they ask for.
 Answer answer(const Arguments& arguments) {
-  const Mechanism mechanism = Mechanism::fromFile(arguments.mechanism);
+  const Mechanism mechanism = readMechanism(arguments.files);
   const double T = positiveQuantity("--T", arguments.temperature, units::temperature);
   const double p = positiveQuantity("--p", arguments.pressure, units::pressure);
   const auto X = moleFractions(arguments, mechanism);
@@ -140,7 +141,9 @@ void run(const Arguments& arguments) {
 void addGasCommand(CLI::App& app, std::function<void()>& command) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* gas = app.add_subcommand("gas", "Properties, rates and equilibrium of a gas.");
-  gas->add_option("mechanism", arguments->mechanism, "Mechanism file (YAML).")->required();
+  gas->add_option("mechanism", arguments->files.mechanism, "Mechanism: YAML by its ending, else CHEMKIN.")->required();
+  gas->add_option("thermo", arguments->files.thermo, "CHEMKIN thermodynamic data.");
+  gas->add_option("transport-data", arguments->files.transport, "CHEMKIN transport data.");
   gas->add_option("-T,--T", arguments->temperature, "Temperature: 1500, \"1500 K\".")->required();
   gas->add_option("-p,--p", arguments->pressure, "Pressure: 101325, \"1 atm\".")->default_val("1 atm");
   gas->add_option("-X,--X", arguments->moleFractions, "Mole fractions, scaled to one: \"CH4:1, O2:2, N2:7.52\".");

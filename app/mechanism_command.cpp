@@ -8,13 +8,12 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "app/mechanism_files.hpp"
 #include "app/warnings.hpp"
-#include "chemistry/chemkin_reader.hpp"
 #include "chemistry/mechanism.hpp"
 #include "chemistry/mechanism_writer.hpp"
 #include "core/errors.hpp"
@@ -23,35 +22,16 @@ namespace lampblack {
 namespace {
 
 struct Arguments {
-  std::string mechanism;
-  std::string thermo, transport;  // empty if not given
-  std::string output;             // empty if not given
+  MechanismFiles files;
+  std::string output;  // empty if not given
 };
-
-bool isYaml(const std::string& path) {
-  const auto extension = std::filesystem::path(path).extension();
-  return extension == ".yaml" || extension == ".yml";
-}
-
-Mechanism read(const Arguments& arguments) {
-  if (!isYaml(arguments.mechanism)) {
-    const auto optional = [](const std::string& path) { return path.empty() ? std::nullopt : std::optional(path); };
-    return readChemkin({arguments.mechanism, optional(arguments.thermo), optional(arguments.transport)});
-  }
-  if (!arguments.thermo.empty())
-    throw InputError(
-        fmt::format("{} is YAML, which holds thermodynamic and transport data itself; expected no further "
-                    "file, found '{}'",
-                    arguments.mechanism, arguments.thermo));
-  return Mechanism::fromFile(arguments.mechanism);
-}
 
 void checkOutput(const Arguments& arguments) {
   if (arguments.output.empty()) return;
   if (!isYaml(arguments.output))
     throw InputError(fmt::format("-o: expected a name that ends with .yaml or .yml, found '{}'", arguments.output));
   std::error_code error;
-  for (const auto& input : {arguments.mechanism, arguments.thermo, arguments.transport})
+  for (const auto& input : {arguments.files.mechanism, arguments.files.thermo, arguments.files.transport})
     if (!input.empty() && std::filesystem::equivalent(input, arguments.output, error))
       throw InputError(fmt::format("-o: expected another file than the input '{}'", input));
 }
@@ -101,7 +81,7 @@ void run(const Arguments& arguments) {
   std::string text;
   collectively(PETSC_COMM_WORLD, [&] {
     checkOutput(arguments);
-    const Mechanism mechanism = read(arguments);
+    const Mechanism mechanism = readMechanism(arguments.files);
     warnings = mechanism.warnings();
     text = summary(mechanism);
     if (rank == 0 && !arguments.output.empty()) writeMechanism(mechanism, arguments.output);
@@ -118,10 +98,10 @@ void run(const Arguments& arguments) {
 void addMechanismCommand(CLI::App& app, std::function<void()>& command) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* mechanism = app.add_subcommand("mechanism", "Check a mechanism and convert CHEMKIN files to YAML.");
-  mechanism->add_option("mechanism", arguments->mechanism, "CHEMKIN mechanism (chem.inp), or YAML by its ending.")
+  mechanism->add_option("mechanism", arguments->files.mechanism, "CHEMKIN mechanism (chem.inp), or YAML by its ending.")
       ->required();
-  mechanism->add_option("thermo", arguments->thermo, "CHEMKIN thermodynamic data (therm.dat).");
-  mechanism->add_option("transport", arguments->transport, "CHEMKIN transport data (tran.dat).");
+  mechanism->add_option("thermo", arguments->files.thermo, "CHEMKIN thermodynamic data (therm.dat).");
+  mechanism->add_option("transport", arguments->files.transport, "CHEMKIN transport data (tran.dat).");
   mechanism->add_option("-o,--output", arguments->output, "YAML file to write; without it, check and summarise only.");
   mechanism->callback([arguments, &command] { command = [arguments] { run(*arguments); }; });
 }

@@ -4,7 +4,9 @@ Usage: gas_options_test.py EXECUTABLE RANKS MPIEXEC...
 """
 
 import json
+import pathlib
 import sys
+import tempfile
 
 import running
 
@@ -34,8 +36,32 @@ MISTAKES = [
     ("not a number", (HYDROGEN, "--T", "nan", "--X", AIR), ("--T",)),
     ("no temperature", (HYDROGEN, "--X", AIR), ("--T",)),
     ("no mechanism", ("nowhere.yaml", "--T", "300", "--X", AIR), ("nowhere.yaml", "cannot open")),
+    ("unknown transport model", (HYDROGEN, "--T", "300", "--X", AIR, "--transport", "multicomponents"),
+     ("--transport", "did you mean 'multicomponent'")),
+    ("unknown collision integrals", (HYDROGEN, "--T", "300", "--X", AIR, "--collision-integrals", "neufeld"),
+     ("--collision-integrals", "monchick-mason", "thesis")),
+    ("no transport data for the model asked for", (SILICA, "--T", "300", "--X", "CO:1", "--transport",
+                                                   "mixture-averaged"), ("has no transport data",)),
+    ("YAML with CHEMKIN data", (HYDROGEN, "therm.dat", "--T", "300", "--X", AIR), ("is YAML", "therm.dat")),
     ("two equilibria", (HYDROGEN, "--T", "300", "--X", AIR, "--hp", "--uv"), ("one equilibrium at a time",)),
 ]
+
+
+# Thermodynamic data in fixed columns: 2.5 R for the atom, 3.5 R for the molecule.
+def chemkin_species(name: str, atoms: str, numbers: list) -> str:
+    head = f"{name:<18}{'':6}{atoms:<20}G{300:10.3f}{5000:10.3f}{1000:8.2f}"
+    values = [*numbers, *numbers]
+    lines = [f"{head:<79}1"]
+    for row in range(3):
+        text = "".join(f"{value:15.8E}" for value in values[5 * row:5 * row + 5])
+        lines.append(f"{text:<79}{row + 2}")
+    return "\n".join(lines) + "\n"
+
+
+CHEMKIN = "ELEMENTS H END\nSPECIES H H2 END\nREACTIONS\n2H+M=H2+M 1.E18 -1. 0.\nEND\n"
+CHEMKIN_THERMO = ("THERMO\n   300.000  1000.000  5000.000\n"
+                  + chemkin_species("H", "H   1", [2.5, 0, 0, 0, 0, 25474, -0.45])
+                  + chemkin_species("H2", "H   2", [3.5, 0, 0, 0, 0, -1000, -3.3]) + "END\n")
 
 
 class Checker:
@@ -102,6 +128,21 @@ def tables(check: Checker) -> None:
     check.require("--all", "C3H8" in everything.out)
 
 
+def chemkin(check: Checker) -> None:
+    with tempfile.TemporaryDirectory() as folder:
+        mechanism, thermo, converted = (pathlib.Path(folder) / name for name in ("chem.inp", "therm.dat", "mech.yaml"))
+        mechanism.write_text(CHEMKIN, encoding="utf-8")
+        thermo.write_text(CHEMKIN_THERMO, encoding="utf-8")
+        options = ("--T", "2000", "--X", "H:1, H2:1")
+        gas = check.gas(mechanism, thermo, *options)
+        check.close("CHEMKIN files", gas["forward_rate_constants"][0], 1e18 * 1e-12 / 2000, 1e-12)
+        result = check.program("mechanism", mechanism, thermo, "-o", converted)
+        check.require("CHEMKIN files converted", result.code == 0, result.err)
+        again = check.gas(converted, *options)
+        check.close("  same rates", again["net_production_rates"]["H"], gas["net_production_rates"]["H"], 1e-13)
+        check.close("  same entropy", again["entropy_mass"], gas["entropy_mass"], 1e-13)
+
+
 def without_transport(check: Checker) -> None:
     gas = check.gas(SILICA, "--T", "1500", "--X", "C8H20O4SI:1, N2:9")
     check.require("no transport data: null and why",
@@ -129,9 +170,16 @@ def mistakes(check: Checker) -> None:
                       f"exit code {result.code}\n{result.out}{result.err}")
 
 
+def ranks(check: Checker) -> None:
+    """What every rank computes is printed once."""
+    result = running.Program(sys.argv[1], sys.argv[3:], 2)("gas", METHANE, *FLAME, "--json")
+    alone = check.program("gas", METHANE, *FLAME, "--json")
+    check.require("two ranks", result.code == 0 and result.out == alone.out, result.err)
+
+
 def main() -> int:
     check = Checker(running.Program(sys.argv[1], sys.argv[3:], int(sys.argv[2])))
-    for part in (spellings, equilibria, tables, without_transport, beyond_the_data, mistakes):
+    for part in (spellings, equilibria, tables, chemkin, without_transport, beyond_the_data, mistakes, ranks):
         part(check)
     return 1 if check.failures else 0
 

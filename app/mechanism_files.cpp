@@ -1,0 +1,31 @@
+#include "app/mechanism_files.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <optional>
+
+#include "chemistry/chemkin_reader.hpp"
+#include "core/errors.hpp"
+
+namespace lampblack {
+
+bool isYaml(const std::string& path) {
+  const auto extension = std::filesystem::path(path).extension();
+  return extension == ".yaml" || extension == ".yml";
+}
+
+Mechanism readMechanism(const MechanismFiles& files) {
+  if (!isYaml(files.mechanism)) {
+    const auto optional = [](const std::string& path) { return path.empty() ? std::nullopt : std::optional(path); };
+    return readChemkin({files.mechanism, optional(files.thermo), optional(files.transport)});
+  }
+  if (!files.thermo.empty())
+    throw InputError(
+        fmt::format("{} is YAML, which holds thermodynamic and transport data itself; expected no further "
+                    "file, found '{}'",
+                    files.mechanism, files.thermo));
+  return Mechanism::fromFile(files.mechanism);
+}
+
+}  // namespace lampblack

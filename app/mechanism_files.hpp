@@ -1,0 +1,20 @@
+// A mechanism as a command line names it: one YAML file, or up to three CHEMKIN files.
+#pragma once
+
+#include <string>
+
+#include "chemistry/mechanism.hpp"
+
+namespace lampblack {
+
+struct MechanismFiles {
+  std::string mechanism;          // YAML by its ending (.yaml, .yml), else CHEMKIN
+  std::string thermo, transport;  // CHEMKIN data in files of their own; empty if not given
+};
+
+bool isYaml(const std::string& path);
+
+// InputError, also where a YAML file comes with others.
+Mechanism readMechanism(const MechanismFiles& files);
+
+}  // namespace lampblack
