@@ -16,7 +16,7 @@ constexpr double nothing = 1e-30;  // left of the path: amounts that fall with i
 constexpr double vanishing = 20.0;
 constexpr int mostIterations = 12;
 constexpr int mostSteps = 1000;
-constexpr double almostAll = 0.98;
+constexpr double almostAll = 0.98;     // of what is left, tried where all of it at once fails
 constexpr double smallestStep = 1e-6;  // of what is left
 
 double largest(const std::vector<double>& x) {

@@ -41,9 +41,9 @@ class EquilibriumPath {
   std::size_t iterations() const { return iterations_; }  // Newton's, since setMixture
 
  private:
-  std::size_t unknowns() const { return components_.count() + 1; }
   enum class Stage { Elements, Potentials };
 
+  std::size_t unknowns() const { return components_.count() + 1; }
   bool chooseComponents();
   void exclude(std::size_t i);
   bool excludeAbsent();
