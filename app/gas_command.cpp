@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <csignal>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -133,6 +134,8 @@ void run(const Arguments& arguments) {
   int rank = 0;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   if (rank != 0) return;
+  // A reader that has seen enough ("| head") ends the program quietly; PETSc would call it a crash.
+  std::signal(SIGPIPE, SIG_DFL);
   std::cout << result.text << std::flush;
 }
 
