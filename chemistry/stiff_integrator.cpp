@@ -230,7 +230,7 @@ void StiffIntegrator::step() {
     self.reason = fmt::format("{} steps were taken", self.options.maximumSteps);
   if (flag < 0) {
     // CVODES leaves the last good state in y.
-    throw NumericsError(fmt::format("the integration cannot go on at {:.6g}: {}; {}", reached,
+    throw NumericsError(fmt::format("the integration cannot go on: {}; {}",
                                     self.system.describe(reached, N_VGetArrayPointer(self.y.get())), self.reason));
   }
   previousTime_ = before;
