@@ -25,7 +25,7 @@ class BatchConstants {
   };
 
   static Temperature temperature(const BatchView& view, D T, D total) {
-    Temperature t;
+    Temperature t{};
     t.T = T;
     t.inverse = V::all(1.0) / T;
     t.log = log2<V>(T);
@@ -225,7 +225,7 @@ class BatchConstants {
     const double* a = view.chebyshevCoefficients + r.begin;
     D b1 = D{}, b2 = D{};
     for (std::uint32_t i = r.numT; i-- > 1;) {
-      const D b = V::multiplyAdd(x + x, b1, clenshaw(a + i * r.numP, r.numP, y) - b2);
+      const D b = V::multiplyAdd(x + x, b1, clenshaw(a + std::size_t{i} * r.numP, r.numP, y) - b2);
       b2 = b1;
       b1 = b;
     }

@@ -79,7 +79,7 @@ bool BatchTables::addToGroup(const KineticsTables& tables, std::size_t reaction)
   if (!reversible) {
     // The products count for the targets only.
     for (const auto& term : net)
-      for (double left = term.coefficient; left > 0; --left)
+      for (int left = static_cast<int>(term.coefficient); left > 0; --left)
         produced.push_back(take(static_cast<std::int32_t>(term.species), 1.0));
     if (produced.empty()) produced.push_back(sink);
     products.assign(produced.size(), sink);

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -27,7 +28,9 @@ class BatchTables {
   struct Shape {
     std::size_t reactants = 0, products = 0;
     bool reversible = false;
-    auto operator<=>(const Shape&) const = default;
+    bool operator<(const Shape& other) const {
+      return std::tie(reactants, products, reversible) < std::tie(other.reactants, other.products, other.reversible);
+    }
   };
   struct Record {
     double A = 0;
