@@ -1,10 +1,13 @@
 #include "chemistry/newton_matrix.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace lampblack {
 
 namespace {
+
+constexpr double kTemperatureUnit = 1e3;  // K, of the unknown of the full matrix
 
 // Species, then the border: temperature and the product's unknown.
 SparseLu borderedLu(const ReactorSystem& system) {
@@ -28,7 +31,8 @@ NewtonMatrix::NewtonMatrix(const ReactorSystem& system)
       sparse_(borderedLu(system)),
       values_(sparse_.storageSize(), 0.0),
       diagonal_(size_ + 1, 1.0),
-      rightHandSide_(size_ + 1) {
+      rightHandSide_(size_ + 1),
+      rowScale_(size_, 1.0) {
   const std::size_t n = size_ - 1, T = n, s = n + 1;
   for (std::size_t j = 0; j < n; ++j) {
     for (auto e = pattern_.columnStart[j]; e < pattern_.columnStart[j + 1]; ++e)
@@ -73,13 +77,24 @@ void NewtonMatrix::loadDense(double gamma) {
     column[n] -= gamma * jacobian_.temperatureRow[j];
     column[j] += 1.0;
   }
-  for (std::size_t i = 0; i <= n; ++i) dense_->column(n)[i] = -gamma * jacobian_.temperatureColumn[i];
-  dense_->column(n)[n] += 1.0;
+  double* last = dense_->column(n);
+  for (std::size_t i = 0; i <= n; ++i) last[i] = -gamma * jacobian_.temperatureColumn[i];
+  last[n] += 1.0;
+  for (std::size_t i = 0; i <= n; ++i) last[i] *= kTemperatureUnit;
+  // Rows of one size: with temperatures among mass fractions the largest of a column says nothing else about pivots.
+  for (std::size_t i = 0; i <= n; ++i) {
+    double largest = 0;
+    for (std::size_t j = 0; j <= n; ++j) largest = std::max(largest, std::abs(dense_->column(j)[i]));
+    rowScale_[i] = largest > 0 ? 1.0 / largest : 1.0;
+    for (std::size_t j = 0; j <= n; ++j) dense_->column(j)[i] *= rowScale_[i];
+  }
 }
 
 void NewtonMatrix::solve(double* b) {
   if (usesDense_) {
+    for (std::size_t i = 0; i < size_; ++i) b[i] *= rowScale_[i];
     dense_->solve(b);
+    b[size_ - 1] *= kTemperatureUnit;
     return;
   }
   std::copy_n(b, size_, rightHandSide_.begin());

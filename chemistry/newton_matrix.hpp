@@ -40,6 +40,7 @@ class NewtonMatrix {
   ReactorSystem::SparseJacobian jacobian_;
   std::vector<double> diagonal_, rightHandSide_;
   std::optional<DenseLu> dense_;  // made when first needed
+  std::vector<double> rowScale_;
   bool usesDense_ = false;
   long pivoted_ = 0;
 };
