@@ -127,7 +127,10 @@ void ChemkinEquationParser::explain(std::string_view text) const {
       const auto name = term.substr(std::min(numberLength(term), term.size() - 1));
       if (upperCase(name) == "HV")
         throw InputError(fmt::format("equation '{}': reactions of light (HV) are not supported", text));
-      throw InputError(fmt::format("equation '{}': species '{}' is not declared{}", text, name, suggestion(name)));
+      // A digit in front may belong to the name.
+      const bool whole = !suggestion(term).empty();
+      throw InputError(fmt::format("equation '{}': species '{}' is not declared{}", text, whole ? term : name,
+                                   suggestion(whole ? term : name)));
     }
   }
   throw InputError(fmt::format("equation '{}': expected species and coefficients joined by '+' on both sides", text));

@@ -167,6 +167,11 @@ class ChemkinReader {
   }
 
   void applyThermo() {
+    if (thermo_.empty())
+      throw InputError(
+          fmt::format("{}: no thermodynamic data of any species; expected them in a section THERMO or in a "
+                      "second file (therm.dat)",
+                      source_.file()));
     std::vector<std::string> missing;
     for (auto& species : species_) {
       const auto found = thermo_.find(species.name);

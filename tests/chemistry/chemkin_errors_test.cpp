@@ -68,6 +68,8 @@ TEST(ChemkinErrors, ElementsAndSpecies) {
 }
 
 TEST(ChemkinErrors, Thermo) {
+  EXPECT_THAT(mechanismMessage("ELEM QQ/1/ END SPEC QQ END"),
+              HasSubstr("chem.inp: no thermodynamic data of any species; expected them in a section THERMO"));
   EXPECT_THAT(
       inputMessage([] { readChemkinText("ELEM H O END SPEC\nH2O H2 HO3\nEND", nullptr, thermoCards("H2", "H   2")); }),
       HasSubstr("chem.inp: no thermodynamic data for 2 of 3 species: 'H2O' (line 2), 'HO3' (line 2)"));
@@ -112,6 +114,7 @@ TEST(ChemkinErrors, Equations) {
   EXPECT_EQ(reactionMessage("H+O3=O+HO2 1 0 0"),
             "chem.inp:6: equation 'H+O3=O+HO2': species 'O3' is not declared; did you mean 'O2'?");
   EXPECT_THAT(reactionMessage("2XY=O2 1 0 0"), HasSubstr("species 'XY' is not declared"));
+  EXPECT_THAT(reactionMessage("H+02=HO2 1 0 0"), HasSubstr("species '02' is not declared; did you mean"));
   EXPECT_THAT(reactionMessage("H+oh=H2O 1 0 0"), HasSubstr("species 'oh' is not declared; did you mean 'OH'?"));
   EXPECT_THAT(reactionMessage("H+=H2O 1 0 0"), HasSubstr("joined by '+'"));
   EXPECT_THAT(reactionMessage("=H2O 1 0 0"), HasSubstr("species on both sides"));
