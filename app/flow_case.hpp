@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "chemistry/mechanism.hpp"
+#include "chemistry/transport.hpp"
 #include "core/mesh.hpp"
 #include "flow/boundary.hpp"
 #include "flow/mixing_layer.hpp"
@@ -53,6 +54,7 @@ struct FlowCase {
   MixingLayer initial;
   TimeControl time;
   OutputControl output;
+  TransportOptions transport;
   ReactionOperator::Options chemistry;
   std::optional<SootModelOptions> soot;
   std::optional<TrajectoryRequest> trajectories;

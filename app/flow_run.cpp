@@ -31,7 +31,7 @@ class FlowRun {
         mesh_(comm, case_.mesh),
         halo_(mesh_),
         thermo_(*case_.mechanism),
-        transport_(*case_.mechanism),
+        transport_(*case_.mechanism, case_.transport),
         context_{mesh_, halo_, *case_.mechanism, thermo_, transport_, case_.boundaries},
         state_(mesh_, case_.mechanism->numSpecies(),
                case_.soot ? SootOperator::carriedScalars() : std::vector<CarriedScalar>{}),

@@ -73,4 +73,8 @@ class Mechanism {
 // (with the nearest known one), negative or unreadable amounts, a name given twice, and all amounts zero.
 std::vector<double> parseComposition(const Mechanism& mechanism, std::string_view text);
 
+// The same pairs as they stand, with `absent` for species that are not named; messages call the text `what`.
+std::vector<double> parseAmounts(const Mechanism& mechanism, std::string_view text, std::string_view what,
+                                 double absent);
+
 }  // namespace lampblack
