@@ -9,6 +9,27 @@ namespace {
 
 using testing::ElementsAre;
 
+FlowCase withTransport(const std::vector<std::string>& overrides) {
+  return readFlowCase(Deck::load(test::sourceFolder / "cases/counterflow_ethylene/deck.yaml", overrides, flowSchema()));
+}
+
+TEST(FlowCase, ReadsTheTransportModel) {
+  EXPECT_EQ(withTransport({}).transport.diffusion, DiffusionModel::MixtureAveraged);
+  EXPECT_EQ(withTransport({}).transport.integrals, CollisionIntegrals::MonchickMason);
+  EXPECT_EQ(withTransport({"transport.collision_integrals=thesis_fits"}).transport.integrals,
+            CollisionIntegrals::ThesisFits);
+  EXPECT_EQ(withTransport({"transport.model=unity_lewis"}).transport.diffusion, DiffusionModel::UnityLewis);
+  const auto constant =
+      withTransport({"transport.model=constant_lewis", "transport.lewis_numbers='H2: 0.3, C2H4: 1.2'"});
+  EXPECT_EQ(constant.transport.diffusion, DiffusionModel::ConstantLewis);
+  EXPECT_EQ(constant.transport.lewisNumbers[constant.mechanism->speciesIndex("H2")], 0.3);
+  EXPECT_EQ(constant.transport.lewisNumbers[constant.mechanism->speciesIndex("N2")], 1.0);
+  EXPECT_THROW(withTransport({"transport.model=constant_lewis"}), InputError);
+  EXPECT_THROW(withTransport({"transport.lewis_numbers='H2: 0.3'"}), InputError);
+  EXPECT_THROW(withTransport({"transport.model=constant_lewis", "transport.lewis_numbers='H2: 0'"}), InputError);
+  EXPECT_THROW(withTransport({"transport.model=constant_lewis", "transport.lewis_numbers='HH: 1'"}), InputError);
+}
+
 TEST(FlowCase, ReadsTheShippedDeck) {
   const Deck deck = Deck::load(test::sourceFolder / "cases/counterflow_ethylene/deck.yaml", {}, flowSchema());
   const FlowCase flowCase = readFlowCase(deck);
