@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "chemistry/reactor_replay.hpp"
+#include "chemistry/reactor/reactor_replay.hpp"
 #include "core/errors.hpp"
 
 namespace lampblack {

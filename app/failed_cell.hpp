@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <string>
 
-#include "chemistry/mechanism.hpp"
-#include "chemistry/reactor_failure.hpp"
+#include "chemistry/mechanism/mechanism.hpp"
+#include "chemistry/reactor/reactor_failure.hpp"
 #include "io/run_folder.hpp"
 
 namespace lampblack {

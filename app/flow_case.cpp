@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "app/gas_input.hpp"
-#include "chemistry/pure_gas.hpp"
+#include "chemistry/transport/pure_gas.hpp"
 #include "core/errors.hpp"
 #include "core/grading.hpp"
 

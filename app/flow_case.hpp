@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "chemistry/mechanism.hpp"
-#include "chemistry/transport.hpp"
+#include "chemistry/mechanism/mechanism.hpp"
+#include "chemistry/transport/transport.hpp"
 #include "core/mesh.hpp"
 #include "flow/boundary.hpp"
 #include "flow/mixing_layer.hpp"

@@ -18,7 +18,7 @@ void addMesh(DeckSchema& schema) {
   }
 }
 
-// K; the transport properties are fitted up to here (chemistry/transport.hpp).
+// K; the transport properties are fitted up to here (chemistry/transport/transport.hpp).
 constexpr double hottest = 4000;
 
 void addBoundaries(DeckSchema& schema) {

@@ -17,7 +17,7 @@
 #include "app/gas_properties.hpp"
 #include "app/mechanism_files.hpp"
 #include "app/warnings.hpp"
-#include "chemistry/thermo.hpp"
+#include "chemistry/thermo/thermo.hpp"
 #include "core/errors.hpp"
 #include "io/units.hpp"
 

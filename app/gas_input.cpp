@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/warnings.hpp"
-#include "chemistry/thermo.hpp"
+#include "chemistry/thermo/thermo.hpp"
 #include "core/errors.hpp"
 
 namespace lampblack {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "chemistry/mechanism.hpp"
+#include "chemistry/mechanism/mechanism.hpp"
 #include "io/deck.hpp"
 
 namespace lampblack {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "chemistry/equilibrium.hpp"
-#include "chemistry/kinetics.hpp"
-#include "chemistry/thermo.hpp"
+#include "chemistry/kinetics/kinetics.hpp"
+#include "chemistry/thermo/equilibrium.hpp"
+#include "chemistry/thermo/thermo.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 

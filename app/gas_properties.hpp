@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/gas_transport.hpp"
-#include "chemistry/mechanism.hpp"
+#include "chemistry/mechanism/mechanism.hpp"
 
 namespace lampblack {
 

@@ -5,8 +5,8 @@
 #include <array>
 #include <utility>
 
-#include "chemistry/multicomponent_transport.hpp"
-#include "chemistry/transport.hpp"
+#include "chemistry/transport/multicomponent_transport.hpp"
+#include "chemistry/transport/transport.hpp"
 #include "core/errors.hpp"
 #include "core/nearest_name.hpp"
 

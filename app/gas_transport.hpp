@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "chemistry/collision_integrals.hpp"
-#include "chemistry/mechanism.hpp"
+#include "chemistry/mechanism/mechanism.hpp"
+#include "chemistry/transport/collision_integrals.hpp"
 
 namespace lampblack {
 

@@ -14,8 +14,8 @@
 
 #include "app/mechanism_files.hpp"
 #include "app/warnings.hpp"
-#include "chemistry/mechanism.hpp"
-#include "chemistry/mechanism_writer.hpp"
+#include "chemistry/mechanism/mechanism.hpp"
+#include "chemistry/mechanism/mechanism_writer.hpp"
 #include "core/errors.hpp"
 
 namespace lampblack {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "chemistry/chemkin_reader.hpp"
+#include "chemistry/chemkin/chemkin_reader.hpp"
 #include "core/errors.hpp"
 
 namespace lampblack {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "chemistry/mechanism.hpp"
+#include "chemistry/mechanism/mechanism.hpp"
 
 namespace lampblack {
 

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "chemistry/closed_reactor.hpp"
-#include "chemistry/ignition.hpp"
-#include "chemistry/mechanism.hpp"
-#include "chemistry/network_solver.hpp"
-#include "chemistry/reactor_network.hpp"
-#include "chemistry/stiff_integrator.hpp"
+#include "chemistry/mechanism/mechanism.hpp"
+#include "chemistry/reactor/closed_reactor.hpp"
+#include "chemistry/reactor/ignition.hpp"
+#include "chemistry/reactor/network_solver.hpp"
+#include "chemistry/reactor/reactor_network.hpp"
+#include "chemistry/reactor/stiff_integrator.hpp"
 #include "io/deck.hpp"
 
 namespace lampblack {

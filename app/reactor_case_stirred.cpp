@@ -5,7 +5,7 @@
 
 #include "app/gas_input.hpp"
 #include "app/reactor_case_parts.hpp"
-#include "chemistry/dense_lu.hpp"
+#include "chemistry/numerics/dense_lu.hpp"
 #include "core/errors.hpp"
 #include "core/nearest_name.hpp"
 

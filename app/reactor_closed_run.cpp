@@ -9,7 +9,7 @@
 #include "app/reactor_driver.hpp"
 #include "app/reactor_history.hpp"
 #include "app/reactor_output.hpp"
-#include "chemistry/ignition_sensitivity.hpp"
+#include "chemistry/reactor/ignition_sensitivity.hpp"
 #include "io/report.hpp"
 
 namespace lampblack {

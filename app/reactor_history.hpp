@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "chemistry/stiff_integrator.hpp"
-#include "chemistry/temperature_profile.hpp"
+#include "chemistry/reactor/stiff_integrator.hpp"
+#include "chemistry/reactor/temperature_profile.hpp"
 #include "io/history.hpp"
 
 namespace lampblack {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/reactor_case.hpp"
-#include "chemistry/ignition_sensitivity.hpp"
+#include "chemistry/reactor/ignition_sensitivity.hpp"
 #include "io/results_writer.hpp"
 #include "io/run_folder.hpp"
 

@@ -4,7 +4,7 @@
 #include "app/reactor_driver.hpp"
 #include "app/reactor_history.hpp"
 #include "app/reactor_output.hpp"
-#include "chemistry/plug_flow.hpp"
+#include "chemistry/reactor/plug_flow.hpp"
 #include "io/report.hpp"
 
 namespace lampblack {

@@ -1,6 +1,6 @@
 #include "app/gas_input.hpp"
 #include "app/reactor_case.hpp"
-#include "chemistry/thermo.hpp"
+#include "chemistry/thermo/thermo.hpp"
 
 namespace lampblack {
 namespace {

@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "chemistry/reactor_replay.hpp"
+#include "chemistry/reactor/reactor_replay.hpp"
 #include "core/errors.hpp"
 
 namespace lampblack {

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "chemistry/mechanism.hpp"
-#include "chemistry/thermo.hpp"
-#include "chemistry/transport.hpp"
+#include "chemistry/mechanism/mechanism.hpp"
+#include "chemistry/thermo/thermo.hpp"
+#include "chemistry/transport/transport.hpp"
 #include "core/halo_exchange.hpp"
 #include "core/mesh.hpp"
 #include "flow/boundary.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "chemistry/equilibrium.hpp"
+#include "chemistry/thermo/equilibrium.hpp"
 
 namespace lampblack {
 namespace {

@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "chemistry/reactor.hpp"
-#include "chemistry/reactor_failure.hpp"
+#include "chemistry/reactor/reactor.hpp"
+#include "chemistry/reactor/reactor_failure.hpp"
 #include "core/work_sharing.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/state.hpp"

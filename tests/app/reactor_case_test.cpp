@@ -7,7 +7,7 @@
 
 #include "app/gas_input.hpp"
 #include "app/problem.hpp"
-#include "chemistry/thermo.hpp"
+#include "chemistry/thermo/thermo.hpp"
 #include "core/errors.hpp"
 #include "tests/app/app_fixture.hpp"
 

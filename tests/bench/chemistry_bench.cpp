@@ -12,11 +12,11 @@
 #include <string>
 #include <vector>
 
-#include "chemistry/batch_kinetics.hpp"
-#include "chemistry/kinetics.hpp"
-#include "chemistry/reactor.hpp"
-#include "chemistry/reactor_system.hpp"
-#include "chemistry/thermo.hpp"
+#include "chemistry/kinetics/batch_kinetics.hpp"
+#include "chemistry/kinetics/kinetics.hpp"
+#include "chemistry/reactor/reactor.hpp"
+#include "chemistry/reactor/reactor_system.hpp"
+#include "chemistry/thermo/thermo.hpp"
 #include "core/constants.hpp"
 #include "tests/bench/timing.hpp"
 

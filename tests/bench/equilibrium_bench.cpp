@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "chemistry/equilibrium.hpp"
-#include "chemistry/thermo.hpp"
+#include "chemistry/thermo/equilibrium.hpp"
+#include "chemistry/thermo/thermo.hpp"
 #include "core/constants.hpp"
 
 namespace {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "chemistry/mechanism.hpp"
-#include "chemistry/reactor.hpp"
-#include "chemistry/thermo.hpp"
+#include "chemistry/mechanism/mechanism.hpp"
+#include "chemistry/reactor/reactor.hpp"
+#include "chemistry/thermo/thermo.hpp"
 #include "core/constants.hpp"
 #include "tests/chemistry/table.hpp"
 

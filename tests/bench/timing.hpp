@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "chemistry/mechanism.hpp"
-#include "chemistry/thermo.hpp"
+#include "chemistry/mechanism/mechanism.hpp"
+#include "chemistry/thermo/thermo.hpp"
 #include "core/constants.hpp"
 #include "tests/bench/reactor_states.hpp"
 #include "tests/chemistry/table.hpp"

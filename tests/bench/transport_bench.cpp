@@ -6,8 +6,8 @@
 
 #include <vector>
 
-#include "chemistry/multicomponent_transport.hpp"
-#include "chemistry/transport.hpp"
+#include "chemistry/transport/multicomponent_transport.hpp"
+#include "chemistry/transport/transport.hpp"
 #include "tests/chemistry/table.hpp"
 
 namespace {

@@ -1,4 +1,4 @@
-#include "chemistry/batch_kinetics.hpp"
+#include "chemistry/kinetics/batch_kinetics.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "chemistry/kinetics.hpp"
+#include "chemistry/kinetics/kinetics.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 #include "tests/chemistry/kinetics_rate_types.hpp"

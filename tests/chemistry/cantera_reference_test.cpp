@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "chemistry/kinetics.hpp"
-#include "chemistry/thermo.hpp"
+#include "chemistry/kinetics/kinetics.hpp"
+#include "chemistry/thermo/thermo.hpp"
 #include "core/constants.hpp"
 #include "tests/chemistry/measured.hpp"
 #include "tests/chemistry/table.hpp"

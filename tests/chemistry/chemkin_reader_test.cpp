@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "chemistry/chemkin_text.hpp"
-#include "chemistry/elements.hpp"
+#include "chemistry/chemkin/chemkin_text.hpp"
+#include "chemistry/mechanism/elements.hpp"
 #include "core/constants.hpp"
 #include "tests/chemistry/chemkin_support.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "chemistry/chemkin_reader.hpp"
+#include "chemistry/chemkin/chemkin_reader.hpp"
 #include "core/errors.hpp"
 
 namespace lampblack::testing {

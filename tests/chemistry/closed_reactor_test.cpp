@@ -1,11 +1,11 @@
 // Closed reactors against exact solutions and conservation laws.
-#include "chemistry/closed_reactor.hpp"
+#include "chemistry/reactor/closed_reactor.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "chemistry/stiff_integrator.hpp"
+#include "chemistry/reactor/stiff_integrator.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 #include "tests/chemistry/measured.hpp"

@@ -1,11 +1,11 @@
-#include "chemistry/collision_integrals.hpp"
+#include "chemistry/transport/collision_integrals.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "chemistry/monchick_mason_tables.hpp"
+#include "chemistry/transport/monchick_mason_tables.hpp"
 #include "tests/chemistry/measured.hpp"
 
 namespace {

@@ -1,4 +1,4 @@
-#include "chemistry/dense_lu.hpp"
+#include "chemistry/numerics/dense_lu.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "chemistry/equilibrium.hpp"
+#include "chemistry/thermo/equilibrium.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <random>
 
-#include "chemistry/kinetics.hpp"
-#include "chemistry/thermo.hpp"
+#include "chemistry/kinetics/kinetics.hpp"
+#include "chemistry/thermo/thermo.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 #include "tests/chemistry/measured.hpp"

@@ -1,14 +1,14 @@
 // Ignition delays against Cantera, their independence of the steps, and their sensitivities against repeated runs and
 // an exact sum.
-#include "chemistry/ignition.hpp"
+#include "chemistry/reactor/ignition.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "chemistry/closed_reactor.hpp"
-#include "chemistry/ignition_sensitivity.hpp"
-#include "chemistry/thermo.hpp"
+#include "chemistry/reactor/closed_reactor.hpp"
+#include "chemistry/reactor/ignition_sensitivity.hpp"
+#include "chemistry/thermo/thermo.hpp"
 #include "core/constants.hpp"
 #include "tests/chemistry/measured.hpp"
 #include "tests/chemistry/table.hpp"

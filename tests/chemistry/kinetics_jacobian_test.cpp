@@ -4,7 +4,7 @@
 #include <cmath>
 #include <complex>
 
-#include "chemistry/kinetics.hpp"
+#include "chemistry/kinetics/kinetics.hpp"
 #include "tests/chemistry/kinetics_rate_types.hpp"
 #include "tests/chemistry/kinetics_reference.hpp"
 #include "tests/chemistry/measured.hpp"

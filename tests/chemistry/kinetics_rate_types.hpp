@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "chemistry/mechanism.hpp"
+#include "chemistry/mechanism/mechanism.hpp"
 #include "tests/chemistry/table.hpp"
 
 namespace lampblack::testing {

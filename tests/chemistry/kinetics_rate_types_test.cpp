@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "chemistry/kinetics.hpp"
-#include "chemistry/kinetics_powers.hpp"
+#include "chemistry/kinetics/kinetics.hpp"
+#include "chemistry/kinetics/kinetics_powers.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 #include "tests/chemistry/kinetics_reference.hpp"

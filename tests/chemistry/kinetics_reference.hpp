@@ -6,7 +6,7 @@
 #include <complex>
 #include <vector>
 
-#include "chemistry/mechanism.hpp"
+#include "chemistry/mechanism/mechanism.hpp"
 #include "core/constants.hpp"
 
 namespace lampblack::testing {

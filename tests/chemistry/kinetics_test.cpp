@@ -1,10 +1,10 @@
-#include "chemistry/kinetics.hpp"
+#include "chemistry/kinetics/kinetics.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "chemistry/species_thermo.hpp"
+#include "chemistry/thermo/species_thermo.hpp"
 #include "core/constants.hpp"
 #include "tests/chemistry/table.hpp"
 

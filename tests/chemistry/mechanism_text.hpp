@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-#include "chemistry/mechanism.hpp"
+#include "chemistry/mechanism/mechanism.hpp"
 
 namespace lampblack::testing {
 

@@ -1,5 +1,5 @@
 // YAML files that Lampblack writes give back every double.
-#include "chemistry/mechanism_writer.hpp"
+#include "chemistry/mechanism/mechanism_writer.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,8 +12,8 @@
 #include <fstream>
 #include <random>
 
-#include "chemistry/kinetics.hpp"
-#include "chemistry/yaml_text.hpp"
+#include "chemistry/kinetics/kinetics.hpp"
+#include "chemistry/mechanism/yaml_text.hpp"
 #include "tests/chemistry/chemkin_support.hpp"
 #include "tests/chemistry/mechanism_text.hpp"
 #include "tests/chemistry/table.hpp"

@@ -1,4 +1,4 @@
-#include "chemistry/multicomponent_transport.hpp"
+#include "chemistry/transport/multicomponent_transport.hpp"
 
 #include <gtest/gtest.h>
 

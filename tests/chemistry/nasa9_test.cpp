@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "chemistry/species_thermo.hpp"
-#include "chemistry/thermo.hpp"
+#include "chemistry/thermo/species_thermo.hpp"
+#include "chemistry/thermo/thermo.hpp"
 #include "core/constants.hpp"
 #include "tests/chemistry/mechanism_text.hpp"
 

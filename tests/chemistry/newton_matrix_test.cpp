@@ -1,11 +1,11 @@
-#include "chemistry/newton_matrix.hpp"
+#include "chemistry/reactor/newton_matrix.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "chemistry/thermo.hpp"
+#include "chemistry/thermo/thermo.hpp"
 #include "core/constants.hpp"
 #include "tests/chemistry/measured.hpp"
 #include "tests/chemistry/table.hpp"

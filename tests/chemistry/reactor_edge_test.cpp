@@ -5,10 +5,10 @@
 #include <cmath>
 #include <numeric>
 
-#include "chemistry/reactor.hpp"
-#include "chemistry/reactor_failure.hpp"
-#include "chemistry/reactor_system.hpp"
-#include "chemistry/thermo.hpp"
+#include "chemistry/reactor/reactor.hpp"
+#include "chemistry/reactor/reactor_failure.hpp"
+#include "chemistry/reactor/reactor_system.hpp"
+#include "chemistry/thermo/thermo.hpp"
 #include "core/constants.hpp"
 #include "tests/chemistry/measured.hpp"
 #include "tests/chemistry/table.hpp"

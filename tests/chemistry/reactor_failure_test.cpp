@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "chemistry/reactor.hpp"
-#include "chemistry/thermo.hpp"
+#include "chemistry/reactor/reactor.hpp"
+#include "chemistry/thermo/thermo.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 #include "tests/chemistry/table.hpp"

@@ -1,15 +1,15 @@
 // Stirred reactors, networks and plug flow against exact solutions; their Jacobians against finite differences.
-#include "chemistry/reactor_network.hpp"
+#include "chemistry/reactor/reactor_network.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 
-#include "chemistry/network_solver.hpp"
-#include "chemistry/plug_flow.hpp"
-#include "chemistry/steady_state.hpp"
-#include "chemistry/stiff_integrator.hpp"
+#include "chemistry/reactor/network_solver.hpp"
+#include "chemistry/reactor/plug_flow.hpp"
+#include "chemistry/reactor/steady_state.hpp"
+#include "chemistry/reactor/stiff_integrator.hpp"
 #include "core/constants.hpp"
 #include "tests/chemistry/measured.hpp"
 #include "tests/chemistry/mechanism_text.hpp"

@@ -1,4 +1,4 @@
-#include "chemistry/reactor_replay.hpp"
+#include "chemistry/reactor/reactor_replay.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "chemistry/thermo.hpp"
+#include "chemistry/thermo/thermo.hpp"
 #include "core/constants.hpp"
 #include "tests/chemistry/table.hpp"
 

@@ -1,4 +1,4 @@
-#include "chemistry/reactor_system.hpp"
+#include "chemistry/reactor/reactor_system.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
-#include "chemistry/reactor.hpp"
+#include "chemistry/reactor/reactor.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numeric>
 
-#include "chemistry/kinetics.hpp"
-#include "chemistry/reactor_system.hpp"
-#include "chemistry/thermo.hpp"
+#include "chemistry/kinetics/kinetics.hpp"
+#include "chemistry/reactor/reactor_system.hpp"
+#include "chemistry/thermo/thermo.hpp"
 #include "core/constants.hpp"
 #include "tests/chemistry/measured.hpp"
 #include "tests/chemistry/table.hpp"

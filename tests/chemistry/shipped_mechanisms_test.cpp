@@ -4,7 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "chemistry/kinetics.hpp"
+#include "chemistry/kinetics/kinetics.hpp"
 #include "core/constants.hpp"
 #include "tests/chemistry/measured.hpp"
 #include "tests/chemistry/table.hpp"

@@ -1,4 +1,4 @@
-#include "chemistry/short_vector.hpp"
+#include "chemistry/numerics/short_vector.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "chemistry/sparse_lu.hpp"
+#include "chemistry/numerics/sparse_lu.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "chemistry/mechanism.hpp"
+#include "chemistry/mechanism/mechanism.hpp"
 
 namespace lampblack::testing {
 

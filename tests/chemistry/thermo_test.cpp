@@ -1,4 +1,4 @@
-#include "chemistry/thermo.hpp"
+#include "chemistry/thermo/thermo.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "chemistry/transport.hpp"
+#include "chemistry/transport/transport.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "chemistry/pure_gas.hpp"
-#include "chemistry/thermo.hpp"
+#include "chemistry/thermo/thermo.hpp"
+#include "chemistry/transport/pure_gas.hpp"
 #include "core/errors.hpp"
 #include "tests/chemistry/measured.hpp"
 #include "tests/chemistry/mechanism_text.hpp"

@@ -1,4 +1,4 @@
-#include "chemistry/vector_math.hpp"
+#include "chemistry/numerics/vector_math.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <string_view>
 
-#include "chemistry/chemkin_reader.hpp"
-#include "chemistry/mechanism_writer.hpp"
+#include "chemistry/chemkin/chemkin_reader.hpp"
+#include "chemistry/mechanism/mechanism_writer.hpp"
 #include "core/errors.hpp"
 
 namespace {

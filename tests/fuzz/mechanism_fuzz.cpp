@@ -11,7 +11,7 @@
 #include <span>
 #include <stdexcept>
 
-#include "chemistry/mechanism.hpp"
+#include "chemistry/mechanism/mechanism.hpp"
 #include "core/errors.hpp"
 
 namespace {

@@ -1,0 +1,28 @@
+// Mechanisms in the format of CHEMKIN-II (Kee, Rupley, Miller 1989, SAND89-8009), with the later keywords for rates
+// that depend on pressure. docs/formats.md lists what is read.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "chemistry/chemkin/chemkin_text.hpp"
+#include "chemistry/mechanism/mechanism.hpp"
+
+namespace lampblack {
+
+struct ChemkinFiles {
+  std::string mechanism;                 // ELEMENTS, SPECIES, REACTIONS; THERMO and TRANSPORT may be there too
+  std::optional<std::string> thermo;     // for species without data in the mechanism file
+  std::optional<std::string> transport;  // the same
+};
+
+// Reads and converts to SI units with mol. What is doubtful but can be used (data given twice, a species without
+// transport data) is told in the mechanism's warnings; what cannot be used is an InputError with file, line and what
+// was expected.
+Mechanism readChemkin(const ChemkinFiles& files);
+
+// The same with the files in memory.
+Mechanism parseChemkin(const ChemkinText& mechanism, const std::optional<ChemkinText>& thermo,
+                       const std::optional<ChemkinText>& transport);
+
+}  // namespace lampblack

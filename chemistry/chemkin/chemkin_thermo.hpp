@@ -1,0 +1,38 @@
+// THERMO sections of CHEMKIN files: NASA-7 cards in columns of 80.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "chemistry/chemkin/chemkin_text.hpp"
+#include "chemistry/mechanism/species.hpp"
+
+namespace lampblack {
+
+struct ChemkinThermo {
+  Nasa7 thermo;
+  std::vector<std::pair<std::string, double>> atoms;  // symbols in upper case, each once
+  std::string place;                                  // "file:line"
+};
+
+using ChemkinThermoTable = std::unordered_map<std::string, ChemkinThermo>;
+
+// Reads the lines of one section, its heading word and END left out, into a table of the species for which `wanted`
+// holds; cards of others are passed over unread. A species that stands twice in the section keeps its first card, with
+// a warning. Species that are already in the table keep what they have. Throws InputError with file and line.
+//
+// The first line may hold the three default temperatures (low, mid, high; 300, 1000, 5000 K without it).
+//
+// Card 1: name (columns 1-18), elements (25-44 and 74-78, or free on lines announced by '&'), temperatures (46-55 low,
+// 56-65 high, 66-73 mid; blank: the default). Cards 2-4: coefficients in columns of 15, of the upper range first;
+// blank: zero. Fields that slipped out of their columns are read as words where these are unambiguous.
+void readChemkinThermo(const ChemkinSource& source, std::span<const ChemkinLine> section,
+                       const std::function<bool(std::string_view)>& wanted, ChemkinThermoTable& table,
+                       std::vector<std::string>& warnings);
+
+}  // namespace lampblack

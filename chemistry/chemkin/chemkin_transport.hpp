@@ -1,0 +1,32 @@
+// TRANSPORT files and sections of CHEMKIN: one line a species.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "chemistry/chemkin/chemkin_text.hpp"
+#include "chemistry/mechanism/species.hpp"
+
+namespace lampblack {
+
+struct ChemkinTransport {
+  TransportData data;
+  std::string place;  // "file:line"
+};
+
+using ChemkinTransportTable = std::unordered_map<std::string, ChemkinTransport>;
+
+// Reads the lines of one section, its heading word and END left out, into a table of the species for which `wanted`
+// holds: name, geometry (0 atom, 1 linear, 2 nonlinear), eps/k (K), diameter (angstrom), dipole (debye),
+// polarizability (cubic angstrom), rotational relaxation number at 298 K; text behind these is ignored. A species that
+// stands twice keeps its first line, with a warning where both are in the same section. Throws InputError with file and
+// line.
+void readChemkinTransport(const ChemkinSource& source, std::span<const ChemkinLine> section,
+                          const std::function<bool(std::string_view)>& wanted, ChemkinTransportTable& table,
+                          std::vector<std::string>& warnings);
+
+}  // namespace lampblack

@@ -1,0 +1,142 @@
+#include "chemistry/kinetics/batch_kinetics.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "chemistry/kinetics/batch_kinetics_tables.hpp"
+#include "chemistry/kinetics/batch_kinetics_targets.hpp"
+#include "chemistry/kinetics/kinetics_pressure.hpp"
+#include "core/errors.hpp"
+
+namespace lampblack {
+
+namespace {
+
+struct alignas(64) Row {
+  double values[batchLanes] = {};
+};
+
+}  // namespace
+
+static_assert(BatchKinetics::blockSize == batchLanes);
+
+struct BatchKinetics::State {
+  explicit State(const Mechanism& mechanism)
+      : tables(mechanism), batchTables(mechanism, tables), view(batchTables.view()) {
+    const std::size_t species = batchTables.numSpecies(), bodies = view.thirdBodies.size,
+                      entries = batchTables.numEntries();
+    const std::pair<double**, std::size_t> parts[] = {
+        {&work.c, species},        {&work.g, species},
+        {&work.s, species},        {&work.z, species},
+        {&work.wdot, species + 1}, {&work.wdotByLogs, species + 1},
+        {&work.M, bodies},         {&work.logM, bodies},
+        {&work.E, entries},        {&work.factors, view.factorExponentials.size},
+        {&work.X, entries},        {&work.centre, view.broadened.size},
+        {&work.F, entries}};
+    std::size_t rows = 0;
+    for (const auto& [start, count] : parts) rows += count;
+    memory.resize(rows);
+    double* next = memory.data()->values;
+    for (const auto& [start, count] : parts) {
+      *start = next;
+      next += count * batchLanes;
+    }
+    std::fill_n(work.F, entries * batchLanes, 1.0);
+    std::fill_n(work.E + view.exponentials.size * batchLanes, batchLanes, 1.0);  // the entry that is always one
+    if (std::any_of(tables.pressureLog.sign.begin(), tables.pressureLog.sign.end(), [](double s) { return s < 0; }))
+      sums.emplace(tables);
+  }
+
+  KineticsTables tables;
+  BatchTables batchTables;
+  BatchView view;
+  BatchWork work{};
+  std::vector<Row> memory;
+  std::optional<PressureRates> sums;  // refuses temperatures at which rate constants add up to nothing positive
+};
+
+bool BatchKinetics::available(Instructions instructions) {
+  switch (instructions) {
+#if defined(__x86_64__)
+    case Instructions::Avx512:
+      return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+             __builtin_cpu_supports("avx512vl") && available(Instructions::Avx2);
+    case Instructions::Avx2:
+      return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+#else
+    case Instructions::Avx512:
+    case Instructions::Avx2:
+      return false;
+#endif
+    case Instructions::Generic:
+      break;
+  }
+  return true;
+}
+
+BatchKinetics::Instructions BatchKinetics::best() {
+  for (const auto instructions : {Instructions::Avx512, Instructions::Avx2})
+    if (available(instructions)) return instructions;
+  return Instructions::Generic;
+}
+
+const char* BatchKinetics::name(Instructions instructions) {
+  switch (instructions) {
+    case Instructions::Avx512:
+      return "AVX-512";
+    case Instructions::Avx2:
+      return "AVX2";
+    case Instructions::Generic:
+      break;
+  }
+  return "generic";
+}
+
+BatchKinetics::BatchKinetics(const Mechanism& mechanism, Instructions instructions) : instructions_(instructions) {
+  if (!available(instructions))
+    throw InputError(
+        fmt::format("this processor has no {} instructions; the best it has are {}", name(instructions), name(best())));
+  state_ = std::make_unique<State>(mechanism);
+}
+
+BatchKinetics::~BatchKinetics() = default;
+BatchKinetics::BatchKinetics(BatchKinetics&&) noexcept = default;
+BatchKinetics& BatchKinetics::operator=(BatchKinetics&&) noexcept = default;
+
+std::size_t BatchKinetics::numSpecies() const {
+  return state_->batchTables.numSpecies();
+}
+
+void BatchKinetics::netProductionRates(std::span<const double> T, std::span<const double> concentrations,
+                                       std::span<double> wdot, std::size_t stride) {
+  if (T.empty()) return;
+  if (stride == 0) stride = T.size();
+  const std::size_t needed = (numSpecies() - 1) * stride + T.size();
+  if (stride < T.size() || concentrations.size() < needed || wdot.size() < needed)
+    throw std::invalid_argument(fmt::format("{} states with stride {} need arrays of {} values, there are {} and {}",
+                                            T.size(), stride, needed, concentrations.size(), wdot.size()));
+  if (state_->sums)
+    for (const double temperature : T) state_->sums->setTemperature(state_->tables, temperature, std::log(temperature));
+  const BatchStates states{T.size(), T.data(), concentrations.data(), stride, wdot.data(), stride};
+  switch (instructions_) {
+#if defined(__x86_64__)
+    case Instructions::Avx512:
+      return batchRatesAvx512(state_->view, state_->work, states);
+    case Instructions::Avx2:
+      return batchRatesAvx2(state_->view, state_->work, states);
+#else
+    case Instructions::Avx512:
+    case Instructions::Avx2:
+#endif
+    case Instructions::Generic:
+      break;
+  }
+  batchRatesGeneric(state_->view, state_->work, states);
+}
+
+}  // namespace lampblack

@@ -1,0 +1,11 @@
+// BatchKinetics for any processor: two states at a time.
+#include "chemistry/kinetics/batch_kinetics_kernel.hpp"
+#include "chemistry/kinetics/batch_kinetics_targets.hpp"
+
+namespace lampblack {
+
+void batchRatesGeneric(const BatchView& view, const BatchWork& work, const BatchStates& states) {
+  BatchKernel<Doubled<Doubled<PortableVector<16>>>>::run(view, work, states);
+}
+
+}  // namespace lampblack

@@ -1,0 +1,66 @@
+#include "chemistry/mechanism/mechanism.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "chemistry/mechanism/mechanism_checks.hpp"
+#include "core/errors.hpp"
+#include "core/nearest_name.hpp"
+
+namespace lampblack {
+
+Mechanism::Mechanism(std::string file, std::string description, std::vector<Element> elements,
+                     std::vector<Species> species, std::vector<Reaction> reactions, std::vector<std::string> warnings)
+    : file_(std::move(file)),
+      description_(std::move(description)),
+      elements_(std::move(elements)),
+      species_(std::move(species)),
+      reactions_(std::move(reactions)),
+      warnings_(std::move(warnings)) {
+  for (std::size_t k = 0; k < species_.size(); ++k) {
+    auto& s = species_[k];
+    s.molecularWeight = 0;
+    for (std::size_t i = 0; i < elements_.size(); ++i) s.molecularWeight += s.atoms[i] * elements_[i].atomicWeight;
+    const auto& where = s.file.empty() ? file_ : s.file;
+    if (!speciesByName_.emplace(s.name, k).second)
+      throw InputError(fmt::format("{}:{}: species '{}' is declared twice", where, s.line, s.name));
+    if (!(s.molecularWeight > 0))
+      throw InputError(fmt::format("{}:{}: species '{}' has no atoms; expected a composition with a positive mass",
+                                   where, s.line, s.name));
+    molecularWeights_.push_back(s.molecularWeight);
+  }
+  checkBalances(file_, elements_, species_, reactions_);
+  checkDuplicates(file_, species_, reactions_, warnings_);
+  checkThermo(file_, species_, warnings_);
+}
+
+std::optional<std::size_t> Mechanism::findSpecies(std::string_view name) const {
+  const auto found = speciesByName_.find(std::string(name));
+  if (found == speciesByName_.end()) return std::nullopt;
+  return found->second;
+}
+
+std::size_t Mechanism::speciesIndex(std::string_view name) const {
+  if (const auto k = findSpecies(name)) return *k;
+  std::vector<std::string_view> names;
+  for (const auto& s : species_) names.push_back(s.name);
+  throw InputError(fmt::format("unknown species '{}' in mechanism {}; the nearest known name is '{}'", name, file_,
+                               closestName(name, names)));
+}
+
+std::optional<std::size_t> Mechanism::findElement(std::string_view name) const {
+  for (std::size_t i = 0; i < elements_.size(); ++i)
+    if (elements_[i].name == name) return i;
+  return std::nullopt;
+}
+
+std::size_t Mechanism::elementIndex(std::string_view name) const {
+  if (const auto i = findElement(name)) return *i;
+  std::vector<std::string_view> names;
+  for (const auto& e : elements_) names.push_back(e.name);
+  throw InputError(fmt::format("unknown element '{}' in mechanism {}; the nearest known name is '{}'", name, file_,
+                               closestName(name, names)));
+}
+
+}  // namespace lampblack

@@ -1,0 +1,79 @@
+#include "chemistry/mechanism/mechanism_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "chemistry/mechanism/mechanism.hpp"
+#include "chemistry/thermo/species_thermo.hpp"
+#include "core/errors.hpp"
+
+namespace lampblack {
+
+namespace {
+
+struct Values {
+  double cp = 0, h = 0, s = 0;  // of R, RT and R
+};
+
+// The texts of what jumps from below to above a bound of two ranges; empty if all meet.
+std::string jumps(const Values& below, const Values& above) {
+  std::string text;
+  const auto compare = [&](const char* name, double low, double high, double limit) {
+    if (!(std::abs(high - low) > limit)) return;
+    text += fmt::format("{}{} by {:.3g} ({:.6g} below, {:.6g} above)", text.empty() ? "" : ", ", name, high - low, low,
+                        high);
+  };
+  compare("cp/R", below.cp, above.cp, 0.01 * (std::abs(below.cp) + 1e-4));
+  compare("h/RT", below.h, above.h, 1e-3 * std::abs(below.cp));
+  compare("s/R", below.s, above.s, 1e-3 * std::abs(std::abs(below.s) + below.cp));
+  return text;
+}
+
+Values valuesAt(const std::array<double, 7>& a, double T) {
+  return {cpOverR(a, T), enthalpyOverRT(a, T), entropyOverR(a, T, std::log(T))};
+}
+
+Values valuesAt(const std::array<double, 9>& a, double T) {
+  return {cpOverR(a, T), enthalpyOverRT(a, T, std::log(T)), entropyOverR(a, T, std::log(T))};
+}
+
+}  // namespace
+
+void checkBalances(const std::string& file, std::span<const Element> elements, std::span<const Species> species,
+                   std::span<const Reaction> reactions) {
+  for (const auto& reaction : reactions)
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      double left = 0, right = 0;
+      for (const auto& t : reaction.reactants) left += t.coefficient * species[t.species].atoms[i];
+      for (const auto& t : reaction.products) right += t.coefficient * species[t.species].atoms[i];
+      // Lumped reactions carry decimal coefficients with a few digits.
+      if (std::abs(left - right) > 1e-4 * std::max({1.0, left, right}))
+        throw InputError(
+            fmt::format("{}:{}: reaction '{}' does not balance: {} atoms of {} on the left, {} on the right",
+                        reaction.file.empty() ? file : reaction.file, reaction.line, reaction.equation, left,
+                        elements[i].name, right));
+    }
+}
+
+void checkThermo(const std::string& file, std::span<const Species> species, std::vector<std::string>& warnings) {
+  for (const auto& s : species) {
+    const auto warn = [&](const Values& below, const Values& above, double T) {
+      if (const auto text = jumps(below, above); !text.empty())
+        warnings.push_back(fmt::format("{}:{}: species '{}': the thermodynamic data jump at {:.6g} K: {}",
+                                       s.file.empty() ? file : s.file, s.line, s.name, T, text));
+    };
+    if (s.nasa9) {
+      for (std::size_t i = 0; i + 1 < s.nasa9->ranges.size(); ++i) {
+        const double T = s.nasa9->temperatures[i + 1];
+        warn(valuesAt(s.nasa9->ranges[i], T), valuesAt(s.nasa9->ranges[i + 1], T), T);
+      }
+    } else if (s.thermo.midTemperature < s.thermo.maxTemperature) {
+      const double T = s.thermo.midTemperature;
+      warn(valuesAt(s.thermo.low, T), valuesAt(s.thermo.high, T), T);
+    }
+  }
+}
+
+}  // namespace lampblack

@@ -1,0 +1,38 @@
+// Physical checks on a mechanism as a whole, whatever format it came from.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "chemistry/mechanism/reaction.hpp"
+#include "chemistry/mechanism/species.hpp"
+
+namespace lampblack {
+
+struct Element;
+
+// Throws InputError with file and line for a reaction that does not conserve an element (1e-4 of its atoms).
+void checkBalances(const std::string& file, std::span<const Element> elements, std::span<const Species> species,
+                   std::span<const Reaction> reactions);
+
+// Throws InputError with file and line for two reactions of one type between the same species that are not both marked
+// as duplicates, and for a mark without a partner. Opposite directions count as the same unless both are irreversible;
+// reactions with third bodies count as different if no species is a collider in both. A collider named in the equation
+// beside the same reaction with M is a warning, as in Cantera.
+void checkDuplicates(const std::string& file, std::span<const Species> species, std::span<const Reaction> reactions,
+                     std::vector<std::string>& warnings);
+
+// Pairs of a reaction with M and the same reaction with a named collider that M has, too, not both marked as
+// duplicates: first the one with M. The collider acts twice.
+struct ColliderPair {
+  std::size_t mixture = 0, named = 0;  // reactions
+  std::size_t collider = 0;            // species
+};
+std::vector<ColliderPair> findColliderPairs(std::span<const Species> species, std::span<const Reaction> reactions);
+
+// A warning with file and line for each species whose ranges of thermodynamic data do not meet: cp/R jumps by more than
+// 1 %, h/RT by more than 0.001 cp/R or s/R by more than 0.001 (s + cp)/R (the limits of Cantera).
+void checkThermo(const std::string& file, std::span<const Species> species, std::vector<std::string>& warnings);
+
+}  // namespace lampblack

@@ -1,0 +1,15 @@
+// Whether the parameters of a rate constant make sense, whatever format they came from.
+#pragma once
+
+#include <string>
+
+#include "chemistry/mechanism/reaction.hpp"
+
+namespace lampblack {
+
+// What is wrong and what was expected, or nothing: limits of opposite sign or zero; SRI parameters that give no
+// positive F; rates tabulated over pressure of which those of one pressure do not add up to a positive number between
+// 300 and 10000 K (their logarithm is interpolated).
+std::string rateProblem(const Reaction& reaction);
+
+}  // namespace lampblack

@@ -1,0 +1,14 @@
+// One reaction as Cantera YAML; see mechanism_writer.hpp.
+#pragma once
+
+#include <string>
+
+#include "chemistry/mechanism/mechanism.hpp"
+#include "chemistry/mechanism/reaction.hpp"
+
+namespace lampblack {
+
+// An entry of the list `reactions`, in units of m, mol, s, Pa and K.
+std::string reactionYaml(const Reaction& reaction, const Mechanism& mechanism);
+
+}  // namespace lampblack

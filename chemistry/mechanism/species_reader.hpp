@@ -1,0 +1,16 @@
+// Reads one entry of a list of species of a Cantera YAML file: composition, NASA-7 or NASA-9 data, gas transport data.
+#pragma once
+
+#include <span>
+
+#include "chemistry/mechanism/mechanism.hpp"
+#include "chemistry/mechanism/yaml_access.hpp"
+
+namespace lampblack {
+
+// InputError with file, line and species for what is missing, unknown or out of range. `elements` are those of the
+// phase; a pressure without a unit is in `units`, unless the entry has units of its own.
+Species readSpecies(const YamlAccess& yaml, const UnitSystem& units, const YAML::Node& node,
+                    std::span<const Element> elements);
+
+}  // namespace lampblack

@@ -1,0 +1,160 @@
+#include "chemistry/reactor/closed_reactor.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/constants.hpp"
+
+namespace lampblack {
+
+namespace {
+
+// The carried temperature of a given profile must not steer the steps.
+constexpr double kIgnored = 1e30;
+
+std::vector<StoichiometricTerm> netStoichiometry(const Reaction& reaction) {
+  std::map<std::size_t, double> net;
+  for (const auto& term : reaction.products) net[term.species] += term.coefficient;
+  for (const auto& term : reaction.reactants) net[term.species] -= term.coefficient;
+  std::vector<StoichiometricTerm> terms;
+  for (const auto& [species, coefficient] : net)
+    if (coefficient != 0) terms.push_back({species, coefficient});
+  return terms;
+}
+
+}  // namespace
+
+ClosedReactor::ClosedReactor(const Mechanism& mechanism, const GasState& initial, ReactorSystem::Held held,
+                             std::optional<TemperatureProfile> profile)
+    : mechanism_(mechanism),
+      initial_(initial),
+      profile_(std::move(profile)),
+      thermo_(mechanism),
+      system_(mechanism),
+      kinetics_(mechanism),
+      y_(system_.size()),
+      concentrations_(mechanism.numSpecies()),
+      progress_(mechanism.numReactions()),
+      reverse_(mechanism.numReactions()),
+      energy_(mechanism.numSpecies()) {
+  if (profile_) initial_.temperature = profile_->value(0.0);
+  conditions_.held = held;
+  conditions_.value = held == ReactorSystem::Held::Pressure
+                          ? initial_.pressure
+                          : thermo_.density(initial_.temperature, initial_.pressure, initial_.Y);
+  if (profile_) conditions_.energy = ReactorSystem::Energy::GivenTemperature;
+  system_.setConditions(conditions_);
+}
+
+std::vector<double> ClosedReactor::initialState() const {
+  std::vector<double> y = initial_.Y;
+  y.push_back(initial_.temperature);
+  return y;
+}
+
+double ClosedReactor::density(const double* y) const {
+  if (conditions_.held == ReactorSystem::Held::Density) return conditions_.value;
+  const std::size_t n = mechanism_.numSpecies();
+  return thermo_.density(y[n], conditions_.value, {y, n});
+}
+
+double ClosedReactor::pressure(const double* y) const {
+  if (conditions_.held == ReactorSystem::Held::Pressure) return conditions_.value;
+  double moles = 0;
+  const auto W = mechanism_.molecularWeights();
+  for (std::size_t k = 0; k < W.size(); ++k) moles += y[k] / W[k];
+  return conditions_.value * moles * constants::gasConstant * y[W.size()];
+}
+
+double ClosedReactor::heatRelease(const double* y) {
+  const std::size_t n = mechanism_.numSpecies();
+  if (!system_.chemicalRates(y, y_.data())) return std::nan("");
+  thermo_.speciesEnthalpies(y[n], energy_);
+  double heat = 0;
+  for (std::size_t k = 0; k < n; ++k) heat -= energy_[k] * y_[k];
+  return heat * system_.density();
+}
+
+// With a profile the temperature in y is carried along only; the rates take the given one.
+const double* ClosedReactor::withGivenTemperature(double t, const double* y) {
+  if (!profile_) return y;
+  std::copy_n(y, y_.size(), y_.begin());
+  y_.back() = profile_->value(t);
+  conditions_.temperatureRate = profile_->slope(t);
+  system_.setConditions(conditions_);
+  return y_.data();
+}
+
+bool ClosedReactor::rates(double t, const double* y, double* f) {
+  return system_.rates(withGivenTemperature(t, y), f);
+}
+
+bool ClosedReactor::jacobian(double t, const double* y, double* f, double* J, std::size_t ld) {
+  if (!system_.jacobian(withGivenTemperature(t, y), f, J, ld)) return false;
+  if (profile_) std::fill_n(J + (size() - 1) * ld, size(), 0.0);
+  return true;
+}
+
+void ClosedReactor::prescribe(double t, double* y) const {
+  if (profile_) y[size() - 1] = profile_->value(t);
+}
+
+double ClosedReactor::toleranceScale(std::size_t i) const {
+  return profile_ && i + 1 == size() ? kIgnored : 1.0;
+}
+
+std::string ClosedReactor::describe(double t, const double* y) const {
+  const std::size_t n = mechanism_.numSpecies();
+  return fmt::format("t = {:.6g} s, T = {:.6g} K, p = {:.6g} Pa, mass fractions {{{}}}", t, y[n], pressure(y),
+                     compositionText(mechanism_, {y, n}));
+}
+
+void ClosedReactor::setParameters(std::vector<std::size_t> reactions) {
+  parameters_.clear();
+  for (const std::size_t r : reactions) parameters_.push_back({r, netStoichiometry(mechanism_.reaction(r))});
+}
+
+bool ClosedReactor::prepareParameters(double t, const double* y) {
+  y = withGivenTemperature(t, y);
+  const std::size_t n = mechanism_.numSpecies();
+  const double T = y[n];
+  const auto W = mechanism_.molecularWeights();
+  density_ = density(y);
+  for (std::size_t k = 0; k < n; ++k) concentrations_[k] = y[k] * density_ / W[k];
+  kinetics_.ratesOfProgress(T, concentrations_, progress_, reverse_);
+  for (std::size_t r = 0; r < progress_.size(); ++r) progress_[r] -= reverse_[r];
+  thermo_.speciesEnthalpies(T, energy_);
+  capacity_ = thermo_.cpMass(T, {y, n});
+  if (conditions_.held == ReactorSystem::Held::Density)
+    for (std::size_t k = 0; k < n; ++k) {
+      energy_[k] -= constants::gasConstant / W[k] * T;
+      capacity_ -= constants::gasConstant / W[k] * y[k];
+    }
+  return std::isfinite(capacity_);
+}
+
+// d(dY_k/dt)/d ln k_r = W_k nu_kr q_r / rho, and what it does to dT/dt at constant enthalpy or energy.
+void ClosedReactor::addByParameter(std::size_t parameter, double* f) const {
+  const auto W = mechanism_.molecularWeights();
+  const double q = progress_[parameters_[parameter].reaction] / density_;
+  double heat = 0;
+  for (const auto& term : parameters_[parameter].net) {
+    const double change = W[term.species] * term.coefficient * q;
+    f[term.species] += change;
+    heat += energy_[term.species] * change;
+  }
+  if (!profile_) f[W.size()] -= heat / capacity_;
+}
+
+std::string compositionText(const Mechanism& mechanism, std::span<const double> Y) {
+  std::string text;
+  for (std::size_t k = 0; k < Y.size(); ++k)
+    if (!(std::abs(Y[k]) <= 1e-6))
+      text += fmt::format("{}{}: {:.6g}", text.empty() ? "" : ", ", mechanism.speciesName(k), Y[k]);
+  return text;
+}
+
+}  // namespace lampblack

@@ -1,0 +1,76 @@
+// A closed, well-mixed reactor of constant pressure or volume, adiabatic or of given temperature, in the unknowns
+// (Y_1..Y_N, T); with the derivatives of its rates by the logarithm of the rate constants, for sensitivities.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "chemistry/reactor/ode_system.hpp"
+#include "chemistry/reactor/reactor_system.hpp"
+#include "chemistry/reactor/temperature_profile.hpp"
+
+namespace lampblack {
+
+struct GasState {
+  double temperature = 0;  // K
+  double pressure = 0;     // Pa
+  std::vector<double> Y;   // mass fractions
+};
+
+class ClosedReactor : public OdeSystem, public OdeParameters {
+ public:
+  // A reactor that starts from `initial` and holds its pressure or its density. With a profile (over time, s) the
+  // temperature is given. The mechanism has to live as long.
+  ClosedReactor(const Mechanism& mechanism, const GasState& initial, ReactorSystem::Held held,
+                std::optional<TemperatureProfile> profile = std::nullopt);
+
+  // The start as unknowns; a given temperature replaces that of the initial state.
+  std::vector<double> initialState() const;
+  bool isAdiabatic() const { return !profile_; }
+  const std::optional<TemperatureProfile>& profile() const { return profile_; }
+
+  // Density (kg/m3) and pressure (Pa) of a state.
+  double density(const double* y) const;
+  double pressure(const double* y) const;
+  // Heat set free by the reactions, W/m3.
+  double heatRelease(const double* y);
+
+  std::size_t size() const override { return system_.size(); }
+  bool rates(double t, const double* y, double* f) override;
+  bool jacobian(double t, const double* y, double* f, double* J, std::size_t ld) override;
+  void prescribe(double t, double* y) const override;
+  double toleranceScale(std::size_t i) const override;
+  std::string describe(double t, const double* y) const override;
+
+  // The reactions (numbers in the mechanism) whose rate constants, both directions at once so that the equilibrium
+  // stays, are the parameters: p = ln k. None until then.
+  void setParameters(std::vector<std::size_t> reactions);
+  std::size_t numParameters() const override { return parameters_.size(); }
+  bool prepareParameters(double t, const double* y) override;
+  void addByParameter(std::size_t parameter, double* f) const override;
+
+ private:
+  struct Parameter {
+    std::size_t reaction = 0;
+    std::vector<StoichiometricTerm> net;
+  };
+  const double* withGivenTemperature(double t, const double* y);
+
+  const Mechanism& mechanism_;
+  GasState initial_;
+  ReactorSystem::Conditions conditions_;
+  std::optional<TemperatureProfile> profile_;
+  Thermo thermo_;
+  ReactorSystem system_;
+  Kinetics kinetics_;
+  std::vector<Parameter> parameters_;
+  std::vector<double> y_, concentrations_, progress_, reverse_;
+  std::vector<double> energy_;  // of species, J/kg: enthalpies, or internal energies at constant volume
+  double capacity_ = 0, density_ = 0;
+};
+
+// "CH4: 0.1, ..." of the mass fractions above 1e-6 in size, for messages.
+std::string compositionText(const Mechanism& mechanism, std::span<const double> Y);
+
+}  // namespace lampblack

@@ -1,0 +1,93 @@
+// Ignition delays: when a homogeneous mixture in the unknowns (Y_1..Y_N, T) ignites, by several criteria. Each is a
+// zero of an analytic derivative along the solution, found on the integrator's dense output, so that the delay is as
+// exact as the integration and does not depend on its steps.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "chemistry/mechanism/mechanism.hpp"
+#include "chemistry/reactor/ode_system.hpp"
+#include "chemistry/reactor/stiff_integrator.hpp"
+
+namespace lampblack {
+
+struct IgnitionCriterion {
+  enum class Kind {
+    TemperatureRate,  // largest dT/dt
+    MoleFraction,     // largest mole fraction of a species
+    MassFraction,     // largest mass fraction of a species
+    TemperatureRise,  // T first is `rise` above the initial temperature
+  };
+  Kind kind = Kind::TemperatureRate;
+  std::size_t species = 0;
+  double rise = 0;   // K
+  std::string name;  // for results
+};
+
+struct IgnitionEvent {
+  double time = 0;   // s: the delay
+  double value = 0;  // of what is largest (K/s or 1), or the temperature
+  // Of a maximum: sqrt(|a/a''|), the time in which the quantity a falls off noticeably; of a rise: rise/(dT/dt).
+  double width = 0;
+};
+
+// The quantity a criterion is about - dT/dt, a fraction, or T - and its rate of change, at a state of a system.
+class IgnitionQuantity {
+ public:
+  IgnitionQuantity(const Mechanism& mechanism, OdeSystem& system);
+
+  struct Value {
+    double value = 0, slope = 0;
+  };
+  // Prepares the rates (and, for dT/dt, the Jacobian) of a state; NumericsError where it is no state of a gas.
+  void prepare(double t, const double* y, bool withJacobian);
+  Value of(const IgnitionCriterion& criterion, const double* y) const;
+  // What goes with a change s of the prepared state and sDot of its rates: the change of dT/dt itself, of the slope of
+  // a fraction, or of a temperature.
+  double change(const IgnitionCriterion& criterion, const double* y, const double* s, const double* sDot) const;
+
+ private:
+  // X_k = (Y_k/W_k)/M, M = sum Y/W: the change of X_k with that of Y.
+  struct MoleFraction {
+    double X = 0, M = 0;
+  };
+  MoleFraction moleFraction(std::size_t k, const double* y) const;
+  double moles(const double* Y) const;
+  double moleFractionChange(std::size_t k, const MoleFraction& at, const double* s) const;
+
+  const Mechanism& mechanism_;
+  OdeSystem& system_;
+  std::vector<double> f_, J_;
+};
+
+// Watches an integration step by step. Of several maxima the highest inside the time counts; a quantity that is largest
+// at the beginning or the end has none, and a fraction that stays below 1e4 absolute tolerances is noise.
+class IgnitionMonitor {
+ public:
+  IgnitionMonitor(const Mechanism& mechanism, OdeSystem& system, std::vector<IgnitionCriterion> criteria);
+
+  void begin(double time, const double* y);
+  void observe(const StiffIntegrator& integrator);  // after each step
+
+  const std::vector<IgnitionCriterion>& criteria() const { return criteria_; }
+  // In the order of the criteria; nothing where it did not happen.
+  const std::vector<std::optional<IgnitionEvent>>& events() const { return events_; }
+
+ private:
+  // What a criterion looks for a zero of: the slope of the quantity, or T less the temperature to reach.
+  double signal(std::size_t i, const IgnitionQuantity::Value& value) const;
+  void locate(std::size_t i, const StiffIntegrator& integrator, double before, double after);
+
+  IgnitionQuantity quantity_;
+  std::vector<IgnitionCriterion> criteria_;
+  std::vector<std::optional<IgnitionEvent>> events_;
+  std::vector<double> signals_;  // at the end of the last step
+  std::vector<double> y_;
+  double startTemperature_ = 0;
+  bool needsJacobian_ = false;
+};
+
+}  // namespace lampblack

@@ -1,0 +1,230 @@
+#include "chemistry/reactor/reactor.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "chemistry/reactor/reactor_failure.hpp"
+#include "chemistry/reactor/reactor_integrator.hpp"
+#include "chemistry/reactor/reactor_system.hpp"
+
+namespace lampblack {
+
+namespace {
+
+// How an integration is tried; the later attempts are for cells where the first one fails.
+struct Attempt {
+  double firstStep;  // s; 0: the solver's choice
+  double toleranceFactor;
+  int stepsFactor;
+  int parts;
+};
+
+// Largest deviation of the sum of mass fractions that may be put down to round-off and removed by rescaling.
+constexpr double kSumTolerance = 1e-9;
+
+using Event = ConstantPressureReactor::Event;
+
+}  // namespace
+
+struct ConstantPressureReactor::Impl {
+  Impl(const Mechanism& mechanismIn, const Options& optionsIn);
+
+  void checkInput(const Cell& cell, double dt) const;
+  bool skip(Cell& cell, double dt, Result& result);
+  bool integrate(const Cell& cell, double dt, const Attempt& attempt, Event event, const Observer& observer,
+                 Result& result);
+  bool accept(Cell& cell, double* out);
+  [[noreturn]] void giveUp(const Cell& cell, double dt) const;
+
+  const Mechanism& mechanism;
+  Options options;
+  std::size_t n;  // species
+  ReactorSystem system;
+  ReactorIntegrator integrator;
+  std::vector<double> start, predicted, chemical, chemicalEnd;
+  double startSum = 0, enthalpy = 0;
+  std::string reason;
+};
+
+ConstantPressureReactor::Impl::Impl(const Mechanism& mechanismIn, const Options& optionsIn)
+    : mechanism(mechanismIn), options(optionsIn), n(mechanismIn.numSpecies()), system(mechanismIn), integrator(system) {
+  for (auto* work : {&start, &predicted, &chemical, &chemicalEnd}) work->assign(n + 1, 0.0);
+}
+
+void ConstantPressureReactor::Impl::checkInput(const Cell& cell, double dt) const {
+  if (cell.Y.size() != n || (!cell.source.empty() && cell.source.size() != n))
+    throw std::logic_error("ConstantPressureReactor: arrays of the cell do not have one value a species");
+  bool good = dt >= 0 && std::isfinite(dt) && cell.pressure > 0 && std::isfinite(cell.pressure) &&
+              cell.temperature >= Thermo::minTemperature && cell.temperature <= Thermo::maxTemperature;
+  double sum = 0;
+  for (const double value : cell.Y) sum += value;
+  for (const double value : cell.source) good = good && std::isfinite(value);
+  good = good && std::abs(sum - 1) < 1e-3;
+  if (!good) giveUp(cell, dt);
+}
+
+// Explicit trapezoid where the chemistry is negligible at both ends; see Options::negligibleChange.
+bool ConstantPressureReactor::Impl::skip(Cell& cell, double dt, Result& result) {
+  if (options.negligibleChange <= 0) return false;
+  system.setConditions(cell.pressure, cell.source);
+  ++result.rhsEvaluations;
+  if (!system.chemicalRates(start.data(), chemical.data())) return false;
+  double largest = 0;
+  for (std::size_t k = 0; k < n; ++k) largest = std::max(largest, std::abs(chemical[k]));
+  if (!(largest * dt < options.negligibleChange)) return false;
+  for (std::size_t k = 0; k < n; ++k)
+    predicted[k] = start[k] + dt * (chemical[k] + (cell.source.empty() ? 0.0 : cell.source[k]));
+  predicted[n] = start[n];
+  if (!cell.source.empty()) {
+    try {
+      predicted[n] = system.thermo().temperatureFromEnthalpy(enthalpy, {predicted.data(), n}, start[n]);
+    } catch (const NumericsError&) {
+      return false;  // too far for one step; the integrator will tell
+    }
+  }
+  ++result.rhsEvaluations;
+  if (!system.chemicalRates(predicted.data(), chemicalEnd.data())) return false;
+  for (std::size_t k = 0; k < n; ++k) {
+    if (!(std::abs(chemicalEnd[k]) * dt < options.negligibleChange)) return false;
+    if (!(0.5 * dt * std::abs(chemicalEnd[k] - chemical[k]) < options.absoluteTolerance)) return false;
+  }
+  for (std::size_t k = 0; k < n; ++k) predicted[k] += 0.5 * dt * (chemicalEnd[k] - chemical[k]);
+  return accept(cell, predicted.data());
+}
+
+// Leaves the end in the integrator's state.
+bool ConstantPressureReactor::Impl::integrate(const Cell& cell, double dt, const Attempt& attempt, Event event,
+                                              const Observer& observer, Result& result) {
+  system.setConditions(cell.pressure, cell.source);
+  std::copy(start.begin(), start.end(), integrator.state());
+  const ReactorIntegrator::Interval part{
+      dt / attempt.parts, attempt.firstStep, options.relativeTolerance * attempt.toleranceFactor,
+      options.absoluteTolerance * attempt.toleranceFactor, options.maxSteps * attempt.stepsFactor};
+  double begin = 0;
+  ReactorIntegrator::Watcher watcher;
+  if (observer) {
+    event.relativeTolerance = part.relativeTolerance;
+    event.absoluteTolerance = part.absoluteTolerance;
+    event.firstStep = part.firstStep;
+    event.maxSteps = part.maxSteps;
+    event.parts = attempt.parts;
+    observer(event);
+    watcher = [&](const ReactorIntegrator::Step& step) {
+      Event taken;
+      taken.kind = Event::Kind::Step;
+      taken.attempt = event.attempt;
+      taken.time = begin + step.time;
+      taken.stepSize = step.size;
+      taken.order = step.order;
+      taken.temperature = step.temperature;
+      observer(taken);
+    };
+  }
+  ReactorIntegrator::Work work;
+  bool arrived = true;
+  for (int i = 0; arrived && i < attempt.parts; ++i) {
+    begin = i * part.duration;
+    arrived = integrator.advance(part, work, watcher);
+  }
+  result.steps += work.steps;
+  result.rhsEvaluations += work.rhsEvaluations;
+  result.jacobianEvaluations += work.jacobianEvaluations;
+  reason = integrator.reason();
+  return arrived;
+}
+
+// Takes the state in `out` over into the cell: removes the round-off of the sum, recovers the temperature from the
+// constant enthalpy.
+bool ConstantPressureReactor::Impl::accept(Cell& cell, double* out) {
+  double sum = 0;
+  for (std::size_t k = 0; k < n; ++k) sum += out[k];
+  if (!(std::abs(sum - startSum) < kSumTolerance)) {
+    reason = fmt::format("the sum of mass fractions moved by {:.3g}", sum - startSum);
+    return false;
+  }
+  const double scale = startSum / sum;
+  for (std::size_t k = 0; k < n; ++k) out[k] *= scale;
+  double T = 0;
+  try {
+    T = system.thermo().temperatureFromEnthalpy(enthalpy, {out, n}, out[n]);
+  } catch (const NumericsError& error) {
+    reason = error.what();
+    return false;
+  }
+  std::copy_n(out, n, cell.Y.begin());
+  cell.temperature = T;
+  return true;
+}
+
+void ConstantPressureReactor::Impl::giveUp(const Cell& cell, double dt) const {
+  std::string composition;
+  for (std::size_t k = 0; k < n; ++k)
+    if (!(std::abs(cell.Y[k]) <= 1e-6))
+      composition += fmt::format("{}{}: {:.6g}", composition.empty() ? "" : ", ", mechanism.speciesName(k), cell.Y[k]);
+  const std::string why = reason.empty() ? "this is not a state of a gas" : reason;
+  const auto message = fmt::format(
+      "the chemistry of a cell could not be advanced: T = {:.6g} K, p = {:.6g} Pa, "
+      "dt = {:.6g} s, mass fractions {{{}}}; {}",
+      cell.temperature, cell.pressure, dt, composition, why);
+  throw ReactorFailure(message, {cell.temperature, cell.pressure, dt, cell.initialStep,
+                                 std::vector<double>(cell.Y.begin(), cell.Y.end()),
+                                 std::vector<double>(cell.source.begin(), cell.source.end()), options, why});
+}
+
+ConstantPressureReactor::ConstantPressureReactor(const Mechanism& mechanism, const Options& options)
+    : impl_(std::make_unique<Impl>(mechanism, options)) {}
+ConstantPressureReactor::~ConstantPressureReactor() = default;
+ConstantPressureReactor::ConstantPressureReactor(ConstantPressureReactor&&) noexcept = default;
+ConstantPressureReactor& ConstantPressureReactor::operator=(ConstantPressureReactor&&) noexcept = default;
+
+ConstantPressureReactor::Result ConstantPressureReactor::advance(Cell& cell, double dt, const Observer& observer) {
+  auto& self = *impl_;
+  const auto begin = std::chrono::steady_clock::now();
+  Result result;
+  self.reason.clear();
+  self.checkInput(cell, dt);
+  std::copy(cell.Y.begin(), cell.Y.end(), self.start.begin());
+  self.start[self.n] = cell.temperature;
+  self.startSum = 0;
+  for (const double value : cell.Y) self.startSum += value;
+  self.enthalpy = self.system.thermo().enthalpyMass(cell.temperature, cell.Y);
+  const auto finish = [&] {
+    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return result;
+  };
+  if (dt == 0) return finish();
+  if (self.skip(cell, dt, result)) {
+    result.skipped = true;
+    return finish();
+  }
+  const Attempt attempts[] = {{cell.initialStep, 1.0, 1, 1}, {1e-9 * dt, 0.1, 2, 1}, {1e-9 * dt, 0.01, 2, 16}};
+  std::string firstReason;
+  for (const auto& attempt : attempts) {
+    Event event;
+    event.attempt = result.retries + 1;
+    const bool done =
+        self.integrate(cell, dt, attempt, event, observer, result) && self.accept(cell, self.integrator.state());
+    if (observer) {
+      event.kind = done ? Event::Kind::Done : Event::Kind::Failed;
+      event.temperature = done ? cell.temperature : self.integrator.state()[self.n];
+      event.reason = done ? "" : self.reason;
+      observer(event);
+    }
+    if (done) {
+      cell.initialStep = self.integrator.lastStep();
+      return finish();
+    }
+    if (firstReason.empty()) firstReason = self.reason;
+    ++result.retries;
+  }
+  self.reason = fmt::format("{} (first attempt: {})", self.reason, firstReason);
+  self.giveUp(cell, dt);
+}
+
+}  // namespace lampblack

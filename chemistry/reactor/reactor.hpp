@@ -1,0 +1,79 @@
+// One stiff integration a cell: a constant-pressure adiabatic reactor with detailed kinetics and an optional constant
+// source of species, advanced by CVODE's BDF method (SUNDIALS) with an analytic Jacobian. The result depends on the
+// inputs alone, bit for bit, never on what the object did before; one object per thread or rank.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "chemistry/mechanism/mechanism.hpp"
+
+namespace lampblack {
+
+class ConstantPressureReactor {
+ public:
+  struct Options {
+    double relativeTolerance = 1e-6;
+    double absoluteTolerance = 1e-12;  // of a mass fraction
+    int maxSteps = 20000;
+    // A cell is skipped, i.e. advanced by one explicit trapezoid, if its chemistry changes no mass fraction by more
+    // than this over the interval, at the rates of its start and of its end, and those differ so little that the error
+    // of the trapezoid is below absoluteTolerance. Zero never skips.
+    double negligibleChange = 1e-10;
+  };
+
+  struct Cell {
+    double temperature = 0;  // K, in and out
+    double pressure = 0;     // Pa
+    std::span<double>
+        Y;  // mass fractions, in and out; small negative values (of the order of the tolerance) may come back
+    std::span<const double> source;  // dY_k/dt added to the chemistry, 1/s, sums to zero; may be empty
+    double initialStep = 0;          // s, hint; 0 lets the solver choose. Returns the last internal step
+  };
+
+  struct Result {
+    int steps = 0;
+    int rhsEvaluations = 0;
+    int jacobianEvaluations = 0;
+    int retries = 0;
+    bool skipped = false;
+    double seconds = 0;  // wall clock of the call
+  };
+
+  // What an observer is told: that an attempt begins, of each of its steps, how it ended.
+  struct Event {
+    enum class Kind { Attempt, Step, Failed, Done };
+    Kind kind = Kind::Attempt;
+    int attempt = 0;  // from 1
+    // Of an attempt.
+    double relativeTolerance = 0, absoluteTolerance = 0, firstStep = 0;
+    int maxSteps = 0, parts = 0;
+    // Of a step; the time counts from the beginning of the interval.
+    double time = 0, stepSize = 0, temperature = 0;
+    int order = 0;
+    std::string reason;  // of a failure
+  };
+  using Observer = std::function<void(const Event&)>;
+
+  ConstantPressureReactor(const Mechanism& mechanism, const Options& options);
+  explicit ConstantPressureReactor(const Mechanism& mechanism) : ConstantPressureReactor(mechanism, Options{}) {}
+  ~ConstantPressureReactor();
+  ConstantPressureReactor(ConstantPressureReactor&&) noexcept;
+  ConstantPressureReactor& operator=(ConstantPressureReactor&&) noexcept;
+
+  // Advances the cell by dt seconds. The mixture's enthalpy (J/kg, with formation) is constant: the source carries the
+  // enthalpy that keeps it so. On return the temperature belongs to that enthalpy to round-off and the sum of Y is that
+  // of the start to about 1e-15. Throws ReactorFailure (reactor_failure.hpp), with the cell unchanged, if the input is
+  // not a gas or the integration fails also with a small first step, tighter tolerances, more steps and a divided
+  // interval; the message has T, p, dt, the composition and the solver's reason. An observer changes nothing but the
+  // time it takes.
+  Result advance(Cell& cell, double dt, const Observer& observer = {});
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace lampblack

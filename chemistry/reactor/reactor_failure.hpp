@@ -1,0 +1,33 @@
+// A cell whose chemistry could not be advanced, with all that is needed to try again.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "chemistry/reactor/reactor.hpp"
+#include "core/errors.hpp"
+
+namespace lampblack {
+
+struct FailedCell {
+  double temperature = 0;      // K
+  double pressure = 0;         // Pa
+  double duration = 0;         // s
+  double firstStep = 0;        // s, Cell::initialStep
+  std::vector<double> Y;       // mass fractions
+  std::vector<double> source;  // 1/s; empty where there was none
+  ConstantPressureReactor::Options options;
+  std::string reason;
+};
+
+class ReactorFailure : public NumericsError {
+ public:
+  ReactorFailure(const std::string& message, FailedCell cell) : NumericsError(message), cell_(std::move(cell)) {}
+  const FailedCell& cell() const { return cell_; }
+
+ private:
+  FailedCell cell_;
+};
+
+}  // namespace lampblack

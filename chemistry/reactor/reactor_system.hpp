@@ -1,0 +1,105 @@
+// The equations of a well-mixed reactor of constant pressure or constant density in the unknowns (Y_1..Y_N, T), and
+// their analytic Jacobian:
+//   dY_k/dt = W_k wdot_k / rho + S_k - r Y_k
+//   constant pressure:  cp dT/dt = q - r h - sum_k h_k dY_k/dt      (dh/dt = q - r h)
+//   constant density:   cv dT/dt = q - r u - sum_k u_k dY_k/dt      (du/dt = q - r u)
+// with a constant source S_k, a removal rate r and a heating q, all zero in a closed adiabatic reactor. Where the
+// temperature is given, dT/dt is a given number instead.
+//
+// A source alone (r = q = 0) brings the enthalpy (energy) that keeps the mixture's. A perfectly stirred reactor of
+// residence time tau and constant pressure has S = Y_in/tau, r = 1/tau, q = h_in/tau; losses to a wall lower q.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "chemistry/kinetics/kinetics.hpp"
+#include "chemistry/mechanism/mechanism.hpp"
+#include "chemistry/thermo/thermo.hpp"
+
+namespace lampblack {
+
+class ReactorSystem {
+ public:
+  enum class Held { Pressure, Density };
+  enum class Energy { Conserved, GivenTemperature };
+
+  struct Conditions {
+    Held held = Held::Pressure;
+    double value = 0;  // Pa or kg/m3
+    Energy energy = Energy::Conserved;
+    double temperatureRate = 0;      // dT/dt, K/s, where the temperature is given
+    std::span<const double> source;  // S, 1/s, a value a species; copied; may be empty
+    double removal = 0;              // r, 1/s
+    double heating = 0;              // q, J/kg/s
+  };
+
+  // J in parts, the sum of a sparse matrix with a full last row and column and of a product of two vectors:
+  // J_ij = S_ij + u_i v_j. S_kj of the species has the entries of pattern(); v_j = 1/W_j of the species, v_T = 0.
+  struct SparseJacobian {
+    std::vector<double> species;            // S_kj, an entry each
+    std::vector<double> temperatureRow;     // S_Tj, a value a species
+    std::vector<double> temperatureColumn;  // S_iT, a value an unknown
+    std::vector<double> product;            // u_i, a value an unknown
+  };
+
+  explicit ReactorSystem(const Mechanism& mechanism);
+
+  std::size_t numSpecies() const { return weights_.size(); }
+  std::size_t size() const { return weights_.size() + 1; }
+  Thermo& thermo() { return thermo_; }
+  std::span<const double> inverseWeights() const { return inverseWeights_; }  // mol/kg
+  const SparsePattern& pattern() const { return kinetics_.jacobianPattern(); }
+
+  // What holds for the evaluations that follow.
+  void setConditions(const Conditions& conditions);
+  // Constant pressure (Pa), energy conserved, and a source (1/s, may be empty).
+  void setConditions(double pressure, std::span<const double> source);
+
+  // f = dy/dt. Rates follow mass action through zero: negative mass fractions are negative concentrations. False, with
+  // f undefined, if the state is outside the range of the data (Thermo::minTemperature..maxTemperature) or not finite.
+  bool rates(const double* y, double* f);
+  // The chemical part of dY_k/dt alone.
+  bool chemicalRates(const double* y, double* f);
+  // J[i + ld*j] = d f_i / d y_j; also leaves f.
+  bool jacobian(const double* y, double* f, double* J, std::size_t ld);
+  // The same; sizes its argument.
+  bool sparseJacobian(const double* y, double* f, SparseJacobian& J);
+
+  // Why an evaluation returned false last; empty if none has since clearRefusal().
+  const std::string& refusal() const { return refusal_; }
+  void clearRefusal() { refusal_.clear(); }
+
+  // Of the state of the last evaluation.
+  double density() const { return density_; }    // kg/m3
+  double pressure() const { return pressure_; }  // Pa
+
+ private:
+  bool prepare(const double* y);
+  bool refuse(std::string reason);
+  bool accept(const double* f);
+  void speciesEnergies(double T);
+  double temperatureSlope(const double* y, const double* f);
+  void finishExcess(double T, double* temperatureColumn);
+  void finishRates(const double* y, double* f);
+  void speciesBlock(double* J, std::size_t ld) const;
+  void sparseColumns(SparseJacobian& J) const;
+  double temperatureDiagonal(const double* y, const double* f, const double* temperatureColumn);
+
+  Thermo thermo_;
+  Kinetics kinetics_;
+  std::vector<double> weights_, inverseWeights_;
+  Conditions conditions_;
+  std::vector<double> source_;
+  double density_ = 0, pressure_ = 0, meanWeight_ = 0;
+  std::vector<double> c_, wdot_;
+  double inverseCapacity_ = 0;  // 1/(mixture's heat capacity); 0 where the temperature is given
+  // Enthalpies and cp at constant pressure, internal energies and cv at constant density; J/kg, J/kg/K, J/kg/K2.
+  std::vector<double> energy_, capacity_, capacitySlope_, gasConstants_;
+  std::vector<double> excess_, byT_, common_;
+  std::string refusal_;
+};
+
+}  // namespace lampblack

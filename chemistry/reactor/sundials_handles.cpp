@@ -1,0 +1,28 @@
+#include "chemistry/reactor/sundials_handles.hpp"
+
+#include <cvodes/cvodes.h>
+#include <fmt/format.h>
+
+#include "core/errors.hpp"
+
+namespace lampblack::sundials {
+
+void CvodeDeleter::operator()(void* memory) const {
+  CVodeFree(&memory);
+}
+
+Context makeContext() {
+  SUNContext context = nullptr;
+  check(SUNContext_Create(nullptr, &context), "SUNContext_Create");
+  return Context(context);
+}
+
+void check(int flag, const char* call) {
+  if (flag < 0) throw NumericsError(fmt::format("SUNDIALS call {} failed with code {}", call, flag));
+}
+
+void check(const void* made, const char* call) {
+  if (made == nullptr) throw NumericsError(fmt::format("SUNDIALS call {} returned nothing", call));
+}
+
+}  // namespace lampblack::sundials

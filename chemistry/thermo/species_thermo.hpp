@@ -1,0 +1,53 @@
+// Standard-state thermodynamics of all species as flat arrays: NASA-7 polynomials in loops over species (thesis eqs
+// 6-15..6-17), species with NASA-9 polynomials (McBride, Zehe, Gordon 2002, NASA/TP-2002-211556) after them.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "chemistry/mechanism/species.hpp"
+
+namespace lampblack {
+
+class SpeciesThermo {
+ public:
+  explicit SpeciesThermo(std::span<const Species> species);
+
+  std::size_t size() const { return mid_.size(); }
+
+  // Dimensionless, at temperature T in K; arrays of size() values. Outside the range of the data the polynomials are
+  // extrapolated.
+  void cpOverR(double T, double* cp) const;
+  void cpSlopeOverR(double T, double* slope) const;  // d(cp/R)/dT, 1/K
+  void enthalpyOverRT(double T, double* h) const;
+  void entropyOverR(double T, double lnT, double* s) const;
+  void gibbsOverRT(double T, double lnT, double* g) const;  // h/RT - s/R at the standard pressure
+
+ private:
+  struct Nasa9Species {
+    std::size_t index = 0;
+    Nasa9 data;
+  };
+
+  std::vector<double> mid_;
+  std::array<std::vector<double>, 7> low_;
+  std::array<std::vector<double>, 7> high_;
+  std::vector<Nasa9Species> nasa9_;
+};
+
+// The same of one species.
+double cpOverR(const Species& species, double T);
+double enthalpyOverRT(const Species& species, double T);
+double entropyOverR(const Species& species, double T);
+
+// The polynomials of one range.
+double cpOverR(const std::array<double, 7>& a, double T);
+double enthalpyOverRT(const std::array<double, 7>& a, double T);
+double entropyOverR(const std::array<double, 7>& a, double T, double lnT);
+double cpOverR(const std::array<double, 9>& a, double T);
+double enthalpyOverRT(const std::array<double, 9>& a, double T, double lnT);
+double entropyOverR(const std::array<double, 9>& a, double T, double lnT);
+
+}  // namespace lampblack

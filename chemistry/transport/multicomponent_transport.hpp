@@ -1,0 +1,59 @@
+// Multicomponent transport of a gas: the linear systems of Dixon-Lewis, Proc. R. Soc. Lond. A 307 (1968) 111-135, in
+// the notation of Kee, Coltrin, Glarborg (Chemically Reacting Flow, 2003, section 12.4). They give the conductivity
+// with its translational, rotational and vibrational parts, the matrix of ordinary diffusion coefficients and the
+// coefficients of thermal diffusion. Costs an LU factorisation of three times as many unknowns as species (one times
+// for diffusion). An object holds its workspace, so use one per thread.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "chemistry/mechanism/mechanism.hpp"
+#include "chemistry/numerics/dense_lu.hpp"
+#include "chemistry/thermo/species_thermo.hpp"
+#include "chemistry/transport/pure_gas.hpp"
+#include "chemistry/transport/transport.hpp"
+
+namespace lampblack {
+
+class MulticomponentTransport {
+ public:
+  // InputError if a species has no transport data.
+  explicit MulticomponentTransport(const Mechanism& mechanism,
+                                   CollisionIntegrals integrals = CollisionIntegrals::MonchickMason);
+
+  struct Mixture {
+    double viscosity = 0;     // Pa s; Wilke's rule, as Transport has it
+    double conductivity = 0;  // W/m/K, of a gas whose composition stays uniform (lambda_0)
+  };
+
+  // Properties of the mixture with mole fractions X (negative values count as zero) at T (K), p (Pa), from 200 to 4000
+  // K (else NumericsError). DT receives the thermal diffusion coefficients (kg/m/s), which sum to zero and are zero for
+  // absent species; j_k = -DT_k grad ln T, as for Transport::thermalDiffusion.
+  Mixture mixture(double T, double p, std::span<const double> X, std::span<double> DT);
+
+  // Ordinary multicomponent diffusion coefficients, n x n values in m2/s, D_kj at D[k n + j], D_kk = 0. Mass fluxes in
+  // the mass-averaged frame are j_k = rho W_k/W^2 sum_j W_j D_kj grad X_j at uniform pressure.
+  void diffusion(double T, double p, std::span<const double> X, std::span<double> D);
+
+ private:
+  void setMixture(double T, std::span<const double> X);
+  void setPairs(double T);
+  double ordinary(std::size_t i, std::size_t j) const;
+  void fillThermalSystem(double T);
+  [[noreturn]] static void singular(double T, double p);
+
+  std::size_t n_ = 0;
+  PureGas gas_;
+  Transport averaged_;
+  SpeciesThermo thermo_;
+  std::vector<double> weights_;  // kg/mol
+
+  // Of the mixture at hand.
+  std::vector<double> x_, drag_, viscosity_, cp_, internal_, rotation_, averagedDiffusion_, unknowns_;
+  std::vector<double> conductance_, a_, b_, c_;  // [i][j]: 1/(p D_ij) in m-2 s/Pa; A*, B*, C*
+  DenseLu ordinary_, thermal_;
+};
+
+}  // namespace lampblack
