@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "chemistry/mechanism/rate_checks.hpp"
 #include "core/constants.hpp"
 
 namespace lampblack {
@@ -47,8 +48,8 @@ class RateReader {
         const double low = reaction_.type == Type::Falloff ? order + 1 : order;
         reaction_.lowPressureRate = limit("low-P-rate-constant", low);
         reaction_.rate = limit("high-P-rate-constant", low - 1);
-        checkLimits();
         readBroadening();
+        requireSound(entry_.node());
         break;
       }
       case Type::PressureLog:
@@ -96,10 +97,8 @@ class RateReader {
     return rate;
   }
 
-  void checkLimits() const {
-    const double low = reaction_.lowPressureRate.A, high = reaction_.rate.A;
-    if (low == 0 || high == 0 || (low > 0) != (high > 0))
-      fail(entry_.node(), "expected 'A' of both limits to be other than zero and of one sign");
+  void requireSound(const YAML::Node& where) const {
+    if (const auto problem = rateProblem(reaction_); !problem.empty()) fail(where, problem);
   }
 
   void readBroadening() {
@@ -143,8 +142,6 @@ class RateReader {
     sri.c = temperature(map, "C");
     sri.d = map.number("D", 1.0);
     sri.e = map.number("E", 0.0);
-    if (sri.a < 0 || sri.c < 0 || !(sri.a > 0 || sri.c > 0) || !(sri.d > 0))
-      fail(node, "'SRI': expected A and C of zero or more, not both zero, and a positive D");
     reaction_.sri = sri;
   }
 
@@ -163,26 +160,7 @@ class RateReader {
     if (reaction_.pressureRates.empty()) fail(list, "'rate-constants': expected at least one pressure");
     std::stable_sort(reaction_.pressureRates.begin(), reaction_.pressureRates.end(),
                      [](const auto& a, const auto& b) { return a.pressure < b.pressure; });
-    checkPressureSums(list);
-  }
-
-  // Single entries may be negative, but ln p is interpolated in the logarithm of their sum.
-  void checkPressureSums(const YAML::Node& list) const {
-    const auto& rates = reaction_.pressureRates;
-    for (const double T : {300.0, 500.0, 1000.0, 2000.0, 5000.0, 10000.0})
-      for (std::size_t first = 0, next = 0; first < rates.size(); first = next) {
-        const auto lnk = [&](const Arrhenius& k) {
-          return std::log(std::abs(k.A)) + k.b * std::log(T) - k.activationTemperature / T;
-        };
-        for (next = first; next < rates.size() && rates[next].pressure == rates[first].pressure;) ++next;
-        double largest = -HUGE_VAL, sum = 0;
-        for (auto i = first; i < next; ++i) largest = std::max(largest, lnk(rates[i].rate));
-        for (auto i = first; i < next; ++i)
-          sum += std::copysign(std::exp(lnk(rates[i].rate) - largest), rates[i].rate.A);
-        if (!(sum > 0))
-          fail(list, fmt::format("the rate constants of {:.6g} Pa sum to zero or less at {} K; expected a positive sum",
-                                 rates[first].pressure, T));
-      }
+    requireSound(list);
   }
 
   std::pair<double, double> range(std::string_view key, const MechanismUnit& unit, double factor) const {
