@@ -15,7 +15,7 @@ constexpr double kLogOfZero = -1e4;  // its exponential vanishes beside any othe
 constexpr double kLn10 = 2.30258509299404568402;
 
 std::string place(const Mechanism& mechanism, const Reaction& reaction) {
-  return fmt::format("{}:{}: reaction '{}'", mechanism.fileName(), reaction.line, reaction.equation);
+  return fmt::format("{}: reaction '{}'", mechanism.placeOf(reaction), reaction.equation);
 }
 
 [[noreturn]] void refuse(const Mechanism& mechanism, const Reaction& reaction, const std::string& what) {

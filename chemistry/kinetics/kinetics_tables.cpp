@@ -43,8 +43,8 @@ std::vector<StoichiometricTerm> netStoichiometry(const Reaction& reaction) {
 // The coefficients of the reactants, replaced or joined by the orders given; orders of zero are left out.
 std::vector<StoichiometricTerm> forwardOrders(const Mechanism& mechanism, const Reaction& reaction) {
   if (reaction.reversible && !reaction.orders.empty())
-    throw InputError(fmt::format("{}:{}: reaction '{}': orders are for irreversible reactions only; expected '=>'",
-                                 mechanism.fileName(), reaction.line, reaction.equation));
+    throw InputError(fmt::format("{}: reaction '{}': orders are for irreversible reactions only; expected '=>'",
+                                 mechanism.placeOf(reaction), reaction.equation));
   auto orders = reaction.reactants;
   for (const auto& given : reaction.orders) {
     const auto same =

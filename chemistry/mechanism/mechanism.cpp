@@ -22,17 +22,24 @@ Mechanism::Mechanism(std::string file, std::string description, std::vector<Elem
     auto& s = species_[k];
     s.molecularWeight = 0;
     for (std::size_t i = 0; i < elements_.size(); ++i) s.molecularWeight += s.atoms[i] * elements_[i].atomicWeight;
-    const auto& where = s.file.empty() ? file_ : s.file;
     if (!speciesByName_.emplace(s.name, k).second)
-      throw InputError(fmt::format("{}:{}: species '{}' is declared twice", where, s.line, s.name));
+      throw InputError(fmt::format("{}: species '{}' is declared twice", placeOf(s), s.name));
     if (!(s.molecularWeight > 0))
-      throw InputError(fmt::format("{}:{}: species '{}' has no atoms; expected a composition with a positive mass",
-                                   where, s.line, s.name));
+      throw InputError(fmt::format("{}: species '{}' has no atoms; expected a composition with a positive mass",
+                                   placeOf(s), s.name));
     molecularWeights_.push_back(s.molecularWeight);
   }
   checkBalances(file_, elements_, species_, reactions_);
   checkDuplicates(file_, species_, reactions_, warnings_);
   checkThermo(file_, species_, warnings_);
+}
+
+std::string Mechanism::placeOf(const Species& species) const {
+  return fmt::format("{}:{}", species.file.empty() ? file_ : species.file, species.line);
+}
+
+std::string Mechanism::placeOf(const Reaction& reaction) const {
+  return fmt::format("{}:{}", reaction.file.empty() ? file_ : reaction.file, reaction.line);
 }
 
 std::optional<std::size_t> Mechanism::findSpecies(std::string_view name) const {

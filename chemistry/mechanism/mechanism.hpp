@@ -37,6 +37,9 @@ class Mechanism {
   std::size_t numReactions() const { return reactions_.size(); }
 
   const std::string& fileName() const { return file_; }
+  // "file:line" where an entry of this mechanism stands, for messages; the file may be another one it was taken from.
+  std::string placeOf(const Species& species) const;
+  std::string placeOf(const Reaction& reaction) const;
   const std::string& description() const { return description_; }
   // What may be wrong but can be computed with, each with file and line.
   const std::vector<std::string>& warnings() const { return warnings_; }

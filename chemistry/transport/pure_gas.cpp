@@ -36,17 +36,15 @@ double relaxation(double wellDepth, double T) {
 PureGas::PureGas(const Mechanism& mechanism, CollisionIntegrals source) {
   for (const auto& species : mechanism.allSpecies()) {
     if (!species.transport)
-      throw InputError(
-          fmt::format("{}:{}: species '{}' has no transport data; expected a 'transport' entry of model gas",
-                      mechanism.fileName(), species.line, species.name));
+      throw InputError(fmt::format("{}: species '{}' has no transport data; expected a 'transport' entry of model gas",
+                                   mechanism.placeOf(species), species.name));
     const auto& data = *species.transport;
     const double delta = reducedDipole(data.dipole, data.dipole, data.wellDepth, data.diameter);
     if (delta > ReducedIntegrals::largestDipole)
       throw InputError(
-          fmt::format("{}:{}: species '{}' has the reduced dipole moment {:.3g}; expected at most {}, where the tables "
-                      "of collision "
-                      "integrals end: check dipole, well depth and diameter",
-                      mechanism.fileName(), species.line, species.name, delta, ReducedIntegrals::largestDipole));
+          fmt::format("{}: species '{}' has the reduced dipole moment {:.3g}; expected at most {}, where the tables "
+                      "of collision integrals end: check dipole, well depth and diameter",
+                      mechanism.placeOf(species), species.name, delta, ReducedIntegrals::largestDipole));
     molecules_.push_back({data, species.molecularWeight, species.molecularWeight / constants::avogadro});
   }
   pairs_.reserve(size() * (size() + 1) / 2);
