@@ -5,6 +5,10 @@
 #include <cstddef>
 #include <cstring>
 
+// GCC warns that such values pass differently between functions compiled for different processors; these pass between
+// functions of one program only, all compiled alike.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
 namespace lampblack {
 
 constexpr std::size_t laneCount = 8;
