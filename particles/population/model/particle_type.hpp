@@ -1,0 +1,43 @@
+// What a particle is. A method of the population balance is a template over a type of particles, a small class that
+// says how particles are made, joined, split and grown; the methods know nothing else about them. A new kind of
+// particle - a connectivity tree, an aggregate of molecules - is a new class with these members, and no method changes.
+#pragma once
+
+#include <concepts>
+
+#include "particles/population/model/collision_kernel.hpp"
+
+namespace lampblack {
+
+template <class Type>
+concept ParticleType = std::copyable<typename Type::Particle> &&
+    requires(const Type type, const typename Type::Particle p, double x, const CollisionKernel kernel) {
+  { type.volume(p) } -> std::convertible_to<double>;             // m3; orders the particles, moments are of it
+  { type.mass(p) } -> std::convertible_to<double>;               // kg
+  { type.surface(p) } -> std::convertible_to<double>;            // m2
+  { type.collisionDiameter(p) } -> std::convertible_to<double>;  // m
+  // A particle of this volume, as nucleation and the initial population make it.
+  { type.make(x) } -> std::same_as<typename Type::Particle>;
+  { type.coagulated(p, p) } -> std::same_as<typename Type::Particle>;
+  // The weighted mean of two, conserving every extensive quantity: (w1 p1 + w2 p2) / (w1 + w2).
+  { type.mean(p, x, p, x) } -> std::same_as<typename Type::Particle>;
+  // A piece with this fraction of the volume.
+  { type.fragment(p, x) } -> std::same_as<typename Type::Particle>;
+  // After `dt` (s) of dv/dt = condensation v + surface S; a volume of zero or less when nothing is left.
+  { type.grown(p, x, x, x) } -> std::same_as<typename Type::Particle>;
+};
+
+// What the kernel asks for, and no more: a diameter costs a cube root.
+template <class Type>
+[[nodiscard]] CollisionKernel::Properties kernelProperties(const CollisionKernel& kernel, const Type& type,
+                                                           const typename Type::Particle& particle) {
+  CollisionKernel::Properties properties;
+  properties.volume = type.volume(particle);
+  if (kernel.needsDiameter()) {
+    properties.mass = type.mass(particle);
+    properties.diameter = type.collisionDiameter(particle);
+  }
+  return properties;
+}
+
+}  // namespace lampblack

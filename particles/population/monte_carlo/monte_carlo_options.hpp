@@ -1,0 +1,60 @@
+// The choices of the Monte Carlo methods.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+#include "particles/population/population_solver.hpp"
+
+namespace lampblack {
+
+enum class MonteCarloMethod {
+  // Equal weights.
+  dsmc,                    // doubling when half empty, contraction when full (Goodson and Kraft 2002)
+  constantVolume,          // stepwise: doubled below N/2, halved above 2N (Maisels, Kruis, Fissan 2004)
+  constantNumberByMass,    // one copied or removed after each event, weights keep M1 (Smith and Matsoukas 1998; Lin,
+  constantNumberByNumber,  // Lee, Matsoukas 2002) or M0
+  // Different weights.
+  mmc,      // multi-Monte Carlo (Zhao, Zheng, Xu 2005)
+  wfmc,     // weighted fraction (Jiang and Chan 2021)
+  samwfmc,  // sorting, what is left over is merged into a neighbour (thesis chapter 4)
+  sammc,    // sorting, the two nearest neighbours are merged (thesis chapter 5)
+  swa,      // stochastic weighted algorithm (Patterson, Wagner, Kraft 2011)
+  // Small particles as numbers, large ones as particles (Boje, Akroyd, Kraft 2019).
+  hybrid
+};
+
+enum class FractionFunction { one, hyperbolic, exponential, stepwise, constant };
+enum class FractionOf { volumes, weights };           // what the fraction functions compare (thesis chapters 4 and 5)
+enum class MergingDifference { absolute, relative };  // of the volumes of neighbours (thesis eqs. 5-11, 5-12)
+enum class WeightTransfer { harmonic, half, mass };   // w_i w_j/(w_i+w_j), w_i/2, w_i m_i/(m_i+m_j)
+enum class EventRates { majorant, exact };  // fictitious jumps in O(log N), or the O(N) bookkeeping of the thesis
+// Nuclei at random times, or evenly spaced in the integral of the nucleation rate with one random offset: the same mean
+// with hardly any noise.
+enum class NucleationSampling { random, even };
+
+struct MonteCarloOptions {
+  MonteCarloMethod method = MonteCarloMethod::dsmc;
+  std::size_t particles = 2000;  // numerical particles, N_s; at least 2
+  std::uint64_t seed = 1;
+  std::uint64_t repeat = 0;  // with the seed the key of the random numbers
+  EventRates rates = EventRates::majorant;
+  FractionFunction fraction = FractionFunction::one;
+  FractionOf fractionOf = FractionOf::volumes;
+  double fractionConstant = 1;  // C in (0, 1], of FractionFunction::constant
+  MergingDifference merging = MergingDifference::relative;
+  WeightTransfer transfer = WeightTransfer::mass;
+  NucleationSampling nucleation = NucleationSampling::even;
+  double nucleusWeight = 0;  // real particles (1/m3) a nucleus of a weighted method stands for; zero: N0 / particles
+  // Number density at which an ensemble that starts empty is full; needed there.
+  double expectedNumber = 0;  // 1/m3
+  std::size_t threshold = 0;  // largest size, in nuclei, that the hybrid method keeps as a number
+};
+
+// For coalescing spheres; other types by populationOf() in population_of.hpp. Throws InputError.
+[[nodiscard]] std::unique_ptr<PopulationSolver> makeMonteCarlo(const PopulationModel& model,
+                                                               const InitialPopulation& initial,
+                                                               const MonteCarloOptions& options);
+
+}  // namespace lampblack
