@@ -1,43 +1,20 @@
 // Collision kernels of spheres in a gas (m3/s), from the free-molecular to the continuum regime, and the bound that the
-// Monte Carlo method samples from. Everything is inline: these sit in the innermost loops.
+// ensemble of soot samples from. Everything is inline: these sit in the innermost loops.
 #pragma once
 
 #include <cmath>
 
-#include "core/constants.hpp"
+#include "particles/collision_physics.hpp"
 #include "particles/soot_gas.hpp"
 
 namespace lampblack {
 
-// Mean free path of the gas, m (thesis eq. 7-33).
 [[nodiscard]] inline double meanFreePath(const SootGasState& gas) {
-  return gas.viscosity / gas.pressure *
-         std::sqrt(constants::pi * constants::gasConstant * gas.temperature / (2 * gas.meanMolecularWeight));
+  return meanFreePath(gas.temperature, gas.pressure, gas.viscosity, gas.meanMolecularWeight);
 }
 
-// Cunningham slip correction at Knudsen number 2 lambda / d (Davies 1945; thesis eq. 7-31).
-[[nodiscard]] inline double slipCorrection(double knudsen) {
-  return 1 + knudsen * (1.257 + 0.4 * std::exp(-1.1 / knudsen));
-}
-
-// Free-molecular kernel (thesis eq. 9-28) is `prefactor * sqrt(1/mi + 1/mj) (di + dj)^2`; this is the prefactor.
-[[nodiscard]] inline double freeMolecularPrefactor(double temperature, double enhancement) {
-  return enhancement * std::sqrt(0.5 * constants::pi * constants::boltzmann * temperature);
-}
-
-// Continuum kernel with slip (thesis eq. 9-29) is `prefactor * (Ci/di + Cj/dj) (di + dj)`; this is the prefactor.
 [[nodiscard]] inline double continuumPrefactor(const SootGasState& gas) {
-  return 2 * constants::boltzmann * gas.temperature / (3 * gas.viscosity);
-}
-
-[[nodiscard]] inline double freeMolecularKernel(double prefactor, double mi, double di, double mj, double dj) {
-  const double sum = di + dj;
-  return prefactor * std::sqrt(1 / mi + 1 / mj) * sum * sum;
-}
-
-// Harmonic mean of the two limits (thesis eq. 9-30), never above either.
-[[nodiscard]] inline double harmonicMean(double freeMolecular, double continuum) {
-  return freeMolecular * continuum / (freeMolecular + continuum);
+  return continuumPrefactor(gas.temperature, gas.viscosity);
 }
 
 // A kernel evaluated for one gas state, written so that it and its bound share their terms. Each particle has terms

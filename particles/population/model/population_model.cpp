@@ -1,7 +1,94 @@
 #include "particles/population/model/population_model.hpp"
 
-namespace lampblack {
+#include <fmt/format.h>
 
-void check(const PopulationModel&, const InitialPopulation&) {}
+#include <cmath>
+#include <string_view>
+
+#include "core/errors.hpp"
+#include "particles/population/model/nucleation_schedule.hpp"
+
+namespace lampblack {
+namespace {
+
+[[noreturn]] void fail(std::string_view name, std::string_view expected, double value) {
+  throw InputError(fmt::format("{} needs to be {}, not {}", name, expected, value));
+}
+
+void finite(std::string_view name, double value) {
+  if (!std::isfinite(value)) fail(name, "a finite number", value);
+}
+
+void positive(std::string_view name, double value) {
+  if (!(value > 0) || !std::isfinite(value)) fail(name, "above zero", value);
+}
+
+void notNegative(std::string_view name, double value) {
+  if (!(value >= 0) || !std::isfinite(value)) fail(name, "zero or above", value);
+}
+
+void check(const NucleationOptions& nucleation) {
+  positive("nucleation.volume", nucleation.volume);
+  switch (nucleation.source) {
+    case NucleationOptions::Source::constant:
+      notNegative("nucleation.rate", nucleation.rate);
+      break;
+    case NucleationOptions::Source::precursor:
+      positive("nucleation.rate_constant", nucleation.rateConstant);
+      notNegative("nucleation.precursor", nucleation.precursor);
+      break;
+    case NucleationOptions::Source::table:
+      for (const double time : nucleation.times) finite("nucleation.times: each", time);
+      for (const double rate : nucleation.rates) notNegative("nucleation.rates: each", rate);
+      [[maybe_unused]] const NucleationSchedule schedule(nucleation);  // throws unless the times increase
+      break;
+  }
+}
+
+void check(const BreakageOptions& breakage) {
+  notNegative("breakage.rate", breakage.rate);
+  finite("breakage.exponent", breakage.exponent);
+  if (breakage.fragments < 2) fail("breakage.fragments", "at least 2", breakage.fragments);
+  if (breakage.daughters == BreakageOptions::Daughters::uniform && breakage.fragments != 2) {
+    fail("breakage.fragments", "2 where the daughters are uniform", breakage.fragments);
+  }
+}
+
+void check(const GrowthOptions& growth) {
+  finite("growth.condensation", growth.condensation);
+  notNegative("growth.surface_growth", growth.surfaceGrowth);
+  notNegative("growth.oxidation", growth.oxidation);
+  notNegative("growth.smallest_volume", growth.smallestVolume);
+  notNegative("growth.step", growth.step);
+  if (growth.active() && growth.treatment == GrowthOptions::Treatment::jumps) {
+    positive("growth.monomer (with growth by jumps)", growth.monomer);
+  }
+}
+
+void check(const InitialPopulation& initial) {
+  if (initial.distribution == InitialPopulation::Distribution::none) return;
+  positive("initial.number", initial.number);
+  positive("initial.volume", initial.volume);
+  if (initial.distribution == InitialPopulation::Distribution::lognormal &&
+      (!(initial.geometricDeviation >= 1) || !std::isfinite(initial.geometricDeviation))) {
+    fail("initial.geometric_deviation", "1 or above", initial.geometricDeviation);
+  }
+}
+
+}  // namespace
+
+void check(const PopulationModel& model, const InitialPopulation& initial) {
+  if (model.coagulation) static_cast<void>(CollisionKernel(*model.coagulation));  // throws for what it lacks
+  if (model.nucleation) check(*model.nucleation);
+  if (model.breakage) check(*model.breakage);
+  if (model.deposition) {
+    notNegative("deposition.rate", model.deposition->rate);
+    finite("deposition.exponent", model.deposition->exponent);
+  }
+  check(model.growth);
+  finite("dilution", model.dilution);
+  positive("density", model.density);
+  check(initial);
+}
 
 }  // namespace lampblack
