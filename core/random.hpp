@@ -35,6 +35,9 @@ class RandomStream {
     return static_cast<std::uint64_t>((static_cast<Wide>(next64()) * n) >> 64);
   }
 
+  // 64 independent fair coins.
+  std::uint64_t bits() { return next64(); }
+
   // Number of 64-bit words drawn so far; restoring it restores the stream exactly.
   [[nodiscard]] std::uint64_t position() const { return position_; }
   void seek(std::uint64_t position) {
