@@ -27,17 +27,56 @@ concept ParticleType = std::copyable<typename Type::Particle> &&
   { type.grown(p, x, x, x) } -> std::same_as<typename Type::Particle>;
 };
 
+// A type of which particles change while nobody looks (deferred growth, see deferred_growth.hpp) has four more members,
+// which the functions below use: properties(kernel, p) as of now; terms(kernel, p), bounds until the end of the step;
+// orderVolume(p), constant until the end of the step; largest(p, f) of a monotone f(volume) until then.
+
 // What the kernel asks for, and no more: a diameter costs a cube root.
 template <class Type>
 [[nodiscard]] CollisionKernel::Properties kernelProperties(const CollisionKernel& kernel, const Type& type,
                                                            const typename Type::Particle& particle) {
-  CollisionKernel::Properties properties;
-  properties.volume = type.volume(particle);
-  if (kernel.needsDiameter()) {
-    properties.mass = type.mass(particle);
-    properties.diameter = type.collisionDiameter(particle);
+  if constexpr (requires { type.properties(kernel, particle); }) {
+    return type.properties(kernel, particle);
+  } else {
+    CollisionKernel::Properties properties;
+    properties.volume = type.volume(particle);
+    if (kernel.needsDiameter()) {
+      properties.mass = type.mass(particle);
+      properties.diameter = type.collisionDiameter(particle);
+    }
+    return properties;
   }
-  return properties;
+}
+
+// Terms of the majorant.
+template <class Type>
+[[nodiscard]] CollisionKernel::Terms kernelTerms(const CollisionKernel& kernel, const Type& type,
+                                                 const typename Type::Particle& particle) {
+  if constexpr (requires { type.terms(kernel, particle); }) {
+    return type.terms(kernel, particle);
+  } else {
+    return kernel.terms(kernelProperties(kernel, type, particle));
+  }
+}
+
+// The volume (m3) that stores sort and class by.
+template <class Type>
+[[nodiscard]] double orderVolume(const Type& type, const typename Type::Particle& particle) {
+  if constexpr (requires { type.orderVolume(particle); }) {
+    return type.orderVolume(particle);
+  } else {
+    return type.volume(particle);
+  }
+}
+
+// The largest value that a monotone function of the volume may have; bound of the rate of a process.
+template <class Type, class F>
+[[nodiscard]] double largest(const Type& type, const typename Type::Particle& particle, F&& f) {
+  if constexpr (requires { type.largest(particle, f); }) {
+    return type.largest(particle, f);
+  } else {
+    return f(type.volume(particle));
+  }
 }
 
 }  // namespace lampblack

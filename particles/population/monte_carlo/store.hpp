@@ -17,7 +17,8 @@ namespace lampblack {
 enum class SingleProcess : std::size_t { breakage, deposition, condensation };
 inline constexpr std::size_t singleProcesses = 3;
 
-// What a store needs to know of its entries, supplied by the method. `pair` is the rate of the event of a pair and
+// What a store needs to know of its entries, supplied by the method. volume() does not change while an entry is in the
+// store; rates may (deferred growth), within bounds that do not. `pair` is the rate of the event of a pair now and
 //   pair(i, j) <= (weighted ? factor * (w_i + w_j) : 1) * sum over r < rank of p_r(i) q_r(j) + p_r(j) q_r(i).
 template <class R>
 concept EntryRates = requires(const R rates, const typename R::Entry entry, CollisionKernel::Terms terms,
@@ -32,6 +33,17 @@ concept EntryRates = requires(const R rates, const typename R::Entry entry, Coll
   { rates.single(process, entry) } -> std::convertible_to<double>;  // 1/s; zero where the process is off
   { rates.active(process) } -> std::same_as<bool>;
 };
+
+// Bound of rates.single() for as long as the entry is in the store: what stores sum and draw by. Rates that change in
+// between have a member singleBound(process, entry).
+template <EntryRates R>
+[[nodiscard]] double singleBound(const R& rates, SingleProcess process, const typename R::Entry& entry) {
+  if constexpr (requires { rates.singleBound(process, entry); }) {
+    return rates.singleBound(process, entry);
+  } else {
+    return rates.single(process, entry);
+  }
+}
 
 template <class S>
 concept EntryStore = requires(S store, const S fixed, typename S::Entry entry, RandomStream& random,
