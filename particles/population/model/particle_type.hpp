@@ -27,9 +27,10 @@ concept ParticleType = std::copyable<typename Type::Particle> &&
   { type.grown(p, x, x, x) } -> std::same_as<typename Type::Particle>;
 };
 
-// A type of which particles change while nobody looks (deferred growth, see deferred_growth.hpp) has four more members,
-// which the functions below use: properties(kernel, p) as of now; terms(kernel, p), bounds until the end of the step;
-// orderVolume(p), constant until the end of the step; largest(p, f) of a monotone f(volume) until then.
+// A type of which particles change while nobody looks (deferred growth, see deferred_growth.hpp) has five more members,
+// which the functions below use: properties(kernel, p) as of now; exists(p), false for what has shrunk to nothing;
+// terms(kernel, p), bounds until the end of the step; orderVolume(p), constant until the end of the step; largest(p, f)
+// of a monotone f(volume) until then.
 
 // What the kernel asks for, and no more: a diameter costs a cube root.
 template <class Type>
@@ -45,6 +46,16 @@ template <class Type>
       properties.diameter = type.collisionDiameter(particle);
     }
     return properties;
+  }
+}
+
+// False only for what waits to be removed; all its rates are zero.
+template <class Type>
+[[nodiscard]] bool exists(const Type& type, const typename Type::Particle& particle) {
+  if constexpr (requires { type.exists(particle); }) {
+    return type.exists(particle);
+  } else {
+    return true;
   }
 }
 

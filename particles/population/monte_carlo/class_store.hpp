@@ -247,7 +247,7 @@ class ClassStore {
     }
     if (components_ > 1 + 2 * rank_) {
       for (std::size_t k = 0; k < singleProcesses; ++k) {
-        if (single_[k] > 0) raise(single_[k], rates_.single(static_cast<SingleProcess>(k), entry));
+        if (single_[k] > 0) raise(single_[k], singleBound(rates_, static_cast<SingleProcess>(k), entry));
       }
     }
   }
