@@ -60,7 +60,12 @@ void check(const GrowthOptions& growth) {
   notNegative("growth.oxidation", growth.oxidation);
   notNegative("growth.smallest_volume", growth.smallestVolume);
   notNegative("growth.step", growth.step);
-  if (growth.active() && growth.treatment == GrowthOptions::Treatment::jumps) {
+  if (growth.always) {
+    positive("growth.step (of particles that sinter)", growth.step);
+    if (growth.treatment == GrowthOptions::Treatment::jumps) {
+      throw InputError("growth.treatment: particles that sinter cannot grow by jumps");
+    }
+  } else if (growth.active() && growth.treatment == GrowthOptions::Treatment::jumps) {
     positive("growth.monomer (with growth by jumps)", growth.monomer);
   }
 }

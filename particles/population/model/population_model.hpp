@@ -48,9 +48,11 @@ struct GrowthOptions {
   Treatment treatment = Treatment::split;
   double step = 0;     // s, of splitting or deferment; zero: chosen by the solver
   double monomer = 0;  // m3, of Treatment::jumps
+  // Also where nothing grows, in steps of `step`: for particles that change by themselves, by sintering.
+  bool always = false;
 
   [[nodiscard]] double surface() const { return surfaceGrowth - oxidation; }
-  [[nodiscard]] bool active() const { return condensation != 0 || surfaceGrowth != 0 || oxidation != 0; }
+  [[nodiscard]] bool active() const { return always || condensation != 0 || surfaceGrowth != 0 || oxidation != 0; }
 };
 
 // Loss of particles at the rate `rate * v^exponent` (1/s).

@@ -74,6 +74,7 @@ TEST(PopulationModelCheck, NamesWhatIsWrong) {
   EXPECT_THAT(complaint([](auto& m, auto&) { m.growth.oxidation = -1; }), HasSubstr("growth.oxidation"));
   EXPECT_THAT(complaint([](auto& m, auto&) { m.growth.treatment = GrowthOptions::Treatment::jumps; }),
               HasSubstr("growth.monomer"));
+  EXPECT_THAT(complaint([](auto& m, auto&) { m.growth.always = true; }), HasSubstr("growth.step"));
   EXPECT_THAT(complaint([](auto& m, auto&) { m.dilution = std::numeric_limits<double>::infinity(); }),
               HasSubstr("dilution"));
   EXPECT_THAT(complaint([](auto& m, auto&) { m.density = 0; }), HasSubstr("density needs to be above zero"));
