@@ -164,6 +164,34 @@ class ClassStore {
     while (size_ > keep) remove(uniformPlace(random));
   }
 
+  // For a method that draws from several stores (hybrid_method.hpp). Components of the bounds: 0 is one for each entry,
+  // 1 + r is p_r, 1 + rank + r is q_r, and one for each single process that is active.
+  struct Place {
+    std::size_t slot, index;
+  };
+  [[nodiscard]] std::size_t components() const { return components_; }
+  [[nodiscard]] std::size_t component(SingleProcess process) const {
+    return single_[static_cast<std::size_t>(process)];
+  }
+  [[nodiscard]] double total(std::size_t component) const { return sums_.total(component); }
+  // Where `x` in [0, total) of a component falls; false where rounding led to a class without members.
+  [[nodiscard]] bool place(std::size_t component, double x, Place& at) const {
+    at.slot = sums_.find(component, x);
+    if (at.slot >= classes_.size() || classes_[at.slot].empty()) return false;
+    const std::size_t count = classes_[at.slot].size();
+    const double index = x / bound(at.slot, component);
+    at.index = index < static_cast<double>(count) ? static_cast<std::size_t>(index) : count - 1;
+    return true;
+  }
+  [[nodiscard]] const Entry& entry(const Place& at) const { return classes_[at.slot][at.index]; }
+  [[nodiscard]] double bound(const Place& at, std::size_t component) const { return bound(at.slot, component); }
+  // Of two in one class the later one first: the last of the class moves to the gap.
+  Entry take(const Place& at) {
+    Entry entry = classes_[at.slot][at.index];
+    remove(at);
+    return entry;
+  }
+
   template <class F>
   void forEach(F f) const {
     for (const auto& members : classes_) {
@@ -192,9 +220,6 @@ class ClassStore {
  private:
   static constexpr int mantissaBits = 2;  // four classes for each factor of two in volume
   static constexpr std::uint16_t none = 0xffff;
-  struct Place {
-    std::size_t slot, index;
-  };
 
   static std::size_t componentsOf(const Rates& rates) {
     std::size_t count = 1 + 2 * rates.rank();
@@ -255,15 +280,6 @@ class ClassStore {
     sums_.set(slot, static_cast<double>(classes_[slot].size()), &bounds_[slot * sums_.blocks()]);
   }
 
-  // Where `x` in [0, total) of a component falls; false where rounding led to a class without members.
-  [[nodiscard]] bool place(std::size_t component, double x, Place& at) const {
-    at.slot = sums_.find(component, x);
-    if (at.slot >= classes_.size() || classes_[at.slot].empty()) return false;
-    const std::size_t count = classes_[at.slot].size();
-    const double index = x / bound(at.slot, component);
-    at.index = index < static_cast<double>(count) ? static_cast<std::size_t>(index) : count - 1;
-    return true;
-  }
   [[nodiscard]] Place uniformPlace(RandomStream& random) const {
     Place at;
     while (!place(0, random.uniform() * sums_.total(0), at)) {
