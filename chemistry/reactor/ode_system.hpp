@@ -20,6 +20,10 @@ class OdeSystem {
   virtual void prescribe(double /*t*/, double* /*y*/) const {}
   // What the absolute tolerance is multiplied with for unknown i: one for mass fractions.
   virtual double toleranceScale(std::size_t /*i*/) const { return 1.0; }
+  // For unknowns that change by decades: whether the absolute tolerance follows the state, with the scales at y (above
+  // zero) instead of toleranceScale.
+  virtual bool hasMovingScales() const { return false; }
+  virtual void toleranceScales(const double* /*y*/, double* /*scales*/) const {}
   // The state in words, for messages.
   virtual std::string describe(double t, const double* y) const = 0;
 

@@ -5,6 +5,7 @@
 #include <sunmatrix/sunmatrix_dense.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -51,6 +52,7 @@ struct StiffIntegrator::Impl {
                           realtype gamma, void* data, N_Vector w1, N_Vector w2, N_Vector w3);
   static int sensitivityRates(int count, realtype t, N_Vector y, N_Vector f, N_Vector* s, N_Vector* sDot, void* data,
                               N_Vector w1, N_Vector w2);
+  static int errorWeights(N_Vector y, N_Vector weights, void* data);
   static int setUp(SUNLinearSolver solver, SUNMatrix A);
   static int solve(SUNLinearSolver solver, SUNMatrix A, N_Vector x, N_Vector b, realtype tolerance);
   static void keepMessage(int code, const char* module, const char* function, char* message, void* data);
@@ -120,6 +122,20 @@ int StiffIntegrator::Impl::sensitivityRates(int count, realtype t, N_Vector y, N
   return 0;
 }
 
+int StiffIntegrator::Impl::errorWeights(N_Vector y, N_Vector weights, void* data) {
+  auto& self = *static_cast<Impl*>(data);
+  const double* state = N_VGetArrayPointer(y);
+  double* w = N_VGetArrayPointer(weights);
+  self.system.toleranceScales(state, w);
+  for (std::size_t i = 0; i < self.n; ++i) {
+    const double tolerance =
+        self.options.relativeTolerance * std::abs(state[i]) + self.options.absoluteTolerance * w[i];
+    if (!(tolerance > 0)) return -1;
+    w[i] = 1 / tolerance;
+  }
+  return 0;
+}
+
 int StiffIntegrator::Impl::setUp(SUNLinearSolver solver, SUNMatrix /*A*/) {
   return static_cast<Impl*>(solver->content)->lu.factorise() ? SUNLS_SUCCESS : SUNLS_LUFACT_FAIL;
 }
@@ -172,7 +188,10 @@ StiffIntegrator::Impl::Impl(OdeSystem& systemIn, const Options& optionsIn)
   check(cvode.get(), "CVodeCreate");
   void* memory = cvode.get();
   check(CVodeInit(memory, rates, 0.0, y.get()), "CVodeInit");
-  check(CVodeSVtolerances(memory, options.relativeTolerance, tolerances.get()), "CVodeSVtolerances");
+  if (system.hasMovingScales())
+    check(CVodeWFtolerances(memory, errorWeights), "CVodeWFtolerances");
+  else
+    check(CVodeSVtolerances(memory, options.relativeTolerance, tolerances.get()), "CVodeSVtolerances");
   check(CVodeSetUserData(memory, this), "CVodeSetUserData");
   check(CVodeSetErrHandlerFn(memory, keepMessage, this), "CVodeSetErrHandlerFn");
   check(CVodeSetLinearSolver(memory, linearSolver.get(), matrix.get()), "CVodeSetLinearSolver");
@@ -213,6 +232,12 @@ void StiffIntegrator::start(double time, std::span<const double> y, double end, 
         "CVodeSensInit");
   check(CVodeSensEEtolerances(memory), "CVodeSensEEtolerances");
   check(CVodeSetSensErrCon(memory, SUNFALSE), "CVodeSetSensErrCon");
+}
+
+void StiffIntegrator::extend(double end) {
+  impl_->end = end;
+  impl_->steps = 0;
+  stopAt(end);
 }
 
 void StiffIntegrator::stopAt(double time) {

@@ -33,6 +33,9 @@ class StiffIntegrator {
   // The same with sensitivities that start at zero, by the staggered corrector (Feehery, Tolsma, Barton 1997). They
   // take the steps of the state and do not shorten them.
   void start(double time, std::span<const double> y, double end, OdeParameters& parameters);
+  // Goes on from time() to a later end than that of start(), keeping order and step size. For rates that are smooth
+  // there; start() again where they are not.
+  void extend(double end);
   // A nearer point the next steps stop at, for instance a kink of the rates; at most `end`.
   void stopAt(double time);
 
