@@ -50,8 +50,11 @@ std::vector<double> initialSections(const SectionGrid& grid, const InitialPopula
   using Distribution = InitialPopulation::Distribution;
   if (initial.distribution == Distribution::none || initial.number == 0) return y;
   const double end = grid.volume(grid.last());
-  if (initial.distribution == Distribution::monodisperse) {
-    if (initial.volume < grid.volume(1) || initial.volume > end) {
+  const bool exponential = initial.distribution == Distribution::exponential;
+  const double sigma = 3 * std::log(initial.geometricDeviation);
+  if (initial.distribution == Distribution::monodisperse || (!exponential && sigma == 0)) {
+    // On the first pivot but for rounding is on the grid.
+    if (initial.volume < grid.volume(1) * (1 - 1e-12) || initial.volume > end) {
       throw InputError(
           fmt::format("the volume of the initial particles, {:.4g} m3, is outside the sectional grid, "
                       "{:.4g} to {:.4g} m3",
@@ -61,11 +64,6 @@ std::vector<double> initialSections(const SectionGrid& grid, const InitialPopula
     y[place.lower] = (1 - place.upper) * initial.number;
     y[place.lower + 1] = place.upper * initial.number;
     return y;
-  }
-  const bool exponential = initial.distribution == Distribution::exponential;
-  const double sigma = 3 * std::log(initial.geometricDeviation);
-  if (!exponential && !(sigma > 0)) {
-    throw InputError("a log-normal initial population needs a geometric standard deviation above 1");
   }
   const auto part = [&](double a, double b) {
     return exponential ? exponentialPart(a, b) : lognormalPart(a, b, sigma);
