@@ -15,9 +15,9 @@ namespace lampblack {
 struct PopulationCounters {
   std::uint64_t coagulations = 0, fictitious = 0;  // fictitious jumps of every process
   std::uint64_t nucleations = 0, breakages = 0, depositions = 0, condensations = 0;
-  std::uint64_t merges = 0;                   // of two numerical particles into one, or of one into another
-  std::uint64_t doublings = 0, removals = 0;  // to keep their number in range
-  std::uint64_t vanished = 0;                 // fell below the smallest volume
+  std::uint64_t merges = 0;                               // of two numerical particles into one, or of one into another
+  std::uint64_t doublings = 0, copies = 0, removals = 0;  // of all, of one, to keep their number in range
+  std::uint64_t vanished = 0;                             // fell below the smallest volume
   std::uint64_t splitSteps = 0;
   std::uint64_t limited = 0;  // events that a method could not do as the model says; see its header
   [[nodiscard]] std::uint64_t events() const {

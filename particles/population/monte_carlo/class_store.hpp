@@ -44,6 +44,7 @@ class ClassStore {
     for (const auto& members : classes_) sum += members.capacity() * sizeof(Entry);
     return sum;
   }
+  [[nodiscard]] Rates& rates() { return rates_; }
   [[nodiscard]] const Rates& rates() const { return rates_; }
   [[nodiscard]] std::size_t classes() const { return classes_.size(); }
 

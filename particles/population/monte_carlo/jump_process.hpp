@@ -54,10 +54,14 @@ class JumpProcess final : public PopulationSolver {
   static constexpr std::uint32_t streamPurpose = 0x504f5055;
 
   JumpProcess(Method method, const PopulationModel& model, const MonteCarloOptions& options, RandomStream random)
-      : method_(std::move(method)), model_(model), random_(random), sampling_(options.nucleation) {
+      : method_(std::move(method)),
+        model_(model),
+        random_(random),
+        sampling_(options.nucleation),
+        condenses_(model.growth.active() && model.growth.treatment == GrowthOptions::Treatment::jumps) {
     if (model_.nucleation) {
       schedule_.emplace(*model_.nucleation);
-      exposure_ = sampling_ == NucleationSampling::even ? random_.uniform() : random_.exponential(1);
+      planNucleus(0, 0);
     }
   }
 
@@ -104,19 +108,16 @@ class JumpProcess final : public PopulationSolver {
       const double coagulation = model_.coagulation ? method_.coagulationRate() : 0;
       const double breakage = model_.breakage ? method_.breakageRate() : 0;
       const double deposition = model_.deposition ? method_.depositionRate() : 0;
-      const double condensation = method_.condensationRate();
+      const double condensation = condenses_ ? method_.condensationRate() : 0;
       const double total = coagulation + breakage + deposition + condensation;
-      double next = total > 0 ? time_ + random_.exponential(total) : infinity;
+      const double next = total > 0 ? time_ + random_.exponential(total) : infinity;
       if (schedule_) {
-        const double nucleus = nextNucleus();
-        if (nucleus < std::min(next, end)) {
-          nucleate(nucleus, deferred);
+        if (sampling_ == NucleationSampling::random && method_.nucleusWeight() != plannedWeight_) replanNucleus();
+        if (nucleusTime_ < std::min(next, end)) {
+          nucleate(deferred);
           continue;
         }
       }
-      if (schedule_)
-        exposure_ -=
-            (schedule_->cumulative(std::min(next, end)) - schedule_->cumulative(time_)) / method_.nucleusWeight();
       if (next >= end) {
         time_ = end;
         return;
@@ -139,15 +140,30 @@ class JumpProcess final : public PopulationSolver {
     }
   }
 
-  // exposure_ is what is left until the next nucleus, in units of what a nucleus stands for.
-  [[nodiscard]] double nextNucleus() const {
-    return schedule_->timeOf(schedule_->cumulative(time_) + exposure_ * method_.nucleusWeight());
+  // Nuclei are placed along the integral I of the nucleation rate (1/m3). Random: the distance to the next one is
+  // exponentially distributed with mean w, what a nucleus stands for; when w changes, what is left of the distance
+  // changes in proportion, as the exponential distribution has no memory. Even: I is cut into intervals as long as the
+  // weight of their nucleus, which lies at a random place in its interval. Both have the mean I at any time; for the
+  // second, the number put in never differs from it by more than a nucleus or two, whatever w does.
+  void planNucleus(double intervalStart, double reached) {
+    plannedWeight_ = method_.nucleusWeight();
+    intervalStart_ = intervalStart;
+    nucleusAt_ = sampling_ == NucleationSampling::even ? intervalStart + random_.uniform() * plannedWeight_
+                                                       : reached + random_.exponential(1) * plannedWeight_;
+    nucleusTime_ = schedule_->timeOf(nucleusAt_);
   }
-  void nucleate(double at, bool deferred) {
-    time_ = std::max(at, time_);
+  void replanNucleus() {
+    const double weight = method_.nucleusWeight(), reached = schedule_->cumulative(time_);
+    nucleusAt_ = reached + (nucleusAt_ - reached) * weight / plannedWeight_;
+    plannedWeight_ = weight;
+    nucleusTime_ = schedule_->timeOf(nucleusAt_);
+  }
+  void nucleate(bool deferred) {
+    time_ = std::max(nucleusTime_, time_);
     if (deferred) method_.atTime(time_);
+    const double weight = method_.nucleusWeight();
     method_.nucleate(random_);
-    exposure_ = sampling_ == NucleationSampling::even ? 1.0 : random_.exponential(1);
+    planNucleus(intervalStart_ + weight, nucleusAt_);
   }
 
   static constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -157,8 +173,10 @@ class JumpProcess final : public PopulationSolver {
   RandomStream random_;
   NucleationSampling sampling_;
   std::optional<NucleationSchedule> schedule_;
+  bool condenses_;
   double time_ = 0;
-  double exposure_ = 0;
+  double intervalStart_ = 0, nucleusAt_ = 0, plannedWeight_ = 0;  // 1/m3
+  double nucleusTime_ = infinity;                                 // s
 };
 
 }  // namespace lampblack

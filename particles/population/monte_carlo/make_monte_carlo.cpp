@@ -1,11 +1,22 @@
 #include "core/errors.hpp"
-#include "particles/population/monte_carlo/monte_carlo_options.hpp"
+#include "particles/population/model/sphere.hpp"
+#include "particles/population/monte_carlo/equal_weight_solver.hpp"
 
 namespace lampblack {
 
-std::unique_ptr<PopulationSolver> makeMonteCarlo(const PopulationModel&, const InitialPopulation&,
-                                                 const MonteCarloOptions&) {
-  throw InputError("this method is not available yet");
+std::unique_ptr<PopulationSolver> makeMonteCarlo(const PopulationModel& model, const InitialPopulation& initial,
+                                                 const MonteCarloOptions& options) {
+  check(model, initial);
+  const Sphere sphere(model.density);
+  switch (options.method) {
+    case MonteCarloMethod::dsmc:
+    case MonteCarloMethod::constantVolume:
+    case MonteCarloMethod::constantNumberByMass:
+    case MonteCarloMethod::constantNumberByNumber:
+      return makeEqualWeight(sphere, model, initial, options);
+    default:
+      throw InputError("this method is not available yet");
+  }
 }
 
 }  // namespace lampblack

@@ -30,8 +30,8 @@ enum class FractionOf { volumes, weights };           // what the fraction funct
 enum class MergingDifference { absolute, relative };  // of the volumes of neighbours (thesis eqs. 5-11, 5-12)
 enum class WeightTransfer { harmonic, half, mass };   // w_i w_j/(w_i+w_j), w_i/2, w_i m_i/(m_i+m_j)
 enum class EventRates { majorant, exact };  // fictitious jumps in O(log N), or the O(N) bookkeeping of the thesis
-// Nuclei at random times, or evenly spaced in the integral of the nucleation rate with one random offset: the same mean
-// with hardly any noise.
+// Nuclei at random times, or one in each interval of the integral of the nucleation rate that is as long as its weight:
+// the same mean with hardly any noise.
 enum class NucleationSampling { random, even };
 
 struct MonteCarloOptions {

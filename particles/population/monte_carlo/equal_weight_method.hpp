@@ -1,0 +1,195 @@
+// The jumps of the methods whose numerical particles all have the same weight, for any type of particles, store and way
+// to keep the number of particles in range (see equal_weight_sample.hpp). Without treatment of deferred growth: that is
+// a method around this one.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "particles/population/monte_carlo/equal_rates.hpp"
+#include "particles/population/monte_carlo/equal_weight_sample.hpp"
+#include "particles/population/monte_carlo/jump_process.hpp"
+#include "particles/population/monte_carlo/sample_statistics.hpp"
+
+namespace lampblack {
+
+template <ParticleType Type, class Store, MonteCarloMethod Method>
+class EqualWeightMethod {
+ public:
+  using Entry = typename Store::Entry;
+
+  EqualWeightMethod(const Type& type, const PopulationModel& model, const InitialPopulation& initial,
+                    const MonteCarloOptions& options, RandomStream& random)
+      : type_(type),
+        breakage_(model.breakage),
+        growth_(model.growth),
+        alone_(!model.coagulation && !model.breakage && !model.deposition && !model.nucleation),
+        retuneAfter_(options.particles),
+        sample_(Store(EqualRates<Type>(type, model)), initialWeight(initial, options), options.particles) {
+    if (model.nucleation) nucleus_ = rates().entry(type.make(model.nucleation->volume));
+    for (const double v : initialVolumes(initial, options.particles, random)) sample_.put(rates().entry(type.make(v)));
+    retune();
+    sample_.settle(random, counters_);
+    measureGrowth();
+  }
+
+  [[nodiscard]] double coagulationRate() const {
+    return size() < 2 ? 0.0 : sample_.weight() * sample_.store().pairRate();
+  }
+  bool coagulate(RandomStream& random) {
+    Entry i, j;
+    if (!sample_.store().drawPair(random, i, j)) return false;
+    sample_.taken(i);
+    sample_.taken(j);
+    sample_.put(rates().entry(type_.coagulated(i.particle, j.particle)));
+    ++counters_.coagulations;
+    if (rates().tunable() && --retuneAfter_ == 0) retune();
+    sample_.settle(random, counters_);
+    return true;
+  }
+
+  [[nodiscard]] double breakageRate() const { return sample_.store().singleRate(SingleProcess::breakage); }
+  bool breakUp(RandomStream& random) {
+    Entry parent;
+    if (!sample_.store().drawSingle(SingleProcess::breakage, random, parent)) return false;
+    sample_.taken(parent);
+    if (breakage_->daughters == BreakageOptions::Daughters::equal) {
+      sample_.put(rates().entry(type_.fragment(parent.particle, 1.0 / breakage_->fragments)),
+                  static_cast<std::size_t>(breakage_->fragments));
+    } else {
+      const double fraction = random.uniform();
+      sample_.put(rates().entry(type_.fragment(parent.particle, fraction)));
+      sample_.put(rates().entry(type_.fragment(parent.particle, 1 - fraction)));
+    }
+    ++counters_.breakages;
+    sample_.settle(random, counters_);
+    return true;
+  }
+
+  [[nodiscard]] double depositionRate() const { return sample_.store().singleRate(SingleProcess::deposition); }
+  bool deposit(RandomStream& random) {
+    Entry gone;
+    if (!sample_.store().drawSingle(SingleProcess::deposition, random, gone)) return false;
+    ++counters_.depositions;
+    lose(gone, random);
+    return true;
+  }
+
+  [[nodiscard]] double condensationRate() const { return sample_.store().singleRate(SingleProcess::condensation); }
+  bool condense(RandomStream& random) {
+    Entry before;
+    if (!sample_.store().drawSingle(SingleProcess::condensation, random, before)) return false;
+    ++counters_.condensations;
+    const auto after = rates().growthJump().jumped(before.particle);
+    if (!after) {
+      ++counters_.vanished;
+      lose(before, random);
+      return true;
+    }
+    sample_.taken(before);
+    sample_.put(rates().entry(*after));
+    sample_.massChanged();
+    return true;
+  }
+
+  void nucleate(RandomStream& random) {
+    sample_.put(*nucleus_);
+    ++counters_.nucleations;
+    sample_.massChanged();
+    sample_.settle(random, counters_);
+  }
+  [[nodiscard]] double nucleusWeight() const { return sample_.weight(); }
+
+  // Continuous growth. The number of particles is brought into range by the event that follows.
+  void grow(double dt) {
+    sample_.transform([&](Entry& entry) {
+      const auto grown = type_.grown(entry.particle, growth_.condensation, growth_.surface(), dt);
+      const double v = type_.volume(grown);
+      if (!(v > 0) || v < growth_.smallestVolume) {
+        ++counters_.vanished;
+        return false;
+      }
+      entry = rates().entry(grown);
+      return true;
+    });
+    sample_.massChanged();
+    if (rates().tunable()) retune();
+    measureGrowth();
+  }
+  [[nodiscard]] double growthStep() const { return growthStep_; }
+  void dilute(double factor) { sample_.dilute(factor); }
+  void beginStep(double, double) {}
+  void atTime(double) {}
+  void endStep() {}
+
+  [[nodiscard]] bool gelled() const { return sample_.gelled(); }
+  [[nodiscard]] std::array<double, 4> moments() const { return sampleMoments(sample_.store(), sample_.weight()); }
+  [[nodiscard]] std::vector<double> numberInBins(std::span<const double> edges) const {
+    return sampleInBins(sample_.store(), sample_.weight(), edges);
+  }
+  [[nodiscard]] double geometricDeviation() const {
+    return sampleGeometricDeviation(sample_.store(), [&](const Entry& entry) {
+      return entry.diameter > 0 ? entry.diameter : type_.collisionDiameter(entry.particle);
+    });
+  }
+  [[nodiscard]] std::size_t size() const { return sample_.size(); }
+  [[nodiscard]] std::size_t bytes() const { return sample_.store().bytes(); }
+  PopulationCounters& counters() { return counters_; }
+  [[nodiscard]] const Store& store() const { return sample_.store(); }
+  [[nodiscard]] double weight() const { return sample_.weight(); }
+
+ private:
+  static constexpr double growthPart = 0.05;  // by which volumes change in a step of splitting
+
+  [[nodiscard]] const auto& rates() const { return sample_.store().rates(); }
+
+  void lose(const Entry& gone, RandomStream& random) {
+    sample_.taken(gone);
+    sample_.massChanged();
+    sample_.settle(random, counters_);
+  }
+
+  // A majorant that suits the particles as they are; with the cost of N events, after N events.
+  void retune() {
+    retuneAfter_ = std::max<std::size_t>(size(), 16);
+    if (!rates().tunable() || size() == 0) return;
+    Store& store = sample_.store();
+    store.rates().tune([&](const auto& f) { store.forEach(f); });
+    store.transform([](const Entry&) { return true; });
+  }
+
+  // The step over which growth changes the mean logarithm of the volumes, or that of a nucleus, by `growthPart`.
+  // Without other processes growth is exact, however long the step.
+  void measureGrowth() {
+    growthStep_ = std::numeric_limits<double>::infinity();
+    if (!growth_.active() || growth_.treatment != GrowthOptions::Treatment::split) return;
+    if (growth_.step > 0) {
+      growthStep_ = growth_.step;
+      return;
+    }
+    if (alone_) return;
+    const GrowthJump<Type>& law = rates().growthJump();
+    double sum = 0;
+    sample_.store().forEach(
+        [&](const Entry& entry) { sum += std::abs(law.speed(entry.particle)) / type_.volume(entry.particle); });
+    double rate = size() > 0 ? sum / static_cast<double>(size()) : 0.0;
+    if (nucleus_) rate = std::max(rate, std::abs(law.speed(nucleus_->particle)) / type_.volume(nucleus_->particle));
+    if (rate > 0) growthStep_ = growthPart / rate;
+  }
+
+  Type type_;
+  std::optional<BreakageOptions> breakage_;
+  GrowthOptions growth_;
+  bool alone_;
+  std::size_t retuneAfter_;
+  double growthStep_ = 0;
+  std::optional<Entry> nucleus_;
+  EqualWeightSample<Store, Method> sample_;
+  PopulationCounters counters_;
+};
+
+}  // namespace lampblack

@@ -1,0 +1,170 @@
+// The numerical particles of the methods with equal weights, and how each method keeps their number in range. Every
+// particle stands for `weight` real ones per m3; 1/weight is the volume of the sample.
+//
+// - dsmc: of N + 1 particles one drawn uniformly is removed and the sample shrinks by N/(N+1); at half of N all are
+//   doubled (Goodson and Kraft 2002). Means of all moments are exact; M_1 is conserved as long as nothing is removed.
+// - constantVolume: below N/2 all are doubled, above 2N a random half is discarded (Maisels, Kruis, Fissan 2004), where
+//   mass is conserved in the mean only.
+// - constantNumberByMass: after each event copies of particles drawn uniformly fill the gap, or such particles go, and
+//   the weight changes so that M_1 stays what the event left (Smith and Matsoukas 1998; Lin, Lee, Matsoukas 2002). The
+//   weight is a quotient of random sums, which biases M_0, M_2, M_3 by O(1/N) for each e-fold of change in number.
+// - constantNumberByNumber: likewise, so that M_0 stays what the event left; M_1 then fluctuates around the exact one.
+//
+// An ensemble that starts empty fills up first: it is not doubled, nor are particles copied, before it was 3/4 full
+// (constant number: full).
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "particles/population/monte_carlo/compensated_sum.hpp"
+#include "particles/population/monte_carlo/initial_sample.hpp"
+#include "particles/population/monte_carlo/store_operations.hpp"
+
+namespace lampblack {
+
+template <class Store, MonteCarloMethod Method>
+class EqualWeightSample {
+ public:
+  using Entry = typename Store::Entry;
+  static constexpr bool keepsMass = Method == MonteCarloMethod::constantNumberByMass;
+  static constexpr bool constantNumber = keepsMass || Method == MonteCarloMethod::constantNumberByNumber;
+
+  EqualWeightSample(Store store, double weight, std::size_t capacity)
+      : store_(std::move(store)),
+        capacity_(capacity),
+        fullAt_(constantNumber ? capacity : capacity - capacity / 4),
+        weight_(weight),
+        tracked_(keepsMass || store_.rates().gels()),
+        // See gelled().
+        gelShare_(std::min(0.5, 2 / std::cbrt(static_cast<double>(capacity)))) {}
+
+  [[nodiscard]] Store& store() { return store_; }
+  [[nodiscard]] const Store& store() const { return store_; }
+  [[nodiscard]] double weight() const { return weight_; }
+  [[nodiscard]] std::size_t size() const { return store_.size(); }
+
+  // Bookkeeping of what an event takes out and puts in.
+  void put(const Entry& entry, std::size_t copies = 1) {
+    store_operations::insert(store_, entry, copies);
+    if (tracked_) changed(entry, static_cast<double>(copies));
+  }
+  void taken(const Entry& entry) {
+    if (tracked_) changed(entry, -1);
+  }
+  // To be called after an event that changes the mass, and after growth.
+  void massChanged() {
+    if constexpr (keepsMass) mass_ = weight_ * volume_.value();
+  }
+  // To be called when an event is over: brings the number of particles into range.
+  void settle(RandomStream& random, PopulationCounters& counters) {
+    const std::size_t count = size();
+    if (!filled_) {
+      if (count < fullAt_) return;
+      filled_ = true;
+      massChanged();
+    }
+    if (count == 0) return;
+    if constexpr (constantNumber) {
+      if (count != capacity_) restore(random, counters);
+    } else if constexpr (Method == MonteCarloMethod::dsmc) {
+      if (2 * count <= capacity_ || count > capacity_) adjust(random, counters);
+    } else {
+      if (2 * count < capacity_ || count > 2 * capacity_) step(random, counters);
+    }
+  }
+
+  void dilute(double factor) {
+    weight_ *= factor;
+    mass_ *= factor;
+  }
+  // f(Entry&) -> bool, as transform() of a store.
+  template <class F>
+  void transform(F f) {
+    store_.transform(f);
+    measure();
+  }
+
+  // Whether one particle holds more than 2 N^(-1/3) of the mass, N being the capacity, or half of it if that is less.
+  // At the gel point of N merging masses the largest cluster is of the order of N^(2/3) of them (Aldous 1997, for the
+  // multiplicative kernel), before it of the order of log N, after it of the order of N: the time at which the share
+  // exceeds a few N^(-1/3) tends to the gel point as N grows, the width of the transition being O(N^(-1/3)).
+  [[nodiscard]] bool gelled() const {
+    if (!store_.rates().gels() || !filled_ || !(largest_ > gelShare_ * volume_.value())) return false;
+    // The largest may be gone.
+    largest_ = 0;
+    store_.forEach([&](const Entry& entry) { largest_ = std::max(largest_, volumeOf(entry)); });
+    return largest_ > gelShare_ * volume_.value();
+  }
+
+ private:
+  [[nodiscard]] double volumeOf(const Entry& entry) const { return store_.rates().type().volume(entry.particle); }
+  void changed(const Entry& entry, double copies) {
+    const double v = volumeOf(entry);
+    volume_.add(copies * v);
+    largest_ = std::max(largest_, v);
+  }
+  void measure() {
+    if (!tracked_) return;
+    CompensatedSum sum;
+    store_.forEach([&](const Entry& entry) { sum.add(volumeOf(entry)); });
+    volume_ = sum;
+  }
+
+  // Constant number.
+  void restore(RandomStream& random, PopulationCounters& counters) {
+    const std::size_t before = size();
+    for (; size() < capacity_; ++counters.copies) {
+      const Entry copy = store_operations::copyUniform(store_, random);
+      if (tracked_) changed(copy, 1);
+    }
+    removeDownTo(capacity_, random, counters);
+    if constexpr (keepsMass)
+      weight_ = mass_ / volume_.value();
+    else
+      weight_ *= static_cast<double>(before) / static_cast<double>(capacity_);
+  }
+  // Doubling and contraction.
+  void adjust(RandomStream& random, PopulationCounters& counters) {
+    while (2 * size() <= capacity_) duplicate(counters);
+    if (size() <= capacity_) return;
+    weight_ *= static_cast<double>(size()) / static_cast<double>(capacity_);
+    removeDownTo(capacity_, random, counters);
+  }
+  // Stepwise constant volume.
+  void step(RandomStream& random, PopulationCounters& counters) {
+    while (2 * size() < capacity_) duplicate(counters);
+    while (size() > 2 * capacity_) {
+      const std::size_t before = size();
+      store_operations::discardHalf(store_, random);
+      weight_ *= static_cast<double>(before) / static_cast<double>(size());
+      counters.removals += before - size();
+      measure();
+    }
+  }
+  void duplicate(PopulationCounters& counters) {
+    store_operations::duplicate(store_);
+    weight_ *= 0.5;
+    ++counters.doublings;
+    measure();
+  }
+  void removeDownTo(std::size_t count, RandomStream& random, PopulationCounters& counters) {
+    for (; size() > count; ++counters.removals) taken(store_.takeUniform(random));
+  }
+
+  Store store_;
+  std::size_t capacity_, fullAt_;
+  double weight_;    // 1/m3
+  bool tracked_;     // whether the volume of all is kept
+  double gelShare_;  // of the mass in one particle
+  double mass_ = 0;  // M_1, of keepsMass
+  bool filled_ = false;
+  CompensatedSum volume_;       // m3, of all particles
+  mutable double largest_ = 0;  // m3, at least that of the largest particle
+};
+
+}  // namespace lampblack
