@@ -4,6 +4,8 @@
 
 #include "app/flow_case.hpp"
 #include "app/flow_run.hpp"
+#include "app/population_case.hpp"
+#include "app/population_run.hpp"
 #include "app/reactor_case.hpp"
 #include "app/reactor_run.hpp"
 
@@ -15,6 +17,10 @@ const std::vector<Problem>& problems() {
       {"reactor",
        "Reactors without space: closed at constant pressure or volume, perfectly stirred, plug flow, networks.",
        reactorSchema, checkReactor, runReactor},
+      {"population_balance",
+       "A population of particles in a well-stirred volume of gas: Monte Carlo, sectional and moment methods, "
+       "compared.",
+       populationSchema, checkPopulation, runPopulationBalance},
   };
   return table;
 }

@@ -21,7 +21,7 @@ struct NamedDimension {
   std::string_view unit;     // SI
 };
 
-constexpr std::array<NamedDimension, 32> namedDimensions{{
+constexpr std::array<NamedDimension, 33> namedDimensions{{
     {dimensionless, "a plain number", "0.5", ""},
     {length, "a length", "8 mm", "m"},
     {time, "a time", "10 us", "s"},
@@ -54,6 +54,7 @@ constexpr std::array<NamedDimension, 32> namedDimensions{{
     {absorption, "an inverse length", "10 1/m", "1/m"},
     {perArea, "a number per area", "2.3e19 1/m^2", "1/m^2"},
     {perVolume, "a number per volume", "1e15 1/m^3", "1/m^3"},
+    {ratePerVolume, "a rate per volume", "1e12 1/cm^3/s", "1/m^3/s"},
 }};
 
 const NamedDimension* nameOf(const Dimension& dimension) {

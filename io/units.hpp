@@ -65,6 +65,7 @@ inline constexpr Dimension temperatureGradient = temperature / length;
 inline constexpr Dimension absorption = power(length, -1);
 inline constexpr Dimension perArea = power(length, -2);
 inline constexpr Dimension perVolume = power(length, -3);
+inline constexpr Dimension ratePerVolume = perVolume / time;
 
 // "a velocity", "a number per area"; "a quantity in kg m/s" for a dimension without a name.
 std::string describe(const Dimension& dimension);

@@ -1,0 +1,148 @@
+#include "app/population_case.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "app/population_case_parts.hpp"
+#include "core/constants.hpp"
+#include "core/errors.hpp"
+
+namespace lampblack {
+
+using namespace populationcase;
+
+namespace {
+
+PopulationParticles readParticles(const Deck& deck) {
+  PopulationParticles particles;
+  const std::string type = deck.choice("particles.type");
+  if (type != "volume")
+    throw deck.error("particles.type", fmt::format("particles of type {} are not available yet", type));
+  return particles;
+}
+
+InitialPopulation readInitial(const Deck& deck) {
+  using Distribution = InitialPopulation::Distribution;
+  const std::string section = "initial", type = deck.choice("initial.distribution");
+  const std::vector<std::string> all{"monodisperse", "exponential", "lognormal"};
+  refuseOthers(deck, section,
+               {{"number", all}, {"volume", all}, {"diameter", all}, {"geometric_deviation", {"lognormal"}}},
+               "initial distribution", type);
+  InitialPopulation initial;
+  if (type == "none") return initial;
+  const std::string who = fmt::format("the initial distribution {}", type);
+  initial.distribution = type == "monodisperse"  ? Distribution::monodisperse
+                         : type == "exponential" ? Distribution::exponential
+                                                 : Distribution::lognormal;
+  initial.number = needed(deck, section, "number", who);
+  initial.volume = readSize(deck, section, who);
+  if (type == "lognormal") {
+    if (!deck.has("initial.geometric_deviation"))
+      throw deck.error(section, fmt::format("{} needs the key 'geometric_deviation'", who));
+    initial.geometricDeviation = deck.number("initial.geometric_deviation");
+  }
+  return initial;
+}
+
+PopulationTimes readTimes(const Deck& deck) {
+  PopulationTimes times{deck.quantity("time.end"), static_cast<std::size_t>(deck.integer("time.outputs")), 0};
+  refuseOthers(deck, "time", {{"first", {"logarithmic"}}}, "spacing", deck.choice("time.spacing"));
+  if (deck.choice("time.spacing") == "linear") return times;
+  times.first = needed(deck, "time", "first", "the spacing logarithmic");
+  if (!(times.first < times.end)) throw deck.error("time.first", "expected a time before time.end");
+  if (times.outputs < 2) throw deck.error("time.outputs", "logarithmic spacing needs at least 2 rows");
+  return times;
+}
+
+PopulationBins readBins(const Deck& deck, double end) {
+  PopulationBins bins;
+  if (!deck.has("distribution")) return bins;
+  const double low = deck.quantity("distribution.minimum"), high = deck.quantity("distribution.maximum");
+  const bool logarithmic = deck.choice("distribution.spacing") == "logarithmic";
+  if (!(low < high)) throw deck.error("distribution.maximum", "expected a volume above distribution.minimum");
+  if (logarithmic && !(low > 0))
+    throw deck.error("distribution.minimum", "logarithmic bins need a volume above 0; or spacing: linear");
+  const auto count = static_cast<std::size_t>(deck.integer("distribution.bins"));
+  for (std::size_t k = 0; k <= count; ++k) {
+    const double x = static_cast<double>(k) / static_cast<double>(count);
+    bins.edges.push_back(k == count ? high : logarithmic ? low * std::pow(high / low, x) : low + x * (high - low));
+  }
+  bins.times = deck.has("distribution.times") ? deck.quantities("distribution.times") : std::vector<double>{end};
+  if (bins.times.empty()) throw deck.error("distribution.times", "the list is empty");
+  for (std::size_t k = 0; k < bins.times.size(); ++k) {
+    const std::string key = fmt::format("distribution.times[{}]", k);
+    if (bins.times[k] > end) throw deck.error(key, "this is after time.end");
+    if (k > 0 && !(bins.times[k] > bins.times[k - 1])) throw deck.error(key, "the times have to rise");
+  }
+  return bins;
+}
+
+}  // namespace
+
+double populationcase::readSize(const Deck& deck, const std::string& section, const std::string& who) {
+  if (deck.has(section + ".volume") == deck.has(section + ".diameter"))
+    throw deck.error(section, fmt::format("{} needs either 'volume' or 'diameter'", who));
+  if (const auto volume = deck.optionalQuantity(section + ".volume")) return *volume;
+  const double d = deck.quantity(section + ".diameter");
+  return constants::pi / 6 * d * d * d;
+}
+
+std::vector<double> PopulationTimes::rows() const {
+  std::vector<double> rows{0};
+  for (std::size_t k = 1; k < outputs; ++k) {
+    if (first > 0)
+      rows.push_back(first * std::pow(end / first, static_cast<double>(k - 1) / static_cast<double>(outputs - 1)));
+    else
+      rows.push_back(end * static_cast<double>(k) / static_cast<double>(outputs));
+  }
+  rows.push_back(end);
+  return rows;
+}
+
+bool PopulationCase::conservesMass() const {
+  return !model.nucleation && !model.deposition && !model.growth.active() && model.dilution == 0;
+}
+
+std::unique_ptr<PopulationSolver> makeSolver(const PopulationCase& populationCase, const PopulationMethod& method,
+                                             std::uint64_t repeat) {
+  const PopulationModel& model = populationCase.model;
+  const InitialPopulation& initial = populationCase.initial;
+  if (const auto* sections = std::get_if<SectionalOptions>(&method.options))
+    return makeSectional(model, initial, *sections);
+  if (const auto* moments = std::get_if<MomentOptions>(&method.options)) return makeMoments(model, initial, *moments);
+  MonteCarloOptions options = std::get<MonteCarloOptions>(method.options);
+  options.seed = populationCase.seed;
+  options.repeat = repeat;
+  return makeMonteCarlo(model, initial, options);
+}
+
+PopulationCase readPopulationCase(const Deck& deck) {
+  PopulationCase made;
+  made.name = deck.string("name");
+  made.particles = readParticles(deck);
+  made.model = readModel(deck);
+  made.initial = readInitial(deck);
+  made.times = readTimes(deck);
+  made.bins = readBins(deck, made.times.end);
+  made.repeats = static_cast<std::uint64_t>(deck.integer("repeats"));
+  made.seed = static_cast<std::uint64_t>(deck.integer("seed"));
+  if (made.initial.distribution == InitialPopulation::Distribution::none && !made.model.nucleation)
+    throw deck.error("initial", "there are no particles: 'initial' has none and no process makes any");
+  try {
+    check(made.model, made.initial);
+  } catch (const InputError& error) {
+    throw deck.error("processes", error.what());
+  }
+  made.methods = readMethods(deck, made);
+  for (const PopulationMethod& method : made.methods) {
+    try {
+      makeSolver(made, method, 0);
+    } catch (const InputError& error) {
+      throw deck.error("methods." + method.name, error.what());
+    }
+  }
+  return made;
+}
+
+}  // namespace lampblack

@@ -1,0 +1,158 @@
+// The methods of a population balance deck.
+#include <map>
+
+#include "app/population_case_parts.hpp"
+
+namespace lampblack::populationcase {
+namespace {
+
+const std::map<std::string, MonteCarloMethod> monteCarlo{
+    {"dsmc", MonteCarloMethod::dsmc},
+    {"constant_volume", MonteCarloMethod::constantVolume},
+    {"constant_number_mass", MonteCarloMethod::constantNumberByMass},
+    {"constant_number_number", MonteCarloMethod::constantNumberByNumber},
+    {"mmc", MonteCarloMethod::mmc},
+    {"wfmc", MonteCarloMethod::wfmc},
+    {"samwfmc", MonteCarloMethod::samwfmc},
+    {"sammc", MonteCarloMethod::sammc},
+    {"swa", MonteCarloMethod::swa},
+    {"hybrid", MonteCarloMethod::hybrid}};
+
+void refuseOtherKeys(const Deck& deck, const std::string& section, const std::string& type) {
+  std::vector<std::string> all;
+  for (const auto& [name, method] : monteCarlo) all.push_back(name);
+  const std::vector<std::string> weighted{"mmc", "wfmc", "samwfmc", "sammc", "swa"};
+  const std::vector<std::string> fractions{"wfmc", "samwfmc", "sammc"};
+  refuseOthers(deck, section,
+               {{"particles", all},
+                {"rates", all},
+                {"nucleation", all},
+                {"expected_number", all},
+                {"nucleus_weight", weighted},
+                {"fraction", fractions},
+                {"fraction_of", fractions},
+                {"fraction_constant", fractions},
+                {"merging", {"sammc", "swa"}},
+                {"weight_transfer", {"swa"}},
+                {"threshold", {"hybrid"}},
+                {"sections", {"sectional"}},
+                {"smallest", {"sectional"}},
+                {"largest", {"sectional"}},
+                {"spacing", {"sectional"}},
+                {"moments", {"qmom", "momic"}},
+                {"inversion", {"qmom"}},
+                {"relative_tolerance", {"sectional", "qmom", "momic"}},
+                {"absolute_tolerance", {"sectional"}}},
+               "method", type);
+}
+
+std::size_t count(const Deck& deck, const std::string& key, std::size_t otherwise) {
+  const auto value = deck.optionalInteger(key);
+  return value ? static_cast<std::size_t>(*value) : otherwise;
+}
+
+void readFraction(const Deck& deck, const std::string& section, MonteCarloOptions& options) {
+  const std::string fraction = deck.optionalString(section + ".fraction").value_or("one");
+  refuseOthers(deck, section,
+               {{"fraction_of", {"hyperbolic", "exponential", "stepwise"}}, {"fraction_constant", {"constant"}}},
+               "fraction function", fraction);
+  options.fraction = fraction == "one"           ? FractionFunction::one
+                     : fraction == "hyperbolic"  ? FractionFunction::hyperbolic
+                     : fraction == "exponential" ? FractionFunction::exponential
+                     : fraction == "stepwise"    ? FractionFunction::stepwise
+                                                 : FractionFunction::constant;
+  if (deck.optionalString(section + ".fraction_of") == "weights") options.fractionOf = FractionOf::weights;
+  if (fraction != "constant") return;
+  if (!deck.has(section + ".fraction_constant"))
+    throw deck.error(section, "a constant fraction needs the key 'fraction_constant'");
+  options.fractionConstant = deck.number(section + ".fraction_constant");
+}
+
+MonteCarloOptions readMonteCarlo(const Deck& deck, const std::string& section, const std::string& type,
+                                 const PopulationCase& populationCase) {
+  MonteCarloOptions options;
+  options.method = monteCarlo.at(type);
+  options.particles = count(deck, section + ".particles", options.particles);
+  if (deck.optionalString(section + ".rates") == "exact") options.rates = EventRates::exact;
+  readFraction(deck, section, options);
+  if (deck.optionalString(section + ".merging") == "absolute") options.merging = MergingDifference::absolute;
+  const std::string transfer = deck.optionalString(section + ".weight_transfer").value_or("mass");
+  options.transfer = transfer == "mass"   ? WeightTransfer::mass
+                     : transfer == "half" ? WeightTransfer::half
+                                          : WeightTransfer::harmonic;
+  for (const char* key : {"nucleation", "nucleus_weight"})
+    if (deck.isGiven(section + "." + key) && !populationCase.model.nucleation)
+      throw deck.error(section + "." + key, "there is no nucleation");
+  if (deck.optionalString(section + ".nucleation") == "random") options.nucleation = NucleationSampling::random;
+  options.nucleusWeight = deck.optionalQuantity(section + ".nucleus_weight").value_or(0.0);
+  const bool empty = populationCase.initial.distribution == InitialPopulation::Distribution::none;
+  if (empty && !deck.has(section + ".expected_number"))
+    throw deck.error(section, fmt::format("the method {} needs the key 'expected_number' where 'initial' has no "
+                                          "particles: the number density at which its sample is full",
+                                          type));
+  if (!empty && deck.has(section + ".expected_number"))
+    throw deck.error(section + ".expected_number", "the number density at the start is given by 'initial'");
+  options.expectedNumber = deck.optionalQuantity(section + ".expected_number").value_or(0.0);
+  options.threshold = count(deck, section + ".threshold", options.threshold);
+  return options;
+}
+
+SectionalOptions readSectional(const Deck& deck, const std::string& section) {
+  SectionalOptions options;
+  options.sections = count(deck, section + ".sections", options.sections);
+  options.smallest = needed(deck, section, "smallest", "the method sectional");
+  if (deck.has(section + ".spacing") == deck.has(section + ".largest"))
+    throw deck.error(section, "the method sectional needs either 'spacing' or 'largest'");
+  options.spacing = deck.optionalNumber(section + ".spacing").value_or(0.0);
+  options.largest = deck.optionalQuantity(section + ".largest").value_or(0.0);
+  options.relativeTolerance = deck.optionalNumber(section + ".relative_tolerance").value_or(options.relativeTolerance);
+  options.absoluteTolerance = deck.optionalNumber(section + ".absolute_tolerance").value_or(options.absoluteTolerance);
+  return options;
+}
+
+MomentOptions readMoments(const Deck& deck, const std::string& section, const std::string& type) {
+  MomentOptions options;
+  options.method = type == "qmom" ? MomentMethod::qmom : MomentMethod::momic;
+  options.moments = count(deck, section + ".moments", options.moments);
+  if (deck.optionalString(section + ".inversion") == "product_difference")
+    options.inversion = QuadratureInversion::productDifference;
+  options.relativeTolerance = deck.optionalNumber(section + ".relative_tolerance").value_or(options.relativeTolerance);
+  return options;
+}
+
+// Names become groups of the results file and cells of tables.
+void checkName(const Deck& deck, const std::string& section, const std::string& name) {
+  for (const char c : name) {
+    const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    if (!letter && c != '_' && c != '-')
+      throw deck.error(section, "the name of a method may have letters, digits, '_' and '-'");
+  }
+}
+
+}  // namespace
+
+std::vector<PopulationMethod> readMethods(const Deck& deck, const PopulationCase& populationCase) {
+  std::vector<PopulationMethod> methods;
+  for (const std::string& name : deck.children("methods")) {
+    const std::string section = "methods." + name, type = deck.choice(section + ".type");
+    checkName(deck, section, name);
+    refuseOtherKeys(deck, section, type);
+    PopulationMethod method;
+    method.name = name;
+    method.type = type;
+    if (type == "sectional")
+      method.options = readSectional(deck, section);
+    else if (type == "qmom" || type == "momic")
+      method.options = readMoments(deck, section, type);
+    else
+      method.options = readMonteCarlo(deck, section, type, populationCase);
+    method.claims.fill(false);
+    for (const std::string& moment : deck.strings(section + ".claims"))
+      method.claims[static_cast<std::size_t>(moment[1] - '0')] = true;
+    method.conservesMass = deck.choice(section + ".mass") == "conserved";
+    methods.push_back(std::move(method));
+  }
+  return methods;
+}
+
+}  // namespace lampblack::populationcase

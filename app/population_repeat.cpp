@@ -1,0 +1,103 @@
+#include "app/population_repeat.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <limits>
+
+#include "core/errors.hpp"
+#include "particles/population/gelation_error.hpp"
+
+namespace lampblack {
+namespace {
+
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+
+double cpuSeconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+template <typename Counters>
+auto fields(Counters& c) {
+  return std::array{&c.coagulations, &c.fictitious, &c.nucleations, &c.breakages,  &c.depositions, &c.condensations,
+                    &c.merges,       &c.doublings,  &c.removals,    &c.splitSteps, &c.vanished,    &c.limited};
+}
+
+}  // namespace
+
+std::optional<double> RepeatRecord::gelation() const {
+  return std::isnan(tail()[1]) ? std::nullopt : std::optional(tail()[1]);
+}
+
+PopulationCounters RepeatRecord::counters() const {
+  PopulationCounters counters;
+  const auto into = fields(counters);
+  static_assert(std::tuple_size_v<decltype(fields(counters))> == numCounters);
+  for (std::size_t k = 0; k < numCounters; ++k) *into[k] = static_cast<std::uint64_t>(tail()[2 + k]);
+  return counters;
+}
+
+std::size_t RepeatRecord::rows() const {
+  std::size_t rows = 0;
+  while (rows < shape_.rows && !std::isnan(moment(rows, 0))) ++rows;
+  return rows;
+}
+
+void runRepeat(const PopulationCase& populationCase, const PopulationMethod& method, std::uint64_t repeat,
+               std::optional<double> gelation, const RepeatRecord::Shape& shape, std::span<double> data) {
+  const std::vector<double> rows = populationCase.times.rows();
+  const PopulationBins& bins = populationCase.bins;
+  std::fill(data.begin(), data.end(), missing);
+  double seconds = 0;
+  std::optional<double> gelled;
+  const auto numbers = data.subspan(6 * shape.rows);
+  const auto tail = numbers.subspan(shape.times * shape.bins);
+  try {
+    const std::unique_ptr<PopulationSolver> solver = makeSolver(populationCase, method, repeat);
+    // False where the population has gelled before that.
+    const auto advance = [&](double time) {
+      if (gelled) return false;
+      const double begin = cpuSeconds();
+      try {
+        if (gelation && time >= *gelation)
+          gelled = *gelation;
+        else if (time > solver->time())
+          solver->advance(time);
+      } catch (const GelationError& error) {
+        gelled = error.time();
+      }
+      seconds += cpuSeconds() - begin;
+      return !gelled;
+    };
+    std::size_t next = 0;
+    const auto distributionsUntil = [&](double time) {
+      for (; next < bins.times.size() && bins.times[next] <= time && advance(bins.times[next]); ++next) {
+        const std::vector<double> number = solver->numberInBins(bins.edges);
+        std::copy(number.begin(), number.end(), numbers.begin() + static_cast<std::ptrdiff_t>(next * shape.bins));
+      }
+    };
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+      distributionsUntil(rows[row]);
+      if (!advance(rows[row])) break;
+      const auto moments = solver->moments();
+      std::copy(moments.begin(), moments.end(), data.begin() + static_cast<std::ptrdiff_t>(6 * row));
+      data[6 * row + 4] = solver->geometricDeviation();
+      data[6 * row + 5] = static_cast<double>(solver->particles());
+    }
+    tail[0] = seconds;
+    tail[1] = gelled.value_or(missing);
+    PopulationCounters counters = solver->counters();
+    const auto from = fields(counters);
+    for (std::size_t k = 0; k < RepeatRecord::numCounters; ++k) tail[2 + k] = static_cast<double>(*from[k]);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("method {}: {}", method.name, error.what()));
+  } catch (const NumericsError& error) {
+    throw NumericsError(fmt::format("method {}, repeat {}: {}", method.name, repeat, error.what()));
+  }
+}
+
+}  // namespace lampblack

@@ -1,0 +1,149 @@
+#include "app/population_statistics.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "app/population_accumulator.hpp"
+#include "app/population_repeat.hpp"
+#include "core/errors.hpp"
+#include "particles/population/exact_solutions/exact_solution.hpp"
+
+namespace lampblack {
+namespace {
+
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+// Numbers of repeats that are gathered at a time; bounds the memory and the size of a message.
+constexpr std::size_t gathered = std::size_t{1} << 24;
+
+struct Ranks {
+  MPI_Comm comm;
+  int rank = 0, size = 1;
+
+  explicit Ranks(MPI_Comm all) : comm(all) {
+    MPI_Comm_rank(comm, &rank);
+    MPI_Comm_size(comm, &size);
+  }
+};
+
+ExactReference makeReference(const PopulationCase& populationCase, const ExactSolution* solution) {
+  ExactReference reference;
+  if (solution == nullptr) return reference;
+  reference.name = solution->name();
+  reference.gelation = solution->gelationTime();
+  const auto holds = [&](double time) { return !reference.gelation || time < *reference.gelation; };
+  for (const double time : populationCase.times.rows()) {
+    Moments row{missing, missing, missing, missing};
+    if (holds(time)) {
+      const auto moments = solution->moments(time);
+      for (std::size_t k = 0; k < 4; ++k) row[k] = moments[k].value_or(missing);
+    }
+    reference.moments.push_back(row);
+  }
+  const PopulationBins& bins = populationCase.bins;
+  for (const double time : bins.times) {
+    std::vector<double> number = holds(time) ? solution->numberInBins(time, bins.edges) : std::vector<double>{};
+    if (number.empty()) break;
+    reference.number.push_back(std::move(number));
+  }
+  return reference;
+}
+
+// Wall time of a rank's own work, over the ranks; on rank 0.
+StageTime reduceStage(const Ranks& ranks, const std::string& name, double seconds) {
+  StageTime stage{name, 0, 0, 0};
+  MPI_Reduce(&seconds, &stage.minimum, 1, MPI_DOUBLE, MPI_MIN, 0, ranks.comm);
+  MPI_Reduce(&seconds, &stage.average, 1, MPI_DOUBLE, MPI_SUM, 0, ranks.comm);
+  MPI_Reduce(&seconds, &stage.maximum, 1, MPI_DOUBLE, MPI_MAX, 0, ranks.comm);
+  stage.average /= ranks.size;
+  return stage;
+}
+
+// The records of the repeats [first, end), each from the rank that runs it, in their order on rank 0. `owner` of the
+// first; the following ones go round.
+std::vector<double> runBatch(const Ranks& ranks, const PopulationCase& populationCase, const PopulationMethod& method,
+                             std::uint64_t first, std::uint64_t end, int owner, std::optional<double> gelation,
+                             const RepeatRecord::Shape& shape, double& seconds) {
+  const std::size_t width = shape.size(), total = end - first;
+  const auto size = static_cast<std::size_t>(ranks.size);
+  const auto offset = [&](int rank) { return static_cast<std::size_t>((rank - owner + ranks.size) % ranks.size); };
+  const auto count = [&](int rank) { return offset(rank) < total ? (total - offset(rank) - 1) / size + 1 : 0; };
+  std::vector<double> mine(count(ranks.rank) * width);
+  const double begin = MPI_Wtime();
+  collectively(ranks.comm, [&] {
+    for (std::size_t i = 0; i < count(ranks.rank); ++i)
+      runRepeat(populationCase, method, first + offset(ranks.rank) + i * size, gelation, shape,
+                std::span(mine).subspan(i * width, width));
+    seconds += MPI_Wtime() - begin;
+  });
+  std::vector<int> counts, starts;
+  int sum = 0;
+  for (int r = 0; r < ranks.size; ++r) {
+    counts.push_back(static_cast<int>(count(r) * width));
+    starts.push_back(sum);
+    sum += counts.back();
+  }
+  std::vector<double> all(ranks.rank == 0 ? total * width : 0), ordered(all.size());
+  MPI_Gatherv(mine.data(), static_cast<int>(mine.size()), MPI_DOUBLE, all.data(), counts.data(), starts.data(),
+              MPI_DOUBLE, 0, ranks.comm);
+  if (ranks.rank != 0) return {};
+  for (std::size_t i = 0; i < total; ++i) {
+    const auto source = static_cast<std::size_t>((owner + static_cast<int>(i % size)) % ranks.size);
+    const auto from = all.begin() + starts[source] + static_cast<std::ptrdiff_t>(i / size * width);
+    std::copy(from, from + static_cast<std::ptrdiff_t>(width),
+              ordered.begin() + static_cast<std::ptrdiff_t>(i * width));
+  }
+  return ordered;
+}
+
+}  // namespace
+
+std::optional<double> PopulationStatistics::gelation() const {
+  std::optional<double> earliest;
+  for (const MethodStatistics& method : methods)
+    if (method.gelation) earliest = std::min(earliest.value_or(*method.gelation), *method.gelation);
+  return earliest;
+}
+
+PopulationStatistics runPopulation(MPI_Comm comm, const PopulationCase& populationCase,
+                                   const std::function<void(const MethodStatistics&)>& finished) {
+  const Ranks ranks(comm);
+  PopulationStatistics made;
+  made.rows = populationCase.times.rows();
+  made.bins = populationCase.bins;
+  std::unique_ptr<ExactSolution> solution;
+  collectively(comm, [&] {
+    solution = exactSolution(populationCase.model, populationCase.initial);
+    if (ranks.rank == 0) made.exact = makeReference(populationCase, solution.get());
+  });
+  const std::optional<double> gelation = solution ? solution->gelationTime() : std::nullopt;
+  const RepeatRecord::Shape shape{made.rows.size(), made.bins.times.size(),
+                                  made.bins.edges.empty() ? 0 : made.bins.edges.size() - 1};
+  const std::uint64_t most = std::max<std::uint64_t>(gathered / shape.size(), static_cast<std::uint64_t>(ranks.size));
+  for (const PopulationMethod& method : populationCase.methods) {
+    const std::uint64_t repeats = method.deterministic() ? 1 : populationCase.repeats;
+    MethodAccumulator accumulator(populationCase, method, made, shape);
+    double seconds = 0;
+    for (std::uint64_t first = 0; first < repeats; first += most) {
+      const std::uint64_t end = std::min(repeats, first + most);
+      const auto owner = static_cast<int>(first % static_cast<std::uint64_t>(ranks.size));
+      const std::vector<double> records =
+          runBatch(ranks, populationCase, method, first, end, owner, gelation, shape, seconds);
+      int gelled = 0;
+      for (std::size_t at = 0; at < records.size(); at += shape.size()) {
+        const RepeatRecord record(shape, std::span(records).subspan(at, shape.size()));
+        accumulator.add(record);
+        gelled = gelled != 0 || record.gelation() ? 1 : 0;
+      }
+      MPI_Bcast(&gelled, 1, MPI_INT, 0, comm);
+      if (gelled != 0) break;
+    }
+    const StageTime stage = reduceStage(ranks, method.name, seconds);
+    if (ranks.rank != 0) continue;
+    made.methods.push_back(accumulator.finish());
+    made.methods.back().stage = stage;
+    if (finished) finished(made.methods.back());
+  }
+  return made;
+}
+
+}  // namespace lampblack
