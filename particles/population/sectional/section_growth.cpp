@@ -56,10 +56,11 @@ SectionGrowth::Direction SectionGrowth::direction(const std::vector<double>& vol
 SectionGrowth::Limited SectionGrowth::limited(const Direction& along, std::size_t k, const double* y) const {
   if (scheme_ == SectionGrowthScheme::upwind || k < 2 || k > pivots_) return {0, 0, 0};
   const double here = along.speed[k] * y[along.unknown[k]];
-  const double twice = 2 * along.speed[k - 1] * y[along.unknown[k - 1]];
-  if (here <= 0 || twice <= 0) return {0, 0, 0};
-  if (here <= twice) return {here, along.speed[k], 0};
-  return {twice, 0, 2 * along.speed[k - 1]};
+  const double upstream = along.speed[k - 1] * y[along.unknown[k - 1]];
+  if (here <= 0 || upstream <= 0) return {0, 0, 0};
+  if (upstream >= here) return {here, along.speed[k], 0};
+  const double r = upstream / here;
+  return {upstream * (2 - r), along.speed[k] * r * r, along.speed[k - 1] * 2 * (1 - r)};
 }
 
 void SectionGrowth::addRates(const double* y, double* f) const {
