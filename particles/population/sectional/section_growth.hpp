@@ -3,9 +3,14 @@
 //
 //   F_k = (G_k - w_k L_k + w_{k+1} L_{k+1}) / D_k,   w_k = D_k / (D_k + D_{k-1}).
 //
-// Every choice of L conserves number and gives the volume exactly sum G_k. L = 0 is upwind. L = G keeps the second
-// moment exact as well but makes wiggles; L_k = min(G_k, 2 G_{k-1}) does so where the spectrum is smooth and falls back
-// to upwind at steep fronts, and no number becomes negative.
+// Every choice of L conserves number and gives the volume exactly sum G_k. L = 0 is upwind. L = G would keep the rate
+// of the second moment exact as well but makes wiggles and negative numbers; the limited scheme has, with r =
+// G_{k-1}/G_k,
+//
+//   L_k = G_k where r > 1,  G_k (1 - (1 - r)^2) elsewhere, in the sense of the flux limiters of Sweby (1984).
+//
+// It is close to G where the spectrum is smooth and goes to upwind at steep fronts; its first derivative has no jump,
+// which implicit integration likes, and no number becomes negative.
 #pragma once
 
 #include <cstddef>
