@@ -40,10 +40,12 @@ class EqualRates {
   [[nodiscard]] const GrowthJump<Type>& growthJump() const { return jump_; }
   [[nodiscard]] bool gels() const { return kernel_ && kernel_->gels(); }
   [[nodiscard]] bool tunable() const { return kernel_ && kernel_->tunable(); }
-  // Makes the majorant the best one for these entries; only where all of them are put in anew after it.
+  // Makes the majorant the best one for these entries, forEach(f) calling f(entry) or f(entry, number); only where all
+  // of them are put in anew after it.
   template <class ForEach>
   void tune(ForEach&& forEach) {
-    kernel_->tune([&](const auto& f) { forEach([&](const Entry& entry) { f(properties(entry)); }); });
+    kernel_->tune(
+        [&](const auto& f) { forEach([&](const Entry& entry, double number = 1) { f(properties(entry), number); }); });
   }
 
   [[nodiscard]] Entry entry(const Particle& particle) const {

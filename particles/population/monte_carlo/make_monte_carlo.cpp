@@ -1,6 +1,7 @@
 #include "core/errors.hpp"
 #include "particles/population/model/sphere.hpp"
 #include "particles/population/monte_carlo/equal_weight_solver.hpp"
+#include "particles/population/monte_carlo/hybrid_solver.hpp"
 
 namespace lampblack {
 
@@ -14,6 +15,8 @@ std::unique_ptr<PopulationSolver> makeMonteCarlo(const PopulationModel& model, c
     case MonteCarloMethod::constantNumberByMass:
     case MonteCarloMethod::constantNumberByNumber:
       return makeEqualWeight(sphere, model, initial, options);
+    case MonteCarloMethod::hybrid:
+      return makeHybrid(sphere, model, initial, options);
     default:
       throw InputError("this method is not available yet");
   }
