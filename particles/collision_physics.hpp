@@ -8,11 +8,19 @@
 
 namespace lampblack {
 
-// Mean free path of a gas, m (thesis eq. 7-33): temperature K, pressure Pa, viscosity Pa s, molecular weight kg/mol.
-[[nodiscard]] inline double meanFreePath(double temperature, double pressure, double viscosity,
-                                         double meanMolecularWeight) {
-  return viscosity / pressure *
-         std::sqrt(constants::pi * constants::gasConstant * temperature / (2 * meanMolecularWeight));
+// The gas the particles are in.
+struct KernelGas {
+  double temperature = 0;          // K
+  double pressure = 0;             // Pa
+  double viscosity = 0;            // Pa s
+  double meanMolecularWeight = 0;  // kg/mol
+  double density = 0;              // kg/m3; of the gas, for the buoyancy of settling particles
+};
+
+// Mean free path of the gas, m (thesis eq. 7-33).
+[[nodiscard]] inline double meanFreePath(const KernelGas& gas) {
+  return gas.viscosity / gas.pressure *
+         std::sqrt(constants::pi * constants::gasConstant * gas.temperature / (2 * gas.meanMolecularWeight));
 }
 
 // Cunningham slip correction at Knudsen number 2 lambda / d (Davies 1945; thesis eq. 7-31).

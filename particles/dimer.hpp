@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "particles/kernels.hpp"
+#include "particles/collision_physics.hpp"
 #include "particles/soot_gas.hpp"
 
 namespace lampblack {

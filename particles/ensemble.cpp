@@ -27,7 +27,6 @@ Ensemble::Ensemble(EnsembleOptions options)
     : options_(std::move(options)),
       dimers_(options_.soot),
       random_(options_.seed, options_.owner, streamPurpose),
-      tree_(options_.capacity),
       initialVolume_(static_cast<double>(options_.capacity) / options_.expectedNumberDensity),
       sampleVolume_(initialVolume_) {
   if (options_.capacity < 2) throw InputError("soot ensemble: the capacity needs to be at least 2");
@@ -72,9 +71,13 @@ void Ensemble::removeParticle(std::size_t i) {
   diameters_.pop_back();
 }
 
+bool Ensemble::depleted(std::size_t particles) const {
+  return filled_ && particles > 0 && 2 * particles <= options_.capacity;
+}
+
 bool Ensemble::doubleIfDepleted() {
   const std::size_t n = size();
-  if (!filled_ || n == 0 || 2 * n > options_.capacity) return false;
+  if (!depleted(n)) return false;
   for (auto* values : {&masses_, &hydrogen_, &diameters_}) {
     values->resize(2 * n);
     std::copy_n(values->begin(), n, values->begin() + static_cast<std::ptrdiff_t>(n));
@@ -82,6 +85,29 @@ bool Ensemble::doubleIfDepleted() {
   sampleVolume_ *= 2;
   ++counters_.doublings;
   return true;
+}
+
+CollisionKernelOptions Ensemble::kernelOptions(const SootGasState& gas) const {
+  CollisionKernelOptions kernel;
+  switch (options_.kernel) {
+    case CoagulationKernel::transition:
+      kernel.type = CollisionKernelType::transition;
+      break;
+    case CoagulationKernel::freeMolecular:
+      kernel.type = CollisionKernelType::freeMolecular;
+      break;
+    case CoagulationKernel::constant:
+      kernel.type = CollisionKernelType::constant;
+      kernel.rate = options_.verificationScale;
+      break;
+    case CoagulationKernel::additive:
+      kernel.type = CollisionKernelType::additive;
+      kernel.rate = options_.verificationScale * options_.soot.sootDensity;  // of volumes
+      break;
+  }
+  kernel.gas = gas.kernelGas();
+  kernel.enhancement = options_.soot.vanDerWaals;
+  return kernel;
 }
 
 void Ensemble::advance(const SootGasState& given, double dilutionRate, double dt) {
@@ -113,7 +139,8 @@ void Ensemble::advance(const SootGasState& given, double dilutionRate, double dt
                 0,
                 0,
                 false,
-                false};
+                false,
+                CollisionKernel(kernelOptions(gas))};
   if (medium.dimer.rate > 0) {
     medium.selfCollision = soot.inception ? medium.dimer.selfCollision : 0;
     medium.nucleusMass = 2 * medium.dimer.mass;

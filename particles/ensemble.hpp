@@ -13,8 +13,7 @@
 
 #include "core/random.hpp"
 #include "particles/dimer.hpp"
-#include "particles/kernels.hpp"
-#include "particles/pair_tree.hpp"
+#include "particles/population/model/collision_kernel.hpp"
 #include "particles/soot_gas.hpp"
 #include "particles/surface_chemistry.hpp"
 
@@ -88,11 +87,11 @@ class Ensemble {
   [[nodiscard]] Fluxes fluxes(const Medium& medium, double dt) const;
   void grow(const Medium& medium, double dt);
   void jump(const Medium& medium, double dt);
-  [[nodiscard]] PairKernel buildTree(const Medium& medium);
-  void coagulate(const PairKernel& kernel, std::size_t i, std::size_t j);
+  struct Jumps;  // the population while it jumps
   // Returns by how much the collision sum of the population with dimers changes.
-  double incept(const Medium& medium, const PairKernel& kernel);
-  void setParticle(const PairKernel& kernel, std::size_t i, double mass, double hydrogen);
+  double incept(const Medium& medium, Jumps& jumps);
+  [[nodiscard]] CollisionKernelOptions kernelOptions(const SootGasState& gas) const;
+  [[nodiscard]] bool depleted(std::size_t particles) const;  // so that all are to be copied
   void removeParticle(std::size_t i);
   bool doubleIfDepleted();
   void restart();
@@ -100,7 +99,6 @@ class Ensemble {
   EnsembleOptions options_;
   DimerModel dimers_;
   RandomStream random_;
-  PairTree tree_;
   std::vector<double> masses_, hydrogen_, diameters_;
   double initialVolume_, sampleVolume_;
   bool filled_ = false;  // doubling begins once the ensemble has been full

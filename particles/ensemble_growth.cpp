@@ -50,10 +50,8 @@ double Ensemble::splitStep(const Medium& medium, double dilutionRate, double rem
       fastest = std::max(fastest, massRate / (3 * mass));
       if (options_.soot.coagulation && n > 1) {
         // Coagulation at the rate of equal spheres of the mean diameter.
-        const PairKernel kernel(options_.kernel, medium.gas, options_.soot.vanDerWaals,
-                                PairKernel::Bound::freeMolecular, options_.verificationScale);
-        const auto mean = kernel.terms(mass / n, moment0 / n);
-        fastest = std::max(fastest, 0.5 * kernel.value(mean, mean) * n / sampleVolume_);
+        const CollisionKernel::Properties mean{mass / n / options_.soot.sootDensity, mass / n, moment0 / n};
+        fastest = std::max(fastest, 0.5 * medium.kernel.value(mean, mean) * n / sampleVolume_);
       }
     }
   }

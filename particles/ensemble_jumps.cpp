@@ -1,97 +1,109 @@
-// The stochastic part of an ensemble: coagulation by fictitious jumps under the bound of PairKernel, and inception.
+// The stochastic part of an ensemble: coagulation by fictitious jumps under the majorant of the kernel, and inception.
 #include <cmath>
 
 #include "core/errors.hpp"
 #include "particles/ensemble.hpp"
 #include "particles/ensemble_medium.hpp"
+#include "particles/population/monte_carlo/class_store.hpp"
 
 namespace lampblack {
 namespace {
 
-using Bound = PairKernel::Bound;
+struct SootParticle {
+  double mass, hydrogen, diameter;
+};
 
-// Sum of the bound over all ordered pairs, halved: times 1/V it is the rate of jumps, pairs (i, i) being fictitious.
-double boundTotal(const PairKernel& kernel, const PairKernel::Terms& sums, std::size_t n) {
-  return kernel.scale() * (static_cast<double>(n) * sums.ab + sums.a * sums.b);
-}
+// What the store of the population balance asks of a particle.
+struct SootRates {
+  using Entry = SootParticle;
+  static constexpr bool weighted = false;
+
+  const CollisionKernel* kernel;
+  double density;
+  bool coagulating;
+
+  [[nodiscard]] CollisionKernel::Properties properties(const Entry& p) const {
+    return {p.mass / density, p.mass, p.diameter};
+  }
+  [[nodiscard]] double volume(const Entry& p) const { return p.mass / density; }
+  [[nodiscard]] double weight(const Entry&) const { return 1; }
+  [[nodiscard]] double weightFactor() const { return 1; }
+  [[nodiscard]] std::size_t rank() const { return coagulating ? kernel->rank() : 0; }
+  [[nodiscard]] CollisionKernel::Terms terms(const Entry& p) const { return kernel->terms(properties(p)); }
+  [[nodiscard]] double pair(const Entry& p, const Entry& q) const {
+    return kernel->value(properties(p), properties(q));
+  }
+  [[nodiscard]] double single(SingleProcess, const Entry&) const { return 0; }
+  [[nodiscard]] bool active(SingleProcess) const { return false; }
+};
 
 }  // namespace
 
-PairKernel Ensemble::buildTree(const Medium& medium) {
-  const auto make = [&](Bound bound) {
-    return PairKernel(options_.kernel, medium.gas, options_.soot.vanDerWaals, bound, options_.verificationScale);
-  };
-  const auto fill = [&](const PairKernel& kernel) {
-    tree_.assign(size(), [&](std::size_t i) { return kernel.terms(masses_[i], diameters_[i]); });
-  };
-  const PairKernel kernel = make(Bound::freeMolecular);
-  fill(kernel);
-  if (options_.kernel != CoagulationKernel::transition || size() < 2) return kernel;
-  const PairKernel alternative = make(Bound::continuum);
-  PairKernel::Terms sums{0, 0, 0, 0};
-  for (std::size_t i = 0; i < size(); ++i) {
-    const double slip = tree_.leaf(i).other, d = diameters_[i];
-    sums.a += slip;
-    sums.b += d;
-    sums.ab += slip * d;
+struct Ensemble::Jumps {
+  CollisionKernel kernel;
+  ClassStore<SootRates> store;
+
+  // Bounds are tuned to the population as it is now. What the store draws depends on it and the random numbers only.
+  Jumps(const Ensemble& ensemble, const Medium& medium)
+      : kernel(medium.kernel),
+        store(SootRates{&kernel, ensemble.options_.soot.sootDensity, ensemble.options_.soot.coagulation}) {
+    const auto particle = [&](std::size_t i) {
+      return SootParticle{ensemble.masses_[i], ensemble.hydrogen_[i], ensemble.diameters_[i]};
+    };
+    kernel.tune([&](auto&& f) {
+      for (std::size_t i = 0; i < ensemble.size(); ++i) f(store.rates().properties(particle(i)));
+    });
+    store.insertAll(ensemble.size(), particle);
   }
-  if (boundTotal(kernel, tree_.total(), size()) <= boundTotal(alternative, sums, size())) return kernel;
-  fill(alternative);
-  return alternative;
-}
+  Jumps(const Jumps&) = delete;  // the store points at the kernel
+  Jumps& operator=(const Jumps&) = delete;
 
-void Ensemble::setParticle(const PairKernel& kernel, std::size_t i, double mass, double hydrogen) {
-  masses_[i] = mass;
-  hydrogen_[i] = hydrogen;
-  diameters_[i] = std::cbrt(6 * mass / (constants::pi * options_.soot.sootDensity));
-  tree_.set(i, kernel.terms(mass, diameters_[i]));
-}
+  SootParticle insert(double mass, double hydrogen) {
+    const SootParticle p{mass, hydrogen, std::cbrt(6 * mass / (constants::pi * store.rates().density))};
+    store.insert(p);
+    return p;
+  }
+  void writeTo(Ensemble& ensemble) const {
+    for (auto* values : {&ensemble.masses_, &ensemble.hydrogen_, &ensemble.diameters_}) values->clear();
+    store.forEach([&](const SootParticle& p) {
+      ensemble.masses_.push_back(p.mass);
+      ensemble.hydrogen_.push_back(p.hydrogen);
+      ensemble.diameters_.push_back(p.diameter);
+    });
+  }
+};
 
-void Ensemble::coagulate(const PairKernel& kernel, std::size_t i, std::size_t j) {
-  if (i > j) std::swap(i, j);  // so that the particle moved into j's place is never i
-  const std::size_t last = size() - 1;
-  setParticle(kernel, i, masses_[i] + masses_[j], hydrogen_[i] + hydrogen_[j]);
-  if (j != last) tree_.set(j, PairKernel::Terms(tree_.leaf(last)));
-  tree_.set(last, {0, 0, 0, 0});
-  removeParticle(j);
-  ++counters_.coagulations;
-}
-
-double Ensemble::incept(const Medium& medium, const PairKernel& kernel) {
+double Ensemble::incept(const Medium& medium, Jumps& jumps) {
   ++counters_.inceptions;
-  const std::size_t n = size();
-  const double added = medium.condensing ? medium.collision(medium.nucleusMass, medium.nucleusDiameter) : 0;
-  if (n < options_.capacity) {
-    masses_.push_back(0);
-    hydrogen_.push_back(0);
-    diameters_.push_back(0);
-    setParticle(kernel, n, medium.nucleusMass, medium.nucleusHydrogen);
-    filled_ = filled_ || n + 1 == options_.capacity;
-    return added;
+  const std::size_t n = jumps.store.size();
+  const auto collision = [&](const SootParticle& p) {
+    return medium.condensing ? medium.collision(p.mass, p.diameter) : 0.0;
+  };
+  double change = 0;
+  if (n == options_.capacity) {
+    // Full: of the n + 1 particles one, drawn uniformly, goes, and the sample shrinks with them.
+    ++counters_.contractions;
+    sampleVolume_ *= static_cast<double>(n) / static_cast<double>(n + 1);
+    if (random_.below(n + 1) == n) return 0;
+    change -= collision(jumps.store.takeUniform(random_));
   }
-  // Full: of the n + 1 particles one, drawn uniformly, goes, and the sample shrinks with them.
-  ++counters_.contractions;
-  sampleVolume_ *= static_cast<double>(n) / static_cast<double>(n + 1);
-  const auto victim = static_cast<std::size_t>(random_.below(n + 1));
-  if (victim == n) return 0;
-  const double removed = medium.condensing ? medium.collision(masses_[victim], diameters_[victim]) : 0;
-  setParticle(kernel, victim, medium.nucleusMass, medium.nucleusHydrogen);
-  return added - removed;
+  change += collision(jumps.insert(medium.nucleusMass, medium.nucleusHydrogen));
+  filled_ = filled_ || jumps.store.size() == options_.capacity;
+  return change;
 }
 
 void Ensemble::jump(const Medium& medium, double dt) {
   const bool incepting = medium.selfCollision > 0;
   const bool coagulating = options_.soot.coagulation;
   if (!incepting && (!coagulating || size() < 2)) return;
-  const PairKernel kernel = buildTree(medium);
+  Jumps jumps(*this, medium);
   double collisionSum = dimerCollisionSum(medium);
-  const auto collision = [&](std::size_t i) { return medium.collision(masses_[i], diameters_[i]); };
+  const auto collision = [&](const SootParticle& p) { return medium.collision(p.mass, p.diameter); };
   const bool tracking = incepting && medium.condensing;
 
   double time = 0;
   while (true) {
-    const std::size_t n = size();
-    const double coagulationRate = coagulating && n > 1 ? boundTotal(kernel, tree_.total(), n) / sampleVolume_ : 0;
+    const double coagulationRate = coagulating && jumps.store.size() > 1 ? jumps.store.pairRate() / sampleVolume_ : 0;
     double inceptionRate = 0;
     if (incepting) {
       const double dimers = dimerNumber(medium, collisionSum);
@@ -102,39 +114,26 @@ void Ensemble::jump(const Medium& medium, double dt) {
     time += random_.exponential(rate);
     if (time >= dt) break;
 
-    const double choice = random_.uniform() * rate;
-    if (choice >= coagulationRate) {
-      collisionSum += incept(medium, kernel);
+    if (inceptionRate > 0 && random_.uniform() * rate >= coagulationRate) {
+      collisionSum += incept(medium, jumps);
       continue;
     }
-    // The bound's pairs: one drawn by ab and one uniformly, or one by a and one by b.
-    const PairKernel::Terms& sums = tree_.total();
-    const double first = static_cast<double>(n) * sums.ab;
-    std::size_t i = 0, j = 0;
-    if (choice * (first + sums.a * sums.b) < first * coagulationRate) {
-      i = tree_.draw<&PairKernel::Terms::ab>(random_.uniform());
-      j = static_cast<std::size_t>(random_.below(n));
-    } else {
-      i = tree_.draw<&PairKernel::Terms::a>(random_.uniform());
-      j = tree_.draw<&PairKernel::Terms::b>(random_.uniform());
-    }
-    if (i == j) {
+    SootParticle i{}, j{};
+    if (!jumps.store.drawPair(random_, i, j)) {
       ++counters_.fictitious;
       continue;
     }
-    const PairKernel::Terms &one = tree_.leaf(i), &other = tree_.leaf(j);
-    if (random_.uniform() * kernel.bound(one, other) >= kernel.value(one, other)) {
-      ++counters_.fictitious;
-      continue;
-    }
-    if (tracking) collisionSum -= collision(i) + collision(j);
-    coagulate(kernel, i, j);
-    if (tracking) collisionSum += collision(std::min(i, j));
-    if (doubleIfDepleted()) {
-      tree_.assign(size(), [&](std::size_t k) { return kernel.terms(masses_[k], diameters_[k]); });
+    const SootParticle joined = jumps.insert(i.mass + j.mass, i.hydrogen + j.hydrogen);
+    ++counters_.coagulations;
+    if (tracking) collisionSum += collision(joined) - collision(i) - collision(j);
+    if (depleted(jumps.store.size())) {
+      jumps.store.duplicate();
+      sampleVolume_ *= 2;
+      ++counters_.doublings;
       collisionSum *= 2;
     }
   }
+  jumps.writeTo(*this);
   if (random_.position() >> 33 != 0) throw NumericsError("soot ensemble: the random stream is used up");
 }
 

@@ -14,6 +14,7 @@ struct Ensemble::Medium {
   double dimerHydrogenFraction;  // by mass
   double nucleusMass, nucleusHydrogen, nucleusDiameter;
   bool condensing, surfaceActive;
+  CollisionKernel kernel;  // as it is made, not tuned
 
   [[nodiscard]] double collision(double mass, double diameter) const {
     return DimerModel::particleCollision(dimer, freeMolecular, mass, diameter);

@@ -11,6 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "particles/collision_physics.hpp"
+
 namespace lampblack {
 
 // Largest number of PAH species a deck may list; lets the models keep per-PAH arrays on the stack.
@@ -26,6 +28,8 @@ struct SootGasState {
   // Molar concentrations, mol/m3.
   double H = 0, H2 = 0, OH = 0, H2O = 0, O2 = 0, C2H2 = 0;
   std::span<const double> pah;  // same order as SootModelOptions::pah
+
+  [[nodiscard]] KernelGas kernelGas() const { return {temperature, pressure, viscosity, meanMolecularWeight, density}; }
 };
 
 // Concentrations (mol/m3) of the species soot exchanges with, read and written by TwoEquationSoot::advance.

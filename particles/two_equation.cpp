@@ -41,7 +41,7 @@ double TwoEquationSoot::surfaceArea(const Population& population) const {
 double TwoEquationSoot::diffusivity(const SootGasState& gas, const Population& population) const {
   const double d = std::max(meanDiameter(population), nucleusDiameter_);
   return constants::boltzmann * gas.temperature / (3 * constants::pi * gas.viscosity * d) *
-         slipCorrection(2 * meanFreePath(gas) / d);
+         slipCorrection(2 * meanFreePath(gas.kernelGas()) / d);
 }
 
 TwoEquationSoot::Frozen TwoEquationSoot::freeze(const SootGasState& gas) const {
@@ -50,8 +50,8 @@ TwoEquationSoot::Frozen TwoEquationSoot::freeze(const SootGasState& gas) const {
                                     gas.temperature, gas.pressure, gas.viscosity, gas.meanMolecularWeight));
   }
   return {SurfaceChemistry(options_, gas.temperature), gas.temperature,
-          freeMolecularPrefactor(gas.temperature, options_.vanDerWaals), continuumPrefactor(gas),
-          2 * meanFreePath(gas)};
+          freeMolecularPrefactor(gas.temperature, options_.vanDerWaals),
+          continuumPrefactor(gas.temperature, gas.viscosity), 2 * meanFreePath(gas.kernelGas())};
 }
 
 TwoEquationSoot::Rates TwoEquationSoot::rates(const Frozen& frozen, const State& state) const {

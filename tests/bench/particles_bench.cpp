@@ -74,6 +74,7 @@ void coagulation(benchmark::State& state, CoagulationKernel kernel) {
   EnsembleOptions options;
   options.capacity = static_cast<std::size_t>(state.range(0));
   options.kernel = kernel;
+  options.soot = naphthalene();
   options.soot.surfaceGrowth = options.soot.oxidation = false;
   const std::vector<double> masses(options.capacity, 1e-23);
   double events = 0;

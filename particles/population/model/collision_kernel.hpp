@@ -32,15 +32,6 @@ enum class CollisionKernelType {
 
 [[nodiscard]] std::string_view nameOf(CollisionKernelType type);  // as messages call it: "free-molecular", ...
 
-// The gas the particles are in; needed by the physical kernels.
-struct KernelGas {
-  double temperature = 0;          // K
-  double pressure = 0;             // Pa
-  double viscosity = 0;            // Pa s
-  double meanMolecularWeight = 0;  // kg/mol
-  double density = 0;              // kg/m3; of the gas, for the buoyancy of settling particles
-};
-
 struct CollisionKernelOptions {
   CollisionKernelType type = CollisionKernelType::constant;
   double rate = 0;  // A of the first three: m3/s, 1/s, 1/(m3 s)

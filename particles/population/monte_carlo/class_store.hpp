@@ -55,6 +55,18 @@ class ClassStore {
     slots_.clear();
     sums_.reset(1);
   }
+  // Inserts `count` entries, entryOf(0) first; the sums are computed once at the end.
+  template <class EntryOf>
+  void insertAll(std::size_t count, EntryOf entryOf) {
+    for (std::size_t k = 0; k < count; ++k) {
+      const Entry entry = entryOf(k);
+      const std::size_t slot = slotOf(rates_.volume(entry));
+      classes_[slot].push_back(entry);
+      raiseBounds(slot, entry);
+    }
+    size_ += count;
+    for (std::size_t slot = 0; slot < classes_.size(); ++slot) update(slot);
+  }
   void insert(const Entry& entry, std::size_t copies = 1) {
     const std::size_t slot = slotOf(rates_.volume(entry));
     for (std::size_t k = 0; k < copies; ++k) classes_[slot].push_back(entry);
@@ -213,9 +225,11 @@ class ClassStore {
     entries.reserve(size_);
     for (auto& members : classes_) entries.insert(entries.end(), members.begin(), members.end());
     clear();
+    std::size_t kept = 0;
     for (Entry& entry : entries) {
-      if (f(entry)) insert(entry);
+      if (f(entry)) entries[kept++] = entry;
     }
+    insertAll(kept, [&](std::size_t k) { return entries[k]; });
   }
 
  private:

@@ -91,8 +91,9 @@ TEST(Majorants, SumOverAllPairsIsTheProductOfSums) {
   }
 }
 
-// The total of the best mixture is the harmonic mean of the totals of the two bounds; those of the limits are the
-// totals of the free-molecular and the continuum kernel with the same gas.
+// The total of the best mixture is the harmonic mean of the totals of the two bounds, which are those of the
+// free-molecular and the continuum kernel with the same gas. A share t off by dt costs dt^2 / (t (1 - t)); with slip to
+// 16 % that is at most 0.16^2 t (1 - t) <= 0.0064.
 TEST(Majorants, OfTheTransitionKernelIsTheHarmonicMeanOfTheLimits) {
   const auto particles = population(300, 3);
   const double free = total(CollisionKernel(test::kernelOptions(CollisionKernelType::freeMolecular)), particles);
@@ -100,7 +101,8 @@ TEST(Majorants, OfTheTransitionKernelIsTheHarmonicMeanOfTheLimits) {
   CollisionKernel kernel(test::kernelOptions(CollisionKernelType::transition));
   EXPECT_NEAR(total(kernel, particles) / free, 1, 1e-12);  // as it is made
   tuneFor(kernel, particles);
-  EXPECT_NEAR(total(kernel, particles) / harmonicMean(free, continuum), 1, 1e-12);
+  EXPECT_GE(total(kernel, particles) / harmonicMean(free, continuum), 1 - 1e-12);
+  EXPECT_LE(total(kernel, particles) / harmonicMean(free, continuum), 1.0064);
 }
 
 // What a simulation sees: the share of attempts that are accepted, for log-normal populations in flames and in air.
