@@ -148,6 +148,53 @@ TEST(SectionalBudgets, EverythingThatLeavesIsCounted) {
   EXPECT_NEAR((before + left.vanishedVolume + taken) / volume, 1, 1e-5);  // the rule's error is 0.8^2 (6/2000)^2 / 12
 }
 
+// Every particle breaks at the same rate, whatever its size: most of the number ends up far below the first pivot. The
+// section at zero keeps it, and its coagulation and breakage, so that the number still follows its exact equation.
+TEST(SectionalBudgets, NumberBelowTheFirstPivotIsNotLost) {
+  PopulationModel model = coagulating(CollisionKernelType::constant);
+  InitialPopulation initial = start(Distribution::exponential);
+  initial.number = 1;
+  for (const auto daughters : {BreakageOptions::Daughters::equal, BreakageOptions::Daughters::uniform}) {
+    model.breakage = BreakageOptions{10, 0, 2, daughters};
+    SectionalSolver solver(model, initial, test::gridOf(40, 1e-2, 100));
+    solver.advance(0.5);
+    // dM0/dt = 10 M0 - M0^2 / 2.
+    const double growth = std::exp(5.0), exact = growth / (1 + (growth - 1) / 20);
+    EXPECT_NEAR(solver.moments()[0], exact, 1e-6 * exact);
+    EXPECT_NEAR(solver.moments()[1] + solver.left().overVolume, 1, 1e-12);
+    EXPECT_GT(solver.numbers()[0], 0.1 * exact);
+  }
+}
+
+// Constants like those of a flame: nuclei of 1 nm, surface growth, coagulation from the free-molecular regime into the
+// transition, over nine decades of volume.
+TEST(SectionalSoot, NucleationGrowthAndCoagulationTogether) {
+  PopulationModel model = coagulating(CollisionKernelType::transition);
+  model.coagulation->enhancement = 2.2;
+  model.coagulation->gas = {1700, 101325, 6e-5, 0.028, 0.2};
+  NucleationOptions nuclei;
+  nuclei.source = NucleationOptions::Source::precursor;
+  nuclei.rateConstant = 100;
+  nuclei.precursor = 1e20;
+  nuclei.volume = 1e-27;
+  model.nucleation = nuclei;
+  model.growth.surfaceGrowth = 2e-7;
+  const auto run = [&](std::size_t sections) {
+    SectionalSolver solver(model, {}, test::gridOf(sections, 1e-27, 1e-18));
+    solver.advance(0.05);
+    for (const double number : solver.numbers()) EXPECT_GT(number, -1e-10 * solver.moments()[0]);
+    EXPECT_LT(solver.left().overVolume, 1e-9 * solver.moments()[1]);
+    return solver.moments();
+  };
+  // Second order in the spacing: of the difference of two levels a third is left in the finer one.
+  const auto coarse = run(31), medium = run(61), fine = run(121);
+  for (const std::size_t k : {0U, 1U}) {
+    const double order = std::log2(std::abs((coarse[k] - medium[k]) / (medium[k] - fine[k])));
+    EXPECT_NEAR(order, 2, 0.75) << "M" << k;
+    EXPECT_LT(std::abs(medium[k] - fine[k]) / 3, 0.005 * fine[k]) << "M" << k;
+  }
+}
+
 TEST(SectionalNucleation, GivesTheNumberAndVolumeOfTheSchedule) {
   NucleationOptions table;
   table.source = NucleationOptions::Source::table;
