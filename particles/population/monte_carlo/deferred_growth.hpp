@@ -7,16 +7,20 @@
 // are frozen over a step, the treatment has no error of the step. A longer step costs more fictitious jumps, a shorter
 // one more updates of the whole population.
 //
-// Deferred<Type> is a type of particles and DeferredMethod<Method> a method, Method being one of Deferred<Type>.
+// Deferred<Type> is a type of particles and DeferredMethod<Method> a method, Method being one of Deferred<Type>. What
+// shrinks to nothing within a step has no events any more and is removed at the end of the step; until then it counts
+// as a numerical particle.
 #pragma once
 
 #include <algorithm>
-#include <limits>
 #include <memory>
+#include <type_traits>
 #include <utility>
 
+#include "core/errors.hpp"
 #include "particles/population/model/particle_type.hpp"
 #include "particles/population/model/population_model.hpp"
+#include "particles/population/monte_carlo/monte_carlo_options.hpp"
 
 namespace lampblack {
 
@@ -150,5 +154,21 @@ class DeferredMethod : public Method {
  private:
   GrowthClock& clock() { return Method::type().clock(); }
 };
+
+template <class Type>
+inline constexpr bool isDeferred = false;
+template <class Type>
+inline constexpr bool isDeferred<Deferred<Type>> = true;
+template <class Type, class Method>
+using DeferredWhereChanging = std::conditional_t<isDeferred<Type>, DeferredMethod<Method>, Method>;
+
+// Throws InputError where growth cannot be deferred.
+[[nodiscard]] inline bool defersGrowth(const PopulationModel& model, const MonteCarloOptions& options) {
+  const bool deferred = model.growth.active() && model.growth.treatment == GrowthOptions::Treatment::deferred;
+  if (deferred && options.rates == EventRates::exact) {
+    throw InputError("deferred growth needs rates: majorant, as rates change while they wait; or use treatment: split");
+  }
+  return deferred;
+}
 
 }  // namespace lampblack

@@ -30,7 +30,10 @@ class EqualWeightMethod {
         alone_(!model.coagulation && !model.breakage && !model.deposition && !model.nucleation),
         retuneAfter_(options.particles),
         sample_(Store(EqualRates<Type>(type, model)), initialWeight(initial, options), options.particles) {
-    if (model.nucleation) nucleus_ = rates().entry(type.make(model.nucleation->volume));
+    if (model.nucleation) {
+      nucleusVolume_ = model.nucleation->volume;
+      nucleus_ = rates().entry(type_.make(nucleusVolume_));
+    }
     for (const double v : initialVolumes(initial, options.particles, random)) sample_.put(rates().entry(type.make(v)));
     retune();
     sample_.settle(random, counters_);
@@ -97,6 +100,8 @@ class EqualWeightMethod {
   }
 
   void nucleate(RandomStream& random) {
+    // Particles that change carry the time they are of.
+    if constexpr (EqualRates<Type>::changing) nucleus_ = rates().entry(type_.make(nucleusVolume_));
     sample_.put(*nucleus_);
     ++counters_.nucleations;
     sample_.massChanged();
@@ -139,11 +144,13 @@ class EqualWeightMethod {
   [[nodiscard]] std::size_t size() const { return sample_.size(); }
   [[nodiscard]] std::size_t bytes() const { return sample_.store().bytes(); }
   PopulationCounters& counters() { return counters_; }
+  [[nodiscard]] const Type& type() const { return type_; }
   [[nodiscard]] const Store& store() const { return sample_.store(); }
   [[nodiscard]] double weight() const { return sample_.weight(); }
 
  private:
-  static constexpr double growthPart = 0.05;  // by which volumes change in a step of splitting
+  // By which volumes change in a step. Splitting has an error of second order in it, deferment none.
+  static constexpr double growthPart = EqualRates<Type>::changing ? 0.3 : 0.05;
 
   [[nodiscard]] const auto& rates() const { return sample_.store().rates(); }
 
@@ -166,7 +173,7 @@ class EqualWeightMethod {
   // Without other processes growth is exact, however long the step.
   void measureGrowth() {
     growthStep_ = std::numeric_limits<double>::infinity();
-    if (!growth_.active() || growth_.treatment != GrowthOptions::Treatment::split) return;
+    if (!growth_.active() || growth_.treatment == GrowthOptions::Treatment::jumps) return;
     if (growth_.step > 0) {
       growthStep_ = growth_.step;
       return;
@@ -187,6 +194,7 @@ class EqualWeightMethod {
   bool alone_;
   std::size_t retuneAfter_;
   double growthStep_ = 0;
+  double nucleusVolume_ = 0;  // m3
   std::optional<Entry> nucleus_;
   EqualWeightSample<Store, Method> sample_;
   PopulationCounters counters_;

@@ -5,6 +5,7 @@
 
 #include "core/errors.hpp"
 #include "particles/population/monte_carlo/class_store.hpp"
+#include "particles/population/monte_carlo/deferred_growth.hpp"
 #include "particles/population/monte_carlo/equal_weight_method.hpp"
 #include "particles/population/monte_carlo/exact_store.hpp"
 #include "particles/population/monte_carlo/make_monte_carlo.hpp"
@@ -15,9 +16,10 @@ template <ParticleType Type, class Store, MonteCarloMethod Method>
 std::unique_ptr<PopulationSolver> makeEqualWeightWith(const Type& type, const PopulationModel& model,
                                                       const InitialPopulation& initial,
                                                       const MonteCarloOptions& options) {
-  using Process = JumpProcess<EqualWeightMethod<Type, Store, Method>>;
+  using Jumps = DeferredWhereChanging<Type, EqualWeightMethod<Type, Store, Method>>;
+  using Process = JumpProcess<Jumps>;
   RandomStream random(options.seed, options.repeat, Process::streamPurpose);
-  EqualWeightMethod<Type, Store, Method> method(type, model, initial, options, random);
+  Jumps method(type, model, initial, options, random);
   return std::make_unique<Process>(std::move(method), model, options, random);
 }
 
@@ -42,8 +44,9 @@ std::unique_ptr<PopulationSolver> makeEqualWeightIn(const Type& type, const Popu
 template <ParticleType Type>
 std::unique_ptr<PopulationSolver> makeEqualWeight(const Type& type, const PopulationModel& model,
                                                   const InitialPopulation& initial, const MonteCarloOptions& options) {
-  if (model.growth.active() && model.growth.treatment == GrowthOptions::Treatment::deferred) {
-    throw InputError("methods with equal weights cannot defer growth yet; use split or jumps");
+  if (defersGrowth(model, options)) {
+    const Deferred<Type> deferred(type, model.growth);
+    return makeEqualWeightIn<Deferred<Type>, ClassStore<EqualRates<Deferred<Type>>>>(deferred, model, initial, options);
   }
   if (options.rates == EventRates::exact) {
     return makeEqualWeightIn<Type, ExactStore<EqualRates<Type>>>(type, model, initial, options);
