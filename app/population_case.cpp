@@ -14,14 +14,6 @@ using namespace populationcase;
 
 namespace {
 
-PopulationParticles readParticles(const Deck& deck) {
-  PopulationParticles particles;
-  const std::string type = deck.choice("particles.type");
-  if (type != "volume")
-    throw deck.error("particles.type", fmt::format("particles of type {} are not available yet", type));
-  return particles;
-}
-
 InitialPopulation readInitial(const Deck& deck) {
   using Distribution = InitialPopulation::Distribution;
   const std::string section = "initial", type = deck.choice("initial.distribution");
@@ -101,7 +93,21 @@ std::vector<double> PopulationTimes::rows() const {
 }
 
 bool PopulationCase::conservesMass() const {
-  return !model.nucleation && !model.deposition && !model.growth.active() && model.dilution == 0;
+  const GrowthOptions& growth = model.growth;
+  const bool grows = growth.condensation != 0 || growth.surfaceGrowth != 0 || growth.oxidation != 0;
+  return !model.nucleation && !model.deposition && !grows && model.dilution == 0;
+}
+
+std::unique_ptr<ExactSolution> exactSolution(const PopulationCase& populationCase) {
+  const PopulationModel& model = populationCase.model;
+  // The solutions of kernels and growth that see a diameter or a surface are those of spheres; sintering changes no
+  // volume.
+  const bool sees =
+      model.growth.surface() != 0 || (model.coagulation && CollisionKernel(*model.coagulation).needsDiameter());
+  if (sees && !std::holds_alternative<Sphere>(populationCase.particles)) return nullptr;
+  PopulationModel volumes = model;
+  volumes.growth.always = false;
+  return exactSolution(volumes, populationCase.initial);
 }
 
 std::unique_ptr<PopulationSolver> makeSolver(const PopulationCase& populationCase, const PopulationMethod& method,
@@ -114,14 +120,21 @@ std::unique_ptr<PopulationSolver> makeSolver(const PopulationCase& populationCas
   MonteCarloOptions options = std::get<MonteCarloOptions>(method.options);
   options.seed = populationCase.seed;
   options.repeat = repeat;
-  return makeMonteCarlo(model, initial, options);
+  return std::visit(
+      [&](const auto& type) -> std::unique_ptr<PopulationSolver> {
+        if constexpr (std::is_same_v<std::decay_t<decltype(type)>, Sphere>)
+          return makeMonteCarlo(model, initial, options);
+        else
+          throw InputError("particles of this type are not available yet");
+      },
+      populationCase.particles);
 }
 
 PopulationCase readPopulationCase(const Deck& deck) {
   PopulationCase made;
   made.name = deck.string("name");
-  made.particles = readParticles(deck);
   made.model = readModel(deck);
+  made.particles = readParticles(deck, made.model);
   made.initial = readInitial(deck);
   made.times = readTimes(deck);
   made.bins = readBins(deck, made.times.end);

@@ -11,18 +11,20 @@
 #include <vector>
 
 #include "io/deck.hpp"
+#include "particles/population/exact_solutions/exact_solution.hpp"
+#include "particles/population/model/components.hpp"
+#include "particles/population/model/fractal_aggregate.hpp"
 #include "particles/population/model/population_model.hpp"
+#include "particles/population/model/sphere.hpp"
+#include "particles/population/model/surface_volume.hpp"
 #include "particles/population/moments/moment_options.hpp"
 #include "particles/population/monte_carlo/monte_carlo_options.hpp"
 #include "particles/population/sectional/sectional_options.hpp"
 
 namespace lampblack {
 
-// What a particle is: the type and what it needs to know.
-struct PopulationParticles {
-  enum class Type { volume, fractal, surfaceVolume, components };
-  Type type = Type::volume;
-};
+// What a particle is.
+using PopulationParticles = std::variant<Sphere, FractalAggregate, SurfaceVolume, Components>;
 
 // One method of the deck. Monte Carlo methods are run `repeats` times, the others once.
 struct PopulationMethod {
@@ -52,7 +54,7 @@ struct PopulationBins {
 
 struct PopulationCase {
   std::string name;
-  PopulationParticles particles;
+  PopulationParticles particles{Sphere(1800)};
   PopulationModel model;
   InitialPopulation initial;
   std::vector<PopulationMethod> methods;
@@ -70,6 +72,9 @@ DeckSchema populationSchema();
 
 // Checks what the schema cannot; InputError otherwise. A solver of every method is made once, for its own checks.
 PopulationCase readPopulationCase(const Deck& deck);
+
+// The exact solution of the case; null where none is known.
+std::unique_ptr<ExactSolution> exactSolution(const PopulationCase& populationCase);
 
 // The solver of a method and repeat. InputError.
 std::unique_ptr<PopulationSolver> makeSolver(const PopulationCase& populationCase, const PopulationMethod& method,

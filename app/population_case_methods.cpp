@@ -120,6 +120,24 @@ MomentOptions readMoments(const Deck& deck, const std::string& section, const st
   return options;
 }
 
+// Whether a method keeps M1 to round-off where the processes do.
+bool keepsMass(const PopulationMethod& method, const PopulationModel& model) {
+  const auto* options = std::get_if<MonteCarloOptions>(&method.options);
+  if (options == nullptr) return true;
+  switch (options->method) {
+    case MonteCarloMethod::constantNumberByNumber:
+      return false;
+    case MonteCarloMethod::swa:
+      return options->transfer == WeightTransfer::mass;
+    case MonteCarloMethod::dsmc:
+    case MonteCarloMethod::constantVolume:
+    case MonteCarloMethod::hybrid:
+      return !model.breakage;  // more particles than there is room for: some are taken out at random
+    default:
+      return true;
+  }
+}
+
 // Names become groups of the results file and cells of tables.
 void checkName(const Deck& deck, const std::string& section, const std::string& name) {
   for (const char c : name) {
@@ -137,6 +155,10 @@ std::vector<PopulationMethod> readMethods(const Deck& deck, const PopulationCase
     const std::string section = "methods." + name, type = deck.choice(section + ".type");
     checkName(deck, section, name);
     refuseOtherKeys(deck, section, type);
+    const bool spheres = std::holds_alternative<Sphere>(populationCase.particles);
+    if (!monteCarlo.contains(type) && !spheres)
+      throw deck.error(section + ".type", fmt::format("the method {} is for particles of type volume; these are {}",
+                                                      type, deck.choice("particles.type")));
     PopulationMethod method;
     method.name = name;
     method.type = type;
@@ -149,7 +171,8 @@ std::vector<PopulationMethod> readMethods(const Deck& deck, const PopulationCase
     method.claims.fill(false);
     for (const std::string& moment : deck.strings(section + ".claims"))
       method.claims[static_cast<std::size_t>(moment[1] - '0')] = true;
-    method.conservesMass = deck.choice(section + ".mass") == "conserved";
+    const auto mass = deck.optionalString(section + ".mass");
+    method.conservesMass = mass ? *mass == "conserved" : keepsMass(method, populationCase.model);
     methods.push_back(std::move(method));
   }
   return methods;

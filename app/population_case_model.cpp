@@ -150,7 +150,7 @@ GrowthOptions readGrowth(const Deck& deck) {
   if (deck.has("processes.surface_growth")) growth.surfaceGrowth = deck.quantity("processes.surface_growth.rate");
   if (deck.has("processes.oxidation")) growth.oxidation = deck.quantity("processes.oxidation.rate");
   if (!deck.has(section)) return growth;
-  if (!growth.active())
+  if (!growth.active() && !deck.has("particles.sintering_time"))
     throw deck.error(section, "nothing grows: there is no condensation, surface_growth or oxidation");
   const std::string treatment = deck.choice(section + ".treatment");
   refuseOthers(deck, section, {{"step", {"split", "deferred"}}, {"monomer", {"jumps"}}}, "treatment", treatment);
@@ -163,7 +163,50 @@ GrowthOptions readGrowth(const Deck& deck) {
   return growth;
 }
 
+// Keys of components: a list over the names.
+Components readComponents(const Deck& deck) {
+  const std::vector<std::string> names = deck.children("particles.components");
+  if (names.empty()) throw deck.error("particles", "particles of type components need the section 'components'");
+  std::vector<double> densities, nucleus, condensing;
+  for (const std::string& name : names) {
+    const std::string section = "particles.components." + name;
+    densities.push_back(deck.quantity(section + ".density"));
+    nucleus.push_back(deck.number(section + ".nucleus"));
+    condensing.push_back(deck.number(section + ".condensing"));
+  }
+  try {
+    return {densities, nucleus, condensing};
+  } catch (const InputError& error) {
+    throw deck.error("particles.components", error.what());
+  }
+}
+
 }  // namespace
+
+PopulationParticles readParticles(const Deck& deck, PopulationModel& model) {
+  const std::string section = "particles", type = deck.choice("particles.type");
+  refuseOthers(deck, section,
+               {{"density", {"volume", "fractal", "surface_volume"}},
+                {"fractal_dimension", {"fractal", "surface_volume"}},
+                {"primary_diameter", {"fractal"}},
+                {"sintering_time", {"surface_volume"}},
+                {"components", {"components"}}},
+               "type", type);
+  const double density = model.density;
+  const double dimension = deck.optionalNumber("particles.fractal_dimension").value_or(1.8);
+  if (type == "fractal")
+    return FractalAggregate(density, needed(deck, section, "primary_diameter", "the type fractal"), dimension);
+  if (type == "components") return readComponents(deck);
+  if (type == "volume") return Sphere(density);
+  const auto sintering = deck.optionalQuantity("particles.sintering_time");
+  if (!sintering) return SurfaceVolume(density, dimension);
+  model.growth.always = true;
+  if (!(model.growth.step > 0))
+    throw deck.error("particles.sintering_time", "sintering needs the key 'processes.growth.step'");
+  if (model.growth.treatment == GrowthOptions::Treatment::jumps)
+    throw deck.error("particles.sintering_time", "sintering needs the treatment split or deferred of growth");
+  return SurfaceVolume(density, dimension, *sintering);
+}
 
 PopulationModel readModel(const Deck& deck) {
   PopulationModel model;

@@ -41,6 +41,8 @@ inline double needed(const Deck& deck, const std::string& section, const std::st
 double readSize(const Deck& deck, const std::string& section, const std::string& who);
 
 PopulationModel readModel(const Deck& deck);
+// Sintering makes the model's growth active.
+PopulationParticles readParticles(const Deck& deck, PopulationModel& model);
 std::vector<PopulationMethod> readMethods(const Deck& deck, const PopulationCase& populationCase);
 
 }  // namespace lampblack::populationcase

@@ -10,7 +10,6 @@
 #include "app/population_statistics.hpp"
 #include "app/warnings.hpp"
 #include "core/errors.hpp"
-#include "particles/population/exact_solutions/exact_solution.hpp"
 #include "particles/population/gelation_error.hpp"
 
 namespace lampblack {
@@ -20,7 +19,7 @@ std::string checkPopulation(MPI_Comm comm, const Deck& deck) {
   std::unique_ptr<ExactSolution> exact;
   collectively(comm, [&] {
     populationCase = readPopulationCase(deck);
-    exact = exactSolution(populationCase.model, populationCase.initial);
+    exact = exactSolution(populationCase);
   });
   if (exact && exact->gelationTime() && *exact->gelationTime() <= populationCase.times.end)
     printWarnings(

@@ -23,11 +23,33 @@ void addSizeDependentRate(DeckSchema& schema, const std::string& section, const 
 
 void addParticles(DeckSchema& schema) {
   schema
-      .add(choiceKey("particles.type", {"volume", "fractal", "surface_volume", "components"},
-                     "volume: coalescing spheres; fractal: aggregates of a fractal dimension; surface_volume: volume "
-                     "and surface; components: spheres of several components.")
+      .add(choiceKey(
+               "particles.type", {"volume", "fractal", "surface_volume", "components"},
+               "volume: coalescing spheres; fractal: aggregates of equal primary particles; surface_volume: volume "
+               "and surface; components: spheres of several components by mass.")
                .byDefault("volume"))
-      .add(quantityKey("particles.density", units::density, "Of the material.").byDefault("1800 kg/m^3").above(0));
+      .add(quantityKey("particles.density", units::density, "Of the material; components have their own.")
+               .byDefault("1800 kg/m^3")
+               .above(0))
+      .add(numberKey("particles.fractal_dimension", "fractal, surface_volume: of aggregates; 1.8 if not given.")
+               .optional()
+               .atLeast(1)
+               .atMost(3))
+      .add(quantityKey("particles.primary_diameter", units::length, "fractal: of the primary particles.")
+               .optional()
+               .above(0))
+      .add(quantityKey("particles.sintering_time", units::time,
+                       "surface_volume: the surface approaches that of a sphere with this time; never if not given.")
+               .optional()
+               .above(0))
+      .section("particles.components", Presence::optional, "components: named, four at most.")
+      .add(quantityKey("particles.components.*.density", units::density, "Of the component.").above(0))
+      .add(numberKey("particles.components.*.nucleus", "Mass fraction in nuclei and in the initial particles.")
+               .byDefault("0")
+               .atLeast(0))
+      .add(numberKey("particles.components.*.condensing", "Mass fraction in what condenses or grows on the surface.")
+               .byDefault("0")
+               .atLeast(0));
   schema
       .add(choiceKey("initial.distribution", {"none", "monodisperse", "exponential", "lognormal"},
                      "Of the volumes at time zero; lognormal: of the diameters.")
@@ -143,8 +165,9 @@ void addMethods(DeckSchema& schema) {
                .byDefault("[M0, M1, M2, M3]"))
       .add(choiceKey(at + ".mass", {"conserved", "mean"},
                      "What is asked of M1 where the processes conserve it: the same in every repeat to 1e-11, or only "
-                     "in the mean.")
-               .byDefault("conserved"))
+                     "in the mean. If not given: mean for constant_number_number, for swa but with the weight transfer "
+                     "mass, and for dsmc, constant_volume and hybrid where particles break, as they then drop some.")
+               .optional())
       .add(integerKey(at + ".particles", "Monte Carlo: numerical particles; 2000 if not given.")
                .optional()
                .atLeast(2)

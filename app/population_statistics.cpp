@@ -6,7 +6,6 @@
 #include "app/population_accumulator.hpp"
 #include "app/population_repeat.hpp"
 #include "core/errors.hpp"
-#include "particles/population/exact_solutions/exact_solution.hpp"
 
 namespace lampblack {
 namespace {
@@ -112,7 +111,7 @@ PopulationStatistics runPopulation(MPI_Comm comm, const PopulationCase& populati
   made.bins = populationCase.bins;
   std::unique_ptr<ExactSolution> solution;
   collectively(comm, [&] {
-    solution = exactSolution(populationCase.model, populationCase.initial);
+    solution = exactSolution(populationCase);
     if (ranks.rank == 0) made.exact = makeReference(populationCase, solution.get());
   });
   const std::optional<double> gelation = solution ? solution->gelationTime() : std::nullopt;
