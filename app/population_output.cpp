@@ -199,11 +199,13 @@ std::string populationSummary(const PopulationCase& populationCase, const Popula
   std::string text = fmt::format("exact solution: {}\n", known ? statistics.exact.name : "none known");
   std::size_t width = 6;
   for (const MethodStatistics& method : statistics.methods) width = std::max(width, method.name.size());
+  const std::string when = statistics.gelation() ? "at the last row before the gelation"
+                                                 : fmt::format("at t = {:g} s", populationCase.times.end);
   bool stochastic = false, deterministic = false;
   for (const MethodStatistics& method : statistics.methods) (method.deterministic ? deterministic : stochastic) = true;
   if (stochastic) {
-    text += fmt::format("at t = {:g} s, {} repeats: z scores of the mean, errors sigma in %, largest error of M1\n\n",
-                        populationCase.times.end, populationCase.repeats);
+    text += fmt::format("{}, {} repeats: z scores of the mean, errors sigma in %, largest error of M1\n\n", when,
+                        populationCase.repeats);
     text += fmt::format("{:<{}} {:>9} {:>7} {:>7} {:>7} {:>7} {:>8} {:>8} {:>8} {:>8} {:>9} {:>10}  {}\n", "method",
                         width, "particles", "z M0", "z M1", "z M2", "z M3", "sig M0", "sig M2", "sig M3", "M1",
                         "s/repeat", "events/s", "verdict");
@@ -221,8 +223,7 @@ std::string populationSummary(const PopulationCase& populationCase, const Popula
     }
   }
   if (!deterministic) return text;
-  text += fmt::format("{}{} at t = {:g} s\n\n", stochastic ? "\n" : "", known ? "relative deviations" : "moments",
-                      populationCase.times.end);
+  text += fmt::format("{}{} {}\n\n", stochastic ? "\n" : "", known ? "relative deviations" : "moments", when);
   text += fmt::format("{:<{}} {:>9} {:>10} {:>10} {:>10} {:>10} {:>9}  {}\n", "method", width, "unknowns", "M0", "M1",
                       "M2", "M3", "s", "verdict");
   for (const MethodStatistics& method : statistics.methods) {
