@@ -99,6 +99,41 @@ class ExactStore {
   }
   [[nodiscard]] Entry takeUniform(RandomStream& random) { return take(static_cast<std::size_t>(random.below(size()))); }
 
+
+  // Neighbours in the order of volumes, by looking at all of them; what each does is said in sorted_store.hpp.
+  template <class MeanOf>
+  bool mergeNearest(MeanOf&& meanOf) {
+    if (size() < 2) return false;
+    const auto difference = [&](std::size_t k) {
+      const double v = rates_.volume(entries_[k]), d = rates_.volume(entries_[k + 1]) - v;
+      return std::pair(rates_.relativeDifference() ? d / v : d, rates_.weight(entries_[k]));
+    };
+    std::size_t best = 0;
+    for (std::size_t k = 1; k + 1 < size(); ++k) {
+      if (difference(k) < difference(best)) best = k;
+    }
+    const Entry upper = take(best + 1), lower = take(best);
+    insert(meanOf(lower, upper));
+    return true;
+  }
+  [[nodiscard]] Entry takeNearest(const Entry& like) {
+    const auto place = std::lower_bound(entries_.begin(), entries_.end(), like,
+                                        [this](const Entry& a, const Entry& b) { return less(a, b); });
+    const auto at = static_cast<std::size_t>(place - entries_.begin());
+    if (at == size()) return take(at - 1);
+    if (at == 0) return take(0);
+    const double below = rates_.volume(like) - rates_.volume(entries_[at - 1]);
+    const double above = rates_.volume(entries_[at]) - rates_.volume(like);
+    return take(below < above ? at - 1 : at);
+  }
+  [[nodiscard]] Entry takeHeaviest() {
+    std::size_t best = 0;
+    for (std::size_t k = 1; k < size(); ++k) {
+      if (rates_.weight(entries_[k]) > rates_.weight(entries_[best])) best = k;
+    }
+    return take(best);
+  }
+
   template <class F>
   void forEach(F&& f) const {
     for (const Entry& entry : entries_) f(entry);

@@ -2,6 +2,7 @@
 #include "particles/population/model/sphere.hpp"
 #include "particles/population/monte_carlo/equal_weight_solver.hpp"
 #include "particles/population/monte_carlo/hybrid_solver.hpp"
+#include "particles/population/monte_carlo/weighted_solver.hpp"
 
 namespace lampblack {
 
@@ -17,9 +18,14 @@ std::unique_ptr<PopulationSolver> makeMonteCarlo(const PopulationModel& model, c
       return makeEqualWeight(sphere, model, initial, options);
     case MonteCarloMethod::hybrid:
       return makeHybrid(sphere, model, initial, options);
-    default:
-      throw InputError("this method is not available yet");
+    case MonteCarloMethod::mmc:
+    case MonteCarloMethod::wfmc:
+    case MonteCarloMethod::samwfmc:
+    case MonteCarloMethod::sammc:
+    case MonteCarloMethod::swa:
+      return makeWeighted(sphere, model, initial, options);
   }
+  throw InputError("there is no such method");
 }
 
 }  // namespace lampblack

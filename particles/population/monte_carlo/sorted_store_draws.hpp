@@ -1,0 +1,169 @@
+// SortedStore: how entries are drawn and taken out. Included by sorted_store.hpp.
+#pragma once
+
+#include "particles/population/monte_carlo/sorted_store.hpp"
+
+namespace lampblack {
+
+template <SortedRates Rates>
+inline typename SortedStore<Rates>::Slot SortedStore<Rates>::locate(double volume, double weight) const {
+  for (const Slot slot : recent_) {
+    if (chunks_[slot].contains(volume, weight)) return slot;
+  }
+  return directory_.find(volume, weight);
+}
+
+template <SortedRates Rates>
+bool SortedStore<Rates>::drawPair(RandomStream& random, Entry& first, Entry& second) {
+  const double total = rank_ > 0 ? pairParts_[2 * rank_ - 1] : 0;
+  if (size_ < 2 || !(total > 0)) return false;
+  // Which product of sums; what is left of the random number finds the partner drawn by weight.
+  double x = random.uniform() * total;
+  std::size_t part = 0;
+  while (part + 1 < 2 * rank_ && x >= pairParts_[part]) ++part;
+  if (part > 0) x -= pairParts_[part - 1];
+  const std::size_t r = part / 2;
+  const bool q = part % 2 == 1;  // whether the weighted sum is that of q
+  const std::size_t weighted = 4 * r + (q ? 3 : 2), counted = 4 * r + (q ? 0 : 1);
+  const double countedTotal = sums_.total(counted);
+  x /= countedTotal;
+  double y = random.uniform() * countedTotal;
+  const auto a = static_cast<Slot>(sums_.find(weighted, x));
+  const Chunk& heavy = chunks_[a];
+  for (std::size_t k = 0; k < Chunk::capacity; k += 8) __builtin_prefetch(&heavy.weight[k]);
+  const auto b = static_cast<Slot>(sums_.find(counted, y));
+  const Chunk& other = chunks_[b];
+  __builtin_prefetch(&other.terms);
+  const std::uint32_t i = heavy.atWeight(x / (q ? heavy.terms.q[r] : heavy.terms.p[r]));
+  if (i >= heavy.size) return false;
+  // The fraction that is left after the index decides about acceptance.
+  const double index = y / (q ? other.terms.p[r] : other.terms.q[r]);
+  if (!(index < other.size)) return false;
+  const auto j = static_cast<std::uint32_t>(index);
+  if (a == b && i == j) return false;
+  double majorant = 0;
+  for (std::size_t s = 0; s < rank_; ++s) {
+    majorant += heavy.terms.p[s] * other.terms.q[s] + heavy.terms.q[s] * other.terms.p[s];
+  }
+  first = entryAt(heavy, i);
+  second = entryAt(other, j);
+  if (!rates_.accepts(first, second, majorant, index - j)) return false;
+  recent_ = {a, b};
+  if (a == b) {  // the later one first: the place of the other does not change
+    erase({a, std::max(i, j)});
+    erase({a, std::min(i, j)});
+  } else {
+    erase({a, i});
+    erase({b, j});
+  }
+  settle(a);
+  if (b != a && chunks_[b].used) settle(b);
+  return true;
+}
+
+template <SortedRates Rates>
+bool SortedStore<Rates>::drawSingle(SingleProcess process, RandomStream& random, Entry& entry) {
+  const std::size_t quantity = singleQuantity_[static_cast<std::size_t>(process)];
+  if (quantity == unused || !(sums_.total(quantity) > 0)) return false;
+  double y = random.uniform() * sums_.total(quantity);
+  const auto slot = static_cast<Slot>(sums_.find(quantity, y));
+  const Chunk& chunk = chunks_[slot];
+  const double bound = chunk.singles[static_cast<std::size_t>(process)];
+  const double index = y / bound;
+  if (!(index < chunk.size)) return false;
+  const auto at = static_cast<std::uint32_t>(index);
+  entry = entryAt(chunk, at);
+  if (!(rates_.single(process, entry) > (index - at) * bound)) return false;
+  (void)take({slot, at});
+  return true;
+}
+
+template <SortedRates Rates>
+typename Rates::Entry SortedStore<Rates>::takeUniform(RandomStream& random) {
+  while (true) {
+    const std::uint64_t k = random.below(chunks_.size() * Chunk::capacity);
+    const auto slot = static_cast<Slot>(k / Chunk::capacity);
+    const auto at = static_cast<std::uint32_t>(k % Chunk::capacity);
+    if (at < chunks_[slot].size) return take({slot, at});
+  }
+}
+
+template <SortedRates Rates>
+template <class MeanOf>
+bool SortedStore<Rates>::mergeNearest(MeanOf&& meanOf) {
+  if (size_ < 2) return false;
+  Slot slot = static_cast<Slot>(least_.slot());
+  while (chunks_[slot].stale) {
+    findLeast(chunks_[slot]);
+    setLeast(slot);
+    slot = static_cast<Slot>(least_.slot());
+  }
+  Chunk& chunk = chunks_[slot];
+  const std::uint32_t k = chunk.leastAt;
+  const Entry lower = entryAt(chunk, k);
+  if (k + 1 == chunk.size) {
+    const Slot next = chunk.next;
+    const Entry mean = meanOf(lower, entryAt(chunks_[next], 0));
+    erase({next, 0});
+    erase({slot, k});
+    settle(slot);
+    if (chunks_[next].used) settle(next);
+    insert(mean);
+    return true;
+  }
+  const Entry mean = meanOf(lower, entryAt(chunk, k + 1));
+  const double volume = rates_.volume(mean), weight = rates_.weight(mean);
+  erase({slot, k + 1});
+  // Almost always the mean belongs where the lower one was.
+  const bool stays = k > 0 && k + 1 < chunk.size && chunk.below(k - 1, volume, weight) &&
+                     !chunk.below(k + 1, volume, weight) && !rates_.keepsHeaviest();
+  if (!stays) {
+    erase({slot, k});
+    settle(slot);
+    insert(mean);
+    return true;
+  }
+  chunk.volume[k] = volume;
+  chunk.weightSum += weight - chunk.weight[k];
+  chunk.weight[k] = weight;
+  if constexpr (!Rates::bare) chunk.particles[k] = mean.particle;
+  if (raiseBounds(chunk, mean))
+    publish(slot);
+  else
+    settle(slot);
+  return true;
+}
+
+template <SortedRates Rates>
+typename Rates::Entry SortedStore<Rates>::takeNearest(const Entry& like) {
+  const double volume = rates_.volume(like), weight = rates_.weight(like);
+  const Slot slot = locate(volume, weight);
+  const Chunk& chunk = chunks_[slot];
+  const std::uint32_t at = chunk.position(volume, weight);
+  Place lower{slot, at - 1}, upper{slot, at};
+  if (at == 0) lower = {chunk.previous, chunk.previous == none ? 0 : chunks_[chunk.previous].size - 1};
+  if (at == chunk.size) upper = {chunk.next, 0};
+  if (lower.slot == none) return take(upper);
+  if (upper.slot == none) return take(lower);
+  const double below = volume - chunks_[lower.slot].volume[lower.at];
+  const double above = chunks_[upper.slot].volume[upper.at] - volume;
+  return take(below < above ? lower : upper);
+}
+
+template <SortedRates Rates>
+typename Rates::Entry SortedStore<Rates>::takeHeaviest() {
+  Slot slot = static_cast<Slot>(heaviest_.slot());
+  while (!chunks_[slot].heaviestExact) {
+    Chunk& chunk = chunks_[slot];
+    chunk.heaviest = chunk.largestWeight();
+    chunk.heaviestExact = true;
+    setHeaviest(slot);
+    slot = static_cast<Slot>(heaviest_.slot());
+  }
+  const Chunk& chunk = chunks_[slot];
+  std::uint32_t at = 0;
+  while (chunk.weight[at] != chunk.heaviest) ++at;
+  return take({slot, at});
+}
+
+}  // namespace lampblack

@@ -1,0 +1,283 @@
+// WeightedMethod: what its events do. Included by weighted_method.hpp.
+#pragma once
+
+#include <utility>
+
+#include "particles/population/monte_carlo/weighted_method.hpp"
+
+namespace lampblack {
+
+template <ParticleType Type, class Store>
+bool WeightedMethod<Type, Store>::coagulate(RandomStream& random) {
+  if (!store_.drawPair(random, first_, second_)) return false;
+  const Entry &i = first_, &j = second_;
+  taken(i);
+  taken(j);
+  ++counters_.coagulations;
+  if (method_ == MonteCarloMethod::swa) {
+    transferWeight(i, j, random);
+  } else {
+    const double vi = type_.volume(i.particle), vj = type_.volume(j.particle);
+    const double alpha = store_.rates().fraction()(vi, vj, i.weight, j.weight);
+    const double amount = alpha * std::min(i.weight, j.weight);
+    const double leftI = i.weight - amount, leftJ = j.weight - amount;
+    const Particle fresh = type_.coagulated(i.particle, j.particle);
+    if (leftI > 0 && leftJ > 0) {
+      if (vi == vj && method_ != MonteCarloMethod::wfmc) {  // thesis eqs. 4-19, 4-20, 5-15
+        const Entry rest = meanOf({i.particle, leftI}, {j.particle, leftJ});
+        put(rest.particle, rest.weight);
+      } else {
+        coagulateLeftOvers(i, leftI, j, leftJ, random);
+      }
+      put(fresh, amount);
+    } else if (leftI > 0 || leftJ > 0) {  // thesis eqs. 4-21, 4-22, 5-14
+      put(leftI > 0 ? i.particle : j.particle, std::max(leftI, leftJ));
+      put(fresh, amount);
+    } else {  // thesis eqs. 4-18, 5-13
+      put(fresh, 0.5 * amount);
+      put(fresh, 0.5 * amount);
+    }
+  }
+  if (store_.rates().tunable() && ++sinceTuned_ > 2 * capacity_) retune();
+  return true;
+}
+
+// With both left over and the new particle there is one too many.
+//
+// wfmc: let L_i = leftI v_i and L_j = leftJ v_j be the volumes left over. i is kept with probability L_i / (L_i + L_j)
+// and the weight (L_i + L_j) / v_i, so that volume is conserved, or j likewise. Any sum of f over the particles then
+// gets L_i / v_i f(v_i) + L_j / v_j f(v_j) = leftI f(v_i) + leftJ f(v_j) in the mean: nothing is biased. (With other
+// probabilities, conserved mass and an unbiased mean would not go together.)
+template <ParticleType Type, class Store>
+void WeightedMethod<Type, Store>::coagulateLeftOvers(const Entry& i, double leftI, const Entry& j, double leftJ,
+                                                     RandomStream& random) {
+  if (method_ == MonteCarloMethod::sammc) {  // thesis eq. 5-16
+    put(i.particle, leftI);
+    put(j.particle, leftJ);
+    makeRoom(1);
+    return;
+  }
+  const double vi = type_.volume(i.particle), vj = type_.volume(j.particle);
+  if (method_ == MonteCarloMethod::wfmc) {
+    const double sum = leftI * vi + leftJ * vj;
+    if (random.uniform() * sum < leftI * vi)
+      put(i.particle, sum / vi);
+    else
+      put(j.particle, sum / vj);
+    ++counters_.removals;
+    return;
+  }
+  // samwfmc, thesis eqs. 4-21, 4-22
+  const bool lighterIsI = i.weight <= j.weight;
+  const Entry& lighter = lighterIsI ? i : j;
+  const double left = lighterIsI ? leftI : leftJ;
+  // The partner and the new particle are not among the neighbours.
+  if (store_.size() > 0) {
+    const Entry k = store_.takeNearest(lighter);
+    taken(k);
+    put(k.particle, k.weight + left * type_.volume(lighter.particle) / type_.volume(k.particle));
+    ++counters_.merges;
+  } else {
+    put(lighter.particle, left);
+  }
+  put(lighterIsI ? j.particle : i.particle, lighterIsI ? leftJ : leftI);
+}
+
+template <ParticleType Type, class Store>
+void WeightedMethod<Type, Store>::transferWeight(const Entry& i, const Entry& j, RandomStream& random) {
+  const double wi = i.weight, wj = j.weight;
+  const bool iGrows = random.uniform() * (wi + wj) < wj;  // at the rate K w_j
+  const Entry &grows = iGrows ? i : j, &stays = iGrows ? j : i;
+  double weight = 0;
+  switch (transfer_) {
+    case WeightTransfer::harmonic:
+      weight = wi * wj / (wi + wj);
+      break;
+    case WeightTransfer::half:
+      weight = 0.5 * grows.weight;
+      break;
+    case WeightTransfer::mass: {
+      const double own = type_.mass(grows.particle);
+      weight = grows.weight * own / (own + type_.mass(stays.particle));
+      break;
+    }
+  }
+  put(stays.particle, stays.weight);
+  put(type_.coagulated(grows.particle, stays.particle), weight);
+}
+
+// Merges neighbours until `count` more particles fit.
+template <ParticleType Type, class Store>
+void WeightedMethod<Type, Store>::makeRoom(std::size_t count) {
+  while (store_.size() + count > capacity_) {
+    const bool merged = store_.mergeNearest([this](const Entry& lower, const Entry& upper) {
+      const Entry mean = meanOf(lower, upper);
+      taken(lower);
+      taken(upper);
+      track(mean, 1);
+      return mean;
+    });
+    if (!merged) return;
+    ++counters_.merges;
+  }
+  filled_ = true;
+}
+
+// A particle that is new to the population.
+template <ParticleType Type, class Store>
+void WeightedMethod<Type, Store>::add(const Particle& particle, double weight) {
+  if (method_ != MonteCarloMethod::mmc) {
+    if (store_.size() >= capacity_) makeRoom(1);
+    put(particle, weight);
+    return;
+  }
+  if (store_.size() < capacity_) {
+    put(particle, weight);
+    return;
+  }
+  filled_ = true;
+  Entry nearest = store_.takeNearest({particle, weight});
+  taken(nearest);
+  if (type_.volume(nearest.particle) != type_.volume(particle)) ++counters_.limited;
+  put(nearest.particle, nearest.weight + weight);
+  ++counters_.merges;
+}
+
+// After particles were lost: halves the heaviest ones.
+template <ParticleType Type, class Store>
+void WeightedMethod<Type, Store>::refill() {
+  if (!filled_) return;
+  while (store_.size() > 0 && store_.size() < capacity_) {
+    const Entry heaviest = store_.takeHeaviest();
+    store_.insert({heaviest.particle, 0.5 * heaviest.weight});
+    store_.insert({heaviest.particle, 0.5 * heaviest.weight});
+  }
+}
+
+template <ParticleType Type, class Store>
+bool WeightedMethod<Type, Store>::breakUp(RandomStream& random) {
+  if (!store_.drawSingle(SingleProcess::breakage, random, first_)) return false;
+  const Entry& parent = first_;
+  taken(parent);
+  ++counters_.breakages;
+  if (breakage_->daughters == BreakageOptions::Daughters::equal) {
+    const Particle daughter = type_.fragment(parent.particle, 1.0 / breakage_->fragments);
+    for (int k = 0; k < breakage_->fragments; ++k) add(daughter, parent.weight);
+  } else {
+    const double fraction = random.uniform();
+    add(type_.fragment(parent.particle, fraction), parent.weight);
+    add(type_.fragment(parent.particle, 1 - fraction), parent.weight);
+  }
+  return true;
+}
+
+template <ParticleType Type, class Store>
+bool WeightedMethod<Type, Store>::deposit(RandomStream& random) {
+  if (!store_.drawSingle(SingleProcess::deposition, random, first_)) return false;
+  taken(first_);
+  ++counters_.depositions;
+  refill();
+  return true;
+}
+
+template <ParticleType Type, class Store>
+bool WeightedMethod<Type, Store>::condense(RandomStream& random) {
+  if (!store_.drawSingle(SingleProcess::condensation, random, first_)) return false;
+  taken(first_);
+  ++counters_.condensations;
+  if (const auto after = store_.rates().growthJump().jumped(first_.particle)) {
+    put(*after, first_.weight);
+  } else {
+    ++counters_.vanished;
+    refill();
+  }
+  return true;
+}
+
+template <ParticleType Type, class Store>
+void WeightedMethod<Type, Store>::nucleate(RandomStream&) {
+  add(*nucleus_, nucleusWeight_);
+  ++counters_.nucleations;
+  if (store_.rates().gels()) {
+    const double v = type_.volume(*nucleus_);
+    putIn_[0] += nucleusWeight_ * v;
+    putIn_[1] += nucleusWeight_ * v * v;
+  }
+}
+
+template <ParticleType Type, class Store>
+void WeightedMethod<Type, Store>::grow(double dt) {
+  const std::array<double, 2> before = held_;
+  held_ = {};
+  store_.transform([&](Entry& entry) {
+    entry.particle = type_.grown(entry.particle, growth_.condensation, growth_.surface(), dt);
+    const double v = type_.volume(entry.particle);
+    if (!(v > 0) || v < growth_.smallestVolume) {
+      ++counters_.vanished;
+      return false;
+    }
+    track(entry, 1);
+    return true;
+  });
+  for (std::size_t k = 0; k < 2; ++k) {
+    if (before[k] > 0) putIn_[k] *= held_[k] / before[k];
+  }
+  refill();
+  retune();
+  measureGrowth();
+}
+
+template <ParticleType Type, class Store>
+void WeightedMethod<Type, Store>::dilute(double factor) {
+  store_.transform([&](Entry& entry) {
+    entry.weight *= factor;
+    return true;
+  });
+  for (double& sum : held_) sum *= factor;
+  for (double& sum : putIn_) sum *= factor;
+}
+
+template <ParticleType Type, class Store>
+void WeightedMethod<Type, Store>::assign(std::vector<Entry> entries) {
+  if constexpr (requires { store_.assign(std::move(entries)); }) {
+    store_.assign(std::move(entries));
+  } else {
+    for (const Entry& entry : entries) store_.insert(entry);
+  }
+}
+
+// A majorant that suits the particles as they are; with the cost of N events, every 2N events.
+template <ParticleType Type, class Store>
+void WeightedMethod<Type, Store>::retune() {
+  sinceTuned_ = 0;
+  if (!store_.rates().tunable() || store_.size() == 0) return;
+  if constexpr (requires(Store& store) { store.changeRates([](WeightedRates<Type>&) {}); }) {
+    store_.changeRates([this](WeightedRates<Type>& rates) {
+      rates.tune([this](const auto& f) { store_.forEach(f); });
+    });
+  }
+}
+
+// The step over which growth changes the mean logarithm of the volumes, or that of a nucleus, by `growthPart`. Without
+// other processes growth is exact, however long the step.
+template <ParticleType Type, class Store>
+void WeightedMethod<Type, Store>::measureGrowth() {
+  growthStep_ = std::numeric_limits<double>::infinity();
+  if (!growth_.active() || growth_.treatment == GrowthOptions::Treatment::jumps) return;
+  if (growth_.step > 0) {
+    growthStep_ = growth_.step;
+    return;
+  }
+  if (alone_) return;
+  const GrowthJump<Type>& law = store_.rates().growthJump();
+  double sum = 0, number = 0;
+  store_.forEach([&](const Entry& entry) {
+    sum += entry.weight * std::abs(law.speed(entry.particle)) / type_.volume(entry.particle);
+    number += entry.weight;
+  });
+  double rate = number > 0 ? sum / number : 0;
+  if (nucleus_) rate = std::max(rate, std::abs(law.speed(*nucleus_)) / type_.volume(*nucleus_));
+  if (rate > 0) growthStep_ = growthPart / rate;
+}
+
+}  // namespace lampblack

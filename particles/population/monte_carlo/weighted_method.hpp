@@ -1,0 +1,158 @@
+// The jumps of the methods whose numerical particles have different weights, for any type of particles. There is room
+// for options.particles numerical particles in 1 m3; no sample grows, shrinks or is doubled.
+//
+// Two numerical particles coagulate at max(w_i, w_j) / alpha K (thesis eqs. 4-5, 5-5): then alpha min(w_i, w_j) real
+// ones of each do, and the rest of each is left over. What the methods do with one particle too many:
+// - mmc (alpha = 1; Zhao, Zheng, Xu 2005): there is none in coagulation. A nucleus or fragment adds its weight to the
+//   particle of the most similar volume, which conserves number, not mass: biased wherever volumes differ. Events that
+//   did so with different volumes are counted as `limited`.
+// - sammc (thesis chapter 5): the two nearest neighbours are merged into their mean before. Number and mass conserved;
+//   moments above the first lose w_k w_l / (w_k + w_l) (v_k - v_l)^2 and more.
+// - samwfmc (thesis chapter 4): what is left of the one with the smaller weight goes into the particle nearest in volume,
+//   the weight of which changes so that mass is conserved; number is not, by the relative difference of the volumes.
+//   Coagulation, deposition and growth only.
+// - wfmc (Jiang and Chan 2021): one of the two left-overs is removed at random and the other takes its mass. Mass is
+//   conserved; all other moments are in the mean, see coagulateLeftOvers(). Processes as samwfmc.
+// - swa (Patterson, Wagner, Kraft 2011): i becomes i + j with the weight gamma(i, j), j stays, at the rate K w_j. With
+//   gamma(i, j) w_j + gamma(j, i) w_i = w_i w_j, which holds for all three transfer functions, every moment has the
+//   right mean. Mass is conserved exactly by WeightTransfer::mass, in the mean by the others; number in the mean.
+//   Where other processes add particles, neighbours are merged as in sammc.
+//
+// In all: a deposited or vanished particle is replaced by halving the one with the highest weight (thesis section
+// 5.2.8), once the population has been full. Nuclei stand for nucleusWeight() real ones each, fragments for as many as
+// their parent.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "particles/population/monte_carlo/initial_sample.hpp"
+#include "particles/population/monte_carlo/jump_process.hpp"
+#include "particles/population/monte_carlo/weighted_rates.hpp"
+#include "particles/population/monte_carlo/weighted_statistics.hpp"
+
+namespace lampblack {
+
+template <ParticleType Type, class Store>
+class WeightedMethod {
+ public:
+  using Entry = typename Store::Entry;
+  using Particle = typename Type::Particle;
+
+  WeightedMethod(const Type& type, const PopulationModel& model, const InitialPopulation& initial,
+                 const MonteCarloOptions& options, RandomStream& random)
+      : type_(type),
+        method_(options.method),
+        transfer_(options.transfer),
+        breakage_(model.breakage),
+        growth_(model.growth),
+        alone_(!model.coagulation && !model.breakage && !model.deposition && !model.nucleation),
+        capacity_(options.particles),
+        nucleusWeight_(options.nucleusWeight > 0 ? options.nucleusWeight : initialWeight(initial, options)),
+        store_(WeightedRates<Type>(type, model, options)),
+        first_{type.make(1), 0},
+        second_{type.make(1), 0} {
+    if (model.nucleation) nucleus_ = type.make(model.nucleation->volume);
+    std::vector<Entry> entries;
+    const double weight = initial.number > 0 ? initial.number / static_cast<double>(capacity_) : 0;
+    for (const double v : initialVolumes(initial, capacity_, random)) entries.push_back({type.make(v), weight});
+    for (const Entry& entry : entries) track(entry, 1);
+    putIn_ = held_;
+    assign(std::move(entries));
+    filled_ = store_.size() >= capacity_;
+    retune();
+    measureGrowth();
+  }
+
+  [[nodiscard]] double coagulationRate() const { return store_.pairRate(); }
+  bool coagulate(RandomStream& random);
+  [[nodiscard]] double breakageRate() const { return store_.singleRate(SingleProcess::breakage); }
+  bool breakUp(RandomStream& random);
+  [[nodiscard]] double depositionRate() const { return store_.singleRate(SingleProcess::deposition); }
+  bool deposit(RandomStream& random);
+  [[nodiscard]] double condensationRate() const { return store_.singleRate(SingleProcess::condensation); }
+  bool condense(RandomStream& random);
+  void nucleate(RandomStream& random);
+  [[nodiscard]] double nucleusWeight() const { return nucleusWeight_; }
+
+  void grow(double dt);
+  [[nodiscard]] double growthStep() const { return growthStep_; }
+  void dilute(double factor);
+  void beginStep(double, double) {}
+  void atTime(double) {}
+  void endStep() {}
+
+  // The volume in which the mean unit of mass resides, M_2/M_1, diverges at the gel point; held against what was put
+  // in. In a sample of N equal particles it is then of the order of N^(1/3) times that (clusters of N^(2/3) at the gel
+  // point, Aldous 1997), and the factor 4 corresponds to the criterion of the methods with equal weights.
+  [[nodiscard]] bool gelled() const {
+    if (!store_.rates().gels()) return false;
+    return held_[1] / held_[0] > 4 * std::cbrt(static_cast<double>(capacity_)) * putIn_[1] / putIn_[0];
+  }
+  [[nodiscard]] std::array<double, 4> moments() const { return weightedMoments(type_, store_); }
+  [[nodiscard]] std::vector<double> numberInBins(std::span<const double> edges) const {
+    return weightedInBins(type_, store_, edges);
+  }
+  [[nodiscard]] double geometricDeviation() const { return weightedGeometricDeviation(type_, store_); }
+  [[nodiscard]] std::size_t size() const { return store_.size(); }
+  [[nodiscard]] std::size_t bytes() const { return store_.bytes(); }
+  PopulationCounters& counters() { return counters_; }
+  [[nodiscard]] const Store& store() const { return store_; }
+  [[nodiscard]] const Type& type() const { return type_; }
+
+ private:
+  static constexpr double growthPart = 0.05;  // by which volumes change in a step of splitting
+
+  void put(const Particle& particle, double weight) {
+    const Entry entry{particle, weight};
+    track(entry, 1);
+    store_.insert(entry);
+  }
+  void taken(const Entry& entry) { track(entry, -1); }
+  void track(const Entry& entry, double sign) {
+    if (!store_.rates().gels()) return;
+    const double v = type_.volume(entry.particle), mass = sign * entry.weight * v;
+    held_[0] += mass;
+    held_[1] += mass * v;
+  }
+  void assign(std::vector<Entry> entries);
+  void retune();
+  void measureGrowth();
+
+  [[nodiscard]] Entry meanOf(const Entry& a, const Entry& b) const {
+    const double weight = a.weight + b.weight;
+    if constexpr (WeightedRates<Type>::bare) {  // to the last bit where both are the same
+      if (a.particle.volume == b.particle.volume) return {a.particle, weight};
+    }
+    return {type_.mean(a.particle, a.weight, b.particle, b.weight), weight};
+  }
+  void makeRoom(std::size_t count);
+  void refill();
+  void add(const Particle& particle, double weight);
+  void coagulateLeftOvers(const Entry& i, double leftI, const Entry& j, double leftJ, RandomStream& random);
+  void transferWeight(const Entry& i, const Entry& j, RandomStream& random);
+
+  Type type_;
+  MonteCarloMethod method_;
+  WeightTransfer transfer_;
+  std::optional<BreakageOptions> breakage_;
+  GrowthOptions growth_;
+  bool alone_, filled_ = false;
+  std::size_t capacity_, sinceTuned_ = 0;
+  double nucleusWeight_;  // 1/m3
+  double growthStep_ = 0;
+  std::optional<Particle> nucleus_;
+  Store store_;
+  Entry first_, second_;
+  std::array<double, 2> held_{}, putIn_{};  // sums of w v and w v^2, of kernels that may gel
+  PopulationCounters counters_;
+};
+
+}  // namespace lampblack
+
+#include "particles/population/monte_carlo/weighted_events.hpp"

@@ -1,0 +1,189 @@
+// Speed of the methods with different weights: events per second against the number of numerical particles, and the
+// cases of chapter 5 of the thesis with 2000 numerical particles and 200 repeats.
+//
+//   population_weighted_bench [events | cases]
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "particles/population/monte_carlo/monte_carlo_options.hpp"
+
+namespace {
+
+using namespace lampblack;
+using Clock = std::chrono::steady_clock;
+
+double seconds(Clock::time_point from) {
+  return std::chrono::duration<double>(Clock::now() - from).count();
+}
+
+struct Case {
+  std::string name;
+  PopulationModel model;
+  InitialPopulation initial;
+  MonteCarloOptions options;
+  double end;
+};
+
+PopulationModel freeMolecular() {
+  PopulationModel model;
+  CollisionKernelOptions kernel;
+  kernel.type = CollisionKernelType::freeMolecular;
+  kernel.gas = {1500, 101325, 5e-5, 0.029, 0.2};
+  model.coagulation = kernel;
+  return model;
+}
+
+PopulationModel constant(double rate) {
+  PopulationModel model;
+  CollisionKernelOptions kernel;
+  kernel.rate = rate;
+  model.coagulation = kernel;
+  return model;
+}
+
+InitialPopulation population(InitialPopulation::Distribution distribution, double number, double volume) {
+  InitialPopulation initial;
+  initial.distribution = distribution;
+  initial.number = number;
+  initial.volume = volume;
+  return initial;
+}
+
+// Coagulation for about two events a particle at the least, from a population that has coagulated for a while.
+void events(const std::string& name, const PopulationModel& model, const InitialPopulation& initial,
+            MonteCarloOptions options) {
+  fmt::print("{}\n  {:>9} {:>12} {:>12} {:>10} {:>10} {:>8}\n", name, "N", "events/s", "ns/event", "attempts", "bytes/N",
+             "merges");
+  for (const std::size_t n : {1000u, 10000u, 100000u, 1000000u}) {
+    options.particles = n;
+    const auto solver = makeMonteCarlo(model, initial, options);
+    double dt = 1e-3 / (1e-6 * 1e6);
+    const auto count = [&] { return solver->counters().events(); };
+    double step = initial.volume < 1e-10 ? 1e-7 : dt;
+    while (count() < n) {
+      const auto before = count();
+      solver->advance(solver->time() + step);
+      if (count() - before < n / 20) step *= 2;
+    }
+    const auto start = count();
+    const auto fictitious = solver->counters().fictitious;
+    const auto merges = solver->counters().merges;
+    const std::uint64_t least = std::max<std::uint64_t>(2 * n, 1000000);
+    const auto from = Clock::now();
+    while (count() < start + least) {
+      const auto before = count();
+      solver->advance(solver->time() + step);
+      if (count() - before < least / 20) step *= 1.5;
+    }
+    const double time = seconds(from);
+    const auto done = static_cast<double>(count() - start);
+    fmt::print("  {:>9} {:>12.4g} {:>12.1f} {:>10.3f} {:>10.1f} {:>8.3f}\n", n, done / time, 1e9 * time / done,
+               1 + static_cast<double>(solver->counters().fictitious - fictitious) / done,
+               static_cast<double>(solver->bytes()) / static_cast<double>(n),
+               static_cast<double>(solver->counters().merges - merges) / done);
+  }
+}
+
+void run(const Case& c) {
+  constexpr std::uint64_t repeats = 200;
+  double m0 = 0;
+  std::uint64_t count = 0, attempts = 0;
+  const auto from = Clock::now();
+  for (std::uint64_t repeat = 0; repeat < repeats; ++repeat) {
+    MonteCarloOptions options = c.options;
+    options.repeat = repeat;
+    const auto solver = makeMonteCarlo(c.model, c.initial, options);
+    solver->advance(c.end);
+    m0 += solver->moments()[0] / repeats;
+    count += solver->counters().events();
+    attempts += solver->counters().events() + solver->counters().fictitious;
+  }
+  const double time = seconds(from);
+  fmt::print("  {:<34} {:>8.3f} s {:>10} events/repeat {:>8.1f} ns/event {:>6.2f} attempts/event  M0/N0 {:.5g}\n", c.name,
+             time, count / repeats, 1e9 * time / static_cast<double>(count),
+             static_cast<double>(attempts) / static_cast<double>(count), m0 / c.initial.number);
+}
+
+void cases() {
+  using Distribution = InitialPopulation::Distribution;
+  using enum MonteCarloMethod;
+  MonteCarloOptions mmcOptions, sammcOptions, fractions;
+  mmcOptions.method = mmc;
+  sammcOptions.method = sammc;
+  fractions.method = sammc;
+  fractions.fraction = FractionFunction::hyperbolic;
+  fractions.fractionOf = FractionOf::weights;
+  const auto with = [](MonteCarloOptions options, MonteCarloMethod method) {
+    options.method = method;
+    return options;
+  };
+  const auto mono = population(Distribution::monodisperse, 1e12, 1);
+  const auto monoBreak = population(Distribution::monodisperse, 3000, 1);
+  const auto expBreak = population(Distribution::exponential, 3000, 1);
+  const PopulationModel coagulation = constant(1e-12);
+  const auto breakage = [](double rate, double exponent, int fragments, BreakageOptions::Daughters daughters) {
+    PopulationModel model;
+    model.breakage = BreakageOptions{rate, exponent, fragments, daughters};
+    return model;
+  };
+  using enum BreakageOptions::Daughters;
+  PopulationModel nucleation;
+  nucleation.nucleation.emplace();
+  nucleation.nucleation->source = NucleationOptions::Source::precursor;
+  nucleation.nucleation->rateConstant = 5e-6;
+  nucleation.nucleation->precursor = 1e5;
+  fmt::print("thesis chapter 5, 2000 numerical particles, 200 repeats\n");
+  run({"1 sammc", nucleation, monoBreak, sammcOptions, 1e6});
+  run({"2 mmc", coagulation, mono, mmcOptions, 50});
+  run({"2 sammc", coagulation, mono, sammcOptions, 50});
+  run({"3 sammc", coagulation, population(Distribution::exponential, 1e12, 1), sammcOptions, 20});
+  run({"4 sammc", coagulation, mono, fractions, 50});
+  run({"4 wfmc", coagulation, mono, with(fractions, wfmc), 50});
+  run({"4 samwfmc", coagulation, mono, with(fractions, samwfmc), 50});
+  run({"5 mmc", breakage(1, 1, 2, equal), monoBreak, mmcOptions, 50});
+  run({"5 sammc", breakage(1, 1, 2, equal), monoBreak, sammcOptions, 50});
+  run({"6 sammc", breakage(1, 1, 2, uniform), monoBreak, sammcOptions, 50});
+  run({"7 sammc", breakage(1, 2, 2, uniform), expBreak, sammcOptions, 50});
+  run({"8 sammc", breakage(1, 1.8, 12, equal), monoBreak, sammcOptions, 50});
+  PopulationModel both = constant(1e-11);
+  both.nucleation.emplace();
+  both.nucleation->rate = 1e12;
+  run({"9 sammc", both, population(Distribution::monodisperse, 1e11, 1), sammcOptions, 10});
+  PopulationModel equilibrium = constant(1e-13);
+  equilibrium.breakage = BreakageOptions{0.5, 0, 2, uniform};
+  run({"12 sammc, tau 10", equilibrium, population(Distribution::monodisperse, 1e13, 1), sammcOptions, 10});
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string what = argc > 1 ? argv[1] : "";
+  using Distribution = InitialPopulation::Distribution;
+  if (what != "cases") {
+    MonteCarloOptions options;
+    options.method = MonteCarloMethod::sammc;
+    options.fraction = FractionFunction::hyperbolic;
+    options.fractionOf = FractionOf::weights;
+    const auto mono = population(Distribution::monodisperse, 1e12, 1);
+    const auto nano = population(Distribution::monodisperse, 1e18, 5e-28);
+    events("sammc, hyperbolic, constant kernel", constant(1e-12), mono, options);
+    events("sammc, hyperbolic, free-molecular kernel", freeMolecular(), nano, options);
+    options.method = MonteCarloMethod::samwfmc;
+    events("samwfmc, hyperbolic, free-molecular kernel", freeMolecular(), nano, options);
+    options.method = MonteCarloMethod::wfmc;
+    events("wfmc, hyperbolic, free-molecular kernel", freeMolecular(), nano, options);
+    options.fraction = FractionFunction::one;
+    options.method = MonteCarloMethod::mmc;
+    events("mmc, free-molecular kernel", freeMolecular(), nano, options);
+    options.method = MonteCarloMethod::swa;
+    events("swa, free-molecular kernel", freeMolecular(), nano, options);
+  }
+  if (what != "events") cases();
+  return 0;
+}
