@@ -58,8 +58,8 @@ InitialPopulation population(InitialPopulation::Distribution distribution, doubl
 // Coagulation for about two events a particle at the least, from a population that has coagulated for a while.
 void events(const std::string& name, const PopulationModel& model, const InitialPopulation& initial,
             MonteCarloOptions options) {
-  fmt::print("{}\n  {:>9} {:>12} {:>12} {:>10} {:>10} {:>8}\n", name, "N", "events/s", "ns/event", "attempts", "bytes/N",
-             "merges");
+  fmt::print("{}\n  {:>9} {:>12} {:>12} {:>10} {:>10} {:>8}\n", name, "N", "events/s", "ns/event", "attempts",
+             "bytes/N", "merges");
   for (const std::size_t n : {1000u, 10000u, 100000u, 1000000u}) {
     options.particles = n;
     const auto solver = makeMonteCarlo(model, initial, options);
@@ -105,8 +105,8 @@ void run(const Case& c) {
     attempts += solver->counters().events() + solver->counters().fictitious;
   }
   const double time = seconds(from);
-  fmt::print("  {:<34} {:>8.3f} s {:>10} events/repeat {:>8.1f} ns/event {:>6.2f} attempts/event  M0/N0 {:.5g}\n", c.name,
-             time, count / repeats, 1e9 * time / static_cast<double>(count),
+  fmt::print("  {:<34} {:>8.3f} s {:>10} events/repeat {:>8.1f} ns/event {:>6.2f} attempts/event  M0/N0 {:.5g}\n",
+             c.name, time, count / repeats, 1e9 * time / static_cast<double>(count),
              static_cast<double>(attempts) / static_cast<double>(count), m0 / c.initial.number);
 }
 

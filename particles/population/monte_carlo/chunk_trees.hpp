@@ -55,8 +55,8 @@ class SumsOfChunks {
   }
   [[nodiscard]] double total(std::size_t quantity) const { return totals_[quantity]; }
 
-  // The slot in which `x` falls, 0 <= x < total, all slots being laid end to end; x becomes the distance from its start.
-  // Rounding may leave x at or slightly above the slot's value.
+  // The slot in which `x` falls, 0 <= x < total, all slots being laid end to end; x becomes the distance from its
+  // start. Rounding may leave x at or slightly above the slot's value.
   [[nodiscard]] std::size_t find(std::size_t quantity, double& x) const {
     std::size_t group = 0;
     for (std::size_t level = levels_.size(); level-- > 0;) {

@@ -99,7 +99,6 @@ class ExactStore {
   }
   [[nodiscard]] Entry takeUniform(RandomStream& random) { return take(static_cast<std::size_t>(random.below(size()))); }
 
-
   // Neighbours in the order of volumes, by looking at all of them; what each does is said in sorted_store.hpp.
   template <class MeanOf>
   bool mergeNearest(MeanOf&& meanOf) {

@@ -45,8 +45,8 @@ class FractionLaw {
   }
 
   // The least F with rate <= F (w_i + w_j). With x = max/min >= 1 of the weights, F bounds x / (alpha (1 + x)):
-  // hyperbolic 1 + 1/x over 1 + 1/x; exponential x / ((1 - 2^-x) (1 + x)) <= 1 as 1 + x <= 2^x; stepwise 2x / (1 + x) up
-  // to x = 2. Where alpha knows only volumes, x is arbitrary and 1/alpha at most 2.
+  // hyperbolic 1 + 1/x over 1 + 1/x; exponential x / ((1 - 2^-x) (1 + x)) <= 1 as 1 + x <= 2^x; stepwise 2x / (1 + x)
+  // up to x = 2. Where alpha knows only volumes, x is arbitrary and 1/alpha at most 2.
   [[nodiscard]] double bound() const {
     switch (function_) {
       case FractionFunction::one:

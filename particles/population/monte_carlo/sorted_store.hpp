@@ -26,7 +26,7 @@ namespace lampblack {
 // decide an attempt: accepts(i, j, m, u) is pair(i, j) > u * weightFactor * (w_i + w_j) * m.
 template <class R>
 concept SortedRates = EntryRates<R> && requires(const R rates, const typename R::Entry entry, double x) {
-  { R::bare } -> std::convertible_to<bool>;  // the particle is its volume
+  { R::bare } -> std::convertible_to<bool>;                  // the particle is its volume
   { rates.entry(x, x) } -> std::same_as<typename R::Entry>;  // where bare
   { rates.relativeDifference() } -> std::same_as<bool>;      // thesis eq. 5-12 instead of 5-11
   { rates.merges() } -> std::same_as<bool>;                  // mergeNearest() may be called
@@ -67,8 +67,8 @@ class SortedStore {
   // the smallest weight (thesis section 5.2.6), and inserts meanOf(lower, upper). False with fewer than two entries.
   template <class MeanOf>
   bool mergeNearest(MeanOf&& meanOf);
-  // Takes out the entry whose volume is nearest to that of `like`, as seen from where `like` would be (thesis eqs. 4-16,
-  // 4-17: the upper one when both are as near). There is one at least.
+  // Takes out the entry whose volume is nearest to that of `like`, as seen from where `like` would be (thesis eqs.
+  // 4-16, 4-17: the upper one when both are as near). There is one at least.
   [[nodiscard]] Entry takeNearest(const Entry& like);
   [[nodiscard]] Entry takeHeaviest();
 

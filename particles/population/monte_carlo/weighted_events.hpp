@@ -251,10 +251,9 @@ template <ParticleType Type, class Store>
 void WeightedMethod<Type, Store>::retune() {
   sinceTuned_ = 0;
   if (!store_.rates().tunable() || store_.size() == 0) return;
-  if constexpr (requires(Store& store) { store.changeRates([](WeightedRates<Type>&) {}); }) {
-    store_.changeRates([this](WeightedRates<Type>& rates) {
-      rates.tune([this](const auto& f) { store_.forEach(f); });
-    });
+  if constexpr (requires(Store & store) { store.changeRates([](WeightedRates<Type>&) {}); }) {
+    store_.changeRates(
+        [this](WeightedRates<Type>& rates) { rates.tune([this](const auto& f) { store_.forEach(f); }); });
   }
 }
 

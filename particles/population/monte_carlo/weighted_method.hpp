@@ -8,7 +8,8 @@
 //   did so with different volumes are counted as `limited`.
 // - sammc (thesis chapter 5): the two nearest neighbours are merged into their mean before. Number and mass conserved;
 //   moments above the first lose w_k w_l / (w_k + w_l) (v_k - v_l)^2 and more.
-// - samwfmc (thesis chapter 4): what is left of the one with the smaller weight goes into the particle nearest in volume,
+// - samwfmc (thesis chapter 4): what is left of the one with the smaller weight goes into the particle nearest in
+// volume,
 //   the weight of which changes so that mass is conserved; number is not, by the relative difference of the volumes.
 //   Coagulation, deposition and growth only.
 // - wfmc (Jiang and Chan 2021): one of the two left-overs is removed at random and the other takes its mass. Mass is
