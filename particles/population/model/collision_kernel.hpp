@@ -64,7 +64,11 @@ class CollisionKernel {
 
   [[nodiscard]] std::size_t rank() const { return rank_; }
   [[nodiscard]] bool needsDiameter() const { return needsDiameter_; }
-  [[nodiscard]] bool gels() const { return gels_; }  // grows faster than linearly: may gel in finite time
+  // Whether the kernel grows faster than linearly with size, so that a population may gel in finite time; of particles
+  // whose diameters go with the power 1/fractalDimension of their volume.
+  [[nodiscard]] bool gels(double fractalDimension = 3) const {
+    return gels_ || (options_.type == CollisionKernelType::shear && fractalDimension < 3);
+  }
   // Whether the majorant equals the kernel, so that only self-pairs are fictitious.
   [[nodiscard]] bool exact() const;
 

@@ -51,9 +51,13 @@ class Components {
     return combined(p.mass, fraction, {}, 0);
   }
   [[nodiscard]] Particle grown(const Particle& p, double condensation, double surface, double dt) const {
-    const double before = volume(p), after = sphere_.grown({before}, condensation, surface, dt).volume;
-    if (after <= before) return combined(p.mass, before > 0 ? after / before : 0.0, {}, 0);
-    return combined(p.mass, 1, condensing_, after - before);
+    const double before = volume(p);
+    return enlarged(p, sphere_.grown({before}, condensation, surface, dt).volume - before);
+  }
+  [[nodiscard]] Particle enlarged(const Particle& p, double change) const {
+    if (change > 0) return combined(p.mass, 1, condensing_, change);
+    const double before = volume(p);
+    return combined(p.mass, change < 0 ? (before + change) / before : 1.0, {}, 0);
   }
 
  private:

@@ -18,6 +18,7 @@ class FractalAggregate {
   // Density in kg/m3, primary diameter in m, fractal dimension in [1, 3]. Throws InputError.
   FractalAggregate(double density, double primaryDiameter, double fractalDimension = 1.8);
 
+  [[nodiscard]] double fractalDimension() const { return 1 / inverseDimension_; }
   [[nodiscard]] double volume(const Particle& p) const { return p.volume; }
   [[nodiscard]] double mass(const Particle& p) const { return sphere_.mass(p); }
   [[nodiscard]] double collisionDiameter(const Particle& p) const {

@@ -90,4 +90,30 @@ template <class Type, class F>
   }
 }
 
+// The particle after its volume has changed by `change` (m3) by growth, above minus the volume. A type of which grown()
+// does more than to add a new particle, or to leave a piece, has a member enlarged(p, change).
+template <class Type>
+[[nodiscard]] typename Type::Particle enlarged(const Type& type, const typename Type::Particle& particle,
+                                               double change) {
+  if constexpr (requires { type.enlarged(particle, change); }) {
+    return type.enlarged(particle, change);
+  } else if (change > 0) {
+    return type.coagulated(particle, type.make(change));
+  } else {
+    const double volume = type.volume(particle);
+    return type.fragment(particle, (volume + change) / volume);
+  }
+}
+
+// How the diameter of collision goes with the volume of large particles, d_c ~ v^(1/D): D is the member
+// fractalDimension() of the type, 3 where it has none.
+template <class Type>
+[[nodiscard]] double fractalDimension(const Type& type) {
+  if constexpr (requires { type.fractalDimension(); }) {
+    return type.fractalDimension();
+  } else {
+    return 3;
+  }
+}
+
 }  // namespace lampblack

@@ -30,6 +30,7 @@ class SurfaceVolume {
   explicit SurfaceVolume(double density, double fractalDimension = 1.8,
                          double sinteringTime = std::numeric_limits<double>::infinity());
 
+  [[nodiscard]] double fractalDimension() const { return 1 / inverseDimension_; }
   [[nodiscard]] double volume(const Particle& p) const { return p.volume; }
   [[nodiscard]] double mass(const Particle& p) const { return density_ * p.volume; }
   [[nodiscard]] double surface(const Particle& p) const { return p.surface; }
@@ -56,6 +57,10 @@ class SurfaceVolume {
   [[nodiscard]] Particle fragment(const Particle& p, double fraction) const {
     const double volume = fraction * p.volume;
     return {volume, std::max(fraction * p.surface, sphereSurface(volume))};
+  }
+  [[nodiscard]] Particle enlarged(const Particle& p, double change) const {  // with the primaries there are
+    const double ratio = std::cbrt((p.volume + change) / p.volume);
+    return {p.volume + change, p.surface * ratio * ratio};
   }
   // The diameter of the primaries obeys dd/dt = condensation d / 3 + 2 surface; sintering is split off, half of it
   // before and half of it after.

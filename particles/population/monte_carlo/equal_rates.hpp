@@ -38,7 +38,7 @@ class EqualRates {
 
   [[nodiscard]] const Type& type() const { return type_; }
   [[nodiscard]] const GrowthJump<Type>& growthJump() const { return jump_; }
-  [[nodiscard]] bool gels() const { return kernel_ && kernel_->gels(); }
+  [[nodiscard]] bool gels() const { return kernel_ && kernel_->gels(fractalDimension(type_)); }
   [[nodiscard]] bool tunable() const { return kernel_ && kernel_->tunable(); }
   // Makes the majorant the best one for these entries, forEach(f) calling f(entry) or f(entry, number); only where all
   // of them are put in anew after it.

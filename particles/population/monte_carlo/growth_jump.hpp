@@ -26,11 +26,11 @@ class GrowthJump {
   [[nodiscard]] double rate(const Particle& p) const { return std::abs(speed(p)) / growth_.monomer; }  // 1/s
   // Nothing where the particle falls below the smallest volume.
   [[nodiscard]] std::optional<Particle> jumped(const Particle& p) const {
-    if (speed(p) > 0) return type_.coagulated(p, type_.make(growth_.monomer));
-    const double volume = type_.volume(p), rest = volume - growth_.monomer;
+    if (speed(p) > 0) return enlarged(type_, p, growth_.monomer);
+    const double rest = type_.volume(p) - growth_.monomer;
     // A monomer counted down to nothing leaves rounding errors of its size.
     if (rest <= growth_.smallestVolume || rest <= 1e-9 * growth_.monomer) return std::nullopt;
-    return type_.fragment(p, rest / volume);
+    return enlarged(type_, p, -growth_.monomer);
   }
 
  private:

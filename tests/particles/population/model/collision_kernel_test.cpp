@@ -137,6 +137,14 @@ TEST(CollisionKernel, EfficiencyIsOfTheSmallerParticle) {
   }
 }
 
+TEST(CollisionKernel, KnowsWhichGel) {
+  for (const auto type : test::allKernels) {
+    const CollisionKernel kernel(kernelOptions(type));
+    EXPECT_EQ(kernel.gels(), type == Type::multiplicative || type == Type::gravitational) << nameOf(type);
+    EXPECT_EQ(kernel.gels(1.8), kernel.gels() || type == Type::shear) << nameOf(type);
+  }
+}
+
 TEST(CollisionKernel, MissingGasIsNamed) {
   const auto message = [](const CollisionKernelOptions& options) -> std::string {
     try {

@@ -61,6 +61,16 @@ TYPED_TEST(EveryParticleType, FragmentsShareOutVolumeAndMass) {
   EXPECT_NEAR((this->type.mass(a) + this->type.mass(b)) / this->type.mass(this->large), 1, 1e-15);
 }
 
+// A small step of growth is that by the change of volume it makes.
+TYPED_TEST(EveryParticleType, IsEnlargedAsItGrows) {
+  for (const double rate : {1e-3, -1e-3}) {
+    const auto grown = this->type.grown(this->large, rate, 0, 1);
+    const auto jumped = enlarged(this->type, this->large, this->type.volume(this->large) * std::expm1(rate));
+    const auto x = extensive(grown), y = extensive(jumped);
+    for (std::size_t k = 0; k < x.size(); ++k) EXPECT_NEAR(x[k], y[k], 1e-14 * y[k]) << k;
+  }
+}
+
 TYPED_TEST(EveryParticleType, IsGoneWhenItsDiameterIsUsedUp) {
   EXPECT_EQ(this->type.volume(this->type.grown(this->small, 0, -3.1e-9, 1)), 0);
   EXPECT_GT(this->type.volume(this->type.grown(this->small, 0, -2.9e-9, 1)), 0);
