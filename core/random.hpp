@@ -3,9 +3,9 @@
 // draws them. The state is one counter: saving it makes a restart exact.
 #pragma once
 
-#include <Random123/philox.h>
-
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 namespace lampblack {
@@ -18,8 +18,10 @@ constexpr double openUnitInterval(std::uint64_t word) {
 
 class RandomStream {
  public:
+  static constexpr std::size_t buffered = 16;  // words made at a time
+
   RandomStream(std::uint64_t seed, std::uint64_t owner, std::uint32_t purpose)
-      : key_{{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)}},
+      : key_{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)},
         owner_(owner),
         purpose_(purpose) {}
 
@@ -42,33 +44,26 @@ class RandomStream {
   [[nodiscard]] std::uint64_t position() const { return position_; }
   void seek(std::uint64_t position) {
     position_ = position;
-    if (position_ % 2 == 1) generateBlock();
+    if (position_ % buffered != 0) generate();
   }
 
  private:
   std::uint64_t next64() {
-    if (position_ % 2 == 0) generateBlock();
-    const std::uint64_t word = block_[position_ % 2];
+    const std::size_t k = position_ % buffered;
+    if (k == 0) generate();
     ++position_;
-    return word;
+    return words_[k];
   }
 
-  // One Philox call gives two 64-bit words. The counter holds 32 bits of block number low and owner and purpose above:
-  // 2^33 words a stream, ample for one owner and purpose.
-  void generateBlock() {
-    const r123::Philox4x32::ctr_type counter{{static_cast<std::uint32_t>(position_ / 2),
-                                              static_cast<std::uint32_t>(owner_),
-                                              static_cast<std::uint32_t>(owner_ >> 32), purpose_}};
-    const auto words = r123::Philox4x32{}(counter, key_);
-    block_[0] = words[0] | (static_cast<std::uint64_t>(words[1]) << 32);
-    block_[1] = words[2] | (static_cast<std::uint64_t>(words[3]) << 32);
-  }
+  // Fills the buffer that position_ is in. One Philox call gives two 64-bit words. The counter holds 32 bits of block
+  // number low and owner and purpose above: 2^33 words a stream, ample for one owner and purpose.
+  void generate();
 
-  r123::Philox4x32::key_type key_;
+  std::array<std::uint32_t, 2> key_;
   std::uint64_t owner_;
   std::uint32_t purpose_;
   std::uint64_t position_ = 0;
-  std::uint64_t block_[2] = {0, 0};
+  std::array<std::uint64_t, buffered> words_{};
 };
 
 }  // namespace lampblack

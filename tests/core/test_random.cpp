@@ -1,6 +1,7 @@
 // Random streams: the published Philox words, restart, and the statistics a Monte Carlo method leans on. Seeds are
 // fixed, so every test either always passes or always fails; the bounds are those a sound generator exceeds with a
 // probability below 1e-6 a test.
+#include <Random123/philox.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -55,6 +56,25 @@ TEST(RandomStream, WordsArePublishedPhilox4x32Of10Rounds) {
   const std::uint64_t half = std::uint64_t{1} << 63;  // below(2^63) is the word without its last bit
   EXPECT_EQ(stream.below(half), 0xe169c58d6627e8d5ULL >> 1);
   EXPECT_EQ(stream.below(half), 0x9b00dbd8bc57ac4cULL >> 1);
+}
+
+TEST(RandomStream, WordsAreThoseOfRandom123BlockByBlock) {
+  const std::uint64_t seed = 0x0123456789abcdefULL, owner = 0xfedcba9876543210ULL;
+  const std::uint32_t purpose = 0xa5a5a5a5;
+  RandomStream stream(seed, owner, purpose);
+  // From the start, and across the block at which half of the counter's first word is used up.
+  for (const std::uint64_t start : {std::uint64_t{0}, (std::uint64_t{1} << 33) - 64, (std::uint64_t{1} << 32) - 5}) {
+    stream.seek(start);
+    for (std::uint64_t position = start; position < start + 64; ++position) {
+      const r123::Philox4x32::ctr_type counter{{static_cast<std::uint32_t>(position / 2),
+                                                static_cast<std::uint32_t>(owner),
+                                                static_cast<std::uint32_t>(owner >> 32), purpose}};
+      const auto words =
+          r123::Philox4x32{}(counter, {{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)}});
+      const std::size_t k = 2 * (position % 2);
+      ASSERT_EQ(stream.bits(), words[k] | (static_cast<std::uint64_t>(words[k + 1]) << 32)) << position;
+    }
+  }
 }
 
 TEST(RandomStream, UnitIntervalIsOpenAtBothEnds) {
