@@ -86,8 +86,8 @@ class ClassStore {
     std::size_t r = 0;
     for (; r + 1 < rank_ && x >= pairRate(r); ++r) x -= pairRate(r);
     Place first, second;
-    if (!place(1 + r, x / sums_.total(1 + rank_ + r), first)) return false;
-    if (!place(1 + rank_ + r, random.uniform() * sums_.total(1 + rank_ + r), second)) return false;
+    if (!place(1 + r, x / sums_.total(1 + rank_ + r), random, first)) return false;
+    if (!place(1 + rank_ + r, random.uniform() * sums_.total(1 + rank_ + r), random, second)) return false;
     if (first.slot == second.slot && first.index == second.index) return false;
     const Entry& a = classes_[first.slot][first.index];
     const Entry& b = classes_[second.slot][second.index];
@@ -98,7 +98,7 @@ class ClassStore {
     }
     const double rate = rates_.pair(a, b);
     assert(rate <= majorant * (1 + 1e-9));
-    if (random.uniform() * majorant >= rate) return false;
+    if (rate < majorant && random.uniform() * majorant >= rate) return false;
     i = a;
     j = b;
     // The one behind first, so that what fills a gap is not the other one.
@@ -116,9 +116,10 @@ class ClassStore {
   bool drawSingle(SingleProcess process, RandomStream& random, Entry& entry) {
     const std::size_t component = single_[static_cast<std::size_t>(process)];
     Place at;
-    if (!place(component, random.uniform() * sums_.total(component), at)) return false;
+    if (!place(component, random.uniform() * sums_.total(component), random, at)) return false;
     const Entry& candidate = classes_[at.slot][at.index];
-    if (random.uniform() * bound(at.slot, component) >= rates_.single(process, candidate)) return false;
+    const double rate = rates_.single(process, candidate), most = bound(at.slot, component);
+    if (rate < most && random.uniform() * most >= rate) return false;
     entry = candidate;
     remove(at);
     return true;
@@ -295,11 +296,18 @@ class ClassStore {
     sums_.set(slot, static_cast<double>(classes_[slot].size()), &bounds_[slot * sums_.blocks()]);
   }
 
+  // The same by a second random number: the member is known without waiting for the remainder of the first.
+  [[nodiscard]] bool place(std::size_t component, double x, RandomStream& random, Place& at) const {
+    at.slot = sums_.find(component, x);
+    if (at.slot >= classes_.size() || classes_[at.slot].empty()) return false;
+    at.index = static_cast<std::size_t>(random.below(classes_[at.slot].size()));
+    return true;
+  }
   [[nodiscard]] Place uniformPlace(RandomStream& random) const {
-    Place at;
-    while (!place(0, random.uniform() * sums_.total(0), at)) {
-    }
-    return at;
+    // Numbers are exact, and their remainder is a place in the class.
+    double x = random.uniform() * static_cast<double>(size_);
+    const std::size_t slot = sums_.find(0, x);
+    return {slot, static_cast<std::size_t>(x)};
   }
 
   void remove(const Place& at) {

@@ -17,25 +17,29 @@ template <class Store>
 [[nodiscard]] std::array<double, 4> sampleMoments(const Store& store, double weight) {
   // Independent partial sums, so that the loop runs in vector registers.
   constexpr std::size_t lanes = 8;
-  std::array<std::array<double, lanes>, 3> sums{};
+  std::array<double, 3> sums{};
   const auto& type = store.rates().type();
   store_operations::forEachRun(store, [&](auto run) {
-    std::size_t k = 0;
+    std::array<double, lanes> first{}, second{}, third{};
     const auto add = [&](std::size_t at, std::size_t lane) {
       const double v = type.volume(run[at].particle);
-      sums[0][lane] += v;
-      sums[1][lane] += v * v;
-      sums[2][lane] += v * v * v;
+      first[lane] += v;
+      second[lane] += v * v;
+      third[lane] += v * v * v;
     };
+    std::size_t k = 0;
     for (; k + lanes <= run.size(); k += lanes) {
       for (std::size_t lane = 0; lane < lanes; ++lane) add(k + lane, lane);
     }
     for (; k < run.size(); ++k) add(k, k % lanes);
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      sums[0] += first[lane];
+      sums[1] += second[lane];
+      sums[2] += third[lane];
+    }
   });
   std::array<double, 4> moments{weight * static_cast<double>(store.size()), 0, 0, 0};
-  for (std::size_t order = 0; order < 3; ++order) {
-    for (const double sum : sums[order]) moments[order + 1] += weight * sum;
-  }
+  for (std::size_t order = 0; order < 3; ++order) moments[order + 1] = weight * sums[order];
   return moments;
 }
 
