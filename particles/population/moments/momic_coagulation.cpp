@@ -39,7 +39,7 @@ MomicCoagulation::MomicCoagulation(const CollisionKernelOptions& kernel, std::si
     case CollisionKernelType::transition: {
       // (C_u/u^(1/3) + C_v/v^(1/3)) (u^(1/3) + v^(1/3)) with C = 1 + a Kn.
       const double c = efficiency * continuumPrefactor(gas.temperature, gas.viscosity);
-      const double path = meanFreePath(gas.temperature, gas.pressure, gas.viscosity, gas.meanMolecularWeight);
+      const double path = meanFreePath(gas);
       knudsen_ = 2 * path / diameter;
       const double slip = c * knudsen_;
       terms_ = {{2 * c, 0, 0}, {2 * c, 2, -2}, {2 * slip, -2, 0, true}, {2 * slip, 2, -4, true}};
