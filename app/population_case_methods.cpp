@@ -132,7 +132,8 @@ bool keepsMass(const PopulationMethod& method, const PopulationModel& model) {
     case MonteCarloMethod::dsmc:
     case MonteCarloMethod::constantVolume:
     case MonteCarloMethod::hybrid:
-      return !model.breakage;  // more particles than there is room for: some are taken out at random
+    case MonteCarloMethod::mmc:
+      return !model.breakage;  // more particles than there is room for: some are taken out, or added to others
     default:
       return true;
   }

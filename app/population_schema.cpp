@@ -166,7 +166,7 @@ void addMethods(DeckSchema& schema) {
       .add(choiceKey(at + ".mass", {"conserved", "mean"},
                      "What is asked of M1 where the processes conserve it: the same in every repeat to 1e-11, or only "
                      "in the mean. If not given: mean for constant_number_number, for swa but with the weight transfer "
-                     "mass, and for dsmc, constant_volume and hybrid where particles break, as they then drop some.")
+                     "mass, and for dsmc, constant_volume, hybrid and mmc where particles break.")
                .optional())
       .add(integerKey(at + ".particles", "Monte Carlo: numerical particles; 2000 if not given.")
                .optional()

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 
 #include "app/population_accumulator.hpp"
 #include "app/population_repeat.hpp"
@@ -94,6 +95,34 @@ std::vector<double> runBatch(const Ranks& ranks, const PopulationCase& populatio
   return ordered;
 }
 
+// The records of the methods that are run once, spread over the ranks; by the number of the method, on rank 0.
+// `seconds` are those of this rank for each method.
+std::map<std::size_t, std::vector<double>> runOnce(const Ranks& ranks, const PopulationCase& populationCase,
+                                                   std::optional<double> gelation, const RepeatRecord::Shape& shape,
+                                                   std::vector<double>& seconds) {
+  std::map<std::size_t, std::vector<double>> records;
+  std::map<std::size_t, int> owners;
+  for (std::size_t m = 0; m < populationCase.methods.size(); ++m)
+    if (populationCase.methods[m].deterministic()) owners.emplace(m, static_cast<int>(owners.size()) % ranks.size);
+  collectively(ranks.comm, [&] {
+    for (const auto& [m, owner] : owners) {
+      if (owner != ranks.rank && ranks.rank != 0) continue;
+      std::vector<double>& record = records.emplace(m, std::vector<double>(shape.size())).first->second;
+      const double begin = MPI_Wtime();
+      if (owner == ranks.rank) runRepeat(populationCase, populationCase.methods[m], 0, gelation, shape, record);
+      seconds[m] += MPI_Wtime() - begin;
+    }
+  });
+  for (const auto& [m, owner] : owners) {
+    if (owner == 0) continue;
+    const auto size = static_cast<int>(shape.size());
+    const auto tag = static_cast<int>(m);
+    if (ranks.rank == 0) MPI_Recv(records.at(m).data(), size, MPI_DOUBLE, owner, tag, ranks.comm, MPI_STATUS_IGNORE);
+    if (ranks.rank == owner) MPI_Send(records.at(m).data(), size, MPI_DOUBLE, 0, tag, ranks.comm);
+  }
+  return records;
+}
+
 }  // namespace
 
 std::optional<double> PopulationStatistics::gelation() const {
@@ -118,15 +147,18 @@ PopulationStatistics runPopulation(MPI_Comm comm, const PopulationCase& populati
   const RepeatRecord::Shape shape{made.rows.size(), made.bins.times.size(),
                                   made.bins.edges.empty() ? 0 : made.bins.edges.size() - 1};
   const std::uint64_t most = std::max<std::uint64_t>(gathered / shape.size(), static_cast<std::uint64_t>(ranks.size));
-  for (const PopulationMethod& method : populationCase.methods) {
-    const std::uint64_t repeats = method.deterministic() ? 1 : populationCase.repeats;
+  std::vector<double> seconds(populationCase.methods.size(), 0.0);
+  const auto once = runOnce(ranks, populationCase, gelation, shape, seconds);
+  for (std::size_t m = 0; m < populationCase.methods.size(); ++m) {
+    const PopulationMethod& method = populationCase.methods[m];
     MethodAccumulator accumulator(populationCase, method, made, shape);
-    double seconds = 0;
+    if (method.deterministic() && ranks.rank == 0) accumulator.add(RepeatRecord(shape, once.at(m)));
+    const std::uint64_t repeats = method.deterministic() ? 0 : populationCase.repeats;
     for (std::uint64_t first = 0; first < repeats; first += most) {
       const std::uint64_t end = std::min(repeats, first + most);
       const auto owner = static_cast<int>(first % static_cast<std::uint64_t>(ranks.size));
       const std::vector<double> records =
-          runBatch(ranks, populationCase, method, first, end, owner, gelation, shape, seconds);
+          runBatch(ranks, populationCase, method, first, end, owner, gelation, shape, seconds[m]);
       int gelled = 0;
       for (std::size_t at = 0; at < records.size(); at += shape.size()) {
         const RepeatRecord record(shape, std::span(records).subspan(at, shape.size()));
@@ -136,7 +168,7 @@ PopulationStatistics runPopulation(MPI_Comm comm, const PopulationCase& populati
       MPI_Bcast(&gelled, 1, MPI_INT, 0, comm);
       if (gelled != 0) break;
     }
-    const StageTime stage = reduceStage(ranks, method.name, seconds);
+    const StageTime stage = reduceStage(ranks, method.name, seconds[m]);
     if (ranks.rank != 0) continue;
     made.methods.push_back(accumulator.finish());
     made.methods.back().stage = stage;
