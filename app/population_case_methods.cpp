@@ -39,6 +39,8 @@ void refuseOtherKeys(const Deck& deck, const std::string& section, const std::st
                 {"smallest", {"sectional"}},
                 {"largest", {"sectional"}},
                 {"spacing", {"sectional"}},
+                {"growth_scheme", {"sectional"}},
+                {"overflow", {"sectional"}},
                 {"moments", {"qmom", "momic"}},
                 {"inversion", {"qmom"}},
                 {"relative_tolerance", {"sectional", "qmom", "momic"}},
@@ -105,6 +107,8 @@ SectionalOptions readSectional(const Deck& deck, const std::string& section) {
     throw deck.error(section, "the method sectional needs either 'spacing' or 'largest'");
   options.spacing = deck.optionalNumber(section + ".spacing").value_or(0.0);
   options.largest = deck.optionalQuantity(section + ".largest").value_or(0.0);
+  if (deck.optionalString(section + ".growth_scheme") == "upwind") options.growth = SectionGrowthScheme::upwind;
+  options.overflow = deck.optionalNumber(section + ".overflow").value_or(options.overflow);
   options.relativeTolerance = deck.optionalNumber(section + ".relative_tolerance").value_or(options.relativeTolerance);
   options.absoluteTolerance = deck.optionalNumber(section + ".absolute_tolerance").value_or(options.absoluteTolerance);
   return options;

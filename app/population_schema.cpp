@@ -197,10 +197,20 @@ void addMethods(DeckSchema& schema) {
                .optional()
                .above(0))
       .add(integerKey(at + ".threshold", "hybrid: largest size, in nuclei, kept as a number.").optional().atLeast(1))
-      .add(integerKey(at + ".sections", "sectional: number of sections.").optional().atLeast(2).atMost(2000))
+      .add(integerKey(at + ".sections", "sectional: number of sections.").optional().atLeast(20).atMost(400))
       .add(quantityKey(at + ".smallest", units::volume, "sectional: volume of the first pivot.").optional().above(0))
       .add(quantityKey(at + ".largest", units::volume, "sectional: volume of the last pivot.").optional().above(0))
       .add(numberKey(at + ".spacing", "sectional: ratio of the volumes of neighbouring pivots.").optional().above(1))
+      .add(
+          choiceKey(at + ".growth_scheme", {"limited", "upwind"},
+                    "sectional: flux of growing particles; limited (if not given) is of second order, upwind of first.")
+              .optional())
+      .add(numberKey(at + ".overflow",
+                     "sectional: part of the volume that may pass the last pivot before that is an error; 1e-6 if not "
+                     "given.")
+               .optional()
+               .above(0)
+               .atMost(1))
       .add(integerKey(at + ".moments", "qmom (even), momic: number of moments.").optional().atLeast(2).atMost(20))
       .add(choiceKey(at + ".inversion", {"wheeler", "product_difference"}, "qmom: moments to quadrature.").optional())
       .add(numberKey(at + ".relative_tolerance", "sectional, qmom, momic: of the integrator.")
