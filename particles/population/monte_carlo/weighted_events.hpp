@@ -196,6 +196,8 @@ bool WeightedMethod<Type, Store>::condense(RandomStream& random) {
 
 template <ParticleType Type, class Store>
 void WeightedMethod<Type, Store>::nucleate(RandomStream&) {
+  // Particles that change carry the time they are of.
+  if constexpr (isDeferred<Type>) nucleus_ = type_.make(nucleusVolume_);
   add(*nucleus_, nucleusWeight_);
   ++counters_.nucleations;
   if (store_.rates().gels()) {

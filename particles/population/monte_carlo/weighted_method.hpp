@@ -32,6 +32,7 @@
 #include <span>
 #include <vector>
 
+#include "particles/population/monte_carlo/deferred_growth.hpp"
 #include "particles/population/monte_carlo/initial_sample.hpp"
 #include "particles/population/monte_carlo/jump_process.hpp"
 #include "particles/population/monte_carlo/weighted_rates.hpp"
@@ -58,7 +59,10 @@ class WeightedMethod {
         store_(WeightedRates<Type>(type, model, options)),
         first_{type.make(1), 0},
         second_{type.make(1), 0} {
-    if (model.nucleation) nucleus_ = type.make(model.nucleation->volume);
+    if (model.nucleation) {
+      nucleusVolume_ = model.nucleation->volume;
+      nucleus_ = type.make(nucleusVolume_);
+    }
     std::vector<Entry> entries;
     const double weight = initial.number > 0 ? initial.number / static_cast<double>(capacity_) : 0;
     for (const double v : initialVolumes(initial, capacity_, random)) entries.push_back({type.make(v), weight});
@@ -107,7 +111,8 @@ class WeightedMethod {
   [[nodiscard]] const Type& type() const { return type_; }
 
  private:
-  static constexpr double growthPart = 0.05;  // by which volumes change in a step of splitting
+  // By which volumes change in a step. Splitting has an error of second order in it, deferment none.
+  static constexpr double growthPart = isDeferred<Type> ? 0.3 : 0.05;
 
   void put(const Particle& particle, double weight) {
     const Entry entry{particle, weight};
@@ -147,6 +152,7 @@ class WeightedMethod {
   std::size_t capacity_, sinceTuned_ = 0;
   double nucleusWeight_;  // 1/m3
   double growthStep_ = 0;
+  double nucleusVolume_ = 0;  // m3
   std::optional<Particle> nucleus_;
   Store store_;
   Entry first_, second_;

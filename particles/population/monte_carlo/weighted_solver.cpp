@@ -18,9 +18,6 @@ void checkWeighted(const PopulationModel& model, const MonteCarloOptions& option
     throw InputError(
         "the methods wfmc and samwfmc have no place for particles that nucleation or breakage adds; use sammc");
   }
-  if (model.growth.active() && model.growth.treatment == GrowthOptions::Treatment::deferred) {
-    throw InputError("methods with different weights cannot defer growth; use split or jumps");
-  }
 }
 
 }  // namespace lampblack

@@ -26,6 +26,10 @@ template <ParticleType Type>
 std::unique_ptr<PopulationSolver> makeWeighted(const Type& type, const PopulationModel& model,
                                                const InitialPopulation& initial, const MonteCarloOptions& options) {
   checkWeighted(model, options);
+  if (defersGrowth(model, options)) {
+    using Method = DeferredMethod<WeightedMethod<Deferred<Type>, SortedStore<WeightedRates<Deferred<Type>>>>>;
+    return makeWeightedWith<Method>(Deferred<Type>(type, model.growth), model, initial, options);
+  }
   if (options.rates == EventRates::exact) {
     return makeWeightedWith<WeightedMethod<Type, ExactStore<WeightedRates<Type>>>>(type, model, initial, options);
   }

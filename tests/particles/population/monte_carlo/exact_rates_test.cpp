@@ -65,7 +65,7 @@ std::string nameOf(const testing::TestParamInfo<Case>& info) {
 
 class ExactRates : public testing::TestWithParam<Case> {};
 INSTANTIATE_TEST_SUITE_P(Methods, ExactRates,
-                         testing::Combine(testing::Values(Method::dsmc),
+                         testing::Combine(testing::Values(Method::dsmc, Method::sammc, Method::swa),
                                           testing::Values(std::pair("Additive", &additive),
                                                           std::pair("FreeMolecular", &freeMolecular),
                                                           std::pair("Everything", &everything))),
@@ -79,13 +79,13 @@ TEST_P(ExactRates, HaveTheLawOfMajorants) {
         [&](std::uint64_t repeat) {
           MonteCarloOptions options;
           options.method = chosenMethod;
-          options.particles = 60;
+          options.particles = 30;  // whatever their number is, both are to have the same law
           options.rates = rates;
           options.seed = seed;
           options.repeat = repeat;
           return makeMonteCarlo(setting.model, setting.initial, options);
         },
-        200, 1.0, setting.edges);
+        200, 0.7, setting.edges);
   };
   test::expectSameLaw(run(EventRates::majorant, 1), run(EventRates::exact, 2));
 }

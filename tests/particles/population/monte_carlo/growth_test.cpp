@@ -49,7 +49,8 @@ std::vector<Sample> run(PopulationModel model, Treatment treatment, double step,
 class DeferredGrowth : public testing::TestWithParam<MonteCarloMethod> {};
 INSTANTIATE_TEST_SUITE_P(Methods, DeferredGrowth,
                          testing::Values(MonteCarloMethod::dsmc, MonteCarloMethod::constantVolume,
-                                         MonteCarloMethod::constantNumberByNumber));
+                                         MonteCarloMethod::constantNumberByNumber, MonteCarloMethod::sammc,
+                                         MonteCarloMethod::swa));
 
 // dM0/dt = -M0 M1 with M1 = e^(ct), so that M0 = exp(-(e^(ct) - 1)/c). One step in which volumes grow by a factor of
 // 4.5: splitting takes M1 from the middle of the step, e^(c/2), and is off by exp(0.2) in M0.
@@ -57,12 +58,12 @@ TEST_P(DeferredGrowth, HasNoErrorOfTheStep) {
   PopulationModel model = coagulation(CollisionKernelType::additive);
   const double c = 1.5, end = 1, integral = std::expm1(c * end) / c;
   model.growth.condensation = c;
-  const auto one = run(model, Treatment::deferred, 10, monodisperse, 500, 60, end, GetParam());
+  const auto one = run(model, Treatment::deferred, 10, monodisperse, 300, 40, end, GetParam());
   EXPECT_LT(std::abs(one[0].z(std::exp(-integral))), zLimit);
-  const auto split = run(model, Treatment::split, 10, monodisperse, 500, 60, end, GetParam());
+  const auto split = run(model, Treatment::split, 10, monodisperse, 300, 40, end, GetParam());
   EXPECT_LT(std::abs(split[0].z(std::exp(-std::exp(0.5 * c)))), zLimit);
   EXPECT_GT(std::abs(split[0].z(std::exp(-integral))), 5);
-  const auto chosen = run(model, Treatment::deferred, 0, monodisperse, 500, 60, end, GetParam());
+  const auto chosen = run(model, Treatment::deferred, 0, monodisperse, 300, 40, end, GetParam());
   EXPECT_LT(std::abs(chosen[0].z(std::exp(-integral))), zLimit);
 }
 
