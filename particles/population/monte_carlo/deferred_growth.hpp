@@ -67,6 +67,8 @@ class Deferred {
     return p.orderVolume > growth_.smallestVolume || volume(p) > growth_.smallestVolume;
   }
 
+  [[nodiscard]] double fractalDimension() const { return lampblack::fractalDimension(type_); }
+
   // Until the end of the step.
   [[nodiscard]] double orderVolume(const Particle& p) const { return p.orderVolume; }
   [[nodiscard]] CollisionKernel::Terms terms(const CollisionKernel& kernel, const Particle& p) const {

@@ -45,7 +45,7 @@ class WeightedRates {
   [[nodiscard]] const Type& type() const { return type_; }
   [[nodiscard]] const GrowthJump<Type>& growthJump() const { return jump_; }
   [[nodiscard]] const FractionLaw& fraction() const { return fraction_; }
-  [[nodiscard]] bool gels() const { return kernel_ && kernel_->gels(); }
+  [[nodiscard]] bool gels() const { return kernel_ && kernel_->gels(fractalDimension(type_)); }
   [[nodiscard]] bool tunable() const { return kernel_ && kernel_->tunable(); }
   template <class ForEach>
   void tune(ForEach&& forEach) {

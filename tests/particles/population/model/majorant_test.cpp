@@ -106,7 +106,7 @@ TEST(Majorants, OfTheTransitionKernelIsTheHarmonicMeanOfTheLimits) {
 }
 
 // What a simulation sees: the share of attempts that are accepted, for log-normal populations in flames and in air.
-TEST(Majorants, OfTunedTransitionKernelsAcceptNearlyHalfAndMore) {
+TEST(Majorants, OfTunedTransitionKernelsAcceptMoreThanHalf) {
   for (const auto type : {CollisionKernelType::transition, CollisionKernelType::transitionFuchs}) {
     for (const double median : {2e-9, 20e-9, 200e-9, 2e-6}) {
       RandomStream random(5, 0, 0);
@@ -121,11 +121,10 @@ TEST(Majorants, OfTunedTransitionKernelsAcceptNearlyHalfAndMore) {
       for (std::size_t i = 0; i < particles.size(); ++i) {
         for (std::size_t j = 0; j < i; ++j) pairs += kernel.value(particles[i], particles[j]);
       }
-      // Never above 1; the bounds of the limits are at most twice the kernel, and the mixture of one size is exact.
+      // Measured: 0.64 (Fuchs, 20 nm) to 0.99; the smaller one of the two bounds alone has 0.47 at 20 nm.
       const double acceptance = pairs / total(kernel, particles);
-      EXPECT_GT(acceptance, 0.4) << nameOf(type) << " " << median;
+      EXPECT_GT(acceptance, 0.6) << nameOf(type) << " " << median;
       EXPECT_LT(acceptance, 1) << nameOf(type) << " " << median;
-      RecordProperty("acceptance", std::to_string(acceptance));
     }
   }
 }
