@@ -26,13 +26,13 @@ class RandomStream {
         purpose_(purpose) {}
 
   // Uniform in the open interval (0, 1): never 0 or 1, so that its logarithm is finite and not zero.
-  double uniform() { return openUnitInterval(next64()); }
+  [[gnu::always_inline]] double uniform() { return openUnitInterval(next64()); }
 
   // Exponentially distributed waiting time with the given rate (1/s, positive).
-  double exponential(double rate) { return -std::log(uniform()) / rate; }
+  [[gnu::always_inline]] double exponential(double rate) { return -std::log(uniform()) / rate; }
 
   // Uniform index in [0, n); n positive. The bias is below n/2^64 (multiply-shift, Lemire 2019).
-  std::uint64_t below(std::uint64_t n) {
+  [[gnu::always_inline]] std::uint64_t below(std::uint64_t n) {
     __extension__ using Wide = unsigned __int128;
     return static_cast<std::uint64_t>((static_cast<Wide>(next64()) * n) >> 64);
   }
@@ -48,7 +48,7 @@ class RandomStream {
   }
 
  private:
-  std::uint64_t next64() {
+  [[gnu::always_inline]] std::uint64_t next64() {
     const std::size_t k = position_ % buffered;
     if (k == 0) generate();
     ++position_;

@@ -67,7 +67,7 @@ class ClassStore {
     size_ += count;
     for (std::size_t slot = 0; slot < classes_.size(); ++slot) update(slot);
   }
-  void insert(const Entry& entry, std::size_t copies = 1) {
+  [[gnu::always_inline]] void insert(const Entry& entry, std::size_t copies = 1) {
     const std::size_t slot = slotOf(rates_.volume(entry));
     for (std::size_t k = 0; k < copies; ++k) classes_[slot].push_back(entry);
     size_ += copies;
@@ -248,7 +248,8 @@ class ClassStore {
     return bounds_[slot * sums_.blocks() + component / SumTree::lanes].x[component % SumTree::lanes];
   }
 
-  [[nodiscard]] std::size_t slotOf(double volume) {
+  // Always inline: the compiler thinks the whole too large, and the calls would cost a third of an event.
+  [[nodiscard, gnu::always_inline]] std::size_t slotOf(double volume) {
     const std::uint64_t key = std::bit_cast<std::uint64_t>(volume) >> (52 - mantissaBits);
     const std::uint64_t k = key - firstKey_;
     if (k < slots_.size() && slots_[k] != none) return slots_[k];
@@ -272,11 +273,13 @@ class ClassStore {
     return slot;
   }
 
-  void raiseBounds(std::size_t slot, const Entry& entry) {
+  [[gnu::always_inline]] void raiseBounds(std::size_t slot, const Entry& entry) {
     SumTree::Lanes* bounds = &bounds_[slot * sums_.blocks()];
     const auto raise = [&](std::size_t component, double value) {
-      double& bound = bounds[component / SumTree::lanes].x[component % SumTree::lanes];
-      bound = std::max(bound, value);
+      // Hardly ever, and no store otherwise: update() is going to load all bounds at once.
+      auto& x = bounds[component / SumTree::lanes].x;
+      if (value > x[component % SumTree::lanes]) [[unlikely]]
+        x[component % SumTree::lanes] = value;
     };
     raise(0, 1);
     if (rank_ > 0) {
@@ -292,25 +295,25 @@ class ClassStore {
       }
     }
   }
-  void update(std::size_t slot) {
+  [[gnu::always_inline]] void update(std::size_t slot) {
     sums_.set(slot, static_cast<double>(classes_[slot].size()), &bounds_[slot * sums_.blocks()]);
   }
 
   // The same by a second random number: the member is known without waiting for the remainder of the first.
-  [[nodiscard]] bool place(std::size_t component, double x, RandomStream& random, Place& at) const {
+  [[nodiscard, gnu::always_inline]] bool place(std::size_t component, double x, RandomStream& random, Place& at) const {
     at.slot = sums_.find(component, x);
     if (at.slot >= classes_.size() || classes_[at.slot].empty()) return false;
     at.index = static_cast<std::size_t>(random.below(classes_[at.slot].size()));
     return true;
   }
-  [[nodiscard]] Place uniformPlace(RandomStream& random) const {
+  [[nodiscard, gnu::always_inline]] Place uniformPlace(RandomStream& random) const {
     // Numbers are exact, and their remainder is a place in the class.
     double x = random.uniform() * static_cast<double>(size_);
     const std::size_t slot = sums_.find(0, x);
     return {slot, static_cast<std::size_t>(x)};
   }
 
-  void remove(const Place& at) {
+  [[gnu::always_inline]] void remove(const Place& at) {
     auto& members = classes_[at.slot];
     members[at.index] = std::move(members.back());
     members.pop_back();

@@ -48,7 +48,7 @@ class EqualRates {
         [&](const auto& f) { forEach([&](const Entry& entry, double number = 1) { f(properties(entry), number); }); });
   }
 
-  [[nodiscard]] Entry entry(const Particle& particle) const {
+  [[nodiscard, gnu::always_inline]] Entry entry(const Particle& particle) const {
     const bool needed = !changing && kernel_ && kernel_->needsDiameter();
     return {particle, needed ? type_.collisionDiameter(particle) : 0.0};
   }
@@ -67,7 +67,7 @@ class EqualRates {
     return kernel_->value(properties(i), properties(j));
   }
 
-  [[nodiscard]] double single(SingleProcess process, const Entry& entry) const {
+  [[nodiscard, gnu::always_inline]] double single(SingleProcess process, const Entry& entry) const {
     if (changing && !exists(type_, entry.particle)) return 0;
     switch (process) {
       case SingleProcess::breakage:

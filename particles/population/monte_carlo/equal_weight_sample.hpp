@@ -39,7 +39,8 @@ class EqualWeightSample {
         capacity_(capacity),
         fullAt_(constantNumber ? capacity : capacity - capacity / 4),
         weight_(weight),
-        tracked_(keepsMass || store_.rates().gels()),
+        gels_(store_.rates().gels()),
+        tracked_(keepsMass || gels_),
         // See gelled().
         gelShare_(std::min(0.5, 2 / std::cbrt(static_cast<double>(capacity)))) {}
 
@@ -49,11 +50,11 @@ class EqualWeightSample {
   [[nodiscard]] std::size_t size() const { return store_.size(); }
 
   // Bookkeeping of what an event takes out and puts in.
-  void put(const Entry& entry, std::size_t copies = 1) {
+  [[gnu::always_inline]] void put(const Entry& entry, std::size_t copies = 1) {
     store_operations::insert(store_, entry, copies);
     if (tracked_) changed(entry, static_cast<double>(copies));
   }
-  void taken(const Entry& entry) {
+  [[gnu::always_inline]] void taken(const Entry& entry) {
     if (tracked_) changed(entry, -1);
   }
   // To be called after an event that changes the mass, and after growth.
@@ -61,7 +62,7 @@ class EqualWeightSample {
     if constexpr (keepsMass) mass_ = weight_ * volume_.value();
   }
   // To be called when an event is over: brings the number of particles into range.
-  void settle(RandomStream& random, PopulationCounters& counters) {
+  [[gnu::always_inline]] void settle(RandomStream& random, PopulationCounters& counters) {
     const std::size_t count = size();
     if (!filled_) {
       if (count < fullAt_) return;
@@ -94,7 +95,7 @@ class EqualWeightSample {
   // multiplicative kernel), before it of the order of log N, after it of the order of N: the time at which the share
   // exceeds a few N^(-1/3) tends to the gel point as N grows, the width of the transition being O(N^(-1/3)).
   [[nodiscard]] bool gelled() const {
-    if (!store_.rates().gels() || !filled_ || !(largest_ > gelShare_ * volume_.value())) return false;
+    if (!gels_ || !filled_ || !(largest_ > gelShare_ * volume_.value())) return false;
     // The largest may be gone.
     largest_ = 0;
     store_.forEach([&](const Entry& entry) { largest_ = std::max(largest_, volumeOf(entry)); });
@@ -158,7 +159,8 @@ class EqualWeightSample {
 
   Store store_;
   std::size_t capacity_, fullAt_;
-  double weight_;    // 1/m3
+  double weight_;  // 1/m3
+  bool gels_;
   bool tracked_;     // whether the volume of all is kept
   double gelShare_;  // of the mass in one particle
   double mass_ = 0;  // M_1, of keepsMass

@@ -9,7 +9,7 @@ class PowerLaw {
  public:
   PowerLaw() = default;
   PowerLaw(double rate, double exponent) : rate_(rate), exponent_(exponent) {}
-  [[nodiscard]] double operator()(double v) const {
+  [[nodiscard, gnu::always_inline]] double operator()(double v) const {
     if (exponent_ == 0) return rate_;
     if (exponent_ == 1) return rate_ * v;
     if (exponent_ == 2) return rate_ * v * v;

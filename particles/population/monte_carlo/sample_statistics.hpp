@@ -15,31 +15,37 @@ namespace lampblack {
 // M_0 to M_3 of a sample.
 template <class Store>
 [[nodiscard]] std::array<double, 4> sampleMoments(const Store& store, double weight) {
-  // Independent partial sums, so that the loop runs in vector registers.
+  // Partial sums in one vector register each.
   constexpr std::size_t lanes = 8;
-  std::array<double, 3> sums{};
+  struct Lanes {
+    using Register [[gnu::vector_size(lanes * sizeof(double))]] = double;
+    Register x{};
+  };
+  Lanes first, second, third;
   const auto& type = store.rates().type();
   store_operations::forEachRun(store, [&](auto run) {
-    std::array<double, lanes> first{}, second{}, third{};
-    const auto add = [&](std::size_t at, std::size_t lane) {
-      const double v = type.volume(run[at].particle);
-      first[lane] += v;
-      second[lane] += v * v;
-      third[lane] += v * v * v;
-    };
     std::size_t k = 0;
     for (; k + lanes <= run.size(); k += lanes) {
-      for (std::size_t lane = 0; lane < lanes; ++lane) add(k + lane, lane);
+      Lanes v;
+      for (std::size_t lane = 0; lane < lanes; ++lane) v.x[lane] = type.volume(run[k + lane].particle);
+      const Lanes square{v.x * v.x};
+      first.x += v.x;
+      second.x += square.x;
+      third.x += square.x * v.x;
     }
-    for (; k < run.size(); ++k) add(k, k % lanes);
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-      sums[0] += first[lane];
-      sums[1] += second[lane];
-      sums[2] += third[lane];
+    for (; k < run.size(); ++k) {
+      const double v = type.volume(run[k].particle);
+      first.x[k % lanes] += v;
+      second.x[k % lanes] += v * v;
+      third.x[k % lanes] += v * v * v;
     }
   });
   std::array<double, 4> moments{weight * static_cast<double>(store.size()), 0, 0, 0};
-  for (std::size_t order = 0; order < 3; ++order) moments[order + 1] = weight * sums[order];
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    moments[1] += weight * first.x[lane];
+    moments[2] += weight * second.x[lane];
+    moments[3] += weight * third.x[lane];
+  }
   return moments;
 }
 

@@ -9,8 +9,9 @@
 
 namespace lampblack::store_operations {
 
+// Inline, so that the entry need not go through memory.
 template <class Store>
-void insert(Store& store, const typename Store::Entry& entry, std::size_t copies) {
+[[gnu::always_inline]] inline void insert(Store& store, const typename Store::Entry& entry, std::size_t copies) {
   if constexpr (requires { store.insert(entry, copies); }) {
     store.insert(entry, copies);
   } else {

@@ -13,12 +13,10 @@ namespace lampblack {
 class SumTree {
  public:
   static constexpr std::size_t lanes = 4, largestComponents = 12;
-  struct alignas(32) Lanes {
-    std::array<double, lanes> x{};
-    Lanes& operator+=(const Lanes& other) {
-      for (std::size_t k = 0; k < lanes; ++k) x[k] += other.x[k];
-      return *this;
-    }
+  // One vector register, which compilers do not find by themselves here.
+  struct Lanes {
+    using Register [[gnu::vector_size(lanes * sizeof(double))]] = double;
+    Register x{};
   };
 
   // At most largestComponents.
@@ -39,7 +37,7 @@ class SumTree {
   }
 
   // Sets a leaf to factor * values[...], `blocks()` of them.
-  void set(std::size_t leaf, double factor, const Lanes* values) {
+  [[gnu::always_inline]] void set(std::size_t leaf, double factor, const Lanes* values) {
     if (blocks_ == 1)
       setBlocks<1>(leaf, factor, values);
     else if (blocks_ == 2)
@@ -50,9 +48,9 @@ class SumTree {
 
   // The leaf in which `x` falls, 0 <= x < total(component), the leaves being laid end to end; x becomes the distance
   // from the start of the leaf.
-  [[nodiscard]] std::size_t find(std::size_t component, double& x) const {
+  [[nodiscard, gnu::always_inline]] std::size_t find(std::size_t component, double& x) const {
     const std::size_t stride = blocks_ * lanes;
-    const double* values = nodes_.data()->x.data() + component;
+    const double* values = reinterpret_cast<const double*>(nodes_.data()) + component;
     std::size_t node = 1;
     while (node < leaves_) {
       node *= 2;
@@ -66,16 +64,16 @@ class SumTree {
 
  private:
   template <std::size_t Blocks>
-  void setBlocks(std::size_t leaf, double factor, const Lanes* values) {
-    std::array<Lanes, Blocks> sum;
+  [[gnu::always_inline]] void setBlocks(std::size_t leaf, double factor, const Lanes* values) {
+    Lanes sum[Blocks];
     std::size_t node = leaves_ + leaf;
     Lanes* nodes = nodes_.data();
     for (std::size_t b = 0; b < Blocks; ++b) {
-      for (std::size_t k = 0; k < lanes; ++k) sum[b].x[k] = factor * values[b].x[k];
+      sum[b].x = factor * values[b].x;
       nodes[node * Blocks + b] = sum[b];
     }
     while (node > 1) {
-      for (std::size_t b = 0; b < Blocks; ++b) sum[b] += nodes[(node ^ 1) * Blocks + b];
+      for (std::size_t b = 0; b < Blocks; ++b) sum[b].x += nodes[(node ^ 1) * Blocks + b].x;
       node /= 2;
       for (std::size_t b = 0; b < Blocks; ++b) nodes[node * Blocks + b] = sum[b];
     }
