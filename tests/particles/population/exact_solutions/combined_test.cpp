@@ -122,8 +122,8 @@ TEST(ExactCombined, LossesAndCondensationChangeTheClock) {
 }
 
 TEST(ExactCombined, CondensationByJumpsIsAYuleProcess) {
-  // Particles of k0 monomers that gain one at the rate s k: k is negative binomial with p = exp(-s t), and its cumulants
-  // are k0/p, k0 q/p^2, k0 q (1 + q)/p^3.
+  // Particles of k0 monomers that gain one at the rate s k: k is negative binomial with p = exp(-s t), and its
+  // cumulants are k0/p, k0 q/p^2, k0 q (1 + q)/p^3.
   PopulationModel model;
   model.growth.condensation = 0.5;
   model.growth.treatment = GrowthOptions::Treatment::jumps;
