@@ -37,7 +37,7 @@ class ChunkDirectory {
     }
     const Block& block = blocks_[tops_[first].block];
     std::uint64_t below = 0;
-    for (std::uint32_t k = 0; k < block.size; ++k) {
+    for (std::uint32_t k = 0; k < width; ++k) {  // infinite where not in use
       below += static_cast<std::uint64_t>(block.volume[k] < volume) |
                (static_cast<std::uint64_t>(block.volume[k] == volume) &
                 static_cast<std::uint64_t>(block.weight[k] <= weight));
@@ -65,6 +65,7 @@ class ChunkDirectory {
     const std::uint32_t at = block.indexOf(slot);
     --block.size;
     for (std::uint32_t k = at; k < block.size; ++k) block.copy(k, block, k + 1);
+    block.volume[block.size] = block.weight[block.size] = infinity;
     if (block.size == 0) {
       tops_.erase(tops_.begin() + static_cast<std::ptrdiff_t>(topOf(b)));
       free_.push_back(b);
@@ -84,8 +85,12 @@ class ChunkDirectory {
 
   struct Block {
     std::array<double, width> volume, weight;
-    std::array<std::uint32_t, width> slot;
+    std::array<std::uint32_t, width> slot{};
     std::uint32_t size = 0;
+    Block() {
+      volume.fill(infinity);
+      weight.fill(infinity);
+    }
     [[nodiscard]] std::uint32_t indexOf(std::uint32_t s) const {
       std::uint32_t k = 0;
       while (slot[k] != s) ++k;
@@ -119,6 +124,7 @@ class ChunkDirectory {
     } else {
       fresh = free_.back();
       free_.pop_back();
+      blocks_[fresh] = Block();
     }
     Block &lower = blocks_[b], &upper = blocks_[fresh];
     upper.size = width / 2;
@@ -126,6 +132,7 @@ class ChunkDirectory {
     for (std::uint32_t k = 0; k < upper.size; ++k) {
       upper.copy(k, lower, lower.size + k);
       blockOf_[upper.slot[k]] = fresh;
+      lower.volume[lower.size + k] = lower.weight[lower.size + k] = infinity;
     }
     tops_.insert(tops_.begin() + static_cast<std::ptrdiff_t>(topOf(b) + 1),
                  Top{upper.volume[0], upper.weight[0], fresh});

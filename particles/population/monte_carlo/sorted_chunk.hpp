@@ -6,7 +6,6 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -16,14 +15,16 @@
 namespace lampblack {
 
 // `bare`: the particle is nothing but its volume, and is not stored a second time.
+//
+// Loops run over all 64 places in vectors, whatever is in use: how often they run is then known to the compiler and to
+// the branch predictor, which costs less than stopping early.
 template <class Particle, bool bare>
 struct SortedChunk {
-  static constexpr std::uint32_t capacity = 64, none = ~std::uint32_t{0};
+  static constexpr std::uint32_t places = 64, capacity = places - 1, none = ~std::uint32_t{0};
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
-  // volume[size] is the volume of the first entry of the next chunk; infinity where there is none.
-  alignas(64) std::array<double, capacity + 8> volume;
-  alignas(64) std::array<double, capacity> weight;
+  // Entries from `size` on have infinite volume and no weight, but for volume(size), which is the volume of the first
+  // entry of the next chunk.
   std::vector<Particle> particles;  // unless bare
   std::uint32_t size = 0, previous = none, next = none;
 
@@ -44,108 +45,174 @@ struct SortedChunk {
   bool heaviestExact = false;
   bool used = false;
 
-  SortedChunk() : volume{}, weight{} { volume[0] = infinity; }
+  SortedChunk() {
+    volumes_.fill(infinity);
+    weights_.fill(0);
+  }
+
+  [[nodiscard]] double volume(std::uint32_t k) const { return volumes_[margin + k]; }
+  [[nodiscard]] double weight(std::uint32_t k) const { return weights_[margin + k]; }
+  [[nodiscard]] const double* weights() const { return &weights_[margin]; }
+  void setNextVolume(double v) { volumes_[margin + size] = v; }
 
   [[nodiscard]] bool below(std::uint32_t k, double v, double w) const {
-    return volume[k] < v || (volume[k] == v && weight[k] < w);
+    return volume(k) < v || (volume(k) == v && weight(k) < w);
   }
   // Number of entries below (v, w).
   [[nodiscard]] std::uint32_t position(double v, double w) const {
-    std::uint64_t count = 0;
-    for (std::uint32_t k = 0; k < size; ++k) {
-      count += static_cast<std::uint64_t>(volume[k] < v) |
-               (static_cast<std::uint64_t>(volume[k] == v) & static_cast<std::uint64_t>(weight[k] < w));
+    Bits count{};
+    for (std::uint32_t k = 0; k < places; k += lanes) {
+      const Lanes x = load(&volumes_[margin + k]), y = load(&weights_[margin + k]);
+      count -= (x < v) | ((x == v) & (y < w));
     }
-    return static_cast<std::uint32_t>(count);
+    std::int64_t sum = 0;
+    for (std::uint32_t lane = 0; lane < lanes; ++lane) sum += count[lane];
+    // The next chunk's first entry may have been counted.
+    return static_cast<std::uint32_t>(sum) - static_cast<std::uint32_t>(below(size, v, w));
   }
   [[nodiscard]] bool contains(double v, double w) const {  // surely: between its first and last entry
-    return size > 0 && !below(size - 1, v, w) && (volume[0] < v || (volume[0] == v && weight[0] <= w));
+    return size > 0 && !below(size - 1, v, w) && (volume(0) < v || (volume(0) == v && weight(0) <= w));
   }
 
-  void insertAt(std::uint32_t at, double v, double w) {
-    std::memmove(&volume[at + 1], &volume[at], (size + 1 - at) * sizeof(double));
-    std::memmove(&weight[at] + 1, &weight[at], (size - at) * sizeof(double));
-    volume[at] = v;
-    weight[at] = w;
-    ++size;
-    weightSum += w;
+  // At most mostCopies side by side.
+  static constexpr std::uint32_t mostCopies = 8;
+  void insertAt(std::uint32_t at, double v, double w, std::uint32_t copies = 1) {
+    shiftUp(volumes_, at, v, copies);
+    shiftUp(weights_, at, w, copies);
+    size += copies;
+    weightSum += copies * w;
+    ++changes;
+  }
+  // Takes out entries k and k + 1.
+  void eraseTwo(std::uint32_t k) {
+    weightSum -= weight(k) + weight(k + 1);
+    shiftDown(volumes_, k, 2);
+    shiftDown(weights_, k, 2);
+    size -= 2;
+    ++changes;
+    if constexpr (!bare) particles.erase(particles.begin() + k, particles.begin() + k + 2);
+  }
+  // Takes out entries k and k + 1 and puts in one at `at`, k or more, of what remains.
+  void replaceTwo(std::uint32_t k, std::uint32_t at, double v, double w) {
+    weightSum += w - (weight(k) + weight(k + 1));
+    replaceTwo(volumes_, k, at, v);
+    replaceTwo(weights_, k, at, w);
+    --size;
     ++changes;
   }
   void eraseAt(std::uint32_t at) {
-    weightSum -= weight[at];
-    std::memmove(&volume[at], &volume[at + 1], (size - at) * sizeof(double));
-    std::memmove(&weight[at], &weight[at] + 1, (size - 1 - at) * sizeof(double));
+    weightSum -= weight(at);
+    shiftDown(volumes_, at);
+    shiftDown(weights_, at);
     --size;
     ++changes;
     if constexpr (!bare) particles.erase(particles.begin() + at);
+  }
+  // The entries of `other` from `from` on are moved to the end of this one, with what `other` knows of the next chunk.
+  void moveFrom(SortedChunk& other, std::uint32_t from) {
+    const std::uint32_t count = other.size - from;
+    std::copy_n(&other.volumes_[margin + from], count + 1, &volumes_[margin + size]);
+    std::copy_n(&other.weights_[margin + from], count, &weights_[margin + size]);
+    std::fill_n(&other.volumes_[margin + from], count + 1, infinity);
+    std::fill_n(&other.weights_[margin + from], count, 0.0);
+    if constexpr (!bare) {
+      particles.insert(particles.end(), std::make_move_iterator(other.particles.begin() + from),
+                       std::make_move_iterator(other.particles.end()));
+      other.particles.erase(other.particles.begin() + from, other.particles.end());
+    }
+    size += count;
+    other.size = from;
   }
 
   // The entry in which `x` falls, the weights being laid end to end; `size` where it lies beyond.
   [[nodiscard]] std::uint32_t atWeight(double x) const {
     std::uint32_t k = 0;
-    for (; k + 8 <= size; k += 8) {
-      const double* w = &weight[k];
+    for (; k < places; k += 8) {
+      const double* w = weights() + k;
       const double sum = ((w[0] + w[1]) + (w[2] + w[3])) + ((w[4] + w[5]) + (w[6] + w[7]));
       if (x < sum) break;
       x -= sum;
     }
     for (; k < size; ++k) {
-      if (x < weight[k]) return k;
-      x -= weight[k];
+      if (x < weight(k)) return k;
+      x -= weight(k);
     }
     return size;
   }
   [[nodiscard]] double sumOfWeights() const {
-    std::array<double, 4> sum{};
-    std::uint32_t k = 0;
-    for (; k + 4 <= size; k += 4) {
-      for (std::uint32_t lane = 0; lane < 4; ++lane) sum[lane] += weight[k + lane];
-    }
-    for (; k < size; ++k) sum[0] += weight[k];
-    return (sum[0] + sum[2]) + (sum[1] + sum[3]);
+    Lanes sums{};
+    for (std::uint32_t k = 0; k < places; k += lanes) sums += load(&weights_[margin + k]);
+    return ((sums[0] + sums[4]) + (sums[2] + sums[6])) + ((sums[1] + sums[5]) + (sums[3] + sums[7]));
   }
   [[nodiscard]] double largestWeight() const {
     double largest = 0;
-    for (std::uint32_t k = 0; k < size; ++k) largest = std::max(largest, weight[k]);
+    for (std::uint32_t k = 0; k < size; ++k) largest = std::max(largest, weight(k));
     return largest;
   }
 
   // Difference between entry k and the one after it.
   template <bool relative>
   [[nodiscard]] double difference(std::uint32_t k) const {
-    const double d = volume[k + 1] - volume[k];
-    return relative ? d / volume[k] : d;
+    const double d = volume(k + 1) - volume(k);
+    return relative ? d / volume(k) : d;
   }
   // Entry k and the next one as a candidate for the smallest difference.
   template <bool relative>
   void consider(std::uint32_t k) {
-    const LeastOfChunks::Key key{difference<relative>(k), weight[k]};
+    const LeastOfChunks::Key key{difference<relative>(k), weight(k)};
     if (!(key < least)) return;
     least = key;
     leastAt = k;
     stale = false;
   }
-  // Doubles of zero or more are ordered like the integers with their bits, whose minimum takes vector instructions.
   template <bool relative>
   void findLeast() {
-    std::array<std::int64_t, capacity> bits;
-    std::int64_t smallest = std::bit_cast<std::int64_t>(infinity), lightest = smallest;
-    for (std::uint32_t k = 0; k < size; ++k) bits[k] = std::bit_cast<std::int64_t>(difference<relative>(k));
-    for (std::uint32_t k = 0; k < size; ++k) smallest = bits[k] < smallest ? bits[k] : smallest;
-    for (std::uint32_t k = 0; k < size; ++k) {
-      const std::int64_t w = std::bit_cast<std::int64_t>(weight[k]);
-      const std::int64_t candidate = bits[k] == smallest ? w : std::bit_cast<std::int64_t>(infinity);
+    // Doubles of zero or more are ordered like the integers with their bits.
+    constexpr std::int64_t none64 = std::numeric_limits<std::int64_t>::max();
+    Bits differences[places / lanes];
+    Bits smallest = Bits{} + none64;
+    const auto end = static_cast<std::int64_t>(size);
+    for (std::uint32_t k = 0; k < places; k += lanes) {
+      const Lanes d = load(&volumes_[margin + k + 1]) - load(&volumes_[margin + k]);
+      const Bits index = iota() + static_cast<std::int64_t>(k);
+      const Bits bits = index < end ? std::bit_cast<Bits>(d) : Bits{} + none64;
+      differences[k / lanes] = bits;
+      smallest = bits < smallest ? bits : smallest;
+    }
+    std::int64_t least64 = leastOf(smallest);
+    if (relative && least64 > 0) {  // no two volumes are equal
+      smallest = Bits{} + none64;
+      for (std::uint32_t k = 0; k < places; k += lanes) {
+        const Lanes d = std::bit_cast<Lanes>(differences[k / lanes]) / load(&volumes_[margin + k]);
+        const Bits index = iota() + static_cast<std::int64_t>(k);
+        const Bits bits = index < end ? std::bit_cast<Bits>(d) : Bits{} + none64;
+        differences[k / lanes] = bits;
+        smallest = bits < smallest ? bits : smallest;
+      }
+      least64 = leastOf(smallest);
+    }
+    Bits lightest = Bits{} + none64;
+    for (std::uint32_t k = 0; k < places; k += lanes) {
+      const Bits w = std::bit_cast<Bits>(load(&weights_[margin + k]));
+      const Bits candidate = differences[k / lanes] == least64 ? w : Bits{} + none64;
       lightest = candidate < lightest ? candidate : lightest;
     }
-    stale = false;
-    least = {std::bit_cast<double>(smallest), std::bit_cast<double>(lightest)};
-    for (leastAt = 0; leastAt < size; ++leastAt) {
-      if (bits[leastAt] == smallest && weight[leastAt] == least.second) return;
+    const std::int64_t lightest64 = leastOf(lightest);
+    Bits first = Bits{} + static_cast<std::int64_t>(size);
+    for (std::uint32_t k = 0; k < places; k += lanes) {
+      const Bits w = std::bit_cast<Bits>(load(&weights_[margin + k]));
+      const Bits index = iota() + static_cast<std::int64_t>(k);
+      const Bits candidate = (differences[k / lanes] == least64) & (w == lightest64) ? index : Bits{} + none64;
+      first = candidate < first ? candidate : first;
     }
+    stale = false;
+    leastAt = static_cast<std::uint32_t>(leastOf(first));
+    least = {};
+    if (size > 0) least = {std::bit_cast<double>(least64), std::bit_cast<double>(lightest64)};
   }
   // After an entry came to `at`, or left from there; pairs of the entry are not considered yet.
-  void leastMovedUp(std::uint32_t at) {
-    if (leastAt >= at) ++leastAt;
+  void leastMovedUp(std::uint32_t at, std::uint32_t by) {
+    if (leastAt >= at) leastAt += by;
   }
   void leastMovedDown(std::uint32_t at) {
     if (leastAt == at || leastAt + 1 == at)
@@ -153,6 +220,55 @@ struct SortedChunk {
     else if (leastAt > at)
       --leastAt;
   }
+
+ private:
+  static constexpr std::uint32_t lanes = 8, margin = lanes;  // the margins are read, not used
+  typedef double Lanes __attribute__((vector_size(lanes * sizeof(double))));
+  typedef double Unaligned __attribute__((vector_size(lanes * sizeof(double)), aligned(8), may_alias));
+  typedef std::int64_t Bits __attribute__((vector_size(lanes * sizeof(double))));
+  using Column = std::array<double, places + 2 * margin>;
+
+  static Lanes load(const double* from) { return *reinterpret_cast<const Unaligned*>(from); }
+  static void store(double* to, const Lanes& x) { *reinterpret_cast<Unaligned*>(to) = x; }
+  static Bits iota() { return Bits{0, 1, 2, 3, 4, 5, 6, 7}; }
+  static std::int64_t leastOf(const Bits& x) {
+    std::int64_t least64 = x[0];
+    for (std::uint32_t lane = 1; lane < lanes; ++lane) least64 = std::min<std::int64_t>(least64, x[lane]);
+    return least64;
+  }
+  static void shiftUp(Column& column, std::uint32_t at, double value, std::uint32_t copies) {
+    const auto end = static_cast<std::int64_t>(at + copies);
+    for (std::uint32_t k = places; k > 0;) {
+      k -= lanes;
+      double* x = &column[margin + k];
+      const Bits index = iota() + static_cast<std::int64_t>(k);
+      store(x, index >= end ? load(x - copies) : load(x));
+    }
+    for (std::uint32_t k = 0; k < copies; ++k) column[margin + at + k] = value;
+  }
+  static void replaceTwo(Column& column, std::uint32_t k, std::uint32_t at, double value) {
+    const auto first = static_cast<std::int64_t>(k), last = static_cast<std::int64_t>(at);
+    for (std::uint32_t b = 0; b < places; b += lanes) {
+      double* x = &column[margin + b];
+      const Bits index = iota() + static_cast<std::int64_t>(b);
+      const Lanes same = load(x), one = load(x + 1), two = load(x + 2);
+      Lanes moved = index < last ? two : one;
+      moved = index < first ? same : moved;
+      store(x, moved);
+    }
+    column[margin + at] = value;
+  }
+  static void shiftDown(Column& column, std::uint32_t at, std::uint32_t by = 1) {
+    const auto here = static_cast<std::int64_t>(at);
+    for (std::uint32_t k = 0; k < places; k += lanes) {
+      double* x = &column[margin + k];
+      const Bits index = iota() + static_cast<std::int64_t>(k);
+      store(x, index >= here ? load(x + by) : load(x));
+    }
+  }
+
+  alignas(64) Column volumes_;
+  alignas(64) Column weights_;
 };
 
 }  // namespace lampblack

@@ -50,7 +50,7 @@ class SortedStore {
   void changeRates(F&& change);
 
   void clear();
-  void insert(const Entry& entry);
+  void insert(const Entry& entry, std::size_t copies = 1);
   // Replaces everything; O(N) where the entries come in order.
   void assign(std::vector<Entry> entries);
 
@@ -89,18 +89,19 @@ class SortedStore {
   static constexpr Slot none = Chunk::none;
   static constexpr std::size_t unused = ~std::size_t{0};
   static constexpr std::uint32_t filled = 48, sparse = 12;  // entries of a chunk when built, and when joined
-  static constexpr std::uint32_t countSlack = 3;
+  static constexpr std::uint32_t countSlack = 4;
   static constexpr double weightSlack = 1.0625;
 
   [[nodiscard]] Entry entryAt(const Chunk& chunk, std::uint32_t at) const {
     if constexpr (Rates::bare)
-      return rates_.entry(chunk.volume[at], chunk.weight[at]);
+      return rates_.entry(chunk.volume(at), chunk.weight(at));
     else
-      return {chunk.particles[at], chunk.weight[at]};
+      return {chunk.particles[at], chunk.weight(at)};
   }
   [[nodiscard]] Slot locate(double volume, double weight) const;
   // Out of its chunk; settle() is due.
   void erase(Place place);
+  void eraseTwo(Place place);  // this one and the next, in one chunk; the smallest difference gets stale
   void settle(Slot slot);
   Entry take(Place place);
 

@@ -57,7 +57,7 @@ void SortedStore<Rates>::assign(std::vector<Entry> entries) {
       const Slot fresh = makeChunk();
       link(slot, fresh);
       directory_.insertAfter(slot, fresh, volume, weight);
-      chunks_[slot].volume[filled] = volume;
+      chunks_[slot].setNextVolume(volume);
       slot = fresh;
     }
     Chunk& chunk = chunks_[slot];
@@ -78,26 +78,30 @@ void SortedStore<Rates>::assign(std::vector<Entry> entries) {
 }
 
 template <SortedRates Rates>
-void SortedStore<Rates>::insert(const Entry& entry) {
+void SortedStore<Rates>::insert(const Entry& entry, std::size_t copies) {
+  for (; copies > Chunk::mostCopies; copies -= Chunk::mostCopies) insert(entry, Chunk::mostCopies);
+  if (copies == 0) return;
+  const auto count = static_cast<std::uint32_t>(copies);
   const double volume = rates_.volume(entry), weight = rates_.weight(entry);
   Slot slot = locate(volume, weight);
-  if (chunks_[slot].size == Chunk::capacity) {
+  if (chunks_[slot].size + count > Chunk::capacity) {
     split(slot);
     const Slot upper = chunks_[slot].next;
     if (chunks_[upper].below(0, volume, weight)) slot = upper;
   }
   Chunk& chunk = chunks_[slot];
   const std::uint32_t at = chunk.position(volume, weight);
-  if constexpr (!Rates::bare) chunk.particles.insert(chunk.particles.begin() + at, entry.particle);
-  chunk.insertAt(at, volume, weight);
-  ++size_;
-  chunk.leastMovedUp(at);
+  if constexpr (!Rates::bare) chunk.particles.insert(chunk.particles.begin() + at, copies, entry.particle);
+  chunk.insertAt(at, volume, weight, count);
+  size_ += copies;
+  chunk.leastMovedUp(at, count);
   consider(chunk, at);
+  if (count > 1) consider(chunk, at + count - 1);
   if (at > 0) {
     consider(chunk, at - 1);
   } else if (chunk.previous != none) {
     Chunk& previous = chunks_[chunk.previous];
-    previous.volume[previous.size] = volume;
+    previous.setNextVolume(volume);
     consider(previous, previous.size - 1);
     setLeast(chunk.previous);
   }
@@ -116,13 +120,27 @@ void SortedStore<Rates>::insert(const Entry& entry) {
 template <SortedRates Rates>
 void SortedStore<Rates>::erase(Place place) {
   Chunk& chunk = chunks_[place.slot];
-  if (chunk.weight[place.at] == chunk.heaviest) chunk.heaviestExact = false;
+  if (chunk.weight(place.at) == chunk.heaviest) chunk.heaviestExact = false;
   chunk.eraseAt(place.at);
   --size_;
   chunk.leastMovedDown(place.at);
   if (place.at == 0 && chunk.previous != none) {
     Chunk& previous = chunks_[chunk.previous];
-    previous.volume[previous.size] = chunk.volume[0];
+    previous.setNextVolume(chunk.volume(0));
+    if (previous.leastAt + 1 == previous.size) previous.stale = true;
+  }
+}
+
+template <SortedRates Rates>
+void SortedStore<Rates>::eraseTwo(Place place) {
+  Chunk& chunk = chunks_[place.slot];
+  chunk.heaviestExact = false;
+  chunk.eraseTwo(place.at);
+  size_ -= 2;
+  chunk.stale = true;
+  if (place.at == 0 && chunk.previous != none) {
+    Chunk& previous = chunks_[chunk.previous];
+    previous.setNextVolume(chunk.volume(0));
     if (previous.leastAt + 1 == previous.size) previous.stale = true;
   }
 }
@@ -146,6 +164,7 @@ typename SortedStore<Rates>::Slot SortedStore<Rates>::makeChunk() {
   Slot slot;
   if (free_.empty()) {
     slot = static_cast<Slot>(chunks_.size());
+    if (slot == chunks_.capacity()) chunks_.reserve(slot + slot / 4 + 8);  // less to spare than when doubled
     chunks_.emplace_back();
     sums_.reserve(chunks_.size());
     least_.reserve(chunks_.size());
@@ -175,16 +194,9 @@ void SortedStore<Rates>::split(Slot slot) {
   link(slot, fresh);
   Chunk &lower = chunks_[slot], &upper = chunks_[fresh];
   const std::uint32_t half = lower.size / 2;
-  upper.size = lower.size - half;
-  std::copy_n(lower.volume.begin() + half, upper.size + 1, upper.volume.begin());
-  std::copy_n(lower.weight.begin() + half, upper.size, upper.weight.begin());
-  if constexpr (!Rates::bare) {
-    upper.particles.assign(std::make_move_iterator(lower.particles.begin() + half),
-                           std::make_move_iterator(lower.particles.end()));
-    lower.particles.erase(lower.particles.begin() + half, lower.particles.end());
-  }
-  lower.size = half;
-  directory_.insertAfter(slot, fresh, upper.volume[0], upper.weight[0]);
+  upper.moveFrom(lower, half);
+  lower.setNextVolume(upper.volume(0));
+  directory_.insertAfter(slot, fresh, upper.volume(0), upper.weight(0));
   for (const Slot s : {slot, fresh}) {
     Chunk& chunk = chunks_[s];
     findLeast(chunk);
@@ -218,13 +230,7 @@ void SortedStore<Rates>::absorbNext(Slot slot) {
   Chunk& chunk = chunks_[slot];
   const Slot gone = chunk.next;
   Chunk& next = chunks_[gone];
-  std::copy_n(next.volume.begin(), next.size + 1, chunk.volume.begin() + chunk.size);
-  std::copy_n(next.weight.begin(), next.size, chunk.weight.begin() + chunk.size);
-  if constexpr (!Rates::bare) {
-    chunk.particles.insert(chunk.particles.end(), std::make_move_iterator(next.particles.begin()),
-                           std::make_move_iterator(next.particles.end()));
-  }
-  chunk.size += next.size;
+  chunk.moveFrom(next, 0);
   chunk.next = next.next;
   if (chunk.next != none) chunks_[chunk.next].previous = slot;
   directory_.erase(gone);

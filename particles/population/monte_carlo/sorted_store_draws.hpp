@@ -7,8 +7,10 @@ namespace lampblack {
 
 template <SortedRates Rates>
 inline typename SortedStore<Rates>::Slot SortedStore<Rates>::locate(double volume, double weight) const {
-  for (const Slot slot : recent_) {
-    if (chunks_[slot].contains(volume, weight)) return slot;
+  if (rank_ > 0) {  // what coagulated mostly goes back to where it came from
+    for (const Slot slot : recent_) {
+      if (chunks_[slot].contains(volume, weight)) return slot;
+    }
   }
   return directory_.find(volume, weight);
 }
@@ -30,7 +32,7 @@ bool SortedStore<Rates>::drawPair(RandomStream& random, Entry& first, Entry& sec
   double y = random.uniform() * countedTotal;
   const auto a = static_cast<Slot>(sums_.find(weighted, x));
   const Chunk& heavy = chunks_[a];
-  for (std::size_t k = 0; k < Chunk::capacity; k += 8) __builtin_prefetch(&heavy.weight[k]);
+  for (std::size_t k = 0; k < Chunk::places; k += 8) __builtin_prefetch(heavy.weights() + k);
   const auto b = static_cast<Slot>(sums_.find(counted, y));
   const Chunk& other = chunks_[b];
   __builtin_prefetch(&other.terms);
@@ -81,9 +83,9 @@ bool SortedStore<Rates>::drawSingle(SingleProcess process, RandomStream& random,
 template <SortedRates Rates>
 typename Rates::Entry SortedStore<Rates>::takeUniform(RandomStream& random) {
   while (true) {
-    const std::uint64_t k = random.below(chunks_.size() * Chunk::capacity);
-    const auto slot = static_cast<Slot>(k / Chunk::capacity);
-    const auto at = static_cast<std::uint32_t>(k % Chunk::capacity);
+    const std::uint64_t k = random.below(chunks_.size() * Chunk::places);
+    const auto slot = static_cast<Slot>(k / Chunk::places);
+    const auto at = static_cast<std::uint32_t>(k % Chunk::places);
     if (at < chunks_[slot].size) return take({slot, at});
   }
 }
@@ -113,20 +115,26 @@ bool SortedStore<Rates>::mergeNearest(MeanOf&& meanOf) {
   }
   const Entry mean = meanOf(lower, entryAt(chunk, k + 1));
   const double volume = rates_.volume(mean), weight = rates_.weight(mean);
-  erase({slot, k + 1});
-  // Almost always the mean belongs where the lower one was.
-  const bool stays = k > 0 && k + 1 < chunk.size && chunk.below(k - 1, volume, weight) &&
-                     !chunk.below(k + 1, volume, weight) && !rates_.keepsHeaviest();
-  if (!stays) {
-    erase({slot, k});
+  // Almost always the mean belongs further inside the same chunk, k or later. Differences only grow there, so that what
+  // is known of the smallest one stays a bound.
+  const std::uint32_t below = static_cast<std::uint32_t>(chunk.below(k, volume, weight)) +
+                              static_cast<std::uint32_t>(chunk.below(k + 1, volume, weight));
+  const std::uint32_t at = chunk.position(volume, weight) - below;
+  if (at < k || at == 0 || at + 2 >= chunk.size || rates_.keepsHeaviest()) {
+    eraseTwo({slot, k});
     settle(slot);
     insert(mean);
     return true;
   }
-  chunk.volume[k] = volume;
-  chunk.weightSum += weight - chunk.weight[k];
-  chunk.weight[k] = weight;
-  if constexpr (!Rates::bare) chunk.particles[k] = mean.particle;
+  chunk.replaceTwo(k, at, volume, weight);
+  if constexpr (!Rates::bare) {
+    const auto first = chunk.particles.begin() + k;
+    *first = mean.particle;
+    chunk.particles.erase(first + 1);
+    std::rotate(first, first + 1, chunk.particles.begin() + at + 1);
+  }
+  chunk.stale = true;
+  --size_;
   if (raiseBounds(chunk, mean))
     publish(slot);
   else
@@ -145,8 +153,8 @@ typename Rates::Entry SortedStore<Rates>::takeNearest(const Entry& like) {
   if (at == chunk.size) upper = {chunk.next, 0};
   if (lower.slot == none) return take(upper);
   if (upper.slot == none) return take(lower);
-  const double below = volume - chunks_[lower.slot].volume[lower.at];
-  const double above = chunks_[upper.slot].volume[upper.at] - volume;
+  const double below = volume - chunks_[lower.slot].volume(lower.at);
+  const double above = chunks_[upper.slot].volume(upper.at) - volume;
   return take(below < above ? lower : upper);
 }
 
@@ -162,7 +170,7 @@ typename Rates::Entry SortedStore<Rates>::takeHeaviest() {
   }
   const Chunk& chunk = chunks_[slot];
   std::uint32_t at = 0;
-  while (chunk.weight[at] != chunk.heaviest) ++at;
+  while (chunk.weight(at) != chunk.heaviest) ++at;
   return take({slot, at});
 }
 

@@ -58,8 +58,8 @@ void SortedStore<Rates>::findBounds(Chunk& chunk) {
   chunk.highest = -Chunk::infinity;
   if (chunk.size == 0) return;
   if (rates_.monotone()) {
-    chunk.lowest = chunk.volume[0];
-    chunk.highest = chunk.volume[chunk.size - 1];
+    chunk.lowest = chunk.volume(0);
+    chunk.highest = chunk.volume(chunk.size - 1);
     (void)raise(chunk, entryAt(chunk, 0));
     if (chunk.highest > chunk.lowest) (void)raise(chunk, entryAt(chunk, chunk.size - 1));
     return;
@@ -71,7 +71,7 @@ template <SortedRates Rates>
 void SortedStore<Rates>::publish(Slot slot) {
   Chunk& chunk = chunks_[slot];
   const bool ends = rates_.monotone() && chunk.size > 0 &&
-                    (chunk.volume[0] > chunk.lowest || chunk.volume[chunk.size - 1] < chunk.highest);
+                    (chunk.volume(0) > chunk.lowest || chunk.volume(chunk.size - 1) < chunk.highest);
   if (ends || (!rates_.monotone() && chunk.changes > chunk.size) || chunk.size == 0) findBounds(chunk);
   chunk.countBound = chunk.size == 0 ? 0 : std::min(chunk.size + countSlack, Chunk::capacity);
   chunk.weightSum = chunk.sumOfWeights();

@@ -109,6 +109,7 @@ void WeightedMethod<Type, Store>::transferWeight(const Entry& i, const Entry& j,
 // Merges neighbours until `count` more particles fit.
 template <ParticleType Type, class Store>
 void WeightedMethod<Type, Store>::makeRoom(std::size_t count) {
+  if (store_.size() + count < capacity_) return;
   while (store_.size() + count > capacity_) {
     const bool merged = store_.mergeNearest([this](const Entry& lower, const Entry& upper) {
       const Entry mean = meanOf(lower, upper);
@@ -123,24 +124,27 @@ void WeightedMethod<Type, Store>::makeRoom(std::size_t count) {
   filled_ = true;
 }
 
-// A particle that is new to the population.
+// Particles that are new to the population, `copies` of the same kind.
 template <ParticleType Type, class Store>
-void WeightedMethod<Type, Store>::add(const Particle& particle, double weight) {
+void WeightedMethod<Type, Store>::add(const Particle& particle, double weight, std::size_t copies) {
   if (method_ != MonteCarloMethod::mmc) {
-    if (store_.size() >= capacity_) makeRoom(1);
-    put(particle, weight);
+    makeRoom(copies);
+    for (std::size_t k = 0; k < copies; ++k) track({particle, weight}, 1);
+    if constexpr (requires { store_.insert({particle, weight}, copies); }) {
+      store_.insert({particle, weight}, copies);
+    } else {
+      for (std::size_t k = 0; k < copies; ++k) store_.insert({particle, weight});
+    }
     return;
   }
-  if (store_.size() < capacity_) {
-    put(particle, weight);
-    return;
-  }
-  filled_ = true;
-  Entry nearest = store_.takeNearest({particle, weight});
+  for (; copies > 0 && store_.size() < capacity_; --copies) put(particle, weight);
+  filled_ = filled_ || store_.size() >= capacity_;
+  if (copies == 0) return;
+  const Entry nearest = store_.takeNearest({particle, weight});
   taken(nearest);
-  if (type_.volume(nearest.particle) != type_.volume(particle)) ++counters_.limited;
-  put(nearest.particle, nearest.weight + weight);
-  ++counters_.merges;
+  if (type_.volume(nearest.particle) != type_.volume(particle)) counters_.limited += copies;
+  put(nearest.particle, nearest.weight + static_cast<double>(copies) * weight);
+  counters_.merges += copies;
 }
 
 // After particles were lost: halves the heaviest ones.
@@ -162,9 +166,10 @@ bool WeightedMethod<Type, Store>::breakUp(RandomStream& random) {
   ++counters_.breakages;
   if (breakage_->daughters == BreakageOptions::Daughters::equal) {
     const Particle daughter = type_.fragment(parent.particle, 1.0 / breakage_->fragments);
-    for (int k = 0; k < breakage_->fragments; ++k) add(daughter, parent.weight);
+    add(daughter, parent.weight, static_cast<std::size_t>(breakage_->fragments));
   } else {
     const double fraction = random.uniform();
+    if (method_ != MonteCarloMethod::mmc) makeRoom(2);
     add(type_.fragment(parent.particle, fraction), parent.weight);
     add(type_.fragment(parent.particle, 1 - fraction), parent.weight);
   }

@@ -139,7 +139,7 @@ class WeightedMethod {
   }
   void makeRoom(std::size_t count);
   void refill();
-  void add(const Particle& particle, double weight);
+  void add(const Particle& particle, double weight, std::size_t copies = 1);
   void coagulateLeftOvers(const Entry& i, double leftI, const Entry& j, double leftJ, RandomStream& random);
   void transferWeight(const Entry& i, const Entry& j, RandomStream& random);
 

@@ -75,7 +75,7 @@ void compare(const SortedStore<Rates>& store, const PlainList<Rates>& list) {
   EXPECT_GE(store.pairRate(), pairs * (1 - 1e-12));
   const bool several = list.entries().size() > 200;
   if (several) {
-    EXPECT_LE(store.pairRate(), 10 * pairs);
+    EXPECT_LE(store.pairRate(), 20 * pairs);
   }
   for (const SingleProcess process : {SingleProcess::breakage, SingleProcess::deposition}) {
     EXPECT_GE(store.singleRate(process), list.singles(process) * (1 - 1e-12));

@@ -96,10 +96,13 @@ std::array<std::vector<double>, 4> endMoments(const PopulationModel& model, cons
   return result;
 }
 
+// Some 80 z-scores are looked at: one of them beyond 4 has a probability of 0.5 %, beyond 3.3 of 8 %.
+constexpr double manyLimit = 4;
+
 void expectUnbiased(const std::array<std::vector<double>, 4>& moments, const std::array<double, 4>& exact) {
   for (const std::size_t k : {0u, 2u, 3u}) {
     const Sample sample = summarise(moments[k]);
-    EXPECT_LT(std::abs(sample.z(exact[k])), zLimit) << "M" << k << " " << sample.mean << " exact " << exact[k];
+    EXPECT_LT(std::abs(sample.z(exact[k])), manyLimit) << "M" << k << " " << sample.mean << " exact " << exact[k];
   }
 }
 
