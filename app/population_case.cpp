@@ -7,6 +7,7 @@
 #include "app/population_case_parts.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
+#include "particles/population/monte_carlo/shipped_types.hpp"
 
 namespace lampblack {
 
@@ -120,14 +121,8 @@ std::unique_ptr<PopulationSolver> makeSolver(const PopulationCase& populationCas
   MonteCarloOptions options = std::get<MonteCarloOptions>(method.options);
   options.seed = populationCase.seed;
   options.repeat = repeat;
-  return std::visit(
-      [&](const auto& type) -> std::unique_ptr<PopulationSolver> {
-        if constexpr (std::is_same_v<std::decay_t<decltype(type)>, Sphere>)
-          return makeMonteCarlo(model, initial, options);
-        else
-          throw InputError("particles of this type are not available yet");
-      },
-      populationCase.particles);
+  return std::visit([&](const auto& type) { return makeMonteCarlo(type, model, initial, options); },
+                    populationCase.particles);
 }
 
 PopulationCase readPopulationCase(const Deck& deck) {

@@ -1,4 +1,4 @@
-// Small particles as numbers, large ones as particles (Boje, Akroyd, Sutcliffe, Edwards, Kraft 2019): of spheres of 1
+// Small particles as numbers, large ones as particles (Boje, Akroyd, Kraft 2019): of spheres of 1
 // to `threshold` units only the number of each size is kept, everything else is a numerical particle. All stand for the
 // same number of real particles, so that both together are one ensemble of the direct simulation, and a particle may
 // change from one to the other at any event. For coalescing spheres the law is exact; other types of particles lose

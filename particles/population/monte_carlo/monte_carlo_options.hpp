@@ -52,7 +52,8 @@ struct MonteCarloOptions {
   std::size_t threshold = 0;  // largest size, in nuclei, that the hybrid method keeps as a number
 };
 
-// For coalescing spheres; other types by populationOf() in population_of.hpp. Throws InputError.
+// For coalescing spheres; other types by shipped_types.hpp, one of your own by populationOf() in population_of.hpp.
+// Throws InputError.
 [[nodiscard]] std::unique_ptr<PopulationSolver> makeMonteCarlo(const PopulationModel& model,
                                                                const InitialPopulation& initial,
                                                                const MonteCarloOptions& options);

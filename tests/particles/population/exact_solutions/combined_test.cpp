@@ -121,6 +121,22 @@ TEST(ExactCombined, LossesAndCondensationChangeTheClock) {
   EXPECT_FALSE(exactSolution(gelling, equalStart())->gelationTime());
 }
 
+TEST(ExactCombined, CondensationByJumpsIsAYuleProcess) {
+  // Particles of k0 monomers that gain one at the rate s k: k is negative binomial with p = exp(-s t), and its
+  // cumulants are k0/p, k0 q/p^2, k0 q (1 + q)/p^3.
+  PopulationModel model;
+  model.growth.condensation = 0.5;
+  model.growth.treatment = GrowthOptions::Treatment::jumps;
+  model.growth.monomer = 0.2;
+  const double k0 = 3, p = std::exp(-0.5 * 2.0), q = 1 - p;
+  const double mean = k0 / p, variance = k0 * q / (p * p), third = k0 * q * (1 + q) / (p * p * p);
+  const auto m = exactSolution(model, equalStart(7, k0 * 0.2))->moments(2);
+  EXPECT_NEAR(*m[0], 7, 1e-12);
+  EXPECT_NEAR(*m[1] / (7 * 0.2 * mean), 1, 1e-12);
+  EXPECT_NEAR(*m[2] / (7 * 0.04 * (variance + mean * mean)), 1, 1e-12);
+  EXPECT_NEAR(*m[3] / (7 * 0.008 * (third + 3 * mean * variance + mean * mean * mean)), 1, 1e-12);
+}
+
 TEST(ExactCombined, AConstantEfficiencyIsPartOfTheRate) {
   auto model = coagulating(constant, 4);
   model.coagulation->efficiency = 0.25;

@@ -12,6 +12,7 @@
 #include "core/errors.hpp"
 #include "particles/population/monte_carlo/equal_weight_solver.hpp"
 #include "particles/population/monte_carlo/hybrid_solver.hpp"
+#include "particles/population/monte_carlo/weighted_solver.hpp"
 
 namespace lampblack {
 namespace {
@@ -172,6 +173,54 @@ TEST(OwnParticleType, TreesStayWhole) {
   EXPECT_NEAR(primaries, 1, 1e-12);
 }
 
+// In SAMMC neighbours in volume become their mean, of which the number of primaries is conserved as volume is.
+TEST(OwnParticleType, MergingConservesPrimariesAndVolume) {
+  using Rates = WeightedRates<TreeAggregate>;
+  using Method = WeightedMethod<TreeAggregate, SortedStore<Rates>>;
+  PopulationModel model = constantKernel();
+  model.breakage = BreakageOptions{0.3, 0, 2, BreakageOptions::Daughters::uniform};
+  TreeAggregate::Seen seen;
+  RandomStream random(1, 2, 3);
+  const TreeAggregate type(seen);
+  Method method(type, model, monodisperse, optionsOf(MonteCarloMethod::sammc, 0), random);
+  for (int event = 0; event < 3000; ++event) {
+    if (event % 3 == 0)
+      method.breakUp(random);
+    else
+      method.coagulate(random);
+  }
+  EXPECT_GT(seen.averaged, 500u);
+  double primaries = 0, volume = 0, number = 0;
+  method.store().forEach([&](const auto& entry) {
+    EXPECT_TRUE(TreeAggregate::isTree(entry.particle));
+    primaries += entry.weight * entry.particle.count;
+    volume += entry.weight * type.volume(entry.particle);
+    number += entry.weight;
+  });
+  EXPECT_NEAR(primaries, 1, 1e-11);
+  EXPECT_NEAR(volume, 1, 1e-11);
+  EXPECT_NEAR(number, method.moments()[0], 1e-12);
+}
+
+// As above for the sizes; M_0 = 2/(2+t) and, from the trees, M_2 = 1 + t.
+TEST(OwnParticleType, HasTheExactMomentsInWeightedMethods) {
+  const double end = 3;
+  for (const MonteCarloMethod method : {MonteCarloMethod::sammc, MonteCarloMethod::samwfmc, MonteCarloMethod::swa}) {
+    std::vector<double> numbers, squares;
+    TreeAggregate::Seen seen;
+    for (int repeat = 0; repeat < 40; ++repeat) {
+      const auto solver = makeWeighted(TreeAggregate(seen), constantKernel(), monodisperse, optionsOf(method, repeat));
+      solver->advance(end);
+      EXPECT_NEAR(solver->moments()[1], 1, 1e-11);
+      numbers.push_back(solver->moments()[0]);
+      squares.push_back(solver->moments()[2]);
+    }
+    EXPECT_LT(std::abs(summarise(numbers).z(2 / (2 + end))), zLimit) << static_cast<int>(method);
+    EXPECT_LT(std::abs(summarise(squares).z(1 + end)), zLimit) << static_cast<int>(method);
+    EXPECT_GT(seen.largest, 10u);
+  }
+}
+
 TEST(OwnParticleType, GoesThroughEveryMethodAndProcess) {
   PopulationModel model = constantKernel();
   model.breakage = BreakageOptions{0.3, 0, 2, BreakageOptions::Daughters::uniform};
@@ -185,8 +234,11 @@ TEST(OwnParticleType, GoesThroughEveryMethodAndProcess) {
     for (int repeat = 0; repeat < 40; ++repeat) {
       const TreeAggregate type(seen);
       const MonteCarloOptions options = optionsOf(method, repeat);
-      const auto solver = method == MonteCarloMethod::hybrid ? makeHybrid(type, model, monodisperse, options)
-                                                             : makeEqualWeight(type, model, monodisperse, options);
+      const bool hybrid = method == MonteCarloMethod::hybrid;
+      const bool weighted = method == MonteCarloMethod::swa || method == MonteCarloMethod::sammc;
+      const auto solver = hybrid     ? makeHybrid(type, model, monodisperse, options)
+                          : weighted ? makeWeighted(type, model, monodisperse, options)
+                                     : makeEqualWeight(type, model, monodisperse, options);
       solver->advance(end);
       numbers.push_back(solver->moments()[0]);
     }

@@ -8,8 +8,10 @@
 #include <cstdio>
 
 #include "core/errors.hpp"
+#include "particles/population/monte_carlo/monte_carlo_options.hpp"
 #include "particles/population/sectional/sectional_solver.hpp"
 #include "tests/particles/population/sectional/sectional_fixtures.hpp"
+#include "tests/particles/statistics.hpp"
 
 namespace lampblack {
 namespace {
@@ -92,6 +94,50 @@ TEST_P(SelfPreserving, CurveDoesNotDependOnTheStart) {
   }
   // Interpolation in pivots 26 % apart: (ln 1.26)^2 / 8 = 0.7 % for each unit of curvature of ln(psi), up to 6 here.
   for (std::size_t e = 0; e < edges.size(); ++e) EXPECT_NEAR(curves[0][e], curves[1][e], 0.04 * curves[0][e]);
+}
+
+// Monte Carlo, which shares only the kernel with the sections, has the same curve: the number in bins of the volume in
+// units of the mean, whose error of the sections is of second order and extrapolated.
+TEST_P(SelfPreserving, CurveIsThatOfMonteCarlo) {
+  PopulationModel model;
+  model.coagulation = brownian(GetParam().type);
+  InitialPopulation initial;
+  initial.distribution = Distribution::exponential;
+  initial.number = 1e18;
+  initial.volume = 1e-26;
+  std::vector<double> edges;
+  for (double eta = 1.0 / 64; eta < 9; eta *= 2) edges.push_back(eta);
+  std::vector<std::vector<double>> sections;
+  double end = 0;
+  for (const std::size_t count : {100U, 199U}) {
+    const auto grid = test::gridOf(count, 1e-29, 1e-20);
+    if (end == 0) end = selfPreserving(*model.coagulation, 1800, initial, grid, 3).time;
+    SectionalSolver solver(model, initial, grid);
+    solver.advance(end);
+    sections.push_back(reducedDistribution(solver, edges));
+    sections.back().push_back(std::log(solver.geometricDeviation()));
+  }
+  std::vector<std::vector<double>> samples(edges.size());
+  for (std::uint64_t repeat = 0; repeat < 32; ++repeat) {
+    MonteCarloOptions options;
+    options.method = MonteCarloMethod::dsmc;
+    options.particles = 2000;
+    options.repeat = repeat;
+    const auto solver = makeMonteCarlo(model, initial, options);
+    solver->advance(end);
+    const auto psi = reducedDistribution(*solver, edges);
+    for (std::size_t b = 0; b < psi.size(); ++b) samples[b].push_back(psi[b]);
+    samples.back().push_back(std::log(solver->geometricDeviation()));
+  }
+  for (std::size_t b = 0; b < samples.size(); ++b) {
+    const test::Sample sample = test::summarise(samples[b]);
+    const double extrapolated = sections[1][b] + (sections[1][b] - sections[0][b]) / 3;
+    // Half of the correction is left for what is not of second order: the edges of bins between pivots.
+    const double left = 0.5 * std::abs(extrapolated - sections[1][b]);
+    EXPECT_NEAR(sample.mean, extrapolated, 3.6 * sample.standardError + left) << "bin " << b;
+    std::printf("%s %.4f +- %.4f, sections %.4f %.4f\n", b + 1 < edges.size() ? "psi" : "ln of the deviation",
+                sample.mean, sample.standardError, sections[0][b], sections[1][b]);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Limits, SelfPreserving,

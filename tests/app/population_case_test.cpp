@@ -1,0 +1,177 @@
+// What population balance decks become: every choice of every key, and which of them have an exact solution.
+#include "app/population_case.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "core/errors.hpp"
+
+namespace lampblack {
+namespace {
+
+const std::string kMonodisperse = "{distribution: monodisperse, number: 1 1/m^3, volume: 1 m^3}";
+const std::string kExponential = "{distribution: exponential, number: 1 1/m^3, volume: 1 m^3}";
+const std::string kOne = "{one: {type: dsmc, particles: 10}}";
+
+// Lines of a deck with these processes and methods.
+std::string deckOf(const std::string& processes, const std::string& methods = kOne,
+                   const std::string& initial = kMonodisperse, const std::string& more = "") {
+  return fmt::format(
+      "problem: population_balance\ninitial: {}\nprocesses: {}\nmethods: {}\ntime: {{end: 1 s}}\nrepeats: 2\n{}\n",
+      initial, processes, methods, more);
+}
+
+PopulationCase read(const std::string& text) {
+  return readPopulationCase(Deck::parse(text, "deck.yaml", {}, populationSchema()));
+}
+
+TEST(PopulationCase, EveryKernelIsRead) {
+  const std::string gas =
+      "gas: {temperature: 300 K, pressure: 1 atm, viscosity: 1.8e-5 Pa s, mean_molecular_weight: 29 g/mol}";
+  const std::string initial =
+      "{distribution: lognormal, number: 1e6 1/cm^3, diameter: 10 nm, geometric_deviation: 1.5}";
+  const auto kernel = [&](const std::string& text, const std::string& more) {
+    return read(deckOf("{coagulation: {" + text + "}}", kOne, initial, more)).model.coagulation->type;
+  };
+  EXPECT_EQ(kernel("kernel: constant, rate: 1e-6 cm^3/s", ""), CollisionKernelType::constant);
+  EXPECT_EQ(kernel("kernel: additive, rate: 1 1/s", ""), CollisionKernelType::additive);
+  EXPECT_EQ(kernel("kernel: multiplicative, rate: 1 1/(m^3 s)", ""), CollisionKernelType::multiplicative);
+  EXPECT_EQ(kernel("kernel: free_molecular, enhancement: 2.2", "gas: {temperature: 300 K}"),
+            CollisionKernelType::freeMolecular);
+  EXPECT_EQ(kernel("kernel: continuum", gas), CollisionKernelType::continuum);
+  EXPECT_EQ(kernel("kernel: transition, efficiency_diameter: 2 nm, efficiency_exponent: 3", gas),
+            CollisionKernelType::transition);
+  EXPECT_EQ(kernel("kernel: transition_fuchs", gas), CollisionKernelType::transitionFuchs);
+  EXPECT_EQ(kernel("kernel: shear, shear_rate: 100 1/s", ""), CollisionKernelType::shear);
+  EXPECT_EQ(kernel("kernel: gravitational", gas), CollisionKernelType::gravitational);
+}
+
+TEST(PopulationCase, RatesAreInSI) {
+  const PopulationCase made = read(
+      deckOf("{coagulation: {kernel: constant, rate: 1e-6 cm^3/s}, nucleation: {rate: 1 1/cm^3/s, diameter: 1 nm}, "
+             "breakage: {rate: 8 1/s, exponent: 1.5, reference_volume: 4 m^3}, deposition: {rate: 60 1/min}}"));
+  EXPECT_DOUBLE_EQ(made.model.coagulation->rate, 1e-12);
+  EXPECT_DOUBLE_EQ(made.model.nucleation->rate, 1e6);
+  EXPECT_NEAR(made.model.nucleation->volume, 5.235987755982989e-28, 1e-42);
+  EXPECT_DOUBLE_EQ(made.model.breakage->rate, 1);  // 8 / 4^1.5
+  EXPECT_DOUBLE_EQ(made.model.deposition->rate, 1);
+}
+
+TEST(PopulationCase, EverySourceAndTreatmentIsRead) {
+  for (const char* nucleation : {"{rate: 1 1/m^3/s, volume: 1 m^3}",
+                                 "{source: precursor, rate_constant: 5e-6 1/s, precursor: 1e5 1/m^3, volume: 1}",
+                                 "{source: table, times: [0 s, 1 s, 2 s], rates: [0, 1, 0.5], volume: 1 m^3}"})
+    EXPECT_NO_THROW(read(deckOf(fmt::format("{{nucleation: {}}}", nucleation)))) << nucleation;
+  for (const char* growth :
+       {"{}", "{treatment: split, step: 1 ms}", "{treatment: deferred, step: 1 ms, smallest_volume: 1 nm^3}",
+        "{treatment: jumps, monomer: 0.1 m^3}"})
+    EXPECT_NO_THROW(read(deckOf(fmt::format("{{condensation: {{rate: 1 1/s}}, growth: {}}}", growth)))) << growth;
+  for (const char* process :
+       {"surface_growth: {rate: 1 nm/s}", "oxidation: {rate: 1 nm/s}", "dilution: {rate: -1 1/s}",
+        "deposition: {rate: 1 1/s, exponent: -0.5}", "breakage: {rate: 1 1/s, exponent: 1, daughters: uniform}"})
+    EXPECT_NO_THROW(read(deckOf(fmt::format("{{{}}}", process)))) << process;
+}
+
+TEST(PopulationCase, EveryMethodIsReadAndMade) {
+  const std::string methods = R"(
+  a: {type: dsmc, particles: 10, rates: exact}
+  b: {type: constant_volume, particles: 10}
+  c: {type: constant_number_mass, particles: 10, claims: [M0, M1]}
+  d: {type: constant_number_number, particles: 10}
+  e: {type: mmc, particles: 10, claims: []}
+  f: {type: wfmc, particles: 10, fraction: constant, fraction_constant: 0.5}
+  g: {type: samwfmc, particles: 10, fraction: hyperbolic, fraction_of: weights}
+  h: {type: sammc, particles: 10, fraction: exponential, merging: absolute}
+  i: {type: sammc, particles: 10, fraction: stepwise, fraction_of: volumes, merging: relative}
+  j: {type: swa, particles: 10, weight_transfer: half, mass: mean}
+  k: {type: hybrid, particles: 10, threshold: 5}
+  l: {type: sectional, sections: 30, smallest: 1 m^3, spacing: 1.5, relative_tolerance: 1e-9}
+  m: {type: sectional, sections: 30, smallest: 1 m^3, largest: 1e4 m^3}
+  n: {type: qmom, moments: 4, inversion: product_difference}
+  o: {type: momic, moments: 4})";
+  const PopulationCase made = read(deckOf("{coagulation: {kernel: constant, rate: 1}}", methods));
+  ASSERT_EQ(made.methods.size(), 15U);
+  const auto monteCarlo = [&](std::size_t m) { return std::get<MonteCarloOptions>(made.methods[m].options); };
+  EXPECT_EQ(monteCarlo(0).rates, EventRates::exact);
+  EXPECT_EQ(made.methods[2].claims, (std::array<bool, 4>{true, true, false, false}));
+  EXPECT_FALSE(made.methods[3].conservesMass);
+  EXPECT_TRUE(made.methods[2].conservesMass);
+  EXPECT_EQ(monteCarlo(5).fractionConstant, 0.5);
+  EXPECT_EQ(monteCarlo(6).fractionOf, FractionOf::weights);
+  EXPECT_EQ(monteCarlo(7).merging, MergingDifference::absolute);
+  EXPECT_EQ(monteCarlo(8).fraction, FractionFunction::stepwise);
+  EXPECT_EQ(monteCarlo(9).transfer, WeightTransfer::half);
+  EXPECT_EQ(monteCarlo(10).threshold, 5U);
+  EXPECT_TRUE(made.methods[11].deterministic());
+  EXPECT_EQ(std::get<MomentOptions>(made.methods[13].options).inversion, QuadratureInversion::productDifference);
+}
+
+TEST(PopulationCase, AnEmptyStartIsFilledByNuclei) {
+  const PopulationCase made =
+      read(deckOf("{nucleation: {rate: 1 1/m^3/s, volume: 1 m^3}}",
+                  "{one: {type: sammc, particles: 10, expected_number: 1 1/m^3, nucleation: random}}", "{}"));
+  EXPECT_EQ(made.initial.distribution, InitialPopulation::Distribution::none);
+  EXPECT_EQ(std::get<MonteCarloOptions>(made.methods[0].options).nucleation, NucleationSampling::random);
+}
+
+TEST(PopulationCase, EveryParticleTypeHasItsSolvers) {
+  for (const char* particles :
+       {"{type: volume, density: 2 g/cm^3}", "{type: fractal, primary_diameter: 1 m, fractal_dimension: 2}",
+        "{type: surface_volume, fractal_dimension: 1.8}",
+        "{type: components, components: {carbon: {density: 1800, nucleus: 1}, ash: {density: 3000, condensing: 1}}}"}) {
+    const PopulationCase made =
+        read(deckOf("{coagulation: {kernel: constant, rate: 1}}", "{a: {type: dsmc}, b: {type: sammc}}", kMonodisperse,
+                    fmt::format("particles: {}", particles)));
+    // The kernel sees no diameter, so that the solution for spheres holds for all of them.
+    ASSERT_NE(exactSolution(made), nullptr) << particles;
+    const auto solver = makeSolver(made, made.methods[1], 0);
+    solver->advance(1);
+    EXPECT_NEAR(solver->moments()[1], 1, 1e-11) << particles;
+  }
+}
+
+TEST(PopulationCase, SurfaceGrowthOfAggregatesHasNoSolutionOfSpheres) {
+  const std::string growth = "{surface_growth: {rate: 1 m/s}}";
+  EXPECT_EQ(exactSolution(read(deckOf(growth, kOne, kExponential, "particles: {type: surface_volume}"))), nullptr);
+}
+
+TEST(PopulationCase, SectionsAndMomentsAreOfSpheres) {
+  EXPECT_THROW(read(deckOf("{coagulation: {kernel: constant, rate: 1}}", "{a: {type: qmom}}", kMonodisperse,
+                           "particles: {type: surface_volume}")),
+               InputError);
+}
+
+// The processes of the cases with a closed solution: coagulation from both starts with three kernels, nucleation,
+// breakage, both with coagulation, deposition, condensation.
+TEST(PopulationCase, ModelsWithAnExactSolutionAreRecognised) {
+  for (const std::string& initial : {kMonodisperse, kExponential}) {
+    for (const char* processes :
+         {"{coagulation: {kernel: constant, rate: 1}}", "{coagulation: {kernel: additive, rate: 1}}",
+          "{coagulation: {kernel: multiplicative, rate: 1}}",
+          "{nucleation: {source: precursor, rate_constant: 1, precursor: 1, volume: 1}}",
+          "{breakage: {rate: 1, exponent: 1, daughters: uniform}}",
+          "{coagulation: {kernel: constant, rate: 1}, nucleation: {rate: 1, volume: 1}}",
+          "{coagulation: {kernel: constant, rate: 1}, breakage: {rate: 0.25}}", "{deposition: {rate: 1}}",
+          "{condensation: {rate: 1}}"}) {
+      const PopulationCase made = read(deckOf(processes, kOne, initial));
+      EXPECT_NE(exactSolution(made), nullptr) << processes << " from " << initial;
+    }
+  }
+  EXPECT_NE(exactSolution(read(deckOf("{breakage: {rate: 1, exponent: 1}}"))), nullptr);
+  EXPECT_NE(exactSolution(read(deckOf("{breakage: {rate: 1, exponent: 1.8, fragments: 12}}"))), nullptr);
+  EXPECT_EQ(exactSolution(read(deckOf("{coagulation: {kernel: shear, shear_rate: 1}}"))), nullptr);
+}
+
+TEST(PopulationCase, ShippedDecksAreValid) {
+  const std::filesystem::path folder = std::filesystem::path(LAMPBLACK_SOURCE_DIR) / "cases/population_balance";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no decks yet";
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.path().extension() != ".yaml" || entry.path().filename().string().starts_with("study")) continue;
+    EXPECT_NO_THROW(readPopulationCase(Deck::load(entry.path(), {}, populationSchema()))) << entry.path();
+  }
+}
+
+}  // namespace
+}  // namespace lampblack
