@@ -12,6 +12,7 @@
 #include "app/mechanism_command.hpp"
 #include "app/problem.hpp"
 #include "app/replay_command.hpp"
+#include "app/sweep_command.hpp"
 #include "core/errors.hpp"
 #include "core/petsc.hpp"
 
@@ -103,6 +104,7 @@ int main(int argc, char** argv) {
   addGasCommand(app, command);
   addMechanismCommand(app, command);
   addReplayCommand(app, command);
+  addSweepCommand(app, command);
 
   // PETSc reads its own options from the environment and from a file, not from our command line.
   if (PetscInitializeNoArguments() != 0) return exitBug;

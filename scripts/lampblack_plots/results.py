@@ -33,9 +33,11 @@ class Results:
         except OSError as error:
             raise ResultsError(f"{path}: cannot be opened ({error}); is the run still going?") from error
         self.partial = path.name.endswith(".part")
-        # A reactor has no mesh; its results are tables.
-        self.is_reactor = "mesh" not in self.file and self.record().get("deck", {}).get("problem") == "reactor"
-        if self.is_reactor:
+        # Reactors and populations have no mesh; their results are tables.
+        problem = "flow" if "mesh" in self.file else self.record().get("deck", {}).get("problem")
+        self.is_reactor = problem == "reactor"
+        self.is_population = problem == "population_balance"
+        if self.is_reactor or self.is_population:
             return
         if "mesh" not in self.file or "cellCentre" not in self.file["mesh"]:
             raise ResultsError(f"{path}: holds no mesh")

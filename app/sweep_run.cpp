@@ -1,0 +1,111 @@
+#include "app/sweep_run.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+
+#include "app/problem.hpp"
+#include "core/errors.hpp"
+
+namespace lampblack {
+namespace {
+
+struct Group {
+  MPI_Comm comm = MPI_COMM_NULL;
+  int size = 1;    // ranks in a group
+  int count = 1;   // groups
+  int index = 0;   // this rank's group
+
+  Group(MPI_Comm all, const SweepStudy& study) {
+    int ranks = 1, rank = 0;
+    MPI_Comm_size(all, &ranks);
+    MPI_Comm_rank(all, &rank);
+    size = study.ranksPerRun.value_or(ranks);
+    collectively(all, [&] {
+      if (size > ranks || ranks % size != 0)
+        throw InputError(fmt::format("ranks_per_run: {} ranks cannot be shared out in groups of {}", ranks, size));
+    });
+    count = ranks / size;
+    index = rank / size;
+    MPI_Comm_split(all, index, rank, &comm);
+  }
+  ~Group() { MPI_Comm_free(&comm); }
+  Group(const Group&) = delete;
+  Group& operator=(const Group&) = delete;
+
+  [[nodiscard]] int groupOf(std::size_t run) const { return static_cast<int>(run) % count; }
+  [[nodiscard]] int leaderOf(std::size_t run) const { return groupOf(run) * size; }
+};
+
+// An error that only some ranks of the group know of leaves the others waiting for them: nothing can go on.
+void refuseLoneError(const Group& group, const std::exception& error) {
+  if (group.size > 1 && !isCollective(error)) throw;
+}
+
+RunOutcome runOne(const Group& group, const SweepRun& run, const std::filesystem::path& folder, bool force) {
+  RunOutcome outcome;
+  const double start = MPI_Wtime();
+  try {
+    const Deck deck = Deck::load(run.deck, run.overrides, deckKinds(), group.comm);
+    problemOf(deck).run(group.comm, deck, {folder / run.name, force, run.overrides});
+  } catch (const InputError& error) {
+    refuseLoneError(group, error);
+    outcome.failure = RunFailure::input;
+    outcome.message = error.what();
+  } catch (const NumericsError& error) {
+    refuseLoneError(group, error);
+    outcome.failure = RunFailure::numerics;
+    outcome.message = error.what();
+  } catch (const std::exception& error) {
+    refuseLoneError(group, error);
+    outcome.failure = RunFailure::bug;
+    outcome.message = error.what();
+  }
+  outcome.seconds = MPI_Wtime() - start;
+  return outcome;
+}
+
+void share(MPI_Comm comm, int from, RunOutcome& outcome) {
+  int failure = static_cast<int>(outcome.failure);
+  int length = static_cast<int>(outcome.message.size());
+  MPI_Bcast(&failure, 1, MPI_INT, from, comm);
+  MPI_Bcast(&length, 1, MPI_INT, from, comm);
+  MPI_Bcast(&outcome.seconds, 1, MPI_DOUBLE, from, comm);
+  outcome.failure = static_cast<RunFailure>(failure);
+  outcome.message.resize(static_cast<std::size_t>(length));
+  MPI_Bcast(outcome.message.data(), length, MPI_CHAR, from, comm);
+}
+
+}  // namespace
+
+void checkDecks(MPI_Comm comm, const SweepStudy& study) {
+  for (const SweepRun& run : study.runs) static_cast<void>(Deck::load(run.deck, run.overrides, deckKinds(), comm));
+  if (study.convergence)
+    static_cast<void>(Deck::load(study.convergence->deck, study.convergence->overrides, deckKinds(), comm));
+}
+
+std::vector<RunOutcome> runStudy(MPI_Comm comm, const SweepStudy& study, const std::filesystem::path& folder,
+                                 bool force) {
+  const Group group(comm, study);
+  int groupRank = 0;
+  MPI_Comm_rank(group.comm, &groupRank);
+  std::vector<RunOutcome> outcomes(study.runs.size());
+  for (std::size_t i = 0; i < study.runs.size(); ++i) {
+    if (group.groupOf(i) != group.index) continue;
+    const SweepRun& run = study.runs[i];
+    if (groupRank == 0) {
+      fmt::print("\n--- run {} of {}: {}\n", i + 1, study.runs.size(), run.name);
+      std::fflush(stdout);
+    }
+    outcomes[i] = runOne(group, run, folder, force);
+    if (groupRank == 0 && outcomes[i].failure != RunFailure::none) {
+      fmt::print("{} failed: {}\n", run.name, outcomes[i].message);
+      std::fflush(stdout);
+    }
+  }
+  for (std::size_t i = 0; i < outcomes.size(); ++i) share(comm, group.leaderOf(i), outcomes[i]);
+  return outcomes;
+}
+
+}  // namespace lampblack

@@ -1,0 +1,31 @@
+// Carries out the runs of a study, one after another on all ranks or side by side on groups of them.
+#pragma once
+
+#include <mpi.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/sweep_study.hpp"
+
+namespace lampblack {
+
+enum class RunFailure { none, input, numerics, bug };
+
+struct RunOutcome {
+  RunFailure failure = RunFailure::none;
+  std::string message;   // why it failed
+  double seconds = 0.0;  // wall time
+};
+
+// Collective. Reads every deck of the study, so that a mistake in the last one is known before the first is run.
+// InputError.
+void checkDecks(MPI_Comm comm, const SweepStudy& study);
+
+// Collective. Runs all of them, each in a folder of its name below `folder`; a run that fails does not keep the others
+// from going on. Same outcomes on every rank. InputError where ranks_per_run does not divide the ranks.
+std::vector<RunOutcome> runStudy(MPI_Comm comm, const SweepStudy& study, const std::filesystem::path& folder,
+                                 bool force);
+
+}  // namespace lampblack

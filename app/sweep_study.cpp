@@ -1,0 +1,188 @@
+#include "app/sweep_study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace lampblack {
+namespace {
+
+using Varied = std::vector<std::pair<std::string, std::string>>;
+
+// "rate=2e-6 m^3/s" as a part of a folder's name.
+std::string plainName(const std::string& text) {
+  std::string plain;
+  for (const char c : text) {
+    const bool kept = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '-' || c == '+' || c == '_';
+    if (kept) plain += c;
+    else if (!plain.empty() && plain.back() != '_') plain += '_';
+  }
+  while (!plain.empty() && plain.back() == '_') plain.pop_back();
+  return plain;
+}
+
+// A deck is known by its file's name, or by its folder's where it is called deck.yaml.
+std::string nameOf(const std::filesystem::path& deck) {
+  const std::string stem = deck.stem().string();
+  if (stem != "deck") return plainName(stem);
+  const std::string folder = std::filesystem::absolute(deck).lexically_normal().parent_path().filename().string();
+  return plainName(folder.empty() ? stem : folder);
+}
+
+std::string nameOf(const std::filesystem::path& deck, const Varied& varied) {
+  std::string name = nameOf(deck);
+  for (const auto& [key, value] : varied)
+    name += fmt::format("_{}-{}", plainName(key.substr(key.rfind('.') + 1)), plainName(value));
+  return name;
+}
+
+// Every combination, the last key fastest.
+std::vector<Varied> product(const Deck& study) {
+  std::vector<Varied> combinations{{}};
+  for (std::size_t i = 0; i < study.size("vary"); ++i) {
+    const std::string key = study.string(fmt::format("vary[{}].key", i));
+    const std::string valuesKey = fmt::format("vary[{}].values", i);
+    const std::vector<std::string> values = study.strings(valuesKey);
+    if (values.empty()) throw study.error(valuesKey, "there is nothing to vary over: the list is empty");
+    std::vector<Varied> next;
+    for (const Varied& combination : combinations) {
+      for (const std::string& value : values) {
+        next.push_back(combination);
+        next.back().emplace_back(key, value);
+      }
+    }
+    combinations = std::move(next);
+  }
+  return combinations;
+}
+
+void checkAssignments(const Deck& study, const std::string& key) {
+  const std::vector<std::string> settings = study.strings(key);
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    if (settings[i].find('=') == std::string::npos || settings[i].starts_with('='))
+      throw study.error(key, fmt::format("expected assignments such as 'time.end=1 s', found '{}'", settings[i]));
+  }
+}
+
+std::vector<std::string> joined(std::vector<std::string> first, const std::vector<std::string>& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
+ConvergenceOptions readConvergence(const Deck& study, const std::vector<std::string>& settings) {
+  ConvergenceOptions options;
+  options.deck = study.resolvePath(study.string("convergence.deck"));
+  checkAssignments(study, "convergence.set");
+  options.overrides = joined(study.strings("convergence.set"), settings);
+  options.methods = study.strings("convergence.methods");
+  options.particles = study.integers("convergence.particles");
+  options.product = study.integer("convergence.product");
+  if (options.particles.size() < 2)
+    throw study.error("convergence.particles", "a slope needs at least two numbers of particles");
+  for (const std::int64_t particles : options.particles) {
+    if (particles < 2 || particles > options.product / 2)
+      throw study.error("convergence.particles",
+                        fmt::format("expected numbers from 2 to half of the product ({}), so that there are two repeats "
+                                    "at least; found {}",
+                                    options.product, particles));
+  }
+  std::vector<std::int64_t> sorted = options.particles;
+  std::sort(sorted.begin(), sorted.end());
+  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
+    throw study.error("convergence.particles", "a number is given twice");
+  options.exact = study.choice("convergence.reference.type") == "exact";
+  if (options.exact) return options;
+  for (const char* key : {"method", "particles", "repeats"}) {
+    if (!study.isGiven(fmt::format("convergence.reference.{}", key)))
+      throw study.error("convergence.reference", fmt::format("a reference of type run needs the key '{}'", key));
+  }
+  options.referenceMethod = study.string("convergence.reference.method");
+  options.referenceParticles = study.integer("convergence.reference.particles");
+  options.referenceRepeats = study.integer("convergence.reference.repeats");
+  return options;
+}
+
+}  // namespace
+
+DeckSchema studySchema() {
+  DeckSchema schema;
+  schema.add(stringKey("study", "Name of the study, for its table."))
+      .add(stringKey("decks", "Decks to run, relative to this file.").list().byDefault("[]"))
+      .add(stringKey("deck", "One deck instead.").optional())
+      .section("vary", Presence::optional, "What is varied in every deck; all combinations are run.")
+      .add(stringKey("vary[].key", "A key of the deck: initial.temperature."))
+      .add(stringKey("vary[].values", "Its values, as they would stand in the deck: [900 K, 1000 K].").list())
+      .add(stringKey("set", "Assignments applied to every deck before what is varied: [time.end=1 s, repeats=10].")
+               .list()
+               .byDefault("[]"))
+      .add(integerKey("ranks_per_run",
+                      "Ranks that share a run; so many runs go on side by side as fit. All ranks work on one run after "
+                      "another if this is not given, which suits problems that spread over ranks by themselves.")
+               .optional()
+               .atLeast(1))
+      .add(stringKey("collect.results",
+                     "Which of a run's results (the object \"results\" of run.json, its parts joined by dots) become "
+                     "columns of the study's table; all takes every one.")
+               .list()
+               .byDefault("[all]"))
+      .add(stringKey("collect.tables",
+                     "CSV tables of the runs that are put below each other, the name of the run in front; a run "
+                     "without such a file is skipped.")
+               .list()
+               .byDefault("[table.csv]"))
+      .add(stringKey("collect.columns", "Columns of those tables to show on the console, by name without unit.")
+               .list()
+               .byDefault("[all]"))
+      .section("convergence", Presence::optional,
+               "Error of Monte Carlo methods against the number of particles, particles times repeats kept constant.")
+      .add(stringKey("convergence.deck", "A deck of problem population_balance, relative to this file."))
+      .add(stringKey("convergence.set", "Assignments for that deck.").list().byDefault("[]"))
+      .add(stringKey("convergence.methods", "Methods of the deck by name; none named: all Monte Carlo methods.")
+               .list()
+               .byDefault("[]"))
+      .add(integerKey("convergence.particles", "Numbers of particles: [512, 1024, 2048].").list().atLeast(2))
+      .add(integerKey("convergence.product", "Particles times repeats.").byDefault("131072").atLeast(4))
+      .add(choiceKey("convergence.reference.type", {"exact", "run"},
+                     "What the error is counted from: the exact solution, or a run with many particles.")
+               .byDefault("exact"))
+      .add(stringKey("convergence.reference.method", "run: its method, by name in the deck.").optional())
+      .add(integerKey("convergence.reference.particles", "run: its particles.").optional().atLeast(2))
+      .add(integerKey("convergence.reference.repeats", "run: its repeats.").optional().atLeast(1));
+  return schema;
+}
+
+SweepStudy readStudy(const Deck& study, const std::vector<std::string>& settings) {
+  SweepStudy sweep;
+  sweep.name = study.string("study");
+  if (const auto ranks = study.optionalInteger("ranks_per_run")) sweep.ranksPerRun = static_cast<int>(*ranks);
+  sweep.results = study.strings("collect.results");
+  sweep.tables = study.strings("collect.tables");
+  sweep.columns = study.strings("collect.columns");
+  checkAssignments(study, "set");
+  const std::vector<std::string> common = study.strings("set");
+
+  std::vector<std::string> decks = study.strings("decks");
+  if (const auto deck = study.optionalString("deck")) decks.push_back(*deck);
+  if (decks.empty() && !study.has("convergence"))
+    throw study.error("decks", "there is nothing to run: expected decks, or a section convergence");
+  const std::vector<Varied> combinations = product(study);
+  std::map<std::string, int> used;
+  for (const std::string& deck : decks) {
+    for (const Varied& varied : combinations) {
+      SweepRun run;
+      run.deck = study.resolvePath(deck);
+      run.varied = varied;
+      run.overrides = common;
+      for (const auto& [key, value] : varied) run.overrides.push_back(fmt::format("{}={}", key, value));
+      run.overrides = joined(run.overrides, settings);
+      run.name = nameOf(run.deck, varied);
+      if (const int before = used[run.name]++; before > 0) run.name += fmt::format("_{}", before + 1);
+      sweep.runs.push_back(std::move(run));
+    }
+  }
+  if (study.has("convergence")) sweep.convergence = readConvergence(study, settings);
+  return sweep;
+}
+
+}  // namespace lampblack

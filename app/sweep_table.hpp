@@ -1,0 +1,44 @@
+// What a study leaves: study.csv with a row for each run, the tables of the runs below each other, and study.json. Made
+// from the files that the runs wrote.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/sweep_run.hpp"
+#include "app/sweep_study.hpp"
+
+namespace lampblack {
+
+// Rows of texts under a line of names.
+struct TextTable {
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> rows;
+};
+
+// The numbers and words below "results" in the text of a run.json, in order, their parts joined by dots; lists are left
+// out. InputError where the text is not JSON.
+std::vector<std::pair<std::string, std::string>> resultsOf(const std::string& record);
+
+// A table in CSV (RFC 4180: fields with commas or quotes are quoted; lines that begin with # are skipped). InputError
+// where a row has another number of fields than the first line.
+TextTable readCsv(const std::string& text);
+std::string csvText(const TextTable& table);
+// The same with columns of even width, for the console.
+std::string alignedText(const TextTable& table);
+
+// A row for each run: its name, what is varied, how it ended, its wall time, and the collected results; empty where a
+// run does not have one.
+TextTable studyTable(const SweepStudy& study, const std::vector<RunOutcome>& outcomes,
+                     const std::filesystem::path& folder);
+
+// The rows of the runs' tables called `name`, each with the name of its run in front. Columns are those of the first run
+// that has the table, then what others have besides. No rows where no run has one.
+TextTable stackedTable(const SweepStudy& study, const std::string& name, const std::filesystem::path& folder);
+
+// study.json.
+std::string studyJson(const SweepStudy& study, const std::vector<RunOutcome>& outcomes, const TextTable& table);
+
+}  // namespace lampblack

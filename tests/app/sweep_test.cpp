@@ -1,0 +1,102 @@
+// Studies: which runs they mean, tables of results, and the fit of a convergence study.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "app/convergence_study.hpp"
+#include "app/sweep_study.hpp"
+#include "app/sweep_table.hpp"
+
+namespace lampblack {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Pair;
+using testing::ThrowsMessage;
+
+SweepStudy studyOf(const std::string& text, const std::vector<std::string>& settings = {}) {
+  return readStudy(Deck::parse(text, "/cases/study.yaml", {}, studySchema()), settings);
+}
+
+TEST(Study, EveryCombinationIsARunWithTheLastKeyFastest) {
+  const SweepStudy study = studyOf(
+      "study: s\ndeck: a/deck.yaml\nset: [time.end=1 s]\nvary:\n  - {key: initial.temperature, values: [900 K, 1 K]}\n"
+      "  - {key: pressure, values: [1 atm, 2 bar]}\n",
+      {"repeats=3"});
+  ASSERT_EQ(study.runs.size(), 4U);
+  EXPECT_EQ(study.runs[1].deck, "/cases/a/deck.yaml");
+  EXPECT_THAT(study.runs[1].overrides,
+              ElementsAre("time.end=1 s", "initial.temperature=900 K", "pressure=2 bar", "repeats=3"));
+  EXPECT_THAT(study.runs[2].varied, ElementsAre(Pair("initial.temperature", "1 K"), Pair("pressure", "1 atm")));
+  EXPECT_EQ(study.runs[1].name, "a_temperature-900_K_pressure-2_bar");
+}
+
+TEST(Study, DecksOfOneNameGetFoldersOfTheirOwn) {
+  const SweepStudy study = studyOf("study: s\ndecks: [a/x.yaml, b/x.yaml, b/deck.yaml]\n");
+  ASSERT_EQ(study.runs.size(), 3U);
+  EXPECT_EQ(study.runs[0].name, "x");
+  EXPECT_EQ(study.runs[1].name, "x_2");
+  EXPECT_EQ(study.runs[2].name, "b");
+}
+
+TEST(Study, ContradictionsAreToldWithTheirPlace) {
+  EXPECT_THAT([] { studyOf("study: s\n"); }, ThrowsMessage<InputError>(HasSubstr("nothing to run")));
+  EXPECT_THAT([] { studyOf("study: s\ndeck: a.yaml\nset: [time.end]\n"); },
+              ThrowsMessage<InputError>(HasSubstr("found 'time.end'")));
+  EXPECT_THAT([] { studyOf("study: s\ndeck: a.yaml\nvary:\n  - {key: b, values: []}\n"); },
+              ThrowsMessage<InputError>(HasSubstr("study.yaml:4")));
+  EXPECT_THAT([] { studyOf("study: s\ndekc: a.yaml\n"); }, ThrowsMessage<InputError>(HasSubstr("did you mean 'deck'")));
+  EXPECT_THAT([] { studyOf("study: s\nconvergence: {deck: a.yaml, particles: [100, 100]}\n"); },
+              ThrowsMessage<InputError>(HasSubstr("twice")));
+  EXPECT_THAT([] { studyOf("study: s\nconvergence: {deck: a.yaml, particles: [10, 100], product: 150}\n"); },
+              ThrowsMessage<InputError>(HasSubstr("half of the product")));
+  EXPECT_THAT([] { studyOf("study: s\nconvergence: {deck: a.yaml, particles: [8, 16], reference: {type: run}}\n"); },
+              ThrowsMessage<InputError>(HasSubstr("'method'")));
+}
+
+TEST(StudyTable, ResultsOfARecordAreNamedByTheirPath) {
+  const auto results = resultsOf(
+      R"({"status": "done", "results": {"a": {"b": 1.5e-3, "c \"d\"": "x, y"}, "list": [1, 2], "none": null, "e": -2}})");
+  EXPECT_THAT(results, ElementsAre(Pair("a.b", "1.5e-3"), Pair("a.c \"d\"", "x, y"), Pair("e", "-2")));
+  EXPECT_TRUE(resultsOf("{\"status\": \"running\"}").empty());
+}
+
+TEST(StudyTable, CsvIsReadAsItWasWritten) {
+  const TextTable table{{"a", "b, c"}, {{"1", "he said \"no\""}, {"", "two\nlines"}}};
+  const TextTable again = readCsv("# a comment\n" + csvText(table));
+  EXPECT_EQ(again.columns, table.columns);
+  EXPECT_EQ(again.rows, table.rows);
+  EXPECT_THAT([] { readCsv("a,b\n1\n"); }, ThrowsMessage<InputError>(HasSubstr("row 1 has 1 fields")));
+}
+
+TEST(Convergence, ThePowerOfAnExactLawIsFound) {
+  const std::vector<double> x{16, 32, 64, 256}, y{3.0 / 16, 3.0 / 32, 3.0 / 64, 3.0 / 256};
+  const FittedLine line = fitPowerLaw(x, y);
+  EXPECT_NEAR(line.slope, -1.0, 1e-12);  // round-off of four logarithms
+  EXPECT_NEAR(line.slopeError, 0.0, 1e-7);
+}
+
+TEST(Convergence, TheErrorOfASlopeIsThatOfLeastSquares) {
+  // log2(y) = 0, 1, 1 at log2(x) = 0, 1, 2: slope 1/2, residuals -1/6, 1/3, -1/6, so s^2 = (1/6) / 1 and the variance
+  // of the slope is s^2 / 2 = 1/12.
+  const std::vector<double> x{1, 2, 4}, y{1, 2, 2};
+  const FittedLine line = fitPowerLaw(x, y);
+  EXPECT_NEAR(line.slope, 0.5, 1e-14);
+  EXPECT_NEAR(line.slopeError, std::sqrt(1.0 / 12.0), 1e-14);
+  // Points where nothing was wrong say nothing about a power.
+  const std::vector<double> none{0, 0, 1};
+  EXPECT_TRUE(std::isnan(fitPowerLaw(x, none).slope));
+}
+
+TEST(Convergence, ErrorsAreMeansOverTheTimesRelativeToTheReference) {
+  const std::vector<double> mean{11, 36}, error{1, 2}, reference{10, 40};
+  const MeanErrors errors = meanErrors(mean, error, reference, 4);
+  EXPECT_NEAR(errors.error, 0.5 * (0.1 + 0.1), 1e-15);
+  EXPECT_NEAR(errors.confidence, 3.29 * 0.5 * (0.1 + 0.05), 1e-15);
+  EXPECT_NEAR(errors.scatter, 2 * 0.5 * (0.1 + 0.05), 1e-15);
+}
+
+}  // namespace
+}  // namespace lampblack
