@@ -1,6 +1,7 @@
-"""Looks whether what a run left is there, finite and plausible: a flow through its XDMF with meshio, a reactor by its
-tables."""
+"""Looks whether what a run or study left is there, finite and plausible: a flow through its XDMF with meshio, a reactor
+and a population balance by their tables, a study by its runs."""
 
+import csv
 import json
 import pathlib
 import sys
@@ -22,6 +23,37 @@ def check_reactor(folder):
         print(f"{folder}: {len(temperature)} rows of {len(table)} columns")
 
 
+def check_population(folder):
+    record = json.loads((folder / "run.json").read_text(encoding="utf-8"))
+    with h5py.File(folder / "results.h5", "r") as file:
+        assert set(file["methods"]) == set(record["deck"]["methods"]), "not all methods have results"
+        for name, group in file["methods"].items():
+            history = group["history"]
+            for k in range(3):
+                moment = history[f"M{k}"][()]
+                assert np.all(np.isfinite(moment)) and np.all(moment[1:] > 0), f"{name}: M{k} is not positive"
+            assert np.all(np.diff(history["time"][()]) > 0), f"{name}: the times do not rise"
+    with open(folder / "table.csv", newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert [row["method"] for row in rows] == list(record["deck"]["methods"]), "table.csv lacks methods"
+    print(f"{folder}: {len(rows)} methods")
+
+
+def check_study(folder):
+    study = json.loads((folder / "study.json").read_text(encoding="utf-8"))
+    assert study["failed_runs"] == 0, f"{study['failed_runs']} runs failed"
+    for run in study["runs"]:
+        main(folder / run["run"])
+    if (folder / "convergence.csv").is_file():
+        with open(folder / "convergence.csv", newline="", encoding="utf-8") as file:
+            points = list(csv.DictReader(file))
+        assert points and all(0 < float(point["error_M0"]) < 1 for point in points), "odd errors"
+        assert (folder / "convergence_slopes.csv").is_file()
+    else:
+        assert study["runs"], "no runs"
+    print(f"{folder}: {len(study['runs'])} runs")
+
+
 def check_flow(folder):
     with meshio.xdmf.TimeSeriesReader(folder / "results.xdmf") as reader:
         points, cells = reader.read_points_cells()
@@ -41,8 +73,12 @@ def check_flow(folder):
 
 
 def main(folder):
+    if (folder / "study.json").is_file():
+        check_study(folder)
+        return
     record = json.loads((folder / "run.json").read_text(encoding="utf-8"))
-    (check_reactor if record["deck"]["problem"] == "reactor" else check_flow)(folder)
+    kinds = {"reactor": check_reactor, "population_balance": check_population}
+    kinds.get(record["deck"]["problem"], check_flow)(folder)
 
 
 main(pathlib.Path(sys.argv[1]))
