@@ -190,8 +190,7 @@ void runConvergence(MPI_Comm comm, const ConvergenceOptions& options, const std:
 
   std::vector<Moments> reference;
   if (!options.exact) {
-    PopulationCase one =
-        oneMethod(all, options.referenceMethod, options.referenceParticles, options.referenceRepeats);
+    PopulationCase one = oneMethod(all, options.referenceMethod, options.referenceParticles, options.referenceRepeats);
     one.seed = all.seed + 1;  // independent of the runs it is compared with
     const PopulationStatistics statistics = runPopulation(comm, one);
     if (rank == 0) reference = statistics.methods.at(0).mean;

@@ -39,9 +39,10 @@ void prepareFolder(MPI_Comm comm, const fs::path& folder, bool force) {
     std::error_code error;
     if (!fs::exists(folder / "study.json", error)) return;
     if (!force)
-      throw InputError(fmt::format("{}: this folder holds a study already. Choose another with --out DIR, or replace it "
-                                   "with --force",
-                                   folder.string()));
+      throw InputError(
+          fmt::format("{}: this folder holds a study already. Choose another with --out DIR, or replace it "
+                      "with --force",
+                      folder.string()));
     fs::remove(folder / "study.json", error);
   });
   static_cast<void>(RunFolder::prepare(folder, force, comm));
@@ -103,7 +104,8 @@ void raiseFailures(MPI_Comm comm, const std::vector<RunOutcome>& outcomes) {
     worst = std::max(worst, outcome.failure);
     failed += outcome.failure != RunFailure::none ? 1 : 0;
   }
-  const std::string message = fmt::format("{} of {} runs failed; the table says which and why", failed, outcomes.size());
+  const std::string message =
+      fmt::format("{} of {} runs failed; the table says which and why", failed, outcomes.size());
   collectively(comm, [&] {
     if (worst == RunFailure::input) throw InputError(message);
     if (worst == RunFailure::numerics) throw NumericsError(message);
@@ -140,8 +142,7 @@ void addSweepCommand(CLI::App& app, std::function<void()>& command) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* subcommand = app.add_subcommand("sweep", "Run a study: many decks, or many variants of one, and a table.");
   subcommand->add_option("study", arguments->study, "Study (YAML).")->required();
-  subcommand->add_option("--set", arguments->settings, "Override a key of every deck: a.b=c.")
-      ->allow_extra_args(false);
+  subcommand->add_option("--set", arguments->settings, "Override a key of every deck: a.b=c.")->allow_extra_args(false);
   subcommand->add_option("--study-set", arguments->overrides, "Override a key of the study: ranks_per_run=1.")
       ->allow_extra_args(false);
   subcommand->add_option("--out", arguments->folder, "Folder for the study; each run gets a folder in it.")

@@ -1,4 +1,5 @@
-// `lampblack sweep`: many decks, or many variants of one, run one after another or side by side, and a table at the end.
+// `lampblack sweep`: many decks, or many variants of one, run one after another or side by side, and a table at the
+// end.
 #pragma once
 
 #include <functional>

@@ -13,9 +13,9 @@ namespace {
 
 struct Group {
   MPI_Comm comm = MPI_COMM_NULL;
-  int size = 1;    // ranks in a group
-  int count = 1;   // groups
-  int index = 0;   // this rank's group
+  int size = 1;   // ranks in a group
+  int count = 1;  // groups
+  int index = 0;  // this rank's group
 
   Group(MPI_Comm all, const SweepStudy& study) {
     int ranks = 1, rank = 0;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "io/json.hpp"
+
 namespace lampblack {
 namespace {
 
@@ -15,8 +17,10 @@ std::string plainName(const std::string& text) {
   std::string plain;
   for (const char c : text) {
     const bool kept = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '-' || c == '+' || c == '_';
-    if (kept) plain += c;
-    else if (!plain.empty() && plain.back() != '_') plain += '_';
+    if (kept)
+      plain += c;
+    else if (!plain.empty() && plain.back() != '_')
+      plain += '_';
   }
   while (!plain.empty() && plain.back() == '_') plain.pop_back();
   return plain;
@@ -57,6 +61,13 @@ std::vector<Varied> product(const Deck& study) {
   return combinations;
 }
 
+// A value as the right side of --set. The study's own quotes are gone: text that would be a map ("H2: 2, O2: 1") gets
+// them back.
+std::string asInDeck(const std::string& value) {
+  const bool isText = value.find(": ") != std::string::npos && value.find_first_of("[{\"'") != 0;
+  return isText ? jsonString(value) : value;
+}
+
 void checkAssignments(const Deck& study, const std::string& key) {
   const std::vector<std::string> settings = study.strings(key);
   for (std::size_t i = 0; i < settings.size(); ++i) {
@@ -82,10 +93,11 @@ ConvergenceOptions readConvergence(const Deck& study, const std::vector<std::str
     throw study.error("convergence.particles", "a slope needs at least two numbers of particles");
   for (const std::int64_t particles : options.particles) {
     if (particles < 2 || particles > options.product / 2)
-      throw study.error("convergence.particles",
-                        fmt::format("expected numbers from 2 to half of the product ({}), so that there are two repeats "
-                                    "at least; found {}",
-                                    options.product, particles));
+      throw study.error(
+          "convergence.particles",
+          fmt::format("expected numbers from 2 to half of the product ({}), so that there are two repeats "
+                      "at least; found {}",
+                      options.product, particles));
   }
   std::vector<std::int64_t> sorted = options.particles;
   std::sort(sorted.begin(), sorted.end());
@@ -174,7 +186,7 @@ SweepStudy readStudy(const Deck& study, const std::vector<std::string>& settings
       run.deck = study.resolvePath(deck);
       run.varied = varied;
       run.overrides = common;
-      for (const auto& [key, value] : varied) run.overrides.push_back(fmt::format("{}={}", key, value));
+      for (const auto& [key, value] : varied) run.overrides.push_back(fmt::format("{}={}", key, asInDeck(value)));
       run.overrides = joined(run.overrides, settings);
       run.name = nameOf(run.deck, varied);
       if (const int before = used[run.name]++; before > 0) run.name += fmt::format("_{}", before + 1);

@@ -96,11 +96,13 @@ TextTable readCsv(const std::string& text) {
     if (row.empty() && field.empty()) return;
     row.push_back(std::move(field));
     field.clear();
-    if (table.columns.empty()) table.columns = row;
+    if (table.columns.empty())
+      table.columns = row;
     else if (row.size() != table.columns.size())
       throw InputError(fmt::format("row {} has {} fields, the first line {}", table.rows.size() + 1, row.size(),
                                    table.columns.size()));
-    else table.rows.push_back(row);
+    else
+      table.rows.push_back(row);
     row.clear();
   };
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -108,9 +110,12 @@ TextTable readCsv(const std::string& text) {
     if (comment) {
       comment = c != '\n';
     } else if (quoted) {
-      if (c != '"') field += c;
-      else if (i + 1 < text.size() && text[i + 1] == '"') field += text[++i];
-      else quoted = false;
+      if (c != '"')
+        field += c;
+      else if (i + 1 < text.size() && text[i + 1] == '"')
+        field += text[++i];
+      else
+        quoted = false;
     } else if (c == '"') {
       quoted = true;
     } else if (c == ',') {
@@ -230,9 +235,10 @@ std::string studyJson(const SweepStudy& study, const std::vector<RunOutcome>& ou
   json.field("version", buildVersion());
   json.field("git_hash", buildGitHash());
   json.field("finished", utcNow());
-  json.field("failed_runs", static_cast<std::int64_t>(std::count_if(
-                                outcomes.begin(), outcomes.end(),
-                                [](const RunOutcome& outcome) { return outcome.failure != RunFailure::none; })));
+  json.field("failed_runs",
+             static_cast<std::int64_t>(std::count_if(outcomes.begin(), outcomes.end(), [](const RunOutcome& outcome) {
+               return outcome.failure != RunFailure::none;
+             })));
   json.key("runs").beginArray();
   for (std::size_t i = 0; i < study.runs.size(); ++i) {
     const SweepRun& run = study.runs[i];
@@ -244,9 +250,12 @@ std::string studyJson(const SweepStudy& study, const std::vector<RunOutcome>& ou
     for (std::size_t c = 0; c < table.columns.size(); ++c) {
       json.key(table.columns[c]);
       const std::string& text = table.rows[i][c];
-      if (text.empty()) json.null();
-      else if (isNumber(text)) json.value(std::stod(text));
-      else json.value(text);
+      if (text.empty())
+        json.null();
+      else if (isNumber(text))
+        json.value(std::stod(text));
+      else
+        json.value(text);
     }
     json.endObject();
   }

@@ -34,8 +34,8 @@ std::string alignedText(const TextTable& table);
 TextTable studyTable(const SweepStudy& study, const std::vector<RunOutcome>& outcomes,
                      const std::filesystem::path& folder);
 
-// The rows of the runs' tables called `name`, each with the name of its run in front. Columns are those of the first run
-// that has the table, then what others have besides. No rows where no run has one.
+// The rows of the runs' tables called `name`, each with the name of its run in front. Columns are those of the first
+// run that has the table, then what others have besides. No rows where no run has one.
 TextTable stackedTable(const SweepStudy& study, const std::string& name, const std::filesystem::path& folder);
 
 // study.json.

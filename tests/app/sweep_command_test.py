@@ -15,7 +15,7 @@ REACTOR = running.SOURCE / "cases/reactor_ignition_hydrogen/deck.yaml"
 POPULATION = running.SOURCE / "cases/population_balance/chapter5_03_coagulation_exponential.yaml"
 STUDY = f"""study: delays
 deck: {REACTOR}
-set: [time.end=0.4 ms, sensitivity.reactions=[1]]
+set: [time.end=0.4 ms, 'sensitivity.reactions=[1]']
 vary:
   - {{key: initial.temperature, values: [1100 K, 1200 K]}}
 """
@@ -100,10 +100,10 @@ def check_population(program: running.Program, folder: pathlib.Path) -> dict:
     """Tables of the runs below each other, and a convergence study; returns what may not depend on the ranks."""
     text = f"""study: balance
 decks: [{POPULATION}]
-set: [repeats=3, time.outputs=5, time.end=1 s]
+set: [repeats=3, time.outputs=5, time.end=1 s, 'distribution.times=[1 s]']
 convergence:
   deck: {POPULATION}
-  set: [time.outputs=5, time.end=2 s]
+  set: [time.outputs=5, time.end=2 s, 'distribution.times=[1 s]']
   methods: [constant_volume]
   particles: [32, 64, 128]
   product: 2048
