@@ -13,6 +13,7 @@
 #include "app/problem.hpp"
 #include "app/replay_command.hpp"
 #include "app/sweep_command.hpp"
+#include "app/sweep_study.hpp"
 #include "core/errors.hpp"
 #include "core/petsc.hpp"
 
@@ -46,7 +47,12 @@ void run(const Arguments& arguments) {
 }
 
 void reference(const Arguments& arguments) {
-  std::cout << (arguments.json ? jsonSchema(deckKinds()) : markdownReference(deckKinds()));
+  if (arguments.json) {
+    std::cout << jsonSchema(deckKinds());
+  } else {
+    std::cout << markdownReference(deckKinds())
+              << markdownPart(2, "Studies", "Files for `lampblack sweep`, without a `problem`.", studySchema());
+  }
 }
 
 // Ends the run with the message of the failure. An error that all ranks raised together is told by rank 0; one that

@@ -188,6 +188,12 @@ std::string markdownReference(const DeckKinds& kinds) {
   return text;
 }
 
+std::string markdownPart(int level, const std::string& heading, const std::string& doc, const DeckSchema& schema) {
+  std::string text = fmt::format("\n{} {}\n\n{}\n", std::string(static_cast<std::size_t>(level), '#'), heading, doc);
+  writeMarkdown(schema.tree(), level + 1, text);
+  return text;
+}
+
 std::string jsonSchema(const DeckSchema& schema) {
   JsonWriter json;
   writeSchema(schema.tree(), json);

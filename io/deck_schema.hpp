@@ -124,6 +124,8 @@ struct DeckKinds {
 // The reference page: a table of keys for each section; of several kinds, a part for each.
 std::string markdownReference(const DeckSchema& schema);
 std::string markdownReference(const DeckKinds& kinds);
+// A part of such a page under a heading of a level (2 is "##"), for a schema that is none of the kinds.
+std::string markdownPart(int level, const std::string& heading, const std::string& doc, const DeckSchema& schema);
 
 // A JSON schema (draft 2020-12) for editors that check YAML while it is typed.
 std::string jsonSchema(const DeckSchema& schema);

@@ -106,6 +106,14 @@ def plot_moments(results, methods, exact, title, pictures):
     pictures.save(figure, "moments")
 
 
+def plain_ticks(axes):
+    """Numbers such as 0.5 rather than powers on a logarithmic axis of few decades."""
+    low, high = axes.get_ylim()
+    if 0 < low and high < 200 * low:
+        for which in ("major", "minor"):
+            getattr(axes.yaxis, f"set_{which}_formatter")(lambda value, _: f"{value:g}" if f"{value:e}"[0] in "125" else "")
+
+
 def plot_sigma(methods, title, pictures):
     with_sigma = [m for m in methods if any(np.any(np.isfinite(m.sigma.get(f"sigma_M{k}", np.array([])))) for k in range(4))]
     if not with_sigma:
@@ -120,7 +128,10 @@ def plot_sigma(methods, title, pictures):
             # What is exact to round-off cannot be told from zero on this axis.
             axes.semilogy(method.sigma["time"], np.where(sigma > 1e-6, sigma, np.nan), **method.style, label=method.label)
         axes.set_ylabel(rf"$\sigma_{{M_{k}}}$, %")
+        plain_ticks(axes)
         if not axes.lines or not any(np.any(np.isfinite(line.get_ydata())) for line in axes.lines):
+            axes.set_yticks([], minor=False)
+            axes.set_yticks([], minor=True)
             axes.text(0.5, 0.5, "below 1e-6 %", ha="center", transform=axes.transAxes)
     for axes in panels[-1]:
         axes.set_xlabel("time, s")
@@ -153,6 +164,7 @@ def plot_distribution(results, methods, title, pictures):
     width = min(count, 2)
     rows = -(-count // width)
     figure, panels = plt.subplots(rows, width, figsize=(5.4 * width, 4.0 * rows), squeeze=False, sharey=True)
+    top = 0.0
     for t, axes in enumerate(panels.flat):
         if t >= count:
             axes.set_axis_off()
@@ -173,10 +185,11 @@ def plot_distribution(results, methods, title, pictures):
             largest = max(largest, np.nanmax(value, initial=0.0))
         axes.set_xscale("log")
         axes.set_yscale("log")
-        if largest > 0:
-            axes.set_ylim(1e-8 * largest, 3 * largest)
+        top = max(top, largest)
         axes.set_title(f"t = {times[t]:g} s", fontsize=9)
         axes.set_xlabel("volume, m$^3$")
+    if top > 0:
+        panels.flat[0].set_ylim(1e-7 * top, 3 * top)
     for row in panels:
         row[0].set_ylabel("dN/d ln v, 1/m$^3$" if logarithmic else "n(v), 1/m$^6$")
     panels.flat[0].legend(fontsize=7, ncol=2 if len(drawn) > 6 else 1)

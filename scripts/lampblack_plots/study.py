@@ -70,6 +70,11 @@ def plot_scores(rows, pictures):
                 axes.plot(x, z, ls="none", ms=4.5, marker=MARKS[m % len(MARKS)], color=f"C{m % 10}",
                           mfc="none" if known else f"C{m % 10}", label=None if known else method)
         axes.set_yscale("symlog", linthresh=5)
+        reach = max(6.0, 1.2 * max((abs(number(row, f"z_M{k}")) for row in rows if row.get(f"z_M{k}")), default=0.0))
+        axes.set_ylim(-reach, reach)
+        ticks = [t for t in (3.3, 10, 100, 1000) if t < reach]
+        axes.set_yticks([-t for t in ticks[::-1]] + [0] + ticks, [f"{t:g}" for t in [-t for t in ticks[::-1]] + [0] + ticks])
+        axes.set_yticks([], minor=True)
         axes.set_ylabel(f"z of $M_{k}$")
         place_marks(axes, runs)
     panels[0].legend(fontsize=6, ncol=6, loc="lower center", bbox_to_anchor=(0.5, 1.0))
