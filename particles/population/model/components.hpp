@@ -16,6 +16,8 @@ class Components {
  public:
   static constexpr std::size_t most = 4;
 
+  static constexpr bool moreThanVolume = true;  // see particle_type.hpp
+
   struct Particle {
     std::array<double, most> mass;  // kg; zero beyond the components there are
   };

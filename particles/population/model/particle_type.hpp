@@ -105,6 +105,17 @@ template <class Type>
   }
 }
 
+// Whether particles of one volume may differ, so that a method must not keep them as a number: a static constant of the
+// type, false where it has none.
+template <class Type>
+[[nodiscard]] constexpr bool moreThanVolume() {
+  if constexpr (requires { Type::moreThanVolume; }) {
+    return Type::moreThanVolume;
+  } else {
+    return false;
+  }
+}
+
 // How the diameter of collision goes with the volume of large particles, d_c ~ v^(1/D): D is the member
 // fractalDimension() of the type, 3 where it has none.
 template <class Type>

@@ -20,6 +20,8 @@ namespace lampblack {
 
 class SurfaceVolume {
  public:
+  static constexpr bool moreThanVolume = true;  // see particle_type.hpp
+
   struct Particle {
     double volume;   // m3
     double surface;  // m2

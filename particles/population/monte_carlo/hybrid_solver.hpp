@@ -26,6 +26,11 @@ struct Unit {
 template <ParticleType Type>
 std::unique_ptr<PopulationSolver> makeHybrid(const Type& type, const PopulationModel& model,
                                              const InitialPopulation& initial, const MonteCarloOptions& options) {
+  if (moreThanVolume<Type>()) {
+    throw InputError(
+        "the hybrid method keeps small particles as numbers of one volume: it cannot have particles with a surface or "
+        "components of their own");
+  }
   if (options.threshold == 0) throw InputError("the hybrid method needs a threshold of at least one nucleus");
   if (options.rates == EventRates::exact) {
     throw InputError("the hybrid method has majorant rates only; compare with method: dsmc, rates: exact");
