@@ -174,8 +174,8 @@ struct SortedChunk {
     const auto end = static_cast<std::int64_t>(size);
     for (std::uint32_t k = 0; k < places; k += lanes) {
       const Lanes d = load(&volumes_[margin + k + 1]) - load(&volumes_[margin + k]);
-      const Bits index = iota() + static_cast<std::int64_t>(k);
-      const Bits bits = index < end ? std::bit_cast<Bits>(d) : Bits{} + none64;
+      const Bits index = iota + static_cast<std::int64_t>(k);
+      const Bits bits = index < end ? (Bits)d : Bits{} + none64;
       differences[k / lanes] = bits;
       smallest = bits < smallest ? bits : smallest;
     }
@@ -183,9 +183,9 @@ struct SortedChunk {
     if (relative && least64 > 0) {  // no two volumes are equal
       smallest = Bits{} + none64;
       for (std::uint32_t k = 0; k < places; k += lanes) {
-        const Lanes d = std::bit_cast<Lanes>(differences[k / lanes]) / load(&volumes_[margin + k]);
-        const Bits index = iota() + static_cast<std::int64_t>(k);
-        const Bits bits = index < end ? std::bit_cast<Bits>(d) : Bits{} + none64;
+        const Lanes d = (Lanes)differences[k / lanes] / load(&volumes_[margin + k]);
+        const Bits index = iota + static_cast<std::int64_t>(k);
+        const Bits bits = index < end ? (Bits)d : Bits{} + none64;
         differences[k / lanes] = bits;
         smallest = bits < smallest ? bits : smallest;
       }
@@ -193,15 +193,15 @@ struct SortedChunk {
     }
     Bits lightest = Bits{} + none64;
     for (std::uint32_t k = 0; k < places; k += lanes) {
-      const Bits w = std::bit_cast<Bits>(load(&weights_[margin + k]));
+      const Bits w = (Bits)load(&weights_[margin + k]);
       const Bits candidate = differences[k / lanes] == least64 ? w : Bits{} + none64;
       lightest = candidate < lightest ? candidate : lightest;
     }
     const std::int64_t lightest64 = leastOf(lightest);
     Bits first = Bits{} + static_cast<std::int64_t>(size);
     for (std::uint32_t k = 0; k < places; k += lanes) {
-      const Bits w = std::bit_cast<Bits>(load(&weights_[margin + k]));
-      const Bits index = iota() + static_cast<std::int64_t>(k);
+      const Bits w = (Bits)load(&weights_[margin + k]);
+      const Bits index = iota + static_cast<std::int64_t>(k);
       const Bits candidate = (differences[k / lanes] == least64) & (w == lightest64) ? index : Bits{} + none64;
       first = candidate < first ? candidate : first;
     }
@@ -228,9 +228,10 @@ struct SortedChunk {
   typedef std::int64_t Bits __attribute__((vector_size(lanes * sizeof(double))));
   using Column = std::array<double, places + 2 * margin>;
 
-  static Lanes load(const double* from) { return *reinterpret_cast<const Unaligned*>(from); }
+  // By reference: vectors are not returned by value, whose registers not every processor has.
+  static const Unaligned& load(const double* from) { return *reinterpret_cast<const Unaligned*>(from); }
   static void store(double* to, const Lanes& x) { *reinterpret_cast<Unaligned*>(to) = x; }
-  static Bits iota() { return Bits{0, 1, 2, 3, 4, 5, 6, 7}; }
+  static constexpr Bits iota{0, 1, 2, 3, 4, 5, 6, 7};
   static std::int64_t leastOf(const Bits& x) {
     std::int64_t least64 = x[0];
     for (std::uint32_t lane = 1; lane < lanes; ++lane) least64 = std::min<std::int64_t>(least64, x[lane]);
@@ -241,7 +242,7 @@ struct SortedChunk {
     for (std::uint32_t k = places; k > 0;) {
       k -= lanes;
       double* x = &column[margin + k];
-      const Bits index = iota() + static_cast<std::int64_t>(k);
+      const Bits index = iota + static_cast<std::int64_t>(k);
       store(x, index >= end ? load(x - copies) : load(x));
     }
     for (std::uint32_t k = 0; k < copies; ++k) column[margin + at + k] = value;
@@ -250,7 +251,7 @@ struct SortedChunk {
     const auto first = static_cast<std::int64_t>(k), last = static_cast<std::int64_t>(at);
     for (std::uint32_t b = 0; b < places; b += lanes) {
       double* x = &column[margin + b];
-      const Bits index = iota() + static_cast<std::int64_t>(b);
+      const Bits index = iota + static_cast<std::int64_t>(b);
       const Lanes same = load(x), one = load(x + 1), two = load(x + 2);
       Lanes moved = index < last ? two : one;
       moved = index < first ? same : moved;
@@ -262,7 +263,7 @@ struct SortedChunk {
     const auto here = static_cast<std::int64_t>(at);
     for (std::uint32_t k = 0; k < places; k += lanes) {
       double* x = &column[margin + k];
-      const Bits index = iota() + static_cast<std::int64_t>(k);
+      const Bits index = iota + static_cast<std::int64_t>(k);
       store(x, index >= here ? load(x + by) : load(x));
     }
   }
