@@ -88,7 +88,7 @@ class SortedStore {
   };
   static constexpr Slot none = Chunk::none;
   static constexpr std::size_t unused = ~std::size_t{0};
-  static constexpr std::uint32_t filled = 48, sparse = 12;  // entries of a chunk when built, and when joined
+  static constexpr std::uint32_t filled = 52, sparse = 26;  // entries of a chunk when built, and when joined
   static constexpr std::uint32_t countSlack = 4;
   static constexpr double weightSlack = 1.0625;
 
