@@ -28,6 +28,7 @@ void addCounters(PopulationCounters& sum, const PopulationCounters& more) {
   sum.condensations += more.condensations;
   sum.merges += more.merges;
   sum.doublings += more.doublings;
+  sum.copies += more.copies;
   sum.removals += more.removals;
   sum.vanished += more.vanished;
   sum.splitSteps += more.splitSteps;

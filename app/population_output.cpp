@@ -30,6 +30,7 @@ std::vector<std::pair<const char*, std::uint64_t>> named(const PopulationCounter
           {"fictitious", c.fictitious},
           {"merges", c.merges},
           {"doublings", c.doublings},
+          {"copies", c.copies},
           {"removals", c.removals},
           {"vanished", c.vanished},
           {"split_steps", c.splitSteps},

@@ -23,8 +23,9 @@ double cpuSeconds() {
 
 template <typename Counters>
 auto fields(Counters& c) {
-  return std::array{&c.coagulations, &c.fictitious, &c.nucleations, &c.breakages,  &c.depositions, &c.condensations,
-                    &c.merges,       &c.doublings,  &c.removals,    &c.splitSteps, &c.vanished,    &c.limited};
+  return std::array{&c.coagulations,  &c.fictitious, &c.nucleations, &c.breakages, &c.depositions,
+                    &c.condensations, &c.merges,     &c.doublings,   &c.copies,    &c.removals,
+                    &c.splitSteps,    &c.vanished,   &c.limited};
 }
 
 }  // namespace

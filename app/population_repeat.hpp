@@ -15,7 +15,7 @@ namespace lampblack {
 // have, are NaN.
 class RepeatRecord {
  public:
-  static constexpr std::size_t numCounters = 12;
+  static constexpr std::size_t numCounters = 13;
 
   struct Shape {
     std::size_t rows = 0;   // of the history

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cassert>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -97,7 +96,7 @@ class ClassStore {
           bound(first.slot, k) * bound(second.slot, k + rank_) + bound(second.slot, k) * bound(first.slot, k + rank_);
     }
     const double rate = rates_.pair(a, b);
-    assert(rate <= majorant * (1 + 1e-9));
+    checkBound(rate, majorant);
     if (rate < majorant && random.uniform() * majorant >= rate) return false;
     i = a;
     j = b;

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <utility>
@@ -74,7 +73,7 @@ class HybridPopulation {
       majorant += bound(i, k) * bound(j, k + rank_) + bound(j, k) * bound(i, k + rank_);
     }
     const double rate = rates().pair(entry(i), entry(j));
-    assert(rate <= majorant * (1 + tolerance));
+    checkBound(rate, majorant);
     if (!(random.uniform() * majorant < rate)) return false;
     // Of two in one class the later one first.
     if (i.particle && j.particle && i.place.index < j.place.index) std::swap(i, j);

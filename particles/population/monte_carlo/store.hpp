@@ -60,4 +60,11 @@ concept EntryStore = requires(S store, const S fixed, typename S::Entry entry, R
   // Also: forEach(f) with f(const Entry&); transform(f) with f(Entry&) -> bool, false drops the entry.
 };
 
+// A store accepts a pair with the ratio of its rate to its bound, which gives the right law only while the bound holds.
+[[noreturn]] void boundExceeded(double rate, double bound);  // throws NumericsError
+inline void checkBound(double rate, double bound) {
+  if (!(rate <= bound * (1 + 1e-9))) [[unlikely]]
+    boundExceeded(rate, bound);  // 1e-9: rounding
+}
+
 }  // namespace lampblack
