@@ -1,0 +1,65 @@
+// LU factors of a bordered block-tridiagonal matrix, the Newton matrix of a one-dimensional flame:
+//
+//   | D0 U0          b0 |     blocks of `width` unknowns a point,
+//   | L1 D1 U1       b1 |     a border of a few unknowns of the whole flame
+//   |    L2 D2 ...   .. |     (mass flux, pressure gradient, load).
+//   | c0 c1 ...      e  |
+//
+// Elimination goes from both ends to a block in the middle, with pivoting inside blocks (LAPACK), so that two ranks
+// share the work without more of it; the result has the same bits on any number of ranks.
+#pragma once
+
+#include <mpi.h>
+
+#include <cstddef>
+#include <memory>
+#include <span>
+
+namespace lampblack {
+
+class BlockTridiagonal {
+ public:
+  BlockTridiagonal(MPI_Comm comm, std::size_t points, std::size_t width, std::size_t border);
+  ~BlockTridiagonal();
+  BlockTridiagonal(BlockTridiagonal&&) noexcept;
+  BlockTridiagonal& operator=(BlockTridiagonal&&) noexcept;
+
+  [[nodiscard]] std::size_t points() const;
+  [[nodiscard]] std::size_t width() const;
+  [[nodiscard]] std::size_t border() const;
+  [[nodiscard]] std::size_t size() const { return points() * width() + border(); }
+
+  // Block rows whose blocks this rank has to set: [begin, end), perhaps none; together the ranks own each row once.
+  [[nodiscard]] std::size_t ownedBegin() const;
+  [[nodiscard]] std::size_t ownedEnd() const;
+
+  // Sets all entries to zero, and forgets the factors.
+  void clear();
+  // Blocks of an owned row, column-major with leading dimension `width`. `lower` of row 0 and `upper` of the last row
+  // do not exist: std::logic_error.
+  [[nodiscard]] double* lower(std::size_t row);
+  [[nodiscard]] double* diagonal(std::size_t row);
+  [[nodiscard]] double* upper(std::size_t row);
+  // Border: columns beside an owned row (width x border, column-major), rows below a column of blocks (border x width,
+  // column-major; set by the owner of the block row of that number), and the corner (border x border, column-major,
+  // the same on all ranks).
+  [[nodiscard]] double* borderColumns(std::size_t row);
+  [[nodiscard]] double* borderRows(std::size_t column);
+  [[nodiscard]] double* corner();
+
+  // y = A x of the matrix as set (before factorise), for tests: all of y on every rank. Collective.
+  void multiply(std::span<const double> x, std::span<double> y) const;
+
+  // Collective. Overwrites the blocks by factors. False where a block is singular or not finite; `singularPoint` then
+  // tells which one.
+  [[nodiscard]] bool factorise();
+  [[nodiscard]] std::size_t singularPoint() const;
+  // Collective. b (size() values, alike on all ranks) becomes the solution, alike on all ranks.
+  void solve(std::span<double> b);
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+}  // namespace lampblack

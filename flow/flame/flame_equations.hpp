@@ -1,0 +1,108 @@
+// The discrete equations of a one-dimensional flame (flame_problem.hpp): vertex-centred finite volumes, so that what
+// leaves one control volume enters the next and budgets close to round-off of a converged solution; and their Newton
+// matrix, with analytic derivatives of chemistry, convection and diffusion at frozen transport coefficients.
+//
+// Points are spread over the ranks for the evaluation; vectors are alike on all ranks. docs/theory/flames.md.
+#pragma once
+
+#include <mpi.h>
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "chemistry/mechanism/mechanism.hpp"
+#include "flow/flame/block_tridiagonal.hpp"
+#include "flow/flame/carried_model.hpp"
+#include "flow/flame/flame_problem.hpp"
+#include "flow/flame/flame_profile.hpp"
+#include "flow/flame/newton_system.hpp"
+
+namespace lampblack {
+
+// Relative and absolute sizes of a change of an unknown that counts as 1.
+struct FlameTolerances {
+  double relative = 1e-4;
+  double species = 1e-9, temperature = 1e-2, flow = 1e-4, scalars = 1e-7;
+};
+
+// A condition  sum_i coefficients[i] x[i] = value  in place of `load = value` (arc length).
+struct FlameConstraint {
+  std::vector<double> coefficients;  // size() of the flame
+  double value = 0;
+};
+
+// What is exchanged with the gas at every point by something that is not part of the flame (stochastic particles that
+// were computed along it): production of species, kg/m3/s, and absorption by particles, 1/m; between points linear.
+struct GivenExchange {
+  std::vector<double> z;
+  std::vector<double> species;  // point-major, all species of the mechanism
+  std::vector<double> absorption;
+  std::vector<double> enthalpy;  // J/m3/s given to the gas by what it exchanges, apart from the species' own
+};
+
+// Fluxes in and out, and sources, of one conserved quantity.
+struct FlameBudget {
+  std::string name;  // element, "mass", "energy"
+  double in = 0;     // with the streams: kg/m2/s, W/m2
+  double out = 0;    // leaving at the ends and, by spreading, sideways
+  double wall = 0;   // conducted into burner or wall, deposited on the wall
+  double radiated = 0;
+  [[nodiscard]] double imbalance() const { return in - out - wall - radiated; }
+};
+
+class FlameEquations : public NewtonSystem {
+ public:
+  // `carried` may be null; it has to live as long. InputError for problems that make no sense.
+  FlameEquations(MPI_Comm comm, std::shared_ptr<const Mechanism> mechanism, FlameProblem problem,
+                 CarriedModel* carried = nullptr, FlameTolerances tolerances = {});
+  ~FlameEquations() override;
+
+  [[nodiscard]] const FlameProblem& problem() const;
+  [[nodiscard]] const FlameLayout& layout() const;
+  void setGrid(std::span<const double> z);
+  [[nodiscard]] std::span<const double> grid() const;
+
+  // Free flames: the temperature at a point of the grid, which pins the flame.
+  void setAnchor(std::size_t point, double temperature);
+  // Unknowns that are held at their values in `held` (components of the layout; globals follow). Nothing is held after
+  // release(). Used to solve the gas at a given temperature, or the scalars in a given gas.
+  void hold(std::function<bool(std::size_t component)> which, std::span<const double> held);
+  void release();
+  void setLoad(double load);
+  void setConstraint(std::optional<FlameConstraint> constraint);
+  void setExchange(std::optional<GivenExchange> exchange);
+
+  // NewtonSystem. Transport coefficients are evaluated anew in each residual unless frozen.
+  [[nodiscard]] std::size_t size() const override;
+  void residual(std::span<const double> x, std::span<double> F) override;
+  void timeWeights(std::span<const double> x, std::span<double> M) override;
+  [[nodiscard]] bool factorise(std::span<const double> x, double inverseTimeStep) override;
+  void solve(std::span<double> b) override;
+  void bounds(std::span<double> lower, std::span<double> upper) const override;
+  void scales(std::span<const double> x, std::span<double> scale) const override;
+  [[nodiscard]] std::string nameOf(std::size_t unknown) const override;
+
+  // Unsteady flames: adds d(rho)/dt to continuity, so that residual(x) + timeWeights(x) * dx/dt + storage(x, dx/dt) = 0
+  // is the whole truth.
+  void storage(std::span<const double> x, std::span<const double> rate, std::span<double> F);
+
+  // Budgets of the elements, mass and energy of a profile on the present grid. Collective.
+  [[nodiscard]] std::vector<FlameBudget> budgets(std::span<const double> x);
+
+  struct Counters {
+    std::size_t residuals = 0, jacobians = 0;
+    double residualSeconds = 0, jacobianSeconds = 0, factoriseSeconds = 0, solveSeconds = 0;
+  };
+  [[nodiscard]] const Counters& counters() const;
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+}  // namespace lampblack

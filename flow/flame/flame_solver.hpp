@@ -1,0 +1,74 @@
+// From a first profile to a converged flame: Newton and pseudo-transient steps, grid refinement, and a domain that
+// widens until a free flame is flat at both ends.
+#pragma once
+
+#include <mpi.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/errors.hpp"
+#include "flow/flame/flame_equations.hpp"
+#include "flow/flame/flame_grid.hpp"
+#include "flow/flame/newton_solver.hpp"
+
+namespace lampblack {
+
+struct FlameSolverOptions {
+  GridOptions grid;
+  FlameTolerances tolerances;
+  NewtonOptions newton;
+  PseudoTransientOptions transient;
+  bool refine = true;  // false: the given grid only
+  std::size_t maximumGrids = 40;
+  double anchorTemperature = 0;  // K, free flames; 0: between unburnt and burnt
+};
+
+// One stage of the way: "gas on 40 points", "with soot", "grid 3".
+struct FlameStage {
+  std::string name;
+  std::size_t points = 0;
+  NewtonReport newton;
+  double seconds = 0;
+};
+
+struct FlameSolution {
+  FlameProfile profile;
+  std::vector<FlameStage> stages;
+  FlameEquations::Counters counters;
+  std::vector<FlameBudget> budgets;
+};
+
+// The flame did not converge: the message says at which stage and where the residual sits. The last profile goes along
+// so that it can be kept.
+class FlameFailure : public NumericsError {
+ public:
+  FlameFailure(const std::string& message, FlameSolution last) : NumericsError(message), last_(std::move(last)) {}
+  [[nodiscard]] const FlameSolution& last() const { return last_; }
+
+ private:
+  FlameSolution last_;
+};
+
+class FlameSolver {
+ public:
+  FlameSolver(MPI_Comm comm, std::shared_ptr<const Mechanism> mechanism, FlameProblem problem, CarriedModel* carried,
+              FlameSolverOptions options);
+  ~FlameSolver();
+
+  // Called after each stage, on all ranks.
+  void onStage(std::function<void(const FlameStage&, const FlameProfile&)> report);
+  // Exchange with something outside (two-way coupled stochastic particles); kept for the following solutions.
+  void setExchange(std::optional<GivenExchange> exchange);
+
+  // Collective. Throws FlameFailure. `start` may be of any grid over the problem's length.
+  FlameSolution solve(FlameProfile start);
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+}  // namespace lampblack

@@ -1,0 +1,58 @@
+// Damped Newton's method on PETSc's SNES, with a line search that watches the size of the Newton step itself (the
+// natural monotonicity test of Deuflhard 1974), which the scaling of equations does not change; and pseudo-transient
+// continuation (Kelley and Keyes 1998) around it for starts that are too far away.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "flow/flame/newton_system.hpp"
+
+namespace lampblack {
+
+struct NewtonOptions {
+  double stepTolerance = 1e-3;  // converged once the scaled size of the Newton step is below
+  std::size_t maximumSteps = 60;
+  std::size_t jacobianAge = 8;  // steps with the same factors while they converge fast enough
+  double fastEnough = 0.4;      // ratio of successive step sizes that still allows old factors
+  double smallestDamping = 1e-3;
+};
+
+struct PseudoTransientOptions {
+  double firstStep = 1e-5;      // s
+  double largestStep = 1e3;     // s: beyond it the flame is steady and Newton has to converge
+  double smallestStep = 1e-15;  // s: below it the solution has failed
+  double growth = 2, cut = 0.25;
+  std::size_t stepsBetweenNewton = 10;  // tries the steady equations after so many steps
+  std::size_t maximumSteps = 2000;
+};
+
+struct NewtonReport {
+  bool converged = false;
+  std::size_t steps = 0, factorisations = 0, residuals = 0, timeSteps = 0;
+  double stepSize = 0;       // scaled, of the last Newton step
+  double worstResidual = 0;  // scaled Newton correction at its worst unknown
+  std::string worst;         // where it is: NewtonSystem::nameOf
+  std::string reason;        // why it stopped where it did not converge
+};
+
+class NewtonSolver {
+ public:
+  explicit NewtonSolver(NewtonOptions options = {}, PseudoTransientOptions transient = {});
+  ~NewtonSolver();
+
+  // Newton's method alone, from x; x is the last iterate also where it failed.
+  NewtonReport newton(NewtonSystem& system, std::span<double> x);
+  // One implicit Euler step of length dt. False (x unchanged) where Newton does not converge.
+  bool timeStep(NewtonSystem& system, std::span<double> x, double dt, NewtonReport& report);
+  // Newton; where it fails, pseudo-transient steps until Newton converges. x is the best state in any case.
+  NewtonReport steady(NewtonSystem& system, std::span<double> x);
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+}  // namespace lampblack

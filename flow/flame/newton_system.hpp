@@ -1,0 +1,32 @@
+// What the nonlinear solvers see of a flame (or of a test problem): a residual, a Newton matrix that factorises itself,
+// bounds and scales. Vectors are alike on all ranks; all members are collective.
+//
+// Pseudo-transient and implicit time steps solve  residual(x) + timeWeights(x) * (x - old)/dt = 0.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+namespace lampblack {
+
+class NewtonSystem {
+ public:
+  virtual ~NewtonSystem() = default;
+  [[nodiscard]] virtual std::size_t size() const = 0;
+  virtual void residual(std::span<const double> x, std::span<double> F) = 0;
+  // Weights of the time derivative, zero for algebraic equations.
+  virtual void timeWeights(std::span<const double> x, std::span<double> M) = 0;
+  // Builds and factorises dF/dx + diag(M) * inverseTimeStep at x. False where the matrix is singular.
+  [[nodiscard]] virtual bool factorise(std::span<const double> x, double inverseTimeStep) = 0;
+  // Overwrites b by the solution with the factors of the last call of factorise.
+  virtual void solve(std::span<double> b) = 0;
+  // Bounds that no iterate may cross (a step is shortened so as to keep inside).
+  virtual void bounds(std::span<double> lower, std::span<double> upper) const = 0;
+  // Size of a change of x that counts as 1: relative and absolute tolerances of each unknown.
+  virtual void scales(std::span<const double> x, std::span<double> scale) const = 0;
+  // "T at z = 3.2 mm (point 41)", for messages.
+  [[nodiscard]] virtual std::string nameOf(std::size_t unknown) const = 0;
+};
+
+}  // namespace lampblack

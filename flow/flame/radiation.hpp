@@ -1,0 +1,29 @@
+// Heat lost by radiation from an optically thin gas: Planck-mean absorption of H2O, CO2, CO and CH4 (polynomials of the
+// TNF workshop, Barlow, Karpetis, Frank, Chen, Combust. Flame 127 (2001) 2102-2118), and whatever soot adds.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+
+#include "chemistry/mechanism/mechanism.hpp"
+
+namespace lampblack {
+
+class ThinRadiation {
+ public:
+  // Species the mechanism does not have do not radiate. `surroundings`: K.
+  ThinRadiation(const Mechanism& mechanism, double surroundings);
+
+  // Planck-mean absorption coefficient of the gas, 1/m, at T (K), p (Pa), mole fractions X.
+  [[nodiscard]] double absorption(double T, double p, std::span<const double> X) const;
+  // Heat lost, W/m3: 4 sigma a (T^4 - T_s^4) (thesis eq. 7-13 with the sign of a loss).
+  [[nodiscard]] double loss(double absorption, double T) const;
+  [[nodiscard]] double lossSlope(double absorption, double T) const;  // of loss with T at constant absorption
+
+ private:
+  std::optional<std::size_t> h2o_, co2_, co_, ch4_;
+  double surroundings4_;
+};
+
+}  // namespace lampblack
