@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "app/gas_input.hpp"
-#include "chemistry/transport/pure_gas.hpp"
 #include "core/errors.hpp"
 #include "core/grading.hpp"
 
@@ -213,29 +212,11 @@ void readSoot(const Deck& deck, FlowCase& flowCase) {
 void readTransport(const Deck& deck, FlowCase& flowCase) {
   const Mechanism& mechanism = *flowCase.mechanism;
   auto& options = flowCase.transport;
-  if (deck.choice("transport.collision_integrals") == "thesis_fits") options.integrals = CollisionIntegrals::ThesisFits;
-  try {
-    static_cast<void>(PureGas(mechanism, options.integrals));
-  } catch (const InputError& error) {
-    throw deck.error("mechanism", error.what());
-  }
+  options.integrals = readCollisionIntegrals(deck, mechanism);
   const auto model = deck.choice("transport.model");
   if (model == "unity_lewis") options.diffusion = DiffusionModel::UnityLewis;
   if (model == "constant_lewis") options.diffusion = DiffusionModel::ConstantLewis;
-  const auto numbers = deck.optionalString("transport.lewis_numbers");
-  if (numbers.has_value() != (options.diffusion == DiffusionModel::ConstantLewis))
-    throw deck.error(numbers ? "transport.lewis_numbers" : "transport.model",
-                     "'lewis_numbers' goes with the model 'constant_lewis', and that needs it");
-  if (!numbers) return;
-  try {
-    options.lewisNumbers = parseAmounts(mechanism, *numbers, "Lewis numbers", 1.0);
-    for (std::size_t k = 0; k < mechanism.numSpecies(); ++k)
-      if (options.lewisNumbers[k] == 0)
-        throw InputError(
-            fmt::format("the Lewis number of '{}' is 0; expected a positive number", mechanism.speciesName(k)));
-  } catch (const InputError& error) {
-    throw deck.error("transport.lewis_numbers", error.what());
-  }
+  options.lewisNumbers = readLewisNumbers(deck, mechanism);
 }
 
 void readTrajectories(const Deck& deck, FlowCase& flowCase) {

@@ -1,4 +1,5 @@
 #include "app/flow_case.hpp"
+#include "app/gas_input.hpp"
 
 namespace lampblack {
 namespace {
@@ -138,17 +139,10 @@ DeckSchema flowSchema() {
       .add(numberKey("chemistry.absolute_tolerance", "Of the stiff solver, in mass fraction.")
                .byDefault("1e-12")
                .above(0));
-  schema
-      .add(choiceKey("transport.model", {"mixture_averaged", "unity_lewis", "constant_lewis"},
-                     "How species diffuse: by mixture-averaged coefficients, as fast as heat, or as fast as heat over "
-                     "each species' Lewis number.")
-               .byDefault("mixture_averaged"))
-      .add(stringKey("transport.lewis_numbers",
-                     "constant_lewis: Lewis numbers, 'H2: 0.3, CH4: 0.97'; species that are not named have 1.")
-               .optional())
-      .add(choiceKey("transport.collision_integrals", {"monchick_mason", "thesis_fits"},
-                     "The tables of Monchick and Mason (1961), or the fits of the thesis (eqs 6-36, 6-37).")
-               .byDefault("monchick_mason"));
+  addTransportKeys(
+      schema, {"mixture_averaged", "unity_lewis", "constant_lewis"},
+      "How species diffuse: by mixture-averaged coefficients, as fast as heat, or as fast as heat over each "
+      "species' Lewis number.");
   addParticles(schema);
   return schema;
 }

@@ -4,6 +4,7 @@
 
 #include "app/warnings.hpp"
 #include "chemistry/thermo/thermo.hpp"
+#include "chemistry/transport/pure_gas.hpp"
 #include "core/errors.hpp"
 
 namespace lampblack {
@@ -92,6 +93,41 @@ std::shared_ptr<const Mechanism> readMechanism(const Deck& deck) {
         std::make_shared<const Mechanism>(Mechanism::fromFile(deck.resolvePath(deck.string("mechanism")).string()));
     printWarnings(mechanism->warnings());
     return mechanism;
+  });
+}
+
+void addTransportKeys(DeckSchema& schema, std::vector<std::string> models, const std::string& modelDoc) {
+  schema.add(choiceKey("transport.model", std::move(models), modelDoc).byDefault("mixture_averaged"))
+      .add(stringKey("transport.lewis_numbers",
+                     "constant_lewis: Lewis numbers, 'H2: 0.3, CH4: 0.97'; species that are not named have 1.")
+               .optional())
+      .add(choiceKey("transport.collision_integrals", {"monchick_mason", "thesis_fits"},
+                     "The tables of Monchick and Mason (1961), or the fits of the thesis (eqs 6-36, 6-37).")
+               .byDefault("monchick_mason"));
+}
+
+CollisionIntegrals readCollisionIntegrals(const Deck& deck, const Mechanism& mechanism) {
+  const auto integrals = deck.choice("transport.collision_integrals") == "thesis_fits"
+                             ? CollisionIntegrals::ThesisFits
+                             : CollisionIntegrals::MonchickMason;
+  at(deck, "mechanism", [&] { static_cast<void>(PureGas(mechanism, integrals)); });
+  return integrals;
+}
+
+std::vector<double> readLewisNumbers(const Deck& deck, const Mechanism& mechanism) {
+  const bool constant = deck.choice("transport.model") == "constant_lewis";
+  const auto text = deck.optionalString("transport.lewis_numbers");
+  if (text.has_value() != constant)
+    throw deck.error(text ? "transport.lewis_numbers" : "transport.model",
+                     "'lewis_numbers' goes with the model 'constant_lewis', and that needs it");
+  if (!text) return {};
+  return at(deck, "transport.lewis_numbers", [&] {
+    auto numbers = parseAmounts(mechanism, *text, "Lewis numbers", 1.0);
+    for (std::size_t k = 0; k < numbers.size(); ++k)
+      if (numbers[k] == 0)
+        throw InputError(
+            fmt::format("the Lewis number of '{}' is 0; expected a positive number", mechanism.speciesName(k)));
+    return numbers;
   });
 }
 

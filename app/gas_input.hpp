@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "chemistry/mechanism/mechanism.hpp"
+#include "chemistry/transport/collision_integrals.hpp"
 #include "io/deck.hpp"
 
 namespace lampblack {
@@ -24,6 +25,16 @@ std::vector<double> mixByEquivalenceRatio(const Mechanism& mechanism, const std:
 
 // The mechanism a deck names by its key `mechanism`; rank 0 prints its warnings. InputError at that key.
 std::shared_ptr<const Mechanism> readMechanism(const Deck& deck);
+
+// Adds `transport.model` with these choices, `transport.lewis_numbers` and `transport.collision_integrals`.
+void addTransportKeys(DeckSchema& schema, std::vector<std::string> models, const std::string& modelDoc);
+
+// The collision integrals a deck asks for. InputError where the mechanism lacks transport data.
+CollisionIntegrals readCollisionIntegrals(const Deck& deck, const Mechanism& mechanism);
+
+// Lewis numbers of every species where the model is constant_lewis, else none. InputError where the deck has the one
+// without the other.
+std::vector<double> readLewisNumbers(const Deck& deck, const Mechanism& mechanism);
 
 // A quantity that is optional in the schema and needed here: "<why> needs the key '<name>'".
 double neededQuantity(const Deck& deck, const std::string& section, const std::string& name, const std::string& why);

@@ -4,39 +4,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 
 #include "app/gas_input.hpp"
 #include "app/reactor_case_parts.hpp"
+#include "app/temperature_input.hpp"
 #include "core/errors.hpp"
 
 namespace lampblack {
 namespace {
-
-// Two columns of numbers, separated by a comma or blanks.
-TemperatureProfile readProfileFile(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  if (!file) throw InputError(fmt::format("{}: cannot be opened", path.string()));
-  std::vector<double> points, temperatures;
-  std::string line;
-  for (int number = 1; std::getline(file, line); ++number) {
-    for (char& c : line)
-      if (c == ',' || c == '\r') c = ' ';
-    const auto first = line.find_first_not_of(" \t");
-    if (first == std::string::npos || line[first] == '#') continue;
-    std::istringstream words(line);
-    double point = 0, temperature = 0;
-    std::string more;
-    if (words >> point >> temperature && !(words >> more)) {
-      points.push_back(point);
-      temperatures.push_back(temperature);
-    } else if (!points.empty() || number > 1) {
-      throw InputError(fmt::format("{}:{}: expected two numbers, found '{}'", path.string(), number, line));
-    }
-  }
-  return {std::move(points), std::move(temperatures)};
-}
 
 // The points of a profile stand in the key `points` ("time" or "position").
 TemperatureProfile readProfile(const Deck& deck, const std::string& points) {
@@ -45,18 +20,7 @@ TemperatureProfile readProfile(const Deck& deck, const std::string& points) {
   if (deck.has(section + "." + other))
     throw deck.error(section + "." + other,
                      fmt::format("the profile of a {} goes over '{}'", deck.choice("reactor.type"), points));
-  const bool listed = deck.has(section + "." + points) || deck.has(section + ".temperature");
-  if (listed == deck.has(section + ".file"))
-    throw deck.error(section, fmt::format("expected either '{}' and 'temperature' or 'file'", points));
-  try {
-    if (!listed) return readProfileFile(deck.resolvePath(deck.string(section + ".file")));
-    for (const std::string& name : {points, std::string("temperature")})
-      if (!deck.has(section + "." + name))
-        throw InputError(fmt::format("'{}' and 'temperature' belong together", points));
-    return {deck.quantities(section + "." + points), deck.quantities(section + ".temperature")};
-  } catch (const InputError& error) {
-    throw deck.error(listed ? section : section + ".file", error.what());
-  }
+  return readTemperatureProfile(deck, points);
 }
 
 // `own`: the temperature of the start or the inlet.

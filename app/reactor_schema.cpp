@@ -1,15 +1,9 @@
 #include "app/gas_input.hpp"
 #include "app/reactor_case.hpp"
-#include "chemistry/thermo/thermo.hpp"
+#include "app/temperature_input.hpp"
 
 namespace lampblack {
 namespace {
-
-DeckKey temperatureKey(std::string path, std::string doc) {
-  return quantityKey(std::move(path), units::temperature, std::move(doc))
-      .atLeast(Thermo::minTemperature)
-      .atMost(Thermo::maxTemperature);
-}
 
 // What a stirred reactor has, alone or in a network.
 void addVesselKeys(DeckSchema& schema, const std::string& section) {
@@ -95,13 +89,8 @@ void addProfile(DeckSchema& schema) {
                .optional())
       .add(quantityKey("temperature_profile.position", units::length, "plug_flow: places of the points, rising.")
                .list()
-               .optional())
-      .add(temperatureKey("temperature_profile.temperature", "Temperatures of the points.").list().optional())
-      .add(stringKey("temperature_profile.file",
-                     "Instead: a CSV file of two columns, time in s (place in m) and temperature in K; a first line of "
-                     "names and "
-                     "lines that begin with # are skipped. Relative to the deck.")
                .optional());
+  addTemperatureProfileKeys(schema, "time in s (place in m)");
 }
 
 void addIgnition(DeckSchema& schema) {

@@ -16,6 +16,8 @@ class TemperatureProfile {
 
   double value(double x) const;  // K
   double slope(double x) const;  // K per unit of x; at a kink that of the line that begins there
+  const std::vector<double>& points() const { return points_; }
+  const std::vector<double>& temperatures() const { return temperatures_; }  // K
   // The first kink after x.
   std::optional<double> nextKink(double x) const;
 
