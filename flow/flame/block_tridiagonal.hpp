@@ -5,8 +5,12 @@
 //   |    L2 D2 ...   .. |     (mass flux, pressure gradient, load).
 //   | c0 c1 ...      e  |
 //
-// Elimination goes from both ends to a block in the middle, with pivoting inside blocks (LAPACK), so that two ranks
-// share the work without more of it; the result has the same bits on any number of ranks.
+// Elimination goes from both ends to a block in the middle, with pivoting inside blocks (LAPACK, rows scaled), so that
+// two ranks share the work without more of it; the result has the same bits on any number of ranks. The border is
+// eliminated along with the ends and then pivoted together with the middle block: a matrix that is singular without its
+// border, as at the turning point of a family of flames, is no difficulty. (Twisted factors: Golub and Van Loan, Matrix
+// Computations, 4th ed. 2013, section 4.5; bordering: Govaerts, Numerical Methods for Bifurcations of Dynamical
+// Equilibria, 2000.)
 #pragma once
 
 #include <mpi.h>
@@ -33,10 +37,10 @@ class BlockTridiagonal {
   [[nodiscard]] std::size_t ownedBegin() const;
   [[nodiscard]] std::size_t ownedEnd() const;
 
-  // Sets all entries to zero, and forgets the factors.
+  // Sets all entries to zero, and forgets the factors: needed before blocks are set once more.
   void clear();
   // Blocks of an owned row, column-major with leading dimension `width`. `lower` of row 0 and `upper` of the last row
-  // do not exist: std::logic_error.
+  // do not exist: std::logic_error, as when factors have taken the place of the blocks.
   [[nodiscard]] double* lower(std::size_t row);
   [[nodiscard]] double* diagonal(std::size_t row);
   [[nodiscard]] double* upper(std::size_t row);
@@ -47,11 +51,11 @@ class BlockTridiagonal {
   [[nodiscard]] double* borderRows(std::size_t column);
   [[nodiscard]] double* corner();
 
-  // y = A x of the matrix as set (before factorise), for tests: all of y on every rank. Collective.
+  // y = A x of the matrix as set, for tests: all of y on every rank. Collective; not after factorise.
   void multiply(std::span<const double> x, std::span<double> y) const;
 
   // Collective. Overwrites the blocks by factors. False where a block is singular or not finite; `singularPoint` then
-  // tells which one.
+  // tells which one (the middle stands for the border, too).
   [[nodiscard]] bool factorise();
   [[nodiscard]] std::size_t singularPoint() const;
   // Collective. b (size() values, alike on all ranks) becomes the solution, alike on all ranks.
