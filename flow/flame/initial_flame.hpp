@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,11 +14,13 @@ namespace lampblack {
 
 struct InitialFlameOptions {
   std::size_t points = 40;
+  bool cold = false;  // nothing has burnt: streams that only flow and mix, on purpose (not free)
 };
 
 // Free and burner: unburnt to equilibrium products over a thin zone; wall: the same ahead of the wall; counterflow: the
-// streams mix across a layer where they meet, and are at equilibrium there. Scalars are zero. InputError for a problem
-// that cannot burn.
+// streams mix across a layer where they meet, and have burnt there. Sums of mass fractions and elements are those of
+// the streams, the mass flux is that which the spreading leaves (discretely, with finite volumes around the points).
+// Scalars are zero. InputError for a problem that cannot burn, unless it is to be cold.
 [[nodiscard]] FlameProfile initialFlame(const Mechanism& mechanism, const FlameProblem& problem, std::size_t scalars,
                                         const InitialFlameOptions& options = {});
 
@@ -27,9 +30,11 @@ struct NamedFlameProfile {
   std::vector<std::string> species, scalars;
 };
 
-// A profile of any flame as the start of another one: on the new length, on another mechanism (species by name; those
-// the old one does not have start at zero and fractions are scaled to sum to one), with the streams of the new problem.
+// A profile of any flame of the same type as the start of another one: on the new length, on another mechanism (species
+// by name; those the old one does not have start at zero and fractions are scaled to sum to one), with the streams of
+// the new problem. Scalars are taken over by name and in the units of the profile, others are zero. InputError where no
+// species is left.
 [[nodiscard]] FlameProfile startFrom(const NamedFlameProfile& other, const Mechanism& mechanism,
-                                     const FlameProblem& problem, std::size_t scalars);
+                                     const FlameProblem& problem, std::span<const std::string> scalars);
 
 }  // namespace lampblack

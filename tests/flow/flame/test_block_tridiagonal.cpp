@@ -1,7 +1,5 @@
 // Factors of bordered block-tridiagonal matrices against dense elimination of the same matrix, on all ranks of the
 // world and on one.
-#include "flow/flame/block_tridiagonal.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "flow/flame/block_tridiagonal.hpp"
 #include "flow/flame/lapack.hpp"
 
 namespace lampblack {
