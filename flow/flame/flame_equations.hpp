@@ -100,8 +100,9 @@ class FlameEquations : public NewtonSystem {
   };
   [[nodiscard]] const Counters& counters() const;
 
+  struct Data;  // flame_equations_data.hpp; for the other files of this class
+
  private:
-  struct Data;
   std::unique_ptr<Data> data_;
 };
 

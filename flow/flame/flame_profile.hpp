@@ -52,4 +52,7 @@ struct FlameProfile {
   }
 };
 
+// The same profile with more or fewer scalars (new ones are zero), or species that come last.
+[[nodiscard]] FlameProfile withLayout(const FlameProfile& from, const FlameLayout& layout);
+
 }  // namespace lampblack

@@ -1,0 +1,177 @@
+#include "flow/flame/flame_solver.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lampblack {
+
+struct FlameSolver::Data {
+  MPI_Comm comm;
+  std::shared_ptr<const Mechanism> mechanism;
+  FlameProblem problem;
+  CarriedModel* carried;
+  FlameSolverOptions options;
+  std::function<void(const FlameStage&, const FlameProfile&)> report;
+  std::optional<GivenExchange> exchange;
+
+  FlameSolution solution;  // as far as it has come
+
+  // One stage: the steady flame on the grid of the profile.
+  void steady(FlameEquations& equations, NewtonSolver& solver, const std::string& name);
+  void fail(const FlameStage& stage);
+  // Stages on ever better grids until none is needed.
+  void refine(FlameEquations& equations, NewtonSolver& solver, const std::string& name, const GridOptions& grid);
+  void place(FlameEquations& equations);
+  bool widen();
+  void anchorIn(const FlameProfile& profile);
+
+  double anchorZ = 0, anchorTemperature = 0;
+};
+
+FlameSolver::FlameSolver(MPI_Comm comm, std::shared_ptr<const Mechanism> mechanism, FlameProblem problem,
+                         CarriedModel* carried, FlameSolverOptions options)
+    : data_(std::make_unique<Data>()) {
+  data_->comm = comm;
+  data_->mechanism = std::move(mechanism);
+  data_->problem = std::move(problem);
+  data_->carried = carried;
+  data_->options = std::move(options);
+}
+FlameSolver::~FlameSolver() = default;
+
+void FlameSolver::onStage(std::function<void(const FlameStage&, const FlameProfile&)> report) {
+  data_->report = std::move(report);
+}
+void FlameSolver::setExchange(std::optional<GivenExchange> exchange) {
+  data_->exchange = std::move(exchange);
+}
+
+void FlameSolver::Data::fail(const FlameStage& stage) {
+  solution.stages.push_back(stage);
+  throw FlameFailure(
+      fmt::format("the flame did not converge in the stage '{}' ({} points): {}; the residual is largest in {}",
+                  stage.name, stage.points, stage.newton.reason, stage.newton.worst),
+      solution);
+}
+
+void FlameSolver::Data::anchorIn(const FlameProfile& profile) {
+  if (problem.type != FlameType::Free) return;
+  const std::size_t last = profile.points() - 1;
+  double hottest = profile.temperature(0);
+  for (std::size_t i = 0; i <= last; ++i) hottest = std::max(hottest, profile.temperature(i));
+  anchorTemperature = options.anchorTemperature > 0
+                          ? options.anchorTemperature
+                          : profile.temperature(0) + 0.4 * (hottest - profile.temperature(0));
+  std::size_t best = 1;
+  while (best < last && profile.temperature(best) < anchorTemperature) ++best;
+  anchorZ = profile.z[best];
+  anchorTemperature = profile.temperature(best);
+}
+
+void FlameSolver::Data::place(FlameEquations& equations) {
+  const FlameProfile& p = solution.profile;
+  equations.setGrid(p.z);
+  if (problem.type != FlameType::Free) return;
+  const auto at = std::min_element(p.z.begin(), p.z.end(), [&](double a, double b) {
+    return std::abs(a - anchorZ) < std::abs(b - anchorZ);
+  });
+  equations.setAnchor(static_cast<std::size_t>(at - p.z.begin()), anchorTemperature);
+}
+
+void FlameSolver::Data::steady(FlameEquations& equations, NewtonSolver& solver, const std::string& name) {
+  const double start = MPI_Wtime();
+  FlameStage stage{name, solution.profile.points(), {}, 0};
+  place(equations);
+  stage.newton = solver.steady(equations, solution.profile.x);
+  stage.seconds = MPI_Wtime() - start;
+  if (!stage.newton.converged) fail(stage);
+  solution.stages.push_back(stage);
+  if (report) report(stage, solution.profile);
+}
+
+bool FlameSolver::Data::widen() {
+  if (problem.type != FlameType::Free) return false;
+  const FlameProfile& p = solution.profile;
+  const std::size_t last = p.points() - 1;
+  double steepest = 0;
+  for (std::size_t i = 0; i < last; ++i)
+    steepest = std::max(steepest, std::abs(p.temperature(i + 1) - p.temperature(i)) / (p.z[i + 1] - p.z[i]));
+  const auto slope = [&](std::size_t i) {
+    return std::abs(p.temperature(i + 1) - p.temperature(i)) / (p.z[i + 1] - p.z[i]) / steepest;
+  };
+  const double length = p.z.back() - p.z.front();
+  const double left = slope(0) > 1e-3 ? 0.5 * length : 0, right = slope(last - 1) > 1e-3 ? 0.5 * length : 0;
+  if (left == 0 && right == 0) return false;
+  if (length > 1000 * problem.length) return false;
+  solution.profile = widened(p, left, right);
+  anchorZ += left;
+  return true;
+}
+
+void FlameSolver::Data::refine(FlameEquations& equations, NewtonSolver& solver, const std::string& name,
+                               const GridOptions& grid) {
+  const std::size_t width = solution.profile.layout.width();
+  const auto active = std::make_unique<bool[]>(width);
+  std::fill(active.get(), active.get() + width, true);
+  active[FlameLayout::massFlux] = false;
+  for (std::size_t pass = 0;; ++pass) {
+    steady(equations, solver, pass == 0 ? name : fmt::format("{}, grid {}", name, pass + 1));
+    if (!options.refine) return;
+    if (widen()) continue;
+    std::vector<std::size_t> keep;
+    if (problem.type == FlameType::Free)
+      for (std::size_t i = 0; i < solution.profile.points(); ++i)
+        if (solution.profile.z[i] == anchorZ) keep.push_back(i);
+    const GridChange change = refineGrid(solution.profile, grid, {active.get(), width}, keep);
+    if (!change.changed()) return;
+    if (pass + 1 == options.maximumGrids) {
+      FlameStage stage = solution.stages.back();
+      stage.newton.reason = fmt::format("the grid still changes after {} refinements", options.maximumGrids);
+      solution.stages.pop_back();
+      fail(stage);
+    }
+    solution.profile = onGrid(solution.profile, change.z);
+  }
+}
+
+FlameSolution FlameSolver::solve(FlameProfile start) {
+  Data& d = *data_;
+  d.solution = {};
+  d.solution.profile = std::move(start);
+  NewtonSolver solver(d.options.newton, d.options.transient);
+  FlameEquations equations(d.comm, d.mechanism, d.problem, d.carried, d.options.tolerances);
+  equations.setExchange(d.exchange);
+  if (!(equations.layout() == d.solution.profile.layout))
+    throw std::logic_error("the start of a flame has other unknowns than its problem");
+  d.anchorIn(d.solution.profile);
+
+  const FlameLayout layout = equations.layout();
+  const std::size_t first = layout.firstScalar();
+  bool empty = layout.scalars > 0;
+  for (std::size_t i = 0; empty && i < d.solution.profile.points(); ++i)
+    for (double value : d.solution.profile.scalars(i)) empty = empty && value == 0;
+  if (empty) {
+    // The gas first, without what it carries; then the scalars in that gas; then everything together.
+    FlameProfile full = std::move(d.solution.profile);
+    FlameLayout bare = layout;
+    bare.scalars = 0;
+    d.solution.profile = withLayout(full, bare);
+    FlameEquations gas(d.comm, d.mechanism, d.problem, nullptr, d.options.tolerances);
+    gas.setExchange(d.exchange);
+    d.refine(gas, solver, "gas", d.options.grid);
+    d.solution.profile = withLayout(d.solution.profile, layout);
+    equations.setGrid(d.solution.profile.z);
+    equations.hold([first, width = layout.width()](std::size_t c) { return c < first || c >= width; },
+                   d.solution.profile.x);
+    d.steady(equations, solver, "scalars in the gas");
+    equations.release();
+  }
+  d.refine(equations, solver, layout.scalars > 0 ? "gas and scalars" : "flame", d.options.grid);
+  d.solution.counters = equations.counters();
+  d.solution.budgets = equations.budgets(d.solution.profile.x);
+  return d.solution;
+}
+
+}  // namespace lampblack
