@@ -101,8 +101,7 @@ void FlameEquations::setGrid(std::span<const double> z) {
   d.profile.z.assign(z.begin(), z.end());
   d.profile.x.assign(d.profile.size(), 0.0);
   d.volume.resize(n);
-  for (std::size_t i = 0; i < n; ++i)
-    d.volume[i] = 0.5 * ((i + 1 < n ? z[i + 1] : z[i]) - (i > 0 ? z[i - 1] : z[i]));
+  for (std::size_t i = 0; i < n; ++i) d.volume[i] = 0.5 * ((i + 1 < n ? z[i + 1] : z[i]) - (i > 0 ? z[i - 1] : z[i]));
   if (d.problem.given) {
     const auto& table = *d.problem.given;
     d.given.resize(n);
@@ -143,6 +142,9 @@ void FlameEquations::hold(std::function<bool(std::size_t)> which, std::span<cons
 }
 void FlameEquations::release() {
   data_->holds = nullptr;
+}
+void FlameEquations::freezeTransport(bool frozen) {
+  data_->gas.frozen = frozen;
 }
 void FlameEquations::setLoad(double load) {
   data_->loadValue = load;

@@ -77,7 +77,11 @@ class FlameEquations : public NewtonSystem {
   void setConstraint(std::optional<FlameConstraint> constraint);
   void setExchange(std::optional<GivenExchange> exchange);
 
-  // NewtonSystem. Transport coefficients are evaluated anew in each residual unless frozen.
+  // Keeps the transport coefficients of the last residual (but for a power of the temperature) until told otherwise:
+  // the Newton matrix is then exact.
+  void freezeTransport(bool frozen);
+
+  // NewtonSystem.
   [[nodiscard]] std::size_t size() const override;
   void residual(std::span<const double> x, std::span<double> F) override;
   void timeWeights(std::span<const double> x, std::span<double> M) override;

@@ -28,15 +28,15 @@ struct FlameEquations::Data {
   FlameTolerances tolerances;
   FlameLayout layout;
   FlameEnd rightEnd = FlameEnd::Outlet;
-  bool spreading = false;  // V is solved for
+  bool spreading = false;                    // V is solved for
   double leftDensity = 0, rightDensity = 0;  // of the streams, kg/m3
 
   FlameGas gas;
   Kinetics kinetics;
-  FlameProfile profile;               // the grid, and the unknowns at hand
-  std::vector<double> volume;         // of the control volume of each point, m
-  std::vector<double> given;          // temperature of each point, where it is given
-  std::size_t begin = 0, end = 0;     // points this rank evaluates
+  FlameProfile profile;                    // the grid, and the unknowns at hand
+  std::vector<double> volume;              // of the control volume of each point, m
+  std::vector<double> given;               // temperature of each point, where it is given
+  std::size_t begin = 0, end = 0;          // points this rank evaluates
   std::vector<int> counts, displacements;  // values of each rank, for gathering
 
   std::size_t anchor = 0;

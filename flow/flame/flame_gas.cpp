@@ -60,10 +60,13 @@ void FlameGas::resize(std::size_t points) {
     v->assign(points, 0);
   for (auto* v : {&nodes.X, &nodes.enthalpy, &nodes.heat, &nodes.source}) v->assign(points * n_, 0);
   for (auto* v : {&nodes.scalarRate, &nodes.scalarEnthalpy, &nodes.scalarHeat}) v->assign(points * s, 0);
-  for (auto* v : {&faces.viscosity, &faces.conductivity, &faces.drift, &faces.upwind, &faces.excess}) v->assign(last, 0);
+  for (auto* v :
+       {&faces.viscosity, &faces.conductivity, &faces.drift, &faces.upwind, &faces.temperature, &faces.excess})
+    v->assign(last, 0);
   for (auto* v : {&faces.conductance, &faces.thermal, &faces.diffusion, &faces.flux, &faces.enthalpy, &faces.heat})
     v->assign(last * n_, 0);
-  for (auto* v : {&faces.scalarFlux, &faces.scalarConductance, &faces.scalarEnthalpy, &faces.scalarHeat}) v->assign(last * s, 0);
+  for (auto* v : {&faces.scalarFlux, &faces.scalarConductance, &faces.scalarEnthalpy, &faces.scalarHeat})
+    v->assign(last * s, 0);
   if (multicomponent_) faces.pairs.assign(last * n_ * n_, 0);
 }
 
@@ -176,7 +179,8 @@ void FlameGas::addExchange(const FlameProfile& x, std::size_t i, const GivenExch
   const auto& z = exchange.z;
   const double at = x.z[i];
   if (z.empty() || at < z.front() || at > z.back()) return;
-  const std::size_t upper = std::clamp<std::size_t>(std::upper_bound(z.begin(), z.end(), at) - z.begin(), 1, z.size() - 1);
+  const std::size_t upper =
+      std::clamp<std::size_t>(std::upper_bound(z.begin(), z.end(), at) - z.begin(), 1, z.size() - 1);
   const double share = (at - z[upper - 1]) / (z[upper] - z[upper - 1]);
   const auto between = [&](const std::vector<double>& v, std::size_t stride, std::size_t k) {
     return (1 - share) * v[(upper - 1) * stride + k] + share * v[upper * stride + k];
@@ -190,15 +194,9 @@ void FlameGas::addExchange(const FlameProfile& x, std::size_t i, const GivenExch
   nodes.loss[i] -= between(exchange.enthalpy, 1, 0);
 }
 
-void FlameGas::coefficients(const FlameProfile& x, std::size_t f, double h) {
-  const double T = 0.5 * (x.temperature(f) + x.temperature(f + 1));
-  const auto Yl = x.massFractions(f), Yr = x.massFractions(f + 1);
+void FlameGas::evaluateCoefficients(double T, std::size_t f, double h) {
   double moles = 0;
-  for (std::size_t k = 0; k < n_; ++k) {
-    meanY_[k] = 0.5 * (Yl[k] + Yr[k]);
-    meanX_[k] = meanY_[k] / weights[k];
-    moles += meanX_[k];
-  }
+  for (std::size_t k = 0; k < n_; ++k) moles += meanX_[k] = meanY_[k] / weights[k];
   const double W = 1 / moles;
   for (double& value : meanX_) value *= W;
   const double molarDensity = pressure_ / (constants::gasConstant * T);
@@ -207,6 +205,7 @@ void FlameGas::coefficients(const FlameProfile& x, std::size_t f, double h) {
   const Transport::Mixture mixture = transport_.mixture(T, pressure_, meanX_, D_);
   faces.viscosity[f] = mixture.viscosity;
   faces.conductivity[f] = mixture.conductivity;
+  faces.temperature[f] = T;
   if (multicomponent_) {
     const auto full = multicomponent_->mixture(T, pressure_, meanX_, {thermal, n_});
     faces.conductivity[f] = full.conductivity;
@@ -216,21 +215,45 @@ void FlameGas::coefficients(const FlameProfile& x, std::size_t f, double h) {
     for (std::size_t k = 0; k < n_; ++k)
       for (std::size_t l = 0; l < n_; ++l)
         G[k * n_ + l] = molarDensity * weights[k] * weights[l] * pairD_[k * n_ + l] / (W * h);
-  } else {
-    const double rho = molarDensity * W;
-    for (std::size_t k = 0; k < n_; ++k) a[k] = (massBasis_ ? rho : molarDensity * weights[k]) * D_[k] / h;
-    if (options_.soret) transport_.thermalDiffusion(T, pressure_, meanX_, {thermal, n_});
+    return;
   }
-  double cp = 0;
+  const double rho = molarDensity * W;
+  for (std::size_t k = 0; k < n_; ++k) a[k] = (massBasis_ ? rho : molarDensity * weights[k]) * D_[k] / h;
+  if (options_.soret) transport_.thermalDiffusion(T, pressure_, meanX_, {thermal, n_});
+}
+
+void FlameGas::scaleCoefficients(double T, std::size_t f) {
+  const double factor = std::pow(T / faces.temperature[f], conductanceExponent);
+  faces.temperature[f] = T;
+  faces.viscosity[f] *= factor;
+  faces.conductivity[f] *= factor;
+  for (std::size_t k = f * n_; k < (f + 1) * n_; ++k) {
+    faces.conductance[k] *= factor;
+    faces.thermal[k] *= factor;
+  }
+  if (multicomponent_)
+    for (std::size_t k = f * n_ * n_; k < (f + 1) * n_ * n_; ++k) faces.pairs[k] *= factor;
+}
+
+void FlameGas::coefficients(const FlameProfile& x, std::size_t f, double h) {
+  const double T = 0.5 * (x.temperature(f) + x.temperature(f + 1));
+  const auto Yl = x.massFractions(f), Yr = x.massFractions(f + 1);
+  for (std::size_t k = 0; k < n_; ++k) meanY_[k] = 0.5 * (Yl[k] + Yr[k]);
   double* hk = &faces.enthalpy[f * n_];
   double* cpk = &faces.heat[f * n_];
   speciesEnthalpies(T, hk, cpk);
-  for (std::size_t k = 0; k < n_; ++k) cp += meanY_[k] * cpk[k];
-  faces.drift[f] = -mixture.viscosity * (x.temperature(f + 1) - x.temperature(f)) / (h * T);
-  // Central where diffusion smooths over a spacing, blended towards upwind beyond: |m| h cp / lambda > 1 (heavy species
-  // diffuse up to twice as slowly as heat), in the manner of Spalding (1972).
-  const double peclet = 2 * std::abs(x.at(f, FlameLayout::massFlux)) * h * cp / faces.conductivity[f];
-  faces.upwind[f] = peclet > 2 ? 1 - 2 / peclet : 0;
+  if (frozen) {
+    scaleCoefficients(T, f);
+  } else {
+    evaluateCoefficients(T, f, h);
+    // Central where diffusion smooths over a spacing, blended towards upwind beyond: |m| h cp / lambda > 1 (heavy
+    // species diffuse up to twice as slowly as heat), in the manner of Spalding (1972).
+    double cp = 0;
+    for (std::size_t k = 0; k < n_; ++k) cp += meanY_[k] * cpk[k];
+    const double peclet = 2 * std::abs(x.at(f, FlameLayout::massFlux)) * h * cp / faces.conductivity[f];
+    faces.upwind[f] = peclet > 2 ? 1 - 2 / peclet : 0;
+  }
+  faces.drift[f] = -faces.viscosity[f] * (x.temperature(f + 1) - x.temperature(f)) / (h * T);
 }
 
 void FlameGas::diffusiveFluxes(const FlameProfile& x, std::size_t f, double h) {

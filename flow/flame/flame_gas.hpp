@@ -21,32 +21,36 @@ namespace lampblack {
 
 // At the points. Arrays of species (and scalars) are point-major.
 struct FlameNodes {
-  std::vector<double> density, weight, cp;  // kg/m3, kg/mol, J/kg/K
-  std::vector<double> X;                    // mole fractions
-  std::vector<double> enthalpy, heat;       // of each species: J/kg, and cp in J/kg/K
-  std::vector<double> source;               // kg/m3/s of each species: reactions, and what is exchanged
-  std::vector<double> exchanged;            // kg/m3/s, sum of what is exchanged: of the whole gas
-  std::vector<double> scalarRate;           // of each scalar, per m3 and s, in its own unit
+  std::vector<double> density, weight, cp;         // kg/m3, kg/mol, J/kg/K
+  std::vector<double> X;                           // mole fractions
+  std::vector<double> enthalpy, heat;              // of each species: J/kg, and cp in J/kg/K
+  std::vector<double> source;                      // kg/m3/s of each species: reactions, and what is exchanged
+  std::vector<double> exchanged;                   // kg/m3/s, sum of what is exchanged: of the whole gas
+  std::vector<double> scalarRate;                  // of each scalar, per m3 and s, in its own unit
   std::vector<double> scalarEnthalpy, scalarHeat;  // of a unit of each scalar: J, J/K
-  std::vector<double> absorption, loss;     // 1/m, W/m3 (less what a given exchange brings)
+  std::vector<double> absorption, loss;            // 1/m, W/m3 (less what a given exchange brings)
 };
 
 // Between point f and f + 1; coefficients at the mean state of the two.
 struct FlameFaces {
   std::vector<double> viscosity, conductivity;
-  std::vector<double> drift;   // kg/m2/s: rho times thermophoretic velocity at coefficient 1
-  std::vector<double> upwind;  // 0: central, 1: upwind
-  std::vector<double> conductance;  // kg/m2/s: a_k with j_k = -a_k (X_k+ - X_k), or mass fractions (Lewis numbers)
-  std::vector<double> pairs;        // multicomponent: G_kl at [f][k][l], j_k = sum_l G_kl (X_l+ - X_l)
-  std::vector<double> thermal;      // kg/m/s, thermal diffusion coefficients
-  std::vector<double> diffusion;    // kg/m2/s, j_k after correction
-  std::vector<double> excess;       // sum of j_k before correction
-  std::vector<double> flux;         // kg/m2/s: convection and diffusion of each species
+  std::vector<double> drift;           // kg/m2/s: rho times thermophoretic velocity at coefficient 1
+  std::vector<double> upwind;          // 0: central, 1: upwind
+  std::vector<double> temperature;     // K, where the coefficients were evaluated
+  std::vector<double> conductance;     // kg/m2/s: a_k with j_k = -a_k (X_k+ - X_k), or mass fractions (Lewis numbers)
+  std::vector<double> pairs;           // multicomponent: G_kl at [f][k][l], j_k = sum_l G_kl (X_l+ - X_l)
+  std::vector<double> thermal;         // kg/m/s, thermal diffusion coefficients
+  std::vector<double> diffusion;       // kg/m2/s, j_k after correction
+  std::vector<double> excess;          // sum of j_k before correction
+  std::vector<double> flux;            // kg/m2/s: convection and diffusion of each species
   std::vector<double> enthalpy, heat;  // of each species at the face's temperature: J/kg, J/kg/K
   std::vector<double> scalarFlux;      // unit/m2/s
   std::vector<double> scalarConductance;
   std::vector<double> scalarEnthalpy, scalarHeat;  // of a unit of each scalar: J, J/K
 };
+
+// Conductances (rho D, lambda, mu) grow about with this power of the temperature.
+inline constexpr double conductanceExponent = 0.7;
 
 class FlameGas {
  public:
@@ -73,10 +77,14 @@ class FlameGas {
   [[nodiscard]] bool massBasis() const { return massBasis_; }
   [[nodiscard]] bool multicomponent() const { return multicomponent_.has_value(); }
 
+  // Coefficients keep their composition, and follow the temperature by a power (conductanceExponent): what the Newton
+  // matrix assumes.
+  bool frozen = false;
+
   FlameNodes nodes;
   FlameFaces faces;
-  std::vector<double> weights;                         // kg/mol
-  std::vector<std::vector<double>> scalarElements;     // kg of each element per unit of a scalar
+  std::vector<double> weights;                      // kg/mol
+  std::vector<std::vector<double>> scalarElements;  // kg of each element per unit of a scalar
   std::vector<double> scalarScale, scalarThermophoresis;
 
  private:
@@ -84,6 +92,8 @@ class FlameGas {
   void addExchange(const FlameProfile& x, std::size_t point, const GivenExchange& exchange);
   void addCarried(const FlameProfile& x, std::size_t point);
   void coefficients(const FlameProfile& x, std::size_t f, double h);
+  void evaluateCoefficients(double T, std::size_t f, double h);
+  void scaleCoefficients(double T, std::size_t f);
   void diffusiveFluxes(const FlameProfile& x, std::size_t f, double h);
 
   std::size_t n_;

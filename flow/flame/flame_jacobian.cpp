@@ -30,7 +30,7 @@ static void addFace(const FlameEquations::Data& data, std::size_t i, bool isRigh
   const std::size_t n = data.species(), S = data.scalars(), w = data.width(), first = data.layout.firstScalar();
   const std::size_t f = isRight ? i : i - 1;
   const double sign = isRight ? 1 : -1;
-  double* other = isRight ? work.U : work.L;  // the block of the neighbour
+  double* other = isRight ? work.U : work.L;   // the block of the neighbour
   double* mBlock = isRight ? work.D : work.L;  // the mass flux of the face is an unknown of point f
   const std::vector<double>& own = isRight ? face.left : face.right;
   const std::vector<double>& far = isRight ? face.right : face.left;
@@ -146,8 +146,7 @@ static void addReactions(FlameEquations::Data& data, std::size_t i, FlameEquatio
   }
   double heat = 0;
   for (std::size_t k = 0; k < n; ++k) {
-    const double slope =
-        dv * weights[k] * (work.rateTemperature[k] - work.sumByConcentration[k] / temperature);
+    const double slope = dv * weights[k] * (work.rateTemperature[k] - work.sumByConcentration[k] / temperature);
     work.D[T * w + Y + k] -= slope;
     heat += h[k] * slope + data.gas.nodes.heat[i * n + k] * dv * weights[k] * work.rates[k];
   }
@@ -274,8 +273,10 @@ void FlameEquations::Data::fillRow(std::size_t i, double inverseTimeStep, Jacobi
   } else {
     const bool stream = rightEnd == FlameEnd::Stream;
     for (std::size_t k = 0; k < n; ++k) {
-      if (stream) D[M * w + Y + k] += problem.right->Y[k] - fractions[k];
-      else D[(Y + k) * w + Y + k] += mRight;
+      if (stream)
+        D[M * w + Y + k] += problem.right->Y[k] - fractions[k];
+      else
+        D[(Y + k) * w + Y + k] += mRight;
     }
     for (std::size_t s = 0; s < S; ++s) {
       const double v = endDrift(s, true);
@@ -348,8 +349,7 @@ void FlameEquations::Data::fillGlobals() {
   } else {
     for (std::size_t i = matrix->ownedBegin(); i < matrix->ownedEnd(); ++i)
       for (std::size_t c = 0; c < w; ++c) below(load, i, c, constraint->coefficients[i * w + c]);
-    for (std::size_t g = 0; g < numFlameGlobals; ++g)
-      cornerAt(load, g) = constraint->coefficients[points() * w + g];
+    for (std::size_t g = 0; g < numFlameGlobals; ++g) cornerAt(load, g) = constraint->coefficients[points() * w + g];
   }
 }
 

@@ -8,14 +8,11 @@
 
 namespace lampblack {
 
-// Conductances (rho D, lambda, mu) grow about with this power of the temperature.
-inline constexpr double conductanceExponent = 0.7;
-
 // Of the species' fluxes through face f. Matrices are column-major, species by species.
 struct FaceDerivatives {
-  std::vector<double> left, right;                          // with mass fractions of point f, f + 1
-  std::vector<double> leftTemperature, rightTemperature;    // with their temperatures
-  std::vector<double> massFlux;                             // with the mass flux: mass fractions of the face
+  std::vector<double> left, right;                        // with mass fractions of point f, f + 1
+  std::vector<double> leftTemperature, rightTemperature;  // with their temperatures
+  std::vector<double> massFlux;                           // with the mass flux: mass fractions of the face
   void compute(const FlameEquations::Data& data, std::size_t f);
 
  private:
@@ -30,7 +27,7 @@ struct FlameEquations::Data::JacobianWork {
   std::vector<double> rates, rateJacobian, rateTemperature, concentrations, sumByConcentration;
   std::vector<double> carried, carriedConcentrations, densities, difference, timeWeights;
   std::vector<double> gain;  // of the whole gas, kg/m2/s, with each unknown of the point
-  double* D = nullptr;  // blocks of the row
+  double* D = nullptr;       // blocks of the row
   double* L = nullptr;
   double* U = nullptr;
   double* B = nullptr;

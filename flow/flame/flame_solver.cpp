@@ -61,9 +61,8 @@ void FlameSolver::Data::anchorIn(const FlameProfile& profile) {
   const std::size_t last = profile.points() - 1;
   double hottest = profile.temperature(0);
   for (std::size_t i = 0; i <= last; ++i) hottest = std::max(hottest, profile.temperature(i));
-  anchorTemperature = options.anchorTemperature > 0
-                          ? options.anchorTemperature
-                          : profile.temperature(0) + 0.4 * (hottest - profile.temperature(0));
+  anchorTemperature = options.anchorTemperature > 0 ? options.anchorTemperature
+                                                    : profile.temperature(0) + 0.4 * (hottest - profile.temperature(0));
   std::size_t best = 1;
   while (best < last && profile.temperature(best) < anchorTemperature) ++best;
   anchorZ = profile.z[best];
@@ -74,9 +73,8 @@ void FlameSolver::Data::place(FlameEquations& equations) {
   const FlameProfile& p = solution.profile;
   equations.setGrid(p.z);
   if (problem.type != FlameType::Free) return;
-  const auto at = std::min_element(p.z.begin(), p.z.end(), [&](double a, double b) {
-    return std::abs(a - anchorZ) < std::abs(b - anchorZ);
-  });
+  const auto at = std::min_element(p.z.begin(), p.z.end(),
+                                   [&](double a, double b) { return std::abs(a - anchorZ) < std::abs(b - anchorZ); });
   equations.setAnchor(static_cast<std::size_t>(at - p.z.begin()), anchorTemperature);
 }
 

@@ -57,11 +57,13 @@ inline FlameProfile roughFlame(const FlameProblem& problem, std::size_t points, 
     p.at(i, FlameLayout::spread) = 40 * s * (1 - s);
     p.at(i, FlameLayout::temperature) = 400 + 1500 * hot;
     double sum = 0;
-    for (std::size_t k = 0; k < n; ++k) sum += X[k] = 0.02 + 0.2 * std::abs(std::sin(1.0 + 2.3 * static_cast<double>(k) + s));
+    for (std::size_t k = 0; k < n; ++k)
+      sum += X[k] = 0.02 + 0.2 * std::abs(std::sin(1.0 + 2.3 * static_cast<double>(k) + s));
     for (double& x : X) x /= sum;
     thermo.moleToMass(X, Y);
     for (std::size_t k = 0; k < n; ++k) p.at(i, FlameLayout::firstSpecies + k) = Y[k];
-    for (std::size_t c = 0; c < scalars; ++c) p.at(i, p.layout.firstScalar() + c) = 0.5 + 0.3 * std::cos(5 * s + static_cast<double>(c));
+    for (std::size_t c = 0; c < scalars; ++c)
+      p.at(i, p.layout.firstScalar() + c) = 0.5 + 0.3 * std::cos(5 * s + static_cast<double>(c));
   }
   p.global(leftMassFlux) = 0.45;
   p.global(pressureGradient) = -800;
