@@ -3,6 +3,7 @@
 
 #include <petscdm.h>
 #include <petscksp.h>
+#include <petscsnes.h>
 #include <petscsys.h>
 
 #include <source_location>
@@ -46,5 +47,6 @@ using PetscDm = PetscOwner<DM, DMDestroy>;
 using PetscVector = PetscOwner<Vec, VecDestroy>;
 using PetscMatrix = PetscOwner<Mat, MatDestroy>;
 using PetscSolver = PetscOwner<KSP, KSPDestroy>;
+using PetscNonlinearSolver = PetscOwner<SNES, SNESDestroy>;
 
 }  // namespace lampblack
