@@ -40,6 +40,8 @@ class EqualRates {
   [[nodiscard]] const GrowthJump<Type>& growthJump() const { return jump_; }
   [[nodiscard]] bool gels() const { return kernel_ && kernel_->gels(fractalDimension(type_)); }
   [[nodiscard]] bool tunable() const { return kernel_ && kernel_->tunable(); }
+  // Of the same type; entries have to be put in anew.
+  void setKernel(const CollisionKernelOptions& options) { kernel_.emplace(options); }
   // Makes the majorant the best one for these entries, forEach(f) calling f(entry) or f(entry, number); only where all
   // of them are put in anew after it.
   template <class ForEach>

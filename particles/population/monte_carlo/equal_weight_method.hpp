@@ -126,6 +126,45 @@ class EqualWeightMethod {
     measureGrowth();
   }
   [[nodiscard]] double growthStep() const { return growthStep_; }
+
+  // For populations in a gas that changes and that grow by laws of their own. f(Particle&, weight) -> bool changes a
+  // particle, false drops it.
+  template <class F>
+  void changeParticles(F f) {
+    const double weight = sample_.weight();
+    sample_.transform([&](Entry& entry) {
+      if (!f(entry.particle, weight)) {
+        ++counters_.vanished;
+        return false;
+      }
+      entry = rates().entry(entry.particle);
+      return true;
+    });
+    sample_.massChanged();
+    if (rates().tunable()) retune();
+  }
+  // f(const Particle&, weight).
+  template <class F>
+  void forEachParticle(F f) const {
+    sample_.store().forEach([&](const Entry& entry) { f(entry.particle, sample_.weight()); });
+  }
+  // Of the type there was.
+  void setKernel(const CollisionKernelOptions& kernel) {
+    sample_.store().rates().setKernel(kernel);
+    if (rates().tunable())
+      retune();
+    else
+      sample_.store().transform([](const Entry&) { return true; });
+  }
+  // What nucleate() puts in.
+  void setNucleus(const typename Type::Particle& nucleus) { nucleus_ = rates().entry(nucleus); }
+  // Replaces all particles; each stands for `weight` (1/m3).
+  template <class Particles>
+  void replace(const Particles& particles, double weight, RandomStream& random) {
+    sample_.replace(weight, particles.size(), [&](std::size_t k) { return rates().entry(particles[k]); });
+    retune();
+    sample_.settle(random, counters_);
+  }
   void dilute(double factor) { sample_.dilute(factor); }
   void beginStep(double, double) {}
   void atTime(double) {}

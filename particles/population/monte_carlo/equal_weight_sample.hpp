@@ -83,6 +83,15 @@ class EqualWeightSample {
     weight_ *= factor;
     mass_ *= factor;
   }
+  // All particles anew; f(k) is the k-th entry.
+  template <class F>
+  void replace(double weight, std::size_t count, F f) {
+    store_.clear();
+    weight_ = weight;
+    filled_ = false;
+    for (std::size_t k = 0; k < count; ++k) store_operations::insert(store_, f(k), 1);
+    measure();
+  }
   // f(Entry&) -> bool, as transform() of a store.
   template <class F>
   void transform(F f) {

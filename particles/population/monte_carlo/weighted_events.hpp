@@ -235,6 +235,36 @@ void WeightedMethod<Type, Store>::grow(double dt) {
 }
 
 template <ParticleType Type, class Store>
+template <class F>
+void WeightedMethod<Type, Store>::changeParticles(F f) {
+  store_.transform([&](Entry& entry) {
+    if (f(entry.particle, entry.weight)) return true;
+    ++counters_.vanished;
+    return false;
+  });
+  refill();
+  retune();
+}
+
+template <ParticleType Type, class Store>
+void WeightedMethod<Type, Store>::setKernel(const CollisionKernelOptions& kernel) {
+  store_.changeRates([&](WeightedRates<Type>& rates) { rates.setKernel(kernel); });
+  retune();
+}
+
+template <ParticleType Type, class Store>
+void WeightedMethod<Type, Store>::replace(std::vector<Entry> entries) {
+  store_.clear();
+  std::sort(entries.begin(), entries.end(), [this](const Entry& a, const Entry& b) {
+    const double va = type_.volume(a.particle), vb = type_.volume(b.particle);
+    return va < vb || (va == vb && a.weight < b.weight);
+  });
+  assign(std::move(entries));
+  filled_ = store_.size() >= capacity_;
+  retune();
+}
+
+template <ParticleType Type, class Store>
 void WeightedMethod<Type, Store>::dilute(double factor) {
   store_.transform([&](Entry& entry) {
     entry.weight *= factor;

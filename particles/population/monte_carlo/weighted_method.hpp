@@ -87,6 +87,24 @@ class WeightedMethod {
 
   void grow(double dt);
   [[nodiscard]] double growthStep() const { return growthStep_; }
+  // For populations in a gas that changes and that grow by laws of their own. f(Particle&, weight) -> bool changes a
+  // particle, false drops it.
+  template <class F>
+  void changeParticles(F f);
+  // f(const Particle&, weight).
+  template <class F>
+  void forEachParticle(F f) const {
+    store_.forEach([&](const Entry& entry) { f(entry.particle, entry.weight); });
+  }
+  // Of the type there was.
+  void setKernel(const CollisionKernelOptions& kernel);
+  // What nucleate() puts in, and for how many real ones (1/m3) that stands.
+  void setNucleus(const Particle& nucleus, double weight) {
+    nucleus_ = nucleus;
+    nucleusWeight_ = weight;
+  }
+  // Replaces all particles.
+  void replace(std::vector<Entry> entries);
   void dilute(double factor);
   void beginStep(double, double) {}
   void atTime(double) {}

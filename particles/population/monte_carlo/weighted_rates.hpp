@@ -47,6 +47,8 @@ class WeightedRates {
   [[nodiscard]] const FractionLaw& fraction() const { return fraction_; }
   [[nodiscard]] bool gels() const { return kernel_ && kernel_->gels(fractalDimension(type_)); }
   [[nodiscard]] bool tunable() const { return kernel_ && kernel_->tunable(); }
+  // Of the same type; all bounds have to be made anew.
+  void setKernel(const CollisionKernelOptions& options) { kernel_.emplace(options); }
   template <class ForEach>
   void tune(ForEach&& forEach) {
     kernel_->tune([&](const auto& f) { forEach([&](const Entry& entry) { f(properties(entry), entry.weight); }); });

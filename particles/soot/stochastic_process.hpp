@@ -1,0 +1,356 @@
+// Inside of makeStochasticSoot(): the processes of soot in a population of any Monte Carlo method. Not for other rooms.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/errors.hpp"
+#include "core/random.hpp"
+#include "particles/soot/soot_medium.hpp"
+#include "particles/soot/stochastic_soot.hpp"
+
+namespace lampblack {
+
+// `Method` is an EqualWeightMethod or WeightedMethod of SootAggregate.
+template <class Method>
+class StochasticProcess final : public StochasticSoot {
+ public:
+  using Particle = SootAggregate::Particle;
+
+  StochasticProcess(StochasticSootOptions options, const SootAggregate& type, Method method, RandomStream random)
+      : options_(std::move(options)),
+        type_(type),
+        dimers_(options_.soot),
+        method_(std::move(method)),
+        random_(random) {}
+
+  void initialise(std::span<const SootParticleGiven> population) override;
+  void advance(const SootGasState& gas, double dilution, double dt) override;
+  [[nodiscard]] SootExchange takeExchange() override { return std::exchange(exchange_, {}); }
+
+  [[nodiscard]] std::size_t size() const override { return method_.size(); }
+  [[nodiscard]] Totals totals() const override;
+  [[nodiscard]] double moment(double order) const override;
+  [[nodiscard]] std::vector<double> sizeDistribution(double logMin, double logMax, std::size_t bins) const override;
+  [[nodiscard]] double geometricDeviation() const override;
+  [[nodiscard]] const PopulationCounters& counters() const override { return const_cast<Method&>(method_).counters(); }
+  [[nodiscard]] const StochasticSootOptions& options() const override { return options_; }
+
+ private:
+  // Of the whole population, per m3.
+  struct Sums {
+    double number = 0, carbon = 0, hydrogen = 0, area = 0, diameters = 0;
+    double collisions = 0, slopes = 0;  // with dimers, 1/s, and their change with the logarithm of all diameters
+  };
+  [[nodiscard]] Sums sums(const SootMedium& medium) const;
+  // Change of the sum of collisions with dimers by coagulation, 1/s2, as for a population of equal particles.
+  [[nodiscard]] double coagulating(const SootMedium& medium, const Sums& sums) const;
+  [[nodiscard]] double step(const SootMedium& medium, const Sums& sums, double dilution, double remaining) const;
+  void dilute(double factor);
+  void jump(const SootMedium& medium, double dt, double stepLength);
+  void grow(const SootMedium& medium, double dt);
+  void planNucleus(double weight) { nucleusAfter_ = weight * random_.uniform(); }
+  void book(const SootMedium& medium, double dimers);
+
+  static constexpr bool weighted = requires(Method method, const Particle& p) { method.setNucleus(p, 1.0); };
+
+  StochasticSootOptions options_;
+  SootAggregate type_;
+  DimerModel dimers_;
+  Method method_;
+  RandomStream random_;
+  SootExchange exchange_;
+  // Of the interval of the integral of inception that the next nucleus stands for (NucleationSampling::even): how much
+  // has passed (negative: it has not begun), and where in it the nucleus is due, 1/m3.
+  double reached_ = 0, nucleusAfter_ = 0;
+  bool planned_ = false;
+  mutable std::optional<CollisionKernel> kernel_;  // for equal particles
+};
+
+template <class Method>
+typename StochasticProcess<Method>::Sums StochasticProcess<Method>::sums(const SootMedium& medium) const {
+  Sums s;
+  method_.forEachParticle([&](const Particle& p, double w) {
+    const double d = type_.primaryDiameter(p);
+    s.number += w;
+    s.carbon += w * p.carbon;
+    s.hydrogen += w * p.hydrogen;
+    s.area += w * p.primaries * constants::pi * d * d;
+    s.diameters += w * p.diameter;
+    if (!medium.condensing()) return;
+    const double rate = medium.collision(p);
+    s.collisions += w * rate;
+    s.slopes += w * medium.collisionSlope(p, rate);
+  });
+  return s;
+}
+
+template <class Method>
+double StochasticProcess<Method>::coagulating(const SootMedium& medium, const Sums& s) const {
+  if (!kernel_ || !(s.number > 0)) return 0;
+  const double mass = (s.carbon + s.hydrogen) / s.number, d = s.diameters / s.number;
+  const CollisionKernel::Properties mean{mass / options_.soot.sootDensity, mass, d};
+  const double rate = 0.5 * kernel_->value(mean, mean) * s.number * s.number;
+  const Particle one{mass, 0, 1, d};
+  const Particle two{2 * mass, 0, 2, d * (options_.coalescing ? std::cbrt(2.0) : SootAggregate::collisionFactor(2))};
+  return rate * (medium.collision(two) - 2 * medium.collision(one));
+}
+
+// The step over which nothing changes by more than the tolerance: the share of dimers that condense, by inception; the
+// diameters, by growth; the number, by coagulation.
+template <class Method>
+double StochasticProcess<Method>::step(const SootMedium& medium, const Sums& s, double dilution,
+                                       double remaining) const {
+  double fastest = std::abs(dilution);
+  const double dimers = medium.dimers(s.collisions);
+  if (medium.incepting() && medium.condensing()) {
+    const Particle nucleus = type_.make(2 * medium.dimerCarbon(), 2 * medium.dimerHydrogen(), 1);
+    const double rate = medium.inception(s.collisions);
+    const double scale = s.collisions + 2 * std::sqrt(medium.dimer().rate * medium.dimer().selfCollision);
+    fastest = std::max(fastest, rate * medium.collision(nucleus) / scale);
+  }
+  if (s.number > 0) {
+    const SootFluxes flux = medium.fluxes();
+    const double most = (flux.growth + flux.O2 + flux.OH) * s.area + s.collisions * dimers * medium.dimer().mass;
+    fastest = std::max(fastest, most / (3 * (s.carbon + s.hydrogen)));
+    if (kernel_) {
+      const double mass = (s.carbon + s.hydrogen) / s.number;
+      const CollisionKernel::Properties mean{mass / options_.soot.sootDensity, mass, s.diameters / s.number};
+      fastest = std::max(fastest, 0.5 * kernel_->value(mean, mean) * s.number);
+    }
+  }
+  return fastest * remaining > options_.splitTolerance ? options_.splitTolerance / fastest : remaining;
+}
+
+template <class Method>
+void StochasticProcess<Method>::advance(const SootGasState& gas, double dilution, double dt) {
+  if (!(dt > 0)) return;
+  const SootMedium medium(options_.soot, dimers_, gas);
+  if (options_.soot.coagulation) {
+    CollisionKernelOptions kernel;
+    kernel.type = CollisionKernelType::transition;
+    kernel.gas = medium.kernelGas();
+    kernel.enhancement = options_.soot.vanDerWaals;
+    kernel_.emplace(kernel);
+    method_.setKernel(kernel);
+  }
+  double remaining = dt;
+  while (remaining > 0) {
+    if (size() == 0 && !medium.incepting()) return;
+    const double length = step(medium, sums(medium), dilution, remaining);
+    if (dilution != 0) dilute(std::exp(-0.5 * dilution * length));
+    jump(medium, 0.5 * length, length);
+    grow(medium, length);
+    jump(medium, 0.5 * length, length);
+    if (dilution != 0) dilute(std::exp(-0.5 * dilution * length));
+    ++method_.counters().splitSteps;
+    remaining = length < remaining ? remaining - length : 0;
+  }
+  if (random_.position() >> 33 != 0) throw NumericsError("stochastic soot: the random stream is used up");
+}
+
+template <class Method>
+void StochasticProcess<Method>::dilute(double factor) {
+  const Totals before = totals();
+  method_.dilute(factor);
+  for (double* number : {&reached_, &nucleusAfter_}) *number *= factor;
+  exchange_.dilutedCarbon += before.carbon * (1 - factor);
+  exchange_.dilutedHydrogen += before.hydrogen * (1 - factor);
+}
+
+template <class Method>
+void StochasticProcess<Method>::jump(const SootMedium& medium, double dt, double stepLength) {
+  const Sums start = sums(medium);
+  const double nucleusCarbon = 2 * medium.dimerCarbon(), nucleusHydrogen = 2 * medium.dimerHydrogen();
+  double inception = 0;  // 1/m3/s, of the middle of this step
+  if (medium.incepting()) {
+    const Particle nucleus = type_.make(nucleusCarbon, nucleusHydrogen, 1);
+    const double first = medium.inception(start.collisions);
+    const double change = first * medium.collision(nucleus) + coagulating(medium, start);
+    inception = medium.inception(std::max(0.0, start.collisions + 0.5 * dt * change));
+    if constexpr (weighted) {
+      // A new particle for each numerical one as the number of real ones renews itself, and not too many a step.
+      const double n = static_cast<double>(options_.particles);
+      method_.setNucleus(nucleus, std::max(start.number / n, 20 * inception * stepLength / n));
+    } else {
+      method_.setNucleus(nucleus);
+    }
+    if (!planned_ && inception > 0) {
+      planNucleus(method_.nucleusWeight());
+      planned_ = true;
+    }
+  }
+  double nucleatedCarbon = 0, nucleatedHydrogen = 0, nucleated = 0;
+  double time = 0;
+  while (true) {
+    const double coagulation = kernel_ ? method_.coagulationRate() : 0;
+    const double next =
+        coagulation > 0 ? time + random_.exponential(coagulation) : std::numeric_limits<double>::infinity();
+    const double end = std::min(next, dt);
+    if (inception > 0) {
+      const double due = time + std::max(0.0, nucleusAfter_ - reached_) / inception;
+      if (due < end) {
+        reached_ = nucleusAfter_;
+        time = due;
+        const double weight = method_.nucleusWeight();
+        method_.nucleate(random_);
+        nucleated += weight;
+        nucleatedCarbon += weight * nucleusCarbon;
+        nucleatedHydrogen += weight * nucleusHydrogen;
+        // The next interval begins where this one, as long as what was put in, ends.
+        reached_ -= weight;
+        planNucleus(method_.nucleusWeight());
+        continue;
+      }
+      reached_ += (end - time) * inception;
+    }
+    if (next >= dt) break;
+    time = next;
+    if (!method_.coagulate(random_)) ++method_.counters().fictitious;
+  }
+  const Totals after = totals();
+  exchange_.resampledCarbon += after.carbon - start.carbon - nucleatedCarbon;
+  exchange_.resampledHydrogen += after.hydrogen - start.hydrogen - nucleatedHydrogen;
+  if (nucleated > 0) {
+    book(medium, 2 * nucleated);
+    exchange_.nucleatedNumber += nucleated;
+    exchange_.nucleated += nucleatedCarbon + nucleatedHydrogen;
+  }
+}
+
+// Dimers that became soot.
+template <class Method>
+void StochasticProcess<Method>::book(const SootMedium& medium, double dimers) {
+  for (std::size_t i = 0; i < dimers_.size(); ++i)
+    exchange_.pah[i] -= dimers * medium.pahOfDimer()[i] / constants::avogadro;
+  exchange_.carbon += dimers * medium.dimerCarbon();
+  exchange_.hydrogen += dimers * medium.dimerHydrogen();
+}
+
+template <class Method>
+void StochasticProcess<Method>::grow(const SootMedium& medium, double dt) {
+  if (size() == 0 || !(medium.condensing() || medium.surfaceActive())) return;
+  const SootModelOptions& soot = options_.soot;
+  const Sums s = sums(medium);
+  SootFluxes flux = medium.fluxes();
+  flux.alphaOfPrimaries = options_.alphaOfPrimaries;
+  const auto alpha = [&](double carbon) {  // of the mean particle
+    const double atoms = carbon / s.number * constants::avogadro / soot.carbonWeight;
+    return medium.alpha(std::max({atoms, dimers_.smallestNucleus(), 2.0}));
+  };
+  // Both at the middle of the step, to first order: makes the whole second order.
+  const auto surface = [&](double a) { return a * (flux.growth - flux.O2) - flux.OH; };
+  const double half = 0.5 * dt, first = alpha(s.carbon), dimersFirst = medium.dimers(s.collisions);
+  const double condensing = s.collisions * dimersFirst * medium.dimer().mass;
+  const double mass = s.carbon + s.hydrogen, gain = half * (surface(first) * s.area + condensing);
+  flux.alpha = alpha(std::max(0.5 * s.carbon, s.carbon + gain * s.carbon / mass));
+  if (medium.condensing()) {
+    const double stretch = std::clamp(gain / (3 * mass), -0.3, 0.3);  // of the diameters
+    flux.condensation =
+        medium.condensation(medium.dimers(std::max(0.5 * s.collisions, s.collisions + stretch * s.slopes)));
+  }
+  SootMoved all;
+  method_.changeParticles([&](Particle& p, double w) {
+    SootMoved moved;
+    const bool left = medium.grow(type_, flux, dt, p, moved);
+    all.add(w, moved);
+    return left;
+  });
+  book(medium, all.dimers);
+  exchange_.condensed += all.dimers * (medium.dimerCarbon() + medium.dimerHydrogen());
+  exchange_.grown += all.growth;
+  exchange_.oxidisedO2 += all.oxidationO2 + all.hydrogenO2;
+  exchange_.oxidisedOH += all.oxidationOH + all.hydrogenOH;
+  exchange_.oxidisedNumber += all.lost;
+  exchange_.carbon += all.growth - all.oxidationO2 - all.oxidationOH;
+  exchange_.hydrogen -= all.hydrogenO2 + all.hydrogenOH;
+  // See surface_chemistry.hpp for what an event moves.
+  const double perCarbon = 1 / soot.carbonWeight, perH2 = 0.5 / soot.hydrogenWeight;
+  exchange_.C2H2 -= 0.5 * all.growth * perCarbon;
+  exchange_.O2 -= 0.5 * all.oxidationO2 * perCarbon;
+  exchange_.OH -= all.oxidationOH * perCarbon;
+  exchange_.CO += (all.oxidationO2 + all.oxidationOH) * perCarbon;
+  exchange_.H += all.oxidationOH * perCarbon;
+  exchange_.H2 += 0.5 * all.growth * perCarbon + (all.hydrogenO2 + all.hydrogenOH) * perH2;
+}
+
+template <class Method>
+void StochasticProcess<Method>::initialise(std::span<const SootParticleGiven> population) {
+  if (population.empty() || population.size() > options_.particles) {
+    throw InputError(
+        fmt::format("stochastic soot: {} particles, there is room for 1 to {}", population.size(), options_.particles));
+  }
+  for (const SootParticleGiven& p : population) {
+    if (!(p.carbon > 0) || !(p.hydrogen >= 0) || !(p.primaries >= 1) || !(p.number > 0))
+      throw InputError("stochastic soot: a particle needs carbon, a number and at least one primary");
+    if (!weighted && p.number != population[0].number)
+      throw InputError("stochastic soot: particles of equal weight that stand for different numbers");
+  }
+  if constexpr (weighted) {
+    std::vector<typename Method::Entry> entries;
+    for (const SootParticleGiven& p : population)
+      entries.push_back({type_.make(p.carbon, p.hydrogen, p.primaries), p.number});
+    method_.replace(std::move(entries));
+  } else {
+    std::vector<Particle> particles;
+    for (const SootParticleGiven& p : population) particles.push_back(type_.make(p.carbon, p.hydrogen, p.primaries));
+    method_.replace(particles, population[0].number, random_);
+  }
+  exchange_ = {};
+  reached_ = 0;
+  planned_ = false;
+}
+
+template <class Method>
+StochasticSoot::Totals StochasticProcess<Method>::totals() const {
+  Totals t;
+  method_.forEachParticle([&](const Particle& p, double w) {
+    const double d = type_.primaryDiameter(p);
+    t.number += w;
+    t.carbon += w * p.carbon;
+    t.hydrogen += w * p.hydrogen;
+    t.primaries += w * p.primaries;
+    t.surface += w * p.primaries * constants::pi * d * d;
+    t.diameters += w * d * SootAggregate::mobilityFactor(p.primaries);
+  });
+  return t;
+}
+
+template <class Method>
+double StochasticProcess<Method>::moment(double order) const {
+  double sum = 0;
+  method_.forEachParticle([&](const Particle& p, double w) { sum += w * std::pow(type_.volume(p), order); });
+  return sum;
+}
+
+template <class Method>
+std::vector<double> StochasticProcess<Method>::sizeDistribution(double logMin, double logMax, std::size_t bins) const {
+  std::vector<double> density(bins, 0);
+  const double width = (logMax - logMin) / static_cast<double>(bins);
+  method_.forEachParticle([&](const Particle& p, double w) {
+    const double x = (std::log10(type_.mobilityDiameter(p)) - logMin) / width;
+    if (x >= 0 && x < static_cast<double>(bins)) density[static_cast<std::size_t>(x)] += w / width;
+  });
+  return density;
+}
+
+template <class Method>
+double StochasticProcess<Method>::geometricDeviation() const {
+  double weight = 0, mean = 0, square = 0;  // running mean and sum of squared deviations (West 1979)
+  method_.forEachParticle([&](const Particle& p, double w) {
+    const double x = std::log(type_.mobilityDiameter(p));
+    weight += w;
+    const double difference = x - mean;
+    mean += difference * w / weight;
+    square += w * difference * (x - mean);
+  });
+  return weight > 0 ? std::exp(std::sqrt(square / weight)) : 1.0;
+}
+
+}  // namespace lampblack

@@ -1,0 +1,96 @@
+// A stochastic soot population with all processes of soot, by any of three methods: equal weights with doubling and
+// contraction (dsmc), weighted particles whose neighbours are merged (sammc), or the stochastic weighted algorithm with
+// the transfer of weights that conserves mass (swa). Nuclei from dimers, coagulation in all regimes, condensation,
+// growth and oxidation; dilution by the divergence of the particles' velocity. The gas is given and is not changed, but
+// what is taken from it and given to it is reported: the same atoms that the soot gains, to round-off.
+//
+// The gas's dimers play the part of the transfer species of a decoupled solution (Kraft, lecture 2022): their number is
+// made to follow the gas's PAH at all times, and particles begin and grow by them.
+//
+// Splitting: jumps for half a step, growth for a whole one, jumps for half a step; steps over which the population
+// changes by `splitTolerance`. docs/theory/stochastic_soot.md.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "particles/population/population_solver.hpp"
+#include "particles/soot_gas.hpp"
+
+namespace lampblack {
+
+enum class StochasticSootMethod { dsmc, sammc, swa };
+
+struct StochasticSootOptions {
+  StochasticSootMethod method = StochasticSootMethod::dsmc;
+  std::size_t particles = 2000;  // most numerical ones, at least 8
+  std::uint64_t seed = 1;
+  std::uint64_t owner = 0;  // global trajectory and repeat: makes the random numbers independent of the rank
+  SootModelOptions soot;
+  bool coalescing = true;           // spheres; otherwise aggregates of primaries
+  bool alphaOfPrimaries = false;    // alpha by the mean primary of each particle instead of the mean particle
+  double splitTolerance = 0.05;     // relative change of the population in a splitting step
+  double startNumberDensity = 1e6;  // 1/m3: dsmc, at which an empty sample is full at first; contraction does the rest
+};
+
+// What a population took from (negative) and gave to the gas and what happened to its own mass, summed over the steps
+// since the last look, per m3 of the gas of each moment.
+struct SootExchange {
+  double H = 0, H2 = 0, OH = 0, O2 = 0, C2H2 = 0, CO = 0;  // mol/m3
+  PahArray pah{};                                          // mol/m3
+  double nucleatedNumber = 0, oxidisedNumber = 0;          // 1/m3
+  // Soot mass, kg/m3; oxidation positive.
+  double nucleated = 0, condensed = 0, grown = 0, oxidisedO2 = 0, oxidisedOH = 0;
+  double carbon = 0, hydrogen = 0;  // of the soot, by all of these: kg/m3
+  // By dilution; and by numerical particles that come and go, which is zero in the mean. sammc: always; swa: carbon and
+  // hydrogen together always. kg/m3.
+  double dilutedCarbon = 0, dilutedHydrogen = 0, resampledCarbon = 0, resampledHydrogen = 0;
+};
+
+// One particle of a given population: kg, number per m3.
+struct SootParticleGiven {
+  double carbon = 0, hydrogen = 0, primaries = 1, number = 0;
+};
+
+class StochasticSoot {
+ public:
+  virtual ~StochasticSoot() = default;
+
+  // Replaces the population. dsmc: all numbers have to be equal. Throws InputError for more particles than there is
+  // room, and for what is not positive.
+  virtual void initialise(std::span<const SootParticleGiven> population) = 0;
+
+  // Over dt (s) in the given gas; `dilution` (1/s) is the divergence of the particles' velocity. Throws NumericsError
+  // for a gas that is not physical.
+  virtual void advance(const SootGasState& gas, double dilution, double dt) = 0;
+  // Since it was asked for last.
+  [[nodiscard]] virtual SootExchange takeExchange() = 0;
+
+  [[nodiscard]] virtual std::size_t size() const = 0;
+  // Carbon, hydrogen in kg/m3; number of particles and of primaries in 1/m3; surface in m2/m3.
+  struct Totals {
+    double number = 0, carbon = 0, hydrogen = 0, primaries = 0, surface = 0;
+    double diameters = 0;  // of mobility, m/m3
+    [[nodiscard]] double mass() const { return carbon + hydrogen; }
+  };
+  [[nodiscard]] virtual Totals totals() const = 0;
+  // Sum over particles of volume^order per m3.
+  [[nodiscard]] virtual double moment(double order) const = 0;
+  // dN/dlog10(d) (1/m3) in `bins` equal bins of log10(d/m), by mobility diameter (that of the sphere with one primary);
+  // particles outside are left out.
+  [[nodiscard]] virtual std::vector<double> sizeDistribution(double logMin, double logMax, std::size_t bins) const = 0;
+  [[nodiscard]] virtual double geometricDeviation() const = 0;  // of the mobility diameter by number; 1 when empty
+  [[nodiscard]] virtual const PopulationCounters& counters() const = 0;
+  [[nodiscard]] virtual const StochasticSootOptions& options() const = 0;
+
+  [[nodiscard]] double volumeFraction() const { return totals().mass() / options().soot.sootDensity; }
+};
+
+// Throws InputError.
+[[nodiscard]] std::unique_ptr<StochasticSoot> makeStochasticSoot(StochasticSootOptions options);
+
+}  // namespace lampblack

@@ -1,0 +1,218 @@
+// Stochastic soot populations: atoms, closed solutions, and the three methods against the ensemble of equal spheres,
+// which is an independent program.
+#include "particles/soot/stochastic_soot.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "../soot_fixtures.hpp"
+#include "../statistics.hpp"
+#include "core/errors.hpp"
+#include "particles/ensemble.hpp"
+#include "particles/surface_chemistry.hpp"
+
+namespace lampblack {
+namespace {
+
+constexpr double rho = 1850;
+
+double massOf(double d) {
+  return rho * constants::pi / 6 * d * d * d;
+}
+
+class StochasticSootMethods : public testing::TestWithParam<StochasticSootMethod> {
+ protected:
+  [[nodiscard]] StochasticSootOptions options(SootModelOptions soot) const {
+    StochasticSootOptions o;
+    o.method = GetParam();
+    o.particles = 400;
+    o.soot = std::move(soot);
+    return o;
+  }
+};
+
+std::string nameOf(const testing::TestParamInfo<StochasticSootMethod>& info) {
+  if (info.param == StochasticSootMethod::dsmc) return "dsmc";
+  return info.param == StochasticSootMethod::sammc ? "sammc" : "swa";
+}
+
+INSTANTIATE_TEST_SUITE_P(All, StochasticSootMethods,
+                         testing::Values(StochasticSootMethod::dsmc, StochasticSootMethod::sammc,
+                                         StochasticSootMethod::swa),
+                         nameOf);
+
+// Growth, condensation, oxidation by O2 and OH, inception and coagulation together, with dilution.
+TEST_P(StochasticSootMethods, TakesFromTheGasTheAtomsThatTheSootGains) {
+  const test::FlameGas gas(1650, 1e-3, 0.03, 1e-5, 0.08, 1e-5, 0.03, {1e-6, 4e-7, 3e-7});
+  const SootModelOptions soot = test::threePah();
+  for (const bool coalescing : {true, false}) {
+    StochasticSootOptions o = options(soot);
+    o.coalescing = coalescing;
+    const auto population = makeStochasticSoot(o);
+    SootExchange sum;
+    for (int step = 0; step < 40; ++step) {
+      const auto before = population->totals();
+      population->advance(gas.state, 60, 2e-4);
+      const auto after = population->totals();
+      const SootExchange x = population->takeExchange();
+      const double scale = after.mass() + 1e-12;
+      // The soot's own account.
+      EXPECT_NEAR(after.carbon - before.carbon, x.carbon - x.dilutedCarbon + x.resampledCarbon, 1e-12 * scale);
+      EXPECT_NEAR(after.hydrogen - before.hydrogen, x.hydrogen - x.dilutedHydrogen + x.resampledHydrogen,
+                  1e-12 * scale);
+      EXPECT_NEAR(x.carbon + x.hydrogen, x.nucleated + x.condensed + x.grown - x.oxidisedO2 - x.oxidisedOH,
+                  1e-12 * scale);
+      if (o.method != StochasticSootMethod::dsmc)
+        EXPECT_NEAR(x.resampledCarbon + x.resampledHydrogen, 0, 1e-12 * scale);
+      if (o.method == StochasticSootMethod::sammc) EXPECT_NEAR(x.resampledHydrogen, 0, 1e-12 * scale);
+      // Atoms, mol/m3.
+      double C = x.CO + 2 * x.C2H2, H = x.H + 2 * x.H2 + x.OH + 2 * x.C2H2;
+      for (std::size_t k = 0; k < soot.pah.size(); ++k) {
+        C += soot.pah[k].carbon * x.pah[k];
+        H += soot.pah[k].hydrogen * x.pah[k];
+      }
+      EXPECT_NEAR(C, -x.carbon / soot.carbonWeight, 1e-12 * scale / soot.carbonWeight);
+      EXPECT_NEAR(H, -x.hydrogen / soot.hydrogenWeight, 1e-12 * scale / soot.hydrogenWeight);
+      EXPECT_NEAR(x.CO + 2 * x.O2 + x.OH, 0, 1e-13 * (x.CO - x.OH));
+      for (const auto part : {&SootExchange::nucleated, &SootExchange::condensed, &SootExchange::grown,
+                              &SootExchange::oxidisedO2, &SootExchange::oxidisedOH})
+        sum.*part += x.*part;
+    }
+    EXPECT_GT(population->counters().coagulations, 400u);
+    for (const auto part : {&SootExchange::nucleated, &SootExchange::condensed, &SootExchange::grown,
+                            &SootExchange::oxidisedO2, &SootExchange::oxidisedOH})
+      EXPECT_GT(sum.*part, 1e-5 * population->totals().mass());
+  }
+}
+
+TEST_P(StochasticSootMethods, SurfaceGrowthIsLinearInTheDiameterOfPrimaries) {
+  const test::FlameGas gas(1700, 1e-3, 0.03, 0, 0.08, 0, 0.03, {});
+  SootModelOptions soot;
+  soot.alpha = 0.7;
+  soot.coagulation = soot.inception = false;
+  const double flux =
+      2 * soot.carbonWeight * SurfaceChemistry(soot, 1700).rates(gas.state, 0.7).growth * gas.state.C2H2;
+  StochasticSootOptions o = options(soot);
+  o.coalescing = false;
+  const auto population = makeStochasticSoot(o);
+  const double n = 8, start = 6e-9;
+  population->initialise(std::vector<SootParticleGiven>{{0.95 * n * massOf(start), 0.05 * n * massOf(start), n, 1e14}});
+  population->advance(gas.state, 0, 5e-9 * rho / (2 * flux));  // by 5 nm
+  const auto totals = population->totals();
+  EXPECT_NEAR(totals.mass() / (1e14 * n * massOf(11e-9)), 1, 1e-11);
+  EXPECT_NEAR(totals.hydrogen / (1e14 * 0.05 * n * massOf(start)), 1, 1e-11);
+  EXPECT_NEAR(totals.primaries / (1e14 * n), 1, 1e-12);
+  EXPECT_NEAR(totals.diameters / (1e14 * 11e-9 * std::pow(8, 0.45)), 1, 1e-11);
+}
+
+TEST_P(StochasticSootMethods, OxidationKeepsCompositionAndGivesBackAllOfWhatFallsBelowANucleus) {
+  const test::FlameGas gas(1800, 0, 0, 2e-3, 0.1, 0, 0, {0});
+  SootModelOptions soot = test::naphthalene();
+  soot.coagulation = false;
+  const double fraction = 0.05;
+  const double carbonFlux =
+      soot.carbonWeight * SurfaceChemistry(soot, 1800).rates(gas.state, 0.0).oxidationOH * gas.state.OH;
+  const auto population = makeStochasticSoot(options(soot));
+  const auto given = [&](double d) {
+    return SootParticleGiven{(1 - fraction) * massOf(d), fraction * massOf(d), 1, 1e14};
+  };
+  population->initialise(std::vector{given(3e-9), given(20e-9)});
+  population->advance(gas.state, 0, 4e-9 * rho * (1 - fraction) / (2 * carbonFlux));  // 4 nm: all of the small one
+  const auto totals = population->totals();
+  EXPECT_NEAR(totals.number / 1e14, 1, 1e-12);
+  EXPECT_NEAR(totals.mass() / (1e14 * massOf(16e-9)), 1, 1e-11);
+  EXPECT_NEAR(totals.hydrogen / totals.mass(), fraction, 1e-12);
+  const SootExchange x = population->takeExchange();
+  EXPECT_NEAR(x.oxidisedNumber / 1e14, 1, 1e-12);
+  EXPECT_NEAR(x.oxidisedOH / (1e14 * (massOf(3e-9) + massOf(20e-9) - massOf(16e-9))), 1, 1e-11);
+}
+
+TEST_P(StochasticSootMethods, CoagulationOfAggregatesKeepsMassAndPrimaries) {
+  const test::FlameGas gas(1600, 0, 0, 0, 0, 0, 0, {});
+  StochasticSootOptions o = options({});
+  o.coalescing = false;
+  const auto population = makeStochasticSoot(o);
+  std::vector<SootParticleGiven> start;
+  for (int k = 0; k < 400; ++k) start.push_back({massOf(10e-9 + 1e-11 * k), 0, 1, 5e13});
+  population->initialise(start);
+  const auto before = population->totals();
+  for (int k = 0; k < 4; ++k) population->advance(gas.state, 0, 5e-3);
+  const auto after = population->totals();
+  EXPECT_LT(after.number, 0.7 * before.number);
+  EXPECT_NEAR(after.mass() / before.mass(), 1, 1e-12);
+  if (GetParam() == StochasticSootMethod::swa) return;  // primaries of unlike particles in the mean only
+  EXPECT_NEAR(after.primaries / before.primaries, 1, 1e-12);
+}
+
+// The processes of a soot-forming zone from nothing, with dilution: the same moments as the ensemble of equal weights,
+// which splits in another order, sees nuclei at random times and accounts in another way.
+TEST_P(StochasticSootMethods, HasTheMomentsOfTheEnsembleOfSpheres) {
+  const test::FlameGas gas(1650, 1e-3, 0.03, 1e-5, 0.08, 0, 0.03, {1e-6, 4e-7, 3e-7});
+  const SootModelOptions soot = test::threePah();
+  const double dt = 4e-4;
+  const int steps = 10, repeats = 20;
+  const std::vector<double> orders = {0, 1.0 / 3, 2.0 / 3, 1, 4.0 / 3};
+  std::vector<std::vector<double>> here(orders.size()), there(orders.size());
+  for (int r = 0; r < repeats; ++r) {
+    StochasticSootOptions o = options(soot);
+    o.owner = static_cast<std::uint64_t>(r);
+    o.particles = 250;
+    o.splitTolerance = 0.03;
+    const auto population = makeStochasticSoot(o);
+    EnsembleOptions e;
+    e.capacity = 250;
+    e.owner = static_cast<std::uint64_t>(r);
+    e.seed = 7;
+    e.soot = soot;
+    e.expectedNumberDensity = 1e6;
+    e.splitTolerance = 0.03;
+    Ensemble ensemble(e);
+    for (int k = 0; k < steps; ++k) {
+      population->advance(gas.state, 40, dt);
+      ensemble.advance(gas.state, 40, dt);
+    }
+    for (std::size_t m = 0; m < orders.size(); ++m) {
+      here[m].push_back(population->moment(orders[m]));
+      there[m].push_back(ensemble.moment(orders[m]));
+    }
+  }
+  for (std::size_t m = 0; m < orders.size(); ++m) {
+    const test::Sample a = test::summarise(here[m]), b = test::summarise(there[m]);
+    const double z = (a.mean - b.mean) / std::hypot(a.standardError, b.standardError);
+    EXPECT_LT(std::abs(z), test::zLimit) << "moment " << orders[m] << ": " << a.mean << " +- " << a.standardError
+                                         << ", ensemble " << b.mean << " +- " << b.standardError;
+    RecordProperty("z" + std::to_string(m), std::to_string(z) + " " + std::to_string(a.mean / b.mean - 1) + " " +
+                                                std::to_string(a.standardError / a.mean));
+  }
+}
+
+TEST_P(StochasticSootMethods, RepeatsDependOnSeedAndOwnerOnly) {
+  const test::FlameGas gas(1650, 1e-3, 0.03, 0, 0.08, 0, 0.03, {1e-6});
+  const auto run = [&](std::uint64_t owner) {
+    StochasticSootOptions o = options(test::naphthalene());
+    o.owner = owner;
+    const auto population = makeStochasticSoot(o);
+    for (int k = 0; k < 5; ++k) population->advance(gas.state, 0, 1e-3);
+    return population->moment(2);
+  };
+  EXPECT_EQ(run(3), run(3));
+  EXPECT_NE(run(3), run(4));
+}
+
+TEST(StochasticSoot, RefusesWhatHasNoMeaning) {
+  StochasticSootOptions o;
+  o.particles = 2;
+  EXPECT_THROW((void)makeStochasticSoot(o), InputError);
+  o.particles = 100;
+  const auto population = makeStochasticSoot(o);
+  EXPECT_THROW(population->initialise({}), InputError);
+  EXPECT_THROW(population->initialise(std::vector<SootParticleGiven>{{0, 0, 1, 1}}), InputError);
+  EXPECT_THROW(population->initialise(std::vector<SootParticleGiven>{{1e-21, 0, 1, 1}, {1e-21, 0, 1, 2}}), InputError);
+  SootGasState gas;
+  EXPECT_THROW(population->advance(gas, 0, 1e-3), NumericsError);
+}
+
+}  // namespace
+}  // namespace lampblack
