@@ -149,7 +149,7 @@ void FlameEquations::freezeTransport(bool frozen) {
 void FlameEquations::setLoad(double load) {
   data_->loadValue = load;
 }
-void FlameEquations::setConstraint(std::optional<FlameConstraint> constraint) {
+void FlameEquations::setConstraint(std::optional<LoadConstraint> constraint) {
   data_->constraint = std::move(constraint);
 }
 void FlameEquations::setExchange(std::optional<GivenExchange> exchange) {

@@ -20,7 +20,7 @@
 #include "flow/flame/carried_model.hpp"
 #include "flow/flame/flame_problem.hpp"
 #include "flow/flame/flame_profile.hpp"
-#include "flow/flame/newton_system.hpp"
+#include "flow/flame/loaded_system.hpp"
 
 namespace lampblack {
 
@@ -28,12 +28,6 @@ namespace lampblack {
 struct FlameTolerances {
   double relative = 1e-4;
   double species = 1e-9, temperature = 1e-2, flow = 1e-4, scalars = 1e-7;
-};
-
-// A condition  sum_i coefficients[i] x[i] = value  in place of `load = value` (arc length).
-struct FlameConstraint {
-  std::vector<double> coefficients;  // size() of the flame
-  double value = 0;
 };
 
 // What is exchanged with the gas at every point by something that is not part of the flame (stochastic particles that
@@ -55,7 +49,7 @@ struct FlameBudget {
   [[nodiscard]] double imbalance() const { return in - out - wall - radiated; }
 };
 
-class FlameEquations : public NewtonSystem {
+class FlameEquations : public LoadedSystem {
  public:
   // `carried` may be null; it has to live as long. InputError for problems that make no sense.
   FlameEquations(MPI_Comm comm, std::shared_ptr<const Mechanism> mechanism, FlameProblem problem,
@@ -73,8 +67,8 @@ class FlameEquations : public NewtonSystem {
   // release(). Used to solve the gas at a given temperature, or the scalars in a given gas.
   void hold(std::function<bool(std::size_t component)> which, std::span<const double> held);
   void release();
-  void setLoad(double load);
-  void setConstraint(std::optional<FlameConstraint> constraint);
+  void setLoad(double load) override;
+  void setConstraint(std::optional<LoadConstraint> constraint) override;
   void setExchange(std::optional<GivenExchange> exchange);
 
   // Keeps the transport coefficients of the last residual (but for a power of the temperature) until told otherwise:
