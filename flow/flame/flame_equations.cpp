@@ -202,6 +202,7 @@ bool FlameEquations::factorise(std::span<const double> x, double inverseTimeStep
   else
     collectively(d.comm, work);
   ++d.counters.jacobians;
+  d.counters.jacobianPoints += d.points();
   const double filled = MPI_Wtime();
   d.counters.jacobianSeconds += filled - start;
   const bool regular = d.matrix->factorise();

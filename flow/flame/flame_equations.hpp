@@ -94,6 +94,7 @@ class FlameEquations : public LoadedSystem {
 
   struct Counters {
     std::size_t residuals = 0, jacobians = 0;
+    std::size_t jacobianPoints = 0;  // over all Jacobians and ranks
     double residualSeconds = 0, jacobianSeconds = 0, factoriseSeconds = 0, solveSeconds = 0;
   };
   [[nodiscard]] const Counters& counters() const;

@@ -26,6 +26,15 @@ struct FlameSolver::Data {
   void place(FlameEquations& equations);
   bool widen();
   void anchorIn(const FlameProfile& profile);
+  void gasAlone(const FlameProblem& flame, NewtonSolver& solver, const std::string& name);
+  void scalarsAlone(FlameEquations& equations, NewtonSolver& solver);
+  void count(const FlameEquations& equations);
+  [[nodiscard]] bool withoutScalars() const {
+    for (std::size_t i = 0; i < solution.profile.points(); ++i)
+      for (double value : solution.profile.scalars(i))
+        if (value != 0) return false;
+    return true;
+  }
 
   double anchorZ = 0, anchorTemperature = 0;
 };
@@ -134,6 +143,40 @@ void FlameSolver::Data::refine(FlameEquations& equations, NewtonSolver& solver, 
   }
 }
 
+void FlameSolver::Data::gasAlone(const FlameProblem& flame, NewtonSolver& solver, const std::string& name) {
+  const FlameLayout full = solution.profile.layout;
+  FlameLayout bare = full;
+  bare.scalars = 0;
+  solution.profile = withLayout(solution.profile, bare);
+  FlameEquations gas(comm, mechanism, flame, nullptr, options.tolerances);
+  gas.setExchange(exchange);
+  refine(gas, solver, name, options.grid);
+  count(gas);
+  solution.profile = withLayout(solution.profile, full);
+}
+
+void FlameSolver::Data::scalarsAlone(FlameEquations& equations, NewtonSolver& solver) {
+  const FlameLayout layout = equations.layout();
+  equations.setGrid(solution.profile.z);
+  equations.hold([first = layout.firstScalar(),
+                  width = layout.width()](std::size_t component) { return component < first || component >= width; },
+                 solution.profile.x);
+  steady(equations, solver, "scalars in the gas");
+  equations.release();
+}
+
+void FlameSolver::Data::count(const FlameEquations& equations) {
+  FlameEquations::Counters& sum = solution.counters;
+  const FlameEquations::Counters& more = equations.counters();
+  sum.residuals += more.residuals;
+  sum.jacobians += more.jacobians;
+  sum.residualSeconds += more.residualSeconds;
+  sum.jacobianSeconds += more.jacobianSeconds;
+  sum.factoriseSeconds += more.factoriseSeconds;
+  sum.solveSeconds += more.solveSeconds;
+  sum.jacobianPoints += more.jacobianPoints;
+}
+
 FlameSolution FlameSolver::solve(FlameProfile start) {
   Data& d = *data_;
   d.solution = {};
@@ -141,33 +184,31 @@ FlameSolution FlameSolver::solve(FlameProfile start) {
   NewtonSolver solver(d.options.newton, d.options.transient);
   FlameEquations equations(d.comm, d.mechanism, d.problem, d.carried, d.options.tolerances);
   equations.setExchange(d.exchange);
-  if (!(equations.layout() == d.solution.profile.layout))
+  const FlameLayout layout = equations.layout();
+  if (!(layout == d.solution.profile.layout))
     throw std::logic_error("the start of a flame has other unknowns than its problem");
   d.anchorIn(d.solution.profile);
 
-  const FlameLayout layout = equations.layout();
-  const std::size_t first = layout.firstScalar();
-  bool empty = layout.scalars > 0;
-  for (std::size_t i = 0; empty && i < d.solution.profile.points(); ++i)
-    for (double value : d.solution.profile.scalars(i)) empty = empty && value == 0;
-  if (empty) {
-    // The gas first, without what it carries; then the scalars in that gas; then everything together.
-    FlameProfile full = std::move(d.solution.profile);
-    FlameLayout bare = layout;
-    bare.scalars = 0;
-    d.solution.profile = withLayout(full, bare);
-    FlameEquations gas(d.comm, d.mechanism, d.problem, nullptr, d.options.tolerances);
-    gas.setExchange(d.exchange);
-    d.refine(gas, solver, "gas", d.options.grid);
-    d.solution.profile = withLayout(d.solution.profile, layout);
-    equations.setGrid(d.solution.profile.z);
-    equations.hold([first, width = layout.width()](std::size_t c) { return c < first || c >= width; },
-                   d.solution.profile.x);
-    d.steady(equations, solver, "scalars in the gas");
-    equations.release();
+  const bool multicomponent = d.problem.transport.model == FlameTransport::Model::Multicomponent;
+  if (multicomponent) {
+    // Most of the way with coefficients that cost a hundredth.
+    FlameProblem averaged = d.problem;
+    averaged.transport.model = FlameTransport::Model::MixtureAveraged;
+    d.gasAlone(averaged, solver, "mixture-averaged gas");
   }
-  d.refine(equations, solver, layout.scalars > 0 ? "gas and scalars" : "flame", d.options.grid);
-  d.solution.counters = equations.counters();
+  if (layout.scalars > 0 && d.withoutScalars()) {
+    if (!multicomponent) d.gasAlone(d.problem, solver, "gas");
+    d.scalarsAlone(equations, solver);
+  }
+  const std::string name = layout.scalars > 0 ? "gas and scalars" : "flame";
+  d.refine(equations, solver, name, d.options.grid);
+  if (d.options.polish > 0) {
+    NewtonOptions last = d.options.newton;
+    last.polish = d.options.polish;
+    NewtonSolver polishing(last, d.options.transient);
+    d.steady(equations, polishing, name + ", last steps");
+  }
+  d.count(equations);
   d.solution.budgets = equations.budgets(d.solution.profile.x);
   return d.solution;
 }
