@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "app/gas_input.hpp"
+#include "app/soot_deck.hpp"
 #include "core/errors.hpp"
 #include "core/grading.hpp"
 
@@ -192,20 +193,12 @@ void readSoot(const Deck& deck, FlowCase& flowCase) {
     const std::size_t hydrogen = mechanism.elementIndex("H");
     options.carbonWeight = mechanism.atomicWeight(carbon);
     options.hydrogenWeight = mechanism.atomicWeight(hydrogen);
-    for (const std::string& name : deck.strings("soot.pah")) {
-      const std::size_t k = mechanism.speciesIndex(name);
-      const auto sticking = defaultStickingCoefficient(name);
-      if (mechanism.atoms(k, carbon) + mechanism.atoms(k, hydrogen) <= 0.0)
-        throw InputError(fmt::format("'{}' is not a hydrocarbon", name));
-      options.pah.push_back({name, static_cast<int>(std::lround(mechanism.atoms(k, carbon))),
-                             static_cast<int>(std::lround(mechanism.atoms(k, hydrogen))),
-                             sticking ? *sticking : stickingCoefficientByMass(mechanism.molecularWeights()[k])});
-    }
     for (const char* name : {"H", "H2", "OH", "H2O", "O2", "C2H2", "CO"})
       static_cast<void>(mechanism.speciesIndex(name));
   } catch (const InputError& error) {
     throw deck.error("soot.pah", error.what());
   }
+  options.pah = readPahSpecies(deck, mechanism);
   flowCase.soot = options;
 }
 

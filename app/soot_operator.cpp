@@ -5,25 +5,13 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/constants.hpp"
 #include "core/errors.hpp"
+#include "particles/soot/soot_model.hpp"
 
 namespace lampblack {
 
-double graphiteEnthalpy(double T) {
-  // a1..a6 of H/RT = a1 + a2 T/2 + a3 T^2/3 + a4 T^3/4 + a5 T^4/5 + a6/T, below and above 1000 K.
-  static constexpr double low[6] = {-3.10872072e-01, 4.40353686e-03, 1.90394118e-06,
-                                    -6.38546966e-09, 2.98964248e-12, -1.08650794e+02};
-  static constexpr double high[6] = {1.45571829e+00, 1.71702216e-03,  -6.97562786e-07,
-                                     1.35277032e-10, -9.67590652e-15, -6.95138814e+02};
-  constexpr double carbonWeight = 12.011e-3;  // kg/mol
-  const double* a = T < 1000.0 ? low : high;
-  return constants::gasConstant / carbonWeight *
-         (a[5] + T * (a[0] + T * (a[1] / 2 + T * (a[2] / 3 + T * (a[3] / 4 + T * a[4] / 5)))));
-}
-
 std::vector<CarriedScalar> SootOperator::carriedScalars() {
-  const double drift = TwoEquationSoot::thermophoreticCoefficient();
+  const double drift = sootThermophoresis();
   return {{"soot_number_density", "1/m^3", "number of soot particles per volume", drift},
           {"soot_carbon_density", "kg/m^3", "carbon in soot per volume", drift},
           {"soot_hydrogen_density", "kg/m^3", "hydrogen in soot per volume", drift}};
@@ -123,7 +111,7 @@ void SootOperator::advanceCell(State& state, int cell, double viscosity, double 
   for (std::size_t k = 0; k < n; ++k) mass += partial[k];
   for (std::size_t k = 0; k < n; ++k) Y[k] = partial[k] / mass;
   context_.thermo.speciesEnthalpies(gas.temperature, speciesEnthalpy_);
-  const double given = (population.carbon - before.carbon) * graphiteEnthalpy(gas.temperature) +
+  const double given = (population.carbon - before.carbon) * sootCarbonEnthalpy(gas.temperature).first +
                        (population.hydrogen - before.hydrogen) * speciesEnthalpy_[H2_];
   state.enthalpy[cell] = (rho * state.enthalpy[cell] - given) / mass;
   state.density[cell] = mass;

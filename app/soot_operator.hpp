@@ -14,9 +14,6 @@
 
 namespace lampblack {
 
-// Enthalpy of graphite, J/kg of carbon (NASA polynomial of Gurvich's data; Burcat and Ruscic 2005).
-double graphiteEnthalpy(double temperature);
-
 class SootOperator : public Operator {
  public:
   // Positions of the model's scalars among State::scalars.

@@ -60,15 +60,22 @@ struct PahSpecies {
 // Coagulation kernels. Constant and additive have exact solutions and are there for verification.
 enum class CoagulationKernel { transition, freeMolecular, constant, additive };
 
+// The fraction of active sites at a temperature (K).
+struct AlphaPoint {
+  double temperature = 0, alpha = 0;
+};
+
 struct SootModelOptions {
   std::vector<PahSpecies> pah;
-  double sootDensity = 1850;         // kg/m3 (thesis chapter 7)
-  double siteDensity = 2.3e19;       // 1/m2, C-H sites (Appel, Bockhorn, Frenklach 2000)
-  std::optional<double> alpha;       // constant fraction of active sites; empty: alpha(T, mu1) of ABF 2000
-  double ohEfficiency = 0.13;        // reaction probability of an OH collision (ABF 2000, S6)
-  double vanDerWaals = 2.2;          // enhancement of free-molecular collisions of dimers and particles
-  double carbonWeight = 12.011e-3;   // kg/mol; set to the mechanism's so that mass budgets close
-  double hydrogenWeight = 1.008e-3;  // kg/mol
+  double sootDensity = 1850;    // kg/m3 (thesis chapter 7)
+  double siteDensity = 2.3e19;  // 1/m2, C-H sites (Appel, Bockhorn, Frenklach 2000)
+  // Fraction of active sites: a constant, or else a table in the temperature, or else alpha(T, mu1) of ABF 2000.
+  std::optional<double> alpha;
+  std::vector<AlphaPoint> alphaTable;  // rising temperatures; straight in between, constant outside
+  double ohEfficiency = 0.13;          // reaction probability of an OH collision (ABF 2000, S6)
+  double vanDerWaals = 2.2;            // enhancement of free-molecular collisions of dimers and particles
+  double carbonWeight = 12.011e-3;     // kg/mol; set to the mechanism's so that mass budgets close
+  double hydrogenWeight = 1.008e-3;    // kg/mol
   bool coagulation = true;
   bool inception = true;     // off: no new particles; with condensation also off no dimers form
   bool condensation = true;  // off: dimers only nucleate

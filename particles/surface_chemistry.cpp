@@ -16,6 +16,19 @@ double boundedTanh(double a, double b, double meanCarbonAtoms) {
   return std::clamp(std::tanh(a / std::log10(meanCarbonAtoms) + b), 0.0, 1.0);
 }
 
+// The constant of the options, or what their table says at this temperature.
+std::optional<double> fixedAlpha(const SootModelOptions& options, double temperature) {
+  const std::vector<AlphaPoint>& table = options.alphaTable;
+  if (options.alpha || table.empty()) return options.alpha;
+  const auto above = std::upper_bound(table.begin(), table.end(), temperature,
+                                      [](double T, const AlphaPoint& point) { return T < point.temperature; });
+  if (above == table.begin()) return table.front().alpha;
+  if (above == table.end()) return table.back().alpha;
+  const AlphaPoint& below = *(above - 1);
+  const double share = (temperature - below.temperature) / (above->temperature - below.temperature);
+  return below.alpha + share * (above->alpha - below.alpha);
+}
+
 }  // namespace
 
 double activeSiteFraction(double temperature, double meanCarbonAtoms) {
@@ -28,7 +41,7 @@ SurfaceChemistry::SurfaceChemistry(const SootModelOptions& options, double tempe
       b_(-1.38 + 0.00068 * temperature),
       growthOn_(options.surfaceGrowth ? 1 : 0),
       oxidationOn_(options.oxidation ? 1 : 0),
-      alpha_(options.alpha) {
+      alpha_(fixedAlpha(options, temperature)) {
   const double logT = std::log(temperature), inverseRT = 1 / (constants::gasConstant * temperature);
   k1_ = arrhenius(4.2e13, 0, 13.0, logT, inverseRT);
   k1r_ = arrhenius(3.9e12, 0, 11.0, logT, inverseRT);

@@ -26,8 +26,8 @@ class SurfaceChemistry {
   // Rate constants at one temperature (K); evaluate once and use for every particle and sub-step.
   SurfaceChemistry(const SootModelOptions& options, double temperature);
 
-  // Fraction of sites that react, in [0, 1] (ABF 2000; thesis eqs. 7-47 to 7-49), or the constant of the options.
-  // `meanCarbonAtoms`: mean number of carbon atoms of a particle of the population, mu_1, above 1.
+  // Fraction of sites that react, in [0, 1] (ABF 2000; thesis eqs. 7-47 to 7-49), or the constant or table of the
+  // options. `meanCarbonAtoms`: mean number of carbon atoms of a particle of the population, mu_1, above 1.
   [[nodiscard]] double alpha(double meanCarbonAtoms) const;
 
   // `gas` needs H, H2, OH, H2O, O2, C2H2 (SootGasState or SootCellGas), mol/m3.

@@ -70,14 +70,16 @@ class SootModel {
                        std::span<double> exchange) const = 0;
 
   // Derivatives of (rates, exchange), row-major, with respect to (densities, concentrations, temperature), each with
-  // everything else held: (scalars + species) rows of (scalars + species + 1) columns. The default takes differences of
-  // `sources`; models with many scalars override it.
+  // everything else held: (scalars + species) rows of (scalars + species + 1) columns. The default takes one-sided
+  // differences of `sources`, away from zero, and at zero for what is negative; models with many scalars override it.
   virtual void jacobian(const SootGas& gas, std::span<const double> densities, std::span<double> values) const;
 
   // Brownian diffusivity of each scalar, m2/s. All scalars move by thermophoresis with sootThermophoresis().
   virtual void diffusivities(const SootGas& gas, std::span<const double> densities, std::span<double> D) const = 0;
 
   [[nodiscard]] virtual SootProperties properties(const SootGas& gas, std::span<const double> densities) const = 0;
+  // m3/m3, for radiation. The default asks `properties` in some hot gas; models override it where that costs.
+  [[nodiscard]] virtual double volumeFraction(std::span<const double> densities) const;
   [[nodiscard]] virtual SootProcesses processes(const SootGas& gas, std::span<const double> densities) const = 0;
   // Empty where the model has none.
   [[nodiscard]] virtual SootSizeDistribution sizeDistribution(std::span<const double> densities) const;
@@ -85,7 +87,7 @@ class SootModel {
 
 // V_T = -sootThermophoresis() (mu/rho) grad T / T (thesis eq. 7-29, full accommodation).
 [[nodiscard]] double sootThermophoresis();
-// Enthalpy of soot carbon (graphite) and hydrogen (as in H2), J/kg, and slopes, J/kg/K (NASA polynomial of Gurvich's
+// Enthalpy of soot carbon (graphite) and hydrogen (as in H2), J/kg, and slopes, J/kg/K (NASA polynomials of Gurvich's
 // data; Burcat and Ruscic 2005).
 [[nodiscard]] std::pair<double, double> sootCarbonEnthalpy(double temperature);
 [[nodiscard]] std::pair<double, double> sootHydrogenEnthalpy(double temperature);

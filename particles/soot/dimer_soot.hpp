@@ -1,0 +1,40 @@
+// The dimer two-equation model (thesis 7.2.2) as a SootModel: number, carbon and hydrogen of a population of equal
+// spheres, with the sources of TwoEquationSoot. What is added here makes them fit for Newton's method, whose iterates
+// may be states that no soot is ever in: see the theory page "soot models".
+#pragma once
+
+#include "particles/soot/soot_model.hpp"
+#include "particles/two_equation.hpp"
+
+namespace lampblack {
+
+class DimerSoot final : public SootModel {
+ public:
+  enum Scalar : std::size_t { number = 0, carbon = 1, hydrogen = 2 };
+
+  explicit DimerSoot(SootModelOptions options);  // throws InputError
+
+  [[nodiscard]] const std::vector<std::string>& gasSpecies() const override { return species_; }
+  [[nodiscard]] const std::vector<SootScalar>& scalars() const override { return scalars_; }
+  void sources(const SootGas& gas, std::span<const double> densities, std::span<double> rates,
+               std::span<double> exchange) const override;
+  void diffusivities(const SootGas& gas, std::span<const double> densities, std::span<double> D) const override;
+  [[nodiscard]] SootProperties properties(const SootGas& gas, std::span<const double> densities) const override;
+  [[nodiscard]] SootProcesses processes(const SootGas& gas, std::span<const double> densities) const override;
+  [[nodiscard]] double volumeFraction(std::span<const double> densities) const override;
+
+  [[nodiscard]] const TwoEquationSoot& twoEquation() const { return model_; }
+
+ private:
+  // Order of gasSpecies(); the PAH follow.
+  enum Gas : std::size_t { H, H2, OH, H2O, O2, C2H2, CO, fixedSpecies };
+  [[nodiscard]] TwoEquationSoot::Population populationOf(std::span<const double> densities) const;
+  [[nodiscard]] TwoEquationSoot::Sources evaluate(const SootGas& gas, std::span<const double> densities) const;
+
+  TwoEquationSoot model_;
+  double nucleusMass_;  // kg of carbon in the smallest nucleus
+  std::vector<std::string> species_;
+  std::vector<SootScalar> scalars_;
+};
+
+}  // namespace lampblack

@@ -1,0 +1,95 @@
+#include "particles/soot/dimer_soot.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "soot_model_checks.hpp"
+#include "tests/particles/soot_fixtures.hpp"
+
+namespace lampblack {
+namespace {
+
+TEST(DimerSoot, ConservesCarbonHydrogenAndOxygenToRoundOff) {
+  test::expectConserved(DimerSoot(test::naphthalene()), 1);
+  test::expectConserved(DimerSoot(test::threePah()), 2);
+  SootModelOptions none;  // no PAH at all: only the surface
+  test::expectConserved(DimerSoot(none), 3);
+}
+
+TEST(DimerSoot, TakesNothingFromZero) {
+  test::expectNothingTakenFromZero(DimerSoot(test::threePah()), 4);
+}
+
+TEST(DimerSoot, DifferencesAreTheDerivatives) {
+  test::expectJacobian(DimerSoot(test::threePah()), 5, 1e-5);
+}
+
+// In a state soot can be in, and with particles far larger than nuclei, it is the two-equation model unchanged.
+TEST(DimerSoot, IsTheTwoEquationModelWhereSootIsInAPossibleState) {
+  const test::FlameGas gas(1700, 1e-3, 0.03, 1e-4, 0.08, 2e-4, 0.03, {1e-6, 3e-7, 1e-7});
+  const DimerSoot soot(test::threePah());
+  const TwoEquationSoot::Population population{1e17, 1e-3, 2e-5};
+  const auto expected = soot.twoEquation().sources(gas.state, population);
+  std::vector<double> concentrations{
+      gas.state.H, gas.state.H2, gas.state.OH, gas.state.H2O, gas.state.O2, gas.state.C2H2, 0};
+  concentrations.insert(concentrations.end(), gas.pah.begin(), gas.pah.end());
+  const SootGas at{gas.state.temperature,         gas.state.pressure, gas.state.density, gas.state.viscosity,
+                   gas.state.meanMolecularWeight, concentrations};
+  const std::vector<double> densities{population.number, population.carbon, population.hydrogen};
+  std::vector<double> rates(3), exchange(concentrations.size());
+  soot.sources(at, densities, rates, exchange);
+  EXPECT_EQ(rates[1], expected.carbon);
+  EXPECT_EQ(rates[2], expected.hydrogen);
+  EXPECT_EQ(exchange[4], expected.O2);
+  EXPECT_EQ(exchange[7], expected.pah[0]);
+  // What oxidation takes from the number: (nucleus / mean)^2 of its share of the mass. A mean particle has 1e-20 kg of
+  // carbon, a nucleus of four naphthalenes 40 atoms, 8e-25 kg: 6.4e-9.
+  const double share = std::pow(40 * 12.011e-3 / constants::avogadro / 1e-20, 2);
+  const double lost = (expected.oxidationO2 + expected.oxidationOH) / population.mass();
+  EXPECT_NEAR(soot.processes(at, densities).oxidationNumber / (share * lost * population.number), 1, 1e-12);
+  EXPECT_NEAR(rates[0], expected.number, 1e-8 * std::abs(lost) * population.number);
+}
+
+TEST(DimerSoot, BurnsNumberInProportionToMassOnceTheMeanParticleIsANucleus) {
+  const test::FlameGas gas(1900, 1e-4, 1e-4, 3e-3, 0.1, 0.05, 0, {0});
+  const DimerSoot soot(test::naphthalene());
+  const double carbon = 1e-10, number = carbon / (40 * 12.011e-3 / constants::avogadro);
+  const std::vector<double> concentrations{
+      gas.state.H, gas.state.H2, gas.state.OH, gas.state.H2O, gas.state.O2, 0, 0, 0};
+  const SootGas at{gas.state.temperature,         gas.state.pressure, gas.state.density, gas.state.viscosity,
+                   gas.state.meanMolecularWeight, concentrations};
+  std::vector<double> rates(3), exchange(8);
+  // Also where an iterate has more particles than the carbon makes nuclei.
+  for (double excess : {1.0, 10.0}) {
+    const std::vector<double> densities{excess * number, carbon, 0};
+    soot.sources(at, densities, rates, exchange);
+    EXPECT_LT(rates[1], 0);
+    EXPECT_NEAR(soot.processes(at, densities).oxidationNumber / (excess * number) / (rates[1] / carbon), 1, 1e-12);
+  }
+}
+
+TEST(DimerSoot, StaysBoundedInStatesThatNoSootIsIn) {
+  const test::FlameGas gas(1700, 1e-3, 0.03, 1e-4, 0.08, 2e-4, 0.03, {1e-6});
+  const DimerSoot soot(test::naphthalene());
+  const std::vector<double> concentrations{
+      gas.state.H, gas.state.H2, gas.state.OH, gas.state.H2O, gas.state.O2, gas.state.C2H2, 0, gas.pah[0]};
+  const SootGas at{gas.state.temperature,         gas.state.pressure, gas.state.density, gas.state.viscosity,
+                   gas.state.meanMolecularWeight, concentrations};
+  // Surface events over the carbon there is: at most those of nuclei, whose surface over carbon is the largest.
+  const double nucleus = 40 * 12.011e-3 / constants::avogadro;
+  std::vector<double> rates(3), exchange(8), nuclei(8);
+  for (double carbon : {1e-20, 1e-10, 1e-3}) {
+    soot.sources(at, std::vector<double>{carbon / nucleus, carbon, 0}, rates, nuclei);
+    for (double number : {0.0, 1e-30, 1e10, 1e20, 1e40}) {
+      for (double hydrogen : {0.0, 1e-20, 1.0}) {
+        soot.sources(at, std::vector<double>{number, carbon, hydrogen}, rates, exchange);
+        // Hydrogen up to two atoms a carbon atom widens the sphere by (1 + 2/12)^(2/3) at most.
+        EXPECT_LE(std::abs(exchange[5]), 1.11 * 1.0001 * std::abs(nuclei[5]));
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lampblack
