@@ -2,14 +2,13 @@
 #include <cstring>
 #include <sstream>
 
+#include "particles/soot/soot_model.hpp"
 #include "tests/app/app_fixture.hpp"
 
 namespace lampblack {
 namespace {
 
 using test::Flame;
-
-constexpr double carbonWeight = 12.011e-3;  // kg/mol
 
 // What a cell holds per volume, soot included.
 struct Contents {

@@ -1,0 +1,142 @@
+#include "app/flame_soot.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+
+#include "core/constants.hpp"
+#include "core/errors.hpp"
+#include "particles/soot/dimer_soot.hpp"
+
+namespace lampblack {
+namespace {
+
+Mechanism mechanismOf(const std::string& name) {
+  return Mechanism::fromFile(std::string(LAMPBLACK_SOURCE_DIR) + "/cases/mechanisms/" + name + ".yaml");
+}
+
+const Mechanism& abf() {
+  static const Mechanism mechanism = mechanismOf("ethylene_abf2000_101");
+  return mechanism;
+}
+
+Deck deckOf(const std::string& text) {
+  static const DeckSchema schema = [] {
+    DeckSchema keys;
+    addSootModelKeys(keys);
+    return keys;
+  }();
+  return Deck::parse(text, "deck.yaml", {}, schema);
+}
+
+std::string messageOf(const std::string& text, const Mechanism& mechanism = abf()) {
+  try {
+    const auto model = readSootModel(deckOf(text), mechanism);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+const SootModelOptions& optionsOf(const std::unique_ptr<SootModel>& model) {
+  return dynamic_cast<const DimerSoot&>(*model).twoEquation().options();
+}
+
+TEST(SootDeck, WithoutASectionOrWithNoneThereIsNoSoot) {
+  EXPECT_EQ(readSootModel(deckOf("{}"), abf()), nullptr);
+  EXPECT_EQ(readSootModel(deckOf("soot: {model: none}"), abf()), nullptr);
+}
+
+TEST(SootDeck, DefaultsAreThePublishedConstants) {
+  const auto model = readSootModel(deckOf("soot: {pah: [A2, A3, A4]}"), abf());
+  const SootModelOptions& o = optionsOf(model);
+  ASSERT_EQ(o.pah.size(), 3U);
+  EXPECT_EQ(o.pah[1].carbon, 14);
+  EXPECT_EQ(o.pah[1].hydrogen, 10);
+  EXPECT_EQ(o.pah[2].stickingCoefficient, 2.5e-2);
+  EXPECT_EQ(o.sootDensity, 1850);
+  EXPECT_EQ(o.siteDensity, 2.3e19);
+  EXPECT_EQ(o.ohEfficiency, 0.13);
+  EXPECT_EQ(o.vanDerWaals, 2.2);
+  EXPECT_EQ(o.carbonWeight, abf().atomicWeight(abf().elementIndex("C")));
+  EXPECT_FALSE(o.alpha || !o.alphaTable.empty());
+}
+
+TEST(SootDeck, EverythingCanBeSet) {
+  const auto model = readSootModel(deckOf("soot: {pah: [A2], sticking: [1.0e-3], density: 1.8 g/cm^3, "
+                                          "site_density: 1.0e15 1/cm^2, oh_efficiency: 0.2, van_der_waals: 1.5, "
+                                          "alpha_table: [{temperature: 1500 K, alpha: 0.9}, "
+                                          "{temperature: 1700 K, alpha: 0.1}], growth: false}"),
+                                   abf());
+  const SootModelOptions& o = optionsOf(model);
+  EXPECT_EQ(o.pah[0].stickingCoefficient, 1e-3);
+  EXPECT_NEAR(o.sootDensity, 1800, 1e-9);
+  EXPECT_NEAR(o.siteDensity, 1e19, 1e6);
+  EXPECT_EQ(o.ohEfficiency, 0.2);
+  EXPECT_EQ(o.vanDerWaals, 1.5);
+  ASSERT_EQ(o.alphaTable.size(), 2U);
+  EXPECT_EQ(o.alphaTable[1].temperature, 1700);
+  EXPECT_FALSE(o.surfaceGrowth);
+  EXPECT_TRUE(o.oxidation);
+}
+
+TEST(SootDeck, MistakesAreNamed) {
+  using testing::HasSubstr;
+  EXPECT_THAT(messageOf("soot: {pah: [A22]}"), HasSubstr("A22"));
+  EXPECT_THAT(messageOf("soot: {pah: [CO]}"), HasSubstr("'CO' is not a hydrocarbon"));
+  EXPECT_THAT(messageOf("soot: {pah: [A2], sticking: [0.1, 0.2]}"), HasSubstr("2 coefficients for 1 PAH"));
+  EXPECT_THAT(messageOf("soot: {alpha: 0.5, alpha_table: [{temperature: 1500 K, alpha: 0.9}]}"), HasSubstr("either"));
+  EXPECT_THAT(messageOf("soot: {alpha_table: [{temperature: 1500 K, alpha: 1}, {temperature: 1400 K, alpha: 0}]}"),
+              HasSubstr("rise"));
+  EXPECT_THAT(messageOf("soot: {pah: []}", mechanismOf("hydrogen_h2o2_10")), HasSubstr("carbon"));
+}
+
+TEST(FlameSoot, SpeciesBecomeIndicesAndScalarsElements) {
+  FlameSoot soot(abf(), readSootModel(deckOf("soot: {pah: [A2, A4]}"), abf()));
+  ASSERT_EQ(soot.exchanged().size(), soot.model().gasSpecies().size());
+  for (std::size_t i = 0; i < soot.exchanged().size(); ++i)
+    EXPECT_EQ(abf().speciesName(soot.exchanged()[i]), soot.model().gasSpecies()[i]);
+  EXPECT_EQ(soot.scalars()[DimerSoot::carbon].elements[abf().elementIndex("C")], 1);
+  EXPECT_EQ(soot.scalars()[DimerSoot::number].elements[abf().elementIndex("C")], 0);
+  EXPECT_EQ(soot.scalars()[DimerSoot::hydrogen].elements[abf().elementIndex("H")], 1);
+  EXPECT_EQ(soot.scalars()[0].thermophoresis, sootThermophoresis());
+}
+
+TEST(FlameSoot, ExchangeConservesTheElementsOfTheMechanism) {
+  FlameSoot soot(abf(), readSootModel(deckOf("soot: {pah: [A2, A3]}"), abf()));
+  const std::size_t n = soot.scalars().size(), m = soot.exchanged().size();
+  std::vector<double> concentrations(m), rates(n), exchange(m);
+  for (std::size_t i = 0; i < m; ++i) concentrations[i] = 0.01 / static_cast<double>(i + 1);
+  const CarriedGas gas{1700, 101325, 0.2, 5e-5, 0.028, concentrations};
+  const std::vector<double> densities{1e17, 1e-3, 1e-5};
+  soot.sources(gas, densities, rates, exchange);
+  for (std::size_t e = 0; e < abf().numElements(); ++e) {
+    double sum = 0, moved = 0;
+    const auto add = [&](double amount) {
+      sum += amount;
+      moved += std::abs(amount);
+    };
+    for (std::size_t i = 0; i < n; ++i) add(rates[i] * soot.scalars()[i].elements[e]);
+    for (std::size_t i = 0; i < m; ++i) add(exchange[i] * abf().atoms(soot.exchanged()[i], e) * abf().atomicWeight(e));
+    EXPECT_LE(std::abs(sum), 1e-14 * moved) << abf().elementName(e);
+  }
+  std::vector<double> J((n + m) * (n + m + 1));
+  soot.jacobian(gas, densities, {J, n + m + 1});
+  EXPECT_THAT(J, testing::Contains(testing::Gt(0.0)));
+}
+
+TEST(FlameSoot, AbsorbsAndHasTheEnthalpyOfGraphiteAndHydrogen) {
+  FlameSoot soot(abf(), readSootModel(deckOf("soot: {}"), abf()));
+  const std::vector<double> densities{1e17, 1.85e-3 - 1e-5, 1e-5};
+  EXPECT_NEAR(soot.absorption(1600, densities), 700 * 1e-6 * 1600, 1e-12);
+  std::vector<double> h(3), slope(3);
+  soot.enthalpies(1200, h, slope);
+  EXPECT_EQ(h[0], 0);
+  EXPECT_EQ(h[1], sootCarbonEnthalpy(1200).first);
+  EXPECT_EQ(slope[2], sootHydrogenEnthalpy(1200).second);
+}
+
+}  // namespace
+}  // namespace lampblack
