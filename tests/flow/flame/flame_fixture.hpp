@@ -35,6 +35,8 @@ inline FlameProblem hydrogenProblem(FlameType type) {
   } else {
     problem.left = hydrogenStream("H2: 0.4, O2: 0.21, N2: 0.79", 300, 0.8);
   }
+  // Fast enough that the flame stands off the nozzle.
+  if (type == FlameType::Wall) problem.left.massFlux = 3;
   problem.wallTemperature = 400;
   return problem;
 }
