@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "flow/flame/lapack.hpp"
-
 namespace lampblack {
 
 namespace {
@@ -64,16 +62,16 @@ bool BlockSweep::scaleRows(std::size_t k) {
 
 bool BlockSweep::eliminate(std::size_t k, double* corner) {
   if (k > 0) {
-    lapack::subtractProduct(n_, n_, n_, outward(k), inward(k - 1), diagonal(k), n_);
-    lapack::subtractProduct(n_, border_, n_, outward(k), columns(k - 1), columns(k), n_);
-    lapack::subtractProduct(border_, n_, n_, rows(k - 1), inward(k - 1), rows(k), border_);
+    dense_.subtractProduct(n_, n_, n_, outward(k), n_, inward(k - 1), n_, diagonal(k), n_);
+    dense_.subtractProduct(n_, border_, n_, outward(k), n_, columns(k - 1), n_, columns(k), n_);
+    dense_.subtractProduct(border_, n_, n_, rows(k - 1), border_, inward(k - 1), n_, rows(k), border_);
   }
   int* pivots = pivots_.data() + k * n_;
-  if (!scaleRows(k) || !lapack::factorise(n_, diagonal(k), pivots)) return false;
-  lapack::solve(n_, diagonal(k), pivots, n_, inward(k));
-  lapack::solve(n_, diagonal(k), pivots, border_, columns(k));
+  if (!scaleRows(k) || !dense_.factorise(n_, diagonal(k), pivots)) return false;
+  dense_.solve(n_, diagonal(k), pivots, n_, inward(k));
+  dense_.solve(n_, diagonal(k), pivots, border_, columns(k));
   for (std::size_t j = 0; j < border_; ++j)
-    lapack::addProduct(border_, n_, 1, rows(k), columns(k) + j * n_, corner + j * border_);
+    addProduct(border_, n_, 1, rows(k), columns(k) + j * n_, corner + j * border_);
   return allFinite(n_ * n_, inward(k)) && allFinite(n_ * border_, columns(k));
 }
 
@@ -87,10 +85,10 @@ std::size_t BlockSweep::factorise(double* corner) {
 void BlockSweep::forward(double* b, std::ptrdiff_t step, double* rowSum) {
   std::fill_n(rowSum, border_, 0.0);
   for (std::size_t k = 0; k < count_; ++k, b += step) {
-    if (k > 0) lapack::addProduct(n_, n_, -1, outward(k), b - step, b);
+    if (k > 0) addProduct(n_, n_, -1, outward(k), b - step, b);
     multiplyRows(n_, 1, scale_.data() + k * n_, b);
-    lapack::solve(n_, diagonal(k), pivots_.data() + k * n_, 1, b);
-    lapack::addProduct(border_, n_, 1, rows(k), b, rowSum);
+    dense_.solve(n_, diagonal(k), pivots_.data() + k * n_, 1, b);
+    addProduct(border_, n_, 1, rows(k), b, rowSum);
   }
 }
 
@@ -98,8 +96,8 @@ void BlockSweep::backward(double* y, std::ptrdiff_t step, const double* next, co
   if (count_ == 0) return;
   y += static_cast<std::ptrdiff_t>(count_ - 1) * step;
   for (std::size_t k = count_; k-- > 0; next = y, y -= step) {
-    lapack::addProduct(n_, border_, -1, columns(k), z, y);
-    lapack::addProduct(n_, n_, -1, inward(k), next, y);
+    addProduct(n_, border_, -1, columns(k), z, y);
+    addProduct(n_, n_, -1, inward(k), next, y);
   }
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "chemistry/numerics/aligned_vector.hpp"
+#include "chemistry/numerics/dense_blocks.hpp"
 
 namespace lampblack {
 
@@ -48,6 +49,7 @@ class BlockSweep {
   AlignedVector storage_;
   AlignedVector scale_;
   std::vector<int> pivots_;
+  DenseBlocks dense_;
 };
 
 // Powers of two by which to multiply the rows of the m x n matrix A; false where a row is zero or not finite.

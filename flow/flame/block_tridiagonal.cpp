@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "chemistry/numerics/dense_blocks.hpp"
 #include "flow/flame/block_tridiagonal_data.hpp"
-#include "flow/flame/lapack.hpp"
 
 namespace lampblack {
 
@@ -82,13 +82,13 @@ void BlockTridiagonal::multiply(std::span<const double> x, std::span<double> y) 
   for (std::size_t i = d.begin(); i < d.end(); ++i) {
     double* row = y.data() + i * n;
     const double* at = x.data() + i * n;
-    if (i > 0) lapack::addProduct(n, n, 1, d.lower(i), at - n, row);
-    lapack::addProduct(n, n, 1, d.diagonal(i), at, row);
-    if (i + 1 < d.points) lapack::addProduct(n, n, 1, d.upper(i), at + n, row);
-    lapack::addProduct(n, d.border, 1, d.columns(i), z, row);
-    lapack::addProduct(d.border, n, 1, d.rows(i), at, y.data() + d.points * n);
+    if (i > 0) addProduct(n, n, 1, d.lower(i), at - n, row);
+    addProduct(n, n, 1, d.diagonal(i), at, row);
+    if (i + 1 < d.points) addProduct(n, n, 1, d.upper(i), at + n, row);
+    addProduct(n, d.border, 1, d.columns(i), z, row);
+    addProduct(d.border, n, 1, d.rows(i), at, y.data() + d.points * n);
   }
-  if (d.owns[left]) lapack::addProduct(d.border, d.border, 1, d.corner.data(), z, y.data() + d.points * n);
+  if (d.owns[left]) addProduct(d.border, d.border, 1, d.corner.data(), z, y.data() + d.points * n);
   MPI_Allreduce(MPI_IN_PLACE, y.data(), static_cast<int>(y.size()), MPI_DOUBLE, MPI_SUM, d.comm);
 }
 

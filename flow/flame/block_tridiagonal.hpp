@@ -5,7 +5,7 @@
 //   |    L2 D2 ...   .. |     (mass flux, pressure gradient, load).
 //   | c0 c1 ...      e  |
 //
-// Elimination goes from both ends to a block in the middle, with pivoting inside blocks (LAPACK, rows scaled), so that
+// Elimination goes from both ends to a block in the middle, with pivoting inside blocks (rows scaled), so that
 // two ranks share the work without more of it; the result has the same bits on any number of ranks. The border is
 // eliminated along with the ends and then pivoted together with the middle block: a matrix that is singular without its
 // border, as at the turning point of a family of flames, is no difficulty. (Twisted factors: Golub and Van Loan, Matrix

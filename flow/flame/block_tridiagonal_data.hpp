@@ -23,6 +23,7 @@ struct BlockTridiagonal::Data {
   // Factors of the last equations: the middle and the border, scaled by rows.
   AlignedVector core, coreScale;
   std::vector<int> corePivots;
+  DenseBlocks dense;
   bool set = true, factorised = false;
   std::size_t singular = 0;
 

@@ -1,7 +1,6 @@
 #include <algorithm>
 
 #include "flow/flame/block_tridiagonal_data.hpp"
-#include "flow/flame/lapack.hpp"
 
 namespace lampblack {
 
@@ -22,13 +21,14 @@ void copyBlock(std::size_t m, std::size_t n, const double* from, double* to, std
 }
 
 // Fills the parts that an end's innermost row determines; those of an end without rows are zero.
-void packInnermost(BlockSweep& end, std::size_t n, std::size_t border, std::vector<double>& values) {
+void packInnermost(BlockSweep& end, std::size_t n, std::size_t border, DenseBlocks& dense,
+                   std::vector<double>& values) {
   if (end.size() == 0) return;
   const Innermost at(n, border);
   const std::size_t k = end.size() - 1;
   std::copy_n(end.inward(k), n * n, values.data());
   std::copy_n(end.columns(k), n * border, values.data() + at.Y);
-  lapack::subtractProduct(border, n, n, end.rows(k), end.inward(k), values.data() + at.rowsX, border);
+  dense.subtractProduct(border, n, n, end.rows(k), border, end.inward(k), n, values.data() + at.rowsX, border);
 }
 
 }  // namespace
@@ -49,14 +49,14 @@ bool BlockTridiagonal::Data::factoriseCore(const std::vector<double>& ofLeft, co
     const bool isLeft = side == &ofLeft;
     if (isLeft ? middle == 0 : middle + 1 == points) continue;
     const double* outward = isLeft ? middleLower.data() : middleUpper.data();
-    lapack::subtractProduct(n, n, n, outward, side->data() + at.X, core.data(), ld);
-    lapack::subtractProduct(n, border, n, outward, side->data() + at.Y, columns, ld);
+    dense.subtractProduct(n, n, n, outward, n, side->data() + at.X, n, core.data(), ld);
+    dense.subtractProduct(n, border, n, outward, n, side->data() + at.Y, n, columns, ld);
     add(border, n, side->data() + at.rowsX, 1, core.data() + n);
     add(border, border, side->data() + at.corner, -1, columns + n);
   }
   if (!rowScales(ld, ld, core.data(), coreScale.data())) return false;
   multiplyRows(ld, ld, coreScale.data(), core.data());
-  return lapack::factorise(ld, core.data(), corePivots.data());
+  return dense.factorise(ld, core.data(), corePivots.data());
 }
 
 bool BlockTridiagonal::factorise() {
@@ -73,7 +73,7 @@ bool BlockTridiagonal::factorise() {
     if (failed < end.size()) {
       singular = std::min<unsigned long>(singular, side == left ? failed : d.points - 1 - failed);
     } else {
-      packInnermost(end, d.n, d.border, innermost[side]);
+      packInnermost(end, d.n, d.border, d.dense, innermost[side]);
     }
   }
   MPI_Allreduce(MPI_IN_PLACE, &singular, 1, MPI_UNSIGNED_LONG, MPI_MIN, d.comm);
@@ -117,11 +117,11 @@ void BlockTridiagonal::solve(std::span<double> b) {
   std::vector<double> core(n + border);
   if (d.owns[left]) {
     std::copy_n(middle, n, core.data());
-    if (d.middle > 0) lapack::addProduct(n, n, -1, d.middleLower.data(), middle - n, core.data());
-    if (d.middle + 1 < d.points) lapack::addProduct(n, n, -1, d.middleUpper.data(), innermost.data(), core.data());
+    if (d.middle > 0) addProduct(n, n, -1, d.middleLower.data(), middle - n, core.data());
+    if (d.middle + 1 < d.points) addProduct(n, n, -1, d.middleUpper.data(), innermost.data(), core.data());
     for (std::size_t i = 0; i < border; ++i) core[n + i] = z[i] - leftSum[i] - innermost[n + i];
     multiplyRows(n + border, 1, d.coreScale.data(), core.data());
-    lapack::solve(n + border, d.core.data(), d.corePivots.data(), 1, core.data());
+    d.dense.solve(n + border, d.core.data(), d.corePivots.data(), 1, core.data());
   }
   MPI_Bcast(core.data(), length, MPI_DOUBLE, 0, d.comm);
   std::copy_n(core.data(), n, middle);

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "flow/flame/lapack.hpp"
+#include "chemistry/numerics/dense_blocks.hpp"
 #include "tests/flow/flame/flame_fixture.hpp"
 
 namespace lampblack {
@@ -17,8 +17,9 @@ std::vector<double> denseInverse(std::vector<double> a, std::size_t size) {
   std::vector<int> pivots(size);
   std::vector<double> result(size * size);
   for (std::size_t i = 0; i < size; ++i) result[i * size + i] = 1;
-  EXPECT_TRUE(lapack::factorise(size, a.data(), pivots.data()));
-  lapack::solve(size, a.data(), pivots.data(), size, result.data());
+  DenseBlocks dense;
+  EXPECT_TRUE(dense.factorise(size, a.data(), pivots.data()));
+  dense.solve(size, a.data(), pivots.data(), size, result.data());
   return result;
 }
 
