@@ -2,6 +2,8 @@
 // ln M_(n-1) (Frenklach and Harris 1987; Frenklach 2002). Exact for log-normal distributions.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -11,20 +13,37 @@ namespace lampblack {
 [[nodiscard]] std::vector<double> lagrangeWeights(std::size_t count, double x);
 
 // Moments of the orders j/6.
+struct BrokenMoments {
+  static constexpr std::size_t most = 72;
+  int lowest = 0;
+  std::array<double, most> values;
+  [[nodiscard]] double at(int sixths) const { return values[static_cast<std::size_t>(sixths - lowest)]; }
+};
+
 class MomentInterpolation {
  public:
-  // Orders from `lowest`/6 to `highest`/6.
+  static constexpr std::size_t mostMoments = 8;
+
+  // Orders from `lowest`/6 to `highest`/6, `count` whole moments.
   MomentInterpolation(std::size_t count, int lowest, int highest);
 
-  // For these moments (all above zero); at() is of the last ones.
-  void set(std::span<const double> moments);
-  [[nodiscard]] double at(int sixths) const { return values_[static_cast<std::size_t>(sixths - lowest_)]; }
+  [[nodiscard]] std::size_t count() const { return count_; }
+
+  // Of these moments, all above zero.
+  void interpolate(std::span<const double> moments, BrokenMoments& broken) const;
+
+  // The same with what is known of the moments of any population of sizes above `smallest` (whose logarithm is given):
+  // ln M is a convex function of the order, and its slope is at least ln(smallest). The polynomial knows neither and
+  // may violate both where the distribution is far from log-normal; here it is put back to the nearest value that does
+  // not. Logarithms that are not convex themselves are a caller's error, but stay bounded.
+  void interpolateWithin(std::span<const double> logarithms, double logSmallest, BrokenMoments& broken) const;
 
  private:
+  [[nodiscard]] double polynomial(std::size_t order, const double* logarithms) const;
+
   std::size_t count_;
   int lowest_;
-  std::vector<std::vector<double>> weights_;
-  std::vector<double> values_, logarithms_;
+  std::vector<std::array<double, mostMoments>> weights_;
 };
 
 }  // namespace lampblack

@@ -12,27 +12,39 @@
 namespace lampblack {
 
 MomicCoagulation::MomicCoagulation(const CollisionKernelOptions& kernel, std::size_t count, double unit, double density)
-    : type_(kernel.type), count_(count), moments_(count, -4, 6 * static_cast<int>(count) + 6) {
+    : type_(kernel.type), count_(count) {
   static_cast<void>(CollisionKernel(kernel));  // throws for what it lacks
   if (kernel.efficiencyDiameter > 0) {
     throw InputError("MOMIC: an efficiency that depends on the diameter has no closure; use QMOM");
   }
+  for (std::size_t l = 0; l < halfWeights_.size(); ++l) {
+    const std::vector<double> weights = lagrangeWeights(l + 1, 0.5);
+    std::copy(weights.begin(), weights.end(), halfWeights_[l].begin());
+  }
+  set(kernel, unit, density);
+}
+
+void MomicCoagulation::set(const CollisionKernelOptions& kernel, double unit, double density) {
+  type_ = kernel.type;
+  termCount_ = 0;
+  knudsen_ = 0;
   const double efficiency = kernel.efficiency;
   const auto& gas = kernel.gas;
   const double diameter = std::cbrt(6 / constants::pi * unit);  // of the unit volume
   switch (kernel.type) {
     case CollisionKernelType::constant:
-      terms_ = {{efficiency * kernel.rate, 0, 0}};
+      add({efficiency * kernel.rate, 0, 0});
       return;
     case CollisionKernelType::additive:
-      terms_ = {{2 * efficiency * kernel.rate * unit, 6, 0}};
+      add({2 * efficiency * kernel.rate * unit, 6, 0});
       return;
     case CollisionKernelType::multiplicative:
-      terms_ = {{efficiency * kernel.rate * unit * unit, 6, 6}};
+      add({efficiency * kernel.rate * unit * unit, 6, 6});
       return;
     case CollisionKernelType::shear: {  // (u^(1/3) + v^(1/3))^3
       const double c = efficiency * kernel.shearRate / 6 * diameter * diameter * diameter;
-      terms_ = {{2 * c, 6, 0}, {6 * c, 4, 2}};
+      add({2 * c, 6, 0});
+      add({6 * c, 4, 2});
       return;
     }
     case CollisionKernelType::continuum:
@@ -42,7 +54,10 @@ MomicCoagulation::MomicCoagulation(const CollisionKernelOptions& kernel, std::si
       const double path = meanFreePath(gas);
       knudsen_ = 2 * path / diameter;
       const double slip = c * knudsen_;
-      terms_ = {{2 * c, 0, 0}, {2 * c, 2, -2}, {2 * slip, -2, 0, true}, {2 * slip, 2, -4, true}};
+      add({2 * c, 0, 0});
+      add({2 * c, 2, -2});
+      add({2 * slip, -2, 0, true});
+      add({2 * slip, 2, -4, true});
       if (kernel.type == CollisionKernelType::continuum) return;
       break;
     }
@@ -64,16 +79,17 @@ double MomicCoagulation::slipFactor(double meanVolume) const {
   return (slipCorrection(knudsen) - 1) / knudsen;
 }
 
-MomicCoagulation::Rates MomicCoagulation::polynomial() const {
+MomicCoagulation::Rates MomicCoagulation::polynomial(const BrokenMoments& moments) const {
   Rates f{};
-  const double factor = slipFactor(moments_.at(6) / moments_.at(0));
-  for (const Term& t : terms_) {
+  const double factor = slipFactor(moments.at(6) / moments.at(0));
+  for (std::size_t i = 0; i < termCount_; ++i) {
+    const Term& t = terms_[i];
     const double coefficient = t.slip ? factor * t.coefficient : t.coefficient;
-    f[0] -= 0.5 * coefficient * moments_.at(t.first) * moments_.at(t.second);
+    f[0] -= 0.5 * coefficient * moments.at(t.first) * moments.at(t.second);
     for (std::size_t r = 2; r < count_; ++r) {
       for (std::size_t k = 1; k < r; ++k) {
         const int a = 6 * static_cast<int>(k), b = 6 * static_cast<int>(r - k);
-        f[r] += 0.5 * coefficient * binomial(r, k) * moments_.at(a + t.first) * moments_.at(b + t.second);
+        f[r] += 0.5 * coefficient * binomial(r, k) * moments.at(a + t.first) * moments.at(b + t.second);
       }
     }
   }
@@ -83,39 +99,38 @@ MomicCoagulation::Rates MomicCoagulation::polynomial() const {
 // Sum over pairs of u^x v^y sqrt(u + v) / sqrt(u v) (u^(1/3) + v^(1/3))^2. With (u + v)^l instead of the root it is a
 // sum of products of moments for l = 0, 1, 2, 3; the logarithm is interpolated to l = 1/2. Orders far above the highest
 // moment are left out.
-double MomicCoagulation::gridFunction(std::size_t x, std::size_t y) const {
+double MomicCoagulation::gridFunction(const BrokenMoments& moments, std::size_t x, std::size_t y) const {
   const std::size_t highest = std::max(x, y);
   const std::size_t last = std::clamp<std::size_t>(count_ - 1 > highest ? count_ - 1 - highest : 1, 1, 3);
-  const auto weights = lagrangeWeights(last + 1, 0.5);
+  const auto& weights = halfWeights_[last];
   double logarithm = 0;
   for (std::size_t l = 0; l <= last; ++l) {
     double sum = 0;
     for (std::size_t q = 0; q <= l; ++q) {
       const int a = 6 * static_cast<int>(x + q) - 3, b = 6 * static_cast<int>(y + l - q) - 3;
-      sum += binomial(l, q) * (moments_.at(a + 4) * moments_.at(b) + 2 * moments_.at(a + 2) * moments_.at(b + 2) +
-                               moments_.at(a) * moments_.at(b + 4));
+      sum += binomial(l, q) * (moments.at(a + 4) * moments.at(b) + 2 * moments.at(a + 2) * moments.at(b + 2) +
+                               moments.at(a) * moments.at(b + 4));
     }
     logarithm += weights[l] * std::log(sum);
   }
   return std::exp(logarithm);
 }
 
-MomicCoagulation::Rates MomicCoagulation::freeMolecular() const {
+MomicCoagulation::Rates MomicCoagulation::freeMolecular(const BrokenMoments& moments) const {
   Rates f{};
-  f[0] = -0.5 * freeMolecular_ * gridFunction(0, 0);
+  f[0] = -0.5 * freeMolecular_ * gridFunction(moments, 0, 0);
   for (std::size_t r = 2; r < count_; ++r) {
     for (std::size_t k = 1; k <= r / 2; ++k) {
       const double both = 2 * k == r ? 1.0 : 2.0;  // (k, r-k) and (r-k, k)
-      f[r] += 0.5 * both * freeMolecular_ * binomial(r, k) * gridFunction(k, r - k);
+      f[r] += 0.5 * both * freeMolecular_ * binomial(r, k) * gridFunction(moments, k, r - k);
     }
   }
   return f;
 }
 
-void MomicCoagulation::addRates(const double* moments, double* f) {
-  moments_.set(std::span(moments, count_));
-  const Rates first = terms_.empty() ? freeMolecular() : polynomial();
-  const Rates second = type_ == CollisionKernelType::transition ? freeMolecular() : Rates{};
+void MomicCoagulation::addRates(const BrokenMoments& moments, double* f) const {
+  const Rates first = termCount_ == 0 ? freeMolecular(moments) : polynomial(moments);
+  const Rates second = type_ == CollisionKernelType::transition ? freeMolecular(moments) : Rates{};
   for (std::size_t k = 0; k < count_; ++k) {
     if (k == 1) continue;  // the volume is conserved
     f[k] += type_ == CollisionKernelType::transition ? first[k] * second[k] / (first[k] + second[k]) : first[k];

@@ -15,7 +15,8 @@ namespace {
 class MomicSystem final : public MomentSystem {
  public:
   MomicSystem(const PopulationModel& model, const InitialPopulation& initial, const MomentOptions& options)
-      : MomentSystem(model, initial, options.moments) {
+      : MomentSystem(model, initial, options.moments),
+        broken_(size(), MomicCoagulation::lowestOrder, MomicCoagulation::highestOrder(size())) {
     if (model.coagulation) coagulation_.emplace(*model.coagulation, size(), unit(), model.density);
     if (model.breakage && model.breakage->rate > 0 && model.breakage->exponent != 0) {
       throw InputError("MOMIC: breakage at a rate that depends on the volume needs moments it does not have; use QMOM");
@@ -59,7 +60,11 @@ class MomicSystem final : public MomentSystem {
         f[k] -= lossRate(1) * (model().deposition->exponent != 0 ? interpolated(y, deposited_[k]) : y[k]);
       }
     }
-    if (coagulation_) coagulation_->addRates(y, f);
+    if (coagulation_) {
+      BrokenMoments moments;
+      broken_.interpolate({y, size()}, moments);
+      coagulation_->addRates(moments, f);
+    }
     return true;
   }
 
@@ -70,7 +75,8 @@ class MomicSystem final : public MomentSystem {
     return std::exp(sum);
   }
 
-  mutable std::optional<MomicCoagulation> coagulation_;  // holds the interpolated moments of the last call
+  MomentInterpolation broken_;
+  std::optional<MomicCoagulation> coagulation_;
   std::vector<std::vector<double>> belowSurface_, deposited_;
 };
 
