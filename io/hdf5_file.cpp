@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -27,6 +28,7 @@ void probe(MPI_Comm comm, const std::filesystem::path& path) {
 
 ParallelFile::ParallelFile(MPI_Comm comm, const std::filesystem::path& path) : name_(path.string()) {
   probe(comm, path);
+  MPI_Comm_rank(comm, &rank_);
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make HDF5 access properties");
   check(H5Pset_fapl_mpio(access, comm, MPI_INFO_NULL), "use MPI-IO");
   check(H5Pset_coll_metadata_write(access, true), "write metadata collectively");
@@ -87,6 +89,20 @@ void ParallelFile::write(const std::string& path, const std::vector<std::int64_t
 void ParallelFile::write(const std::string& path, const std::vector<std::int64_t>& dims, std::int64_t firstRow,
                          std::int64_t rows, const std::int64_t* data) {
   writeAny(path, dims, firstRow, rows, data, H5T_STD_I64LE, H5T_NATIVE_INT64);
+}
+
+void ParallelFile::write(const std::string& path, const std::vector<std::string>& texts) {
+  std::size_t size = 1;
+  for (const std::string& text : texts) size = std::max(size, text.size());
+  Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "make a text type");
+  check(H5Tset_size(type, size), "size a text type");
+  check(H5Tset_strpad(type, H5T_STR_NULLPAD), "pad a text type");
+  check(H5Tset_cset(type, H5T_CSET_UTF8), "set a text's encoding");
+  std::vector<char> buffer(std::max<std::size_t>(texts.size() * size, 1), '\0');
+  for (std::size_t i = 0; i < texts.size(); ++i)
+    std::copy(texts[i].begin(), texts[i].end(), buffer.begin() + static_cast<std::ptrdiff_t>(i * size));
+  const auto count = static_cast<std::int64_t>(texts.size());
+  writeAny(path, {count}, 0, rank_ == 0 ? count : 0, buffer.data(), type, type);
 }
 
 void ParallelFile::group(const std::string& path) {

@@ -25,6 +25,9 @@ class ParallelFile {
   void write(const std::string& path, const std::vector<std::int64_t>& dims, std::int64_t firstRow, std::int64_t rows,
              const std::int64_t* data);
 
+  // A list of texts, the same on all ranks, stored with the length of the longest.
+  void write(const std::string& path, const std::vector<std::string>& texts);
+
   // Makes a group and those above it; nothing where it exists.
   void group(const std::string& path);
 
@@ -47,6 +50,7 @@ class ParallelFile {
 
   QuietErrors quiet_;
   std::string name_;
+  int rank_ = 0;
   Handle file_;
   Handle linkCreation_;
   Handle transfer_;

@@ -237,6 +237,12 @@ void ResultsWriter::dataset(const std::string& path, const std::vector<std::int6
   self_->dataset(path, dims, data, unit, description, fromRank);
 }
 
+void ResultsWriter::texts(const std::string& path, const std::vector<std::string>& values,
+                          const std::string& description) {
+  self_->file.write(path, values);
+  self_->describe(path, "1", description);
+}
+
 namespace {
 
 // A dataset that is there is found as a link; H5Lexists of a dataset path is also true, so no group is made over it.

@@ -78,6 +78,8 @@ class ResultsWriter {
                const std::string& unit, const std::string& description, int fromRank = 0);
   void dataset(const std::string& path, const std::vector<std::int64_t>& dims, std::span<const std::int64_t> data,
                const std::string& unit, const std::string& description, int fromRank = 0);
+  // A list of texts, the same on all ranks.
+  void texts(const std::string& path, const std::vector<std::string>& values, const std::string& description);
   // Attributes of a group (made if missing) or dataset; the same on all ranks.
   void attribute(const std::string& path, const std::string& name, const std::string& value);
   void attribute(const std::string& path, const std::string& name, double value);

@@ -1,0 +1,188 @@
+#include "app/flame_case.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "app/flame_file.hpp"
+#include "app/gas_input.hpp"
+#include "app/temperature_input.hpp"
+#include "chemistry/thermo/thermo.hpp"
+#include "core/errors.hpp"
+
+namespace lampblack {
+namespace {
+
+// Where a first guess is all that is needed: the solver finds the speed of a free flame.
+constexpr double guessedSpeed = 0.4;  // m/s
+
+FlameType typeOf(const std::string& name) {
+  if (name == "free") return FlameType::Free;
+  if (name == "burner") return FlameType::Burner;
+  return name == "wall" ? FlameType::Wall : FlameType::Counterflow;
+}
+
+// Keys and sections that only some flames have. A deck that has one of them in vain is told so.
+void refuseOthers(const Deck& deck, const std::string& type, bool potential, bool given) {
+  struct Part {
+    const char* path;
+    std::vector<std::string> types;
+  };
+  const std::vector<Part> parts{
+      {"inlet", {"free", "burner", "wall"}},
+      {"left", {"counterflow"}},
+      {"right", {"counterflow"}},
+      {"flame.nozzles", {"wall", "counterflow"}},
+      {"flame.strain_rate", {"wall", "counterflow"}},
+      {"flame.stagnation_plane", {"counterflow"}},
+      {"flame.wall_temperature", {"wall"}},
+      {"flame.energy", {"burner"}},
+      {"temperature_profile", {"burner"}},
+      {"solver.anchor_temperature", {"free"}},
+  };
+  for (const Part& part : parts)
+    if (deck.isGiven(part.path) && std::find(part.types.begin(), part.types.end(), type) == part.types.end())
+      throw deck.error(part.path, fmt::format("a flame of type {} does not have this; it belongs to: {}", type,
+                                              fmt::join(part.types, ", ")));
+  for (const char* key : {"flame.strain_rate", "flame.stagnation_plane"})
+    if (!potential && deck.has(key))
+      throw deck.error(key, "plug flow has velocities instead; this needs 'nozzles: potential'");
+  if (!given && deck.has("temperature_profile"))
+    throw deck.error("temperature_profile", "flame.energy is solved; a profile needs 'energy: given'");
+  if (given && !deck.has("temperature_profile"))
+    throw deck.error("flame.energy", "'given' needs the section 'temperature_profile'");
+}
+
+enum class Flux { needed, guess, refused };
+
+FlameStream readStream(const Deck& deck, const std::string& section, const FlameCase& flame, Flux flux) {
+  if (!deck.has(section))
+    throw deck.error(section, fmt::format("a {} flame needs the section '{}'", nameOf(flame.problem.type), section));
+  FlameStream stream;
+  stream.temperature = deck.quantity(section + ".temperature");
+  stream.Y = readMixture(deck, section, *flame.mechanism);
+  const auto velocity = deck.optionalQuantity(section + ".velocity");
+  const auto massFlux = deck.optionalQuantity(section + ".mass_flux");
+  if (velocity && massFlux) throw deck.error(section, "expected 'velocity' or 'mass_flux', found both");
+  if (flux == Flux::refused && (velocity || massFlux))
+    throw deck.error(section + (velocity ? ".velocity" : ".mass_flux"),
+                     "in potential flow the strain rate says how fast the streams are");
+  if (flux == Flux::needed && !velocity && !massFlux)
+    throw deck.error(section, "this stream needs either 'velocity' or 'mass_flux'");
+  const double density = Thermo(*flame.mechanism).density(stream.temperature, flame.problem.pressure, stream.Y);
+  if (flux != Flux::refused) stream.massFlux = massFlux.value_or(density * velocity.value_or(guessedSpeed));
+  return stream;
+}
+
+void readConfiguration(const Deck& deck, FlameCase& flame) {
+  FlameProblem& problem = flame.problem;
+  const std::string type = deck.choice("flame.type");
+  const bool potential = deck.choice("flame.nozzles") == "potential", given = deck.choice("flame.energy") == "given";
+  refuseOthers(deck, type, potential, given);
+  problem.type = typeOf(type);
+  problem.nozzles = potential ? FlameNozzles::Potential : FlameNozzles::Plug;
+  problem.pressure = deck.quantity("pressure");
+  problem.length = deck.quantity("flame.length");
+  const Flux flux = potential ? Flux::refused : problem.type == FlameType::Free ? Flux::guess : Flux::needed;
+  if (problem.type == FlameType::Counterflow) {
+    problem.left = readStream(deck, "left", flame, flux);
+    problem.right = readStream(deck, "right", flame, flux);
+  } else {
+    problem.left = readStream(deck, "inlet", flame, flux);
+  }
+  if (problem.type == FlameType::Wall)
+    problem.wallTemperature = neededQuantity(deck, "flame", "wall_temperature", "a flame against a wall");
+  if (potential) {
+    problem.strainRate = neededQuantity(deck, "flame", "strain_rate", "potential flow");
+    problem.stagnationPlane = deck.optionalQuantity("flame.stagnation_plane").value_or(0.5 * problem.length);
+    if (problem.stagnationPlane >= problem.length)
+      throw deck.error("flame.stagnation_plane",
+                       fmt::format("expected a place between the streams, below {:g} m, found "
+                                   "{:g} m",
+                                   problem.length, problem.stagnationPlane));
+  }
+  if (given) {
+    const TemperatureProfile profile = readTemperatureProfile(deck, "position");
+    problem.given = GivenTemperature{profile.points(), profile.temperatures()};
+  }
+}
+
+void readTransport(const Deck& deck, FlameCase& flame) {
+  FlameTransport& transport = flame.problem.transport;
+  transport.integrals = readCollisionIntegrals(deck, *flame.mechanism);
+  transport.lewisNumbers = readLewisNumbers(deck, *flame.mechanism);
+  transport.soret = deck.boolean("transport.soret");
+  const std::string model = deck.choice("transport.model");
+  using Model = FlameTransport::Model;
+  transport.model = model == "multicomponent"   ? Model::Multicomponent
+                    : model == "unity_lewis"    ? Model::UnityLewis
+                    : model == "constant_lewis" ? Model::ConstantLewis
+                                                : Model::MixtureAveraged;
+  if (transport.soret && (transport.model == Model::UnityLewis || transport.model == Model::ConstantLewis))
+    throw deck.error("transport.soret", fmt::format("the model {} knows no thermal diffusion", model));
+  flame.problem.radiation = {deck.choice("radiation.model") == "optically_thin",
+                             deck.quantity("radiation.surroundings")};
+}
+
+void readSolver(const Deck& deck, FlameCase& flame) {
+  FlameSolverOptions& options = flame.solver;
+  options.grid.slope = deck.number("grid.slope");
+  options.grid.curve = deck.number("grid.curve");
+  options.grid.ratio = deck.number("grid.ratio");
+  options.grid.prune = deck.number("grid.prune");
+  if (options.grid.prune >= std::min(options.grid.slope, options.grid.curve))
+    throw deck.error("grid.prune", "expected less than 'slope' and 'curve': points would go and come back");
+  options.grid.maximumPoints = static_cast<std::size_t>(deck.integer("grid.maximum_points"));
+  flame.start.points = static_cast<std::size_t>(deck.integer("grid.initial_points"));
+  if (flame.start.points > options.grid.maximumPoints)
+    throw deck.error("grid.initial_points", "expected no more than 'maximum_points'");
+  options.refine = deck.boolean("grid.refine");
+  options.tolerances.relative = deck.number("solver.relative_tolerance");
+  options.tolerances.species = deck.number("solver.species_tolerance");
+  options.tolerances.temperature = deck.quantity("solver.temperature_tolerance");
+  options.newton.stepTolerance = deck.number("solver.step_tolerance");
+  options.newton.maximumSteps = static_cast<std::size_t>(deck.integer("solver.maximum_steps"));
+  options.newton.jacobianAge = static_cast<std::size_t>(deck.integer("solver.jacobian_age"));
+  options.transient.firstStep = deck.quantity("solver.first_time_step");
+  options.transient.maximumSteps = static_cast<std::size_t>(deck.integer("solver.maximum_time_steps"));
+  options.anchorTemperature = deck.optionalQuantity("solver.anchor_temperature").value_or(0.0);
+  if (const double anchor = options.anchorTemperature; anchor > 0 && anchor <= flame.problem.left.temperature)
+    throw deck.error("solver.anchor_temperature", fmt::format("expected more than the unburnt {:g} K, found {:g} K",
+                                                              flame.problem.left.temperature, anchor));
+}
+
+}  // namespace
+
+const char* nameOf(FlameType type) {
+  switch (type) {
+    case FlameType::Free:
+      return "free";
+    case FlameType::Burner:
+      return "burner";
+    case FlameType::Wall:
+      return "wall";
+    case FlameType::Counterflow:
+      return "counterflow";
+  }
+  return "";
+}
+
+FlameCase readFlameCase(const Deck& deck) {
+  FlameCase flame;
+  flame.title = deck.string("title");
+  flame.mechanism = readMechanism(deck);
+  readConfiguration(deck, flame);
+  readTransport(deck, flame);
+  readSolver(deck, flame);
+  if (const auto file = deck.optionalString("initial")) {
+    try {
+      flame.initial = readFlameProfile(deck.resolvePath(*file));
+    } catch (const InputError& error) {
+      throw deck.error("initial", error.what());
+    }
+  }
+  return flame;
+}
+
+}  // namespace lampblack

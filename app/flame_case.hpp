@@ -1,0 +1,35 @@
+// What a deck with `problem: flame1d` asks for, checked and in SI: the bridge from the words of the deck to the
+// one-dimensional flames.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "chemistry/mechanism/mechanism.hpp"
+#include "flow/flame/flame_problem.hpp"
+#include "flow/flame/flame_solver.hpp"
+#include "flow/flame/initial_flame.hpp"
+#include "io/deck.hpp"
+
+namespace lampblack {
+
+struct FlameCase {
+  std::string title;
+  std::shared_ptr<const Mechanism> mechanism;
+  FlameProblem problem;
+  FlameSolverOptions solver;
+  InitialFlameOptions start;
+  std::optional<NamedFlameProfile> initial;  // an earlier flame to start from
+};
+
+// All keys a flame deck may have.
+DeckSchema flameSchema();
+
+// Reads mechanism, temperature profile and earlier flame, and checks what the schema cannot. InputError otherwise.
+FlameCase readFlameCase(const Deck& deck);
+
+// "free", "burner", "wall", "counterflow".
+const char* nameOf(FlameType type);
+
+}  // namespace lampblack

@@ -1,0 +1,203 @@
+#include "app/flame_output.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/flame_file.hpp"
+#include "core/errors.hpp"
+
+namespace lampblack {
+namespace {
+
+struct Field {
+  const char *name, *unit, *description;
+  std::vector<double> FlameFields::*values;
+};
+
+const std::vector<Field>& fieldsOfAPoint() {
+  static const std::vector<Field> table{
+      {"z", "m", "distance from the left end", &FlameFields::z},
+      {"temperature", "K", "gas temperature", &FlameFields::temperature},
+      {"velocity", "m/s", "axial velocity, towards larger z", &FlameFields::velocity},
+      {"density", "kg/m^3", "gas density", &FlameFields::density},
+      {"mass_flux", "kg/m^2/s", "density times velocity", &FlameFields::massFlux},
+      {"spread", "1/s", "V = radial velocity over radius", &FlameFields::spread},
+      {"heat_release", "W/m^3", "heat set free by the gas reactions", &FlameFields::heatRelease},
+      {"viscosity", "Pa s", "dynamic viscosity", &FlameFields::viscosity},
+      {"conductivity", "W/m/K", "thermal conductivity", &FlameFields::conductivity},
+      {"cp", "J/kg/K", "heat capacity at constant pressure and composition", &FlameFields::cp},
+      {"mean_molecular_weight", "kg/mol", "of the gas", &FlameFields::meanMolecularWeight},
+  };
+  return table;
+}
+
+struct StepCounts {
+  std::size_t newton = 0, factorisations = 0, timeSteps = 0, residuals = 0;
+};
+
+StepCounts countsOf(const FlameSolution& solution) {
+  StepCounts counts;
+  for (const FlameStage& stage : solution.stages) {
+    counts.newton += stage.newton.steps;
+    counts.factorisations += stage.newton.factorisations;
+    counts.timeSteps += stage.newton.timeSteps;
+    counts.residuals += stage.newton.residuals;
+  }
+  return counts;
+}
+
+double relativeImbalance(const FlameBudget& budget) {
+  const double size = std::max({std::abs(budget.in), std::abs(budget.out), std::abs(budget.wall)});
+  return size > 0 ? budget.imbalance() / size : 0.0;
+}
+
+void writeFields(ResultsWriter& results, const FlameCase& flame, const FlameFields& f) {
+  const auto points = static_cast<std::int64_t>(f.z.size());
+  for (const Field& field : fieldsOfAPoint())
+    results.dataset(fmt::format("/flame/{}", field.name), {points}, f.*field.values, field.unit, field.description);
+  const std::size_t n = flame.mechanism->numSpecies();
+  std::vector<double> values(f.z.size());
+  for (const bool mole : {true, false})
+    for (std::size_t k = 0; k < n; ++k) {
+      for (std::size_t i = 0; i < values.size(); ++i) values[i] = (mole ? f.X : f.Y)[i * n + k];
+      const std::string& name = flame.mechanism->speciesName(k);
+      results.dataset(fmt::format("/flame/{}/{}", mole ? "X" : "Y", name), {points}, values, "1",
+                      (mole ? "mole fraction of " : "mass fraction of ") + name);
+    }
+}
+
+void writeStages(ResultsWriter& results, const FlameSolution& solution) {
+  const std::vector<TableColumn> columns{{"points", "1", "points of the grid"},
+                                         {"newton_steps", "1", "Newton steps"},
+                                         {"time_steps", "1", "pseudo-transient steps"},
+                                         {"factorisations", "1", "Newton matrices built and factorised"},
+                                         {"residuals", "1", "evaluations of the equations by the solver"},
+                                         {"step_size", "1", "scaled size of the last Newton step"},
+                                         {"worst_residual", "1", "scaled Newton correction at its worst unknown"},
+                                         {"seconds", "s", "wall time"}};
+  std::vector<double> rows;
+  std::vector<std::string> names, worst;
+  for (const FlameStage& stage : solution.stages) {
+    names.push_back(stage.name);
+    worst.push_back(stage.newton.worst);
+    for (const std::size_t count : {stage.points, stage.newton.steps, stage.newton.timeSteps,
+                                    stage.newton.factorisations, stage.newton.residuals})
+      rows.push_back(static_cast<double>(count));
+    rows.insert(rows.end(), {stage.newton.stepSize, stage.newton.worstResidual, stage.seconds});
+  }
+  results.table("/stages", columns, rows);
+  results.texts("/stages/name", names, "what was solved");
+  results.texts("/stages/worst", worst, "unknown with the largest scaled Newton correction");
+}
+
+void writeBudgets(ResultsWriter& results, const FlameSolution& solution) {
+  const std::vector<TableColumn> columns{
+      {"in", "kg/m^2/s", "with the streams; of energy W/m^2"},
+      {"out", "kg/m^2/s", "at the ends and sideways, by spreading; of energy W/m^2"},
+      {"wall", "kg/m^2/s", "deposited on burner or wall; of energy conducted into it, W/m^2"},
+      {"radiated", "W/m^2", "lost by radiation"},
+      {"imbalance", "kg/m^2/s", "in - out - wall - radiated"},
+      {"relative_imbalance", "1", "over the largest of in, out and wall"}};
+  std::vector<double> rows;
+  std::vector<std::string> names;
+  for (const FlameBudget& budget : solution.budgets) {
+    names.push_back(budget.name);
+    rows.insert(rows.end(),
+                {budget.in, budget.out, budget.wall, budget.radiated, budget.imbalance(), relativeImbalance(budget)});
+  }
+  results.table("/budgets", columns, rows);
+  results.texts("/budgets/name", names, "conserved quantity");
+}
+
+std::vector<std::string> speciesNames(const Mechanism& mechanism) {
+  std::vector<std::string> names;
+  for (const Species& species : mechanism.allSpecies()) names.push_back(species.name);
+  return names;
+}
+
+}  // namespace
+
+FlameResult flameResult(const FlameCase& flame, FlameSolution solution, bool converged) {
+  FlameResult result;
+  result.solution = std::move(solution);
+  result.converged = converged;
+  try {
+    result.fields = flameFields(*flame.mechanism, flame.problem, result.solution.profile);
+    result.summary = flameSummary(flame.problem, result.solution.profile, result.fields);
+  } catch (const NumericsError&) {
+    if (converged) throw;
+    result.fields = {};
+  }
+  return result;
+}
+
+std::vector<NamedNumber> namedNumbers(const FlameCase& flame, const FlameResult& result) {
+  std::vector<NamedNumber> numbers;
+  const FlameSummary& s = result.summary;
+  if (!result.fields.z.empty()) {
+    if (flame.problem.type == FlameType::Free) numbers.push_back({"flame_speed", "m/s", s.leftVelocity});
+    numbers.push_back({"maximum_temperature", "K", s.maximumTemperature});
+    numbers.push_back({"position_of_maximum_temperature", "m", s.positionOfMaximum});
+    numbers.push_back({"thermal_thickness", "m", s.thermalThickness});
+    numbers.push_back({"heat_release", "W/m^2", s.heatRelease});
+    if (s.strain) {
+      if (s.strain->global) numbers.push_back({"strain_global", "1/s", *s.strain->global});
+      numbers.push_back({"strain_maximum", "1/s", s.strain->maximum});
+      numbers.push_back({"strain_mean", "1/s", s.strain->mean});
+      numbers.push_back({"strain_left", "1/s", s.strain->left});
+      numbers.push_back({"strain_right", "1/s", s.strain->right});
+      numbers.push_back({"pressure_gradient", "N/m^4", s.pressureGradient});
+    }
+    if (s.stagnationPlane) numbers.push_back({"stagnation_plane", "m", *s.stagnationPlane});
+  }
+  const StepCounts counts = countsOf(result.solution);
+  const auto add = [&](const char* name, std::size_t value) {
+    numbers.push_back({name, "1", static_cast<double>(value)});
+  };
+  add("points", result.solution.profile.points());
+  add("newton_steps", counts.newton);
+  add("time_steps", counts.timeSteps);
+  add("factorisations", counts.factorisations);
+  add("residuals", counts.residuals);
+  double worst = 0;
+  for (const FlameBudget& budget : result.solution.budgets)
+    worst = std::max(worst, std::abs(relativeImbalance(budget)));
+  if (!result.solution.budgets.empty()) numbers.push_back({"largest_relative_imbalance", "1", worst});
+  return numbers;
+}
+
+void writeFlame(ResultsWriter& results, const FlameCase& flame, const FlameResult& result) {
+  if (!result.fields.z.empty()) writeFields(results, flame, result.fields);
+  writeFlameProfile(results, {result.solution.profile, speciesNames(*flame.mechanism), {}});
+  results.attribute("/flame", "type", std::string(nameOf(flame.problem.type)));
+  results.attribute("/flame", "title", flame.title);
+  results.attribute("/flame", "converged", static_cast<std::int64_t>(result.converged ? 1 : 0));
+  results.attribute("/flame", "pressure", flame.problem.pressure);
+  for (const NamedNumber& number : namedNumbers(flame, result)) results.attribute("/flame", number.name, number.value);
+  writeStages(results, result.solution);
+  writeBudgets(results, result.solution);
+}
+
+std::string flameTable(const FlameCase& flame, const FlameResult& result) {
+  const FlameFields& f = result.fields;
+  std::string text;
+  for (const Field& field : fieldsOfAPoint())
+    text += fmt::format("{}{} [{}]", text.empty() ? "" : ",", field.name, field.unit);
+  const std::size_t n = flame.mechanism->numSpecies();
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::string name = fmt::format("X_{} [1]", flame.mechanism->speciesName(k));
+    text += name.find(',') == std::string::npos ? "," + name : ",\"" + name + "\"";
+  }
+  text += '\n';
+  for (std::size_t i = 0; i < f.z.size(); ++i) {
+    for (const Field& field : fieldsOfAPoint())
+      text += fmt::format("{}{}", &field == fieldsOfAPoint().data() ? "" : ",", (f.*field.values)[i]);
+    for (std::size_t k = 0; k < n; ++k) text += fmt::format(",{}", f.X[i * n + k]);
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace lampblack

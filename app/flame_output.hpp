@@ -1,0 +1,45 @@
+// What a one-dimensional flame leaves: fields over z, the numbers that name it, the way to the solution and its
+// budgets; in results.h5, profile.csv, the record of the run and on the console.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/flame_case.hpp"
+#include "flow/flame/flame_fields.hpp"
+#include "io/json.hpp"
+#include "io/results_writer.hpp"
+
+namespace lampblack {
+
+struct FlameResult {
+  FlameSolution solution;
+  FlameFields fields;
+  FlameSummary summary;
+  bool converged = true;
+};
+
+// The same on all ranks for the same solution. Fields stay empty where the properties of an unconverged profile cannot
+// be evaluated.
+FlameResult flameResult(const FlameCase& flame, FlameSolution solution, bool converged);
+
+// A number that names the flame: as attribute of /flame, in run.json and so in the tables of studies.
+struct NamedNumber {
+  std::string name;  // "flame_speed"
+  std::string unit;  // "m/s"; "1" for a plain number
+  double value = 0;
+};
+std::vector<NamedNumber> namedNumbers(const FlameCase& flame, const FlameResult& result);
+
+// Collective: /flame, /stages, /budgets.
+void writeFlame(ResultsWriter& results, const FlameCase& flame, const FlameResult& result);
+// profile.csv: a row a point.
+std::string flameTable(const FlameCase& flame, const FlameResult& result);
+// Fields of the record's object "results".
+void recordFlame(JsonWriter& json, const FlameCase& flame, const FlameResult& result);
+// A line for each stage while it goes on, and what came out.
+std::string stageLine(const FlameStage& stage);
+std::string flameReport(const FlameCase& flame, const FlameResult& result);
+
+}  // namespace lampblack

@@ -1,0 +1,76 @@
+// What a one-dimensional flame says to its user: stages as they end, the closing report, the record's numbers.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/flame_output.hpp"
+#include "io/report.hpp"
+
+namespace lampblack {
+namespace {
+
+// "m/s" as part of a name: "m_per_s".
+std::string unitInName(std::string unit) {
+  if (unit == "1") return "";
+  std::string text;
+  for (const char c : unit) {
+    if (c == '/')
+      text += text.empty() || text == "1" ? "per_" : "_per_";
+    else if (c == ' ')
+      text += '_';
+    else if (c != '^' && !(c == '1' && text.empty()))
+      text += c;
+  }
+  return "_" + text;
+}
+
+}  // namespace
+
+std::string stageLine(const FlameStage& stage) {
+  std::string text =
+      fmt::format("{:<24} {:>5} points  {:>4} Newton steps", stage.name, stage.points, stage.newton.steps);
+  text += stage.newton.timeSteps > 0 ? fmt::format("  {:>4} time steps", stage.newton.timeSteps) : std::string(17, ' ');
+  return text + fmt::format("  {}\n", formatDuration(stage.seconds));
+}
+
+void recordFlame(JsonWriter& json, const FlameCase& flame, const FlameResult& result) {
+  json.field("type", nameOf(flame.problem.type)).field("converged", result.converged);
+  for (const NamedNumber& number : namedNumbers(flame, result))
+    json.field(number.name + unitInName(number.unit), number.value);
+  const auto& counters = result.solution.counters;
+  json.field("jacobians", static_cast<std::uint64_t>(counters.jacobians));
+  json.field("residual_s", counters.residualSeconds).field("jacobian_s", counters.jacobianSeconds);
+  json.field("factorise_s", counters.factoriseSeconds).field("solve_s", counters.solveSeconds);
+}
+
+std::string flameReport(const FlameCase& flame, const FlameResult& result) {
+  std::string text = "\n";
+  for (const NamedNumber& number : namedNumbers(flame, result)) {
+    std::string name = number.name;
+    std::replace(name.begin(), name.end(), '_', ' ');
+    text += fmt::format("  {:<32} {:.6g}{}\n", name, number.value, number.unit == "1" ? "" : " " + number.unit);
+  }
+  if (!result.solution.budgets.empty()) {
+    text += fmt::format("\nBudgets{:>18} {:>13} {:>13} {:>13} {:>10}\n", "in", "out", "wall", "radiated", "imbalance");
+    for (const FlameBudget& b : result.solution.budgets)
+      text += fmt::format("  {:<10} {:>13.6e} {:>13.6e} {:>13.6e} {:>13.6e} {:>10.1e}\n", b.name, b.in, b.out, b.wall,
+                          b.radiated, b.imbalance());
+  }
+  const auto& c = result.solution.counters;
+  double total = 0;
+  for (const FlameStage& stage : result.solution.stages) total += stage.seconds;
+  const auto share = [&](const char* what, double seconds) {
+    text += fmt::format("  {:<24} {:>10.3f} {:>7.1f}\n", what, seconds, total > 0 ? 100 * seconds / total : 0.0);
+  };
+  text += fmt::format("\nTime, s{:>28} {:>7}\n", "", "%");
+  share("residuals", c.residualSeconds);
+  share("Newton matrices", c.jacobianSeconds);
+  share("factorisation", c.factoriseSeconds);
+  share("solution", c.solveSeconds);
+  share("other", std::max(0.0, total - c.residualSeconds - c.jacobianSeconds - c.factoriseSeconds - c.solveSeconds));
+  share("total", total);
+  return text;
+}
+
+}  // namespace lampblack

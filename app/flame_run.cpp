@@ -1,0 +1,117 @@
+#include "app/flame_run.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <optional>
+
+#include "app/flame_case.hpp"
+#include "app/flame_output.hpp"
+#include "core/errors.hpp"
+
+namespace lampblack {
+namespace {
+
+FlameProfile firstProfile(const FlameCase& flame) {
+  if (flame.initial) return startFrom(*flame.initial, *flame.mechanism, flame.problem, {});
+  return initialFlame(*flame.mechanism, flame.problem, 0, flame.start);
+}
+
+std::vector<StageTime> stageTimes(MPI_Comm comm, const FlameEquations::Counters& counters) {
+  int ranks = 1;
+  MPI_Comm_size(comm, &ranks);
+  std::vector<StageTime> stages;
+  for (const auto& [name, seconds] : {std::pair{"residuals", counters.residualSeconds},
+                                      {"matrices", counters.jacobianSeconds},
+                                      {"factorisation", counters.factoriseSeconds},
+                                      {"solution", counters.solveSeconds}}) {
+    StageTime stage{name};
+    MPI_Allreduce(&seconds, &stage.minimum, 1, MPI_DOUBLE, MPI_MIN, comm);
+    MPI_Allreduce(&seconds, &stage.maximum, 1, MPI_DOUBLE, MPI_MAX, comm);
+    MPI_Allreduce(&seconds, &stage.average, 1, MPI_DOUBLE, MPI_SUM, comm);
+    stage.average /= ranks;
+    stages.push_back(stage);
+  }
+  return stages;
+}
+
+// The solution, or how far it came and why it went no further.
+struct Attempt {
+  FlameResult result;
+  std::optional<std::string> failure;
+};
+
+Attempt solve(MPI_Comm comm, const FlameCase& flame, FlameProfile start) {
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  FlameSolver solver(comm, flame.mechanism, flame.problem, nullptr, flame.solver);
+  solver.onStage([rank](const FlameStage& stage, const FlameProfile&) {
+    if (rank != 0) return;
+    fmt::print("{}", stageLine(stage));
+    std::fflush(stdout);
+  });
+  Attempt attempt;
+  std::optional<FlameSolution> solution;
+  try {
+    solution = solver.solve(std::move(start));
+  } catch (const FlameFailure& failure) {
+    solution = failure.last();
+    attempt.failure = failure.what();
+  }
+  collectively(comm, [&] { attempt.result = flameResult(flame, std::move(*solution), !attempt.failure); });
+  return attempt;
+}
+
+}  // namespace
+
+std::string checkFlame(MPI_Comm comm, const Deck& deck) {
+  FlameCase flame;
+  collectively(comm, [&] { flame = readFlameCase(deck); });
+  return fmt::format(
+      "{} flame, {} species, {} reactions{}", nameOf(flame.problem.type), flame.mechanism->numSpecies(),
+      flame.mechanism->numReactions(),
+      flame.initial ? fmt::format(", from an earlier flame of {} points", flame.initial->profile.points()) : "");
+}
+
+void runFlame(MPI_Comm comm, const Deck& deck, const RunOptions& options) {
+  FlameCase flame;
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  FlameProfile start;
+  collectively(comm, [&] {
+    flame = readFlameCase(deck);
+    start = firstProfile(flame);
+  });
+  recordedRun(comm, deck, options, 0, [&](const RunFolder& folder, const RunInfo& info, RunRecord& record) {
+    const Attempt attempt = solve(comm, flame, std::move(start));
+    const FlameResult& result = attempt.result;
+    collectively(comm, [&] {
+      if (rank != 0) return;
+      writeFileAtomically(folder.file("profile.csv"), flameTable(flame, result));
+      JsonWriter json;
+      json.beginObject();
+      recordFlame(json, flame, result);
+      json.endObject();
+      record.resultsJson = json.text();
+    });
+    record.cells = static_cast<std::int64_t>(result.solution.profile.points());
+    for (const FlameStage& stage : result.solution.stages)
+      record.steps += static_cast<std::int64_t>(stage.newton.steps + stage.newton.timeSteps);
+    record.stages = stageTimes(comm, result.solution.counters);
+    record.peakMemoryPerRank = peakMemory(comm);
+    ResultsWriter results(comm, folder.results(), info);
+    writeFlame(results, flame, result);
+    if (!attempt.failure) {
+      results.close();
+      if (rank == 0) fmt::print("{}", flameReport(flame, result));
+      return;
+    }
+    results.closePartial();
+    collectively(comm, [&] {
+      throw NumericsError(fmt::format("{}\nThe last grid and profile are in {}; a deck can start from it by 'initial'",
+                                      *attempt.failure, folder.results().string() + ".part"));
+    });
+  });
+}
+
+}  // namespace lampblack

@@ -1,0 +1,142 @@
+#include "app/flame_case.hpp"
+#include "app/gas_input.hpp"
+#include "app/temperature_input.hpp"
+
+namespace lampblack {
+namespace {
+
+void addStream(DeckSchema& schema, const std::string& section, const std::string& doc) {
+  schema.section(section, Presence::optional, doc)
+      .add(temperatureKey(section + ".temperature", "Temperature."))
+      .add(quantityKey(section + ".velocity", units::velocity,
+                       "Into the domain; of a free flame a first guess of its speed. Not with potential flow.")
+               .optional()
+               .above(0))
+      .add(quantityKey(section + ".mass_flux", units::massFlux, "Instead of a velocity.").optional().above(0));
+  addMixtureKeys(schema, section);
+}
+
+void addFlame(DeckSchema& schema) {
+  schema
+      .add(choiceKey("flame.type", {"free", "burner", "wall", "counterflow"},
+                     "free: premixed, propagating freely, its speed is found; burner: premixed, on a burner of given "
+                     "mass flux; wall: a stream against a wall; counterflow: two streams against each other."))
+      .add(quantityKey("flame.length", units::length,
+                       "Of the domain: burner to where nothing changes, nozzle to wall, nozzle to nozzle. A free flame "
+                       "may widen it.")
+               .byDefault("20 mm")
+               .above(0))
+      .add(choiceKey("flame.nozzles", {"plug", "potential"},
+                     "wall, counterflow. plug: velocities given, no spreading at the nozzles; potential: the streams "
+                     "come from afar, the strain rate is given.")
+               .byDefault("plug"))
+      .add(quantityKey("flame.strain_rate", units::frequency,
+                       "potential: of the stream on the right (of a wall: of the stream).")
+               .optional()
+               .above(0))
+      .add(quantityKey("flame.stagnation_plane", units::length,
+                       "potential counterflow: where the streams meet; the middle if not given.")
+               .optional()
+               .above(0))
+      .add(temperatureKey("flame.wall_temperature", "wall: of the wall.").optional())
+      .add(choiceKey("flame.energy", {"solved", "given"},
+                     "given: burner flames at a measured temperature, in the section temperature_profile.")
+               .byDefault("solved"));
+  addStream(schema, "inlet", "free, burner, wall: the stream that comes in on the left.");
+  addStream(schema, "left", "counterflow: the stream from the left, by custom the fuel.");
+  addStream(schema, "right", "counterflow: the stream from the right, by custom the oxidiser.");
+  schema
+      .section("temperature_profile", Presence::optional,
+               "The temperature where flame.energy is given: straight lines between points, constant beyond them. "
+               "Points here or in a file.")
+      .add(
+          quantityKey("temperature_profile.position", units::length, "Distances of the points from the burner, rising.")
+              .list()
+              .optional());
+  addTemperatureProfileKeys(schema, "distance in m");
+}
+
+void addPhysics(DeckSchema& schema) {
+  addTransportKeys(schema, {"mixture_averaged", "multicomponent", "unity_lewis", "constant_lewis"},
+                   "How species diffuse: by mixture-averaged coefficients, by the full multicomponent ones (and its "
+                   "conductivity), as fast as heat, or as fast as heat over each species' Lewis number.");
+  schema.add(booleanKey("transport.soret", "Thermal diffusion.").byDefault("false"))
+      .add(choiceKey("radiation.model", {"none", "optically_thin"},
+                     "optically_thin: H2O, CO2, CO, CH4 and soot lose heat to the surroundings and take none back from "
+                     "each other.")
+               .byDefault("none"))
+      .add(temperatureKey("radiation.surroundings", "Temperature of the surroundings.").byDefault("298 K"));
+}
+
+void addGrid(DeckSchema& schema) {
+  schema
+      .add(numberKey("grid.slope", "Largest change of an unknown between neighbouring points, over its range.")
+               .byDefault("0.06")
+               .above(0)
+               .atMost(1))
+      .add(numberKey("grid.curve", "Largest change of its slope, over the range of slopes.")
+               .byDefault("0.12")
+               .above(0)
+               .atMost(1))
+      .add(numberKey("grid.ratio", "Largest ratio of neighbouring spacings.").byDefault("3").above(1))
+      .add(numberKey("grid.prune", "A point goes where slope and curve stay below this without it; 0: none goes.")
+               .byDefault("0")
+               .atLeast(0)
+               .below(1))
+      .add(integerKey("grid.maximum_points", "More than this is a failure.").byDefault("2000").atLeast(10))
+      .add(integerKey("grid.initial_points", "Of the first grid.").byDefault("40").atLeast(8).atMost(100000))
+      .add(booleanKey("grid.refine", "false: on the first grid only.").byDefault("true"));
+}
+
+void addSolver(DeckSchema& schema) {
+  schema
+      .add(numberKey("solver.relative_tolerance", "Of all unknowns: a change of this size counts as 1.")
+               .byDefault("1e-4")
+               .above(0)
+               .below(1))
+      .add(numberKey("solver.species_tolerance", "Absolute, of mass fractions.").byDefault("1e-9").above(0))
+      .add(quantityKey("solver.temperature_tolerance", units::temperature, "Absolute, of the temperature.")
+               .byDefault("0.01 K")
+               .above(0))
+      .add(numberKey("solver.step_tolerance", "Converged once a Newton step is so small in these units.")
+               .byDefault("1e-3")
+               .above(0))
+      .add(integerKey("solver.maximum_steps", "Newton steps before time steps are taken instead.")
+               .byDefault("60")
+               .atLeast(1))
+      .add(integerKey("solver.jacobian_age", "Newton steps with the same matrix while they converge fast.")
+               .byDefault("8")
+               .atLeast(1))
+      .add(
+          quantityKey("solver.first_time_step", units::time, "First pseudo-transient step where Newton's method fails.")
+              .byDefault("10 us")
+              .above(0))
+      .add(integerKey("solver.maximum_time_steps", "Pseudo-transient steps after which a stage has failed.")
+               .byDefault("2000")
+               .atLeast(1))
+      .add(temperatureKey("solver.anchor_temperature",
+                          "free: temperature that is held in place; between unburnt and burnt if not given.")
+               .optional())
+      .add(stringKey(
+               "initial",
+               "Results of an earlier flame to start from (results.h5, also .part of one that failed), relative to "
+               "the deck; also of another mechanism, length or type. Otherwise the start comes from the streams.")
+               .optional());
+}
+
+}  // namespace
+
+DeckSchema flameSchema() {
+  DeckSchema schema;
+  schema.add(choiceKey("problem", {"flame1d"}, "What is solved."))
+      .add(stringKey("title", "One line for reports and pictures.").byDefault("''"))
+      .add(stringKey("mechanism", "Mechanism file in Cantera's YAML format, relative to the deck."))
+      .add(quantityKey("pressure", units::pressure, "Pressure.").byDefault("1 atm").above(0));
+  addFlame(schema);
+  addPhysics(schema);
+  addGrid(schema);
+  addSolver(schema);
+  return schema;
+}
+
+}  // namespace lampblack
