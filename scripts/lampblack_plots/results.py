@@ -15,10 +15,14 @@ class ResultsError(Exception):
 ALIASES = {"A1": ["A1", "C6H6"], "A2": ["A2", "C10H8"], "A4": ["A4", "C16H10"]}
 
 
+def text_of(value):
+    """h5py gives texts of fixed length as bytes."""
+    return value.decode("utf-8") if isinstance(value, bytes) else str(value)
+
+
 def unit_of(dataset):
-    """The unit of a dataset; h5py gives texts of fixed length as bytes."""
-    unit = dataset.attrs.get("unit", "")
-    return unit.decode("utf-8") if isinstance(unit, bytes) else str(unit)
+    """The unit of a dataset."""
+    return text_of(dataset.attrs.get("unit", ""))
 
 
 class Results:
@@ -33,11 +37,12 @@ class Results:
         except OSError as error:
             raise ResultsError(f"{path}: cannot be opened ({error}); is the run still going?") from error
         self.partial = path.name.endswith(".part")
-        # Reactors and populations have no mesh; their results are tables.
+        # Reactors, populations and one-dimensional flames have no mesh.
         problem = "flow" if "mesh" in self.file else self.record().get("deck", {}).get("problem")
         self.is_reactor = problem == "reactor"
         self.is_population = problem == "population_balance"
-        if self.is_reactor or self.is_population:
+        self.is_flame = "flame" in self.file
+        if self.is_reactor or self.is_population or self.is_flame:
             return
         if "mesh" not in self.file or "cellCentre" not in self.file["mesh"]:
             raise ResultsError(f"{path}: holds no mesh")

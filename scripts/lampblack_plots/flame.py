@@ -1,0 +1,226 @@
+"""Pictures of one-dimensional flames: temperature, heat release and species over z; soot with its processes and sizes; and
+several flames in one picture."""
+
+import numpy as np
+
+from .results import Results, text_of
+from .style import plt, scaled_fraction
+
+MOST_MAJOR, MOST_MINOR, MOST_SIZES = 8, 10, 7
+
+# Major species are drawn on a linear scale, what is left of the largest on a logarithmic one.
+MAJOR_FROM = 0.01
+
+
+class FlameData:
+    """The fields of one flame over z in mm."""
+
+    def __init__(self, results):
+        group = results.file["flame"]
+        self.label = text_of(group.attrs.get("title", "")) or results.folder.name
+        self.type = text_of(group.attrs.get("type", ""))
+        self.attributes = {name: value for name, value in group.attrs.items() if np.isscalar(value)}
+        self.z = group["z"][()] * 1e3 if "z" in group else np.empty(0)
+        self.fields = {name: group[name][()] for name in group if name not in ("X", "Y", "soot", "restart")}
+        self.X = {name: group["X"][name][()] for name in group.get("X", {})}
+        soot = group.get("soot", {})
+        self.soot = {name: soot[name][()] for name in soot if hasattr(soot[name], "shape")}
+        self.processes = {name: soot["processes"][name][()] for name in soot.get("processes", {})}
+
+    def span(self):
+        """Where something happens: of long domains the part around the flame."""
+        z, temperature = self.z, self.fields["temperature"]
+        rise = temperature - temperature.min()
+        if self.type != "free" or rise.max() < 1:
+            return z[0], z[-1]
+        steep = np.gradient(temperature, z)
+        thickness = rise.max() / np.max(np.abs(steep))
+        first = z[np.argmax(rise > 0.005 * rise.max())]
+        released = np.cumsum(0.5 * (self.fields["heat_release"][1:] + self.fields["heat_release"][:-1]) * np.diff(z))
+        last = z[1 + np.argmax(released > 0.98 * released[-1])]
+        return max(z[0], first - 2 * thickness), min(z[-1], last + 8 * thickness)
+
+
+def plot_flame(results, pictures):
+    flame = FlameData(results)
+    if flame.z.size == 0:
+        pictures.skip("flame", "the results hold no fields over z")
+        return
+    _plot_gas(flame, pictures)
+    if flame.soot:
+        _plot_soot(flame, pictures)
+        _plot_sizes(flame, pictures)
+
+
+def _limit(axes, flame):
+    low, high = flame.span()
+    axes.set_xlim(low, high)
+    return (flame.z >= low) & (flame.z <= high)
+
+
+def _plot_gas(flame, pictures):
+    figure, (top, middle, bottom) = plt.subplots(3, 1, figsize=(7.0, 8.6), sharex=True)
+    top.plot(flame.z, flame.fields["temperature"], color="tab:red", marker=".", ms=2.5, lw=1.2)
+    top.set_ylabel("temperature, K", color="tab:red")
+    other = top.twinx()
+    other.spines["right"].set_visible(True)
+    other.plot(flame.z, flame.fields["heat_release"] * 1e-6, color="tab:blue", lw=1.0)
+    other.set_ylabel("heat release, MW/m$^3$", color="tab:blue")
+    inside = _limit(top, flame)
+    peak = {name: np.max(values[inside]) for name, values in flame.X.items()}
+    order = sorted(peak, key=lambda name: -peak[name])
+    major = [name for name in order if peak[name] >= MAJOR_FROM][:MOST_MAJOR]
+    minor = [name for name in order if name not in major and peak[name] > 0][:MOST_MINOR]
+    for name in major:
+        middle.plot(flame.z, flame.X[name], label=name, lw=1.2)
+    middle.set_ylabel("mole fraction")
+    middle.set_ylim(bottom=0)
+    middle.legend(fontsize=8, ncol=2, loc="upper left", bbox_to_anchor=(1.0, 1.0))
+    for name in minor:
+        bottom.semilogy(flame.z, np.where(flame.X[name] > 0, flame.X[name], np.nan), label=name, lw=1.2)
+    if minor:
+        bottom.set_ylim(1e-4 * peak[minor[0]], 2 * peak[minor[0]])
+        bottom.legend(fontsize=8, ncol=1, loc="upper left", bbox_to_anchor=(1.0, 1.0))
+    bottom.set_ylabel("mole fraction")
+    bottom.set_xlabel("z, mm")
+    top.set_title(flame.label, loc="left", fontsize=10)
+    pictures.save(figure, "flame")
+
+
+PROCESSES = {  # mass rates; losses negative
+    "nucleation": "nucleation", "condensation": "condensation", "growth": "growth", "oxidation_O2": "oxidation by O2",
+    "oxidation_OH": "oxidation by OH", "carbonisation": "carbonisation",
+}
+
+
+def _sooty(axes, flame):
+    """Limits the view to where there is soot."""
+    fraction = flame.soot["volume_fraction"]
+    there = np.flatnonzero(fraction > 1e-4 * fraction.max()) if fraction.max() > 0 else []
+    if len(there) > 1:
+        margin = 0.05 * (flame.z[there[-1]] - flame.z[there[0]])
+        axes.set_xlim(max(flame.z[0], flame.z[there[0]] - margin), min(flame.z[-1], flame.z[there[-1]] + margin))
+
+
+def _plot_soot(flame, pictures):
+    fraction, unit = scaled_fraction(flame.soot["volume_fraction"])
+    if flame.soot["volume_fraction"].max() <= 0:
+        pictures.skip("soot", "there is none")
+        return
+    figure, ((a, b), (c, d)) = plt.subplots(2, 2, figsize=(9.6, 6.4), sharex=True)
+    a.plot(flame.z, fraction, color="black")
+    a.set_ylabel(f"volume fraction{', ' + unit if unit else ''}")
+    hot = a.twinx()
+    hot.spines["right"].set_visible(True)
+    hot.plot(flame.z, flame.fields["temperature"], color="tab:red", lw=0.8)
+    hot.set_ylabel("T, K", color="tab:red")
+    b.semilogy(flame.z, _positive(flame.soot["number_density"] * 1e-6), color="tab:blue")
+    b.set_ylabel("number density, 1/cm$^3$")
+    _bottom(b, flame.soot["number_density"] * 1e-6, 1e-6)
+    for name, label in (("mean_diameter", "mean volume"), ("primary_diameter", "primaries"),
+                        ("mobility_diameter", "mobility"), ("gyration_diameter", "gyration")):
+        values = flame.soot.get(name)
+        enough = fraction > 1e-4 * fraction.max()
+        if values is not None and np.any(values > 0):
+            c.plot(flame.z, np.where(enough, values * 1e9, np.nan), label=label)
+    c.set_ylabel("diameter, nm")
+    c.legend(fontsize=8)
+    for name, label in PROCESSES.items():
+        values = flame.processes.get(name)
+        if values is not None and np.any(values != 0):
+            d.plot(flame.z, values, label=label)
+    d.axhline(0, color="0.6", lw=0.6)
+    d.set_ylabel("mass rate, kg/(m$^3$ s)")
+    d.legend(fontsize=8)
+    for axes in (c, d):
+        axes.set_xlabel("z, mm")
+    _sooty(a, flame)
+    a.set_title(flame.label, loc="left", fontsize=10)
+    pictures.save(figure, "soot")
+
+
+def _positive(values):
+    return np.where(values > 0, values, np.nan)
+
+
+def _bottom(axes, values, below):
+    if np.max(values) > 0:
+        axes.set_ylim(below * np.max(values), 3 * np.max(values))
+
+
+def _plot_sizes(flame, pictures):
+    if "size_distribution" not in flame.soot:
+        return
+    density, diameter = flame.soot["size_distribution"] * 1e-6, flame.soot["diameter"] * 1e9
+    filled = np.flatnonzero(flame.soot["volume_fraction"] > 0.02 * flame.soot["volume_fraction"].max())
+    if filled.size == 0 or density.max() <= 0:
+        pictures.skip("size distributions", "there is no soot")
+        return
+    places = np.linspace(flame.z[filled[0]], flame.z[filled[-1]], MOST_SIZES)
+    chosen = np.unique([np.argmin(np.abs(flame.z - place)) for place in places])
+    figure, axes = plt.subplots(figsize=(6.4, 4.4))
+    for number, i in enumerate(chosen):
+        axes.loglog(diameter, _positive(density[i]), color=plt.cm.viridis(number / max(1, len(chosen) - 1)), marker=".",
+                    ms=3, label=f"{flame.z[i]:.3g} mm")
+    _bottom(axes, density, 1e-7)
+    axes.set_xlabel("diameter, nm")
+    axes.set_ylabel("dN/dlog$_{10}$d, 1/cm$^3$")
+    axes.legend(fontsize=8, title="z")
+    pictures.save(figure, "sizes")
+
+
+def plot_together(folders, pictures, name="together", labels=None):
+    """Temperature, soot or heat release of several flames on top of each other."""
+    flames = [FlameData(Results(folder)) for folder in folders]
+    labels = labels or [folder.name for folder in folders]
+    usable = [(flame, label) for flame, label in zip(flames, labels) if flame.z.size]
+    if len(usable) < len(flames):
+        pictures.skip("some flames", "they hold no fields over z")
+    if not usable:
+        return
+    with_soot = any(flame.soot for flame, _ in usable)
+    panels = [("temperature", "temperature, K", lambda f: f.fields["temperature"])]
+    if with_soot:
+        largest = max((flame.soot["volume_fraction"].max() for flame, _ in usable if flame.soot), default=0.0)
+        scaled, unit = scaled_fraction(np.array([largest]))
+        factor = scaled[0] / largest if largest > 0 else 1.0
+        panels += [
+            ("volume fraction", f"volume fraction{', ' + unit if unit else ''}", lambda f: _soot(f, "volume_fraction", factor)),
+            ("number density", "number density, 1/cm$^3$", lambda f: _soot(f, "number_density", 1e-6)),
+            ("diameter", "mean diameter, nm", _mean_diameter),
+        ]
+    else:
+        panels += [("heat release", "heat release, MW/m$^3$", lambda f: f.fields["heat_release"] * 1e-6),
+                   ("velocity", "velocity, m/s", lambda f: f.fields["velocity"]),
+                   ("OH", "mole fraction of OH", lambda f: f.X.get("OH"))]
+    figure, grid = plt.subplots(2, 2, figsize=(10.0, 6.6), sharex=True)
+    for axes, (title, label, values_of) in zip(grid.flat, panels):
+        shown = 0.0
+        for number, (flame, name_of_flame) in enumerate(usable):
+            values = values_of(flame)
+            if values is None:
+                continue
+            colour = f"C{number}" if len(usable) <= 10 else plt.cm.viridis(number / (len(usable) - 1))
+            axes.plot(flame.z, values, color=colour, lw=1.3, label=name_of_flame)
+            shown = max(shown, np.nanmax(values, initial=0.0))
+        if title == "number density" and shown > 0:
+            axes.set_yscale("log")
+            axes.set_ylim(1e-6 * shown, 3 * shown)
+        axes.set_ylabel(label)
+    for axes in grid[1]:
+        axes.set_xlabel("z, mm")
+    spans = [flame.span() for flame, _ in usable]
+    grid[0][0].set_xlim(min(low for low, _ in spans), max(high for _, high in spans))
+    figure.legend(*grid[0][0].get_legend_handles_labels(), fontsize=8, ncol=min(4, len(usable)), loc="outside lower center")
+    pictures.save(figure, name)
+
+
+def _soot(flame, name, factor):
+    return flame.soot[name] * factor if name in flame.soot else None
+
+
+def _mean_diameter(flame):
+    if "mean_diameter" not in flame.soot:
+        return None
+    fraction = flame.soot["volume_fraction"]
+    return np.where(fraction > 1e-4 * fraction.max(), flame.soot["mean_diameter"] * 1e9, np.nan)
