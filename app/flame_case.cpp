@@ -168,6 +168,13 @@ const char* nameOf(FlameType type) {
   return "";
 }
 
+std::vector<std::string> FlameCase::scalarNames() const {
+  std::vector<std::string> names;
+  if (soot)
+    for (const CarriedModel::Scalar& scalar : soot->scalars()) names.push_back(scalar.name);
+  return names;
+}
+
 FlameCase readFlameCase(const Deck& deck) {
   FlameCase flame;
   flame.title = deck.string("title");
@@ -175,6 +182,9 @@ FlameCase readFlameCase(const Deck& deck) {
   readConfiguration(deck, flame);
   readTransport(deck, flame);
   readSolver(deck, flame);
+  if (auto model = readSootModel(deck, *flame.mechanism)) {
+    flame.soot = std::make_unique<FlameSoot>(*flame.mechanism, std::move(model));
+  }
   if (const auto file = deck.optionalString("initial")) {
     try {
       flame.initial = readFlameProfile(deck.resolvePath(*file));

@@ -5,7 +5,9 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "app/flame_soot.hpp"
 #include "chemistry/mechanism/mechanism.hpp"
 #include "flow/flame/flame_problem.hpp"
 #include "flow/flame/flame_solver.hpp"
@@ -21,6 +23,9 @@ struct FlameCase {
   FlameSolverOptions solver;
   InitialFlameOptions start;
   std::optional<NamedFlameProfile> initial;  // an earlier flame to start from
+  std::unique_ptr<FlameSoot> soot;           // null: none
+
+  [[nodiscard]] std::vector<std::string> scalarNames() const;  // of the soot
 };
 
 // All keys a flame deck may have.

@@ -126,6 +126,9 @@ FlameResult flameResult(const FlameCase& flame, FlameSolution solution, bool con
   try {
     result.fields = flameFields(*flame.mechanism, flame.problem, result.solution.profile);
     result.summary = flameSummary(flame.problem, result.solution.profile, result.fields);
+    if (flame.soot)
+      result.soot = flameSootFields(*flame.mechanism, flame.problem.pressure, *flame.soot, result.solution.profile,
+                                    result.fields);
   } catch (const NumericsError&) {
     if (converged) throw;
     result.fields = {};
@@ -151,6 +154,8 @@ std::vector<NamedNumber> namedNumbers(const FlameCase& flame, const FlameResult&
       numbers.push_back({"pressure_gradient", "N/m^4", s.pressureGradient});
     }
     if (s.stagnationPlane) numbers.push_back({"stagnation_plane", "m", *s.stagnationPlane});
+    if (result.soot)
+      for (NamedNumber& number : namedSootNumbers(result.fields, *result.soot)) numbers.push_back(std::move(number));
   }
   const StepCounts counts = countsOf(result.solution);
   const auto add = [&](const char* name, std::size_t value) {
@@ -170,7 +175,8 @@ std::vector<NamedNumber> namedNumbers(const FlameCase& flame, const FlameResult&
 
 void writeFlame(ResultsWriter& results, const FlameCase& flame, const FlameResult& result) {
   if (!result.fields.z.empty()) writeFields(results, flame, result.fields);
-  writeFlameProfile(results, {result.solution.profile, speciesNames(*flame.mechanism), {}});
+  if (result.soot) writeFlameSoot(results, *result.soot);
+  writeFlameProfile(results, {result.solution.profile, speciesNames(*flame.mechanism), flame.scalarNames()});
   results.attribute("/flame", "type", std::string(nameOf(flame.problem.type)));
   results.attribute("/flame", "title", flame.title);
   results.attribute("/flame", "converged", static_cast<std::int64_t>(result.converged ? 1 : 0));
@@ -182,18 +188,28 @@ void writeFlame(ResultsWriter& results, const FlameCase& flame, const FlameResul
 
 std::string flameTable(const FlameCase& flame, const FlameResult& result) {
   const FlameFields& f = result.fields;
-  std::string text;
-  for (const Field& field : fieldsOfAPoint())
-    text += fmt::format("{}{} [{}]", text.empty() ? "" : ",", field.name, field.unit);
   const std::size_t n = flame.mechanism->numSpecies();
-  for (std::size_t k = 0; k < n; ++k) {
-    const std::string name = fmt::format("X_{} [1]", flame.mechanism->speciesName(k));
-    text += name.find(',') == std::string::npos ? "," + name : ",\"" + name + "\"";
+  std::string text;
+  const auto head = [&](const std::string& name) {
+    const bool quoted = name.find(',') != std::string::npos;
+    text += fmt::format("{0}{1}{2}{1}", text.empty() ? "" : ",", quoted ? "\"" : "", name);
+  };
+  std::vector<const std::vector<double>*> columns;
+  for (const Field& field : fieldsOfAPoint()) {
+    head(fmt::format("{} [{}]", field.name, field.unit));
+    columns.push_back(&(f.*field.values));
   }
+  if (result.soot) {
+    for (const auto* fields : {&result.soot->properties, &result.soot->processes})
+      for (const FlameSootFields::Field& field : *fields) {
+        head(fmt::format("soot_{} [{}]", field.name, field.unit));
+        columns.push_back(&field.values);
+      }
+  }
+  for (std::size_t k = 0; k < n; ++k) head(fmt::format("X_{} [1]", flame.mechanism->speciesName(k)));
   text += '\n';
   for (std::size_t i = 0; i < f.z.size(); ++i) {
-    for (const Field& field : fieldsOfAPoint())
-      text += fmt::format("{}{}", &field == fieldsOfAPoint().data() ? "" : ",", (f.*field.values)[i]);
+    for (const auto* column : columns) text += fmt::format("{}{}", column == columns[0] ? "" : ",", (*column)[i]);
     for (std::size_t k = 0; k < n; ++k) text += fmt::format(",{}", f.X[i * n + k]);
     text += '\n';
   }

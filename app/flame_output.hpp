@@ -2,11 +2,13 @@
 // budgets; in results.h5, profile.csv, the record of the run and on the console.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "app/flame_case.hpp"
+#include "app/flame_soot_output.hpp"
 #include "flow/flame/flame_fields.hpp"
 #include "io/json.hpp"
 #include "io/results_writer.hpp"
@@ -17,6 +19,7 @@ struct FlameResult {
   FlameSolution solution;
   FlameFields fields;
   FlameSummary summary;
+  std::optional<FlameSootFields> soot;
   bool converged = true;
 };
 
@@ -24,12 +27,6 @@ struct FlameResult {
 // be evaluated.
 FlameResult flameResult(const FlameCase& flame, FlameSolution solution, bool converged);
 
-// A number that names the flame: as attribute of /flame, in run.json and so in the tables of studies.
-struct NamedNumber {
-  std::string name;  // "flame_speed"
-  std::string unit;  // "m/s"; "1" for a plain number
-  double value = 0;
-};
 std::vector<NamedNumber> namedNumbers(const FlameCase& flame, const FlameResult& result);
 
 // Collective: /flame, /stages, /budgets.

@@ -13,8 +13,9 @@ namespace lampblack {
 namespace {
 
 FlameProfile firstProfile(const FlameCase& flame) {
-  if (flame.initial) return startFrom(*flame.initial, *flame.mechanism, flame.problem, {});
-  return initialFlame(*flame.mechanism, flame.problem, 0, flame.start);
+  const std::vector<std::string> names = flame.scalarNames();
+  if (flame.initial) return startFrom(*flame.initial, *flame.mechanism, flame.problem, names);
+  return initialFlame(*flame.mechanism, flame.problem, names.size(), flame.start);
 }
 
 std::vector<StageTime> stageTimes(MPI_Comm comm, const FlameEquations::Counters& counters) {
@@ -41,10 +42,10 @@ struct Attempt {
   std::optional<std::string> failure;
 };
 
-Attempt solve(MPI_Comm comm, const FlameCase& flame, FlameProfile start) {
+Attempt solve(MPI_Comm comm, FlameCase& flame, FlameProfile start) {
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
-  FlameSolver solver(comm, flame.mechanism, flame.problem, nullptr, flame.solver);
+  FlameSolver solver(comm, flame.mechanism, flame.problem, flame.soot.get(), flame.solver);
   solver.onStage([rank](const FlameStage& stage, const FlameProfile&) {
     if (rank != 0) return;
     fmt::print("{}", stageLine(stage));

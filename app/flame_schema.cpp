@@ -134,6 +134,7 @@ DeckSchema flameSchema() {
       .add(quantityKey("pressure", units::pressure, "Pressure.").byDefault("1 atm").above(0));
   addFlame(schema);
   addPhysics(schema);
+  addSootModelKeys(schema);
   addGrid(schema);
   addSolver(schema);
   return schema;
