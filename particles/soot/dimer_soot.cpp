@@ -9,11 +9,12 @@
 namespace lampblack {
 namespace {
 
-// No mean particle of a flame is larger than this many nuclei (a sphere of some 10 um) or has more than two hydrogen
-// atoms to a carbon atom. An iterate of Newton's method may; the rates are then those at the bound, which keeps their
-// derivatives bounded.
-constexpr double largestInNuclei = 1e12;
+// No soot has more hydrogen than this for a carbon atom; an iterate of Newton's method may, and counts as having it.
 constexpr double largestHydrogenToCarbon = 2;
+
+double nucleusOf(const TwoEquationSoot& model) {
+  return model.dimers().smallestNucleus() * model.options().carbonWeight / constants::avogadro;  // kg of carbon
+}
 
 SootGasState stateOf(const SootGas& gas) {
   SootGasState state;
@@ -28,9 +29,11 @@ SootGasState stateOf(const SootGas& gas) {
 }  // namespace
 
 DimerSoot::DimerSoot(SootModelOptions options)
-    : model_(std::move(options)), species_{"H", "H2", "OH", "H2O", "O2", "C2H2", "CO"} {
+    : model_(std::move(options)), spheres_(model_.options().sootDensity, nucleusOf(model_)), species_{"H",  "H2",
+                                                                                                      "OH", "H2O",
+                                                                                                      "O2", "C2H2",
+                                                                                                      "CO"} {
   const SootModelOptions& o = model_.options();
-  nucleusMass_ = model_.dimers().smallestNucleus() * o.carbonWeight / constants::avogadro;
   for (const PahSpecies& pah : o.pah) species_.push_back(pah.name);
   scalars_ = {{"number", "1/m3", "number of soot particles", 1e17, 0, 0},
               {"carbon", "kg/m3", "carbon in soot", 1e-3, 1, 0},
@@ -42,8 +45,7 @@ TwoEquationSoot::Population DimerSoot::populationOf(std::span<const double> dens
   TwoEquationSoot::Population p;
   const SootModelOptions& o = model_.options();
   p.carbon = std::max(densities[carbon], 0.0);
-  const double inNuclei = p.carbon / nucleusMass_;
-  p.number = std::clamp(densities[number], inNuclei / largestInNuclei, inNuclei);
+  p.number = spheres_.possibleNumber(densities[number], p.carbon);
   p.hydrogen =
       std::clamp(densities[hydrogen], 0.0, largestHydrogenToCarbon * o.hydrogenWeight / o.carbonWeight * p.carbon);
   return p;
@@ -62,16 +64,11 @@ TwoEquationSoot::Sources DimerSoot::evaluate(const SootGas& gas, std::span<const
   state.pah = c.subspan(fixedSpecies);
   TwoEquationSoot::Sources s = model_.sources(state, population);
 
-  // Equal spheres of shrinking size never vanish by themselves. The share of the number that goes with a share of the
-  // mass is the square of the nucleus's mass over the mean mass: everything where the mean particle is a nucleus,
-  // nothing where it is much larger.
   s.oxidationNumber = 0;
   const double present = std::max(densities[number], 0.0);
-  if (population.carbon > 0) {
-    const double carbonLost = (s.oxidationO2 + s.oxidationOH) * population.carbon / population.mass();
-    const double inverseMean = population.number * nucleusMass_ / population.carbon;  // nuclei to a mean particle
-    s.oxidationNumber = present / population.carbon * carbonLost * inverseMean * inverseMean;
-  }
+  if (population.carbon > 0)
+    s.oxidationNumber = (s.oxidationO2 + s.oxidationOH) / population.mass() * present *
+                        spheres_.vanishing(population.number, population.carbon);
   const double excess = population.number > 0 ? present / population.number : 1;
   s.coagulationNumber *= excess * excess;
   s.number = s.nucleationNumber + s.coagulationNumber + s.oxidationNumber;
@@ -104,15 +101,9 @@ double DimerSoot::volumeFraction(std::span<const double> densities) const {
 
 SootProperties DimerSoot::properties(const SootGas& /*gas*/, std::span<const double> densities) const {
   const TwoEquationSoot::Population p = populationOf(densities);
-  SootProperties out;
+  SootProperties out = spheres_.properties(p.number, p.mass());
   out.numberDensity = std::max(densities[number], 0.0);
   out.volumeFraction = volumeFraction(densities);
-  out.meanDiameter = model_.meanDiameter(p);
-  out.surfaceArea = model_.surfaceArea(p);
-  out.primaryDiameter = out.meanDiameter;
-  out.primariesPerAggregate = 1;
-  out.mobilityDiameter = out.meanDiameter;
-  out.gyrationDiameter = std::sqrt(0.6) * out.meanDiameter;  // of a solid sphere
   return out;
 }
 

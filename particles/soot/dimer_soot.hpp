@@ -3,6 +3,7 @@
 // may be states that no soot is ever in: see the theory page "soot models".
 #pragma once
 
+#include "particles/soot/equal_spheres.hpp"
 #include "particles/soot/soot_model.hpp"
 #include "particles/two_equation.hpp"
 
@@ -32,7 +33,7 @@ class DimerSoot final : public SootModel {
   [[nodiscard]] TwoEquationSoot::Sources evaluate(const SootGas& gas, std::span<const double> densities) const;
 
   TwoEquationSoot model_;
-  double nucleusMass_;  // kg of carbon in the smallest nucleus
+  EqualSpheres spheres_;  // a nucleus being known by its carbon
   std::vector<std::string> species_;
   std::vector<SootScalar> scalars_;
 };
