@@ -60,6 +60,7 @@ bool BranchTracer::start(std::span<const double> x) {
   weigh();
   findTangent(options_.towardsHigherLoad ? 1 : -1);
   tangentIsExact_ = true;
+  firstSlope_ = tangent_.back();
   points_.push_back({x_.back(), 0, std::move(report)});
   return true;
 }
@@ -150,18 +151,25 @@ void BranchTracer::release() {
 }
 
 void BranchTracer::findTurningPoint() {
-  if (points_.size() < 3) return;
-  const BranchPoint& a = points_[points_.size() - 3];
-  const BranchPoint& b = points_[points_.size() - 2];
-  const BranchPoint& c = points_[points_.size() - 1];
-  const double first = (b.load - a.load) / (b.arcLength - a.arcLength);
-  const double second = (c.load - b.load) / (c.arcLength - b.arcLength);
-  if (first * second > 0 || first == 0) return;
-  // Newton's form of the parabola; its slope vanishes at s.
-  const double curvature = (second - first) / (c.arcLength - a.arcLength);
-  const double s = 0.5 * (a.arcLength + b.arcLength - first / curvature);
-  turningPoints_.push_back(
-      {points_.size() - 2, a.load + (s - a.arcLength) * (first + curvature * (s - b.arcLength)), s, first > 0});
+  const std::size_t last = points_.size() - 1;
+  const BranchPoint& b = points_[last - 1];
+  const BranchPoint& c = points_[last];
+  const double after = (c.load - b.load) / (c.arcLength - b.arcLength);
+  if (last == 1) {
+    if (firstSlope_ * after < 0) addTurningPoint(0, b, firstSlope_, (after - firstSlope_) / c.arcLength);
+    return;
+  }
+  const BranchPoint& a = points_[last - 2];
+  const double before = (b.load - a.load) / (b.arcLength - a.arcLength);
+  if (before * after >= 0) return;
+  const double curvature = (after - before) / (c.arcLength - a.arcLength);
+  addTurningPoint(last - 1, a, before - curvature * (b.arcLength - a.arcLength), curvature);
+}
+
+// load = from.load + slope s + curvature s^2 with s from there.
+void BranchTracer::addTurningPoint(std::size_t index, const BranchPoint& from, double slope, double curvature) {
+  const double s = -0.5 * slope / curvature;
+  turningPoints_.push_back({index, from.load + 0.5 * slope * s, from.arcLength + s, curvature < 0});
 }
 
 }  // namespace lampblack

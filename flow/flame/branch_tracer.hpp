@@ -19,11 +19,11 @@ namespace lampblack {
 
 struct ContinuationOptions {
   bool towardsHigherLoad = true;  // at the start
-  double firstStep = 100, smallestStep = 0.1, largestStep = 1000;
+  double firstStep = 100, smallestStep = 0.1, largestStep = 1e4;
   double loadWeight = 1;
   double bend = 0.2;          // aims at a distance from the tangent of this part of the step, rejects 2.5 times it
-  std::size_t goodSteps = 4;  // Newton steps in a point; fewer lengthen the next step, more shorten it
-  NewtonOptions newton = {.maximumSteps = 15};
+  std::size_t goodSteps = 8;  // Newton steps of a point; fewer lengthen the next step, more shorten it
+  NewtonOptions newton = {.maximumSteps = 20};
 };
 
 struct BranchPoint {
@@ -32,7 +32,8 @@ struct BranchPoint {
   NewtonReport newton;
 };
 
-// Extremum of the parabola load(arc length) through the points index - 1, index, index + 1 of the branch.
+// Extremum of the parabola load(arc length) through the points index - 1, index, index + 1 of the branch; where it lies
+// between the first two, of that through both with the slope of the first.
 struct TurningPoint {
   std::size_t index = 0;
   double load = 0, arcLength = 0;
@@ -74,6 +75,7 @@ class BranchTracer {
   // constraint (or the load).
   void findTangent(double sign);
   void findTurningPoint();
+  void addTurningPoint(std::size_t index, const BranchPoint& from, double slope, double curvature);
 
   LoadedSystem& system_;
   ContinuationOptions options_;
@@ -81,6 +83,7 @@ class BranchTracer {
   std::vector<double> x_, tangent_, weights_;
   bool tangentIsExact_ = false;
   double step_ = 0, deviation_ = 0;
+  double firstSlope_ = 0;  // of the load by arc length, at the start
   std::vector<BranchPoint> points_;
   std::vector<TurningPoint> turningPoints_;
   std::string reason_;

@@ -40,6 +40,7 @@ ContinuationOptions accurate(double largestStep) {
   options.largestStep = largestStep;
   options.firstStep = std::min(options.firstStep, largestStep);
   options.newton.stepTolerance = 1e-8;
+  options.goodSteps = 4;
   return options;
 }
 
@@ -155,7 +156,22 @@ TEST(BranchTracer, ResumesNearATurningPointWhereAFixedLoadWouldHaveNoSolution) {
   EXPECT_EQ(tracer.turningPoints().size(), 1u);
 }
 
-// load = -x, but only up to x = 1: an end of the branch that is no turning point.
+// A turn in the very first step cannot be seen in the loads of three points.
+TEST(BranchTracer, SeesATurnWithinTheFirstStep) {
+  SmallLoadedSystem system = circle();
+  ContinuationOptions options = accurate(1000);
+  options.firstStep = 1000;
+  BranchTracer tracer(system, options);
+  ASSERT_TRUE(tracer.start(std::vector<double>{0.02, std::sqrt(1 - 0.02 * 0.02)}));
+  ASSERT_TRUE(tracer.advance()) << tracer.reason();
+  EXPECT_LT(tracer.x()[0], 0);
+  ASSERT_EQ(tracer.turningPoints().size(), 1u);
+  EXPECT_NEAR(tracer.turningPoints()[0].load, 1, 1e-5);  // the parabola is off by less than 0.1^4/24
+  ASSERT_TRUE(tracer.advance());
+  EXPECT_EQ(tracer.turningPoints().size(), 1u);
+}
+
+// load = x, but only up to x = 1: an end of the branch that is no turning point.
 TEST(BranchTracer, SaysThatTheBranchEnds) {
   SmallLoadedSystem system(
       2, [](auto x, auto F) { F[0] = x[0] > 1 ? std::nan("") : x[0] - x[1]; },
