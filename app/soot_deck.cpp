@@ -7,6 +7,8 @@
 
 #include "app/flame_soot.hpp"
 #include "particles/soot/dimer_soot.hpp"
+#include "particles/soot/hmom.hpp"
+#include "particles/soot/momic_soot.hpp"
 
 namespace lampblack {
 namespace {
@@ -100,6 +102,7 @@ void addSootModelKeys(DeckSchema& schema) {
                        "Table of the fraction: rising temperatures, straight in between, constant outside.")
                .above(0))
       .add(numberKey("soot.alpha_table[].alpha", "Fraction there.").atLeast(0).atMost(1))
+      .add(integerKey("soot.moments", "Number of moments of model momic.").byDefault("6").atLeast(3).atMost(6))
       .add(numberKey("soot.oh_efficiency", "Reaction probability of an OH collision.")
                .byDefault("0.13")
                .atLeast(0)
@@ -121,6 +124,14 @@ std::unique_ptr<SootModel> readSootModel(const Deck& deck, const Mechanism& mech
   if (name == "two_equation_dimer") {
     options.pah = readPahSpecies(deck, mechanism);
     model = std::make_unique<DimerSoot>(std::move(options));
+  } else if (name == "hmom" || name == "momic") {
+    options.pah = readPahSpecies(deck, mechanism);
+    if (name == "hmom") {
+      model = std::make_unique<HmomSoot>(HmomOptions{std::move(options)});
+    } else {
+      const auto moments = static_cast<std::size_t>(deck.integer("soot.moments"));
+      model = std::make_unique<MomicSoot>(MomicOptions{std::move(options), moments});
+    }
   } else {
     throw deck.error("soot.model", fmt::format("'{}' is not there yet", name));
   }

@@ -9,6 +9,8 @@
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 #include "particles/soot/dimer_soot.hpp"
+#include "particles/soot/hmom.hpp"
+#include "particles/soot/momic_soot.hpp"
 
 namespace lampblack {
 namespace {
@@ -136,6 +138,14 @@ TEST(FlameSoot, AbsorbsAndHasTheEnthalpyOfGraphiteAndHydrogen) {
   EXPECT_EQ(h[0], 0);
   EXPECT_EQ(h[1], sootCarbonEnthalpy(1200).first);
   EXPECT_EQ(slope[2], sootHydrogenEnthalpy(1200).second);
+}
+
+TEST(SootDeck, MomentModels) {
+  const auto momic = readSootModel(deckOf("soot: {model: momic, moments: 4}"), abf());
+  EXPECT_EQ(dynamic_cast<const MomicSoot&>(*momic).options().moments, 4U);
+  EXPECT_EQ(momic->scalars().size(), 5U);
+  const auto hmom = readSootModel(deckOf("soot: {model: hmom, alpha: 0.2}"), abf());
+  EXPECT_EQ(dynamic_cast<const HmomSoot&>(*hmom).options().soot.alpha, 0.2);
 }
 
 }  // namespace
