@@ -50,6 +50,7 @@ struct HmomSoot::Rates {
   std::array<double, scalarCount> scalars{};
   DimerBalance dimers;
   SurfaceEvents onNuclei, onLarge;
+  double condensedOnLarge = 0;          // kg/m3/s
   double hydrogenLost = 0;              // mol/m3/s
   double coagulated = 0, burntOut = 0;  // 1/m3/s
 
@@ -186,7 +187,9 @@ void HmomSoot::addDimers(const MomentGas& gas, const State& state, Rates& rates)
     rates.scalars[number] += hits * n.number;
     rates.scalars[surface] += hits * n.present * sphereSurface(n.volume + gas.dimer.mass / o.sootDensity);
   }
-  rates.scalars[surface] += volume * onLarge / (onNucleus + onLarge) * surfacePerVolume(l);
+  const double onLargeVolume = volume * onLarge / (onNucleus + onLarge);
+  rates.condensedOnLarge = onLargeVolume * o.sootDensity;
+  rates.scalars[surface] += onLargeVolume * surfacePerVolume(l);
 }
 
 void HmomSoot::addSurface(const MomentGas& gas, const State& state, Rates& rates) const {
@@ -223,10 +226,13 @@ void HmomSoot::addSurface(const MomentGas& gas, const State& state, Rates& rates
     rates.scalars[nucleiHydrogen] -= lost.hydrogen * o.hydrogenWeight;
     rates.hydrogenLost += lost.hydrogen;
   }
-  // Large particles shrink with their number of primaries; a share (nucleus/mean)^2 goes as a whole.
+  // Large particles shrink with their number of primaries; a share (nucleus/mean)^2 of the net loss
+  // goes as a whole.
   if (l.mass > 0) {
     const double rate = oxidised(rates.onLarge, l.hydrogenToCarbon) / l.mass;
-    const double q = nucleusMass_ / l.particle, share = q * q;
+    const double q = nucleusMass_ / l.particle,
+                 gained = rates.condensedOnLarge + 2 * rates.onLarge.growth * o.carbonWeight;
+    const double share = q * q * MomentChemistry::netOxidation(oxidised(rates.onLarge, l.hydrogenToCarbon), gained);
     rates.burntOut -= share * rate * l.number;
     rates.scalars[number] -= share * rate * l.number;
     rates.scalars[surface] -= (share + (1 - share) * 2.0 / 3.0) * rate * std::min(state.surface, areaOfLarge);

@@ -168,14 +168,18 @@ void MomicSoot::addSurface(const MomentGas& gas, const State& state, Rates& rate
   rates.atoms.carbon += 2 * e.growth - lost.carbon;
   rates.atoms.hydrogen -= lost.hydrogen;
 
-  // A share of oxidation takes whole particles.
+  // A share of what oxidation takes more than particles gain takes whole particles.
+  const double carbonWithHydrogen = o.carbonWeight + state.hydrogenToCarbon * o.hydrogenWeight;  // kg/mol of carbon
+  const double oxidised = lost.carbon * carbonWithHydrogen;                                      // kg/m3/s
+  const SootAtoms& dimers = rates.dimers.atoms;
+  const double condensed =
+      rates.dimers.condensingShare * (dimers.carbon * o.carbonWeight + dimers.hydrogen * o.hydrogenWeight);
   const auto& L = state.logarithms;
   const double width = L[0] + L[2] - 2 * L[1];
   const double above = std::max(0.0, L[1] - L[0] - 0.5 * width - std::log(nucleus_));
-  const double share = std::exp(-0.5 * above * above / (width + leastVariance));
-  const double carbonWithHydrogen = o.carbonWeight + state.hydrogenToCarbon * o.hydrogenWeight;  // kg/mol of carbon
-  const double oxidised = (2 * e.oxidationO2 + e.oxidationOH) * carbonWithHydrogen;              // kg/m3/s
-  const double removal = share * oxidised / state.mass;                                          // 1/s
+  const double share = std::exp(-0.5 * above * above / (width + leastVariance)) *
+                       MomentChemistry::netOxidation(oxidised, condensed + 2 * e.growth * o.carbonWeight);
+  const double removal = share * oxidised / state.mass;  // 1/s
   rates.burntOut = -removal * state.present;
   rates.moments[0] += rates.burntOut;
 

@@ -64,6 +64,10 @@ TEST(Hmom, TakesNothingFromZero) {
   test::expectNothingTakenFromZero(HmomSoot({test::threePah()}), 4);
 }
 
+TEST(Hmom, DifferencesAreTheDerivatives) {
+  test::expectJacobian(HmomSoot({test::threePah()}), 5, 1e-5);
+}
+
 TEST(Hmom, NucleationMakesNucleiOfTwoDimers) {
   SootModelOptions soot = nothing(test::threePah());
   soot.inception = true;

@@ -65,6 +65,10 @@ TEST(MomicSoot, TakesNothingFromZero) {
   test::expectNothingTakenFromZero(MomicSoot({test::threePah(), 6}), 4);
 }
 
+TEST(MomicSoot, DifferencesAreTheDerivatives) {
+  test::expectJacobian(MomicSoot({test::threePah(), 6}), 5, 1e-5);
+}
+
 TEST(MomicSoot, NucleationIsExact) {
   const MomicSoot model(with(nucleation));
   const ModelGas gas(sootingGas(), model.options().soot);
