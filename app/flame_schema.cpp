@@ -1,9 +1,23 @@
+#include <fmt/format.h>
+
 #include "app/flame_case.hpp"
 #include "app/gas_input.hpp"
 #include "app/temperature_input.hpp"
 
 namespace lampblack {
 namespace {
+
+// The solver's own defaults, as a deck would say them.
+const FlameSolverOptions& defaults() {
+  static const FlameSolverOptions options;
+  return options;
+}
+std::string text(double value, const char* unit = "") {
+  return fmt::format("{}{}", value, unit);
+}
+std::string text(std::size_t value) {
+  return fmt::format("{}", value);
+}
 
 void addStream(DeckSchema& schema, const std::string& section, const std::string& doc) {
   schema.section(section, Presence::optional, doc)
@@ -71,48 +85,57 @@ void addPhysics(DeckSchema& schema) {
 void addGrid(DeckSchema& schema) {
   schema
       .add(numberKey("grid.slope", "Largest change of an unknown between neighbouring points, over its range.")
-               .byDefault("0.06")
+               .byDefault(text(defaults().grid.slope))
                .above(0)
                .atMost(1))
       .add(numberKey("grid.curve", "Largest change of its slope, over the range of slopes.")
-               .byDefault("0.12")
+               .byDefault(text(defaults().grid.curve))
                .above(0)
                .atMost(1))
-      .add(numberKey("grid.ratio", "Largest ratio of neighbouring spacings.").byDefault("3").above(1))
+      .add(numberKey("grid.ratio", "Largest ratio of neighbouring spacings.")
+               .byDefault(text(defaults().grid.ratio))
+               .atLeast(2))
       .add(numberKey("grid.prune", "A point goes where slope and curve stay below this without it; 0: none goes.")
-               .byDefault("0")
+               .byDefault(text(defaults().grid.prune))
                .atLeast(0)
                .below(1))
-      .add(integerKey("grid.maximum_points", "More than this is a failure.").byDefault("2000").atLeast(10))
-      .add(integerKey("grid.initial_points", "Of the first grid.").byDefault("40").atLeast(8).atMost(100000))
+      .add(integerKey("grid.maximum_points", "More than this is a failure.")
+               .byDefault(text(defaults().grid.maximumPoints))
+               .atLeast(10))
+      .add(integerKey("grid.initial_points", "Of the first grid.")
+               .byDefault(text(InitialFlameOptions{}.points))
+               .atLeast(8)
+               .atMost(100000))
       .add(booleanKey("grid.refine", "false: on the first grid only.").byDefault("true"));
 }
 
 void addSolver(DeckSchema& schema) {
   schema
       .add(numberKey("solver.relative_tolerance", "Of all unknowns: a change of this size counts as 1.")
-               .byDefault("1e-4")
+               .byDefault(text(defaults().tolerances.relative))
                .above(0)
                .below(1))
-      .add(numberKey("solver.species_tolerance", "Absolute, of mass fractions.").byDefault("1e-9").above(0))
+      .add(numberKey("solver.species_tolerance", "Absolute, of mass fractions.")
+               .byDefault(text(defaults().tolerances.species))
+               .above(0))
       .add(quantityKey("solver.temperature_tolerance", units::temperature, "Absolute, of the temperature.")
-               .byDefault("0.01 K")
+               .byDefault(text(defaults().tolerances.temperature, " K"))
                .above(0))
       .add(numberKey("solver.step_tolerance", "Converged once a Newton step is so small in these units.")
-               .byDefault("1e-3")
+               .byDefault(text(defaults().newton.stepTolerance))
                .above(0))
       .add(integerKey("solver.maximum_steps", "Newton steps before time steps are taken instead.")
-               .byDefault("60")
+               .byDefault(text(defaults().newton.maximumSteps))
                .atLeast(1))
       .add(integerKey("solver.jacobian_age", "Newton steps with the same matrix while they converge fast.")
-               .byDefault("8")
+               .byDefault(text(defaults().newton.jacobianAge))
                .atLeast(1))
       .add(
           quantityKey("solver.first_time_step", units::time, "First pseudo-transient step where Newton's method fails.")
-              .byDefault("10 us")
+              .byDefault(text(defaults().transient.firstStep, " s"))
               .above(0))
       .add(integerKey("solver.maximum_time_steps", "Pseudo-transient steps after which a stage has failed.")
-               .byDefault("2000")
+               .byDefault(text(defaults().transient.maximumSteps))
                .atLeast(1))
       .add(temperatureKey("solver.anchor_temperature",
                           "free: temperature that is held in place; between unburnt and burnt if not given.")

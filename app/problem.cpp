@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "app/flame_case.hpp"
+#include "app/flame_run.hpp"
 #include "app/flow_case.hpp"
 #include "app/flow_run.hpp"
 #include "app/population_case.hpp"
@@ -14,6 +16,8 @@ namespace lampblack {
 const std::vector<Problem>& problems() {
   static const std::vector<Problem> table{
       {"flow", "A reacting flow on a mesh, with or without soot.", flowSchema, checkFlow, runFlow},
+      {"flame1d", "One-dimensional flames: free, burner-stabilised, against a wall, counterflow; with or without soot.",
+       flameSchema, checkFlame, runFlame},
       {"reactor",
        "Reactors without space: closed at constant pressure or volume, perfectly stirred, plug flow, networks.",
        reactorSchema, checkReactor, runReactor},

@@ -131,14 +131,21 @@ void FlameSolver::Data::refine(FlameEquations& equations, NewtonSolver& solver, 
     if (problem.type == FlameType::Free)
       for (std::size_t i = 0; i < solution.profile.points(); ++i)
         if (solution.profile.z[i] == anchorZ) keep.push_back(i);
-    const GridChange change = refineGrid(solution.profile, grid, {active.get(), width}, keep);
-    if (!change.changed()) return;
-    if (pass + 1 == options.maximumGrids) {
+    const auto giveUp = [&](const std::string& reason) {
       FlameStage stage = solution.stages.back();
-      stage.newton.reason = fmt::format("the grid still changes after {} refinements", options.maximumGrids);
+      stage.newton.reason = reason;
       solution.stages.pop_back();
       fail(stage);
+    };
+    GridChange change;
+    try {
+      change = refineGrid(solution.profile, grid, {active.get(), width}, keep);
+    } catch (const NumericsError& error) {
+      giveUp(error.what());
     }
+    if (!change.changed()) return;
+    if (pass + 1 == options.maximumGrids)
+      giveUp(fmt::format("the grid still changes after {} refinements", options.maximumGrids));
     solution.profile = onGrid(solution.profile, change.z);
   }
 }

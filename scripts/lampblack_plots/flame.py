@@ -36,9 +36,7 @@ class FlameData:
         steep = np.gradient(temperature, z)
         thickness = rise.max() / np.max(np.abs(steep))
         first = z[np.argmax(rise > 0.005 * rise.max())]
-        released = np.cumsum(0.5 * (self.fields["heat_release"][1:] + self.fields["heat_release"][:-1]) * np.diff(z))
-        last = z[1 + np.argmax(released > 0.98 * released[-1])]
-        return max(z[0], first - 2 * thickness), min(z[-1], last + 8 * thickness)
+        return max(z[0], first - 2 * thickness), min(z[-1], first + 15 * thickness)
 
 
 def plot_flame(results, pictures):

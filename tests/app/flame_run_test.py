@@ -1,0 +1,100 @@
+"""One-dimensional flames as users run them: results, restart, failure, the same bits on any number of ranks.
+
+Usage: flame_run_test.py EXECUTABLE RANKS MPIEXEC...
+"""
+
+import json
+import pathlib
+import re
+import sys
+import tempfile
+
+import running
+
+try:
+    import h5py
+    import numpy as np
+except ImportError as error:
+    print(f"skipped: {error}")
+    sys.exit(77)
+
+DECK = f"""problem: flame1d
+title: test
+mechanism: {running.SOURCE}/cases/mechanisms/hydrogen_h2o2_10.yaml
+flame: {{type: free, length: 20 mm}}
+inlet: {{temperature: 298 K, fuel: "H2: 1", oxidizer: "O2: 1, N2: 3.76", equivalence_ratio: 1}}
+grid: {{slope: 0.2, curve: 0.3}}
+"""
+
+
+def unknowns(folder, name="results.h5"):
+    with h5py.File(folder / name, "r") as file:
+        return file["flame/restart/unknowns"][()]
+
+
+def check_results(folder):
+    record = json.loads((folder / "run.json").read_text(encoding="utf-8"))
+    results = record["results"]
+    assert record["status"] == "done" and results["converged"]
+    with h5py.File(folder / "results.h5", "r") as file:
+        flame = file["flame"]
+        z, u, rho = flame["z"][()], flame["velocity"][()], flame["density"][()]
+        assert np.all(np.diff(z) > 0) and len(z) == results["points"]
+        # Without spreading the mass flux is the same everywhere, and that of the speed.
+        assert np.allclose(rho * u, rho[0] * results["flame_speed_m_per_s"], rtol=1e-6), "mass flux"
+        X, Y = (sum(flame[kind][name][()] for name in flame[kind]) for kind in "XY")
+        assert np.allclose(X, 1, atol=1e-9) and np.allclose(Y, 1, atol=1e-9), "fractions"
+        assert flame.attrs["maximum_temperature"] == flame["temperature"][()].max()
+        assert [name.decode() for name in file["budgets/name"]][0] == "mass"
+        assert np.all(np.abs(file["budgets/relative_imbalance"][()]) < 1e-8), "budgets"
+        assert len(file["stages/name"]) == len(file["stages/points"]) > 1
+    head, first = (folder / "profile.csv").read_text(encoding="utf-8").splitlines()[:2]
+    assert head.startswith("z [m],temperature [K],velocity [m/s]") and head.count(",") == first.count(",")
+    return results
+
+
+def main(executable, ranks, *mpiexec):
+    program = running.Program(executable, list(mpiexec), int(ranks))
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        deck = folder / "deck.yaml"
+        deck.write_text(DECK, encoding="utf-8")
+
+        def run(out, *settings, code=0):
+            result = program("run", deck, "--out", folder / out, *running.settings(*settings))
+            assert result.code == code, f"{out}: exit code {result.code}\n{result.out}{result.err}"
+            return result
+
+        run("whole")
+        results = check_results(folder / "whole")
+        # H2/air burns at 2 to 3 m/s, to 2300 to 2450 K; the numbers themselves are compared elsewhere.
+        assert 2 < results["flame_speed_m_per_s"] < 3 and 2300 < results["maximum_temperature_K"] < 2450, results
+
+        # From its own results nothing is left to do: a Newton step or two to see that, on the same grid.
+        run("again", f"initial={folder}/whole/results.h5")
+        again = check_results(folder / "again")
+        assert again["points"] == results["points"] and again["newton_steps"] <= 4 and again["time_steps"] == 0, again
+        assert abs(again["flame_speed_m_per_s"] / results["flame_speed_m_per_s"] - 1) < 1e-6
+
+        # A failure leaves what it had, and that is enough to go on from.
+        failed = run("failed", "grid.maximum_points=45", code=3)
+        lines = failed.err.splitlines()
+        assert re.match(r"lampblack: numerics: the flame did not converge in the stage 'flame.*' \(\d+ points\): .* the "
+                        r"residual is largest in ", lines[0]), failed.err
+        assert failed.err.count("lampblack: ") == 1 and "results.h5.part" in failed.err, failed.err
+        assert "MPI_ABORT" not in failed.err
+        assert json.loads((folder / "failed/run.json").read_text(encoding="utf-8"))["status"] == "failed"
+        assert not (folder / "failed/results.h5").exists()
+        run("resumed", f"initial={folder}/failed/results.h5.part")
+        assert check_results(folder / "resumed")["time_steps"] == 0
+
+        # Any number of ranks: the same flame to the last bit.
+        if int(ranks) > 1:
+            single = running.Program(executable, list(mpiexec), 1)
+            assert single("run", deck, "--out", folder / "single").code == 0
+            assert np.array_equal(unknowns(folder / "single"), unknowns(folder / "whole")), "ranks differ"
+    print("ok")
+    return 0
+
+
+sys.exit(main(*sys.argv[1:]))
