@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numeric>
 #include <utility>
 
@@ -21,9 +22,14 @@ BlockTiles bestTiles() {
 
 // Rows of A, at most `packs` times eight, as a tile wants them. Returns what follows them.
 double* packRows(std::size_t packs, std::size_t rows, std::size_t k, const double* A, std::size_t lda, double* to) {
-  for (std::size_t j = 0; j < k; ++j, to += packs * pack) {
-    std::copy_n(A + j * lda, rows, to);
-    std::fill_n(to + rows, packs * pack - rows, 0.0);
+  const std::size_t height = packs * pack;
+  for (std::size_t j = 0; j < k; ++j, A += lda, to += height) {
+    if (rows == height) {
+      for (std::size_t i = 0; i < height; i += pack) std::memcpy(to + i, A + i, pack * sizeof(double));
+    } else {
+      std::copy_n(A, rows, to);
+      std::fill_n(to + rows, height - rows, 0.0);
+    }
   }
   return to;
 }
@@ -106,12 +112,40 @@ bool factoriseThin(std::size_t m, std::size_t n, double* A, std::size_t ld, int*
   return true;
 }
 
+// y += alpha A x, the columns of A being ld apart: eight of them for each pass over y.
+void addColumns(std::size_t m, std::size_t n, double alpha, const double* A, std::size_t ld, const double* x,
+                double* y) {
+  std::size_t j = 0;
+  for (; j + pack <= n; j += pack, A += pack * ld) {
+    double f[pack];
+    for (std::size_t c = 0; c < pack; ++c) f[c] = alpha * x[j + c];
+    for (std::size_t i = 0; i < m; ++i) {
+      const double* a = A + i;
+      y[i] += ((f[0] * a[0] + f[1] * a[ld]) + (f[2] * a[2 * ld] + f[3] * a[3 * ld])) +
+              ((f[4] * a[4 * ld] + f[5] * a[5 * ld]) + (f[6] * a[6 * ld] + f[7] * a[7 * ld]));
+    }
+  }
+  for (; j < n; ++j, A += ld) {
+    const double f = alpha * x[j];
+    for (std::size_t i = 0; i < m; ++i) y[i] += f * A[i];
+  }
+}
+
 void solveOne(std::size_t n, const double* A, double* b) {
-  for (std::size_t j = 0; j < n; ++j)
-    for (std::size_t i = j + 1; i < n; ++i) b[i] -= A[j * n + i] * b[j];
-  for (std::size_t j = n; j-- > 0;) {
-    b[j] /= A[j * n + j];
-    for (std::size_t i = 0; i < j; ++i) b[i] -= A[j * n + i] * b[j];
+  for (std::size_t first = 0; first < n; first += pack) {
+    const std::size_t end = std::min(first + pack, n);
+    for (std::size_t j = first; j < end; ++j)
+      for (std::size_t i = j + 1; i < end; ++i) b[i] -= A[j * n + i] * b[j];
+    addColumns(n - end, end - first, -1, A + first * n + end, n, b + first, b + end);
+  }
+  for (std::size_t end = n; end > 0;) {
+    const std::size_t first = (end - 1) / pack * pack;
+    for (std::size_t j = end; j-- > first;) {
+      b[j] /= A[j * n + j];
+      for (std::size_t i = first; i < j; ++i) b[i] -= A[j * n + i] * b[j];
+    }
+    addColumns(first, end - first, -1, A + first * n, n, b + first, b);
+    end = first;
   }
 }
 
@@ -221,15 +255,7 @@ void DenseBlocks::solve(std::size_t n, const double* A, const int* pivots, std::
 }
 
 void addProduct(std::size_t m, std::size_t n, double alpha, const double* A, const double* x, double* y) {
-  std::size_t j = 0;
-  for (; j + 4 <= n; j += 4, A += 4 * m) {
-    const double a = alpha * x[j], b = alpha * x[j + 1], c = alpha * x[j + 2], d = alpha * x[j + 3];
-    for (std::size_t i = 0; i < m; ++i) y[i] += (a * A[i] + b * A[m + i]) + (c * A[2 * m + i] + d * A[3 * m + i]);
-  }
-  for (; j < n; ++j, A += m) {
-    const double a = alpha * x[j];
-    for (std::size_t i = 0; i < m; ++i) y[i] += a * A[i];
-  }
+  addColumns(m, n, alpha, A, m, x, y);
 }
 
 }  // namespace lampblack

@@ -39,10 +39,11 @@ std::size_t BlockTridiagonal::singularPoint() const {
 
 void BlockTridiagonal::clear() {
   auto& d = *data_;
+  if (d.untouched) return;
   for (auto& end : d.ends) end.clear();
   for (auto* block : {&d.middleLower, &d.middleDiagonal, &d.middleUpper, &d.middleColumns, &d.middleRows, &d.corner})
     std::fill(block->begin(), block->end(), 0.0);
-  d.set = true;
+  d.untouched = d.set = true;
   d.factorised = false;
 }
 
@@ -69,6 +70,7 @@ double* BlockTridiagonal::borderRows(std::size_t column) {
 
 double* BlockTridiagonal::corner() {
   if (!data_->set) throw std::logic_error("BlockTridiagonal: the blocks have become factors");
+  data_->untouched = false;
   return data_->corner.data();
 }
 

@@ -24,7 +24,7 @@ struct BlockTridiagonal::Data {
   AlignedVector core, coreScale;
   std::vector<int> corePivots;
   DenseBlocks dense;
-  bool set = true, factorised = false;
+  bool untouched = true, set = true, factorised = false;
   std::size_t singular = 0;
 
   Data(MPI_Comm c, int rank, int count, std::size_t N, std::size_t width, std::size_t borderWidth)
@@ -71,6 +71,7 @@ struct BlockTridiagonal::Data {
   double* block(std::size_t row, AlignedVector& ofMiddle, double* (BlockSweep::*ofEnd)(std::size_t)) {
     if (!set) throw std::logic_error("BlockTridiagonal: the blocks have become factors");
     if (row < begin() || row >= end()) throw std::logic_error("BlockTridiagonal: not a row of this rank");
+    untouched = false;
     if (row == middle) return ofMiddle.data();
     return row < middle ? (ends[left].*ofEnd)(row) : (ends[right].*ofEnd)(points - 1 - row);
   }

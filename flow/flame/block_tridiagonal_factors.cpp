@@ -62,7 +62,7 @@ bool BlockTridiagonal::Data::factoriseCore(const std::vector<double>& ofLeft, co
 bool BlockTridiagonal::factorise() {
   auto& d = *data_;
   if (!d.set) throw std::logic_error("BlockTridiagonal: factorise called twice");
-  d.set = false;
+  d.untouched = d.set = false;
   const Innermost at(d.n, d.border);
   std::array<std::vector<double>, 2> innermost;
   for (auto& values : innermost) values.resize(at.size);

@@ -1,6 +1,7 @@
 // The blocks of one point's row of the Newton matrix.
 #include "flow/flame/flame_jacobian.hpp"
 
+#include "chemistry/numerics/dot.hpp"
 #include "core/constants.hpp"
 
 namespace lampblack {
@@ -76,13 +77,8 @@ static void addFace(const FlameEquations::Data& data, std::size_t i, bool isRigh
     other[T * w + T] += sign * farSlope;
     mBlock[M * w + T] += sign * byMassFlux;
     for (std::size_t j = 0; j < n; ++j) {
-      double a = 0, b = 0;
-      for (std::size_t k = 0; k < n; ++k) {
-        a += dh[k] * own[j * n + k];
-        b += dh[k] * far[j * n + k];
-      }
-      work.D[(Y + j) * w + T] += sign * a;
-      other[(Y + j) * w + T] += sign * b;
+      work.D[(Y + j) * w + T] += sign * dot(dh, &own[j * n], n);
+      other[(Y + j) * w + T] += sign * dot(dh, &far[j * n], n);
     }
   }
 
@@ -136,13 +132,12 @@ static void addReactions(FlameEquations::Data& data, std::size_t i, FlameEquatio
     const double own = rho / weights[j], common = W / weights[j];
     const double* column = &work.rateJacobian[j * n];
     double* d = work.D + (Y + j) * w;
-    double heat = 0;
+    double* slope = work.difference.data();
     for (std::size_t k = 0; k < n; ++k) {
-      const double slope = dv * weights[k] * (column[k] * own - work.sumByConcentration[k] * common);
-      d[Y + k] -= slope;
-      heat += h[k] * slope;
+      slope[k] = dv * weights[k] * (column[k] * own - work.sumByConcentration[k] * common);
+      d[Y + k] -= slope[k];
     }
-    if (energy) d[T] += heat;
+    if (energy) d[T] += dot(h, slope, n);
   }
   double heat = 0;
   for (std::size_t k = 0; k < n; ++k) {

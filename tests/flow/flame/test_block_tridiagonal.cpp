@@ -266,6 +266,26 @@ TEST(BlockTridiagonalMatrix, MultipliesAsTheDenseMatrix) {
   }
 }
 
+TEST(BlockTridiagonalMatrix, IsZeroAtFirstAndOnceCleared) {
+  const auto pattern = Pattern::dominant(4, 3, 2);
+  BlockTridiagonal A(MPI_COMM_WORLD, 4, 3, 2);
+  const auto x = randomVector(A.size());
+  std::vector<double> y(A.size(), 1.0);
+  const std::vector<double> zero(A.size());
+  A.clear();
+  A.multiply(x, y);
+  EXPECT_EQ(y, zero);
+  A.corner()[0] = 1;
+  A.clear();
+  A.multiply(x, y);
+  EXPECT_EQ(y, zero);
+  pattern.setTo(A);
+  ASSERT_TRUE(A.factorise());
+  A.clear();
+  A.multiply(x, y);
+  EXPECT_EQ(y, zero);
+}
+
 TEST(BlockTridiagonalMatrix, GivesEachRowToOneRank) {
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
