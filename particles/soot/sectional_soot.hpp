@@ -66,6 +66,7 @@ class SectionalSoot final : public SootModel {
   [[nodiscard]] const std::vector<SootScalar>& scalars() const override;
   void sources(const SootGas& gas, std::span<const double> densities, std::span<double> rates,
                std::span<double> exchange) const override;
+  void jacobian(const SootGas& gas, std::span<const double> densities, std::span<double> values) const override;
   void diffusivities(const SootGas& gas, std::span<const double> densities, std::span<double> D) const override;
   [[nodiscard]] SootProperties properties(const SootGas& gas, std::span<const double> densities) const override;
   [[nodiscard]] SootProcesses processes(const SootGas& gas, std::span<const double> densities) const override;

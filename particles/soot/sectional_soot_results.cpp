@@ -1,0 +1,95 @@
+// What SectionalSoot reports: diffusivities, properties, processes and size distributions.
+#include <algorithm>
+#include <cmath>
+
+#include "particles/soot/sectional_soot_impl.hpp"
+
+namespace lampblack {
+
+void SectionalSoot::diffusivities(const SootGas& gas, std::span<const double> densities, std::span<double> D) const {
+  Impl& m = *impl_;
+  m.prepareSections(densities);
+  m.shapes.updateGas(2 * meanFreePath({gas.temperature, gas.pressure, gas.viscosity, gas.meanMolecularWeight, 0}));
+  // Thesis eqs. 9-17 to 9-20. Hydrogen moves as the carbon it is bound to.
+  const double scale = constants::boltzmann * gas.temperature / (3 * constants::pi * gas.viscosity);
+  double carbon = 0, flux = 0;
+  for (std::size_t i = 0; i < m.sections; ++i) {
+    D[i] = scale * m.shapes.slip[i] / m.shapes.mobility[i];
+    if (!m.spheres) D[m.sections + i] = D[i];
+    const double here = (m.state.aggregates[i] + m.numberScale[i]) * m.pivots[i];
+    carbon += here;
+    flux += here * D[i];
+  }
+  if (m.withHydrogen) D[m.hydrogenScalar()] = flux / carbon;
+}
+
+SootProperties SectionalSoot::properties(const SootGas& /*gas*/, std::span<const double> densities) const {
+  Impl& m = *impl_;
+  m.prepareSections(densities);
+  const Impl::State& s = m.state;
+  SootProperties p;
+  p.numberDensity = s.number;
+  p.volumeFraction = s.carbon / m.options.soot.sootDensity;
+  if (!(s.number > 0)) return p;
+  double primaries = 0;
+  for (std::size_t i = 0; i < m.sections; ++i) {
+    const double N = s.aggregates[i];
+    primaries += N * m.shapes.primariesEach[i];
+    p.surfaceArea += N * m.shapes.area[i];
+    p.mobilityDiameter += N * m.shapes.mobility[i] / s.number;
+    p.gyrationDiameter += N * m.shapes.gyration(i) / s.number;
+  }
+  p.primariesPerAggregate = primaries / s.number;
+  p.meanDiameter = std::cbrt(6 * p.volumeFraction / (constants::pi * s.number));
+  p.primaryDiameter = std::cbrt(6 * p.volumeFraction / (constants::pi * primaries));
+  return p;
+}
+
+SootProcesses SectionalSoot::processes(const SootGas& gas, std::span<const double> densities) const {
+  Impl& m = *impl_;
+  m.prepare(gas, densities);
+  const Impl::State& s = m.state;
+  SootProcesses p;
+  for (std::size_t k = 0; k < s.uptake.kinds; ++k) {
+    p.nucleationNumber += s.uptake.nuclei[k].rate;
+    p.nucleation += s.uptake.nuclei[k].carbon;
+  }
+  if (m.options.soot.coagulation) {
+    m.pairs.updateKernels(m.shapes, m.collisionGas(gas));
+    std::vector<double> fN(m.sections, 0), fP(s.primaries.size(), 0);
+    m.pairs.addRates(s.aggregates, s.primaries, fN, fP);
+    for (const double f : fN) p.coagulationNumber += f;
+  }
+  p.oxidationNumber = -s.down[0] * s.aggregates[0];
+  for (std::size_t i = 0; i < m.sections; ++i) p.fragmentationNumber += s.breaking[i] * s.aggregates[i];
+  const double weight = m.options.soot.carbonWeight;
+  double hydrogen = 0;  // kg/m3/s with PAH, to go with their carbon
+  double carbon = 0;
+  for (std::size_t k = 0; k < m.pahs && m.withHydrogen; ++k) {
+    hydrogen += m.options.soot.pah[k].hydrogen * m.options.soot.hydrogenWeight * s.uptake.consumption[k];
+    carbon += m.options.soot.pah[k].carbon * weight * s.uptake.consumption[k];
+  }
+  const double perCarbon = 1 + (carbon > 0 ? hydrogen / carbon : 0), bound = s.carbon > 0 ? s.hydrogen / s.carbon : 0;
+  p.nucleation *= perCarbon;
+  p.condensation = s.condensed * perCarbon;
+  p.growth = 2 * weight * s.growth;
+  p.oxidationO2 = -2 * weight * s.byO2 * (1 + bound);
+  p.oxidationOH = -weight * s.byOH * (1 + bound);
+  p.carbonisation = -s.dehydrogenation * s.hydrogen;
+  p.dimerNumber = s.uptake.dimers;
+  p.dimerProduction = s.uptake.production;
+  return p;
+}
+
+SootSizeDistribution SectionalSoot::sizeDistribution(std::span<const double> densities) const {
+  const Impl& m = *impl_;
+  const double width = std::log10(m.options.factor) / 3;
+  SootSizeDistribution distribution;
+  for (std::size_t i = 0; i < m.sections; ++i) {
+    distribution.diameter.push_back(m.shapes.sphere[i]);
+    distribution.density.push_back(std::max(densities[i], 0.0) / width);
+  }
+  return distribution;
+}
+
+}  // namespace lampblack

@@ -1,0 +1,374 @@
+// The sectional soot model at one state: budgets of elements and numbers, each process alone, the Jacobian.
+#include "particles/soot/sectional_soot.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "core/errors.hpp"
+#include "particles/surface_chemistry.hpp"
+#include "tests/particles/soot/sectional_soot_fixtures.hpp"
+
+namespace lampblack {
+namespace {
+
+using namespace test;
+using Nucleation = SectionalSootOptions::Nucleation;
+using Aggregation = SectionalSootOptions::Aggregation;
+
+void turnOff(SootModelOptions& soot) {
+  soot.inception = soot.condensation = soot.surfaceGrowth = soot.oxidation = soot.coagulation = false;
+}
+
+// Atoms of C, H and O in the species of the gas.
+struct Atoms {
+  double C, H, O;
+};
+std::vector<Atoms> atomsOf(const SectionalSoot& model) {
+  std::vector<Atoms> atoms = {{0, 1, 0}, {0, 2, 0}, {0, 1, 1}, {0, 2, 1}, {0, 0, 2}, {2, 2, 0}, {1, 0, 1}};
+  for (const auto& pah : model.options().soot.pah)
+    atoms.push_back({static_cast<double>(pah.carbon), static_cast<double>(pah.hydrogen), 0});
+  return atoms;
+}
+
+class SectionalElements : public ::testing::TestWithParam<std::tuple<Nucleation, Aggregation, bool, double>> {
+ protected:
+  SectionalSootOptions options() const {
+    SectionalSootOptions wanted = twoPahWithEverything();
+    wanted.nucleation = std::get<0>(GetParam());
+    wanted.aggregation = std::get<1>(GetParam());
+    wanted.carbonisation = std::get<2>(GetParam());
+    wanted.factor = std::get<3>(GetParam());
+    wanted.fragmentation = wanted.aggregation == Aggregation::aggregates;
+    return wanted;
+  }
+};
+
+TEST_P(SectionalElements, AreConservedToRoundOff) {
+  const SectionalSoot model(options());
+  const auto atoms = atomsOf(model);
+  for (unsigned seed = 0; seed < 5; ++seed) {
+    const SectionGas gas(1400 + 100 * seed, sooting({3e-6, 1e-6}));
+    const auto y = randomState(model, seed);
+    const auto f = sourcesOf(model, gas.gas, y);
+    double C = 0, H = 0, O = 0, sizeC = 0, sizeH = 0, sizeO = 0;
+    const auto add = [](double& total, double& size, double value) {
+      total += value;
+      size += std::abs(value);
+    };
+    for (std::size_t k = 0; k < atoms.size(); ++k) {
+      add(C, sizeC, atoms[k].C * f.exchange[k]);
+      add(H, sizeH, atoms[k].H * f.exchange[k]);
+      add(O, sizeO, atoms[k].O * f.exchange[k]);
+    }
+    for (std::size_t i = 0; i < model.scalars().size(); ++i) {
+      add(C, sizeC, model.scalars()[i].carbon * f.scalars[i] / model.options().soot.carbonWeight);
+      add(H, sizeH, model.scalars()[i].hydrogen * f.scalars[i] / model.options().soot.hydrogenWeight);
+    }
+    // Rounding of a few hundred terms.
+    EXPECT_NEAR(C, 0, 1e-13 * sizeC);
+    EXPECT_NEAR(H, 0, 1e-13 * sizeH);
+    EXPECT_NEAR(O, 0, 1e-13 * sizeO);
+    EXPECT_GT(sizeH, 0);
+  }
+}
+
+TEST_P(SectionalElements, JacobianIsThatOfDifferences) {
+  const SectionalSoot model(options());
+  const SectionGas gas(1650, sooting({3e-6, 1e-6}));
+  const std::size_t S = model.scalars().size(), G = model.gasSpecies().size(), R = S + G, C = R + 1;
+  const auto y = randomState(model, 7);
+  std::vector<double> J(R * C);
+  model.jacobian(gas.gas, y, J);
+  for (std::size_t c = 0; c < C; ++c) {
+    auto value = [&](double relative) {
+      auto changed = y;
+      auto concentrations = gas.concentrations;
+      SootGas g = gas.gas;
+      g.concentrations = concentrations;
+      if (c < S)
+        changed[c] *= 1 + relative;
+      else if (c < R)
+        concentrations[c - S] *= 1 + relative;
+      else
+        g.temperature *= 1 + relative;
+      auto f = sourcesOf(model, g, changed);
+      f.scalars.insert(f.scalars.end(), f.exchange.begin(), f.exchange.end());
+      return f.scalars;
+    };
+    constexpr double h = 2e-4;
+    const auto p1 = value(h), m1 = value(-h), p2 = value(2 * h), m2 = value(-2 * h);
+    const auto f = value(0);
+    const double x = c < S ? y[c] : c < R ? gas.concentrations[c - S] : gas.gas.temperature;
+    for (std::size_t r = 0; r < R; ++r) {
+      const double difference = (8 * (p1[r] - m1[r]) - (p2[r] - m2[r])) / (12 * h);
+      // Differences of fourth order are good to rounding of the rates over h.
+      const double size = std::max({std::abs(p2[r]), std::abs(m2[r]), std::abs(f[r])});
+      EXPECT_NEAR(J[r * C + c] * x, difference, 2e-7 * std::abs(difference) + 1e-10 * size)
+          << "row " << r << " column " << c;
+    }
+  }
+}
+
+TEST_P(SectionalElements, NegativeDensitiesAndConcentrationsCountAsZero) {
+  const SectionalSoot model(options());
+  SectionGas gas(1650, sooting({3e-6, 1e-6}));
+  auto y = randomState(model, 9);
+  auto zero = y;
+  for (const std::size_t i : {std::size_t{0}, std::size_t{5}, y.size() - 1}) {
+    y[i] = -1e3 * y[i];
+    zero[i] = 0;
+  }
+  gas.concentrations[4] = gas.concentrations[7] = 0;
+  const auto expected = sourcesOf(model, gas.gas, zero);
+  gas.concentrations[4] = gas.concentrations[7] = -1;
+  const auto f = sourcesOf(model, gas.gas, y);
+  for (std::size_t i = 0; i < f.scalars.size(); ++i) EXPECT_EQ(f.scalars[i], expected.scalars[i]);
+  for (std::size_t i = 0; i < f.exchange.size(); ++i) EXPECT_EQ(f.exchange[i], expected.exchange[i]);
+  const std::size_t C = y.size() + gas.concentrations.size() + 1;
+  std::vector<double> J((C - 1) * C);
+  model.jacobian(gas.gas, y, J);
+  for (const double v : J) EXPECT_TRUE(std::isfinite(v));
+  for (std::size_t r = 0; r + 1 < C; ++r) EXPECT_EQ(J[r * C + 5], 0);
+  std::fill(y.begin(), y.end(), 0);
+  model.jacobian(gas.gas, y, J);
+  for (const double v : J) EXPECT_TRUE(std::isfinite(v));
+}
+
+INSTANTIATE_TEST_SUITE_P(Variants, SectionalElements,
+                         ::testing::Combine(::testing::Values(Nucleation::pah, Nucleation::dimer),
+                                            ::testing::Values(Aggregation::aggregates, Aggregation::spheres),
+                                            ::testing::Bool(), ::testing::Values(2.0, 1.5)));
+
+TEST(SectionalSoot, CoagulationKeepsCarbonAndPrimaries) {
+  for (const double factor : {2.0, 1.4, 1.2}) {
+    SectionalSootOptions options = pyrene();
+    options.factor = factor;
+    turnOff(options.soot);
+    options.soot.coagulation = true;
+    const SectionalSoot model(options);
+    const SectionGas gas(1600, sooting({1e-6}));
+    const auto y = randomState(model, 3);
+    const auto f = sourcesOf(model, gas.gas, y);
+    const std::size_t n = model.sections();
+    double size = 0;
+    for (std::size_t i = 0; i < n; ++i) size += std::abs(model.pivots()[i] * f.scalars[i]);
+    EXPECT_NEAR(carbonOf(model, f.scalars), 0, 1e-14 * size);
+    const std::span<const double> primaries(f.scalars.data() + n, n);
+    double primarySize = 0;
+    for (const double p : primaries) primarySize += std::abs(p);
+    EXPECT_NEAR(sum(primaries), 0, 1e-14 * primarySize);
+    EXPECT_LT(sum({f.scalars.data(), n}), 0);
+  }
+}
+
+// Every collision of two takes one away: the number falls by half the sum of all kernels, whatever the pivots, as long
+// as no sum lies beyond the last one.
+TEST(SectionalSoot, CoagulationTakesOneParticleACollision) {
+  SectionalSootOptions options = pyrene();
+  options.aggregation = Aggregation::spheres;
+  options.factor = 1.7;
+  turnOff(options.soot);
+  options.soot.coagulation = true;
+  const SectionalSoot model(options);
+  const SectionGas gas(1600, sooting({1e-6}));
+  auto y = randomState(model, 3);
+  for (std::size_t i = 25; i < y.size(); ++i) y[i] = 0;
+  const double lambda = meanFreePath({1600, gas.gas.pressure, gas.gas.viscosity, 0.028, 0});
+  const auto diameter = [&](std::size_t i) { return std::cbrt(6 * model.pivots()[i] / (constants::pi * 1800)); };
+  double collisions = 0;
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    for (std::size_t j = 0; j < y.size(); ++j) {
+      const double di = diameter(i), dj = diameter(j);
+      const double fm =
+          freeMolecularKernel(freeMolecularPrefactor(1600, 2.2), model.pivots()[i], di, model.pivots()[j], dj);
+      const double co = continuumPrefactor(1600, gas.gas.viscosity) * (di + dj) *
+                        (slipCorrection(2 * lambda / di) / di + slipCorrection(2 * lambda / dj) / dj);
+      collisions += 0.5 * harmonicMean(fm, co) * y[i] * y[j];
+    }
+  }
+  EXPECT_NEAR(sum(sourcesOf(model, gas.gas, y).scalars), -collisions, 1e-12 * collisions);
+}
+
+TEST(SectionalSoot, GrowthAddsTheCarbonOfTheSurfaceAndNoNumber) {
+  SectionalSootOptions options = pyrene();
+  turnOff(options.soot);
+  options.soot.surfaceGrowth = true;
+  options.soot.alpha = 0.3;
+  const SectionalSoot model(options);
+  const SectionGas gas(1700, sooting({0}));
+  auto y = randomState(model, 5);
+  const std::size_t n = model.sections();
+  y[n - 1] = y[2 * n - 1] = 0;
+  const auto f = sourcesOf(model, gas.gas, y);
+  const auto properties = model.properties(gas.gas, y);
+  const SurfaceChemistry chemistry(options.soot, 1700);
+  const auto& c = gas.concentrations;
+  const SootCellGas cell{c[0], c[1], c[2], c[3], c[4], c[5], 0, {}};
+  const double expected =
+      2 * options.soot.carbonWeight * chemistry.rates(cell, 0.3).growth * c[5] * properties.surfaceArea;
+  EXPECT_NEAR(carbonOf(model, f.scalars), expected, 1e-12 * expected);
+  double size = 0;
+  for (std::size_t i = 0; i < n; ++i) size += std::abs(f.scalars[i]);
+  EXPECT_NEAR(sum({f.scalars.data(), n}), 0, 1e-14 * size);
+}
+
+TEST(SectionalSoot, OxidationTakesNumberOnlyFromTheFirstSection) {
+  SectionalSootOptions options = pyrene();
+  turnOff(options.soot);
+  options.soot.oxidation = true;
+  const SectionalSoot model(options);
+  const SectionGas gas(1800, {1e-3, 0.02, 3e-3, 0.1, 0.02, 1e-5, 0.1, 0});
+  auto y = randomState(model, 5);
+  const std::size_t n = model.sections();
+  auto f = sourcesOf(model, gas.gas, y);
+  const auto processes = model.processes(gas.gas, y);
+  EXPECT_NEAR(sum({f.scalars.data(), n}), processes.oxidationNumber, 1e-10 * y[0]);
+  EXPECT_LT(processes.oxidationNumber, 0);
+  EXPECT_NEAR(carbonOf(model, f.scalars), processes.oxidationO2 + processes.oxidationOH,
+              1e-12 * std::abs(processes.oxidationOH));
+  y[0] = y[n] = 0;
+  f = sourcesOf(model, gas.gas, y);
+  double size = 0;
+  for (std::size_t i = 0; i < n; ++i) size += std::abs(f.scalars[i]);
+  EXPECT_NEAR(sum({f.scalars.data(), n}), 0, 1e-14 * size);
+}
+
+// Thesis eq. 9-23 by hand.
+TEST(SectionalSoot, PyreneNucleatesAtThePublishedRate) {
+  SectionalSootOptions options = pyrene();
+  turnOff(options.soot);
+  options.soot.inception = true;
+  const SectionalSoot model(options);
+  const SectionGas gas(1600, sooting({2e-6}));
+  const std::vector<double> y(model.scalars().size(), 0);
+  const auto f = sourcesOf(model, gas.gas, y);
+  const double m = (16 * 12.011e-3 + 10 * 1.008e-3) / constants::avogadro;
+  const double N = gas.concentrations[7] * constants::avogadro;
+  const double expected = 0.002 * 2.2 * std::sqrt(4 * constants::pi * constants::boltzmann * 1600 / m) *
+                          std::pow(6 * m / (constants::pi * 1800), 2.0 / 3) * N * N;
+  EXPECT_NEAR(f.scalars[0], expected, 1e-12 * expected);
+  EXPECT_NEAR(f.scalars[model.sections()], expected, 1e-12 * expected);
+  EXPECT_NEAR(f.exchange[7], -2 * expected / constants::avogadro, 1e-12 * expected / constants::avogadro);
+  EXPECT_NEAR(f.exchange[1], 10 * expected / constants::avogadro, 1e-11 * expected / constants::avogadro);
+}
+
+TEST(SectionalSoot, BreakUpKeepsCarbonAndPrimariesAndMakesOneOfOne) {
+  for (const double factor : {2.0, 1.3}) {
+    SectionalSootOptions options = pyrene();
+    options.factor = factor;
+    options.sections = factor < 2 ? 90 : 35;
+    turnOff(options.soot);
+    options.soot.oxidation = true;
+    const SectionGas gas(1800, {1e-3, 0.02, 3e-3, 0.1, 0.02, 1e-5, 0.1, 0});
+    const SectionalSoot without(options);
+    options.fragmentation = true;
+    const SectionalSoot model(options);
+    const auto y = randomState(model, 5);
+    auto f = sourcesOf(model, gas.gas, y);
+    const auto oxidised = sourcesOf(without, gas.gas, y);
+    double size = 0, carbonSize = 0, primarySize = 0;
+    const std::size_t n = model.sections();
+    for (std::size_t i = 0; i < 2 * n; ++i) f.scalars[i] -= oxidised.scalars[i];
+    for (std::size_t i = 0; i < n; ++i) {
+      size += std::abs(f.scalars[i]);
+      carbonSize += model.pivots()[i] * std::abs(f.scalars[i]);
+      primarySize += std::abs(f.scalars[n + i]);
+    }
+    const auto processes = model.processes(gas.gas, y);
+    EXPECT_GT(processes.fragmentationNumber, 0);
+    EXPECT_NEAR(sum({f.scalars.data(), n}), processes.fragmentationNumber, 1e-12 * size);
+    EXPECT_NEAR(carbonOf(model, f.scalars), 0, 1e-11 * carbonSize);
+    EXPECT_NEAR(sum({f.scalars.data() + n, n}), 0, 1e-11 * primarySize);
+  }
+}
+
+TEST(SectionalSoot, ProcessesAreThoseOfTheSources) {
+  const SectionalSoot model(twoPahWithEverything());
+  const SectionGas gas(1650, sooting({3e-6, 1e-6}));
+  const auto y = randomState(model, 11);
+  const auto f = sourcesOf(model, gas.gas, y);
+  const auto p = model.processes(gas.gas, y);
+  const std::size_t n = model.sections();
+  const double number = p.nucleationNumber + p.coagulationNumber + p.oxidationNumber + p.fragmentationNumber;
+  EXPECT_NEAR(sum({f.scalars.data(), n}), number, 1e-12 * std::abs(p.coagulationNumber));
+  const double mass = p.nucleation + p.condensation + p.growth + p.oxidationO2 + p.oxidationOH + p.carbonisation;
+  EXPECT_NEAR(carbonOf(model, f.scalars) + f.scalars.back(), mass, 1e-12 * p.growth);
+}
+
+TEST(SectionalSoot, ShapesOfOnePrimaryAndOfMany) {
+  SectionalSootOptions options = pyrene();
+  const SectionalSoot model(options);
+  const std::size_t n = model.sections(), i = 20;
+  const SectionGas gas(1600, sooting({1e-6}));
+  std::vector<double> y(2 * n, 0);
+  y[i] = y[n + i] = 1e14;
+  auto p = model.properties(gas.gas, y);
+  const double sphere = std::cbrt(6 * model.pivots()[i] / (constants::pi * 1800));
+  EXPECT_NEAR(p.primaryDiameter, sphere, 1e-12 * sphere);
+  EXPECT_NEAR(p.mobilityDiameter, sphere, 1e-12 * sphere);
+  EXPECT_NEAR(p.gyrationDiameter, sphere * std::sqrt(0.6), 1e-12 * sphere);
+  EXPECT_NEAR(p.surfaceArea, 1e14 * constants::pi * sphere * sphere, 1e-12 * p.surfaceArea);
+  y[n + i] = 40e14;
+  p = model.properties(gas.gas, y);
+  const double primary = sphere / std::cbrt(40.0), mobility = primary * std::pow(40, 0.45);
+  EXPECT_NEAR(p.primariesPerAggregate, 40, 1e-6);
+  EXPECT_NEAR(p.primaryDiameter, primary, 1e-8 * primary);
+  EXPECT_NEAR(p.mobilityDiameter, mobility, 1e-8 * mobility);
+  EXPECT_NEAR(p.gyrationDiameter, mobility / (std::pow(40, -0.2) + 0.4), 1e-8 * mobility);
+  EXPECT_NEAR(p.surfaceArea, 40e14 * constants::pi * primary * primary, 1e-8 * p.surfaceArea);
+  std::vector<double> D(2 * n);
+  model.diffusivities(gas.gas, y, D);
+  const double lambda = meanFreePath({1600, gas.gas.pressure, gas.gas.viscosity, 0.028, 0});
+  const double expected = constants::boltzmann * 1600 / (3 * constants::pi * gas.gas.viscosity * mobility) *
+                          slipCorrection(2 * lambda / mobility);
+  EXPECT_NEAR(D[i], expected, 1e-8 * expected);
+  EXPECT_EQ(D[n + i], D[i]);
+  // Primaries never get smaller than nuclei, and there is at least one.
+  y[n + i] = 1e30;
+  p = model.properties(gas.gas, y);
+  EXPECT_NEAR(p.primariesPerAggregate, model.pivots()[i] / model.pivots()[0], 1e-6 * p.primariesPerAggregate);
+  y[n + i] = 0;
+  EXPECT_EQ(model.properties(gas.gas, y).primariesPerAggregate, 1);
+}
+
+// A first-order loss: the hydrogen of the soot, and nothing else, feeds H2.
+TEST(SectionalSoot, CarbonisationReleasesHydrogenAtFirstOrder) {
+  SectionalSootOptions options = pyrene();
+  turnOff(options.soot);
+  options.carbonisation = true;
+  const SectionalSoot model(options);
+  const SectionGas gas(1600, sooting({1e-6}));
+  auto y = randomState(model, 2);
+  const auto f = sourcesOf(model, gas.gas, y);
+  const double k = options.carbonisationRate * std::exp(-options.carbonisationEnergy / (constants::gasConstant * 1600));
+  EXPECT_NEAR(f.scalars.back(), -k * y.back(), 1e-12 * k * y.back());
+  EXPECT_NEAR(f.exchange[1], k * y.back() / (2 * options.soot.hydrogenWeight), 1e-9 * f.exchange[1]);
+}
+
+TEST(SectionalSoot, WrongOptionsAreNamed) {
+  const auto fails = [](auto&& change, const std::string& word) {
+    SectionalSootOptions options = pyrene();
+    change(options);
+    try {
+      const SectionalSoot model(options);
+      ADD_FAILURE() << "expected a message with " << word;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+    }
+  };
+  fails([](auto& o) { o.sections = 1; }, "1 sections");
+  fails([](auto& o) { o.factor = 1; }, "ratio");
+  fails([](auto& o) { o.soot.pah.clear(); }, "nucleus");
+  fails([](auto& o) { o.nucleusCarbon = 40; }, "32");
+  fails([](auto& o) { o.kernel = CoagulationKernel::additive; }, "kernel");
+  fails(
+      [](auto& o) {
+        o.fragmentation = true;
+        o.aggregation = Aggregation::spheres;
+      },
+      "spheres");
+}
+
+}  // namespace
+}  // namespace lampblack
