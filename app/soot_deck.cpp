@@ -6,22 +6,34 @@
 #include <optional>
 
 #include "app/flame_soot.hpp"
-#include "particles/soot/dimer_soot.hpp"
-#include "particles/soot/hmom.hpp"
-#include "particles/soot/momic_soot.hpp"
+#include "particles/soot/make_soot_model.hpp"
 
 namespace lampblack {
 namespace {
 
-SootModelOptions readOptions(const Deck& deck, const Mechanism& mechanism) {
-  SootModelOptions options;
+struct Weights {
+  double carbon, hydrogen;  // kg/mol
+};
+
+Weights readWeights(const Deck& deck, const Mechanism& mechanism) {
   const auto carbon = mechanism.findElement("C"), hydrogen = mechanism.findElement("H");
   if (!carbon || !hydrogen) throw deck.error("soot", "soot needs a mechanism with carbon and hydrogen");
-  options.carbonWeight = mechanism.atomicWeight(*carbon);
-  options.hydrogenWeight = mechanism.atomicWeight(*hydrogen);
-  options.sootDensity = deck.optionalQuantity("soot.density").value_or(options.sootDensity);
+  return {mechanism.atomicWeight(*carbon), mechanism.atomicWeight(*hydrogen)};
+}
+
+template <class T>
+void set(T& value, const std::optional<double>& given) {
+  if (given) value = *given;
+}
+
+void readShared(const Deck& deck, const Mechanism& mechanism, SootModelOptions& options) {
+  const Weights weights = readWeights(deck, mechanism);
+  options.carbonWeight = weights.carbon;
+  options.hydrogenWeight = weights.hydrogen;
+  options.pah = readPahSpecies(deck, mechanism);
+  set(options.sootDensity, deck.optionalQuantity("soot.density"));
   options.siteDensity = deck.quantity("soot.site_density");
-  options.ohEfficiency = deck.number("soot.oh_efficiency");
+  set(options.ohEfficiency, deck.optionalNumber("soot.oh_efficiency"));
   options.vanDerWaals = deck.number("soot.van_der_waals");
   options.inception = deck.boolean("soot.inception");
   options.condensation = deck.boolean("soot.condensation");
@@ -37,7 +49,57 @@ SootModelOptions readOptions(const Deck& deck, const Mechanism& mechanism) {
   }
   if (options.alpha && !options.alphaTable.empty())
     throw deck.error("soot.alpha", "either a constant 'alpha' or an 'alpha_table'");
-  return options;
+}
+
+void readSemiEmpirical(const Deck& deck, const Mechanism& mechanism, SemiEmpiricalOptions& options) {
+  using Oxygen = SemiEmpiricalOptions::Oxygen;
+  const auto number = [&](const char* key) { return deck.optionalNumber(std::string("soot.semi_empirical.") + key); };
+  const auto quantity = [&](const char* key) {
+    return deck.optionalQuantity(std::string("soot.semi_empirical.") + key);
+  };
+  options.carbonWeight = readWeights(deck, mechanism).carbon;
+  set(options.density, deck.optionalQuantity("soot.density"));
+  set(options.ohEfficiency, deck.optionalNumber("soot.oh_efficiency"));
+  options.inception = deck.boolean("soot.inception");
+  options.growth = deck.boolean("soot.growth");
+  options.oxidation = deck.boolean("soot.oxidation");
+  options.coagulating = deck.boolean("soot.coagulation");
+  set(options.inceptionFactor, quantity("inception_factor"));
+  set(options.inceptionTemperature, quantity("inception_temperature"));
+  set(options.nucleusCarbon, number("nucleus_carbon"));
+  set(options.growthFactor, number("growth_factor"));
+  set(options.growthTemperature, quantity("growth_temperature"));
+  if (const auto surface = deck.optionalString("soot.semi_empirical.growth_surface"))
+    options.growthByRootOfSurface = *surface == "root";
+  set(options.coagulation, number("coagulation_factor"));
+  set(options.oxidationFactor, number("oxidation_factor"));
+  if (const auto oxygen = deck.optionalString("soot.semi_empirical.oxygen"))
+    options.oxygen = *oxygen == "leung"   ? Oxygen::leung
+                     : *oxygen == "lee"   ? Oxygen::lee
+                     : *oxygen == "nagle" ? Oxygen::nagle
+                                          : Oxygen::none;
+}
+
+void readSectional(const Deck& deck, SectionalSootOptions& options) {
+  const auto key = [](const char* name) { return std::string("soot.sectional.") + name; };
+  options.sections = static_cast<std::size_t>(deck.integer(key("sections")));
+  options.factor = deck.number(key("factor"));
+  set(options.nucleusCarbon, deck.optionalNumber(key("nucleus_carbon")));
+  options.nucleation = deck.choice(key("nucleation")) == "dimer" ? SectionalSootOptions::Nucleation::dimer
+                                                                 : SectionalSootOptions::Nucleation::pah;
+  options.nucleationFactor = deck.number(key("nucleation_factor"));
+  options.condensationEfficiency = deck.number(key("condensation_efficiency"));
+  options.aggregation = deck.choice(key("aggregation")) == "spheres" ? SectionalSootOptions::Aggregation::spheres
+                                                                     : SectionalSootOptions::Aggregation::aggregates;
+  set(options.coalescenceDiameter, deck.optionalQuantity(key("coalescence_diameter")));
+  options.activeSites = deck.choice(key("active_sites")) == "primary" ? SectionalSootOptions::ActiveSites::primary
+                                                                      : SectionalSootOptions::ActiveSites::aggregate;
+  if (deck.choice(key("kernel")) == "free_molecular") options.kernel = CoagulationKernel::freeMolecular;
+  options.fragmentation = deck.boolean(key("fragmentation"));
+  options.fragmentationFactor = deck.number(key("fragmentation_factor"));
+  options.carbonisation = deck.boolean(key("carbonisation"));
+  options.carbonisationRate = deck.quantity(key("carbonisation_rate"));
+  options.carbonisationEnergy = deck.quantity(key("carbonisation_energy"));
 }
 
 }  // namespace
@@ -71,69 +133,27 @@ std::vector<PahSpecies> readPahSpecies(const Deck& deck, const Mechanism& mechan
   return list;
 }
 
-void addSootModelKeys(DeckSchema& schema) {
-  schema.section("soot", Presence::optional, "Soot, carried by the flame; absent: none.")
-      .add(
-          choiceKey("soot.model", {"two_equation_dimer", "leung", "moss_brookes", "sectional", "hmom", "momic", "none"},
-                    "Dimers with two equations (thesis 7.2.2); Leung, Lindstedt, Jones 1991; Brookes and Moss 1999; "
-                    "sections; hybrid method of moments; moments by interpolation; none as if the section were absent.")
-              .byDefault("two_equation_dimer"))
-      .add(stringKey("soot.pah", "Species that dimerise.").list().byDefault("[A2]"))
-      .add(numberKey("soot.sticking",
-                     "Sticking coefficient of each of them; absent: the table of Blanquart and Pitsch 2009, or its law "
-                     "1.5e-11 (W mol/g)^4 for others.")
-               .list()
-               .optional()
-               .atLeast(0)
-               .atMost(1))
-      .add(quantityKey("soot.density", units::density, "Of the particles; absent: as published with the model.")
-               .optional()
-               .above(0))
-      .add(quantityKey("soot.site_density", units::perArea, "C-H sites of the surface (HACA).")
-               .byDefault("2.3e19 1/m^2")
-               .atLeast(0))
-      .add(numberKey("soot.alpha",
-                     "Constant fraction of active sites; absent, and without a table: the ABF function of temperature "
-                     "and size.")
-               .optional()
-               .atLeast(0)
-               .atMost(1))
-      .add(quantityKey("soot.alpha_table[].temperature", units::temperature,
-                       "Table of the fraction: rising temperatures, straight in between, constant outside.")
-               .above(0))
-      .add(numberKey("soot.alpha_table[].alpha", "Fraction there.").atLeast(0).atMost(1))
-      .add(integerKey("soot.moments", "Number of moments of model momic.").byDefault("6").atLeast(3).atMost(6))
-      .add(numberKey("soot.oh_efficiency", "Reaction probability of an OH collision.")
-               .byDefault("0.13")
-               .atLeast(0)
-               .atMost(1))
-      .add(numberKey("soot.van_der_waals", "Enhancement of dimer and particle collisions.").byDefault("2.2").above(0))
-      .add(booleanKey("soot.inception", "New particles.").byDefault("true"))
-      .add(booleanKey("soot.condensation", "PAH on particles.").byDefault("true"))
-      .add(booleanKey("soot.growth", "Surface growth.").byDefault("true"))
-      .add(booleanKey("soot.oxidation", "By O2 and OH.").byDefault("true"))
-      .add(booleanKey("soot.coagulation", "Of particles.").byDefault("true"));
-}
-
 std::unique_ptr<SootModel> readSootModel(const Deck& deck, const Mechanism& mechanism) {
   if (!deck.has("soot")) return nullptr;
   const std::string name = deck.choice("soot.model");
   if (name == "none") return nullptr;
-  SootModelOptions options = readOptions(deck, mechanism);
+  SootModelChoice choice = publishedSootModel(name);
+  if (SootModelOptions* shared = sharedOptions(choice)) readShared(deck, mechanism, *shared);
+  if (auto* semiEmpirical = std::get_if<SemiEmpiricalOptions>(&choice))
+    readSemiEmpirical(deck, mechanism, *semiEmpirical);
+  if (auto* sectional = std::get_if<SectionalSootOptions>(&choice)) readSectional(deck, *sectional);
+  if (auto* hmom = std::get_if<HmomOptions>(&choice)) {
+    hmom->fractalDimension = deck.number("soot.hmom.fractal_dimension");
+    hmom->surfaceExponent = deck.number("soot.hmom.surface_exponent");
+  }
+  if (auto* momic = std::get_if<MomicOptions>(&choice))
+    momic->moments = static_cast<std::size_t>(deck.integer("soot.moments"));
+
   std::unique_ptr<SootModel> model;
-  if (name == "two_equation_dimer") {
-    options.pah = readPahSpecies(deck, mechanism);
-    model = std::make_unique<DimerSoot>(std::move(options));
-  } else if (name == "hmom" || name == "momic") {
-    options.pah = readPahSpecies(deck, mechanism);
-    if (name == "hmom") {
-      model = std::make_unique<HmomSoot>(HmomOptions{std::move(options)});
-    } else {
-      const auto moments = static_cast<std::size_t>(deck.integer("soot.moments"));
-      model = std::make_unique<MomicSoot>(MomicOptions{std::move(options), moments});
-    }
-  } else {
-    throw deck.error("soot.model", fmt::format("'{}' is not there yet", name));
+  try {
+    model = makeSootModel(choice);
+  } catch (const InputError& error) {
+    throw deck.error("soot", error.what());
   }
   for (const std::string& species : model->gasSpecies())
     if (!mechanism.findSpecies(species))

@@ -10,6 +10,7 @@
 #include "core/errors.hpp"
 #include "particles/soot/dimer_soot.hpp"
 #include "particles/soot/hmom.hpp"
+#include "particles/soot/make_soot_model.hpp"
 #include "particles/soot/momic_soot.hpp"
 
 namespace lampblack {
@@ -82,6 +83,40 @@ TEST(SootDeck, EverythingCanBeSet) {
   EXPECT_EQ(o.alphaTable[1].temperature, 1700);
   EXPECT_FALSE(o.surfaceGrowth);
   EXPECT_TRUE(o.oxidation);
+}
+
+TEST(SootDeck, EveryModelOfTheListCanBeMade) {
+  for (const std::string& name : sootModelNames()) {
+    const auto model = readSootModel(deckOf("soot: {pah: [A2, A3, A4], model: " + name + "}"), abf());
+    ASSERT_NE(model, nullptr) << name;
+    const FlameSoot soot(abf(), readSootModel(deckOf("soot: {model: " + name + "}"), abf()));
+    EXPECT_EQ(soot.scalars().size(), soot.model().scalars().size());
+  }
+}
+
+TEST(SootDeck, SemiEmpiricalConstantsAreThePublishedOnesUntilSet) {
+  const auto optionsOfDeck = [](const std::string& text) {
+    return dynamic_cast<const SemiEmpiricalSoot&>(*readSootModel(deckOf(text), abf())).options();
+  };
+  const SemiEmpiricalOptions leung = optionsOfDeck("soot: {model: leung}");
+  EXPECT_EQ(leung.coagulation, 9);
+  EXPECT_EQ(leung.ohEfficiency, 0);
+  EXPECT_EQ(leung.density, 2000);
+  EXPECT_TRUE(leung.growthByRootOfSurface);
+  EXPECT_EQ(optionsOfDeck("soot: {model: moss_brookes}").ohEfficiency, 0.04);
+  const SemiEmpiricalOptions set = optionsOfDeck(
+      "soot: {model: moss_brookes, oh_efficiency: 0.1, semi_empirical: {oxygen: lee, inception_factor: 100 1/s, "
+      "inception_temperature: 2.0e4 K, nucleus_carbon: 60, growth_factor: 500, growth_surface: root, "
+      "coagulation_factor: 3, oxidation_factor: 0.015}}");
+  EXPECT_EQ(set.oxygen, SemiEmpiricalOptions::Oxygen::lee);
+  EXPECT_EQ(set.ohEfficiency, 0.1);
+  EXPECT_EQ(set.inceptionFactor, 100);
+  EXPECT_EQ(set.inceptionTemperature, 2e4);
+  EXPECT_EQ(set.nucleusCarbon, 60);
+  EXPECT_EQ(set.growthFactor, 500);
+  EXPECT_EQ(set.coagulation, 3);
+  EXPECT_EQ(set.oxidationFactor, 0.015);
+  EXPECT_TRUE(set.growthByRootOfSurface);
 }
 
 TEST(SootDeck, MistakesAreNamed) {

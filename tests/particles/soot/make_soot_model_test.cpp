@@ -1,0 +1,74 @@
+#include "particles/soot/make_soot_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/errors.hpp"
+#include "soot_model_checks.hpp"
+#include "tests/particles/soot_fixtures.hpp"
+
+namespace lampblack {
+namespace {
+
+std::unique_ptr<SootModel> published(const std::string& name) {
+  SootModelChoice choice = publishedSootModel(name);
+  if (SootModelOptions* shared = sharedOptions(choice)) shared->pah = test::threePah().pah;
+  return makeSootModel(choice);
+}
+
+class EverySootModel : public testing::TestWithParam<std::string> {};
+
+// Sums of up to 70 rounded terms in the models of many scalars.
+TEST_P(EverySootModel, ConservesCarbonHydrogenAndOxygenToRoundOff) {
+  const auto model = published(GetParam());
+  test::expectConserved(*model, 100, 1e-15 * std::max<double>(10, static_cast<double>(model->scalars().size())));
+}
+
+TEST_P(EverySootModel, ExchangesWhatItsProcessesSay) {
+  const auto model = published(GetParam());
+  test::RandomStates states(200);
+  std::vector<double> rates(model->scalars().size()), exchange(model->gasSpecies().size());
+  for (int i = 0; i < 20; ++i) {
+    test::ModelState s = states.next(*model);
+    s.connect();
+    model->sources(s.gas, s.densities, rates, exchange);
+    double mass = 0;
+    for (std::size_t k = 0; k < rates.size(); ++k)
+      mass += rates[k] * (model->scalars()[k].carbon + model->scalars()[k].hydrogen);
+    const SootProcesses p = model->processes(s.gas, s.densities);
+    const double parts[] = {p.nucleation, p.condensation, p.growth, p.oxidationO2, p.oxidationOH, p.carbonisation};
+    double sum = 0, moved = 0;
+    for (double part : parts) {
+      sum += part;
+      moved += std::abs(part);
+    }
+    EXPECT_NEAR(mass, sum, 1e-12 * moved) << i;
+  }
+}
+
+TEST_P(EverySootModel, DensitiesOfGasAloneMakeSootOnlyByNucleation) {
+  const auto model = published(GetParam());
+  test::RandomStates states(300);
+  test::ModelState s = states.next(*model);
+  s.connect();
+  s.gas.temperature = 1600;
+  std::fill(s.densities.begin(), s.densities.end(), 0.0);
+  const SootProcesses p = model->processes(s.gas, s.densities);
+  EXPECT_GT(p.nucleation, 0);
+  EXPECT_GT(p.nucleationNumber, 0);
+  for (double other : {p.condensation, p.growth, p.oxidationO2, p.oxidationOH, p.coagulationNumber})
+    EXPECT_EQ(other, 0);
+  EXPECT_EQ(model->volumeFraction(s.densities), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Published, EverySootModel, testing::ValuesIn(sootModelNames()),
+                         [](const auto& parameter) { return parameter.param; });
+
+TEST(MakeSootModel, RefusesAnUnknownName) {
+  EXPECT_THROW(static_cast<void>(publishedSootModel("soot")), InputError);
+}
+
+}  // namespace
+}  // namespace lampblack
