@@ -235,6 +235,15 @@ void FlameEquations::bounds(std::span<double> lower, std::span<double> upper) co
   lower[d.points() * d.width() + load] = 0;
 }
 
+void FlameEquations::correct(std::span<const double> x, std::span<double> trial) const {
+  const Data& d = *data_;
+  for (std::size_t i = 0; i < d.points(); ++i)
+    for (std::size_t c = d.layout.firstScalar(); c < d.width(); ++c) {
+      const std::size_t u = i * d.width() + c;
+      trial[u] = std::max(trial[u], 0.1 * std::max(x[u], 0.0));
+    }
+}
+
 void FlameEquations::scales(std::span<const double> x, std::span<double> scale) const {
   const Data& d = *data_;
   const std::size_t w = d.width(), n = d.points();

@@ -82,6 +82,8 @@ class FlameEquations : public LoadedSystem {
   [[nodiscard]] bool factorise(std::span<const double> x, double inverseTimeStep) override;
   void solve(std::span<double> b) override;
   void bounds(std::span<double> lower, std::span<double> upper) const override;
+  // Scalars stay positive: a step that would take more than nine tenths of one takes nine tenths.
+  void correct(std::span<const double> x, std::span<double> trial) const override;
   void scales(std::span<const double> x, std::span<double> scale) const override;
   [[nodiscard]] std::string nameOf(std::size_t unknown) const override;
 

@@ -68,6 +68,7 @@ bool NewtonIteration::search(std::span<const double> x, std::span<const double> 
     // Within bounds but for rounding.
     for (std::size_t i = 0; i < x.size(); ++i)
       trial_[i] = std::clamp(x[i] - damping * inverse[i], lower_[i], upper_[i]);
+    system_.correct(x, trial_);
     const bool evaluated = tryEvaluate(trial_, trialF_);
     Size next;
     if (evaluated) {

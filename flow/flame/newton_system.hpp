@@ -23,6 +23,13 @@ class NewtonSystem {
   virtual void solve(std::span<double> b) = 0;
   // Bounds that no iterate may cross (a step is shortened so as to keep inside).
   virtual void bounds(std::span<double> lower, std::span<double> upper) const = 0;
+  // Replaces entries of `trial`, to which a step from x leads, by others near them that are not senseless (an amount
+  // that would turn negative becomes a part of what it was). What is done here does not change a solution, only the
+  // way.
+  virtual void correct(std::span<const double> x, std::span<double> trial) const {
+    static_cast<void>(x);
+    static_cast<void>(trial);
+  }
   // Size of a change of x that counts as 1: relative and absolute tolerances of each unknown.
   virtual void scales(std::span<const double> x, std::span<double> scale) const = 0;
   // "T at z = 3.2 mm (point 41)", for messages.
