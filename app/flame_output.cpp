@@ -48,8 +48,12 @@ StepCounts countsOf(const FlameSolution& solution) {
   return counts;
 }
 
-double relativeImbalance(const FlameBudget& budget) {
-  const double size = std::max({std::abs(budget.in), std::abs(budget.out), std::abs(budget.wall)});
+// Of what is conserved over what flows in of it; of an element that does not come in at all over the mass.
+double relativeImbalance(const FlameBudget& budget, const std::vector<FlameBudget>& all) {
+  double size = std::abs(budget.in);
+  if (budget.name == "energy") size = std::max({size, std::abs(budget.out), std::abs(budget.wall)});
+  for (const FlameBudget& mass : all)
+    if (size == 0 && mass.name == "mass") size = std::abs(mass.in);
   return size > 0 ? budget.imbalance() / size : 0.0;
 }
 
@@ -99,13 +103,13 @@ void writeBudgets(ResultsWriter& results, const FlameSolution& solution) {
       {"wall", "kg/m^2/s", "deposited on burner or wall; of energy conducted into it, W/m^2"},
       {"radiated", "W/m^2", "lost by radiation"},
       {"imbalance", "kg/m^2/s", "in - out - wall - radiated"},
-      {"relative_imbalance", "1", "over the largest of in, out and wall"}};
+      {"relative_imbalance", "1", "over what comes in (of energy: over the largest of in, out and wall)"}};
   std::vector<double> rows;
   std::vector<std::string> names;
   for (const FlameBudget& budget : solution.budgets) {
     names.push_back(budget.name);
-    rows.insert(rows.end(),
-                {budget.in, budget.out, budget.wall, budget.radiated, budget.imbalance(), relativeImbalance(budget)});
+    rows.insert(rows.end(), {budget.in, budget.out, budget.wall, budget.radiated, budget.imbalance(),
+                             relativeImbalance(budget, solution.budgets)});
   }
   results.table("/budgets", columns, rows);
   results.texts("/budgets/name", names, "conserved quantity");
@@ -168,7 +172,7 @@ std::vector<NamedNumber> namedNumbers(const FlameCase& flame, const FlameResult&
   add("residuals", counts.residuals);
   double worst = 0;
   for (const FlameBudget& budget : result.solution.budgets)
-    worst = std::max(worst, std::abs(relativeImbalance(budget)));
+    worst = std::max(worst, std::abs(relativeImbalance(budget, result.solution.budgets)));
   if (!result.solution.budgets.empty()) numbers.push_back({"largest_relative_imbalance", "1", worst});
   return numbers;
 }

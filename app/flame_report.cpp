@@ -53,9 +53,11 @@ std::string flameReport(const FlameCase& flame, const FlameResult& result) {
   }
   if (!result.solution.budgets.empty()) {
     text += fmt::format("\nBudgets{:>18} {:>13} {:>13} {:>13} {:>10}\n", "in", "out", "wall", "radiated", "imbalance");
-    for (const FlameBudget& b : result.solution.budgets)
+    for (const FlameBudget& b : result.solution.budgets) {
+      if (b.in == 0 && std::abs(b.out) < 1e-20) continue;  // an element that is not there
       text += fmt::format("  {:<10} {:>13.6e} {:>13.6e} {:>13.6e} {:>13.6e} {:>10.1e}\n", b.name, b.in, b.out, b.wall,
                           b.radiated, b.imbalance());
+    }
   }
   const auto& c = result.solution.counters;
   double total = 0;

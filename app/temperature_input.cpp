@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <utility>
 
 #include "chemistry/thermo/thermo.hpp"
 #include "core/errors.hpp"
@@ -18,6 +19,7 @@ TemperatureProfile readProfileFile(const std::filesystem::path& path) {
   if (!file) throw InputError(fmt::format("{}: cannot be opened", path.string()));
   std::vector<double> points, temperatures;
   std::string line;
+  bool named = false;
   for (int number = 1; std::getline(file, line); ++number) {
     for (char& c : line)
       if (c == ',' || c == '\r') c = ' ';
@@ -29,7 +31,7 @@ TemperatureProfile readProfileFile(const std::filesystem::path& path) {
     if (words >> point >> temperature && !(words >> more)) {
       points.push_back(point);
       temperatures.push_back(temperature);
-    } else if (!points.empty() || number > 1) {
+    } else if (std::exchange(named, true) || !points.empty()) {
       throw InputError(fmt::format("{}:{}: expected two numbers, found '{}'", path.string(), number, line));
     }
   }
