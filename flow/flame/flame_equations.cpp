@@ -278,6 +278,15 @@ std::string FlameEquations::nameOf(std::size_t unknown) const {
   return fmt::format("{} at z = {:.4g} mm (point {} of {})", name, 1e3 * d.profile.z[point], point + 1, d.points());
 }
 
+bool FlameEquations::factoriseUnsteady(std::span<const double> x, double shift) {
+  struct Reset {
+    bool& flag;
+    ~Reset() { flag = false; }
+  } const reset{data_->unsteady};
+  data_->unsteady = true;
+  return factorise(x, shift);
+}
+
 void FlameEquations::storage(std::span<const double> x, std::span<const double> rate, std::span<double> F) {
   Data& d = *data_;
   d.take(x);

@@ -42,6 +42,7 @@ struct FlameEquations::Data {
   std::size_t anchor = 0;
   double anchorTemperature = 0;
   double loadValue = 1;
+  bool unsteady = false;  // the matrix is that of factoriseUnsteady
   std::optional<LoadConstraint> constraint;
   std::optional<GivenExchange> exchange;
   std::function<bool(std::size_t)> holds;

@@ -287,6 +287,11 @@ void FlameEquations::Data::fillRow(std::size_t i, double inverseTimeStep, Jacobi
   if (inverseTimeStep > 0) {
     pointTimeWeights(i, work.timeWeights.data());
     for (std::size_t c = 0; c < w; ++c) D[c * w + c] += work.timeWeights[c] * inverseTimeStep;
+    if (unsteady) {
+      // d(rho)/dt in continuity, by the rates of change of temperature and composition.
+      D[T * w + M] -= dv * rho / temperature * inverseTimeStep;
+      for (std::size_t j = 0; j < n; ++j) D[(Y + j) * w + M] -= dv * rho * W / gas.weights[j] * inverseTimeStep;
+    }
   }
   if (holds) holdRow(work);
 }

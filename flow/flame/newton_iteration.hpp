@@ -30,6 +30,8 @@ class NewtonIteration {
   void steady(std::span<double> x, NewtonReport& report);
   // Solves residual(x) + timeWeights(old) (x - old)/dt = 0, with the factors of the last call where dt is the same.
   void eulerStep(std::span<const double> old, double dt, std::span<double> x, NewtonReport& report);
+  // The next call begins with new factors.
+  void forgetFactors() { haveFactors_ = false; }
 
  private:
   struct Size {

@@ -5,13 +5,14 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "flow/flame/newton_system.hpp"
+#include "flow/flame/loaded_system.hpp"
 
 namespace lampblack::test {
 
@@ -79,11 +80,7 @@ class SmallSystemOf : public Base {
     for (std::size_t i = 0; i < n_; ++i) M[i] = weights[i];
   }
   [[nodiscard]] bool factorise(std::span<const double> x, double inverseTimeStep) override {
-    ++factorisations;
-    std::vector<double> J(n_ * n_, 0.0);
-    matrix_(x, J);
-    for (std::size_t i = 0; i < n_; ++i) J[i * n_ + i] += weights[i] * inverseTimeStep;
-    return factors_.factorise(std::move(J), n_);
+    return factoriseWith(x, inverseTimeStep, {});
   }
   void solve(std::span<double> b) override { factors_.solve(b); }
   void bounds(std::span<double> l, std::span<double> u) const override {
@@ -103,6 +100,17 @@ class SmallSystemOf : public Base {
   std::size_t factorisations = 0;
   bool outOfBounds = false;  // whether the residual was ever asked for out of bounds
 
+ protected:
+  // With more entries of the time derivative than the weights (none, or n x n).
+  bool factoriseWith(std::span<const double> x, double shift, const std::vector<double>& more) {
+    ++factorisations;
+    std::vector<double> J(n_ * n_, 0.0);
+    matrix_(x, J);
+    for (std::size_t i = 0; i < n_; ++i) J[i * n_ + i] += weights[i] * shift;
+    for (std::size_t k = 0; k < more.size(); ++k) J[k] += shift * more[k];
+    return factors_.factorise(std::move(J), n_);
+  }
+
  private:
   std::size_t n_;
   Residual residual_;
@@ -111,6 +119,39 @@ class SmallSystemOf : public Base {
 };
 
 using SmallSystem = SmallSystemOf<NewtonSystem>;
+
+// Equations of all unknowns but the load; the last row is added here.
+template <typename Base>
+class SmallLoadedSystemOf : public SmallSystemOf<Base> {
+ public:
+  using typename SmallSystemOf<Base>::Residual;
+  using typename SmallSystemOf<Base>::Matrix;
+
+  SmallLoadedSystemOf(std::size_t n, Residual f, Matrix j)
+      : SmallSystemOf<Base>(
+            n,
+            [this, n, f](std::span<const double> x, std::span<double> F) {
+              f(x, F);
+              F[n - 1] = constraint_ ? -constraint_->value : x[n - 1] - load_;
+              if (constraint_)
+                for (std::size_t i = 0; i < n; ++i) F[n - 1] += constraint_->coefficients[i] * x[i];
+            },
+            [this, n, j](std::span<const double> x, std::vector<double>& J) {
+              j(x, J);
+              for (std::size_t i = 0; i < n; ++i)
+                J[n * (n - 1) + i] = constraint_ ? constraint_->coefficients[i] : (i == n - 1 ? 1.0 : 0.0);
+            }) {
+    this->weights[n - 1] = 0;
+  }
+  void setLoad(double load) override { load_ = load; }
+  void setConstraint(std::optional<LoadConstraint> constraint) override { constraint_ = std::move(constraint); }
+
+ private:
+  double load_ = 0;
+  std::optional<LoadConstraint> constraint_;
+};
+
+using SmallLoadedSystem = SmallLoadedSystemOf<LoadedSystem>;
 
 // Bratu's problem -u'' - load e^u = 0, u(0) = u(1) = 0, with central differences at n inner points.
 inline void bratuResidual(std::span<const double> u, std::size_t n, double load, std::span<double> F) {

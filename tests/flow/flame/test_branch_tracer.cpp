@@ -10,30 +10,7 @@
 namespace lampblack {
 namespace {
 
-// Equations of all unknowns but the load; the last row is added here.
-class SmallLoadedSystem : public test::SmallSystemOf<LoadedSystem> {
- public:
-  SmallLoadedSystem(std::size_t n, Residual f, Matrix j)
-      : SmallSystemOf(
-            n,
-            [this, n, f](std::span<const double> x, std::span<double> F) {
-              f(x, F);
-              F[n - 1] = constraint_ ? -constraint_->value : x[n - 1] - load_;
-              if (constraint_)
-                for (std::size_t i = 0; i < n; ++i) F[n - 1] += constraint_->coefficients[i] * x[i];
-            },
-            [this, n, j](std::span<const double> x, std::vector<double>& J) {
-              j(x, J);
-              for (std::size_t i = 0; i < n; ++i)
-                J[n * (n - 1) + i] = constraint_ ? constraint_->coefficients[i] : (i == n - 1 ? 1.0 : 0.0);
-            }) {}
-  void setLoad(double load) override { load_ = load; }
-  void setConstraint(std::optional<LoadConstraint> constraint) override { constraint_ = std::move(constraint); }
-
- private:
-  double load_ = 0;
-  std::optional<LoadConstraint> constraint_;
-};
+using test::SmallLoadedSystem;
 
 ContinuationOptions accurate(double largestStep) {
   ContinuationOptions options;
