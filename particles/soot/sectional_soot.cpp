@@ -74,11 +74,6 @@ SectionalSoot::Impl::Impl(const SectionalSootOptions& wanted)
       pah(wanted, pivots) {
   check(options);
   for (const PahSpecies& molecule : options.soot.pah) species.push_back(molecule.name);
-  for (std::size_t i = 0; i < sections; ++i) {
-    toUpper.push_back(pivots[i] * (options.factor - 1));
-    toLower.push_back(i == 0 ? pivots[0] : pivots[i] - pivots[i - 1]);
-  }
-
   constexpr double usualPrimary = 7.7e-21;  // kg, 20 nm
   for (std::size_t i = 0; i < sections; ++i) {
     scalars.push_back({fmt::format("section_{:02}_aggregates", i + 1), "1/m3",
@@ -104,7 +99,10 @@ SectionalSoot::Impl::Impl(const SectionalSootOptions& wanted)
 
   state.aggregates.assign(sections, 0);
   state.primaries.assign(spheres ? 0 : sections, 0);
-  state.up = state.down = state.breaking = state.aggregates;
+  state.breaking = state.aggregates;
+  const bool limited = options.growthScheme == SectionalSootOptions::GrowthScheme::limited;
+  state.up = SectionFlux(pivots, true, limited);
+  state.down = SectionFlux(pivots, false, limited);
   state.uptake = spareUptake = pah.makeUptake();
   fullRow.assign(scalars.size() + species.size(), 0);
   perSection.fill(state.aggregates);
@@ -181,14 +179,16 @@ void SectionalSoot::Impl::prepare(const SootGas& gas, std::span<const double> de
   s.condensed = 0;
   for (std::size_t i = 0; i < sections; ++i) {
     const bool last = i + 1 == sections;
-    s.up[i] = last ? 0 : (growing * shapes.area[i] + s.uptake.condensation[i]) / toUpper[i];
-    s.down[i] = oxidising * shapes.area[i] / toLower[i];
+    s.up.perAggregate[i] = last ? 0 : growing * shapes.area[i] + s.uptake.condensation[i];
+    s.down.perAggregate[i] = oxidising * shapes.area[i];
     s.breaking[i] = i < halves.below ? 0 : oxidising * breaking(shapes.primariesEach[i])[0];
     const double here = shapes.area[i] * s.aggregates[i];
     area += here;
     if (!last) growingArea += here;
     s.condensed += s.uptake.condensation[i] * s.aggregates[i];
   }
+  s.up.update(s.aggregates);
+  s.down.update(s.aggregates);
   s.growth = s.surface.growth * growingArea;
   s.byO2 = s.surface.oxidationO2 * area;
   s.byOH = s.surface.oxidationOH * area;
@@ -205,7 +205,7 @@ void SectionalSoot::Impl::sources(std::span<double> rates, std::span<double> exc
   if (options.soot.coagulation) pairs.addRates(s.aggregates, s.primaries, fN, fP);
   const auto move = [&](std::span<const double> y, std::span<double> f, bool primaries) {
     for (std::size_t i = 0; i < sections; ++i) {
-      const double up = s.up[i] * y[i], down = s.down[i] * y[i];
+      const double up = s.up.frequency[i] * y[i], down = s.down.frequency[i] * y[i];
       f[i] -= up + down;
       if (i + 1 < sections) f[i + 1] += up;
       if (i > 0) f[i - 1] += down;

@@ -27,6 +27,10 @@ struct SectionalSootOptions {
     aggregate,              // all carbon over the number of aggregates: M_1/M_0 of Appel, Bockhorn and Frenklach (2000)
     primary                 // over the number of primaries (thesis eq. 9-37)
   };
+  enum class GrowthScheme {  // of what growth and oxidation move from section to section, carbon exact in both
+    upwind,                  // thesis eqs. 9-41 to 9-44: first order, spreads the sizes
+    limited                  // second order where the distribution is smooth, upwind where it is steep
+  };
 
   // PAH list, densities, HACA, OH efficiency, van der Waals enhancement and switches, as in all soot models.
   // soot.sootDensity is the mass of carbon per volume of soot; thesis chapter 9 has 1800 kg/m3.
@@ -40,6 +44,7 @@ struct SectionalSootOptions {
   Aggregation aggregation = Aggregation::aggregates;
   double coalescenceDiameter = 0;  // m; who is smaller (as a sphere) melts into its partner; zero: nobody does
   ActiveSites activeSites = ActiveSites::aggregate;
+  GrowthScheme growthScheme = GrowthScheme::upwind;
   CoagulationKernel kernel = CoagulationKernel::transition;  // or freeMolecular
 
   // Break-up of aggregates by oxidation: see docs/theory/soot_models.md. Off by default, as in the thesis.
@@ -70,6 +75,7 @@ class SectionalSoot final : public SootModel {
   void diffusivities(const SootGas& gas, std::span<const double> densities, std::span<double> D) const override;
   [[nodiscard]] SootProperties properties(const SootGas& gas, std::span<const double> densities) const override;
   [[nodiscard]] SootProcesses processes(const SootGas& gas, std::span<const double> densities) const override;
+  [[nodiscard]] double volumeFraction(std::span<const double> densities) const override;
   [[nodiscard]] SootSizeDistribution sizeDistribution(std::span<const double> densities) const override;
 
   [[nodiscard]] std::size_t sections() const;

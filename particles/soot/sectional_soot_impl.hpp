@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "particles/soot/sectional_soot.hpp"
+#include "particles/soot/sectional_soot_flux.hpp"
 #include "particles/soot/sectional_soot_pah.hpp"
 #include "particles/soot/sectional_soot_pairs.hpp"
 #include "particles/soot/sectional_soot_shapes.hpp"
@@ -33,8 +34,8 @@ struct SectionalSoot::Impl {
     double size = 0;  // mu_1, carbon atoms
     double alpha = 0;
     Surface surface;
-    // Of an aggregate of each section, 1/s: going up by growth and condensation, down by oxidation, apart.
-    std::vector<double> up, down, breaking;
+    SectionFlux up, down;          // by growth and condensation, by oxidation
+    std::vector<double> breaking;  // of an aggregate of each section, 1/s
     // Sums over the sections: events of growth and oxidation, mol/m3/s; carbon condensed, kg/m3/s.
     double growth = 0, byO2 = 0, byOH = 0, condensed = 0;
     double dehydrogenation = 0;  // 1/s
@@ -48,6 +49,11 @@ struct SectionalSoot::Impl {
   [[nodiscard]] Surface surface(const SurfaceChemistry& chemistry, const std::array<double, 6>& gas,
                                 double alpha) const;
   [[nodiscard]] double meanSize(double carbon, double number) const;
+  // Primaries of an aggregate as they are moved with it; not bounded as in its shape.
+  [[nodiscard]] double primaryRatio(std::size_t i) const {
+    if (spheres || !(state.aggregates[i] > 1e-6 * numberScale[i])) return 0;
+    return state.primaries[i] / state.aggregates[i];
+  }
   // Number whose mean size is mu_1, 1/m3.
   [[nodiscard]] double sizeNumber() const;
   [[nodiscard]] SectionPairs::Gas collisionGas(const SootGas& gas) const;

@@ -23,22 +23,40 @@ struct SectionalSoot::Impl::Assembly {
 
   [[nodiscard]] std::size_t rows() const { return m.sections * (m.spheres ? 1 : 2); }
 
-  // Adds what moving a part `f` (1/s) of the aggregates of section i does to column c: up, down, breaking.
-  void addMove(std::size_t c, std::size_t i, double up, double down, double breaking, double aggregates,
-               double primaries) {
+  // A row of aggregates and, where there are primaries, their row times `ratio`.
+  void add(std::size_t c, std::size_t row, double value, double ratio) {
+    J[row * ld + c] += value;
+    if (!m.spheres) J[(m.sections + row) * ld + c] += value * ratio;
+  }
+  // More carbon G (kg/m3/s) gained (up) or lost by the aggregates of section i, with primaries as they are there.
+  void addFlux(std::size_t c, std::size_t i, const SectionFlux& flux, bool up, double G) {
+    if (G == 0) return;
+    flux.forInfluence(i, [&](std::size_t k, double byG) {
+      const double ratio = m.primaryRatio(k), number = byG * G;
+      add(c, k, -number, ratio);
+      if (up && k + 1 < m.sections) add(c, k + 1, number, ratio);
+      if (!up && k > 0) add(c, k - 1, number, ratio);
+    });
+  }
+  // Aggregates (1/m3/s), and primaries, of section i that break.
+  void addBreaking(std::size_t c, std::size_t i, double number, double primaries) {
+    if (number == 0 && primaries == 0) return;
+    const std::size_t n = m.sections, low = i - m.halves.below;
+    J[i * ld + c] -= number;
+    J[low * ld + c] += 2 * number * m.halves.number[0];
+    J[(low + 1) * ld + c] += 2 * number * m.halves.number[1];
+    if (m.spheres) return;
+    J[(n + i) * ld + c] -= primaries;
+    J[(n + low) * ld + c] += primaries * m.halves.primaries[0];
+    J[(n + low + 1) * ld + c] += primaries * m.halves.primaries[1];
+  }
+  // More primaries in what moves from section i by growth and oxidation (1/m3 of the primaries of the section).
+  void addPrimaries(std::size_t c, std::size_t i, double primaries) {
     const std::size_t n = m.sections;
-    for (int kind = 0; kind < (m.spheres ? 1 : 2); ++kind) {
-      double* at = J + c + (kind == 0 ? 0 : n * ld);
-      const double y = kind == 0 ? aggregates : primaries;
-      at[i * ld] -= (up + down + breaking) * y;
-      if (i + 1 < n) at[(i + 1) * ld] += up * y;
-      if (i > 0) at[(i - 1) * ld] += down * y;
-      if (breaking == 0) continue;
-      const double* share = kind == 0 ? m.halves.number : m.halves.primaries;
-      const double pieces = (kind == 0 ? 2 : 1) * breaking * y;
-      at[(i - m.halves.below) * ld] += share[0] * pieces;
-      at[(i - m.halves.below + 1) * ld] += share[1] * pieces;
-    }
+    const double up = m.state.up.frequency[i] * primaries, down = m.state.down.frequency[i] * primaries;
+    J[(n + i) * ld + c] -= up + down;
+    if (i + 1 < n) J[(n + i + 1) * ld + c] += up;
+    if (i > 0) J[(n + i - 1) * ld + c] += down;
   }
   void addNuclei(std::size_t c, const SectionPah::Nuclei& nuclei, double factor) {
     for (int kind = 0; kind < (m.spheres ? 1 : 2); ++kind) {
@@ -61,15 +79,18 @@ void SectionalSoot::Impl::addSections(Assembly& a) {
     const bool last = i + 1 == sections;
     const double area = shapes.area[i], areaSlope = shapes.areaSlope[i];
     const auto column = [&](std::size_t c, double byDensity, double N1, double P1) {
-      a.addMove(c, i, s.up[i], s.down[i], s.breaking[i], N1, P1);
       const double dArea = N1 * area + N * areaSlope * byDensity;
-      if (!last) events[growth * ld + c] += s.surface.growth * dArea;
+      if (!last) {
+        a.addFlux(c, i, s.up, true,
+                  growing * dArea + N1 * s.uptake.condensation[i] + N * s.uptake.slope[i] * byDensity);
+        events[growth * ld + c] += s.surface.growth * dArea;
+      }
+      a.addFlux(c, i, s.down, false, oxidising * dArea);
       events[byO2 * ld + c] += s.surface.oxidationO2 * dArea;
       events[byOH * ld + c] += s.surface.oxidationOH * dArea;
-      if (byDensity == 0) return;
-      const double up = last ? 0 : (growing * areaSlope + s.uptake.slope[i]) / toUpper[i];
-      const double broken = i < halves.below ? 0 : oxidising * breaking(shapes.primariesEach[i])[1];
-      a.addMove(c, i, up * byDensity, oxidising * areaSlope / toLower[i] * byDensity, broken * byDensity, N, P);
+      const double more = i < halves.below ? 0 : oxidising * breaking(shapes.primariesEach[i])[1] * byDensity;
+      a.addBreaking(c, i, s.breaking[i] * N1 + more * N, s.breaking[i] * P1 + more * P);
+      if (!spheres) a.addPrimaries(c, i, P1 - N1 * primaryRatio(i));
     };
     column(i, spheres ? 0 : shapes.byAggregates[i], 1, 0);
     if (!spheres) column(sections + i, shapes.byPrimaries[i], 0, 1);
@@ -95,11 +116,15 @@ void SectionalSoot::Impl::addSurface(Assembly& a, std::size_t c, const Surface& 
   const double growing = 2 * weight * by.growth, oxidising = weight * (2 * by.oxidationO2 + by.oxidationOH);
   double area = 0;
   for (std::size_t i = 0; i < sections; ++i) {
-    const double up = i + 1 == sections ? 0 : growing * shapes.area[i] / toUpper[i];
-    const double broken = i < halves.below ? 0 : oxidising * breaking(shapes.primariesEach[i])[0];
-    a.addMove(c, i, up, oxidising * shapes.area[i] / toLower[i], broken, s.aggregates[i], spheres ? 0 : s.primaries[i]);
+    const double here = shapes.area[i] * s.aggregates[i];
+    if (i + 1 < sections) a.addFlux(c, i, s.up, true, growing * here);
+    a.addFlux(c, i, s.down, false, oxidising * here);
+    if (i >= halves.below && options.fragmentation) {
+      const double broken = oxidising * breaking(shapes.primariesEach[i])[0];
+      a.addBreaking(c, i, broken * s.aggregates[i], broken * s.primaries[i]);
+    }
     if (i + 1 == sections) a.events[growth * a.ld + c] += by.growth * area;
-    area += shapes.area[i] * s.aggregates[i];
+    area += here;
   }
   a.events[byO2 * a.ld + c] += by.oxidationO2 * area;
   a.events[byOH * a.ld + c] += by.oxidationOH * area;
@@ -149,7 +174,7 @@ void SectionalSoot::Impl::addDimers(Assembly& a, std::size_t spare) {
     if (!spheres) row[sections + i] = byEach * shapes.byPrimaries[i];
   }
   for (std::size_t i = 0; i + 1 < sections; ++i) {
-    a.addMove(spare, i, uptake.condensation[i] / toUpper[i], 0, 0, s.aggregates[i], spheres ? 0 : s.primaries[i]);
+    a.addFlux(spare, i, s.up, true, uptake.condensation[i] * s.aggregates[i]);
   }
   for (std::size_t k = 0; k < uptake.kinds; ++k) a.addNuclei(spare, uptake.nuclei[k], 2);
   addProduct(a, spare, {row.data(), a.rows()});
@@ -182,10 +207,8 @@ void SectionalSoot::Impl::addGas(Assembly& a, const SurfaceChemistry& chemistry)
       changed[k] = upper ? at + h : low;
       pah.evaluate(s.temperature, {changed.data(), pahs}, shapes, s.aggregates, spareUptake);
       const double over = (upper ? 1 : -1) / (at + h - low);
-      for (std::size_t i = 0; i + 1 < sections; ++i) {
-        a.addMove(c, i, over * spareUptake.condensation[i] / toUpper[i], 0, 0, s.aggregates[i],
-                  spheres ? 0 : s.primaries[i]);
-      }
+      for (std::size_t i = 0; i + 1 < sections; ++i)
+        a.addFlux(c, i, s.up, true, over * spareUptake.condensation[i] * s.aggregates[i]);
       for (std::size_t q = 0; q < spareUptake.kinds; ++q) a.addNuclei(c, spareUptake.nuclei[q], over);
       for (std::size_t q = 0; q < pahs; ++q)
         a.events[(firstConsumption + q) * a.ld + c] += over * spareUptake.consumption[q];

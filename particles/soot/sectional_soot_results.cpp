@@ -45,6 +45,12 @@ SootProperties SectionalSoot::properties(const SootGas& /*gas*/, std::span<const
   return p;
 }
 
+double SectionalSoot::volumeFraction(std::span<const double> densities) const {
+  double carbon = 0;
+  for (std::size_t i = 0; i < impl_->sections; ++i) carbon += std::max(densities[i], 0.0) * impl_->pivots[i];
+  return carbon / impl_->options.soot.sootDensity;
+}
+
 SootProcesses SectionalSoot::processes(const SootGas& gas, std::span<const double> densities) const {
   Impl& m = *impl_;
   m.prepare(gas, densities);
@@ -60,7 +66,7 @@ SootProcesses SectionalSoot::processes(const SootGas& gas, std::span<const doubl
     m.pairs.addRates(s.aggregates, s.primaries, fN, fP);
     for (const double f : fN) p.coagulationNumber += f;
   }
-  p.oxidationNumber = -s.down[0] * s.aggregates[0];
+  p.oxidationNumber = -s.down.frequency[0] * s.aggregates[0];
   for (std::size_t i = 0; i < m.sections; ++i) p.fragmentationNumber += s.breaking[i] * s.aggregates[i];
   const double weight = m.options.soot.carbonWeight;
   double hydrogen = 0;  // kg/m3/s with PAH, to go with their carbon
