@@ -7,6 +7,7 @@
 
 #include "app/problem.hpp"
 #include "core/errors.hpp"
+#include "io/json.hpp"
 
 namespace lampblack {
 namespace {
@@ -16,8 +17,9 @@ struct Group {
   int size = 1;   // ranks in a group
   int count = 1;  // groups
   int index = 0;  // this rank's group
+  std::size_t chain = 1;
 
-  Group(MPI_Comm all, const SweepStudy& study) {
+  Group(MPI_Comm all, const SweepStudy& study) : chain(study.chain) {
     int ranks = 1, rank = 0;
     MPI_Comm_size(all, &ranks);
     MPI_Comm_rank(all, &rank);
@@ -34,7 +36,8 @@ struct Group {
   Group(const Group&) = delete;
   Group& operator=(const Group&) = delete;
 
-  [[nodiscard]] int groupOf(std::size_t run) const { return static_cast<int>(run) % count; }
+  // Chains stay on the same ranks.
+  [[nodiscard]] int groupOf(std::size_t run) const { return static_cast<int>(run / chain) % count; }
   [[nodiscard]] int leaderOf(std::size_t run) const { return groupOf(run) * size; }
 };
 
@@ -43,12 +46,20 @@ void refuseLoneError(const Group& group, const std::exception& error) {
   if (group.size > 1 && !isCollective(error)) throw;
 }
 
-RunOutcome runOne(const Group& group, const SweepRun& run, const std::filesystem::path& folder, bool force) {
+// `before`: the run in front of this one in its chain, if it ended well.
+RunOutcome runOne(const Group& group, const SweepRun& run, const SweepRun* before, const std::filesystem::path& folder,
+                  bool force) {
   RunOutcome outcome;
   const double start = MPI_Wtime();
   try {
-    const Deck deck = Deck::load(run.deck, run.overrides, deckKinds(), group.comm);
-    problemOf(deck).run(group.comm, deck, {folder / run.name, force, run.overrides});
+    std::vector<std::string> overrides = run.overrides;
+    Deck deck = Deck::load(run.deck, overrides, deckKinds(), group.comm);
+    if (before != nullptr && !deck.has("initial")) {
+      const auto results = std::filesystem::absolute(folder / before->name / "results.h5");
+      overrides.push_back("initial=" + jsonString(results.string()));
+      deck = Deck::load(run.deck, overrides, deckKinds(), group.comm);
+    }
+    problemOf(deck).run(group.comm, deck, {folder / run.name, force, overrides});
   } catch (const InputError& error) {
     refuseLoneError(group, error);
     outcome.failure = RunFailure::input;
@@ -80,7 +91,16 @@ void share(MPI_Comm comm, int from, RunOutcome& outcome) {
 }  // namespace
 
 void checkDecks(MPI_Comm comm, const SweepStudy& study) {
-  for (const SweepRun& run : study.runs) static_cast<void>(Deck::load(run.deck, run.overrides, deckKinds(), comm));
+  for (const SweepRun& run : study.runs) {
+    const Deck deck = Deck::load(run.deck, run.overrides, deckKinds(), comm);
+    if (const std::string name = deck.choice("problem"); study.chain > 1 && name != "flame1d")
+      collectively(comm, [&] {
+        throw InputError(
+            fmt::format("{}: only runs of problem flame1d can start from each other (chain: {}); this one is "
+                        "of problem {}",
+                        run.deck.string(), study.chain, name));
+      });
+  }
   if (study.convergence)
     static_cast<void>(Deck::load(study.convergence->deck, study.convergence->overrides, deckKinds(), comm));
 }
@@ -98,7 +118,8 @@ std::vector<RunOutcome> runStudy(MPI_Comm comm, const SweepStudy& study, const s
       fmt::print("\n--- run {} of {}: {}\n", i + 1, study.runs.size(), run.name);
       std::fflush(stdout);
     }
-    outcomes[i] = runOne(group, run, folder, force);
+    const bool follows = i % study.chain > 0 && outcomes[i - 1].failure == RunFailure::none;
+    outcomes[i] = runOne(group, run, follows ? &study.runs[i - 1] : nullptr, folder, force);
     if (groupRank == 0 && outcomes[i].failure != RunFailure::none) {
       fmt::print("{} failed: {}\n", run.name, outcomes[i].message);
       std::fflush(stdout);

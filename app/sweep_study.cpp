@@ -34,8 +34,15 @@ std::string nameOf(const std::filesystem::path& deck) {
   return plainName(folder.empty() ? stem : folder);
 }
 
-std::string nameOf(const std::filesystem::path& deck, const Varied& varied) {
+// Settings that belong together; a study without variants has one without a name.
+struct Variant {
+  std::string name;
+  std::vector<std::string> settings;
+};
+
+std::string nameOf(const std::filesystem::path& deck, const Variant& variant, const Varied& varied) {
   std::string name = nameOf(deck);
+  if (!variant.name.empty()) name += fmt::format("_{}", plainName(variant.name));
   for (const auto& [key, value] : varied)
     name += fmt::format("_{}-{}", plainName(key.substr(key.rfind('.') + 1)), plainName(value));
   return name;
@@ -74,6 +81,19 @@ void checkAssignments(const Deck& study, const std::string& key) {
     if (settings[i].find('=') == std::string::npos || settings[i].starts_with('='))
       throw study.error(key, fmt::format("expected assignments such as 'time.end=1 s', found '{}'", settings[i]));
   }
+}
+
+std::vector<Variant> readVariants(const Deck& study) {
+  std::vector<Variant> variants;
+  for (std::size_t i = 0; i < study.size("variants"); ++i) {
+    const std::string item = fmt::format("variants[{}]", i);
+    checkAssignments(study, item + ".set");
+    variants.push_back({study.string(item + ".name"), study.strings(item + ".set")});
+    if (plainName(variants.back().name).empty())
+      throw study.error(item + ".name", "expected a name with letters or digits");
+  }
+  if (variants.empty()) variants.emplace_back();
+  return variants;
 }
 
 std::vector<std::string> joined(std::vector<std::string> first, const std::vector<std::string>& second) {
@@ -125,6 +145,10 @@ DeckSchema studySchema() {
       .section("vary", Presence::optional, "What is varied in every deck; all combinations are run.")
       .add(stringKey("vary[].key", "A key of the deck: initial.temperature."))
       .add(stringKey("vary[].values", "Its values, as they would stand in the deck: [900 K, 1000 K].").list())
+      .section("variants", Presence::optional,
+               "Variants of every deck, each with several settings at once; combined with what is varied.")
+      .add(stringKey("variants[].name", "Part of the run's name, and a column of the table."))
+      .add(stringKey("variants[].set", "Assignments: [left.velocity=25 cm/s, right.velocity=25 cm/s].").list())
       .add(stringKey("set", "Assignments applied to every deck before what is varied: [time.end=1 s, repeats=10].")
                .list()
                .byDefault("[]"))
@@ -133,6 +157,12 @@ DeckSchema studySchema() {
                       "another if this is not given, which suits problems that spread over ranks by themselves.")
                .optional()
                .atLeast(1))
+      .add(
+          integerKey("chain",
+                     "One-dimensional flames: so many runs follow each other on the same ranks, each starting from the "
+                     "flame before it (key initial); the first, and one after a failure, from its streams.")
+              .byDefault("1")
+              .atLeast(1))
       .add(stringKey("collect.results",
                      "Which of a run's results (the object \"results\" of run.json, its parts joined by dots) become "
                      "columns of the study's table; all takes every one.")
@@ -167,6 +197,7 @@ DeckSchema studySchema() {
 SweepStudy readStudy(const Deck& study, const std::vector<std::string>& settings) {
   SweepStudy sweep;
   sweep.name = study.string("study");
+  sweep.chain = static_cast<std::size_t>(study.integer("chain"));
   if (const auto ranks = study.optionalInteger("ranks_per_run")) sweep.ranksPerRun = static_cast<int>(*ranks);
   sweep.results = study.strings("collect.results");
   sweep.tables = study.strings("collect.tables");
@@ -179,16 +210,20 @@ SweepStudy readStudy(const Deck& study, const std::vector<std::string>& settings
   if (decks.empty() && !study.has("convergence"))
     throw study.error("decks", "there is nothing to run: expected decks, or a section convergence");
   const std::vector<Varied> combinations = product(study);
+  const std::vector<Variant> variants = readVariants(study);
   std::map<std::string, int> used;
   for (const std::string& deck : decks) {
-    for (const Varied& varied : combinations) {
+    for (std::size_t i = 0; i < variants.size() * combinations.size(); ++i) {
+      const Variant& variant = variants[i / combinations.size()];
+      const Varied& varied = combinations[i % combinations.size()];
       SweepRun run;
       run.deck = study.resolvePath(deck);
-      run.varied = varied;
-      run.overrides = common;
+      if (!variant.name.empty()) run.varied.emplace_back("variant", variant.name);
+      run.varied.insert(run.varied.end(), varied.begin(), varied.end());
+      run.overrides = joined(common, variant.settings);
       for (const auto& [key, value] : varied) run.overrides.push_back(fmt::format("{}={}", key, asInDeck(value)));
       run.overrides = joined(run.overrides, settings);
-      run.name = nameOf(run.deck, varied);
+      run.name = nameOf(run.deck, variant, varied);
       if (const int before = used[run.name]++; before > 0) run.name += fmt::format("_{}", before + 1);
       sweep.runs.push_back(std::move(run));
     }

@@ -24,6 +24,7 @@ struct SweepStudy {
   std::string name;
   std::vector<SweepRun> runs;
   std::optional<int> ranksPerRun;    // all, if not given
+  std::size_t chain = 1;             // so many runs after each other, each from the flame before
   std::vector<std::string> results;  // keys of a run's results to collect; "all"
   std::vector<std::string> tables;   // CSV files of the runs to put below each other
   std::vector<std::string> columns;  // of those tables to show on the console, without their units; "all"
@@ -32,7 +33,8 @@ struct SweepStudy {
 
 DeckSchema studySchema();
 
-// The runs of a study, in order: decks first, then the product of all that varies, the last key fastest. `settings` are
+// The runs of a study, in order: decks first, then variants, then the product of all that varies, the last key fastest.
+// `settings` are
 // applied to every deck after what the study says. InputError where the study contradicts itself; the decks are not
 // read.
 SweepStudy readStudy(const Deck& study, const std::vector<std::string>& settings);

@@ -115,12 +115,16 @@ def _plot_soot(flame, pictures):
     b.semilogy(flame.z, _positive(flame.soot["number_density"] * 1e-6), color="tab:blue")
     b.set_ylabel("number density, 1/cm$^3$")
     _bottom(b, flame.soot["number_density"] * 1e-6, 1e-6)
+    enough = fraction > 1e-4 * fraction.max()
+    drawn = []
     for name, label in (("mean_diameter", "mean volume"), ("primary_diameter", "primaries"),
                         ("mobility_diameter", "mobility"), ("gyration_diameter", "gyration")):
         values = flame.soot.get(name)
-        enough = fraction > 1e-4 * fraction.max()
-        if values is not None and np.any(values > 0):
+        # Spheres have one diameter: a curve on top of another is not drawn twice.
+        same = any(np.allclose(values[enough], other[enough], rtol=1e-3) for other in drawn)
+        if values is not None and np.any(values > 0) and not same:
             c.plot(flame.z, np.where(enough, values * 1e9, np.nan), label=label)
+            drawn.append(values)
     c.set_ylabel("diameter, nm")
     c.legend(fontsize=8)
     for name, label in PROCESSES.items():
@@ -170,7 +174,7 @@ def _plot_sizes(flame, pictures):
 def plot_together(folders, pictures, name="together", labels=None):
     """Temperature, soot or heat release of several flames on top of each other."""
     flames = [FlameData(Results(folder)) for folder in folders]
-    labels = labels or [folder.name for folder in folders]
+    labels = labels or short_names([folder.name for folder in folders])
     usable = [(flame, label) for flame, label in zip(flames, labels) if flame.z.size]
     if len(usable) < len(flames):
         pictures.skip("some flames", "they hold no fields over z")
@@ -209,8 +213,17 @@ def plot_together(folders, pictures, name="together", labels=None):
         axes.set_xlabel("z, mm")
     spans = [flame.span() for flame, _ in usable]
     grid[0][0].set_xlim(min(low for low, _ in spans), max(high for _, high in spans))
-    figure.legend(*grid[0][0].get_legend_handles_labels(), fontsize=8, ncol=min(4, len(usable)), loc="outside lower center")
+    grid[0][1].legend(*grid[0][0].get_legend_handles_labels(), fontsize=8, loc="upper left", bbox_to_anchor=(1.0, 1.0))
     pictures.save(figure, name)
+
+
+def short_names(names):
+    """Names without the words that all of them begin with."""
+    words = [name.split("_") for name in names]
+    same = 0
+    while len(names) > 1 and all(len(w) > same + 1 and w[same] == words[0][same] for w in words):
+        same += 1
+    return ["_".join(w[same:]) for w in words]
 
 
 def _soot(flame, name, factor):

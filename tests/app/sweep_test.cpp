@@ -41,6 +41,21 @@ TEST(Study, DecksOfOneNameGetFoldersOfTheirOwn) {
   EXPECT_EQ(study.runs[2].name, "b");
 }
 
+TEST(Study, VariantsCombineWithWhatVaries) {
+  const SweepStudy study = studyOf(
+      "study: s\ndeck: x.yaml\nset: [a=0]\nchain: 2\nvariants:\n  - {name: slow, set: [left.u=1, right.u=1]}\n"
+      "  - {name: fast, set: ['right.composition=O2: 1, N2: 3']}\nvary:\n  - {key: p, values: [1, 2]}\n");
+  ASSERT_EQ(study.runs.size(), 4U);
+  EXPECT_EQ(study.chain, 2U);
+  EXPECT_EQ(study.runs[1].name, "x_slow_p-2");
+  EXPECT_THAT(study.runs[1].overrides, ElementsAre("a=0", "left.u=1", "right.u=1", "p=2"));
+  EXPECT_THAT(study.runs[2].varied, ElementsAre(Pair("variant", "fast"), Pair("p", "1")));
+  EXPECT_THAT([] { studyOf("study: s\ndeck: a.yaml\nvariants:\n  - {name: b, set: [c]}\n"); },
+              ThrowsMessage<InputError>(HasSubstr("variants[0].set: expected assignments")));
+  EXPECT_THAT([] { studyOf("study: s\ndeck: a.yaml\nvariants:\n  - {name: '/', set: [c=1]}\n"); },
+              ThrowsMessage<InputError>(HasSubstr("variants[0].name: expected a name")));
+}
+
 TEST(Study, ContradictionsAreToldWithTheirPlace) {
   EXPECT_THAT([] { studyOf("study: s\n"); }, ThrowsMessage<InputError>(HasSubstr("nothing to run")));
   EXPECT_THAT([] { studyOf("study: s\ndeck: a.yaml\nset: [time.end]\n"); },
