@@ -7,6 +7,7 @@
 
 #include "app/flame_file.hpp"
 #include "app/gas_input.hpp"
+#include "app/soot_deck.hpp"
 #include "app/temperature_input.hpp"
 #include "chemistry/thermo/thermo.hpp"
 #include "core/errors.hpp"
@@ -184,6 +185,11 @@ FlameCase readFlameCase(const Deck& deck) {
   readSolver(deck, flame);
   if (auto model = readSootModel(deck, *flame.mechanism)) {
     flame.soot = std::make_unique<FlameSoot>(*flame.mechanism, std::move(model));
+  }
+  if (deck.has("stochastic")) {
+    if (!deck.has("soot")) throw deck.error("stochastic", "ensembles need the section 'soot': PAH, surface, switches");
+    flame.stochastic = readStochastic(deck, readSootModelOptions(deck, *flame.mechanism), flame.problem.length,
+                                      flame.problem.type == FlameType::Counterflow);
   }
   if (const auto file = deck.optionalString("initial")) {
     try {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/flame_soot.hpp"
+#include "app/stochastic_deck.hpp"
 #include "chemistry/mechanism/mechanism.hpp"
 #include "flow/flame/flame_problem.hpp"
 #include "flow/flame/flame_solver.hpp"
@@ -24,6 +25,7 @@ struct FlameCase {
   InitialFlameOptions start;
   std::optional<NamedFlameProfile> initial;  // an earlier flame to start from
   std::unique_ptr<FlameSoot> soot;           // null: none
+  std::optional<StochasticRequest> stochastic;
 
   [[nodiscard]] std::vector<std::string> scalarNames() const;  // of the soot
 };

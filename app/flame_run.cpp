@@ -7,6 +7,7 @@
 
 #include "app/flame_case.hpp"
 #include "app/flame_output.hpp"
+#include "app/flame_stochastic.hpp"
 #include "core/errors.hpp"
 
 namespace lampblack {
@@ -39,6 +40,7 @@ std::vector<StageTime> stageTimes(MPI_Comm comm, const FlameEquations::Counters&
 // The solution, or how far it came and why it went no further.
 struct Attempt {
   FlameResult result;
+  std::optional<StochasticFlame> stochastic;
   std::optional<std::string> failure;
 };
 
@@ -55,6 +57,18 @@ Attempt solve(MPI_Comm comm, FlameCase& flame, FlameProfile start) {
   std::optional<FlameSolution> solution;
   try {
     solution = solver.solve(std::move(start));
+    if (flame.stochastic) {
+      const FlameSolution alone = *solution;
+      try {
+        attempt.stochastic = runStochasticFlame(comm, *flame.mechanism, flame.problem.pressure, solver,
+                                                flame.soot.get(), *solution, *flame.stochastic);
+      } catch (const FlameFailure&) {
+        throw;
+      } catch (const NumericsError& error) {
+        solution = alone;
+        attempt.failure = error.what();
+      }
+    }
   } catch (const FlameFailure& failure) {
     solution = failure.last();
     attempt.failure = failure.what();
@@ -92,6 +106,7 @@ void runFlame(MPI_Comm comm, const Deck& deck, const RunOptions& options) {
       JsonWriter json;
       json.beginObject();
       recordFlame(json, flame, result);
+      if (attempt.stochastic) recordStochasticFlame(json, *attempt.stochastic);
       json.endObject();
       record.resultsJson = json.text();
     });
@@ -102,9 +117,11 @@ void runFlame(MPI_Comm comm, const Deck& deck, const RunOptions& options) {
     record.peakMemoryPerRank = peakMemory(comm);
     ResultsWriter results(comm, folder.results(), info);
     writeFlame(results, flame, result);
+    if (attempt.stochastic) writeStochasticFlame(results, *flame.stochastic, *attempt.stochastic);
     if (!attempt.failure) {
       results.close();
       if (rank == 0) fmt::print("{}", flameReport(flame, result));
+      if (rank == 0 && attempt.stochastic) fmt::print("{}", stochasticFlameReport(*attempt.stochastic));
       return;
     }
     results.closePartial();

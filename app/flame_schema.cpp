@@ -158,6 +158,7 @@ DeckSchema flameSchema() {
   addFlame(schema);
   addPhysics(schema);
   addSootModelKeys(schema);
+  addStochasticKeys(schema);
   addGrid(schema);
   addSolver(schema);
   return schema;

@@ -133,6 +133,17 @@ std::vector<PahSpecies> readPahSpecies(const Deck& deck, const Mechanism& mechan
   return list;
 }
 
+SootModelOptions readSootModelOptions(const Deck& deck, const Mechanism& mechanism) {
+  const std::string name = deck.choice("soot.model");
+  SootModelOptions options;
+  if (name != "none") {
+    SootModelChoice choice = publishedSootModel(name);
+    if (const SootModelOptions* published = sharedOptions(choice)) options = *published;
+  }
+  readShared(deck, mechanism, options);
+  return options;
+}
+
 std::unique_ptr<SootModel> readSootModel(const Deck& deck, const Mechanism& mechanism) {
   if (!deck.has("soot")) return nullptr;
   const std::string name = deck.choice("soot.model");

@@ -13,4 +13,8 @@ namespace lampblack {
 // ones (Blanquart and Pitsch 2009) or those of the law behind them. InputError for what is not a hydrocarbon.
 [[nodiscard]] std::vector<PahSpecies> readPahSpecies(const Deck& deck, const Mechanism& mechanism);
 
+// What the section `soot` of a flame says of surface, PAH and switches, with the mechanism's atomic weights; what it
+// leaves open as published with its model.
+[[nodiscard]] SootModelOptions readSootModelOptions(const Deck& deck, const Mechanism& mechanism);
+
 }  // namespace lampblack

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "core/constants.hpp"
 #include "core/errors.hpp"
@@ -17,7 +18,8 @@ void SootMoved::add(double weight, const SootMoved& other) {
     this->*part += weight * other.*part;
 }
 
-SootMedium::SootMedium(const SootModelOptions& options, const DimerModel& dimers, const SootGasState& given)
+SootMedium::SootMedium(const SootModelOptions& options, const DimerModel& dimers, const SootGasState& given,
+                       bool keepsHydrogen)
     : options_(options),
       surface_(options, given.temperature),
       kernelGas_(given.kernelGas()),
@@ -50,6 +52,7 @@ SootMedium::SootMedium(const SootModelOptions& options, const DimerModel& dimers
       dimerCarbon_ += pahOfDimer_[i] * dimers.carbonAtoms(i) * options.carbonWeight / constants::avogadro;
       dimerHydrogen_ += pahOfDimer_[i] * dimers.hydrogenAtoms(i) * options.hydrogenWeight / constants::avogadro;
     }
+    if (!keepsHydrogen) freedHydrogen_ = std::exchange(dimerHydrogen_, 0.0);
     selfCollision_ = options.inception ? dimer_.selfCollision : 0;
     condensing_ = options.condensation;
   }
@@ -78,10 +81,7 @@ bool SootMedium::grow(const SootAggregate& type, const SootFluxes& fluxes, doubl
                       SootMoved& moved) const {
   const double rho = options_.sootDensity, n = p.primaries, before = p.carbon;
   const double shape = SootAggregate::collisionFactor(n);
-  double alpha = fluxes.alpha;
-  const double perMass = constants::avogadro / options_.carbonWeight;
-  if (fluxes.alphaOfPrimaries) alpha = surface_.alpha(std::max(p.carbon / n * perMass, 2.0));
-  const double gainFlux = alpha * fluxes.growth, lossO2 = alpha * fluxes.O2, lossOH = fluxes.OH;
+  const double gainFlux = fluxes.alpha * fluxes.growth, lossO2 = fluxes.alpha * fluxes.O2, lossOH = fluxes.OH;
   const double loss = lossO2 + lossOH;
   const double dimerMass = dimerCarbon_ + dimerHydrogen_;
   const double dimerFraction = dimerMass > 0 ? dimerHydrogen_ / dimerMass : 0;

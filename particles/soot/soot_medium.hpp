@@ -22,17 +22,17 @@ struct SootMoved {
 
 // Of every particle alike: what a step of growth starts from.
 struct SootFluxes {
-  double condensation = 0;        // dimers per volume times the prefactor of their collisions
-  double growth = 0, O2 = 0;      // kg carbon/m2/s with all sites active (alpha = 1)
-  double OH = 0;                  // kg carbon/m2/s
-  double alpha = 0;               // of all particles, or
-  bool alphaOfPrimaries = false;  // each by the carbon atoms of its primaries (thesis eq. 9-37)
+  double condensation = 0;    // dimers per volume times the prefactor of their collisions
+  double growth = 0, O2 = 0;  // kg carbon/m2/s with all sites active (alpha = 1)
+  double OH = 0;              // kg carbon/m2/s
+  double alpha = 0;           // fraction of active sites
 };
 
 class SootMedium {
  public:
-  // `gas`: negative concentrations count as zero. Throws NumericsError for a gas that is not physical.
-  SootMedium(const SootModelOptions& options, const DimerModel& dimers, const SootGasState& gas);
+  // `gas`: negative concentrations count as zero. Without `keepsHydrogen` that of the PAH returns to the gas as they
+  // are taken up. Throws NumericsError for a gas that is not physical.
+  SootMedium(const SootModelOptions& options, const DimerModel& dimers, const SootGasState& gas, bool keepsHydrogen);
 
   [[nodiscard]] const DimerProduction& dimer() const { return dimer_; }
   // Moles of each PAH in a mole of dimers.
@@ -43,6 +43,7 @@ class SootMedium {
   [[nodiscard]] const KernelGas& kernelGas() const { return kernelGas_; }
   [[nodiscard]] double dimerCarbon() const { return dimerCarbon_; }      // kg in a dimer
   [[nodiscard]] double dimerHydrogen() const { return dimerHydrogen_; }  // kg in a dimer
+  [[nodiscard]] double freedHydrogen() const { return freedHydrogen_; }  // kg that a dimer gives back as H2
 
   // Collision rate of a dimer with a particle, m3/s, and its derivative by the logarithm of the particle's diameter
   // with the mass going with its cube.
@@ -76,7 +77,7 @@ class SootMedium {
   PahArray pahOfDimer_{};
   KernelGas kernelGas_;
   double selfCollision_ = 0, freeMolecular_ = 0;
-  double dimerCarbon_ = 0, dimerHydrogen_ = 0;
+  double dimerCarbon_ = 0, dimerHydrogen_ = 0, freedHydrogen_ = 0;
   double growth_ = 0, O2_ = 0, OH_ = 0;  // kg carbon/m2/s
   double leastCarbon_;                   // kg
   bool condensing_ = false, surfaceActive_ = false;

@@ -45,7 +45,7 @@ class StochasticProcess final : public StochasticSoot {
  private:
   // Of the whole population, per m3.
   struct Sums {
-    double number = 0, carbon = 0, hydrogen = 0, area = 0, diameters = 0;
+    double number = 0, carbon = 0, hydrogen = 0, primaries = 0, area = 0, diameters = 0;
     double collisions = 0, slopes = 0;  // with dimers, 1/s, and their change with the logarithm of all diameters
   };
   [[nodiscard]] Sums sums(const SootMedium& medium) const;
@@ -81,6 +81,7 @@ typename StochasticProcess<Method>::Sums StochasticProcess<Method>::sums(const S
     s.number += w;
     s.carbon += w * p.carbon;
     s.hydrogen += w * p.hydrogen;
+    s.primaries += w * p.primaries;
     s.area += w * p.primaries * constants::pi * d * d;
     s.diameters += w * p.diameter;
     if (!medium.condensing()) return;
@@ -131,7 +132,7 @@ double StochasticProcess<Method>::step(const SootMedium& medium, const Sums& s, 
 template <class Method>
 void StochasticProcess<Method>::advance(const SootGasState& gas, double dilution, double dt) {
   if (!(dt > 0)) return;
-  const SootMedium medium(options_.soot, dimers_, gas);
+  const SootMedium medium(options_.soot, dimers_, gas, options_.keepsHydrogen);
   if (options_.soot.coagulation) {
     CollisionKernelOptions kernel;
     kernel.type = CollisionKernelType::transition;
@@ -229,6 +230,7 @@ template <class Method>
 void StochasticProcess<Method>::book(const SootMedium& medium, double dimers) {
   for (std::size_t i = 0; i < dimers_.size(); ++i)
     exchange_.pah[i] -= dimers * medium.pahOfDimer()[i] / constants::avogadro;
+  exchange_.H2 += 0.5 * dimers * medium.freedHydrogen() / options_.soot.hydrogenWeight;
   exchange_.carbon += dimers * medium.dimerCarbon();
   exchange_.hydrogen += dimers * medium.dimerHydrogen();
 }
@@ -239,9 +241,9 @@ void StochasticProcess<Method>::grow(const SootMedium& medium, double dt) {
   const SootModelOptions& soot = options_.soot;
   const Sums s = sums(medium);
   SootFluxes flux = medium.fluxes();
-  flux.alphaOfPrimaries = options_.alphaOfPrimaries;
-  const auto alpha = [&](double carbon) {  // of the mean particle
-    const double atoms = carbon / s.number * constants::avogadro / soot.carbonWeight;
+  const double counted = options_.alphaOfPrimaries ? s.primaries : s.number;
+  const auto alpha = [&](double carbon) {
+    const double atoms = carbon / counted * constants::avogadro / soot.carbonWeight;
     return medium.alpha(std::max({atoms, dimers_.smallestNucleus(), 2.0}));
   };
   // Both at the middle of the step, to first order: makes the whole second order.
@@ -280,77 +282,6 @@ void StochasticProcess<Method>::grow(const SootMedium& medium, double dt) {
   exchange_.H2 += 0.5 * all.growth * perCarbon + (all.hydrogenO2 + all.hydrogenOH) * perH2;
 }
 
-template <class Method>
-void StochasticProcess<Method>::initialise(std::span<const SootParticleGiven> population) {
-  if (population.empty() || population.size() > options_.particles) {
-    throw InputError(
-        fmt::format("stochastic soot: {} particles, there is room for 1 to {}", population.size(), options_.particles));
-  }
-  for (const SootParticleGiven& p : population) {
-    if (!(p.carbon > 0) || !(p.hydrogen >= 0) || !(p.primaries >= 1) || !(p.number > 0))
-      throw InputError("stochastic soot: a particle needs carbon, a number and at least one primary");
-    if (!weighted && p.number != population[0].number)
-      throw InputError("stochastic soot: particles of equal weight that stand for different numbers");
-  }
-  if constexpr (weighted) {
-    std::vector<typename Method::Entry> entries;
-    for (const SootParticleGiven& p : population)
-      entries.push_back({type_.make(p.carbon, p.hydrogen, p.primaries), p.number});
-    method_.replace(std::move(entries));
-  } else {
-    std::vector<Particle> particles;
-    for (const SootParticleGiven& p : population) particles.push_back(type_.make(p.carbon, p.hydrogen, p.primaries));
-    method_.replace(particles, population[0].number, random_);
-  }
-  exchange_ = {};
-  reached_ = 0;
-  planned_ = false;
-}
-
-template <class Method>
-StochasticSoot::Totals StochasticProcess<Method>::totals() const {
-  Totals t;
-  method_.forEachParticle([&](const Particle& p, double w) {
-    const double d = type_.primaryDiameter(p);
-    t.number += w;
-    t.carbon += w * p.carbon;
-    t.hydrogen += w * p.hydrogen;
-    t.primaries += w * p.primaries;
-    t.surface += w * p.primaries * constants::pi * d * d;
-    t.diameters += w * d * SootAggregate::mobilityFactor(p.primaries);
-  });
-  return t;
-}
-
-template <class Method>
-double StochasticProcess<Method>::moment(double order) const {
-  double sum = 0;
-  method_.forEachParticle([&](const Particle& p, double w) { sum += w * std::pow(type_.volume(p), order); });
-  return sum;
-}
-
-template <class Method>
-std::vector<double> StochasticProcess<Method>::sizeDistribution(double logMin, double logMax, std::size_t bins) const {
-  std::vector<double> density(bins, 0);
-  const double width = (logMax - logMin) / static_cast<double>(bins);
-  method_.forEachParticle([&](const Particle& p, double w) {
-    const double x = (std::log10(type_.mobilityDiameter(p)) - logMin) / width;
-    if (x >= 0 && x < static_cast<double>(bins)) density[static_cast<std::size_t>(x)] += w / width;
-  });
-  return density;
-}
-
-template <class Method>
-double StochasticProcess<Method>::geometricDeviation() const {
-  double weight = 0, mean = 0, square = 0;  // running mean and sum of squared deviations (West 1979)
-  method_.forEachParticle([&](const Particle& p, double w) {
-    const double x = std::log(type_.mobilityDiameter(p));
-    weight += w;
-    const double difference = x - mean;
-    mean += difference * w / weight;
-    square += w * difference * (x - mean);
-  });
-  return weight > 0 ? std::exp(std::sqrt(square / weight)) : 1.0;
-}
-
 }  // namespace lampblack
+
+#include "particles/soot/stochastic_population.hpp"

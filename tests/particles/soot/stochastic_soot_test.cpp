@@ -50,6 +50,7 @@ TEST_P(StochasticSootMethods, TakesFromTheGasTheAtomsThatTheSootGains) {
   for (const bool coalescing : {true, false}) {
     StochasticSootOptions o = options(soot);
     o.coalescing = coalescing;
+    o.keepsHydrogen = coalescing;
     const auto population = makeStochasticSoot(o);
     SootExchange sum;
     for (int step = 0; step < 40; ++step) {
@@ -64,9 +65,12 @@ TEST_P(StochasticSootMethods, TakesFromTheGasTheAtomsThatTheSootGains) {
                   1e-12 * scale);
       EXPECT_NEAR(x.carbon + x.hydrogen, x.nucleated + x.condensed + x.grown - x.oxidisedO2 - x.oxidisedOH,
                   1e-12 * scale);
-      if (o.method != StochasticSootMethod::dsmc)
+      if (o.method != StochasticSootMethod::dsmc) {
         EXPECT_NEAR(x.resampledCarbon + x.resampledHydrogen, 0, 1e-12 * scale);
-      if (o.method == StochasticSootMethod::sammc) EXPECT_NEAR(x.resampledHydrogen, 0, 1e-12 * scale);
+      }
+      if (o.method == StochasticSootMethod::sammc) {
+        EXPECT_NEAR(x.resampledHydrogen, 0, 1e-12 * scale);
+      }
       // Atoms, mol/m3.
       double C = x.CO + 2 * x.C2H2, H = x.H + 2 * x.H2 + x.OH + 2 * x.C2H2;
       for (std::size_t k = 0; k < soot.pah.size(); ++k) {
@@ -81,6 +85,9 @@ TEST_P(StochasticSootMethods, TakesFromTheGasTheAtomsThatTheSootGains) {
         sum.*part += x.*part;
     }
     EXPECT_GT(population->counters().coagulations, 400u);
+    if (!o.keepsHydrogen) {
+      EXPECT_EQ(population->totals().hydrogen, 0);
+    }
     for (const auto part : {&SootExchange::nucleated, &SootExchange::condensed, &SootExchange::grown,
                             &SootExchange::oxidisedO2, &SootExchange::oxidisedOH})
       EXPECT_GT(sum.*part, 1e-5 * population->totals().mass());

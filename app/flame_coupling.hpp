@@ -1,0 +1,59 @@
+// Two-way coupling of stochastic soot and a one-dimensional flame, by iteration: the flame in its steady state, the
+// population along its paths, what it exchanges with the gas back into the flame, and so on until nothing changes by
+// more than a tolerance or the noise of the repeats.
+//
+// The flame carries a simple soot model as well, the transfer model. Its exchange S_t with the gas is solved with the
+// gas; what is iterated is the difference between the population's exchange and the transfer model's own,
+//   E <- (1 - w) E + w (S - S_t),
+// so that the gas sees the population's exchange in the end, whatever the transfer model says, but answers at once
+// where the exchange depends on the gas: with the dimer model PAH are consumed by the same law in both, and E has no
+// part in it.
+#pragma once
+
+#include <mpi.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/flame_ensemble.hpp"
+#include "chemistry/mechanism/mechanism.hpp"
+#include "flow/flame/carried_model.hpp"
+#include "flow/flame/flame_solver.hpp"
+
+namespace lampblack {
+
+struct FlameCouplingOptions {
+  FlameEnsembleOptions ensemble;
+  std::size_t iterations = 10;
+  double relaxation = 0.7;  // w
+  double tolerance = 0.01;  // of the changes below
+};
+
+// Changes from one iteration to the next, relative to the largest value in the flame.
+struct FlameCouplingStep {
+  std::size_t points = 0;
+  double volumeFraction = 0;  // the largest
+  double noise = 0;           // standard error of the volume fraction where it is largest, relative
+  double volumeFractionChange = 0, temperatureChange = 0, acetyleneChange = 0;
+  // kg/m2/s: what the exchange takes from the gas along the path, and with what the particles leave.
+  double carbonTaken = 0, carbonLeaving = 0, hydrogenTaken = 0, hydrogenLeaving = 0;
+  double seconds = 0;
+};
+
+struct FlameCoupling {
+  FlameSolution solution;
+  std::vector<FlameEnsemblePath> paths;
+  std::vector<FlameCouplingStep> steps;
+  bool converged = false;
+};
+
+// Collective. `solver` solves the flame with `transfer` (may be null); `start` is its solution without any exchange.
+// FlameFailure as of the solver; a flame that does not settle comes back with converged = false.
+[[nodiscard]] FlameCoupling coupleFlame(MPI_Comm comm, const Mechanism& mechanism, double pressure, FlameSolver& solver,
+                                        CarriedModel* transfer, FlameSolution start,
+                                        const FlameCouplingOptions& options,
+                                        const std::function<void(const FlameCouplingStep&)>& report = {});
+
+}  // namespace lampblack

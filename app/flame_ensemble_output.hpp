@@ -1,0 +1,16 @@
+// Stochastic soot of a flame in results.h5, under /stochastic.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "app/flame_ensemble.hpp"
+#include "io/results_writer.hpp"
+
+namespace lampblack {
+
+// Collective. `heights` (m): where distributions are written, at the nearest point of each path.
+void writeFlameEnsemble(ResultsWriter& results, const std::vector<FlameEnsemblePath>& paths,
+                        const FlameEnsembleOptions& options, std::span<const double> heights);
+
+}  // namespace lampblack

@@ -1,0 +1,114 @@
+#include "app/stochastic_deck.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+
+namespace lampblack {
+
+void addStochasticKeys(DeckSchema& schema) {
+  schema
+      .section("stochastic", Presence::optional,
+               "Ensembles of soot particles along the flame, by repeats of independent random numbers; needs the "
+               "section soot, whose PAH, surface and switches are theirs.")
+      .add(choiceKey("stochastic.coupled", {"decoupled", "two_way"},
+                     "decoupled: the flame as solved with soot.model, whose exchange with the gas stands for the "
+                     "ensemble's; two_way: iterated until the gas sees what the ensemble exchanges.")
+               .byDefault("decoupled"))
+      .add(choiceKey("stochastic.method", {"dsmc", "sammc", "swa"},
+                     "Equal weights, doubled and contracted; weighted, nearest neighbours merged; stochastic weighted "
+                     "algorithm with mass weights.")
+               .byDefault("sammc"))
+      .add(integerKey("stochastic.particles", "Numerical particles of a repeat.").byDefault("2000").atLeast(8))
+      .add(integerKey("stochastic.repeats", "Of every path.").byDefault("8").atLeast(2).atMost(100000))
+      .add(integerKey("stochastic.seed", "Of the random numbers.").byDefault("1").atLeast(0))
+      .add(choiceKey("stochastic.shape", {"spheres", "aggregates"},
+                     "spheres: that coalesce; aggregates: coagulation keeps the primaries.")
+               .byDefault("spheres"))
+      .add(
+          choiceKey("stochastic.active_sites", {"particle", "primary"},
+                    "Whose carbon atoms the ABF function of the fraction of active sites sees: of the mean particle or "
+                    "the mean primary.")
+              .byDefault("particle"))
+      .add(booleanKey("stochastic.keep_hydrogen",
+                      "Soot keeps the hydrogen of PAH; false: it returns to the gas as H2 when they are taken up.")
+               .byDefault("true"))
+      .add(numberKey("stochastic.split_tolerance", "Relative change of the population in a splitting step.")
+               .byDefault("0.05")
+               .above(0)
+               .atMost(1))
+      .add(quantityKey("stochastic.start", units::length,
+                       "Where paths start, from the end that particles come from; absent: at that end.")
+               .optional()
+               .atLeast(0))
+      .add(quantityKey("stochastic.slowest", units::velocity,
+                       "Paths end where particles are slower: near the stagnation plane.")
+               .byDefault("1 mm/s")
+               .above(0))
+      .add(integerKey("stochastic.bins", "Of the size distribution.").byDefault("60").atLeast(2).atMost(10000))
+      .add(quantityKey("stochastic.smallest", units::length, "Lower end of the bins (diameter).")
+               .byDefault("0.5 nm")
+               .above(0))
+      .add(quantityKey("stochastic.largest", units::length, "Upper end of the bins.").byDefault("500 nm").above(0))
+      .add(quantityKey("stochastic.heights", units::length, "Where distributions are written.").list().optional())
+      .add(integerKey("stochastic.iterations", "two_way: at most.").byDefault("10").atLeast(1))
+      .add(numberKey("stochastic.relaxation", "two_way: part of a new exchange in an iteration.")
+               .byDefault("0.7")
+               .above(0)
+               .atMost(1))
+      .add(numberKey("stochastic.tolerance", "two_way: change of volume fraction, temperature and acetylene, relative.")
+               .byDefault("0.01")
+               .above(0));
+}
+
+std::optional<StochasticRequest> readStochastic(const Deck& deck, const SootModelOptions& soot, double length,
+                                                bool bothSides) {
+  if (!deck.has("stochastic")) return std::nullopt;
+  StochasticRequest request;
+  request.twoWay = deck.choice("stochastic.coupled") == "two_way";
+  FlameCouplingOptions& coupling = request.coupling;
+  coupling.iterations = static_cast<std::size_t>(deck.integer("stochastic.iterations"));
+  coupling.relaxation = deck.number("stochastic.relaxation");
+  coupling.tolerance = deck.number("stochastic.tolerance");
+  FlameEnsembleOptions& ensemble = coupling.ensemble;
+  ensemble.repeats = static_cast<std::size_t>(deck.integer("stochastic.repeats"));
+  StochasticSootOptions& options = ensemble.soot;
+  const std::string method = deck.choice("stochastic.method");
+  options.method = method == "dsmc"    ? StochasticSootMethod::dsmc
+                   : method == "sammc" ? StochasticSootMethod::sammc
+                                       : StochasticSootMethod::swa;
+  options.particles = static_cast<std::size_t>(deck.integer("stochastic.particles"));
+  options.seed = static_cast<std::uint64_t>(deck.integer("stochastic.seed"));
+  options.soot = soot;
+  options.coalescing = deck.choice("stochastic.shape") == "spheres";
+  options.alphaOfPrimaries = deck.choice("stochastic.active_sites") == "primary";
+  options.keepsHydrogen = deck.boolean("stochastic.keep_hydrogen");
+  options.splitTolerance = deck.number("stochastic.split_tolerance");
+  SootPathOptions& march = ensemble.march;
+  march.bins = static_cast<std::size_t>(deck.integer("stochastic.bins"));
+  march.logDiameterMin = std::log10(deck.quantity("stochastic.smallest"));
+  march.logDiameterMax = std::log10(deck.quantity("stochastic.largest"));
+  if (!(march.logDiameterMax > march.logDiameterMin))
+    throw deck.error("stochastic.largest", "expected more than 'smallest'");
+  FlamePathOptions path;
+  path.slowest = deck.quantity("stochastic.slowest");
+  path.start = deck.optionalQuantity("stochastic.start");
+  if (path.start && *path.start >= length)
+    throw deck.error("stochastic.start", fmt::format("expected less than the flame's length of {:g} m", length));
+  ensemble.paths.push_back(path);
+  if (bothSides) {
+    path.fromRight = true;
+    if (path.start) path.start = length - *path.start;
+    ensemble.paths.push_back(path);
+  }
+  if (deck.has("stochastic.heights")) request.heights = deck.quantities("stochastic.heights");
+  for (const double z : request.heights)
+    if (z < 0 || z > length)
+      throw deck.error("stochastic.heights", fmt::format("{:g} m is outside the flame, 0 to {:g} m", z, length));
+  if (options.soot.pah.empty())
+    throw deck.error("stochastic", "ensembles need PAH that dimerise: name them in soot.pah");
+  return request;
+}
+
+}  // namespace lampblack

@@ -1,0 +1,81 @@
+// StochasticProcess: its population as given and as seen from outside. Included by stochastic_process.hpp.
+#pragma once
+
+#include "particles/soot/stochastic_process.hpp"
+
+namespace lampblack {
+
+template <class Method>
+void StochasticProcess<Method>::initialise(std::span<const SootParticleGiven> population) {
+  if (population.empty() || population.size() > options_.particles) {
+    throw InputError(
+        fmt::format("stochastic soot: {} particles, there is room for 1 to {}", population.size(), options_.particles));
+  }
+  for (const SootParticleGiven& p : population) {
+    if (!(p.carbon > 0) || !(p.hydrogen >= 0) || !(p.primaries >= 1) || !(p.number > 0))
+      throw InputError("stochastic soot: a particle needs carbon, a number and at least one primary");
+    if (!weighted && p.number != population[0].number)
+      throw InputError("stochastic soot: particles of equal weight that stand for different numbers");
+  }
+  if constexpr (weighted) {
+    std::vector<typename Method::Entry> entries;
+    for (const SootParticleGiven& p : population)
+      entries.push_back({type_.make(p.carbon, p.hydrogen, p.primaries), p.number});
+    method_.replace(std::move(entries));
+  } else {
+    std::vector<Particle> particles;
+    for (const SootParticleGiven& p : population) particles.push_back(type_.make(p.carbon, p.hydrogen, p.primaries));
+    method_.replace(particles, population[0].number, random_);
+  }
+  exchange_ = {};
+  reached_ = 0;
+  planned_ = false;
+}
+
+template <class Method>
+StochasticSoot::Totals StochasticProcess<Method>::totals() const {
+  Totals t;
+  method_.forEachParticle([&](const Particle& p, double w) {
+    const double d = type_.primaryDiameter(p);
+    t.number += w;
+    t.carbon += w * p.carbon;
+    t.hydrogen += w * p.hydrogen;
+    t.primaries += w * p.primaries;
+    t.surface += w * p.primaries * constants::pi * d * d;
+    t.diameters += w * d * SootAggregate::mobilityFactor(p.primaries);
+  });
+  return t;
+}
+
+template <class Method>
+double StochasticProcess<Method>::moment(double order) const {
+  double sum = 0;
+  method_.forEachParticle([&](const Particle& p, double w) { sum += w * std::pow(type_.volume(p), order); });
+  return sum;
+}
+
+template <class Method>
+std::vector<double> StochasticProcess<Method>::sizeDistribution(double logMin, double logMax, std::size_t bins) const {
+  std::vector<double> density(bins, 0);
+  const double width = (logMax - logMin) / static_cast<double>(bins);
+  method_.forEachParticle([&](const Particle& p, double w) {
+    const double x = (std::log10(type_.mobilityDiameter(p)) - logMin) / width;
+    if (x >= 0 && x < static_cast<double>(bins)) density[static_cast<std::size_t>(x)] += w / width;
+  });
+  return density;
+}
+
+template <class Method>
+double StochasticProcess<Method>::geometricDeviation() const {
+  double weight = 0, mean = 0, square = 0;  // running mean and sum of squared deviations (West 1979)
+  method_.forEachParticle([&](const Particle& p, double w) {
+    const double x = std::log(type_.mobilityDiameter(p));
+    weight += w;
+    const double difference = x - mean;
+    mean += difference * w / weight;
+    square += w * difference * (x - mean);
+  });
+  return weight > 0 ? std::exp(std::sqrt(square / weight)) : 1.0;
+}
+
+}  // namespace lampblack
