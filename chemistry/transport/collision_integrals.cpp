@@ -109,4 +109,12 @@ double ReducedIntegrals::ratioC(double logT) const {
   return ratioC_(std::clamp(logT, kColdest, kHottest));
 }
 
+ReducedIntegrals::All ReducedIntegrals::all(double logT) const {
+  if (source_ == CollisionIntegrals::ThesisFits || !(logT >= kColdest && logT <= kHottest))
+    return {omega11(logT), ratioA(logT), ratioB(logT), ratioC(logT)};
+  const auto place = logOmega22_.placeOf(logT);
+  const double A = ratioA_(place);
+  return {std::exp(logOmega22_(place)) / A, A, ratioB_(place), ratioC_(place)};
+}
+
 }  // namespace lampblack

@@ -38,11 +38,22 @@ class CubicSpline {
   double operator()(double x) const {
     if (x < x_.front()) return y_.front() + (x - x_.front()) * slopeAtStart();
     if (x > x_.back()) return y_.back() + (x - x_.back()) * slopeAtEnd();
+    return (*this)(placeOf(x));
+  }
+
+  // A place between the first and the last knot, good for all splines with the same knots.
+  struct Place {
+    std::size_t lower;
+    double a, b, c, d;  // weights of values and curvatures
+  };
+  Place placeOf(double x) const {
     const auto upper = static_cast<std::size_t>(std::upper_bound(x_.begin() + 1, x_.end() - 1, x) - x_.begin());
     const std::size_t lower = upper - 1;
     const double h = x_[upper] - x_[lower], a = (x_[upper] - x) / h, b = 1.0 - a;
-    return a * y_[lower] + b * y_[upper] +
-           h * h / 6.0 * (a * (a * a - 1.0) * curvature_[lower] + b * (b * b - 1.0) * curvature_[upper]);
+    return {lower, a, b, h * h / 6.0 * (a * (a * a - 1.0)), h * h / 6.0 * (b * (b * b - 1.0))};
+  }
+  double operator()(const Place& p) const {
+    return p.a * y_[p.lower] + p.b * y_[p.lower + 1] + p.c * curvature_[p.lower] + p.d * curvature_[p.lower + 1];
   }
 
  private:

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "chemistry/numerics/dot.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 
@@ -25,25 +26,24 @@ MulticomponentTransport::MulticomponentTransport(const Mechanism& mechanism, Col
       averaged_(mechanism, {integrals, DiffusionModel::MixtureAveraged, {}}),
       thermo_(mechanism.allSpecies()),
       weights_(mechanism.molecularWeights().begin(), mechanism.molecularWeights().end()),
-      ordinary_(n_),
-      thermal_(3 * n_) {
-  for (auto* work : {&x_, &drag_, &viscosity_, &cp_, &internal_, &rotation_, &averagedDiffusion_})
+      thermal_(4 * n_ * n_),
+      pivots_(2 * n_) {
+  for (auto* work : {&x_, &drag_, &viscosity_, &cp_, &internal_, &rotation_, &averagedDiffusion_, &internalDiagonal_,
+                     &thermalDrag_, &collisions_})
     work->assign(n_, 0.0);
   unknowns_.assign(3 * n_, 0.0);
-  for (auto* pairs : {&conductance_, &a_, &b_, &c_}) pairs->assign(n_ * n_, 0.0);
+  for (auto* pairs : {&conductance_, &a_, &b_, &c_, &ordinary_, &inverse_, &toInternal_, &fromInternal_})
+    pairs->assign(n_ * n_, 0.0);
 }
 
 void MulticomponentTransport::setMixture(double T, std::span<const double> X) {
   double total = 0;
   for (std::size_t i = 0; i < n_; ++i) total += x_[i] = std::max(X[i], 0.0);
   for (double& x : x_) x /= total;
-  for (std::size_t i = 0; i < n_; ++i)
-    for (std::size_t j = 0; j <= i; ++j)
-      conductance_[i * n_ + j] = conductance_[j * n_ + i] = 1.0 / gas_.diffusionTimesPressure(i, j, T);
+  setTemperature(T);
   for (std::size_t i = 0; i < n_; ++i) {
-    drag_[i] = 0;
-    for (std::size_t k = 0; k < n_; ++k)
-      if (k != i) drag_[i] += x_[k] * conductance_[i * n_ + k];
+    const double* conductance = &conductance_[i * n_];
+    drag_[i] = dot(x_.data(), conductance, i) + dot(x_.data() + i + 1, conductance + i + 1, n_ - i - 1);
   }
 }
 
@@ -54,13 +54,10 @@ double MulticomponentTransport::ordinary(std::size_t i, std::size_t j) const {
   return i == j ? 0.0 : weights_[j] / weights_[i] * drag_[i] + x_[i] * conductance_[i * n_ + j];
 }
 
-void MulticomponentTransport::setPairs(double T) {
-  for (std::size_t i = 0; i < n_; ++i)
-    for (std::size_t j = 0; j <= i; ++j) {
-      a_[i * n_ + j] = a_[j * n_ + i] = gas_.ratioA(i, j, T);
-      b_[i * n_ + j] = b_[j * n_ + i] = gas_.ratioB(i, j, T);
-      c_[i * n_ + j] = c_[j * n_ + i] = gas_.ratioC(i, j, T);
-    }
+void MulticomponentTransport::setTemperature(double T) {
+  if (T == temperature_) return;
+  temperature_ = T;
+  gas_.pairProperties(T, conductance_.data(), a_.data(), b_.data(), c_.data());
   thermo_.cpOverR(T, cp_.data());
   for (std::size_t i = 0; i < n_; ++i) {
     viscosity_[i] = gas_.viscosity(i, T);
@@ -72,9 +69,9 @@ void MulticomponentTransport::setPairs(double T) {
 
 // The blocks of Kee et al. eqs 12.118 to 12.127, with columns for x_j a_j as in ordinary(), and the right-hand side.
 void MulticomponentTransport::fillThermalSystem(double T) {
-  const std::size_t n = n_;
-  for (std::size_t j = 0; j < 3 * n; ++j) std::fill_n(thermal_.column(j), 3 * n, 0.0);
-  const auto at = [&](std::size_t row, std::size_t column) -> double& { return thermal_.column(column)[row]; };
+  const std::size_t n = n_, ld = 2 * n;
+  const auto at = [&](std::size_t row, std::size_t column) -> double& { return thermal_[column * ld + row]; };
+  // Column after column: pairs are symmetric but for the factor x of the row.
   for (std::size_t i = 0; i < n; ++i) {
     const double Wi = weights_[i];
     const bool hasInternal = internal_[i] > kLeastInternal;
@@ -83,37 +80,50 @@ void MulticomponentTransport::fillThermalSystem(double T) {
     for (std::size_t j = 0; j < n; ++j) {
       const double Wj = weights_[j], sum = Wi + Wj, A = a_[i * n + j], B = b_[i * n + j];
       const double conductance = conductance_[i * n + j];
-      const double f = 1.6 * T * (1.2 * c_[i * n + j] - 1.0) * conductance / sum;
+      const double f = i == j ? 0.0 : 1.6 * T * (1.2 * c_[i * n + j] - 1.0) * conductance / sum;
       const double inelastic = 4.0 * A * (1.0 + 5.0 / (3.0 * pi) * (rotation_[i] + rotation_[j]));
       const double scale = 16.0 * T / 25.0 * conductance / (sum * sum);
-      at(i, j) = 16.0 * T / 25.0 * ordinary(i, j);
-      if (j != i) {
-        at(i, n + j) = -x_[i] * Wi * f;
-        at(n + i, j) = -x_[i] * Wj * f;
-        thermalDrag += x_[j] * Wj * f;
-        internalDrag += x_[j] * conductance * A * 2.4 * Wi * rotation_[i] / (pi * Wj);
-      }
-      at(n + i, n + j) = x_[i] * Wi * Wj * scale * (13.75 - 3.0 * B - inelastic);
+      at(j, i) = 16.0 * T / 25.0 * ordinary(j, i);
+      at(j, n + i) = -x_[j] * Wj * f;
+      at(n + j, i) = -x_[j] * Wi * f;
+      at(n + j, n + i) = x_[j] * Wi * Wj * scale * (13.75 - 3.0 * B - inelastic);
+      thermalDrag += x_[j] * Wj * f;
+      if (j != i) internalDrag += x_[j] * conductance * A * 2.4 * Wi * rotation_[i] / (pi * Wj);
       collisions += x_[j] * scale * (7.5 * Wi * Wi + Wj * Wj * (6.25 - 3.0 * B) + Wi * Wj * inelastic);
       // Exchange of translational and internal energy: row i of one block, column i of the other.
-      at(2 * n + i, n + j) = exchange * x_[i] * A * conductance / sum;
-      at(n + j, 2 * n + i) = exchange * x_[j] * A * conductance / sum;
-      exchanges += exchange * x_[j] * A * conductance / sum;
+      const double part = exchange * A * conductance / sum;
+      fromInternal_[j * n + i] = part * x_[i];
+      toInternal_[i * n + j] = part * x_[j];
+      exchanges += part * x_[j];
     }
-    at(i, n + i) = thermalDrag;
-    at(n + i, i) = thermalDrag;
-    at(n + i, n + i) -= collisions;
-    at(2 * n + i, n + i) += exchanges;
-    at(n + i, 2 * n + i) += exchanges;
+    thermalDrag_[i] = thermalDrag;
+    collisions_[i] = collisions;
+    fromInternal_[i * n + i] += exchanges;
+    toInternal_[i * n + i] += exchanges;
     const double selfDrag = drag_[i] + x_[i] * conductance_[i * n + i];
-    at(2 * n + i, 2 * n + i) = hasInternal ? -8.0 / pi * Wi * x_[i] * rotation_[i] /
-                                                     (internal_[i] * internal_[i] * gasConstant * viscosity_[i]) -
-                                                 4.0 * T / internal_[i] * (selfDrag + internalDrag / internal_[i])
-                                           : 1.0;
+    internalDiagonal_[i] = hasInternal ? -8.0 / pi * Wi * x_[i] * rotation_[i] /
+                                                 (internal_[i] * internal_[i] * gasConstant * viscosity_[i]) -
+                                             4.0 * T / internal_[i] * (selfDrag + internalDrag / internal_[i])
+                                       : 1.0;
     unknowns_[i] = 0.0;
     unknowns_[n + i] = x_[i];
     unknowns_[2 * n + i] = hasInternal ? x_[i] : 0.0;
   }
+  for (std::size_t i = 0; i < n; ++i) {
+    at(i, n + i) = at(n + i, i) = thermalDrag_[i];
+    at(n + i, n + i) -= collisions_[i];
+  }
+}
+
+// The equation of an internal energy contains no other: its unknowns are eliminated at once.
+void MulticomponentTransport::eliminateInternal() {
+  const std::size_t n = n_;
+  for (std::size_t j = 0; j < n; ++j) {
+    for (std::size_t i = 0; i < n; ++i) fromInternal_[j * n + i] /= internalDiagonal_[i];
+    unknowns_[2 * n + j] /= internalDiagonal_[j];
+  }
+  dense_.subtractProduct(n, n, n, toInternal_.data(), n, fromInternal_.data(), n, &thermal_[2 * n * n + n], 2 * n);
+  addProduct(n, n, -1.0, toInternal_.data(), &unknowns_[2 * n], &unknowns_[n]);
 }
 
 void MulticomponentTransport::singular(double T, double p) {
@@ -125,10 +135,11 @@ MulticomponentTransport::Mixture MulticomponentTransport::mixture(double T, doub
                                                                   std::span<double> DT) {
   const auto averaged = averaged_.mixture(T, p, X, averagedDiffusion_);
   setMixture(T, X);
-  setPairs(T);
   fillThermalSystem(T);
-  if (!thermal_.factorise()) singular(T, p);
-  thermal_.solve(unknowns_.data());
+  eliminateInternal();
+  if (!dense_.factorise(2 * n_, thermal_.data(), pivots_.data())) singular(T, p);
+  dense_.solve(2 * n_, thermal_.data(), pivots_.data(), 1, unknowns_.data());
+  addProduct(n_, n_, -1.0, fromInternal_.data(), &unknowns_[n_], &unknowns_[2 * n_]);
   double sum = 0;
   for (std::size_t i = n_; i < 3 * n_; ++i) sum += unknowns_[i];
   for (std::size_t i = 0; i < n_; ++i) DT[i] = 1.6 / gasConstant * weights_[i] * unknowns_[i];
@@ -140,19 +151,16 @@ void MulticomponentTransport::diffusion(double T, double p, std::span<const doub
   Transport::requireInRange(T);
   setMixture(T, X);
   for (std::size_t j = 0; j < n_; ++j)
-    for (std::size_t i = 0; i < n_; ++i) ordinary_.column(j)[i] = ordinary(i, j);
-  if (!ordinary_.factorise()) singular(T, p);
+    for (std::size_t i = 0; i < n_; ++i) ordinary_[j * n_ + i] = ordinary(i, j);
+  if (!dense_.factorise(n_, ordinary_.data(), pivots_.data())) singular(T, p);
   double meanWeight = 0;
   for (std::size_t i = 0; i < n_; ++i) meanWeight += x_[i] * weights_[i];
-  for (std::size_t j = 0; j < n_; ++j) {
-    std::fill_n(unknowns_.begin(), n_, 0.0);
-    unknowns_[j] = 1.0;
-    ordinary_.solve(unknowns_.data());
-    for (std::size_t i = 0; i < n_; ++i) D[i * n_ + j] = unknowns_[i];
-  }
+  std::fill(inverse_.begin(), inverse_.end(), 0.0);
+  for (std::size_t i = 0; i < n_; ++i) inverse_[i * n_ + i] = 1.0;
+  dense_.solve(n_, ordinary_.data(), pivots_.data(), n_, inverse_.data());
   for (std::size_t i = 0; i < n_; ++i) {
-    const double own = D[i * n_ + i];
-    for (std::size_t j = 0; j < n_; ++j) D[i * n_ + j] = meanWeight / (p * weights_[j]) * (D[i * n_ + j] - own);
+    const double own = inverse_[i * n_ + i];
+    for (std::size_t j = 0; j < n_; ++j) D[i * n_ + j] = meanWeight / (p * weights_[j]) * (inverse_[j * n_ + i] - own);
   }
 }
 

@@ -1,8 +1,9 @@
 // Multicomponent transport of a gas: the linear systems of Dixon-Lewis, Proc. R. Soc. Lond. A 307 (1968) 111-135, in
 // the notation of Kee, Coltrin, Glarborg (Chemically Reacting Flow, 2003, section 12.4). They give the conductivity
 // with its translational, rotational and vibrational parts, the matrix of ordinary diffusion coefficients and the
-// coefficients of thermal diffusion. Costs an LU factorisation of three times as many unknowns as species (one times
-// for diffusion). An object holds its workspace, so use one per thread.
+// coefficients of thermal diffusion. Costs an LU factorisation of twice as many unknowns as species, the internal ones
+// being eliminated before (one times for diffusion). What depends on temperature alone is kept for the next call. An
+// object holds its workspace, so use one per thread.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +11,7 @@
 #include <vector>
 
 #include "chemistry/mechanism/mechanism.hpp"
-#include "chemistry/numerics/dense_lu.hpp"
+#include "chemistry/numerics/dense_blocks.hpp"
 #include "chemistry/thermo/species_thermo.hpp"
 #include "chemistry/transport/pure_gas.hpp"
 #include "chemistry/transport/transport.hpp"
@@ -39,9 +40,10 @@ class MulticomponentTransport {
 
  private:
   void setMixture(double T, std::span<const double> X);
-  void setPairs(double T);
+  void setTemperature(double T);
   double ordinary(std::size_t i, std::size_t j) const;
   void fillThermalSystem(double T);
+  void eliminateInternal();
   [[noreturn]] static void singular(double T, double p);
 
   std::size_t n_ = 0;
@@ -53,7 +55,13 @@ class MulticomponentTransport {
   // Of the mixture at hand.
   std::vector<double> x_, drag_, viscosity_, cp_, internal_, rotation_, averagedDiffusion_, unknowns_;
   std::vector<double> conductance_, a_, b_, c_;  // [i][j]: 1/(p D_ij) in m-2 s/Pa; A*, B*, C*
-  DenseLu ordinary_, thermal_;
+  std::vector<double> ordinary_, inverse_;       // n x n
+  std::vector<double> thermal_;                  // 2n x 2n: diffusion and translational energy
+  // Their exchange with internal energy, [column][row]: columns of it, rows of it, its own diagonal.
+  std::vector<double> toInternal_, fromInternal_, internalDiagonal_, thermalDrag_, collisions_;
+  std::vector<int> pivots_;
+  DenseBlocks dense_;
+  double temperature_ = 0;  // of what depends on it alone
 };
 
 }  // namespace lampblack

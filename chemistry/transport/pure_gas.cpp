@@ -114,6 +114,21 @@ double PureGas::ratioC(std::size_t j, std::size_t k, double T) const {
   return integrals_[p.integrals].ratioC(std::log(T) - p.logWellDepth);
 }
 
+void PureGas::pairProperties(double T, double* conductance, double* A, double* B, double* C) const {
+  const std::size_t n = size();
+  const double logT = std::log(T), cube = T * std::sqrt(T);
+  const Pair* pair = pairs_.data();
+  for (std::size_t j = 0; j < n; ++j)
+    for (std::size_t k = 0; k <= j; ++k, ++pair) {
+      const auto of = integrals_[pair->integrals].all(logT - pair->logWellDepth);
+      const std::size_t below = j * n + k, above = k * n + j;
+      conductance[below] = conductance[above] = pair->hardResistance * of.omega11 / cube;
+      A[below] = A[above] = of.ratioA;
+      B[below] = B[above] = of.ratioB;
+      C[below] = C[above] = of.ratioC;
+    }
+}
+
 double PureGas::rotationalHeatCapacity(std::size_t k) const {
   switch (molecules_[k].data.shape) {
     case MoleculeShape::Atom:

@@ -37,6 +37,8 @@ class PureGas {
   double ratioA(std::size_t j, std::size_t k, double T) const;
   double ratioB(std::size_t j, std::size_t k, double T) const;
   double ratioC(std::size_t j, std::size_t k, double T) const;
+  // Of all pairs at once, size() x size() values each: 1/(p D_jk) in m-2 s/Pa, A*, B* and C*.
+  void pairProperties(double T, double* conductance, double* A, double* B, double* C) const;
 
  private:
   struct Molecule {

@@ -147,6 +147,20 @@ TEST(CollisionIntegrals, ThesisFitsFollowTheTables) {
   EXPECT_LT(worst22, 0.025);
 }
 
+TEST(CollisionIntegrals, AreTheSameAllAtOnceAndOneByOne) {
+  for (const auto source : {CollisionIntegrals::MonchickMason, CollisionIntegrals::ThesisFits})
+    for (const double dipole : {0.0, 0.7}) {
+      const ReducedIntegrals integrals(dipole, source);
+      for (double T = 0.05; T < 200; T *= 1.07) {
+        const auto all = integrals.all(std::log(T));
+        EXPECT_DOUBLE_EQ(all.omega11, integrals.omega11(std::log(T)));
+        EXPECT_DOUBLE_EQ(all.ratioA, integrals.ratioA(std::log(T)));
+        EXPECT_DOUBLE_EQ(all.ratioB, integrals.ratioB(std::log(T)));
+        EXPECT_DOUBLE_EQ(all.ratioC, integrals.ratioC(std::log(T)));
+      }
+    }
+}
+
 // Dipoles attract: they raise the integral, most where it is cold.
 TEST(CollisionIntegrals, RiseWithTheDipole) {
   for (const auto source : {CollisionIntegrals::MonchickMason, CollisionIntegrals::ThesisFits}) {

@@ -158,4 +158,24 @@ TEST(MulticomponentTransport, IsFiniteAtTheEdges) {
   EXPECT_THROW(transport.diffusion(4001, 1e5, X, D), NumericsError);
 }
 
+// What is kept of one call does not show in the next.
+TEST(MulticomponentTransport, DoesNotRememberOtherStates) {
+  const auto mechanism = hydrogen();
+  const std::size_t n = mechanism.numSpecies();
+  std::vector<double> X(n, 1.0 / static_cast<double>(n)), DT(n), expectedDT(n), D(n * n), expected(n * n);
+  MulticomponentTransport used(mechanism);
+  used.mixture(500, 1e5, X, DT);
+  used.diffusion(1500, 1e5, X, D);
+  X[0] = 0.5;
+  for (const double T : {1500.0, 500.0, 500.0, 900.0}) {
+    MulticomponentTransport fresh(mechanism);
+    fresh.diffusion(T, 2e5, X, expected);
+    const auto mixture = MulticomponentTransport(mechanism).mixture(T, 2e5, X, expectedDT);
+    EXPECT_EQ(used.mixture(T, 2e5, X, DT).conductivity, mixture.conductivity);
+    used.diffusion(T, 2e5, X, D);
+    EXPECT_EQ(D, expected);
+    EXPECT_EQ(DT, expectedDT);
+  }
+}
+
 }  // namespace
