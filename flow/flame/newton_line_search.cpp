@@ -33,7 +33,7 @@ void NewtonIteration::searchLine(SNESLineSearch lineSearch) {
   checkPetsc(SNESLineSearchSetNorms(lineSearch, 1, norm, report_->stepSize));
 }
 
-// Part of the step up to the first bound, at most 1; `limit` is the unknown that meets it.
+// Part of the step that stays short of all bounds, at most 1; `limit` is the unknown that meets it.
 double NewtonIteration::roomInBounds(std::span<const double> x, std::span<const double> inverse,
                                      std::size_t& limit) const {
   double room = 1;
@@ -44,7 +44,8 @@ double NewtonIteration::roomInBounds(std::span<const double> x, std::span<const 
     room = space / step;
     limit = i;
   }
-  return room;
+  // Not onto the bound itself, where the smallest next step outwards would have no room.
+  return room < 1 ? 0.9 * room : 1;
 }
 
 // The damping for which the step before, and what its simplified step told about the curvature, would have been right
@@ -64,7 +65,9 @@ bool NewtonIteration::search(std::span<const double> x, std::span<const double> 
   const double room = roomInBounds(x, inverse, limit);
   double damping = fresh && !converged_ ? std::min(room, predictedDamping(inverse, size.mean)) : room;
 
-  while (damping >= options_.smallestDamping) {
+  // A step that is within the tolerance anyway may be cut to nothing.
+  const double least = !converged_ && size.largest <= options_.stepTolerance ? 0 : options_.smallestDamping;
+  while (damping >= least) {
     // Within bounds but for rounding.
     for (std::size_t i = 0; i < x.size(); ++i)
       trial_[i] = std::clamp(x[i] - damping * inverse[i], lower_[i], upper_[i]);

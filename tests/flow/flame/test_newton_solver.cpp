@@ -127,6 +127,16 @@ TEST(Newton, SaysWhichUnknownIsHeldByItsBound) {
   EXPECT_FALSE(system.outOfBounds);
 }
 
+TEST(Newton, ATinyStepOutOfBoundsIsNoFailure) {
+  SmallSystem system = scalar([](double x) { return x + 1e-9; }, [](double) { return 1; });
+  system.lower[0] = 0;
+  std::vector<double> x = {0};
+  const NewtonReport report = NewtonSolver().newton(system, x);  // 1e-9 is 1e-5 of the scale
+  EXPECT_TRUE(report.converged) << report.reason;
+  EXPECT_FALSE(system.outOfBounds);
+  EXPECT_GE(x[0], 0);
+}
+
 TEST(Newton, StepsBackFromWhereTheEquationsCannotBeEvaluated) {
   SmallSystem system(
       1,
