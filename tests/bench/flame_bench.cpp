@@ -1,7 +1,8 @@
 // Whole flames from their streams to a converged solution, and where the time goes: a freely propagating flame of
 // methane in air (GRI-Mech 3.0) and counterflow flames of ethylene. Seconds are those of this run; repeat.
 //
-//   build/release/tests/bench/flame_bench [free|methane|ethylene47|ethylene101]...   (mpiexec -n 2 for two ranks)
+//   build/release/tests/bench/flame_bench [free|freeMulticomponent|methane|ethylene47|ethylene101]...   (mpiexec -n 2
+//   for two ranks)
 #include <fmt/format.h>
 #include <mpi.h>
 #include <petscsys.h>
@@ -40,11 +41,23 @@ struct Case {
   const char *left, *right;  // mole fractions
   double leftVelocity, rightVelocity, temperature;
   GridOptions grid;
+  FlameTransport transport;
 };
 
 // Those of the peers' timings: the free flame at ratio 3, slope 0.06, curve 0.12; others at slope 0.08.
 const std::vector<Case> cases{
-    {"free", "methane_gri30_53", FlameType::Free, 0.06, "CH4: 1, O2: 2, N2: 7.52", nullptr, 0.4, 0, 300, {}},
+    {"free", "methane_gri30_53", FlameType::Free, 0.06, "CH4: 1, O2: 2, N2: 7.52", nullptr, 0.4, 0, 300, {}, {}},
+    {"freeMulticomponent",
+     "methane_gri30_53",
+     FlameType::Free,
+     0.06,
+     "CH4: 1, O2: 2, N2: 7.52",
+     nullptr,
+     0.4,
+     0,
+     300,
+     {},
+     {.model = FlameTransport::Model::Multicomponent, .soret = true, .lewisNumbers = {}}},
     {"methane",
      "methane_gri30_53",
      FlameType::Counterflow,
@@ -54,7 +67,8 @@ const std::vector<Case> cases{
      0.335,
      0.25,
      298,
-     {.slope = 0.08}},
+     {.slope = 0.08},
+     {}},
     {"ethylene47",
      "ethylene_bisetti2012_47",
      FlameType::Counterflow,
@@ -64,7 +78,8 @@ const std::vector<Case> cases{
      0.2,
      0.2,
      298,
-     {.slope = 0.08}},
+     {.slope = 0.08},
+     {}},
     {"ethylene101",
      "ethylene_abf2000_101",
      FlameType::Counterflow,
@@ -74,7 +89,8 @@ const std::vector<Case> cases{
      0.2,
      0.2,
      298,
-     {.slope = 0.08}},
+     {.slope = 0.08},
+     {}},
 };
 
 void solve(const Case& c) {
@@ -87,6 +103,7 @@ void solve(const Case& c) {
   if (c.right != nullptr) problem.right = stream(*mechanism, c.right, c.temperature, c.rightVelocity);
   FlameSolverOptions options;
   options.grid = c.grid;
+  problem.transport = c.transport;
   const double start = MPI_Wtime();
   const std::clock_t clock = std::clock();
   FlameSolver solver(MPI_COMM_WORLD, mechanism, problem, nullptr, options);
