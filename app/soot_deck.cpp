@@ -94,6 +94,8 @@ void readSectional(const Deck& deck, SectionalSootOptions& options) {
   set(options.coalescenceDiameter, deck.optionalQuantity(key("coalescence_diameter")));
   options.activeSites = deck.choice(key("active_sites")) == "primary" ? SectionalSootOptions::ActiveSites::primary
                                                                       : SectionalSootOptions::ActiveSites::aggregate;
+  if (deck.choice(key("growth_scheme")) == "limited")
+    options.growthScheme = SectionalSootOptions::GrowthScheme::limited;
   if (deck.choice(key("kernel")) == "free_molecular") options.kernel = CoagulationKernel::freeMolecular;
   options.fragmentation = deck.boolean(key("fragmentation"));
   options.fragmentationFactor = deck.number(key("fragmentation_factor"));

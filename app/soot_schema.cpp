@@ -100,6 +100,9 @@ void addSectional(DeckSchema& schema) {
       .add(choiceKey(s + "active_sites", {"aggregate", "primary"},
                      "Whose carbon atoms decide about the fraction of active sites.")
                .byDefault("aggregate"))
+      .add(choiceKey(s + "growth_scheme", {"upwind", "limited"},
+                     "How growth and oxidation move soot between sections: thesis eqs. 9-41 to 9-44, or second order.")
+               .byDefault("upwind"))
       .add(choiceKey(s + "kernel", {"transition", "free_molecular"}, "Of coagulation.").byDefault("transition"))
       .add(booleanKey(s + "fragmentation", "Break-up of aggregates by oxidation.").byDefault("false"))
       .add(numberKey(s + "fragmentation_factor", "Rate of break-up over that of oxidation per area, m^2/kg.")
