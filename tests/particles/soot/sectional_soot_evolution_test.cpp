@@ -84,6 +84,27 @@ TEST(SectionalEvolution, FreeMolecularCoagulationBecomesSelfPreserving) {
   EXPECT_NEAR(geometricDeviation(model, end), 1.46, 0.01);
 }
 
+// Nuclei that only stick stay what they are, whatever the aggregates: their number and diameter do not change.
+TEST(SectionalEvolution, AggregatesOfNucleiKeepTheirPrimaries) {
+  for (const double factor : {2.0, 1.5}) {
+    SectionalSootOptions options = pyrene();
+    options.soot.inception = options.soot.condensation = options.soot.surfaceGrowth = options.soot.oxidation = false;
+    options.factor = factor;
+    const SectionalSoot model(options);
+    const SectionGas gas(1650, sooting({0}));
+    const std::size_t n = model.sections();
+    std::vector<double> y(2 * n, 0);
+    y[0] = y[n] = 1e18;
+    const auto end = evolve(model, gas.gas, y, 1e-2, 1e-8);
+    const auto before = model.properties(gas.gas, y), after = model.properties(gas.gas, end);
+    EXPECT_LT(after.numberDensity, 0.1 * before.numberDensity);
+    EXPECT_NEAR(sum({end.data() + n, n}) / 1e18, 1, 1e-9);
+    EXPECT_NEAR(after.volumeFraction / before.volumeFraction, 1, 1e-9);
+    EXPECT_NEAR(after.primaryDiameter / before.primaryDiameter, 1, 1e-6);
+    EXPECT_NEAR(after.primariesPerAggregate * after.numberDensity / 1e18, 1, 1e-6);
+  }
+}
+
 // Doubling the resolution in ln(mass) halves the error of upwind growth and quarters that of the limited scheme, or
 // better: errors against the finest grid, whose own is a small part of them.
 TEST(SectionalEvolution, MoreSectionsConverge) {
