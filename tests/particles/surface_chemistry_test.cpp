@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "soot_fixtures.hpp"
 
@@ -19,6 +20,21 @@ TEST(SurfaceChemistry, ActiveFractionUsesTheDecimalLogarithmAndStaysInItsBounds)
       ASSERT_LE(alpha, 1);
     }
   }
+}
+
+TEST(SurfaceChemistry, AlphaOfATableIsStraightInBetweenAndConstantOutside) {
+  SootModelOptions options;
+  options.alphaTable = {{1500, 0.9}, {1700, 0.5}, {1800, 0.1}};
+  for (const auto& [T, expected] : {std::pair{300.0, 0.9},
+                                    {1500.0, 0.9},
+                                    {1550.0, 0.8},
+                                    {1700.0, 0.5},
+                                    {1775.0, 0.2},
+                                    {1800.0, 0.1},
+                                    {2500.0, 0.1}})
+    EXPECT_NEAR(SurfaceChemistry(options, T).alpha(1e4), expected, 1e-15) << T;
+  options.alpha = 0.3;  // a constant comes first
+  EXPECT_EQ(SurfaceChemistry(options, 1550).alpha(1e4), 0.3);
 }
 
 TEST(SurfaceChemistry, RatesAreThoseOfTheTableWorkedOutInMolesAndCentimetres) {
