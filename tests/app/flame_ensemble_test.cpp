@@ -1,0 +1,90 @@
+// Ensembles along the path of a flame: the same on any number of ranks, and atoms that balance along the path.
+#include "app/flame_ensemble.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/constants.hpp"
+#include "core/errors.hpp"
+
+namespace lampblack {
+namespace {
+
+// The soot-forming zone of a burner flame: no spreading, the temperature falls.
+FlameSootGas burntGas(std::size_t points) {
+  FlameSootGas gas;
+  const double pressure = constants::oneAtmosphere, weight = 0.027, flux = 0.08;
+  std::vector<double> T;
+  for (std::size_t i = 0; i < points; ++i) {
+    const double s = static_cast<double>(i) / static_cast<double>(points - 1);
+    gas.z.push_back(0.02 * s);
+    SootGasState state;
+    state.temperature = 1700 - 250 * s;
+    state.pressure = pressure;
+    state.meanMolecularWeight = weight;
+    const double c = pressure / (constants::gasConstant * state.temperature);
+    state.density = c * weight;
+    state.viscosity = 1.8e-5 * std::pow(state.temperature / 300, 0.7);
+    state.H = 5e-4 * (1 - 0.8 * s) * c;
+    state.H2 = 0.05 * c;
+    state.OH = 1e-6 * c;
+    state.H2O = 0.1 * c;
+    state.C2H2 = 0.03 * c;
+    gas.state.push_back(state);
+    gas.pah.push_back(2e-6 * c);
+    gas.rho.push_back(state.density);
+    gas.velocity.push_back(flux / state.density);
+    gas.thermophoresis.push_back(0.55 * state.viscosity / state.density * 250 / 0.02 / state.temperature);
+    gas.spread.push_back(0);
+  }
+  return gas;
+}
+
+FlameEnsembleOptions smallEnsemble() {
+  FlameEnsembleOptions options;
+  options.soot.method = StochasticSootMethod::sammc;
+  options.soot.particles = 100;
+  options.soot.soot.pah = {{"A2", 10, 8, 2.0e-3}};
+  options.repeats = 3;
+  options.march.bins = 20;
+  options.paths.resize(1);
+  return options;
+}
+
+TEST(FlameEnsemble, IsTheSameOnAnyNumberOfRanks) {
+  const FlameSootGas gas = burntGas(21);
+  const auto together = runFlameEnsemble(MPI_COMM_WORLD, gas, smallEnsemble());
+  const auto alone = runFlameEnsemble(MPI_COMM_SELF, gas, smallEnsemble());
+  ASSERT_EQ(together.size(), 1u);
+  EXPECT_GT(together[0].volumeFraction.mean.back(), 1e-10);
+  EXPECT_GT(together[0].volumeFraction.error.back(), 0);
+  EXPECT_EQ(together[0].volumeFraction.mean, alone[0].volumeFraction.mean);
+  EXPECT_EQ(together[0].number.error, alone[0].number.error);
+  EXPECT_EQ(together[0].distribution.mean, alone[0].distribution.mean);
+  for (std::size_t k = 0; k < 20; ++k) EXPECT_EQ(together[0].exchange[k].C2H2, alone[0].exchange[k].C2H2);
+}
+
+// Without spreading the carbon that flows with the particles is what the exchange took on the way: d(C w)/dz = S. The
+// mean S of an interval times its length is that to second order in the intervals.
+TEST(FlameEnsemble, LeavesWithTheCarbonThatItTookFromTheGas) {
+  const auto difference = [](std::size_t points) {
+    const auto result = runFlameEnsemble(MPI_COMM_SELF, burntGas(points), smallEnsemble());
+    const auto& path = result[0].path.path.points;
+    double taken = 0;
+    for (std::size_t k = 0; k + 1 < path.size(); ++k)
+      taken += result[0].exchange[k].carbon / (path[k + 1].time - path[k].time) * (path[k + 1].z - path[k].z);
+    return std::abs(taken / (result[0].carbon.mean.back() * path.back().velocity) - 1);
+  };
+  EXPECT_LT(difference(21), 2e-3);
+  EXPECT_LT(difference(81), 2e-4);
+}
+
+TEST(FlameEnsemble, NeedsTwoRepeats) {
+  FlameEnsembleOptions options = smallEnsemble();
+  options.repeats = 1;
+  EXPECT_THROW((void)runFlameEnsemble(MPI_COMM_WORLD, burntGas(11), options), InputError);
+}
+
+}  // namespace
+}  // namespace lampblack
