@@ -124,7 +124,10 @@ void addMoments(DeckSchema& schema) {
       .add(numberKey("soot.hmom.surface_exponent", "Growth of an aggregate's surface falls with n_p to minus this.")
                .byDefault("0.2043")
                .atLeast(0))
-      .add(integerKey("soot.moments", "Number of moments of model momic.").byDefault("6").atLeast(3).atMost(6));
+      .add(integerKey("soot.moments", "Number of moments of model momic. With 5 and 6 steady flames may not converge.")
+               .byDefault("4")
+               .atLeast(3)
+               .atMost(6));
 }
 
 }  // namespace

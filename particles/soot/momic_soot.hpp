@@ -15,7 +15,8 @@ namespace lampblack {
 
 struct MomicOptions {
   SootModelOptions soot;
-  std::size_t moments = 6;  // 3 to 6
+  // 3 to 6. With 5 and 6 Newton's method fails in flames (docs/theory/soot_models.md); they are for reactors.
+  std::size_t moments = 4;
 };
 
 class MomicSoot final : public SootModel {
