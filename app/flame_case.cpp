@@ -41,6 +41,8 @@ void refuseOthers(const Deck& deck, const std::string& type, bool potential, boo
       {"flame.energy", {"burner"}},
       {"temperature_profile", {"burner"}},
       {"solver.anchor_temperature", {"free"}},
+      {"continuation", {"burner", "wall", "counterflow"}},
+      {"unsteady", {"burner", "wall", "counterflow"}},
   };
   for (const Part& part : parts)
     if (deck.isGiven(part.path) && std::find(part.types.begin(), part.types.end(), type) == part.types.end())
@@ -153,6 +155,48 @@ void readSolver(const Deck& deck, FlameCase& flame) {
                                                               flame.problem.left.temperature, anchor));
 }
 
+void readContinuation(const Deck& deck, FlameCase& flame) {
+  if (!deck.has("continuation")) return;
+  FlameContinuationOptions& options = flame.continuation.emplace();
+  options.continuation.towardsHigherLoad = deck.choice("continuation.towards") == "higher";
+  options.continuation.firstStep = deck.number("continuation.first_step");
+  options.continuation.largestStep = deck.number("continuation.largest_step");
+  if (options.continuation.firstStep > options.continuation.largestStep)
+    throw deck.error("continuation.first_step", "expected no more than 'largest_step'");
+  options.lowestLoad = deck.number("continuation.lowest_load");
+  options.highestLoad = deck.optionalNumber("continuation.highest_load").value_or(options.highestLoad);
+  if (!(options.lowestLoad < 1 && options.highestLoad > 1))
+    throw deck.error("continuation",
+                     "expected 'lowest_load' below 1 and 'highest_load' above 1: the flame of the deck");
+  options.lowestPeakTemperature = deck.optionalQuantity("continuation.lowest_temperature").value_or(0.0);
+  options.maximumTurningPoints = static_cast<std::size_t>(deck.integer("continuation.turning_points"));
+  options.maximumPoints = static_cast<std::size_t>(deck.integer("continuation.maximum_points"));
+  options.pointsBetweenGrids = static_cast<std::size_t>(deck.integer("continuation.points_between_grids"));
+  options.grid = flame.solver.grid;
+  options.tolerances = flame.solver.tolerances;
+}
+
+void readUnsteady(const Deck& deck, FlameCase& flame) {
+  if (!deck.has("unsteady")) return;
+  if (flame.continuation) throw deck.error("unsteady", "a run follows either time or a branch (continuation)");
+  FlameUnsteady& unsteady = flame.unsteady.emplace();
+  unsteady.fromInitial = deck.choice("unsteady.start") == "initial";
+  if (unsteady.fromInitial && !deck.has("initial"))
+    throw deck.error("unsteady.start", "'initial' needs the key 'initial', the results of an earlier flame");
+  unsteady.options.end = deck.quantity("unsteady.end");
+  unsteady.options.firstStep = deck.quantity("unsteady.first_step");
+  unsteady.options.largestStep = deck.optionalQuantity("unsteady.largest_step").value_or(unsteady.options.largestStep);
+  unsteady.options.accuracy = deck.number("unsteady.accuracy");
+  unsteady.interval = deck.optionalQuantity("unsteady.output_interval");
+  if (unsteady.options.firstStep > std::min(unsteady.options.end, unsteady.options.largestStep))
+    throw deck.error("unsteady.first_step", "expected no more than 'end' and 'largest_step'");
+  unsteady.amplitude = deck.number("unsteady.amplitude");
+  const auto frequency = deck.optionalQuantity("unsteady.frequency");
+  if ((unsteady.amplitude > 0) != frequency.has_value())
+    throw deck.error("unsteady", "'amplitude' and 'frequency' belong together");
+  unsteady.frequency = frequency.value_or(0.0);
+}
+
 }  // namespace
 
 const char* nameOf(FlameType type) {
@@ -183,6 +227,8 @@ FlameCase readFlameCase(const Deck& deck) {
   readConfiguration(deck, flame);
   readTransport(deck, flame);
   readSolver(deck, flame);
+  readContinuation(deck, flame);
+  readUnsteady(deck, flame);
   if (auto model = readSootModel(deck, *flame.mechanism)) {
     flame.soot = std::make_unique<FlameSoot>(*flame.mechanism, std::move(model));
   }

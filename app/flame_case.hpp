@@ -10,12 +10,22 @@
 #include "app/flame_soot.hpp"
 #include "app/stochastic_deck.hpp"
 #include "chemistry/mechanism/mechanism.hpp"
+#include "flow/flame/flame_continuation.hpp"
 #include "flow/flame/flame_problem.hpp"
 #include "flow/flame/flame_solver.hpp"
 #include "flow/flame/initial_flame.hpp"
+#include "flow/flame/unsteady_flame.hpp"
 #include "io/deck.hpp"
 
 namespace lampblack {
+
+// The flame in time, from its steady state or from the earlier flame as it is; strain as 1 + amplitude sin(2 pi f t).
+struct FlameUnsteady {
+  UnsteadyOptions options;
+  std::optional<double> interval;  // s, between outputs; a hundredth of the time if not given
+  double amplitude = 0, frequency = 0;
+  bool fromInitial = false;
+};
 
 struct FlameCase {
   std::string title;
@@ -26,6 +36,8 @@ struct FlameCase {
   std::optional<NamedFlameProfile> initial;  // an earlier flame to start from
   std::unique_ptr<FlameSoot> soot;           // null: none
   std::optional<StochasticRequest> stochastic;
+  std::optional<FlameContinuationOptions> continuation;
+  std::optional<FlameUnsteady> unsteady;
 
   [[nodiscard]] std::vector<std::string> scalarNames() const;  // of the soot
 };

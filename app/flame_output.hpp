@@ -35,6 +35,9 @@ void writeFlame(ResultsWriter& results, const FlameCase& flame, const FlameResul
 std::string flameTable(const FlameCase& flame, const FlameResult& result);
 // Fields of the record's object "results".
 void recordFlame(JsonWriter& json, const FlameCase& flame, const FlameResult& result);
+// Numbers as fields "name_unit" of an object, and as lines for the console.
+void recordNumbers(JsonWriter& json, const std::vector<NamedNumber>& numbers);
+std::string numbersText(const std::vector<NamedNumber>& numbers);
 // A line for each stage while it goes on, and what came out.
 std::string stageLine(const FlameStage& stage);
 std::string flameReport(const FlameCase& flame, const FlameResult& result);

@@ -34,10 +34,23 @@ std::string stageLine(const FlameStage& stage) {
   return text + fmt::format("  {}\n", formatDuration(stage.seconds));
 }
 
+void recordNumbers(JsonWriter& json, const std::vector<NamedNumber>& numbers) {
+  for (const NamedNumber& number : numbers) json.field(number.name + unitInName(number.unit), number.value);
+}
+
+std::string numbersText(const std::vector<NamedNumber>& numbers) {
+  std::string text;
+  for (const NamedNumber& number : numbers) {
+    std::string name = number.name;
+    std::replace(name.begin(), name.end(), '_', ' ');
+    text += fmt::format("  {:<42} {:.6g}{}\n", name, number.value, number.unit == "1" ? "" : " " + number.unit);
+  }
+  return text;
+}
+
 void recordFlame(JsonWriter& json, const FlameCase& flame, const FlameResult& result) {
   json.field("type", nameOf(flame.problem.type)).field("converged", result.converged);
-  for (const NamedNumber& number : namedNumbers(flame, result))
-    json.field(number.name + unitInName(number.unit), number.value);
+  recordNumbers(json, namedNumbers(flame, result));
   const auto& counters = result.solution.counters;
   json.field("jacobians", static_cast<std::uint64_t>(counters.jacobians));
   json.field("residual_s", counters.residualSeconds).field("jacobian_s", counters.jacobianSeconds);
@@ -45,12 +58,7 @@ void recordFlame(JsonWriter& json, const FlameCase& flame, const FlameResult& re
 }
 
 std::string flameReport(const FlameCase& flame, const FlameResult& result) {
-  std::string text = "\n";
-  for (const NamedNumber& number : namedNumbers(flame, result)) {
-    std::string name = number.name;
-    std::replace(name.begin(), name.end(), '_', ' ');
-    text += fmt::format("  {:<32} {:.6g}{}\n", name, number.value, number.unit == "1" ? "" : " " + number.unit);
-  }
+  std::string text = numbersText(namedNumbers(flame, result));
   if (!result.solution.budgets.empty()) {
     text += fmt::format("\nBudgets{:>18} {:>13} {:>13} {:>13} {:>10}\n", "in", "out", "wall", "radiated", "imbalance");
     for (const FlameBudget& b : result.solution.budgets) {

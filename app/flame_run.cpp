@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <memory>
 #include <optional>
 
+#include "app/flame_branch.hpp"
 #include "app/flame_case.hpp"
+#include "app/flame_in_time.hpp"
 #include "app/flame_output.hpp"
 #include "app/flame_stochastic.hpp"
 #include "core/errors.hpp"
@@ -37,10 +40,12 @@ std::vector<StageTime> stageTimes(MPI_Comm comm, const FlameEquations::Counters&
   return stages;
 }
 
-// The solution, or how far it came and why it went no further.
+// The solution, or how far it came and why it went no further; and what was followed from there.
 struct Attempt {
   FlameResult result;
   std::optional<StochasticFlame> stochastic;
+  std::optional<FlameBranchResult> branch;
+  std::optional<FlameInTime> course;
   std::optional<std::string> failure;
 };
 
@@ -77,15 +82,61 @@ Attempt solve(MPI_Comm comm, FlameCase& flame, FlameProfile start) {
   return attempt;
 }
 
+void followInTime(MPI_Comm comm, FlameCase& flame, const RunFolder& folder, Attempt& attempt) {
+  std::unique_ptr<HistoryWriter> history;
+  collectively(comm,
+               [&] { history = std::make_unique<HistoryWriter>(comm, folder.history(), flameHistoryColumns(flame)); });
+  FlameSolution last = std::move(attempt.result.solution);
+  last.budgets.clear();  // those of a steady flame
+  attempt.course = flameInTime(comm, flame, last.profile, *history);
+  if (!attempt.course->failure.empty()) attempt.failure = attempt.course->failure;
+  collectively(comm, [&] { attempt.result = flameResult(flame, std::move(last), !attempt.failure); });
+}
+
+Attempt attemptFlame(MPI_Comm comm, FlameCase& flame, FlameProfile start, const RunFolder& folder) {
+  Attempt attempt;
+  if (flame.unsteady && flame.unsteady->fromInitial) {
+    FlameSolution asItIs;
+    asItIs.profile = std::move(start);
+    collectively(comm, [&] { attempt.result = flameResult(flame, std::move(asItIs), true); });
+  } else {
+    attempt = solve(comm, flame, std::move(start));
+  }
+  if (attempt.failure) return attempt;
+  if (flame.unsteady) followInTime(comm, flame, folder, attempt);
+  if (!flame.continuation) return attempt;
+  attempt.branch = followBranch(comm, flame, attempt.result.solution.profile, attempt.result.summary);
+  if (!attempt.branch->branch.complete)
+    attempt.failure = "the branch of flames ends early: " + attempt.branch->branch.reason;
+  return attempt;
+}
+
+// Rank 0: profile.csv, branch.csv and the numbers of the record.
+std::string writeTexts(const RunFolder& folder, const FlameCase& flame, const Attempt& attempt) {
+  writeFileAtomically(folder.file("profile.csv"), flameTable(flame, attempt.result));
+  JsonWriter json;
+  json.beginObject();
+  recordFlame(json, flame, attempt.result);
+  if (attempt.stochastic) recordStochasticFlame(json, *attempt.stochastic);
+  if (attempt.branch) {
+    writeFileAtomically(folder.file("branch.csv"), branchTable(*attempt.branch));
+    recordNumbers(json, namedBranchNumbers(*attempt.branch));
+  }
+  if (attempt.course) recordNumbers(json, {{"steps_in_time", "1", static_cast<double>(attempt.course->report.steps)}});
+  json.endObject();
+  return json.text();
+}
+
 }  // namespace
 
 std::string checkFlame(MPI_Comm comm, const Deck& deck) {
   FlameCase flame;
   collectively(comm, [&] { flame = readFlameCase(deck); });
-  return fmt::format(
-      "{} flame, {} species, {} reactions{}", nameOf(flame.problem.type), flame.mechanism->numSpecies(),
-      flame.mechanism->numReactions(),
-      flame.initial ? fmt::format(", from an earlier flame of {} points", flame.initial->profile.points()) : "");
+  std::string text = fmt::format("{} flame, {} species, {} reactions", nameOf(flame.problem.type),
+                                 flame.mechanism->numSpecies(), flame.mechanism->numReactions());
+  if (flame.soot) text += fmt::format(", {} scalars of soot", flame.soot->scalars().size());
+  if (flame.initial) text += fmt::format(", from an earlier flame of {} points", flame.initial->profile.points());
+  return text;
 }
 
 void runFlame(MPI_Comm comm, const Deck& deck, const RunOptions& options) {
@@ -98,17 +149,10 @@ void runFlame(MPI_Comm comm, const Deck& deck, const RunOptions& options) {
     start = firstProfile(flame);
   });
   recordedRun(comm, deck, options, 0, [&](const RunFolder& folder, const RunInfo& info, RunRecord& record) {
-    const Attempt attempt = solve(comm, flame, std::move(start));
+    const Attempt attempt = attemptFlame(comm, flame, std::move(start), folder);
     const FlameResult& result = attempt.result;
     collectively(comm, [&] {
-      if (rank != 0) return;
-      writeFileAtomically(folder.file("profile.csv"), flameTable(flame, result));
-      JsonWriter json;
-      json.beginObject();
-      recordFlame(json, flame, result);
-      if (attempt.stochastic) recordStochasticFlame(json, *attempt.stochastic);
-      json.endObject();
-      record.resultsJson = json.text();
+      if (rank == 0) record.resultsJson = writeTexts(folder, flame, attempt);
     });
     record.cells = static_cast<std::int64_t>(result.solution.profile.points());
     for (const FlameStage& stage : result.solution.stages)
@@ -118,10 +162,13 @@ void runFlame(MPI_Comm comm, const Deck& deck, const RunOptions& options) {
     ResultsWriter results(comm, folder.results(), info);
     writeFlame(results, flame, result);
     if (attempt.stochastic) writeStochasticFlame(results, *flame.stochastic, *attempt.stochastic);
+    if (attempt.branch) writeBranch(results, *attempt.branch);
+    if (attempt.course) writeFlameInTime(results, flame, *attempt.course);
     if (!attempt.failure) {
       results.close();
-      if (rank == 0) fmt::print("{}", flameReport(flame, result));
+      if (rank == 0) fmt::print("\n{}", flameReport(flame, result));
       if (rank == 0 && attempt.stochastic) fmt::print("{}", stochasticFlameReport(*attempt.stochastic));
+      if (rank == 0 && attempt.branch) fmt::print("\n{}", numbersText(namedBranchNumbers(*attempt.branch)));
       return;
     }
     results.closePartial();

@@ -147,6 +147,67 @@ void addSolver(DeckSchema& schema) {
                .optional());
 }
 
+void addContinuation(DeckSchema& schema) {
+  static const FlameContinuationOptions options;
+  schema
+      .section(
+          "continuation", Presence::optional,
+          "The branch of flames over the strain, followed by arc length from the converged flame round its turning "
+          "points (extinction, ignition). Not of free flames.")
+      .add(choiceKey("continuation.towards", {"higher", "lower"}, "Strain at the start.").byDefault("higher"))
+      .add(numberKey("continuation.lowest_load",
+                     "The branch ends below this factor on the strain (of strain rates and mass fluxes of the deck).")
+               .byDefault("0")
+               .atLeast(0))
+      .add(numberKey("continuation.highest_load", "And above this one.").optional().above(0))
+      .add(temperatureKey("continuation.lowest_temperature", "And where the largest temperature is below this.")
+               .optional())
+      .add(integerKey("continuation.turning_points", "And after so many turning points; 1 is extinction.")
+               .byDefault("1")
+               .atLeast(1))
+      .add(integerKey("continuation.maximum_points", "And after so many flames.")
+               .byDefault(text(options.maximumPoints))
+               .atLeast(2))
+      .add(numberKey("continuation.first_step",
+                     "Arc length in units of the tolerances: 100 is about one per cent of every unknown.")
+               .byDefault(text(options.continuation.firstStep))
+               .above(0))
+      .add(numberKey("continuation.largest_step", "Largest arc length of a step.")
+               .byDefault(text(options.continuation.largestStep))
+               .above(0))
+      .add(integerKey("continuation.points_between_grids", "Flames after which the grid is adapted; 0: never.")
+               .byDefault(text(options.pointsBetweenGrids))
+               .atLeast(0));
+}
+
+void addUnsteady(DeckSchema& schema) {
+  static const UnsteadyOptions options;
+  schema.section("unsteady", Presence::optional, "The flame in time, on the grid it starts with. Not of free flames.")
+      .add(choiceKey(
+               "unsteady.start", {"steady", "initial"},
+               "steady: the converged flame of this deck; initial: the flame of the key initial as it is, with the "
+               "streams of this deck.")
+               .byDefault("steady"))
+      .add(quantityKey("unsteady.end", units::time, "Simulated time.").above(0))
+      .add(
+          quantityKey("unsteady.output_interval", units::time, "Between profiles; a hundredth of the end if not given.")
+              .optional()
+              .above(0))
+      .add(quantityKey("unsteady.first_step", units::time, "First time step.")
+               .byDefault(text(options.firstStep, " s"))
+               .above(0))
+      .add(quantityKey("unsteady.largest_step", units::time, "Largest time step.").optional().above(0))
+      .add(numberKey("unsteady.accuracy",
+                     "Error of a step in units of the tolerances (10 with a relative tolerance of 1e-4: 0.1 %).")
+               .byDefault(text(options.accuracy))
+               .above(0))
+      .add(numberKey("unsteady.amplitude", "Of the strain, which is 1 + amplitude sin(2 pi frequency t) of the deck's.")
+               .byDefault("0")
+               .atLeast(0)
+               .below(1))
+      .add(quantityKey("unsteady.frequency", units::frequency, "Of the strain.").optional().above(0));
+}
+
 }  // namespace
 
 DeckSchema flameSchema() {
@@ -161,6 +222,8 @@ DeckSchema flameSchema() {
   addStochasticKeys(schema);
   addGrid(schema);
   addSolver(schema);
+  addContinuation(schema);
+  addUnsteady(schema);
   return schema;
 }
 

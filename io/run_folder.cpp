@@ -15,9 +15,9 @@ namespace {
 namespace fs = std::filesystem;
 
 // What a run leaves in its folder.
-constexpr std::array<const char*, 9> runFiles{"results.h5",  "results.h5.part",   "results.xdmf",
-                                              "run.json",    "history.csv",       "reactors.csv",
-                                              "profile.csv", "sensitivities.csv", "table.csv"};
+constexpr std::array<const char*, 10> runFiles{"results.h5",        "results.h5.part", "results.xdmf", "run.json",
+                                               "history.csv",       "branch.csv",      "profile.csv",  "reactors.csv",
+                                               "sensitivities.csv", "table.csv"};
 
 // How the earlier run ended, in words.
 std::string stateOf(const fs::path& folder) {
