@@ -1,5 +1,5 @@
 """Looks whether what a run or study left is there, finite and plausible: a flow through its XDMF with meshio, a reactor
-and a population balance by their tables, a study by its runs."""
+a one-dimensional flame and a population balance by their tables, a study by its runs."""
 
 import csv
 import json
@@ -37,6 +37,24 @@ def check_population(folder):
         rows = list(csv.DictReader(file))
     assert [row["method"] for row in rows] == list(record["deck"]["methods"]), "table.csv lacks methods"
     print(f"{folder}: {len(rows)} methods")
+
+
+def check_flame(folder):
+    with h5py.File(folder / "results.h5", "r") as file:
+        flame = file["flame"]
+        z, temperature = flame["z"][()], flame["temperature"][()]
+        assert len(z) > 10 and np.all(np.diff(z) > 0), "the grid does not rise"
+        assert temperature.min() > 200 and temperature.max() < 4000, "an odd temperature"
+
+        def finite(name, item):
+            if isinstance(item, h5py.Dataset) and item.dtype.kind == "f":
+                assert np.all(np.isfinite(item[()])), f"{name} is not finite"
+
+        flame.visititems(finite)
+        if "unsteady" not in file:
+            imbalance = np.abs(file["budgets/relative_imbalance"][()])
+            assert np.all(imbalance < 1e-8), f"budgets do not close: {imbalance}"
+        print(f"{folder}: {len(z)} points, {len(flame['X'])} species" + (", soot" if "soot" in flame else ""))
 
 
 def check_study(folder):
@@ -77,7 +95,7 @@ def main(folder):
         check_study(folder)
         return
     record = json.loads((folder / "run.json").read_text(encoding="utf-8"))
-    kinds = {"reactor": check_reactor, "population_balance": check_population}
+    kinds = {"reactor": check_reactor, "population_balance": check_population, "flame1d": check_flame}
     kinds.get(record["deck"]["problem"], check_flow)(folder)
 
 

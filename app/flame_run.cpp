@@ -46,6 +46,7 @@ struct Attempt {
   std::optional<StochasticFlame> stochastic;
   std::optional<FlameBranchResult> branch;
   std::optional<FlameInTime> course;
+  std::unique_ptr<HistoryWriter> history;  // of the course
   std::optional<std::string> failure;
 };
 
@@ -83,12 +84,12 @@ Attempt solve(MPI_Comm comm, FlameCase& flame, FlameProfile start) {
 }
 
 void followInTime(MPI_Comm comm, FlameCase& flame, const RunFolder& folder, Attempt& attempt) {
-  std::unique_ptr<HistoryWriter> history;
-  collectively(comm,
-               [&] { history = std::make_unique<HistoryWriter>(comm, folder.history(), flameHistoryColumns(flame)); });
+  collectively(comm, [&] {
+    attempt.history = std::make_unique<HistoryWriter>(comm, folder.history(), flameHistoryColumns(flame));
+  });
   FlameSolution last = std::move(attempt.result.solution);
   last.budgets.clear();  // those of a steady flame
-  attempt.course = flameInTime(comm, flame, last.profile, *history);
+  attempt.course = flameInTime(comm, flame, last.profile, *attempt.history);
   if (!attempt.course->failure.empty()) attempt.failure = attempt.course->failure;
   collectively(comm, [&] { attempt.result = flameResult(flame, std::move(last), !attempt.failure); });
 }
@@ -164,6 +165,7 @@ void runFlame(MPI_Comm comm, const Deck& deck, const RunOptions& options) {
     if (attempt.stochastic) writeStochasticFlame(results, *flame.stochastic, *attempt.stochastic);
     if (attempt.branch) writeBranch(results, *attempt.branch);
     if (attempt.course) writeFlameInTime(results, flame, *attempt.course);
+    if (attempt.history) attempt.history->writeTo(results);
     if (!attempt.failure) {
       results.close();
       if (rank == 0) fmt::print("\n{}", flameReport(flame, result));

@@ -117,6 +117,25 @@ TEST(FlameCase, PhysicsAndSolverComeFromTheDeck) {
   EXPECT_EQ(lewis.problem.transport.lewisNumbers[lewis.mechanism->speciesIndex("O2")], 1.0);
 }
 
+TEST(FlameCase, BranchesAndTimeComeFromTheDeck) {
+  const FlameCase branch = read(counterflow, {"continuation.towards=lower", "continuation.lowest_load=0.1",
+                                              "continuation.lowest_temperature=900 K", "grid.slope=0.2"});
+  ASSERT_TRUE(branch.continuation);
+  EXPECT_FALSE(branch.unsteady);
+  EXPECT_FALSE(branch.continuation->continuation.towardsHigherLoad);
+  EXPECT_EQ(branch.continuation->lowestLoad, 0.1);
+  EXPECT_EQ(branch.continuation->lowestPeakTemperature, 900);
+  EXPECT_EQ(branch.continuation->maximumTurningPoints, 1U);
+  EXPECT_EQ(branch.continuation->grid.slope, 0.2);
+  const FlameCase course =
+      read(counterflow, {"unsteady.end=10 ms", "unsteady.amplitude=0.3", "unsteady.frequency=200 1/s"});
+  ASSERT_TRUE(course.unsteady);
+  EXPECT_EQ(course.unsteady->options.end, 0.01);
+  EXPECT_EQ(course.unsteady->amplitude, 0.3);
+  EXPECT_EQ(course.unsteady->frequency, 200);
+  EXPECT_FALSE(course.unsteady->fromInitial);
+}
+
 TEST(FlameCase, WhatDoesNotFitIsRefused) {
   struct Mistake {
     std::string deck;
@@ -144,6 +163,14 @@ TEST(FlameCase, WhatDoesNotFitIsRefused) {
       {freeFlame, {"grid.maximum_points=30"}, "grid.initial_points: expected no more than 'maximum_points'"},
       {freeFlame, {"initial=missing.h5"}, "initial: "},
       {freeFlame, {"initial=mechanisms/hydrogen_h2o2_10.yaml"}, "cannot be read as HDF5"},
+      {freeFlame, {"continuation={turning_points: 1}"}, "continuation: a flame of type free does not have this"},
+      {freeFlame, {"unsteady.end=1 ms"}, "unsteady: a flame of type free does not have this"},
+      {counterflow, {"continuation.highest_load=0.5"}, "expected 'lowest_load' below 1 and 'highest_load' above 1"},
+      {counterflow, {"continuation.first_step=1e5"}, "expected no more than 'largest_step'"},
+      {counterflow, {"continuation.towards=lower", "unsteady.end=1 s"}, "a run follows either time or a branch"},
+      {counterflow, {"unsteady.end=1 s", "unsteady.start=initial"}, "'initial' needs the key 'initial'"},
+      {counterflow, {"unsteady.end=1 s", "unsteady.amplitude=0.1"}, "'amplitude' and 'frequency' belong together"},
+      {counterflow, {"unsteady.end=1 s", "unsteady.first_step=2 s"}, "expected no more than 'end' and 'largest_step'"},
       {counterflow, {"flame.strain_rate=100 1/s"}, "plug flow has velocities instead; this needs 'nozzles: potential'"},
       {potential, {"left.velocity=1 m/s"}, "left.velocity: in potential flow the strain rate says"},
       {potential, {"flame.stagnation_plane=2 cm"}, "expected a place between the streams, below 0.02 m, found 0.02 m"},

@@ -27,6 +27,15 @@ grid: {{slope: 0.2, curve: 0.3}}
 """
 
 
+COUNTERFLOW = f"""problem: flame1d
+mechanism: {running.SOURCE}/cases/mechanisms/hydrogen_h2o2_10.yaml
+flame: {{type: counterflow, length: 10 mm}}
+left: {{temperature: 300 K, composition: "H2: 0.25, N2: 0.75", velocity: 3 m/s}}
+right: {{temperature: 300 K, composition: "O2: 0.21, N2: 0.79", velocity: 3 m/s}}
+grid: {{slope: 0.3, curve: 0.5}}
+"""
+
+
 def unknowns(folder, name="results.h5"):
     with h5py.File(folder / name, "r") as file:
         return file["flame/restart/unknowns"][()]
@@ -51,6 +60,39 @@ def check_results(folder):
     head, first = (folder / "profile.csv").read_text(encoding="utf-8").splitlines()[:2]
     assert head.startswith("z [m],temperature [K],velocity [m/s]") and head.count(",") == first.count(",")
     return results
+
+
+def check_followed(program, folder):
+    """A branch that ends behind extinction, and a flame in an oscillating strain."""
+    deck = folder / "counterflow.yaml"
+    deck.write_text(COUNTERFLOW, encoding="utf-8")
+    result = program("run", deck, "--out", folder / "branch", *running.settings("continuation.turning_points=1"))
+    assert result.code == 0, result.err
+    numbers = json.loads((folder / "branch/run.json").read_text(encoding="utf-8"))["results"]
+    with h5py.File(folder / "branch/results.h5", "r") as file:
+        branch = file["continuation"]
+        load, temperature = branch["load"][()], branch["maximum_temperature"][()]
+        assert load[0] == 1 and np.all(np.diff(temperature) < 0), "the flame gets colder along the branch"
+        highest = int(np.argmax(load))
+        assert 0 < highest < len(load) - 1 and load[-1] < load[highest], "the branch turns"
+        # The extremum of a parabola through three points is at least as high as each of them.
+        assert load[highest] <= numbers["extinction_load"] < 1.05 * load[highest]
+        assert np.isclose(branch["strain_rate"][0], file["flame"].attrs["strain_global"])
+    assert len((folder / "branch/branch.csv").read_text(encoding="utf-8").splitlines()) == len(load) + 1
+
+    result = program("run", deck, "--out", folder / "time", *running.settings(
+        "unsteady.end=2 ms", "unsteady.output_interval=0.5 ms", "unsteady.amplitude=0.2", "unsteady.frequency=500 1/s"))
+    assert result.code == 0, result.err
+    with h5py.File(folder / "time/results.h5", "r") as file:
+        time, history = file["unsteady/time"][()], file["history"]
+        assert np.allclose(time, [0, 0.5e-3, 1e-3, 1.5e-3, 2e-3])
+        # Interpolated between steps whose error is kept to 0.1 %.
+        assert np.allclose(history["load"][()], 1 + 0.2 * np.sin(2 * np.pi * 500 * time), atol=1e-3)
+        # Peak temperature falls with strain: lower at its largest, higher at its smallest than at the start.
+        hottest = history["maximum_temperature"][()]
+        assert hottest[1] < hottest[0] < hottest[3], hottest
+        assert file["unsteady/temperature"].shape == (5, len(file["unsteady/z"]))
+        assert np.array_equal(file["unsteady/temperature"][-1], file["flame/temperature"][()])
 
 
 def main(executable, ranks, *mpiexec):
@@ -87,6 +129,9 @@ def main(executable, ranks, *mpiexec):
         assert not (folder / "failed/results.h5").exists()
         run("resumed", f"initial={folder}/failed/results.h5.part")
         assert check_results(folder / "resumed")["time_steps"] == 0
+
+        if int(ranks) == 1:
+            check_followed(program, folder)
 
         # Any number of ranks: the same flame to the last bit.
         if int(ranks) > 1:
