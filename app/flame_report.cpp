@@ -53,6 +53,7 @@ void recordFlame(JsonWriter& json, const FlameCase& flame, const FlameResult& re
   recordNumbers(json, namedNumbers(flame, result));
   const auto& counters = result.solution.counters;
   json.field("jacobians", static_cast<std::uint64_t>(counters.jacobians));
+  json.field("jacobian_points", static_cast<std::uint64_t>(counters.jacobianPoints));
   json.field("residual_s", counters.residualSeconds).field("jacobian_s", counters.jacobianSeconds);
   json.field("factorise_s", counters.factoriseSeconds).field("solve_s", counters.solveSeconds);
 }
@@ -80,6 +81,12 @@ std::string flameReport(const FlameCase& flame, const FlameResult& result) {
   share("solution", c.solveSeconds);
   share("other", std::max(0.0, total - c.residualSeconds - c.jacobianSeconds - c.factoriseSeconds - c.solveSeconds));
   share("total", total);
+  if (c.jacobians > 0 && c.jacobianPoints > 0) {
+    const double points = static_cast<double>(c.jacobianPoints);
+    text += fmt::format(
+        "\n{} Newton matrices, {:.0f} points each: {:.1f} us a point to build, {:.1f} us to factorise\n", c.jacobians,
+        points / static_cast<double>(c.jacobians), 1e6 * c.jacobianSeconds / points, 1e6 * c.factoriseSeconds / points);
+  }
   return text;
 }
 
