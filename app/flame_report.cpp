@@ -29,7 +29,7 @@ std::string unitInName(std::string unit) {
 
 std::string stageLine(const FlameStage& stage) {
   std::string text =
-      fmt::format("{:<24} {:>5} points  {:>4} Newton steps", stage.name, stage.points, stage.newton.steps);
+      fmt::format("{:<28} {:>5} points  {:>4} Newton steps", stage.name, stage.points, stage.newton.steps);
   text += stage.newton.timeSteps > 0 ? fmt::format("  {:>4} time steps", stage.newton.timeSteps) : std::string(17, ' ');
   return text + fmt::format("  {}\n", formatDuration(stage.seconds));
 }

@@ -75,20 +75,23 @@ std::string asInDeck(const std::string& value) {
   return isText ? jsonString(value) : value;
 }
 
-void checkAssignments(const Deck& study, const std::string& key) {
-  const std::vector<std::string> settings = study.strings(key);
-  for (std::size_t i = 0; i < settings.size(); ++i) {
-    if (settings[i].find('=') == std::string::npos || settings[i].starts_with('='))
-      throw study.error(key, fmt::format("expected assignments such as 'time.end=1 s', found '{}'", settings[i]));
+// The assignments of a list, as --set takes them.
+std::vector<std::string> assignments(const Deck& study, const std::string& key) {
+  std::vector<std::string> settings = study.strings(key);
+  for (std::string& setting : settings) {
+    const auto equals = setting.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw study.error(key, fmt::format("expected assignments such as 'time.end=1 s', found '{}'", setting));
+    setting = setting.substr(0, equals + 1) + asInDeck(setting.substr(equals + 1));
   }
+  return settings;
 }
 
 std::vector<Variant> readVariants(const Deck& study) {
   std::vector<Variant> variants;
   for (std::size_t i = 0; i < study.size("variants"); ++i) {
     const std::string item = fmt::format("variants[{}]", i);
-    checkAssignments(study, item + ".set");
-    variants.push_back({study.string(item + ".name"), study.strings(item + ".set")});
+    variants.push_back({study.string(item + ".name"), assignments(study, item + ".set")});
     if (plainName(variants.back().name).empty())
       throw study.error(item + ".name", "expected a name with letters or digits");
   }
@@ -104,8 +107,7 @@ std::vector<std::string> joined(std::vector<std::string> first, const std::vecto
 ConvergenceOptions readConvergence(const Deck& study, const std::vector<std::string>& settings) {
   ConvergenceOptions options;
   options.deck = study.resolvePath(study.string("convergence.deck"));
-  checkAssignments(study, "convergence.set");
-  options.overrides = joined(study.strings("convergence.set"), settings);
+  options.overrides = joined(assignments(study, "convergence.set"), settings);
   options.methods = study.strings("convergence.methods");
   options.particles = study.integers("convergence.particles");
   options.product = study.integer("convergence.product");
@@ -202,8 +204,7 @@ SweepStudy readStudy(const Deck& study, const std::vector<std::string>& settings
   sweep.results = study.strings("collect.results");
   sweep.tables = study.strings("collect.tables");
   sweep.columns = study.strings("collect.columns");
-  checkAssignments(study, "set");
-  const std::vector<std::string> common = study.strings("set");
+  const std::vector<std::string> common = assignments(study, "set");
 
   std::vector<std::string> decks = study.strings("decks");
   if (const auto deck = study.optionalString("deck")) decks.push_back(*deck);

@@ -51,7 +51,11 @@ def leading_number(text):
 
 def _plot_over(rows, key, others, pictures):
     places = [leading_number(row[key]) for row in rows]
-    if None in places or len(set(places)) < 2:
+    names = list(dict.fromkeys(row[key] for row in rows))
+    in_words = None in places
+    if in_words:
+        places = [names.index(row[key]) for row in rows]
+    if len(set(places)) < 2:
         return
     shown = [item for item in SHOWN if any(row.get(item[0]) for row in rows)]
     figure, panels = plt.subplots(1, len(shown), figsize=(3.6 * len(shown), 3.4), squeeze=False)
@@ -60,8 +64,10 @@ def _plot_over(rows, key, others, pictures):
         for family in families:
             points = sorted((place, float(row[name]) * factor) for place, row in zip(places, rows)
                             if tuple(row[other] for other in others) == family and row.get(name))
-            axes.plot(*np.array(points).T.reshape(2, -1), "o-", ms=4, label=", ".join(family))
+            axes.plot(*np.array(points).T.reshape(2, -1), "o" if in_words else "o-", ms=4, label=", ".join(family))
         axes.set_xlabel(key)
+        if in_words:
+            axes.set_xticks(range(len(names)), names, rotation=60, ha="right", fontsize=8)
         axes.set_ylabel(label)
     if others:
         panels[0][0].legend(fontsize=7, title=", ".join(others), title_fontsize=7)

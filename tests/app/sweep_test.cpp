@@ -50,6 +50,8 @@ TEST(Study, VariantsCombineWithWhatVaries) {
   EXPECT_EQ(study.runs[1].name, "x_slow_p-2");
   EXPECT_THAT(study.runs[1].overrides, ElementsAre("a=0", "left.u=1", "right.u=1", "p=2"));
   EXPECT_THAT(study.runs[2].varied, ElementsAre(Pair("variant", "fast"), Pair("p", "1")));
+  // Text that YAML would take for a map is quoted.
+  EXPECT_THAT(study.runs[2].overrides, ElementsAre("a=0", "right.composition=\"O2: 1, N2: 3\"", "p=1"));
   EXPECT_THAT([] { studyOf("study: s\ndeck: a.yaml\nvariants:\n  - {name: b, set: [c]}\n"); },
               ThrowsMessage<InputError>(HasSubstr("variants[0].set: expected assignments")));
   EXPECT_THAT([] { studyOf("study: s\ndeck: a.yaml\nvariants:\n  - {name: '/', set: [c=1]}\n"); },
