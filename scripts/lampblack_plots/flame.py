@@ -197,17 +197,20 @@ def plot_together(folders, pictures, name="together", labels=None):
                    ("OH", "mole fraction of OH", lambda f: f.X.get("OH"))]
     figure, grid = plt.subplots(2, 2, figsize=(10.0, 6.6), sharex=True)
     for axes, (title, label, values_of) in zip(grid.flat, panels):
-        shown = 0.0
+        shown, peaks = 0.0, []
         for number, (flame, name_of_flame) in enumerate(usable):
             values = values_of(flame)
             if values is None:
                 continue
             colour = f"C{number}" if len(usable) <= 10 else plt.cm.viridis(number / (len(usable) - 1))
             axes.plot(flame.z, values, color=colour, lw=1.3, label=name_of_flame)
-            shown = max(shown, np.nanmax(values, initial=0.0))
-        if title == "number density" and shown > 0:
+            peaks.append(np.nanmax(values, initial=0.0))
+            shown = max(shown, peaks[-1])
+        # Models may differ by orders of magnitude.
+        apart = title == "volume fraction" and shown > 30 * min(peaks, default=0.0)
+        if shown > 0 and (title == "number density" or apart):
             axes.set_yscale("log")
-            axes.set_ylim(1e-6 * shown, 3 * shown)
+            axes.set_ylim(1e-6 * shown if title == "number density" else 1e-2 * min(p for p in peaks if p > 0), 3 * shown)
         axes.set_ylabel(label)
     for axes in grid[1]:
         axes.set_xlabel("z, mm")
