@@ -240,7 +240,7 @@ void FlameEquations::correct(std::span<const double> x, std::span<double> trial)
   for (std::size_t i = 0; i < d.points(); ++i)
     for (std::size_t c = d.layout.firstScalar(); c < d.width(); ++c) {
       const std::size_t u = i * d.width() + c;
-      trial[u] = std::max(trial[u], 0.1 * std::max(x[u], 0.0));
+      trial[u] = positivePart(x[u], trial[u]);
     }
 }
 
@@ -269,13 +269,16 @@ std::string FlameEquations::nameOf(std::size_t unknown) const {
     static constexpr std::array names{"mass flux of the left stream", "radial pressure gradient", "load"};
     return names[unknown - d.points() * d.width()];
   }
-  const std::size_t point = unknown / d.width(), c = unknown % d.width();
-  std::string name = c == FlameLayout::massFlux      ? "mass flux"
-                     : c == FlameLayout::spread      ? "spread rate"
-                     : c == FlameLayout::temperature ? "temperature"
-                     : c < d.layout.firstScalar()    ? d.mechanism->speciesName(c - FlameLayout::firstSpecies)
-                                                     : d.carried->scalars()[c - d.layout.firstScalar()].name;
-  return fmt::format("{} at z = {:.4g} mm (point {} of {})", name, 1e3 * d.profile.z[point], point + 1, d.points());
+  return d.nameOf(unknown / d.width(), unknown % d.width());
+}
+
+std::string FlameEquations::Data::nameOf(std::size_t point, std::size_t c) const {
+  const std::string name = c == FlameLayout::massFlux      ? "mass flux"
+                           : c == FlameLayout::spread      ? "spread rate"
+                           : c == FlameLayout::temperature ? "temperature"
+                           : c < layout.firstScalar()      ? mechanism->speciesName(c - FlameLayout::firstSpecies)
+                                                           : carried->scalars()[c - layout.firstScalar()].name;
+  return fmt::format("{} at z = {:.4g} mm (point {} of {})", name, 1e3 * profile.z[point], point + 1, points());
 }
 
 bool FlameEquations::factoriseUnsteady(std::span<const double> x, double shift) {

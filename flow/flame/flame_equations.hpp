@@ -103,7 +103,13 @@ class FlameEquations : public UnsteadySystem {
   };
   [[nodiscard]] const Counters& counters() const;
 
-  struct Data;  // flame_equations_data.hpp; for the other files of this class
+  struct Data;  // flame_equations_data.hpp; for the other files of this class, and FlameScalars
+  [[nodiscard]] Data& data() { return *data_; }
+  // What a step from `value` to `trial` leaves of an amount that cannot be negative.
+  static double positivePart(double value, double trial) {
+    const double least = value > 0 ? 0.1 * value : 0.0;
+    return trial > least ? trial : least;
+  }
 
  private:
   std::unique_ptr<Data> data_;

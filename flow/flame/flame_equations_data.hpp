@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "chemistry/kinetics/kinetics.hpp"
@@ -58,6 +59,8 @@ struct FlameEquations::Data {
   [[nodiscard]] std::size_t unknowns() const { return profile.size(); }
   [[nodiscard]] bool isHeld(std::size_t component) const { return holds && holds(component); }
 
+  [[nodiscard]] std::string nameOf(std::size_t point, std::size_t component) const;
+
   void take(std::span<const double> x) { std::copy(x.begin(), x.end(), profile.x.begin()); }
   // Gas at the points [first, last) and the faces beside them.
   void evaluate(std::size_t first, std::size_t last);
@@ -80,6 +83,10 @@ struct FlameEquations::Data {
   [[nodiscard]] double spreadGivenPerLoad(std::size_t i) const;
 
   void pointResidual(std::size_t i, double* F) const;
+  // Of scalar s alone, over its scale.
+  [[nodiscard]] double scalarResidual(std::size_t i, std::size_t s) const;
+  // d(flux through face f)/d(scalar s of point f, of point f + 1).
+  [[nodiscard]] std::pair<double, double> scalarSlopes(std::size_t f, std::size_t s) const;
   void globalResidual(double* F) const;
   // Energy that gas and scalars gain in a control volume apart from what the temperature equation of a point sets to
   // zero: that equation itself.

@@ -159,18 +159,22 @@ void FlameGas::densities(const FlameProfile& x, std::size_t i, std::span<double>
   for (std::size_t s = 0; s < out.size(); ++s) out[s] = scalars[s] * scalarScale[s] * nodes.density[i];
 }
 
-void FlameGas::addCarried(const FlameProfile& x, std::size_t i) {
+void FlameGas::scalarSources(const FlameProfile& x, std::size_t i) {
   const CarriedGas gas = carriedGas(x, i, carriedConcentrations_);
   densities(x, i, densities_);
-  const std::size_t S = scalarScale.size();
   carried_->sources(gas, densities_, carriedRates_, carriedExchange_);
+  std::copy(carriedRates_.begin(), carriedRates_.end(), nodes.scalarRate.begin() + i * scalarScale.size());
+}
+
+void FlameGas::addCarried(const FlameProfile& x, std::size_t i) {
+  const std::size_t S = scalarScale.size();
+  scalarSources(x, i);
   const auto& species = carried_->exchanged();
   for (std::size_t e = 0; e < species.size(); ++e) {
     const double rate = carriedExchange_[e] * weights[species[e]];
     nodes.source[i * n_ + species[e]] += rate;
     nodes.exchanged[i] += rate;
   }
-  std::copy(carriedRates_.begin(), carriedRates_.end(), nodes.scalarRate.begin() + i * S);
   carried_->enthalpies(x.temperature(i), {&nodes.scalarEnthalpy[i * S], S}, {&nodes.scalarHeat[i * S], S});
   if (radiation_) nodes.absorption[i] += carried_->absorption(x.temperature(i), densities_);
 }
@@ -303,26 +307,33 @@ void FlameGas::fluxes(const FlameProfile& x, std::size_t begin, std::size_t end)
       speciesEnthalpies(T, &faces.enthalpy[f * n_], &faces.heat[f * n_]);
     }
     if (carried_ == nullptr) continue;
-    // Particles hardly diffuse: upwind, at the sum of the gas's and the thermophoretic mass flux.
-    const std::size_t upstreamPoint = m > 0 ? f : f + 1;
     const double T = 0.5 * (x.temperature(f) + x.temperature(f + 1));
-    const double W = 0.5 * (nodes.weight[f] + nodes.weight[f + 1]);
-    const double rho = pressure_ * W / (constants::gasConstant * T);
-    CarriedGas gas = carriedGas(x, upstreamPoint, carriedConcentrations_);
-    gas.temperature = T;
-    gas.density = rho;
-    gas.viscosity = faces.viscosity[f];
-    gas.meanMolecularWeight = W;
     carried_->enthalpies(T, {&faces.scalarEnthalpy[f * S], S}, {&faces.scalarHeat[f * S], S});
-    densities(x, upstreamPoint, densities_);
-    carried_->diffusivities(gas, densities_, carriedD_);
-    for (std::size_t s = 0; s < S; ++s) {
-      const double w = m + scalarThermophoresis[s] * faces.drift[f];
-      const double left = x.scalars(f)[s] * scalarScale[s], right = x.scalars(f + 1)[s] * scalarScale[s];
-      const double a = rho * carriedD_[s] / h;
-      faces.scalarConductance[f * S + s] = a;
-      faces.scalarFlux[f * S + s] = w * (w > 0 ? left : right) - a * (right - left);
-    }
+    scalarFluxes(x, f);
+  }
+}
+
+// Particles hardly diffuse: upwind, at the sum of the gas's and the thermophoretic mass flux.
+void FlameGas::scalarFluxes(const FlameProfile& x, std::size_t f) {
+  const std::size_t S = scalarScale.size();
+  const double h = x.z[f + 1] - x.z[f], m = x.at(f, FlameLayout::massFlux);
+  const std::size_t upstreamPoint = m > 0 ? f : f + 1;
+  const double T = 0.5 * (x.temperature(f) + x.temperature(f + 1));
+  const double W = 0.5 * (nodes.weight[f] + nodes.weight[f + 1]);
+  const double rho = pressure_ * W / (constants::gasConstant * T);
+  CarriedGas gas = carriedGas(x, upstreamPoint, carriedConcentrations_);
+  gas.temperature = T;
+  gas.density = rho;
+  gas.viscosity = faces.viscosity[f];
+  gas.meanMolecularWeight = W;
+  densities(x, upstreamPoint, densities_);
+  carried_->diffusivities(gas, densities_, carriedD_);
+  for (std::size_t s = 0; s < S; ++s) {
+    const double w = m + scalarThermophoresis[s] * faces.drift[f];
+    const double left = x.scalars(f)[s] * scalarScale[s], right = x.scalars(f + 1)[s] * scalarScale[s];
+    const double a = rho * carriedD_[s] / h;
+    faces.scalarConductance[f * S + s] = a;
+    faces.scalarFlux[f * S + s] = w * (w > 0 ? left : right) - a * (right - left);
   }
 }
 

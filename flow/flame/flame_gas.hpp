@@ -66,6 +66,10 @@ class FlameGas {
   // Faces [begin, end); the composition of both their points is there.
   void fluxes(const FlameProfile& x, std::size_t begin, std::size_t end);
 
+  // What carried matter does between the points of face f, and at point i: fluxes and sources of the scalars alone.
+  void scalarFluxes(const FlameProfile& x, std::size_t f);
+  void scalarSources(const FlameProfile& x, std::size_t i);
+
   // The gas of a point as the carried model wants it; `storage` holds its concentrations.
   [[nodiscard]] CarriedGas carriedGas(const FlameProfile& x, std::size_t point, std::vector<double>& storage);
   // Densities (per m3) of the scalars of a point.

@@ -96,8 +96,7 @@ static void addFace(const FlameEquations::Data& data, std::size_t i, bool isRigh
   const double driftSlope = faces.viscosity[f] / (h * Tm), bend = 0.5 * (Tr - Tl) / Tm;
   for (std::size_t s = 0; s < S; ++s) {
     const double c = data.gas.scalarThermophoresis[s], v = m + c * faces.drift[f];
-    const double a = faces.scalarConductance[f * S + s];
-    const double left = std::max(v, 0.0) + a, right = std::min(v, 0.0) - a;
+    const auto [left, right] = data.scalarSlopes(f, s);
     const double upstream = data.profile.scalars(v > 0 ? f : f + 1)[s];
     const std::size_t row = first + s;
     work.D[row * w + row] += sign * (isRight ? left : right);

@@ -79,6 +79,18 @@ double FlameEquations::Data::energyResidual(std::size_t i) const {
   return sum;
 }
 
+double FlameEquations::Data::scalarResidual(std::size_t i, std::size_t s) const {
+  const double net = profile.at(i, FlameLayout::massFlux) - leftFlux(i) - volume[i] * gas.nodes.exchanged[i];
+  const double made = volume[i] * gas.nodes.scalarRate[i * scalars() + s];
+  return (scalarFluxRight(i, s) - scalarFluxLeft(i, s) - made) / gas.scalarScale[s] - profile.scalars(i)[s] * net;
+}
+
+std::pair<double, double> FlameEquations::Data::scalarSlopes(std::size_t f, std::size_t s) const {
+  const double v = profile.at(f, FlameLayout::massFlux) + gas.scalarThermophoresis[s] * gas.faces.drift[f];
+  const double a = gas.faces.scalarConductance[f * scalars() + s];
+  return {std::max(v, 0.0) + a, std::min(v, 0.0) - a};
+}
+
 void FlameEquations::Data::pointResidual(std::size_t i, double* F) const {
   const std::size_t n = species(), S = scalars();
   const double mLeft = leftFlux(i), mRight = profile.at(i, FlameLayout::massFlux);
@@ -111,12 +123,7 @@ void FlameEquations::Data::pointResidual(std::size_t i, double* F) const {
   for (std::size_t k = 0; k < n; ++k)
     F[FlameLayout::firstSpecies + k] = speciesFluxRight(i, k) - speciesFluxLeft(i, k) - Y[k] * net +
                                        dv * (Y[k] * gained - gas.nodes.source[i * n + k]);
-  for (std::size_t s = 0; s < S; ++s) {
-    const double amount = profile.scalars(i)[s];
-    F[layout.firstScalar() + s] =
-        (scalarFluxRight(i, s) - scalarFluxLeft(i, s) - dv * gas.nodes.scalarRate[i * S + s]) / gas.scalarScale[s] -
-        amount * (net - dv * gained);
-  }
+  for (std::size_t s = 0; s < S; ++s) F[layout.firstScalar() + s] = scalarResidual(i, s);
   if (holds) {
     for (std::size_t c = 0; c < width(); ++c)
       if (isHeld(c)) F[c] = profile.at(i, c) - held[i * width() + c];

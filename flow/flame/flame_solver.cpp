@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flow/flame/flame_scalars.hpp"
+
 namespace lampblack {
 
 struct FlameSolver::Data {
@@ -163,13 +165,17 @@ void FlameSolver::Data::gasAlone(const FlameProblem& flame, NewtonSolver& solver
 }
 
 void FlameSolver::Data::scalarsAlone(FlameEquations& equations, NewtonSolver& solver) {
-  const FlameLayout layout = equations.layout();
-  equations.setGrid(solution.profile.z);
-  equations.hold([first = layout.firstScalar(),
-                  width = layout.width()](std::size_t component) { return component < first || component >= width; },
-                 solution.profile.x);
-  steady(equations, solver, "scalars in the gas");
-  equations.release();
+  const double start = MPI_Wtime();
+  FlameStage stage{"scalars in the gas", solution.profile.points(), {}, 0};
+  place(equations);
+  FlameScalars scalars(equations, solution.profile);
+  std::vector<double> x = scalars.start();
+  stage.newton = solver.steady(scalars, x);
+  scalars.put(x, solution.profile);
+  stage.seconds = MPI_Wtime() - start;
+  if (!stage.newton.converged) fail(stage);
+  solution.stages.push_back(stage);
+  if (report) report(stage, solution.profile);
 }
 
 void FlameSolver::Data::count(const FlameEquations& equations) {
