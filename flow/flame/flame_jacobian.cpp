@@ -85,9 +85,9 @@ static void addFace(const FlameEquations::Data& data, std::size_t i, bool isRigh
   if (!data.spreadIsGiven(i)) {
     const double a = data.profile.at(f, V), b = data.profile.at(f + 1, V);
     const double conductance = faces.viscosity[f] / h;
-    work.D[V * w + V] += sign * (m * (ownShare - 1) + (isRight ? conductance : -conductance));
-    other[V * w + V] += sign * (m * (1 - ownShare) + (isRight ? -conductance : conductance));
-    mBlock[M * w + V] += sign * ((0.5 + lean) * a + (0.5 - lean) * b - data.profile.at(i, V));
+    work.D[V * w + V] += sign * (-0.5 * m + (isRight ? conductance : -conductance));
+    other[V * w + V] += sign * (0.5 * m + (isRight ? -conductance : conductance));
+    mBlock[M * w + V] += sign * (0.5 * (a + b) - data.profile.at(i, V));
     const double growth = -0.5 * conductanceExponent * conductance * (b - a) / Tm;
     work.D[T * w + V] += sign * growth;
     other[T * w + V] += sign * growth;
