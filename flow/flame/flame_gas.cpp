@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/constants.hpp"
 
@@ -202,6 +203,7 @@ void FlameGas::evaluateCoefficients(double T, std::size_t f, double h) {
   double moles = 0;
   for (std::size_t k = 0; k < n_; ++k) moles += meanX_[k] = meanY_[k] / weights[k];
   const double W = 1 / moles;
+  meanMoles_ = moles;
   for (double& value : meanX_) value *= W;
   const double molarDensity = pressure_ / (constants::gasConstant * T);
   double* a = &faces.conductance[f * n_];
@@ -239,6 +241,19 @@ void FlameGas::scaleCoefficients(double T, std::size_t f) {
     for (std::size_t k = f * n_ * n_; k < (f + 1) * n_ * n_; ++k) faces.pairs[k] *= factor;
 }
 
+// Central where diffusion smooths over a spacing, Pe = |m| h / (rho D) < 2 with the slowest that matters, heat or a species
+// of more than a per mille; blended towards upwind beyond, in the manner of Spalding (1972).
+double FlameGas::pecletNumber(double m, std::size_t f, double h) const {
+  constexpr double abundant = 1e-3;
+  double cp = 0, slowest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < n_; ++k) {
+    cp += meanY_[k] * faces.heat[f * n_ + k];
+    if (meanX_[k] > abundant) slowest = std::min(slowest, D_[k]);
+  }
+  const double rho = pressure_ / (constants::gasConstant * faces.temperature[f] * meanMoles_);
+  return std::abs(m) * h / std::min(rho * slowest, faces.conductivity[f] / cp);
+}
+
 void FlameGas::coefficients(const FlameProfile& x, std::size_t f, double h) {
   const double T = 0.5 * (x.temperature(f) + x.temperature(f + 1));
   const auto Yl = x.massFractions(f), Yr = x.massFractions(f + 1);
@@ -250,11 +265,7 @@ void FlameGas::coefficients(const FlameProfile& x, std::size_t f, double h) {
     scaleCoefficients(T, f);
   } else {
     evaluateCoefficients(T, f, h);
-    // Central where diffusion smooths over a spacing, blended towards upwind beyond: |m| h cp / lambda > 1 (heavy
-    // species diffuse up to twice as slowly as heat), in the manner of Spalding (1972).
-    double cp = 0;
-    for (std::size_t k = 0; k < n_; ++k) cp += meanY_[k] * cpk[k];
-    const double peclet = 2 * std::abs(x.at(f, FlameLayout::massFlux)) * h * cp / faces.conductivity[f];
+    const double peclet = pecletNumber(x.at(f, FlameLayout::massFlux), f, h);
     faces.upwind[f] = peclet > 2 ? 1 - 2 / peclet : 0;
   }
   faces.drift[f] = -faces.viscosity[f] * (x.temperature(f + 1) - x.temperature(f)) / (h * T);

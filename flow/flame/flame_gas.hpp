@@ -98,6 +98,7 @@ class FlameGas {
   void coefficients(const FlameProfile& x, std::size_t f, double h);
   void evaluateCoefficients(double T, std::size_t f, double h);
   void scaleCoefficients(double T, std::size_t f);
+  [[nodiscard]] double pecletNumber(double m, std::size_t f, double h) const;
   void diffusiveFluxes(const FlameProfile& x, std::size_t f, double h);
 
   std::size_t n_;
@@ -110,6 +111,7 @@ class FlameGas {
   BatchKinetics kinetics_;
   std::optional<ThinRadiation> radiation_;
   bool massBasis_ = false;
+  double meanMoles_ = 0;  // mol/kg, of the face at hand
 
   std::vector<double> temperatures_, concentrations_, rates_, meanX_, meanY_, D_, pairD_;
   std::vector<double> carriedConcentrations_, densities_, carriedRates_, carriedExchange_, carriedD_;
