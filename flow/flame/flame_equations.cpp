@@ -73,6 +73,13 @@ void FlameEquations::Data::evaluate(std::size_t first, std::size_t last) {
   gas.sources(profile, first, last, exchange ? &*exchange : nullptr);
 }
 
+// Every rank for all faces: seldom, and the same everywhere.
+void FlameEquations::Data::chooseBlend() {
+  if (blendIsChosen) return;
+  gas.chooseBlend(profile);
+  blendIsChosen = true;
+}
+
 FlameEquations::FlameEquations(MPI_Comm comm, std::shared_ptr<const Mechanism> mechanism, FlameProblem problem,
                                CarriedModel* carried, FlameTolerances tolerances)
     : data_(std::make_unique<Data>(comm, std::move(mechanism), std::move(problem), carried, tolerances)) {}
@@ -118,6 +125,7 @@ void FlameEquations::setGrid(std::span<const double> z) {
     }
   }
   d.gas.resize(n);
+  d.blendIsChosen = false;
   const auto startOf = [&](int r) { return n * static_cast<std::size_t>(r) / static_cast<std::size_t>(d.ranks); };
   d.begin = startOf(d.rank);
   d.end = startOf(d.rank + 1);
@@ -143,6 +151,9 @@ void FlameEquations::hold(std::function<bool(std::size_t)> which, std::span<cons
 void FlameEquations::release() {
   data_->holds = nullptr;
 }
+void FlameEquations::renewBlend() {
+  data_->blendIsChosen = false;
+}
 void FlameEquations::freezeTransport(bool frozen) {
   data_->gas.frozen = frozen;
 }
@@ -161,6 +172,7 @@ void FlameEquations::residual(std::span<const double> x, std::span<double> F) {
   const double start = MPI_Wtime();
   d.take(x);
   const auto work = [&] {
+    d.chooseBlend();
     d.evaluate(d.begin, d.end);
     for (std::size_t i = d.begin; i < d.end; ++i) d.pointResidual(i, &F[i * d.width()]);
   };
@@ -192,6 +204,7 @@ bool FlameEquations::factorise(std::span<const double> x, double inverseTimeStep
   const auto work = [&] {
     const std::size_t begin = d.matrix->ownedBegin(), end = d.matrix->ownedEnd();
     d.matrix->clear();
+    d.chooseBlend();
     d.evaluate(begin, end);
     Data::JacobianWork buffers(d);
     for (std::size_t i = begin; i < end; ++i) d.fillRow(i, inverseTimeStep, buffers);

@@ -261,14 +261,20 @@ void FlameGas::coefficients(const FlameProfile& x, std::size_t f, double h) {
   double* hk = &faces.enthalpy[f * n_];
   double* cpk = &faces.heat[f * n_];
   speciesEnthalpies(T, hk, cpk);
-  if (frozen) {
+  if (frozen)
     scaleCoefficients(T, f);
-  } else {
+  else
     evaluateCoefficients(T, f, h);
+  faces.drift[f] = -faces.viscosity[f] * (x.temperature(f + 1) - x.temperature(f)) / (h * T);
+}
+
+void FlameGas::chooseBlend(const FlameProfile& x) {
+  for (std::size_t f = 0; f + 1 < x.points(); ++f) {
+    const double h = x.z[f + 1] - x.z[f];
+    coefficients(x, f, h);
     const double peclet = pecletNumber(x.at(f, FlameLayout::massFlux), f, h);
     faces.upwind[f] = peclet > 2 ? 1 - 2 / peclet : 0;
   }
-  faces.drift[f] = -faces.viscosity[f] * (x.temperature(f + 1) - x.temperature(f)) / (h * T);
 }
 
 void FlameGas::diffusiveFluxes(const FlameProfile& x, std::size_t f, double h) {

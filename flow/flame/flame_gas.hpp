@@ -70,6 +70,10 @@ class FlameGas {
   void scalarFluxes(const FlameProfile& x, std::size_t f);
   void scalarSources(const FlameProfile& x, std::size_t i);
 
+  // Decides between central and upwind differences at every face, for this and all following fluxes: Newton's method
+  // does not converge while it changes.
+  void chooseBlend(const FlameProfile& x);
+
   // The gas of a point as the carried model wants it; `storage` holds its concentrations.
   [[nodiscard]] CarriedGas carriedGas(const FlameProfile& x, std::size_t point, std::vector<double>& storage);
   // Densities (per m3) of the scalars of a point.

@@ -17,6 +17,7 @@ FlameScalars::FlameScalars(FlameEquations& equations, const FlameProfile& flame)
   jacobian_.resize(rows * (rows + 1));
   flame_.take(flame.x);
   // Every rank evaluates all points: fast beside the gas.
+  flame_.chooseBlend();
   flame_.evaluate(0, flame_.points());
   // The gas does not feel what the scalars take from it.
   std::fill(flame_.gas.nodes.exchanged.begin(), flame_.gas.nodes.exchanged.end(), 0.0);
