@@ -240,7 +240,7 @@ void FlameEquations::bounds(std::span<double> lower, std::span<double> upper) co
     low[FlameLayout::temperature] = Transport::minTemperature;
     high[FlameLayout::temperature] = Transport::maxTemperature;
     for (std::size_t k = 0; k < d.species(); ++k) {
-      low[FlameLayout::firstSpecies + k] = -1e-5;
+      low[FlameLayout::firstSpecies + k] = -1e-3;  // what differences at a front may undershoot by
       high[FlameLayout::firstSpecies + k] = 1 + 1e-3;
     }
   }
