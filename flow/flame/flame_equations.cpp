@@ -192,6 +192,8 @@ void FlameEquations::timeWeights(std::span<const double> x, std::span<double> M)
   Data& d = *data_;
   d.take(x);
   d.gas.composition(d.profile, 0, d.points());
+  d.blendIsChosen = false;
+  d.chooseBlend();
   d.gas.heatCapacities(d.profile);
   for (std::size_t i = 0; i < d.points(); ++i) d.pointTimeWeights(i, &M[i * d.width()]);
   std::fill(M.end() - numFlameGlobals, M.end(), 0.0);

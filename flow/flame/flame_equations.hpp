@@ -71,8 +71,8 @@ class FlameEquations : public UnsteadySystem {
   void setConstraint(std::optional<LoadConstraint> constraint) override;
   void setExchange(std::optional<GivenExchange> exchange);
 
-  // Where convection is central and where upwind is decided by the first profile on a grid (or after this call) and then
-  // stays: Newton's method does not converge while it changes.
+  // Where convection is central and where upwind is decided by the first profile on a grid, by that at the beginning of
+  // each time step (and after this call), and then stays: Newton's method does not converge while it changes.
   void renewBlend();
   // Keeps the transport coefficients of the last residual (but for a power of the temperature) until told otherwise:
   // the Newton matrix is then exact.
