@@ -151,7 +151,7 @@ void FlameEquations::hold(std::function<bool(std::size_t)> which, std::span<cons
 void FlameEquations::release() {
   data_->holds = nullptr;
 }
-void FlameEquations::renewBlend() {
+void FlameEquations::beginTimeStep() {
   data_->blendIsChosen = false;
 }
 void FlameEquations::freezeTransport(bool frozen) {
@@ -192,8 +192,6 @@ void FlameEquations::timeWeights(std::span<const double> x, std::span<double> M)
   Data& d = *data_;
   d.take(x);
   d.gas.composition(d.profile, 0, d.points());
-  d.blendIsChosen = false;
-  d.chooseBlend();
   d.gas.heatCapacities(d.profile);
   for (std::size_t i = 0; i < d.points(); ++i) d.pointTimeWeights(i, &M[i * d.width()]);
   std::fill(M.end() - numFlameGlobals, M.end(), 0.0);

@@ -71,9 +71,6 @@ class FlameEquations : public UnsteadySystem {
   void setConstraint(std::optional<LoadConstraint> constraint) override;
   void setExchange(std::optional<GivenExchange> exchange);
 
-  // Where convection is central and where upwind is decided by the first profile on a grid, by that at the beginning of
-  // each time step (and after this call), and then stays: Newton's method does not converge while it changes.
-  void renewBlend();
   // Keeps the transport coefficients of the last residual (but for a power of the temperature) until told otherwise:
   // the Newton matrix is then exact.
   void freezeTransport(bool frozen);
@@ -81,6 +78,9 @@ class FlameEquations : public UnsteadySystem {
   // NewtonSystem.
   [[nodiscard]] std::size_t size() const override;
   void residual(std::span<const double> x, std::span<double> F) override;
+  // Where convection is central and where upwind is decided by the first profile on a grid and that at the beginning of
+  // each time step, and then stays: Newton's method does not converge while it changes.
+  void beginTimeStep() override;
   void timeWeights(std::span<const double> x, std::span<double> M) override;
   [[nodiscard]] bool factorise(std::span<const double> x, double inverseTimeStep) override;
   void solve(std::span<double> b) override;

@@ -263,7 +263,8 @@ class Integration {
   }
   static PetscErrorCode stepCallback(TS, PetscInt, PetscReal t, Vec, void* context) {
     auto* self = static_cast<Integration*>(context);
-    return self->exceptions_.guard([&] { self->afterStep(t); });
+    return self->exceptions_.guard([&] {
+      self->system_.beginTimeStep(); self->afterStep(t); });
   }
 
   UnsteadySystem& system_;

@@ -125,7 +125,7 @@ TEST(UnsteadyFlame, NewtonMatrixOfATimeStepMatchesADifference) {
     for (std::size_t i = 0; i < n; ++i) F[i] += weights[i] * rate[i];
     equations.storage(x, rate, F);
   };
-  const double step = 1e-3;
+  const double step = 1e-2;
   difference(step, up);
   difference(-step, down);
   std::vector<double> solution(n);
@@ -144,7 +144,7 @@ TEST(UnsteadyFlame, NewtonMatrixOfATimeStepMatchesADifference) {
     worst = std::max(worst, std::abs(solution[i] - direction[i]) / unit);
     without = std::max(without, std::abs(steady[i] - direction[i]) / unit);
   }
-  // Rounding of the stiff sources, 1e-16 of terms that cancel, over a step of 1e-3 scales; a part that is missing in
+  // Rounding of the stiff sources, 1e-16 of terms that cancel, over a step of 1e-2 scales; a part that is missing in
   // the matrix shows as below.
   EXPECT_LT(worst, 1e-3);
   EXPECT_GT(without, 0.1);  // the matrix of pseudo-transient steps, which have no such part
@@ -171,8 +171,12 @@ TEST(UnsteadyFlame, UnderSlowlySwingingStrainItIsSteadyAtAnyTime) {
   for (const std::size_t i : {0u, 1u}) {
     equations.setLoad(i == 0 ? 1.4 : 0.6);
     now.x = flame.x;
-    const NewtonReport steady = NewtonSolver().steady(equations, now.x);
-    ASSERT_TRUE(steady.converged) << steady.reason;
+    // Twice: the blend of convection belongs to the profile a solution starts from.
+    for (int pass = 0; pass < 2; ++pass) {
+      equations.setGrid(now.z);
+      const NewtonReport steady = NewtonSolver().steady(equations, now.x);
+      ASSERT_TRUE(steady.converged) << steady.reason;
+    }
     EXPECT_NEAR(peaks[i], peakOf(now), 0.5);
   }
   EXPECT_GT(peaks[1] - peaks[0], 10);  // the strain matters
