@@ -79,6 +79,7 @@ class Ensemble {
   [[nodiscard]] double dimerCollisionSum(const Medium& medium) const;
   [[nodiscard]] double dimerNumber(const Medium& medium, double collisionSum) const;
   [[nodiscard]] double splitStep(const Medium& medium, double dilutionRate, double remaining) const;
+  [[nodiscard]] double newborn(const Medium& medium) const;  // the longest splitting step for particles born in it, s
   struct Fluxes {
     double condensation = 0;           // dimers times their mass times the collision prefactor
     double growth = 0, oxidation = 0;  // kg carbon/m2/s

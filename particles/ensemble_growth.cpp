@@ -2,9 +2,11 @@
 // the choice of the splitting step.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "particles/ensemble.hpp"
 #include "particles/ensemble_medium.hpp"
+#include "particles/newborn_step.hpp"
 
 namespace lampblack {
 
@@ -55,7 +57,21 @@ double Ensemble::splitStep(const Medium& medium, double dilutionRate, double rem
       }
     }
   }
-  return fastest * remaining > options_.splitTolerance ? options_.splitTolerance / fastest : remaining;
+  return std::min({remaining, fastest > 0 ? options_.splitTolerance / fastest : remaining, newborn(medium)});
+}
+
+double Ensemble::newborn(const Medium& medium) const {
+  if (!(medium.selfCollision > 0)) return std::numeric_limits<double>::infinity();
+  const double dimers = dimerNumber(medium, dimerCollisionSum(medium));
+  const double d = medium.nucleusDiameter, m = medium.nucleusMass;
+  const SurfaceRates rates = medium.surface.rates(medium.gas, 1.0);
+  const double perArea =
+      2 * (rates.growth * medium.gas.C2H2 + rates.oxidationO2 * medium.gas.O2) + rates.oxidationOH * medium.gas.OH;
+  const double gain = perArea * options_.soot.carbonWeight * constants::pi * d * d +
+                      (medium.condensing ? medium.collision(m, d) * dimers * medium.dimer.mass : 0);
+  const CollisionKernel::Properties nucleus{m / options_.soot.sootDensity, m, d};
+  return newbornStep(options_.splitTolerance, 0.5 * medium.selfCollision * dimers * dimers, numberDensity(),
+                     gain / (3 * m), options_.soot.coagulation ? medium.kernel.value(nucleus, nucleus) : 0);
 }
 
 Ensemble::Fluxes Ensemble::fluxes(const Medium& medium, double dt) const {

@@ -66,9 +66,12 @@ TwoEquationSoot::Sources DimerSoot::evaluate(const SootGas& gas, std::span<const
 
   s.oxidationNumber = 0;
   const double present = std::max(densities[number], 0.0);
-  if (population.carbon > 0)
-    s.oxidationNumber = (s.oxidationO2 + s.oxidationOH) / population.mass() * present *
-                        spheres_.vanishing(population.number, population.carbon);
+  if (population.carbon > 0) {
+    const double carbonShare = population.carbon / population.mass();
+    s.oxidationNumber =
+        -spheres_.burntOut(present, population.number, population.carbon,
+                           -carbonShare * (s.oxidationO2 + s.oxidationOH), carbonShare * (s.growth + s.condensation));
+  }
   const double excess = population.number > 0 ? present / population.number : 1;
   s.coagulationNumber *= excess * excess;
   s.number = s.nucleationNumber + s.coagulationNumber + s.oxidationNumber;

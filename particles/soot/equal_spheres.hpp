@@ -9,6 +9,7 @@
 #include "core/constants.hpp"
 #include "particles/collision_physics.hpp"
 #include "particles/soot/soot_model.hpp"
+#include "particles/soot/soot_oxidation.hpp"
 
 namespace lampblack {
 
@@ -36,11 +37,14 @@ class EqualSpheres {
     return constants::pi * d * d * std::max(number, 0.0);
   }
 
-  // Spheres of shrinking size never vanish by themselves. Of a share of the mass that burns, this share of the number
-  // goes: all of it where the mean particle is a nucleus, none where it is much larger.
-  [[nodiscard]] double vanishing(double number, double mass) const {
-    const double nucleusInMean = mass > 0 ? number * nucleus_ / mass : 0;
-    return nucleusInMean * nucleusInMean;
+  // Particles that vanish of the `present` ones, 1/m3/s, where `oxidised` of the mass goes and `gained` comes to the
+  // particles there are (kg/m3/s). Spheres of shrinking size never vanish by themselves: of a share of the mass lost on
+  // balance this share of the number goes, all of it where the mean particle is a nucleus, none where it is much
+  // larger.
+  [[nodiscard]] double burntOut(double present, double possible, double mass, double oxidised, double gained) const {
+    if (!(mass > 0)) return 0;
+    const double nucleusInMean = possible * nucleus_ / mass;
+    return oxidised / mass * netOxidation(oxidised, gained) * present * nucleusInMean * nucleusInMean;
   }
 
   // Brownian diffusivity, m2/s (thesis eqs. 7-30 to 7-33), of a sphere at least a nucleus in size.

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "particles/soot/soot_oxidation.hpp"
 
 namespace lampblack {
 namespace {
@@ -232,7 +233,7 @@ void HmomSoot::addSurface(const MomentGas& gas, const State& state, Rates& rates
     const double rate = oxidised(rates.onLarge, l.hydrogenToCarbon) / l.mass;
     const double q = nucleusMass_ / l.particle,
                  gained = rates.condensedOnLarge + 2 * rates.onLarge.growth * o.carbonWeight;
-    const double share = q * q * MomentChemistry::netOxidation(oxidised(rates.onLarge, l.hydrogenToCarbon), gained);
+    const double share = q * q * netOxidation(oxidised(rates.onLarge, l.hydrogenToCarbon), gained);
     rates.burntOut -= share * rate * l.number;
     rates.scalars[number] -= share * rate * l.number;
     rates.scalars[surface] -= (share + (1 - share) * 2.0 / 3.0) * rate * std::min(state.surface, areaOfLarge);

@@ -63,15 +63,6 @@ SurfaceEvents MomentChemistry::events(const MomentGas& gas, double area, double 
           rates.oxidationOH * area * gas.state.OH};
 }
 
-double MomentChemistry::netOxidation(double oxidised, double gained) {
-  if (!(oxidised > 0)) return 0;
-  constexpr double width = 0.05;
-  const auto positive = [](double x) { return x + std::sqrt(x * x + width * width); };
-  const double net = 1 - gained / oxidised;
-  // Without cancellation far below zero.
-  return (net > 0 ? positive(net) : width * width / positive(-net)) / positive(1);
-}
-
 void MomentChemistry::exchange(const MomentGas& gas, const DimerBalance& dimers, const SurfaceEvents& events,
                                double hydrogenLost, std::span<double> production) const {
   const double byO2 = events.oxidationO2, byOH = events.oxidationOH;

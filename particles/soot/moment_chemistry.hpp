@@ -60,9 +60,6 @@ class MomentChemistry {
     const double carbon = 2 * events.oxidationO2 + events.oxidationOH;
     return {carbon, hydrogenToCarbon * carbon};
   }
-  // The part of oxidation that particles lose size by, given that they also gain (kg/m3/s both): 1 - gained/oxidised,
-  // zero where they gain more. The corner at equality is rounded over some 0.05 of the ratio.
-  [[nodiscard]] static double netOxidation(double oxidised, double gained);
 
   // Gas production, mol/m3/s, by dimers and surface events; `hydrogenLost`: as above, it becomes H2.
   void exchange(const MomentGas& gas, const DimerBalance& dimers, const SurfaceEvents& events, double hydrogenLost,

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "particles/soot/soot_oxidation.hpp"
 
 namespace lampblack {
 namespace {
@@ -178,7 +179,7 @@ void MomicSoot::addSurface(const MomentGas& gas, const State& state, Rates& rate
   const double width = L[0] + L[2] - 2 * L[1];
   const double above = std::max(0.0, L[1] - L[0] - 0.5 * width - std::log(nucleus_));
   const double share = std::exp(-0.5 * above * above / (width + leastVariance)) *
-                       MomentChemistry::netOxidation(oxidised, condensed + 2 * e.growth * o.carbonWeight);
+                       netOxidation(oxidised, condensed + 2 * e.growth * o.carbonWeight);
   const double removal = share * oxidised / state.mass;  // 1/s
   rates.burntOut = -removal * state.present;
   rates.moments[0] += rates.burntOut;

@@ -94,8 +94,8 @@ SemiEmpiricalSoot::Rates SemiEmpiricalSoot::evaluate(const SootGas& gas, std::sp
     }
     r.O2 = o.oxidationFactor * flux * surface;
     r.OH = o.oxidationFactor * o.ohEfficiency * hydroxylFlux(T, concentration(OH)) * surface;
-    if (mass > 0)
-      r.oxidisedNumber = (r.O2 + r.OH) * o.carbonWeight / mass * present * spheres_.vanishing(possible, mass);
+    r.oxidisedNumber =
+        spheres_.burntOut(present, possible, mass, o.carbonWeight * (r.O2 + r.OH), o.carbonWeight * 2 * r.growth);
   }
   if (o.coagulating)
     r.coagulated =

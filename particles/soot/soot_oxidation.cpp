@@ -40,4 +40,13 @@ double hydroxylFlux(double temperature, double OH) {
   return OH * std::sqrt(constants::gasConstant * temperature / (2 * constants::pi * hydroxylWeight));
 }
 
+double netOxidation(double oxidised, double gained) {
+  if (!(oxidised > 0)) return 0;
+  constexpr double width = 0.05;
+  const auto positive = [](double x) { return x + std::sqrt(x * x + width * width); };
+  const double net = 1 - gained / oxidised;
+  // Without cancellation far below zero.
+  return (net > 0 ? positive(net) : width * width / positive(-net)) / positive(1);
+}
+
 }  // namespace lampblack

@@ -1,4 +1,5 @@
-// Published rates at which a soot surface burns, as carbon lost per area: for models whose surface has no sites.
+// Published rates at which a soot surface burns, as carbon lost per area: for models whose surface has no sites; and
+// what of oxidation takes whole particles, for all models that do not know the sizes.
 #pragma once
 
 namespace lampblack {
@@ -11,5 +12,10 @@ namespace lampblack {
 
 // Collisions of OH with a surface, mol/m2/s. Fenimore and Jones 1967: a fraction of them takes a carbon atom each.
 [[nodiscard]] double hydroxylFlux(double temperature, double OH);
+
+// The part of oxidation that particles lose size by, given that they also gain by growth and condensation (kg/m3/s
+// both): 1 - gained/oxidised, zero where they gain more. Only this part can make a particle vanish. The corner at
+// equality is rounded over some 0.05 of the ratio.
+[[nodiscard]] double netOxidation(double oxidised, double gained);
 
 }  // namespace lampblack

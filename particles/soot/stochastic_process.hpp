@@ -12,6 +12,7 @@
 
 #include "core/errors.hpp"
 #include "core/random.hpp"
+#include "particles/newborn_step.hpp"
 #include "particles/soot/soot_medium.hpp"
 #include "particles/soot/stochastic_soot.hpp"
 
@@ -126,7 +127,18 @@ double StochasticProcess<Method>::step(const SootMedium& medium, const Sums& s, 
       fastest = std::max(fastest, 0.5 * kernel_->value(mean, mean) * s.number);
     }
   }
-  return fastest * remaining > options_.splitTolerance ? options_.splitTolerance / fastest : remaining;
+  double longest = std::numeric_limits<double>::infinity();
+  if (medium.incepting()) {
+    const Particle nucleus = type_.make(2 * medium.dimerCarbon(), 2 * medium.dimerHydrogen(), 1);
+    const SootFluxes flux = medium.fluxes();
+    const double d = nucleus.diameter, mass = SootAggregate::mass(nucleus);
+    const double gain = (flux.growth + flux.O2 + flux.OH) * constants::pi * d * d +
+                        (medium.condensing() ? medium.collision(nucleus) * dimers * medium.dimer().mass : 0);
+    const CollisionKernel::Properties one{mass / options_.soot.sootDensity, mass, d};
+    longest = newbornStep(options_.splitTolerance, medium.inception(s.collisions), s.number, gain / (3 * mass),
+                          kernel_ ? kernel_->value(one, one) : 0);
+  }
+  return std::min({remaining, fastest > 0 ? options_.splitTolerance / fastest : remaining, longest});
 }
 
 template <class Method>

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "particles/ensemble.hpp"
+#include "particles/soot/soot_oxidation.hpp"
 #include "soot_model_checks.hpp"
 #include "tests/particles/soot_fixtures.hpp"
 
@@ -47,7 +49,10 @@ TEST(DimerSoot, IsTheTwoEquationModelWhereSootIsInAPossibleState) {
   // carbon, a nucleus of four naphthalenes 40 atoms, 8e-25 kg: 6.4e-9.
   const double share = std::pow(40 * 12.011e-3 / constants::avogadro / 1e-20, 2);
   const double lost = (expected.oxidationO2 + expected.oxidationOH) / population.mass();
-  EXPECT_NEAR(soot.processes(at, densities).oxidationNumber / (share * lost * population.number), 1, 1e-12);
+  // Only of what is lost on balance.
+  const double net =
+      netOxidation(-expected.oxidationO2 - expected.oxidationOH, expected.growth + expected.condensation);
+  EXPECT_NEAR(soot.processes(at, densities).oxidationNumber / (net * share * lost * population.number), 1, 1e-12);
   EXPECT_NEAR(rates[0], expected.number, 1e-8 * std::abs(lost) * population.number);
 }
 
@@ -66,6 +71,39 @@ TEST(DimerSoot, BurnsNumberInProportionToMassOnceTheMeanParticleIsANucleus) {
     soot.sources(at, densities, rates, exchange);
     EXPECT_LT(rates[1], 0);
     EXPECT_NEAR(soot.processes(at, densities).oxidationNumber / (excess * number) / (rates[1] / carbon), 1, 1e-12);
+  }
+}
+
+// Where growth makes up for oxidation no particle of an ensemble shrinks, so that none vanishes; nor does one here.
+// Nuclei burn in the same gas without acetylene.
+TEST(DimerSoot, ParticlesThatGrowOnBalanceDoNotVanish) {
+  SootModelOptions options = test::naphthalene();
+  options.coagulation = options.inception = options.condensation = false;
+  options.alpha = 1;
+  const DimerSoot soot(options);
+  const double nucleus = 40 * 12.011e-3 / constants::avogadro, number = 1e17, carbon = 1.1 * nucleus * number;
+  for (const bool acetylene : {true, false}) {
+    const test::FlameGas gas(1700, 1e-2, 0.03, 1e-4, 0.08, 1e-4, acetylene ? 1.0 : 0.0, {0});
+    const std::vector<double> concentrations{
+        gas.state.H, gas.state.H2, gas.state.OH, gas.state.H2O, gas.state.O2, gas.state.C2H2, 0, 0};
+    const SootGas at{gas.state.temperature,         gas.state.pressure, gas.state.density, gas.state.viscosity,
+                     gas.state.meanMolecularWeight, concentrations};
+    const std::vector<double> densities{number, carbon, 0};
+    const SootProcesses p = soot.processes(at, densities);
+    const double burning = -(p.oxidationO2 + p.oxidationOH) / carbon;  // 1/s
+    ASSERT_EQ(acetylene, p.growth > -2 * (p.oxidationO2 + p.oxidationOH));
+    EnsembleOptions ensembleOptions;
+    ensembleOptions.capacity = 200;
+    ensembleOptions.soot = options;
+    Ensemble ensemble(ensembleOptions);
+    ensemble.initialise(std::vector<double>(100, carbon / number), 0, number);
+    ensemble.advance(gas.state, 0, 1 / burning);
+    EXPECT_EQ(ensemble.counters().oxidised, acetylene ? 0u : 100u);
+    const double vanishing = -p.oxidationNumber / number / burning;
+    if (acetylene)
+      EXPECT_LT(vanishing, 1e-3);
+    else
+      EXPECT_NEAR(vanishing, 1 / (1.1 * 1.1), 1e-3);  // (nucleus / mean)^2
   }
 }
 
