@@ -66,7 +66,8 @@ void FlameGas::resize(std::size_t points) {
     v->assign(last, 0);
   for (auto* v : {&faces.conductance, &faces.thermal, &faces.diffusion, &faces.flux, &faces.enthalpy, &faces.heat})
     v->assign(last * n_, 0);
-  for (auto* v : {&faces.scalarFlux, &faces.scalarConductance, &faces.scalarEnthalpy, &faces.scalarHeat})
+  for (auto* v :
+       {&faces.scalarFlux, &faces.scalarLift, &faces.scalarConductance, &faces.scalarEnthalpy, &faces.scalarHeat})
     v->assign(last * s, 0);
   if (multicomponent_) faces.pairs.assign(last * n_ * n_, 0);
 }
@@ -241,8 +242,8 @@ void FlameGas::scaleCoefficients(double T, std::size_t f) {
     for (std::size_t k = f * n_ * n_; k < (f + 1) * n_ * n_; ++k) faces.pairs[k] *= factor;
 }
 
-// Central where diffusion smooths over a spacing, Pe = |m| h / (rho D) < 2 with the slowest that matters, heat or a species
-// of more than a per mille; blended towards upwind beyond, in the manner of Spalding (1972).
+// Central where diffusion smooths over a spacing, Pe = |m| h / (rho D) < 2 with the slowest that matters, heat or a
+// species of more than a per mille; blended towards upwind beyond, in the manner of Spalding (1972).
 double FlameGas::pecletNumber(double m, std::size_t f, double h) const {
   constexpr double abundant = 1e-3;
   double cp = 0, slowest = std::numeric_limits<double>::infinity();
@@ -275,6 +276,28 @@ void FlameGas::chooseBlend(const FlameProfile& x) {
     const double peclet = pecletNumber(x.at(f, FlameLayout::massFlux), f, h);
     faces.upwind[f] = peclet > 2 ? 1 - 2 / peclet : 0;
   }
+  chooseScalarValues(x);
+}
+
+// Van Leer's (1974) limited slope at the upstream point, over its value: the value of the face is then between those of
+// its points, and its equation linear with positive coefficients.
+void FlameGas::chooseScalarValues(const FlameProfile& x) {
+  const std::size_t S = scalarScale.size(), last = x.points() - 1;
+  for (std::size_t f = 0; f < last; ++f)
+    for (std::size_t s = 0; s < S; ++s) {
+      const double w = x.at(f, FlameLayout::massFlux) + scalarThermophoresis[s] * faces.drift[f];
+      const std::size_t near = w > 0 ? f : f + 1, far = w > 0 ? f + 1 : f;
+      double& lift = faces.scalarLift[f * S + s];
+      lift = 0;
+      const double value = x.scalars(near)[s];
+      if (near == 0 || near == last || value <= 0) continue;
+      const std::size_t behind = w > 0 ? near - 1 : near + 1;
+      const double rise = (value - x.scalars(behind)[s]) / std::abs(x.z[near] - x.z[behind]);
+      const double ahead = (x.scalars(far)[s] - value) / std::abs(x.z[far] - x.z[near]);
+      if (rise * ahead <= 0) continue;
+      const double slope = 2 * rise * ahead / (rise + ahead);
+      lift = std::clamp(0.5 * slope * std::abs(x.z[far] - x.z[near]) / value, -1.0, 1.0);
+    }
 }
 
 void FlameGas::diffusiveFluxes(const FlameProfile& x, std::size_t f, double h) {
@@ -330,7 +353,8 @@ void FlameGas::fluxes(const FlameProfile& x, std::size_t begin, std::size_t end)
   }
 }
 
-// Particles hardly diffuse: upwind, at the sum of the gas's and the thermophoretic mass flux.
+// Particles hardly diffuse: the value from upstream, by the sum of the gas's and the thermophoretic mass flux, and a
+// part of it for its slope.
 void FlameGas::scalarFluxes(const FlameProfile& x, std::size_t f) {
   const std::size_t S = scalarScale.size();
   const double h = x.z[f + 1] - x.z[f], m = x.at(f, FlameLayout::massFlux);
@@ -350,7 +374,7 @@ void FlameGas::scalarFluxes(const FlameProfile& x, std::size_t f) {
     const double left = x.scalars(f)[s] * scalarScale[s], right = x.scalars(f + 1)[s] * scalarScale[s];
     const double a = rho * carriedD_[s] / h;
     faces.scalarConductance[f * S + s] = a;
-    faces.scalarFlux[f * S + s] = w * (w > 0 ? left : right) - a * (right - left);
+    faces.scalarFlux[f * S + s] = w * (1 + faces.scalarLift[f * S + s]) * (w > 0 ? left : right) - a * (right - left);
   }
 }
 

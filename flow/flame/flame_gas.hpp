@@ -45,6 +45,7 @@ struct FlameFaces {
   std::vector<double> flux;            // kg/m2/s: convection and diffusion of each species
   std::vector<double> enthalpy, heat;  // of each species at the face's temperature: J/kg, J/kg/K
   std::vector<double> scalarFlux;      // unit/m2/s
+  std::vector<double> scalarLift;      // value at the face over that of the point upstream, less 1
   std::vector<double> scalarConductance;
   std::vector<double> scalarEnthalpy, scalarHeat;  // of a unit of each scalar: J, J/K
 };
@@ -70,9 +71,10 @@ class FlameGas {
   void scalarFluxes(const FlameProfile& x, std::size_t f);
   void scalarSources(const FlameProfile& x, std::size_t i);
 
-  // Decides between central and upwind differences at every face, for this and all following fluxes: Newton's method
-  // does not converge while it changes.
+  // Decides between central and upwind differences at every face, and about the values of scalars there, for this and
+  // all following fluxes: Newton's method does not converge while it changes.
   void chooseBlend(const FlameProfile& x);
+  void chooseScalarValues(const FlameProfile& x);  // of scalars alone; the drift is there
 
   // The gas of a point as the carried model wants it; `storage` holds its concentrations.
   [[nodiscard]] CarriedGas carriedGas(const FlameProfile& x, std::size_t point, std::vector<double>& storage);

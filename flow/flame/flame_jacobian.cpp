@@ -97,7 +97,7 @@ static void addFace(const FlameEquations::Data& data, std::size_t i, bool isRigh
   for (std::size_t s = 0; s < S; ++s) {
     const double c = data.gas.scalarThermophoresis[s], v = m + c * faces.drift[f];
     const auto [left, right] = data.scalarSlopes(f, s);
-    const double upstream = data.profile.scalars(v > 0 ? f : f + 1)[s];
+    const double upstream = (1 + faces.scalarLift[f * S + s]) * data.profile.scalars(v > 0 ? f : f + 1)[s];
     const std::size_t row = first + s;
     work.D[row * w + row] += sign * (isRight ? left : right);
     other[row * w + row] += sign * (isRight ? right : left);

@@ -88,7 +88,8 @@ double FlameEquations::Data::scalarResidual(std::size_t i, std::size_t s) const 
 std::pair<double, double> FlameEquations::Data::scalarSlopes(std::size_t f, std::size_t s) const {
   const double v = profile.at(f, FlameLayout::massFlux) + gas.scalarThermophoresis[s] * gas.faces.drift[f];
   const double a = gas.faces.scalarConductance[f * scalars() + s];
-  return {std::max(v, 0.0) + a, std::min(v, 0.0) - a};
+  const double share = 1 + gas.faces.scalarLift[f * scalars() + s];
+  return {share * std::max(v, 0.0) + a, share * std::min(v, 0.0) - a};
 }
 
 void FlameEquations::Data::pointResidual(std::size_t i, double* F) const {

@@ -43,6 +43,8 @@ void FlameScalars::put(std::span<const double> x, FlameProfile& flame) const {
 
 void FlameScalars::evaluate(std::span<const double> x) {
   put(x, flame_.profile);
+  if (!valuesAreChosen_) flame_.gas.chooseScalarValues(flame_.profile);
+  valuesAreChosen_ = true;
   for (std::size_t f = 0; f + 1 < flame_.points(); ++f) flame_.gas.scalarFluxes(flame_.profile, f);
 }
 

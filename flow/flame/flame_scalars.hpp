@@ -20,6 +20,7 @@ class FlameScalars : public NewtonSystem {
 
   [[nodiscard]] std::size_t size() const override;
   void residual(std::span<const double> x, std::span<double> F) override;
+  void beginTimeStep() override { valuesAreChosen_ = false; }
   void timeWeights(std::span<const double> x, std::span<double> M) override;
   [[nodiscard]] bool factorise(std::span<const double> x, double inverseTimeStep) override;
   void solve(std::span<double> b) override { matrix_.solve(b); }
@@ -35,6 +36,7 @@ class FlameScalars : public NewtonSystem {
   FlameEquations::Data& flame_;
   std::size_t scalars_;
   BlockTridiagonal matrix_;
+  bool valuesAreChosen_ = false;
   std::vector<double> jacobian_, concentrations_, densities_;
 };
 

@@ -190,6 +190,26 @@ void FlameSolver::Data::count(const FlameEquations& equations) {
   sum.jacobianPoints += more.jacobianPoints;
 }
 
+namespace {
+
+constexpr std::size_t mostPasses = 20;
+
+// Of any scalar at any point, over the largest of that scalar.
+double largestScalarChange(const FlameProfile& before, const FlameProfile& after) {
+  double result = 0;
+  for (std::size_t s = 0; s < after.layout.scalars; ++s) {
+    double change = 0, largest = 0;
+    for (std::size_t i = 0; i < after.points(); ++i) {
+      change = std::max(change, std::abs(after.scalars(i)[s] - before.scalars(i)[s]));
+      largest = std::max(largest, std::abs(after.scalars(i)[s]));
+    }
+    if (largest > 0) result = std::max(result, change / largest);
+  }
+  return result;
+}
+
+}  // namespace
+
 FlameSolution FlameSolver::solve(FlameProfile start) {
   Data& d = *data_;
   d.solution = {};
@@ -219,7 +239,12 @@ FlameSolution FlameSolver::solve(FlameProfile start) {
     NewtonOptions last = d.options.newton;
     last.polish = d.options.polish;
     NewtonSolver polishing(last, d.options.transient);
-    d.steady(equations, polishing, name + ", last steps");
+    // Again and again where the values of scalars at faces follow the profile: until that does not matter any more.
+    for (std::size_t pass = 1;; ++pass) {
+      const FlameProfile before = d.solution.profile;
+      d.steady(equations, polishing, name + ", last steps");
+      if (pass == mostPasses || largestScalarChange(before, d.solution.profile) <= d.options.scalarChange) break;
+    }
   }
   d.count(equations);
   d.solution.budgets = equations.budgets(d.solution.profile.x);

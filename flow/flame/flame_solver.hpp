@@ -22,8 +22,9 @@ struct FlameSolverOptions {
   // Fewest factorisations over the flames of cases/ (docs/verification.md).
   NewtonOptions newton{.stepTolerance = 0.1, .smallestDamping = 0.01};
   PseudoTransientOptions transient{.growth = 4, .stepsBetweenNewton = 12, .stepTolerance = 1};
-  double polish = 1e-4;  // NewtonOptions::polish of the last stage, so that budgets close
-  bool refine = true;    // false: the given grid only
+  double polish = 1e-4;        // NewtonOptions::polish of the last stage, so that budgets close
+  double scalarChange = 1e-3;  // the last stage is repeated until no scalar changes by more of its largest value
+  bool refine = true;          // false: the given grid only
   std::size_t maximumGrids = 40;
   double anchorTemperature = 0;  // K, free flames; 0: between unburnt and burnt
 };
