@@ -72,6 +72,7 @@ BranchTracer::Outcome BranchTracer::correct(std::vector<double>& candidate, doub
   system_.bounds(lower, upper);
   // Only where the search begins: its result obeys the constraint.
   for (std::size_t i = 0; i < x_.size(); ++i) candidate[i] = std::clamp(x_[i] + step * tangent_[i], lower[i], upper[i]);
+  system_.beginStep();
   try {
     report = solver_.newton(system_, candidate);
   } catch (const NumericsError& error) {

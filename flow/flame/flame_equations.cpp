@@ -151,7 +151,7 @@ void FlameEquations::hold(std::function<bool(std::size_t)> which, std::span<cons
 void FlameEquations::release() {
   data_->holds = nullptr;
 }
-void FlameEquations::beginTimeStep() {
+void FlameEquations::beginStep() {
   data_->blendIsChosen = false;
 }
 void FlameEquations::freezeTransport(bool frozen) {

@@ -80,7 +80,7 @@ class FlameEquations : public UnsteadySystem {
   void residual(std::span<const double> x, std::span<double> F) override;
   // Where convection is central and where upwind is decided by the first profile on a grid and that at the beginning of
   // each time step, and then stays: Newton's method does not converge while it changes.
-  void beginTimeStep() override;
+  void beginStep() override;
   void timeWeights(std::span<const double> x, std::span<double> M) override;
   [[nodiscard]] bool factorise(std::span<const double> x, double inverseTimeStep) override;
   void solve(std::span<double> b) override;

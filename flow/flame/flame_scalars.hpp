@@ -20,7 +20,7 @@ class FlameScalars : public NewtonSystem {
 
   [[nodiscard]] std::size_t size() const override;
   void residual(std::span<const double> x, std::span<double> F) override;
-  void beginTimeStep() override { valuesAreChosen_ = false; }
+  void beginStep() override { valuesAreChosen_ = false; }
   void timeWeights(std::span<const double> x, std::span<double> M) override;
   [[nodiscard]] bool factorise(std::span<const double> x, double inverseTimeStep) override;
   void solve(std::span<double> b) override { matrix_.solve(b); }

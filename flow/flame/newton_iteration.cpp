@@ -56,7 +56,7 @@ void NewtonIteration::steady(std::span<double> x, NewtonReport& report) {
 void NewtonIteration::eulerStep(std::span<const double> old, double dt, std::span<double> x, NewtonReport& report) {
   inverseTimeStep_ = 1 / dt;
   std::ranges::copy(old, old_.begin());
-  system_.beginTimeStep();
+  system_.beginStep();
   system_.timeWeights(old, weights_);
   run(x, report);
 }

@@ -15,8 +15,9 @@ class NewtonSystem {
   virtual ~NewtonSystem() = default;
   [[nodiscard]] virtual std::size_t size() const = 0;
   virtual void residual(std::span<const double> x, std::span<double> F) = 0;
-  // The next residual is at the state a time step starts from: the moment for choices that have to stay in the step.
-  virtual void beginTimeStep() {}
+  // A time step or a step along a branch begins, and the next residual is where it starts from: the moment for choices
+  // that have to stay.
+  virtual void beginStep() {}
   // Weights of the time derivative, zero for algebraic equations.
   virtual void timeWeights(std::span<const double> x, std::span<double> M) = 0;
   // Builds and factorises dF/dx + diag(M) * inverseTimeStep at x. False where the matrix is singular.

@@ -264,7 +264,7 @@ class Integration {
   static PetscErrorCode stepCallback(TS, PetscInt, PetscReal t, Vec, void* context) {
     auto* self = static_cast<Integration*>(context);
     return self->exceptions_.guard([&] {
-      self->system_.beginTimeStep();
+      self->system_.beginStep();
       self->afterStep(t);
     });
   }

@@ -30,8 +30,8 @@ grid: {{slope: 0.2, curve: 0.3}}
 COUNTERFLOW = f"""problem: flame1d
 mechanism: {running.SOURCE}/cases/mechanisms/hydrogen_h2o2_10.yaml
 flame: {{type: counterflow, length: 10 mm}}
-left: {{temperature: 300 K, composition: "H2: 0.25, N2: 0.75", velocity: 3 m/s}}
-right: {{temperature: 300 K, composition: "O2: 0.21, N2: 0.79", velocity: 3 m/s}}
+left: {{temperature: 300 K, composition: "H2: 0.25, N2: 0.75", velocity: 1 m/s}}
+right: {{temperature: 300 K, composition: "O2: 0.21, N2: 0.79", velocity: 1 m/s}}
 grid: {{slope: 0.3, curve: 0.5}}
 """
 
