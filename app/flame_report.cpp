@@ -25,6 +25,18 @@ std::string unitInName(std::string unit) {
   return "_" + text;
 }
 
+// Whether anything is warmer than what bounds the flame.
+bool burning(const FlameCase& flame, const FlameResult& result) {
+  const FlameProblem& problem = flame.problem;
+  double boundary = problem.left.temperature;
+  if (problem.right) boundary = std::max(boundary, problem.right->temperature);
+  if (problem.type == FlameType::Wall) boundary = std::max(boundary, problem.wallTemperature);
+  const FlameProfile& profile = result.solution.profile;
+  for (std::size_t i = 0; i < profile.points(); ++i)
+    if (profile.temperature(i) > boundary + 1) return true;
+  return false;
+}
+
 }  // namespace
 
 std::string stageLine(const FlameStage& stage) {
@@ -50,6 +62,7 @@ std::string numbersText(const std::vector<NamedNumber>& numbers) {
 
 void recordFlame(JsonWriter& json, const FlameCase& flame, const FlameResult& result) {
   json.field("type", nameOf(flame.problem.type)).field("converged", result.converged);
+  json.field("burning", burning(flame, result));
   recordNumbers(json, namedNumbers(flame, result));
   const auto& counters = result.solution.counters;
   json.field("jacobians", static_cast<std::uint64_t>(counters.jacobians));
@@ -60,6 +73,11 @@ void recordFlame(JsonWriter& json, const FlameCase& flame, const FlameResult& re
 
 std::string flameReport(const FlameCase& flame, const FlameResult& result) {
   std::string text = numbersText(namedNumbers(flame, result));
+  if (!burning(flame, result))
+    text +=
+        "\nThe flame is out: nothing is warmer than what flows in. The strain may be beyond extinction, or the start "
+        "was "
+        "too\nfar away; a burning flame at lower velocities can be the start of this one (initial: results.h5).\n";
   if (!result.solution.budgets.empty()) {
     text += fmt::format("\nBudgets{:>18} {:>13} {:>13} {:>13} {:>10}\n", "in", "out", "wall", "radiated", "imbalance");
     for (const FlameBudget& b : result.solution.budgets) {
