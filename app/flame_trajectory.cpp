@@ -36,12 +36,8 @@ SootPathPoint between(const SootPathPoint& a, const SootPathPoint& b, double w) 
   const auto mix = [w](double& x, double y) { x = (1 - w) * x + w * y; };
   mix(p.z, b.z);
   mix(p.velocity, b.velocity);
-  for (const auto value :
-       {&SootGasState::temperature, &SootGasState::pressure, &SootGasState::density, &SootGasState::viscosity,
-        &SootGasState::meanMolecularWeight, &SootGasState::H, &SootGasState::H2, &SootGasState::OH, &SootGasState::H2O,
-        &SootGasState::O2, &SootGasState::C2H2})
-    mix(p.gas.*value, b.gas.*value);
-  for (std::size_t k = 0; k < p.pah.size(); ++k) mix(p.pah[k], b.pah[k]);
+  p.gas = mixed(a, b, w, p.pah);
+  p.gas.pah = {};
   return p;
 }
 

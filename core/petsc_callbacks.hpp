@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <exception>
 #include <span>
+#include <type_traits>
 #include <utility>
 
 #include "core/petsc.hpp"
@@ -41,44 +42,35 @@ class PetscExceptions {
   std::exception_ptr error_;
 };
 
-// The values of a sequential vector, for reading.
-class PetscValues {
+// The values of a sequential vector while this lives: for reading (`const double`), or for writing, too.
+template <typename Value>
+class PetscArray {
  public:
-  explicit PetscValues(Vec vector) : vector_(vector) {
+  explicit PetscArray(Vec vector) : vector_(vector) {
     PetscInt size = 0;
     checkPetsc(VecGetLocalSize(vector_, &size));
-    checkPetsc(VecGetArrayRead(vector_, &values_));
+    if constexpr (std::is_const_v<Value>)
+      checkPetsc(VecGetArrayRead(vector_, &values_));
+    else
+      checkPetsc(VecGetArray(vector_, &values_));
     size_ = static_cast<std::size_t>(size);
   }
-  PetscValues(const PetscValues&) = delete;
-  PetscValues& operator=(const PetscValues&) = delete;
-  ~PetscValues() { static_cast<void>(VecRestoreArrayRead(vector_, &values_)); }
-  [[nodiscard]] std::span<const double> get() const { return {values_, size_}; }
+  PetscArray(const PetscArray&) = delete;
+  PetscArray& operator=(const PetscArray&) = delete;
+  ~PetscArray() {
+    if constexpr (std::is_const_v<Value>)
+      static_cast<void>(VecRestoreArrayRead(vector_, &values_));
+    else
+      static_cast<void>(VecRestoreArray(vector_, &values_));
+  }
+  [[nodiscard]] std::span<Value> get() const { return {values_, size_}; }
 
  private:
   Vec vector_;
-  const PetscScalar* values_ = nullptr;
+  Value* values_ = nullptr;
   std::size_t size_ = 0;
 };
-
-// The same for writing (and reading).
-class PetscMutableValues {
- public:
-  explicit PetscMutableValues(Vec vector) : vector_(vector) {
-    PetscInt size = 0;
-    checkPetsc(VecGetLocalSize(vector_, &size));
-    checkPetsc(VecGetArray(vector_, &values_));
-    size_ = static_cast<std::size_t>(size);
-  }
-  PetscMutableValues(const PetscMutableValues&) = delete;
-  PetscMutableValues& operator=(const PetscMutableValues&) = delete;
-  ~PetscMutableValues() { static_cast<void>(VecRestoreArray(vector_, &values_)); }
-  [[nodiscard]] std::span<double> get() const { return {values_, size_}; }
-
- private:
-  Vec vector_;
-  PetscScalar* values_ = nullptr;
-  std::size_t size_ = 0;
-};
+using PetscValues = PetscArray<const double>;
+using PetscMutableValues = PetscArray<double>;
 
 }  // namespace lampblack

@@ -18,11 +18,30 @@ void need(bool good, const std::string& file, const std::string& problem) {
   if (!good) throw InputError(fmt::format("{}: {}", file, problem));
 }
 
+Handle taken(hid_t id, Handle::Close closer, const std::string& file, const std::string& what) {
+  if (id < 0) throw InputError(fmt::format("{}: {} cannot be read: {}", file, what, hdf5::lastError()));
+  return {id, closer, what};
+}
+
 std::vector<std::int64_t> extents(hid_t space) {
   const int rank = H5Sget_simple_extent_ndims(space);
   std::vector<hsize_t> dims(static_cast<std::size_t>(std::max(rank, 0)));
   if (rank > 0) H5Sget_simple_extent_dims(space, dims.data(), nullptr);
   return {dims.begin(), dims.end()};
+}
+
+// Number of values of a dataset: no more than there are bytes for in the file, so that a damaged extent asks for no
+// memory that is not there. Deflate, the strongest of HDF5's usual filters, packs 1032 bytes into one.
+std::size_t countOf(hid_t dataset, std::size_t valueSize, const std::string& file, const std::string& path) {
+  const Handle space = taken(H5Dget_space(dataset), H5Sclose, file, path);
+  const hssize_t count = H5Sget_simple_extent_npoints(space);
+  need(count >= 0 && valueSize > 0, file, path + " has no shape");
+  const Handle creation = taken(H5Dget_create_plist(dataset), H5Pclose, file, path);
+  const double packed = H5Pget_nfilters(creation) > 0 ? 1032 : 1;
+  const auto stored = static_cast<double>(H5Dget_storage_size(dataset));
+  need(static_cast<double>(count) * static_cast<double>(valueSize) <= packed * stored, file,
+       fmt::format("{} claims {} values, which the file does not hold", path, count));
+  return static_cast<std::size_t>(count);
 }
 
 // Fixed-length text of a file as a string: it ends where it was padded.
@@ -69,25 +88,21 @@ std::vector<std::string> Hdf5Reader::names(const std::string& group) const {
 
 Handle Hdf5Reader::open(const std::string& path) const {
   need(has(path), name_, "holds no dataset " + path);
-  const hid_t dataset = H5Dopen2(file_, path.c_str(), H5P_DEFAULT);
-  if (dataset < 0) throw InputError(fmt::format("{}: {} cannot be read: {}", name_, path, hdf5::lastError()));
-  return {dataset, H5Dclose, "open " + path};
+  return taken(H5Dopen2(file_, path.c_str(), H5P_DEFAULT), H5Dclose, name_, path);
 }
 
 std::vector<std::int64_t> Hdf5Reader::shape(const std::string& path) const {
   const Handle dataset = open(path);
-  return extents(Handle(H5Dget_space(dataset), H5Sclose, "read " + path));
+  return extents(taken(H5Dget_space(dataset), H5Sclose, name_, path));
 }
 
 std::vector<double> Hdf5Reader::numbers(const std::string& path) const {
   const Handle dataset = open(path);
-  const Handle type(H5Dget_type(dataset), H5Tclose, "read " + path);
+  const Handle type = taken(H5Dget_type(dataset), H5Tclose, name_, path);
   const H5T_class_t kind = H5Tget_class(type);
   need(kind == H5T_FLOAT || kind == H5T_INTEGER, name_, path + " does not hold numbers");
-  const Handle space(H5Dget_space(dataset), H5Sclose, "read " + path);
-  const hssize_t count = H5Sget_simple_extent_npoints(space);
-  need(count >= 0, name_, path + " has no shape");
-  std::vector<double> values(static_cast<std::size_t>(count), std::numeric_limits<double>::quiet_NaN());
+  const std::size_t count = countOf(dataset, H5Tget_size(type), name_, path);
+  std::vector<double> values(count, std::numeric_limits<double>::quiet_NaN());
   if (values.empty()) return values;
   if (H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
     throw InputError(fmt::format("{}: {} cannot be read: {}", name_, path, hdf5::lastError()));
@@ -103,11 +118,10 @@ std::vector<double> Hdf5Reader::numbers(const std::string& path, const std::vect
 
 std::vector<std::string> Hdf5Reader::texts(const std::string& path) const {
   const Handle dataset = open(path);
-  const Handle type(H5Dget_type(dataset), H5Tclose, "read " + path);
+  const Handle type = taken(H5Dget_type(dataset), H5Tclose, name_, path);
   need(H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0, name_, path + " does not hold texts");
-  const Handle space(H5Dget_space(dataset), H5Sclose, "read " + path);
-  const auto count = static_cast<std::size_t>(std::max<hssize_t>(H5Sget_simple_extent_npoints(space), 0));
   const std::size_t size = H5Tget_size(type);
+  const std::size_t count = countOf(dataset, size, name_, path);
   std::vector<char> buffer(count * size);
   if (count > 0 && H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, buffer.data()) < 0)
     throw InputError(fmt::format("{}: {} cannot be read: {}", name_, path, hdf5::lastError()));
@@ -118,13 +132,13 @@ std::vector<std::string> Hdf5Reader::texts(const std::string& path) const {
 
 Handle Hdf5Reader::openAttribute(const std::string& path, const std::string& name) const {
   need(hasAttribute(path, name), name_, fmt::format("{} has no attribute '{}'", path, name));
-  return {H5Aopen_by_name(file_, path.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
-          "open the attribute " + name};
+  return taken(H5Aopen_by_name(file_, path.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose, name_,
+               "the attribute " + name);
 }
 
 std::string Hdf5Reader::textAttribute(const std::string& path, const std::string& name) const {
   const Handle attribute = openAttribute(path, name);
-  const Handle type(H5Aget_type(attribute), H5Tclose, "read " + name);
+  const Handle type = taken(H5Aget_type(attribute), H5Tclose, name_, "the attribute " + name);
   need(H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0, name_,
        fmt::format("the attribute '{}' of {} is no text", name, path));
   std::vector<char> buffer(H5Tget_size(type));
@@ -134,9 +148,9 @@ std::string Hdf5Reader::textAttribute(const std::string& path, const std::string
 
 double Hdf5Reader::numberAttribute(const std::string& path, const std::string& name) const {
   const Handle attribute = openAttribute(path, name);
-  const Handle type(H5Aget_type(attribute), H5Tclose, "read " + name);
+  const Handle type = taken(H5Aget_type(attribute), H5Tclose, name_, "the attribute " + name);
   const H5T_class_t kind = H5Tget_class(type);
-  const Handle space(H5Aget_space(attribute), H5Sclose, "read " + name);
+  const Handle space = taken(H5Aget_space(attribute), H5Sclose, name_, "the attribute " + name);
   need((kind == H5T_FLOAT || kind == H5T_INTEGER) && H5Sget_simple_extent_npoints(space) == 1, name_,
        fmt::format("the attribute '{}' of {} is no number", name, path));
   double value = 0;

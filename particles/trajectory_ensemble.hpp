@@ -8,25 +8,19 @@
 #include <vector>
 
 #include "particles/ensemble.hpp"
+#include "particles/gas_path.hpp"
 
 namespace lampblack {
 
-struct TrajectorySample {
-  double time = 0;                   // s, not decreasing
+struct TrajectorySample : GasSample {
   std::array<double, 3> position{};  // m
-  SootGasState gas;                  // its span is not used: see pah
-  std::vector<double> pah;           // mol/m3
   double divergence = 0;             // 1/s, of the velocity of the particles, thermophoresis included
 };
 
 struct TrajectoryOptions {
   double logDiameterMin = -9.2, logDiameterMax = -6.2;  // bins of log10(d/m)
   std::size_t bins = 60;
-  // Largest change of temperature (K) and of any concentration (relative to its larger end) over one gas state held
-  // constant: intervals between samples are divided until they stay below.
-  double temperatureStep = 20;
-  double relativeStep = 0.1;
-  std::size_t maximumDivisions = 64;
+  GasDivision division;
 };
 
 struct TrajectoryRecord {
@@ -36,9 +30,8 @@ struct TrajectoryRecord {
   std::vector<double> distribution;  // dN/dlog10(d), 1/m3
 };
 
-// Advances `ensemble` over the samples; one record per sample, the first before anything has happened. Gas states are
-// taken at the middle of each division. Throws InputError for fewer than two samples, times that decrease or PAH lists
-// that do not match the ensemble's.
+// Advances `ensemble` over the samples; one record per sample, the first before anything has happened. Throws
+// InputError for fewer than two samples, times that decrease or PAH lists that do not match the ensemble's.
 [[nodiscard]] std::vector<TrajectoryRecord> marchTrajectory(Ensemble& ensemble,
                                                             const std::vector<TrajectorySample>& samples,
                                                             const TrajectoryOptions& options = {});

@@ -5,16 +5,14 @@
 #include <cstddef>
 #include <vector>
 
+#include "particles/gas_path.hpp"
 #include "particles/soot/stochastic_soot.hpp"
-#include "particles/soot_gas.hpp"
 
 namespace lampblack {
 
-struct SootPathPoint {
-  double z = 0, time = 0;   // m, s
-  double velocity = 0;      // m/s, of the particles: of the gas and by thermophoresis
-  SootGasState gas;         // its span is not used: see pah
-  std::vector<double> pah;  // mol/m3
+struct SootPathPoint : GasSample {
+  double z = 0;         // m
+  double velocity = 0;  // m/s, of the particles: of the gas and by thermophoresis
 };
 
 struct SootPath {
@@ -23,13 +21,9 @@ struct SootPath {
 };
 
 struct SootPathOptions {
-  // Largest change of temperature (K) and of any concentration (relative to its larger end) over one gas state held
-  // constant: intervals between points are divided until they stay below.
-  double temperatureStep = 20;
-  double relativeStep = 0.1;
-  std::size_t maximumDivisions = 64;
   double logDiameterMin = -9.2, logDiameterMax = -6.2;  // bins of log10(d/m)
   std::size_t bins = 60;
+  GasDivision division;
 };
 
 struct SootPathRecord {

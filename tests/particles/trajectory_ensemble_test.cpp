@@ -13,7 +13,7 @@ namespace lampblack {
 namespace {
 
 TrajectorySample sampleAt(double time, const test::FlameGas& gas) {
-  return {time, {0, 0, 0.5 * time}, gas.state, gas.pah, 0};
+  return {{time, gas.state, gas.pah}, {0, 0, 0.5 * time}, 0};
 }
 
 TEST(Trajectory, GrowthIntegratesTheGasInTime) {
