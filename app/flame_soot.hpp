@@ -31,6 +31,7 @@ class FlameSoot final : public CarriedModel {
 
   [[nodiscard]] const std::vector<Scalar>& scalars() const override { return scalars_; }
   [[nodiscard]] const std::vector<std::size_t>& exchanged() const override { return exchanged_; }
+  [[nodiscard]] std::vector<std::vector<double>> gridSums() const override { return model_->gridSums(); }
   void sources(const CarriedGas& gas, std::span<const double> densities, std::span<double> rates,
                std::span<double> exchange) override;
   void jacobian(const CarriedGas& gas, std::span<const double> densities, const CarriedJacobian& out) override;

@@ -41,6 +41,10 @@ class CarriedModel {
   // Species of the mechanism whose concentrations matter and that may be exchanged.
   [[nodiscard]] virtual const std::vector<std::size_t>& exchanged() const = 0;
 
+  // Sums over the scalars whose profiles, beside those of the gas, decide about the grid: weights of all scalars'
+  // densities, sums of like size. Empty: every scalar decides.
+  [[nodiscard]] virtual std::vector<std::vector<double>> gridSums() const { return {}; }
+
   // `densities`: of every scalar per m3, negative ones count as zero. `rates`: of the scalars, per m3 and s;
   // `exchange`: production of the exchanged species, mol/m3/s.
   virtual void sources(const CarriedGas& gas, std::span<const double> densities, std::span<double> rates,

@@ -9,6 +9,30 @@
 
 namespace lampblack {
 
+namespace {
+
+// The profile as the criteria of the grid see it: of what is carried, the sums that decide.
+FlameProfile seenByGrid(const FlameProfile& profile, const CarriedModel* carried) {
+  if (carried == nullptr || profile.layout.scalars == 0) return profile;
+  const auto sums = carried->gridSums();
+  if (sums.empty()) return profile;
+  FlameLayout layout = profile.layout;
+  layout.scalars = 0;
+  FlameProfile seen = withLayout(profile, layout);
+  layout.scalars = sums.size();
+  seen = withLayout(seen, layout);
+  for (std::size_t i = 0; i < profile.points(); ++i) {
+    const auto values = profile.scalars(i);
+    for (std::size_t k = 0; k < sums.size(); ++k) {
+      double& sum = seen.at(i, layout.firstScalar() + k);
+      for (std::size_t s = 0; s < values.size(); ++s) sum += sums[k][s] * carried->scalars()[s].scale * values[s];
+    }
+  }
+  return seen;
+}
+
+}  // namespace
+
 struct FlameSolver::Data {
   MPI_Comm comm;
   std::shared_ptr<const Mechanism> mechanism;
@@ -121,10 +145,6 @@ bool FlameSolver::Data::widen() {
 
 void FlameSolver::Data::refine(FlameEquations& equations, NewtonSolver& solver, const std::string& name,
                                const GridOptions& grid) {
-  const std::size_t width = solution.profile.layout.width();
-  const auto active = std::make_unique<bool[]>(width);
-  std::fill(active.get(), active.get() + width, true);
-  active[FlameLayout::massFlux] = false;
   for (std::size_t pass = 0;; ++pass) {
     steady(equations, solver, pass == 0 ? name : fmt::format("{}, grid {}", name, pass + 1));
     if (!options.refine) return;
@@ -139,9 +159,14 @@ void FlameSolver::Data::refine(FlameEquations& equations, NewtonSolver& solver, 
       solution.stages.pop_back();
       fail(stage);
     };
+    const FlameProfile seen = seenByGrid(solution.profile, carried);
+    const std::size_t width = seen.layout.width();
+    const auto active = std::make_unique<bool[]>(width);
+    std::fill(active.get(), active.get() + width, true);
+    active[FlameLayout::massFlux] = false;
     GridChange change;
     try {
-      change = refineGrid(solution.profile, grid, {active.get(), width}, keep);
+      change = refineGrid(seen, grid, {active.get(), width}, keep);
     } catch (const NumericsError& error) {
       giveUp(error.what());
     }

@@ -69,6 +69,8 @@ class SectionalSoot final : public SootModel {
 
   [[nodiscard]] const std::vector<std::string>& gasSpecies() const override;
   [[nodiscard]] const std::vector<SootScalar>& scalars() const override;
+  // Aggregates, primaries, surface of the equivalent spheres, carbon and its second moment; hydrogen.
+  [[nodiscard]] std::vector<std::vector<double>> gridSums() const override;
   void sources(const SootGas& gas, std::span<const double> densities, std::span<double> rates,
                std::span<double> exchange) const override;
   void jacobian(const SootGas& gas, std::span<const double> densities, std::span<double> values) const override;

@@ -23,6 +23,23 @@ void SectionalSoot::diffusivities(const SootGas& gas, std::span<const double> de
   if (m.withHydrogen) D[m.hydrogenScalar()] = flux / carbon;
 }
 
+std::vector<std::vector<double>> SectionalSoot::gridSums() const {
+  const Impl& m = *impl_;
+  constexpr double number = 1e17, carbon = 1e-3, hydrogen = 1e-5;  // per kg of gas
+  const double mean = carbon / number;                             // kg
+  std::vector<std::vector<double>> sums;
+  for (const double power : {0.0, 2.0 / 3, 1.0, 2.0}) {
+    auto& weights = sums.emplace_back(m.numberScalars(), 0.0);
+    for (std::size_t i = 0; i < m.sections; ++i) weights[i] = std::pow(m.pivots[i] / mean, power) / number;
+  }
+  if (!m.spheres) {
+    auto& weights = sums.emplace_back(m.numberScalars(), 0.0);
+    std::fill_n(weights.begin() + static_cast<std::ptrdiff_t>(m.sections), m.sections, 1 / number);
+  }
+  if (m.withHydrogen) sums.emplace_back(m.numberScalars(), 0.0).back() = 1 / hydrogen;
+  return sums;
+}
+
 SootProperties SectionalSoot::properties(const SootGas& /*gas*/, std::span<const double> densities) const {
   Impl& m = *impl_;
   m.prepareSections(densities);

@@ -64,6 +64,11 @@ class SootModel {
   [[nodiscard]] virtual const std::vector<std::string>& gasSpecies() const = 0;
   [[nodiscard]] virtual const std::vector<SootScalar>& scalars() const = 0;
 
+  // Sums over the scalars whose profiles decide how fine a grid has to be: weights of all scalars' densities, each sum
+  // of order one per kg of gas in a sooting flame. Empty: every scalar by itself. Sections travel as waves of their
+  // own, but what is asked of them are moments.
+  [[nodiscard]] virtual std::vector<std::vector<double>> gridSums() const { return {}; }
+
   // `densities`: of the scalars, per m3; negative ones (and negative concentrations) count as zero. `rates`: of the
   // scalars, per m3 and s. `exchange`: production of the gas species, mol/m3/s.
   virtual void sources(const SootGas& gas, std::span<const double> densities, std::span<double> rates,
