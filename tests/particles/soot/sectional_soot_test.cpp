@@ -348,6 +348,31 @@ TEST(SectionalSoot, CarbonisationReleasesHydrogenAtFirstOrder) {
   EXPECT_NEAR(f.exchange[1], k * y.back() / (2 * options.soot.hydrogenWeight), 1e-9 * f.exchange[1]);
 }
 
+// A grid is judged by moments: the number, the surface, the carbon and its second moment, and the primaries.
+TEST(SectionalSoot, GridsAreJudgedByMomentsOfTheSections) {
+  SectionalSootOptions options = pyrene();
+  const SectionalSoot model(options);
+  const std::size_t n = model.sections();
+  std::vector<double> y(model.scalars().size(), 0.0);
+  double moments[4] = {}, primaries = 0;
+  const double powers[4] = {0, 2.0 / 3, 1, 2};
+  for (std::size_t i = 0; i < n; ++i) {
+    y[i] = 1e15 / static_cast<double>(1 + i);
+    y[n + i] = 3 * y[i];
+    primaries += y[n + i];
+    // In units of 1e17 particles of 1e-20 kg.
+    for (int k = 0; k < 4; ++k) moments[k] += y[i] / 1e17 * std::pow(model.pivots()[i] / 1e-20, powers[k]);
+  }
+  const auto sums = model.gridSums();
+  ASSERT_EQ(sums.size(), 5u);
+  for (std::size_t k = 0; k < 5; ++k) {
+    double sum = 0;
+    for (std::size_t s = 0; s < y.size(); ++s) sum += sums[k][s] * y[s];
+    const double expected = k < 4 ? moments[k] : primaries / 1e17;
+    EXPECT_NEAR(sum / expected, 1, 1e-12);
+  }
+}
+
 TEST(SectionalSoot, WrongOptionsAreNamed) {
   const auto fails = [](auto&& change, const std::string& word) {
     SectionalSootOptions options = pyrene();
