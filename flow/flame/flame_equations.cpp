@@ -257,6 +257,17 @@ void FlameEquations::correct(std::span<const double> x, std::span<double> trial)
     }
 }
 
+// At concentrations below zero a radical that is lost to itself is lost the faster the less there is of it: without
+// this, undershoots at a front that moves grow without bounds.
+void FlameEquations::settle(std::span<double> x) const {
+  const Data& d = *data_;
+  for (std::size_t i = 0; i < d.points(); ++i)
+    for (std::size_t c = FlameLayout::firstSpecies; c < d.width(); ++c) {
+      double& value = x[i * d.width() + c];
+      value = std::max(value, 0.0);
+    }
+}
+
 void FlameEquations::scales(std::span<const double> x, std::span<double> scale) const {
   const Data& d = *data_;
   const std::size_t w = d.width(), n = d.points();

@@ -50,7 +50,10 @@ struct FlameSolver::Data {
   // Stages on ever better grids until none is needed.
   void refine(FlameEquations& equations, NewtonSolver& solver, const std::string& name, const GridOptions& grid);
   void place(FlameEquations& equations);
+  void follow(FlameEquations& equations);
+  void ripen(FlameEquations& equations, NewtonSolver& solver);
   bool widen();
+  [[nodiscard]] std::vector<std::size_t> anchorPoint() const;
   void anchorIn(const FlameProfile& profile);
   void gasAlone(const FlameProblem& flame, NewtonSolver& solver, const std::string& name);
   void scalarsAlone(FlameEquations& equations, NewtonSolver& solver);
@@ -86,7 +89,10 @@ void FlameSolver::setExchange(std::optional<GivenExchange> exchange) {
 void FlameSolver::Data::fail(const FlameStage& stage) {
   solution.stages.push_back(stage);
   throw FlameFailure(
-      fmt::format("the flame did not converge in the stage '{}' ({} points): {}; the residual is largest in {}",
+      fmt::format("the flame did not converge in the stage '{}' ({} points): {}; the residual is largest in {}. "
+                  "What may help: a start from a flame that is like it ('initial'), more points to begin with "
+                  "('grid.initial_points'), a shorter first time step ('solver.first_time_step'); does the flame exist "
+                  "at this strain or mass flux?",
                   stage.name, stage.points, stage.newton.reason, stage.newton.worst),
       solution);
 }
@@ -104,6 +110,14 @@ void FlameSolver::Data::anchorIn(const FlameProfile& profile) {
   anchorTemperature = profile.temperature(best);
 }
 
+std::vector<std::size_t> FlameSolver::Data::anchorPoint() const {
+  std::vector<std::size_t> keep;
+  if (problem.type == FlameType::Free)
+    for (std::size_t i = 0; i < solution.profile.points(); ++i)
+      if (solution.profile.z[i] == anchorZ) keep.push_back(i);
+  return keep;
+}
+
 void FlameSolver::Data::place(FlameEquations& equations) {
   const FlameProfile& p = solution.profile;
   equations.setGrid(p.z);
@@ -113,11 +127,59 @@ void FlameSolver::Data::place(FlameEquations& equations) {
   equations.setAnchor(static_cast<std::size_t>(at - p.z.begin()), anchorTemperature);
 }
 
+// Points where the flame has gone to: a front in coarse cells moves from one to the next by ignitions, each of which
+// takes many small time steps.
+void FlameSolver::Data::follow(FlameEquations& equations) {
+  if (!options.refine) return;
+  GridOptions coarse = options.grid;
+  coarse.slope = std::max(coarse.slope, 0.2);
+  coarse.curve = std::max(coarse.curve, 0.3);
+  coarse.prune = std::max(coarse.prune, 0.02);
+  const std::size_t width = solution.profile.layout.width();
+  const auto active = std::make_unique<bool[]>(width);
+  std::fill(active.get(), active.get() + width, true);
+  active[FlameLayout::massFlux] = false;
+  try {
+    const GridChange change = refineGrid(solution.profile, coarse, {active.get(), width}, anchorPoint());
+    if (!change.changed()) return;
+    solution.profile = onGrid(solution.profile, change.z);
+  } catch (const NumericsError&) {
+    return;  // no more points are allowed: on with these
+  }
+  place(equations);
+}
+
+// The composition at the temperature of the first guess: without radicals a flame would cool before it burns.
+void FlameSolver::Data::ripen(FlameEquations& equations, NewtonSolver& solver) {
+  const std::size_t width = solution.profile.layout.width();
+  const bool free = problem.type == FlameType::Free;
+  equations.hold(
+      [width, free](std::size_t component) {
+        return component == FlameLayout::temperature || (free && component == width + leftMassFlux);
+      },
+      solution.profile.x);
+  NewtonReport ripening;
+  double dt = 1e-6;
+  for (std::size_t attempts = 0; attempts < 12 && dt < 1e-3; ++attempts) {
+    const bool ok = solver.timeStep(equations, solution.profile.x, dt, ripening);
+    equations.settle(solution.profile.x);
+    dt *= ok ? 3 : 0.2;
+  }
+  equations.release();
+}
+
 void FlameSolver::Data::steady(FlameEquations& equations, NewtonSolver& solver, const std::string& name) {
   const double start = MPI_Wtime();
   FlameStage stage{name, solution.profile.points(), {}, 0};
   place(equations);
-  stage.newton = solver.steady(equations, solution.profile.x);
+  std::size_t failures = 0;
+  stage.newton = solver.steady(equations, solution.profile.x, [&] {
+    if (failures++ > 0)
+      follow(equations);
+    else if (solution.stages.empty())
+      ripen(equations, solver);
+  });
+  stage.points = solution.profile.points();
   stage.seconds = MPI_Wtime() - start;
   if (!stage.newton.converged) fail(stage);
   solution.stages.push_back(stage);
@@ -149,10 +211,7 @@ void FlameSolver::Data::refine(FlameEquations& equations, NewtonSolver& solver, 
     steady(equations, solver, pass == 0 ? name : fmt::format("{}, grid {}", name, pass + 1));
     if (!options.refine) return;
     if (widen()) continue;
-    std::vector<std::size_t> keep;
-    if (problem.type == FlameType::Free)
-      for (std::size_t i = 0; i < solution.profile.points(); ++i)
-        if (solution.profile.z[i] == anchorZ) keep.push_back(i);
+    const std::vector<std::size_t> keep = anchorPoint();
     const auto giveUp = [&](const std::string& reason) {
       FlameStage stage = solution.stages.back();
       stage.newton.reason = reason;

@@ -73,12 +73,19 @@ class Start {
 
   FlameProfile premixed();
   FlameProfile wall();
+  void placeAtWall(const StreamMixture& mixture, double centre);
   FlameProfile counterflow();
 
  private:
   [[nodiscard]] StreamMixture ofOneStream() const {
     return options_.cold ? StreamMixture::cold(mechanism_, problem_.left, problem_.left)
                          : StreamMixture::premixed(mechanism_, problem_.left, problem_.pressure);
+  }
+  // Of a free flame of the stream on the left, kg/m2/s.
+  [[nodiscard]] double burningFlux(double burnt) const {
+    const FlameStream& stream = problem_.left;
+    return thermo_.density(stream.temperature, problem_.pressure, stream.Y) *
+           flameSpeed(mechanism_, stream, burnt, problem_.pressure);
   }
   void setGrid(double centre, double width) {
     profile_.z = pointsAround(centre, width, problem_.length, options_.points);
@@ -110,13 +117,13 @@ FlameProfile Start::premixed() {
   if (free && options_.cold) throw InputError("flame: a flame that propagates cannot start cold");
   const StreamMixture mixture = ofOneStream();
   double flux = stream.massFlux;
-  if (free && !(flux > 0))
-    flux = thermo_.density(stream.temperature, problem_.pressure, stream.Y) *
-           flameSpeed(mechanism_, stream, mixture.hottest(), problem_.pressure);
+  if (free && !(flux > 0)) flux = burningFlux(mixture.hottest());
   if (!(flux > 0)) throw InputError("flame: the mass flux through a burner has to be positive");
-  // Four diffusive thicknesses of the half-burnt gas from 12 to 88 % of the way.
+  // Four diffusive thicknesses of the half-burnt gas from 12 to 88 % of the way. On a burner that is slower than the
+  // flame the flame comes as close as it is thin.
+  const double burning = options_.cold ? flux : std::max(flux, burningFlux(mixture.hottest()));
   const double thickness =
-      std::min(4 * conductivityOverCp(0.5 * (stream.temperature + mixture.hottest())) / flux, length / 6);
+      std::min(4 * conductivityOverCp(0.5 * (stream.temperature + mixture.hottest())) / burning, length / 6);
   const double centre = free ? length / 3 : std::min(1.5 * thickness, length / 3);
   setGrid(centre, 0.5 * thickness);
   const auto step = [&](double z) { return std::tanh(2 * (z - centre) / thickness); };
@@ -131,9 +138,29 @@ FlameProfile Start::premixed() {
 }
 
 FlameProfile Start::wall() {
+  const StreamMixture mixture = ofOneStream();
+  const double length = problem_.length;
+  if (options_.cold) {
+    placeAtWall(mixture, 0.6 * length);
+    return profile_;
+  }
+  // Where the stream, slowed down, is as fast as the flame.
+  const double burning = burningFlux(mixture.hottest());
+  double low = 0.05 * length, high = 0.8 * length;
+  for (int halvings = 0; halvings < 6; ++halvings) {
+    const double centre = 0.5 * (low + high);
+    placeAtWall(mixture, centre);
+    std::size_t front = 0;
+    while (front + 2 < profile_.points() && profile_.z[front + 1] < centre) ++front;
+    (profile_.at(front, FlameLayout::massFlux) > burning ? low : high) = centre;
+  }
+  return profile_;
+}
+
+// A flame around `centre`, and a cold layer at the wall.
+void Start::placeAtWall(const StreamMixture& mixture, double centre) {
   const FlameStream& stream = problem_.left;
   const double length = problem_.length;
-  const StreamMixture mixture = ofOneStream();
   const double streamDensity = thermo_.density(stream.temperature, problem_.pressure, stream.Y);
   const bool potential = problem_.nozzles == FlameNozzles::Potential;
   // A plug flow against a wall has u = U (1 - (z/L)^2), V = U z/L^2.
@@ -142,8 +169,7 @@ FlameProfile Start::wall() {
   const double warm = 0.5 * (stream.temperature + mixture.hottest());
   const double warmDensity = streamDensity * stream.temperature / warm;
   const double layer = std::min(std::sqrt(conductivityOverCp(warm) / (warmDensity * strain)), length / 6);
-  const double centre = 0.6 * length;
-  const double thickness = length / 8;
+  const double thickness = std::min(length / 8, 1.5 * centre);
   setGrid(options_.cold ? length - layer : centre, options_.cold ? layer : thickness);
   const auto step = [&](double z) { return std::tanh(2 * (z - centre) / thickness); };
   for (std::size_t i = 0; i < profile_.points(); ++i) {
@@ -168,7 +194,6 @@ FlameProfile Start::wall() {
   } else {
     scaleSpreading(profile_, density, stream.massFlux, 0);
   }
-  return profile_;
 }
 
 FlameProfile Start::counterflow() {

@@ -51,6 +51,7 @@ struct NewtonSolver::Data {
       if (attempt(iteration, x, dt, report)) {
         ++report.timeSteps;
         ++done;
+        system.settle(x);
         if (3 * (report.steps - before) <= transient.newtonSteps) dt *= transient.growth;
       } else {
         dt *= transient.cut;
@@ -80,14 +81,14 @@ bool NewtonSolver::timeStep(NewtonSystem& system, std::span<double> x, double dt
   return true;
 }
 
-NewtonReport NewtonSolver::steady(NewtonSystem& system, std::span<double> x) {
+NewtonReport NewtonSolver::steady(NewtonSystem& system, std::vector<double>& x, const std::function<void()>& between) {
   NewtonReport report;
   double dt = data_->transient.firstStep;
-  std::vector<double> solution(x.begin(), x.end());
+  std::vector<double> solution = x;
   while (true) {
     addCounts(report, newton(system, solution));
     if (report.converged) {
-      std::ranges::copy(solution, x.begin());
+      x = std::move(solution);
       return report;
     }
     if (dt > data_->transient.largestStep) {
@@ -95,12 +96,13 @@ NewtonReport NewtonSolver::steady(NewtonSystem& system, std::span<double> x) {
                                   data_->transient.largestStep, report.reason);
       return report;
     }
+    if (between) between();
     if (const std::string stopped = data_->advance(system, x, dt, report); !stopped.empty()) {
       report.converged = false;
       report.reason = stopped;
       return report;
     }
-    std::ranges::copy(x, solution.begin());
+    solution = x;
   }
 }
 

@@ -8,9 +8,11 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "flow/flame/newton_system.hpp"
 
@@ -59,8 +61,9 @@ class NewtonSolver {
   // converge. Counts are added to the report.
   bool timeStep(NewtonSystem& system, std::span<double> x, double dt, NewtonReport& report);
   // Newton; where it fails, pseudo-transient steps until Newton converges. x is the last state that was accepted: the
-  // solution, or the last time step's.
-  NewtonReport steady(NewtonSystem& system, std::span<double> x);
+  // solution, or the last time step's. `between` is called where Newton's method failed, before time steps; it may
+  // put the system and x on another grid.
+  NewtonReport steady(NewtonSystem& system, std::vector<double>& x, const std::function<void()>& between = {});
 
  private:
   struct Data;
