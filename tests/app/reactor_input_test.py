@@ -65,9 +65,9 @@ network:
 
 # Name, deck, text to replace, its replacement, what the message says.
 MISTAKES = [
-    ("no problem", CLOSED, "problem: reactor\n", "", ("problem: this key is missing", "flow, reactor")),
+    ("no problem", CLOSED, "problem: reactor\n", "", ("problem: this key is missing", "flow, flame1d, reactor")),
     ("misspelt problem", CLOSED, "problem:", "probelm:", ("unknown key 'probelm'", "did you mean 'problem'?")),
-    ("unknown problem", CLOSED, "problem: reactor", "problem: reacter", ("expected one of: flow, reactor", "did you mean 'reactor'?")),
+    ("unknown problem", CLOSED, "problem: reactor", "problem: reacter", ("expected one of: flow, flame1d, reactor", "did you mean 'reactor'?")),
     ("key of another problem", CLOSED, "time:", "mesh:\n  refinement: 1\ntime:", ("mesh: unknown key 'mesh'",)),
     ("unknown type", CLOSED, "constant_pressure", "constant_presure", ("reactor.type", "constant_pressure")),
     ("no initial state", CLOSED, CLOSED[CLOSED.index("initial:"):CLOSED.index("time:")], "", ("needs the section 'initial'",)),
