@@ -4,6 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <string>
+#include <system_error>
 
 #include "app/flame_file.hpp"
 #include "app/gas_input.hpp"
@@ -197,6 +200,18 @@ void readUnsteady(const Deck& deck, FlameCase& flame) {
   unsteady.frequency = frequency.value_or(0.0);
 }
 
+// What else may have been meant by results that cannot be read: those in a folder, those of a run that failed.
+std::string hintOnResults(const std::filesystem::path& path) {
+  std::error_code error;
+  const bool isFolder = std::filesystem::is_directory(path, error);
+  const std::filesystem::path file = isFolder ? path / "results.h5" : path;
+  if (isFolder && std::filesystem::exists(file, error)) return fmt::format("; it has {}", file.string());
+  const std::filesystem::path part = file.string() + ".part";
+  if (!std::filesystem::exists(file, error) && std::filesystem::exists(part, error))
+    return fmt::format("; {} is there, of a flame that did not converge or is still running", part.string());
+  return {};
+}
+
 }  // namespace
 
 const char* nameOf(FlameType type) {
@@ -238,10 +253,11 @@ FlameCase readFlameCase(const Deck& deck) {
                                       flame.problem.type == FlameType::Counterflow);
   }
   if (const auto file = deck.optionalString("initial")) {
+    const std::filesystem::path path = deck.resolvePath(*file);
     try {
-      flame.initial = readFlameProfile(deck.resolvePath(*file));
+      flame.initial = readFlameProfile(path);
     } catch (const InputError& error) {
-      throw deck.error("initial", error.what());
+      throw deck.error("initial", error.what() + hintOnResults(path));
     }
   }
   return flame;

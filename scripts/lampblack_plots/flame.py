@@ -26,6 +26,9 @@ class FlameData:
         soot = group.get("soot", {})
         self.soot = {name: soot[name][()] for name in soot if hasattr(soot[name], "shape")}
         self.processes = {name: soot["processes"][name][()] for name in soot.get("processes", {})}
+        ensembles = results.file.get("stochastic", {})
+        self.paths = [{name: path[name][()] for name in ("z", "volume_fraction", "number_density")}
+                      for path in ensembles.values() if hasattr(path, "keys") and "z" in path]
 
     def span(self):
         """Where something happens: of long domains the part around the flame."""
@@ -44,7 +47,7 @@ def plot_flame(results, pictures):
     if flame.z.size == 0:
         pictures.skip("flame", "the results hold no fields over z")
         return
-    _plot_gas(flame, pictures)
+    plot_gas(flame, pictures)
     if flame.soot:
         _plot_soot(flame, pictures)
         _plot_sizes(flame, pictures)
@@ -56,7 +59,7 @@ def _limit(axes, flame):
     return (flame.z >= low) & (flame.z <= high)
 
 
-def _plot_gas(flame, pictures):
+def plot_gas(flame, pictures, name="flame"):
     figure, (top, middle, bottom) = plt.subplots(3, 1, figsize=(7.0, 8.6), sharex=True)
     top.plot(flame.z, flame.fields["temperature"], color="tab:red", marker=".", ms=2.5, lw=1.2)
     top.set_ylabel("temperature, K", color="tab:red")
@@ -69,20 +72,20 @@ def _plot_gas(flame, pictures):
     order = sorted(peak, key=lambda name: -peak[name])
     major = [name for name in order if peak[name] >= MAJOR_FROM][:MOST_MAJOR]
     minor = [name for name in order if name not in major and peak[name] > 0][:MOST_MINOR]
-    for name in major:
-        middle.plot(flame.z, flame.X[name], label=name, lw=1.2)
+    for species in major:
+        middle.plot(flame.z, flame.X[species], label=species, lw=1.2)
     middle.set_ylabel("mole fraction")
     middle.set_ylim(bottom=0)
     middle.legend(fontsize=8, ncol=2, loc="upper left", bbox_to_anchor=(1.0, 1.0))
-    for name in minor:
-        bottom.semilogy(flame.z, np.where(flame.X[name] > 0, flame.X[name], np.nan), label=name, lw=1.2)
+    for species in minor:
+        bottom.semilogy(flame.z, np.where(flame.X[species] > 0, flame.X[species], np.nan), label=species, lw=1.2)
     if minor:
         bottom.set_ylim(1e-4 * peak[minor[0]], 2 * peak[minor[0]])
         bottom.legend(fontsize=8, ncol=1, loc="upper left", bbox_to_anchor=(1.0, 1.0))
     bottom.set_ylabel("mole fraction")
     bottom.set_xlabel("z, mm")
     top.set_title(flame.label, loc="left", fontsize=10)
-    pictures.save(figure, "flame")
+    pictures.save(figure, name)
 
 
 PROCESSES = {  # mass rates; losses negative
@@ -206,6 +209,8 @@ def plot_together(folders, pictures, name="together", labels=None):
             axes.plot(flame.z, values, color=colour, lw=1.3, label=name_of_flame)
             peaks.append(np.nanmax(values, initial=0.0))
             shown = max(shown, peaks[-1])
+            for path in flame.paths:
+                _along_path(axes, path, title, factor if with_soot else 1.0, colour)
         # Models may differ by orders of magnitude.
         apart = title == "volume fraction" and shown > 30 * min(peaks, default=0.0)
         if shown > 0 and (title == "number density" or apart):
@@ -216,8 +221,20 @@ def plot_together(folders, pictures, name="together", labels=None):
         axes.set_xlabel("z, mm")
     spans = [flame.span() for flame, _ in usable]
     grid[0][0].set_xlim(min(low for low, _ in spans), max(high for _, high in spans))
+    if any(flame.paths for flame, _ in usable):
+        grid[0][0].set_title("dotted: ensembles", loc="left", fontsize=9)
     grid[0][1].legend(*grid[0][0].get_legend_handles_labels(), fontsize=8, loc="upper left", bbox_to_anchor=(1.0, 1.0))
     pictures.save(figure, name)
+
+
+def _along_path(axes, path, title, factor, colour):
+    """The ensemble of a flame, dotted over its carried soot; its confidence is narrower than the line."""
+    fraction, number = path["volume_fraction"], path["number_density"]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        diameter = np.where(fraction > 1e-3 * fraction.max(), np.cbrt(6 * fraction / (np.pi * number)), np.nan)
+    values = {"volume fraction": fraction * factor, "number density": number * 1e-6, "diameter": diameter * 1e9}.get(title)
+    if values is not None:
+        axes.plot(path["z"] * 1e3, values, color=colour, ls=":", lw=2.0)
 
 
 def short_names(names):
@@ -226,7 +243,10 @@ def short_names(names):
     same = 0
     while len(names) > 1 and all(len(w) > same + 1 and w[same] == words[0][same] for w in words):
         same += 1
-    return ["_".join(w[same:]) for w in words]
+    # "model-hmom" is hmom where every name says "model-".
+    names = ["_".join(w[same:]) for w in words]
+    keys = {name.split("-", 1)[0] for name in names if "-" in name}
+    return [n.split("-", 1)[1] for n in names] if len(keys) == 1 and all("-" in n for n in names) else names
 
 
 def _soot(flame, name, factor):

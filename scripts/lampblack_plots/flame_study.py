@@ -5,6 +5,8 @@ import json
 import numpy as np
 
 from .flame import plot_together
+from .flame_figures import plot_series
+from .flame_series import read_runs, series_of
 from .style import plt
 from .study import read_table
 
@@ -35,9 +37,14 @@ def plot_flame_study(folder, pictures):
         return
     with_files = [row for row in rows if (folder / row["run"] / "results.h5").is_file()]
     plot_together([folder / row["run"] for row in with_files], pictures, "flames")
+    together = series_of(read_runs(folder, with_files))
+    for series in together:
+        plot_series(series, pictures)
     columns = list(rows[0])
     varied = columns[1:columns.index("status")]
     for key in varied:
+        if key == "variant" and any(series.values[0] is not None for series in together):
+            continue  # names of variants say less than the numbers behind them
         _plot_over(rows, key, [other for other in varied if other != key], pictures)
 
 

@@ -127,6 +127,9 @@ def main(executable, ranks, *mpiexec):
         assert "MPI_ABORT" not in failed.err
         assert json.loads((folder / "failed/run.json").read_text(encoding="utf-8"))["status"] == "failed"
         assert not (folder / "failed/results.h5").exists()
+        # Who names something near the results is told where they are.
+        assert f"{folder}/whole/results.h5" in run("folder", f"initial={folder}/whole", code=2).err
+        assert "results.h5.part is there" in run("missing", f"initial={folder}/failed/results.h5", code=2).err
         run("resumed", f"initial={folder}/failed/results.h5.part")
         assert check_results(folder / "resumed")["time_steps"] == 0
 

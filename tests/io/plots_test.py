@@ -124,6 +124,36 @@ def test_reference_is_found_beside_the_deck_and_compared(work):
     assert run(ROOT / "scripts" / "compare_centreline", work / "flame", work / "none.csv").returncode == 2
 
 
+def test_series_are_runs_that_differ_in_one_thing(work):
+    sys.path.insert(0, str(ROOT / "scripts"))
+    from lampblack_plots.flame_series import series_of
+
+    def a_run(oxygen, velocity):
+        flat = {"right.composition": f"O2: {oxygen}, N2: {1 - oxygen}", "left.velocity": velocity, "right.velocity": velocity,
+                "title": f"{oxygen} {velocity}"}
+        return {"folder": work, "flat": flat, "results": {"strain_global_per_s": 500 * velocity}, "variant": ""}
+
+    runs = [a_run(0.3, 0.2), a_run(0.2, 0.2), a_run(0.25, 0.2), a_run(0.25, 0.3), a_run(0.25, 0.25)]
+    found = {series.name: series for series in series_of(runs)}
+    assert set(found) == {"O2", "strain"}
+    assert np.allclose(found["O2"].values, [0.2, 0.25, 0.3]) and found["O2"].runs == [runs[1], runs[2], runs[0]]
+    assert np.allclose(found["strain"].values, [100, 125, 150]) and found["strain"].runs == [runs[2], runs[4], runs[3]]
+
+
+def test_peaks_and_half_widths_of_known_profiles(work):
+    sys.path.insert(0, str(ROOT / "scripts"))
+    from lampblack_plots.flame_peaks import half_widths, is_unimodal, lopsidedness, peak
+
+    z = np.linspace(0, 10, 101)
+    height, place = peak(z, np.maximum(0, 5 - (z - 4.03) ** 2))
+    assert abs(height - 5) < 1e-9 and abs(place - 4.03) < 1e-9
+    triangle = np.where(z < 2, z / 2, np.maximum(0, 1 - (z - 2) / 6))  # half as high at 1 and at 5; the peak is a cusp
+    left, right = half_widths(z, triangle)
+    assert abs(left - 1) < 0.05 and abs(right - 3) < 0.05  # half a spacing
+    assert lopsidedness(z, triangle) == right / left
+    assert is_unimodal(triangle) and not is_unimodal(triangle + 0.5 * np.exp(-((z - 7) ** 2)))
+
+
 if __name__ == "__main__":
     for name, test in list(globals().items()):
         if name.startswith("test_"):
