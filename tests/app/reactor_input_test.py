@@ -119,9 +119,11 @@ def main(executable: str, ranks: str, *mpiexec: str) -> int:
             print(f"FAILED  {name}: {'; '.join(problems)}\n{result.err}" if problems else f"ok      {name}")
             return 1 if problems else 0
 
+    # All messages on one rank; that only one of several ranks speaks does not need every one of them.
+    mistakes = MISTAKES if int(ranks) == 1 else MISTAKES[::3]
     with concurrent.futures.ThreadPoolExecutor(4) as pool:
-        failures = sum(pool.map(check, MISTAKES))
-    print(f"{len(MISTAKES) - failures} passed, {failures} failed on {ranks} rank(s)")
+        failures = sum(pool.map(check, mistakes))
+    print(f"{len(mistakes) - failures} passed, {failures} failed on {ranks} rank(s)")
     return 1 if failures else 0
 
 
