@@ -27,7 +27,8 @@ SootPathPoint pointAt(const FlameSootGas& gas, std::size_t i) {
   p.velocity = gas.velocity[i] + gas.thermophoresis[i];
   p.gas = gas.state[i];
   const std::size_t n = gas.pah.size() / gas.z.size();
-  p.pah.assign(&gas.pah[i * n], &gas.pah[i * n] + n);
+  const auto first = gas.pah.begin() + static_cast<std::ptrdiff_t>(i * n);
+  p.pah.assign(first, first + static_cast<std::ptrdiff_t>(n));
   return p;
 }
 
