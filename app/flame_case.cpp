@@ -245,7 +245,7 @@ FlameCase readFlameCase(const Deck& deck) {
   readContinuation(deck, flame);
   readUnsteady(deck, flame);
   if (auto model = readSootModel(deck, *flame.mechanism)) {
-    flame.soot = std::make_unique<FlameSoot>(*flame.mechanism, std::move(model));
+    flame.soot = std::make_unique<FlameSoot>(*flame.mechanism, std::move(model), deck.boolean("soot.diffusion"));
   }
   if (deck.has("stochastic")) {
     if (!deck.has("soot")) throw deck.error("stochastic", "ensembles need the section 'soot': PAH, surface, switches");

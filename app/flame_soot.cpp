@@ -6,7 +6,8 @@
 
 namespace lampblack {
 
-FlameSoot::FlameSoot(const Mechanism& mechanism, std::unique_ptr<SootModel> model) : model_(std::move(model)) {
+FlameSoot::FlameSoot(const Mechanism& mechanism, std::unique_ptr<SootModel> model, bool diffusion)
+    : model_(std::move(model)), diffusion_(diffusion) {
   const std::size_t carbon = mechanism.elementIndex("C"), hydrogen = mechanism.elementIndex("H");
   for (const SootScalar& scalar : model_->scalars()) {
     std::vector<double> elements(mechanism.numElements(), 0.0);
@@ -33,7 +34,10 @@ void FlameSoot::jacobian(const CarriedGas& gas, std::span<const double> densitie
 }
 
 void FlameSoot::diffusivities(const CarriedGas& gas, std::span<const double> densities, std::span<double> D) {
-  model_->diffusivities(gasOf(gas), densities, D);
+  if (diffusion_)
+    model_->diffusivities(gasOf(gas), densities, D);
+  else
+    std::fill(D.begin(), D.end(), 0.0);
 }
 
 void FlameSoot::enthalpies(double temperature, std::span<double> h, std::span<double> slope) {

@@ -21,9 +21,10 @@ void addSootModelKeys(DeckSchema& schema);
 
 class FlameSoot final : public CarriedModel {
  public:
-  // Refers to neither afterwards but the model, which it owns. InputError where the mechanism lacks a species or
-  // element that the model needs.
-  FlameSoot(const Mechanism& mechanism, std::unique_ptr<SootModel> model);
+  // Owns the model and does not refer to the mechanism afterwards. Without `diffusion` soot moves with the gas and by
+  // thermophoresis only, as particles on their paths do. InputError where the mechanism lacks a species or element that
+  // the model needs.
+  FlameSoot(const Mechanism& mechanism, std::unique_ptr<SootModel> model, bool diffusion = true);
 
   [[nodiscard]] const SootModel& model() const { return *model_; }
   // The gas as the model sees it; the concentrations are those that `gas` refers to.
@@ -43,6 +44,7 @@ class FlameSoot final : public CarriedModel {
 
  private:
   std::unique_ptr<SootModel> model_;
+  bool diffusion_;
   std::vector<Scalar> scalars_;
   std::vector<std::size_t> exchanged_;
 };

@@ -175,6 +175,16 @@ TEST(FlameSoot, AbsorbsAndHasTheEnthalpyOfGraphiteAndHydrogen) {
   EXPECT_EQ(slope[2], sootHydrogenEnthalpy(1200).second);
 }
 
+TEST(FlameSoot, DiffusesUnlessToldNotTo) {
+  for (const bool diffusion : {true, false}) {
+    FlameSoot soot(abf(), readSootModel(deckOf("soot: {}"), abf()), diffusion);
+    const std::vector<double> concentrations(soot.exchanged().size(), 1e-3), densities{1e17, 1.85e-3 - 1e-5, 1e-5};
+    std::vector<double> D(3, -1.0);
+    soot.diffusivities({1700, 101325, 0.2, 5e-5, 0.028, concentrations}, densities, D);
+    EXPECT_THAT(D, testing::Each(diffusion ? testing::Matcher<double>(testing::Gt(0.0)) : testing::Eq(0.0)));
+  }
+}
+
 TEST(SootDeck, MomentModels) {
   const auto momic = readSootModel(deckOf("soot: {model: momic, moments: 4}"), abf());
   EXPECT_EQ(dynamic_cast<const MomicSoot&>(*momic).options().moments, 4U);
