@@ -52,7 +52,8 @@ void addShared(DeckSchema& schema) {
       .add(booleanKey("soot.growth", "Surface growth.").byDefault("true"))
       .add(booleanKey("soot.oxidation", "By O2 and OH.").byDefault("true"))
       .add(booleanKey("soot.coagulation", "Of particles.").byDefault("true"))
-      .add(booleanKey("soot.diffusion", "Brownian, of carried soot; ensembles along paths have none.").byDefault("true"));
+      .add(booleanKey("soot.diffusion", "Brownian, of carried soot; ensembles along paths have none.")
+               .byDefault("true"));
 }
 
 void addSemiEmpirical(DeckSchema& schema) {
