@@ -35,7 +35,7 @@ void addStochasticKeys(DeckSchema& schema) {
                       "Soot keeps the hydrogen of PAH; false: it returns to the gas as H2 when they are taken up.")
                .byDefault("true"))
       .add(numberKey("stochastic.split_tolerance", "Relative change of the population in a splitting step.")
-               .byDefault("0.05")
+               .byDefault("0.01")
                .above(0)
                .atMost(1))
       .add(quantityKey("stochastic.start", units::length,

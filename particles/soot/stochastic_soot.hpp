@@ -34,7 +34,7 @@ struct StochasticSootOptions {
   bool coalescing = true;           // spheres; otherwise aggregates of primaries
   bool alphaOfPrimaries = false;    // mu_1 in alpha(T, mu_1) is of the mean primary (thesis eq. 9-37), not particle
   bool keepsHydrogen = true;        // false: that of PAH returns to the gas as H2 when they are taken up
-  double splitTolerance = 0.05;     // relative change of the population in a splitting step
+  double splitTolerance = 0.01;     // relative change of the population in a splitting step
   double startNumberDensity = 1e6;  // 1/m3: dsmc, at which an empty sample is full at first; contraction does the rest
 };
 
