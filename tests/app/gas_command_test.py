@@ -72,30 +72,33 @@ def mole_fractions(row: dict) -> str:
     return ", ".join(f"{name[2:]}: {value}" for name, value in row.items() if name.startswith("X_"))
 
 
+def ask(program: running.Program, mechanism, state: dict, *options: str) -> dict:
+    result = program("gas", mechanism, "--T", state["T"], "--p", state["p"], "--X", mole_fractions(state), "--json", *options)
+    assert result.code == 0, result.err
+    return json.loads(result.out)
+
+
 def compare_transport(program: running.Program, name: str, worst: Worst) -> None:
     """Collision integrals come from the same tables, through other fits: viscosity, conductivity and diffusion to 0.5 %,
     thermal diffusion, which hangs on their small differences, to 1 % of the largest."""
     mechanism = running.SOURCE / "cases/mechanisms" / MECHANISMS[name]
     species = by_state(table(f"transport_{name}_species.csv"))
     mixture = by_state(table(f"transport_{name}_mixture.csv"))
-    for state in table(f"transport_{name}_states.csv"):
-        arguments = ("gas", mechanism, "--T", state["T"], "--p", state["p"], "--X", mole_fractions(state), "--json")
+    models = {"mixture-averaged": ("lambda_mixavg", "DT_mixavg_model"), "multicomponent": ("lambda_multi", "DT_multi")}
+    tasks = [(state, model) for state in table(f"transport_{name}_states.csv") for model in models]
+    answers = running.at_once(lambda task: ask(program, mechanism, task[0], "--transport", task[1]), tasks)
+    for (state, model), gas in zip(tasks, answers):
         rows, [row] = species[state["state"]], mixture[state["state"]]
-        for model, conductivity, thermal in (("mixture-averaged", "lambda_mixavg", "DT_mixavg_model"),
-                                             ("multicomponent", "lambda_multi", "DT_multi")):
-            result = program(*arguments, "--transport", model)
-            assert result.code == 0, result.err
-            gas = json.loads(result.out)
-            assert gas["transport_model"] == model
-            worst.relative(f"{name} viscosity", gas["viscosity"], float(row["mu_mixavg"]), 5e-3)
-            worst.relative(f"{name} {model} conductivity", gas["thermal_conductivity"], float(row[conductivity]), 5e-3)
-            largest = max(abs(float(entry[thermal])) for entry in rows)
-            for entry in rows:
-                worst.relative(f"{name} mixture diffusion coefficients",
-                               gas["mixture_diffusion_coefficients"][entry["species"]], float(entry["D_mix_avg"]), 5e-3)
-                worst.compare(f"{name} {model} thermal diffusion, of the largest",
-                              gas["thermal_diffusion_coefficients"][entry["species"]], float(entry[thermal]), largest,
-                              1e-2)
+        conductivity, thermal = models[model]
+        assert gas["transport_model"] == model
+        worst.relative(f"{name} viscosity", gas["viscosity"], float(row["mu_mixavg"]), 5e-3)
+        worst.relative(f"{name} {model} conductivity", gas["thermal_conductivity"], float(row[conductivity]), 5e-3)
+        largest = max(abs(float(entry[thermal])) for entry in rows)
+        for entry in rows:
+            worst.relative(f"{name} mixture diffusion coefficients",
+                           gas["mixture_diffusion_coefficients"][entry["species"]], float(entry["D_mix_avg"]), 5e-3)
+            worst.compare(f"{name} {model} thermal diffusion, of the largest",
+                          gas["thermal_diffusion_coefficients"][entry["species"]], float(entry[thermal]), largest, 1e-2)
 
 
 def compare(program: running.Program, name: str, worst: Worst) -> None:
@@ -104,10 +107,8 @@ def compare(program: running.Program, name: str, worst: Worst) -> None:
     species = by_state(table(f"kinetics_{name}_species.csv"))
     reactions = by_state(table(f"kinetics_{name}_reactions.csv"))
     mixture = by_state(table(f"kinetics_{name}_mixture.csv"))
-    for state in table(f"kinetics_{name}_states.csv"):
-        result = program("gas", mechanism, "--T", state["T"], "--p", state["p"], "--X", mole_fractions(state), "--json")
-        assert result.code == 0, result.err
-        gas = json.loads(result.out)
+    states = table(f"kinetics_{name}_states.csv")
+    for state, gas in zip(states, running.at_once(lambda state: ask(program, mechanism, state), states)):
         assert all(key in gas for key in KEYS), sorted(gas)
         number = state["state"]
         [row] = mixture[number]

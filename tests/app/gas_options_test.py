@@ -162,12 +162,11 @@ def beyond_the_data(check: Checker) -> None:
                   result.code == 3 and result.out == "" and "no temperature between" in result.err, result.err)
 
 
-def mistakes(check: Checker) -> None:
-    for name, arguments, words in MISTAKES:
-        result = check.program("gas", *arguments, "--json")
-        told = result.err.startswith("lampblack: ") and all(word in result.err for word in words)
-        check.require(name, result.code == 2 and result.out == "" and told,
-                      f"exit code {result.code}\n{result.out}{result.err}")
+def mistake(check: Checker, name: str, arguments: tuple, words: tuple) -> None:
+    result = check.program("gas", *arguments, "--json")
+    told = result.err.startswith("lampblack: ") and all(word in result.err for word in words)
+    check.require(name, result.code == 2 and result.out == "" and told,
+                  f"exit code {result.code}\n{result.out}{result.err}")
 
 
 def ranks(check: Checker) -> None:
@@ -178,10 +177,17 @@ def ranks(check: Checker) -> None:
 
 
 def main() -> int:
-    check = Checker(running.Program(sys.argv[1], sys.argv[3:], int(sys.argv[2])))
-    for part in (spellings, equilibria, tables, chemkin, without_transport, beyond_the_data, mistakes, ranks):
-        part(check)
-    return 1 if check.failures else 0
+    program = running.Program(sys.argv[1], sys.argv[3:], int(sys.argv[2]))
+
+    def failures(task: tuple) -> int:
+        part, *arguments = task
+        check = Checker(program)
+        part(check, *arguments)
+        return check.failures
+
+    parts = (spellings, equilibria, tables, chemkin, without_transport, beyond_the_data, ranks)
+    failed = running.at_once(failures, [(part,) for part in parts] + [(mistake, *one) for one in MISTAKES])
+    return 1 if sum(failed) else 0
 
 
 if __name__ == "__main__":

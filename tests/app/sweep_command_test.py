@@ -125,17 +125,18 @@ convergence:
 
 def main(executable: str, ranks: str, *mpiexec: str) -> None:
     program = running.Program(executable, list(mpiexec), int(ranks))
-    with tempfile.TemporaryDirectory() as name:
-        folder = pathlib.Path(name)
-        check_good(program, folder)
-        check_failures(program, folder)
-        check_groups(program, folder)
-        found = check_population(program, folder)
-        if program.ranks > 1:
-            alone = folder / "alone"
-            alone.mkdir()
-            assert check_population(running.Program(executable, list(mpiexec), 1), alone) == found, \
-                "the convergence study depends on the ranks"
+    alone = running.Program(executable, list(mpiexec), 1)
+    tasks = [(check_good, program), (check_failures, program), (check_groups, program), (check_population, program)]
+    if program.ranks > 1:
+        tasks.append((check_population, alone))
+
+    def check(task: tuple):
+        with tempfile.TemporaryDirectory() as name:
+            return task[0](task[1], pathlib.Path(name))
+
+    found = running.at_once(check, tasks)
+    if program.ranks > 1:
+        assert found[-1] == found[-2], "the convergence study depends on the ranks"
 
 
 main(*sys.argv[1:])

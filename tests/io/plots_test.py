@@ -112,7 +112,17 @@ def test_reference_is_found_beside_the_deck_and_compared(work):
     reference = case / "reference" / "cantera.csv"
     reference.write_text("\n".join(rows) + "\n", encoding="utf-8")
     (work / "flame" / "run.json").write_text(json.dumps({"deck_path": str(case / "deck.yaml")}), encoding="utf-8")
-    assert run(ROOT / "scripts" / "plot", work / "flame").returncode == 0
+
+    sys.path.insert(0, str(ROOT / "scripts"))
+    from lampblack_plots.profiles import plot_profiles
+    from lampblack_plots.reference import find_references
+    from lampblack_plots.results import Results
+    from lampblack_plots.style import Pictures
+
+    results, pictures = Results(work / "flame"), Pictures(work / "pictures")
+    assert find_references(results) == [reference]
+    plot_profiles(results, pictures, [reference])
+    assert pictures.made == [work / "pictures" / "centreline.png"]
 
     result = run(ROOT / "scripts" / "compare_centreline", work / "flame", reference, "--json")
     rows = {row["quantity"]: row for row in json.loads(result.stdout)}
