@@ -3,18 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "core/errors.hpp"
+#include "particles/sphere.hpp"
 
 namespace lampblack {
-namespace {
-
-double sphereDiameter(double volume) {
-  return std::cbrt(6 * volume / constants::pi);
-}
-
-}  // namespace
 
 double steadyDimers(double production, double selfCollision, double particleCollision) {
   if (production <= 0) return 0;

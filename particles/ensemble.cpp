@@ -9,6 +9,7 @@
 
 #include "core/errors.hpp"
 #include "particles/ensemble_medium.hpp"
+#include "particles/sphere.hpp"
 
 namespace lampblack {
 namespace {
@@ -16,10 +17,6 @@ namespace {
 constexpr std::uint32_t streamPurpose = 0x534f4f54;  // soot ensembles
 constexpr std::size_t savedHeader = 14;
 constexpr double savedVersion = 1;
-
-double sphereDiameter(double volume) {
-  return std::cbrt(6 * volume / constants::pi);
-}
 
 }  // namespace
 

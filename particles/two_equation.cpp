@@ -8,16 +8,10 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "particles/sphere.hpp"
 #include "particles/two_equation_state.hpp"
 
 namespace lampblack {
-namespace {
-
-double sphereDiameter(double volume) {
-  return std::cbrt(6 * volume / constants::pi);
-}
-
-}  // namespace
 
 TwoEquationSoot::TwoEquationSoot(SootModelOptions options) : options_(std::move(options)), dimers_(options_) {
   nucleusCarbon_ = dimers_.smallestNucleus() / constants::avogadro;

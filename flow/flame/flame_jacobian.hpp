@@ -1,7 +1,8 @@
-// Inside of FlameEquations: derivatives of the fluxes through a face, and of the sources at a point, with transport
-// coefficients frozen but for their growth with temperature. Not for other rooms.
+// Inside of FlameEquations: the Newton matrix, from derivatives of the fluxes through a face and of the sources at a
+// point, with transport coefficients frozen but for their growth with temperature. Not for other rooms.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "flow/flame/flame_equations_data.hpp"
@@ -33,4 +34,20 @@ struct FlameEquations::Data::JacobianWork {
   double* B = nullptr;
 };
 
+// The parts of Data::fillRow.
+namespace flamejacobian {
+
+// Rows and columns of the blocks of a point.
+inline constexpr std::size_t M = FlameLayout::massFlux, V = FlameLayout::spread, T = FlameLayout::temperature,
+                             Y = FlameLayout::firstSpecies;
+
+// d(convection, diffusion, conduction) through one side of the control volume of point i.
+void addFace(const FlameEquations::Data& data, std::size_t i, bool isRight, const FaceDerivatives& face,
+             FlameEquations::Data::JacobianWork& work);
+// Reactions of the gas: -volume * d(source).
+void addReactions(FlameEquations::Data& data, std::size_t i, FlameEquations::Data::JacobianWork& work);
+// What scalars and gas exchange: sources of both.
+void addCarried(FlameEquations::Data& data, std::size_t i, FlameEquations::Data::JacobianWork& work);
+
+}  // namespace flamejacobian
 }  // namespace lampblack

@@ -5,95 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "core/errors.hpp"
 #include "core/petsc.hpp"
 #include "core/petsc_callbacks.hpp"
 #include "flow/flame/newton_iteration.hpp"
+#include "flow/flame/unsteady_step.hpp"
 
 namespace lampblack {
 namespace {
 
 using PetscTimeStepper = PetscOwner<TS, TSDestroy>;
-
-// The equations of one time step as TS puts them: x is the new state, rates follow from it and from old states.
-class StepSystem : public NewtonSystem {
- public:
-  explicit StepSystem(UnsteadySystem& system) : system_(system), rates_(system.size()), weights_(system.size()) {}
-
-  void attach(SNES snes, Vec x, Vec F, Mat matrix) {
-    snes_ = snes;
-    x_ = x;
-    F_ = F;
-    matrix_ = matrix;
-  }
-  [[nodiscard]] std::size_t size() const override { return system_.size(); }
-  void residual(std::span<const double> x, std::span<double> F) override {
-    copyIn(x);
-    failure_.reset();
-    exceptions_.run([&] { return SNESComputeFunction(snes_, x_, F_); });
-    if (failure_) throw NumericsError(*failure_);
-    std::ranges::copy(PetscValues(F_).get(), F.begin());
-  }
-  void timeWeights(std::span<const double>, std::span<double>) override {
-    throw std::logic_error("time steps in a time step");
-  }
-  [[nodiscard]] bool factorise(std::span<const double> x, double) override {
-    copyIn(x);
-    failure_.reset();
-    exceptions_.run([&] { return SNESComputeJacobian(snes_, x_, matrix_, matrix_); });
-    if (failure_) throw NumericsError(*failure_);
-    return regular_;
-  }
-  void solve(std::span<double> b) override { system_.solve(b); }
-  void bounds(std::span<double> lower, std::span<double> upper) const override { system_.bounds(lower, upper); }
-  void scales(std::span<const double> x, std::span<double> scale) const override { system_.scales(x, scale); }
-  [[nodiscard]] std::string nameOf(std::size_t unknown) const override { return system_.nameOf(unknown); }
-
-  // Called back by TS. A NumericsError must not pass through PETSc as an error of PETSc: Newton's method steps back.
-  PetscErrorCode function(Vec x, Vec rate, Vec F) {
-    return exceptions_.guard([&] {
-      const PetscValues state(x), rates(rate);
-      const PetscMutableValues out(F);
-      try {
-        system_.residual(state.get(), out.get());
-        system_.timeWeights(state.get(), weights_);
-        for (std::size_t i = 0; i < weights_.size(); ++i)
-          // An algebraic unknown may not be finite in its rate.
-          if (weights_[i] != 0) out.get()[i] += weights_[i] * rates.get()[i];
-        system_.storage(state.get(), rates.get(), out.get());
-      } catch (const NumericsError& error) {
-        failure_ = error.what();
-        std::ranges::fill(out.get(), 0.0);
-      }
-    });
-  }
-  PetscErrorCode matrix(Vec x, double shift) {
-    return exceptions_.guard([&] {
-      shiftOfFactors_ = shift;
-      try {
-        regular_ = system_.factoriseUnsteady(PetscValues(x).get(), shift);
-      } catch (const NumericsError& error) {
-        failure_ = error.what();
-      }
-    });
-  }
-  [[nodiscard]] double shiftOfFactors() const { return shiftOfFactors_; }
-
- private:
-  void copyIn(std::span<const double> x) { std::ranges::copy(x, PetscMutableValues(x_).get().begin()); }
-
-  UnsteadySystem& system_;
-  SNES snes_ = nullptr;
-  Vec x_ = nullptr, F_ = nullptr;
-  Mat matrix_ = nullptr;
-  std::vector<double> rates_, weights_;
-  PetscExceptions exceptions_;
-  std::optional<std::string> failure_;
-  bool regular_ = false;
-  double shiftOfFactors_ = 0;
-};
 
 class Integration {
  public:
@@ -272,7 +194,7 @@ class Integration {
   UnsteadySystem& system_;
   const UnsteadyOptions& options_;
   const std::function<void(double, std::span<const double>)>& output_;
-  StepSystem equations_;
+  UnsteadyStep equations_;
   NewtonIteration iteration_;
   PetscTimeStepper ts_;
   PetscMatrix matrix_;

@@ -1,14 +1,17 @@
+// HMOM: its scalars, the particles they stand for, and their rates.
 #include "particles/soot/hmom.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
 #include "core/errors.hpp"
+#include "particles/collision_physics.hpp"
+#include "particles/soot/hmom_impl.hpp"
 #include "particles/soot/soot_oxidation.hpp"
+#include "particles/sphere.hpp"
 
 namespace lampblack {
 namespace {
@@ -18,53 +21,7 @@ namespace {
 constexpr double largestHydrogenToCarbon = 2, largestInNuclei = 1e12, largestNucleusInNuclei = 100;
 constexpr double leastArea = 1e-100;  // m2/m3: no surface at all
 
-double sphereDiameter(double volume) {
-  return std::cbrt(6 * volume / constants::pi);
-}
-
-double sphereSurface(double volume) {
-  const double d = sphereDiameter(volume);
-  return constants::pi * d * d;
-}
-
 }  // namespace
-
-struct HmomSoot::Mode {
-  // The scalars, at least zero.
-  double number = 0;                // 1/m3
-  double carbon = 0, hydrogen = 0;  // kg/m3
-  // What the rates take.
-  double mass = 0;                                // kg/m3
-  double present = 0;                             // 1/m3, number that goes with the mass
-  double particle = 0;                            // kg, mean mass
-  double volume = 0, surface = 0, primaries = 1;  // m3, m2, of the mean particle
-  double collisionDiameter = 0;                   // m
-  double hydrogenToCarbon = 0;                    // atoms
-};
-
-struct HmomSoot::State {
-  Mode nuclei, large;
-  double surface = 0;  // m2/m3, the scalar, at least zero
-};
-
-struct HmomSoot::Rates {
-  std::array<double, scalarCount> scalars{};
-  DimerBalance dimers;
-  SurfaceEvents onNuclei, onLarge;
-  double condensedOnLarge = 0;          // kg/m3/s
-  double hydrogenLost = 0;              // mol/m3/s
-  double coagulated = 0, burntOut = 0;  // 1/m3/s
-
-  // Particles of the nuclei mode that leave it at `rate` (1/s), with what they have.
-  void leaveNuclei(const Mode& mode, double rate, bool toLarge) {
-    scalars[nuclei] -= rate * mode.number;
-    scalars[nucleiCarbon] -= rate * mode.carbon;
-    scalars[nucleiHydrogen] -= rate * mode.hydrogen;
-    if (!toLarge) return;
-    scalars[carbon] += rate * mode.carbon;
-    scalars[hydrogen] += rate * mode.hydrogen;
-  }
-};
 
 HmomSoot::HmomSoot(HmomOptions options) : options_(std::move(options)), chemistry_(options_.soot) {
   if (!(options_.fractalDimension > 1 && options_.fractalDimension <= 3)) {
@@ -261,61 +218,6 @@ void HmomSoot::sources(const SootGas& gas, std::span<const double> densities, st
   const SurfaceEvents events{r.onNuclei.growth + r.onLarge.growth, r.onNuclei.oxidationO2 + r.onLarge.oxidationO2,
                              r.onNuclei.oxidationOH + r.onLarge.oxidationOH};
   chemistry_.exchange(read, r.dimers, events, r.hydrogenLost, exchange);
-}
-
-void HmomSoot::diffusivities(const SootGas& gas, std::span<const double> densities, std::span<double> D) const {
-  const State s = stateOf(densities);
-  const double ofNuclei = MomentChemistry::diffusivity(gas, s.nuclei.collisionDiameter);
-  const double ofLarge = MomentChemistry::diffusivity(gas, mobilityDiameter(s.large));
-  for (std::size_t i = 0; i < scalarCount; ++i) D[i] = i <= nucleiHydrogen ? ofNuclei : ofLarge;
-}
-
-double HmomSoot::mobilityDiameter(const Mode& mode) {
-  return 6 * mode.volume / mode.surface * std::pow(mode.primaries, 0.45);  // thesis eq. 9-21
-}
-
-SootProperties HmomSoot::properties(const SootGas& /*gas*/, std::span<const double> densities) const {
-  const State s = stateOf(densities);
-  const Mode &n = s.nuclei, &l = s.large;
-  SootProperties p;
-  p.numberDensity = n.number + l.number;
-  const double mass = n.mass + l.mass, present = n.present + l.present;
-  if (!(present > 0)) return p;
-  const double volume = mass / options_.soot.sootDensity;
-  p.volumeFraction = volume;
-  p.meanDiameter = sphereDiameter(volume / present);
-  p.surfaceArea = n.present * n.surface + l.present * l.surface;
-  // Means over particles; the primaries' is that of the total volume and surface.
-  const auto mean = [&](double ofNuclei, double ofLarge) {
-    return (n.present * ofNuclei + l.present * ofLarge) / present;
-  };
-  p.primaryDiameter = 6 * volume / p.surfaceArea;
-  p.primariesPerAggregate = mean(1, l.primaries);
-  p.mobilityDiameter = mean(n.collisionDiameter, mobilityDiameter(l));
-  const double gyration = l.primaries > 1.8 ? 1 / (std::pow(l.primaries, -0.2) + 0.4) : std::sqrt(0.6);
-  p.gyrationDiameter = mean(std::sqrt(0.6) * n.collisionDiameter, gyration * mobilityDiameter(l));  // thesis eq. 9-22
-  return p;
-}
-
-double HmomSoot::volumeFraction(std::span<const double> densities) const {
-  double mass = 0;
-  for (std::size_t i : {nucleiCarbon, nucleiHydrogen, carbon, hydrogen}) mass += std::max(densities[i], 0.0);
-  return mass / options_.soot.sootDensity;
-}
-
-SootProcesses HmomSoot::processes(const SootGas& gas, std::span<const double> densities) const {
-  const MomentGas read = chemistry_.read(gas);
-  const State state = stateOf(densities);
-  const Rates r = evaluate(read, densities);
-  SootProcesses p = MomentChemistry::processes(options_.soot, read, r.dimers, r.onLarge, state.large.hydrogenToCarbon);
-  const SootProcesses q =
-      MomentChemistry::processes(options_.soot, read, r.dimers, r.onNuclei, state.nuclei.hydrogenToCarbon);
-  p.growth += q.growth;
-  p.oxidationO2 += q.oxidationO2;
-  p.oxidationOH += q.oxidationOH;
-  p.coagulationNumber = r.coagulated;
-  p.oxidationNumber = r.burntOut;
-  return p;
 }
 
 }  // namespace lampblack

@@ -120,6 +120,12 @@ class SmallSystemOf : public Base {
 
 using SmallSystem = SmallSystemOf<NewtonSystem>;
 
+// One equation f(x) = 0.
+inline SmallSystem scalar(std::function<double(double)> f, std::function<double(double)> derivative) {
+  return {1, [f](auto x, auto F) { F[0] = f(x[0]); },
+          [derivative](auto x, std::vector<double>& J) { J[0] = derivative(x[0]); }};
+}
+
 // Equations of all unknowns but the load; the last row is added here.
 template <typename Base>
 class SmallLoadedSystemOf : public SmallSystemOf<Base> {
@@ -171,6 +177,11 @@ inline void bratuMatrix(std::span<const double> u, std::size_t n, double load, s
     if (i > 0) J[i * stride + i - 1] = -1 / (h * h);
     if (i + 1 < n) J[i * stride + i + 1] = -1 / (h * h);
   }
+}
+
+inline SmallSystem bratu(std::size_t n, double load) {
+  return {n, [=](auto u, auto F) { bratuResidual(u, n, load, F); },
+          [=](auto u, std::vector<double>& J) { bratuMatrix(u, n, load, n, J); }};
 }
 
 // Solution of the differential equation on its lower branch: u = 2 ln(cosh(t/4) / cosh((x - 1/2) t/2)) with

@@ -1,11 +1,10 @@
 // Whole flames of hydrogen, from their streams to a converged solution.
-#include "flow/flame/flame_solver.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "flow/flame/flame_solver.hpp"
 #include "flow/flame/initial_flame.hpp"
 #include "tests/flow/flame/flame_fixture.hpp"
 

@@ -1,6 +1,4 @@
 // The Newton matrix of a flame against differences of its residual, and what the discrete equations conserve.
-#include "flow/flame/flame_equations.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,6 +6,7 @@
 #include <vector>
 
 #include "chemistry/numerics/dense_blocks.hpp"
+#include "flow/flame/flame_equations.hpp"
 #include "tests/flow/flame/flame_fixture.hpp"
 
 namespace lampblack {

@@ -1,0 +1,49 @@
+// Inside of FlameSolver: what its stages and its grids share. Not for other rooms.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "flow/flame/flame_solver.hpp"
+
+namespace lampblack {
+
+struct FlameSolver::Data {
+  MPI_Comm comm;
+  std::shared_ptr<const Mechanism> mechanism;
+  FlameProblem problem;
+  CarriedModel* carried;
+  FlameSolverOptions options;
+  std::function<void(const FlameStage&, const FlameProfile&)> report;
+  std::optional<GivenExchange> exchange;
+
+  FlameSolution solution;  // as far as it has come
+
+  // One stage: the steady flame on the grid of the profile.
+  void steady(FlameEquations& equations, NewtonSolver& solver, const std::string& name);
+  void fail(const FlameStage& stage);
+  // Stages on ever better grids until none is needed.
+  void refine(FlameEquations& equations, NewtonSolver& solver, const std::string& name, const GridOptions& grid);
+  void place(FlameEquations& equations);
+  void follow(FlameEquations& equations);
+  void ripen(FlameEquations& equations, NewtonSolver& solver);
+  bool widen();
+  [[nodiscard]] std::vector<std::size_t> anchorPoint() const;
+  void anchorIn(const FlameProfile& profile);
+  void gasAlone(const FlameProblem& flame, NewtonSolver& solver, const std::string& name);
+  void scalarsAlone(FlameEquations& equations, NewtonSolver& solver);
+  void count(const FlameEquations& equations);
+  [[nodiscard]] bool withoutScalars() const {
+    for (std::size_t i = 0; i < solution.profile.points(); ++i)
+      for (double value : solution.profile.scalars(i))
+        if (value != 0) return false;
+    return true;
+  }
+
+  double anchorZ = 0, anchorTemperature = 0;
+};
+
+}  // namespace lampblack
