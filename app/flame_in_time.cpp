@@ -79,7 +79,8 @@ FlameInTime flameInTime(MPI_Comm comm, FlameCase& flame, FlameProfile& start, Hi
       FlameProfile profile{start.layout, start.z, {x.begin(), x.end()}};
       const auto row = historyRow(flame, time, profile);
       history.row(row);
-      progress.update(static_cast<std::int64_t>(course.times.size()), time, 0, fmt::format("Tmax {:.1f} K", row[2]));
+      const double since = course.times.empty() ? 0 : time - course.times.back();
+      progress.update(static_cast<std::int64_t>(course.times.size()), time, since, fmt::format("Tmax {:.1f} K", row[2]));
       course.times.push_back(time);
       course.profiles.push_back(std::move(profile));
     });

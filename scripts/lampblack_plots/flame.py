@@ -11,6 +11,10 @@ MOST_MAJOR, MOST_MINOR, MOST_SIZES = 8, 10, 7
 # Major species are drawn on a linear scale, what is left of the largest on a logarithmic one.
 MAJOR_FROM = 0.01
 
+# Peaks that differ by more are drawn on a logarithmic scale, down to so much of the lowest peak.
+APART = 30
+BELOW_PEAK = {"volume fraction": 1e-2, "diameter": 0.2}
+
 
 class FlameData:
     """The fields of one flame over z in mm."""
@@ -71,7 +75,8 @@ def plot_gas(flame, pictures, name="flame"):
     peak = {name: np.max(values[inside]) for name, values in flame.X.items()}
     order = sorted(peak, key=lambda name: -peak[name])
     major = [name for name in order if peak[name] >= MAJOR_FROM][:MOST_MAJOR]
-    minor = [name for name in order if name not in major and peak[name] > 0][:MOST_MINOR]
+    minor = [name for name in order if name not in major and peak[name] > 0]
+    minor = [name for name in minor if peak[name] > 1e-4 * peak[minor[0]]][:MOST_MINOR]
     for species in major:
         middle.plot(flame.z, flame.X[species], label=species, lw=1.2)
     middle.set_ylabel("mole fraction")
@@ -94,13 +99,14 @@ PROCESSES = {  # mass rates; losses negative
 }
 
 
-def _sooty(axes, flame):
-    """Limits the view to where there is soot."""
+def soot_span(flame):
+    """Where there is soot; None where there is none."""
     fraction = flame.soot["volume_fraction"]
     there = np.flatnonzero(fraction > 1e-4 * fraction.max()) if fraction.max() > 0 else []
-    if len(there) > 1:
-        margin = 0.05 * (flame.z[there[-1]] - flame.z[there[0]])
-        axes.set_xlim(max(flame.z[0], flame.z[there[0]] - margin), min(flame.z[-1], flame.z[there[-1]] + margin))
+    if len(there) < 2:
+        return None
+    margin = 0.05 * (flame.z[there[-1]] - flame.z[there[0]])
+    return max(flame.z[0], flame.z[there[0]] - margin), min(flame.z[-1], flame.z[there[-1]] + margin)
 
 
 def _plot_soot(flame, pictures):
@@ -139,7 +145,9 @@ def _plot_soot(flame, pictures):
     d.legend(fontsize=8)
     for axes in (c, d):
         axes.set_xlabel("z, mm")
-    _sooty(a, flame)
+    if soot_span(flame):
+        a.set_xlim(*soot_span(flame))
+    d.ticklabel_format(axis="y", scilimits=(-2, 4))
     a.set_title(flame.label, loc="left", fontsize=10)
     pictures.save(figure, "soot")
 
@@ -168,16 +176,19 @@ def _plot_sizes(flame, pictures):
         axes.loglog(diameter, _positive(density[i]), color=plt.cm.viridis(number / max(1, len(chosen) - 1)), marker=".",
                     ms=3, label=f"{flame.z[i]:.3g} mm")
     _bottom(axes, density, 1e-7)
+    shown = np.flatnonzero((density[chosen] > 1e-7 * density.max()).any(axis=0))
+    if shown.size:
+        axes.set_xlim(0.7 * diameter[shown[0]], 1.5 * diameter[shown[-1]])
     axes.set_xlabel("diameter, nm")
     axes.set_ylabel("dN/dlog$_{10}$d, 1/cm$^3$")
     axes.legend(fontsize=8, title="z")
     pictures.save(figure, "sizes")
 
 
-def plot_together(folders, pictures, name="together", labels=None):
-    """Temperature, soot or heat release of several flames on top of each other."""
+def plot_together(folders, pictures, name="together", varied=None):
+    """Temperature, soot or heat release of several flames on top of each other; `varied` is what their names give."""
     flames = [FlameData(Results(folder)) for folder in folders]
-    labels = labels or short_names([folder.name for folder in folders])
+    labels = short_names([folder.name for folder in folders])
     usable = [(flame, label) for flame, label in zip(flames, labels) if flame.z.size]
     if len(usable) < len(flames):
         pictures.skip("some flames", "they hold no fields over z")
@@ -198,7 +209,7 @@ def plot_together(folders, pictures, name="together", labels=None):
         panels += [("heat release", "heat release, MW/m$^3$", lambda f: f.fields["heat_release"] * 1e-6),
                    ("velocity", "velocity, m/s", lambda f: f.fields["velocity"]),
                    ("OH", "mole fraction of OH", lambda f: f.X.get("OH"))]
-    figure, grid = plt.subplots(2, 2, figsize=(10.0, 6.6), sharex=True)
+    figure, grid = plt.subplots(2, 2, figsize=(10.0, 6.6), sharex=not with_soot)
     for axes, (title, label, values_of) in zip(grid.flat, panels):
         shown, peaks = 0.0, []
         for number, (flame, name_of_flame) in enumerate(usable):
@@ -212,18 +223,22 @@ def plot_together(folders, pictures, name="together", labels=None):
             for path in flame.paths:
                 _along_path(axes, path, title, factor if with_soot else 1.0, colour)
         # Models may differ by orders of magnitude.
-        apart = title == "volume fraction" and shown > 30 * min(peaks, default=0.0)
-        if shown > 0 and (title == "number density" or apart):
+        least = min((p for p in peaks if p > 0), default=0.0)
+        if shown > 0 and (title == "number density" or title in BELOW_PEAK and shown > APART * least):
             axes.set_yscale("log")
-            axes.set_ylim(1e-6 * shown if title == "number density" else 1e-2 * min(p for p in peaks if p > 0), 3 * shown)
+            axes.set_ylim(1e-6 * shown if title == "number density" else BELOW_PEAK[title] * least, 3 * shown)
         axes.set_ylabel(label)
-    for axes in grid[1]:
+    for axes in grid.flat if with_soot else grid[1]:
         axes.set_xlabel("z, mm")
     spans = [flame.span() for flame, _ in usable]
     grid[0][0].set_xlim(min(low for low, _ in spans), max(high for _, high in spans))
+    sooty = [soot_span(flame) for flame, _ in usable if flame.soot]
+    for axes in grid.flat[1:] if any(sooty) else []:
+        axes.set_xlim(min(span[0] for span in sooty if span), max(span[1] for span in sooty if span))
     if any(flame.paths for flame, _ in usable):
         grid[0][0].set_title("dotted: ensembles", loc="left", fontsize=9)
-    grid[0][1].legend(*grid[0][0].get_legend_handles_labels(), fontsize=8, loc="upper left", bbox_to_anchor=(1.0, 1.0))
+    grid[0][1].legend(*grid[0][0].get_legend_handles_labels(), fontsize=8, loc="upper left", bbox_to_anchor=(1.0, 1.0),
+                      title=varied, title_fontsize=8)
     pictures.save(figure, name)
 
 

@@ -1,8 +1,9 @@
 """Pictures of what was followed from a one-dimensional flame: the branch over the strain, the flame in time."""
 
 import numpy as np
+from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
-from .style import plt
+from .style import plt, scaled_fraction
 
 
 def plot_branch(results, pictures):
@@ -16,11 +17,15 @@ def plot_branch(results, pictures):
     axes.semilogx(strain if named else load, temperature, "k.-", ms=5, lw=1.0)
     turns = group["turning_points"]
     for at, highest, point in zip(turns["strain_rate" if named else "load"][()], turns["highest"][()], turns["point"][()]):
-        word = "extinction" if highest else "ignition"
+        word = "extinction" if highest else "turns again"  # ignition, or a flame as thick as the space for it
         axes.plot(at, temperature[int(point)], "o", color="tab:red" if highest else "tab:blue",
                   label=f"{word}: {at:.4g}{' 1/s' if named else ''}")
     axes.set_xlabel("strain rate, 1/s" if named else "factor on the strain")
     axes.set_ylabel("largest temperature, K")
+    if named and strain.max() < 30 * strain.min():  # too few powers of ten for ticks
+        axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+        axes.xaxis.set_minor_formatter(NullFormatter())
     if len(turns["load"]):
         axes.legend(fontsize=9)
     pictures.save(figure, "branch")
@@ -42,10 +47,12 @@ def plot_course(results, pictures):
     other.set_ylabel("factor on the strain")
     drawn = [("temperature", "inferno", "temperature, K", 1.0)]
     if with_soot:
-        drawn.append(("soot_volume_fraction", "viridis", "volume fraction, ppm", 1e6))
+        largest = group["soot_volume_fraction"][()].max(initial=1e-12)
+        scaled, unit = scaled_fraction(np.array([largest]))
+        drawn.append(("soot_volume_fraction", "viridis", f"volume fraction{', ' + unit if unit else ''}", scaled[0] / largest))
     for axes, (name, colours, label, factor) in zip(panels[1:], drawn):
         shades = axes.pcolormesh(time, z, group[name][()].T * factor, cmap=colours, shading="nearest")
-        figure.colorbar(shades, ax=axes, label=label)
+        figure.colorbar(shades, cax=axes.inset_axes([1.02, 0, 0.03, 1]), label=label)
         axes.set_ylabel("z, mm")
     panels[-1].set_xlabel("time, ms")
     pictures.save(figure, "in_time")

@@ -2,13 +2,12 @@
 
 import numpy as np
 
-from .flame import FlameData, plot_gas
+from .flame import APART, FlameData, plot_gas
 from .flame_peaks import peak, shape
 from .results import Results
 from .style import plt, scaled_fraction
 
 DENSITIES = {"leung": 2000.0, "moss_brookes": 1800.0, "sectional": 1800.0}  # of docs/deck.md, where the deck names none
-APART = 30  # peaks that differ by more are drawn on a logarithmic scale
 
 RATES = [  # name of the process, label, sign
     ("dimer_number", "dimers, 1/cm$^3$", 1e-6),
@@ -45,8 +44,9 @@ def plot_series(series, pictures):
             axes.set_xlim(*limits)
         for axes in grid.flat[len(items):]:
             axes.axis("off")
-        for axes in grid[-1]:
+        for axes in grid.flat[max(0, len(items) - columns):len(items)]:  # the last of each column, also above an empty place
             axes.set_xlabel("z, mm")
+            axes.tick_params(labelbottom=True)
         grid[0][-1].legend(*grid[0][0].get_legend_handles_labels(), fontsize=8, title=legend, title_fontsize=8,
                            loc="upper left", bbox_to_anchor=(1.0, 1.0))
         pictures.save(figure, f"{series.name}_{name}")
@@ -103,8 +103,11 @@ def _draw(axes, flames, curves, label, names):
         peaks.append(np.nanmax(values))
     axes.set_ylabel(label)
     if peaks and min(peaks) > 0 and max(peaks) > APART * min(peaks):
+        least = min(np.nanmin(values[values > 0], initial=np.inf) for values in curves if values is not None)
         axes.set_yscale("log")
-        axes.set_ylim(max(1e-2 * min(peaks), 1e-6 * max(peaks)), 3 * max(peaks))
+        axes.set_ylim(max(1e-2 * min(peaks), 1e-6 * max(peaks), 0.5 * least), 3 * max(peaks))
+    else:
+        axes.ticklabel_format(axis="y", scilimits=(-2, 4))
 
 
 def _plot_peaks(series, flames, fractions, unit, species, pictures):
@@ -127,12 +130,12 @@ def _plot_peaks(series, flames, fractions, unit, species, pictures):
         c.plot(at, np.array(largest) / largest[0], "o-", ms=4, label=name)
         if name not in ("C2H2", "A1"):
             b.plot(at, [peak(flame.z, flame.X[name])[1] for flame in flames], "o-", ms=3, lw=0.9, label=name)
-    c.set_ylabel("largest mole fraction over the first flame's")
+    c.set_ylabel("largest mole fraction,\nover the first flame's")
     for name, label, _ in RATES:
         if all(name in flame.processes and np.any(flame.processes[name] != 0) for flame in flames):
             largest = np.array([np.max(np.abs(flame.processes[name])) for flame in flames])
             d.plot(at, largest / largest[0], "o-", ms=4, label=label.rsplit(",", 1)[0])
-    d.set_ylabel("largest rate over the first flame's")
+    d.set_ylabel("largest rate,\nover the first flame's")
     for axes in (b, c, d):
         axes.legend(fontsize=7, loc="upper left", bbox_to_anchor=(1.0, 1.0))
     for axes in (c, d):
