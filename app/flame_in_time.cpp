@@ -80,7 +80,8 @@ FlameInTime flameInTime(MPI_Comm comm, FlameCase& flame, FlameProfile& start, Hi
       const auto row = historyRow(flame, time, profile);
       history.row(row);
       const double since = course.times.empty() ? 0 : time - course.times.back();
-      progress.update(static_cast<std::int64_t>(course.times.size()), time, since, fmt::format("Tmax {:.1f} K", row[2]));
+      progress.update(static_cast<std::int64_t>(course.times.size()), time, since,
+                      fmt::format("Tmax {:.1f} K", row[2]));
       course.times.push_back(time);
       course.profiles.push_back(std::move(profile));
     });
