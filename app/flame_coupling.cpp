@@ -117,17 +117,15 @@ class Coupling {
     GivenExchange given;
     given.z = profile.z;
     for (std::size_t i = 0; i < given.z.size(); ++i) {
-      const double z = given.z[i];
-      const auto mix = [&](const std::vector<double>& before, std::size_t stride, std::size_t k, double target) {
-        return (1 - w) * interpolate(old.z, before, stride, k, z) + w * target;
-      };
+      const GivenExchange::Sample before = old.at(given.z[i]);
+      const auto mix = [&](double earlier, double target) { return (1 - w) * earlier + w * target; };
       for (std::size_t k = 0; k < n; ++k)
-        given.species.push_back(mix(old.species, n, k, population.species[i * n + k] - transfer.species[i * n + k]));
-      given.absorption.push_back(mix(old.absorption, 1, 0, population.absorption[i] - transfer.absorption[i]));
+        given.species.push_back(mix(before.species(k), population.species[i * n + k] - transfer.species[i * n + k]));
+      given.absorption.push_back(mix(before.absorption(), population.absorption[i] - transfer.absorption[i]));
       const double T = profile.temperature(i);
       const double toSoot = sootCarbonEnthalpy(T).first * (population.carbon[i] - transfer.carbon[i]) +
                             sootHydrogenEnthalpy(T).first * (population.hydrogen[i] - transfer.hydrogen[i]);
-      given.enthalpy.push_back(mix(old.enthalpy, 1, 0, -toSoot));
+      given.enthalpy.push_back(mix(before.enthalpy(), -toSoot));
     }
     return given;
   }

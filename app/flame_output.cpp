@@ -102,13 +102,15 @@ void writeBudgets(ResultsWriter& results, const FlameSolution& solution) {
       {"out", "kg/m^2/s", "at the ends and sideways, by spreading; of energy W/m^2"},
       {"wall", "kg/m^2/s", "deposited on burner or wall; of energy conducted into it, W/m^2"},
       {"radiated", "W/m^2", "lost by radiation"},
-      {"imbalance", "kg/m^2/s", "in - out - wall - radiated"},
+      {"given", "kg/m^2/s",
+       "by what is computed apart, as ensembles coupled both ways; negative: taken; of energy W/m^2"},
+      {"imbalance", "kg/m^2/s", "in + given - out - wall - radiated"},
       {"relative_imbalance", "1", "over what comes in (of energy: over the largest of in, out and wall)"}};
   std::vector<double> rows;
   std::vector<std::string> names;
   for (const FlameBudget& budget : solution.budgets) {
     names.push_back(budget.name);
-    rows.insert(rows.end(), {budget.in, budget.out, budget.wall, budget.radiated, budget.imbalance(),
+    rows.insert(rows.end(), {budget.in, budget.out, budget.wall, budget.radiated, budget.given, budget.imbalance(),
                              relativeImbalance(budget, solution.budgets)});
   }
   results.table("/budgets", columns, rows);

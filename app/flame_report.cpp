@@ -37,6 +37,22 @@ bool burning(const FlameCase& flame, const FlameResult& result) {
   return false;
 }
 
+// A column for what ensembles give the gas where there are such.
+std::string budgetText(const std::vector<FlameBudget>& budgets) {
+  if (budgets.empty()) return "";
+  const bool given = std::any_of(budgets.begin(), budgets.end(), [](const FlameBudget& b) { return b.given != 0; });
+  std::string text = fmt::format("\nBudgets{:>18} {:>13} {:>13} {:>13}", "in", "out", "wall", "radiated");
+  if (given) text += fmt::format(" {:>13}", "by ensembles");
+  text += fmt::format(" {:>10}\n", "imbalance");
+  for (const FlameBudget& b : budgets) {
+    if (b.in == 0 && std::abs(b.out) < 1e-20) continue;  // an element that is not there
+    text += fmt::format("  {:<10} {:>13.6e} {:>13.6e} {:>13.6e} {:>13.6e}", b.name, b.in, b.out, b.wall, b.radiated);
+    if (given) text += fmt::format(" {:>13.6e}", b.given);
+    text += fmt::format(" {:>10.1e}\n", b.imbalance());
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string stageLine(const FlameStage& stage) {
@@ -78,14 +94,7 @@ std::string flameReport(const FlameCase& flame, const FlameResult& result) {
         "\nThe flame is out: nothing is warmer than what flows in. The strain may be beyond extinction, or the start "
         "was "
         "too\nfar away; a burning flame at lower velocities can be the start of this one (initial: results.h5).\n";
-  if (!result.solution.budgets.empty()) {
-    text += fmt::format("\nBudgets{:>18} {:>13} {:>13} {:>13} {:>10}\n", "in", "out", "wall", "radiated", "imbalance");
-    for (const FlameBudget& b : result.solution.budgets) {
-      if (b.in == 0 && std::abs(b.out) < 1e-20) continue;  // an element that is not there
-      text += fmt::format("  {:<10} {:>13.6e} {:>13.6e} {:>13.6e} {:>13.6e} {:>10.1e}\n", b.name, b.in, b.out, b.wall,
-                          b.radiated, b.imbalance());
-    }
-  }
+  text += budgetText(result.solution.budgets);
   const auto& c = result.solution.counters;
   double total = 0;
   for (const FlameStage& stage : result.solution.stages) total += stage.seconds;

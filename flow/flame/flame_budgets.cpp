@@ -27,6 +27,10 @@ FlameBudget budgetOf(const FlameEquations::Data& d, const std::string& name, con
     double inside = content(d.profile.massFractions(i));
     for (std::size_t s = 0; s < S; ++s) inside += scalar[s] * d.profile.scalars(i)[s] * d.gas.scalarScale[s];
     budget.out += sideways * inside;
+    if (d.exchange) {
+      const GivenExchange::Sample given = d.exchange->at(d.profile.z[i]);
+      for (std::size_t k = 0; k < n; ++k) budget.given += species[k] * given.species(k) * d.volume[i];
+    }
   }
   for (std::size_t s = 0; s < S; ++s) {
     budget.wall -= scalar[s] * d.scalarFluxLeft(0, s);
@@ -56,7 +60,10 @@ FlameBudget energyBudget(const FlameEquations::Data& d) {
     double inside = content(i, d.profile.massFractions(i));
     for (std::size_t s = 0; s < S; ++s) inside += carriedAt(i, s) * d.profile.scalars(i)[s] * d.gas.scalarScale[s];
     budget.out += sideways * inside;
-    budget.radiated += d.gas.nodes.loss[i] * d.volume[i];
+    // What an exchange gives is part of the loss; what species bring or take with them stays in the gas.
+    const double given = d.exchange ? d.exchange->at(d.profile.z[i]).enthalpy() : 0;
+    budget.given += given * d.volume[i];
+    budget.radiated += (d.gas.nodes.loss[i] + given) * d.volume[i];
     // Where the temperature is given, heat is taken away (or brought) to keep it.
     if (d.temperatureIsGiven(i)) budget.wall -= d.energyResidual(i);
   }

@@ -20,6 +20,7 @@
 #include "flow/flame/carried_model.hpp"
 #include "flow/flame/flame_problem.hpp"
 #include "flow/flame/flame_profile.hpp"
+#include "flow/flame/given_exchange.hpp"
 #include "flow/flame/unsteady_system.hpp"
 
 namespace lampblack {
@@ -30,15 +31,6 @@ struct FlameTolerances {
   double species = 1e-9, temperature = 1e-2, flow = 1e-4, scalars = 1e-7;
 };
 
-// What is exchanged with the gas at every point by something that is not part of the flame (stochastic particles that
-// were computed along it): production of species, kg/m3/s, and absorption by particles, 1/m; between points linear.
-struct GivenExchange {
-  std::vector<double> z;
-  std::vector<double> species;  // point-major, all species of the mechanism
-  std::vector<double> absorption;
-  std::vector<double> enthalpy;  // J/m3/s given to the gas by what it exchanges, apart from the species' own
-};
-
 // Fluxes in and out, and sources, of one conserved quantity.
 struct FlameBudget {
   std::string name;  // element, "mass", "energy"
@@ -46,7 +38,8 @@ struct FlameBudget {
   double out = 0;    // leaving at the ends and, by spreading, sideways
   double wall = 0;   // conducted into burner or wall, deposited on the wall
   double radiated = 0;
-  [[nodiscard]] double imbalance() const { return in - out - wall - radiated; }
+  double given = 0;  // by a GivenExchange; negative: taken
+  [[nodiscard]] double imbalance() const { return in + given - out - wall - radiated; }
 };
 
 class FlameEquations : public UnsteadySystem {

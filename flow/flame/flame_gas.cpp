@@ -181,22 +181,14 @@ void FlameGas::addCarried(const FlameProfile& x, std::size_t i) {
 }
 
 void FlameGas::addExchange(const FlameProfile& x, std::size_t i, const GivenExchange& exchange) {
-  const auto& z = exchange.z;
-  const double at = x.z[i];
-  if (z.empty() || at < z.front() || at > z.back()) return;
-  const std::size_t upper =
-      std::clamp<std::size_t>(std::upper_bound(z.begin(), z.end(), at) - z.begin(), 1, z.size() - 1);
-  const double share = (at - z[upper - 1]) / (z[upper] - z[upper - 1]);
-  const auto between = [&](const std::vector<double>& v, std::size_t stride, std::size_t k) {
-    return (1 - share) * v[(upper - 1) * stride + k] + share * v[upper * stride + k];
-  };
+  const GivenExchange::Sample given = exchange.at(x.z[i]);
   for (std::size_t k = 0; k < n_; ++k) {
-    const double rate = between(exchange.species, n_, k);
+    const double rate = given.species(k);
     nodes.source[i * n_ + k] += rate;
     nodes.exchanged[i] += rate;
   }
-  nodes.absorption[i] += between(exchange.absorption, 1, 0);
-  nodes.loss[i] -= between(exchange.enthalpy, 1, 0);
+  nodes.absorption[i] += given.absorption();
+  nodes.loss[i] -= given.enthalpy();
 }
 
 }  // namespace lampblack
