@@ -106,9 +106,13 @@ Attempt attemptFlame(MPI_Comm comm, FlameCase& flame, FlameProfile start, const 
   if (attempt.failure) return attempt;
   if (flame.unsteady) followInTime(comm, flame, folder, attempt);
   if (!flame.continuation) return attempt;
-  attempt.branch = followBranch(comm, flame, attempt.result.solution.profile, attempt.result.summary);
-  if (!attempt.branch->branch.complete)
-    attempt.failure = "the branch of flames ends early: " + attempt.branch->branch.reason;
+  try {
+    attempt.branch = followBranch(comm, flame, attempt.result.solution.profile, attempt.result.summary);
+    if (!attempt.branch->branch.complete)
+      attempt.failure = "the branch of flames ends early: " + attempt.branch->branch.reason;
+  } catch (const NumericsError& error) {
+    attempt.failure = error.what();
+  }
   return attempt;
 }
 

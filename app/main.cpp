@@ -58,9 +58,10 @@ void reference(const Arguments& arguments) {
 // Ends the run with the message of the failure. An error that all ranks raised together is told by rank 0; one that
 // only this rank knows of ends the others at once.
 int fail(const char* kind, const std::exception& error, int code) {
-  int rank = 0;
+  int rank = 0, ranks = 1;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  const bool everywhere = isCollective(error);
+  MPI_Comm_size(PETSC_COMM_WORLD, &ranks);
+  const bool everywhere = ranks == 1 || isCollective(error);
   if (rank == 0 || !everywhere) {
     std::cout.flush();
     std::cerr << "lampblack: " << kind << error.what() << std::endl;

@@ -82,8 +82,10 @@ std::vector<FlameBudget> FlameEquations::budgets(std::span<const double> x) {
   d.take(x);
   std::vector<FlameBudget> result;
   // Every rank evaluates all points: once a flame, and the sums are alike.
-  d.chooseBlend();
-  d.evaluate(0, d.points());
+  collectively(d.comm, [&] {
+    d.chooseBlend();
+    d.evaluate(0, d.points());
+  });
   const std::size_t n = d.species(), S = d.scalars();
   Content species(n, 1.0), scalar(S, 0.0);
   for (std::size_t s = 0; s < S; ++s)

@@ -75,15 +75,16 @@ FlameBranch followFlame(MPI_Comm comm, std::shared_ptr<const Mechanism> mechanis
 
     branch.complete = false;
     branch.reason.clear();
-    if (options.pointsBetweenGrids > 0 && branch.points.size() % options.pointsBetweenGrids == 0 &&
-        !adaptGrid(tracer, equations, branch.last, options.grid)) {
-      branch.reason = fmt::format("the flame did not converge on its new grid: {}", tracer.reason());
-      break;
+    try {
+      if (options.pointsBetweenGrids > 0 && branch.points.size() % options.pointsBetweenGrids == 0 &&
+          !adaptGrid(tracer, equations, branch.last, options.grid))
+        branch.reason = fmt::format("the flame did not converge on its new grid: {}", tracer.reason());
+      else if (!tracer.advance())
+        branch.reason = tracer.reason();
+    } catch (const NumericsError& error) {
+      branch.reason = error.what();
     }
-    if (!tracer.advance()) {
-      branch.reason = tracer.reason();
-      break;
-    }
+    if (!branch.reason.empty()) break;
     record();
     branch.turningPoints = tracer.turningPoints();
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/errors.hpp"
 #include "flow/flame/flame_equations_data.hpp"
 
 namespace lampblack {
@@ -17,8 +18,10 @@ FlameScalars::FlameScalars(FlameEquations& equations, const FlameProfile& flame)
   jacobian_.resize(rows * (rows + 1));
   flame_.take(flame.x);
   // Every rank evaluates all points: fast beside the gas.
-  flame_.chooseBlend();
-  flame_.evaluate(0, flame_.points());
+  collectively(flame_.comm, [&] {
+    flame_.chooseBlend();
+    flame_.evaluate(0, flame_.points());
+  });
   // The gas does not feel what the scalars take from it.
   std::fill(flame_.gas.nodes.exchanged.begin(), flame_.gas.nodes.exchanged.end(), 0.0);
 }
@@ -49,11 +52,13 @@ void FlameScalars::evaluate(std::span<const double> x) {
 }
 
 void FlameScalars::residual(std::span<const double> x, std::span<double> F) {
-  evaluate(x);
-  for (std::size_t i = 0; i < flame_.points(); ++i) {
-    flame_.gas.scalarSources(flame_.profile, i);
-    for (std::size_t s = 0; s < scalars_; ++s) F[i * scalars_ + s] = flame_.scalarResidual(i, s);
-  }
+  collectively(flame_.comm, [&] {
+    evaluate(x);
+    for (std::size_t i = 0; i < flame_.points(); ++i) {
+      flame_.gas.scalarSources(flame_.profile, i);
+      for (std::size_t s = 0; s < scalars_; ++s) F[i * scalars_ + s] = flame_.scalarResidual(i, s);
+    }
+  });
 }
 
 void FlameScalars::timeWeights(std::span<const double> /*x*/, std::span<double> M) {
@@ -95,8 +100,10 @@ void FlameScalars::fillRow(std::size_t i, double inverseTimeStep) {
 
 bool FlameScalars::factorise(std::span<const double> x, double inverseTimeStep) {
   matrix_.clear();
-  evaluate(x);
-  for (std::size_t i = matrix_.ownedBegin(); i < matrix_.ownedEnd(); ++i) fillRow(i, inverseTimeStep);
+  collectively(flame_.comm, [&] {
+    evaluate(x);
+    for (std::size_t i = matrix_.ownedBegin(); i < matrix_.ownedEnd(); ++i) fillRow(i, inverseTimeStep);
+  });
   return matrix_.factorise();
 }
 

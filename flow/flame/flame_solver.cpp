@@ -139,41 +139,51 @@ FlameSolution FlameSolver::solve(FlameProfile start) {
   Data& d = *data_;
   d.solution = {};
   d.solution.profile = std::move(start);
-  NewtonSolver solver(d.options.newton, d.options.transient);
-  FlameEquations equations(d.comm, d.mechanism, d.problem, d.carried, d.options.tolerances);
-  equations.setExchange(d.exchange);
-  const FlameLayout layout = equations.layout();
-  if (!(layout == d.solution.profile.layout))
-    throw std::logic_error("the start of a flame has other unknowns than its problem");
-  d.anchorIn(d.solution.profile);
+  try {
+    d.solve();
+  } catch (const FlameFailure&) {
+    throw;
+  } catch (const NumericsError& error) {
+    throw FlameFailure(error.what(), d.solution);
+  }
+  return d.solution;
+}
 
-  const bool multicomponent = d.problem.transport.model == FlameTransport::Model::Multicomponent;
+void FlameSolver::Data::solve() {
+  NewtonSolver solver(options.newton, options.transient);
+  FlameEquations equations(comm, mechanism, problem, carried, options.tolerances);
+  equations.setExchange(exchange);
+  const FlameLayout layout = equations.layout();
+  if (!(layout == solution.profile.layout))
+    throw std::logic_error("the start of a flame has other unknowns than its problem");
+  anchorIn(solution.profile);
+
+  const bool multicomponent = problem.transport.model == FlameTransport::Model::Multicomponent;
   if (multicomponent) {
     // Most of the way with coefficients that cost a hundredth.
-    FlameProblem averaged = d.problem;
+    FlameProblem averaged = problem;
     averaged.transport.model = FlameTransport::Model::MixtureAveraged;
-    d.gasAlone(averaged, solver, "mixture-averaged gas");
+    gasAlone(averaged, solver, "mixture-averaged gas");
   }
-  if (layout.scalars > 0 && d.withoutScalars()) {
-    if (!multicomponent) d.gasAlone(d.problem, solver, "gas");
-    d.scalarsAlone(equations, solver);
+  if (layout.scalars > 0 && withoutScalars()) {
+    if (!multicomponent) gasAlone(problem, solver, "gas");
+    scalarsAlone(equations, solver);
   }
   const std::string name = layout.scalars > 0 ? "gas and scalars" : "flame";
-  d.refine(equations, solver, name, d.options.grid);
-  if (d.options.polish > 0) {
-    NewtonOptions last = d.options.newton;
-    last.polish = d.options.polish;
-    NewtonSolver polishing(last, d.options.transient);
+  refine(equations, solver, name, options.grid);
+  if (options.polish > 0) {
+    NewtonOptions last = options.newton;
+    last.polish = options.polish;
+    NewtonSolver polishing(last, options.transient);
     // Again and again where the values of scalars at faces follow the profile: until that does not matter any more.
     for (std::size_t pass = 1;; ++pass) {
-      const FlameProfile before = d.solution.profile;
-      d.steady(equations, polishing, name + ", last steps");
-      if (pass == mostPasses || largestScalarChange(before, d.solution.profile) <= d.options.scalarChange) break;
+      const FlameProfile before = solution.profile;
+      steady(equations, polishing, name + ", last steps");
+      if (pass == mostPasses || largestScalarChange(before, solution.profile) <= options.scalarChange) break;
     }
   }
-  d.count(equations);
-  d.solution.budgets = equations.budgets(d.solution.profile.x);
-  return d.solution;
+  count(equations);
+  solution.budgets = equations.budgets(solution.profile.x);
 }
 
 }  // namespace lampblack

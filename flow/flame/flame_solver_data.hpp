@@ -22,6 +22,7 @@ struct FlameSolver::Data {
 
   FlameSolution solution;  // as far as it has come
 
+  void solve();
   // One stage: the steady flame on the grid of the profile.
   void steady(FlameEquations& equations, NewtonSolver& solver, const std::string& name);
   void fail(const FlameStage& stage);

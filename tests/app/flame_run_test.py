@@ -95,6 +95,26 @@ def check_followed(program, folder):
         assert np.array_equal(file["unsteady/temperature"][-1], file["flame/temperature"][()])
 
 
+def check_failures_on_the_way(program, folder):
+    """A branch that needs more points than allowed, time steps that cannot be exact enough: told once, and what there was
+    is kept."""
+    deck = folder / "counterflow.yaml"
+    deck.write_text(COUNTERFLOW, encoding="utf-8")
+
+    def failed(name, message, *pairs):
+        result = program("run", deck, "--out", folder / name, *running.settings(*pairs))
+        assert result.code == 3, f"{name}: exit code {result.code}\n{result.err}"
+        assert re.match(f"lampblack: numerics: {message}", result.err) and result.err.count("lampblack: ") == 1, result.err
+        assert "MPI_ABORT" not in result.err, result.err
+        return h5py.File(folder / name / "results.h5.part", "r")
+
+    with failed("long branch", "the branch of flames ends early: grid: its criteria", "continuation.turning_points=1",
+                "grid.maximum_points=50") as file:
+        assert len(file["continuation/load"]) > 3 and not file["continuation"].attrs["complete"]
+    with failed("exact time", "time steps became shorter than", "unsteady.end=1 ms", "unsteady.accuracy=1e-12") as file:
+        assert file["unsteady/time"][()] == [0]
+
+
 def main(executable, ranks, *mpiexec):
     program = running.Program(executable, list(mpiexec), int(ranks))
     with tempfile.TemporaryDirectory() as name:
@@ -133,6 +153,7 @@ def main(executable, ranks, *mpiexec):
         run("resumed", f"initial={folder}/failed/results.h5.part")
         assert check_results(folder / "resumed")["time_steps"] == 0
 
+        check_failures_on_the_way(program, folder)
         if int(ranks) == 1:
             check_followed(program, folder)
 
