@@ -12,6 +12,7 @@
 #include "app/flame_output.hpp"
 #include "app/flame_stochastic.hpp"
 #include "core/errors.hpp"
+#include "core/timers.hpp"
 
 namespace lampblack {
 namespace {
@@ -23,19 +24,13 @@ FlameProfile firstProfile(const FlameCase& flame) {
 }
 
 std::vector<StageTime> stageTimes(MPI_Comm comm, const FlameEquations::Counters& counters) {
-  int ranks = 1;
-  MPI_Comm_size(comm, &ranks);
   std::vector<StageTime> stages;
   for (const auto& [name, seconds] : {std::pair{"residuals", counters.residualSeconds},
                                       {"matrices", counters.jacobianSeconds},
                                       {"factorisation", counters.factoriseSeconds},
                                       {"solution", counters.solveSeconds}}) {
-    StageTime stage{name};
-    MPI_Allreduce(&seconds, &stage.minimum, 1, MPI_DOUBLE, MPI_MIN, comm);
-    MPI_Allreduce(&seconds, &stage.maximum, 1, MPI_DOUBLE, MPI_MAX, comm);
-    MPI_Allreduce(&seconds, &stage.average, 1, MPI_DOUBLE, MPI_SUM, comm);
-    stage.average /= ranks;
-    stages.push_back(stage);
+    const Timers::Stage stage = Timers::overRanks(comm, name, seconds);
+    stages.push_back({stage.name, stage.least, stage.mean, stage.most});
   }
   return stages;
 }

@@ -7,6 +7,7 @@
 #include "app/population_accumulator.hpp"
 #include "app/population_repeat.hpp"
 #include "core/errors.hpp"
+#include "core/timers.hpp"
 
 namespace lampblack {
 namespace {
@@ -46,16 +47,6 @@ ExactReference makeReference(const PopulationCase& populationCase, const ExactSo
     reference.number.push_back(std::move(number));
   }
   return reference;
-}
-
-// Wall time of a rank's own work, over the ranks; on rank 0.
-StageTime reduceStage(const Ranks& ranks, const std::string& name, double seconds) {
-  StageTime stage{name, 0, 0, 0};
-  MPI_Reduce(&seconds, &stage.minimum, 1, MPI_DOUBLE, MPI_MIN, 0, ranks.comm);
-  MPI_Reduce(&seconds, &stage.average, 1, MPI_DOUBLE, MPI_SUM, 0, ranks.comm);
-  MPI_Reduce(&seconds, &stage.maximum, 1, MPI_DOUBLE, MPI_MAX, 0, ranks.comm);
-  stage.average /= ranks.size;
-  return stage;
 }
 
 // The records of the repeats [first, end), each from the rank that runs it, in their order on rank 0. `owner` of the
@@ -168,10 +159,10 @@ PopulationStatistics runPopulation(MPI_Comm comm, const PopulationCase& populati
       MPI_Bcast(&gelled, 1, MPI_INT, 0, comm);
       if (gelled != 0) break;
     }
-    const StageTime stage = reduceStage(ranks, method.name, seconds[m]);
+    const Timers::Stage stage = Timers::overRanks(comm, method.name, seconds[m]);
     if (ranks.rank != 0) continue;
     made.methods.push_back(accumulator.finish());
-    made.methods.back().stage = stage;
+    made.methods.back().stage = {stage.name, stage.least, stage.mean, stage.most};
     if (finished) finished(made.methods.back());
   }
   return made;

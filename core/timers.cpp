@@ -17,9 +17,18 @@ double Timers::seconds(const char* name) const {
   return it == names_.end() ? 0.0 : seconds_[static_cast<std::size_t>(it - names_.begin())];
 }
 
-std::vector<Timers::Stage> Timers::gather(MPI_Comm comm) const {
+Timers::Stage Timers::overRanks(MPI_Comm comm, const std::string& name, double seconds) {
   int ranks = 1;
   MPI_Comm_size(comm, &ranks);
+  Stage stage{name, seconds, seconds, seconds};
+  MPI_Allreduce(&seconds, &stage.least, 1, MPI_DOUBLE, MPI_MIN, comm);
+  MPI_Allreduce(&seconds, &stage.mean, 1, MPI_DOUBLE, MPI_SUM, comm);
+  MPI_Allreduce(&seconds, &stage.most, 1, MPI_DOUBLE, MPI_MAX, comm);
+  stage.mean /= ranks;
+  return stage;
+}
+
+std::vector<Timers::Stage> Timers::gather(MPI_Comm comm) const {
   // Ranks may have met the stages in another order, or not all of them: rank 0 lists them, each ended by a zero.
   std::string list;
   for (const std::string& name : names_) list.append(name).push_back('\0');
@@ -31,13 +40,7 @@ std::vector<Timers::Stage> Timers::gather(MPI_Comm comm) const {
   std::vector<Stage> stages;
   for (std::size_t start = 0; start < list.size(); start += stages.back().name.size() + 1) {
     const char* name = list.c_str() + start;
-    const double own = seconds(name);
-    Stage stage{name, own, own, own};
-    MPI_Allreduce(&own, &stage.least, 1, MPI_DOUBLE, MPI_MIN, comm);
-    MPI_Allreduce(&own, &stage.mean, 1, MPI_DOUBLE, MPI_SUM, comm);
-    MPI_Allreduce(&own, &stage.most, 1, MPI_DOUBLE, MPI_MAX, comm);
-    stage.mean /= ranks;
-    stages.push_back(stage);
+    stages.push_back(overRanks(comm, name, seconds(name)));
   }
   return stages;
 }

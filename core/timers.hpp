@@ -30,6 +30,8 @@ class Timers {
   };
   // Collective. The stages of rank 0, in its order of first use; a rank that never entered one counts as zero.
   [[nodiscard]] std::vector<Stage> gather(MPI_Comm comm) const;
+  // Collective: a time of each rank.
+  [[nodiscard]] static Stage overRanks(MPI_Comm comm, const std::string& name, double seconds);
   [[nodiscard]] double seconds(const char* name) const;  // of this rank; zero for a stage never entered
 
  private:

@@ -9,12 +9,6 @@
 namespace lampblack {
 namespace {
 
-double peakOf(const FlameProfile& profile) {
-  double peak = 0;
-  for (std::size_t i = 0; i < profile.points(); ++i) peak = std::max(peak, profile.temperature(i));
-  return peak;
-}
-
 std::vector<double> copyOf(std::span<const double> values) {
   return {values.begin(), values.end()};
 }
@@ -56,7 +50,7 @@ FlameBranch followFlame(MPI_Comm comm, std::shared_ptr<const Mechanism> mechanis
   const auto record = [&] {
     branch.last.x = copyOf(tracer.x());
     branch.points.push_back(
-        {tracer.x().back(), peakOf(branch.last), branch.last.points(), tracer.points().back().newton});
+        {tracer.x().back(), branch.last.peakTemperature(), branch.last.points(), tracer.points().back().newton});
     if (onPoint) onPoint(branch.points.back(), branch.last);
   };
   record();

@@ -46,7 +46,7 @@ void FaceDerivatives::side(const FlameEquations::Data& data, std::size_t f, bool
   }
   const auto Yl = data.profile.massFractions(f), Yr = data.profile.massFractions(f + 1);
   const double m = data.profile.at(f, FlameLayout::massFlux);
-  const double lean = m > 0 ? 0.5 * faces.upwind[f] : -0.5 * faces.upwind[f];
+  const double lean = faces.lean(f, m);
   const double own = m * (isRight ? 0.5 - lean : 0.5 + lean) - 0.5 * faces.excess[f];
   for (std::size_t j = 0; j < n; ++j) {
     double* column = out + j * n;
@@ -66,7 +66,7 @@ void FaceDerivatives::compute(const FlameEquations::Data& data, std::size_t f) {
   const double Tl = data.profile.temperature(f), Tr = data.profile.temperature(f + 1), T = 0.5 * (Tl + Tr);
   const double h = data.profile.z[f + 1] - data.profile.z[f];
   const double m = data.profile.at(f, FlameLayout::massFlux);
-  const double lean = m > 0 ? 0.5 * faces.upwind[f] : -0.5 * faces.upwind[f];
+  const double lean = faces.lean(f, m);
   const auto Yl = data.profile.massFractions(f), Yr = data.profile.massFractions(f + 1);
   for (std::size_t k = 0; k < n; ++k) {
     massFlux[k] = (0.5 + lean) * Yl[k] + (0.5 - lean) * Yr[k];

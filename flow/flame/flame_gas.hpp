@@ -48,6 +48,10 @@ struct FlameFaces {
   std::vector<double> scalarLift;      // value at the face over that of the point upstream, less 1
   std::vector<double> scalarConductance;
   std::vector<double> scalarEnthalpy, scalarHeat;  // of a unit of each scalar: J, J/K
+
+  // A face value of the gas at mass flux m is (1/2 + lean) of the point on the left and (1/2 - lean) of that on the
+  // right.
+  [[nodiscard]] double lean(std::size_t f, double m) const { return m > 0 ? 0.5 * upwind[f] : -0.5 * upwind[f]; }
 };
 
 // Conductances (rho D, lambda, mu) grow about with this power of the temperature.

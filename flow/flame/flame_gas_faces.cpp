@@ -143,7 +143,7 @@ void FlameGas::fluxes(const FlameProfile& x, std::size_t begin, std::size_t end)
     coefficients(x, f, h);
     diffusiveFluxes(x, f, h);
     const double m = x.at(f, FlameLayout::massFlux);
-    const double lean = m > 0 ? 0.5 * faces.upwind[f] : -0.5 * faces.upwind[f];
+    const double lean = faces.lean(f, m);
     const auto Yl = x.massFractions(f), Yr = x.massFractions(f + 1);
     for (std::size_t k = 0; k < n_; ++k) {
       const double face = (0.5 + lean) * Yl[k] + (0.5 - lean) * Yr[k];

@@ -19,7 +19,7 @@ void addFace(const FlameEquations::Data& data, std::size_t i, bool isRight, cons
   const double h = data.profile.z[f + 1] - data.profile.z[f];
   const double Tl = data.profile.temperature(f), Tr = data.profile.temperature(f + 1), Tm = 0.5 * (Tl + Tr);
   const double m = data.profile.at(f, M);
-  const double lean = m > 0 ? 0.5 * faces.upwind[f] : -0.5 * faces.upwind[f];
+  const double lean = faces.lean(f, m);
   const double ownShare = isRight ? 0.5 + lean : 0.5 - lean;
 
   for (std::size_t j = 0; j < n; ++j) {

@@ -4,6 +4,12 @@
 
 namespace lampblack {
 
+double FlameProfile::peakTemperature() const {
+  double peak = 0;
+  for (std::size_t i = 0; i < points(); ++i) peak = std::max(peak, temperature(i));
+  return peak;
+}
+
 FlameProfile withLayout(const FlameProfile& from, const FlameLayout& layout) {
   FlameProfile to{layout, from.z, {}};
   to.x.assign(to.size(), 0.0);

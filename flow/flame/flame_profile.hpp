@@ -50,6 +50,7 @@ struct FlameProfile {
   [[nodiscard]] std::span<const double> scalars(std::size_t point) const {
     return std::span(x).subspan(point * layout.width() + layout.firstScalar(), layout.scalars);
   }
+  [[nodiscard]] double peakTemperature() const;  // K
 };
 
 // The same profile with more or fewer scalars (new ones are zero), or species that come last.

@@ -59,9 +59,18 @@ void FlameSolver::Data::ripen(FlameEquations& equations, NewtonSolver& solver) {
   equations.release();
 }
 
+void FlameSolver::Data::finish(FlameStage& stage, double start) {
+  stage.points = solution.profile.points();
+  stage.seconds = MPI_Wtime() - start;
+  if (!stage.newton.converged) fail(stage);
+  solution.stages.push_back(stage);
+  if (report) report(stage, solution.profile);
+}
+
 void FlameSolver::Data::steady(FlameEquations& equations, NewtonSolver& solver, const std::string& name) {
   const double start = MPI_Wtime();
-  FlameStage stage{name, solution.profile.points(), {}, 0};
+  FlameStage stage;
+  stage.name = name;
   place(equations);
   std::size_t failures = 0;
   stage.newton = solver.steady(equations, solution.profile.x, [&] {
@@ -70,11 +79,7 @@ void FlameSolver::Data::steady(FlameEquations& equations, NewtonSolver& solver, 
     else if (solution.stages.empty())
       ripen(equations, solver);
   });
-  stage.points = solution.profile.points();
-  stage.seconds = MPI_Wtime() - start;
-  if (!stage.newton.converged) fail(stage);
-  solution.stages.push_back(stage);
-  if (report) report(stage, solution.profile);
+  finish(stage, start);
 }
 
 void FlameSolver::Data::gasAlone(const FlameProblem& flame, NewtonSolver& solver, const std::string& name) {
@@ -91,16 +96,14 @@ void FlameSolver::Data::gasAlone(const FlameProblem& flame, NewtonSolver& solver
 
 void FlameSolver::Data::scalarsAlone(FlameEquations& equations, NewtonSolver& solver) {
   const double start = MPI_Wtime();
-  FlameStage stage{"scalars in the gas", solution.profile.points(), {}, 0};
+  FlameStage stage;
+  stage.name = "scalars in the gas";
   place(equations);
   FlameScalars scalars(equations, solution.profile);
   std::vector<double> x = scalars.start();
   stage.newton = solver.steady(scalars, x);
   scalars.put(x, solution.profile);
-  stage.seconds = MPI_Wtime() - start;
-  if (!stage.newton.converged) fail(stage);
-  solution.stages.push_back(stage);
-  if (report) report(stage, solution.profile);
+  finish(stage, start);
 }
 
 void FlameSolver::Data::count(const FlameEquations& equations) {

@@ -26,6 +26,8 @@ struct FlameSolver::Data {
   // One stage: the steady flame on the grid of the profile.
   void steady(FlameEquations& equations, NewtonSolver& solver, const std::string& name);
   void fail(const FlameStage& stage);
+  // Whether it has converged; `start` is the time at which it began.
+  void finish(FlameStage& stage, double start);
   // Stages on ever better grids until none is needed.
   void refine(FlameEquations& equations, NewtonSolver& solver, const std::string& name, const GridOptions& grid);
   void place(FlameEquations& equations);

@@ -29,15 +29,24 @@ FlameProfile seenByGrid(const FlameProfile& profile, const CarriedModel* carried
   return seen;
 }
 
+// By the mass flux nothing is refined: it follows from the rest.
+GridChange refineForAllButFlux(const FlameProfile& profile, const GridOptions& grid,
+                               const std::vector<std::size_t>& keep) {
+  const std::size_t width = profile.layout.width();
+  const auto active = std::make_unique<bool[]>(width);
+  std::fill(active.get(), active.get() + width, true);
+  active[FlameLayout::massFlux] = false;
+  return refineGrid(profile, grid, {active.get(), width}, keep);
+}
+
 }  // namespace
 
 void FlameSolver::Data::anchorIn(const FlameProfile& profile) {
   if (problem.type != FlameType::Free) return;
   const std::size_t last = profile.points() - 1;
-  double hottest = profile.temperature(0);
-  for (std::size_t i = 0; i <= last; ++i) hottest = std::max(hottest, profile.temperature(i));
-  anchorTemperature = options.anchorTemperature > 0 ? options.anchorTemperature
-                                                    : profile.temperature(0) + 0.4 * (hottest - profile.temperature(0));
+  const double unburnt = profile.temperature(0);
+  anchorTemperature =
+      options.anchorTemperature > 0 ? options.anchorTemperature : unburnt + 0.4 * (profile.peakTemperature() - unburnt);
   std::size_t best = 1;
   while (best < last && profile.temperature(best) < anchorTemperature) ++best;
   anchorZ = profile.z[best];
@@ -69,12 +78,8 @@ void FlameSolver::Data::follow(FlameEquations& equations) {
   coarse.slope = std::max(coarse.slope, 0.2);
   coarse.curve = std::max(coarse.curve, 0.3);
   coarse.prune = std::max(coarse.prune, 0.02);
-  const std::size_t width = solution.profile.layout.width();
-  const auto active = std::make_unique<bool[]>(width);
-  std::fill(active.get(), active.get() + width, true);
-  active[FlameLayout::massFlux] = false;
   try {
-    const GridChange change = refineGrid(solution.profile, coarse, {active.get(), width}, anchorPoint());
+    const GridChange change = refineForAllButFlux(solution.profile, coarse, anchorPoint());
     if (!change.changed()) return;
     solution.profile = onGrid(solution.profile, change.z);
   } catch (const NumericsError&) {
@@ -115,14 +120,9 @@ void FlameSolver::Data::refine(FlameEquations& equations, NewtonSolver& solver, 
       solution.stages.pop_back();
       fail(stage);
     };
-    const FlameProfile seen = seenByGrid(solution.profile, carried);
-    const std::size_t width = seen.layout.width();
-    const auto active = std::make_unique<bool[]>(width);
-    std::fill(active.get(), active.get() + width, true);
-    active[FlameLayout::massFlux] = false;
     GridChange change;
     try {
-      change = refineGrid(seen, grid, {active.get(), width}, keep);
+      change = refineForAllButFlux(seenByGrid(solution.profile, carried), grid, keep);
     } catch (const NumericsError& error) {
       giveUp(error.what());
     }

@@ -1,6 +1,7 @@
 // StochasticProcess: its population as given and as seen from outside. Included by stochastic_process.hpp.
 #pragma once
 
+#include "particles/population/monte_carlo/weighted_deviation.hpp"
 #include "particles/soot/stochastic_process.hpp"
 
 namespace lampblack {
@@ -67,15 +68,9 @@ std::vector<double> StochasticProcess<Method>::sizeDistribution(double logMin, d
 
 template <class Method>
 double StochasticProcess<Method>::geometricDeviation() const {
-  double weight = 0, mean = 0, square = 0;  // running mean and sum of squared deviations (West 1979)
-  method_.forEachParticle([&](const Particle& p, double w) {
-    const double x = std::log(type_.mobilityDiameter(p));
-    weight += w;
-    const double difference = x - mean;
-    mean += difference * w / weight;
-    square += w * difference * (x - mean);
-  });
-  return weight > 0 ? std::exp(std::sqrt(square / weight)) : 1.0;
+  WeightedDeviation deviation;
+  method_.forEachParticle([&](const Particle& p, double w) { deviation.add(std::log(type_.mobilityDiameter(p)), w); });
+  return deviation.geometric();
 }
 
 }  // namespace lampblack

@@ -9,6 +9,7 @@
 #include "app/problem.hpp"
 #include "chemistry/thermo/thermo.hpp"
 #include "core/errors.hpp"
+#include "tests/messages.hpp"
 
 namespace lampblack {
 namespace {
@@ -56,12 +57,7 @@ FlameCase read(const std::string& text, const std::vector<std::string>& override
 }
 
 std::string messageOf(const std::string& text, const std::vector<std::string>& overrides) {
-  try {
-    static_cast<void>(read(text, overrides));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no InputError";
+  return test::messageOf<InputError>([&] { static_cast<void>(read(text, overrides)); });
 }
 
 TEST(FlameCase, AStreamsMassFluxFollowsFromItsVelocity) {

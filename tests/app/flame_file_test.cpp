@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "core/errors.hpp"
+#include "tests/messages.hpp"
 
 namespace lampblack {
 namespace {
@@ -53,12 +54,7 @@ class FlameFile : public ::testing::Test {
   }
 
   static std::string messageOf(const fs::path& path) {
-    try {
-      static_cast<void>(readFlameProfile(path));
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "no InputError";
+    return test::messageOf<InputError>([&] { static_cast<void>(readFlameProfile(path)); });
   }
 
   fs::path folder_;

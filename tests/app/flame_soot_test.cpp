@@ -12,12 +12,14 @@
 #include "particles/soot/hmom.hpp"
 #include "particles/soot/make_soot_model.hpp"
 #include "particles/soot/momic_soot.hpp"
+#include "tests/flow/flame/streams.hpp"
+#include "tests/messages.hpp"
 
 namespace lampblack {
 namespace {
 
 Mechanism mechanismOf(const std::string& name) {
-  return Mechanism::fromFile(std::string(LAMPBLACK_SOURCE_DIR) + "/cases/mechanisms/" + name + ".yaml");
+  return shippedMechanism(name + ".yaml");
 }
 
 const Mechanism& abf() {
@@ -35,12 +37,7 @@ Deck deckOf(const std::string& text) {
 }
 
 std::string messageOf(const std::string& text, const Mechanism& mechanism = abf()) {
-  try {
-    const auto model = readSootModel(deckOf(text), mechanism);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return test::messageOf<InputError>([&] { const auto model = readSootModel(deckOf(text), mechanism); });
 }
 
 const SootModelOptions& optionsOf(const std::unique_ptr<SootModel>& model) {

@@ -16,19 +16,12 @@
 #include "chemistry/thermo/thermo.hpp"
 #include "flow/flame/flame_solver.hpp"
 #include "flow/flame/initial_flame.hpp"
+#include "tests/flow/flame/streams.hpp"
 
 namespace {
 
 using namespace lampblack;
 using MechanismPointer = std::shared_ptr<const Mechanism>;
-
-FlameStream stream(const Mechanism& mechanism, const std::string& X, double T, double velocity) {
-  FlameStream result{T, std::vector<double>(mechanism.numSpecies()), 0};
-  Thermo thermo(mechanism);
-  thermo.moleToMass(parseComposition(mechanism, X), result.Y);
-  result.massFlux = velocity * thermo.density(T, 101325, result.Y);
-  return result;
-}
 
 double secondsSince(std::clock_t start) {
   return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
@@ -94,13 +87,13 @@ const std::vector<Case> cases{
 };
 
 void solve(const Case& c) {
-  const MechanismPointer mechanism = std::make_shared<const Mechanism>(
-      Mechanism::fromFile(fmt::format("{}/cases/mechanisms/{}.yaml", LAMPBLACK_SOURCE_DIR, c.mechanism)));
+  const MechanismPointer mechanism =
+      std::make_shared<const Mechanism>(shippedMechanism(std::string(c.mechanism) + ".yaml"));
   FlameProblem problem;
   problem.type = c.type;
   problem.length = c.length;
-  problem.left = stream(*mechanism, c.left, c.temperature, c.leftVelocity);
-  if (c.right != nullptr) problem.right = stream(*mechanism, c.right, c.temperature, c.rightVelocity);
+  problem.left = streamAt(*mechanism, c.left, c.temperature, c.leftVelocity);
+  if (c.right != nullptr) problem.right = streamAt(*mechanism, c.right, c.temperature, c.rightVelocity);
   FlameSolverOptions options;
   options.grid = c.grid;
   problem.transport = c.transport;
@@ -114,12 +107,10 @@ void solve(const Case& c) {
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   if (rank != 0) return;
-  double hottest = 0;
-  for (std::size_t i = 0; i < solution.profile.points(); ++i)
-    hottest = std::max(hottest, solution.profile.temperature(i));
   const auto& n = solution.counters;
   fmt::print("{}: {:.2f} s, {} points, {} stages, hottest {:.1f} K, mass flux {:.5f} kg/m2/s\n", c.name, seconds,
-             solution.profile.points(), solution.stages.size(), hottest, solution.profile.global(leftMassFlux));
+             solution.profile.points(), solution.stages.size(), solution.profile.peakTemperature(),
+             solution.profile.global(leftMassFlux));
   fmt::print("  {} residuals {:.2f} s, {} matrices (of {} points) {:.2f} s, factors {:.2f} s, solutions {:.2f} s\n",
              n.residuals, n.residualSeconds, n.jacobians, n.jacobianPoints, n.jacobianSeconds, n.factoriseSeconds,
              n.solveSeconds);

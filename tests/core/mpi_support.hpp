@@ -10,6 +10,7 @@
 
 #include "core/grading.hpp"
 #include "core/mesh.hpp"
+#include "tests/messages.hpp"
 
 namespace lampblack::test {
 
@@ -47,20 +48,6 @@ std::vector<T> gatherAll(const std::vector<T>& own) {
   std::vector<T> all(static_cast<std::size_t>(start.back()) / sizeof(T));
   MPI_Allgatherv(own.data(), bytes, MPI_BYTE, all.data(), count.data(), start.data(), MPI_BYTE, MPI_COMM_WORLD);
   return all;
-}
-
-// Runs `work` and returns the message of the `Error` it throws (empty: threw nothing; "other: ..." for another type),
-// so that all ranks' messages can be compared.
-template <typename Error, typename Work>
-std::string messageOf(Work&& work) {
-  try {
-    work();
-  } catch (const Error& e) {
-    return e.what();
-  } catch (const std::exception& e) {
-    return std::string("other: ") + e.what();
-  }
-  return {};
 }
 
 // True on all ranks when all ranks have the same text.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "particles/population/monte_carlo/compensated_sum.hpp"
+#include "particles/population/monte_carlo/weighted_deviation.hpp"
 
 namespace lampblack {
 
@@ -42,15 +43,10 @@ template <class Type, class Store>
 // Geometric standard deviation of the diameter by number; 1 for fewer than two particles.
 template <class Type, class Store>
 [[nodiscard]] double weightedGeometricDeviation(const Type& type, const Store& store) {
-  double weight = 0, mean = 0, square = 0;  // running mean and sum of squared deviations (West 1979)
-  store.forEach([&](const auto& entry) {
-    const double x = std::log(type.collisionDiameter(entry.particle)), w = entry.weight;
-    weight += w;
-    const double step = x - mean;
-    mean += step * w / weight;
-    square += w * step * (x - mean);
-  });
-  return weight > 0 ? std::exp(std::sqrt(square / weight)) : 1.0;
+  WeightedDeviation deviation;
+  store.forEach(
+      [&](const auto& entry) { deviation.add(std::log(type.collisionDiameter(entry.particle)), entry.weight); });
+  return deviation.geometric();
 }
 
 }  // namespace lampblack

@@ -9,20 +9,17 @@
 #include "chemistry/thermo/thermo.hpp"
 #include "flow/flame/flame_problem.hpp"
 #include "flow/flame/flame_profile.hpp"
+#include "tests/flow/flame/streams.hpp"
 
 namespace lampblack {
 
 inline std::shared_ptr<const Mechanism> hydrogenMechanism() {
-  static const auto mechanism = std::make_shared<const Mechanism>(
-      Mechanism::fromFile(std::string(LAMPBLACK_SOURCE_DIR) + "/cases/mechanisms/hydrogen_h2o2_10.yaml"));
+  static const auto mechanism = std::make_shared<const Mechanism>(shippedMechanism("hydrogen_h2o2_10.yaml"));
   return mechanism;
 }
 
 inline FlameStream hydrogenStream(const std::string& composition, double temperature, double massFlux) {
-  const auto mechanism = hydrogenMechanism();
-  FlameStream stream{temperature, std::vector<double>(mechanism->numSpecies()), massFlux};
-  Thermo(*mechanism).moleToMass(parseComposition(*mechanism, composition), stream.Y);
-  return stream;
+  return streamOf(*hydrogenMechanism(), composition, temperature, massFlux);
 }
 
 inline FlameProblem hydrogenProblem(FlameType type) {

@@ -15,13 +15,12 @@
 #include "chemistry/thermo/thermo.hpp"
 #include "flow/flame/flame_problem.hpp"
 #include "flow/flame/flame_profile.hpp"
+#include "tests/flow/flame/streams.hpp"
 
 namespace lampblack::test {
 
 struct Gas {
-  explicit Gas(const std::string& file)
-      : mechanism(Mechanism::fromFile(std::string(LAMPBLACK_SOURCE_DIR) + "/cases/mechanisms/" + file)),
-        thermo(mechanism) {}
+  explicit Gas(const std::string& file) : mechanism(shippedMechanism(file)), thermo(mechanism) {}
   static Gas& methane() {
     static Gas gas("methane_drm19_21.yaml");
     return gas;
@@ -31,13 +30,7 @@ struct Gas {
     return gas;
   }
   [[nodiscard]] FlameStream stream(std::string_view moles, double T, double speed = 0, double p = 101325) const {
-    FlameStream s;
-    s.temperature = T;
-    const auto X = parseComposition(mechanism, moles);
-    s.Y.resize(X.size());
-    thermo.moleToMass(X, s.Y);
-    s.massFlux = speed * thermo.density(T, p, s.Y);
-    return s;
+    return streamAt(mechanism, moles, T, speed, p);
   }
   [[nodiscard]] double equilibriumTemperature(const FlameStream& s, double p = 101325) const {
     auto Y = s.Y;

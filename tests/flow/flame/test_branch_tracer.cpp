@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "flow/flame/branch_tracer.hpp"
-#include "small_systems.hpp"
+#include "tests/flow/flame/small_systems.hpp"
 
 namespace lampblack {
 namespace {

@@ -1,36 +1,19 @@
+// Branches of counterflow flames over the load.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <vector>
 
 #include "core/errors.hpp"
-#include "flame_fixture.hpp"
 #include "flow/flame/flame_continuation.hpp"
-#include "flow/flame/flame_solver.hpp"
-#include "flow/flame/initial_flame.hpp"
+#include "tests/flow/flame/steady_hydrogen.hpp"
 
 namespace lampblack {
 namespace {
 
 GridOptions coarse() {
-  GridOptions grid;
-  grid.slope = 0.2;
-  grid.curve = 0.3;
+  GridOptions grid = coarseGrid();
   grid.prune = 0.02;
   return grid;
-}
-
-FlameProfile hydrogenCounterflow(const FlameProblem& problem) {
-  FlameSolverOptions options;
-  options.grid = coarse();
-  FlameSolver solver(MPI_COMM_WORLD, hydrogenMechanism(), problem, nullptr, options);
-  return solver.solve(initialFlame(*hydrogenMechanism(), problem, 0)).profile;
-}
-
-double peakOf(const FlameProfile& p) {
-  double peak = 0;
-  for (std::size_t i = 0; i < p.points(); ++i) peak = std::max(peak, p.temperature(i));
-  return peak;
 }
 
 // Newton and time steps from a profile at a fixed load.
@@ -40,12 +23,12 @@ double steadyPeakAt(const FlameProblem& problem, FlameProfile profile, double va
   equations.setLoad(value);
   const NewtonReport report = NewtonSolver().steady(equations, profile.x);
   EXPECT_TRUE(report.converged) << report.reason;
-  return peakOf(profile);
+  return profile.peakTemperature();
 }
 
 TEST(FlameContinuation, AHydrogenFlameGoesOutAtATurningPoint) {
   const FlameProblem problem = hydrogenProblem(FlameType::Counterflow);
-  const FlameProfile start = hydrogenCounterflow(problem);
+  const FlameProfile start = steadyHydrogen(problem, coarse());
   FlameContinuationOptions options;
   options.grid = coarse();
   options.maximumTurningPoints = 1;
@@ -78,7 +61,7 @@ TEST(FlameContinuation, AHydrogenFlameGoesOutAtATurningPoint) {
 
 TEST(FlameContinuation, EndsWhereAskedTo) {
   const FlameProblem problem = hydrogenProblem(FlameType::Counterflow);
-  const FlameProfile start = hydrogenCounterflow(problem);
+  const FlameProfile start = steadyHydrogen(problem, coarse());
   FlameContinuationOptions options;
   options.grid = coarse();
   options.highestLoad = 1.2;

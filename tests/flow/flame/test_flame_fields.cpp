@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "chemistry/thermo/thermo.hpp"
-#include "flame_fixture.hpp"
 #include "flow/flame/flame_fields.hpp"
+#include "tests/flow/flame/flame_fixture.hpp"
 
 namespace lampblack {
 namespace {

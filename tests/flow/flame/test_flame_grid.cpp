@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "analytic_profile.hpp"
 #include "core/errors.hpp"
 #include "flow/flame/flame_grid.hpp"
+#include "tests/flow/flame/analytic_profile.hpp"
 
 namespace lampblack::test {
 namespace {

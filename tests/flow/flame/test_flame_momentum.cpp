@@ -5,10 +5,10 @@
 #include <cmath>
 #include <vector>
 
-#include "flame_fixture.hpp"
 #include "flow/flame/flame_grid.hpp"
 #include "flow/flame/flame_solver.hpp"
 #include "flow/flame/initial_flame.hpp"
+#include "tests/flow/flame/flame_fixture.hpp"
 
 namespace lampblack {
 namespace {

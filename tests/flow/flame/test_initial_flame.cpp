@@ -1,4 +1,5 @@
 // First profiles of flames: what has to hold of them whatever the flame.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include "core/errors.hpp"
 #include "flow/flame/initial_flame.hpp"
 #include "tests/flow/flame/initial_flame_checks.hpp"
+#include "tests/messages.hpp"
 
 namespace lampblack::test {
 namespace {
@@ -88,9 +90,7 @@ TEST(InitialFlame, AFlameAtAWallBurnsAheadOfItAndStopsThere) {
     EXPECT_EQ(p.temperature(last), 400.0);
     EXPECT_LT(p.global(pressureGradient), 0.0);
     EXPECT_EQ(p.at(0, FlameLayout::spread) > 0, nozzles == FlameNozzles::Potential);
-    double hottest = 0;
-    for (std::size_t i = 0; i <= last; ++i) hottest = std::max(hottest, p.temperature(i));
-    EXPECT_GT(hottest, 0.8 * burnt);
+    EXPECT_GT(p.peakTemperature(), 0.8 * burnt);
     if (nozzles == FlameNozzles::Plug) {
       EXPECT_EQ(p.global(leftMassFlux), problem.left.massFlux);
     }
@@ -100,12 +100,8 @@ TEST(InitialFlame, AFlameAtAWallBurnsAheadOfItAndStopsThere) {
 TEST(InitialFlame, WhatCannotBurnIsAnErrorUnlessItIsToBeCold) {
   const Gas& gas = Gas::methane();
   const auto fails = [&](const FlameProblem& problem, const char* part) {
-    try {
-      static_cast<void>(initialFlame(gas.mechanism, problem, 0));
-      ADD_FAILURE() << "no error: " << part;
-    } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
-    }
+    EXPECT_THAT(messageOf<InputError>([&] { static_cast<void>(initialFlame(gas.mechanism, problem, 0)); }),
+                ::testing::HasSubstr(part));
   };
   for (const auto type : {FlameType::Free, FlameType::Burner, FlameType::Wall}) {
     fails(oneStream(gas, type, air), "no fuel");

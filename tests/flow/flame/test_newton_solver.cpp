@@ -9,7 +9,7 @@
 
 #include "core/errors.hpp"
 #include "flow/flame/newton_solver.hpp"
-#include "small_systems.hpp"
+#include "tests/flow/flame/small_systems.hpp"
 
 namespace lampblack {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "flow/flame/newton_solver.hpp"
-#include "small_systems.hpp"
+#include "tests/flow/flame/small_systems.hpp"
 
 namespace lampblack {
 namespace {

@@ -8,13 +8,13 @@
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 #include "flow/flame/radiation.hpp"
+#include "tests/flow/flame/streams.hpp"
 
 namespace lampblack::test {
 namespace {
 
 const Mechanism& methane() {
-  static const auto m =
-      Mechanism::fromFile(std::string(LAMPBLACK_SOURCE_DIR) + "/cases/mechanisms/methane_drm19_21.yaml");
+  static const auto m = shippedMechanism("methane_drm19_21.yaml");
   return m;
 }
 
@@ -67,8 +67,7 @@ TEST(ThinRadiation, IsLostToTheSurroundingsAloneAndAtTheirTemperatureNotAtAll) {
 }
 
 TEST(ThinRadiation, SpeciesThatAreNotThereDoNotRadiateAndTheSurroundingsAreChecked) {
-  const auto hydrogen =
-      Mechanism::fromFile(std::string(LAMPBLACK_SOURCE_DIR) + "/cases/mechanisms/hydrogen_h2o2_10.yaml");
+  const auto hydrogen = shippedMechanism("hydrogen_h2o2_10.yaml");
   std::vector<double> X(hydrogen.numSpecies(), 0.0);
   X[hydrogen.speciesIndex("N2")] = 0.5;
   X[hydrogen.speciesIndex("H2O")] = 0.5;

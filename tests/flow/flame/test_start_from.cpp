@@ -9,44 +9,32 @@
 #include "chemistry/thermo/thermo.hpp"
 #include "core/errors.hpp"
 #include "flow/flame/initial_flame.hpp"
+#include "tests/flow/flame/streams.hpp"
 
 namespace lampblack::test {
 namespace {
 
 const Mechanism& drm() {
-  static const auto m =
-      Mechanism::fromFile(std::string(LAMPBLACK_SOURCE_DIR) + "/cases/mechanisms/methane_drm19_21.yaml");
+  static const auto m = shippedMechanism("methane_drm19_21.yaml");
   return m;
 }
 const Mechanism& gri() {
-  static const auto m =
-      Mechanism::fromFile(std::string(LAMPBLACK_SOURCE_DIR) + "/cases/mechanisms/methane_gri30_53.yaml");
+  static const auto m = shippedMechanism("methane_gri30_53.yaml");
   return m;
-}
-
-FlameStream stream(const Mechanism& m, const char* moles, double T, double speed) {
-  const Thermo thermo(m);
-  FlameStream s;
-  s.temperature = T;
-  const auto X = parseComposition(m, moles);
-  s.Y.resize(X.size());
-  thermo.moleToMass(X, s.Y);
-  s.massFlux = speed * thermo.density(T, 101325, s.Y);
-  return s;
 }
 
 FlameProblem counterflow(const Mechanism& m, double speed = 0.2, const char* oxidiser = "O2: 0.21, N2: 0.79") {
   FlameProblem p;
   p.type = FlameType::Counterflow;
-  p.left = stream(m, "CH4: 1", 300, speed);
-  p.right = stream(m, oxidiser, 300, speed);
+  p.left = streamAt(m, "CH4: 1", 300, speed);
+  p.right = streamAt(m, oxidiser, 300, speed);
   return p;
 }
 
 FlameProblem premixed(const Mechanism& m, FlameType type) {
   FlameProblem p;
   p.type = type;
-  p.left = stream(m, "CH4: 1, O2: 2, N2: 7.52", 300, 0.2);
+  p.left = streamAt(m, "CH4: 1, O2: 2, N2: 7.52", 300, 0.2);
   return p;
 }
 
@@ -129,13 +117,9 @@ TEST(StartFrom, TakesTheNewStreamsAndFluxesAndLeavesTheFlameAlone) {
   EXPECT_EQ(p.global(leftMassFlux), problem.left.massFlux);
   EXPECT_EQ(p.at(last, FlameLayout::massFlux), -problem.right->massFlux);
   expectContinuous(drm(), problem, p);
-  double hottest = 0, oldHottest = 0;
-  for (std::size_t i = 0; i <= last; ++i) {
-    hottest = std::max(hottest, p.temperature(i));
-    oldHottest = std::max(oldHottest, old.temperature(i));
+  for (std::size_t i = 0; i <= last; ++i)
     for (double Y : p.massFractions(i)) EXPECT_GE(Y, 0.0);
-  }
-  EXPECT_EQ(hottest, oldHottest);
+  EXPECT_EQ(p.peakTemperature(), old.peakTemperature());
   // Twice the flux of the same gas in the same space needs twice the spreading and four times the pressure gradient.
   const auto faster = startFrom(named(drm(), old), drm(), counterflow(drm(), 0.4), {});
   EXPECT_NEAR(faster.global(pressureGradient) / old.global(pressureGradient), 4, 1e-10);

@@ -5,32 +5,16 @@
 #include <numbers>
 #include <vector>
 
-#include "flame_fixture.hpp"
 #include "flow/flame/flame_equations.hpp"
-#include "flow/flame/flame_solver.hpp"
-#include "flow/flame/initial_flame.hpp"
 #include "flow/flame/unsteady_flame.hpp"
+#include "tests/flow/flame/steady_hydrogen.hpp"
 
 namespace lampblack {
 namespace {
 
-double peakOf(const FlameProfile& p) {
-  double peak = 0;
-  for (std::size_t i = 0; i < p.points(); ++i) peak = std::max(peak, p.temperature(i));
-  return peak;
-}
-
-FlameProfile hydrogenCounterflow(const FlameProblem& problem) {
-  FlameSolverOptions options;
-  options.grid.slope = 0.2;
-  options.grid.curve = 0.3;
-  FlameSolver solver(MPI_COMM_WORLD, hydrogenMechanism(), problem, nullptr, options);
-  return solver.solve(initialFlame(*hydrogenMechanism(), problem, 0)).profile;
-}
-
 TEST(UnsteadyFlame, ASteadyFlameStays) {
   const FlameProblem problem = hydrogenProblem(FlameType::Counterflow);
-  FlameProfile flame = hydrogenCounterflow(problem);
+  FlameProfile flame = steadyHydrogen(problem);
   FlameEquations equations(MPI_COMM_WORLD, hydrogenMechanism(), problem);
   equations.setGrid(flame.z);
   const std::vector<double> before = flame.x;
@@ -153,7 +137,7 @@ TEST(UnsteadyFlame, NewtonMatrixOfATimeStepMatchesADifference) {
 // A strain that swings far more slowly than the flame answers: at any time the flame is the steady one of that strain.
 TEST(UnsteadyFlame, UnderSlowlySwingingStrainItIsSteadyAtAnyTime) {
   const FlameProblem problem = hydrogenProblem(FlameType::Counterflow);
-  FlameProfile flame = hydrogenCounterflow(problem);
+  FlameProfile flame = steadyHydrogen(problem);
   FlameEquations equations(MPI_COMM_WORLD, hydrogenMechanism(), problem);
   equations.setGrid(flame.z);
   UnsteadyOptions options;
@@ -165,7 +149,7 @@ TEST(UnsteadyFlame, UnderSlowlySwingingStrainItIsSteadyAtAnyTime) {
   FlameProfile now = flame;
   integrateInTime(equations, flame.x, options, [&](double, std::span<const double> x) {
     now.x.assign(x.begin(), x.end());
-    peaks.push_back(peakOf(now));
+    peaks.push_back(now.peakTemperature());
   });
   ASSERT_EQ(peaks.size(), 2u);
   for (const std::size_t i : {0u, 1u}) {
@@ -177,7 +161,7 @@ TEST(UnsteadyFlame, UnderSlowlySwingingStrainItIsSteadyAtAnyTime) {
       const NewtonReport steady = NewtonSolver().steady(equations, now.x);
       ASSERT_TRUE(steady.converged) << steady.reason;
     }
-    EXPECT_NEAR(peaks[i], peakOf(now), 0.5);
+    EXPECT_NEAR(peaks[i], now.peakTemperature(), 0.5);
   }
   EXPECT_GT(peaks[1] - peaks[0], 10);  // the strain matters
 }

@@ -8,7 +8,7 @@
 
 #include "core/errors.hpp"
 #include "flow/flame/unsteady_flame.hpp"
-#include "small_systems.hpp"
+#include "tests/flow/flame/small_systems.hpp"
 
 namespace lampblack {
 namespace {

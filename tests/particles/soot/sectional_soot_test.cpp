@@ -1,11 +1,13 @@
 // The sectional soot model at one state: budgets of elements, the Jacobian, shapes, options.
 #include "particles/soot/sectional_soot.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
 
 #include "core/errors.hpp"
+#include "tests/messages.hpp"
 #include "tests/particles/soot/sectional_soot_fixtures.hpp"
 
 namespace lampblack {
@@ -202,12 +204,7 @@ TEST(SectionalSoot, WrongOptionsAreNamed) {
   const auto fails = [](auto&& change, const std::string& word) {
     SectionalSootOptions options = pyrene();
     change(options);
-    try {
-      const SectionalSoot model(options);
-      ADD_FAILURE() << "expected a message with " << word;
-    } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
-    }
+    EXPECT_THAT(messageOf<InputError>([&] { const SectionalSoot model(options); }), ::testing::HasSubstr(word));
   };
   fails([](auto& o) { o.sections = 1; }, "1 sections");
   fails([](auto& o) { o.factor = 1; }, "ratio");
