@@ -1,5 +1,6 @@
 """A results folder: the mesh, the steps, their fields, trajectories, history and run record."""
 
+import contextlib
 import json
 import pathlib
 
@@ -25,13 +26,30 @@ def unit_of(dataset):
     return text_of(dataset.attrs.get("unit", ""))
 
 
+@contextlib.contextmanager
+def opened(path, what):
+    """The results of a run, named by its folder or by themselves. ResultsError where they are missing or, while they are
+    open, turn out to lack what is read from them: `what`, in words."""
+    path = pathlib.Path(path)
+    file = path / "results.h5" if path.is_dir() else path
+    if not file.is_file():
+        raise ResultsError(f"{file}: there is no such file; expected the folder of a run or its results.h5")
+    try:
+        with h5py.File(file, "r") as results:
+            yield results
+    except OSError as error:
+        raise ResultsError(f"{file}: cannot be read ({error})") from error
+    except KeyError as error:
+        raise ResultsError(f"{file}: holds no {what} ({error.args[0]})") from error
+
+
 class Results:
     def __init__(self, folder):
         self.folder = pathlib.Path(folder)
         candidates = [self.folder / "results.h5", self.folder / "results.h5.part"]
         path = next((p for p in candidates if p.is_file()), None)
         if path is None:
-            raise ResultsError(f"{self.folder}: there is no results.h5 here")
+            raise ResultsError(f"{self.folder}: there is no results.h5 here; expected the folder of a run or study")
         try:
             self.file = h5py.File(path, "r")
         except OSError as error:

@@ -1,0 +1,47 @@
+"""What scripts say of results that are missing or damaged: one line with what was expected, and an exit code of 2."""
+
+import concurrent.futures
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+try:
+    import h5py  # noqa: F401
+    import matplotlib  # noqa: F401
+except ImportError:
+    sys.exit(77)
+
+SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
+# Each with what follows the folder of results, and what it is to say where there is no such folder.
+COMMANDS = [
+    ("compare_sections", (), "expected the folder of a run or its results.h5"),
+    ("compare_flame", ("none.csv",), "expected the folder of a run or its results.h5"),
+    ("compare_premixed_soot", (), "expected that of a study or of a run"),
+    ("compare_centreline", ("none.csv",), "expected the folder of a run"),
+    ("check_soot_trends", (), "expected the folder of a study"),
+    ("plot", (), "expected the folder of a run or study"),
+]
+
+
+def main():
+    with tempfile.TemporaryDirectory() as name:
+        missing, damaged = pathlib.Path(name) / "missing", pathlib.Path(name) / "damaged"
+        damaged.mkdir()
+        (damaged / "results.h5").write_text("no HDF5 file", encoding="utf-8")
+        (damaged / "study.csv").write_text("run,status\nnone,done\n", encoding="utf-8")
+
+        def problem(task):
+            (script, more, expected), folder = task
+            done = subprocess.run([SCRIPTS / script, folder, *more], capture_output=True, text=True, check=False, cwd=name)
+            told = done.stderr.splitlines()
+            good = (done.returncode == 2 and done.stdout == "" and len(told) == 1 and str(folder) in told[0]
+                    and (folder == damaged or expected in told[0]))
+            print(f"{'ok' if good else 'FAILED':8}{script}, {folder.name}: {done.returncode} {done.stderr.strip()}")
+            return not good
+
+        with concurrent.futures.ThreadPoolExecutor(2) as pool:
+            return 1 if any(list(pool.map(problem, [(c, folder) for c in COMMANDS for folder in (missing, damaged)]))) else 0
+
+
+sys.exit(main())
