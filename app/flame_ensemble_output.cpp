@@ -16,6 +16,7 @@ void writePath(ResultsWriter& results, std::size_t id, const FlameEnsemblePath& 
   if (rows == 0) return;
   const auto column = [&](const std::string& name, const std::string& unit, const std::string& text, auto&& of) {
     std::vector<double> values;
+    values.reserve(points.size());
     for (const SootPathPoint& p : points) values.push_back(of(p));
     results.dataset(group + name, {rows}, values, unit, text, 0);
   };

@@ -11,7 +11,7 @@ namespace lampblack {
 namespace {
 
 // "m/s" as part of a name: "m_per_s".
-std::string unitInName(std::string unit) {
+std::string unitInName(const std::string& unit) {
   if (unit == "1") return "";
   std::string text;
   for (const char c : unit) {

@@ -44,6 +44,7 @@ constexpr std::array<Column<SootProcesses>, 12> processColumns{{
 template <typename Columns>
 std::vector<FlameSootFields::Field> emptyFields(const Columns& columns) {
   std::vector<FlameSootFields::Field> fields;
+  fields.reserve(columns.size());
   for (const auto& column : columns) fields.push_back({column.name, column.unit, column.description, {}});
   return fields;
 }

@@ -67,6 +67,7 @@ FlameSootGas flameSootGas(const FlameProfile& profile, const Mechanism& mechanis
   want(&SootGasState::O2, "O2");
   want(&SootGasState::C2H2, "C2H2");
   std::vector<std::size_t> pahIndex;
+  pahIndex.reserve(pah.size());
   for (const PahSpecies& p : pah) pahIndex.push_back(mechanism.speciesIndex(p.name));
   Transport transport(mechanism);
   const auto weights = mechanism.molecularWeights();

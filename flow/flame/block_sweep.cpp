@@ -23,7 +23,7 @@ void preferLargePages([[maybe_unused]] double* begin, [[maybe_unused]] std::size
   constexpr std::uintptr_t page = 1U << 21U;
   const auto at = reinterpret_cast<std::uintptr_t>(begin);
   const std::uintptr_t first = (at + page - 1) / page * page, end = (at + bytes) / page * page;
-  if (first < end) madvise(reinterpret_cast<void*>(first), end - first, MADV_HUGEPAGE);
+  if (first < end) madvise(reinterpret_cast<char*>(begin) + (first - at), end - first, MADV_HUGEPAGE);
 #endif
 }
 

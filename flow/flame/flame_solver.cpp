@@ -18,7 +18,7 @@ FlameSolver::FlameSolver(MPI_Comm comm, std::shared_ptr<const Mechanism> mechani
   data_->mechanism = std::move(mechanism);
   data_->problem = std::move(problem);
   data_->carried = carried;
-  data_->options = std::move(options);
+  data_->options = options;
 }
 FlameSolver::~FlameSolver() = default;
 
@@ -89,7 +89,7 @@ void FlameSolver::Data::gasAlone(const FlameProblem& flame, NewtonSolver& solver
   solution.profile = withLayout(solution.profile, bare);
   FlameEquations gas(comm, mechanism, flame, nullptr, options.tolerances);
   gas.setExchange(exchange);
-  refine(gas, solver, name, options.grid);
+  refine(gas, solver, name);
   count(gas);
   solution.profile = withLayout(solution.profile, full);
 }
@@ -173,7 +173,7 @@ void FlameSolver::Data::solve() {
     scalarsAlone(equations, solver);
   }
   const std::string name = layout.scalars > 0 ? "gas and scalars" : "flame";
-  refine(equations, solver, name, options.grid);
+  refine(equations, solver, name);
   if (options.polish > 0) {
     NewtonOptions last = options.newton;
     last.polish = options.polish;

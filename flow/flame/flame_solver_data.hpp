@@ -12,10 +12,10 @@
 namespace lampblack {
 
 struct FlameSolver::Data {
-  MPI_Comm comm;
+  MPI_Comm comm = MPI_COMM_NULL;
   std::shared_ptr<const Mechanism> mechanism;
   FlameProblem problem;
-  CarriedModel* carried;
+  CarriedModel* carried = nullptr;
   FlameSolverOptions options;
   std::function<void(const FlameStage&, const FlameProfile&)> report;
   std::optional<GivenExchange> exchange;
@@ -25,11 +25,11 @@ struct FlameSolver::Data {
   void solve();
   // One stage: the steady flame on the grid of the profile.
   void steady(FlameEquations& equations, NewtonSolver& solver, const std::string& name);
-  void fail(const FlameStage& stage);
-  // Whether it has converged; `start` is the time at which it began.
+  // The end of a stage that began at `start` (MPI_Wtime). FlameFailure where it has not converged.
   void finish(FlameStage& stage, double start);
+  [[noreturn]] void fail(const FlameStage& stage);
   // Stages on ever better grids until none is needed.
-  void refine(FlameEquations& equations, NewtonSolver& solver, const std::string& name, const GridOptions& grid);
+  void refine(FlameEquations& equations, NewtonSolver& solver, const std::string& name);
   void place(FlameEquations& equations);
   void follow(FlameEquations& equations);
   void ripen(FlameEquations& equations, NewtonSolver& solver);

@@ -107,13 +107,11 @@ bool FlameSolver::Data::widen() {
   return true;
 }
 
-void FlameSolver::Data::refine(FlameEquations& equations, NewtonSolver& solver, const std::string& name,
-                               const GridOptions& grid) {
+void FlameSolver::Data::refine(FlameEquations& equations, NewtonSolver& solver, const std::string& name) {
   for (std::size_t pass = 0;; ++pass) {
     steady(equations, solver, pass == 0 ? name : fmt::format("{}, grid {}", name, pass + 1));
     if (!options.refine) return;
     if (widen()) continue;
-    const std::vector<std::size_t> keep = anchorPoint();
     const auto giveUp = [&](const std::string& reason) {
       FlameStage stage = solution.stages.back();
       stage.newton.reason = reason;
@@ -122,7 +120,7 @@ void FlameSolver::Data::refine(FlameEquations& equations, NewtonSolver& solver, 
     };
     GridChange change;
     try {
-      change = refineForAllButFlux(seenByGrid(solution.profile, carried), grid, keep);
+      change = refineForAllButFlux(seenByGrid(solution.profile, carried), options.grid, anchorPoint());
     } catch (const NumericsError& error) {
       giveUp(error.what());
     }

@@ -17,7 +17,7 @@ namespace lampblack {
 // The gas at one point, digested; negative concentrations are zero.
 struct MomentGas {
   SootGasState state;  // its span is not used
-  PahArray consumption;
+  PahArray consumption{};
   SurfaceChemistry surface;
   DimerProduction dimer;
   double freeMolecular = 0;  // prefactor of collisions with enhancement
