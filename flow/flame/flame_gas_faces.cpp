@@ -51,13 +51,14 @@ void FlameGas::scaleCoefficients(double T, std::size_t f) {
 }
 
 // Central where diffusion smooths over a spacing, Pe = |m| h / (rho D) < 2 with the slowest that matters, heat or a
-// species of more than a per mille; blended towards upwind beyond, in the manner of Spalding (1972).
+// species; blended towards upwind beyond, in the manner of Spalding (1972). Species whose mass fraction is below 1e-5
+// matter the less the less there is of them: they may swing about zero, by less than that.
 double FlameGas::pecletNumber(double m, std::size_t f, double h) const {
-  constexpr double abundant = 1e-3;
+  constexpr double matters = 1e-5;
   double cp = 0, slowest = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < n_; ++k) {
     cp += meanY_[k] * faces.heat[f * n_ + k];
-    if (meanX_[k] > abundant) slowest = std::min(slowest, D_[k]);
+    if (meanY_[k] > 0) slowest = std::min(slowest, D_[k] * std::max(1.0, matters / meanY_[k]));
   }
   const double rho = pressure_ / (constants::gasConstant * faces.temperature[f] * meanMoles_);
   return std::abs(m) * h / std::min(rho * slowest, faces.conductivity[f] / cp);
