@@ -243,7 +243,8 @@ struct SortedChunk {
       k -= lanes;
       double* x = &column[margin + k];
       const Bits index = iota + static_cast<std::int64_t>(k);
-      store(x, index >= end ? load(x - copies) : load(x));
+      const Lanes moved = index >= end ? load(x - copies) : load(x);
+      store(x, moved);
     }
     for (std::uint32_t k = 0; k < copies; ++k) column[margin + at + k] = value;
   }
@@ -264,7 +265,8 @@ struct SortedChunk {
     for (std::uint32_t k = 0; k < places; k += lanes) {
       double* x = &column[margin + k];
       const Bits index = iota + static_cast<std::int64_t>(k);
-      store(x, index >= here ? load(x + by) : load(x));
+      const Lanes moved = index >= here ? load(x + by) : load(x);
+      store(x, moved);
     }
   }
 
