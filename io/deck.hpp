@@ -26,6 +26,7 @@ struct DeckValue {
   DeckKey key;
   std::string path;  // "mesh.z[0].cells"
   bool isDefault = false;
+  bool counts = true;                  // false: a default of a key that another choice makes meaningless
   std::vector<double> numbers;         // quantity, number (SI)
   std::vector<std::int64_t> integers;  // integer, boolean (0 or 1)
   std::vector<std::string> texts;      // string, choice

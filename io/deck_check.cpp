@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "core/nearest_name.hpp"
+#include "io/deck_conditions.hpp"
 #include "io/deck_value.hpp"
 
 namespace lampblack {
@@ -24,6 +25,7 @@ class Checker {
     const SchemaNode tree = schema_.tree();
     checkNames(tree, root, "");
     readSection(tree, &root, "", root);
+    applyConditions(source_, tree, root, values_);
     return std::move(values_);
   }
 

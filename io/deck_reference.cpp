@@ -51,6 +51,12 @@ std::string cell(std::string text) {
   return text;
 }
 
+// What it means, and with which choices of other keys it counts.
+std::string meaning(const std::string& doc, const std::vector<DeckCondition>& conditions) {
+  const std::string condition = conditionText(conditions);
+  return condition.empty() ? doc : doc + " " + condition;
+}
+
 // `level`: of the headings.
 void writeMarkdown(const Node& node, int level, std::string& out) {
   std::string rows;
@@ -60,7 +66,7 @@ void writeMarkdown(const Node& node, int level, std::string& out) {
                                  : child.key->presence == Presence::optional ? "-"
                                                                              : "**required**";
     rows += fmt::format("| `{}` | {} | {} | {} |\n", cell(child.path), cell(typeText(*child.key)), cell(standard),
-                        cell(child.key->doc));
+                        cell(meaning(child.key->doc, child.key->conditions)));
   }
   const bool top = node.path.empty();
   if (!rows.empty() || node.section != nullptr) {
@@ -68,7 +74,8 @@ void writeMarkdown(const Node& node, int level, std::string& out) {
     out += top ? fmt::format("\n{} Top level\n\n", mark) : fmt::format("\n{} `{}`\n\n", mark, node.path);
     if (node.section != nullptr) {
       const char* presence = node.section->presence == Presence::required ? "Required. " : "Optional. ";
-      out += fmt::format("{}{}\n\n", node.section->presence == Presence::defaulted ? "" : presence, node.section->doc);
+      out += fmt::format("{}{}\n\n", node.section->presence == Presence::defaulted ? "" : presence,
+                         meaning(node.section->doc, node.section->conditions));
     }
     if (!rows.empty()) out += "| key | what | default | meaning |\n|---|---|---|---|\n" + rows;
   }
@@ -106,7 +113,7 @@ void writeItem(const DeckKey& key, JsonWriter& json) {
 
 void writeKey(const DeckKey& key, JsonWriter& json) {
   json.beginObject();
-  json.field("description", fmt::format("{} Expected: {}.", key.doc, expectation(key)));
+  json.field("description", fmt::format("{} Expected: {}.", meaning(key.doc, key.conditions), expectation(key)));
   if (key.isList) {
     json.field("type", "array");
     if (key.count) {
@@ -135,7 +142,7 @@ void writeSchema(const Node& node, JsonWriter& json) {
   }
   json.beginObject();
   if (node.path.empty()) writeTitle(json);
-  if (node.section != nullptr) json.field("description", node.section->doc);
+  if (node.section != nullptr) json.field("description", meaning(node.section->doc, node.section->conditions));
   if (const Node* item = node.child("[]")) {
     json.field("type", "array");
     json.key("items");

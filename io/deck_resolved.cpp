@@ -47,6 +47,7 @@ Branch treeOf(const DeckNode& deck, const std::vector<DeckValue>& values, const 
   Branch root;
   addSections(deck, "", index, root);
   for (const DeckValue& value : values) {
+    if (!value.counts) continue;
     Branch* branch = &root;
     for (const std::string& part : splitDeckPath(value.path)) branch = &branch->child(part);
     branch->value = &value;

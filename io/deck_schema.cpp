@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "io/deck_node.hpp"
@@ -48,6 +49,11 @@ DeckKey& DeckKey::list() {
 DeckKey& DeckKey::list(std::size_t n) {
   isList = true;
   count = n;
+  return *this;
+}
+
+DeckKey& DeckKey::onlyWith(std::string otherKey, std::vector<std::string> otherChoices) {
+  conditions.push_back({std::move(otherKey), std::move(otherChoices)});
   return *this;
 }
 
@@ -125,6 +131,13 @@ std::string expectation(const DeckKey& key) {
   return key.count ? fmt::format("a list of {}, each {}", *key.count, one) : fmt::format("a list, each item {}", one);
 }
 
+std::string conditionText(const std::vector<DeckCondition>& conditions) {
+  std::vector<std::string> parts;
+  for (const DeckCondition& condition : conditions)
+    parts.push_back(fmt::format("`{}`: `{}`", condition.key, fmt::join(condition.choices, "`, `")));
+  return parts.empty() ? "" : fmt::format("Only with {}.", fmt::join(parts, " and "));
+}
+
 const DeckSchema::Node* DeckSchema::Node::child(const std::string& childName) const {
   for (const Node& node : children) {
     if (node.name == childName) return &node;
@@ -146,18 +159,34 @@ DeckSchema& DeckSchema::add(DeckKey key) {
   return *this;
 }
 
-DeckSchema& DeckSchema::section(std::string path, Presence presence, std::string doc) {
+DeckSchema& DeckSchema::section(std::string path, Presence presence, std::string doc,
+                                std::vector<DeckCondition> onlyWith) {
   for (const DeckSection& other : sections_) {
     if (other.path == path) throw std::logic_error(fmt::format("deck section '{}' is declared twice", path));
   }
-  sections_.push_back({std::move(path), presence, std::move(doc)});
+  sections_.push_back({std::move(path), presence, std::move(doc), std::move(onlyWith)});
   return *this;
 }
 
 DeckSchema& DeckSchema::add(const DeckSchema& other) {
   for (const DeckKey& key : other.keys_) add(key);
-  for (const DeckSection& part : other.sections_) section(part.path, part.presence, part.doc);
+  for (const DeckSection& part : other.sections_) section(part.path, part.presence, part.doc, part.conditions);
   return *this;
+}
+
+void DeckSchema::checkConditions(const std::string& path, const std::vector<DeckCondition>& conditions) const {
+  for (const DeckCondition& condition : conditions) {
+    const auto other =
+        std::find_if(keys_.begin(), keys_.end(), [&](const DeckKey& key) { return key.path == condition.key; });
+    if (other == keys_.end())
+      throw std::logic_error(fmt::format("deck: '{}' depends on '{}', which is no key", path, condition.key));
+    const std::vector<std::string> known =
+        other->type == KeyType::boolean ? std::vector<std::string>{"true", "false"} : other->choices;
+    for (const std::string& choice : condition.choices)
+      if (std::find(known.begin(), known.end(), choice) == known.end())
+        throw std::logic_error(
+            fmt::format("deck: '{}' depends on '{}: {}', which is no choice of that key", path, condition.key, choice));
+  }
 }
 
 DeckSchema::Node DeckSchema::tree() const {
@@ -176,8 +205,14 @@ DeckSchema::Node DeckSchema::tree() const {
     }
     return node;
   };
-  for (const DeckKey& key : keys_) place(key.path)->key = &key;
-  for (const DeckSection& section : sections_) place(section.path)->section = &section;
+  for (const DeckKey& key : keys_) {
+    checkConditions(key.path, key.conditions);
+    place(key.path)->key = &key;
+  }
+  for (const DeckSection& section : sections_) {
+    checkConditions(section.path, section.conditions);
+    place(section.path)->section = &section;
+  }
   return root;
 }
 

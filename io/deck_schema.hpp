@@ -9,6 +9,12 @@
 //       .add(integerKey("mesh.z[].cells", "Cells of this segment.").atLeast(1));
 //
 // A path is names joined by dots; `*` stands for a name the user chooses and `[]` for the items of a list.
+//
+// A key or section that counts only with some choices of another key says so, and a deck that has it in vain is
+// refused:
+//
+//   schema.add(quantityKey("boundaries.*.velocity", ...).optional().onlyWith("boundaries.*.type", {"inlet"}))
+//       .section("left", Presence::optional, "...", {{"flame.type", {"counterflow"}}});
 #pragma once
 
 #include <map>
@@ -31,6 +37,13 @@ struct Bound {
   bool exclusive = false;
 };
 
+// That something counts only where another key, a choice or true or false, has one of these values. A `*` or `[]` of
+// its path is the same name or item as in the path of what it is said of.
+struct DeckCondition {
+  std::string key;
+  std::vector<std::string> choices;
+};
+
 // One key. Made by the functions below; required until told otherwise.
 class DeckKey {
  public:
@@ -45,6 +58,8 @@ class DeckKey {
   DeckKey& below(double si);
   DeckKey& list();                   // a list of any length of this type
   DeckKey& list(std::size_t count);  // a list of exactly `count`, for instance a vector
+  // The key counts only with these choices of another key; said twice, both have to hold.
+  DeckKey& onlyWith(std::string otherKey, std::vector<std::string> otherChoices);
 
   std::string path;
   KeyType type;
@@ -57,6 +72,7 @@ class DeckKey {
   std::optional<Bound> maximum;
   bool isList = false;
   std::optional<std::size_t> count;
+  std::vector<DeckCondition> conditions;
 };
 
 DeckKey quantityKey(std::string path, const units::Dimension& dimension, std::string doc);
@@ -73,6 +89,9 @@ std::string expectation(const DeckKey& key);
 // The same limits in words, without the type: "above 0 K", "0 to 1"; empty when there are none.
 std::string rangeText(const DeckKey& key);
 
+// "Only with `flame.type`: `wall`, `counterflow`."; empty without conditions.
+std::string conditionText(const std::vector<DeckCondition>& conditions);
+
 // A map or list that needs saying more than that it exists. Sections that are not declared are always looked into, so
 // that their required keys are required and their defaults hold. An `optional` section that is absent is skipped with
 // everything in it; a `required` one must be there and not be empty.
@@ -80,13 +99,14 @@ struct DeckSection {
   std::string path;
   Presence presence = Presence::optional;
   std::string doc;
+  std::vector<DeckCondition> conditions;  // of everything in it
 };
 
 class DeckSchema {
  public:
   // std::logic_error for a path declared twice, or a key that is also a section.
   DeckSchema& add(DeckKey key);
-  DeckSchema& section(std::string path, Presence presence, std::string doc);
+  DeckSchema& section(std::string path, Presence presence, std::string doc, std::vector<DeckCondition> onlyWith = {});
   DeckSchema& add(const DeckSchema& other);  // everything another schema declares
 
   [[nodiscard]] const std::vector<DeckKey>& keys() const { return keys_; }
@@ -101,10 +121,13 @@ class DeckSchema {
 
     [[nodiscard]] const Node* child(const std::string& childName) const;  // exact, nullptr if none
   };
-  // Refers to this schema, which has to live as long.
+  // Refers to this schema, which has to live as long. std::logic_error for a condition on a key or choice that is not
+  // declared.
   [[nodiscard]] Node tree() const;
 
  private:
+  void checkConditions(const std::string& path, const std::vector<DeckCondition>& conditions) const;
+
   std::vector<DeckKey> keys_;
   std::vector<DeckSection> sections_;
 };

@@ -93,7 +93,7 @@ void readScalar(const DeckKey& key, const std::string& text, DeckValue& value) {
 }  // namespace
 
 DeckValue readDeckValue(const DeckSource& source, const DeckKey& key, const std::string& path, const DeckNode& node) {
-  DeckValue value{key, path, false, {}, {}, {}};
+  DeckValue value{key, path, false, true, {}, {}, {}};
   const auto scalar = [&](const DeckNode& item, const std::string& itemPath) {
     if (item.kind != DeckNode::Kind::scalar) {
       DeckKey one = key;
