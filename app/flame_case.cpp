@@ -1,7 +1,6 @@
 #include "app/flame_case.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -27,40 +26,7 @@ FlameType typeOf(const std::string& name) {
   return name == "wall" ? FlameType::Wall : FlameType::Counterflow;
 }
 
-// Keys and sections that only some flames have. A deck that has one of them in vain is told so.
-void refuseOthers(const Deck& deck, const std::string& type, bool potential, bool given) {
-  struct Part {
-    const char* path;
-    std::vector<std::string> types;
-  };
-  const std::vector<Part> parts{
-      {"inlet", {"free", "burner", "wall"}},
-      {"left", {"counterflow"}},
-      {"right", {"counterflow"}},
-      {"flame.nozzles", {"wall", "counterflow"}},
-      {"flame.strain_rate", {"wall", "counterflow"}},
-      {"flame.stagnation_plane", {"counterflow"}},
-      {"flame.wall_temperature", {"wall"}},
-      {"flame.energy", {"burner"}},
-      {"temperature_profile", {"burner"}},
-      {"solver.anchor_temperature", {"free"}},
-      {"continuation", {"burner", "wall", "counterflow"}},
-      {"unsteady", {"burner", "wall", "counterflow"}},
-  };
-  for (const Part& part : parts)
-    if (deck.isGiven(part.path) && std::find(part.types.begin(), part.types.end(), type) == part.types.end())
-      throw deck.error(part.path, fmt::format("a flame of type {} does not have this; it belongs to: {}", type,
-                                              fmt::join(part.types, ", ")));
-  for (const char* key : {"flame.strain_rate", "flame.stagnation_plane"})
-    if (!potential && deck.has(key))
-      throw deck.error(key, "plug flow has velocities instead; this needs 'nozzles: potential'");
-  if (!given && deck.has("temperature_profile"))
-    throw deck.error("temperature_profile", "flame.energy is solved; a profile needs 'energy: given'");
-  if (given && !deck.has("temperature_profile"))
-    throw deck.error("flame.energy", "'given' needs the section 'temperature_profile'");
-}
-
-enum class Flux { needed, guess, refused };
+enum class Flux { needed, guess, none };
 
 FlameStream readStream(const Deck& deck, const std::string& section, const FlameCase& flame, Flux flux) {
   if (!deck.has(section))
@@ -71,13 +37,10 @@ FlameStream readStream(const Deck& deck, const std::string& section, const Flame
   const auto velocity = deck.optionalQuantity(section + ".velocity");
   const auto massFlux = deck.optionalQuantity(section + ".mass_flux");
   if (velocity && massFlux) throw deck.error(section, "expected 'velocity' or 'mass_flux', found both");
-  if (flux == Flux::refused && (velocity || massFlux))
-    throw deck.error(section + (velocity ? ".velocity" : ".mass_flux"),
-                     "in potential flow the strain rate says how fast the streams are");
   if (flux == Flux::needed && !velocity && !massFlux)
     throw deck.error(section, "this stream needs either 'velocity' or 'mass_flux'");
   const double density = Thermo(*flame.mechanism).density(stream.temperature, flame.problem.pressure, stream.Y);
-  if (flux != Flux::refused) stream.massFlux = massFlux.value_or(density * velocity.value_or(guessedSpeed));
+  if (flux != Flux::none) stream.massFlux = massFlux.value_or(density * velocity.value_or(guessedSpeed));
   return stream;
 }
 
@@ -85,12 +48,13 @@ void readConfiguration(const Deck& deck, FlameCase& flame) {
   FlameProblem& problem = flame.problem;
   const std::string type = deck.choice("flame.type");
   const bool potential = deck.choice("flame.nozzles") == "potential", given = deck.choice("flame.energy") == "given";
-  refuseOthers(deck, type, potential, given);
+  if (given && !deck.has("temperature_profile"))
+    throw deck.error("flame.energy", "'given' needs the section 'temperature_profile'");
   problem.type = typeOf(type);
   problem.nozzles = potential ? FlameNozzles::Potential : FlameNozzles::Plug;
   problem.pressure = deck.quantity("pressure");
   problem.length = deck.quantity("flame.length");
-  const Flux flux = potential ? Flux::refused : problem.type == FlameType::Free ? Flux::guess : Flux::needed;
+  const Flux flux = potential ? Flux::none : problem.type == FlameType::Free ? Flux::guess : Flux::needed;
   if (problem.type == FlameType::Counterflow) {
     problem.left = readStream(deck, "left", flame, flux);
     problem.right = readStream(deck, "right", flame, flux);

@@ -19,14 +19,19 @@ std::string text(std::size_t value) {
   return fmt::format("{}", value);
 }
 
-void addStream(DeckSchema& schema, const std::string& section, const std::string& doc) {
-  schema.section(section, Presence::optional, doc)
+void addStream(DeckSchema& schema, const std::string& section, const std::string& doc,
+               const std::vector<std::string>& types) {
+  schema.section(section, Presence::optional, doc, {{"flame.type", types}})
       .add(temperatureKey(section + ".temperature", "Temperature."))
       .add(quantityKey(section + ".velocity", units::velocity,
                        "Into the domain; of a free flame a first guess of its speed. Not with potential flow.")
                .optional()
-               .above(0))
-      .add(quantityKey(section + ".mass_flux", units::massFlux, "Instead of a velocity.").optional().above(0));
+               .above(0)
+               .onlyWith("flame.nozzles", {"plug"}))
+      .add(quantityKey(section + ".mass_flux", units::massFlux, "Instead of a velocity.")
+               .optional()
+               .above(0)
+               .onlyWith("flame.nozzles", {"plug"}));
   addMixtureKeys(schema, section);
 }
 
@@ -41,28 +46,32 @@ void addFlame(DeckSchema& schema) {
                .byDefault("20 mm")
                .above(0))
       .add(choiceKey("flame.nozzles", {"plug", "potential"},
-                     "wall, counterflow. plug: velocities given, no spreading at the nozzles; potential: the streams "
-                     "come from afar, the strain rate is given.")
-               .byDefault("plug"))
-      .add(quantityKey("flame.strain_rate", units::frequency,
-                       "potential: of the stream on the right (of a wall: of the stream).")
+                     "plug: velocities given, no spreading at the nozzles; potential: the streams come from afar, the "
+                     "strain rate is given.")
+               .byDefault("plug")
+               .onlyWith("flame.type", {"wall", "counterflow"}))
+      .add(quantityKey("flame.strain_rate", units::frequency, "Of the stream on the right (of a wall: of the stream).")
                .optional()
-               .above(0))
-      .add(quantityKey("flame.stagnation_plane", units::length,
-                       "potential counterflow: where the streams meet; the middle if not given.")
+               .above(0)
+               .onlyWith("flame.type", {"wall", "counterflow"})
+               .onlyWith("flame.nozzles", {"potential"}))
+      .add(quantityKey("flame.stagnation_plane", units::length, "Where the streams meet; the middle if not given.")
                .optional()
-               .above(0))
-      .add(temperatureKey("flame.wall_temperature", "wall: of the wall.").optional())
+               .above(0)
+               .onlyWith("flame.type", {"counterflow"})
+               .onlyWith("flame.nozzles", {"potential"}))
+      .add(temperatureKey("flame.wall_temperature", "Of the wall.").optional().onlyWith("flame.type", {"wall"}))
       .add(choiceKey("flame.energy", {"solved", "given"},
-                     "given: burner flames at a measured temperature, in the section temperature_profile.")
-               .byDefault("solved"));
-  addStream(schema, "inlet", "free, burner, wall: the stream that comes in on the left.");
-  addStream(schema, "left", "counterflow: the stream from the left, by custom the fuel.");
-  addStream(schema, "right", "counterflow: the stream from the right, by custom the oxidiser.");
+                     "given: at a measured temperature, in the section temperature_profile.")
+               .byDefault("solved")
+               .onlyWith("flame.type", {"burner"}));
+  addStream(schema, "inlet", "The stream that comes in on the left.", {"free", "burner", "wall"});
+  addStream(schema, "left", "The stream from the left, by custom the fuel.", {"counterflow"});
+  addStream(schema, "right", "The stream from the right, by custom the oxidiser.", {"counterflow"});
   schema
       .section("temperature_profile", Presence::optional,
-               "The temperature where flame.energy is given: straight lines between points, constant beyond them. "
-               "Points here or in a file.")
+               "The given temperature: straight lines between points, constant beyond them. Points here or in a file.",
+               {{"flame.energy", {"given"}}})
       .add(
           quantityKey("temperature_profile.position", units::length, "Distances of the points from the burner, rising.")
               .list()
@@ -79,7 +88,9 @@ void addPhysics(DeckSchema& schema) {
                      "optically_thin: H2O, CO2, CO, CH4 and soot lose heat to the surroundings and take none back from "
                      "each other.")
                .byDefault("none"))
-      .add(temperatureKey("radiation.surroundings", "Temperature of the surroundings.").byDefault("298 K"));
+      .add(temperatureKey("radiation.surroundings", "Temperature of the surroundings.")
+               .byDefault("298 K")
+               .onlyWith("radiation.model", {"optically_thin"}));
 }
 
 void addGrid(DeckSchema& schema) {
@@ -138,8 +149,9 @@ void addSolver(DeckSchema& schema) {
                .byDefault(text(defaults().transient.maximumSteps))
                .atLeast(1))
       .add(temperatureKey("solver.anchor_temperature",
-                          "free: temperature that is held in place; between unburnt and burnt if not given.")
-               .optional())
+                          "Temperature that is held in place; between unburnt and burnt if not given.")
+               .optional()
+               .onlyWith("flame.type", {"free"}))
       .add(stringKey(
                "initial",
                "Results of an earlier flame to start from (results.h5, also .part of one that failed), relative to "
@@ -153,7 +165,8 @@ void addContinuation(DeckSchema& schema) {
       .section(
           "continuation", Presence::optional,
           "The branch of flames over the strain, followed by arc length from the converged flame round its turning "
-          "points (extinction, ignition). Not of free flames.")
+          "points (extinction, ignition).",
+          {{"flame.type", {"burner", "wall", "counterflow"}}})
       .add(choiceKey("continuation.towards", {"higher", "lower"}, "Strain at the start.").byDefault("higher"))
       .add(numberKey("continuation.lowest_load",
                      "The branch ends below this factor on the strain (of strain rates and mass fluxes of the deck).")
@@ -182,7 +195,9 @@ void addContinuation(DeckSchema& schema) {
 
 void addUnsteady(DeckSchema& schema) {
   static const UnsteadyOptions options;
-  schema.section("unsteady", Presence::optional, "The flame in time, on the grid it starts with. Not of free flames.")
+  schema
+      .section("unsteady", Presence::optional, "The flame in time, on the grid it starts with.",
+               {{"flame.type", {"burner", "wall", "counterflow"}}})
       .add(choiceKey(
                "unsteady.start", {"steady", "initial"},
                "steady: the converged flame of this deck; initial: the flame of the key initial as it is, with the "

@@ -98,8 +98,6 @@ void readBoundaries(const Deck& deck, const Mechanism& mechanism, FlowCase& flow
     }
     if (type == "inlet")
       boundary.speed = requiredQuantity(deck, section, "velocity", "an inlet");
-    else if (deck.has(section + ".velocity"))
-      throw deck.error(section + ".velocity", "only an inlet has a velocity");
     if (type == "symmetry") boundary.kind = BoundaryKind::Symmetry;
     if (type == "wall") {
       boundary.isothermal = hasTemperature;

@@ -29,20 +29,26 @@ void addBoundaries(DeckSchema& schema) {
                      "Side of the box it lies on."))
       .add(quantityKey("boundaries.*.from", units::length, "Start along the side.").optional())
       .add(quantityKey("boundaries.*.to", units::length, "End along the side.").optional())
-      .add(quantityKey("boundaries.*.velocity", units::velocity, "inlet: normal velocity into the domain.")
+      .add(quantityKey("boundaries.*.velocity", units::velocity, "Normal velocity into the domain.")
                .optional()
-               .atLeast(0))
+               .atLeast(0)
+               .onlyWith("boundaries.*.type", {"inlet"}))
       .add(quantityKey("boundaries.*.temperature", units::temperature,
                        "inlet: of the stream; outlet: of entrained gas; wall: isothermal at this temperature.")
                .optional()
                .above(0)
-               .atMost(hottest))
-      .add(stringKey("boundaries.*.composition", "inlet, outlet (entrained gas): mole fractions, 'C2H4: 1, N2: 3'.")
-               .optional())
+               .atMost(hottest)
+               .onlyWith("boundaries.*.type", {"inlet", "outlet", "wall"}))
+      .add(stringKey("boundaries.*.composition", "Of the stream or of entrained gas: mole fractions, 'C2H4: 1, N2: 3'.")
+               .optional()
+               .onlyWith("boundaries.*.type", {"inlet", "outlet"}))
       .add(choiceKey("boundaries.*.species", {"flux", "fixed"},
-                     "inlet: fix the total species flux (no diffusive loss into the nozzle) or the mass fractions.")
-               .byDefault("flux"))
-      .add(booleanKey("boundaries.*.slip", "wall: without friction.").byDefault("false"));
+                     "Fix the total species flux (no diffusive loss into the nozzle) or the mass fractions.")
+               .byDefault("flux")
+               .onlyWith("boundaries.*.type", {"inlet"}))
+      .add(booleanKey("boundaries.*.slip", "Without friction.")
+               .byDefault("false")
+               .onlyWith("boundaries.*.type", {"wall"}));
 }
 
 void addInitial(DeckSchema& schema) {
@@ -60,8 +66,13 @@ void addInitial(DeckSchema& schema) {
                .byDefault("2200 K")
                .above(0)
                .atMost(hottest))
-      .add(quantityKey("initial.hot_position", units::length, "hot: centre of the hot layer.").optional())
-      .add(quantityKey("initial.hot_width", units::length, "hot: half width of the hot layer.").optional().above(0));
+      .add(quantityKey("initial.hot_position", units::length, "Centre of the hot layer.")
+               .optional()
+               .onlyWith("initial.layer", {"hot"}))
+      .add(quantityKey("initial.hot_width", units::length, "Half width of the hot layer.")
+               .optional()
+               .above(0)
+               .onlyWith("initial.layer", {"hot"}));
 }
 
 void addTimeAndOutput(DeckSchema& schema) {

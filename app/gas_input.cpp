@@ -99,8 +99,9 @@ std::shared_ptr<const Mechanism> readMechanism(const Deck& deck) {
 void addTransportKeys(DeckSchema& schema, std::vector<std::string> models, const std::string& modelDoc) {
   schema.add(choiceKey("transport.model", std::move(models), modelDoc).byDefault("mixture_averaged"))
       .add(stringKey("transport.lewis_numbers",
-                     "constant_lewis: Lewis numbers, 'H2: 0.3, CH4: 0.97'; species that are not named have 1.")
-               .optional())
+                     "Lewis numbers, 'H2: 0.3, CH4: 0.97'; species that are not named have 1.")
+               .optional()
+               .onlyWith("transport.model", {"constant_lewis"}))
       .add(choiceKey("transport.collision_integrals", {"monchick_mason", "thesis_fits"},
                      "The tables of Monchick and Mason (1961), or the fits of the thesis (eqs 6-36, 6-37).")
                .byDefault("monchick_mason"));
@@ -117,9 +118,7 @@ CollisionIntegrals readCollisionIntegrals(const Deck& deck, const Mechanism& mec
 std::vector<double> readLewisNumbers(const Deck& deck, const Mechanism& mechanism) {
   const bool constant = deck.choice("transport.model") == "constant_lewis";
   const auto text = deck.optionalString("transport.lewis_numbers");
-  if (text.has_value() != constant)
-    throw deck.error(text ? "transport.lewis_numbers" : "transport.model",
-                     "'lewis_numbers' goes with the model 'constant_lewis', and that needs it");
+  if (constant && !text) throw deck.error("transport.model", "the model constant_lewis needs the key 'lewis_numbers'");
   if (!text) return {};
   return at(deck, "transport.lewis_numbers", [&] {
     auto numbers = parseAmounts(mechanism, *text, "Lewis numbers", 1.0);

@@ -18,10 +18,6 @@ namespace {
 InitialPopulation readInitial(const Deck& deck) {
   using Distribution = InitialPopulation::Distribution;
   const std::string section = "initial", type = deck.choice("initial.distribution");
-  const std::vector<std::string> all{"monodisperse", "exponential", "lognormal"};
-  refuseOthers(deck, section,
-               {{"number", all}, {"volume", all}, {"diameter", all}, {"geometric_deviation", {"lognormal"}}},
-               "initial distribution", type);
   InitialPopulation initial;
   if (type == "none") return initial;
   const std::string who = fmt::format("the initial distribution {}", type);
@@ -40,7 +36,6 @@ InitialPopulation readInitial(const Deck& deck) {
 
 PopulationTimes readTimes(const Deck& deck) {
   PopulationTimes times{deck.quantity("time.end"), static_cast<std::size_t>(deck.integer("time.outputs")), 0};
-  refuseOthers(deck, "time", {{"first", {"logarithmic"}}}, "spacing", deck.choice("time.spacing"));
   if (deck.choice("time.spacing") == "linear") return times;
   times.first = needed(deck, "time", "first", "the spacing logarithmic");
   if (!(times.first < times.end)) throw deck.error("time.first", "expected a time before time.end");

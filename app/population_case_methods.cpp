@@ -18,36 +18,6 @@ const std::map<std::string, MonteCarloMethod> monteCarlo{
     {"swa", MonteCarloMethod::swa},
     {"hybrid", MonteCarloMethod::hybrid}};
 
-void refuseOtherKeys(const Deck& deck, const std::string& section, const std::string& type) {
-  std::vector<std::string> all;
-  for (const auto& [name, method] : monteCarlo) all.push_back(name);
-  const std::vector<std::string> weighted{"mmc", "wfmc", "samwfmc", "sammc", "swa"};
-  const std::vector<std::string> fractions{"wfmc", "samwfmc", "sammc"};
-  refuseOthers(deck, section,
-               {{"particles", all},
-                {"rates", all},
-                {"nucleation", all},
-                {"expected_number", all},
-                {"nucleus_weight", weighted},
-                {"fraction", fractions},
-                {"fraction_of", fractions},
-                {"fraction_constant", fractions},
-                {"merging", {"sammc", "swa"}},
-                {"weight_transfer", {"swa"}},
-                {"threshold", {"hybrid"}},
-                {"sections", {"sectional"}},
-                {"smallest", {"sectional"}},
-                {"largest", {"sectional"}},
-                {"spacing", {"sectional"}},
-                {"growth_scheme", {"sectional"}},
-                {"overflow", {"sectional"}},
-                {"moments", {"qmom", "momic"}},
-                {"inversion", {"qmom"}},
-                {"relative_tolerance", {"sectional", "qmom", "momic"}},
-                {"absolute_tolerance", {"sectional"}}},
-               "method", type);
-}
-
 std::size_t count(const Deck& deck, const std::string& key, std::size_t otherwise) {
   const auto value = deck.optionalInteger(key);
   return value ? static_cast<std::size_t>(*value) : otherwise;
@@ -55,9 +25,6 @@ std::size_t count(const Deck& deck, const std::string& key, std::size_t otherwis
 
 void readFraction(const Deck& deck, const std::string& section, MonteCarloOptions& options) {
   const std::string fraction = deck.optionalString(section + ".fraction").value_or("one");
-  refuseOthers(deck, section,
-               {{"fraction_of", {"hyperbolic", "exponential", "stepwise"}}, {"fraction_constant", {"constant"}}},
-               "fraction function", fraction);
   options.fraction = fraction == "one"           ? FractionFunction::one
                      : fraction == "hyperbolic"  ? FractionFunction::hyperbolic
                      : fraction == "exponential" ? FractionFunction::exponential
@@ -159,7 +126,6 @@ std::vector<PopulationMethod> readMethods(const Deck& deck, const PopulationCase
   for (const std::string& name : deck.children("methods")) {
     const std::string section = "methods." + name, type = deck.choice(section + ".type");
     checkName(deck, section, name);
-    refuseOtherKeys(deck, section, type);
     const bool spheres = std::holds_alternative<Sphere>(populationCase.particles);
     if (!monteCarlo.contains(type) && !spheres)
       throw deck.error(section + ".type", fmt::format("the method {} is for particles of type volume; these are {}",

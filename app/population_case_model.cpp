@@ -28,22 +28,16 @@ double readDependent(const Deck& deck, const std::string& key, const units::Dime
 KernelGas readGas(const Deck& deck, const std::string& kernel) {
   const std::vector<std::string> free{"free_molecular", "continuum", "transition", "transition_fuchs", "gravitational"};
   const std::vector<std::string> slip{"continuum", "transition", "transition_fuchs", "gravitational"};
-  const std::vector<Belongs> keys{{"temperature", free},
-                                  {"pressure", slip},
-                                  {"viscosity", slip},
-                                  {"mean_molecular_weight", slip},
-                                  {"density", {"gravitational"}}};
-  refuseOthers(deck, "gas", keys, "kernel", kernel);
-  const auto value = [&](const Belongs& belongs, bool optional) {
-    const std::string path = std::string("gas.") + belongs.key;
-    if (std::find(belongs.choices.begin(), belongs.choices.end(), kernel) == belongs.choices.end()) return 0.0;
-    if (!deck.has(path) && !optional)
+  const auto value = [&](const char* key, const std::vector<std::string>& kernels) {
+    const std::string path = std::string("gas.") + key;
+    if (std::find(kernels.begin(), kernels.end(), kernel) == kernels.end()) return 0.0;
+    if (!deck.has(path))
       throw deck.error(deck.has("gas") ? "gas" : "processes.coagulation.kernel",
                        fmt::format("the kernel {} needs '{}'", kernel, path));
-    return deck.optionalQuantity(path).value_or(0.0);
+    return deck.quantity(path);
   };
-  return {value(keys[0], false), value(keys[1], false), value(keys[2], false), value(keys[3], false),
-          value(keys[4], true)};
+  return {value("temperature", free), value("pressure", slip), value("viscosity", slip),
+          value("mean_molecular_weight", slip), deck.optionalQuantity("gas.density").value_or(0.0)};
 }
 
 CollisionKernelOptions readCoagulation(const Deck& deck) {
@@ -58,11 +52,6 @@ CollisionKernelOptions readCoagulation(const Deck& deck) {
       {"transition_fuchs", CollisionKernelType::transitionFuchs},
       {"shear", CollisionKernelType::shear},
       {"gravitational", CollisionKernelType::gravitational}};
-  refuseOthers(deck, section,
-               {{"rate", withRate},
-                {"enhancement", {"free_molecular", "transition", "transition_fuchs"}},
-                {"shear_rate", {"shear"}}},
-               "kernel", kernel);
   CollisionKernelOptions options;
   options.type = types.at(kernel);
   options.efficiency = deck.number(section + ".efficiency");
@@ -86,13 +75,6 @@ CollisionKernelOptions readCoagulation(const Deck& deck) {
 
 NucleationOptions readNucleation(const Deck& deck) {
   const std::string section = "processes.nucleation", source = deck.choice(section + ".source");
-  refuseOthers(deck, section,
-               {{"rate", {"constant"}},
-                {"rate_constant", {"precursor"}},
-                {"precursor", {"precursor"}},
-                {"times", {"table"}},
-                {"rates", {"table"}}},
-               "source", source);
   const std::string who = "nucleation with the source " + source;
   NucleationOptions options;
   options.volume = readSize(deck, section, "nucleation");
@@ -153,7 +135,6 @@ GrowthOptions readGrowth(const Deck& deck) {
   if (!growth.active() && !deck.has("particles.sintering_time"))
     throw deck.error(section, "nothing grows: there is no condensation, surface_growth or oxidation");
   const std::string treatment = deck.choice(section + ".treatment");
-  refuseOthers(deck, section, {{"step", {"split", "deferred"}}, {"monomer", {"jumps"}}}, "treatment", treatment);
   growth.treatment = treatment == "split"      ? GrowthOptions::Treatment::split
                      : treatment == "deferred" ? GrowthOptions::Treatment::deferred
                                                : GrowthOptions::Treatment::jumps;
@@ -185,13 +166,6 @@ Components readComponents(const Deck& deck) {
 
 PopulationParticles readParticles(const Deck& deck, PopulationModel& model) {
   const std::string section = "particles", type = deck.choice("particles.type");
-  refuseOthers(deck, section,
-               {{"density", {"volume", "fractal", "surface_volume"}},
-                {"fractal_dimension", {"fractal", "surface_volume"}},
-                {"primary_diameter", {"fractal"}},
-                {"sintering_time", {"surface_volume"}},
-                {"components", {"components"}}},
-               "type", type);
   const double density = model.density;
   const double dimension = deck.optionalNumber("particles.fractal_dimension").value_or(1.8);
   if (type == "fractal")

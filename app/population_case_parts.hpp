@@ -2,9 +2,7 @@
 #pragma once
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -12,24 +10,6 @@
 #include "io/units.hpp"
 
 namespace lampblack::populationcase {
-
-// A key that only some choices of another key have.
-struct Belongs {
-  const char* key;
-  std::vector<std::string> choices;
-};
-
-// Refuses the keys of a section that the choice made does not have: "the kernel additive does not have this; ...".
-inline void refuseOthers(const Deck& deck, const std::string& section, const std::vector<Belongs>& keys,
-                         const std::string& what, const std::string& choice) {
-  for (const Belongs& belongs : keys) {
-    const std::string path = section + "." + belongs.key;
-    const auto& choices = belongs.choices;
-    if (deck.isGiven(path) && std::find(choices.begin(), choices.end(), choice) == choices.end())
-      throw deck.error(
-          path, fmt::format("the {} {} does not have this; it belongs to: {}", what, choice, fmt::join(choices, ", ")));
-  }
-}
 
 // A quantity that this choice needs.
 inline double needed(const Deck& deck, const std::string& section, const std::string& key, const std::string& who) {

@@ -3,12 +3,24 @@
 namespace lampblack {
 namespace {
 
+// Who has which keys.
+const std::vector<std::string> monteCarlo{
+    "dsmc", "constant_volume", "constant_number_mass", "constant_number_number", "mmc", "wfmc", "samwfmc", "sammc",
+    "swa",  "hybrid"};
+const std::vector<std::string> weighted{"mmc", "wfmc", "samwfmc", "sammc", "swa"};
+const std::vector<std::string> fractions{"wfmc", "samwfmc", "sammc"};
+const std::vector<std::string> spread{"monodisperse", "exponential", "lognormal"};
+
 // A size of a particle, as a volume or as the diameter of the sphere that has it.
-void addSize(DeckSchema& schema, const std::string& section, const std::string& what) {
-  schema.add(quantityKey(section + ".volume", units::volume, "Volume " + what + ", or diameter.").optional().above(0))
-      .add(quantityKey(section + ".diameter", units::length, "Instead: diameter of the sphere of that volume.")
-               .optional()
-               .above(0));
+void addSize(DeckSchema& schema, const std::string& section, const std::string& what,
+             const std::vector<DeckCondition>& conditions = {}) {
+  DeckKey volume = quantityKey(section + ".volume", units::volume, "Volume " + what + ", or diameter.");
+  DeckKey diameter =
+      quantityKey(section + ".diameter", units::length, "Instead: diameter of the sphere of that volume.");
+  for (DeckKey* key : {&volume, &diameter}) {
+    key->optional().above(0).conditions = conditions;
+    schema.add(*key);
+  }
 }
 
 // The rate rate (v / reference_volume)^exponent of a process of single particles.
@@ -30,19 +42,23 @@ void addParticles(DeckSchema& schema) {
                .byDefault("volume"))
       .add(quantityKey("particles.density", units::density, "Of the material; components have their own.")
                .byDefault("1800 kg/m^3")
-               .above(0))
-      .add(numberKey("particles.fractal_dimension", "fractal, surface_volume: of aggregates; 1.8 if not given.")
+               .above(0)
+               .onlyWith("particles.type", {"volume", "fractal", "surface_volume"}))
+      .add(numberKey("particles.fractal_dimension", "Of aggregates; 1.8 if not given.")
                .optional()
                .atLeast(1)
-               .atMost(3))
-      .add(quantityKey("particles.primary_diameter", units::length, "fractal: of the primary particles.")
+               .atMost(3)
+               .onlyWith("particles.type", {"fractal", "surface_volume"}))
+      .add(quantityKey("particles.primary_diameter", units::length, "Of the primary particles.")
                .optional()
-               .above(0))
+               .above(0)
+               .onlyWith("particles.type", {"fractal"}))
       .add(quantityKey("particles.sintering_time", units::time,
-                       "surface_volume: the surface approaches that of a sphere with this time; never if not given.")
+                       "The surface approaches that of a sphere with this time; never if not given.")
                .optional()
-               .above(0))
-      .section("particles.components", Presence::optional, "components: named, four at most.")
+               .above(0)
+               .onlyWith("particles.type", {"surface_volume"}))
+      .section("particles.components", Presence::optional, "Named, four at most.", {{"particles.type", {"components"}}})
       .add(quantityKey("particles.components.*.density", units::density, "Of the component.").above(0))
       .add(numberKey("particles.components.*.nucleus", "Mass fraction in nuclei and in the initial particles.")
                .byDefault("0")
@@ -54,11 +70,16 @@ void addParticles(DeckSchema& schema) {
       .add(choiceKey("initial.distribution", {"none", "monodisperse", "exponential", "lognormal"},
                      "Of the volumes at time zero; lognormal: of the diameters.")
                .byDefault("none"))
-      .add(quantityKey("initial.number", units::perVolume, "Number density.").optional().above(0));
-  addSize(schema, "initial", "of all (monodisperse), mean (exponential) or median by number (lognormal)");
-  schema.add(numberKey("initial.geometric_deviation", "lognormal: geometric standard deviation of the diameter.")
+      .add(quantityKey("initial.number", units::perVolume, "Number density.")
+               .optional()
+               .above(0)
+               .onlyWith("initial.distribution", spread));
+  addSize(schema, "initial", "of all (monodisperse), mean (exponential) or median by number (lognormal)",
+          {{"initial.distribution", spread}});
+  schema.add(numberKey("initial.geometric_deviation", "Geometric standard deviation of the diameter.")
                  .optional()
-                 .above(1));
+                 .above(1)
+                 .onlyWith("initial.distribution", {"lognormal"}));
 }
 
 void addCoagulation(DeckSchema& schema) {
@@ -72,7 +93,8 @@ void addCoagulation(DeckSchema& schema) {
       .add(stringKey(at + ".rate",
                      "A of the first three kernels, with its unit: m^3/s (constant), 1/s (additive), 1/(m^3 s) "
                      "(multiplicative).")
-               .optional())
+               .optional()
+               .onlyWith(at + ".kernel", {"constant", "additive", "multiplicative"}))
       .add(numberKey(at + ".efficiency", "Probability that a collision sticks.").byDefault("1").above(0).atMost(1))
       .add(quantityKey(at + ".efficiency_diameter", units::length,
                        "Below about this diameter of the smaller particle collisions stick less: the efficiency is "
@@ -80,10 +102,14 @@ void addCoagulation(DeckSchema& schema) {
                .optional()
                .above(0))
       .add(numberKey(at + ".efficiency_exponent", "See efficiency_diameter.").optional().above(0))
-      .add(numberKey(at + ".enhancement", "Of free-molecular collisions by van der Waals forces.").optional().above(0))
-      .add(quantityKey(at + ".shear_rate", units::frequency, "shear: velocity gradient of the gas.")
+      .add(numberKey(at + ".enhancement", "Of free-molecular collisions by van der Waals forces.")
                .optional()
-               .above(0));
+               .above(0)
+               .onlyWith(at + ".kernel", {"free_molecular", "transition", "transition_fuchs"}))
+      .add(quantityKey(at + ".shear_rate", units::frequency, "Velocity gradient of the gas.")
+               .optional()
+               .above(0)
+               .onlyWith(at + ".kernel", {"shear"}));
 }
 
 void addNucleation(DeckSchema& schema) {
@@ -94,15 +120,27 @@ void addNucleation(DeckSchema& schema) {
                     "constant: `rate`; precursor: rate_constant precursor exp(-rate_constant t); table: straight lines "
                     "between `rates` at `times`, zero outside.")
               .byDefault("constant"))
-      .add(quantityKey(at + ".rate", units::ratePerVolume, "constant: nuclei per volume and time.").optional().above(0))
-      .add(quantityKey(at + ".rate_constant", units::frequency, "precursor: of its first-order reaction.")
+      .add(quantityKey(at + ".rate", units::ratePerVolume, "Nuclei per volume and time.")
                .optional()
-               .above(0))
-      .add(quantityKey(at + ".precursor", units::perVolume, "precursor: number density at time zero.")
+               .above(0)
+               .onlyWith(at + ".source", {"constant"}))
+      .add(quantityKey(at + ".rate_constant", units::frequency, "Of the precursor's first-order reaction.")
                .optional()
-               .above(0))
-      .add(quantityKey(at + ".times", units::time, "table: times, rising.").list().optional())
-      .add(quantityKey(at + ".rates", units::ratePerVolume, "table: rates at the times.").list().optional().atLeast(0));
+               .above(0)
+               .onlyWith(at + ".source", {"precursor"}))
+      .add(quantityKey(at + ".precursor", units::perVolume, "Number density of the precursor at time zero.")
+               .optional()
+               .above(0)
+               .onlyWith(at + ".source", {"precursor"}))
+      .add(quantityKey(at + ".times", units::time, "Times, rising.")
+               .list()
+               .optional()
+               .onlyWith(at + ".source", {"table"}))
+      .add(quantityKey(at + ".rates", units::ratePerVolume, "Rates at the times.")
+               .list()
+               .optional()
+               .atLeast(0)
+               .onlyWith(at + ".source", {"table"}));
   addSize(schema, at, "of a nucleus");
 }
 
@@ -125,11 +163,14 @@ void addSingleProcesses(DeckSchema& schema) {
                     "Monte Carlo. split: all particles together, in steps between the jumps; deferred: each when it is "
                     "looked at, at the latest at the end of a step; jumps: one monomer at a time, as jumps.")
               .byDefault("split"))
-      .add(quantityKey("processes.growth.step", units::time,
-                       "split, deferred: length of a step; chosen from the rates if not given.")
+      .add(quantityKey("processes.growth.step", units::time, "Length of a step; chosen from the rates if not given.")
                .optional()
-               .above(0))
-      .add(quantityKey("processes.growth.monomer", units::volume, "jumps: volume of a monomer.").optional().above(0))
+               .above(0)
+               .onlyWith("processes.growth.treatment", {"split", "deferred"}))
+      .add(quantityKey("processes.growth.monomer", units::volume, "Volume of a monomer.")
+               .optional()
+               .above(0)
+               .onlyWith("processes.growth.treatment", {"jumps"}))
       .add(quantityKey("processes.growth.smallest_volume", units::volume, "Particles that shrink below it vanish.")
                .optional()
                .above(0))
@@ -142,12 +183,26 @@ void addSingleProcesses(DeckSchema& schema) {
 }
 
 void addGas(DeckSchema& schema) {
+  const std::string kernel = "processes.coagulation.kernel";
+  const std::vector<std::string> slip{"continuum", "transition", "transition_fuchs", "gravitational"};
   schema.section("gas", Presence::optional, "The gas around the particles, for the physical kernels.")
-      .add(quantityKey("gas.temperature", units::temperature, "Temperature.").optional().above(0))
-      .add(quantityKey("gas.pressure", units::pressure, "Pressure.").optional().above(0))
-      .add(quantityKey("gas.viscosity", units::viscosity, "Dynamic viscosity.").optional().above(0))
-      .add(quantityKey("gas.mean_molecular_weight", units::molarMass, "Mean molar mass.").optional().above(0))
-      .add(quantityKey("gas.density", units::density, "Density; gravitational kernel only.").optional().atLeast(0));
+      .add(quantityKey("gas.temperature", units::temperature, "Temperature.")
+               .optional()
+               .above(0)
+               .onlyWith(kernel, {"free_molecular", "continuum", "transition", "transition_fuchs", "gravitational"}))
+      .add(quantityKey("gas.pressure", units::pressure, "Pressure.").optional().above(0).onlyWith(kernel, slip))
+      .add(quantityKey("gas.viscosity", units::viscosity, "Dynamic viscosity.")
+               .optional()
+               .above(0)
+               .onlyWith(kernel, slip))
+      .add(quantityKey("gas.mean_molecular_weight", units::molarMass, "Mean molar mass.")
+               .optional()
+               .above(0)
+               .onlyWith(kernel, slip))
+      .add(quantityKey("gas.density", units::density, "Density; none if not given.")
+               .optional()
+               .atLeast(0)
+               .onlyWith(kernel, {"gravitational"}));
 }
 
 void addMethods(DeckSchema& schema) {
@@ -168,56 +223,96 @@ void addMethods(DeckSchema& schema) {
                      "in the mean. If not given: mean for constant_number_number, for swa but with the weight transfer "
                      "mass, and for dsmc, constant_volume, hybrid and mmc where particles break.")
                .optional())
-      .add(integerKey(at + ".particles", "Monte Carlo: numerical particles; 2000 if not given.")
+      .add(integerKey(at + ".particles", "Numerical particles; 2000 if not given.")
                .optional()
                .atLeast(2)
-               .atMost(1e9))
+               .atMost(1e9)
+               .onlyWith(at + ".type", monteCarlo))
       .add(choiceKey(at + ".rates", {"majorant", "exact"},
-                     "Monte Carlo: rates bounded by majorants, with fictitious jumps; or every rate summed, O(N).")
-               .optional())
-      .add(choiceKey(at + ".fraction", {"one", "hyperbolic", "exponential", "stepwise", "constant"},
-                     "wfmc, samwfmc, sammc: fraction function of coagulation.")
-               .optional())
-      .add(choiceKey(at + ".fraction_of", {"volumes", "weights"}, "What the fraction function compares.").optional())
-      .add(numberKey(at + ".fraction_constant", "constant: the fraction.").optional().above(0).atMost(1))
-      .add(choiceKey(at + ".merging", {"absolute", "relative"},
-                     "sammc, swa: which difference of the volumes of neighbours is to be smallest.")
-               .optional())
-      .add(
-          choiceKey(at + ".weight_transfer", {"mass", "half", "harmonic"}, "swa: weight transfer function.").optional())
-      .add(choiceKey(at + ".nucleation", {"even", "random"},
-                     "Monte Carlo: nuclei evenly spaced in the integral of their rate (hardly any noise) or at random.")
-               .optional())
-      .add(quantityKey(at + ".nucleus_weight", units::perVolume,
-                       "Different weights: number density a nucleus stands for.")
+                     "Rates bounded by majorants, with fictitious jumps; or every rate summed, O(N).")
                .optional()
-               .above(0))
+               .onlyWith(at + ".type", monteCarlo))
+      .add(choiceKey(at + ".fraction", {"one", "hyperbolic", "exponential", "stepwise", "constant"},
+                     "Fraction function of coagulation.")
+               .optional()
+               .onlyWith(at + ".type", fractions))
+      .add(choiceKey(at + ".fraction_of", {"volumes", "weights"}, "What the fraction function compares.")
+               .optional()
+               .onlyWith(at + ".fraction", {"hyperbolic", "exponential", "stepwise"}))
+      .add(numberKey(at + ".fraction_constant", "The fraction.")
+               .optional()
+               .above(0)
+               .atMost(1)
+               .onlyWith(at + ".fraction", {"constant"}))
+      .add(choiceKey(at + ".merging", {"absolute", "relative"},
+                     "Which difference of the volumes of neighbours is to be smallest.")
+               .optional()
+               .onlyWith(at + ".type", {"sammc", "swa"}))
+      .add(choiceKey(at + ".weight_transfer", {"mass", "half", "harmonic"}, "Weight transfer function.")
+               .optional()
+               .onlyWith(at + ".type", {"swa"}))
+      .add(choiceKey(at + ".nucleation", {"even", "random"},
+                     "Nuclei evenly spaced in the integral of their rate (hardly any noise) or at random.")
+               .optional()
+               .onlyWith(at + ".type", monteCarlo))
+      .add(quantityKey(at + ".nucleus_weight", units::perVolume, "Number density a nucleus stands for.")
+               .optional()
+               .above(0)
+               .onlyWith(at + ".type", weighted))
       .add(quantityKey(at + ".expected_number", units::perVolume,
                        "Monte Carlo that starts without particles: number density at which the sample is full.")
                .optional()
-               .above(0))
-      .add(integerKey(at + ".threshold", "hybrid: largest size, in nuclei, kept as a number.").optional().atLeast(1))
-      .add(integerKey(at + ".sections", "sectional: number of sections.").optional().atLeast(20).atMost(400))
-      .add(quantityKey(at + ".smallest", units::volume, "sectional: volume of the first pivot.").optional().above(0))
-      .add(quantityKey(at + ".largest", units::volume, "sectional: volume of the last pivot.").optional().above(0))
-      .add(numberKey(at + ".spacing", "sectional: ratio of the volumes of neighbouring pivots.").optional().above(1))
-      .add(
-          choiceKey(at + ".growth_scheme", {"limited", "upwind"},
-                    "sectional: flux of growing particles; limited (if not given) is of second order, upwind of first.")
-              .optional())
+               .above(0)
+               .onlyWith(at + ".type", monteCarlo))
+      .add(integerKey(at + ".threshold", "Largest size, in nuclei, kept as a number.")
+               .optional()
+               .atLeast(1)
+               .onlyWith(at + ".type", {"hybrid"}))
+      .add(integerKey(at + ".sections", "Number of sections.")
+               .optional()
+               .atLeast(20)
+               .atMost(400)
+               .onlyWith(at + ".type", {"sectional"}))
+      .add(quantityKey(at + ".smallest", units::volume, "Volume of the first pivot.")
+               .optional()
+               .above(0)
+               .onlyWith(at + ".type", {"sectional"}))
+      .add(quantityKey(at + ".largest", units::volume, "Volume of the last pivot.")
+               .optional()
+               .above(0)
+               .onlyWith(at + ".type", {"sectional"}))
+      .add(numberKey(at + ".spacing", "Ratio of the volumes of neighbouring pivots.")
+               .optional()
+               .above(1)
+               .onlyWith(at + ".type", {"sectional"}))
+      .add(choiceKey(at + ".growth_scheme", {"limited", "upwind"},
+                     "Flux of growing particles; limited (if not given) is of second order, upwind of first.")
+               .optional()
+               .onlyWith(at + ".type", {"sectional"}))
       .add(numberKey(at + ".overflow",
-                     "sectional: part of the volume that may pass the last pivot before that is an error; 1e-6 if not "
+                     "Part of the volume that may pass the last pivot before that is an error; 1e-6 if not "
                      "given.")
                .optional()
                .above(0)
-               .atMost(1))
-      .add(integerKey(at + ".moments", "qmom (even), momic: number of moments.").optional().atLeast(2).atMost(20))
-      .add(choiceKey(at + ".inversion", {"wheeler", "product_difference"}, "qmom: moments to quadrature.").optional())
-      .add(numberKey(at + ".relative_tolerance", "sectional, qmom, momic: of the integrator.")
+               .atMost(1)
+               .onlyWith(at + ".type", {"sectional"}))
+      .add(integerKey(at + ".moments", "qmom (even), momic: number of moments.")
+               .optional()
+               .atLeast(2)
+               .atMost(20)
+               .onlyWith(at + ".type", {"qmom", "momic"}))
+      .add(choiceKey(at + ".inversion", {"wheeler", "product_difference"}, "Moments to quadrature.")
+               .optional()
+               .onlyWith(at + ".type", {"qmom"}))
+      .add(numberKey(at + ".relative_tolerance", "Of the integrator.")
                .optional()
                .above(0)
-               .below(1))
-      .add(numberKey(at + ".absolute_tolerance", "sectional: in the largest number density.").optional().above(0));
+               .below(1)
+               .onlyWith(at + ".type", {"sectional", "qmom", "momic"}))
+      .add(numberKey(at + ".absolute_tolerance", "In the largest number density.")
+               .optional()
+               .above(0)
+               .onlyWith(at + ".type", {"sectional"}));
 }
 
 void addOutput(DeckSchema& schema) {
@@ -227,9 +322,10 @@ void addOutput(DeckSchema& schema) {
                .atLeast(1)
                .atMost(100000))
       .add(choiceKey("time.spacing", {"linear", "logarithmic"}, "Of the rows.").byDefault("linear"))
-      .add(quantityKey("time.first", units::time, "logarithmic: the first row after that at time zero.")
+      .add(quantityKey("time.first", units::time, "The first row after that at time zero.")
                .optional()
-               .above(0))
+               .above(0)
+               .onlyWith("time.spacing", {"logarithmic"}))
       .add(integerKey("repeats", "Of each Monte Carlo method, with random numbers of their own.")
                .byDefault("20")
                .atLeast(1)

@@ -1,9 +1,6 @@
 #include "app/reactor_case.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include <algorithm>
 
 #include "app/gas_input.hpp"
 #include "app/reactor_case_parts.hpp"
@@ -15,11 +12,8 @@ namespace {
 
 // The points of a profile stand in the key `points` ("time" or "position").
 TemperatureProfile readProfile(const Deck& deck, const std::string& points) {
-  const std::string section = "temperature_profile", other = points == "time" ? "position" : "time";
-  if (!deck.has(section)) throw deck.error("reactor.energy", "'profile' needs the section 'temperature_profile'");
-  if (deck.has(section + "." + other))
-    throw deck.error(section + "." + other,
-                     fmt::format("the profile of a {} goes over '{}'", deck.choice("reactor.type"), points));
+  if (!deck.has("temperature_profile"))
+    throw deck.error("reactor.energy", "'profile' needs the section 'temperature_profile'");
   return readTemperatureProfile(deck, points);
 }
 
@@ -31,44 +25,9 @@ std::optional<TemperatureProfile> readEnergy(const Deck& deck, double own, const
   return readProfile(deck, points);
 }
 
-// Keys and sections that only some types of reactor have. A deck that has one of them in vain is told so.
-void refuseOthers(const Deck& deck, const std::string& type) {
-  struct Part {
-    const char* path;
-    std::vector<std::string> types;
-  };
-  const std::vector<std::string> closed{"constant_pressure", "constant_volume"};
-  const std::vector<Part> parts{
-      {"initial", {"constant_pressure", "constant_volume", "stirred"}},
-      {"inlet", {"stirred", "plug_flow"}},
-      {"inlet.velocity", {"plug_flow"}},
-      {"network", {"network"}},
-      {"temperature_profile", {"constant_pressure", "constant_volume", "plug_flow"}},
-      {"reactor.length", {"plug_flow"}},
-      {"reactor.area", {"plug_flow"}},
-      {"reactor.volume", {"stirred"}},
-      {"reactor.residence_time", {"stirred"}},
-      {"reactor.heat_loss", {"stirred"}},
-      {"reactor.start", {"stirred", "network"}},
-      {"time.end", {"constant_pressure", "constant_volume", "stirred"}},
-      {"time.maximum_step", {"constant_pressure", "constant_volume", "stirred"}},
-      {"output.interval", {"constant_pressure", "constant_volume", "stirred"}},
-      {"output.spacing", {"plug_flow"}},
-      {"ignition", closed},
-      {"sensitivity", closed},
-  };
-  for (const Part& part : parts)
-    if (deck.isGiven(part.path) && std::find(part.types.begin(), part.types.end(), type) == part.types.end())
-      throw deck.error(part.path, fmt::format("a reactor of type {} does not have this; it belongs to: {}", type,
-                                              fmt::join(part.types, ", ")));
+// Energies that a type of reactor does not have.
+void checkEnergy(const Deck& deck, const std::string& type) {
   const std::string energy = deck.choice("reactor.energy");
-  if (energy != "profile" && deck.has("temperature_profile"))
-    throw deck.error("temperature_profile",
-                     fmt::format("reactor.energy is {}; a profile needs 'energy: profile'", energy));
-  if (energy != "isothermal" && deck.has("reactor.temperature"))
-    throw deck.error("reactor.temperature", fmt::format("reactor.energy is {}; a temperature of the reactor needs "
-                                                        "'energy: isothermal'",
-                                                        energy));
   if (energy != "adiabatic" && type == "network")
     throw deck.error("reactor.energy", "in a network each reactor may have a 'temperature' of its own");
   if (energy == "profile" && type == "stirred")
@@ -107,7 +66,7 @@ void readPlugFlow(const Deck& deck, ReactorCase& reactorCase) {
 ReactorCase readReactorCase(const Deck& deck) {
   ReactorCase reactorCase;
   const std::string type = deck.choice("reactor.type");
-  refuseOthers(deck, type);
+  checkEnergy(deck, type);
   reactorCase.title = deck.string("title");
   reactorCase.mechanism = readMechanism(deck);
   reactorCase.integrator = {deck.number("integrator.relative_tolerance"), deck.number("integrator.absolute_tolerance"),

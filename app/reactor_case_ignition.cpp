@@ -25,10 +25,8 @@ void readIgnition(const Deck& deck, ReactorCase& reactorCase) {
       criteria.push_back({Kind::MassFraction, k, 0.0, "max_Y_" + mechanism.speciesName(k)});
     }
   }
-  if (const auto rise = deck.optionalQuantity("ignition.temperature_rise")) {
-    if (!adiabatic) throw deck.error("ignition.temperature_rise", "the temperature of this reactor is given");
+  if (const auto rise = deck.optionalQuantity("ignition.temperature_rise"))
     criteria.push_back({Kind::TemperatureRise, 0, *rise, fmt::format("rise_{:g}K", *rise)});
-  }
 }
 
 namespace {

@@ -5,17 +5,24 @@
 namespace lampblack {
 namespace {
 
+const std::string typeKey = "reactor.type";
+const std::vector<std::string> closed{"constant_pressure", "constant_volume"};
+const std::vector<std::string> inTime{"constant_pressure", "constant_volume", "stirred"};
+const std::vector<std::string> integrated{"constant_pressure", "constant_volume", "stirred", "plug_flow"};
+
 // What a stirred reactor has, alone or in a network.
-void addVesselKeys(DeckSchema& schema, const std::string& section) {
+void addVesselKeys(DeckSchema& schema, const std::string& section, const std::string& type) {
   schema
-      .add(quantityKey(section + ".volume", units::volume, "Of a stirred reactor; or residence_time.")
+      .add(quantityKey(section + ".volume", units::volume, "Or residence_time.")
                .optional()
-               .above(0))
+               .above(0)
+               .onlyWith(typeKey, {type}))
       .add(quantityKey(section + ".residence_time", units::time,
-                       "Of a stirred reactor: mass inside over mass flow; the volume follows from it.")
+                       "Mass inside over mass flow; the volume follows from it.")
                .optional()
-               .above(0))
-      .section(section + ".heat_loss", Presence::optional, "Of a stirred reactor with an energy equation.")
+               .above(0)
+               .onlyWith(typeKey, {type}))
+      .section(section + ".heat_loss", Presence::optional, "Where there is an energy equation.", {{typeKey, {type}}})
       .add(quantityKey(section + ".heat_loss.conductance", units::watt / units::temperature,
                        "Heat lost a kelvin above the surroundings.")
                .atLeast(0))
@@ -32,32 +39,43 @@ void addReactor(DeckSchema& schema) {
                      "adiabatic (a stirred reactor may lose heat even so); isothermal: the temperature of the start or "
                      "of the inlet is kept, or reactor.temperature; profile: it follows temperature_profile.")
                .byDefault("adiabatic"))
-      .add(temperatureKey("reactor.temperature", "isothermal: the temperature, if not that of the start or inlet.")
-               .optional())
-      .add(choiceKey("reactor.start", {"burnt", "fresh"},
-                     "stirred, network: the steady state is searched from the equilibrium of what flows in, or from "
-                     "what flows in as it is.")
-               .byDefault("burnt"))
-      .add(quantityKey("reactor.length", units::length, "plug_flow: of the duct.").optional().above(0))
-      .add(quantityKey("reactor.area", units::area, "plug_flow: cross-section, where the inlet has a mass_flow.")
+      .add(temperatureKey("reactor.temperature", "The temperature, if not that of the start or inlet.")
                .optional()
-               .above(0));
-  addVesselKeys(schema, "reactor");
-  schema.section("inlet", Presence::optional, "stirred, plug_flow: the stream that comes in.")
+               .onlyWith("reactor.energy", {"isothermal"}))
+      .add(choiceKey("reactor.start", {"burnt", "fresh"},
+                     "The steady state is searched from the equilibrium of what flows in, or from what flows in as it "
+                     "is.")
+               .byDefault("burnt")
+               .onlyWith(typeKey, {"stirred", "network"}))
+      .add(quantityKey("reactor.length", units::length, "Of the duct.")
+               .optional()
+               .above(0)
+               .onlyWith(typeKey, {"plug_flow"}))
+      .add(quantityKey("reactor.area", units::area, "Cross-section, where the inlet has a mass_flow.")
+               .optional()
+               .above(0)
+               .onlyWith(typeKey, {"plug_flow"}));
+  addVesselKeys(schema, "reactor", "stirred");
+  schema.section("inlet", Presence::optional, "The stream that comes in.", {{typeKey, {"stirred", "plug_flow"}}})
       .add(temperatureKey("inlet.temperature", "Temperature."))
       .add(quantityKey("inlet.mass_flow", units::massFlow, "stirred (with a volume), plug_flow (with an area).")
                .optional()
                .above(0))
-      .add(quantityKey("inlet.velocity", units::velocity, "plug_flow: instead of mass_flow.").optional().above(0));
+      .add(quantityKey("inlet.velocity", units::velocity, "Instead of mass_flow.")
+               .optional()
+               .above(0)
+               .onlyWith(typeKey, {"plug_flow"}));
   addMixtureKeys(schema, "inlet");
 }
 
 void addNetwork(DeckSchema& schema) {
-  schema.section("network", Presence::optional, "Stirred reactors of one pressure and the streams between them.")
+  schema
+      .section("network", Presence::optional, "Stirred reactors of one pressure and the streams between them.",
+               {{typeKey, {"network"}}})
       .section("network.reactors", Presence::required, "Named reactors.")
       .add(temperatureKey("network.reactors.*.temperature", "Where it is given; the energy equation otherwise.")
                .optional());
-  addVesselKeys(schema, "network.reactors.*");
+  addVesselKeys(schema, "network.reactors.*", "network");
   schema.section("network.inlets", Presence::required, "Named streams from outside.")
       .add(stringKey("network.inlets.*.to", "The reactor it flows into."))
       .add(quantityKey("network.inlets.*.mass_flow", units::massFlow, "Mass flow.").above(0))
@@ -82,14 +100,16 @@ void addNetwork(DeckSchema& schema) {
 void addProfile(DeckSchema& schema) {
   schema
       .section("temperature_profile", Presence::optional,
-               "The temperature where reactor.energy is profile: straight lines between points, constant beyond them. "
-               "Points here or in a file.")
-      .add(quantityKey("temperature_profile.time", units::time, "Closed reactors: times of the points, rising.")
+               "The given temperature: straight lines between points, constant beyond them. Points here or in a file.",
+               {{"reactor.energy", {"profile"}}, {typeKey, {"constant_pressure", "constant_volume", "plug_flow"}}})
+      .add(quantityKey("temperature_profile.time", units::time, "Times of the points, rising.")
                .list()
-               .optional())
-      .add(quantityKey("temperature_profile.position", units::length, "plug_flow: places of the points, rising.")
+               .optional()
+               .onlyWith(typeKey, closed))
+      .add(quantityKey("temperature_profile.position", units::length, "Places of the points, rising.")
                .list()
-               .optional());
+               .optional()
+               .onlyWith(typeKey, {"plug_flow"}));
   addTemperatureProfileKeys(schema, "time in s (place in m)");
 }
 
@@ -97,8 +117,11 @@ void addIgnition(DeckSchema& schema) {
   schema
       .section("ignition", Presence::defaulted,
                "What marks ignition in a closed reactor. Delays are found on the integrator's dense output, well below "
-               "its steps.")
-      .add(booleanKey("ignition.temperature_rate", "The largest dT/dt (of adiabatic reactors).").byDefault("true"))
+               "its steps.",
+               {{typeKey, closed}})
+      .add(booleanKey("ignition.temperature_rate", "The largest dT/dt.")
+               .byDefault("true")
+               .onlyWith("reactor.energy", {"adiabatic"}))
       .add(stringKey("ignition.species",
                      "The largest mole and the largest mass fraction of these species; OH only where the mechanism has "
                      "it.")
@@ -107,10 +130,12 @@ void addIgnition(DeckSchema& schema) {
       .add(quantityKey("ignition.temperature_rise", units::temperature,
                        "The temperature first is so much above the initial one.")
                .optional()
-               .above(0))
+               .above(0)
+               .onlyWith("reactor.energy", {"adiabatic"}))
       .section("sensitivity", Presence::optional,
                "Sensitivities d ln tau / d ln k of the ignition delays to the rate constants, forward and reverse "
-               "together.")
+               "together.",
+               {{typeKey, closed}})
       .add(choiceKey("sensitivity.of", {"ignition_delay"}, "Of what.").byDefault("ignition_delay"))
       .add(stringKey("sensitivity.reactions",
                      "Reactions by their number in the file, from 1, or by their equation; 'all' takes every one.")
@@ -129,7 +154,9 @@ DeckSchema reactorSchema() {
                .byDefault("1 atm")
                .above(0));
   addReactor(schema);
-  schema.section("initial", Presence::optional, "The gas at the start of a closed or, if wanted, stirred reactor.")
+  schema
+      .section("initial", Presence::optional, "The gas at the start; a stirred reactor may do without.",
+               {{typeKey, inTime}})
       .add(temperatureKey("initial.temperature", "Temperature."));
   addMixtureKeys(schema, "initial");
   addProfile(schema);
@@ -139,19 +166,29 @@ DeckSchema reactorSchema() {
                        "Simulated time of a closed reactor. A stirred reactor with it is a transient, without it the "
                        "steady state is searched.")
                .optional()
-               .above(0))
-      .add(quantityKey("time.maximum_step", units::time, "Largest step of the integrator.").optional().above(0));
+               .above(0)
+               .onlyWith(typeKey, inTime))
+      .add(quantityKey("time.maximum_step", units::time, "Largest step of the integrator.")
+               .optional()
+               .above(0)
+               .onlyWith(typeKey, inTime));
   addIgnition(schema);
-  schema.add(numberKey("integrator.relative_tolerance", "Of the stiff solver.").byDefault("1e-9").above(0).below(1))
+  schema
+      .section("integrator", Presence::defaulted, "The stiff solver of everything but steady states.",
+               {{typeKey, integrated}})
+      .add(numberKey("integrator.relative_tolerance", "Of the stiff solver.").byDefault("1e-9").above(0).below(1))
       .add(numberKey("integrator.absolute_tolerance", "Of the stiff solver, in mass fraction.")
                .byDefault("1e-15")
                .above(0))
       .add(integerKey("integrator.maximum_steps", "Steps after which the run gives up.").byDefault("1000000").above(0))
       .add(quantityKey("output.interval", units::time, "Time between rows; absent: each step of the integrator.")
                .optional()
-               .above(0))
-      .add(
-          quantityKey("output.spacing", units::length, "plug_flow: distance between rows instead.").optional().above(0))
+               .above(0)
+               .onlyWith(typeKey, inTime))
+      .add(quantityKey("output.spacing", units::length, "Distance between rows; absent: each step of the integrator.")
+               .optional()
+               .above(0)
+               .onlyWith(typeKey, {"plug_flow"}))
       .add(stringKey("output.species", "Species whose fractions are written; 'all' writes every one.")
                .list()
                .byDefault("[all]"))

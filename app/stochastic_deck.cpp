@@ -52,14 +52,19 @@ void addStochasticKeys(DeckSchema& schema) {
                .above(0))
       .add(quantityKey("stochastic.largest", units::length, "Upper end of the bins.").byDefault("500 nm").above(0))
       .add(quantityKey("stochastic.heights", units::length, "Where distributions are written.").list().optional())
-      .add(integerKey("stochastic.iterations", "two_way: at most.").byDefault("10").atLeast(1))
-      .add(numberKey("stochastic.relaxation", "two_way: part of a new exchange in an iteration.")
+      .add(integerKey("stochastic.iterations", "At most.")
+               .byDefault("10")
+               .atLeast(1)
+               .onlyWith("stochastic.coupled", {"two_way"}))
+      .add(numberKey("stochastic.relaxation", "Part of a new exchange in an iteration.")
                .byDefault("0.7")
                .above(0)
-               .atMost(1))
-      .add(numberKey("stochastic.tolerance", "two_way: change of volume fraction, temperature and acetylene, relative.")
+               .atMost(1)
+               .onlyWith("stochastic.coupled", {"two_way"}))
+      .add(numberKey("stochastic.tolerance", "Change of volume fraction, temperature and acetylene, relative.")
                .byDefault("0.01")
-               .above(0));
+               .above(0)
+               .onlyWith("stochastic.coupled", {"two_way"}));
 }
 
 std::optional<StochasticRequest> readStochastic(const Deck& deck, const SootModelOptions& soot, double length,
