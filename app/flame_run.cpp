@@ -17,10 +17,19 @@
 namespace lampblack {
 namespace {
 
-FlameProfile firstProfile(const FlameCase& flame) {
+FlameProfile firstProfile(const Deck& deck, const FlameCase& flame) {
   const std::vector<std::string> names = flame.scalarNames();
-  if (flame.initial) return startFrom(*flame.initial, *flame.mechanism, flame.problem, names);
-  return initialFlame(*flame.mechanism, flame.problem, names.size(), flame.start);
+  try {
+    if (flame.initial) return startFrom(*flame.initial, *flame.mechanism, flame.problem, names);
+    return initialFlame(*flame.mechanism, flame.problem, names.size(), flame.start);
+  } catch (const InputError& error) {
+    const std::string what = error.what(), about = "flame: ";
+    const bool counterflow = flame.problem.type == FlameType::Counterflow;
+    throw deck.error(flame.initial ? "initial"
+                     : counterflow ? "left"
+                                   : "inlet",
+                     what.starts_with(about) ? what.substr(about.size()) : what);
+  }
 }
 
 std::vector<StageTime> stageTimes(MPI_Comm comm, const FlameEquations::Counters& counters) {
@@ -127,57 +136,70 @@ std::string writeTexts(const RunFolder& folder, const FlameCase& flame, const At
   return json.text();
 }
 
+class PreparedFlame : public PreparedRun {
+ public:
+  PreparedFlame(MPI_Comm comm, const Deck& deck) : comm_(comm), deck_(deck) {
+    collectively(comm, [&] {
+      flame_ = readFlameCase(deck);
+      start_ = firstProfile(deck, flame_);
+    });
+  }
+
+  [[nodiscard]] std::string summary() const override {
+    std::string text = fmt::format("{} flame, {} species, {} reactions", nameOf(flame_.problem.type),
+                                   flame_.mechanism->numSpecies(), flame_.mechanism->numReactions());
+    if (flame_.soot) text += fmt::format(", {} scalars of soot", flame_.soot->scalars().size());
+    if (flame_.initial) text += fmt::format(", from an earlier flame of {} points", flame_.initial->profile.points());
+    return text;
+  }
+
+  void run(const RunOptions& options) override {
+    int rank = 0;
+    MPI_Comm_rank(comm_, &rank);
+    recordedRun(comm_, deck_, options, 0, [&](const RunFolder& folder, const RunInfo& info, RunRecord& record) {
+      const Attempt attempt = attemptFlame(comm_, flame_, std::move(start_), folder);
+      const FlameResult& result = attempt.result;
+      collectively(comm_, [&] {
+        if (rank == 0) record.resultsJson = writeTexts(folder, flame_, attempt);
+      });
+      record.cells = static_cast<std::int64_t>(result.solution.profile.points());
+      for (const FlameStage& stage : result.solution.stages)
+        record.steps += static_cast<std::int64_t>(stage.newton.steps + stage.newton.timeSteps);
+      record.stages = stageTimes(comm_, result.solution.counters);
+      record.peakMemoryPerRank = peakMemory(comm_);
+      ResultsWriter results(comm_, folder.results(), info);
+      writeFlame(results, flame_, result);
+      if (attempt.stochastic) writeStochasticFlame(results, *flame_.stochastic, *attempt.stochastic);
+      if (attempt.branch) writeBranch(results, *attempt.branch);
+      if (attempt.course) writeFlameInTime(results, flame_, *attempt.course);
+      if (attempt.history) attempt.history->writeTo(results);
+      if (!attempt.failure) {
+        results.close();
+        if (rank == 0) fmt::print("\n{}", flameReport(flame_, result));
+        if (rank == 0 && attempt.stochastic) fmt::print("{}", stochasticFlameReport(*attempt.stochastic));
+        if (rank == 0 && attempt.branch) fmt::print("\n{}", numbersText(namedBranchNumbers(*attempt.branch)));
+        return;
+      }
+      results.closePartial();
+      collectively(comm_, [&] {
+        throw NumericsError(
+            fmt::format("{}\nThe last grid and profile are in {}; a deck can start from it by 'initial'",
+                        *attempt.failure, folder.results().string() + ".part"));
+      });
+    });
+  }
+
+ private:
+  MPI_Comm comm_;
+  const Deck& deck_;
+  FlameCase flame_;
+  FlameProfile start_;
+};
+
 }  // namespace
 
-std::string checkFlame(MPI_Comm comm, const Deck& deck) {
-  FlameCase flame;
-  collectively(comm, [&] { flame = readFlameCase(deck); });
-  std::string text = fmt::format("{} flame, {} species, {} reactions", nameOf(flame.problem.type),
-                                 flame.mechanism->numSpecies(), flame.mechanism->numReactions());
-  if (flame.soot) text += fmt::format(", {} scalars of soot", flame.soot->scalars().size());
-  if (flame.initial) text += fmt::format(", from an earlier flame of {} points", flame.initial->profile.points());
-  return text;
-}
-
-void runFlame(MPI_Comm comm, const Deck& deck, const RunOptions& options) {
-  FlameCase flame;
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
-  FlameProfile start;
-  collectively(comm, [&] {
-    flame = readFlameCase(deck);
-    start = firstProfile(flame);
-  });
-  recordedRun(comm, deck, options, 0, [&](const RunFolder& folder, const RunInfo& info, RunRecord& record) {
-    const Attempt attempt = attemptFlame(comm, flame, std::move(start), folder);
-    const FlameResult& result = attempt.result;
-    collectively(comm, [&] {
-      if (rank == 0) record.resultsJson = writeTexts(folder, flame, attempt);
-    });
-    record.cells = static_cast<std::int64_t>(result.solution.profile.points());
-    for (const FlameStage& stage : result.solution.stages)
-      record.steps += static_cast<std::int64_t>(stage.newton.steps + stage.newton.timeSteps);
-    record.stages = stageTimes(comm, result.solution.counters);
-    record.peakMemoryPerRank = peakMemory(comm);
-    ResultsWriter results(comm, folder.results(), info);
-    writeFlame(results, flame, result);
-    if (attempt.stochastic) writeStochasticFlame(results, *flame.stochastic, *attempt.stochastic);
-    if (attempt.branch) writeBranch(results, *attempt.branch);
-    if (attempt.course) writeFlameInTime(results, flame, *attempt.course);
-    if (attempt.history) attempt.history->writeTo(results);
-    if (!attempt.failure) {
-      results.close();
-      if (rank == 0) fmt::print("\n{}", flameReport(flame, result));
-      if (rank == 0 && attempt.stochastic) fmt::print("{}", stochasticFlameReport(*attempt.stochastic));
-      if (rank == 0 && attempt.branch) fmt::print("\n{}", numbersText(namedBranchNumbers(*attempt.branch)));
-      return;
-    }
-    results.closePartial();
-    collectively(comm, [&] {
-      throw NumericsError(fmt::format("{}\nThe last grid and profile are in {}; a deck can start from it by 'initial'",
-                                      *attempt.failure, folder.results().string() + ".part"));
-    });
-  });
+std::unique_ptr<PreparedRun> prepareFlame(MPI_Comm comm, const Deck& deck) {
+  return std::make_unique<PreparedFlame>(comm, deck);
 }
 
 }  // namespace lampblack

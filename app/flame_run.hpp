@@ -1,20 +1,17 @@
-// Checks and runs a deck with `problem: flame1d`.
+// Runs of a deck with `problem: flame1d`.
 #pragma once
 
 #include <mpi.h>
 
-#include <string>
+#include <memory>
 
-#include "app/recorded_run.hpp"
+#include "app/prepared_run.hpp"
 #include "io/deck.hpp"
 
 namespace lampblack {
 
-// Collective. The size of the case in words. InputError.
-std::string checkFlame(MPI_Comm comm, const Deck& deck);
-
-// Collective. InputError; NumericsError where the flame does not converge: results.h5.part then holds its last grid and
-// profile, from which another run can start.
-void runFlame(MPI_Comm comm, const Deck& deck, const RunOptions& options);
+// Collective; see Problem. Prepared is the first guess. A run whose flame does not converge throws NumericsError;
+// results.h5.part then holds its last grid and profile, from which another run can start.
+std::unique_ptr<PreparedRun> prepareFlame(MPI_Comm comm, const Deck& deck);
 
 }  // namespace lampblack

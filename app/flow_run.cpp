@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "app/failed_cell.hpp"
@@ -36,7 +37,7 @@ class FlowRun {
         state_(mesh_, case_.mechanism->numSpecies(),
                case_.soot ? SootOperator::carriedScalars() : std::vector<CarriedScalar>{}),
         flow_(context_, state_),
-        chemistry_(context_, case_.chemistry) {
+        chemistry_(context_, keepingFailedCells(case_.chemistry)) {
     state_.thermodynamicPressure = case_.pressure;
     if (case_.soot) soot_ = std::make_unique<SootOperator>(context_, *case_.soot);
     collectively(comm_, [&] { setMixingLayer(context_, case_.initial, state_); });
@@ -50,7 +51,10 @@ class FlowRun {
         state_);
   }
 
+  [[nodiscard]] std::int64_t cells() const { return mesh_.totalCells; }
+
   void run(const RunFolder& folder, const RunInfo& info) {
+    folder_ = folder;
     ResultsWriter results(comm_, folder.results(), info, meshOutput(mesh_));
     HistoryWriter history(comm_, folder.history(), historyColumns(budget_->lines(state_)));
     Progress progress(comm_, 0.0, case_.time.end);
@@ -116,6 +120,13 @@ class FlowRun {
   }
 
  private:
+  ReactionOperator::Options keepingFailedCells(ReactionOperator::Options options) {
+    options.keepFailed = [this](std::int64_t cell, const FailedCell& failed) {
+      return keepFailedCell(folder_.value(), *case_.mechanism, cell, failed);
+    };
+    return options;
+  }
+
   // A step is a sequence of operators, each over its share of the step.
   struct Stage {
     Operator* op;
@@ -214,6 +225,7 @@ class FlowRun {
 
   MPI_Comm comm_;
   FlowCase case_;
+  std::optional<RunFolder> folder_;  // once it runs
   Mesh mesh_;
   HaloExchange halo_;
   Thermo thermo_;
@@ -235,41 +247,54 @@ class FlowRun {
   int sharedStages_ = 0;
 };
 
+class PreparedFlow : public PreparedRun {
+ public:
+  PreparedFlow(MPI_Comm comm, const Deck& deck) : comm_(comm), deck_(deck), start_(MPI_Wtime()) {
+    int ranks = 1;
+    MPI_Comm_size(comm, &ranks);
+    FlowCase flowCase;
+    collectively(comm, [&] {
+      flowCase = readFlowCase(deck);
+      const std::size_t cells = (flowCase.mesh.vertices[0].size() - 1) * (flowCase.mesh.vertices[1].size() - 1);
+      if (cells < static_cast<std::size_t>(ranks))
+        throw deck.error("mesh", fmt::format("{} cells cannot be spread over {} ranks", cells, ranks));
+    });
+    seed_ = flowCase.seed;
+    notes_ = flowCase.notes;
+    species_ = flowCase.mechanism->numSpecies();
+    reactions_ = flowCase.mechanism->numReactions();
+    run_ = std::make_unique<FlowRun>(comm, std::move(flowCase));
+  }
+
+  [[nodiscard]] std::string summary() const override {
+    return fmt::format("{} cells, {} species, {} reactions", run_->cells(), species_, reactions_);
+  }
+
+  void run(const RunOptions& options) override {
+    int rank = 0;
+    MPI_Comm_rank(comm_, &rank);
+    recordedRun(comm_, deck_, options, seed_, [&](const RunFolder& folder, const RunInfo& info, RunRecord& record) {
+      if (rank == 0)
+        for (const std::string& note : notes_) fmt::print("note: {}\n", note);
+      run_->run(folder, info);
+      run_->report(MPI_Wtime() - start_, record);
+    });
+  }
+
+ private:
+  MPI_Comm comm_;
+  const Deck& deck_;
+  double start_;
+  std::uint64_t seed_ = 0;
+  std::vector<std::string> notes_;
+  std::size_t species_ = 0, reactions_ = 0;
+  std::unique_ptr<FlowRun> run_;
+};
+
 }  // namespace
 
-std::string checkFlow(MPI_Comm comm, const Deck& deck) {
-  FlowCase flowCase;
-  collectively(comm, [&] { flowCase = readFlowCase(deck); });
-  const Mesh mesh(comm, flowCase.mesh);
-  return fmt::format("{} cells, {} species, {} reactions", mesh.totalCells, flowCase.mechanism->numSpecies(),
-                     flowCase.mechanism->numReactions());
-}
-
-void runFlow(MPI_Comm comm, const Deck& deck, const RunOptions& options) {
-  const double start = MPI_Wtime();
-  FlowCase flowCase;
-  int rank = 0;
-  int ranks = 1;
-  MPI_Comm_rank(comm, &rank);
-  MPI_Comm_size(comm, &ranks);
-  collectively(comm, [&] {
-    flowCase = readFlowCase(deck);
-    const std::size_t cells = (flowCase.mesh.vertices[0].size() - 1) * (flowCase.mesh.vertices[1].size() - 1);
-    if (cells < static_cast<std::size_t>(ranks))
-      throw deck.error("mesh", fmt::format("{} cells cannot be spread over {} ranks", cells, ranks));
-  });
-  const std::uint64_t seed = flowCase.seed;
-  recordedRun(comm, deck, options, seed, [&](const RunFolder& folder, const RunInfo& info, RunRecord& record) {
-    if (rank == 0)
-      for (const std::string& note : flowCase.notes) fmt::print("note: {}\n", note);
-    flowCase.chemistry.keepFailed = [folder, mechanism = flowCase.mechanism](std::int64_t cell,
-                                                                             const FailedCell& failed) {
-      return keepFailedCell(folder, *mechanism, cell, failed);
-    };
-    FlowRun run(comm, std::move(flowCase));
-    run.run(folder, info);
-    run.report(MPI_Wtime() - start, record);
-  });
+std::unique_ptr<PreparedRun> prepareFlow(MPI_Comm comm, const Deck& deck) {
+  return std::make_unique<PreparedFlow>(comm, deck);
 }
 
 }  // namespace lampblack

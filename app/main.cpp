@@ -35,7 +35,7 @@ struct Arguments {
 
 void check(const Arguments& arguments) {
   const Deck deck = Deck::load(arguments.deck, arguments.overrides, deckKinds(), PETSC_COMM_WORLD);
-  const std::string found = problemOf(deck).check(PETSC_COMM_WORLD, deck);
+  const std::string found = problemOf(deck).prepare(PETSC_COMM_WORLD, deck)->summary();
   int rank = 0;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   if (rank == 0) std::cout << arguments.deck << " is a valid deck: " << found << ".\n";
@@ -43,7 +43,7 @@ void check(const Arguments& arguments) {
 
 void run(const Arguments& arguments) {
   const Deck deck = Deck::load(arguments.deck, arguments.overrides, deckKinds(), PETSC_COMM_WORLD);
-  problemOf(deck).run(PETSC_COMM_WORLD, deck, {arguments.folder, arguments.force, arguments.overrides});
+  problemOf(deck).prepare(PETSC_COMM_WORLD, deck)->run({arguments.folder, arguments.force, arguments.overrides});
 }
 
 void reference(const Arguments& arguments) {

@@ -3,15 +3,14 @@
 
 #include <mpi.h>
 
-#include <string>
+#include <memory>
 
-#include "app/recorded_run.hpp"
+#include "app/prepared_run.hpp"
 #include "io/deck.hpp"
 
 namespace lampblack {
 
-// Collective; see Problem.
-std::string checkPopulation(MPI_Comm comm, const Deck& deck);
-void runPopulationBalance(MPI_Comm comm, const Deck& deck, const RunOptions& options);
+// Collective; see Problem. Prepared are a solver of every method, for its own checks, and the exact solution.
+std::unique_ptr<PreparedRun> preparePopulation(MPI_Comm comm, const Deck& deck);
 
 }  // namespace lampblack

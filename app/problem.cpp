@@ -15,16 +15,16 @@ namespace lampblack {
 
 const std::vector<Problem>& problems() {
   static const std::vector<Problem> table{
-      {"flow", "A reacting flow on a mesh, with or without soot.", flowSchema, checkFlow, runFlow},
+      {"flow", "A reacting flow on a mesh, with or without soot.", flowSchema, prepareFlow},
       {"flame1d", "One-dimensional flames: free, burner-stabilised, against a wall, counterflow; with or without soot.",
-       flameSchema, checkFlame, runFlame},
+       flameSchema, prepareFlame},
       {"reactor",
        "Reactors without space: closed at constant pressure or volume, perfectly stirred, plug flow, networks.",
-       reactorSchema, checkReactor, runReactor},
+       reactorSchema, prepareReactor},
       {"population_balance",
        "A population of particles in a well-stirred volume of gas: Monte Carlo, sectional and moment methods, "
        "compared.",
-       populationSchema, checkPopulation, runPopulationBalance},
+       populationSchema, preparePopulation},
   };
   return table;
 }

@@ -1,13 +1,14 @@
-// What a deck may be about. Each `problem:` is one entry of a table: its keys, how a deck of it is checked, and how it
-// is run. The commands and the reference page are made from this table; a new problem is a new entry.
+// What a deck may be about. Each `problem:` is one entry of a table: its keys, and how a run of it is prepared. The
+// commands and the reference page are made from this table; a new problem is a new entry.
 #pragma once
 
 #include <mpi.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "app/recorded_run.hpp"
+#include "app/prepared_run.hpp"
 #include "io/deck.hpp"
 
 namespace lampblack {
@@ -16,10 +17,9 @@ struct Problem {
   std::string name;  // as in `problem: flow`
   std::string doc;   // one line for the reference page
   DeckSchema (*schema)();
-  // Collective. Reads everything the deck names; says in a few words what is there ("47 species, ..."). InputError.
-  std::string (*check)(MPI_Comm, const Deck&);
-  // Collective. InputError, NumericsError as they come; the run folder then says so.
-  void (*run)(MPI_Comm, const Deck&, const RunOptions&);
+  // Collective. Reads everything the deck names and makes all that is there before the first step; the deck has to live
+  // as long. InputError, NumericsError.
+  std::unique_ptr<PreparedRun> (*prepare)(MPI_Comm, const Deck&);
 };
 
 const std::vector<Problem>& problems();

@@ -26,44 +26,59 @@ std::unique_ptr<ReactorDriver> driverOf(const ReactorCase& reactorCase) {
   return nullptr;
 }
 
+class PreparedReactor : public PreparedRun {
+ public:
+  PreparedReactor(MPI_Comm comm, const Deck& deck) : comm_(comm), deck_(deck) {
+    collectively(comm, [&] {
+      case_ = readReactorCase(deck);
+      driver_ = driverOf(case_);
+    });
+  }
+
+  [[nodiscard]] std::string summary() const override {
+    std::string text = deck_.choice("reactor.type");
+    if (case_.type == ReactorType::Network) text += fmt::format(" of {}", case_.network.reactors.size());
+    return fmt::format("{}, {} species, {} reactions", text, case_.mechanism->numSpecies(),
+                       case_.mechanism->numReactions());
+  }
+
+  void run(const RunOptions& options) override {
+    int rank = 0;
+    MPI_Comm_rank(comm_, &rank);
+    recordedRun(comm_, deck_, options, 0, [&](const RunFolder& folder, const RunInfo& info, RunRecord& record) {
+      const double begin = MPI_Wtime();
+      collectively(comm_, [&] {
+        if (rank != 0) return;
+        driver_->compute(folder);
+        JsonWriter json;
+        json.beginObject();
+        driver_->record(json);
+        json.endObject();
+        record.resultsJson = json.text();
+        record.steps = driver_->steps();
+        record.simulatedTime = driver_->simulatedTime();
+        const double seconds = MPI_Wtime() - begin;
+        record.stages = {{"integration", seconds, seconds, seconds}};
+      });
+      ResultsWriter results(comm_, folder.results(), info);
+      driver_->write(results);
+      results.close();
+      record.peakMemoryPerRank = peakMemory(comm_);
+      if (rank == 0) driver_->print();
+    });
+  }
+
+ private:
+  MPI_Comm comm_;
+  const Deck& deck_;
+  ReactorCase case_;
+  std::unique_ptr<ReactorDriver> driver_;
+};
+
 }  // namespace
 
-std::string checkReactor(MPI_Comm comm, const Deck& deck) {
-  ReactorCase reactorCase;
-  collectively(comm, [&] { reactorCase = readReactorCase(deck); });
-  std::string text = deck.choice("reactor.type");
-  if (reactorCase.type == ReactorType::Network) text += fmt::format(" of {}", reactorCase.network.reactors.size());
-  return fmt::format("{}, {} species, {} reactions", text, reactorCase.mechanism->numSpecies(),
-                     reactorCase.mechanism->numReactions());
-}
-
-void runReactor(MPI_Comm comm, const Deck& deck, const RunOptions& options) {
-  ReactorCase reactorCase;
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
-  collectively(comm, [&] { reactorCase = readReactorCase(deck); });
-  const std::unique_ptr<ReactorDriver> driver = driverOf(reactorCase);
-  recordedRun(comm, deck, options, 0, [&](const RunFolder& folder, const RunInfo& info, RunRecord& record) {
-    const double begin = MPI_Wtime();
-    collectively(comm, [&] {
-      if (rank != 0) return;
-      driver->compute(folder);
-      JsonWriter json;
-      json.beginObject();
-      driver->record(json);
-      json.endObject();
-      record.resultsJson = json.text();
-      record.steps = driver->steps();
-      record.simulatedTime = driver->simulatedTime();
-      const double seconds = MPI_Wtime() - begin;
-      record.stages = {{"integration", seconds, seconds, seconds}};
-    });
-    ResultsWriter results(comm, folder.results(), info);
-    driver->write(results);
-    results.close();
-    record.peakMemoryPerRank = peakMemory(comm);
-    if (rank == 0) driver->print();
-  });
+std::unique_ptr<PreparedRun> prepareReactor(MPI_Comm comm, const Deck& deck) {
+  return std::make_unique<PreparedReactor>(comm, deck);
 }
 
 }  // namespace lampblack

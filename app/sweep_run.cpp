@@ -59,7 +59,7 @@ RunOutcome runOne(const Group& group, const SweepRun& run, const SweepRun* befor
       overrides.push_back("initial=" + jsonString(results.string()));
       deck = Deck::load(run.deck, overrides, deckKinds(), group.comm);
     }
-    problemOf(deck).run(group.comm, deck, {folder / run.name, force, overrides});
+    problemOf(deck).prepare(group.comm, deck)->run({folder / run.name, force, overrides});
   } catch (const InputError& error) {
     refuseLoneError(group, error);
     outcome.failure = RunFailure::input;
