@@ -32,7 +32,7 @@ FlameStream readStream(const Deck& deck, const std::string& section, const Flame
   if (!deck.has(section))
     throw deck.error(section, fmt::format("a {} flame needs the section '{}'", nameOf(flame.problem.type), section));
   FlameStream stream;
-  stream.temperature = deck.quantity(section + ".temperature");
+  stream.temperature = readTemperature(deck, section + ".temperature", *flame.mechanism, TemperatureUse::transport);
   stream.Y = readMixture(deck, section, *flame.mechanism);
   const auto velocity = deck.optionalQuantity(section + ".velocity");
   const auto massFlux = deck.optionalQuantity(section + ".mass_flux");
@@ -61,8 +61,11 @@ void readConfiguration(const Deck& deck, FlameCase& flame) {
   } else {
     problem.left = readStream(deck, "inlet", flame, flux);
   }
-  if (problem.type == FlameType::Wall)
+  if (problem.type == FlameType::Wall) {
     problem.wallTemperature = neededQuantity(deck, "flame", "wall_temperature", "a flame against a wall");
+    requireTemperature(deck, "flame.wall_temperature", problem.wallTemperature, *flame.mechanism,
+                       TemperatureUse::transport);
+  }
   if (potential) {
     problem.strainRate = neededQuantity(deck, "flame", "strain_rate", "potential flow");
     problem.stagnationPlane = deck.optionalQuantity("flame.stagnation_plane").value_or(0.5 * problem.length);
@@ -73,7 +76,8 @@ void readConfiguration(const Deck& deck, FlameCase& flame) {
                                    problem.length, problem.stagnationPlane));
   }
   if (given) {
-    const TemperatureProfile profile = readTemperatureProfile(deck, "position");
+    const TemperatureProfile profile =
+        readTemperatureProfile(deck, "position", *flame.mechanism, TemperatureUse::transport);
     problem.given = GivenTemperature{profile.points(), profile.temperatures()};
   }
 }

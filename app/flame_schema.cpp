@@ -88,7 +88,8 @@ void addPhysics(DeckSchema& schema) {
                      "optically_thin: H2O, CO2, CO, CH4 and soot lose heat to the surroundings and take none back from "
                      "each other.")
                .byDefault("none"))
-      .add(temperatureKey("radiation.surroundings", "Temperature of the surroundings.")
+      .add(quantityKey("radiation.surroundings", units::temperature, "Temperature of the surroundings.")
+               .atLeast(0)
                .byDefault("298 K")
                .onlyWith("radiation.model", {"optically_thin"}));
 }

@@ -2,23 +2,20 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 
+#include "app/flow_case_parts.hpp"
 #include "app/gas_input.hpp"
 #include "app/soot_deck.hpp"
+#include "app/temperature_input.hpp"
 #include "core/errors.hpp"
 #include "core/grading.hpp"
 
 namespace lampblack {
+
+using namespace flowcase;
+
 namespace {
-
-using AxisNames = std::array<std::string, 2>;
-
-AxisNames axisNames(Geometry geometry) {
-  return geometry == Geometry::Axisymmetric ? AxisNames{"r", "z"} : AxisNames{"x", "y"};
-}
 
 MeshSpec readMesh(const Deck& deck) {
   MeshSpec spec;
@@ -51,85 +48,6 @@ MeshSpec readMesh(const Deck& deck) {
   return spec;
 }
 
-// Species names of a composition, as mass fractions; `key` is where the deck says it.
-std::vector<double> readComposition(const Deck& deck, const std::string& key, const Mechanism& mechanism) {
-  try {
-    const std::vector<double> X = parseComposition(mechanism, deck.string(key));
-    std::vector<double> Y(X.size());
-    Thermo(mechanism).moleToMass(X, Y);
-    return Y;
-  } catch (const InputError& error) {
-    throw deck.error(key, error.what());
-  }
-}
-
-double requiredQuantity(const Deck& deck, const std::string& section, const std::string& name, const std::string& why) {
-  const auto value = deck.optionalQuantity(section + "." + name);
-  if (!value) throw deck.error(section, fmt::format("{} needs the key '{}'", why, name));
-  return *value;
-}
-
-void readBoundaries(const Deck& deck, const Mechanism& mechanism, FlowCase& flowCase) {
-  const AxisNames names = axisNames(flowCase.mesh.geometry);
-  for (const std::string& name : deck.children("boundaries")) {
-    const std::string section = "boundaries." + name;
-    BoundaryPatch patch{name};
-    const std::string side = deck.choice(section + ".side");
-    const auto axis = std::find(names.begin(), names.end(), side.substr(0, 1));
-    if (axis == names.end())
-      throw deck.error(section + ".side", fmt::format("the axes of this mesh are {} and {}", names[0], names[1]));
-    patch.axis = static_cast<int>(axis - names.begin());
-    patch.atMax = side.ends_with("max");
-    if (const auto from = deck.optionalQuantity(section + ".from")) patch.from = *from;
-    if (const auto to = deck.optionalQuantity(section + ".to")) patch.to = *to;
-
-    BoundaryCondition boundary;
-    boundary.name = name;
-    const std::string type = deck.choice(section + ".type");
-    boundary.slip = deck.boolean(section + ".slip");
-    boundary.fixedComposition = deck.choice(section + ".species") == "fixed";
-    const bool hasTemperature = deck.has(section + ".temperature");
-    if (type == "inlet" || type == "outlet") {
-      boundary.kind = type == "inlet" ? BoundaryKind::Inlet : BoundaryKind::Outlet;
-      const std::string what = type == "inlet" ? "an inlet" : "an outlet (for the gas it may entrain)";
-      boundary.temperature = requiredQuantity(deck, section, "temperature", what);
-      if (!deck.has(section + ".composition")) throw deck.error(section, what + " needs the key 'composition'");
-      boundary.Y = readComposition(deck, section + ".composition", mechanism);
-    }
-    if (type == "inlet")
-      boundary.speed = requiredQuantity(deck, section, "velocity", "an inlet");
-    if (type == "symmetry") boundary.kind = BoundaryKind::Symmetry;
-    if (type == "wall") {
-      boundary.isothermal = hasTemperature;
-      if (hasTemperature) boundary.temperature = deck.quantity(section + ".temperature");
-    }
-    flowCase.mesh.patches.push_back(patch);
-    flowCase.boundaries.push_back(std::move(boundary));
-  }
-  if (std::none_of(flowCase.boundaries.begin(), flowCase.boundaries.end(),
-                   [](const BoundaryCondition& b) { return b.kind == BoundaryKind::Outlet; }))
-    throw deck.error("boundaries", "one boundary has to be an outlet; closed domains are not supported yet");
-}
-
-// Every face of the surface belongs to a boundary; the first that does not is told before anything is made.
-void checkCoverage(const Deck& deck, const MeshSpec& mesh) {
-  for (int axis = 0; axis < 2; ++axis)
-    for (const bool atMax : {false, true}) {
-      const auto& along = mesh.vertices[static_cast<std::size_t>(1 - axis)];
-      const auto& across = mesh.vertices[static_cast<std::size_t>(axis)];
-      for (std::size_t i = 0; i + 1 < along.size(); ++i) {
-        std::array<double, 2> face{};
-        face[static_cast<std::size_t>(axis)] = atMax ? across.back() : across.front();
-        const double place = face[static_cast<std::size_t>(1 - axis)] = 0.5 * (along[i] + along[i + 1]);
-        if (std::none_of(mesh.patches.begin(), mesh.patches.end(), [&](const BoundaryPatch& p) {
-              return p.axis == axis && p.atMax == atMax && place >= p.from && place <= p.to;
-            }))
-          throw deck.error("boundaries", fmt::format("the boundary face at ({:.6g}, {:.6g}) m belongs to no boundary",
-                                                     face[0], face[1]));
-      }
-    }
-}
-
 Stream streamOf(const Deck& deck, const std::string& key, const FlowCase& flowCase) {
   const std::string name = deck.string(key);
   for (const BoundaryCondition& boundary : flowCase.boundaries)
@@ -146,31 +64,25 @@ void readInitial(const Deck& deck, FlowCase& flowCase) {
   layer.high = streamOf(deck, "initial.high", flowCase);
   layer.position = deck.quantity("initial.position");
   layer.width = deck.quantity("initial.width");
-  layer.temperature = deck.quantity("initial.temperature");
+  layer.temperature = readTemperature(deck, "initial.temperature", *flowCase.mechanism, TemperatureUse::transport);
   layer.burnt = deck.choice("initial.layer") == "burnt";
-  if (!layer.burnt) {
-    layer.hotPosition = requiredQuantity(deck, "initial", "hot_position", "a hot layer");
-    layer.hotWidth = requiredQuantity(deck, "initial", "hot_width", "a hot layer");
-  }
+  const double end = flowCase.mesh.vertices[static_cast<std::size_t>(layer.axis)].back();
+  const auto requireInside = [&](const char* key, double place) {
+    if (place < 0 || place > end)
+      throw deck.error(key, fmt::format("expected a place in the domain, from 0 to {:g} m, found {:g} m", end, place));
+  };
+  requireInside("initial.position", layer.position);
+  if (layer.burnt) return;
+  layer.hotPosition = neededQuantity(deck, "initial", "hot_position", "a hot layer");
+  layer.hotWidth = neededQuantity(deck, "initial", "hot_width", "a hot layer");
+  requireInside("initial.hot_position", layer.hotPosition);
 }
 
 void readOutput(const Deck& deck, FlowCase& flowCase) {
   OutputControl& output = flowCase.output;
   output.interval = deck.optionalQuantity("output.interval").value_or(flowCase.time.end);
   output.historySteps = static_cast<int>(deck.integer("output.history_steps"));
-  const std::vector<std::string> names = deck.strings("output.species");
-  for (const std::string& name : names) {
-    if (name == "all") {
-      output.species.clear();
-      for (std::size_t k = 0; k < flowCase.mechanism->numSpecies(); ++k) output.species.push_back(k);
-      return;
-    }
-    try {
-      output.species.push_back(flowCase.mechanism->speciesIndex(name));
-    } catch (const InputError& error) {
-      throw deck.error("output.species", error.what());
-    }
-  }
+  output.species = readSpeciesList(deck, "output.species", *flowCase.mechanism);
 }
 
 void readSoot(const Deck& deck, FlowCase& flowCase) {
@@ -223,6 +135,8 @@ void readTrajectories(const Deck& deck, FlowCase& flowCase) {
   options.smallest = deck.quantity("trajectories.smallest");
   options.largest = deck.quantity("trajectories.largest");
   if (options.largest <= options.smallest) throw deck.error("trajectories.largest", "expected more than 'smallest'");
+  if (options.timeStep > options.duration)
+    throw deck.error("trajectories.time_step", "expected no more than 'duration'");
   for (std::size_t i = 0; i < deck.size("trajectories.start"); ++i) {
     const std::string item = fmt::format("trajectories.start[{}]", i);
     const TrajectoryStart start{deck.quantity(item + ".r"), deck.quantity(item + ".z")};
@@ -243,11 +157,12 @@ FlowCase readFlowCase(const Deck& deck) {
   flowCase.mesh = readMesh(deck);
   flowCase.mechanism = readMechanism(deck);
   readTransport(deck, flowCase);
-  readBoundaries(deck, *flowCase.mechanism, flowCase);
-  checkCoverage(deck, flowCase.mesh);
+  readBoundaries(deck, flowCase);
   readInitial(deck, flowCase);
   flowCase.time = {deck.quantity("time.end"), deck.quantity("time.first_step"), deck.quantity("time.maximum_step"),
                    deck.number("time.courant"), deck.number("time.growth")};
+  if (flowCase.time.firstStep > flowCase.time.maximumStep)
+    throw deck.error("time.first_step", "expected no more than 'maximum_step'");
   flowCase.chemistry.deferred = deck.choice("chemistry.coupling") == "deferred";
   flowCase.chemistry.shareWork = deck.boolean("chemistry.share_work");
   flowCase.chemistry.reactor.relativeTolerance = deck.number("chemistry.relative_tolerance");

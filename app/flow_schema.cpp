@@ -1,5 +1,6 @@
 #include "app/flow_case.hpp"
 #include "app/gas_input.hpp"
+#include "app/temperature_input.hpp"
 
 namespace lampblack {
 namespace {
@@ -19,9 +20,6 @@ void addMesh(DeckSchema& schema) {
   }
 }
 
-// K; the transport properties are fitted up to here (chemistry/transport/transport.hpp).
-constexpr double hottest = 4000;
-
 void addBoundaries(DeckSchema& schema) {
   schema.section("boundaries", Presence::required, "Named parts of the surface and what happens there.")
       .add(choiceKey("boundaries.*.type", {"inlet", "outlet", "wall", "symmetry"}, "Kind of boundary."))
@@ -33,11 +31,9 @@ void addBoundaries(DeckSchema& schema) {
                .optional()
                .atLeast(0)
                .onlyWith("boundaries.*.type", {"inlet"}))
-      .add(quantityKey("boundaries.*.temperature", units::temperature,
-                       "inlet: of the stream; outlet: of entrained gas; wall: isothermal at this temperature.")
+      .add(temperatureKey("boundaries.*.temperature",
+                          "inlet: of the stream; outlet: of entrained gas; wall: isothermal at this temperature.")
                .optional()
-               .above(0)
-               .atMost(hottest)
                .onlyWith("boundaries.*.type", {"inlet", "outlet", "wall"}))
       .add(stringKey("boundaries.*.composition", "Of the stream or of entrained gas: mole fractions, 'C2H4: 1, N2: 3'.")
                .optional()
@@ -61,11 +57,8 @@ void addInitial(DeckSchema& schema) {
       .add(stringKey("initial.high", "Boundary whose stream fills the high end."))
       .add(quantityKey("initial.position", units::length, "Where the mixture is half and half."))
       .add(quantityKey("initial.width", units::length, "Width of the mixing layer.").above(0))
-      .add(quantityKey("initial.temperature", units::temperature,
-                       "burnt: upper limit of the temperature; hot: peak of the hot layer.")
-               .byDefault("2200 K")
-               .above(0)
-               .atMost(hottest))
+      .add(temperatureKey("initial.temperature", "burnt: upper limit of the temperature; hot: peak of the hot layer.")
+               .byDefault("2200 K"))
       .add(quantityKey("initial.hot_position", units::length, "Centre of the hot layer.")
                .optional()
                .onlyWith("initial.layer", {"hot"}))

@@ -16,6 +16,7 @@
 #include "app/gas_output.hpp"
 #include "app/gas_properties.hpp"
 #include "app/mechanism_files.hpp"
+#include "app/temperature_input.hpp"
 #include "app/warnings.hpp"
 #include "chemistry/thermo/thermo.hpp"
 #include "core/errors.hpp"
@@ -109,6 +110,8 @@ struct Answer {
 Answer answer(const Arguments& arguments) {
   const Mechanism mechanism = readMechanism(arguments.files);
   const double T = positiveQuantity("--T", arguments.temperature, units::temperature);
+  if (const std::string problem = temperatureProblem(T, mechanism, TemperatureUse::properties); !problem.empty())
+    throw InputError("--T: " + problem);
   const double p = positiveQuantity("--p", arguments.pressure, units::pressure);
   const auto X = moleFractions(arguments, mechanism);
   const std::string constant = arguments.constant.empty() && arguments.equilibrium ? "TP" : arguments.constant;

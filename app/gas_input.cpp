@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "app/warnings.hpp"
+#include "chemistry/thermo/sound_speed.hpp"
 #include "chemistry/thermo/thermo.hpp"
 #include "chemistry/transport/pure_gas.hpp"
 #include "core/errors.hpp"
@@ -136,15 +139,30 @@ double neededQuantity(const Deck& deck, const std::string& section, const std::s
   return *value;
 }
 
+void requireLowMach(const Deck& deck, const std::string& key, const Thermo& thermo, double speed, double temperature,
+                    const std::vector<double>& Y) {
+  constexpr double highest = 0.3;
+  const double sound = soundSpeed(thermo, temperature, Y);
+  if (speed > highest * sound)
+    throw deck.error(key,
+                     fmt::format("{:.4g} m/s is Mach {:.2g} in this stream; expected at most {:.4g} m/s (Mach {:g}): "
+                                 "the equations are those of one pressure everywhere",
+                                 speed, speed / sound, highest * sound, highest));
+}
+
 std::vector<std::size_t> readSpeciesList(const Deck& deck, const std::string& key, const Mechanism& mechanism) {
   std::vector<std::size_t> species;
-  for (const std::string& name : deck.strings(key)) {
-    if (name == "all") {
-      species.clear();
-      for (std::size_t k = 0; k < mechanism.numSpecies(); ++k) species.push_back(k);
-      return species;
-    }
-    species.push_back(at(deck, key, [&] { return mechanism.speciesIndex(name); }));
+  const std::vector<std::string> names = deck.strings(key);
+  if (names == std::vector<std::string>{"all"}) {
+    for (std::size_t k = 0; k < mechanism.numSpecies(); ++k) species.push_back(k);
+    return species;
+  }
+  for (const std::string& name : names) {
+    if (name == "all") throw deck.error(key, "'all' stands alone: it takes every species");
+    const std::size_t k = at(deck, key, [&] { return mechanism.speciesIndex(name); });
+    if (std::find(species.begin(), species.end(), k) != species.end())
+      throw deck.error(key, fmt::format("'{}' is named twice", name));
+    species.push_back(k);
   }
   return species;
 }

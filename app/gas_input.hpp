@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "chemistry/mechanism/mechanism.hpp"
+#include "chemistry/thermo/thermo.hpp"
 #include "chemistry/transport/collision_integrals.hpp"
 #include "io/deck.hpp"
 
@@ -39,7 +40,13 @@ std::vector<double> readLewisNumbers(const Deck& deck, const Mechanism& mechanis
 // A quantity that is optional in the schema and needed here: "<why> needs the key '<name>'".
 double neededQuantity(const Deck& deck, const std::string& section, const std::string& name, const std::string& why);
 
-// Numbers of the species a key lists by name; all of them for "all". InputError at that key.
+// InputError at that key where a stream of this speed (m/s) is too fast for equations of constant pressure: their error
+// goes with the square of the Mach number, some per cent at 0.3.
+void requireLowMach(const Deck& deck, const std::string& key, const Thermo& thermo, double speed, double temperature,
+                    const std::vector<double>& Y);
+
+// Numbers of the species a key lists by name; all of them for "all". InputError at that key, also for a name said
+// twice.
 std::vector<std::size_t> readSpeciesList(const Deck& deck, const std::string& key, const Mechanism& mechanism);
 
 }  // namespace lampblack

@@ -1,4 +1,5 @@
 #include "app/population_case.hpp"
+#include "app/temperature_input.hpp"
 
 namespace lampblack {
 namespace {
@@ -186,9 +187,8 @@ void addGas(DeckSchema& schema) {
   const std::string kernel = "processes.coagulation.kernel";
   const std::vector<std::string> slip{"continuum", "transition", "transition_fuchs", "gravitational"};
   schema.section("gas", Presence::optional, "The gas around the particles, for the physical kernels.")
-      .add(quantityKey("gas.temperature", units::temperature, "Temperature.")
+      .add(temperatureKey("gas.temperature", "Temperature.")
                .optional()
-               .above(0)
                .onlyWith(kernel, {"free_molecular", "continuum", "transition", "transition_fuchs", "gravitational"}))
       .add(quantityKey("gas.pressure", units::pressure, "Pressure.").optional().above(0).onlyWith(kernel, slip))
       .add(quantityKey("gas.viscosity", units::viscosity, "Dynamic viscosity.")

@@ -11,18 +11,21 @@ namespace lampblack {
 namespace {
 
 // The points of a profile stand in the key `points` ("time" or "position").
-TemperatureProfile readProfile(const Deck& deck, const std::string& points) {
+TemperatureProfile readProfile(const Deck& deck, const std::string& points, const Mechanism& mechanism) {
   if (!deck.has("temperature_profile"))
     throw deck.error("reactor.energy", "'profile' needs the section 'temperature_profile'");
-  return readTemperatureProfile(deck, points);
+  return readTemperatureProfile(deck, points, mechanism, TemperatureUse::reactor);
 }
 
 // `own`: the temperature of the start or the inlet.
-std::optional<TemperatureProfile> readEnergy(const Deck& deck, double own, const std::string& points) {
+std::optional<TemperatureProfile> readEnergy(const Deck& deck, double own, const std::string& points,
+                                             const Mechanism& mechanism) {
   const std::string energy = deck.choice("reactor.energy");
   if (energy == "adiabatic") return std::nullopt;
-  if (energy == "isothermal") return TemperatureProfile(deck.optionalQuantity("reactor.temperature").value_or(own));
-  return readProfile(deck, points);
+  if (energy == "profile") return readProfile(deck, points, mechanism);
+  return TemperatureProfile(deck.has("reactor.temperature")
+                                ? readTemperature(deck, "reactor.temperature", mechanism, TemperatureUse::reactor)
+                                : own);
 }
 
 // Energies that a type of reactor does not have.
@@ -36,9 +39,10 @@ void checkEnergy(const Deck& deck, const std::string& type) {
 
 void readClosed(const Deck& deck, ReactorCase& reactorCase) {
   if (!deck.has("initial")) throw deck.error("initial", "a closed reactor needs the section 'initial'");
-  reactorCase.initial = {deck.quantity("initial.temperature"), deck.quantity("pressure"),
-                         readMixture(deck, "initial", *reactorCase.mechanism)};
-  reactorCase.profile = readEnergy(deck, reactorCase.initial.temperature, "time");
+  const Mechanism& mechanism = *reactorCase.mechanism;
+  reactorCase.initial = {readTemperature(deck, "initial.temperature", mechanism, TemperatureUse::reactor),
+                         deck.quantity("pressure"), readMixture(deck, "initial", *reactorCase.mechanism)};
+  reactorCase.profile = readEnergy(deck, reactorCase.initial.temperature, "time", mechanism);
   reactorCase.end = neededQuantity(deck, "time", "end", "a closed reactor");
   reactorcase::readIgnition(deck, reactorCase);
   reactorcase::readSensitivity(deck, reactorCase);
@@ -48,9 +52,10 @@ void readPlugFlow(const Deck& deck, ReactorCase& reactorCase) {
   if (!deck.has("inlet")) throw deck.error("inlet", "a plug flow needs the section 'inlet'");
   const Mechanism& mechanism = *reactorCase.mechanism;
   GasState& inlet = reactorCase.inlet;
-  inlet = {deck.quantity("inlet.temperature"), deck.quantity("pressure"), readMixture(deck, "inlet", mechanism)};
+  inlet = {readTemperature(deck, "inlet.temperature", mechanism, TemperatureUse::reactor), deck.quantity("pressure"),
+           readMixture(deck, "inlet", mechanism)};
   reactorCase.length = neededQuantity(deck, "reactor", "length", "a plug flow");
-  reactorCase.profile = readEnergy(deck, inlet.temperature, "position");
+  reactorCase.profile = readEnergy(deck, inlet.temperature, "position", mechanism);
   if (deck.has("inlet.velocity") == deck.has("inlet.mass_flow"))
     throw deck.error("inlet", "a plug flow needs either 'velocity' or 'mass_flow'");
   if (const auto velocity = deck.optionalQuantity("inlet.velocity"))

@@ -5,6 +5,7 @@
 
 #include "app/gas_input.hpp"
 #include "app/reactor_case_parts.hpp"
+#include "app/temperature_input.hpp"
 #include "chemistry/numerics/dense_lu.hpp"
 #include "core/errors.hpp"
 #include "core/nearest_name.hpp"
@@ -97,10 +98,14 @@ std::vector<double> balancedFlows(const Deck& deck, const ReactorNetwork& networ
 
 void readStirred(const Deck& deck, ReactorCase& reactorCase) {
   if (!deck.has("inlet")) throw deck.error("inlet", "a stirred reactor needs the section 'inlet'");
-  const double pressure = deck.quantity("pressure"), temperature = deck.quantity("inlet.temperature");
+  const Mechanism& mechanism = *reactorCase.mechanism;
+  const double pressure = deck.quantity("pressure");
+  const double temperature = readTemperature(deck, "inlet.temperature", mechanism, TemperatureUse::reactor);
   StirredReactor reactor = readVessel(deck, "reactor", "reactor");
   if (deck.choice("reactor.energy") == "isothermal")
-    reactor.temperature = deck.optionalQuantity("reactor.temperature").value_or(temperature);
+    reactor.temperature = deck.has("reactor.temperature")
+                              ? readTemperature(deck, "reactor.temperature", mechanism, TemperatureUse::reactor)
+                              : temperature;
   refuseHeatLoss(deck, "reactor", reactor);
   // By residence time alone the mass flow does not matter, unless heat is lost.
   const auto massFlow = deck.optionalQuantity("inlet.mass_flow");
@@ -116,7 +121,7 @@ void readStirred(const Deck& deck, ReactorCase& reactorCase) {
   reactorCase.end = deck.optionalQuantity("time.end").value_or(0.0);
   if (!deck.has("initial")) return;
   if (deck.isGiven("reactor.start")) throw deck.error("reactor.start", "the section 'initial' is the start already");
-  reactorCase.start.given = {deck.quantity("initial.temperature"), pressure,
+  reactorCase.start.given = {readTemperature(deck, "initial.temperature", mechanism, TemperatureUse::reactor), pressure,
                              readMixture(deck, "initial", *reactorCase.mechanism)};
 }
 
@@ -127,14 +132,17 @@ void readNetwork(const Deck& deck, ReactorCase& reactorCase) {
   for (const std::string& name : deck.children("network.reactors")) {
     const std::string section = "network.reactors." + name;
     network.reactors.push_back(readVessel(deck, section, name));
-    network.reactors.back().temperature = deck.optionalQuantity(section + ".temperature");
+    if (deck.has(section + ".temperature"))
+      network.reactors.back().temperature =
+          readTemperature(deck, section + ".temperature", *reactorCase.mechanism, TemperatureUse::reactor);
     refuseHeatLoss(deck, section, network.reactors.back());
   }
   for (const std::string& name : deck.children("network.inlets")) {
     const std::string section = "network.inlets." + name;
-    network.inflows.push_back({reactorNamed(deck, section + ".to", network), deck.quantity(section + ".mass_flow"),
-                               deck.quantity(section + ".temperature"),
-                               readMixture(deck, section, *reactorCase.mechanism)});
+    network.inflows.push_back(
+        {reactorNamed(deck, section + ".to", network), deck.quantity(section + ".mass_flow"),
+         readTemperature(deck, section + ".temperature", *reactorCase.mechanism, TemperatureUse::reactor),
+         readMixture(deck, section, *reactorCase.mechanism)});
   }
   const auto connections = readConnections(deck, network);
   const auto flow = balancedFlows(deck, network, connections);

@@ -26,7 +26,9 @@ void addVesselKeys(DeckSchema& schema, const std::string& section, const std::st
       .add(quantityKey(section + ".heat_loss.conductance", units::watt / units::temperature,
                        "Heat lost a kelvin above the surroundings.")
                .atLeast(0))
-      .add(temperatureKey(section + ".heat_loss.surroundings", "Temperature of the surroundings.").byDefault("300 K"));
+      .add(quantityKey(section + ".heat_loss.surroundings", units::temperature, "Temperature of the surroundings.")
+               .atLeast(0)
+               .byDefault("300 K"));
 }
 
 void addReactor(DeckSchema& schema) {

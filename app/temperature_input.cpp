@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "chemistry/thermo/thermo.hpp"
+#include "chemistry/transport/transport.hpp"
 #include "core/errors.hpp"
 
 namespace lampblack {
@@ -46,6 +47,41 @@ DeckKey temperatureKey(std::string path, std::string doc) {
       .atMost(Thermo::maxTemperature);
 }
 
+TemperatureRange allowedTemperatures(const Mechanism& mechanism, TemperatureUse use) {
+  const TemperatureRange range = temperatureRange(mechanism);
+  // Reactors and flames need room beyond what they start from.
+  switch (use) {
+    case TemperatureUse::reactor:
+      return range.within({Thermo::minTemperature + 50, Thermo::maxTemperature - 500});
+    case TemperatureUse::transport:
+      return range.within({Transport::minTemperature, Transport::maxTemperature});
+    case TemperatureUse::properties:
+      break;
+  }
+  return range;
+}
+
+std::string temperatureProblem(double temperature, const Mechanism& mechanism, TemperatureUse use) {
+  const TemperatureRange range = allowedTemperatures(mechanism, use);
+  if (range.contains(temperature)) return {};
+  const char* whose = use == TemperatureUse::transport ? "thermodynamic and transport data" : "thermodynamic data";
+  return fmt::format("expected a temperature from {:g} to {:g} K, as far as the {} of {} are used; found {:g} K",
+                     range.low, range.high, whose, std::filesystem::path(mechanism.fileName()).filename().string(),
+                     temperature);
+}
+
+void requireTemperature(const Deck& deck, const std::string& key, double temperature, const Mechanism& mechanism,
+                        TemperatureUse use) {
+  if (const std::string problem = temperatureProblem(temperature, mechanism, use); !problem.empty())
+    throw deck.error(key, problem);
+}
+
+double readTemperature(const Deck& deck, const std::string& key, const Mechanism& mechanism, TemperatureUse use) {
+  const double temperature = deck.quantity(key);
+  requireTemperature(deck, key, temperature, mechanism, use);
+  return temperature;
+}
+
 void addTemperatureProfileKeys(DeckSchema& schema, const std::string& fileDoc) {
   schema.add(temperatureKey("temperature_profile.temperature", "Temperatures of the points.").list().optional())
       .add(stringKey("temperature_profile.file", "Instead: a CSV file of two columns, " + fileDoc +
@@ -54,7 +90,9 @@ void addTemperatureProfileKeys(DeckSchema& schema, const std::string& fileDoc) {
                .optional());
 }
 
-TemperatureProfile readTemperatureProfile(const Deck& deck, const std::string& points) {
+namespace {
+
+TemperatureProfile readPoints(const Deck& deck, const std::string& points) {
   const std::string section = "temperature_profile";
   const bool listed = deck.has(section + "." + points) || deck.has(section + ".temperature");
   if (listed == deck.has(section + ".file"))
@@ -68,6 +106,18 @@ TemperatureProfile readTemperatureProfile(const Deck& deck, const std::string& p
   } catch (const InputError& error) {
     throw deck.error(listed ? section : section + ".file", error.what());
   }
+}
+
+}  // namespace
+
+TemperatureProfile readTemperatureProfile(const Deck& deck, const std::string& points, const Mechanism& mechanism,
+                                          TemperatureUse use) {
+  TemperatureProfile profile = readPoints(deck, points);
+  const std::string section = "temperature_profile.", file = section + "file";
+  for (std::size_t i = 0; i < profile.temperatures().size(); ++i)
+    requireTemperature(deck, deck.has(file) ? file : fmt::format("{}temperature[{}]", section, i),
+                       profile.temperatures()[i], mechanism, use);
+  return profile;
 }
 
 }  // namespace lampblack

@@ -8,6 +8,7 @@
 
 #include "chemistry/numerics/dot.hpp"
 #include "chemistry/transport/lanes.hpp"
+#include "chemistry/transport/transport_room.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 
@@ -47,9 +48,11 @@ double Transport::fitVariable(double T) {
 }
 
 void Transport::requireInRange(double T) {
-  if (!(T >= minTemperature && T <= maxTemperature))
-    throw NumericsError(fmt::format("transport properties at {:.6g} K; they are known from {} to {} K", T,
-                                    minTemperature, maxTemperature));
+  if (!(T >= transportroom::coldest && T <= transportroom::hottest))
+    throw NumericsError(
+        fmt::format("transport properties at {:.6g} K; they are known from {} to {} K, and used from {} "
+                    "to {} K",
+                    T, minTemperature, maxTemperature, transportroom::coldest, transportroom::hottest));
 }
 
 Transport::Basis Transport::basis(double T) const {

@@ -32,6 +32,8 @@ MISTAKES = [
     ("composition without amounts", (HYDROGEN, "--T", "1500", "--X", "H2"), ("--X", "expected ':'")),
     ("wrong unit", (HYDROGEN, "--T", "1500 Pa", "--X", AIR), ("--T", "expected a temperature", "a pressure")),
     ("cold", (HYDROGEN, "--T", "-5", "--X", AIR), ("--T", "temperature above zero", "'-5'")),
+    ("colder than the data", (METHANE, "--T", "150", "--X", AIR), ("--T: expected a temperature from 200 to 6000 K", "150")),
+    ("hotter than the data", (HYDROGEN, "--T", "9000", "--X", AIR), ("--T: expected a temperature from 200 to", "9000")),
     ("vacuum", (HYDROGEN, "--T", "300", "--p", "0", "--X", AIR), ("--p", "pressure above zero")),
     ("not a number", (HYDROGEN, "--T", "nan", "--X", AIR), ("--T",)),
     ("no temperature", (HYDROGEN, "--X", AIR), ("--T",)),
@@ -157,7 +159,7 @@ def beyond_the_data(check: Checker) -> None:
     check.require("a warning beyond the range of the data",
                   result.code == 0 and result.err.count("lampblack: warning: ") == 1 and "narrowest" in result.err
                   and json.loads(result.out)["temperature"] == 5500, result.err)
-    result = check.program("gas", HYDROGEN, "--T", "9000", "--X", "AR:1", "--hp", "--json")
+    result = check.program("gas", HYDROGEN, "--T", "5900", "--p", "1e10", "--X", "H:1", "--hp", "--json")
     check.require("no such equilibrium: an error of the numbers",
                   result.code == 3 and result.out == "" and "no temperature between" in result.err, result.err)
 

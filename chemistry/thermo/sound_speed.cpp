@@ -1,0 +1,14 @@
+#include "chemistry/thermo/sound_speed.hpp"
+
+#include <cmath>
+
+#include "core/constants.hpp"
+
+namespace lampblack {
+
+double soundSpeed(const Thermo& thermo, double T, std::span<const double> Y) {
+  return std::sqrt(thermo.cpMass(T, Y) / thermo.cvMass(T, Y) * constants::gasConstant * T /
+                   thermo.meanMolecularWeight(Y));
+}
+
+}  // namespace lampblack
