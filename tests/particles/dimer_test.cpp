@@ -72,6 +72,24 @@ TEST(Dimers, RateOfOnePahIsHalfTheStickingKineticTheoryRate) {
   EXPECT_NEAR(model.production(T, consumption).rate / (2.0e-3 * collisions), 1, 1e-13);
 }
 
+// Equal spheres of soot density, mass m and diameter d: sqrt(pi k T / m) (2 d)^2 times the enhancement; a particle of
+// eight dimers: sqrt(pi k T / (2 m)) sqrt(9/8) (3 d)^2.
+TEST(Dimers, CollideWithEachOtherAndWithParticlesAtTheEnhancedKineticRate) {
+  SootModelOptions options = test::naphthalene();
+  const double T = 1500, m = 2 * (10 * 12.011e-3 + 8 * 1.008e-3) / constants::avogadro;
+  const double d = std::cbrt(6 * m / (constants::pi * 1850));
+  for (const double enhancement : {1.0, 2.2}) {
+    options.vanDerWaals = enhancement;
+    const DimerModel model(options);
+    const DimerProduction dimer = model.production(T, std::vector<double>{1e-3});
+    EXPECT_NEAR(dimer.mass / m, 1, 1e-14);
+    const double speed = std::sqrt(constants::pi * constants::boltzmann * T / m);
+    EXPECT_NEAR(dimer.selfCollision / (enhancement * speed * 4 * d * d), 1, 1e-13);
+    const double onto = DimerModel::particleCollision(dimer, freeMolecularPrefactor(T, enhancement), 8 * m, 2 * d);
+    EXPECT_NEAR(onto / (enhancement * speed * std::sqrt(0.5 * 9.0 / 8) * 9 * d * d), 1, 1e-13);
+  }
+}
+
 TEST(Dimers, TooManyOrMeaninglessPahAreRefused) {
   SootModelOptions options;
   options.pah.assign(maximumPahSpecies + 1, {"A2", 10, 8, 2e-3});

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "soot_fixtures.hpp"
@@ -20,6 +21,14 @@ TEST(SurfaceChemistry, ActiveFractionUsesTheDecimalLogarithmAndStaysInItsBounds)
       ASSERT_LE(alpha, 1);
     }
   }
+}
+
+// What the rates are multiplied with: thesis eqs. 7-47 to 7-49, worked out by hand.
+TEST(SurfaceChemistry, AlphaOfTheModelIsThatOfAppelBockhornAndFrenklach) {
+  const SootModelOptions options;
+  for (const auto& [T, a, b] : {std::tuple{1400.0, 4.768, -0.428}, {1600.0, 3.642, -0.292}, {1900.0, 1.953, -0.088}})
+    for (const double mu : {60.0, 1e4, 1e7})
+      EXPECT_NEAR(SurfaceChemistry(options, T).alpha(mu), std::tanh(a / std::log10(mu) + b), 1e-14) << T << " " << mu;
 }
 
 TEST(SurfaceChemistry, AlphaOfATableIsStraightInBetweenAndConstantOutside) {

@@ -136,6 +136,31 @@ TEST(TwoEquationSoot, MonodisperseFreeMolecularCoagulationIsExact) {
   EXPECT_NEAR(soot.mass() / start.mass(), 1, 1e-15);
 }
 
+// Harmonic mean of the free-molecular kernel of equal spheres, 2.2 sqrt(pi k T / m) 4 d^2, and the continuum one,
+// 8 k T C / (3 mu), with slip C at the Knudsen number 2 lambda / d (thesis eqs. 7-31 to 7-33, 9-28 to 9-30).
+TEST(TwoEquationSoot, CoagulationOfEqualSpheresHasTheKernelOfItsSize) {
+  const TwoEquationSoot model((SootModelOptions()));
+  test::FlameGas gas(1600, 0, 0, 0, 0, 0, 0, {});
+  for (const double pressure : {1e5, 5e6}) {
+    gas.state.pressure = pressure;
+    for (const double d : {2e-9, 40e-9, 500e-9, 5e-6}) {
+      const Population soot = sootOf(1e14, d);
+      const double kT = constants::boltzmann * 1600, m = soot.mass() / soot.number;
+      const double path =
+          gas.state.viscosity / pressure *
+          std::sqrt(constants::pi * constants::gasConstant * 1600 / (2 * gas.state.meanMolecularWeight));
+      const double knudsen = 2 * path / d, slip = 1 + knudsen * (1.257 + 0.4 * std::exp(-1.1 / knudsen));
+      const double free = 2.2 * std::sqrt(constants::pi * kT / m) * 4 * d * d;
+      const double continuum = 8 * kT * slip / (3 * gas.state.viscosity);
+      const double kernel = 1 / (1 / free + 1 / continuum);
+      EXPECT_NEAR(model.sources(gas.state, soot).coagulationNumber / (-0.5 * kernel * 1e28), 1, 1e-12) << d;
+      EXPECT_NEAR(model.diffusivity(gas.state, soot) / (kT * slip / (3 * constants::pi * gas.state.viscosity * d)), 1,
+                  1e-12)
+          << d;
+    }
+  }
+}
+
 TEST(TwoEquationSoot, ErrorOfAStepStaysWithinItsSubStepsTimesTheTolerance) {
   SootModelOptions options = test::threePah();
   const TwoEquationSoot model(options);

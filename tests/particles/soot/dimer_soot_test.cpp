@@ -107,6 +107,26 @@ TEST(DimerSoot, ParticlesThatGrowOnBalanceDoNotVanish) {
   }
 }
 
+// Two molecules make a dimer; more particles than the carbon makes nuclei meet as often as so many particles do.
+TEST(DimerSoot, CountsDimersByTheirMoleculesAndCollisionsByTheirParticles) {
+  const test::FlameGas gas(1600, 1e-3, 0.03, 1e-4, 0.08, 2e-4, 0.03, {1e-6, 3e-7, 1e-7});
+  const DimerSoot soot(test::threePah());
+  std::vector<double> concentrations{
+      gas.state.H, gas.state.H2, gas.state.OH, gas.state.H2O, gas.state.O2, gas.state.C2H2, 0};
+  concentrations.insert(concentrations.end(), gas.pah.begin(), gas.pah.end());
+  const SootGas at{gas.state.temperature,         gas.state.pressure, gas.state.density, gas.state.viscosity,
+                   gas.state.meanMolecularWeight, concentrations};
+  const double carbon = 1e-6, nuclei = carbon / (40 * 12.011e-3 / constants::avogadro);
+  std::vector<double> rates(3), exchange(concentrations.size());
+  soot.sources(at, std::vector<double>{nuclei, carbon, 0}, rates, exchange);
+  const SootProcesses full = soot.processes(at, std::vector<double>{nuclei, carbon, 0});
+  EXPECT_NEAR(full.dimerProduction / (-0.5 * constants::avogadro * (exchange[7] + exchange[8] + exchange[9])), 1,
+              1e-14);
+  const SootProcesses twice = soot.processes(at, std::vector<double>{2 * nuclei, carbon, 0});
+  EXPECT_LT(full.coagulationNumber, 0);
+  EXPECT_NEAR(twice.coagulationNumber / full.coagulationNumber, 4, 1e-14);
+}
+
 TEST(DimerSoot, StaysBoundedInStatesThatNoSootIsIn) {
   const test::FlameGas gas(1700, 1e-3, 0.03, 1e-4, 0.08, 2e-4, 0.03, {1e-6});
   const DimerSoot soot(test::naphthalene());

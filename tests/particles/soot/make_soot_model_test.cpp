@@ -48,6 +48,26 @@ TEST_P(EverySootModel, ExchangesWhatItsProcessesSay) {
   }
 }
 
+// Models that see soot as spheres: Stokes, Einstein and Cunningham for the mobility diameter (thesis eqs. 7-30 to
+// 7-33).
+TEST_P(EverySootModel, SpheresDiffuseByTheirMobility) {
+  if (GetParam() == "sectional" || GetParam() == "hmom") GTEST_SKIP() << "several sizes diffuse, each by its own";
+  const auto model = published(GetParam());
+  test::RandomStates states(400);
+  std::vector<double> D(model->scalars().size());
+  for (int i = 0; i < 20; ++i) {
+    test::ModelState s = states.next(*model);
+    s.connect();
+    model->diffusivities(s.gas, s.densities, D);
+    const double d = model->properties(s.gas, s.densities).mobilityDiameter, T = s.gas.temperature;
+    const double path = s.gas.viscosity / s.gas.pressure *
+                        std::sqrt(constants::pi * constants::gasConstant * T / (2 * s.gas.meanMolecularWeight));
+    const double knudsen = 2 * path / d, slip = 1 + knudsen * (1.257 + 0.4 * std::exp(-1.1 / knudsen));
+    const double expected = constants::boltzmann * T * slip / (3 * constants::pi * s.gas.viscosity * d);
+    for (const double value : D) EXPECT_NEAR(value / expected, 1, 1e-12) << i;
+  }
+}
+
 TEST_P(EverySootModel, DensitiesOfGasAloneMakeSootOnlyByNucleation) {
   const auto model = published(GetParam());
   test::RandomStates states(300);

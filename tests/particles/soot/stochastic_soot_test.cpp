@@ -11,6 +11,7 @@
 #include "../statistics.hpp"
 #include "core/errors.hpp"
 #include "particles/ensemble.hpp"
+#include "particles/soot/soot_medium.hpp"
 #include "particles/surface_chemistry.hpp"
 
 namespace lampblack {
@@ -42,6 +43,26 @@ INSTANTIATE_TEST_SUITE_P(All, StochasticSootMethods,
                          testing::Values(StochasticSootMethod::dsmc, StochasticSootMethod::sammc,
                                          StochasticSootMethod::swa),
                          nameOf);
+
+// The gas as a population sees it, in kg of carbon: two atoms an event with C2H2 or O2, one with OH, two dimers a
+// nucleus.
+TEST(SootMedium, FluxesAndInceptionAreThoseOfTheSurfaceAndTheDimers) {
+  const test::FlameGas gas(1650, 1e-3, 0.03, 1e-4, 0.08, 1e-3, 0.03, {1e-6, 4e-7, 3e-7});
+  const SootModelOptions options = test::threePah();
+  const DimerModel dimers(options);
+  const SootMedium medium(options, dimers, gas.state, true);
+  const SurfaceRates all = SurfaceChemistry(options, 1650).rates(gas.state, 1);
+  const SootFluxes fluxes = medium.fluxes();
+  const double W = options.carbonWeight;
+  EXPECT_NEAR(fluxes.growth / (2 * W * all.growth * gas.state.C2H2), 1, 1e-14);
+  EXPECT_NEAR(fluxes.O2 / (2 * W * all.oxidationO2 * gas.state.O2), 1, 1e-14);
+  EXPECT_NEAR(fluxes.OH / (W * all.oxidationOH * gas.state.OH), 1, 1e-14);
+  // Without particles to condense on, all dimers end in nuclei; a little of them do where particles take most.
+  EXPECT_NEAR(medium.inception(0) / (0.5 * medium.dimer().rate), 1, 1e-14);
+  const double most = 1e3 * medium.dimer().rate / medium.dimers(0);
+  const double few = medium.dimers(most);
+  EXPECT_NEAR((2 * medium.inception(most) + most * few) / medium.dimer().rate, 1, 1e-14);
+}
 
 // Growth, condensation, oxidation by O2 and OH, inception and coagulation together, with dilution.
 TEST_P(StochasticSootMethods, TakesFromTheGasTheAtomsThatTheSootGains) {
