@@ -129,6 +129,7 @@ FlameResult flameResult(const FlameCase& flame, FlameSolution solution, bool con
   FlameResult result;
   result.solution = std::move(solution);
   result.converged = converged;
+  result.state = stateOf(*flame.mechanism, flame.problem, result.solution);
   try {
     result.fields = flameFields(*flame.mechanism, flame.problem, result.solution.profile);
     result.summary = flameSummary(flame.problem, result.solution.profile, result.fields);
@@ -163,6 +164,8 @@ std::vector<NamedNumber> namedNumbers(const FlameCase& flame, const FlameResult&
     if (result.soot)
       for (NamedNumber& number : namedSootNumbers(result.fields, *result.soot)) numbers.push_back(std::move(number));
   }
+  if (result.solution.growthRate) numbers.push_back({"growth_rate", "1/s", *result.solution.growthRate});
+  if (result.extinctionLoad) numbers.push_back({"last_burning_load", "1", *result.extinctionLoad});
   const StepCounts counts = countsOf(result.solution);
   const auto add = [&](const char* name, std::size_t value) {
     numbers.push_back({name, "1", static_cast<double>(value)});
@@ -186,6 +189,7 @@ void writeFlame(ResultsWriter& results, const FlameCase& flame, const FlameResul
   results.attribute("/flame", "type", std::string(nameOf(flame.problem.type)));
   results.attribute("/flame", "title", flame.title);
   results.attribute("/flame", "converged", static_cast<std::int64_t>(result.converged ? 1 : 0));
+  results.attribute("/flame", "flame_state", std::string(nameOf(result.state)));
   results.attribute("/flame", "pressure", flame.problem.pressure);
   for (const NamedNumber& number : namedNumbers(flame, result)) results.attribute("/flame", number.name, number.value);
   writeStages(results, result.solution);

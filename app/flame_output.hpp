@@ -10,6 +10,7 @@
 #include "app/flame_case.hpp"
 #include "app/flame_soot_output.hpp"
 #include "flow/flame/flame_fields.hpp"
+#include "flow/flame/flame_state.hpp"
 #include "io/json.hpp"
 #include "io/results_writer.hpp"
 
@@ -20,6 +21,9 @@ struct FlameResult {
   FlameFields fields;
   FlameSummary summary;
   std::optional<FlameSootFields> soot;
+  FlameState state = FlameState::Burning;
+  // Where the flame went out: the load at which the branch of burning flames ends, if it was found below 1.
+  std::optional<double> extinctionLoad;
   bool converged = true;
 };
 

@@ -25,16 +25,28 @@ std::string unitInName(const std::string& unit) {
   return "_" + text;
 }
 
-// Whether anything is warmer than what bounds the flame.
-bool burning(const FlameCase& flame, const FlameResult& result) {
-  const FlameProblem& problem = flame.problem;
-  double boundary = problem.left.temperature;
-  if (problem.right) boundary = std::max(boundary, problem.right->temperature);
-  if (problem.type == FlameType::Wall) boundary = std::max(boundary, problem.wallTemperature);
-  const FlameProfile& profile = result.solution.profile;
-  for (std::size_t i = 0; i < profile.points(); ++i)
-    if (profile.temperature(i) > boundary + 1) return true;
-  return false;
+// What a user has to know of a flame that does not simply burn.
+std::string stateText(const FlameResult& result) {
+  switch (result.state) {
+    case FlameState::Burning:
+      return "";
+    case FlameState::Inert:
+      return "\nNothing burns: these streams are no fuel and oxidiser to each other.\n";
+    case FlameState::UnstableBranch:
+      return fmt::format(
+          "\nAn unstable flame: the least disturbance grows at {:.3g} 1/s, and the flame goes out or flares up. No "
+          "stable "
+          "flame was\nfound from here; a burning flame at lower velocities can be the start of this one (initial: "
+          "results.h5).\n",
+          result.solution.growthRate.value_or(0));
+    case FlameState::Out:
+      break;
+  }
+  const std::string out = "\nThe flame is out: nothing is warmer than what flows in. ";
+  if (result.extinctionLoad)
+    return out + fmt::format("Followed from lower velocities, burning flames end at {:.4g} of this strain.\n",
+                             *result.extinctionLoad);
+  return out + "No burning flame was found from lower velocities, either.\n";
 }
 
 // A column for what ensembles give the gas where there are such.
@@ -78,7 +90,7 @@ std::string numbersText(const std::vector<NamedNumber>& numbers) {
 
 void recordFlame(JsonWriter& json, const FlameCase& flame, const FlameResult& result) {
   json.field("type", nameOf(flame.problem.type)).field("converged", result.converged);
-  json.field("burning", burning(flame, result));
+  if (result.converged) json.field("flame_state", nameOf(result.state));
   recordNumbers(json, namedNumbers(flame, result));
   const auto& counters = result.solution.counters;
   json.field("jacobians", static_cast<std::uint64_t>(counters.jacobians));
@@ -89,11 +101,7 @@ void recordFlame(JsonWriter& json, const FlameCase& flame, const FlameResult& re
 
 std::string flameReport(const FlameCase& flame, const FlameResult& result) {
   std::string text = numbersText(namedNumbers(flame, result));
-  if (!burning(flame, result))
-    text +=
-        "\nThe flame is out: nothing is warmer than what flows in. The strain may be beyond extinction, or the start "
-        "was "
-        "too\nfar away; a burning flame at lower velocities can be the start of this one (initial: results.h5).\n";
+  text += stateText(result);
   text += budgetText(result.solution.budgets);
   const auto& c = result.solution.counters;
   double total = 0;

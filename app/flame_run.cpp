@@ -13,6 +13,7 @@
 #include "app/flame_stochastic.hpp"
 #include "core/errors.hpp"
 #include "core/timers.hpp"
+#include "flow/flame/flame_from_lower_load.hpp"
 
 namespace lampblack {
 namespace {
@@ -51,12 +52,29 @@ struct Attempt {
   std::optional<FlameBranchResult> branch;
   std::optional<FlameInTime> course;
   std::unique_ptr<HistoryWriter> history;  // of the course
+  std::optional<double> extinctionLoad;    // of a flame that is out
   std::optional<std::string> failure;
 };
+
+// Where a warm start went out: the flame from lower velocities, if it burns.
+void relight(MPI_Comm comm, const FlameCase& flame, FlameSolver& solver, FlameSolution& solution, Attempt& attempt) {
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  if (rank == 0) fmt::print("the flame went out; from lower velocities: load, largest temperature\n");
+  const RaisedFlame raised = flameFromLowerLoad(comm, flame.mechanism, flame.problem, flame.solver, flame.start,
+                                                [rank](double load, double peak) {
+                                                  if (rank != 0) return;
+                                                  fmt::print("  {:>12.6g} {:>10.2f} K\n", load, peak);
+                                                  std::fflush(stdout);
+                                                });
+  attempt.extinctionLoad = raised.extinctionLoad;
+  if (raised.profile) solution = solver.solve(withLayout(*raised.profile, solution.profile.layout));
+}
 
 Attempt solve(MPI_Comm comm, FlameCase& flame, FlameProfile start) {
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
+  const bool warm = isWarm(flame.problem, start);
   FlameSolver solver(comm, flame.mechanism, flame.problem, flame.soot.get(), flame.solver);
   solver.onStage([rank](const FlameStage& stage, const FlameProfile&) {
     if (rank != 0) return;
@@ -67,6 +85,8 @@ Attempt solve(MPI_Comm comm, FlameCase& flame, FlameProfile start) {
   std::optional<FlameSolution> solution;
   try {
     solution = solver.solve(std::move(start));
+    if (warm && stateOf(*flame.mechanism, flame.problem, *solution) == FlameState::Out)
+      relight(comm, flame, solver, *solution, attempt);
     if (flame.stochastic) {
       const FlameSolution alone = *solution;
       try {
@@ -84,6 +104,7 @@ Attempt solve(MPI_Comm comm, FlameCase& flame, FlameProfile start) {
     attempt.failure = failure.what();
   }
   collectively(comm, [&] { attempt.result = flameResult(flame, std::move(*solution), !attempt.failure); });
+  attempt.result.extinctionLoad = attempt.extinctionLoad;
   return attempt;
 }
 
@@ -93,6 +114,7 @@ void followInTime(MPI_Comm comm, FlameCase& flame, const RunFolder& folder, Atte
   });
   FlameSolution last = std::move(attempt.result.solution);
   last.budgets.clear();  // those of a steady flame
+  last.growthRate.reset();
   attempt.course = flameInTime(comm, flame, last.profile, *attempt.history);
   if (!attempt.course->failure.empty()) attempt.failure = attempt.course->failure;
   collectively(comm, [&] { attempt.result = flameResult(flame, std::move(last), !attempt.failure); });

@@ -199,7 +199,9 @@ TextTable studyTable(const SweepStudy& study, const std::vector<RunOutcome>& out
     if (const auto record = readFile(folder / run.name / "run.json"); record && outcomes[i].failure == RunFailure::none)
       leaves = resultsOf(*record);
     for (const auto& [name, value] : leaves) {
-      if (all || std::find(study.results.begin(), study.results.end(), name) != study.results.end())
+      // Whether a flame burns is worth a column, asked for or not.
+      if (all || name == "flame_state" ||
+          std::find(study.results.begin(), study.results.end(), name) != study.results.end())
         put(table, row, name, value);
     }
     table.rows.push_back(std::move(row));

@@ -254,6 +254,13 @@ void DenseBlocks::solve(std::size_t n, const double* A, const int* pivots, std::
   }
 }
 
+int determinantSign(std::size_t n, const double* factors, const int* pivots) {
+  bool negative = false;
+  for (std::size_t i = 0; i < n; ++i)
+    negative ^= (factors[i * n + i] < 0) != (static_cast<std::size_t>(pivots[i]) != i);
+  return negative ? -1 : 1;
+}
+
 void addProduct(std::size_t m, std::size_t n, double alpha, const double* A, const double* x, double* y) {
   addColumns(m, n, alpha, A, m, x, y);
 }

@@ -38,6 +38,9 @@ class DenseBlocks {
   std::vector<int> order_;
 };
 
+// Sign of the determinant of a matrix from its factors by DenseBlocks::factorise: 1 or -1.
+[[nodiscard]] int determinantSign(std::size_t n, const double* factors, const int* pivots);
+
 // y += alpha A x, A being m x n without gaps between columns.
 void addProduct(std::size_t m, std::size_t n, double alpha, const double* A, const double* x, double* y);
 

@@ -100,6 +100,13 @@ std::size_t BlockSweep::factorise(double* corner) {
   return count_;
 }
 
+int BlockSweep::determinantSign() const {
+  int sign = 1;
+  for (std::size_t k = 0; k < count_; ++k)
+    sign *= lampblack::determinantSign(n_, storage_.data() + k * rowStride_ + stride_, pivots_.data() + k * n_);
+  return sign;
+}
+
 void BlockSweep::forward(double* b, std::ptrdiff_t step, double* rowSum) {
   std::fill_n(rowSum, border_, 0.0);
   for (std::size_t k = 0; k < count_; ++k, b += step) {

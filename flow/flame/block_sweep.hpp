@@ -32,6 +32,8 @@ class BlockSweep {
   // Eliminates all rows. Returns the first row whose block is singular or not finite, size() where there is none.
   // `corner` (border x border) becomes the sum of rows(k) Y(k): what elimination takes from the border's own block.
   [[nodiscard]] std::size_t factorise(double* corner);
+  // Of the determinant of the product of the eliminated diagonal blocks, after factorise; 1 where there are no rows.
+  [[nodiscard]] int determinantSign() const;
   // Right-hand sides b(k) at b + k * step become y(k); rowSum(border values) becomes the sum of rows(k) y(k).
   void forward(double* b, std::ptrdiff_t step, double* rowSum);
   // y(k) become x(k), given x of the row after the last and the border's z.

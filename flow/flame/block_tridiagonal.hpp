@@ -58,6 +58,8 @@ class BlockTridiagonal {
   // tells which one (the middle stands for the border, too).
   [[nodiscard]] bool factorise();
   [[nodiscard]] std::size_t singularPoint() const;
+  // Of the matrix that was factorised, 1 or -1; the same on all ranks. std::logic_error without factors.
+  [[nodiscard]] int determinantSign() const;
   // Collective. b (size() values, alike on all ranks) becomes the solution, alike on all ranks.
   void solve(std::span<double> b);
 

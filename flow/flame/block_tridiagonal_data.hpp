@@ -26,6 +26,7 @@ struct BlockTridiagonal::Data {
   DenseBlocks dense;
   bool untouched = true, set = true, factorised = false;
   std::size_t singular = 0;
+  int sign = 1;  // of the determinant
 
   Data(MPI_Comm c, int rank, int count, std::size_t N, std::size_t width, std::size_t borderWidth)
       : comm(c),

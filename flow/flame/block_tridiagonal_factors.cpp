@@ -88,7 +88,18 @@ bool BlockTridiagonal::factorise() {
   }
   d.singular = singular;
   d.factorised = singular == d.points;
+  if (d.factorised) {
+    // Rows were scaled by positive numbers, and blocks exchanged along with their columns: neither changes the sign.
+    d.sign = d.ends[left].determinantSign() * d.ends[right].determinantSign();
+    if (d.owns[left]) d.sign *= lampblack::determinantSign(d.n + d.border, d.core.data(), d.corePivots.data());
+    MPI_Allreduce(MPI_IN_PLACE, &d.sign, 1, MPI_INT, MPI_PROD, d.comm);
+  }
   return d.factorised;
+}
+
+int BlockTridiagonal::determinantSign() const {
+  if (!data_->factorised) throw std::logic_error("BlockTridiagonal: determinant without factors");
+  return data_->sign;
 }
 
 void BlockTridiagonal::solve(std::span<double> b) {

@@ -227,6 +227,10 @@ void FlameEquations::solve(std::span<double> b) {
   data_->counters.solveSeconds += MPI_Wtime() - start;
 }
 
+int FlameEquations::determinantSign() const {
+  return data_->matrix->determinantSign();
+}
+
 bool FlameEquations::factoriseUnsteady(std::span<const double> x, double shift) {
   struct Reset {
     bool& flag;

@@ -90,6 +90,9 @@ class FlameEquations : public UnsteadySystem {
   void storage(std::span<const double> x, std::span<const double> rate, std::span<double> F) override;
   [[nodiscard]] bool factoriseUnsteady(std::span<const double> x, double shift) override;
 
+  // Sign of the determinant of the matrix that was factorised last.
+  [[nodiscard]] int determinantSign() const;
+
   // Budgets of the elements, mass and energy of a profile on the present grid. Collective.
   [[nodiscard]] std::vector<FlameBudget> budgets(std::span<const double> x);
 

@@ -152,6 +152,20 @@ FlameSolution FlameSolver::solve(FlameProfile start) {
   return d.solution;
 }
 
+void FlameSolver::Data::toLastSteps(FlameEquations& equations, NewtonSolver& solver, const std::string& name) {
+  refine(equations, solver, name);
+  if (options.polish <= 0) return;
+  NewtonOptions last = options.newton;
+  last.polish = options.polish;
+  NewtonSolver polishing(last, options.transient);
+  // Again and again where the values of scalars at faces follow the profile: until that does not matter any more.
+  for (std::size_t pass = 1;; ++pass) {
+    const FlameProfile before = solution.profile;
+    steady(equations, polishing, name + ", last steps");
+    if (pass == mostPasses || largestScalarChange(before, solution.profile) <= options.scalarChange) break;
+  }
+}
+
 void FlameSolver::Data::solve() {
   NewtonSolver solver(options.newton, options.transient);
   FlameEquations equations(comm, mechanism, problem, carried, options.tolerances);
@@ -173,18 +187,8 @@ void FlameSolver::Data::solve() {
     scalarsAlone(equations, solver);
   }
   const std::string name = layout.scalars > 0 ? "gas and scalars" : "flame";
-  refine(equations, solver, name);
-  if (options.polish > 0) {
-    NewtonOptions last = options.newton;
-    last.polish = options.polish;
-    NewtonSolver polishing(last, options.transient);
-    // Again and again where the values of scalars at faces follow the profile: until that does not matter any more.
-    for (std::size_t pass = 1;; ++pass) {
-      const FlameProfile before = solution.profile;
-      steady(equations, polishing, name + ", last steps");
-      if (pass == mostPasses || largestScalarChange(before, solution.profile) <= options.scalarChange) break;
-    }
-  }
+  toLastSteps(equations, solver, name);
+  if (options.preferStable) preferStable(equations, solver, name);
   count(equations);
   solution.budgets = equations.budgets(solution.profile.x);
 }

@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,7 @@ struct FlameSolverOptions {
   double scalarChange = 1e-3;  // the last stage is repeated until no scalar changes by more of its largest value
   bool refine = true;          // false: the given grid only
   std::size_t maximumGrids = 40;
+  bool preferStable = true;      // a solution that would not last is left for the one that does
   double anchorTemperature = 0;  // K, free flames; 0: between unburnt and burnt
 };
 
@@ -42,6 +44,8 @@ struct FlameSolution {
   std::vector<FlameStage> stages;
   FlameEquations::Counters counters;
   std::vector<FlameBudget> budgets;
+  // 1/s, of the disturbance by which the flame would leave this solution (flame_stability.hpp); empty: none was found.
+  std::optional<double> growthRate;
 };
 
 // The flame did not converge: the message says at which stage and where the residual sits. The last profile goes along

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "flow/flame/flame_solver.hpp"
+#include "flow/flame/flame_stability.hpp"
 
 namespace lampblack {
 
@@ -28,6 +29,12 @@ struct FlameSolver::Data {
   // The end of a stage that began at `start` (MPI_Wtime). FlameFailure where it has not converged.
   void finish(FlameStage& stage, double start);
   [[noreturn]] void fail(const FlameStage& stage);
+  // Stages on the way to the last grid, and Newton steps until budgets close.
+  void toLastSteps(FlameEquations& equations, NewtonSolver& solver, const std::string& name);
+  // Where the solution would not last, to the one that the flame goes to from there if it is disturbed towards higher
+  // temperatures. What cannot be left stays, with its growth rate.
+  void preferStable(FlameEquations& equations, NewtonSolver& solver, const std::string& name);
+  void leave(FlameEquations& equations, NewtonSolver& solver, const GrowingMode& mode);
   // Stages on ever better grids until none is needed.
   void refine(FlameEquations& equations, NewtonSolver& solver, const std::string& name);
   void place(FlameEquations& equations);

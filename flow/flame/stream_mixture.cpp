@@ -148,4 +148,16 @@ double StreamMixture::at(double share, std::span<double> Y) const {
   return thermo_.temperatureFromEnthalpy(share * leftEnthalpy_ + (1 - share) * rightEnthalpy_, Y, hottest_);
 }
 
+bool canBurn(const Mechanism& mechanism, const FlameProblem& problem) {
+  try {
+    if (problem.right)
+      static_cast<void>(StreamMixture::counterflow(mechanism, problem.left, *problem.right, problem.pressure));
+    else
+      static_cast<void>(StreamMixture::premixed(mechanism, problem.left, problem.pressure));
+  } catch (const InputError&) {
+    return false;
+  }
+  return true;
+}
+
 }  // namespace lampblack

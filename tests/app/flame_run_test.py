@@ -3,6 +3,7 @@
 Usage: flame_run_test.py EXECUTABLE RANKS MPIEXEC...
 """
 
+import csv
 import json
 import pathlib
 import re
@@ -95,6 +96,32 @@ def check_followed(program, folder):
         assert np.array_equal(file["unsteady/temperature"][-1], file["flame/temperature"][()])
 
 
+def check_states(program, folder):
+    """Whether a flame burns is in the record, the results, the report and the table of a study."""
+    deck = folder / "counterflow.yaml"
+    deck.write_text(COUNTERFLOW, encoding="utf-8")
+    study = folder / "study.yaml"
+    study.write_text("""study: states
+deck: counterflow.yaml
+variants:
+  - {name: slow, set: [left.velocity=1 m/s]}
+  - {name: fast, set: [left.velocity=100 m/s, right.velocity=100 m/s]}
+collect: {results: [maximum_temperature_K]}
+""", encoding="utf-8")
+    result = program("sweep", study, "--out", folder / "states")
+    assert result.code == 0, result.err
+    with (folder / "states/study.csv").open(encoding="utf-8", newline="") as file:
+        table = {row["run"]: row for row in csv.DictReader(file)}
+    slow, fast = table["counterflow_slow"], table["counterflow_fast"]
+    assert slow["flame_state"] == "burning" and float(slow["maximum_temperature_K"]) > 1400, slow
+    assert fast["status"] == "done" and fast["flame_state"] == "out", fast
+    numbers = json.loads((folder / "states/counterflow_fast/run.json").read_text(encoding="utf-8"))["results"]
+    assert numbers["flame_state"] == "out" and 0.01 < numbers["last_burning_load"] < 1, numbers
+    with h5py.File(folder / "states/counterflow_fast/results.h5", "r") as file:
+        assert file["flame"].attrs["flame_state"].decode() == "out"
+        assert file["flame"].attrs["last_burning_load"] == numbers["last_burning_load"]
+
+
 def check_failures_on_the_way(program, folder):
     """A branch that needs more points than allowed, time steps that cannot be exact enough: told once, and what there was
     is kept."""
@@ -156,6 +183,7 @@ def main(executable, ranks, *mpiexec):
         check_failures_on_the_way(program, folder)
         if int(ranks) == 1:
             check_followed(program, folder)
+            check_states(program, folder)
 
         # Any number of ranks: the same flame to the last bit.
         if int(ranks) > 1:

@@ -70,6 +70,23 @@ struct Pattern {
     return b;
   }
 
+  // Of the determinant: exchanges of rows and signs of pivots.
+  [[nodiscard]] int denseSign() const {
+    auto factors = entries;
+    std::vector<double> b(size);
+    std::vector<int> pivots(size);
+    const int n = static_cast<int>(size), one = 1;
+    int info = 0;
+    dgesv_(&n, &one, factors.data(), &n, pivots.data(), b.data(), &n, &info);
+    EXPECT_EQ(info, 0);
+    int sign = 1;
+    for (std::size_t i = 0; i < size; ++i) {
+      if (pivots[i] != static_cast<int>(i) + 1) sign = -sign;
+      if (factors[i * size + i] < 0) sign = -sign;
+    }
+    return sign;
+  }
+
   void copyBlock(std::size_t i, std::size_t j, std::size_t m, std::size_t n, double* to) const {
     for (std::size_t c = 0; c < n; ++c)
       for (std::size_t r = 0; r < m; ++r) to[c * m + r] = (*this)(i + r, j + c);
@@ -152,6 +169,28 @@ TEST(BlockTridiagonalFactors, SolveBlocksThatNeedPivoting) {
     const auto b = randomVector(A.size);
     EXPECT_LT(largestDifference(solution(A, MPI_COMM_WORLD, b), A.denseSolution(b)), rounding(A));
   }
+}
+
+TEST(BlockTridiagonalFactors, KnowTheSignOfTheDeterminant) {
+  int negative = 0, all = 0;
+  for (const auto& [points, width, border] : shapes())
+    for (const unsigned seed : {1, 2, 3}) {
+      auto pattern = Pattern::dominant(points, width, border, seed);
+      if (seed > 1) pattern.reverseRowsOfBlocks();
+      // Of either sign: diagonals of either sign, rows exchanged or not.
+      std::mt19937 random(seed);
+      for (std::size_t i = 0; i < pattern.size; ++i)
+        if (random() % 2 == 0)
+          for (std::size_t j = 0; j < pattern.size; ++j) pattern(i, j) = -pattern(i, j);
+      auto A = pattern.on(MPI_COMM_WORLD);
+      EXPECT_THROW((void)A.determinantSign(), std::logic_error);
+      ASSERT_TRUE(A.factorise());
+      EXPECT_EQ(A.determinantSign(), pattern.denseSign()) << points << " points, " << width << " wide, " << border;
+      negative += A.determinantSign() < 0;
+      ++all;
+    }
+  EXPECT_GT(negative, all / 4);
+  EXPECT_LT(negative, 3 * all / 4);
 }
 
 TEST(BlockTridiagonalFactors, HaveTheSameBitsOnOneRankAndOnAll) {
