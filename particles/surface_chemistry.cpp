@@ -12,6 +12,15 @@ double arrhenius(double A, double n, double kcal, double logT, double inverseRT)
   return 1e-6 * A * std::exp(n * logT - 1e3 * constants::thermochemicalCalorie * kcal * inverseRT);
 }
 
+// Thesis eqs. 7-47 to 7-49.
+double siteSlope(double temperature) {
+  return 12.65 - 0.00563 * temperature;
+}
+
+double siteShift(double temperature) {
+  return -1.38 + 0.00068 * temperature;
+}
+
 double boundedTanh(double a, double b, double meanCarbonAtoms) {
   return std::clamp(std::tanh(a / std::log10(meanCarbonAtoms) + b), 0.0, 1.0);
 }
@@ -32,13 +41,13 @@ std::optional<double> fixedAlpha(const SootModelOptions& options, double tempera
 }  // namespace
 
 double activeSiteFraction(double temperature, double meanCarbonAtoms) {
-  return boundedTanh(12.65 - 0.00563 * temperature, -1.38 + 0.00068 * temperature, meanCarbonAtoms);
+  return boundedTanh(siteSlope(temperature), siteShift(temperature), meanCarbonAtoms);
 }
 
 SurfaceChemistry::SurfaceChemistry(const SootModelOptions& options, double temperature)
     : sites_(options.siteDensity / constants::avogadro),
-      a_(12.65 - 0.00563 * temperature),
-      b_(-1.38 + 0.00068 * temperature),
+      a_(siteSlope(temperature)),
+      b_(siteShift(temperature)),
       growthOn_(options.surfaceGrowth ? 1 : 0),
       oxidationOn_(options.oxidation ? 1 : 0),
       alpha_(fixedAlpha(options, temperature)) {
