@@ -56,7 +56,7 @@ def faults_of_message(err: str, ranks: int = 1) -> str:
     if FOREIGN.search(err):
         return f"words of a library: {FOREIGN.search(err)[0]}"
     more = [line for line in lines[1:] if not QUOTE.match(line)]
-    if any(line.startswith("lampblack: ") for line in more) or (more and ranks == 1 and len(more) > 6):
+    if any(line.startswith("lampblack: ") for line in more) or (more and ranks == 1):
         return f"more than one message: {more[0][:100]!r}"
     if max(map(len, lines)) > 600:
         return f"a line of {max(map(len, lines))} characters"

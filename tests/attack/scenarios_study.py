@@ -2,7 +2,7 @@
 
 FREE = "CASES/flame_free_hydrogen/deck.yaml"
 POPULATION = "CASES/population_balance/chapter5_03_coagulation_exponential.yaml"
-CONVERGENCE = f"study: c\nconvergence: {{deck: {POPULATION}, set: [time.end=0.1 s], METHODS particles: [16, 32], product: 64}}\n"
+CONVERGENCE = f"study: c\nconvergence: {{deck: {POPULATION}, set: [time.end=0.1 s, 'distribution.times=[0 s]'], METHODS particles: [16, 32], product: 64}}\n"
 VARY = "- {key: inlet.equivalence_ratio, values: [" + ", ".join(str(1 + i / 1000) for i in range(1000)) + "]}"
 
 SCENARIOS = [
