@@ -4,6 +4,7 @@ A run is a session of its own, so that whatever it starts can be found and ended
 command that writes without end fills no pipe, and how long it has been silent is seen from their times.
 """
 
+import ctypes
 import dataclasses
 import os
 import pathlib
@@ -13,6 +14,8 @@ import subprocess
 import time
 
 GIGABYTE = 1 << 30
+LIBC = ctypes.CDLL(None)
+PR_SET_PDEATHSIG = 1
 STOP_WITHIN = 10.0  # s, from SIGTERM to the end
 
 
@@ -88,6 +91,8 @@ class Run:
     def __init__(self, command: list, folder: pathlib.Path, limits: Limits, name: str = "run",
                  patient: bool = False):
         def restrict() -> None:
+            # No run outlives the attack.
+            LIBC.prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
             if limits.memory:
                 resource.setrlimit(resource.RLIMIT_AS, (limits.memory, limits.memory))
             resource.setrlimit(resource.RLIMIT_FSIZE, (limits.file, limits.file))
