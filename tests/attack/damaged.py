@@ -76,7 +76,7 @@ class Damaged:
         """A command that reads the file and leaves nothing where it refuses it."""
         out = folder / "out"
         ended = run(self.program.command(ranks, *words), folder, self.limits)
-        fault = judging.common_faults(ended, ranks)
+        fault = judging.common_faults(ended)
         if fault:
             return fault
         if ended.code == 2 and out.exists():

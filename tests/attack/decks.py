@@ -41,4 +41,4 @@ def check_and_run(program: Program, tree, folder: pathlib.Path, ranks: int, limi
     check = run(program.command(1, *words), folder, limits, "check")
     out = folder / "out"
     ended = run(program.command(ranks, command, deck, "--out", out), folder, limits)
-    return judging.judge(check, ended, out, ranks, expected)
+    return judging.judge(check, ended, out, expected)

@@ -68,14 +68,14 @@ class Disks:
         command = self.program.command(ranks, *subject.arguments(disk / "out"))
         wrapped = ["unshare", "-m", "sh", "-c", ON_DISK, "sh", size, disk, kept, *command]
         ended = run(wrapped, folder, self.limits)
-        verdict = self.judge(ended, kept / "out", ranks)
+        verdict = self.judge(ended, kept / "out")
         shutil.rmtree(disk, ignore_errors=True)
         return name, f"{name} on {size // 1024} kB of {needed // 1024}, {ranks} rank(s)", verdict
 
-    def judge(self, ended, out: pathlib.Path, ranks: int) -> judging.Verdict:
+    def judge(self, ended, out: pathlib.Path) -> judging.Verdict:
         # Open MPI says on its own what its writing met.
         ended.err = "".join(line for line in ended.err.splitlines(keepends=True) if not OF_MPI.match(line))
-        fault = judging.common_faults(ended, ranks)
+        fault = judging.common_faults(ended)
         if fault:
             return fault
         if ended.code == 0:

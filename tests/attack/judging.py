@@ -31,6 +31,7 @@ OTHER_CODE = "another exit code than agreed"
 LOST = "nothing usable left"
 BAD = (CRASH, HANG, BUG, ACCEPTED, UNSOUND, LATE, INCONSISTENT, LEFT, MESSAGE, WRONGLY_REFUSED, OTHER_CODE, LOST)
 
+MOST_LINES = 3  # that go on with a message
 QUOTE = re.compile(r"^ *(\d+|--set)? \| ")
 WARNING = "lampblack: warning: "
 PLACE = re.compile(r":\d+:|--set|--out|--force|runs failed|[\w*]+(\.[\w*\[\]]+)+|: ")
@@ -48,7 +49,7 @@ class Verdict:
         return self.outcome not in FINE
 
 
-def faults_of_message(err: str, ranks: int = 1) -> str:
+def faults_of_message(err: str) -> str:
     """What is wrong with the message of a run that ended with 2 or 3: "" where nothing is."""
     lines = [line for line in err.splitlines() if line.strip() and not line.startswith(WARNING)]
     if not lines or not lines[0].startswith("lampblack: "):
@@ -56,14 +57,14 @@ def faults_of_message(err: str, ranks: int = 1) -> str:
     if FOREIGN.search(err):
         return f"words of a library: {FOREIGN.search(err)[0]}"
     more = [line for line in lines[1:] if not QUOTE.match(line)]
-    if any(line.startswith("lampblack: ") for line in more) or (more and ranks == 1):
+    if any(line.startswith("lampblack: ") for line in more) or len(more) > MOST_LINES:
         return f"more than one message: {more[0][:100]!r}"
     if max(map(len, lines)) > 600:
         return f"a line of {max(map(len, lines))} characters"
     return "" if PLACE.search(lines[0][len("lampblack: "):]) else f"names no place: {lines[0][:100]!r}"
 
 
-def common_faults(ended: Ended, ranks: int) -> Verdict | None:
+def common_faults(ended: Ended) -> Verdict | None:
     """What no run may do, whatever its input was."""
     if ended.over_time:
         if ended.stopped_in is None:
@@ -78,7 +79,7 @@ def common_faults(ended: Ended, ranks: int) -> Verdict | None:
     if ended.code not in (0, 2, 3):
         return Verdict(BUG, f"exit {ended.code}: {last_line(ended.err)}")
     if ended.code != 0:
-        fault = faults_of_message(ended.err, ranks)
+        fault = faults_of_message(ended.err)
         return Verdict(MESSAGE, fault) if fault else None
     return None
 
@@ -89,10 +90,10 @@ def last_line(text: str) -> str:
     return (message or lines or [""])[-1][:200]
 
 
-def judge(check: Ended | None, run: Ended, out: pathlib.Path, ranks: int, expected: str = "") -> Verdict:
+def judge(check: Ended | None, run: Ended, out: pathlib.Path, expected: str = "") -> Verdict:
     """The outcome of a deck; `expected` is "", "accepted", "refused", "numerics" or "refused or numerics"."""
     for ended in (check, run):
-        fault = common_faults(ended, ranks) if ended else None
+        fault = common_faults(ended) if ended else None
         if fault:
             if ended is check:
                 fault = Verdict(HANG if fault.outcome == LONG else fault.outcome, f"check: {fault.why}")
@@ -101,7 +102,7 @@ def judge(check: Ended | None, run: Ended, out: pathlib.Path, ranks: int, expect
             return fault
     if check and check.code == 0 and run.code == 2:
         return Verdict(LATE, last_line(run.err))
-    if check and check.code != 0 and run.code != 2:
+    if check and check.code != 0 and run.code != check.code:
         return Verdict(INCONSISTENT, last_line(check.err))
     if run.code == 2 and out.exists():
         return Verdict(LEFT, f"{out.name}: {', '.join(sorted(path.name for path in out.iterdir())) or 'an empty folder'}")
