@@ -142,7 +142,8 @@ DeckSchema flowSchema() {
       .add(numberKey("chemistry.relative_tolerance", "Of the stiff solver.").byDefault("1e-6").above(0).below(1))
       .add(numberKey("chemistry.absolute_tolerance", "Of the stiff solver, in mass fraction.")
                .byDefault("1e-12")
-               .above(0));
+               .above(0)
+               .below(1));
   addTransportKeys(
       schema, {"mixture_averaged", "unity_lewis", "constant_lewis"},
       "How species diffuse: by mixture-averaged coefficients, as fast as heat, or as fast as heat over each "

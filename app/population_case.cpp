@@ -130,14 +130,13 @@ PopulationCase readPopulationCase(const Deck& deck) {
   made.bins = readBins(deck, made.times.end);
   made.repeats = static_cast<std::uint64_t>(deck.integer("repeats"));
   made.seed = static_cast<std::uint64_t>(deck.integer("seed"));
-  if (made.initial.distribution == InitialPopulation::Distribution::none && !made.model.nucleation)
-    throw deck.error("initial", "there are no particles: 'initial' has none and no process makes any");
   try {
     check(made.model, made.initial);
   } catch (const InputError& error) {
     throw deck.error("processes", error.what());
   }
   made.methods = readMethods(deck, made);
+  checkTogether(deck, made);
   for (const PopulationMethod& method : made.methods) {
     try {
       makeSolver(made, method, 0);

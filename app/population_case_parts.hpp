@@ -24,5 +24,7 @@ PopulationModel readModel(const Deck& deck);
 // Sintering makes the model's growth active.
 PopulationParticles readParticles(const Deck& deck, PopulationModel& model);
 std::vector<PopulationMethod> readMethods(const Deck& deck, const PopulationCase& populationCase);
+// Refuses what the parts, each in its range, cannot be together. InputError.
+void checkTogether(const Deck& deck, const PopulationCase& populationCase);
 
 }  // namespace lampblack::populationcase

@@ -80,6 +80,7 @@ void addParticles(DeckSchema& schema) {
   schema.add(numberKey("initial.geometric_deviation", "Geometric standard deviation of the diameter.")
                  .optional()
                  .above(1)
+                 .atMost(100)
                  .onlyWith("initial.distribution", {"lognormal"}));
 }
 
@@ -312,6 +313,7 @@ void addMethods(DeckSchema& schema) {
       .add(numberKey(at + ".absolute_tolerance", "In the largest number density.")
                .optional()
                .above(0)
+               .below(1)
                .onlyWith(at + ".type", {"sectional"}));
 }
 

@@ -37,6 +37,21 @@ void checkEnergy(const Deck& deck, const std::string& type) {
     throw deck.error("reactor.energy", "a stirred reactor has one temperature: 'isothermal' with 'temperature'");
 }
 
+// A steady state has no time; its solver has limits of its own.
+void refuseTimes(const Deck& deck) {
+  for (const char* key : {"time.maximum_step", "output.interval", "integrator"})
+    if (deck.isGiven(key))
+      throw deck.error(key,
+                       "without time.end the steady state is searched, which does not have this; leave it out, or "
+                       "give time.end");
+}
+
+void checkInterval(const Deck& deck, const std::string& key, const ReactorCase& reactorCase, double end,
+                   const std::string& endKey) {
+  if (reactorCase.output.interval && *reactorCase.output.interval > end)
+    throw deck.error(key, fmt::format("expected no more than {}, {:g} (SI)", endKey, end));
+}
+
 void readClosed(const Deck& deck, ReactorCase& reactorCase) {
   if (!deck.has("initial")) throw deck.error("initial", "a closed reactor needs the section 'initial'");
   const Mechanism& mechanism = *reactorCase.mechanism;
@@ -44,6 +59,7 @@ void readClosed(const Deck& deck, ReactorCase& reactorCase) {
                          deck.quantity("pressure"), readMixture(deck, "initial", *reactorCase.mechanism)};
   reactorCase.profile = readEnergy(deck, reactorCase.initial.temperature, "time", mechanism);
   reactorCase.end = neededQuantity(deck, "time", "end", "a closed reactor");
+  checkInterval(deck, "output.interval", reactorCase, reactorCase.end, "time.end");
   reactorcase::readIgnition(deck, reactorCase);
   reactorcase::readSensitivity(deck, reactorCase);
 }
@@ -58,12 +74,19 @@ void readPlugFlow(const Deck& deck, ReactorCase& reactorCase) {
   reactorCase.profile = readEnergy(deck, inlet.temperature, "position", mechanism);
   if (deck.has("inlet.velocity") == deck.has("inlet.mass_flow"))
     throw deck.error("inlet", "a plug flow needs either 'velocity' or 'mass_flow'");
-  if (const auto velocity = deck.optionalQuantity("inlet.velocity"))
-    reactorCase.massFlux = *velocity * Thermo(mechanism).density(inlet.temperature, inlet.pressure, inlet.Y);
-  else
+  const Thermo thermo(mechanism);
+  const double density = thermo.density(inlet.temperature, inlet.pressure, inlet.Y);
+  if (const auto velocity = deck.optionalQuantity("inlet.velocity")) {
+    if (deck.has("reactor.area")) throw deck.error("reactor.area", "it goes with 'inlet.mass_flow'; found 'velocity'");
+    reactorCase.massFlux = *velocity * density;
+  } else {
     reactorCase.massFlux =
         deck.quantity("inlet.mass_flow") / neededQuantity(deck, "reactor", "area", "a plug flow with a mass flow");
+  }
+  requireLowMach(deck, deck.has("inlet.velocity") ? "inlet.velocity" : "inlet.mass_flow", thermo,
+                 reactorCase.massFlux / density, inlet.temperature, inlet.Y);
   reactorCase.output.interval = deck.optionalQuantity("output.spacing");
+  checkInterval(deck, "output.spacing", reactorCase, reactorCase.length, "reactor.length");
 }
 
 }  // namespace
@@ -89,6 +112,10 @@ ReactorCase readReactorCase(const Deck& deck) {
   } else if (type == "stirred") {
     reactorCase.type = ReactorType::Stirred;
     reactorcase::readStirred(deck, reactorCase);
+    if (reactorCase.end == 0)
+      refuseTimes(deck);
+    else
+      checkInterval(deck, "output.interval", reactorCase, reactorCase.end, "time.end");
   } else {
     reactorCase.type = ReactorType::Network;
     reactorcase::readNetwork(deck, reactorCase);

@@ -6,10 +6,39 @@
 
 #include "app/gas_input.hpp"
 #include "app/reactor_case_parts.hpp"
+#include "chemistry/thermo/equilibrium.hpp"
+#include "chemistry/thermo/thermo.hpp"
 #include "core/errors.hpp"
 #include "core/nearest_name.hpp"
 
 namespace lampblack::reactorcase {
+namespace {
+
+// The temperature of equilibrium in an adiabatic reactor; none where it cannot be computed.
+std::optional<double> burntTemperature(const ReactorCase& reactorCase) {
+  const auto& [T, p, start] = reactorCase.initial;
+  const Thermo thermo(*reactorCase.mechanism);
+  std::vector<double> Y = start;
+  try {
+    Equilibrium equilibrium(*reactorCase.mechanism);
+    if (reactorCase.type == ReactorType::ConstantPressure)
+      return equilibrium.atEnthalpyAndPressure(thermo.enthalpyMass(T, Y), p, Y);
+    return equilibrium.atEnergyAndDensity(thermo.internalEnergyMass(T, start), thermo.density(T, p, start), Y);
+  } catch (const NumericsError&) {
+    return std::nullopt;
+  }
+}
+
+// A gas that does not become hotter does not ignite.
+void requireIgnition(const Deck& deck, const std::string& key, const ReactorCase& reactorCase) {
+  const auto burnt = burntTemperature(reactorCase);
+  if (burnt && *burnt < reactorCase.initial.temperature + 1)
+    throw deck.error(key, fmt::format("this gas does not ignite: from {:g} K it goes to an equilibrium at {:.6g} K",
+                                      reactorCase.initial.temperature, *burnt));
+}
+
+}  // namespace
+
 void readIgnition(const Deck& deck, ReactorCase& reactorCase) {
   using Kind = IgnitionCriterion::Kind;
   const Mechanism& mechanism = *reactorCase.mechanism;
@@ -25,8 +54,10 @@ void readIgnition(const Deck& deck, ReactorCase& reactorCase) {
       criteria.push_back({Kind::MassFraction, k, 0.0, "max_Y_" + mechanism.speciesName(k)});
     }
   }
-  if (const auto rise = deck.optionalQuantity("ignition.temperature_rise"))
+  if (const auto rise = deck.optionalQuantity("ignition.temperature_rise")) {
+    requireIgnition(deck, "ignition.temperature_rise", reactorCase);
     criteria.push_back({Kind::TemperatureRise, 0, *rise, fmt::format("rise_{:g}K", *rise)});
+  }
 }
 
 namespace {
@@ -64,6 +95,7 @@ void readSensitivity(const Deck& deck, ReactorCase& reactorCase) {
   auto& reactions = reactorCase.sensitivities;
   if (reactorCase.ignition.empty())
     throw deck.error("sensitivity", "there is no criterion of ignition, so that there is no delay");
+  if (!reactorCase.profile) requireIgnition(deck, "sensitivity", reactorCase);
   for (const std::string& text : deck.strings("sensitivity.reactions")) {
     if (text == "all") {
       reactions.clear();
@@ -72,6 +104,8 @@ void readSensitivity(const Deck& deck, ReactorCase& reactorCase) {
     }
     try {
       const auto found = reactionsNamed(mechanism, text);
+      if (std::find(reactions.begin(), reactions.end(), found.front()) != reactions.end())
+        throw InputError(fmt::format("the reaction '{}' is named twice", text));
       reactions.insert(reactions.end(), found.begin(), found.end());
     } catch (const InputError& error) {
       throw deck.error("sensitivity.reactions", error.what());

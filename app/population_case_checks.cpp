@@ -1,0 +1,93 @@
+// What the parts of a population balance deck, each in its range, cannot be together.
+#include <cmath>
+#include <limits>
+
+#include "app/population_case_parts.hpp"
+
+namespace lampblack::populationcase {
+namespace {
+
+// Changes by more than this factor leave the range of numbers, and a Monte Carlo sample would be refilled for ever.
+constexpr double largestExponent = 600;
+
+void requireBounded(const Deck& deck, const std::string& key, double rate, double end, const char* what) {
+  if (std::abs(rate) * end > largestExponent)
+    throw deck.error(
+        key, fmt::format("until time.end {} changes by the factor e^{:.4g}; expected e^{:g} at most, here "
+                         "a rate up to {:.4g} 1/s",
+                         what, rate * end, rate < 0 ? -largestExponent : largestExponent, largestExponent / end));
+}
+
+// Processes of the first order, whose effect until the end is known.
+void checkRates(const Deck& deck, const PopulationModel& model, double end) {
+  requireBounded(deck, "processes.condensation.rate", model.growth.condensation, end, "every volume");
+  requireBounded(deck, "processes.dilution.rate", model.dilution, end, "every number density");
+  if (model.deposition && model.deposition->exponent == 0)
+    requireBounded(deck, "processes.deposition.rate", model.deposition->rate, end, "the number density");
+  if (model.breakage && model.breakage->exponent == 0)
+    requireBounded(deck, "processes.breakage.rate", model.breakage->rate * (model.breakage->fragments - 1), end,
+                   "the number density");
+}
+
+// The smallest volume that particles begin with, of those that have one; infinite where there is none.
+double smallestStart(const PopulationCase& made) {
+  double volume = std::numeric_limits<double>::infinity();
+  if (made.initial.distribution == InitialPopulation::Distribution::monodisperse) volume = made.initial.volume;
+  if (made.model.nucleation) volume = std::min(volume, made.model.nucleation->volume);
+  return volume;
+}
+
+void checkGrowth(const Deck& deck, const PopulationCase& made) {
+  const GrowthOptions& growth = made.model.growth;
+  const double start = smallestStart(made);
+  if (growth.smallestVolume >= start)
+    throw deck.error("processes.growth.smallest_volume",
+                     fmt::format("particles begin with {:.4g} m3 and would vanish at once; expected less", start));
+  if (growth.monomer > start)
+    throw deck.error("processes.growth.monomer",
+                     fmt::format("expected at most the {:.4g} m3 that particles begin with", start));
+}
+
+// Whether nuclei appear at all before the end.
+bool nucleates(const NucleationOptions& nucleation, double end) {
+  if (nucleation.source != NucleationOptions::Source::table) return true;
+  for (std::size_t k = 1; k < nucleation.times.size(); ++k)
+    if (nucleation.times[k - 1] < end && nucleation.times[k] > 0 && nucleation.rates[k - 1] + nucleation.rates[k] > 0)
+      return true;
+  return false;
+}
+
+void checkParticles(const Deck& deck, const PopulationCase& made) {
+  if (made.initial.distribution != InitialPopulation::Distribution::none) return;
+  if (!made.model.nucleation)
+    throw deck.error("initial", "there are no particles: 'initial' has none and no process makes any");
+  if (!nucleates(*made.model.nucleation, made.times.end))
+    throw deck.error("processes.nucleation.rates",
+                     "there are no particles: 'initial' has none and the rates are zero until time.end");
+}
+
+void checkMethod(const Deck& deck, const PopulationCase& made, const PopulationMethod& method) {
+  const std::string section = "methods." + method.name;
+  const std::vector<std::string> claims = deck.strings(section + ".claims");
+  for (std::size_t i = 1; i < claims.size(); ++i)
+    if (std::find(claims.begin(), claims.begin() + static_cast<std::ptrdiff_t>(i), claims[i]) !=
+        claims.begin() + static_cast<std::ptrdiff_t>(i))
+      throw deck.error(section + ".claims", fmt::format("{} is named twice", claims[i]));
+  const auto* sections = std::get_if<SectionalOptions>(&method.options);
+  const bool spread = made.initial.distribution != InitialPopulation::Distribution::none;
+  if (sections != nullptr && spread && made.initial.volume < sections->smallest)
+    throw deck.error(section + ".smallest", fmt::format("the first pivot is above the initial particles, whose mean or "
+                                                        "median volume is {:.4g} m3",
+                                                        made.initial.volume));
+}
+
+}  // namespace
+
+void checkTogether(const Deck& deck, const PopulationCase& made) {
+  checkParticles(deck, made);
+  checkRates(deck, made.model, made.times.end);
+  checkGrowth(deck, made);
+  for (const PopulationMethod& method : made.methods) checkMethod(deck, made, method);
+}
+
+}  // namespace lampblack::populationcase
