@@ -96,6 +96,21 @@ MISTAKES = [
     ("claims", METHOD, "{type: dsmc, claims: [M4]}", ("methods.one.claims", "M0, M1, M2, M3")),
     ("no first section", METHOD, "{type: sectional, spacing: 2}", ("needs the key 'smallest'",)),
     ("two spacings", METHOD, "{type: sectional, smallest: 1 nm^3, spacing: 2, largest: 1 um^3}", ("needs either 'spacing' or 'largest'",)),
+    ("sections above the particles", METHOD, "{type: sectional, smallest: 1 um^3, largest: 1000 um^3}", ("methods.one.smallest: the first pivot is above the initial particles",)),
+    ("the same claim twice", METHOD, "{type: dsmc, claims: [M0, M1, M0]}", ("methods.one.claims: M0 is named twice",)),
+    ("nuclei that never come", INITIAL + "processes:\n", NUCLEATION + "{source: table, volume: 1 nm^3, times: [51 s, 60 s], rates: [1, 1]}\n",
+     ("processes.nucleation.rates: there are no particles",)),
+    ("nuclei that vanish at once", "processes:\n", NUCLEATION + "{rate: 1, diameter: 1 nm}\n  oxidation: {rate: 1e-12 m/s}\n  growth: {smallest_volume: 1 nm^3}\n",
+     ("processes.growth.smallest_volume: particles begin with 5.236e-28 m3",)),
+    ("monomers above nuclei", "processes:\n", NUCLEATION + "{rate: 1, diameter: 1 nm}\n  surface_growth: {rate: 1e-12 m/s}\n  growth: {treatment: jumps, monomer: 1 nm^3}\n",
+     ("processes.growth.monomer: expected at most the 5.236e-28 m3",)),
+    ("monomer of split growth", "processes:\n", "processes:\n  surface_growth: {rate: 1e-12 m/s}\n  growth: {monomer: 1 nm^3}\n",
+     ("processes.growth.monomer: 'processes.growth.treatment: split' does not have this; leave it out, or choose: jumps",)),
+    ("condensation beyond numbers", BREAKAGE, "condensation: {rate: 1e3 1/s}", ("processes.condensation.rate: until time.end every volume changes by the factor e^5e+04", "a rate up to 12 1/s")),
+    ("evaporation beyond numbers", BREAKAGE, "condensation: {rate: -1e3 1/s}", ("processes.condensation.rate: until time.end",)),
+    ("deposition beyond numbers", BREAKAGE, "deposition: {rate: 1e30 1/s}", ("processes.deposition.rate: until time.end the number density",)),
+    ("breakage beyond numbers", BREAKAGE, "breakage: {rate: 13 1/s}", ("processes.breakage.rate: until time.end the number density",)),
+    ("dilution beyond numbers", BREAKAGE, "dilution: {rate: -13 1/s}", ("processes.dilution.rate: until time.end every number density",)),
     # The rest.
     ("zero repeats", "repeats: 20", "repeats: 0", ("repeats", "from 1 to")),
     ("negative seed", "repeats: 20", "seed: -1", ("seed", "at least 0")),
@@ -120,6 +135,7 @@ def main(executable: str, ranks: str, *mpiexec: str) -> int:
             path.write_text(DECK.replace(old, new), encoding="utf-8")
             result = program("run", path, "--out", pathlib.Path(folder) / "out")
             problems = [] if result.code == 2 else [f"exit code {result.code}"]
+            problems += running.differs_from_check(program, result, path)
             lines = result.err.splitlines()
             if not lines or not re.match(rf"lampblack: {re.escape(str(path))}:", lines[0]):
                 problems.append("does not start with the deck's name")

@@ -84,6 +84,28 @@ MISTAKES = [
     ("profile without energy", CLOSED, "time:", "temperature_profile:\n  time: [0 s]\n  temperature: [300 K]\ntime:", ("'reactor.energy: adiabatic' does not have this; leave it out, or choose: profile",)),
     ("energy without profile", CLOSED, "  type: constant_pressure", "  type: constant_pressure\n  energy: profile", ("needs the section 'temperature_profile'",)),
     ("section of another type", CLOSED, "time:", "network: {reactors: {a: {volume: 1 m^3}}, inlets: {b: {to: a, mass_flow: 1, temperature: 300}}}\ntime:", ("network: 'reactor.type: constant_pressure' does not have this",)),
+    ("sensitivity of what does not burn", CLOSED, '"O2: 1, N2: 3.76"\n  equivalence_ratio: 1', '"O2: 1, N2: 3.76"\n  equivalence_ratio: 0',
+     ("sensitivity: this gas does not ignite: from 1200 K it goes to an equilibrium at 1199",)),
+    ("rise of what does not burn", CLOSED, CLOSED[CLOSED.index("  fuel"):CLOSED.index("sensitivity")],
+     '  composition: "N2: 1"\ntime: {end: 1 ms}\nignition: {temperature_rise: 400 K}\n', ("ignition.temperature_rise: this gas does not ignite",)),
+    ("reaction twice", CLOSED, "[all]", "[3, 3]", ("sensitivity.reactions: the reaction '3' is named twice",)),
+    ("species of ignition twice", CLOSED, "sensitivity:", "ignition: {species: [OH, OH]}\nsensitivity:", ("ignition.species: 'OH' is named twice",)),
+    ("all and more", CLOSED, "sensitivity:", "output: {species: [OH, all]}\nsensitivity:", ("output.species: 'all' stands alone",)),
+    ("rise of an isothermal reactor", CLOSED, "constant_pressure", "constant_pressure\n  energy: isothermal\nignition: {temperature_rise: 400 K}",
+     ("ignition.temperature_rise: 'reactor.energy: isothermal' does not have this; leave it out, or choose: adiabatic",)),
+    ("rows beyond the end", CLOSED, "sensitivity:", "output: {interval: 2 ms}\nsensitivity:", ("output.interval: expected no more than time.end",)),
+    ("rows beyond the duct", PLUG_FLOW, "inlet:", "output: {spacing: 2 m}\ninlet:", ("output.spacing: expected no more than reactor.length",)),
+    ("key of another reactor", CLOSED, "  type: constant_pressure", "  type: constant_pressure\n  residence_time: 1 s",
+     ("reactor.residence_time: 'reactor.type: constant_pressure' does not have this; leave it out, or choose: stirred",)),
+    ("temperature of an adiabatic reactor", CLOSED, "  type: constant_pressure", "  type: constant_pressure\n  temperature: 900 K",
+     ("reactor.temperature: 'reactor.energy: adiabatic' does not have this",)),
+    ("profile over time along a duct", PLUG_FLOW, "  length: 1 m", "  length: 1 m\n  energy: profile\ntemperature_profile: {time: [0 s], temperature: [900 K]}",
+     ("temperature_profile.time: 'reactor.type: plug_flow' does not have this",)),
+    ("end of a plug flow", PLUG_FLOW, "inlet:", "time: {end: 1 s}\ninlet:", ("time.end: 'reactor.type: plug_flow' does not have this",)),
+    ("area of a velocity", PLUG_FLOW, "  length: 1 m", "  length: 1 m\n  area: 1 cm^2", ("reactor.area: it goes with 'inlet.mass_flow'",)),
+    ("plug flow near the speed of sound", PLUG_FLOW, "1 m/s", "300 m/s", ("inlet.velocity: 300 m/s is Mach 0.3",)),
+    ("rows of a steady state", STIRRED, "inlet:", "output: {interval: 1 ms}\ninlet:", ("output.interval: without time.end the steady state is searched",)),
+    ("tolerance of a network", NETWORK, "network:", "integrator: {relative_tolerance: 1e-6}\nnetwork:", ("integrator: 'reactor.type: network' does not have this",)),
     ("stirred without a size", STIRRED, "  residence_time: 1 ms\n", "", ("needs either 'volume' or 'residence_time'",)),
     ("volume without flow", STIRRED, "residence_time: 1 ms", "volume: 1 cm^3", ("needs the key 'mass_flow'",)),
     ("ignition of a stirred reactor", STIRRED, "inlet:", "ignition:\n  species: [OH]\ninlet:", ("ignition: 'reactor.type: stirred' does not have this",)),
@@ -107,6 +129,7 @@ def main(executable: str, ranks: str, *mpiexec: str) -> int:
             path.write_text(deck.replace(old, new), encoding="utf-8")
             result = program("run", path, "--out", pathlib.Path(folder) / "out")
             problems = [] if result.code == 2 else [f"exit code {result.code}"]
+            problems += running.differs_from_check(program, result, path)
             lines = result.err.splitlines()
             if not lines or not re.match(rf"lampblack: {re.escape(str(path))}:", lines[0]):
                 problems.append("does not start with the deck's name")

@@ -51,6 +51,13 @@ class Program:
         return Result(done.returncode, done.stdout, done.stderr)
 
 
+def differs_from_check(program: Program, result: Result, deck, *arguments) -> list:
+    """Problems where `check` does not refuse a deck as a run did: the same exit code and message, nothing else."""
+    checked = program("check", deck, *arguments)
+    same = (checked.code, checked.out, checked.err) == (result.code, "", result.err)
+    return [] if same else [f"check says otherwise, with exit code {checked.code}: {checked.out}{checked.err}"]
+
+
 def at_once(work, tasks) -> list:
     """The results of work on each task, four at a time: starting a program is mostly waiting."""
     with concurrent.futures.ThreadPoolExecutor(4) as pool:

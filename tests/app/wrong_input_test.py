@@ -182,6 +182,7 @@ class Checker:
         before = running.snapshot(self.folder)
         result = self.program("run", deck, *running.settings(*wrong.settings), "--out", self.folder / "out")
         problems = self.one_message(result.err)
+        problems += running.differs_from_check(self.program, result, deck, *running.settings(*wrong.settings))
         message = result.err.split("\n", 1)[0]
         place = f"--set {wrong.settings[0]}: " if wrong.settings else f"{deck}:"
         if wrong.at:

@@ -1,0 +1,69 @@
+// The problems as a table: what holds for the decks of all of them.
+#include "app/problem.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tests/app/app_fixture.hpp"
+
+namespace lampblack {
+namespace {
+
+using testing::HasSubstr;
+
+std::vector<std::filesystem::path> shippedDecks() {
+  std::vector<std::filesystem::path> decks;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(test::sourceFolder / "cases"))
+    if (entry.path().filename() == "deck.yaml") decks.push_back(entry.path());
+  return decks;
+}
+
+// With every result stands the deck it was made from, defaults included. Read again it is the same deck: no default
+// stands in it that another choice of the deck refuses.
+TEST(Problems, TheDeckOfARunCanBeReadAgain) {
+  const auto decks = shippedDecks();
+  EXPECT_GT(decks.size(), 5U);
+  for (const auto& path : decks) {
+    SCOPED_TRACE(path.string());
+    const std::string resolved = Deck::load(path, {}, deckKinds(), MPI_COMM_SELF).resolved();
+    EXPECT_EQ(Deck::parse(resolved, path, {}, deckKinds()).resolved(), resolved);
+  }
+}
+
+// What a run starts from is made before there is a folder, and what is wrong with it stands at its place in the deck.
+TEST(Problems, AFlameThatCannotBurnIsRefusedWhereItIsPrepared) {
+  const auto path = test::sourceFolder / "cases/flame_free_hydrogen/deck.yaml";
+  const auto prepare = [&](const std::vector<std::string>& overrides) {
+    const Deck deck = Deck::load(path, overrides, deckKinds(), MPI_COMM_SELF);
+    return problemOf(deck).prepare(MPI_COMM_SELF, deck)->summary();
+  };
+  EXPECT_THAT(prepare({}), HasSubstr("free flame, 10 species"));
+  try {
+    (void)prepare({"inlet={temperature: 300 K, composition: \"O2: 1, N2: 4\"}"});
+    FAIL() << "a flame without fuel was prepared";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("inlet: "));
+    EXPECT_THAT(error.what(), HasSubstr("fuel"));
+  }
+}
+
+TEST(FlowCase, AnEdgeInsideAFaceIsTold) {
+  const auto notes = [](const std::string& to) {
+    return readFlowCase(test::flameDeck({"boundaries.fuel.to=" + to, "boundaries.fuel_flange.from=" + to})).notes;
+  };
+  EXPECT_TRUE(notes("10 mm").empty());
+  const auto told = notes("9.5 mm");
+  ASSERT_EQ(told.size(), 2U);
+  EXPECT_THAT(told[0], HasSubstr("the boundary fuel has its edge at 0.0095 m inside a face"));
+  EXPECT_THAT(told[0], HasSubstr("the nearest edge of a face is at 0.01 m"));
+}
+
+// Just below and above Mach 0.3 of ethylene at 299 K (331.5 m/s).
+TEST(FlowCase, InletsAreSlowerThanMachThreeTenths) {
+  EXPECT_NO_THROW((void)readFlowCase(test::flameDeck({"boundaries.fuel.velocity=99 m/s"})));
+  EXPECT_THROW((void)readFlowCase(test::flameDeck({"boundaries.fuel.velocity=100 m/s"})), InputError);
+}
+
+}  // namespace
+}  // namespace lampblack
