@@ -135,8 +135,9 @@ PopulationCase readPopulationCase(const Deck& deck) {
   } catch (const InputError& error) {
     throw deck.error("processes", error.what());
   }
+  checkProcesses(deck, made);
   made.methods = readMethods(deck, made);
-  checkTogether(deck, made);
+  checkMethods(deck, made);
   for (const PopulationMethod& method : made.methods) {
     try {
       makeSolver(made, method, 0);

@@ -83,10 +83,13 @@ void checkMethod(const Deck& deck, const PopulationCase& made, const PopulationM
 
 }  // namespace
 
-void checkTogether(const Deck& deck, const PopulationCase& made) {
+void checkProcesses(const Deck& deck, const PopulationCase& made) {
   checkParticles(deck, made);
   checkRates(deck, made.model, made.times.end);
   checkGrowth(deck, made);
+}
+
+void checkMethods(const Deck& deck, const PopulationCase& made) {
   for (const PopulationMethod& method : made.methods) checkMethod(deck, made, method);
 }
 

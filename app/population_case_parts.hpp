@@ -24,7 +24,8 @@ PopulationModel readModel(const Deck& deck);
 // Sintering makes the model's growth active.
 PopulationParticles readParticles(const Deck& deck, PopulationModel& model);
 std::vector<PopulationMethod> readMethods(const Deck& deck, const PopulationCase& populationCase);
-// Refuses what the parts, each in its range, cannot be together. InputError.
-void checkTogether(const Deck& deck, const PopulationCase& populationCase);
+// Refuse what the parts, each in its range, cannot be together. InputError.
+void checkProcesses(const Deck& deck, const PopulationCase& populationCase);
+void checkMethods(const Deck& deck, const PopulationCase& populationCase);
 
 }  // namespace lampblack::populationcase
