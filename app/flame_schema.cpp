@@ -232,9 +232,9 @@ void addUnsteady(DeckSchema& schema) {
 DeckSchema flameSchema() {
   DeckSchema schema;
   schema.add(choiceKey("problem", {"flame1d"}, "What is solved."))
-      .add(stringKey("title", "One line for reports and pictures.").byDefault("''"))
-      .add(stringKey("mechanism", "Mechanism file in Cantera's YAML format, relative to the deck."))
-      .add(quantityKey("pressure", units::pressure, "Pressure.").byDefault("1 atm").above(0));
+      .add(stringKey("title", "One line for reports and pictures.").byDefault("''"));
+  addMechanismKeys(schema);
+  schema.add(quantityKey("pressure", units::pressure, "Pressure.").byDefault("1 atm").above(0));
   addFlame(schema);
   addPhysics(schema);
   addSootModelKeys(schema);

@@ -124,9 +124,9 @@ void addParticles(DeckSchema& schema) {
 DeckSchema flowSchema() {
   DeckSchema schema;
   schema.add(choiceKey("problem", {"flow"}, "What is solved."))
-      .add(stringKey("title", "One line for reports and pictures.").byDefault("''"))
-      .add(stringKey("mechanism", "Mechanism file in Cantera's YAML format, relative to the deck."))
-      .add(quantityKey("pressure", units::pressure, "Thermodynamic pressure.").byDefault("1 atm").above(0))
+      .add(stringKey("title", "One line for reports and pictures.").byDefault("''"));
+  addMechanismKeys(schema);
+  schema.add(quantityKey("pressure", units::pressure, "Thermodynamic pressure.").byDefault("1 atm").above(0))
       .add(integerKey("seed", "Of all random numbers.").byDefault("1").atLeast(0));
   addMesh(schema);
   addBoundaries(schema);

@@ -150,6 +150,7 @@ void addGasCommand(CLI::App& app, std::function<void()>& command) {
   gas->add_option("mechanism", arguments->files.mechanism, "Mechanism: YAML by its ending, else CHEMKIN.")->required();
   gas->add_option("thermo", arguments->files.thermo, "CHEMKIN thermodynamic data.");
   gas->add_option("transport-data", arguments->files.transport, "CHEMKIN transport data.");
+  gas->add_option("--phase", arguments->files.phase, "Phase of a YAML file; without it the first ideal gas.");
   gas->add_option("-T,--T", arguments->temperature, "Temperature: 1500, \"1500 K\".")->required();
   gas->add_option("-p,--p", arguments->pressure, "Pressure: 101325, \"1 atm\".")->default_val("1 atm");
   gas->add_option("-X,--X", arguments->moleFractions, "Mole fractions, scaled to one: \"CH4:1, O2:2, N2:7.52\".");

@@ -90,10 +90,15 @@ std::vector<double> readMixture(const Deck& deck, const std::string& section, co
   return Y;
 }
 
+void addMechanismKeys(DeckSchema& schema) {
+  schema.add(stringKey("mechanism", "Mechanism file in Cantera's YAML format, relative to the deck."))
+      .add(stringKey("phase", "Name of the phase of the mechanism file; without it the first ideal gas.").optional());
+}
+
 std::shared_ptr<const Mechanism> readMechanism(const Deck& deck) {
   return at(deck, "mechanism", [&] {
-    auto mechanism =
-        std::make_shared<const Mechanism>(Mechanism::fromFile(deck.resolvePath(deck.string("mechanism")).string()));
+    auto mechanism = std::make_shared<const Mechanism>(Mechanism::fromFile(
+        deck.resolvePath(deck.string("mechanism")).string(), deck.optionalString("phase").value_or("")));
     printWarnings(mechanism->warnings());
     return mechanism;
   });

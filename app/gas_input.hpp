@@ -24,7 +24,10 @@ std::vector<double> readMixture(const Deck& deck, const std::string& section, co
 std::vector<double> mixByEquivalenceRatio(const Mechanism& mechanism, const std::vector<double>& fuel,
                                           const std::vector<double>& oxidizer, double ratio);
 
-// The mechanism a deck names by its key `mechanism`; rank 0 prints its warnings. InputError at that key.
+// Adds `mechanism` and `phase`.
+void addMechanismKeys(DeckSchema& schema);
+
+// The mechanism a deck names by these keys; rank 0 prints its warnings. InputError at `mechanism`.
 std::shared_ptr<const Mechanism> readMechanism(const Deck& deck);
 
 // Adds `transport.model` with these choices, `transport.lewis_numbers` and `transport.collision_integrals`.

@@ -66,6 +66,7 @@ std::string summary(const Mechanism& mechanism) {
       {Type::ChemicallyActivated, "    chemically activated"},
       {Type::PressureLog, "    tabulated over pressure (PLOG)"},
       {Type::Chebyshev, "    Chebyshev"},
+      {Type::LinearBurke, "    linear mixture rule (linear-Burke)"},
   };
   for (const auto& [type, name] : names)
     if (const auto n = count([&](const Reaction& r) { return r.type == type; }); n > 0) line(name, n);
@@ -102,6 +103,7 @@ void addMechanismCommand(CLI::App& app, std::function<void()>& command) {
       ->required();
   mechanism->add_option("thermo", arguments->files.thermo, "CHEMKIN thermodynamic data (therm.dat).");
   mechanism->add_option("transport", arguments->files.transport, "CHEMKIN transport data (tran.dat).");
+  mechanism->add_option("--phase", arguments->files.phase, "Phase of a YAML file; without it the first ideal gas.");
   mechanism->add_option("-o,--output", arguments->output, "YAML file to write; without it, check and summarise only.");
   mechanism->callback([arguments, &command] { command = [arguments] { run(*arguments); }; });
 }

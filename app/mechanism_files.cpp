@@ -17,6 +17,11 @@ bool isYaml(const std::string& path) {
 
 Mechanism readMechanism(const MechanismFiles& files) {
   if (!isYaml(files.mechanism)) {
+    if (!files.phase.empty())
+      throw InputError(
+          fmt::format("--phase: phases are those of YAML files, by the endings .yaml and .yml; found '{}' "
+                      "and the phase '{}'",
+                      files.mechanism, files.phase));
     const auto optional = [](const std::string& path) { return path.empty() ? std::nullopt : std::optional(path); };
     return readChemkin({files.mechanism, optional(files.thermo), optional(files.transport)});
   }
@@ -25,7 +30,7 @@ Mechanism readMechanism(const MechanismFiles& files) {
         fmt::format("{} is YAML, which holds thermodynamic and transport data itself; expected no further "
                     "file, found '{}'",
                     files.mechanism, files.thermo));
-  return Mechanism::fromFile(files.mechanism);
+  return Mechanism::fromFile(files.mechanism, files.phase);
 }
 
 }  // namespace lampblack

@@ -150,11 +150,11 @@ void addIgnition(DeckSchema& schema) {
 DeckSchema reactorSchema() {
   DeckSchema schema;
   schema.add(choiceKey("problem", {"reactor"}, "What is solved."))
-      .add(stringKey("title", "One line for reports and pictures.").byDefault("''"))
-      .add(stringKey("mechanism", "Mechanism file in Cantera's YAML format, relative to the deck."))
-      .add(quantityKey("pressure", units::pressure, "Pressure; of constant_volume at the start.")
-               .byDefault("1 atm")
-               .above(0));
+      .add(stringKey("title", "One line for reports and pictures.").byDefault("''"));
+  addMechanismKeys(schema);
+  schema.add(quantityKey("pressure", units::pressure, "Pressure; of constant_volume at the start.")
+                 .byDefault("1 atm")
+                 .above(0));
   addReactor(schema);
   schema
       .section("initial", Presence::optional, "The gas at the start; a stirred reactor may do without.",

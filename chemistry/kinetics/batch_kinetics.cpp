@@ -10,7 +10,10 @@
 
 #include "chemistry/kinetics/batch_kinetics_tables.hpp"
 #include "chemistry/kinetics/batch_kinetics_targets.hpp"
+#include "chemistry/kinetics/kinetics_enthalpy.hpp"
+#include "chemistry/kinetics/kinetics_linear_burke.hpp"
 #include "chemistry/kinetics/kinetics_pressure.hpp"
+#include "chemistry/thermo/species_thermo.hpp"
 #include "core/errors.hpp"
 
 namespace lampblack {
@@ -30,14 +33,20 @@ struct BatchKinetics::State {
       : tables(mechanism), batchTables(mechanism, tables), view(batchTables.view()) {
     const std::size_t species = batchTables.numSpecies(), bodies = view.thirdBodies.size,
                       entries = batchTables.numEntries();
-    const std::pair<double**, std::size_t> parts[] = {
-        {&work.c, species},        {&work.g, species},
-        {&work.s, species},        {&work.z, species},
-        {&work.wdot, species + 1}, {&work.wdotByLogs, species + 1},
-        {&work.M, bodies},         {&work.logM, bodies},
-        {&work.E, entries},        {&work.factors, view.factorExponentials.size},
-        {&work.X, entries},        {&work.centre, view.broadened.size},
-        {&work.F, entries}};
+    const std::pair<double**, std::size_t> parts[] = {{&work.c, species},
+                                                      {&work.g, species},
+                                                      {&work.s, species},
+                                                      {&work.z, species},
+                                                      {&work.wdot, species + 1},
+                                                      {&work.wdotByLogs, species + 1},
+                                                      {&work.M, bodies},
+                                                      {&work.logM, bodies},
+                                                      {&work.E, entries},
+                                                      {&work.factors, view.factorExponentials.size},
+                                                      {&work.X, entries},
+                                                      {&work.centre, view.broadened.size},
+                                                      {&work.given, view.given.size},
+                                                      {&work.F, entries}};
     std::size_t rows = 0;
     for (const auto& [start, count] : parts) rows += count;
     memory.resize(rows);
@@ -50,13 +59,55 @@ struct BatchKinetics::State {
     std::fill_n(work.E + view.exponentials.size * batchLanes, batchLanes, 1.0);  // the entry that is always one
     if (std::any_of(tables.pressureLog.sign.begin(), tables.pressureLog.sign.end(), [](double s) { return s < 0; }))
       sums.emplace(tables);
+    if (view.given.size > 0) given.emplace(mechanism, tables);
   }
+
+  // The factors that the kernel is given, one state after the other: those of the rarer kinds of rates.
+  struct Given {
+    Given(const Mechanism& mechanism, const KineticsTables& tables)
+        : thermo(mechanism.allSpecies()),
+          enthalpies(tables),
+          linearBurke(mechanism, tables),
+          enthalpy(mechanism.numSpecies()),
+          c(mechanism.numSpecies()),
+          lnBase(tables.numReactions) {}
+
+    const double* evaluate(const KineticsTables& tables, std::span<const double> T, const double* concentrations,
+                           std::size_t stride) {
+      const std::size_t n = T.size(), first = tables.enthalpyDependent.size();
+      factors.resize((first + tables.linearBurke.size()) * n);
+      for (std::size_t i = 0; i < n; ++i) {
+        const double lnT = std::log(T[i]);
+        if (first > 0) {
+          thermo.enthalpyOverRT(T[i], enthalpy.data());
+          const auto logarithms = enthalpies.logarithms(tables, T[i], enthalpy.data());
+          for (std::size_t e = 0; e < first; ++e) factors[e * n + i] = std::exp(logarithms[e]);
+        }
+        double total = 0;
+        for (std::size_t k = 0; k < c.size(); ++k) total += c[k] = concentrations[k * stride + i];
+        for (const auto& one : tables.linearBurke) {
+          const auto r = one.reaction;
+          lnBase[r] = tables.lnA[r] + tables.b[r] * lnT - tables.Ta[r] / T[i];
+        }
+        linearBurke.setTemperature(T[i], lnT, lnBase.data());
+        const auto mixed = linearBurke.evaluate(c.data(), total);
+        for (std::size_t e = 0; e < mixed.size(); ++e) factors[(first + e) * n + i] = mixed[e];
+      }
+      return factors.data();
+    }
+
+    SpeciesThermo thermo;
+    EnthalpyFactors enthalpies;
+    LinearBurkeFactors linearBurke;
+    std::vector<double> enthalpy, c, lnBase, factors;
+  };
 
   KineticsTables tables;
   BatchTables batchTables;
   BatchView view;
   BatchWork work{};
   std::vector<Row> memory;
+  std::optional<Given> given;
   std::optional<PressureRates> sums;  // refuses temperatures at which rate constants add up to nothing positive
 };
 
@@ -122,7 +173,9 @@ void BatchKinetics::netProductionRates(std::span<const double> T, std::span<cons
                                             T.size(), stride, needed, concentrations.size(), wdot.size()));
   if (state_->sums)
     for (const double temperature : T) state_->sums->setTemperature(state_->tables, temperature, std::log(temperature));
-  const BatchStates states{T.size(), T.data(), concentrations.data(), stride, wdot.data(), stride};
+  const double* given =
+      state_->given ? state_->given->evaluate(state_->tables, T, concentrations.data(), stride) : nullptr;
+  const BatchStates states{T.size(), T.data(), concentrations.data(), stride, wdot.data(), stride, given};
   switch (instructions_) {
 #if defined(__x86_64__)
     case Instructions::Avx512:

@@ -1,6 +1,7 @@
 // Net production rates of many states at once, one state a vector lane: the batch counterpart of Kinetics for the same
-// mechanisms, several times faster. The vector instructions (AVX-512, AVX2 and FMA, or what any processor has) are
-// chosen when the program runs. An object holds its workspace, so use one per thread or rank.
+// mechanisms, several times faster (Blowers-Masel and linear-Burke constants are computed one state after the other).
+// The vector instructions (AVX-512, AVX2 and FMA, or what any processor has) are chosen when the program runs. An
+// object holds its workspace, so use one per thread or rank.
 //
 // The rates of a state depend on its temperature and concentrations alone: not on its place in the batch, on the other
 // states or on their number, to the last bit. They agree with Kinetics to round-off, and between instruction sets.

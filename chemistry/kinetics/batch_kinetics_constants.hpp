@@ -91,7 +91,7 @@ class BatchConstants {
     }
     for (std::size_t i = 0; i < view.broadened.size; ++i) {
       const BatchFalloff& r = view.broadened.data[i];
-      D centre = D{};
+      D centre = V::all(r.byT) * t.T;
       for (std::uint32_t n = 0; n < r.numTerms; ++n)
         centre = V::multiplyAdd(V::all(r.weight[n]), V::load(work.factors + r.first + (n + 1) * lanes), centre);
       V::store(work.centre + i * lanes, log2<V>(V::larger(V::all(tiny), centre)));
@@ -112,6 +112,10 @@ class BatchConstants {
         V::store(work.E + i * lanes, exp2Inside<V>(x));
       else
         V::store(work.X + i * lanes, x);
+    }
+    for (std::size_t i = 0; i < view.given.size; ++i) {
+      const BatchGiven& r = view.given.data[i];
+      multiply<ByProducts>(work, r.entry, r.base, V::load(work.given + i * lanes));
     }
     for (std::size_t i = 0; i < view.threeBody.size; ++i) {
       const BatchThreeBody& r = view.threeBody.data[i];
@@ -145,7 +149,7 @@ class BatchConstants {
       V::store(work.E + entry, V::load(work.E + base) * factor);
     } else {
       V::store(work.X + entry, V::load(work.X + base));
-      V::store(work.F + entry, factor);
+      V::store(work.F + entry, V::load(work.F + base) * factor);
     }
   }
 

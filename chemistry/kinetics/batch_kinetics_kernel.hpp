@@ -32,6 +32,8 @@ class BatchKernel {
         V::store(work.c + k * lanes, value);
         total += value;
       }
+      for (std::size_t i = 0; i < view.given.size; ++i)
+        V::store(work.given + i * lanes, V::loadUnaligned(states.given + i * states.n + first));
       const double* rates = block(view, work, V::loadUnaligned(states.T + first), total);
       double* wdot = states.wdot + first;
       for (std::size_t k = 0; k < view.numSpecies; ++k)
@@ -52,6 +54,9 @@ class BatchKernel {
       for (std::size_t i = 0; i < lanes; ++i) row[i] = i < count ? states.c[k * states.stride + first + i] : 0.0;
       total += V::load(row);
     }
+    for (std::size_t g = 0; g < view.given.size; ++g)
+      for (std::size_t i = 0; i < lanes; ++i)
+        work.given[g * lanes + i] = i < count ? states.given[g * states.n + first + i] : 1.0;
     const double* rates = block(view, work, V::load(T), total);
     for (std::size_t k = 0; k < view.numSpecies; ++k)
       for (std::size_t i = 0; i < count; ++i) states.wdot[k * states.wdotStride + first + i] = rates[k * lanes + i];

@@ -27,6 +27,7 @@ BatchTables::BatchTables(const Mechanism& mechanism, const KineticsTables& table
     : numSpecies_(mechanism.numSpecies()) {
   setSpecies(mechanism);
   setExponentials(tables);
+  setGiven(tables);
   setThirdBodies(tables);
   setFalloff(tables);
   setPressureRates(tables);
@@ -46,6 +47,7 @@ BatchView BatchTables::view() const {
   view.nasa9 = viewOf(nasa9_);
   view.thirdBodies = viewOf(thirdBodies_);
   view.exponentials = viewOf(exponentials_);
+  view.given = viewOf(given_);
   view.threeBody = viewOf(threeBody_);
   view.factorExponentials = viewOf(factorExponentials_);
   view.lindemann = viewOf(lindemann_);
@@ -113,6 +115,16 @@ void BatchTables::setExponentials(const KineticsTables& tables) {
   }
 }
 
+// In the order in which BatchKinetics computes the factors.
+void BatchTables::setGiven(const KineticsTables& tables) {
+  const auto add = [this](std::size_t reaction) {
+    given_.push_back({newEntry(), entry_[reaction]});
+    entry_[reaction] = given_.back().entry;
+  };
+  for (const auto& one : tables.enthalpyDependent) add(one.reaction);
+  for (const auto& one : tables.linearBurke) add(one.reaction);
+}
+
 void BatchTables::setThirdBodies(const KineticsTables& tables) {
   for (const auto& set : tables.sets) {
     const std::uint32_t begin = addTerms(set.excess);
@@ -151,12 +163,13 @@ void BatchTables::setFalloff(const KineticsTables& tables) {
       falloff.weight[falloff.numTerms++] = weight;
       factorExponentials_.push_back({0.0, 0.0, kLog2E * byInverse, kLog2E * byT});
     };
+    falloff.byT = f.byT[i];
     addTerm(f.w3[i], -f.inverseT3[i], 0.0);
     addTerm(f.w1[i], -f.inverseT1[i], 0.0);
     addTerm(f.w2[i], 0.0, -f.T2[i]);
     const auto& last = factorExponentials_.back();
     const bool centreIsOne = falloff.numTerms == 1 && falloff.weight[0] == 1 && last.Ta == 0 && last.byT == 0 &&
-                             falloff.logScale == 0 && falloff.scaleExponent == 0;
+                             falloff.byT == 0 && falloff.logScale == 0 && falloff.scaleExponent == 0;
     if (centreIsOne) {
       factorExponentials_.pop_back();
       lindemann_.push_back(falloff);

@@ -45,6 +45,7 @@ class BatchTables {
   std::uint32_t newEntry() { return row(numEntries_++); }
   void setSpecies(const Mechanism& mechanism);
   void setExponentials(const KineticsTables& tables);
+  void setGiven(const KineticsTables& tables);
   void setThirdBodies(const KineticsTables& tables);
   void setFalloff(const KineticsTables& tables);
   void setPressureRates(const KineticsTables& tables);
@@ -63,6 +64,7 @@ class BatchTables {
   std::vector<BatchNasa9Range> nasa9_;
   std::vector<BatchThirdBody> thirdBodies_;
   std::vector<BatchExponential> exponentials_;
+  std::vector<BatchGiven> given_;
   std::vector<BatchThreeBody> threeBody_;
   std::vector<BatchFactorExponential> factorExponentials_;
   std::vector<BatchFalloff> lindemann_, broadened_;

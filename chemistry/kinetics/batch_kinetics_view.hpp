@@ -46,6 +46,11 @@ struct BatchExponential {
   double logA, b, Ta;
 };
 
+// E[entry] = E[base] times a factor that is given for every state
+struct BatchGiven {
+  std::uint32_t entry, base;  // rows
+};
+
 // E[entry] = E[base] [M]
 struct BatchThreeBody {
   std::uint32_t entry, base, set;  // rows
@@ -57,7 +62,7 @@ struct BatchFactorExponential {
 };
 
 // E[entry] = E[base] F Pr/(1 + Pr), or E[base] F/(1 + Pr) if chemically activated. The row `first` of factor
-// exponentials is Pr/[M], and numTerms more follow. With Fcent = sum_i weight_i of them,
+// exponentials is Pr/[M], and numTerms more follow. With Fcent = byT T + sum_i weight_i of them,
 //   u = shift0 + shift1 log2 Fcent + log10 Pr,  v = width0 + width1 log2 Fcent - slope u,
 //   log2 F = logScale + scaleExponent log2 T + log2 Fcent/(1 + (u/v)^2).
 struct BatchFalloff {
@@ -65,7 +70,7 @@ struct BatchFalloff {
   std::uint32_t numTerms;
   bool activated;
   BatchFactorExponential ratio;  // that of `first`
-  double weight[3];
+  double weight[3], byT;
   double shift0, shift1, width0, width1, slope, logScale, scaleExponent;
 };
 
@@ -122,6 +127,7 @@ struct BatchView {
   BatchArray<BatchNasa9Range> nasa9;
   BatchArray<BatchThirdBody> thirdBodies;
   BatchArray<BatchExponential> exponentials;
+  BatchArray<BatchGiven> given;
   BatchArray<BatchThreeBody> threeBody;
   BatchArray<BatchFactorExponential> factorExponentials;
   BatchArray<BatchFalloff> lindemann;  // F = 1
@@ -142,6 +148,7 @@ struct BatchWork {
   double* g;        // log2 (RT/p0 exp(g/RT))
   double* s;        // 2^-g: p0/RT exp(-g/RT)
   double* z;        // c/s
+  double* given;    // factors of the entries `given`
   double* M;        // of each third-body set
   double* logM;     // log2 of it, where a fall-off reaction asks
   double* factors;  // of each factor exponential
@@ -161,6 +168,7 @@ struct BatchStates {
   std::size_t stride;
   double* wdot;
   std::size_t wdotStride;
+  const double* given;  // the factors: that of entry i for state j at i * n + j
 };
 
 }  // namespace lampblack

@@ -29,6 +29,15 @@ void Kinetics::updateTemperature(double T) {
     evaluate(0, tables_.constantBegin);
     evaluate(tables_.constantEnd, tables_.numReactions);
   }
+  if (!tables_.enthalpyDependent.empty()) {
+    thermo_.enthalpyOverRT(T, enthalpy_.data());
+    const auto logarithms = enthalpyFactors_.logarithms(tables_, T, enthalpy_.data());
+    for (std::size_t i = 0; i < logarithms.size(); ++i) {
+      const auto r = tables_.enthalpyDependent[i].reaction;
+      lnkf[r] += logarithms[i];
+      kf[r] = vectormath::expOne(lnkf[r]);
+    }
+  }
   thermo_.gibbsOverRT(T, lnT, gibbs_.data());
   // ln Kc = -sum nu g/RT + sum nu ln(p0/RT); kr = kf/Kc
   const double lnStandard = std::log(constants::oneAtmosphere / constants::gasConstant) - lnT;
@@ -57,6 +66,7 @@ void Kinetics::updateTemperature(double T) {
     }
   falloff_.setTemperature(tables_, T, lnT, lnkf);
   pressureRates_.setTemperature(tables_, T, lnT);
+  linearBurke_.setTemperature(T, lnT, lnkf);
   temperature_ = T;
 }
 
@@ -80,6 +90,11 @@ void Kinetics::updateFactors() {
   for (std::size_t i = 0; i < falloffFactors.size(); ++i) {
     const auto r = tables_.falloff.reaction[i];
     factor_[r] = multiplier_[r] * falloffFactors[i];
+  }
+  const auto mixed = linearBurke_.evaluate(c_.data(), totalConcentration_);
+  for (std::size_t i = 0; i < mixed.size(); ++i) {
+    const auto r = tables_.linearBurke[i].reaction;
+    factor_[r] = multiplier_[r] * mixed[i];
   }
   if (tables_.pressureLog.reaction.empty() && tables_.chebyshev.reaction.empty()) return;
   lnPressure_ = std::log(constants::gasConstant * temperature_ * std::max(totalConcentration_, smallestConcentration));

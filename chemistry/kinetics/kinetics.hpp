@@ -16,8 +16,10 @@
 #include <span>
 #include <vector>
 
+#include "chemistry/kinetics/kinetics_enthalpy.hpp"
 #include "chemistry/kinetics/kinetics_falloff.hpp"
 #include "chemistry/kinetics/kinetics_jacobian_table.hpp"
+#include "chemistry/kinetics/kinetics_linear_burke.hpp"
 #include "chemistry/kinetics/kinetics_pressure.hpp"
 #include "chemistry/kinetics/kinetics_tables.hpp"
 #include "chemistry/mechanism/mechanism.hpp"
@@ -98,13 +100,15 @@ class Kinetics {
   SpeciesThermo thermo_;
   FalloffFactors falloff_;
   PressureRates pressureRates_;
+  EnthalpyFactors enthalpyFactors_;
+  LinearBurkeFactors linearBurke_;
   std::vector<std::size_t> internal_;                 // internal number of the mechanism's reaction
   std::array<std::vector<ThirdSlot>, 2> thirdSlots_;  // the few reactions with three reactants, three products
 
   // State of the last evaluation. c_, gibbs_ and enthalpy_ have a last entry for the empty slot.
   double temperature_ = -1;
   double totalConcentration_ = 0, lnPressure_ = 0;
-  std::vector<double> lnkf_, kf_, lnkr_, kr_, gibbs_, enthalpy_;
+  std::vector<double> lnkf_, kf_, lnkr_, kr_, gibbs_, enthalpy_, heatCapacity_;
   std::vector<double> multiplier_;
   std::vector<double> c_, M_, factor_, forward_, reverse_, progress_;  // forward_, reverse_ are without factor_
   std::vector<double> sources_;                                        // of jacobianTable_

@@ -46,7 +46,7 @@ void FalloffFactors::setTemperature(const KineticsTables& tables, double T, doub
   expInPlace(terms, 3 * n);
   double* __restrict lnFcent = lnFcent_.data();
   for (std::size_t i = 0; i < n; ++i) {
-    const double centre = f.w3[i] * terms[i] + f.w1[i] * terms[n + i] + f.w2[i] * terms[2 * n + i];
+    const double centre = f.w3[i] * terms[i] + f.w1[i] * terms[n + i] + f.w2[i] * terms[2 * n + i] + f.byT[i] * T;
     lnFcent[i] = centre > kTiny ? centre : kTiny;
   }
   logInPlace(lnFcent, n);
@@ -104,7 +104,7 @@ void FalloffFactors::evaluateSlopes(const KineticsTables& tables) {
                            *__restrict scaleExponent = f.scaleExponent.data();
   const double *__restrict w3 = f.w3.data(), *__restrict w1 = f.w1.data(), *__restrict w2 = f.w2.data(),
                            *__restrict inverseT3 = f.inverseT3.data(), *__restrict inverseT1 = f.inverseT1.data(),
-                           *__restrict T2 = f.T2.data();
+                           *__restrict T2 = f.T2.data(), *__restrict centreSlope = f.byT.data();
   for (std::size_t i = 0; i < n; ++i) {
     const double d = width[i] - slope[i] * u[i], inverseD = 1.0 / d;
     const double h = u[i] * inverseD, spread = 1.0 / (1.0 + h * h);
@@ -113,8 +113,8 @@ void FalloffFactors::evaluateSlopes(const KineticsTables& tables) {
     const double hByLog10Fcent = (shift1[i] * d - u[i] * (width1[i] - slope[i] * shift1[i])) * inverseD * inverseD;
     const double lnFByLnFcent = spread + lnFByH * hByLog10Fcent * (1.0 / kLn10);
     const double term3 = w3[i] * terms[i], term1 = w1[i] * terms[n + i], term2 = w2[i] * terms[2 * n + i];
-    const double centre = term3 + term1 + term2;
-    const double centreByT = -inverseT3[i] * term3 - inverseT1[i] * term1 + T2[i] * T2Scale * term2;
+    const double centre = term3 + term1 + term2 + centreSlope[i] * T_;
+    const double centreByT = -inverseT3[i] * term3 - inverseT1[i] * term1 + T2[i] * T2Scale * term2 + centreSlope[i];
     const double lnFcentByT = centre > kTiny ? centreByT / (centre > kTiny ? centre : 1.0) : 0.0;
     const double lnPrByT = direction[i] * (byM[i] + byT[i] * inverseT) * inverseT;
     const double lnValueByLnPr = (direction[i] > 0 ? 1.0 : -pr[i]) / (1.0 + pr[i]) + lnFByLnPr;

@@ -74,6 +74,16 @@ void Kinetics::factorDerivatives(double* values, double* common) {
       column[k] = 0;
     }
   }
+  linearBurke_.evaluateSlopes();
+  for (std::size_t i = 0; i < tables_.linearBurke.size(); ++i) {
+    const auto r = tables_.linearBurke[i].reaction;
+    const double lnBaseByT = (tables_.b[r] + tables_.Ta[r] / temperature_) / temperature_;
+    const double scale = multiplier_[r] * (forward_[r] - reverse_[r]);
+    factorByT_[r] = multiplier_[r] * linearBurke_.byT(i) - factor_[r] * lnBaseByT;
+    for (const auto& term : tables_.netTerms[r])
+      common[term.species] += term.coefficient * scale * linearBurke_.byOther(i);
+    jacobianTable_.addColliders(tables_, i, scale, linearBurke_.excess(i), values);
+  }
   // p = R T sum c: d ln p/d c_j = 1/sum c, d ln p/dT = 1/T.
   const double byTotal = totalConcentration_ > smallestConcentration ? 1.0 / totalConcentration_ : 0.0;
   const double T = temperature_;
@@ -102,6 +112,14 @@ void Kinetics::progressTemperatureDerivatives() {
   for (std::size_t i = 0; i < tables_.numReactions; ++i) {
     const double net = forward[i] - reverse[i];
     progress[i] = factor[i] * net * (b[i] + Ta[i] * inverseT) * inverseT + factorByT[i] * net;
+  }
+  if (!tables_.enthalpyDependent.empty()) {
+    thermo_.cpOverR(temperature_, heatCapacity_.data());
+    const auto slopes = enthalpyFactors_.slopes(tables_, temperature_, h, heatCapacity_.data());
+    for (std::size_t i = 0; i < slopes.size(); ++i) {
+      const auto r = tables_.enthalpyDependent[i].reaction;
+      progress[r] += factor[r] * (forward[r] - reverse[r]) * slopes[i];
+    }
   }
   const std::int32_t *__restrict r0 = tables_.reactant[0].data(), *__restrict r1 = tables_.reactant[1].data(),
                      *__restrict p0 = tables_.product[0].data(), *__restrict p1 = tables_.product[1].data();

@@ -40,6 +40,11 @@ JacobianTable::JacobianTable(const KineticsTables& tables) : numReactions_(table
   for (std::size_t s = 0; s < sets_.size(); ++s)
     for (const auto& collider : tables.sets[s].excess)
       for (const auto row : sets_[s].rows) sets_[s].position.push_back(position(row, collider.species));
+  for (const auto& one : tables.linearBurke) {
+    auto& positions = colliders_.emplace_back();
+    for (const auto collider : one.colliders)
+      for (const auto& term : tables.netTerms[one.reaction]) positions.push_back(position(term.species, collider));
+  }
 }
 
 void JacobianTable::setPattern(const KineticsTables& tables) {
@@ -57,6 +62,8 @@ void JacobianTable::setPattern(const KineticsTables& tables) {
   for (std::size_t s = 0; s < sets_.size(); ++s)
     for (const auto& collider : tables.sets[s].excess)
       columns[collider.species].insert(sets_[s].rows.begin(), sets_[s].rows.end());
+  for (const auto& one : tables.linearBurke)
+    for (const auto collider : one.colliders) add(one.reaction, collider);
   pattern_.size = tables.numSpecies;
   pattern_.columnStart.push_back(0);
   for (const auto& rows : columns) {
@@ -137,6 +144,14 @@ void JacobianTable::addMassAction(const double* sources, double* values) const {
     }
   }
   for (const auto& term : general_) values[term.position] += term.nu * sources[term.source];
+}
+
+void JacobianTable::addColliders(const KineticsTables& tables, std::size_t i, double scale,
+                                 std::span<const double> excess, double* values) const {
+  const std::uint32_t* position = colliders_[i].data();
+  for (const double of : excess)
+    for (const auto& term : tables.netTerms[tables.linearBurke[i].reaction])
+      values[*position++] += scale * of * term.coefficient;
 }
 
 void JacobianTable::addExcess(const KineticsTables& tables, std::size_t set, const double* column,

@@ -2,7 +2,8 @@
 // tables of the reactions.
 //
 // The Jacobian is d wdot_k/d c_j = S_kj + common_k: S is sparse and holds the laws of mass action and, for every set of
-// collision efficiencies, the excess of the colliders named; common holds what is the same for all j.
+// collision efficiencies and every reaction with colliders
+// of its own, the excess of the colliders named; common holds what is the same for all j.
 #pragma once
 
 #include <cstddef>
@@ -32,6 +33,9 @@ class JacobianTable {
   std::span<const std::size_t> setRows(std::size_t set) const { return sets_[set].rows; }
   // Adds excess_j * column[k] to entry (k, j) for every collider j named by the set and every species k of setRows.
   void addExcess(const KineticsTables& tables, std::size_t set, const double* column, double* values) const;
+  // Adds scale * excess_j * nu_k to entry (k, j) for every named collider j of tables.linearBurke[i].
+  void addColliders(const KineticsTables& tables, std::size_t i, double scale, std::span<const double> excess,
+                    double* values) const;
 
  private:
   // Reactions with the same numbers of reactants, of products whose concentrations count, and of species that change.
@@ -62,6 +66,7 @@ class JacobianTable {
   std::vector<Group> groups_;
   std::vector<GeneralTerm> general_;
   std::vector<SetTable> sets_;
+  std::vector<std::vector<std::uint32_t>> colliders_;  // positions by collider, row; one list each of linearBurke
 };
 
 }  // namespace lampblack

@@ -57,6 +57,22 @@ void checkChebyshev(const Mechanism& mechanism, const Reaction& reaction) {
     refuse(mechanism, reaction, "expected a range of positive, rising pressures");
 }
 
+void checkLinearBurke(const Mechanism& mechanism, const Reaction& reaction) {
+  using enum Reaction::Type;
+  if (reaction.colliders.empty() || reaction.colliders[0].species || !reaction.colliders[0].ownRate)
+    refuse(mechanism, reaction, "expected a rate for colliders that are not named");
+  for (std::size_t i = 0; i < reaction.colliders.size(); ++i) {
+    const auto& collider = reaction.colliders[i];
+    if ((i > 0) != collider.species.has_value() || !(collider.efficiency.A > 0))
+      refuse(mechanism, reaction, "expected a species and a positive efficiency of every other collider");
+    const auto type = collider.rate.type;
+    if (!collider.ownRate) continue;
+    if (type != Falloff && type != PressureLog && type != Chebyshev)
+      refuse(mechanism, reaction, "expected fall-off, PLOG or Chebyshev rates of the colliders");
+    if (type == Falloff && !(collider.rate.rate.A > 0)) refuse(mechanism, reaction, "expected positive rates");
+  }
+}
+
 // The Arrhenius form through the values in the middle of the pressures, where Pr = 0, at both ends of the temperatures.
 Arrhenius chebyshevBase(const ChebyshevRate& rate) {
   double log10Low = 0, log10High = 0;  // at Tr = -1 (minTemperature) and Tr = 1
@@ -91,11 +107,14 @@ Arrhenius KineticsTables::baseRate(const Mechanism& mechanism, const Reaction& r
     checkChebyshev(mechanism, reaction);
     return chebyshevBase(*reaction.chebyshev);
   }
+  if (reaction.type == Reaction::Type::LinearBurke) {
+    checkLinearBurke(mechanism, reaction);
+    return baseRate(mechanism, reaction.colliders[0].rate);
+  }
   return reaction.rate;
 }
 
-void KineticsTables::addFalloff(std::size_t i, const Mechanism& mechanism) {
-  const auto& reaction = mechanism.reaction(original[i]);
+void KineticsTables::addFalloff(std::size_t i, const Mechanism& mechanism, const Reaction& reaction) {
   if (!reaction.thirdBody) refuse(mechanism, reaction, "expected a third body");
   if (reaction.rate.A * reaction.lowPressureRate.A < 0)
     refuse(mechanism, reaction, "expected the same sign of the rate constants at low and at high pressure");
@@ -115,6 +134,7 @@ void KineticsTables::addFalloff(std::size_t i, const Mechanism& mechanism) {
     f.inverseT3.push_back(T3 != 0 ? 1.0 / T3 : 0.0);
     f.inverseT1.push_back(T1 != 0 ? 1.0 / T1 : 0.0);
     f.T2.push_back(T2);
+    f.byT.push_back(reaction.tsang ? reaction.tsang->B : 0.0);
   };
   const auto shape = [&](double shift0, double shift1, double width0, double width1, double slope) {
     f.shift0.push_back(shift0);
@@ -136,14 +156,16 @@ void KineticsTables::addFalloff(std::size_t i, const Mechanism& mechanism) {
     const double T2 = troe.T2.value_or(0);
     weights(troe.T3 != 0 ? 1.0 - troe.A : 0.0, troe.T3, troe.T1 != 0 ? troe.A : 0.0, troe.T1, T2 != 0 ? 1.0 : 0.0, T2);
     shape(-0.4, -0.67, 0.75, -1.27, 0.14);
+  } else if (reaction.tsang) {
+    weights(0.0, 0.0, reaction.tsang->A, 0.0, 0.0, 0.0);
+    shape(-0.4, -0.67, 0.75, -1.27, 0.14);
   } else {
     weights(0.0, 0.0, 1.0, 0.0, 0.0, 0.0);
     shape(0.0, 0.0, 1.0, 0.0, 0.0);
   }
 }
 
-void KineticsTables::addPressureLog(std::size_t i, const Mechanism& mechanism) {
-  const auto& reaction = mechanism.reaction(original[i]);
+void KineticsTables::addPressureLog(std::size_t i, const Mechanism& mechanism, const Reaction& reaction) {
   auto& p = pressureLog;
   p.reaction.push_back(i);
   p.where.push_back(place(mechanism, reaction));
@@ -163,8 +185,7 @@ void KineticsTables::addPressureLog(std::size_t i, const Mechanism& mechanism) {
   p.points.push_back(p.lnPressure.size());
 }
 
-void KineticsTables::addChebyshev(std::size_t i, const Mechanism& mechanism) {
-  const auto& rate = *mechanism.reaction(original[i]).chebyshev;
+void KineticsTables::addChebyshev(std::size_t i, const ChebyshevRate& rate) {
   auto& t = chebyshev;
   t.reaction.push_back(i);
   t.first.push_back(t.coefficients.size());
@@ -177,6 +198,12 @@ void KineticsTables::addChebyshev(std::size_t i, const Mechanism& mechanism) {
   const double lowest = std::log(rate.minPressure), highest = std::log(rate.maxPressure);
   t.scaleP.push_back(2.0 / (highest - lowest));
   t.shiftP.push_back(-(lowest + highest) / (highest - lowest));
+}
+
+void KineticsTables::addLinearBurke(std::size_t i, const Reaction& reaction) {
+  linearBurke.push_back({i, {}});
+  for (const auto& collider : reaction.colliders)
+    if (collider.species) linearBurke.back().colliders.push_back(*collider.species);
 }
 
 }  // namespace lampblack

@@ -14,7 +14,9 @@ Kinetics::Kinetics(const Mechanism& mechanism)
       jacobianTable_(tables_),
       thermo_(mechanism.allSpecies()),
       falloff_(tables_),
-      pressureRates_(tables_) {
+      pressureRates_(tables_),
+      enthalpyFactors_(tables_),
+      linearBurke_(mechanism, tables_) {
   internal_.resize(tables_.numReactions);
   for (std::size_t i = 0; i < tables_.numReactions; ++i) internal_[tables_.original[i]] = i;
   findThirdSlots();
@@ -42,6 +44,7 @@ void Kinetics::sizeWorkspace() {
   lnkr_.assign(tables_.numReversible, 0.0);
   gibbs_.assign(tables_.numSpecies + 1, 0.0);
   enthalpy_.assign(tables_.numSpecies + 1, 0.0);
+  heatCapacity_.assign(tables_.numSpecies, 0.0);
   c_.assign(tables_.numSpecies + 1, 1.0);
   M_.assign(tables_.sets.size(), 0.0);
   multiplier_.assign(n, 1.0);

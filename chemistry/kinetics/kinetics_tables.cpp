@@ -60,23 +60,25 @@ std::vector<StoichiometricTerm> forwardOrders(const Mechanism& mechanism, const 
 
 }  // namespace
 
-KineticsTables::KineticsTables(const Mechanism& mechanism)
-    : numSpecies(mechanism.numSpecies()), numReactions(mechanism.numReactions()) {
-  orderReactions(mechanism);
-  setRates(mechanism);
-  setSlots(mechanism);
-  setFactors(mechanism);
+KineticsTables::KineticsTables(const Mechanism& mechanism) : KineticsTables(mechanism, mechanism.reactions()) {}
+
+KineticsTables::KineticsTables(const Mechanism& mechanism, std::span<const Reaction> reactions)
+    : numSpecies(mechanism.numSpecies()), numReactions(reactions.size()) {
+  orderReactions(mechanism, reactions);
+  setRates(mechanism, reactions);
+  setSlots(mechanism, reactions);
+  setFactors(mechanism, reactions);
   setProductionTable();
 }
 
-void KineticsTables::orderReactions(const Mechanism& mechanism) {
+void KineticsTables::orderReactions(const Mechanism& mechanism, std::span<const Reaction> reactions) {
   const auto isConstant = [&](const Reaction& reaction) {
     const auto rate = baseRate(mechanism, reaction);
-    return rate.A > 0 && rate.b == 0 && rate.activationTemperature == 0;
+    return rate.A > 0 && rate.b == 0 && rate.activationTemperature == 0 && !reaction.blowersMasel;
   };
   const auto append = [&](bool reversible, bool constant) {
     for (std::size_t r = 0; r < numReactions; ++r) {
-      const auto& reaction = mechanism.reaction(r);
+      const auto& reaction = reactions[r];
       if (reaction.reversible == reversible && isConstant(reaction) == constant) original.push_back(r);
     }
     return original.size();
@@ -87,9 +89,9 @@ void KineticsTables::orderReactions(const Mechanism& mechanism) {
   append(false, false);
 }
 
-void KineticsTables::setRates(const Mechanism& mechanism) {
+void KineticsTables::setRates(const Mechanism& mechanism, std::span<const Reaction> reactions) {
   for (const auto r : original) {
-    const auto& reaction = mechanism.reaction(r);
+    const auto& reaction = reactions[r];
     const auto rate = baseRate(mechanism, reaction);
     lnA.push_back(lnMagnitude(rate.A));
     b.push_back(rate.b);
@@ -99,10 +101,10 @@ void KineticsTables::setRates(const Mechanism& mechanism) {
   }
 }
 
-void KineticsTables::setSlots(const Mechanism& mechanism) {
+void KineticsTables::setSlots(const Mechanism& mechanism, std::span<const Reaction> reactions) {
   const auto none = static_cast<std::int32_t>(numSpecies);
   for (std::size_t i = 0; i < numReactions; ++i) {
-    const auto& reaction = mechanism.reaction(original[i]);
+    const auto& reaction = reactions[original[i]];
     std::array<std::int32_t, 3> left{none, none, none}, right{none, none, none};
     // The products of an irreversible reaction are no concentrations of any rate.
     const bool fits = fillSlots(reaction.reactants, left) &&
@@ -137,11 +139,13 @@ std::size_t KineticsTables::thirdBodySet(const ThirdBody& body) {
   return sets.size() - 1;
 }
 
-void KineticsTables::setFactors(const Mechanism& mechanism) {
+void KineticsTables::setFactors(const Mechanism& mechanism, std::span<const Reaction> reactions) {
   pressureLog.points.push_back(0);
   pressureLog.rates.push_back(0);
   for (std::size_t i = 0; i < numReactions; ++i) {
-    const auto& reaction = mechanism.reaction(original[i]);
+    const auto& reaction = reactions[original[i]];
+    if (reaction.blowersMasel)
+      enthalpyDependent.push_back({i, reaction.rate.activationTemperature, reaction.blowersMasel->bondEnergy});
     switch (reaction.type) {
       case Reaction::Type::Elementary:
         break;
@@ -150,13 +154,16 @@ void KineticsTables::setFactors(const Mechanism& mechanism) {
         break;
       case Reaction::Type::Falloff:
       case Reaction::Type::ChemicallyActivated:
-        addFalloff(i, mechanism);
+        addFalloff(i, mechanism, reaction);
         break;
       case Reaction::Type::PressureLog:
-        addPressureLog(i, mechanism);
+        addPressureLog(i, mechanism, reaction);
         break;
       case Reaction::Type::Chebyshev:
-        addChebyshev(i, mechanism);
+        addChebyshev(i, *reaction.chebyshev);
+        break;
+      case Reaction::Type::LinearBurke:
+        addLinearBurke(i, reaction);
         break;
     }
   }

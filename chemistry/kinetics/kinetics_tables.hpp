@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -37,15 +38,15 @@ struct KineticsTables {
   // Fall-off: the base is the high-pressure limit, factor = Pr/(1+Pr) F. Chemically activated: the base is the
   // low-pressure limit, factor = 1/(1+Pr) F. Both have Pr = k_low [M]/k_high, with
   //   ln (k_low/k_high) = direction (lnA + b ln T - Ta/T - ln k_base),
-  //   Fcent = w3 exp(-T/T3) + w1 exp(-T/T1) + w2 exp(-T2/T),  u = log10 Pr + shift0 + shift1 log10 Fcent,
+  //   Fcent = w3 exp(-T/T3) + w1 exp(-T/T1) + w2 exp(-T2/T) + byT T,  u = log10 Pr + shift0 + shift1 log10 Fcent,
   //   ln F = lnScale + scaleExponent ln T + ln Fcent/(1 + (u/(width0 + width1 log10 Fcent - slope u))^2).
-  // Troe has shift = (-0.4, -0.67), width = (0.75, -1.27), slope 0.14 and no scale; SRI has shift = 0, width = (1, 0),
-  // slope 0; Lindemann has Fcent = 1.
+  // Troe and Tsang have shift = (-0.4, -0.67), width = (0.75, -1.27), slope 0.14 and no scale; SRI has shift = 0, width
+  // = (1, 0), slope 0; Lindemann has Fcent = 1.
   struct Falloff {
     std::vector<std::size_t> reaction, set;
     std::vector<double> direction;   // 1 fall-off, -1 chemically activated
     std::vector<double> lnA, b, Ta;  // of the limit that is not the base
-    std::vector<double> w3, w1, w2, inverseT3, inverseT1, T2;
+    std::vector<double> w3, w1, w2, inverseT3, inverseT1, T2, byT;
     std::vector<double> shift0, shift1, width0, width1, slope, lnScale, scaleExponent;
   };
   // factor = k(T, p)/k_base. ln k is linear in ln p between the points points[i]..points[i+1] of entry i, constant
@@ -64,8 +65,22 @@ struct KineticsTables {
     std::vector<double> coefficients;
   };
 
+  // Base constants are multiplied by exp(-(Ea - intrinsic)/T), Ea from the enthalpy of reaction (BlowersMasel of
+  // reaction.hpp), before anything else is done with them.
+  struct EnthalpyDependent {
+    std::size_t reaction = 0;
+    double intrinsic = 0, bondEnergy = 0;  // K
+  };
+  // factor = k(T, p, c)/k_base; species of the colliders that are named.
+  struct LinearBurke {
+    std::size_t reaction = 0;
+    std::vector<std::size_t> colliders;
+  };
+
   // Throws InputError for a reaction whose rate cannot be computed.
   explicit KineticsTables(const Mechanism& mechanism);
+  // Of reactions that are not the mechanism's own, between its species.
+  KineticsTables(const Mechanism& mechanism, std::span<const Reaction> reactions);
 
   std::size_t numSpecies = 0;
   std::size_t numReactions = 0;
@@ -86,6 +101,8 @@ struct KineticsTables {
   Falloff falloff;
   PressureLog pressureLog;
   Chebyshev chebyshev;
+  std::vector<EnthalpyDependent> enthalpyDependent;
+  std::vector<LinearBurke> linearBurke;
 
   // wdot_k = sum of signedProgress[rowSource[e]] over the entries rows[k] <= e < rows[k+1], where signedProgress holds
   // q of all reactions, then -q, then a zero; a coefficient of two makes two entries. Rows are padded to multiples of
@@ -99,15 +116,16 @@ struct KineticsTables {
   std::vector<DecimalTerm> decimalTerms;
 
  private:
-  void orderReactions(const Mechanism& mechanism);
-  void setRates(const Mechanism& mechanism);
-  void setSlots(const Mechanism& mechanism);
-  void setFactors(const Mechanism& mechanism);
+  void orderReactions(const Mechanism& mechanism, std::span<const Reaction> reactions);
+  void setRates(const Mechanism& mechanism, std::span<const Reaction> reactions);
+  void setSlots(const Mechanism& mechanism, std::span<const Reaction> reactions);
+  void setFactors(const Mechanism& mechanism, std::span<const Reaction> reactions);
   static double lnMagnitude(double A);
   static Arrhenius baseRate(const Mechanism& mechanism, const Reaction& reaction);
-  void addFalloff(std::size_t i, const Mechanism& mechanism);
-  void addPressureLog(std::size_t i, const Mechanism& mechanism);
-  void addChebyshev(std::size_t i, const Mechanism& mechanism);
+  void addFalloff(std::size_t i, const Mechanism& mechanism, const Reaction& reaction);
+  void addPressureLog(std::size_t i, const Mechanism& mechanism, const Reaction& reaction);
+  void addChebyshev(std::size_t i, const ChebyshevRate& rate);
+  void addLinearBurke(std::size_t i, const Reaction& reaction);
   void setProductionTable();
   std::size_t thirdBodySet(const ThirdBody& body);
 };

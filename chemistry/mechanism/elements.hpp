@@ -1,4 +1,4 @@
-// Standard atomic weights of the elements.
+// Standard atomic weights of the elements, and the electron's.
 #pragma once
 
 #include <optional>

@@ -22,10 +22,11 @@ struct Element {
 
 class Mechanism {
  public:
-  // Reads Cantera's YAML format: the first ideal-gas phase, species with NASA-7 or NASA-9 and gas transport data,
-  // reactions of the types of reaction.hpp. Throws InputError with file, line and what was expected; what the format
-  // knows but Lampblack does not (other rate types, other polynomials) is such an error too.
-  static Mechanism fromFile(const std::string& path);
+  // Reads Cantera's YAML format: the ideal-gas phase of this name (the first one if empty), species with the
+  // thermodynamic data of species.hpp and gas transport data, reactions of the types of reaction.hpp. Throws InputError
+  // with file, line and what was expected; what the format knows but Lampblack does not (other phases, rate types,
+  // polynomials) is such an error too.
+  static Mechanism fromFile(const std::string& path, const std::string& phase = "");
 
   // Takes finished data, e.g. from a reader of another format; the same physical checks apply (mechanism_checks.hpp).
   // `warnings` are those of the reader.

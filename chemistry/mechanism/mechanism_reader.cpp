@@ -7,6 +7,7 @@
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/mechanism/mechanism_checks.hpp"
 #include "chemistry/mechanism/mechanism_sections.hpp"
+#include "chemistry/mechanism/phase_entries.hpp"
 #include "chemistry/mechanism/reaction_reader.hpp"
 #include "chemistry/mechanism/species_reader.hpp"
 #include "core/errors.hpp"
@@ -18,17 +19,18 @@ namespace {
 
 class MechanismReader {
  public:
-  explicit MechanismReader(const std::string& path) : files_(path), yaml_(files_.main().yaml), phase_(choosePhase()) {}
+  MechanismReader(const std::string& path, const std::string& phase)
+      : files_(path), yaml_(files_.main().yaml), phase_(choosePhase(files_.main(), phase)) {}
 
   Mechanism read() {
-    phase_.rename(fmt::format("phase '{}'", phase_.has("name") ? yaml_.text(phase_.at("name"), "phase name") : ""));
     phase_.allowOnly({"name", "thermo", "elements", "species", "kinetics", "reactions", "transport", "state",
                       "skip-undeclared-elements", "skip-undeclared-third-bodies", "explicit-third-body-duplicates",
                       "units", "note", "comment", "reference"});
+    if (auto text = transportWarning(yaml_, phase_); !text.empty()) warnings_.push_back(std::move(text));
     findSpecies();
     readElements();
     readSpeciesEntries();
-    readReactions();
+    for (const auto& rule : reactionRules(files_, phase_)) addReactions(rule);
     settleColliders();
     std::string description;
     if (const YAML::Node text = files_.main().root["description"]; text.IsDefined())
@@ -44,29 +46,6 @@ class MechanismReader {
     const YAML::Node& node() const { return section->entries[index]; }
   };
 
-  YamlMap choosePhase() const {
-    const YAML::Node phases = files_.main().root["phases"];
-    if (!phases.IsDefined()) yaml_.fail(files_.main().root, "mechanism file has no 'phases'");
-    yaml_.requireSequence(phases, "phases");
-    for (const auto& node : phases) {
-      YamlMap phase(yaml_, node, "phase");
-      if (const auto* thermo = phase.find("thermo"); thermo && yaml_.text(*thermo, "phase 'thermo'") == "ideal-gas")
-        return phase;
-    }
-    yaml_.fail(phases, "no ideal-gas phase; expected one with 'thermo: ideal-gas'");
-  }
-
-  bool isWord(const YAML::Node* node, std::string_view word) const {
-    return node != nullptr && node->IsScalar() && node->Scalar() == word;
-  }
-
-  // The one key and value of "- {section: ...}".
-  std::pair<std::string, YAML::Node> sectionRule(const YAML::Node& item) const {
-    const YamlMap map(yaml_, item, phase_.what());
-    if (map.entries().size() != 1) yaml_.fail(item, fmt::format("{}: expected one section and its names", map.what()));
-    return {std::string(map.entries()[0].key), map.entries()[0].value};
-  }
-
   void findSpecies() {
     const auto* list = phase_.find("species");
     if (list == nullptr || isWord(list, "all")) {
@@ -78,7 +57,7 @@ class MechanismReader {
           addSpecies(files_.section("species", "name", item), item);
           continue;
         }
-        const auto [name, names] = sectionRule(item);
+        const auto [name, names] = sectionRule(yaml_, item, phase_.what());
         const auto& section = files_.section(name, "name", item);
         if (isWord(&names, "all")) {
           addAllSpecies(section);
@@ -120,21 +99,24 @@ class MechanismReader {
         return;
       }
     const auto weight = standardAtomicWeight(name);
-    if (!weight) yaml.fail(where, fmt::format("unknown element '{}'", name));
+    if (!weight)
+      yaml.fail(where, fmt::format("unknown element '{}'; an element of the file's own has to be in the phase's list "
+                                   "'elements'",
+                                   name));
     elements_.push_back({name, *weight});
   }
 
   void readElements() {
     const auto* list = phase_.find("elements");
-    const auto* own = files_.hasSection("elements") ? &files_.section("elements", "symbol", phase_.node()) : nullptr;
     if (list != nullptr) {
+      const auto* own = files_.hasSection("elements") ? &files_.section("elements", "symbol", phase_.node()) : nullptr;
       yaml_.requireSequence(*list, phase_.what() + ", 'elements'");
       for (const auto& item : *list) {
         if (!item.IsMap()) {
           addElement(own, yaml_.text(item, "element"), item, yaml_);
           continue;
         }
-        const auto [name, names] = sectionRule(item);
+        const auto [name, names] = sectionRule(yaml_, item, phase_.what());
         const auto* section = name == "default" ? nullptr : &files_.section(name, "symbol", item);
         yaml_.requireSequence(names, fmt::format("{}, elements of '{}'", phase_.what(), name));
         for (const auto& one : names) {
@@ -147,11 +129,13 @@ class MechanismReader {
       }
       return;
     }
+    // Without a list, standard elements alone: the file's own may be isotopes of another phase.
     for (const auto& entry : speciesEntries_) {
       const auto& yaml = entry.section->file->yaml;
       const YAML::Node composition = entry.node()["composition"];
       if (!composition.IsDefined() || !composition.IsMap()) continue;  // said when the species is read
-      for (const auto& atoms : composition) addElement(own, yaml.text(atoms.first, "composition"), atoms.first, yaml);
+      for (const auto& atoms : composition)
+        addElement(nullptr, yaml.text(atoms.first, "composition"), atoms.first, yaml);
     }
   }
 
@@ -180,29 +164,8 @@ class MechanismReader {
     }
   }
 
-  void readReactions() {
-    const auto* list = phase_.find("reactions");
-    if (isWord(list, "none")) return;
-    if (list == nullptr || isWord(list, "all") || isWord(list, "declared-species")) {
-      if (list == nullptr && (isWord(phase_.find("kinetics"), "none") || !files_.hasSection("reactions"))) return;
-      addReactions("reactions", list == nullptr ? "all" : list->Scalar(), list == nullptr ? phase_.node() : *list);
-      return;
-    }
-    if (!list->IsSequence())
-      yaml_.fail(*list, fmt::format("{}, 'reactions': expected all, none, declared-species or a list of sections",
-                                    phase_.what()));
-    for (const auto& item : *list) {
-      if (item.IsMap()) {
-        const auto [name, rule] = sectionRule(item);
-        addReactions(name, yaml_.text(rule, phase_.what() + ", 'reactions'"), item);
-      } else {
-        addReactions(yaml_.text(item, phase_.what() + ", 'reactions'"), "all", item);
-      }
-    }
-  }
-
-  void addReactions(const std::string& name, const std::string& rule, const YAML::Node& where) {
-    if (rule == "none") return;
+  void addReactions(const ReactionRule& from) {
+    const auto& [name, rule, where] = from;
     if (rule != "all" && rule != "declared-species")
       yaml_.fail(where, fmt::format("{}: unknown rule '{}' for the reactions of '{}'; expected all, none or "
                                     "declared-species",
@@ -266,9 +229,9 @@ class MechanismReader {
 
 }  // namespace
 
-Mechanism Mechanism::fromFile(const std::string& path) {
+Mechanism Mechanism::fromFile(const std::string& path, const std::string& phase) {
   try {
-    return MechanismReader(path).read();
+    return MechanismReader(path, phase).read();
   } catch (const YAML::Exception& error) {
     throw InputError(fmt::format("{}:{}: not valid YAML: {}", path, error.mark.line + 1, error.msg));
   }

@@ -38,9 +38,10 @@ class UnitSystem {
   // quantity is unknown.
   bool set(std::string_view quantity, std::string_view unit);
 
-  double rateConstant(double order) const;       // (m3/mol)^(order-1)/s
-  double pressure() const { return pressure_; }  // Pa
-  double activationTemperature() const;          // K, of an activation energy
+  double rateConstant(double order) const;                  // (m3/mol)^(order-1)/s
+  double pressure() const { return pressure_; }             // Pa
+  double activationTemperature() const;                     // K, of an activation energy
+  double molarEnergy() const { return energy_ / amount_; }  // J/mol
 
  private:
   double length_ = 1;      // m

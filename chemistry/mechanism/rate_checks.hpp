@@ -8,8 +8,9 @@
 namespace lampblack {
 
 // What is wrong and what was expected, or nothing: limits of opposite sign or zero; SRI parameters that give no
-// positive F; rates tabulated over pressure of which those of one pressure do not add up to a positive number between
-// 300 and 10000 K (their logarithm is interpolated).
+// positive F; a bond energy that is not above the intrinsic activation energy, or this below zero; rates tabulated over
+// pressure of which those of one pressure do not add up to a positive number between 300 and 10000 K (their logarithm
+// is interpolated).
 std::string rateProblem(const Reaction& reaction);
 
 }  // namespace lampblack

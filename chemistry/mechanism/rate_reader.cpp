@@ -40,7 +40,7 @@ class RateReader {
     switch (reaction_.type) {
       case Type::Elementary:
       case Type::ThreeBody:
-        reaction_.rate = limit("rate-constant", order + (reaction_.type == Type::ThreeBody ? 1 : 0));
+        readElementary(order + (reaction_.type == Type::ThreeBody ? 1 : 0));
         break;
       case Type::Falloff:
       case Type::ChemicallyActivated: {
@@ -58,6 +58,8 @@ class RateReader {
       case Type::Chebyshev:
         readChebyshev(order);
         break;
+      case Type::LinearBurke:  // each collider is read by itself
+        break;
     }
   }
 
@@ -68,32 +70,41 @@ class RateReader {
 
   std::string label(std::string_view key) const { return fmt::format("{}, '{}'", entry_.what(), key); }
 
-  Arrhenius arrhenius(const YAML::Node& A, const YAML::Node& b, const YAML::Node* Ea, double order) const {
+  Arrhenius arrhenius(const YAML::Node& A, const YAML::Node& b, const YAML::Node& Ea, double order) const {
     Arrhenius rate;
     rate.A = yaml_.quantity(A, rateConstantUnit(order), units_.rateConstant(order), entry_.what());
     rate.b = yaml_.number(b, entry_.what());
-    if (Ea != nullptr) rate.activationTemperature = yaml_.activationTemperature(*Ea, units_, entry_.what());
+    rate.activationTemperature = yaml_.activationTemperature(Ea, units_, entry_.what());
     if (!std::isfinite(rate.A) || !std::isfinite(rate.activationTemperature))
       fail(A, "the rate constant is out of range");
     return rate;
   }
 
-  // A, b, Ea as a map or a list; without Ea it is zero.
+  void requireSign(const YAML::Node& node, double A) const {
+    if (A < 0 && !entry_.flag("negative-A", false))
+      fail(node, "negative 'A'; expected 'negative-A: true' or a positive number");
+  }
+
+  void readElementary(double order) {
+    const auto* type = entry_.find("type");
+    if (type == nullptr || !yaml_.text(*type, entry_.what()).ends_with("Blowers-Masel")) {
+      reaction_.rate = limit("rate-constant", order);
+      return;
+    }
+    const auto& node = entry_.at("rate-constant");
+    const auto values = yaml_.values(node, {"A", "b", "Ea0", "w"}, label("rate-constant"));
+    reaction_.rate = arrhenius(values[0], values[1], values[2], order);
+    reaction_.blowersMasel = BlowersMasel{yaml_.activationTemperature(values[3], units_, entry_.what())};
+    requireSign(node, reaction_.rate.A);
+    requireSound(node);
+  }
+
   Arrhenius limit(std::string_view key, double order) const {
     const auto* node = entry_.find(key);
     if (node == nullptr) fail(entry_.node(), fmt::format("expected '{}'", key));
-    Arrhenius rate;
-    if (node->IsSequence()) {
-      if (node->size() < 2 || node->size() > 3) fail(*node, fmt::format("'{}': expected A, b and Ea", key));
-      std::vector<YAML::Node> items(node->begin(), node->end());
-      rate = arrhenius(items[0], items[1], items.size() == 3 ? &items[2] : nullptr, order);
-    } else {
-      const YamlMap map(yaml_, *node, label(key));
-      map.allowOnly({"A", "b", "Ea"});
-      rate = arrhenius(map.at("A"), map.at("b"), map.find("Ea"), order);
-    }
-    if (rate.A < 0 && !entry_.flag("negative-A", false))
-      fail(*node, "negative 'A'; expected 'negative-A: true' or a positive number");
+    const auto values = yaml_.values(*node, {"A", "b", "Ea"}, label(key));
+    const auto rate = arrhenius(values[0], values[1], values[2], order);
+    requireSign(*node, rate.A);
     return rate;
   }
 
@@ -102,10 +113,12 @@ class RateReader {
   }
 
   void readBroadening() {
-    const auto *troe = entry_.find("Troe"), *sri = entry_.find("SRI");
-    if (troe != nullptr && sri != nullptr) fail(*sri, "expected one of 'Troe' and 'SRI', not both");
+    const auto *troe = entry_.find("Troe"), *sri = entry_.find("SRI"), *tsang = entry_.find("Tsang");
+    if (int{troe != nullptr} + int{sri != nullptr} + int{tsang != nullptr} > 1)
+      fail(sri != nullptr ? *sri : *tsang, "expected only one of 'Troe', 'SRI' and 'Tsang'");
     if (troe != nullptr) readTroe(*troe);
     if (sri != nullptr) readSri(*sri);
+    if (tsang != nullptr) readTsang(*tsang);
   }
 
   double temperature(const YamlMap& map, std::string_view key) const {
@@ -145,6 +158,13 @@ class RateReader {
     reaction_.sri = sri;
   }
 
+  void readTsang(const YAML::Node& node) {
+    const YamlMap map(yaml_, node, label("Tsang"));
+    if (map.entries().empty()) return;
+    map.allowOnly({"A", "B"});
+    reaction_.tsang = TsangBroadening{yaml_.number(map.at("A"), map.what()), map.number("B", 0.0)};
+  }
+
   void readPressureRates(double order) {
     const auto& list = entry_.at("rate-constants");
     yaml_.requireSequence(list, label("rate-constants"));
@@ -154,7 +174,7 @@ class RateReader {
       PressureRate rate;
       rate.pressure = yaml_.quantity(map.at("P"), kPascal, units_.pressure(), map.what());
       if (!(rate.pressure > 0) || !std::isfinite(rate.pressure)) fail(map.at("P"), "expected a positive pressure");
-      rate.rate = arrhenius(map.at("A"), map.at("b"), map.find("Ea"), order);
+      rate.rate = arrhenius(map.at("A"), map.at("b"), map.at("Ea"), order);
       reaction_.pressureRates.push_back(rate);
     }
     if (reaction_.pressureRates.empty()) fail(list, "'rate-constants': expected at least one pressure");

@@ -33,6 +33,19 @@ struct SriBroadening {
   double e = 0;
 };
 
+// Broadening with the centre Fcent = A + B T and otherwise Troe's formula (Tsang, Herron 1991).
+struct TsangBroadening {
+  double A = 1;
+  double B = 0;  // 1/K
+};
+
+// Activation energy that follows the enthalpy of reaction H (Blowers, Masel, AIChE J. 46 (2000) 2041-2052), all over R
+// in K. With the intrinsic energy E0 (where H is zero) and the mean energy w of the bonds broken and formed it is 0 for
+// H <= -4 E0, H for H >= 4 E0, and (w + H/2) (V - 2 w + H)^2/(V^2 - 4 w^2 + H^2), V = 2 w (w + E0)/(w - E0), between.
+struct BlowersMasel {
+  double bondEnergy = 0;  // w; above E0, which is the activation temperature of the reaction's rate
+};
+
 // One entry of a rate constant that is tabulated over pressure: ln k is linear in ln p between the pressures, constant
 // beyond the first and the last. Entries of the same pressure add up.
 struct PressureRate {
@@ -60,6 +73,8 @@ struct ThirdBody {
   std::vector<StoichiometricTerm> efficiencies;
 };
 
+struct Collider;
+
 struct Reaction {
   enum class Type {
     Elementary,
@@ -68,6 +83,7 @@ struct Reaction {
     ChemicallyActivated,  // k = k_0 1/(1+Pr) F, the same Pr
     PressureLog,          // pressureRates
     Chebyshev,
+    LinearBurke,  // colliders
   };
 
   std::string equation;
@@ -79,16 +95,32 @@ struct Reaction {
   std::vector<StoichiometricTerm> orders;
   bool reversible = true;
   bool duplicate = false;
-  // High-pressure limit of fall-off and chemically activated reactions; unused where the constant depends on pressure.
+  // High-pressure limit of fall-off and chemically activated reactions; unused where the constant depends on pressure
+  // in another way.
   Arrhenius rate;
-  Arrhenius lowPressureRate;                // fall-off and chemically activated
-  std::optional<TroeBroadening> troe;       // of these two; with neither, Lindemann (F = 1)
-  std::optional<SriBroadening> sri;         // of these two
-  std::optional<ThirdBody> thirdBody;       // three-body, and these two
-  std::vector<PressureRate> pressureRates;  // PressureLog, in rising order of pressure
-  std::optional<ChebyshevRate> chebyshev;   // Chebyshev
+  Arrhenius lowPressureRate;                 // fall-off and chemically activated
+  std::optional<TroeBroadening> troe;        // of these two; with neither, Lindemann (F = 1)
+  std::optional<SriBroadening> sri;          // of these two
+  std::optional<TsangBroadening> tsang;      // of these two
+  std::optional<BlowersMasel> blowersMasel;  // elementary and three-body
+  std::optional<ThirdBody> thirdBody;        // three-body, and these two
+  std::vector<PressureRate> pressureRates;   // PressureLog, in rising order of pressure
+  std::optional<ChebyshevRate> chebyshev;    // Chebyshev
+  std::vector<Collider> colliders;           // LinearBurke, that of all other species first
   int line = 0;
   std::string file;  // empty if it is the mechanism's
+};
+
+// A collider of the linear mixture rule in reduced pressure (Burke, Song, J. Phys. Chem. A 121 (2017) 4139; Singal,
+// Lee, Lei, Speth, Burke, Proc. Combust. Inst. 40 (2024) 105779, eq. 8). With E = sum_j efficiency_j c_j over all
+// species,
+//   k = 1/E sum_j efficiency_j c_j k_j(T, p = R T E/efficiency_j);
+// a collider without a rate of its own has that of the first at p = R T E.
+struct Collider {
+  std::optional<std::size_t> species;  // all that are not named, for the first
+  Arrhenius efficiency{1, 0, 0};       // relative to the first, whose own is one
+  bool ownRate = false;
+  Reaction rate;  // of a fall-off (p stands for its [M]), PLOG or Chebyshev reaction
 };
 
 }  // namespace lampblack

@@ -6,6 +6,7 @@
 #include <array>
 #include <utility>
 
+#include "chemistry/mechanism/collider_reader.hpp"
 #include "chemistry/mechanism/equation_parser.hpp"
 #include "chemistry/mechanism/rate_reader.hpp"
 #include "core/errors.hpp"
@@ -16,21 +17,26 @@ namespace {
 
 using Type = Reaction::Type;
 
-constexpr std::array<std::pair<std::string_view, Type>, 14> kTypes{{
+constexpr std::array<std::pair<std::string_view, Type>, 19> kTypes{{
     {"elementary", Type::Elementary},
     {"Arrhenius", Type::Elementary},
+    {"Blowers-Masel", Type::Elementary},
     {"three-body", Type::ThreeBody},
     {"three-body-Arrhenius", Type::ThreeBody},
+    {"three-body-Blowers-Masel", Type::ThreeBody},
     {"falloff", Type::Falloff},
     {"falloff-Lindemann", Type::Falloff},
     {"falloff-Troe", Type::Falloff},
     {"falloff-SRI", Type::Falloff},
+    {"falloff-Tsang", Type::Falloff},
     {"chemically-activated", Type::ChemicallyActivated},
     {"chemically-activated-Lindemann", Type::ChemicallyActivated},
     {"chemically-activated-Troe", Type::ChemicallyActivated},
     {"chemically-activated-SRI", Type::ChemicallyActivated},
+    {"chemically-activated-Tsang", Type::ChemicallyActivated},
     {"pressure-dependent-Arrhenius", Type::PressureLog},
     {"Chebyshev", Type::Chebyshev},
+    {"linear-Burke", Type::LinearBurke},
 }};
 
 bool has(const ParsedEquation::Side& side, std::string_view name) {
@@ -75,6 +81,8 @@ class ReactionReader {
       fail(entry_.node(), fmt::format("species '{}' is not declared in the phase", species.name));
     }
     readRates(yaml_, units_, entry_, reaction_, warnings_);
+    if (reaction_.type == Type::LinearBurke)
+      reaction_.colliders = readColliders(yaml_, units_, entry_, reaction_, scope_, warnings_);
     return std::move(reaction_);
   }
 
@@ -101,9 +109,11 @@ class ReactionReader {
       const auto* known = std::find_if(kTypes.begin(), kTypes.end(), [&](const auto& t) { return t.first == given; });
       if (known == kTypes.end())
         fail(*node, fmt::format("rate type '{}' is not supported; supported are elementary, three-body, falloff, "
-                                "chemically-activated, pressure-dependent-Arrhenius and Chebyshev",
+                                "chemically-activated, pressure-dependent-Arrhenius, Chebyshev, Blowers-Masel and "
+                                "linear-Burke",
                                 given));
       reaction_.type = known->second;
+      if (given == "Blowers-Masel" && parsed.hasM) reaction_.type = Type::ThreeBody;
     }
     const bool inBrackets = !parsed.falloffCollider.empty();
     switch (reaction_.type) {
@@ -119,6 +129,7 @@ class ReactionReader {
         break;
       case Type::PressureLog:
       case Type::Chebyshev:
+      case Type::LinearBurke:
         // "(+M)" says no more here than that the constant depends on pressure.
         if (parsed.hasM || (inBrackets && parsed.falloffCollider != "M"))
           fail(where, fmt::format("'type: {}' takes no third body", node->Scalar()));
@@ -135,11 +146,10 @@ class ReactionReader {
                                  "id", "reference", "comment"});
       case Type::Falloff:
       case Type::ChemicallyActivated:
-        if (const auto* tsang = entry_.find("Tsang"))
-          fail(*tsang, "broadening 'Tsang' is not supported; supported are Troe and SRI");
         return entry_.allowOnly({"equation", "type", "units", "low-P-rate-constant", "high-P-rate-constant", "Troe",
-                                 "SRI", "efficiencies", "default-efficiency", "duplicate", "orders", "negative-orders",
-                                 "nonreactant-orders", "negative-A", "note", "id", "reference", "comment"});
+                                 "SRI", "Tsang", "efficiencies", "default-efficiency", "duplicate", "orders",
+                                 "negative-orders", "nonreactant-orders", "negative-A", "note", "id", "reference",
+                                 "comment"});
       case Type::PressureLog:
         return entry_.allowOnly({"equation", "type", "units", "rate-constants", "duplicate", "orders",
                                  "negative-orders", "nonreactant-orders", "note", "id", "reference", "comment"});
@@ -147,6 +157,9 @@ class ReactionReader {
         return entry_.allowOnly({"equation", "type", "units", "temperature-range", "pressure-range", "data",
                                  "duplicate", "orders", "negative-orders", "nonreactant-orders", "note", "id",
                                  "reference", "comment"});
+      case Type::LinearBurke:
+        return entry_.allowOnly({"equation", "type", "units", "colliders", "duplicate", "orders", "negative-orders",
+                                 "nonreactant-orders", "note", "id", "reference", "comment"});
     }
   }
 
@@ -196,6 +209,7 @@ class ReactionReader {
         break;
       case Type::PressureLog:
       case Type::Chebyshev:
+      case Type::LinearBurke:
         break;
     }
   }

@@ -51,10 +51,8 @@ class ReactionWriter {
   void writeRate() {
     switch (reaction_.type) {
       case Type::ThreeBody:
-        line("type", "three-body");
-        [[fallthrough]];
       case Type::Elementary:
-        writeArrhenius("rate-constant", reaction_.rate);
+        writeElementary();
         break;
       case Type::Falloff:
       case Type::ChemicallyActivated:
@@ -72,11 +70,50 @@ class ReactionWriter {
       case Type::Chebyshev:
         writeChebyshev(*reaction_.chebyshev);
         break;
+      case Type::LinearBurke:
+        writeColliders();
+        break;
     }
     if (reaction_.rate.A < 0) line("negative-A", "true");
   }
 
+  void writeElementary() {
+    const bool threeBody = reaction_.type == Type::ThreeBody;
+    if (!reaction_.blowersMasel) {
+      if (threeBody) line("type", "three-body");
+      writeArrhenius("rate-constant", reaction_.rate);
+      return;
+    }
+    line("type", threeBody ? "three-body-Blowers-Masel" : "Blowers-Masel");
+    const auto& rate = reaction_.rate;
+    line("rate-constant",
+         fmt::format("{{A: {}, b: {}, Ea0: {}, w: {}}}", yamlNumber(rate.A), yamlNumber(rate.b),
+                     yamlNumber(rate.activationTemperature), yamlNumber(reaction_.blowersMasel->bondEnergy)));
+  }
+
+  void writeColliders() {
+    line("type", "linear-Burke");
+    out_ += "  colliders:\n";
+    for (const auto& collider : reaction_.colliders) {
+      out_ +=
+          fmt::format("  - name: {}\n", collider.species ? yamlName(mechanism_.speciesName(*collider.species)) : "M");
+      if (collider.species) out_ += fmt::format("    efficiency: {{{}}}\n", arrheniusFields(collider.efficiency));
+      if (!collider.ownRate) continue;
+      // The rate's lines are those of a reaction, indented as an entry of the list.
+      ReactionWriter writer(collider.rate, mechanism_);
+      writer.writeRate();
+      std::string_view rest = writer.out_;
+      while (!rest.empty()) {
+        const auto end = rest.find('\n') + 1;
+        out_ += fmt::format("  {}", rest.substr(0, end));
+        rest.remove_prefix(end);
+      }
+    }
+  }
+
   void writeBroadening() {
+    if (const auto& tsang = reaction_.tsang)
+      line("Tsang", fmt::format("{{A: {}, B: {}}}", yamlNumber(tsang->A), yamlNumber(tsang->B)));
     if (const auto& troe = reaction_.troe) {
       const auto T2 = troe->T2 ? fmt::format(", T2: {}", yamlNumber(*troe->T2)) : std::string();
       line("Troe", fmt::format("{{A: {}, T3: {}, T1: {}{}}}", yamlNumber(troe->A), yamlNumber(troe->T3),

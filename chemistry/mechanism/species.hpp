@@ -10,7 +10,8 @@
 namespace lampblack {
 
 // The standard state of all thermodynamic data is the ideal gas at 1 atm: a reader of data for another pressure shifts
-// the entropy constant.
+// the entropy constant. Shomate polynomials are kept as NASA-9, constant heat capacities as NASA-7: both are special
+// cases, to the last term.
 //
 // NASA seven-coefficient polynomials (thesis eqs 6-15..6-17): `low` holds up to and including `midTemperature`, `high`
 // above. A file that gives a single range has low == high.

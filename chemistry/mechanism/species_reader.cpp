@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/constants.hpp"
 
@@ -63,43 +64,130 @@ Polynomials<N> readPolynomials(const YamlAccess& yaml, const YamlMap& map, std::
   return result;
 }
 
-void readThermo(const YamlAccess& yaml, UnitSystem units, const YAML::Node& node, const std::string& owner,
-                Species& species) {
-  const YamlMap map(yaml, node, owner + ", 'thermo'");
-  if (const auto* own = map.find("units")) units = yaml.units(*own, units);
-  const auto& model = map.at("model");
-  const auto& name = yaml.text(model, map.what());
-  if (name != "NASA7" && name != "NASA9")
-    yaml.fail(model, fmt::format("{}: model '{}' is not supported; supported are NASA7 and NASA9", map.what(), name));
-  map.allowOnly({"model", "units", "temperature-ranges", "data", "note", "reference-pressure", "comment", "reference"});
-  // The standard state is the ideal gas at 1 atm: s(1 atm)/R = s(p)/R + ln(p/1 atm).
-  double shift = 0;
-  if (const auto* p = map.find("reference-pressure")) {
-    const double pressure = yaml.quantity(*p, kPascal, units.pressure(), map.what());
-    if (!(pressure > 0) || !std::isfinite(pressure))
-      yaml.fail(*p, fmt::format("{}: expected a positive reference pressure", map.what()));
-    shift = std::log(pressure / constants::oneAtmosphere);
-  }
-  auto& thermo = species.thermo;
-  std::vector<double> T;
-  if (name == "NASA7") {
-    auto polynomials = readPolynomials<7>(yaml, map, "seven");
-    if (polynomials.rows.size() > 2)
-      yaml.fail(map.at("data"), fmt::format("{}: expected one or two ranges of temperature", map.what()));
-    for (auto& row : polynomials.rows) row[6] += shift;
-    thermo.low = polynomials.rows.front();
-    thermo.high = polynomials.rows.back();
-    T = std::move(polynomials.temperatures);
-  } else {
-    auto polynomials = readPolynomials<9>(yaml, map, "nine");
-    for (auto& row : polynomials.rows) row[8] += shift;
-    T = polynomials.temperatures;
-    species.nasa9 = Nasa9{std::move(polynomials.temperatures), std::move(polynomials.rows)};
-  }
-  thermo.minTemperature = T.front();
-  thermo.midTemperature = T[1];
-  thermo.maxTemperature = T.back();
+// cp = A + B t + C t^2 + D t^3 + E/t^2, h = A t + B t^2/2 + C t^3/3 + D t^4/4 - E/t + F, s = A ln t + B t + C t^2/2 +
+// D t^3/3 - E/(2 t^2) + G with t = T/1000 K, in J/mol/K and kJ/mol: NASA-9 polynomials written in another way.
+std::array<double, 9> nasa9FromShomate(const std::array<double, 7>& c) {
+  constexpr double R = constants::gasConstant;
+  return {1e6 * c[4] / R,
+          0.0,
+          c[0] / R,
+          1e-3 * c[1] / R,
+          1e-6 * c[2] / R,
+          1e-9 * c[3] / R,
+          0.0,
+          1e3 * c[5] / R,
+          (c[6] - c[0] * std::log(1e3)) / R};
 }
+
+class ThermoReader {
+ public:
+  ThermoReader(const YamlAccess& yaml, const UnitSystem& units, const YAML::Node& node, const std::string& owner,
+               Species& species)
+      : yaml_(yaml), units_(units), map_(yaml, node, owner + ", 'thermo'"), species_(species) {
+    if (const auto* own = map_.find("units")) units_ = yaml.units(*own, units_);
+  }
+
+  void read() {
+    const auto& model = map_.at("model");
+    const auto& name = yaml_.text(model, map_.what());
+    if (name == "constant-cp") return readConstantCp();
+    if (name != "NASA7" && name != "NASA9" && name != "Shomate")
+      yaml_.fail(model, fmt::format("{}: model '{}' is not supported; supported are NASA7, NASA9, Shomate and "
+                                    "constant-cp",
+                                    map_.what(), name));
+    map_.allowOnly(
+        {"model", "units", "temperature-ranges", "data", "note", "reference-pressure", "comment", "reference"});
+    if (name == "NASA7")
+      readNasa7();
+    else if (name == "NASA9")
+      readNasa9();
+    else
+      readShomate();
+  }
+
+ private:
+  // What to add to s/R: the standard state is the ideal gas at 1 atm, s(1 atm)/R = s(p)/R + ln(p/1 atm).
+  double entropyShift() const {
+    const auto* p = map_.find("reference-pressure");
+    if (p == nullptr) return 0;
+    const double pressure = yaml_.quantity(*p, kPascal, units_.pressure(), map_.what());
+    if (!(pressure > 0) || !std::isfinite(pressure))
+      yaml_.fail(*p, fmt::format("{}: expected a positive reference pressure", map_.what()));
+    return std::log(pressure / constants::oneAtmosphere);
+  }
+
+  template <std::size_t N>
+  Polynomials<N> oneOrTwoRanges() const {
+    auto polynomials = readPolynomials<N>(yaml_, map_, "seven");
+    if (polynomials.rows.size() > 2)
+      yaml_.fail(map_.at("data"), fmt::format("{}: expected one or two ranges of temperature", map_.what()));
+    return polynomials;
+  }
+
+  void setRange(const std::vector<double>& T) {
+    species_.thermo.minTemperature = T.front();
+    species_.thermo.midTemperature = T[1];
+    species_.thermo.maxTemperature = T.back();
+  }
+
+  void readNasa7() {
+    auto polynomials = oneOrTwoRanges<7>();
+    for (auto& row : polynomials.rows) row[6] += entropyShift();
+    species_.thermo.low = polynomials.rows.front();
+    species_.thermo.high = polynomials.rows.back();
+    setRange(polynomials.temperatures);
+  }
+
+  void readNasa9() {
+    auto polynomials = readPolynomials<9>(yaml_, map_, "nine");
+    for (auto& row : polynomials.rows) row[8] += entropyShift();
+    setRange(polynomials.temperatures);
+    species_.nasa9 = Nasa9{std::move(polynomials.temperatures), std::move(polynomials.rows)};
+  }
+
+  void readShomate() {
+    auto polynomials = oneOrTwoRanges<7>();
+    setRange(polynomials.temperatures);
+    species_.nasa9 = Nasa9{std::move(polynomials.temperatures), {}};
+    for (const auto& row : polynomials.rows) {
+      species_.nasa9->ranges.push_back(nasa9FromShomate(row));
+      species_.nasa9->ranges.back()[8] += entropyShift();
+    }
+  }
+
+  double valueOf(std::string_view key, const MechanismUnit& unit, double factor, double standard) const {
+    const auto* node = map_.find(key);
+    return node == nullptr ? standard : yaml_.quantity(*node, unit, factor, fmt::format("{}, '{}'", map_.what(), key));
+  }
+
+  // h = h0 + cp0 (T - T0), s = s0 + cp0 ln(T/T0): a NASA-7 polynomial of one range.
+  void readConstantCp() {
+    map_.allowOnly({"model", "units", "T0", "h0", "s0", "cp0", "T-min", "T-max", "note", "reference-pressure",
+                    "comment", "reference"});
+    constexpr double R = constants::gasConstant;
+    constexpr MechanismUnit joule{1.0, {1, 2, -2, 0, -1}}, joulePerKelvin{1.0, {1, 2, -2, -1, -1}};
+    const double T0 = valueOf("T0", kKelvin, 1.0, 298.15);
+    const double cp = valueOf("cp0", joulePerKelvin, units_.molarEnergy(), 0.0) / R;
+    const double h = valueOf("h0", joule, units_.molarEnergy(), 0.0) / R;
+    const double s = valueOf("s0", joulePerKelvin, units_.molarEnergy(), 0.0) / R;
+    const double least = valueOf("T-min", kKelvin, 1.0, 0.0);
+    const double largest = valueOf("T-max", kKelvin, 1.0, std::numeric_limits<double>::max());
+    if (!(T0 > 0)) yaml_.fail(map_.node(), map_.what() + ": expected a positive 'T0'");
+    if (!(least >= 0 && least < largest))
+      yaml_.fail(map_.node(), map_.what() + ": expected 'T-min' of zero or more below 'T-max'");
+    auto& thermo = species_.thermo;
+    thermo.low = {cp, 0, 0, 0, 0, h - cp * T0, s - cp * std::log(T0) + entropyShift()};
+    for (const double a : thermo.low)
+      if (!std::isfinite(a)) yaml_.fail(map_.node(), map_.what() + ": the values are out of range");
+    thermo.high = thermo.low;
+    setRange({least, largest});
+  }
+
+  const YamlAccess& yaml_;
+  UnitSystem units_;
+  YamlMap map_;
+  Species& species_;
+};
 
 // Numbers that stand alone are in Angstrom, Debye and K, whatever the units of the file: so the format has it.
 TransportData readTransport(const YamlAccess& yaml, const YAML::Node& node, const std::string& owner) {
@@ -149,7 +237,7 @@ Species readSpecies(const YamlAccess& yaml, const UnitSystem& units, const YAML:
                  "critical-parameters", "comment", "reference"});
   const auto* own = map.find("units");
   readComposition(yaml, map.at("composition"), what, elements, species);
-  readThermo(yaml, own != nullptr ? yaml.units(*own, units) : units, map.at("thermo"), what, species);
+  ThermoReader(yaml, own != nullptr ? yaml.units(*own, units) : units, map.at("thermo"), what, species).read();
   if (const auto* transport = map.find("transport")) species.transport = readTransport(yaml, *transport, what);
   return species;
 }

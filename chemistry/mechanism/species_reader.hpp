@@ -1,4 +1,4 @@
-// Reads one entry of a list of species of a Cantera YAML file: composition, NASA-7 or NASA-9 data, gas transport data.
+// Reads one entry of a list of species of a Cantera YAML file: composition, thermodynamic and gas transport data.
 #pragma once
 
 #include <span>

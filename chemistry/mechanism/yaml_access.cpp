@@ -91,6 +91,21 @@ double YamlAccess::activationTemperature(const YAML::Node& node, const UnitSyste
   }
 }
 
+std::vector<YAML::Node> YamlAccess::values(const YAML::Node& node, std::initializer_list<std::string_view> keys,
+                                           std::string_view what) const {
+  std::vector<YAML::Node> result;
+  if (node.IsDefined() && node.IsSequence()) {
+    if (node.size() != keys.size())
+      fail(node, fmt::format("{}: expected {}; found {} values", what, fmt::join(keys, ", "), node.size()));
+    for (const auto& value : node) result.push_back(value);
+    return result;
+  }
+  const YamlMap map(*this, node, std::string(what));
+  map.allowOnly(keys);
+  for (const auto key : keys) result.push_back(map.at(key));
+  return result;
+}
+
 void YamlAccess::requireMap(const YAML::Node& node, std::string_view what) const {
   if (!node.IsDefined() || !node.IsMap()) fail(node, fmt::format("{}: expected a map of keys and values", what));
 }

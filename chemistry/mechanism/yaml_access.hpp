@@ -29,6 +29,9 @@ class YamlAccess {
   double quantity(const YAML::Node& node, const MechanismUnit& expected, double factor, std::string_view what) const;
   // The same for an activation energy, in K.
   double activationTemperature(const YAML::Node& node, const UnitSystem& units, std::string_view what) const;
+  // The values of these keys in a map that has no others, or in a list in this order.
+  std::vector<YAML::Node> values(const YAML::Node& node, std::initializer_list<std::string_view> keys,
+                                 std::string_view what) const;
   void requireMap(const YAML::Node& node, std::string_view what) const;
   void requireSequence(const YAML::Node& node, std::string_view what) const;
 

@@ -45,6 +45,9 @@ MISTAKES = [
     ("no transport data for the model asked for", (SILICA, "--T", "300", "--X", "CO:1", "--transport",
                                                    "mixture-averaged"), ("has no transport data",)),
     ("YAML with CHEMKIN data", (HYDROGEN, "therm.dat", "--T", "300", "--X", AIR), ("is YAML", "therm.dat")),
+    ("unknown phase", (HYDROGEN, "--phase", "liquid", "--T", "300", "--X", AIR),
+     ("there is no phase 'liquid'", "(ideal-gas)")),
+    ("phase of CHEMKIN", ("chem.inp", "--phase", "gas", "--T", "300", "--X", AIR), ("--phase", "YAML", "chem.inp")),
     ("two equilibria", (HYDROGEN, "--T", "300", "--X", AIR, "--hp", "--uv"), ("one equilibrium at a time",)),
 ]
 

@@ -68,6 +68,7 @@ MISTAKES = [
     ("misspelt problem", CLOSED, "problem:", "probelm:", ("unknown key 'probelm'", "did you mean 'problem'?")),
     ("unknown problem", CLOSED, "problem: reactor", "problem: reacter", ("expected one of: flow, flame1d, reactor", "did you mean 'reactor'?")),
     ("key of another problem", CLOSED, "time:", "mesh:\n  refinement: 1\ntime:", ("mesh: unknown key 'mesh'",)),
+    ("unknown phase", CLOSED, "reactor:\n  type", "phase: liquid\nreactor:\n  type", ("mechanism", "there is no phase 'liquid'", "'gas' (ideal-gas)")),
     ("unknown type", CLOSED, "constant_pressure", "constant_presure", ("reactor.type", "constant_pressure")),
     ("no initial state", CLOSED, CLOSED[CLOSED.index("initial:"):CLOSED.index("time:")], "", ("needs the section 'initial'",)),
     ("no end", CLOSED, "time:\n  end: 1 ms\n", "", ("needs the key 'end'",)),

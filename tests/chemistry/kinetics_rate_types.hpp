@@ -17,6 +17,8 @@ class RateTypes {
     types.addFalloff();
     types.addTabulated();
     types.addPowers();
+    types.addEnthalpyDependent();
+    types.addLinearBurke();
     return types.build();
   }
 
@@ -84,6 +86,56 @@ class RateTypes {
     return r;
   }
 
+  // Activation energies within the formula's middle range, and of the branches below and above it.
+  static std::vector<Reaction> blowersMasel() {
+    auto middle =
+        reaction(Reaction::Type::Elementary, {{"O", 1}, {"H2", 1}}, {{"H", 1}, {"OH", 1}}, {3.9e-2, 2.7, 3150});
+    middle.blowersMasel = BlowersMasel{5e4};
+    auto none = reaction(Reaction::Type::Elementary, {{"H", 1}, {"HO2", 1}}, {{"H2", 1}, {"O2", 1}}, {2e7, 0, 500});
+    none.blowersMasel = BlowersMasel{5e4};
+    auto whole = reaction(Reaction::Type::ThreeBody, {{"H2O", 1}}, {{"H", 1}, {"OH", 1}}, {6e6, -0.4, 5000});
+    whole.blowersMasel = BlowersMasel{6e4};
+    whole.thirdBody = ThirdBody{1, terms({{"H2O", 10}, {"AR", 0.5}})};
+    return {middle, none, whole};
+  }
+
+  static Reaction tsangFalloff() {
+    auto r = reaction(Reaction::Type::Falloff, {{"O", 1}, {"OH", 1}}, {{"HO2", 1}}, {8e6, 0.1, 300});
+    r.lowPressureRate = {3e4, -1.1, 100};
+    r.tsang = TsangBroadening{0.95, -1e-4};
+    r.thirdBody = ThirdBody{1, terms({{"H2O", 5}})};
+    return r;
+  }
+
+  // H + OH <=> H2O: fall-off for all, water more efficient, rates of their own for argon, oxygen and hydrogen.
+  static Reaction linearBurke() {
+    auto r = reaction(Reaction::Type::LinearBurke, {{"H", 1}, {"OH", 1}}, {{"H2O", 1}}, {});
+    auto all = reaction(Reaction::Type::Falloff, {{"H", 1}, {"OH", 1}}, {{"H2O", 1}}, {2.5e7, 0.23, -57}, false);
+    all.lowPressureRate = {4.5e6, -1.8, 250};
+    all.troe = TroeBroadening{0.6, 100, 2000, 5000.0};
+    all.thirdBody = ThirdBody{};
+    auto ofHydrogen = all;
+    ofHydrogen.troe.reset();
+    ofHydrogen.tsang = TsangBroadening{0.3, 1e-4};
+    ofHydrogen.rate.A = 4e7;
+    auto ofArgon = pressureLog(), ofOxygen = chebyshev();
+    for (auto* rate : {&ofArgon, &ofOxygen}) {
+      rate->reactants = all.reactants;
+      rate->products = all.products;
+      rate->reversible = false;
+    }
+    const auto named = [](const char* name, Arrhenius efficiency) {
+      return Collider{terms({{name, 1}})[0].species, efficiency, false, {}};
+    };
+    r.colliders = {Collider{std::nullopt, {1, 0, 0}, true, all}, named("H2O", {0.1, 0.55, -120}),
+                   named("AR", {0.022, 0.47, -60}), named("O2", {3, -0.1, 50}), named("H2", {2, 0, 0})};
+    r.colliders[2].rate = ofArgon;
+    r.colliders[3].rate = ofOxygen;
+    r.colliders[4].rate = ofHydrogen;
+    for (const std::size_t i : {2, 3, 4}) r.colliders[i].ownRate = true;
+    return r;
+  }
+
   static Reaction ordersOfAll() {
     auto r = reaction(Reaction::Type::Elementary, {{"H2", 1}, {"O2", 1}}, {{"OH", 2}}, {3e4, 0.5, 9000}, false);
     r.orders = terms({{"H2", 0.5}, {"O2", 1.25}, {"H2O", -0.3}});
@@ -104,7 +156,8 @@ class RateTypes {
     activatedSri.lowPressureRate = {6e6, 0.4, 400};
     activatedSri.sri = SriBroadening{0.8, 300, 0, 1, 0};
     activatedSri.thirdBody = ThirdBody{1, {}};
-    for (const auto& r : {troe, lindemann, sriFalloff(), activated(), activatedSri}) reactions_.push_back(r);
+    for (const auto& r : {troe, lindemann, sriFalloff(), activated(), activatedSri, tsangFalloff()})
+      reactions_.push_back(r);
     auto threeBody = reaction(Reaction::Type::ThreeBody, {{"H", 2}}, {{"H2", 1}}, {1e6, -1, 0});
     threeBody.thirdBody = ThirdBody{1, terms({{"H2", 0}, {"H2O", 0}})};
     reactions_.push_back(threeBody);
@@ -119,6 +172,21 @@ class RateTypes {
     single.pressureRates = {{1e5, {9.6, 2, 2000}}};
     reactions_.push_back(single);
     reactions_.push_back(chebyshev());
+  }
+
+  void addEnthalpyDependent() {
+    for (const auto& r : blowersMasel()) reactions_.push_back(r);
+  }
+
+  // The second: PLOG for all, and only efficiencies beside it.
+  void addLinearBurke() {
+    reactions_.push_back(linearBurke());
+    auto other = reaction(Reaction::Type::LinearBurke, {{"H", 1}, {"HO2", 1}}, {{"OH", 2}}, {}, false);
+    auto rate = pressureLog();
+    rate.reversible = false;
+    other.colliders = {Collider{std::nullopt, {1, 0, 0}, true, rate},
+                       Collider{terms({{"N2", 1}})[0].species, {1.7, -0.2, 300}, false, {}}};
+    reactions_.push_back(other);
   }
 
   void addPowers() {

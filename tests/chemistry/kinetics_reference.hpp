@@ -46,12 +46,16 @@ Number plainBroadening(const Reaction& reaction, Number T, Number Pr) {
     const Number X = one / (one + log10(Pr) * log10(Pr));
     return Real(s.d) * pow(T, Real(s.e)) * pow(bracket, X);
   }
-  if (reaction.troe) {
-    const auto& t = *reaction.troe;
+  if (reaction.troe || reaction.tsang) {
     Number centre = 0;
-    if (t.T3 != 0) centre += (one - Real(t.A)) * exp(-T / Real(t.T3));
-    if (t.T1 != 0) centre += Real(t.A) * exp(-T / Real(t.T1));
-    if (t.T2.value_or(0) != 0) centre += exp(-Real(*t.T2) / T);
+    if (reaction.troe) {
+      const auto& t = *reaction.troe;
+      if (t.T3 != 0) centre += (one - Real(t.A)) * exp(-T / Real(t.T3));
+      if (t.T1 != 0) centre += Real(t.A) * exp(-T / Real(t.T1));
+      if (t.T2.value_or(0) != 0) centre += exp(-Real(*t.T2) / T);
+    } else {
+      centre = Real(reaction.tsang->A) + Real(reaction.tsang->B) * T;
+    }
     const Number logCentre = log10(centre);
     const Number c = Real(-0.4L) - Real(0.67L) * logCentre, n = Real(0.75L) - Real(1.27L) * logCentre;
     const Number x = log10(Pr) + c, f = x / (n - Real(0.14L) * x);
@@ -119,15 +123,73 @@ Number plainPower(Number c, double n) {
 }
 
 template <class Number>
+Number plainEnthalpyOverRT(const Species& species, Number T) {
+  using Real = decltype(realPart(T));
+  const auto& a = realPart(T) <= Real(species.thermo.midTemperature) ? species.thermo.low : species.thermo.high;
+  const auto r = [&](std::size_t i) { return Real(a[i]); };
+  return r(0) + T * (r(1) / Real(2) + T * (r(2) / Real(3) + T * (r(3) / Real(4) + T * r(4) / Real(5)))) + r(5) / T;
+}
+
+template <class Number>
 Number plainGibbsOverRT(const Species& species, Number T) {
   using std::log;
   using Real = decltype(realPart(T));
   const auto& a = realPart(T) <= Real(species.thermo.midTemperature) ? species.thermo.low : species.thermo.high;
   const auto r = [&](std::size_t i) { return Real(a[i]); };
-  const Number h =
-      r(0) + T * (r(1) / Real(2) + T * (r(2) / Real(3) + T * (r(3) / Real(4) + T * r(4) / Real(5)))) + r(5) / T;
+  const Number h = plainEnthalpyOverRT(species, T);
   const Number s = r(0) * log(T) + T * (r(1) + T * (r(2) / Real(2) + T * (r(3) / Real(3) + T * r(4) / Real(4)))) + r(6);
   return h - s;
+}
+
+// Blowers and Masel (2000), as printed.
+template <class Number>
+Number plainBlowersMasel(const Mechanism& mechanism, const Reaction& reaction, Number T) {
+  using std::exp, std::pow;
+  using Real = decltype(realPart(T));
+  const Real E0 = reaction.rate.activationTemperature, w = reaction.blowersMasel->bondEnergy, two = 2, four = 4;
+  Number H = 0;
+  for (const auto& t : reaction.products)
+    H += Real(t.coefficient) * T * plainEnthalpyOverRT(mechanism.species(t.species), T);
+  for (const auto& t : reaction.reactants)
+    H -= Real(t.coefficient) * T * plainEnthalpyOverRT(mechanism.species(t.species), T);
+  const Real V = two * w * (w + E0) / (w - E0);
+  Number Ea = (w + H / two) * (V - two * w + H) * (V - two * w + H) / (V * V - four * w * w + H * H);
+  if (realPart(H) < -four * E0) Ea = 0;
+  if (realPart(H) > four * E0) Ea = H;
+  return Real(reaction.rate.A) * pow(T, Real(reaction.rate.b)) * exp(-Ea / T);
+}
+
+// The rate constant of a reaction that depends on pressure p (or [M] for fall-off).
+template <class Number>
+Number plainDependingOnPressure(const Reaction& reaction, Number T, Number p, Number M) {
+  if (reaction.type == Reaction::Type::PressureLog) return plainPressureLog(reaction, T, p);
+  if (reaction.type == Reaction::Type::Chebyshev) return plainChebyshev(*reaction.chebyshev, T, p);
+  using Real = decltype(realPart(T));
+  const Number one = Real(1), high = plainArrhenius(reaction.rate, T),
+               low = plainArrhenius(reaction.lowPressureRate, T);
+  const Number Pr = low * M / high, F = plainBroadening(reaction, T, Pr);
+  return reaction.type == Reaction::Type::Falloff ? high * (Pr / (one + Pr)) * F : low / (one + Pr) * F;
+}
+
+// Singal et al. (2024, eq. 8): the sum over species of X_j e_j/(sum X e) k_j(T, p sum X e/e_j).
+template <class Number>
+Number plainLinearBurke(const Reaction& reaction, Number T, const std::vector<Number>& c) {
+  using Real = decltype(realPart(T));
+  const Real R = constants::gasConstant;
+  const auto& M = reaction.colliders[0];
+  std::vector<const Collider*> colliders(c.size(), &M);
+  for (const auto& collider : reaction.colliders)
+    if (collider.species) colliders[*collider.species] = &collider;
+  Number total = 0, mix = 0, k = 0;
+  for (const auto& value : c) total += value;
+  for (std::size_t j = 0; j < c.size(); ++j) mix += c[j] / total * plainArrhenius(colliders[j]->efficiency, T);
+  for (std::size_t j = 0; j < c.size(); ++j) {
+    const Number efficiency = plainArrhenius(colliders[j]->efficiency, T);
+    const Number reduced = colliders[j]->ownRate ? mix / efficiency : mix;
+    const auto& rate = colliders[j]->ownRate ? colliders[j]->rate : M.rate;
+    k += c[j] / total * efficiency / mix * plainDependingOnPressure(rate, T, R * T * total * reduced, total * reduced);
+  }
+  return k;
 }
 
 template <class Number>
@@ -152,18 +214,14 @@ PlainRates<Number> plainRates(const Mechanism& mechanism, Number T, const std::v
         M += efficiency * c[k];
       }
     Number kf = 0;
-    if (reaction.type == Reaction::Type::PressureLog) {
-      kf = plainPressureLog(reaction, T, p);
-    } else if (reaction.type == Reaction::Type::Chebyshev) {
-      kf = plainChebyshev(*reaction.chebyshev, T, p);
-    } else {
+    if (reaction.blowersMasel)
+      kf = plainBlowersMasel(mechanism, reaction, T);
+    else if (reaction.type == Reaction::Type::Elementary || reaction.type == Reaction::Type::ThreeBody)
       kf = plainArrhenius(reaction.rate, T);
-    }
-    if (reaction.type == Reaction::Type::Falloff || reaction.type == Reaction::Type::ChemicallyActivated) {
-      const Number low = plainArrhenius(reaction.lowPressureRate, T), Pr = low * M / kf;
-      const Number F = plainBroadening(reaction, T, Pr);
-      kf = reaction.type == Reaction::Type::Falloff ? kf * (Pr / (one + Pr)) * F : low / (one + Pr) * F;
-    }
+    else if (reaction.type == Reaction::Type::LinearBurke)
+      kf = plainLinearBurke(reaction, T, c);
+    else
+      kf = plainDependingOnPressure(reaction, T, p, M);
     Number lnKc = 0, nuSum = 0;
     const auto side = [&](const std::vector<StoichiometricTerm>& terms, Real sign) {
       for (const auto& t : terms) {

@@ -81,14 +81,16 @@ TEST(MechanismErrors, DuplicatesMustBeMarked) {
 }
 
 TEST(MechanismErrors, WhatIsNotSupportedIsNamed) {
-  EXPECT_THAT(reactionMessage("equation: H + O2 <=> HO2, type: Blowers-Masel, rate-constant: [1, 0, 0, 0]"),
-              AllOf(HasSubstr(":12:"), HasSubstr("'H + O2 <=> HO2'"), HasSubstr("'Blowers-Masel' is not supported"),
-                    HasSubstr("pressure-dependent-Arrhenius and Chebyshev")));
-  EXPECT_THAT(reactionMessage("equation: H + O2 (+M) <=> HO2 (+M), type: falloff, Tsang: {A: 1, B: 1}"),
-              AllOf(HasSubstr(":12:"), HasSubstr("'Tsang' is not supported; supported are Troe and SRI")));
-  EXPECT_THAT(messageOf(mechanismText(
-                  "species: [H]", "\n- name: H\n  composition: {H: 1}\n  thermo: {model: Shomate, data: []}", "[]")),
-              AllOf(HasSubstr(":9:"), HasSubstr("'Shomate' is not supported; supported are NASA7 and NASA9")));
+  for (const std::string type : {"two-temperature-plasma", "electron-collision-plasma", "interface-Arrhenius",
+                                 "sticking-Arrhenius", "electrochemical", "interface-Blowers-Masel"})
+    EXPECT_THAT(reactionMessage("equation: H + O2 <=> HO2, type: " + type + ", rate-constant: [1, 0, 0, 0]"),
+                AllOf(HasSubstr(":12:"), HasSubstr("'H + O2 <=> HO2'"), HasSubstr("'" + type + "' is not supported"),
+                      HasSubstr("Blowers-Masel and linear-Burke")));
+  EXPECT_THAT(
+      messageOf(mechanismText("species: [H]",
+                              "\n- name: H\n  composition: {H: 1}\n  thermo: {model: piecewise-Gibbs, h0: 1}", "[]")),
+      AllOf(HasSubstr(":9:"), HasSubstr("'piecewise-Gibbs' is not supported; supported are NASA7, NASA9, "
+                                        "Shomate and constant-cp")));
 }
 
 // Each of these forgets or contradicts something of its type; all stand in line 12.
@@ -98,13 +100,17 @@ TEST(MechanismErrors, RatesThatMakeNoSense) {
   const std::string plog = "equation: H + O2 <=> HO2, type: pressure-dependent-Arrhenius, rate-constants: ";
   const std::string chebyshev = "equation: H + O2 <=> HO2, type: Chebyshev, ";
   const std::string ranges = "temperature-range: [300, 2000], pressure-range: [1, 2], ";
+  const std::string burke = "equation: H + O2 => HO2, type: linear-Burke, colliders: ";
+  const std::string all = "name: M, type: falloff, low-P-rate-constant: [1, 0, 0], high-P-rate-constant: [1, 0, 0]";
   const std::pair<std::string, std::string> cases[] = {
       {falloff + "Troe: {A: 1, T3: 1}", "'Troe' has no 'T1'"},
       {falloff + "Troe: {A: 1, T3: 1, T1: 1, T4: 1}", "unknown key 'T4'"},
       {falloff + "Troe: {A: 1, T3: 1 cm, T1: 1}", "'1 cm' has the wrong unit; expected one like K"},
       {falloff + "SRI: {A: 1, B: 1, C: -1}", "expected a and c of zero or more"},
       {falloff + "SRI: {A: 1, B: 1, C: 1, D: 0}", "a positive d"},
-      {falloff + "SRI: {A: 1, B: 1, C: 1}, Troe: {A: 1, T3: 1, T1: 1}", "not both"},
+      {falloff + "SRI: {A: 1, B: 1, C: 1}, Troe: {A: 1, T3: 1, T1: 1}", "only one of"},
+      {falloff + "Tsang: {A: 1, B: 1}, Troe: {A: 1, T3: 1, T1: 1}", "only one of"},
+      {falloff + "Tsang: {B: 1}", "'Tsang' has no 'A'"},
       {"equation: H + O2 (+M) <=> HO2 (+M), type: falloff, negative-A: true, high-P-rate-constant: [-1, 0, 0], "
        "low-P-rate-constant: [1, 0, 0]",
        "of one sign"},
@@ -125,7 +131,27 @@ TEST(MechanismErrors, RatesThatMakeNoSense) {
       {"equation: H + O2 => HO2, rate-constant: [1 cm^6/mol^2/s, 0, 0]", "expected one like m^3/s/mol"},
       {"equation: H + O2 => HO2, rate-constant: [1 furlong/s, 0, 0]", "'furlong' is not a known unit"},
       {"equation: H + O2 => HO2, rate-constant: [1, 0, 1 m]", "not a unit of an activation energy"},
-      {"equation: H + O2 => HO2, rate-constant: [1]", "expected A, b and Ea"},
+      {"equation: H + O2 => HO2, rate-constant: [1]", "expected A, b, Ea; found 1 values"},
+      {"equation: H + O2 => HO2, rate-constant: [1, 0]", "expected A, b, Ea; found 2 values"},
+      {"equation: H + O2 => HO2, rate-constant: {A: 1, b: 0}", "'rate-constant' has no 'Ea'"},
+      {plog + "[{P: 1, A: 1, b: 0}]", "has no 'Ea'"},
+      {"equation: H + O2 => HO2, type: Blowers-Masel, rate-constant: {A: 1, b: 0, Ea: 0}", "unknown key 'Ea'"},
+      {"equation: H + O2 => HO2, type: Blowers-Masel, rate-constant: [1, 0, 0]", "expected A, b, Ea0, w"},
+      {"equation: H + O2 => HO2, type: Blowers-Masel, rate-constant: [1, 0, 500, 400]", "a bond energy 'w' above it"},
+      {"equation: H + O2 => HO2, type: Blowers-Masel, rate-constant: [1, 0, -5, 400]", "'Ea0' of zero or more"},
+      {burke + "[]", "'M' as the first"},
+      {burke + "[{name: AR, efficiency: {A: 1, b: 0, Ea: 0}}]", "'M' as the first of 'colliders', found 'AR'"},
+      {burke + "[{" + all + "}, {name: AR}]", "expected 'efficiency'"},
+      {burke + "[{" + all + "}, {name: AR, eig0: [1, 0, 0]}]", "expected 'efficiency'"},
+      {burke + "[{" + all + ", eig0: [1, 0, 0]}, {name: AR, efficiency: [1, 0, 0]}]", "expected 'eig0'"},
+      {burke + "[{" + all + ", efficiency: [2, 0, 0]}]", "an efficiency of one"},
+      {burke + "[{" + all + "}, {name: AR, efficiency: [-1, 0, 0]}]", "a positive 'A'"},
+      {burke + "[{" + all + "}, {name: N2, efficiency: [1, 0, 0]}]", "collider 'N2': the species is not declared"},
+      {burke + "[{" + all + "}, {name: AR, efficiency: [1, 0, 0]}, {name: AR, efficiency: [1, 0, 0]}]", "there twice"},
+      {burke + "[{name: M}]", "expected a 'type'"},
+      {burke + "[{name: M, type: Arrhenius, rate-constant: [1, 0, 0]}]", "unknown key 'rate-constant'"},
+      {burke + "[{" + all + "}, {name: AR, efficiency: [1, 0, 0], Troe: {}}]", "unknown key 'Troe'"},
+      {"equation: H + O2 => HO2, type: linear-Burke", "has no 'colliders'"},
       {"equation: H + O2 <=> HO2, orders: {H: 2}, rate-constant: [1, 0, 0]", "need an irreversible reaction"},
       {"equation: H + O2 => HO2, orders: {AR: 2}, rate-constant: [1, 0, 0]", "expected 'nonreactant-orders: true'"},
       {"equation: H + O2 => HO2, orders: {H: -2}, rate-constant: [1, 0, 0]", "expected 'negative-orders: true'"},

@@ -217,9 +217,9 @@ TEST(MechanismRates, UnitsBehindNumbers) {
   expectRate(A("H + O2 => HO2", "[1.0e-11 cm^3/molec/s, 0, 1 eV]"), 1e-17 * constants::avogadro, 0,
              1.602176634e-19 / constants::boltzmann);
   expectRate(A("H + O2 + M => HO2 + M", "[6 L^2/mol^2/min, 0.5, 300 K]"), 1e-7, 0.5, 300);
-  expectRate(A("H + O2 + M => HO2 + M", "[2 cm^6*mol^-2*s^-1, 0]"), 2e-12, 0, 0);
+  expectRate(A("H + O2 + M => HO2 + M", "[2 cm^6*mol^-2*s^-1, 0, 0]"), 2e-12, 0, 0);
   expectRate(A("HO2 => H + O2", "[3 1/ms, 0, 10 kcal/mol]"), 3000, 0, 10000 * kCalorie);
-  expectRate(A("HO2 => H + O2", "{A: 3, b: 0}"), 3, 0, 0);
+  expectRate(A("HO2 => H + O2", "{A: 3, b: 0, Ea: 0}"), 3, 0, 0);
 }
 
 }  // namespace

@@ -25,7 +25,8 @@ std::string species(const std::string& name, const std::string& composition) {
 // The phase's entries stand in line 2; the species follow in lines 4 to 7, the section `more` in 9, reactions in 11 to
 // 12, and another list of them from line 14 on.
 std::string file(const std::string& phase) {
-  return "phases:\n- {name: gas, thermo: ideal-gas, " + phase + "}\nspecies:\n" + species("H", "H: 1") +
+  const std::string kinetics = phase.find("kinetics:") == std::string::npos ? "kinetics: gas, " : "";
+  return "phases:\n- {name: gas, thermo: ideal-gas, " + kinetics + phase + "}\nspecies:\n" + species("H", "H: 1") +
          species("O2", "O: 2") + species("HO2", "H: 1, O: 2") + species("CO", "C: 1, O: 1") + "more:\n" +
          species("AR", "Ar: 1") + "reactions:\n" +
          "- {equation: H + O2 + M => HO2 + M, rate-constant: [1, 0, 0], efficiencies: {CO: 2}}\n" +

@@ -13,7 +13,7 @@
 namespace lampblack::testing {
 
 // Writes the text to a file, reads it as a mechanism, removes the file.
-inline Mechanism readFileText(const std::string& text) {
+inline Mechanism readFileText(const std::string& text, const std::string& phase = "") {
   const auto path =
       std::filesystem::temp_directory_path() / ("lampblack_mechanism_" + std::to_string(::getpid()) + ".yaml");
   std::ofstream(path) << text;
@@ -21,7 +21,7 @@ inline Mechanism readFileText(const std::string& text) {
     std::filesystem::path path;
     ~Remove() { std::filesystem::remove(path); }
   } remove{path};
-  return Mechanism::fromFile(path.string());
+  return Mechanism::fromFile(path.string(), phase);
 }
 
 // Lines 1 to 6 are fixed; the phase's species stand in line 4, `species` starts after line 6. *t and *u are
@@ -34,7 +34,7 @@ inline std::string mechanismText(const std::string& phaseSpecies, const std::str
          "2e-4, "
          "1e-8, 0, 0, -5900, 3]]}]\n"
          "phases:\n"
-         "- {name: gas, thermo: ideal-gas, " +
+         "- {name: gas, thermo: ideal-gas, kinetics: gas, " +
          phaseSpecies +
          "}\n"
          "\n"

@@ -15,6 +15,7 @@
 #include "chemistry/kinetics/kinetics.hpp"
 #include "chemistry/mechanism/yaml_text.hpp"
 #include "tests/chemistry/chemkin_support.hpp"
+#include "tests/chemistry/kinetics_rate_types.hpp"
 #include "tests/chemistry/mechanism_text.hpp"
 #include "tests/chemistry/table.hpp"
 
@@ -120,6 +121,22 @@ void expectSame(const Reaction& a, const Reaction& b) {
     EXPECT_EQ(a.sri->d, b.sri->d);
     EXPECT_EQ(a.sri->e, b.sri->e);
   }
+  ASSERT_EQ(a.tsang.has_value(), b.tsang.has_value());
+  if (a.tsang) {
+    EXPECT_EQ(a.tsang->A, b.tsang->A);
+    EXPECT_EQ(a.tsang->B, b.tsang->B);
+  }
+  ASSERT_EQ(a.blowersMasel.has_value(), b.blowersMasel.has_value());
+  if (a.blowersMasel) {
+    EXPECT_EQ(a.blowersMasel->bondEnergy, b.blowersMasel->bondEnergy);
+  }
+  ASSERT_EQ(a.colliders.size(), b.colliders.size());
+  for (std::size_t i = 0; i < a.colliders.size(); ++i) {
+    EXPECT_EQ(a.colliders[i].species, b.colliders[i].species);
+    expectSame(a.colliders[i].efficiency, b.colliders[i].efficiency);
+    ASSERT_EQ(a.colliders[i].ownRate, b.colliders[i].ownRate);
+    if (a.colliders[i].ownRate) expectSame(a.colliders[i].rate, b.colliders[i].rate);
+  }
   ASSERT_EQ(a.thirdBody.has_value(), b.thirdBody.has_value());
   if (a.thirdBody) {
     EXPECT_EQ(a.thirdBody->defaultEfficiency, b.thirdBody->defaultEfficiency);
@@ -186,6 +203,29 @@ TEST(MechanismWriter, EveryFeatureOfChemkin) {
                           Reaction::Type::ChemicallyActivated, Reaction::Type::PressureLog, Reaction::Type::Chebyshev})
     EXPECT_TRUE(std::ranges::any_of(mechanism.reactions(), [&](const auto& r) { return r.type == type; }));
   expectRoundTrip(mechanism);
+}
+
+TEST(MechanismWriter, EveryKindOfRate) {
+  expectRoundTrip(lampblack::testing::RateTypes::mechanism());
+}
+
+// Ions and electrons, Shomate polynomials and constant heat capacities.
+TEST(MechanismWriter, IonsAndOtherThermo) {
+  expectRoundTrip(readFileText(R"(
+phases: [{name: gas, thermo: ideal-gas, kinetics: gas}]
+species:
+- {name: NO, composition: {N: 1, O: 1}, thermo: {model: constant-cp, h0: 9.1e7, s0: 2.1e5, cp0: 3.0e4}}
+- name: NO+
+  composition: {N: 1, O: 1, E: -1}
+  thermo: {model: constant-cp, T0: 300 K, h0: 236 kcal/mol, s0: 47 cal/mol/K, cp0: 7 cal/mol/K, T-max: 5000 K}
+- name: E
+  composition: {E: 1}
+  thermo: {model: Shomate, temperature-ranges: [298, 1000, 6000], reference-pressure: 1 bar,
+           data: [[20.8, 1e-3, 0, 0, 1e-4, -6.2, 46], [20.7, 2e-3, 1e-4, -1e-5, 0, -6.1, 46.1]]}
+reactions:
+- equation: NO+ + E <=> NO
+  rate-constant: {A: 1e12, b: -0.5, Ea: 0}
+)"));
 }
 
 TEST(MechanismWriter, Nasa9) {
