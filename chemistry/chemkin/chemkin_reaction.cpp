@@ -30,6 +30,7 @@ class ReactionBuilder {
       source_.fail(entry_.line, error.what());
     }
     for (const auto& item : entry_.auxiliaries) take(item);
+    takeMixtureOfTables();
     checkTogether();
     reaction_.line = entry_.line;
     reaction_.reactants = equation_.reactants;
@@ -147,6 +148,17 @@ class ReactionBuilder {
     efficiencies_.push_back({k, value});
   }
 
+  // The tables hold the dependence on pressure: CHEMKIN reads their '+M' as '(+M)', without a factor [M].
+  void takeMixtureOfTables() {
+    if (!equation_.hasM || (pressureLog_.empty() && chebyshev_.empty())) return;
+    equation_.hasM = false;
+    equation_.hasFalloff = true;
+    warnings_.push_back(
+        fmt::format("{}: reaction '{}': '+M' is taken as '(+M)', for PLOG and CHEB have the dependence "
+                    "on pressure",
+                    source_.place(entry_.line), entry_.equation));
+  }
+
   void checkTogether() const {
     const bool chebyshev = !chebyshev_.empty(), pressureLog = !pressureLog_.empty();
     const int kinds = int{low_.has_value()} + int{high_.has_value()} + int{pressureLog} + int{chebyshev};
@@ -154,7 +166,7 @@ class ReactionBuilder {
       if (wrong) fail(entry_.line, message);
     };
     refuse(kinds > 1, "expected only one of LOW, HIGH, PLOG and CHEB");
-    refuse(equation_.hasM && kinds > 0, "expected '(+M)' in place of '+M' with LOW, HIGH, PLOG or CHEB");
+    refuse(equation_.hasM && kinds > 0, "expected '(+M)' in place of '+M' with LOW or HIGH");
     refuse(equation_.hasFalloff && kinds == 0, "'(+M)' needs LOW, HIGH, PLOG or CHEB");
     refuse(!equation_.hasFalloff && (low_ || high_), "LOW and HIGH need '(+M)' on both sides of the equation");
     refuse((troe_ || sri_) && !(low_ || high_), "TROE and SRI need LOW or HIGH");

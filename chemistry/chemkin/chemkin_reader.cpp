@@ -23,9 +23,6 @@ namespace {
 
 using Kind = ChemkinSection::Kind;
 
-// CODATA 2018, g/mol
-constexpr double kElectronWeight = 5.48579909065e-4;
-
 // "AR" as "Ar", the way the other format names elements.
 std::string elementName(std::string_view symbol) {
   std::string name = upperCase(symbol);
@@ -56,10 +53,17 @@ class ChemkinReader {
       if (section.kind == Kind::Species) readSpecies(section);
     if (species_.empty()) throw InputError(fmt::format("{}: no species; expected a section SPECIES", source_.file()));
     readData(source_, sections_);
-    if (thermo) readFile(*thermo, Kind::Thermo);
+    // A mechanism with its own THERMO may come with transport data alone.
+    const bool second = thermo && isChemkinTransport(ChemkinSource(*thermo));
+    if (second && transport)
+      throw InputError(
+          fmt::format("{}: expected thermodynamic data, found transport data; expected the files in the "
+                      "order mechanism, thermo, transport",
+                      thermo->name));
+    if (thermo) readFile(*thermo, second ? Kind::Transport : Kind::Thermo);
     if (transport) readFile(*transport, Kind::Transport);
     applyThermo();
-    applyTransport(transport.has_value());
+    applyTransport(second || transport.has_value());
     readReactions();
     return Mechanism(source_.file(), source_.heading(), std::move(elements_), std::move(species_),
                      std::move(reactions_), std::move(warnings_));
@@ -105,8 +109,6 @@ class ChemkinReader {
       elements_.push_back({name, *weight * 1e-3});
     } else if (const auto standard = standardAtomicWeight(name)) {
       elements_.push_back({name, *standard});
-    } else if (name == "E") {
-      elements_.push_back({name, kElectronWeight * 1e-3});
     } else {
       source_.fail(line, fmt::format("unknown element '{}'; one of your own needs its atomic weight in g/mol, such as "
                                      "{}/12.011/",

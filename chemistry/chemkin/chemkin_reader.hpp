@@ -12,7 +12,7 @@ namespace lampblack {
 
 struct ChemkinFiles {
   std::string mechanism;                 // ELEMENTS, SPECIES, REACTIONS; THERMO and TRANSPORT may be there too
-  std::optional<std::string> thermo;     // for species without data in the mechanism file
+  std::optional<std::string> thermo;     // for species without data in the mechanism file; or transport data, alone
   std::optional<std::string> transport;  // the same
 };
 

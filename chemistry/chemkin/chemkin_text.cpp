@@ -120,7 +120,6 @@ std::optional<double> fortranNumber(std::string_view text) {
     const bool sign = i < text.size() && (text[i] == '+' || text[i] == '-');
     if (!letter && !sign) return std::nullopt;
     if (sign && text[i++] == '-') number += '-';
-    while (i < text.size() && isBlank(text[i])) ++i;
     if (i == text.size()) return std::nullopt;
     for (; i < text.size() && isDigit(text[i]); ++i) number += text[i];
     if (i != text.size()) return std::nullopt;

@@ -49,7 +49,8 @@ std::string_view trimmed(std::string_view text);
 std::vector<std::string_view> chemkinWords(std::string_view text, std::string_view separators = " \t");
 
 // A finite number in any form that Fortran reads: 1.5, 1, .5, 5., 1e3, 1.D+05, 1.0-300 (an exponent without its
-// letter), 1.2E 05 (a blank for its sign). Empty if the text is something else.
+// letter), 1.2E 05 (a blank for its sign). Empty if the text is something else, such as 1.2E+ 5, what is left of a
+// number that slipped out of its columns.
 std::optional<double> fortranNumber(std::string_view text);
 
 }  // namespace lampblack

@@ -29,8 +29,9 @@ std::string withoutTabs(std::string_view line) {
   return result;
 }
 
-bool isNumber(std::string_view word) {
-  return fortranNumber(word).has_value();
+// Blank, or a zero that stands for no atoms.
+bool isNothing(std::string_view field) {
+  return field.empty() || field == "." || fortranNumber(field) == 0.0;
 }
 
 bool isSymbol(std::string_view word) {
@@ -116,6 +117,7 @@ class ThermoReader {
     result.place = source_.place(lines_[first_].number);
     const auto more = skipContinuations();
     readFixedElements(result);
+    readElementsBehind(result);
     readFreeElements(more, result);
     if (result.atoms.empty()) fail(first_, "expected elements with their numbers of atoms in columns 25 to 44");
     const auto temperatures = readTemperatures();
@@ -154,13 +156,33 @@ class ThermoReader {
     for (const std::size_t column : {25, 30, 35, 40, 74}) {
       const auto symbol = trimmed(columns(card, column, 2)), count = trimmed(columns(card, column + 2, 3));
       // Columns 74-78 also hold the tail of a long temperature.
-      if (symbol.empty() || isNumber(symbol) || symbol == ".") continue;
       if (column == 74 && (!isSymbol(symbol) || count.empty())) continue;
+      if (isNothing(symbol) && isNothing(count)) continue;
       if (!isSymbol(symbol))
-        fail(first_, fmt::format("expected the symbol of an element in columns {} and {}, found '{}'", column,
-                                 column + 1, symbol));
+        fail(first_,
+             fmt::format("expected the symbol of an element in columns {} and {}, found '{}', and the number of "
+                         "its atoms in at most three digits in columns {} to {}, found '{}'; larger numbers "
+                         "need a line announced by '&'",
+                         column, column + 1, symbol, column + 2, column + 4, count));
       addAtoms(result, symbol, count);
     }
+  }
+
+  // Behind column 80: "C  112H   80", pairs to the end of the line. Anything else there is a note.
+  void readElementsBehind(ChemkinThermo& result) const {
+    auto rest = trimmed(columns(lines_[first_].text, 81, std::string_view::npos));
+    if (rest.ends_with('&')) rest = trimmed(rest.substr(0, rest.size() - 1));
+    std::vector<std::pair<std::string_view, std::string_view>> pairs;
+    while (!rest.empty()) {
+      const auto letters = std::min<std::size_t>(rest.find_first_of("-+.0123456789 "), rest.size());
+      const auto symbol = rest.substr(0, letters);
+      rest = trimmed(rest.substr(letters));
+      const auto count = rest.substr(0, std::min(rest.find_first_not_of("-+.0123456789"), rest.size()));
+      if (!isSymbol(symbol) || !fortranNumber(count)) return;
+      pairs.emplace_back(symbol, count);
+      rest = trimmed(rest.substr(count.size()));
+    }
+    for (const auto& [symbol, count] : pairs) addAtoms(result, symbol, count);
   }
 
   // "C 10 H 8"
@@ -210,11 +232,16 @@ class ThermoReader {
   void readCoefficients(std::span<std::optional<double>> a) const {
     const std::string_view line = lines_[next_].text;
     std::string_view wrong;
+    std::size_t column = 0;
     for (std::size_t i = 0; i < a.size(); ++i) {
       const auto field = trimmed(columns(line, 15 * i + 1, 15));
       if (field.empty()) continue;
       a[i] = fortranNumber(field);
-      if (!a[i] && wrong.empty()) wrong = field;
+      // The last of five ends with its column, or it has slipped.
+      const bool goesOn = i == 4 && line.size() > 75 && line[74] != ' ' && line[75] != ' ';
+      if ((a[i] && !goesOn) || !wrong.empty()) continue;
+      wrong = field;
+      column = 15 * i + 1;
     }
     if (wrong.empty()) return;
     // Slipped: as many words as there are coefficients, perhaps with the number of the card behind them.
@@ -224,7 +251,8 @@ class ThermoReader {
       a[i] = fortranNumber(words[i]);
       readable = a[i].has_value();
     }
-    if (!readable) fail(next_, fmt::format("expected a number in columns of 15, found '{}'", wrong));
+    if (!readable)
+      fail(next_, fmt::format("expected a number in columns {} to {}, found '{}'", column, column + 14, wrong));
   }
 
   Nasa7 assemble(const std::array<double, 3>& T, const std::array<std::optional<double>, 14>& a,

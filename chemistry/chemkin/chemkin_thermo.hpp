@@ -28,7 +28,8 @@ using ChemkinThermoTable = std::unordered_map<std::string, ChemkinThermo>;
 //
 // The first line may hold the three default temperatures (low, mid, high; 300, 1000, 5000 K without it).
 //
-// Card 1: name (columns 1-18), elements (25-44 and 74-78, or free on lines announced by '&'), temperatures (46-55 low,
+// Card 1: name (columns 1-18), elements (25-44, 74-78, and from 81 on if nothing else is there; or free on lines
+// announced by '&'), temperatures (46-55 low,
 // 56-65 high, 66-73 mid; blank: the default). Cards 2-4: coefficients in columns of 15, of the upper range first;
 // blank: zero. Fields that slipped out of their columns are read as words where these are unambiguous.
 void readChemkinThermo(const ChemkinSource& source, std::span<const ChemkinLine> section,

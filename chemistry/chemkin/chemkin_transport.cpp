@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <unordered_set>
 
@@ -24,6 +25,10 @@ TransportData readLine(const ChemkinSource& source, const ChemkinLine& line) {
         fmt::format("expected six numbers (geometry, well depth, diameter, dipole moment, polarizability, rotational "
                     "relaxation), found {}",
                     words.size() - 1));
+  // Text may follow, but one number more means that a value is torn in two, or too many.
+  if (words.size() > names.size() + 1 && fortranNumber(words[names.size() + 1]))
+    fail(fmt::format("expected six numbers, found a seventh, '{}', in column {}", words[names.size() + 1],
+                     words[names.size() + 1].data() - line.text.data() + 1));
   std::array<double, names.size()> values{};
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto value = fortranNumber(words[i + 1]);
@@ -54,6 +59,15 @@ TransportData readLine(const ChemkinSource& source, const ChemkinLine& line) {
 }
 
 }  // namespace
+
+bool isChemkinTransport(const ChemkinSource& source) {
+  if (source.lines().empty()) return false;
+  const auto words = chemkinWords(source.lines()[0].text);
+  const auto heading = upperCase(words[0]);
+  if (heading == "TRANSPORT" || heading == "TRANS" || heading == "TRAN") return true;
+  if (words.size() < 7 || (words[1] != "0" && words[1] != "1" && words[1] != "2")) return false;
+  return std::all_of(words.begin() + 1, words.begin() + 7, [](auto word) { return fortranNumber(word).has_value(); });
+}
 
 void readChemkinTransport(const ChemkinSource& source, std::span<const ChemkinLine> section,
                           const std::function<bool(std::string_view)>& wanted, ChemkinTransportTable& table,

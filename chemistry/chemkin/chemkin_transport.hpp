@@ -22,11 +22,15 @@ using ChemkinTransportTable = std::unordered_map<std::string, ChemkinTransport>;
 
 // Reads the lines of one section, its heading word and END left out, into a table of the species for which `wanted`
 // holds: name, geometry (0 atom, 1 linear, 2 nonlinear), eps/k (K), diameter (angstrom), dipole (debye),
-// polarizability (cubic angstrom), rotational relaxation number at 298 K; text behind these is ignored. A species that
+// polarizability (cubic angstrom), rotational relaxation number at 298 K; text behind these is ignored, a seventh
+// number an error. A species that
 // stands twice keeps its first line, with a warning where both are in the same section. Throws InputError with file and
 // line.
 void readChemkinTransport(const ChemkinSource& source, std::span<const ChemkinLine> section,
                           const std::function<bool(std::string_view)>& wanted, ChemkinTransportTable& table,
                           std::vector<std::string>& warnings);
+
+// Whether a file is one of transport data, whatever it was given for: by its heading or its first line.
+bool isChemkinTransport(const ChemkinSource& source);
 
 }  // namespace lampblack

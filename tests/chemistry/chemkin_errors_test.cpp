@@ -90,9 +90,27 @@ TEST(ChemkinErrors, Thermo) {
               AllOf(StartsWith("therm.dat:2:"), HasSubstr("expected card 2, found a 3 in column 80")));
   cards.replace(100, 3, "x.y");
   EXPECT_THAT(thermoMessage(cards),
-              AllOf(StartsWith("therm.dat:2:"), HasSubstr("columns of 15, found '1.0x.y0000E-03'")));
+              AllOf(StartsWith("therm.dat:2:"), HasSubstr("number in columns 16 to 30, found '1.0x.y0000E-03'")));
   EXPECT_THAT(thermoMessage(thermoCards("H2O", "H   2O   1").substr(0, 81) + "0.\n0.\n0.\n"),
               HasSubstr("all coefficients are zero"));
+}
+
+// What is in wrong columns is not taken for something else.
+TEST(ChemkinErrors, SlippedThermo) {
+  auto cards = thermoCards("H2O", "");
+  cards.replace(23, 12, "H 1250O 812 ");
+  EXPECT_THAT(thermoMessage(cards), AllOf(StartsWith("therm.dat:1:"), HasSubstr("columns 25 and 26, found '1'"),
+                                          HasSubstr("columns 27 to 29, found '250'"), HasSubstr("'&'")));
+  EXPECT_THAT(thermoMessage(thermoCards("H2O", "  H  O   1")), HasSubstr("columns 25 and 26, found ''"));
+  // A number torn in two, its digits in the next field.
+  cards = thermoCards("H2O", "H   2O   1");
+  cards.replace(81, 30, "  2.5000000E+ 0.1000000000E-02");
+  EXPECT_THAT(thermoMessage(cards),
+              AllOf(StartsWith("therm.dat:2:"), HasSubstr("columns 1 to 15, found '2.5000000E+ 0'")));
+  // The whole card one column to the right: the last exponent would lose a digit.
+  cards = thermoCards("H2O", "H   2O   1");
+  cards.replace(81, 79, "                                                              4.00000000E-03   ");
+  EXPECT_THAT(thermoMessage(cards), AllOf(StartsWith("therm.dat:2:"), HasSubstr("columns 61 to 75")));
 }
 
 TEST(ChemkinErrors, Transport) {
@@ -106,6 +124,8 @@ TEST(ChemkinErrors, Transport) {
   EXPECT_EQ(transportMessage("H2O 2 572.4 2.6O5 1.844 0 4"),
             species + "expected a number for the diameter, found '2.6O5'");
   EXPECT_EQ(transportMessage("H2O 2 0 2.605 1.844 0 4"), species + "expected the well depth above zero, found '0'");
+  EXPECT_EQ(transportMessage("H2O  2  572.4  2.605  1.8 0.  0  4"),
+            species + "expected six numbers, found a seventh, '4', in column 34");
   EXPECT_EQ(transportMessage("H2O 2 572.4 2.605 -1 0 4"),
             species + "expected the dipole moment of zero or more, found '-1'");
 }

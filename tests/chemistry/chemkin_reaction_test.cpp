@@ -158,6 +158,19 @@ TEST(ChemkinReaction, PressureLog) {
   }
 }
 
+// The constants of the table are those of a reaction without [M].
+TEST(ChemkinReaction, PressureLogWithMIsOneOfTheMixture) {
+  std::vector<std::string> warnings;
+  const auto mechanism =
+      readChemkinReactions("\nH2O+M=H+OH+M 1 0 0\nPLOG/0.1 3E13 0 30/\nPLOG/10 2E14 1 20/", &warnings);
+  const auto& reaction = mechanism.reaction(0);
+  EXPECT_EQ(reaction.type, Reaction::Type::PressureLog);
+  EXPECT_FALSE(reaction.thirdBody);
+  expectRate(reaction.pressureRates[0].rate, 3e13, 0, 30 * kCalorie);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_THAT(warnings[0], HasSubstr("chem.inp:6: reaction 'H2O+M=H+OH+M': '+M' is taken as '(+M)'"));
+}
+
 TEST(ChemkinReaction, Chebyshev) {
   const auto mechanism = readChemkinReactions(
       "\nCH3+H(+M)=CH4(+M) 1 0 0\nTCHEB/290 3000/ PCHEB/0.01 10/\nCHEB/2 3 8.25 -0.5/\nCHEB/ 0.125 1 2/\nCHEB/3/\n"

@@ -34,12 +34,11 @@ TEST(ChemkinText, FortranNumbers) {
                                                     {"1.0-300", 1e-300},
                                                     {"1.25+10", 1.25e10},
                                                     {"1.2E 05", 1.2e5},
-                                                    {"1.2E+ 5", 1.2e5},
                                                     {"1e-999", 0},
                                                     {"0.12345678E+02", 12.345678}};
   for (const auto& [text, value] : numbers) EXPECT_EQ(fortranNumber(text).value_or(-77), value) << text;
-  for (const char* text : {"", " ", "-", ".", "e5", "1e", "1e+", "1.2.3", "1 2", "0x10", "inf", "nan", "1e999", "1e5x",
-                           "1,5", "--1", "1e5.0"})
+  for (const char* text : {"", " ", "-", ".", "e5", "1e", "1e+", "1.2E+ 5", "1.2.3", "1 2", "0x10", "inf", "nan",
+                           "1e999", "1e5x", "1,5", "--1", "1e5.0"})
     EXPECT_FALSE(fortranNumber(text)) << text;
 }
 
@@ -97,6 +96,23 @@ TEST(ChemkinReader, DataOfTheMechanismGoFirst) {
   EXPECT_THAT(warnings, ElementsAre(AllOf(HasSubstr("therm.dat:9:"), HasSubstr("'H' has thermodynamic data already at "
                                                                                "therm.dat:5; the first holds")),
                                     AllOf(HasSubstr("tran.dat:4:"), HasSubstr("at tran.dat:2"))));
+}
+
+// `chem.inp tran.dat`: with THERMO in the mechanism the second file may be the transport data.
+TEST(ChemkinReader, TheSecondFileMayBeTransportData) {
+  const std::string mechanism = "ELEM H END SPEC H2 END\nTHERMO\n" + thermoCards("H2", "H   2") + "END\n";
+  for (const std::string heading : {"", "TRANSPORT\n", "! a comment\n"})
+    EXPECT_EQ(
+        readChemkinText(mechanism, nullptr, heading + "H2 1 38. 2.92 0.0 .79 280.\n").species(0).transport->wellDepth,
+        38);
+  EXPECT_THAT(lampblack::testing::inputMessage([&] {
+                readChemkinText(mechanism, nullptr, "H2 1 38. 2.92 0.0 .79 280.\n", "H2 1 38. 2.92 0.0 .79 280.\n");
+              }),
+              AllOf(HasSubstr("therm.dat: "), HasSubstr("found transport data")));
+  // Without thermodynamic data anywhere it is these that are missing.
+  EXPECT_THAT(lampblack::testing::inputMessage(
+                  [] { readChemkinText("ELEM H END SPEC H2 END", nullptr, "H2 1 38. 2.92 0.0 .79 280.\n"); }),
+              HasSubstr("no thermodynamic data of any species"));
 }
 
 TEST(ChemkinReader, TransportIsConverted) {
@@ -168,6 +184,14 @@ TEST(ChemkinThermo, ElementsInEveryForm) {
   auto cards = thermoCards("CH4", "C   1H   4O   2N   3");
   cards.replace(73, 5, "AR  5");
   EXPECT_THAT(atoms(cards), ElementsAre(1, 4, 2, 3, 5, 0));
+  // Behind column 80, in fields of ten or free; a note there is none of them.
+  cards = thermoCards("CH4", "C   0H   0");
+  EXPECT_THAT(atoms(cards.substr(0, 80) + "C      1250H       812" + cards.substr(80)),
+              ElementsAre(1250, 812, 0, 0, 0, 0));
+  EXPECT_THAT(atoms(cards.substr(0, 80) + " C 12 H 120 O2.5" + cards.substr(80)), ElementsAre(12, 120, 2.5, 0, 0, 0));
+  cards = thermoCards("CH4", "C   1H   4");
+  for (const char* note : {" from a table", " O2 and N2", "O"})
+    EXPECT_THAT(atoms(cards.substr(0, 80) + note + cards.substr(80)), ElementsAre(1, 4, 0, 0, 0, 0)) << note;
   // As many as there are, behind '&'.
   const auto rest = thermoCards("CH4", "").substr(81);
   auto first = thermoCards("CH4", "").substr(0, 80);
