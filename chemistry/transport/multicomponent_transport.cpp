@@ -61,7 +61,8 @@ void MulticomponentTransport::setTemperature(double T) {
   thermo_.cpOverR(T, cp_.data());
   for (std::size_t i = 0; i < n_; ++i) {
     viscosity_[i] = gas_.viscosity(i, T);
-    internal_[i] = cp_[i] - 2.5;
+    // Atoms have none: what excites their electrons is not exchanged in collisions of kinetic theory.
+    internal_[i] = gas_.rotationalHeatCapacity(i) > 0 ? cp_[i] - 2.5 : 0.0;
     // Rotational heat capacity over the collision number; one of less than a collision at 298 K has no meaning here.
     rotation_[i] = gas_.rotationalHeatCapacity(i) / gas_.rotationalRelaxation(i, T, 1.0);
   }
