@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <system_error>
@@ -13,12 +14,10 @@
 #include "app/temperature_input.hpp"
 #include "chemistry/thermo/thermo.hpp"
 #include "core/errors.hpp"
+#include "flow/flame/stream_mixture.hpp"
 
 namespace lampblack {
 namespace {
-
-// Where a first guess is all that is needed: the solver finds the speed of a free flame.
-constexpr double guessedSpeed = 0.4;  // m/s
 
 FlameType typeOf(const std::string& name) {
   if (name == "free") return FlameType::Free;
@@ -39,9 +38,35 @@ FlameStream readStream(const Deck& deck, const std::string& section, const Flame
   if (velocity && massFlux) throw deck.error(section, "expected 'velocity' or 'mass_flux', found both");
   if (flux == Flux::needed && !velocity && !massFlux)
     throw deck.error(section, "this stream needs either 'velocity' or 'mass_flux'");
-  const double density = Thermo(*flame.mechanism).density(stream.temperature, flame.problem.pressure, stream.Y);
-  if (flux != Flux::none) stream.massFlux = massFlux.value_or(density * velocity.value_or(guessedSpeed));
+  const Thermo thermo(*flame.mechanism);
+  const double density = thermo.density(stream.temperature, flame.problem.pressure, stream.Y);
+  if (flux != Flux::none) {
+    stream.massFlux = massFlux.value_or(density * velocity.value_or(0.0));
+    requireLowMach(deck, section + (massFlux ? ".mass_flux" : ".velocity"), thermo, stream.massFlux / density,
+                   stream.temperature, stream.Y);
+  }
   return stream;
+}
+
+// The speed 2 a z of a potential flow at the ends of the domain.
+void requireLowStrain(const Deck& deck, const FlameCase& flame) {
+  const FlameProblem& problem = flame.problem;
+  const Thermo thermo(*flame.mechanism);
+  const FlameStream& known = problem.right ? *problem.right : problem.left;
+  const double distance = problem.right ? problem.length - problem.stagnationPlane : problem.length;
+  requireLowMach(deck, "flame.strain_rate", thermo, 2 * problem.strainRate * distance, known.temperature, known.Y);
+}
+
+// What a burner at one temperature lets through cannot begin at another.
+void requireTemperatureOfInlet(const Deck& deck, const FlameProblem& problem) {
+  constexpr double agrees = 1;  // K
+  const GivenTemperature& given = *problem.given;
+  const double first = given.at(0), inlet = problem.left.temperature;
+  if (std::abs(first - inlet) > agrees)
+    throw deck.error("temperature_profile",
+                     fmt::format("the profile is {:g} K at the burner, the inlet {:g} K: expected the same; where the "
+                                 "burner is warmer than the gas was measured, 'inlet.mass_flux' says how much flows",
+                                 first, inlet));
 }
 
 void readConfiguration(const Deck& deck, FlameCase& flame) {
@@ -75,11 +100,16 @@ void readConfiguration(const Deck& deck, FlameCase& flame) {
                                    "{:g} m",
                                    problem.length, problem.stagnationPlane));
   }
+  if (potential) requireLowStrain(deck, flame);
   if (given) {
     const TemperatureProfile profile =
         readTemperatureProfile(deck, "position", *flame.mechanism, TemperatureUse::transport);
     problem.given = GivenTemperature{profile.points(), profile.temperatures()};
+    requireTemperatureOfInlet(deck, problem);
   }
+  if (problem.type == FlameType::Free)
+    if (const std::string reason = whyItCannotBurn(*flame.mechanism, problem); !reason.empty())
+      throw deck.error("inlet", reason + "; a free flame has to burn");
 }
 
 void readTransport(const Deck& deck, FlameCase& flame) {

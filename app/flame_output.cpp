@@ -152,6 +152,9 @@ std::vector<NamedNumber> namedNumbers(const FlameCase& flame, const FlameResult&
     numbers.push_back({"position_of_maximum_temperature", "m", s.positionOfMaximum});
     numbers.push_back({"thermal_thickness", "m", s.thermalThickness});
     numbers.push_back({"heat_release", "W/m^2", s.heatRelease});
+    numbers.push_back({"maximum_mach_number", "1", s.maximumMach});
+    if (result.solution.burnerHeatFlux)
+      numbers.push_back({"burner_heat_flux", "W/m^2", *result.solution.burnerHeatFlux});
     if (s.strain) {
       if (s.strain->global) numbers.push_back({"strain_global", "1/s", *s.strain->global});
       numbers.push_back({"strain_maximum", "1/s", s.strain->maximum});
@@ -170,6 +173,7 @@ std::vector<NamedNumber> namedNumbers(const FlameCase& flame, const FlameResult&
   const auto add = [&](const char* name, std::size_t value) {
     numbers.push_back({name, "1", static_cast<double>(value)});
   };
+  add("starts", result.solution.starts);
   add("points", result.solution.profile.points());
   add("newton_steps", counts.newton);
   add("time_steps", counts.timeSteps);
@@ -179,6 +183,7 @@ std::vector<NamedNumber> namedNumbers(const FlameCase& flame, const FlameResult&
   for (const FlameBudget& budget : result.solution.budgets)
     worst = std::max(worst, std::abs(relativeImbalance(budget, result.solution.budgets)));
   if (!result.solution.budgets.empty()) numbers.push_back({"largest_relative_imbalance", "1", worst});
+  if (flame.soot) numbers.push_back({"last_scalar_change", "1", result.solution.scalarChange});
   return numbers;
 }
 

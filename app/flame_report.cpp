@@ -49,6 +49,8 @@ std::string stateText(const FlameResult& result) {
   return out + "No burning flame was found from lower velocities, either.\n";
 }
 
+constexpr double lowMach = 0.3;
+
 // A column for what ensembles give the gas where there are such.
 std::string budgetText(const std::vector<FlameBudget>& budgets) {
   if (budgets.empty()) return "";
@@ -102,6 +104,16 @@ void recordFlame(JsonWriter& json, const FlameCase& flame, const FlameResult& re
 std::string flameReport(const FlameCase& flame, const FlameResult& result) {
   std::string text = numbersText(namedNumbers(flame, result));
   text += stateText(result);
+  if (result.solution.scalarChange > flame.solver.scalarChange)
+    text += fmt::format(
+        "\nWhat is carried still moved by {:.1e} of its largest value in the last of the last steps, more than "
+        "{:.0e}:\n"
+        "its values between points have not settled. A finer grid may help.\n",
+        result.solution.scalarChange, flame.solver.scalarChange);
+  if (result.summary.maximumMach > lowMach)
+    text += fmt::format(
+        "\nThe gas reaches a Mach number of {:.2g}: beyond {} the equations, which know no sound, are wrong.\n",
+        result.summary.maximumMach, lowMach);
   text += budgetText(result.solution.budgets);
   const auto& c = result.solution.counters;
   double total = 0;

@@ -18,11 +18,11 @@
 namespace lampblack {
 namespace {
 
-FlameProfile firstProfile(const Deck& deck, const FlameCase& flame) {
+std::vector<FlameProfile> firstProfiles(const Deck& deck, const FlameCase& flame) {
   const std::vector<std::string> names = flame.scalarNames();
   try {
-    if (flame.initial) return startFrom(*flame.initial, *flame.mechanism, flame.problem, names);
-    return initialFlame(*flame.mechanism, flame.problem, names.size(), flame.start);
+    if (flame.initial) return {startFrom(*flame.initial, *flame.mechanism, flame.problem, names)};
+    return initialFlames(*flame.mechanism, flame.problem, names.size(), flame.start);
   } catch (const InputError& error) {
     const std::string what = error.what(), about = "flame: ";
     const bool counterflow = flame.problem.type == FlameType::Counterflow;
@@ -71,10 +71,10 @@ void relight(MPI_Comm comm, const FlameCase& flame, FlameSolver& solver, FlameSo
   if (raised.profile) solution = solver.solve(withLayout(*raised.profile, solution.profile.layout));
 }
 
-Attempt solve(MPI_Comm comm, FlameCase& flame, FlameProfile start) {
+Attempt solve(MPI_Comm comm, FlameCase& flame, const std::vector<FlameProfile>& starts) {
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
-  const bool warm = isWarm(flame.problem, start);
+  const bool warm = isWarm(flame.problem, starts.front());
   FlameSolver solver(comm, flame.mechanism, flame.problem, flame.soot.get(), flame.solver);
   solver.onStage([rank](const FlameStage& stage, const FlameProfile&) {
     if (rank != 0) return;
@@ -84,7 +84,7 @@ Attempt solve(MPI_Comm comm, FlameCase& flame, FlameProfile start) {
   Attempt attempt;
   std::optional<FlameSolution> solution;
   try {
-    solution = solver.solve(std::move(start));
+    solution = solver.solve(starts);
     if (warm && stateOf(*flame.mechanism, flame.problem, *solution) == FlameState::Out)
       relight(comm, flame, solver, *solution, attempt);
     if (flame.stochastic) {
@@ -115,19 +115,21 @@ void followInTime(MPI_Comm comm, FlameCase& flame, const RunFolder& folder, Atte
   FlameSolution last = std::move(attempt.result.solution);
   last.budgets.clear();  // those of a steady flame
   last.growthRate.reset();
+  last.burnerHeatFlux.reset();
   attempt.course = flameInTime(comm, flame, last.profile, *attempt.history);
   if (!attempt.course->failure.empty()) attempt.failure = attempt.course->failure;
   collectively(comm, [&] { attempt.result = flameResult(flame, std::move(last), !attempt.failure); });
 }
 
-Attempt attemptFlame(MPI_Comm comm, FlameCase& flame, FlameProfile start, const RunFolder& folder) {
+Attempt attemptFlame(MPI_Comm comm, FlameCase& flame, const std::vector<FlameProfile>& starts,
+                     const RunFolder& folder) {
   Attempt attempt;
   if (flame.unsteady && flame.unsteady->fromInitial) {
     FlameSolution asItIs;
-    asItIs.profile = std::move(start);
+    asItIs.profile = starts.front();
     collectively(comm, [&] { attempt.result = flameResult(flame, std::move(asItIs), true); });
   } else {
-    attempt = solve(comm, flame, std::move(start));
+    attempt = solve(comm, flame, starts);
   }
   if (attempt.failure) return attempt;
   if (flame.unsteady) followInTime(comm, flame, folder, attempt);
@@ -163,7 +165,7 @@ class PreparedFlame : public PreparedRun {
   PreparedFlame(MPI_Comm comm, const Deck& deck) : comm_(comm), deck_(deck) {
     collectively(comm, [&] {
       flame_ = readFlameCase(deck);
-      start_ = firstProfile(deck, flame_);
+      starts_ = firstProfiles(deck, flame_);
     });
   }
 
@@ -179,7 +181,7 @@ class PreparedFlame : public PreparedRun {
     int rank = 0;
     MPI_Comm_rank(comm_, &rank);
     recordedRun(comm_, deck_, options, 0, [&](const RunFolder& folder, const RunInfo& info, RunRecord& record) {
-      const Attempt attempt = attemptFlame(comm_, flame_, std::move(start_), folder);
+      const Attempt attempt = attemptFlame(comm_, flame_, starts_, folder);
       const FlameResult& result = attempt.result;
       collectively(comm_, [&] {
         if (rank == 0) record.resultsJson = writeTexts(folder, flame_, attempt);
@@ -215,7 +217,7 @@ class PreparedFlame : public PreparedRun {
   MPI_Comm comm_;
   const Deck& deck_;
   FlameCase flame_;
-  FlameProfile start_;
+  std::vector<FlameProfile> starts_;
 };
 
 }  // namespace

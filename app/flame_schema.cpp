@@ -23,8 +23,10 @@ void addStream(DeckSchema& schema, const std::string& section, const std::string
                const std::vector<std::string>& types) {
   schema.section(section, Presence::optional, doc, {{"flame.type", types}})
       .add(temperatureKey(section + ".temperature", "Temperature."))
-      .add(quantityKey(section + ".velocity", units::velocity,
-                       "Into the domain; of a free flame a first guess of its speed. Not with potential flow.")
+      .add(quantityKey(
+               section + ".velocity", units::velocity,
+               "Into the domain; of a free flame a first guess of its speed, which is estimated if not given. Not with "
+               "potential flow.")
                .optional()
                .above(0)
                .onlyWith("flame.nozzles", {"plug"}))
@@ -126,11 +128,11 @@ void addSolver(DeckSchema& schema) {
       .add(numberKey("solver.relative_tolerance", "Of all unknowns: a change of this size counts as 1.")
                .byDefault(text(defaults().tolerances.relative))
                .above(0)
-               .below(1))
+               .atMost(0.1))
       .add(numberKey("solver.species_tolerance", "Absolute, of mass fractions.")
                .byDefault(text(defaults().tolerances.species))
                .above(0)
-               .below(1))
+               .atMost(0.01))
       .add(quantityKey("solver.temperature_tolerance", units::temperature, "Absolute, of the temperature.")
                .byDefault(text(defaults().tolerances.temperature, " K"))
                .above(0)
@@ -148,7 +150,8 @@ void addSolver(DeckSchema& schema) {
       .add(
           quantityKey("solver.first_time_step", units::time, "First pseudo-transient step where Newton's method fails.")
               .byDefault(text(defaults().transient.firstStep, " s"))
-              .above(0))
+              .above(0)
+              .atMost(1))
       .add(integerKey("solver.maximum_time_steps", "Pseudo-transient steps after which a stage has failed.")
                .byDefault(text(defaults().transient.maximumSteps))
                .atLeast(1))
@@ -219,7 +222,8 @@ void addUnsteady(DeckSchema& schema) {
       .add(numberKey("unsteady.accuracy",
                      "Error of a step in units of the tolerances (10 with a relative tolerance of 1e-4: 0.1 %).")
                .byDefault(text(options.accuracy))
-               .above(0))
+               .above(0)
+               .atMost(1000))
       .add(numberKey("unsteady.amplitude", "Of the strain, which is 1 + amplitude sin(2 pi frequency t) of the deck's.")
                .byDefault("0")
                .atLeast(0)

@@ -101,4 +101,14 @@ std::vector<FlameBudget> FlameEquations::budgets(std::span<const double> x) {
   return result;
 }
 
+double FlameEquations::burnerHeatFlux(std::span<const double> x) {
+  Data& d = *data_;
+  d.take(x);
+  collectively(d.comm, [&] {
+    d.chooseBlend();
+    d.evaluate(0, 1);
+  });
+  return -d.energyResidual(0);
+}
+
 }  // namespace lampblack

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 #include "flow/flame/flame_equations_data.hpp"
@@ -42,6 +44,14 @@ void check(const Mechanism& mechanism, const FlameProblem& problem) {
 }
 
 }  // namespace
+
+double GivenTemperature::at(double place) const {
+  const auto above = static_cast<std::size_t>(std::upper_bound(z.begin(), z.end(), place) - z.begin());
+  if (above == 0) return T.front();
+  if (above == z.size()) return T.back();
+  const double share = (place - z[above - 1]) / (z[above] - z[above - 1]);
+  return T[above - 1] + share * (T[above] - T[above - 1]);
+}
 
 FlameEquations::Data::Data(MPI_Comm communicator, std::shared_ptr<const Mechanism> gasMechanism, FlameProblem flame,
                            CarriedModel* carriedModel, FlameTolerances sizes)
@@ -108,19 +118,8 @@ void FlameEquations::setGrid(std::span<const double> z) {
   d.volume.resize(n);
   for (std::size_t i = 0; i < n; ++i) d.volume[i] = 0.5 * ((i + 1 < n ? z[i + 1] : z[i]) - (i > 0 ? z[i - 1] : z[i]));
   if (d.problem.given) {
-    const auto& table = *d.problem.given;
     d.given.resize(n);
-    for (std::size_t i = 0; i < n; ++i) {
-      const auto above = std::upper_bound(table.z.begin(), table.z.end(), z[i]) - table.z.begin();
-      if (above == 0) {
-        d.given[i] = table.T.front();
-      } else if (static_cast<std::size_t>(above) == table.z.size()) {
-        d.given[i] = table.T.back();
-      } else {
-        const double share = (z[i] - table.z[above - 1]) / (table.z[above] - table.z[above - 1]);
-        d.given[i] = table.T[above - 1] + share * (table.T[above] - table.T[above - 1]);
-      }
-    }
+    for (std::size_t i = 0; i < n; ++i) d.given[i] = d.problem.given->at(z[i]);
   }
   d.gas.resize(n);
   d.blendIsChosen = false;

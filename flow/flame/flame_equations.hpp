@@ -95,6 +95,9 @@ class FlameEquations : public UnsteadySystem {
 
   // Budgets of the elements, mass and energy of a profile on the present grid. Collective.
   [[nodiscard]] std::vector<FlameBudget> budgets(std::span<const double> x);
+  // Heat that the gas gives to the burner, W/m2, positive into it: what the volume at z = 0 has to lose to keep the
+  // temperature that it is given. Collective.
+  [[nodiscard]] double burnerHeatFlux(std::span<const double> x);
 
   struct Counters {
     std::size_t residuals = 0, jacobians = 0;

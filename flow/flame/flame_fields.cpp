@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "chemistry/kinetics/kinetics.hpp"
+#include "chemistry/thermo/sound_speed.hpp"
 #include "chemistry/thermo/thermo.hpp"
 #include "chemistry/transport/multicomponent_transport.hpp"
 #include "chemistry/transport/transport.hpp"
@@ -27,7 +28,7 @@ FlameFields flameFields(const Mechanism& mechanism, const FlameProblem& problem,
   FlameFields f;
   f.z = profile.z;
   for (auto* field : {&f.temperature, &f.density, &f.velocity, &f.massFlux, &f.spread, &f.viscosity, &f.conductivity,
-                      &f.cp, &f.meanMolecularWeight, &f.heatRelease})
+                      &f.cp, &f.meanMolecularWeight, &f.heatRelease, &f.soundSpeed})
     field->resize(points);
   f.X.resize(points * n);
   f.Y.resize(points * n);
@@ -47,6 +48,7 @@ FlameFields flameFields(const Mechanism& mechanism, const FlameProblem& problem,
     f.density[i] = thermo.density(T, problem.pressure, Y);
     f.meanMolecularWeight[i] = thermo.meanMolecularWeight(Y);
     f.cp[i] = thermo.cpMass(T, Y);
+    f.soundSpeed[i] = soundSpeed(thermo, T, Y);
     f.massFlux[i] = massFluxAt(profile, i);
     f.velocity[i] = f.massFlux[i] / f.density[i];
     f.spread[i] = profile.at(i, FlameLayout::spread);
@@ -101,6 +103,8 @@ FlameSummary flameSummary(const FlameProblem& problem, const FlameProfile& profi
   const double coldest = *std::min_element(f.temperature.begin(), f.temperature.end());
   summary.thermalThickness = slope > 0 ? (*hottest - coldest) / slope : 0;
   summary.leftVelocity = f.velocity.front();
+  for (std::size_t i = 0; i < f.z.size(); ++i)
+    summary.maximumMach = std::max(summary.maximumMach, std::abs(f.velocity[i]) / f.soundSpeed[i]);
   summary.pressureGradient = profile.global(pressureGradient);
   if (problem.type == FlameType::Counterflow || problem.type == FlameType::Wall)
     summary.strain = strainOf(problem, profile, f);

@@ -15,7 +15,7 @@ namespace lampblack {
 // One value a point, SI. X and Y are point-major.
 struct FlameFields {
   std::vector<double> z, temperature, density, velocity, massFlux, spread;
-  std::vector<double> viscosity, conductivity, cp, meanMolecularWeight;
+  std::vector<double> viscosity, conductivity, cp, meanMolecularWeight, soundSpeed;
   std::vector<double> heatRelease;  // W/m3, of the gas reactions: -sum h_k wdot_k
   std::vector<double> X, Y;
 };
@@ -41,6 +41,7 @@ struct FlameSummary {
   double thermalThickness = 0;
   double heatRelease = 0;                 // W/m2, integrated
   double leftVelocity = 0;                // m/s, at z = 0; of a free flame its speed
+  double maximumMach = 0;                 // largest axial velocity over the speed of sound of the same point
   double pressureGradient = 0;            // Lambda, N/m4
   std::optional<double> stagnationPlane;  // m, where the velocity changes sign
   std::optional<FlameStrain> strain;      // of flames against something

@@ -50,6 +50,7 @@ struct FlameRadiation {
 // A temperature given by points, straight lines between them and constant beyond.
 struct GivenTemperature {
   std::vector<double> z, T;  // m (rising), K
+  [[nodiscard]] double at(double place) const;
 };
 
 struct FlameProblem {

@@ -29,14 +29,29 @@ void FlameSolver::setExchange(std::optional<GivenExchange> exchange) {
   data_->exchange = std::move(exchange);
 }
 
+namespace {
+
+std::string whatMayHelp(const FlameProblem& problem) {
+  const bool free = problem.type == FlameType::Free;
+  const char* exists = free                                    ? "with this mixture, or is it too lean or too rich"
+                       : problem.type == FlameType::Burner     ? "at this mass flux, or does it blow off"
+                       : problem.nozzles == FlameNozzles::Plug ? "at these velocities, or are they beyond extinction"
+                                                               : "at this strain rate, or is it beyond extinction";
+  return fmt::format(
+      "What may help: {}a start from a flame that is like it ('initial'), more points to begin with "
+      "('grid.initial_points'), a shorter first time step ('solver.first_time_step'); does the flame "
+      "exist {}?",
+      free ? "a guess of its speed ('inlet.velocity'), " : "", exists);
+}
+
+}  // namespace
+
 void FlameSolver::Data::fail(const FlameStage& stage) {
   solution.stages.push_back(stage);
   throw FlameFailure(
-      fmt::format("the flame did not converge in the stage '{}' ({} points): {}; the residual is largest in {}. "
-                  "What may help: a start from a flame that is like it ('initial'), more points to begin with "
-                  "('grid.initial_points'), a shorter first time step ('solver.first_time_step'); does the flame exist "
-                  "at this strain or mass flux?",
-                  stage.name, stage.points, stage.newton.reason, stage.newton.worst),
+      fmt::format("the flame did not converge in the stage '{}' ({} points): {}; the residual is largest "
+                  "in {}. {}",
+                  stage.name, stage.points, stage.newton.reason, stage.newton.worst, whatMayHelp(problem)),
       solution);
 }
 
@@ -74,6 +89,7 @@ void FlameSolver::Data::steady(FlameEquations& equations, NewtonSolver& solver, 
   place(equations);
   std::size_t failures = 0;
   stage.newton = solver.steady(equations, solution.profile.x, [&] {
+    watchFlux();
     if (failures++ > 0)
       follow(equations);
     else if (solution.stages.empty())
@@ -121,6 +137,8 @@ void FlameSolver::Data::count(const FlameEquations& equations) {
 namespace {
 
 constexpr std::size_t mostPasses = 20;
+constexpr std::size_t timeStepsOfAttempt = 150;  // of one of several starts; most flames take 10 to 40
+constexpr double mostFactorOnFlux = 1e3;
 
 // Of any scalar at any point, over the largest of that scalar.
 double largestScalarChange(const FlameProfile& before, const FlameProfile& after) {
@@ -139,17 +157,48 @@ double largestScalarChange(const FlameProfile& before, const FlameProfile& after
 }  // namespace
 
 FlameSolution FlameSolver::solve(FlameProfile start) {
+  return solve(std::vector<FlameProfile>{std::move(start)});
+}
+
+FlameSolution FlameSolver::solve(const std::vector<FlameProfile>& starts) {
   Data& d = *data_;
-  d.solution = {};
-  d.solution.profile = std::move(start);
   try {
-    d.solve();
+    d.solveFromOneOf(starts);
   } catch (const FlameFailure&) {
     throw;
   } catch (const NumericsError& error) {
     throw FlameFailure(error.what(), d.solution);
   }
   return d.solution;
+}
+
+// The last attempt is the first start again, with all the time steps there may be.
+void FlameSolver::Data::solveFromOneOf(const std::vector<FlameProfile>& starts) {
+  for (std::size_t attempt = 0; attempt <= starts.size(); ++attempt) {
+    const bool last = attempt == starts.size() || starts.size() == 1;
+    solution = {};
+    solution.starts = attempt + 1;
+    solution.profile = starts[last ? 0 : attempt];
+    transient = options.transient;
+    if (!last) transient.maximumSteps = std::min(transient.maximumSteps, timeStepsOfAttempt);
+    firstFlux = starts.size() > 1 ? std::optional(solution.profile.global(leftMassFlux)) : std::nullopt;
+    try {
+      return solve();
+    } catch (const NumericsError&) {
+      // Once it burns on a first grid, another start leads to the same.
+      if (last || (!solution.stages.empty() && solution.stages.front().newton.converged)) throw;
+    }
+  }
+}
+
+void FlameSolver::Data::watchFlux() const {
+  if (!firstFlux || !solution.stages.empty()) return;
+  const double factor = solution.profile.global(leftMassFlux) / *firstFlux;
+  if (factor < 1 / mostFactorOnFlux || factor > mostFactorOnFlux)
+    throw NumericsError(
+        fmt::format("the free flame is lost: its mass flux has gone from the first guess of {:.3g} to "
+                    "{:.3g} kg/m^2/s. {}",
+                    *firstFlux, factor * *firstFlux, whatMayHelp(problem)));
 }
 
 void FlameSolver::Data::toLastSteps(FlameEquations& equations, NewtonSolver& solver, const std::string& name) {
@@ -162,12 +211,13 @@ void FlameSolver::Data::toLastSteps(FlameEquations& equations, NewtonSolver& sol
   for (std::size_t pass = 1;; ++pass) {
     const FlameProfile before = solution.profile;
     steady(equations, polishing, name + ", last steps");
-    if (pass == mostPasses || largestScalarChange(before, solution.profile) <= options.scalarChange) break;
+    solution.scalarChange = largestScalarChange(before, solution.profile);
+    if (pass == mostPasses || solution.scalarChange <= options.scalarChange) break;
   }
 }
 
 void FlameSolver::Data::solve() {
-  NewtonSolver solver(options.newton, options.transient);
+  NewtonSolver solver(options.newton, transient);
   FlameEquations equations(comm, mechanism, problem, carried, options.tolerances);
   equations.setExchange(exchange);
   const FlameLayout layout = equations.layout();
@@ -191,6 +241,7 @@ void FlameSolver::Data::solve() {
   if (options.preferStable) preferStable(equations, solver, name);
   count(equations);
   solution.budgets = equations.budgets(solution.profile.x);
+  if (problem.type == FlameType::Burner) solution.burnerHeatFlux = equations.burnerHeatFlux(solution.profile.x);
 }
 
 }  // namespace lampblack

@@ -46,6 +46,12 @@ struct FlameSolution {
   std::vector<FlameBudget> budgets;
   // 1/s, of the disturbance by which the flame would leave this solution (flame_stability.hpp); empty: none was found.
   std::optional<double> growthRate;
+  std::optional<double> burnerHeatFlux;  // W/m2, into the burner
+  std::size_t starts = 1;                // that were tried
+  // Of a scalar in the last of the last steps, over its largest value. Above FlameSolverOptions::scalarChange: the
+  // values of scalars at faces have not settled in the passes allowed, although the equations with these values are
+  // solved.
+  double scalarChange = 0;
 };
 
 // The flame did not converge: the message says at which stage and where the residual sits. The last profile goes along
@@ -72,6 +78,8 @@ class FlameSolver {
 
   // Collective. Throws FlameFailure. `start` may be of any grid over the problem's length.
   FlameSolution solve(FlameProfile start);
+  // From the first of several starts (initialFlames) that leads to a flame.
+  FlameSolution solve(const std::vector<FlameProfile>& starts);
 
  private:
   struct Data;

@@ -24,6 +24,8 @@ struct FlameSolver::Data {
   FlameSolution solution;  // as far as it has come
 
   void solve();
+  // From each of the starts in turn until one leads to a flame.
+  void solveFromOneOf(const std::vector<FlameProfile>& starts);
   // One stage: the steady flame on the grid of the profile.
   void steady(FlameEquations& equations, NewtonSolver& solver, const std::string& name);
   // The end of a stage that began at `start` (MPI_Wtime). FlameFailure where it has not converged.
@@ -52,6 +54,11 @@ struct FlameSolver::Data {
         if (value != 0) return false;
     return true;
   }
+
+  PseudoTransientOptions transient;  // of the present start
+  // Of a free flame that can begin again from another start: its first mass flux, from which it may not go too far.
+  std::optional<double> firstFlux;
+  void watchFlux() const;
 
   double anchorZ = 0, anchorTemperature = 0;
 };

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
-#include "core/constants.hpp"
 #include "core/errors.hpp"
+#include "flow/flame/burning_rate.hpp"
 #include "flow/flame/flame_continuity.hpp"
 #include "flow/flame/mixing_profile.hpp"
 #include "flow/flame/stream_mixture.hpp"
@@ -14,27 +15,9 @@
 namespace lampblack {
 namespace {
 
-// lambda/cp of combustion gases, kg/m/s (Smooke, Giovangigli, in: Reduced kinetic mechanisms, 1991): good enough for
-// the thickness of a guess.
-double conductivityOverCp(double T) {
-  return 2.58e-5 * std::pow(T / 298.0, 0.7);
-}
-
-// A speed to begin with: 0.4 m/s as of stoichiometric methane and air, 2.3 m/s as of hydrogen, with an activation
-// temperature of 15000 K in the burnt gas, and the usual powers of temperature and pressure.
-double flameSpeed(const Mechanism& mechanism, const FlameStream& stream, double burnt, double pressure) {
-  double hydrogen = 0, fuel = 0;
-  for (std::size_t k = 0; k < stream.Y.size(); ++k) {
-    std::vector<double> alone(stream.Y.size(), 0.0);
-    alone[k] = stream.Y[k];
-    const double share = fuelAndOxidiser(mechanism, alone).fuel;
-    fuel += share;
-    if (mechanism.speciesName(k) == "H2") hydrogen += share;
-  }
-  const double reference = 0.4 + 1.9 * hydrogen / fuel;
-  return reference * std::exp(-7500.0 * (1 / burnt - 1 / 2230.0)) * std::pow(stream.temperature / 300, 1.6) *
-         std::pow(pressure / constants::oneAtmosphere, -0.3);
-}
+// Thicknesses of a free flame that its domain has at least, a third of them ahead of it: pressed against an end it
+// would be cooled.
+constexpr double leastRoom = 30;
 
 // Points that are dense around `centre`, which is one of them, and grow apart in proportion to the distance from it.
 std::vector<double> pointsAround(double centre, double width, double length, std::size_t points) {
@@ -53,14 +36,6 @@ std::vector<double> pointsAround(double centre, double width, double length, std
   return z;
 }
 
-double valueOf(const GivenTemperature& given, double z) {
-  if (z <= given.z.front()) return given.T.front();
-  if (z >= given.z.back()) return given.T.back();
-  const auto above = std::ranges::upper_bound(given.z, z);
-  const auto i = static_cast<std::size_t>(above - given.z.begin());
-  return given.T[i - 1] + (given.T[i] - given.T[i - 1]) * (z - given.z[i - 1]) / (given.z[i] - given.z[i - 1]);
-}
-
 class Start {
  public:
   Start(const Mechanism& mechanism, const FlameProblem& problem, std::size_t scalars,
@@ -71,7 +46,7 @@ class Start {
     profile_.layout = {mechanism.numSpecies(), scalars};
   }
 
-  FlameProfile premixed();
+  FlameProfile premixed(double speedFactor = 1);
   FlameProfile wall();
   void placeAtWall(const StreamMixture& mixture, double centre);
   FlameProfile counterflow();
@@ -82,13 +57,12 @@ class Start {
                          : StreamMixture::premixed(mechanism_, problem_.left, problem_.pressure);
   }
   // Of a free flame of the stream on the left, kg/m2/s.
-  [[nodiscard]] double burningFlux(double burnt) const {
-    const FlameStream& stream = problem_.left;
-    return thermo_.density(stream.temperature, problem_.pressure, stream.Y) *
-           flameSpeed(mechanism_, stream, burnt, problem_.pressure);
+  [[nodiscard]] double burningFlux(double burnt) {
+    if (!burningFlux_) burningFlux_ = burningRate(mechanism_, problem_.left, problem_.pressure, burnt);
+    return *burningFlux_;
   }
-  void setGrid(double centre, double width) {
-    profile_.z = pointsAround(centre, width, problem_.length, options_.points);
+  void setGrid(double centre, double width, double length) {
+    profile_.z = pointsAround(centre, width, length, options_.points);
     profile_.x.assign(profile_.size(), 0.0);
     profile_.global(load) = 1;
   }
@@ -108,29 +82,31 @@ class Start {
   InitialFlameOptions options_;
   Thermo thermo_;
   FlameProfile profile_;
+  std::optional<double> burningFlux_;
 };
 
-FlameProfile Start::premixed() {
+// `speedFactor`: on a guess of the speed of a free flame.
+FlameProfile Start::premixed(double speedFactor) {
   const bool free = problem_.type == FlameType::Free;
   const FlameStream& stream = problem_.left;
-  const double length = problem_.length;
   if (free && options_.cold) throw InputError("flame: a flame that propagates cannot start cold");
   const StreamMixture mixture = ofOneStream();
-  double flux = stream.massFlux;
-  if (free && !(flux > 0)) flux = burningFlux(mixture.hottest());
-  if (!(flux > 0)) throw InputError("flame: the mass flux through a burner has to be positive");
+  if (!free && !(stream.massFlux > 0)) throw InputError("flame: the mass flux through a burner has to be positive");
+  const double natural = options_.cold ? stream.massFlux : speedFactor * burningFlux(mixture.hottest());
+  const double flux = stream.massFlux > 0 ? stream.massFlux : natural;
   // Four diffusive thicknesses of the half-burnt gas from 12 to 88 % of the way. On a burner that is slower than the
   // flame the flame comes as close as it is thin.
-  const double burning = options_.cold ? flux : std::max(flux, burningFlux(mixture.hottest()));
-  const double thickness =
-      std::min(4 * conductivityOverCp(0.5 * (stream.temperature + mixture.hottest())) / burning, length / 6);
+  double thickness =
+      4 * conductivityOverCp(0.5 * (stream.temperature + mixture.hottest())) / (free ? flux : std::max(flux, natural));
+  const double length = free ? std::max(problem_.length, leastRoom * thickness) : problem_.length;
+  thickness = std::min(thickness, length / 6);
   const double centre = free ? length / 3 : std::min(1.5 * thickness, length / 3);
-  setGrid(centre, 0.5 * thickness);
+  setGrid(centre, 0.5 * thickness, length);
   const auto step = [&](double z) { return std::tanh(2 * (z - centre) / thickness); };
   for (std::size_t i = 0; i < profile_.points(); ++i) {
     const double burnt = (step(profile_.z[i]) - step(0)) / (step(length) - step(0));
     setGas(i, mixture, 1 - burnt);
-    if (problem_.given) profile_.at(i, FlameLayout::temperature) = valueOf(*problem_.given, profile_.z[i]);
+    if (problem_.given) profile_.at(i, FlameLayout::temperature) = problem_.given->at(profile_.z[i]);
   }
   if (!problem_.given) profile_.at(0, FlameLayout::temperature) = stream.temperature;
   setMassFlux(profile_, densities(), flux);
@@ -170,7 +146,7 @@ void Start::placeAtWall(const StreamMixture& mixture, double centre) {
   const double warmDensity = streamDensity * stream.temperature / warm;
   const double layer = std::min(std::sqrt(conductivityOverCp(warm) / (warmDensity * strain)), length / 6);
   const double thickness = std::min(length / 8, 1.5 * centre);
-  setGrid(options_.cold ? length - layer : centre, options_.cold ? layer : thickness);
+  setGrid(options_.cold ? length - layer : centre, options_.cold ? layer : thickness, length);
   const auto step = [&](double z) { return std::tanh(2 * (z - centre) / thickness); };
   for (std::size_t i = 0; i < profile_.points(); ++i) {
     const double z = profile_.z[i];
@@ -197,7 +173,6 @@ void Start::placeAtWall(const StreamMixture& mixture, double centre) {
 }
 
 FlameProfile Start::counterflow() {
-  if (!problem_.right) throw InputError("flame: a counterflow needs a stream at the right end");
   const FlameStream& left = problem_.left;
   const FlameStream& right = *problem_.right;
   const bool potential = problem_.nozzles == FlameNozzles::Potential;
@@ -235,7 +210,7 @@ FlameProfile Start::counterflow() {
     steepest = std::max(steepest, (mixing.share[i] - mixing.share[i + 1]) / (mixing.z[i + 1] - mixing.z[i]));
     if (mixing.share[i] >= wanted && mixing.share[i + 1] < wanted) centre = 0.5 * (mixing.z[i] + mixing.z[i + 1]);
   }
-  setGrid(std::clamp(centre, 0.02 * problem_.length, 0.98 * problem_.length), 0.5 / steepest);
+  setGrid(std::clamp(centre, 0.02 * problem_.length, 0.98 * problem_.length), 0.5 / steepest, problem_.length);
   for (std::size_t i = 0; i < profile_.points(); ++i) {
     setGas(i, mixture, mixing.shareAt(profile_.z[i]));
     profile_.at(i, FlameLayout::spread) = mixing.spreadAt(profile_.z[i]);
@@ -255,7 +230,11 @@ FlameProfile Start::counterflow() {
 
 FlameProfile initialFlame(const Mechanism& mechanism, const FlameProblem& problem, std::size_t scalars,
                           const InitialFlameOptions& options) {
-  Start start(mechanism, problem, scalars, options);
+  if (problem.type == FlameType::Counterflow && !problem.right)
+    throw InputError("flame: a counterflow needs a stream at the right end");
+  InitialFlameOptions possible = options;
+  if (problem.type != FlameType::Free && !whyItCannotBurn(mechanism, problem).empty()) possible.cold = true;
+  Start start(mechanism, problem, scalars, possible);
   switch (problem.type) {
     case FlameType::Wall:
       return start.wall();
@@ -264,6 +243,18 @@ FlameProfile initialFlame(const Mechanism& mechanism, const FlameProblem& proble
     default:
       return start.premixed();
   }
+}
+
+std::vector<FlameProfile> initialFlames(const Mechanism& mechanism, const FlameProblem& problem, std::size_t scalars,
+                                        const InitialFlameOptions& options) {
+  std::vector<FlameProfile> starts;
+  if (problem.type != FlameType::Free || problem.left.massFlux > 0) {
+    starts.push_back(initialFlame(mechanism, problem, scalars, options));
+    return starts;
+  }
+  Start start(mechanism, problem, scalars, options);
+  for (const double factor : {1.0, 4.0, 0.25, 16.0, 1.0 / 16}) starts.push_back(start.premixed(factor));
+  return starts;
 }
 
 }  // namespace lampblack

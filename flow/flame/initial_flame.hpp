@@ -20,9 +20,14 @@ struct InitialFlameOptions {
 // Free and burner: unburnt to equilibrium products over a thin zone; wall: the same ahead of the wall; counterflow: the
 // streams mix across a layer where they meet, and have burnt there. Sums of mass fractions and elements are those of
 // the streams, the mass flux is that which the spreading leaves (discretely, with finite volumes around the points).
-// Scalars are zero. InputError for a problem that cannot burn, unless it is to be cold.
+// Scalars are zero. Streams that cannot burn only flow and mix; of a free flame that is an InputError.
 [[nodiscard]] FlameProfile initialFlame(const Mechanism& mechanism, const FlameProblem& problem, std::size_t scalars,
                                         const InitialFlameOptions& options = {});
+
+// The same and, of a free flame whose speed is not given, others for the solver to fall back on: faster and thinner,
+// slower and thicker.
+[[nodiscard]] std::vector<FlameProfile> initialFlames(const Mechanism& mechanism, const FlameProblem& problem,
+                                                      std::size_t scalars, const InitialFlameOptions& options = {});
 
 // A profile with the names that a file has.
 struct NamedFlameProfile {

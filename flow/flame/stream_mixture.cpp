@@ -148,16 +148,17 @@ double StreamMixture::at(double share, std::span<double> Y) const {
   return thermo_.temperatureFromEnthalpy(share * leftEnthalpy_ + (1 - share) * rightEnthalpy_, Y, hottest_);
 }
 
-bool canBurn(const Mechanism& mechanism, const FlameProblem& problem) {
+std::string whyItCannotBurn(const Mechanism& mechanism, const FlameProblem& problem) {
   try {
     if (problem.right)
       static_cast<void>(StreamMixture::counterflow(mechanism, problem.left, *problem.right, problem.pressure));
     else
       static_cast<void>(StreamMixture::premixed(mechanism, problem.left, problem.pressure));
-  } catch (const InputError&) {
-    return false;
+  } catch (const InputError& error) {
+    const std::string reason = error.what(), about = "flame: ";
+    return reason.starts_with(about) ? reason.substr(about.size()) : reason;
   }
-  return true;
+  return {};
 }
 
 }  // namespace lampblack

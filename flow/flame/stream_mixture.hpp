@@ -55,7 +55,7 @@ class StreamMixture {
   std::vector<Knot> knots_;  // by rising share
 };
 
-// Whether the streams of a flame could burn, as the first guess sees it: fuel and oxidiser, and heat enough.
-[[nodiscard]] bool canBurn(const Mechanism& mechanism, const FlameProblem& problem);
+// Why the streams of a flame cannot burn ("the stream has no fuel"); empty where they can.
+[[nodiscard]] std::string whyItCannotBurn(const Mechanism& mechanism, const FlameProblem& problem);
 
 }  // namespace lampblack

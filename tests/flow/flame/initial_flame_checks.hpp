@@ -71,7 +71,10 @@ inline FlameProblem oneStream(const Gas& gas, FlameType type, const char* moles 
 inline void expectSound(const Gas& gas, const FlameProblem& problem, const FlameProfile& p, double coldest,
                         double hottest) {
   EXPECT_EQ(p.z.front(), 0.0);
-  EXPECT_EQ(p.z.back(), problem.length);
+  if (problem.type == FlameType::Free)
+    EXPECT_GE(p.z.back(), problem.length);
+  else
+    EXPECT_EQ(p.z.back(), problem.length);
   double flux = p.global(leftMassFlux);
   double largest = std::abs(flux);
   for (std::size_t i = 0; i < p.points(); ++i) {

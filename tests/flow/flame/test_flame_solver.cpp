@@ -1,12 +1,16 @@
 // Whole flames of hydrogen, from their streams to a converged solution.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include "flow/flame/flame_solver.hpp"
 #include "flow/flame/initial_flame.hpp"
 #include "tests/flow/flame/flame_fixture.hpp"
+#include "tests/messages.hpp"
 
 namespace lampblack {
 namespace {
@@ -37,7 +41,8 @@ FlameProblem stoichiometric() {
 void expectClosedBudgets(const FlameSolution& solution) {
   for (const FlameBudget& budget : solution.budgets) {
     const double size = std::abs(budget.in) + std::abs(budget.out) + std::abs(budget.wall);
-    EXPECT_LE(std::abs(budget.imbalance()), 1e-8 * size) << budget.name;
+    // An element that is not there comes and goes by rounding.
+    EXPECT_LE(std::abs(budget.imbalance()), 1e-8 * size + 1e-20) << budget.name;
   }
 }
 
@@ -138,6 +143,88 @@ TEST(FlameSolver, NothingSwingsAboutZeroInAStreamOfPureHydrogen) {
     for (std::size_t i = 0; i < flame.points(); ++i)
       for (const double Y : flame.massFractions(i)) EXPECT_GT(Y, -1e-5) << oxidiser << " at " << flame.z[i];
   }
+}
+
+FlameProblem unguessed(const std::string& composition, double temperature, double length, double pressure = 101325) {
+  FlameProblem problem;
+  problem.type = FlameType::Free;
+  problem.length = length;
+  problem.pressure = pressure;
+  problem.left = hydrogenStream(composition, temperature, 0);
+  return problem;
+}
+
+FlameSolution fromItsStream(const FlameProblem& problem, FlameSolverOptions options = {}) {
+  options.grid.slope = 0.15;
+  options.grid.curve = 0.25;
+  FlameSolver solver(MPI_COMM_WORLD, hydrogenMechanism(), problem, nullptr, options);
+  return solver.solve(initialFlames(*hydrogenMechanism(), problem, 0));
+}
+
+// 19 m/s and millimetres per second, in domains that are too short or far too long for them. The speeds are those that
+// were found with a guess given by hand where it led to a flame (15 m/s; a domain of 100 mm), on fine grids.
+TEST(FlameSolver, NeitherAGuessOfTheSpeedNorALuckyLengthIsNeeded) {
+  const FlameProblem fast = unguessed("H2: 4, O2: 1, N2: 3.76", 900, 0.06);
+  EXPECT_NEAR(speedOf(fast, fromItsStream(fast)), 18.95, 0.02 * 18.95);
+  const FlameProblem thin = unguessed("H2: 2, O2: 1, N2: 3.76", 298, 0.06, 0.1 * 101325);
+  EXPECT_NEAR(speedOf(thin, fromItsStream(thin)), 1.871, 0.02 * 1.871);
+  for (const double length : {0.01, 0.2}) {
+    const FlameProblem lean = unguessed("H2: 0.56, O2: 1, N2: 3.76", 298, length);
+    EXPECT_NEAR(speedOf(lean, fromItsStream(lean)), 0.00537, 0.03 * 0.00537) << length;
+  }
+}
+
+TEST(FlameSolver, AFreeFlameThatFailsNamesTheKeysThatHelpIt) {
+  FlameSolverOptions options;
+  options.newton.maximumSteps = options.transient.maximumSteps = 1;
+  const std::string message =
+      test::messageOf<FlameFailure>([&] { fromItsStream(unguessed("H2: 2, O2: 1, N2: 3.76", 298, 0.02), options); });
+  EXPECT_THAT(message, ::testing::HasSubstr("'inlet.velocity'"));
+  EXPECT_THAT(message, ::testing::HasSubstr("'grid.initial_points'"));
+  EXPECT_THAT(message, ::testing::Not(::testing::HasSubstr("strain")));
+}
+
+// Streams without fuel, the same gas and temperature on both sides among them.
+TEST(FlameSolver, WhatCannotBurnFlowsAndMixes) {
+  const char* air = "O2: 0.21, N2: 0.79";
+  for (const auto& [left, temperature] : {std::pair{"N2: 1", 300.0}, {air, 800.0}, {air, 300.0}}) {
+    for (const FlameNozzles nozzles : {FlameNozzles::Plug, FlameNozzles::Potential}) {
+      FlameProblem problem = hydrogenProblem(FlameType::Counterflow);
+      problem.nozzles = nozzles;
+      problem.strainRate = 150;
+      problem.stagnationPlane = 0.5 * problem.length;
+      problem.left = hydrogenStream(left, temperature, 0.4);
+      const FlameSolution solution = solved(problem);
+      expectClosedBudgets(solution);
+      EXPECT_NEAR(solution.profile.peakTemperature(), temperature, 0.5);
+    }
+  }
+  for (const FlameType type : {FlameType::Burner, FlameType::Wall}) {
+    FlameProblem problem = hydrogenProblem(type);
+    problem.left = hydrogenStream(air, 300, 0.8);
+    const FlameSolution solution = solved(problem);
+    expectClosedBudgets(solution);
+    EXPECT_NEAR(solution.profile.peakTemperature(), type == FlameType::Wall ? problem.wallTemperature : 300, 0.5);
+  }
+}
+
+// What a burner takes is missing in what leaves: the enthalpy that comes in less that which goes out. A flame that is
+// slower than it would like to be gives a tenth or more of its heat, a fast one next to nothing.
+TEST(FlameSolver, TheHeatFluxToTheBurnerIsWhatTheBurntGasLacks) {
+  Thermo thermo(*hydrogenMechanism());
+  FlameProblem problem = hydrogenProblem(FlameType::Burner);
+  for (const double flux : {0.2, 0.4}) {
+    problem.left.massFlux = flux;
+    const FlameSolution solution = solved(problem);
+    const FlameProfile& p = solution.profile;
+    const std::size_t last = p.points() - 1;
+    const double in = thermo.enthalpyMass(problem.left.temperature, problem.left.Y);
+    const double out = thermo.enthalpyMass(p.temperature(last), p.massFractions(last));
+    ASSERT_TRUE(solution.burnerHeatFlux);
+    EXPECT_GT(*solution.burnerHeatFlux, 1e4) << "into the burner";
+    EXPECT_NEAR(*solution.burnerHeatFlux, flux * (in - out), 1e-5 * *solution.burnerHeatFlux);
+  }
+  EXPECT_FALSE(fromItsStream(stoichiometric()).burnerHeatFlux);
 }
 
 TEST(FlameSolver, RanksDoNotChangeABit) {
