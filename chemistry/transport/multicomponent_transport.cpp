@@ -147,22 +147,49 @@ MulticomponentTransport::Mixture MulticomponentTransport::mixture(double T, doub
   return {averaged.viscosity, -4.0 * sum};
 }
 
+// inverse_: of ordinary_, column after column.
+void MulticomponentTransport::invert(double T, double p) {
+  if (!dense_.factorise(n_, ordinary_.data(), pivots_.data())) singular(T, p);
+  std::fill(inverse_.begin(), inverse_.end(), 0.0);
+  for (std::size_t i = 0; i < n_; ++i) inverse_[i * n_ + i] = 1.0;
+  dense_.solve(n_, ordinary_.data(), pivots_.data(), n_, inverse_.data());
+}
+
 // D_ij = x_i 16 T W/(25 p W_j) (P_ij - P_ii) with P the inverse of L00,00 (Kee et al. eq. 12.116).
 void MulticomponentTransport::diffusion(double T, double p, std::span<const double> X, std::span<double> D) {
   Transport::requireInRange(T);
   setMixture(T, X);
   for (std::size_t j = 0; j < n_; ++j)
     for (std::size_t i = 0; i < n_; ++i) ordinary_[j * n_ + i] = ordinary(i, j);
-  if (!dense_.factorise(n_, ordinary_.data(), pivots_.data())) singular(T, p);
+  invert(T, p);
   double meanWeight = 0;
   for (std::size_t i = 0; i < n_; ++i) meanWeight += x_[i] * weights_[i];
-  std::fill(inverse_.begin(), inverse_.end(), 0.0);
-  for (std::size_t i = 0; i < n_; ++i) inverse_[i * n_ + i] = 1.0;
-  dense_.solve(n_, ordinary_.data(), pivots_.data(), n_, inverse_.data());
   for (std::size_t i = 0; i < n_; ++i) {
     const double own = inverse_[i * n_ + i];
     for (std::size_t j = 0; j < n_; ++j) D[i * n_ + j] = meanWeight / (p * weights_[j]) * (inverse_[j * n_ + i] - own);
   }
+}
+
+// The Stefan-Maxwell equations sum_j x_i c_ij v_j - drag_i v_i = grad x_i are dependent: their sum is zero. Any column
+// a times the row of weights can be added to make them regular, for the solution has sum_j W_j v_j = 0 then; ordinary()
+// is that with a = drag_i/W_i. Here a is -x_i, which keeps every row i but for its diagonal in proportion to x_i.
+void MulticomponentTransport::fluxMatrix(double T, double p, std::span<const double> X, std::span<double> M) {
+  Transport::requireInRange(T);
+  setMixture(T, X);
+  double drag = 0, weight = 0;
+  for (std::size_t i = 0; i < n_; ++i) {
+    drag += x_[i] * drag_[i];
+    weight += x_[i] * weights_[i];
+  }
+  // A gas of one species: nothing diffuses.
+  const double frame = (n_ > 1 && drag > 0 ? drag : 1.0) / weight;
+  for (std::size_t j = 0; j < n_; ++j)
+    for (std::size_t i = 0; i < n_; ++i)
+      ordinary_[j * n_ + i] =
+          i == j ? -drag_[i] - frame * x_[i] * weights_[i] : x_[i] * (conductance_[i * n_ + j] - frame * weights_[j]);
+  invert(T, p);
+  for (std::size_t i = 0; i < n_; ++i)
+    for (std::size_t j = 0; j < n_; ++j) M[i * n_ + j] = inverse_[j * n_ + i];
 }
 
 }  // namespace lampblack

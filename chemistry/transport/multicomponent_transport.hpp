@@ -38,9 +38,16 @@ class MulticomponentTransport {
   // the mass-averaged frame are j_k = rho W_k/W^2 sum_j W_j D_kj grad X_j at uniform pressure.
   void diffusion(double T, double p, std::span<const double> X, std::span<double> D);
 
+  // The same fluxes as j_k = W_k/(R T) sum_j M_kj grad X_j, n x n values in Pa m2/s, M_kj at M[k n + j]: the inverse of
+  // the Stefan-Maxwell equations in the mass-averaged frame. M_kj is in proportion to X_k for j != k, so that the flux
+  // of a trace is exact to rounding of itself; with D_kj it is a small difference of what the gradients of all others
+  // give.
+  void fluxMatrix(double T, double p, std::span<const double> X, std::span<double> M);
+
  private:
   void setMixture(double T, std::span<const double> X);
   void setTemperature(double T);
+  void invert(double T, double p);
   double ordinary(std::size_t i, std::size_t j) const;
   void fillThermalSystem(double T);
   void eliminateInternal();

@@ -51,7 +51,7 @@ FlameGas::FlameGas(const Mechanism& mechanism, const FlameProblem& problem, Carr
   meanX_.resize(n_);
   meanY_.resize(n_);
   D_.resize(n_);
-  if (multicomponent_) pairD_.resize(n_ * n_);
+  if (multicomponent_) pairM_.resize(n_ * n_);
 }
 
 void FlameGas::resize(std::size_t points) {

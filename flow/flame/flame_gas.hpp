@@ -123,7 +123,7 @@ class FlameGas {
   bool massBasis_ = false;
   double meanMoles_ = 0;  // mol/kg, of the face at hand
 
-  std::vector<double> temperatures_, concentrations_, rates_, meanX_, meanY_, D_, pairD_;
+  std::vector<double> temperatures_, concentrations_, rates_, meanX_, meanY_, D_, pairM_;
   std::vector<double> carriedConcentrations_, densities_, carriedRates_, carriedExchange_, carriedD_;
 };
 

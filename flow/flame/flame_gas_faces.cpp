@@ -25,11 +25,11 @@ void FlameGas::evaluateCoefficients(double T, std::size_t f, double h) {
     const auto full = multicomponent_->mixture(T, pressure_, meanX_, {thermal, n_});
     faces.conductivity[f] = full.conductivity;
     if (!options_.soret) std::fill(thermal, thermal + n_, 0.0);
-    multicomponent_->diffusion(T, pressure_, meanX_, pairD_);
+    multicomponent_->fluxMatrix(T, pressure_, meanX_, pairM_);
     double* G = &faces.pairs[f * n_ * n_];
     for (std::size_t k = 0; k < n_; ++k)
       for (std::size_t l = 0; l < n_; ++l)
-        G[k * n_ + l] = molarDensity * weights[k] * weights[l] * pairD_[k * n_ + l] / (W * h);
+        G[k * n_ + l] = weights[k] * pairM_[k * n_ + l] / (constants::gasConstant * T * h);
     return;
   }
   const double rho = molarDensity * W;

@@ -138,6 +138,46 @@ TEST(MulticomponentTransport, FluxesSolveTheStefanMaxwellEquations) {
   EXPECT_LT(worst, 1e-9);
 }
 
+// The fluxes of both forms are the same, and that of a trace in proportion to what there is of it, whatever the
+// gradients of the others: to the rounding of the flux itself. As a difference of the D_kj it would have errors of
+// 1e-16 of the gradients of all others, here a tenth of it.
+TEST(MulticomponentTransport, TheFluxOfATraceIsExactToRoundingOfItself) {
+  const auto& mechanism = ethylene();
+  MulticomponentTransport transport(mechanism);
+  const std::size_t n = mechanism.numSpecies(), trace = mechanism.speciesIndex("A2");
+  const double T = 1400, p = 1e5;
+  const auto W = mechanism.molecularWeights();
+  std::vector<double> D(n * n), M(n * n);
+  const auto fluxes = [&](double amount, bool byMatrix) {
+    std::vector<double> X(n), gradient(n), flux(n, 0.0);
+    double total = 0, slope = 0, mean = 0;
+    for (std::size_t k = 0; k < n; ++k) total += X[k] = k == trace ? 0 : 1.0 + std::sin(static_cast<double>(3 * k));
+    for (std::size_t k = 0; k < n; ++k) slope += gradient[k] = X[k] * std::cos(static_cast<double>(5 * k));
+    for (std::size_t k = 0; k < n; ++k) gradient[k] -= X[k] * slope / total;
+    for (double& x : X) x *= (1 - amount) / total;
+    X[trace] = amount;
+    gradient[trace] = -3 * amount;
+    gradient[0] += 3 * amount;
+    for (std::size_t k = 0; k < n; ++k) mean += X[k] * W[k];
+    if (byMatrix)
+      transport.fluxMatrix(T, p, X, M);
+    else
+      transport.diffusion(T, p, X, D);
+    for (std::size_t k = 0; k < n; ++k)
+      for (std::size_t j = 0; j < n; ++j)
+        flux[k] += gradient[j] * W[k] / (constants::gasConstant * T) *
+                   (byMatrix ? M[k * n + j] : p / mean * W[j] * D[k * n + j]);
+    return flux;
+  };
+  const auto first = fluxes(0.01, true), second = fluxes(0.01, false);
+  const double size = std::abs(*std::ranges::max_element(first, {}, [](double j) { return std::abs(j); }));
+  for (std::size_t k = 0; k < n; ++k) EXPECT_NEAR(first[k], second[k], 1e-11 * size) << mechanism.speciesName(k);
+  // What a billionth does to the others is below the tolerance.
+  const double some = fluxes(1e-9, true)[trace] / 1e-9;
+  EXPECT_NEAR(fluxes(1e-15, true)[trace] / 1e-15 / some, 1, 1e-7);
+  EXPECT_GT(std::abs(fluxes(1e-15, false)[trace] / 1e-15 / some - 1), 1e-4);
+}
+
 // A monatomic gas alone conducts as 15/4 R/W mu in first approximation; absent species change nothing.
 TEST(MulticomponentTransport, ArgonAloneConductsAsKineticTheorySays) {
   const auto& mechanism = hydrogen();
