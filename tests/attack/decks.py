@@ -36,7 +36,8 @@ class Decks:
 def check_and_run(program: Program, tree, folder: pathlib.Path, ranks: int, limits: Limits, expected: str = "",
                   command: str = "run") -> judging.Verdict:
     deck = folder / "deck.yaml"
-    deck.write_text(tree if isinstance(tree, str) else deck_text.write(tree), encoding="utf-8")
+    text = tree if isinstance(tree, (str, bytes)) else deck_text.write(tree)
+    deck.write_bytes(text if isinstance(text, bytes) else text.encode("utf-8"))
     words = ["sweep", "--check", deck] if command == "sweep" else ["check", deck]
     check = run(program.command(1, *words), folder, limits, "check")
     out = folder / "out"

@@ -34,7 +34,7 @@ BAD = (CRASH, HANG, BUG, ACCEPTED, UNSOUND, LATE, INCONSISTENT, LEFT, MESSAGE, W
 MOST_LINES = 3  # that go on with a message
 QUOTE = re.compile(r"^ *(\d+|--set)? \| ")
 WARNING = "lampblack: warning: "
-PLACE = re.compile(r":\d+:|--set|--out|--force|runs failed|[\w*]+(\.[\w*\[\]]+)+|: ")
+PLACE = re.compile(r":\d+:|--\w+|runs failed|[\w*]+(\.[\w*\[\]]+)+|: ")
 FOREIGN = re.compile(r"Traceback|terminate called|PETSC ERROR|HDF5-DIAG|Segmentation|MPI_ABORT|std::|bad_alloc|vector::",
                      re.IGNORECASE)
 
@@ -51,7 +51,7 @@ class Verdict:
 
 def faults_of_message(err: str) -> str:
     """What is wrong with the message of a run that ended with 2 or 3: "" where nothing is."""
-    lines = [line for line in err.splitlines() if line.strip() and not line.startswith(WARNING)]
+    lines = [line for line in err.split("\n") if line.strip() and not line.startswith(WARNING)]
     if not lines or not lines[0].startswith("lampblack: "):
         return f"the first line is no message: {(lines or [''])[0][:100]!r}"
     if FOREIGN.search(err):

@@ -9,7 +9,7 @@ ROWS = b"0,298\n0.001,1000\n0.01,1600\n0.03,1500\n"
 
 
 def profile(name: str, data: bytes, expected: str) -> tuple:
-    return (f"profile: {name}", SOOT, PROFILE, expected, "", {"profile.csv": data})
+    return (f"profile: {name}", SOOT, PROFILE, expected, {"profile.csv": data})
 
 
 SCENARIOS = [
