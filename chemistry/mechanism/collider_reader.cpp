@@ -81,8 +81,12 @@ class ColliderReader {
     }
     if (first && (rate.A != 1 || rate.b != 0 || rate.activationTemperature != 0))
       yaml_.fail(*given, map.what() + ": expected an efficiency of one, {A: 1, b: 0, Ea: 0}");
-    collider.efficiency = {rate.A / reference_.A, rate.b - reference_.b,
-                           rate.activationTemperature - reference_.activationTemperature};
+    auto& relative = collider.efficiency;
+    relative = {rate.A / reference_.A, rate.b - reference_.b,
+                rate.activationTemperature - reference_.activationTemperature};
+    if (!(relative.A > 0) || !std::isfinite(relative.A) || !std::isfinite(relative.b) ||
+        !std::isfinite(relative.activationTemperature))
+      yaml_.fail(*given, map.what() + ": the efficiency is out of range");
   }
 
   void readRate(const YamlMap& map, Collider& collider) {

@@ -34,8 +34,9 @@ std::string rateProblem(const Reaction& reaction) {
   }
   if (const auto& sri = reaction.sri; sri && (sri->a < 0 || sri->c < 0 || !(sri->a > 0 || sri->c > 0) || !(sri->d > 0)))
     return "SRI: expected a and c of zero or more, not both zero, and a positive d";
-  if (reaction.blowersMasel && !(reaction.rate.activationTemperature >= 0 &&
-                                 reaction.blowersMasel->bondEnergy > reaction.rate.activationTemperature))
+  if (const auto& masel = reaction.blowersMasel;
+      masel && !(reaction.rate.activationTemperature >= 0 && std::isfinite(masel->bondEnergy) &&
+                 masel->bondEnergy > reaction.rate.activationTemperature))
     return "expected 'Ea0' of zero or more and a bond energy 'w' above it";
   const std::span rates(reaction.pressureRates);
   for (std::size_t first = 0, next = 0; first < rates.size(); first = next) {

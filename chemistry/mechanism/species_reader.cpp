@@ -116,6 +116,11 @@ class ThermoReader {
     return std::log(pressure / constants::oneAtmosphere);
   }
 
+  void requireFinite(std::span<const double> coefficients) const {
+    for (const double a : coefficients)
+      if (!std::isfinite(a)) yaml_.fail(map_.node(), map_.what() + ": the values are out of range");
+  }
+
   template <std::size_t N>
   Polynomials<N> oneOrTwoRanges() const {
     auto polynomials = readPolynomials<N>(yaml_, map_, "seven");
@@ -152,6 +157,7 @@ class ThermoReader {
     for (const auto& row : polynomials.rows) {
       species_.nasa9->ranges.push_back(nasa9FromShomate(row));
       species_.nasa9->ranges.back()[8] += entropyShift();
+      requireFinite(species_.nasa9->ranges.back());
     }
   }
 
@@ -177,8 +183,7 @@ class ThermoReader {
       yaml_.fail(map_.node(), map_.what() + ": expected 'T-min' of zero or more below 'T-max'");
     auto& thermo = species_.thermo;
     thermo.low = {cp, 0, 0, 0, 0, h - cp * T0, s - cp * std::log(T0) + entropyShift()};
-    for (const double a : thermo.low)
-      if (!std::isfinite(a)) yaml_.fail(map_.node(), map_.what() + ": the values are out of range");
+    requireFinite(thermo.low);
     thermo.high = thermo.low;
     setRange({least, largest});
   }

@@ -148,6 +148,7 @@ TEST(MechanismErrors, RatesThatMakeNoSense) {
       {burke + "[{" + all + "}, {name: AR, efficiency: [-1, 0, 0]}]", "a positive 'A'"},
       {burke + "[{" + all + "}, {name: N2, efficiency: [1, 0, 0]}]", "collider 'N2': the species is not declared"},
       {burke + "[{" + all + "}, {name: AR, efficiency: [1, 0, 0]}, {name: AR, efficiency: [1, 0, 0]}]", "there twice"},
+      {burke + "[{" + all + ", eig0: [1e-300, 0, 0]}, {name: AR, eig0: [1e300, 0, 0]}]", "efficiency is out of range"},
       {burke + "[{name: M}]", "expected a 'type'"},
       {burke + "[{name: M, type: Arrhenius, rate-constant: [1, 0, 0]}]", "unknown key 'rate-constant'"},
       {burke + "[{" + all + "}, {name: AR, efficiency: [1, 0, 0], Troe: {}}]", "unknown key 'Troe'"},

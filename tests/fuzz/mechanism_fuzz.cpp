@@ -27,6 +27,22 @@ void requireFinite(const Arrhenius& rate) {
   requireFinite(std::array{rate.A, rate.b, rate.activationTemperature});
 }
 
+void requireFinite(const Reaction& reaction) {
+  requireFinite(reaction.rate);
+  requireFinite(reaction.lowPressureRate);
+  for (const auto& entry : reaction.pressureRates) {
+    requireFinite(std::array{entry.pressure});
+    requireFinite(entry.rate);
+  }
+  if (reaction.chebyshev) requireFinite(reaction.chebyshev->coefficients);
+  if (reaction.tsang) requireFinite(std::array{reaction.tsang->A, reaction.tsang->B});
+  if (reaction.blowersMasel) requireFinite(std::array{reaction.blowersMasel->bondEnergy});
+  for (const auto& collider : reaction.colliders) {
+    requireFinite(collider.efficiency);
+    requireFinite(collider.rate);
+  }
+}
+
 void requireFinite(const Mechanism& mechanism) {
   requireFinite(mechanism.molecularWeights());
   for (const auto& species : mechanism.allSpecies()) {
@@ -37,15 +53,7 @@ void requireFinite(const Mechanism& mechanism) {
     if (species.nasa9)
       for (const auto& range : species.nasa9->ranges) requireFinite(range);
   }
-  for (const auto& reaction : mechanism.reactions()) {
-    requireFinite(reaction.rate);
-    requireFinite(reaction.lowPressureRate);
-    for (const auto& entry : reaction.pressureRates) {
-      requireFinite(std::array{entry.pressure});
-      requireFinite(entry.rate);
-    }
-    if (reaction.chebyshev) requireFinite(reaction.chebyshev->coefficients);
-  }
+  for (const auto& reaction : mechanism.reactions()) requireFinite(reaction);
 }
 
 }  // namespace
