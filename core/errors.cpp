@@ -1,11 +1,14 @@
 #include "core/errors.hpp"
 
+#include <new>
 #include <vector>
+
+#include "core/system_error.hpp"
 
 namespace lampblack {
 namespace {
 
-enum class Kind : int { bug = 1, input = 2, numerics = 3 };
+enum class Kind : int { bug = 1, input = 2, numerics = 3, system = 4 };
 
 struct Failure {
   Kind kind = Kind::bug;
@@ -19,6 +22,10 @@ Failure describe(const std::exception_ptr& error) {
     return {Kind::input, e.what()};
   } catch (const NumericsError& e) {
     return {Kind::numerics, e.what()};
+  } catch (const SystemError& e) {
+    return {Kind::system, e.what()};
+  } catch (const std::bad_alloc&) {
+    return {Kind::system, outOfMemory().what()};
   } catch (const std::exception& e) {
     return {Kind::bug, e.what()};
   } catch (...) {
@@ -36,6 +43,10 @@ struct Collective : Error, CollectiveMark {
 };
 
 }  // namespace
+
+SystemError outOfMemory() {
+  return SystemError("out of memory: this machine has no more to give; a smaller case or another machine is needed");
+}
 
 bool isCollective(const std::exception& error) {
   return dynamic_cast<const CollectiveMark*>(&error) != nullptr;
@@ -61,6 +72,8 @@ void raiseCollectively(MPI_Comm comm, const std::exception_ptr& error) {
       throw Collective<InputError>(failure.message);
     case Kind::numerics:
       throw Collective<NumericsError>(failure.message);
+    case Kind::system:
+      throw Collective<SystemError>(failure.message);
     case Kind::bug:
       break;
   }

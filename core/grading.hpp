@@ -13,8 +13,13 @@ struct AxisSegment {
   double ratio = 1.0;
 };
 
+// Cells of all segments when `refinement` multiplies each one's count (rounded, at least 1); whole, but in floating
+// point: a deck may ask for more than there are integers.
+double gradedCells(const std::vector<AxisSegment>& segments, double refinement = 1.0);
+
 // Vertices (m), increasing, from `from` through all segments: sum of cells + 1 values. `refinement` multiplies every
-// segment's cell count (rounded, at least 1). InputError for zero cells, ends that do not increase or ratio <= 0.
+// segment's cell count as in gradedCells. InputError for zero cells, more than 32 bits hold, ends that do not increase
+// or ratio <= 0.
 std::vector<double> gradedAxis(double from, const std::vector<AxisSegment>& segments, double refinement = 1.0);
 
 }  // namespace lampblack

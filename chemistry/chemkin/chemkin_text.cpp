@@ -6,10 +6,9 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
 #include "core/errors.hpp"
+#include "core/text_file.hpp"
 
 namespace lampblack {
 
@@ -34,12 +33,7 @@ std::string_view commentText(std::string_view line) {
 }  // namespace
 
 ChemkinText loadChemkinText(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw InputError(fmt::format("{}: cannot open the file", path));
-  std::ostringstream content;
-  if (stream.peek() != std::ifstream::traits_type::eof()) content << stream.rdbuf();
-  if (!stream || content.str().empty()) throw InputError(fmt::format("{}: cannot read the file, or it is empty", path));
-  return {path, content.str()};
+  return {path, readTextFile(path, "a mechanism or its data")};
 }
 
 ChemkinSource::ChemkinSource(const ChemkinText& file) : file_(file.name) {

@@ -3,25 +3,19 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "core/errors.hpp"
 #include "core/nearest_name.hpp"
+#include "core/text_file.hpp"
 
 namespace lampblack {
 
 namespace {
 
 YAML::Node parseFile(const std::string& path) {
-  std::ifstream stream(path);
-  if (!stream) throw InputError(fmt::format("{}: cannot open the mechanism file", path));
-  std::ostringstream content;
-  if (stream.peek() != std::ifstream::traits_type::eof()) content << stream.rdbuf();
-  if (!stream || content.str().empty())
-    throw InputError(fmt::format("{}: cannot read the mechanism file, or it is empty", path));
+  const std::string content = readTextFile(path, "a mechanism");
   try {
-    return YAML::Load(content.str());
+    return YAML::Load(content);
   } catch (const YAML::Exception& error) {
     throw InputError(fmt::format("{}:{}: not valid YAML: {}", path, error.mark.line + 1, error.msg));
   }

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "chemistry/mechanism/yaml_access.hpp"
+#include "core/text_file.hpp"
 
 namespace lampblack {
 
@@ -38,9 +39,7 @@ std::string bySpecies(const Mechanism& mechanism, std::span<const double> values
 
 YAML::Node load(const std::string& path) {
   try {
-    return YAML::LoadFile(path);
-  } catch (const YAML::BadFile&) {
-    throw InputError(fmt::format("{}: cannot be opened", path));
+    return YAML::Load(readTextFile(path, "a cell that a run kept, failed_cell_<number>.yaml"));
   } catch (const YAML::Exception& error) {
     throw InputError(fmt::format("{}:{}: {}", path, error.mark.line + 1, error.msg));
   }

@@ -1,7 +1,10 @@
 // One rank's failure becomes that of all: the lowest failing rank's, with its type and message.
 #include <gtest/gtest.h>
 
+#include <new>
+
 #include "core/errors.hpp"
+#include "core/system_error.hpp"
 #include "mpi_support.hpp"
 
 namespace lampblack::test {
@@ -24,6 +27,8 @@ TEST(Collectively, FailureOfAnyOneRankIsThrownByAllWithTypeAndMessage) {
     };
     EXPECT_EQ(messageOf<InputError>([&] { fail([&] { throw InputError(expected); }); }), expected);
     EXPECT_EQ(messageOf<NumericsError>([&] { fail([&] { throw NumericsError(expected); }); }), expected);
+    EXPECT_EQ(messageOf<SystemError>([&] { fail([&] { throw SystemError(expected); }); }), expected);
+    EXPECT_EQ(messageOf<SystemError>([&] { fail([&] { throw std::bad_alloc(); }); }), outOfMemory().what());
     EXPECT_EQ(messageOf<std::runtime_error>([&] { fail([&] { throw std::out_of_range(expected); }); }), expected);
   }
 }

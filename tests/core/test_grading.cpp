@@ -19,6 +19,12 @@ TEST(GradedAxis, UniformSegmentHasEquallySpacedVertices) {
   for (std::size_t i = 0; i < x.size(); ++i) EXPECT_EQ(x[i], -1.0 + 0.5 * static_cast<double>(i));
 }
 
+TEST(GradedAxis, CellsBeyond32BitsAreCountedAndRefused) {
+  EXPECT_EQ(gradedCells({{1.0, 4, 1.0}, {2.0, 3, 1.0}}, 1e9), 7e9);
+  EXPECT_EQ(gradedCells({{1.0, 4, 1.0}, {2.0, 3, 1.0}}, 0.01), 2.0);
+  EXPECT_THROW(gradedAxis(0.0, {{1.0, 4, 1.0}}, 1e9), InputError);
+}
+
 TEST(GradedAxis, VerticesFollowTheGeometricSeries) {
   for (const double ratio : {0.1, 0.5, 3.0, 40.0}) {
     const int n = 12;
