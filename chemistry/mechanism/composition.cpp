@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <optional>
 
 #include "chemistry/mechanism/mechanism.hpp"
 #include "core/errors.hpp"
@@ -21,8 +23,17 @@ std::string_view trimmed(std::string_view s) {
   return s;
 }
 
+// The name in quotes, of either kind, that a text begins with.
+std::optional<std::string_view> quotedName(std::string_view s) {
+  if (s.front() != '"' && s.front() != '\'') return std::nullopt;
+  const auto end = s.find(s.front(), 1);
+  if (end == std::string_view::npos) return std::nullopt;
+  return s.substr(1, end - 1);
+}
+
 }  // namespace
 
+// A name that has ':' or '=', or begins or ends with a blank or comma, stands in quotes: "'a=b': 1".
 std::vector<double> parseAmounts(const Mechanism& mechanism, std::string_view text, std::string_view what,
                                  double absent) {
   std::vector<double> amounts(mechanism.numSpecies(), absent);
@@ -30,10 +41,15 @@ std::vector<double> parseAmounts(const Mechanism& mechanism, std::string_view te
   auto rest = trimmed(text);
   if (rest.empty()) throw InputError(fmt::format("empty {}; expected pairs such as 'C2H4: 1, N2: 3'", what));
   while (!rest.empty()) {
-    const auto colon = rest.find_first_of(":=");
+    const auto quoted = quotedName(rest);
+    if ((rest.front() == '"' || rest.front() == '\'') && !quoted)
+      throw InputError(fmt::format("{} '{}': the quote before '{}' is not closed", what, text, rest.substr(1)));
+    const auto colon = rest.find_first_of(":=", quoted ? quoted->size() + 2 : 0);
     if (colon == std::string_view::npos)
       throw InputError(fmt::format("{} '{}': expected ':' and an amount after '{}'", what, text, rest));
-    const auto name = trimmed(rest.substr(0, colon));
+    if (quoted && !trimmed(rest.substr(quoted->size() + 2, colon - quoted->size() - 2)).empty())
+      throw InputError(fmt::format("{} '{}': expected ':' after the name '{}'", what, text, *quoted));
+    const auto name = quoted.value_or(trimmed(rest.substr(0, colon)));
     rest = trimmed(rest.substr(colon + 1));
     double amount = 0;
     const auto parsed = std::from_chars(rest.data(), rest.data() + rest.size(), amount);
@@ -52,11 +68,12 @@ std::vector<double> parseAmounts(const Mechanism& mechanism, std::string_view te
 
 std::vector<double> parseComposition(const Mechanism& mechanism, std::string_view text) {
   auto X = parseAmounts(mechanism, text, "composition", 0.0);
-  double sum = 0;
-  for (const double x : X) sum += x;
-  if (!(sum > 0) || !std::isfinite(sum))
+  const double largest = *std::max_element(X.begin(), X.end());
+  if (!(largest > 0))
     throw InputError(fmt::format("composition '{}': all amounts are zero; expected at least one positive", text));
-  for (double& x : X) x /= sum;
+  double sum = 0;
+  for (const double x : X) sum += x / largest;  // of amounts near the end of floating point, too
+  for (double& x : X) x = x / largest / sum;
   return X;
 }
 

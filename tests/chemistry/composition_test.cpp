@@ -29,6 +29,22 @@ TEST(Composition, IsNormalisedToMoleFractions) {
   }
 }
 
+TEST(Composition, ANameMayStandInQuotes) {
+  const auto& mechanism = lampblack::testing::hydrogen();
+  for (const char* text : {"'H2': 2, \"O2\" = 1, N2: 5", "'H2':2 'O2':1 'N2':5"}) {
+    const auto X = parseComposition(mechanism, text);
+    EXPECT_DOUBLE_EQ(X[mechanism.speciesIndex("H2")], 0.25) << text;
+    EXPECT_DOUBLE_EQ(X[mechanism.speciesIndex("O2")], 0.125) << text;
+  }
+}
+
+TEST(Composition, AmountsNearTheEndOfFloatingPoint) {
+  const auto& mechanism = lampblack::testing::hydrogen();
+  const auto X = parseComposition(mechanism, "H2: 1e308, O2: 1e308, N2: 1.6e308");
+  EXPECT_DOUBLE_EQ(X[mechanism.speciesIndex("H2")], 1 / 3.6);
+  EXPECT_DOUBLE_EQ(X[mechanism.speciesIndex("N2")], 1.6 / 3.6);
+}
+
 TEST(Composition, SaysWhatIsWrong) {
   EXPECT_THAT(messageOf("H2: 1, H2O3: 1"), HasSubstr("nearest known name is 'H2O"));
   EXPECT_THAT(messageOf("h2o: 1"), HasSubstr("'H2O'"));
@@ -38,6 +54,10 @@ TEST(Composition, SaysWhatIsWrong) {
   EXPECT_THAT(messageOf("H2: one"), HasSubstr("expected a number"));
   EXPECT_THAT(messageOf("H2: 1x, O2: 1"), HasSubstr("expected a number"));
   EXPECT_THAT(messageOf("H2: nan"), HasSubstr("expected a number"));
+  EXPECT_THAT(messageOf("'H2: 1, O2: 2"), HasSubstr("the quote before 'H2: 1, O2: 2' is not closed"));
+  EXPECT_THAT(messageOf("'H2' x: 1"), HasSubstr("expected ':' after the name 'H2'"));
+  EXPECT_THAT(messageOf("'H2' 1"), HasSubstr("expected ':'"));
+  EXPECT_THAT(messageOf("\"a:b=c\": 1"), HasSubstr("'a:b=c'"));
   EXPECT_THAT(messageOf("H2 1"), HasSubstr("expected ':'"));
   EXPECT_THAT(messageOf(" "), HasSubstr("empty composition"));
 }
