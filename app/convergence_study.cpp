@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <set>
 
 #include "app/population_case.hpp"
 #include "app/population_statistics.hpp"
@@ -34,12 +35,12 @@ const PopulationMethod& methodOf(const PopulationCase& populationCase, const std
   for (const PopulationMethod& method : populationCase.methods) {
     if (method.name != name) continue;
     if (method.deterministic())
-      throw InputError(fmt::format("convergence: '{}' is no Monte Carlo method and has no particles", name));
+      throw InputError(fmt::format("'{}' is no Monte Carlo method and has no particles", name));
     return method;
   }
   std::string known;
   for (const PopulationMethod& method : populationCase.methods) known += (known.empty() ? "" : ", ") + method.name;
-  throw InputError(fmt::format("convergence: the deck has no method '{}'; it has: {}", name, known));
+  throw InputError(fmt::format("the deck has no method '{}'; it has: {}", name, known));
 }
 
 std::vector<std::string> methodsOf(const PopulationCase& populationCase, const ConvergenceOptions& options) {
@@ -48,11 +49,13 @@ std::vector<std::string> methodsOf(const PopulationCase& populationCase, const C
     for (const PopulationMethod& method : populationCase.methods)
       if (!method.deterministic()) names.push_back(method.name);
   }
-  for (const std::string& name : names) static_cast<void>(methodOf(populationCase, name));
-  if (!options.exact) static_cast<void>(methodOf(populationCase, options.referenceMethod));
-  if (populationCase.times.first > 0)
-    throw InputError("convergence: the errors are averaged over equidistant times; the deck has logarithmic ones");
   return names;
+}
+
+PopulationCase caseOf(const Deck& deck) {
+  if (deck.choice("problem") != "population_balance")
+    throw deck.error("problem", "a convergence study needs a deck of the problem population_balance");
+  return readPopulationCase(deck);
 }
 
 // One moment at the rows after time zero.
@@ -175,6 +178,34 @@ MeanErrors meanErrors(std::span<const double> mean, std::span<const double> stan
   return sums;
 }
 
+void checkConvergence(MPI_Comm comm, const Deck& study, const ConvergenceOptions& options) {
+  const Deck deck = Deck::load(options.deck, options.overrides, deckKinds(), comm);
+  collectively(comm, [&] {
+    const PopulationCase all = caseOf(deck);
+    const auto checkMethod = [&](const std::string& key, const std::string& name) {
+      try {
+        static_cast<void>(methodOf(all, name));
+      } catch (const InputError& error) {
+        throw study.error(key, error.what());
+      }
+    };
+    std::set<std::string> named;
+    for (const std::string& name : methodsOf(all, options)) {
+      checkMethod("convergence.methods", name);
+      if (!named.insert(name).second)
+        throw study.error("convergence.methods", fmt::format("'{}' is named twice", name));
+    }
+    if (named.empty()) throw study.error("convergence.deck", "the deck has no Monte Carlo method");
+    if (!options.exact) checkMethod("convergence.reference.method", options.referenceMethod);
+    if (options.exact && !exactSolution(all))
+      throw study.error("convergence.reference",
+                        "no exact solution of this deck is known; give a reference of type run");
+    if (all.times.first > 0)
+      throw study.error("convergence.deck",
+                        "the errors are averaged over equidistant times; the deck has logarithmic ones");
+  });
+}
+
 void runConvergence(MPI_Comm comm, const ConvergenceOptions& options, const std::filesystem::path& folder) {
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
@@ -182,9 +213,7 @@ void runConvergence(MPI_Comm comm, const ConvergenceOptions& options, const std:
   PopulationCase all;
   std::vector<std::string> methods;
   collectively(comm, [&] {
-    if (deck.choice("problem") != "population_balance")
-      throw deck.error("problem", "a convergence study needs a deck of the problem population_balance");
-    all = readPopulationCase(deck);
+    all = caseOf(deck);
     methods = methodsOf(all, options);
   });
 
@@ -208,8 +237,6 @@ void runConvergence(MPI_Comm comm, const ConvergenceOptions& options, const std:
       collectively(comm, [&] {
         if (rank != 0) return;
         if (options.exact) reference = statistics.exact.moments;
-        if (reference.empty())
-          throw InputError("convergence: no exact solution of this deck is known; give a reference of type run");
         points.push_back(pointOf(statistics.methods.at(0), reference, particles, repeats));
         addHistory(history, statistics.methods.at(0), statistics, reference, particles);
         fmt::print("convergence: {}, {} particles, {} repeats\n", method, particles, repeats);

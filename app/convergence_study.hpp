@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "app/convergence_options.hpp"
+#include "io/deck.hpp"
 
 namespace lampblack {
 
@@ -40,6 +41,10 @@ struct MeanErrors {
 };
 MeanErrors meanErrors(std::span<const double> mean, std::span<const double> standardError,
                       std::span<const double> reference, std::int64_t repeats);
+
+// Collective. Whether the study can be carried out: its deck, the names of methods, a reference. InputError at the keys
+// of `study`.
+void checkConvergence(MPI_Comm comm, const Deck& study, const ConvergenceOptions& options);
 
 // Collective. Writes convergence.csv, convergence_slopes.csv and convergence_history.csv into the folder and prints the
 // table with the slopes. InputError, NumericsError.

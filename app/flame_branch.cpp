@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "io/csv.hpp"
+
 namespace lampblack {
 namespace {
 
@@ -82,10 +84,7 @@ void writeBranch(ResultsWriter& results, const FlameBranchResult& result) {
 }
 
 std::string branchTable(const FlameBranchResult& result) {
-  std::string text;
-  for (const TableColumn& column : columns())
-    text += fmt::format("{}{} [{}]", text.empty() ? "" : ",", column.name, column.unit);
-  text += '\n';
+  std::string text = csvHeader(columns());
   const std::vector<double> rows = rowsOf(result);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const bool last = (i + 1) % columns().size() == 0;

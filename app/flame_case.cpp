@@ -15,6 +15,7 @@
 #include "chemistry/thermo/thermo.hpp"
 #include "core/errors.hpp"
 #include "flow/flame/stream_mixture.hpp"
+#include "io/request_limits.hpp"
 
 namespace lampblack {
 namespace {
@@ -137,19 +138,23 @@ void readSolver(const Deck& deck, FlameCase& flame) {
   options.grid.prune = deck.number("grid.prune");
   if (options.grid.prune >= std::min(options.grid.slope, options.grid.curve))
     throw deck.error("grid.prune", "expected less than 'slope' and 'curve': points would go and come back");
-  options.grid.maximumPoints = static_cast<std::size_t>(deck.integer("grid.maximum_points"));
-  flame.start.points = static_cast<std::size_t>(deck.integer("grid.initial_points"));
+  options.grid.maximumPoints = deck.integer<std::size_t>("grid.maximum_points");
+  flame.start.points = deck.integer<std::size_t>("grid.initial_points");
   if (flame.start.points > options.grid.maximumPoints)
     throw deck.error("grid.initial_points", "expected no more than 'maximum_points'");
+  // The Newton matrix alone has three square blocks a point.
+  const auto unknowns = static_cast<double>(flame.mechanism->numSpecies());
+  requireMemory(deck, "grid.initial_points", fmt::format("a grid of {} points", flame.start.points),
+                3 * sizeof(double) * unknowns * unknowns * static_cast<double>(flame.start.points));
   options.refine = deck.boolean("grid.refine");
   options.tolerances.relative = deck.number("solver.relative_tolerance");
   options.tolerances.species = deck.number("solver.species_tolerance");
   options.tolerances.temperature = deck.quantity("solver.temperature_tolerance");
   options.newton.stepTolerance = deck.number("solver.step_tolerance");
-  options.newton.maximumSteps = static_cast<std::size_t>(deck.integer("solver.maximum_steps"));
-  options.newton.jacobianAge = static_cast<std::size_t>(deck.integer("solver.jacobian_age"));
+  options.newton.maximumSteps = deck.integer<std::size_t>("solver.maximum_steps");
+  options.newton.jacobianAge = deck.integer<std::size_t>("solver.jacobian_age");
   options.transient.firstStep = deck.quantity("solver.first_time_step");
-  options.transient.maximumSteps = static_cast<std::size_t>(deck.integer("solver.maximum_time_steps"));
+  options.transient.maximumSteps = deck.integer<std::size_t>("solver.maximum_time_steps");
   options.anchorTemperature = deck.optionalQuantity("solver.anchor_temperature").value_or(0.0);
   if (const double anchor = options.anchorTemperature; anchor > 0 && anchor <= flame.problem.left.temperature)
     throw deck.error("solver.anchor_temperature", fmt::format("expected more than the unburnt {:g} K, found {:g} K",
@@ -170,9 +175,9 @@ void readContinuation(const Deck& deck, FlameCase& flame) {
     throw deck.error("continuation",
                      "expected 'lowest_load' below 1 and 'highest_load' above 1: the flame of the deck");
   options.lowestPeakTemperature = deck.optionalQuantity("continuation.lowest_temperature").value_or(0.0);
-  options.maximumTurningPoints = static_cast<std::size_t>(deck.integer("continuation.turning_points"));
-  options.maximumPoints = static_cast<std::size_t>(deck.integer("continuation.maximum_points"));
-  options.pointsBetweenGrids = static_cast<std::size_t>(deck.integer("continuation.points_between_grids"));
+  options.maximumTurningPoints = deck.integer<std::size_t>("continuation.turning_points");
+  options.maximumPoints = deck.integer<std::size_t>("continuation.maximum_points");
+  options.pointsBetweenGrids = deck.integer<std::size_t>("continuation.points_between_grids");
   options.grid = flame.solver.grid;
   options.tolerances = flame.solver.tolerances;
 }
@@ -189,6 +194,13 @@ void readUnsteady(const Deck& deck, FlameCase& flame) {
   unsteady.options.largestStep = deck.optionalQuantity("unsteady.largest_step").value_or(unsteady.options.largestStep);
   unsteady.options.accuracy = deck.number("unsteady.accuracy");
   unsteady.interval = deck.optionalQuantity("unsteady.output_interval");
+  if (unsteady.interval) {
+    // All profiles are kept until the end.
+    const double outputs = unsteady.options.end / *unsteady.interval;
+    const double bytes = sizeof(double) * static_cast<double>(flame.start.points * flame.mechanism->numSpecies());
+    requireOutputs(deck, "unsteady.output_interval", "profiles", outputs, bytes);
+    requireMemory(deck, "unsteady.output_interval", fmt::format("{:.3g} profiles", outputs), outputs * bytes);
+  }
   if (unsteady.options.firstStep > std::min(unsteady.options.end, unsteady.options.largestStep))
     throw deck.error("unsteady.first_step", "expected no more than 'end' and 'largest_step'");
   unsteady.amplitude = deck.number("unsteady.amplitude");

@@ -7,6 +7,7 @@
 
 #include "app/flame_file.hpp"
 #include "core/errors.hpp"
+#include "io/csv.hpp"
 
 namespace lampblack {
 namespace {
@@ -204,25 +205,21 @@ void writeFlame(ResultsWriter& results, const FlameCase& flame, const FlameResul
 std::string flameTable(const FlameCase& flame, const FlameResult& result) {
   const FlameFields& f = result.fields;
   const std::size_t n = flame.mechanism->numSpecies();
-  std::string text;
-  const auto head = [&](const std::string& name) {
-    const bool quoted = name.find(',') != std::string::npos;
-    text += fmt::format("{0}{1}{2}{1}", text.empty() ? "" : ",", quoted ? "\"" : "", name);
-  };
+  std::vector<std::string> names;
   std::vector<const std::vector<double>*> columns;
   for (const Field& field : fieldsOfAPoint()) {
-    head(fmt::format("{} [{}]", field.name, field.unit));
+    names.push_back(fmt::format("{} [{}]", field.name, field.unit));
     columns.push_back(&(f.*field.values));
   }
   if (result.soot) {
     for (const auto* fields : {&result.soot->properties, &result.soot->processes})
       for (const FlameSootFields::Field& field : *fields) {
-        head(fmt::format("soot_{} [{}]", field.name, field.unit));
+        names.push_back(fmt::format("soot_{} [{}]", field.name, field.unit));
         columns.push_back(&field.values);
       }
   }
-  for (std::size_t k = 0; k < n; ++k) head(fmt::format("X_{} [1]", flame.mechanism->speciesName(k)));
-  text += '\n';
+  for (std::size_t k = 0; k < n; ++k) names.push_back(fmt::format("X_{} [1]", flame.mechanism->speciesName(k)));
+  std::string text = csvLine(names);
   for (std::size_t i = 0; i < f.z.size(); ++i) {
     for (const auto* column : columns) text += fmt::format("{}{}", column == columns[0] ? "" : ",", (*column)[i]);
     for (std::size_t k = 0; k < n; ++k) text += fmt::format(",{}", f.X[i * n + k]);

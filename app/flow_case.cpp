@@ -5,6 +5,7 @@
 #include <array>
 
 #include "app/flow_case_parts.hpp"
+#include "app/flow_limits.hpp"
 #include "app/gas_input.hpp"
 #include "app/soot_deck.hpp"
 #include "app/temperature_input.hpp"
@@ -17,7 +18,7 @@ using namespace flowcase;
 
 namespace {
 
-MeshSpec readMesh(const Deck& deck) {
+MeshSpec readMesh(const Deck& deck, std::size_t species) {
   MeshSpec spec;
   spec.geometry = deck.choice("mesh.geometry") == "axisymmetric" ? Geometry::Axisymmetric : Geometry::Planar;
   const AxisNames names = axisNames(spec.geometry);
@@ -28,21 +29,24 @@ MeshSpec readMesh(const Deck& deck) {
       throw deck.error("mesh." + other, fmt::format("a {} mesh has the axes {} and {}", deck.choice("mesh.geometry"),
                                                     names[0], names[1]));
   const double refinement = deck.number("mesh.refinement");
+  std::array<std::vector<AxisSegment>, 2> segments;
   for (std::size_t axis = 0; axis < 2; ++axis) {
     const std::string list = "mesh." + names[axis];
-    std::vector<AxisSegment> segments;
     for (std::size_t i = 0; i < deck.size(list); ++i) {
       const std::string item = fmt::format("{}[{}].", list, i);
-      segments.push_back(
-          {deck.quantity(item + "to"), static_cast<int>(deck.integer(item + "cells")), deck.number(item + "ratio")});
+      segments[axis].push_back(
+          {deck.quantity(item + "to"), deck.integer<int>(item + "cells"), deck.number(item + "ratio")});
     }
-    if (segments.empty())
+    if (segments[axis].empty())
       throw deck.error("mesh", fmt::format("the mesh has no cells along {}: expected a list '{}' of segments",
                                            names[axis], names[axis]));
+  }
+  requireCells(deck, gradedCells(segments[0], refinement) * gradedCells(segments[1], refinement), species);
+  for (std::size_t axis = 0; axis < 2; ++axis) {
     try {
-      spec.vertices[axis] = gradedAxis(0.0, segments, refinement);
+      spec.vertices[axis] = gradedAxis(0.0, segments[axis], refinement);
     } catch (const InputError& error) {
-      throw deck.error(list, error.what());
+      throw deck.error("mesh." + names[axis], error.what());
     }
   }
   return spec;
@@ -81,7 +85,7 @@ void readInitial(const Deck& deck, FlowCase& flowCase) {
 void readOutput(const Deck& deck, FlowCase& flowCase) {
   OutputControl& output = flowCase.output;
   output.interval = deck.optionalQuantity("output.interval").value_or(flowCase.time.end);
-  output.historySteps = static_cast<int>(deck.integer("output.history_steps"));
+  output.historySteps = deck.integer<int>("output.history_steps");
   output.species = readSpeciesList(deck, "output.species", *flowCase.mechanism);
 }
 
@@ -122,6 +126,20 @@ void readTransport(const Deck& deck, FlowCase& flowCase) {
   options.lewisNumbers = readLewisNumbers(deck, mechanism);
 }
 
+// The outlet that a point lies on, or nullptr.
+const std::string* outletAt(const FlowCase& flowCase, const std::array<double, 2>& point) {
+  for (std::size_t b = 0; b < flowCase.boundaries.size(); ++b) {
+    const BoundaryPatch& patch = flowCase.mesh.patches[b];
+    const auto axis = static_cast<std::size_t>(patch.axis);
+    const auto& vertices = flowCase.mesh.vertices[axis];
+    const double along = point[1 - axis];
+    if (flowCase.boundaries[b].kind == BoundaryKind::Outlet &&
+        point[axis] == (patch.atMax ? vertices.back() : vertices.front()) && along >= patch.from && along <= patch.to)
+      return &flowCase.boundaries[b].name;
+  }
+  return nullptr;
+}
+
 void readTrajectories(const Deck& deck, FlowCase& flowCase) {
   if (!deck.has("trajectories")) return;
   if (deck.has("soot") && deck.choice("soot.model") == "none") return;
@@ -130,8 +148,8 @@ void readTrajectories(const Deck& deck, FlowCase& flowCase) {
   TrajectoryRequest options;
   options.duration = deck.quantity("trajectories.duration");
   options.timeStep = deck.quantity("trajectories.time_step");
-  options.particles = static_cast<int>(deck.integer("trajectories.particles"));
-  options.bins = static_cast<int>(deck.integer("trajectories.bins"));
+  options.particles = deck.integer<int>("trajectories.particles");
+  options.bins = deck.integer<int>("trajectories.bins");
   options.smallest = deck.quantity("trajectories.smallest");
   options.largest = deck.quantity("trajectories.largest");
   if (options.largest <= options.smallest) throw deck.error("trajectories.largest", "expected more than 'smallest'");
@@ -142,6 +160,8 @@ void readTrajectories(const Deck& deck, FlowCase& flowCase) {
     const TrajectoryStart start{deck.quantity(item + ".r"), deck.quantity(item + ".z")};
     const auto& v = flowCase.mesh.vertices;
     if (start.r > v[0].back() || start.z > v[1].back()) throw deck.error(item, "the start lies outside the mesh");
+    if (const std::string* outlet = outletAt(flowCase, {start.r, start.z}))
+      throw deck.error(item, fmt::format("the start lies on the outlet '{}': the path would leave at once", *outlet));
     options.starts.push_back(start);
   }
   flowCase.trajectories = options;
@@ -153,9 +173,9 @@ FlowCase readFlowCase(const Deck& deck) {
   FlowCase flowCase;
   flowCase.title = deck.string("title");
   flowCase.pressure = deck.quantity("pressure");
-  flowCase.seed = static_cast<std::uint64_t>(deck.integer("seed"));
-  flowCase.mesh = readMesh(deck);
+  flowCase.seed = deck.integer<std::uint64_t>("seed");
   flowCase.mechanism = readMechanism(deck);
+  flowCase.mesh = readMesh(deck, flowCase.mechanism->numSpecies());
   readTransport(deck, flowCase);
   readBoundaries(deck, flowCase);
   readInitial(deck, flowCase);
@@ -170,6 +190,7 @@ FlowCase readFlowCase(const Deck& deck) {
   readOutput(deck, flowCase);
   readSoot(deck, flowCase);
   readTrajectories(deck, flowCase);
+  refuseExcess(deck, flowCase);
   return flowCase;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -78,13 +79,20 @@ class FlowRun {
       }
     }
     progress.finish();
+    // A trajectory that fails takes nothing from the flow: its results are closed first.
+    std::exception_ptr failure;
     if (case_.trajectories) {
       const Timers::Scope scope(timers_, "trajectories");
-      runTrajectories(context_, case_, state_, flow_.properties(), *soot_, results);
+      try {
+        runTrajectories(context_, case_, state_, flow_.properties(), *soot_, results);
+      } catch (const NumericsError&) {
+        failure = std::current_exception();
+      }
     }
     const Timers::Scope scope(timers_, "output");
     history.writeTo(results);
     results.close();
+    if (failure) std::rethrow_exception(failure);
   }
 
   void report(double wallTime, RunRecord& record) {

@@ -37,7 +37,11 @@ double oxygenNeed(const Mechanism& mechanism, const std::vector<double>& X) {
 }  // namespace
 
 void addMixtureKeys(DeckSchema& schema, const std::string& section) {
-  schema.add(stringKey(section + ".composition", "Mole fractions, 'CH4: 1, O2: 2, N2: 7.52'; any sum.").optional())
+  schema
+      .add(stringKey(section + ".composition",
+                     "Mole fractions, 'CH4: 1, O2: 2, N2: 7.52'; any sum. A name with ':' or '=' "
+                     "stands in quotes of its own.")
+               .optional())
       .add(stringKey(section + ".mass_fractions", "Mass fractions instead, in the same way.").optional())
       .add(stringKey(section + ".fuel", "Or a fuel (mole fractions), with oxidizer and equivalence_ratio.").optional())
       .add(stringKey(section + ".oxidizer", "What it burns with (mole fractions), 'O2: 1, N2: 3.76'.").optional())

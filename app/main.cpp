@@ -1,10 +1,12 @@
-// The lampblack command. Exit codes: 0 done; 2 the input is wrong; 3 the numbers failed; 1 a bug in Lampblack.
+// The lampblack command. Exit codes: 0 done; 2 the input is wrong; 3 the numbers or the machine failed; 1 a bug in
+// Lampblack.
 #include <petscsys.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <functional>
 #include <iostream>
+#include <new>
 #include <sstream>
 
 #include "app/build_info.hpp"
@@ -16,6 +18,8 @@
 #include "app/sweep_study.hpp"
 #include "core/errors.hpp"
 #include "core/petsc.hpp"
+#include "core/system_error.hpp"
+#include "io/request_limits.hpp"
 
 namespace {
 
@@ -23,7 +27,7 @@ using namespace lampblack;
 
 constexpr int exitBug = 1;
 constexpr int exitInput = 2;
-constexpr int exitNumerics = 3;
+constexpr int exitFailed = 3;
 
 struct Arguments {
   std::string deck;
@@ -77,7 +81,11 @@ int execute(const std::function<void()>& command) {
   } catch (const InputError& error) {
     return fail("", error, exitInput);
   } catch (const NumericsError& error) {
-    return fail("numerics: ", error, exitNumerics);
+    return fail("numerics: ", error, exitFailed);
+  } catch (const SystemError& error) {
+    return fail("", error, exitFailed);
+  } catch (const std::bad_alloc&) {
+    return fail("", outOfMemory(), exitFailed);
   } catch (const std::exception& error) {
     return fail("internal error (a bug in Lampblack): ", error, exitBug);
   }
@@ -116,6 +124,7 @@ int main(int argc, char** argv) {
   // PETSc reads its own options from the environment and from a file, not from our command line.
   if (PetscInitializeNoArguments() != 0) return exitBug;
   checkPetsc(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr));
+  countMachines(PETSC_COMM_WORLD);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

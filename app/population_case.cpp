@@ -35,7 +35,7 @@ InitialPopulation readInitial(const Deck& deck) {
 }
 
 PopulationTimes readTimes(const Deck& deck) {
-  PopulationTimes times{deck.quantity("time.end"), static_cast<std::size_t>(deck.integer("time.outputs")), 0};
+  PopulationTimes times{deck.quantity("time.end"), deck.integer<std::size_t>("time.outputs"), 0};
   if (deck.choice("time.spacing") == "linear") return times;
   times.first = needed(deck, "time", "first", "the spacing logarithmic");
   if (!(times.first < times.end)) throw deck.error("time.first", "expected a time before time.end");
@@ -51,7 +51,7 @@ PopulationBins readBins(const Deck& deck, double end) {
   if (!(low < high)) throw deck.error("distribution.maximum", "expected a volume above distribution.minimum");
   if (logarithmic && !(low > 0))
     throw deck.error("distribution.minimum", "logarithmic bins need a volume above 0; or spacing: linear");
-  const auto count = static_cast<std::size_t>(deck.integer("distribution.bins"));
+  const auto count = deck.integer<std::size_t>("distribution.bins");
   for (std::size_t k = 0; k <= count; ++k) {
     const double x = static_cast<double>(k) / static_cast<double>(count);
     bins.edges.push_back(k == count ? high : logarithmic ? low * std::pow(high / low, x) : low + x * (high - low));
@@ -128,8 +128,8 @@ PopulationCase readPopulationCase(const Deck& deck) {
   made.initial = readInitial(deck);
   made.times = readTimes(deck);
   made.bins = readBins(deck, made.times.end);
-  made.repeats = static_cast<std::uint64_t>(deck.integer("repeats"));
-  made.seed = static_cast<std::uint64_t>(deck.integer("seed"));
+  made.repeats = deck.integer<std::uint64_t>("repeats");
+  made.seed = deck.integer<std::uint64_t>("seed");
   try {
     check(made.model, made.initial);
   } catch (const InputError& error) {

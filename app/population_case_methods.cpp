@@ -2,6 +2,7 @@
 #include <map>
 
 #include "app/population_case_parts.hpp"
+#include "io/request_limits.hpp"
 
 namespace lampblack::populationcase {
 namespace {
@@ -18,9 +19,11 @@ const std::map<std::string, MonteCarloMethod> monteCarlo{
     {"swa", MonteCarloMethod::swa},
     {"hybrid", MonteCarloMethod::hybrid}};
 
+// Of a numerical particle in the leanest store: volume, weight, and its share of the sums over them.
+constexpr double bytesOfParticle = 40;
+
 std::size_t count(const Deck& deck, const std::string& key, std::size_t otherwise) {
-  const auto value = deck.optionalInteger(key);
-  return value ? static_cast<std::size_t>(*value) : otherwise;
+  return deck.optionalInteger<std::size_t>(key).value_or(otherwise);
 }
 
 void readFraction(const Deck& deck, const std::string& section, MonteCarloOptions& options) {
@@ -42,6 +45,8 @@ MonteCarloOptions readMonteCarlo(const Deck& deck, const std::string& section, c
   MonteCarloOptions options;
   options.method = monteCarlo.at(type);
   options.particles = count(deck, section + ".particles", options.particles);
+  requireMemory(deck, section + ".particles", fmt::format("a sample of {} particles", options.particles),
+                bytesOfParticle * static_cast<double>(options.particles));
   if (deck.optionalString(section + ".rates") == "exact") options.rates = EventRates::exact;
   readFraction(deck, section, options);
   if (deck.optionalString(section + ".merging") == "absolute") options.merging = MergingDifference::absolute;
@@ -63,6 +68,8 @@ MonteCarloOptions readMonteCarlo(const Deck& deck, const std::string& section, c
     throw deck.error(section + ".expected_number", "the number density at the start is given by 'initial'");
   options.expectedNumber = deck.optionalQuantity(section + ".expected_number").value_or(0.0);
   options.threshold = count(deck, section + ".threshold", options.threshold);
+  requireMemory(deck, section + ".threshold", fmt::format("a threshold of {} sizes", options.threshold),
+                bytesOfParticle * static_cast<double>(options.threshold));
   return options;
 }
 
@@ -140,8 +147,11 @@ std::vector<PopulationMethod> readMethods(const Deck& deck, const PopulationCase
     else
       method.options = readMonteCarlo(deck, section, type, populationCase);
     method.claims.fill(false);
-    for (const std::string& moment : deck.strings(section + ".claims"))
-      method.claims[static_cast<std::size_t>(moment[1] - '0')] = true;
+    for (const std::string& moment : deck.strings(section + ".claims")) {
+      bool& claimed = method.claims[static_cast<std::size_t>(moment[1] - '0')];
+      if (claimed) throw deck.error(section + ".claims", fmt::format("'{}' is named twice", moment));
+      claimed = true;
+    }
     const auto mass = deck.optionalString(section + ".mass");
     method.conservesMass = mass ? *mass == "conserved" : keepsMass(method, populationCase.model);
     methods.push_back(std::move(method));

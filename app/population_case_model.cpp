@@ -116,7 +116,7 @@ BreakageOptions readBreakage(const Deck& deck) {
   BreakageOptions options;
   const std::string section = "processes.breakage";
   readSizeDependent(deck, section, options.rate, options.exponent);
-  options.fragments = static_cast<int>(deck.integer(section + ".fragments"));
+  options.fragments = deck.integer<int>(section + ".fragments");
   if (deck.choice(section + ".daughters") == "uniform") {
     if (options.fragments != 2)
       throw deck.error(section + ".daughters", "uniform daughters are two; expected 'fragments: 2' or 'equal'");

@@ -6,6 +6,7 @@
 #include "app/reactor_case_parts.hpp"
 #include "app/temperature_input.hpp"
 #include "core/errors.hpp"
+#include "io/request_limits.hpp"
 
 namespace lampblack {
 namespace {
@@ -91,6 +92,19 @@ void readPlugFlow(const Deck& deck, ReactorCase& reactorCase) {
 
 }  // namespace
 
+namespace {
+
+// Rows are kept until the end: `range` is the time or length of the run.
+void refuseRows(const Deck& deck, const std::string& key, const ReactorCase& reactorCase, double range) {
+  if (!reactorCase.output.interval) return;
+  const double rows = range / *reactorCase.output.interval;
+  const double bytes = sizeof(double) * static_cast<double>(6 + reactorCase.output.species.size());
+  requireOutputs(deck, key, "rows of the history", rows, bytes);
+  requireMemory(deck, key, fmt::format("a history of {:.3g} rows", rows), rows * bytes);
+}
+
+}  // namespace
+
 ReactorCase readReactorCase(const Deck& deck) {
   ReactorCase reactorCase;
   const std::string type = deck.choice("reactor.type");
@@ -99,7 +113,7 @@ ReactorCase readReactorCase(const Deck& deck) {
   reactorCase.mechanism = readMechanism(deck);
   reactorCase.integrator = {deck.number("integrator.relative_tolerance"), deck.number("integrator.absolute_tolerance"),
                             deck.optionalQuantity("time.maximum_step").value_or(0.0),
-                            static_cast<long>(deck.integer("integrator.maximum_steps"))};
+                            deck.integer<long>("integrator.maximum_steps")};
   reactorCase.output = {deck.optionalQuantity("output.interval"),
                         readSpeciesList(deck, "output.species", *reactorCase.mechanism),
                         deck.choice("output.fractions") == "mass"};
@@ -120,6 +134,9 @@ ReactorCase readReactorCase(const Deck& deck) {
     reactorCase.type = ReactorType::Network;
     reactorcase::readNetwork(deck, reactorCase);
   }
+  const bool plugFlow = reactorCase.type == ReactorType::PlugFlow;
+  refuseRows(deck, plugFlow ? "output.spacing" : "output.interval", reactorCase,
+             plugFlow ? reactorCase.length : reactorCase.end);
   return reactorCase;
 }
 

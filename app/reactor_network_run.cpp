@@ -6,6 +6,7 @@
 #include "app/reactor_driver.hpp"
 #include "app/reactor_history.hpp"
 #include "app/reactor_output.hpp"
+#include "io/csv.hpp"
 #include "io/report.hpp"
 
 namespace lampblack {
@@ -71,14 +72,13 @@ class SteadyNetworkDriver : public ReactorDriver {
     const double begin = MPI_Wtime();
     reactors_ = solveNetwork(*case_.mechanism, case_.network, case_.start);
     seconds_ = MPI_Wtime() - begin;
-    const auto table = columns();
-    std::string text = "name";
-    for (const TableColumn& column : table) text += fmt::format(",{} [{}]", column.name, column.unit);
+    std::string text = "name," + csvHeader(columns());
     for (std::size_t r = 0; r < reactors_.size(); ++r) {
-      text += "\n" + case_.network.reactors[r].name;
-      for (const double value : row(reactors_[r])) text += fmt::format(",{}", value);
+      std::vector<std::string> fields{case_.network.reactors[r].name};
+      for (const double value : row(reactors_[r])) fields.push_back(fmt::format("{}", value));
+      text += csvLine(fields);
     }
-    writeFileAtomically(folder.file("reactors.csv"), text + "\n");
+    writeFileAtomically(folder.file("reactors.csv"), text);
   }
 
   void write(ResultsWriter& results) const override {
@@ -86,9 +86,11 @@ class SteadyNetworkDriver : public ReactorDriver {
     for (const ReactorSteadyState& reactor : reactors_)
       for (const double value : row(reactor)) rows.push_back(value);
     results.table("/reactors", columns(), rows);
-    std::string names;
-    for (const StirredReactor& reactor : case_.network.reactors) names += (names.empty() ? "" : ",") + reactor.name;
-    results.attribute("/reactors", "names", names);
+    std::vector<std::string> names;
+    for (const StirredReactor& reactor : case_.network.reactors) names.push_back(reactor.name);
+    std::string line = csvLine(names);
+    line.pop_back();
+    results.attribute("/reactors", "names", line);
   }
 
   void record(JsonWriter& json) const override {

@@ -4,6 +4,8 @@
 
 #include <limits>
 
+#include "io/csv.hpp"
+
 namespace lampblack {
 
 using Kind = IgnitionCriterion::Kind;
@@ -50,16 +52,16 @@ std::vector<double> closedRow(const ReactorCase& reactorCase, ClosedReactor& rea
 
 void writeSensitivityTable(const std::filesystem::path& path, const ReactorCase& reactorCase,
                            const IgnitionSensitivities& sensitivities) {
-  std::string text = "reaction,equation";
+  std::vector<std::string> names{"reaction", "equation"};
   for (std::size_t i = 0; i < reactorCase.ignition.size(); ++i)
-    if (!sensitivities.values[i].empty()) text += fmt::format(",{} [1]", reactorCase.ignition[i].name);
-  text += "\n";
+    if (!sensitivities.values[i].empty()) names.push_back(reactorCase.ignition[i].name + " [1]");
+  std::string text = csvLine(names);
   for (std::size_t p = 0; p < reactorCase.sensitivities.size(); ++p) {
     const std::size_t r = reactorCase.sensitivities[p];
-    text += fmt::format("{},\"{}\"", r + 1, reactorCase.mechanism->reaction(r).equation);
+    std::vector<std::string> fields{std::to_string(r + 1), reactorCase.mechanism->reaction(r).equation};
     for (const auto& values : sensitivities.values)
-      if (!values.empty()) text += fmt::format(",{}", values[p]);
-    text += "\n";
+      if (!values.empty()) fields.push_back(fmt::format("{}", values[p]));
+    text += csvLine(fields);
   }
   writeFileAtomically(path, text);
 }

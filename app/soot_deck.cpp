@@ -82,7 +82,7 @@ void readSemiEmpirical(const Deck& deck, const Mechanism& mechanism, SemiEmpiric
 
 void readSectional(const Deck& deck, SectionalSootOptions& options) {
   const auto key = [](const char* name) { return std::string("soot.sectional.") + name; };
-  options.sections = static_cast<std::size_t>(deck.integer(key("sections")));
+  options.sections = deck.integer<std::size_t>(key("sections"));
   options.factor = deck.number(key("factor"));
   set(options.nucleusCarbon, deck.optionalNumber(key("nucleus_carbon")));
   options.nucleation = deck.choice(key("nucleation")) == "dimer" ? SectionalSootOptions::Nucleation::dimer
@@ -159,8 +159,7 @@ std::unique_ptr<SootModel> readSootModel(const Deck& deck, const Mechanism& mech
     hmom->fractalDimension = deck.number("soot.hmom.fractal_dimension");
     hmom->surfaceExponent = deck.number("soot.hmom.surface_exponent");
   }
-  if (auto* momic = std::get_if<MomicOptions>(&choice))
-    momic->moments = static_cast<std::size_t>(deck.integer("soot.moments"));
+  if (auto* momic = std::get_if<MomicOptions>(&choice)) momic->moments = deck.integer<std::size_t>("soot.moments");
 
   std::unique_ptr<SootModel> model;
   try {

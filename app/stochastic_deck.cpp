@@ -5,6 +5,8 @@
 #include <cmath>
 #include <string>
 
+#include "io/request_limits.hpp"
+
 namespace lampblack {
 
 void addStochasticKeys(DeckSchema& schema) {
@@ -73,25 +75,27 @@ std::optional<StochasticRequest> readStochastic(const Deck& deck, const SootMode
   StochasticRequest request;
   request.twoWay = deck.choice("stochastic.coupled") == "two_way";
   FlameCouplingOptions& coupling = request.coupling;
-  coupling.iterations = static_cast<std::size_t>(deck.integer("stochastic.iterations"));
+  coupling.iterations = deck.integer<std::size_t>("stochastic.iterations");
   coupling.relaxation = deck.number("stochastic.relaxation");
   coupling.tolerance = deck.number("stochastic.tolerance");
   FlameEnsembleOptions& ensemble = coupling.ensemble;
-  ensemble.repeats = static_cast<std::size_t>(deck.integer("stochastic.repeats"));
+  ensemble.repeats = deck.integer<std::size_t>("stochastic.repeats");
   StochasticSootOptions& options = ensemble.soot;
   const std::string method = deck.choice("stochastic.method");
   options.method = method == "dsmc"    ? StochasticSootMethod::dsmc
                    : method == "sammc" ? StochasticSootMethod::sammc
                                        : StochasticSootMethod::swa;
-  options.particles = static_cast<std::size_t>(deck.integer("stochastic.particles"));
-  options.seed = static_cast<std::uint64_t>(deck.integer("stochastic.seed"));
+  options.particles = deck.integer<std::size_t>("stochastic.particles");
+  requireMemory(deck, "stochastic.particles", fmt::format("a sample of {} particles", options.particles),
+                40 * static_cast<double>(options.particles));
+  options.seed = deck.integer<std::uint64_t>("stochastic.seed");
   options.soot = soot;
   options.coalescing = deck.choice("stochastic.shape") == "spheres";
   options.alphaOfPrimaries = deck.choice("stochastic.active_sites") == "primary";
   options.keepsHydrogen = deck.boolean("stochastic.keep_hydrogen");
   options.splitTolerance = deck.number("stochastic.split_tolerance");
   SootPathOptions& march = ensemble.march;
-  march.bins = static_cast<std::size_t>(deck.integer("stochastic.bins"));
+  march.bins = deck.integer<std::size_t>("stochastic.bins");
   march.logDiameterMin = std::log10(deck.quantity("stochastic.smallest"));
   march.logDiameterMax = std::log10(deck.quantity("stochastic.largest"));
   if (!(march.logDiameterMax > march.logDiameterMin))

@@ -12,6 +12,7 @@
 #include "app/sweep_study.hpp"
 #include "app/sweep_table.hpp"
 #include "core/errors.hpp"
+#include "core/system_error.hpp"
 #include "io/run_folder.hpp"
 
 namespace lampblack {
@@ -109,6 +110,7 @@ void raiseFailures(MPI_Comm comm, const std::vector<RunOutcome>& outcomes) {
   collectively(comm, [&] {
     if (worst == RunFailure::input) throw InputError(message);
     if (worst == RunFailure::numerics) throw NumericsError(message);
+    if (worst == RunFailure::system) throw SystemError(message);
     if (worst == RunFailure::bug) throw std::runtime_error(message);
   });
 }
@@ -119,6 +121,7 @@ void sweep(const Arguments& arguments) {
   SweepStudy study;
   collectively(comm, [&] { study = readStudy(deck, arguments.settings); });
   checkDecks(comm, study);
+  if (study.convergence) checkConvergence(comm, deck, *study.convergence);
   if (arguments.check) {
     if (rankOf(comm) != 0) return;
     for (const SweepRun& run : study.runs) fmt::print("{}\n", run.name);

@@ -4,9 +4,11 @@
 
 #include <cstdio>
 #include <memory>
+#include <new>
 
 #include "app/problem.hpp"
 #include "core/errors.hpp"
+#include "core/system_error.hpp"
 #include "io/json.hpp"
 
 namespace lampblack {
@@ -68,6 +70,14 @@ RunOutcome runOne(const Group& group, const SweepRun& run, const SweepRun* befor
     refuseLoneError(group, error);
     outcome.failure = RunFailure::numerics;
     outcome.message = error.what();
+  } catch (const SystemError& error) {
+    refuseLoneError(group, error);
+    outcome.failure = RunFailure::system;
+    outcome.message = error.what();
+  } catch (const std::bad_alloc& error) {
+    refuseLoneError(group, error);
+    outcome.failure = RunFailure::system;
+    outcome.message = outOfMemory().what();
   } catch (const std::exception& error) {
     refuseLoneError(group, error);
     outcome.failure = RunFailure::bug;
@@ -101,8 +111,6 @@ void checkDecks(MPI_Comm comm, const SweepStudy& study) {
                         run.deck.string(), study.chain, name));
       });
   }
-  if (study.convergence)
-    static_cast<void>(Deck::load(study.convergence->deck, study.convergence->overrides, deckKinds(), comm));
 }
 
 std::vector<RunOutcome> runStudy(MPI_Comm comm, const SweepStudy& study, const std::filesystem::path& folder,

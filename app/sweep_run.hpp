@@ -11,7 +11,7 @@
 
 namespace lampblack {
 
-enum class RunFailure { none, input, numerics, bug };
+enum class RunFailure { none, input, numerics, system, bug };
 
 struct RunOutcome {
   RunFailure failure = RunFailure::none;

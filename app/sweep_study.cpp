@@ -6,6 +6,7 @@
 #include <cctype>
 
 #include "io/json.hpp"
+#include "io/request_limits.hpp"
 
 namespace lampblack {
 namespace {
@@ -48,6 +49,25 @@ std::string nameOf(const std::filesystem::path& deck, const Variant& variant, co
   return name;
 }
 
+// What is varied, as a number of runs; a folder is made for each of them.
+void refuseTooMany(const Deck& study, std::size_t decks) {
+  constexpr double most = 100000;
+  double runs = static_cast<double>(decks * std::max<std::size_t>(1, study.size("variants")));
+  for (std::size_t i = 0; i < study.size("vary"); ++i)
+    runs *= static_cast<double>(study.size(fmt::format("vary[{}].values", i)));
+  if (runs > most)
+    throw study.error(study.has("vary") ? "vary" : "decks",
+                      fmt::format("the study has {:.6g} runs; at most {:.0f} are possible", runs, most));
+}
+
+// Two runs of one name would be one folder and two rows that cannot be told apart.
+void refuseTwice(const Deck& study, const std::string& key, const std::vector<std::string>& texts) {
+  for (std::size_t i = 0; i < texts.size(); ++i)
+    if (std::find(texts.begin(), texts.begin() + static_cast<std::ptrdiff_t>(i), texts[i]) !=
+        texts.begin() + static_cast<std::ptrdiff_t>(i))
+      throw study.error(key, fmt::format("'{}' is given twice", texts[i]));
+}
+
 // Every combination, the last key fastest.
 std::vector<Varied> product(const Deck& study) {
   std::vector<Varied> combinations{{}};
@@ -56,6 +76,7 @@ std::vector<Varied> product(const Deck& study) {
     const std::string valuesKey = fmt::format("vary[{}].values", i);
     const std::vector<std::string> values = study.strings(valuesKey);
     if (values.empty()) throw study.error(valuesKey, "there is nothing to vary over: the list is empty");
+    refuseTwice(study, valuesKey, values);
     std::vector<Varied> next;
     for (const Varied& combination : combinations) {
       for (const std::string& value : values) {
@@ -95,6 +116,9 @@ std::vector<Variant> readVariants(const Deck& study) {
     if (plainName(variants.back().name).empty())
       throw study.error(item + ".name", "expected a name with letters or digits");
   }
+  std::vector<std::string> names;
+  for (const Variant& variant : variants) names.push_back(variant.name);
+  refuseTwice(study, "variants", names);
   if (variants.empty()) variants.emplace_back();
   return variants;
 }
@@ -121,6 +145,9 @@ ConvergenceOptions readConvergence(const Deck& study, const std::vector<std::str
                       "at least; found {}",
                       options.product, particles));
   }
+  const std::int64_t largest = *std::max_element(options.particles.begin(), options.particles.end());
+  requireMemory(study, "convergence.particles", fmt::format("a sample of {} particles", largest),
+                40 * static_cast<double>(largest));
   std::vector<std::int64_t> sorted = options.particles;
   std::sort(sorted.begin(), sorted.end());
   if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
@@ -199,8 +226,8 @@ DeckSchema studySchema() {
 SweepStudy readStudy(const Deck& study, const std::vector<std::string>& settings) {
   SweepStudy sweep;
   sweep.name = study.string("study");
-  sweep.chain = static_cast<std::size_t>(study.integer("chain"));
-  if (const auto ranks = study.optionalInteger("ranks_per_run")) sweep.ranksPerRun = static_cast<int>(*ranks);
+  sweep.chain = study.integer<std::size_t>("chain");
+  sweep.ranksPerRun = study.optionalInteger<int>("ranks_per_run");
   sweep.results = study.strings("collect.results");
   sweep.tables = study.strings("collect.tables");
   sweep.columns = study.strings("collect.columns");
@@ -210,6 +237,8 @@ SweepStudy readStudy(const Deck& study, const std::vector<std::string>& settings
   if (const auto deck = study.optionalString("deck")) decks.push_back(*deck);
   if (decks.empty() && !study.has("convergence"))
     throw study.error("decks", "there is nothing to run: expected decks, or a section convergence");
+  refuseTwice(study, "decks", decks);
+  refuseTooMany(study, decks.size());
   const std::vector<Varied> combinations = product(study);
   const std::vector<Variant> variants = readVariants(study);
   std::map<std::string, int> used;

@@ -65,6 +65,8 @@ const char* wordFor(RunFailure failure) {
       return "wrong input";
     case RunFailure::numerics:
       return "numerics failed";
+    case RunFailure::system:
+      return "machine failed";
     case RunFailure::bug:
       return "internal error";
   }
@@ -85,72 +87,6 @@ Leaves resultsOf(const std::string& record) {
   Leaves leaves;
   if (const DeckNode* results = root.child("results")) addLeaves(*results, "", leaves);
   return leaves;
-}
-
-TextTable readCsv(const std::string& text) {
-  TextTable table;
-  std::vector<std::string> row;
-  std::string field;
-  bool quoted = false, comment = false;
-  const auto endRow = [&] {
-    if (row.empty() && field.empty()) return;
-    row.push_back(std::move(field));
-    field.clear();
-    if (table.columns.empty())
-      table.columns = row;
-    else if (row.size() != table.columns.size())
-      throw InputError(fmt::format("row {} has {} fields, the first line {}", table.rows.size() + 1, row.size(),
-                                   table.columns.size()));
-    else
-      table.rows.push_back(row);
-    row.clear();
-  };
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (comment) {
-      comment = c != '\n';
-    } else if (quoted) {
-      if (c != '"')
-        field += c;
-      else if (i + 1 < text.size() && text[i + 1] == '"')
-        field += text[++i];
-      else
-        quoted = false;
-    } else if (c == '"') {
-      quoted = true;
-    } else if (c == ',') {
-      row.push_back(std::move(field));
-      field.clear();
-    } else if (c == '\n') {
-      endRow();
-    } else if (c == '#' && row.empty() && field.empty()) {
-      comment = true;
-    } else if (c != '\r') {
-      field += c;
-    }
-  }
-  endRow();
-  return table;
-}
-
-std::string csvText(const TextTable& table) {
-  std::string text;
-  const auto write = [&](const std::vector<std::string>& row) {
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      if (i > 0) text += ',';
-      if (row[i].find_first_of(",\"\n\r") == std::string::npos) {
-        text += row[i];
-        continue;
-      }
-      text += '"';
-      for (const char c : row[i]) text += c == '"' ? std::string("\"\"") : std::string(1, c);
-      text += '"';
-    }
-    text += '\n';
-  };
-  write(table.columns);
-  for (const auto& row : table.rows) write(row);
-  return text;
 }
 
 std::string alignedText(const TextTable& table) {

@@ -9,24 +9,15 @@
 
 #include "app/sweep_run.hpp"
 #include "app/sweep_study.hpp"
+#include "io/csv.hpp"
 
 namespace lampblack {
-
-// Rows of texts under a line of names.
-struct TextTable {
-  std::vector<std::string> columns;
-  std::vector<std::vector<std::string>> rows;
-};
 
 // The numbers and words below "results" in the text of a run.json, in order, their parts joined by dots; lists are left
 // out. InputError where the text is not JSON.
 std::vector<std::pair<std::string, std::string>> resultsOf(const std::string& record);
 
-// A table in CSV (RFC 4180: fields with commas or quotes are quoted; lines that begin with # are skipped). InputError
-// where a row has another number of fields than the first line.
-TextTable readCsv(const std::string& text);
-std::string csvText(const TextTable& table);
-// The same with columns of even width, for the console.
+// A table with columns of even width, for the console.
 std::string alignedText(const TextTable& table);
 
 // A row for each run: its name, what is varied, how it ended, its wall time, and the collected results; empty where a

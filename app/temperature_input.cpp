@@ -2,40 +2,86 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <filesystem>
-#include <fstream>
+#include <limits>
+#include <optional>
 #include <sstream>
 #include <utility>
 
 #include "chemistry/thermo/thermo.hpp"
 #include "chemistry/transport/transport.hpp"
 #include "core/errors.hpp"
+#include "core/text_file.hpp"
 
 namespace lampblack {
 namespace {
 
-// Two columns of numbers, separated by a comma or blanks.
-TemperatureProfile readProfileFile(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  if (!file) throw InputError(fmt::format("{}: cannot be opened", path.string()));
-  std::vector<double> points, temperatures;
-  std::string line;
-  bool named = false;
-  for (int number = 1; std::getline(file, line); ++number) {
-    for (char& c : line)
-      if (c == ',' || c == '\r') c = ' ';
-    const auto first = line.find_first_not_of(" \t");
-    if (first == std::string::npos || line[first] == '#') continue;
-    std::istringstream words(line);
-    double point = 0, temperature = 0;
-    std::string more;
-    if (words >> point >> temperature && !(words >> more)) {
-      points.push_back(point);
-      temperatures.push_back(temperature);
-    } else if (std::exchange(named, true) || !points.empty()) {
-      throw InputError(fmt::format("{}:{}: expected two numbers, found '{}'", path.string(), number, line));
-    }
+// The fields of a line, without the blanks and quotes around them: between commas, or between blanks where there are
+// none.
+std::vector<std::string> fieldsOf(std::string line) {
+  const bool commas = line.find(',') != std::string::npos;
+  std::vector<std::string> fields(1);
+  bool quoted = false;
+  for (const char c : line) {
+    const bool blank = c == ' ' || c == '\t' || c == '\r';
+    if (c == '"')
+      quoted = !quoted;
+    else if (!quoted && (commas ? c == ',' : blank))
+      fields.emplace_back();
+    else if (quoted || !blank)
+      fields.back() += c;
   }
+  if (!commas) std::erase(fields, "");
+  return fields;
+}
+
+// NaN and infinities are numbers that nobody wants here, not names.
+std::optional<double> numberIn(const std::string& field) {
+  const std::string_view digits = field.starts_with('+') ? std::string_view(field).substr(1) : std::string_view(field);
+  double value = 0;
+  const auto [end, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (digits.empty() || status == std::errc::invalid_argument || end != digits.data() + digits.size())
+    return std::nullopt;
+  return status == std::errc{} ? value : std::numeric_limits<double>::infinity();
+}
+
+// Two columns of numbers, separated by a comma or blanks. The first line may be a header: one without any number.
+TemperatureProfile readProfileFile(const std::filesystem::path& path) {
+  std::istringstream file(readTextFile(path, "a profile of two columns"));
+  std::vector<double> points, temperatures;
+  bool first = true;
+  int number = 0;
+  for (std::string line; std::getline(file, line);) {
+    ++number;
+    const std::vector<std::string> fields = fieldsOf(line);
+    if (std::all_of(fields.begin(), fields.end(), [](const std::string& field) { return field.empty(); }) ||
+        fields[0].starts_with('#'))
+      continue;
+    const bool header =
+        std::exchange(first, false) &&
+        std::none_of(fields.begin(), fields.end(), [](const auto& field) { return numberIn(field).has_value(); });
+    if (header) continue;
+    const auto point = numberIn(fields[0]), temperature = fields.size() == 2 ? numberIn(fields[1]) : std::nullopt;
+    if (!point || !temperature || !std::isfinite(*point) || !std::isfinite(*temperature))
+      throw InputError(fmt::format("{}:{}: expected two numbers, found '{}'", path.string(), number,
+                                   line.substr(0, line.find('\r'))));
+    const auto refuse = [&](const std::string& why) {
+      throw InputError(fmt::format("{}:{}: {}", path.string(), number, why));
+    };
+    if (!points.empty() && !(*point > points.back()))
+      refuse(fmt::format("the points have to rise; {} follows {}", *point, points.back()));
+    try {
+      static_cast<void>(TemperatureProfile(*temperature));
+    } catch (const InputError& error) {
+      refuse(error.what());
+    }
+    points.push_back(*point);
+    temperatures.push_back(*temperature);
+  }
+  if (points.empty()) throw InputError(fmt::format("{}: expected lines of two numbers, found none", path.string()));
   return {std::move(points), std::move(temperatures)};
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "app/warnings.hpp"
 #include "core/errors.hpp"
 #include "core/gather.hpp"
 #include "flow/streamline.hpp"
@@ -85,6 +86,22 @@ void writeTrajectory(ResultsWriter& results, std::size_t id, int owner, const st
                   "dN/dlog10(d)", owner);
 }
 
+// Collective. A path of one point ends where it starts.
+void warnOfShortPaths(const Mesh& m, const TrajectoryRequest& request,
+                      const std::vector<std::vector<TrajectorySample>>& samples) {
+  std::vector<std::int64_t> points;
+  for (const auto& path : samples) points.push_back(static_cast<std::int64_t>(path.size()));
+  MPI_Allreduce(MPI_IN_PLACE, points.data(), static_cast<int>(points.size()), MPI_INT64_T, MPI_SUM, m.comm);
+  std::vector<std::string> warnings;
+  for (std::size_t id = 0; id < points.size(); ++id)
+    if (points[id] < 2)
+      warnings.push_back(fmt::format(
+          "trajectory {} from ({:.6g}, {:.6g}) m leaves the domain in its first time step of {:g} s: it has one row, "
+          "without particles",
+          id, request.starts[id].r, request.starts[id].z, request.timeStep));
+  printWarnings(warnings);
+}
+
 }  // namespace
 
 void runTrajectories(const FlowContext& context, const FlowCase& flowCase, const State& state,
@@ -125,6 +142,7 @@ void runTrajectories(const FlowContext& context, const FlowCase& flowCase, const
       }
     }
   });
+  warnOfShortPaths(m, request, samples);
   for (std::size_t id = 0; id < count; ++id)
     writeTrajectory(results, id, static_cast<int>(id % static_cast<std::size_t>(m.ranks)), samples[id], records[id],
                     binEdges, options.bins);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "core/gather.hpp"
 
@@ -96,10 +97,10 @@ bool Streamlines::inside(const std::array<double, 2>& position) const {
 std::vector<PathPoint> Streamlines::trace(std::array<double, 2> start, double timeStep, double duration) const {
   std::vector<PathPoint> path;
   std::array<double, 2> x = start;
-  const int steps = static_cast<int>(std::ceil(duration / timeStep - 1e-9));
-  for (int step = 0; step <= steps && inside(x); ++step) {
+  const auto steps = static_cast<std::int64_t>(std::ceil(duration / timeStep - 1e-9));
+  for (std::int64_t step = 0; step <= steps && inside(x); ++step) {
     const BilinearPoint place = locate(x);
-    path.push_back({step * timeStep, x, place, place.of(divergence_)});
+    path.push_back({static_cast<double>(step) * timeStep, x, place, place.of(divergence_)});
     const auto first = velocityAt(x);
     const auto middle = velocityAt({x[0] + 0.5 * timeStep * first[0], x[1] + 0.5 * timeStep * first[1]});
     x = {x[0] + timeStep * middle[0], x[1] + timeStep * middle[1]};

@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 
+#include "core/text_file.hpp"
 #include "io/deck_check.hpp"
 
 namespace lampblack {
@@ -15,19 +14,7 @@ namespace {
 constexpr std::uintmax_t largestDeck = 16U << 20U;  // bytes; a deck is a page or two
 
 std::string readFile(const std::filesystem::path& path) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) throw InputError(fmt::format("{}: there is no such file", path.string()));
-  if (std::filesystem::is_directory(status)) {
-    throw InputError(fmt::format("{}: this is a folder; name the deck in it", path.string()));
-  }
-  const auto size = std::filesystem::file_size(path, error);
-  if (!error && size > largestDeck) throw InputError(fmt::format("{}: too large for a deck", path.string()));
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file) throw InputError(fmt::format("{}: the file cannot be read", path.string()));
-  return text.str();
+  return readTextFile(path, "a deck", largestDeck);
 }
 
 // Rank 0's text on all ranks.
@@ -120,8 +107,11 @@ double Deck::quantity(std::string_view key) const {
 double Deck::number(std::string_view key) const {
   return get(key, KeyType::number, false).numbers[0];
 }
-std::int64_t Deck::integer(std::string_view key) const {
-  return get(key, KeyType::integer, false).integers[0];
+std::int64_t Deck::integerWithin(std::string_view key, std::int64_t low, std::int64_t high) const {
+  const std::int64_t value = get(key, KeyType::integer, false).integers[0];
+  if (value > high) throw error(key, fmt::format("expected an integer of at most {}, found {}", high, value));
+  if (value < low) throw error(key, fmt::format("expected an integer of at least {}, found {}", low, value));
+  return value;
 }
 bool Deck::boolean(std::string_view key) const {
   return get(key, KeyType::boolean, false).integers[0] != 0;
@@ -154,32 +144,21 @@ bool Deck::isGiven(std::string_view key) const {
   return nodeAt(key) != nullptr;
 }
 
-namespace {
-
-// Reads with `read` where the deck has the key; a key nobody declared is still a mistake.
-template <typename Read>
-auto optionally(const Deck& deck, const DeckSchema& schema, std::string_view key, Read read)
-    -> std::optional<decltype(read())> {
-  if (deck.isGiven(key) || deck.has(key) || !isDeclared(schema, key)) return read();
-  return std::nullopt;
+bool Deck::isThere(std::string_view key) const {
+  return has(key) || !isDeclared(*schema_, key);  // the read after this says that nobody declared it
 }
-
-}  // namespace
 
 std::optional<double> Deck::optionalQuantity(std::string_view key) const {
-  return optionally(*this, *schema_, key, [&] { return quantity(key); });
+  return isThere(key) ? std::optional(quantity(key)) : std::nullopt;
 }
 std::optional<double> Deck::optionalNumber(std::string_view key) const {
-  return optionally(*this, *schema_, key, [&] { return number(key); });
-}
-std::optional<std::int64_t> Deck::optionalInteger(std::string_view key) const {
-  return optionally(*this, *schema_, key, [&] { return integer(key); });
+  return isThere(key) ? std::optional(number(key)) : std::nullopt;
 }
 std::optional<bool> Deck::optionalBoolean(std::string_view key) const {
-  return optionally(*this, *schema_, key, [&] { return boolean(key); });
+  return isThere(key) ? std::optional(boolean(key)) : std::nullopt;
 }
 std::optional<std::string> Deck::optionalString(std::string_view key) const {
-  return optionally(*this, *schema_, key, [&] { return string(key); });
+  return isThere(key) ? std::optional(string(key)) : std::nullopt;
 }
 
 namespace {

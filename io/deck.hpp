@@ -5,9 +5,11 @@
 
 #include <mpi.h>
 
+#include <concepts>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -54,7 +56,11 @@ class Deck {
   // with another type, or that is optional and absent is a mistake of the caller: std::logic_error.
   [[nodiscard]] double quantity(std::string_view key) const;  // SI
   [[nodiscard]] double number(std::string_view key) const;
-  [[nodiscard]] std::int64_t integer(std::string_view key) const;
+  // In the type it is used in; InputError where the deck's number does not fit.
+  template <std::integral T = std::int64_t>
+  [[nodiscard]] T integer(std::string_view key) const {
+    return static_cast<T>(integerWithin(key, lowest<T>, highest<T>));
+  }
   [[nodiscard]] bool boolean(std::string_view key) const;
   [[nodiscard]] std::string string(std::string_view key) const;
   [[nodiscard]] std::string choice(std::string_view key) const;
@@ -66,7 +72,11 @@ class Deck {
   // The same for optional keys: empty where the deck does not say.
   [[nodiscard]] std::optional<double> optionalQuantity(std::string_view key) const;
   [[nodiscard]] std::optional<double> optionalNumber(std::string_view key) const;
-  [[nodiscard]] std::optional<std::int64_t> optionalInteger(std::string_view key) const;
+  template <std::integral T = std::int64_t>
+  [[nodiscard]] std::optional<T> optionalInteger(std::string_view key) const {
+    if (!isThere(key)) return std::nullopt;
+    return integer<T>(key);
+  }
   [[nodiscard]] std::optional<bool> optionalBoolean(std::string_view key) const;
   [[nodiscard]] std::optional<std::string> optionalString(std::string_view key) const;  // string or choice
 
@@ -91,6 +101,17 @@ class Deck {
   [[nodiscard]] std::filesystem::path resolvePath(const std::string& name) const;
 
  private:
+  template <std::integral T>
+  static constexpr std::int64_t lowest = std::is_unsigned_v<T>
+                                             ? 0
+                                             : static_cast<std::int64_t>(std::numeric_limits<T>::min());
+  template <std::integral T>
+  static constexpr std::int64_t highest = sizeof(T) < sizeof(std::int64_t)
+                                              ? static_cast<std::int64_t>(std::numeric_limits<T>::max())
+                                              : std::numeric_limits<std::int64_t>::max();
+  [[nodiscard]] std::int64_t integerWithin(std::string_view key, std::int64_t low, std::int64_t high) const;
+  // Whether an optional key has a value; a key nobody declared is a mistake.
+  [[nodiscard]] bool isThere(std::string_view key) const;
   Deck(std::string text, const std::filesystem::path& path, const std::vector<std::string>& overrides,
        const std::function<const DeckSchema&(const DeckSource&, const DeckNode&)>& choose);
   [[nodiscard]] const DeckValue* find(std::string_view key) const;

@@ -24,10 +24,30 @@ bool continuesCharacter(char c) {
   return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
 }
 
+// The part of a line that is shown, and where what is marked begins in it.
+struct Shown {
+  std::string text;
+  std::size_t first;
+};
+
+// A line that is longer than a console is cut on both sides of the place that matters, never inside a UTF-8 character.
+Shown aroundPlace(const std::string& line, std::size_t first) {
+  constexpr std::size_t longest = 160, before = 60;
+  const std::string dots = "...";
+  if (line.size() <= longest) return {line, first};
+  std::size_t begin = first > before ? first - before : 0;
+  std::size_t end = std::min(begin + longest, line.size());
+  while (begin > 0 && continuesCharacter(line[begin])) --begin;
+  while (end < line.size() && continuesCharacter(line[end])) ++end;
+  const std::string front = begin > 0 ? dots : "";
+  return {front + line.substr(begin, end - begin) + (end < line.size() ? dots : ""), front.size() + first - begin};
+}
+
 // The excerpt: the line under its number, and below it a caret and tildes. Tabs are kept so that the caret stays in
 // place; the bytes inside a UTF-8 character take no room.
-std::string excerpt(const std::string& line, const std::string& label, int column, int length) {
-  const auto first = std::min(static_cast<std::size_t>(std::max(column - 1, 0)), line.size());
+std::string excerpt(const std::string& whole, const std::string& label, int column, int length) {
+  const auto place = std::min(static_cast<std::size_t>(std::max(column - 1, 0)), whole.size());
+  const auto& [line, first] = aroundPlace(whole, place);
   const auto last = std::min(first + static_cast<std::size_t>(std::max(length, 1)), line.size());
   std::string marks;
   for (std::size_t i = 0; i < first; ++i) {
@@ -42,12 +62,25 @@ std::string excerpt(const std::string& line, const std::string& label, int colum
 
 }  // namespace
 
+std::string shortened(const std::string& text) {
+  constexpr std::size_t longest = 60;
+  if (text.size() <= longest) return text;
+  std::size_t end = longest - 3;
+  while (continuesCharacter(text[end])) --end;
+  return text.substr(0, end) + "...";
+}
+
+std::string quotesHint(const std::string& key, const std::string& text) {
+  if (text.find(": ") == std::string::npos) return {};
+  return fmt::format("; a text with ': ' needs quotes of its own: --set '{}=\"{}\"'", key, shortened(text));
+}
+
 std::string foundText(const DeckNode& node) {
   switch (node.kind) {
     case DeckNode::Kind::null:
       return "nothing";
     case DeckNode::Kind::scalar:
-      return fmt::format("'{}'", node.text.size() > 60 ? node.text.substr(0, 57) + "..." : node.text);
+      return fmt::format("'{}'", shortened(node.text));
     case DeckNode::Kind::list:
       return fmt::format("a list of {}", node.children.size());
     case DeckNode::Kind::map:
@@ -58,11 +91,12 @@ std::string foundText(const DeckNode& node) {
 
 InputError deckError(const DeckSource& source, const DeckLocation& at, const std::string& key,
                      const std::string& message) {
-  const std::string what = key.empty() ? message : fmt::format("{}: {}", key, message);
+  const std::string what = key.empty() ? message : fmt::format("{}: {}", shortened(key), message);
   if (at.overrideIndex >= 0) {
     const std::string& text = source.overrides.at(static_cast<std::size_t>(at.overrideIndex));
-    if (at.line > 1 || text.find('\n') != std::string::npos) return InputError(fmt::format("--set {}: {}", text, what));
-    return InputError(fmt::format("--set {}: {}{}", text, what, excerpt(text, "--set", at.column, at.length)));
+    const std::string place = fmt::format("--set {}: {}", shortened(text), what);
+    if (at.line > 1 || text.find('\n') != std::string::npos) return InputError(place);
+    return InputError(place + excerpt(text, "--set", at.column, at.length));
   }
   if (at.line == 0) return InputError(fmt::format("{}: {}", source.path.string(), what));
   return InputError(fmt::format("{}:{}:{}: {}{}", source.path.string(), at.line, at.column, what,

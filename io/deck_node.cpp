@@ -1,6 +1,7 @@
 #include "io/deck_node.hpp"
 
 #include <fmt/format.h>
+#include <yaml-cpp/depthguard.h>
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/exceptions.h>
 #include <yaml-cpp/mark.h>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <charconv>
 #include <sstream>
+#include <unordered_map>
 
 namespace lampblack {
 namespace {
@@ -70,6 +72,7 @@ class TreeBuilder : public YAML::EventHandler {
     bool hasKey = false;  // of a map: the key of the next value has been read
     std::string key;
     DeckLocation keyAt;
+    std::unordered_map<std::string, int> lines;  // of a map: where each key stands
   };
 
   std::string path() const {
@@ -93,10 +96,11 @@ class TreeBuilder : public YAML::EventHandler {
     if (expectsKey()) {
       Open& map = stack_.back();
       if (value.empty()) throw StructureError{mark, path(), "a key has no name"};
-      if (const DeckNode* first = map.node.child(value)) {
+      const auto [first, isNew] = map.lines.emplace(value, mark.line + 1);
+      if (!isNew) {
         const std::string where = path();
         throw StructureError{mark, (where.empty() ? "" : where + ".") + value,
-                             fmt::format("this key is given twice; first in line {}", first->nameAt.line)};
+                             fmt::format("this key is given twice; first in line {}", first->second)};
       }
       map.hasKey = true;
       map.key = value;
@@ -177,6 +181,8 @@ DeckNode parseYaml(const std::string& text) {
 
 // yaml-cpp gives its message and mark; the prefix of what() repeats the mark.
 StructureError fromYaml(const YAML::Exception& error) {
+  if (dynamic_cast<const YAML::DeepRecursion*>(&error) != nullptr)
+    return {error.mark, "", "lists and maps are nested too deeply; a deck has a few levels"};
   return {error.mark, "", fmt::format("this is not YAML: {}", error.msg)};
 }
 
@@ -249,7 +255,7 @@ void applyOverride(DeckNode& root, const DeckSource& source, std::size_t i) {
   } catch (const StructureError& error) {
     throw fail(error.message, equals + 1, valueText.size(), key);
   } catch (const YAML::Exception& error) {
-    throw fail(fromYaml(error).message, equals + 1, valueText.size(), key);
+    throw fail(fromYaml(error).message + quotesHint(key, valueText), equals + 1, valueText.size(), key);
   }
   relocate(value, index, static_cast<int>(equals) + 1);
 

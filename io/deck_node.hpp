@@ -42,6 +42,9 @@ struct DeckNode {
   [[nodiscard]] DeckNode* child(std::string_view childName);
 };
 
+// A text of a deck as messages quote it: its first 60 bytes at most.
+std::string shortened(const std::string& text);
+
 // "map", "list of 3", "'20 cm'" or "nothing": what was found, for messages.
 std::string foundText(const DeckNode& node);
 
@@ -56,6 +59,9 @@ DeckNode parseDeck(const DeckSource& source);
 // Applies source.overrides[i] to the tree. Parts of maps that are missing are made; a list takes an index up to its
 // length.
 void applyOverride(DeckNode& root, const DeckSource& source, std::size_t i);
+
+// What to add to a message about "key=text" that was to be a text but is none to YAML: how the shell keeps its quotes.
+std::string quotesHint(const std::string& key, const std::string& text);
 
 // "mesh.z[0].cells" or "mesh.z.0.cells" into {"mesh", "z", "0", "cells"}.
 std::vector<std::string> splitDeckPath(std::string_view path);

@@ -25,13 +25,25 @@ void checkRange(const DeckKey& key, double value, const std::string& found) {
   throw InputError(fmt::format("expected {} {}, found {}", what, rangeText(key), found));
 }
 
-std::int64_t readInteger(const std::string& text) {
+// Throws `mismatch` for what is no integer.
+std::int64_t readInteger(const std::string& text, const InputError& mismatch) {
   const std::string_view digits = text.starts_with('+') ? std::string_view(text).substr(1) : std::string_view(text);
   std::int64_t value = 0;
   const auto [end, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (status == std::errc{} && end == digits.data() + digits.size()) return value;
-  const double number = units::parseNumber(text);  // 1e6
-  if (std::trunc(number) != number || std::abs(number) > 9.007199254740992e15) throw InputError("not an integer");
+  double number = std::nan("");  // 1e6
+  try {
+    number = units::parseNumber(text);
+  } catch (const InputError&) {
+    throw mismatch;
+  }
+  if (std::trunc(number) != number) throw mismatch;
+  // Beyond 2^53 floating point has no longer every integer.
+  if (std::abs(number) > 9007199254740992.0)
+    throw InputError(
+        status == std::errc::result_out_of_range || std::abs(number) >= 0x1p63
+            ? fmt::format("{}, which is too large: integers end at 9223372036854775807", mismatch.what())
+            : fmt::format("{}: integers above 9007199254740992 have to be written in digits", mismatch.what()));
   return static_cast<std::int64_t>(number);
 }
 
@@ -50,9 +62,12 @@ void readScalar(const DeckKey& key, const std::string& text, DeckValue& value) {
   const auto mismatch = [&] {
     DeckKey one = key;
     one.isList = false;
-    return InputError(fmt::format("expected {}, found '{}'", expectation(one), text));
+    return InputError(fmt::format("expected {}, found '{}'", expectation(one), shortened(text)));
   };
-  const std::string found = fmt::format("'{}'", text);
+  const std::string found = fmt::format("'{}'", shortened(text));
+  // No number, choice or unit is so long; the messages below quote the text.
+  constexpr std::size_t longest = 100;
+  if (key.type != KeyType::string && text.size() > longest) throw mismatch();
   switch (key.type) {
     case KeyType::quantity:
       value.numbers.push_back(units::parseQuantity(text, key.dimension));
@@ -63,11 +78,7 @@ void readScalar(const DeckKey& key, const std::string& text, DeckValue& value) {
       checkRange(key, value.numbers.back(), found);
       return;
     case KeyType::integer:
-      try {
-        value.integers.push_back(readInteger(text));
-      } catch (const InputError&) {
-        throw mismatch();
-      }
+      value.integers.push_back(readInteger(text, mismatch()));
       checkRange(key, static_cast<double>(value.integers.back()), found);
       return;
     case KeyType::boolean: {
@@ -99,7 +110,13 @@ DeckValue readDeckValue(const DeckSource& source, const DeckKey& key, const std:
       DeckKey one = key;
       one.isList = key.isList && &item == &node;
       const DeckLocation at = item.at.line > 0 ? item.at : item.nameAt;
-      throw deckError(source, at, itemPath, fmt::format("expected {}, found {}", expectation(one), foundText(item)));
+      std::string hint;
+      if (key.type == KeyType::string && at.overrideIndex >= 0) {
+        const std::string& override = source.overrides[static_cast<std::size_t>(at.overrideIndex)];
+        hint = quotesHint(path, override.substr(override.find('=') + 1));
+      }
+      throw deckError(source, at, itemPath,
+                      fmt::format("expected {}, found {}{}", expectation(one), foundText(item), hint));
     }
     try {
       readScalar(key, item.text, value);

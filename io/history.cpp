@@ -4,6 +4,8 @@
 
 #include <stdexcept>
 
+#include "io/csv.hpp"
+
 namespace lampblack {
 
 HistoryWriter::HistoryWriter(MPI_Comm comm, const std::filesystem::path& path, std::vector<TableColumn> columns)
@@ -11,10 +13,7 @@ HistoryWriter::HistoryWriter(MPI_Comm comm, const std::filesystem::path& path, s
   MPI_Comm_rank(comm, &rank_);
   if (rank_ != 0) return;
   csv_.open(path, std::ios::trunc);
-  for (std::size_t c = 0; c < columns_.size(); ++c) {
-    csv_ << (c > 0 ? "," : "") << columns_[c].name << " [" << columns_[c].unit << "]";
-  }
-  csv_ << std::endl;
+  csv_ << csvHeader(columns_) << std::flush;
   if (!csv_) throw InputError(fmt::format("{}: the history cannot be written", path.string()));
 }
 

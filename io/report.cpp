@@ -14,6 +14,7 @@ std::string formatBytes(double bytes) {
     bytes /= 1024.0;
     ++unit;
   }
+  if (bytes >= 1e5) return fmt::format("{:.3g} {}", bytes, units[unit]);
   return fmt::format("{:.{}f} {}", bytes, unit == 0 || bytes >= 100.0 ? 0 : 1, units[unit]);
 }
 

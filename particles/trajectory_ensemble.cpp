@@ -19,7 +19,7 @@ TrajectoryRecord record(const Ensemble& ensemble, const TrajectorySample& sample
 
 std::vector<TrajectoryRecord> marchTrajectory(Ensemble& ensemble, const std::vector<TrajectorySample>& samples,
                                               const TrajectoryOptions& options) {
-  if (samples.size() < 2) throw InputError("path of soot: at least two samples are needed");
+  if (samples.empty()) throw InputError("path of soot: at least one sample is needed");
   const std::size_t n = ensemble.options().soot.pah.size();
   for (std::size_t k = 0; k + 1 < samples.size(); ++k) checkInterval(samples[k], samples[k + 1], n);
   std::vector<TrajectoryRecord> history;

@@ -1,6 +1,7 @@
 """A results folder: the mesh, the steps, their fields, trajectories, history and run record."""
 
 import contextlib
+import csv
 import json
 import pathlib
 
@@ -141,7 +142,7 @@ class Results:
             return None
         names = group.attrs["names"]
         names = names.decode("utf-8") if isinstance(names, bytes) else str(names)
-        return names.split(","), {name: group[name][()] for name in group}
+        return next(csv.reader([names])), {name: group[name][()] for name in group}
 
     def history(self):
         """Columns of the history as {name: (unit, values)}, from the results file or else from history.csv."""
@@ -151,12 +152,13 @@ class Results:
         path = self.folder / "history.csv"
         if not path.is_file():
             return {}
-        lines = path.read_text(encoding="utf-8").splitlines()
+        with open(path, newline="", encoding="utf-8") as file:
+            lines = list(csv.reader(file))
         if len(lines) < 2:
             return {}
-        rows = [[float(x) for x in line.split(",")] for line in lines[1:] if line.count(",") == lines[0].count(",")]
+        rows = [[float(x) for x in line] for line in lines[1:] if len(line) == len(lines[0])]
         columns = {}
-        for c, head in enumerate(lines[0].split(",")):
+        for c, head in enumerate(lines[0]):
             name, _, unit = head.partition(" [")
             columns[name] = (unit.rstrip("]"), np.array([row[c] for row in rows]))
         return columns

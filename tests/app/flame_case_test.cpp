@@ -180,6 +180,7 @@ TEST(FlameCase, WhatDoesNotFitIsRefused) {
       {counterflow, {"continuation.highest_load=0.5"}, "expected 'lowest_load' below 1 and 'highest_load' above 1"},
       {counterflow, {"continuation.first_step=1e5"}, "expected no more than 'largest_step'"},
       {counterflow, {"continuation.towards=lower", "unsteady.end=1 s"}, "a run follows either time or a branch"},
+      {counterflow, {"unsteady.end=1 s", "unsteady.output_interval=1e-15 s"}, "about 1e+15 profiles would be written"},
       {counterflow, {"unsteady.end=1 s", "unsteady.start=initial"}, "'initial' needs the key 'initial'"},
       {counterflow, {"unsteady.end=1 s", "unsteady.amplitude=0.1"}, "'amplitude' and 'frequency' belong together"},
       {counterflow, {"unsteady.end=1 s", "unsteady.first_step=2 s"}, "expected no more than 'end' and 'largest_step'"},

@@ -5,6 +5,7 @@ Usage: population_input_test.py EXECUTABLE RANKS MPIEXEC...
 
 import pathlib
 import re
+import resource
 import sys
 import tempfile
 
@@ -33,6 +34,11 @@ EMPTY = NUCLEATION + "{rate: 1 1/m^3/s, volume: 1 m^3}\n"
 
 # Name, text to replace, its replacement, what the message says.
 MISTAKES = [
+    # More than the machine has, or than the limit that main() sets.
+    ("particles beyond the memory", METHOD, "{type: dsmc, particles: 1e9}",
+     ("methods.one.particles: a sample of 1000000000 particles needs at least 37.3 GiB of memory; there are",)),
+    ("a claim twice", METHOD, "{type: dsmc, claims: [M0, M1, M0]}", ("methods.one.claims: 'M0' is named twice",)),
+    ("sizes beyond the memory", METHOD, "{type: hybrid, threshold: 100000000000}", ("methods.one.threshold",)),
     # The population at the start.
     ("unknown distribution", "lognormal", "gaussian", ("initial.distribution", "expected one of: none, monodisperse")),
     ("no size", "  diameter: 10 nm\n", "", ("initial: ", "needs either 'volume' or 'diameter'")),
@@ -126,6 +132,8 @@ MISTAKES = [
 
 def main(executable: str, ranks: str, *mpiexec: str) -> int:
     program = running.Program(executable, list(mpiexec), int(ranks))
+    # A machine of 16 GiB, whatever it is.
+    resource.setrlimit(resource.RLIMIT_AS, (16 << 30, resource.getrlimit(resource.RLIMIT_AS)[1]))
 
     def check(mistake: tuple) -> int:
         name, old, new, expected = mistake

@@ -1,12 +1,16 @@
 // What reactor decks become: mixtures, flows in balance, the shipped cases.
 #include "app/reactor_case.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <utility>
+#include <vector>
 
 #include "app/gas_input.hpp"
 #include "app/problem.hpp"
+#include "app/temperature_input.hpp"
 #include "chemistry/thermo/thermo.hpp"
 #include "core/errors.hpp"
 #include "tests/app/app_fixture.hpp"
@@ -48,6 +52,45 @@ TEST(ReactorCase, FlowsOfANetworkAreInBalance) {
   EXPECT_NEAR(network.throughflow(0), 0.05 / 0.7, 1e-15);
   EXPECT_NEAR(network.throughflow(1), 0.3 * 0.05 / 0.7, 1e-15);
   EXPECT_NEAR(network.throughflow(5), 0.13, 1e-15);
+}
+
+// What a profile file becomes: its temperatures, or the message about it.
+std::string profileOf(const std::string& text) {
+  const auto path = std::filesystem::temp_directory_path() / "lampblack_profile_test.csv";
+  std::ofstream(path, std::ios::binary) << text;
+  std::string found;
+  try {
+    const auto deck =
+        Deck::load(test::sourceFolder / "cases/reactor_ignition_hydrogen/deck.yaml",
+                   {"reactor.energy=profile", "temperature_profile.file=" + path.string()}, reactorSchema());
+    for (const double T : readReactorCase(deck).profile->temperatures()) found += fmt::format("{:g} ", T);
+  } catch (const InputError& error) {
+    found = error.what();
+  }
+  std::filesystem::remove(path);
+  return found;
+}
+
+TEST(ReactorCase, AProfileFileLosesNoLine) {
+  EXPECT_EQ(profileOf("0,300\n1,400\n"), "300 400 ");
+  EXPECT_EQ(profileOf("\xef\xbb\xbf"
+                      "0,300\r\n1,400\r\n"),
+            "300 400 ")
+      << "a byte-order mark";
+  EXPECT_EQ(profileOf("# made by hand\n\"time, s\",\"T, K\"\n0,300\n1,+4e2"), "300 400 ");
+  EXPECT_EQ(profileOf("time T\n 0 300\n\n# half way\n 1\t400\n"), "300 400 ");
+  for (const auto& [text, message] : std::vector<std::pair<std::string, std::string>>{
+           {"0,nan\n1,400\n", "lampblack_profile_test.csv:1: expected two numbers, found '0,nan'"},
+           {"nan,nan\n1,400\n", ":1: expected two numbers, found 'nan,nan'"},
+           {"0;300\n1;400\n", ":2: expected two numbers, found '1;400'"},
+           {"0,T\n1,400\n", ":1: expected two numbers, found '0,T'"},
+           {"time,T\ntime,T\n1,400\n", ":2: expected two numbers"},
+           {"time,T\n0,300,1\n", ":2: expected two numbers"},
+           {"0,300\n0,400\n", ":2: the points have to rise; 0 follows 0"},
+           {"0,300\n1,1e9\n", ":2: expected temperatures from"},
+           {"time,T\n", "expected lines of two numbers, found none"},
+           {"", "the file is empty"}})
+    EXPECT_THAT(profileOf(text), testing::HasSubstr(message)) << text;
 }
 
 TEST(ReactorCase, ReactionsAreNamedByNumberOrEquation) {

@@ -37,11 +37,15 @@ Datasets readTrajectories(const fs::path& path) {
   return all;
 }
 
-void writeTrajectories(MPI_Comm comm, const fs::path& path, std::uint64_t seed) {
+// More than ranks, so that a rank has several; the last leaves the domain early.
+const std::vector<TrajectoryStart> fiveStarts{
+    {1e-3, 4.5e-3}, {2e-3, 4.2e-3}, {3e-3, 3.8e-3}, {1e-3, 3e-3}, {13.9e-3, 4e-3}};
+
+void writeTrajectories(MPI_Comm comm, const fs::path& path, std::uint64_t seed,
+                       const std::vector<TrajectoryStart>& starts = fiveStarts) {
   test::Flame flame(comm, test::sootingGas);
   flame.flowCase.seed = seed;
-  // More than ranks, so that a rank has several; the last leaves the domain early.
-  flame.flowCase.trajectories->starts = {{1e-3, 4.5e-3}, {2e-3, 4.2e-3}, {3e-3, 3.8e-3}, {1e-3, 3e-3}, {13.9e-3, 4e-3}};
+  flame.flowCase.trajectories->starts = starts;
   flame.flowCase.trajectories->duration = 2e-3;
   const SootOperator soot(flame.context, *flame.flowCase.soot);
   ResultsWriter results(comm, path, {}, meshOutput(flame.mesh));
@@ -59,6 +63,33 @@ fs::path freshFolder(const std::string& name) {
   }
   MPI_Barrier(MPI_COMM_WORLD);
   return folder;
+}
+
+TEST(Trajectories, TwoThatStartAtOnePlaceHaveRandomNumbersOfTheirOwn) {
+  const fs::path folder = freshFolder("own_numbers");
+  writeTrajectories(MPI_COMM_WORLD, folder / "twins.h5", 7, {{1e-3, 4.5e-3}, {1e-3, 4.5e-3}});
+  if (test::worldRank() == 0) {
+    const Datasets twins = readTrajectories(folder / "twins.h5");
+    EXPECT_EQ(twins.at("0/temperature"), twins.at("1/temperature")) << "the same path";
+    EXPECT_NE(twins.at("0/number_density"), twins.at("1/number_density")) << "but not the same random numbers";
+    fs::remove_all(folder);
+  }
+  MPI_Barrier(MPI_COMM_WORLD);
+}
+
+TEST(Trajectories, OneThatLeavesAtOnceHasOneRowWithoutParticles) {
+  const fs::path folder = freshFolder("at_once");
+  // Half a micrometre from the outlet, and steps of 50 us at 0.1 m/s and more.
+  writeTrajectories(MPI_COMM_WORLD, folder / "results.h5", 7, {{1e-3, 4.5e-3}, {13.9999995e-3, 4e-3}});
+  if (test::worldRank() == 0) {
+    const Datasets all = readTrajectories(folder / "results.h5");
+    EXPECT_EQ(all.at("0/time").size(), 41U);
+    EXPECT_EQ(all.at("1/time"), std::vector<double>{0.0});
+    EXPECT_EQ(all.at("1/number_density"), std::vector<double>{0.0});
+    EXPECT_GT(all.at("1/temperature").at(0), 200.0);
+    fs::remove_all(folder);
+  }
+  MPI_Barrier(MPI_COMM_WORLD);
 }
 
 TEST(Trajectories, AreTheSameBitsOnAnyNumberOfRanks) {

@@ -125,5 +125,29 @@ TEST(Deck, TakesKeysOfSectionsLeftEmpty) {
   EXPECT_THAT(deck.strings("output.fields"), ElementsAre("temperature", "velocity"));
 }
 
+TEST(Deck, IntegersAreGivenInTheTypeTheyAreUsedIn) {
+  const auto seed = [](const std::string& text) { return test::sampleDeck({"seed=" + text}); };
+  EXPECT_EQ(seed("2147483647").integer<int>("seed"), 2147483647);
+  EXPECT_EQ(seed("4294967297").integer("seed"), 4294967297);
+  EXPECT_EQ(seed("4294967297").integer<std::uint64_t>("seed"), 4294967297U);
+  EXPECT_EQ(test::sampleDeck().optionalInteger<int>("particles.count"), std::nullopt);
+  const auto message = [&](const std::string& text, auto read) -> std::string {
+    try {
+      read(seed(text));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  // Cut to 32 bits this would be 1.
+  EXPECT_THAT(
+      message("4294967297", [](const Deck& deck) { (void)deck.integer<int>("seed"); }),
+      testing::HasSubstr("--set seed=4294967297: seed: expected an integer of at most 2147483647, found 4294967297"));
+  EXPECT_THAT(message("4294967297", [](const Deck& deck) { (void)deck.optionalInteger<int>("seed"); }),
+              testing::HasSubstr("at most 2147483647"));
+  EXPECT_THAT(message("-1", [](const Deck& deck) { (void)deck.integer<std::size_t>("seed"); }),
+              testing::HasSubstr("expected an integer of at least 0, found -1"));
+}
+
 }  // namespace
 }  // namespace lampblack

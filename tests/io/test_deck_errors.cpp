@@ -1,4 +1,5 @@
 // Every way a deck can be wrong, and what the message says: file, line, key, what was expected, what was found.
+#include <ctime>
 #include <filesystem>
 
 #include "tests/io/sample_deck.hpp"
@@ -10,6 +11,7 @@ using test::messageOf;
 using test::sampleWith;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 TEST(DeckErrors, AnUnknownKeyNamesTheNearestAndShowsTheLine) {
@@ -58,6 +60,25 @@ TEST(DeckErrors, AValueOutOfRangeSaysTheRange) {
   EXPECT_THAT(messageOf(sampleWith("O2: 25 %", "O2: 125 %")),
               HasSubstr("expected a number from 0 to 1, found '125 %'"));
   EXPECT_THAT(messageOf(sampleWith("cells: 10", "cells: 0")), HasSubstr("expected an integer from 1 to 100000"));
+}
+
+TEST(DeckErrors, ABoundIsInTheRangeUnlessItIsExclusive) {
+  DeckSchema schema;
+  schema.add(numberKey("open", "Without its ends.").above(0).below(1).byDefault("0.5"))
+      .add(numberKey("closed", "With them.").atLeast(0).atMost(1).byDefault("0.5"))
+      .add(integerKey("count", "Without its end.").below(4).byDefault("1"));
+  const auto accepts = [&](const std::string& setting) {
+    try {
+      (void)Deck::parse("{}", "deck.yaml", {setting}, schema);
+    } catch (const InputError& error) {
+      return false;
+    }
+    return true;
+  };
+  for (const char* good : {"open=1e-300", "open=0.999999999", "closed=0", "closed=1", "count=3"})
+    EXPECT_TRUE(accepts(good)) << good;
+  for (const char* bad : {"open=0", "open=1", "closed=-1e-300", "closed=1.000001", "count=4", "count=5"})
+    EXPECT_FALSE(accepts(bad)) << bad;
 }
 
 TEST(DeckErrors, AValueOfAnotherTypeSaysWhatWasExpected) {
@@ -127,8 +148,67 @@ TEST(DeckErrors, AFileThatIsNotThereOrIsAFolder) {
     }
     return "accepted";
   };
-  EXPECT_EQ(message("/nowhere/deck.yaml"), "/nowhere/deck.yaml: there is no such file");
+  EXPECT_EQ(message("/nowhere/deck.yaml"), "/nowhere/deck.yaml: there is no such file; expected a deck");
   EXPECT_THAT(message(std::filesystem::temp_directory_path()), HasSubstr("this is a folder"));
+  // Read to its end, it would never come to one.
+  EXPECT_THAT(message("/dev/zero"), HasSubstr("/dev/zero: this is no regular file"));
+}
+
+TEST(DeckErrors, ALongLineIsCutAroundTheCaret) {
+  const std::string before(5000, 'a'), after(5000, 'b');
+  const std::string text = "problem: flow\nmesh: {" + before + ": 1, zzzzzz: 3, " + after + ": 1}\n";
+  const std::string message = messageOf(text);
+  for (std::size_t from = 0; from < message.size();) {
+    const std::size_t end = std::min(message.find('\n', from), message.size());
+    EXPECT_LT(end - from, 250U) << message.substr(from, end - from);
+    from = end + 1;
+  }
+  const std::string found = messageOf(sampleWith("cells: 10", "cells: 10" + before));
+  EXPECT_LT(found.size(), 600U) << found;
+  // The caret still stands under what it means, in a line of characters of two bytes too.
+  std::string accents;
+  for (int i = 0; i < 300; ++i) accents += "µ";
+  EXPECT_THAT(messageOf("problem: flow\nmechanism: \"" + accents + "\" ? 1\n"), Not(HasSubstr("\xb5\n")));
+  const std::string wrong = messageOf("problem: flow\nmechanism: m # " + before + "\nmesh: {z: [{to: " + "soon" +
+                                      ", cells: 1}]} # " + before + "\n");
+  EXPECT_THAT(wrong, HasSubstr("     3 | mesh: {z: [{to: soon, cells: 1}]} # aaa"));
+  EXPECT_THAT(wrong, HasSubstr("\n       |                 ^~~~"));
+  EXPECT_THAT(messageOf(test::sampleText, {"time.end=" + before}), HasSubstr("--set time.end=aaa"));
+}
+
+TEST(DeckErrors, DeepNestingIsAMistakeOfTheDeck) {
+  for (const std::size_t depth : {600U, 100000U}) {
+    EXPECT_THAT(messageOf("problem: flow\nmesh: " + std::string(depth, '[') + std::string(depth, ']') + "\n"),
+                AllOf(StartsWith("cases/sample/deck.yaml:2:"), HasSubstr("nested too deeply")));
+    EXPECT_THAT(messageOf(test::sampleText, {"mesh=" + std::string(depth, '[')}), HasSubstr("nested too deeply"));
+  }
+}
+
+TEST(DeckErrors, AHundredThousandKeysAreReadAtOnce) {
+  std::string text = test::sampleText;
+  for (int i = 0; i < 100000; ++i) text += "unknown" + std::to_string(i) + ": 1\n";
+  const auto start = std::clock();
+  EXPECT_THAT(messageOf(text), HasSubstr("unknown key 'unknown0'"));
+  // Searching the keys before it for each of them took half a minute.
+  EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 5.0);
+}
+
+TEST(DeckErrors, AnIntegerBeyondExactFloatingPoint) {
+  EXPECT_THAT(
+      messageOf(sampleWith("time:", "seed: 1e18\ntime:")),
+      HasSubstr("seed: expected an integer, found '1e18': integers above 9007199254740992 have to be written in "
+                "digits"));
+  for (const char* tooLarge : {"1e30", "9223372036854775808", "-1e30"})
+    EXPECT_THAT(messageOf(sampleWith("time:", std::string("seed: ") + tooLarge + "\ntime:")),
+                HasSubstr("which is too large: integers end at 9223372036854775807"))
+        << tooLarge;
+}
+
+TEST(DeckErrors, ATextInAnOverrideNeedsQuotesOfItsOwn) {
+  for (const char* setting : {"mechanism=H2: 2, O2: 1", "mechanism='a(1,3)': 1"})
+    EXPECT_THAT(messageOf(test::sampleText, {setting}),
+                HasSubstr("a text with ': ' needs quotes of its own: --set 'mechanism=\""))
+        << setting;
 }
 
 TEST(DeckErrors, TheCaretStandsUnderTheWordWithTabsAndAccents) {

@@ -46,7 +46,7 @@ TEST(DeckOnRanks, FailsAlikeOnAll) {
   int ranks = 1;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-  EXPECT_EQ(failureOf("/nowhere/deck.yaml"), "/nowhere/deck.yaml: there is no such file");
+  EXPECT_EQ(failureOf("/nowhere/deck.yaml"), "/nowhere/deck.yaml: there is no such file; expected a deck");
   const auto path = std::filesystem::temp_directory_path() / ("lampblack_bad_deck_" + std::to_string(ranks) + ".yaml");
   if (rank == 0) std::ofstream(path) << test::sampleText;
   MPI_Barrier(MPI_COMM_WORLD);

@@ -1,0 +1,83 @@
+#include "io/csv.hpp"
+
+#include <fmt/format.h>
+
+#include "core/errors.hpp"
+
+namespace lampblack {
+namespace {
+
+std::string quotedWhereNeeded(const std::string& field) {
+  if (field.find_first_of(",\"\n\r") == std::string::npos) return field;
+  std::string text = "\"";
+  for (const char c : field) text += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return text + '"';
+}
+
+}  // namespace
+
+std::string csvLine(const std::vector<std::string>& fields) {
+  std::string line;
+  for (std::size_t i = 0; i < fields.size(); ++i) line += (i > 0 ? "," : "") + quotedWhereNeeded(fields[i]);
+  return line + '\n';
+}
+
+std::string csvHeader(const std::vector<TableColumn>& columns) {
+  std::vector<std::string> names;
+  for (const TableColumn& column : columns) names.push_back(fmt::format("{} [{}]", column.name, column.unit));
+  return csvLine(names);
+}
+
+std::string csvText(const TextTable& table) {
+  std::string text = csvLine(table.columns);
+  for (const auto& row : table.rows) text += csvLine(row);
+  return text;
+}
+
+TextTable readCsv(const std::string& text) {
+  TextTable table;
+  std::vector<std::string> row;
+  std::string field;
+  bool quoted = false, comment = false;
+  const auto endRow = [&] {
+    if (row.empty() && field.empty()) return;
+    row.push_back(std::move(field));
+    field.clear();
+    if (table.columns.empty())
+      table.columns = row;
+    else if (row.size() != table.columns.size())
+      throw InputError(fmt::format("row {} has {} fields, the first line {}", table.rows.size() + 1, row.size(),
+                                   table.columns.size()));
+    else
+      table.rows.push_back(row);
+    row.clear();
+  };
+  for (std::size_t i = text.starts_with("\xef\xbb\xbf") ? 3 : 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (comment) {
+      comment = c != '\n';
+    } else if (quoted) {
+      if (c != '"')
+        field += c;
+      else if (i + 1 < text.size() && text[i + 1] == '"')
+        field += text[++i];
+      else
+        quoted = false;
+    } else if (c == '"') {
+      quoted = true;
+    } else if (c == ',') {
+      row.push_back(std::move(field));
+      field.clear();
+    } else if (c == '\n') {
+      endRow();
+    } else if (c == '#' && row.empty() && field.empty()) {
+      comment = true;
+    } else if (c != '\r') {
+      field += c;
+    }
+  }
+  endRow();
+  return table;
+}
+
+}  // namespace lampblack

@@ -1,0 +1,28 @@
+// Comma-separated values by RFC 4180 (Shafranovich 2005): a field with a comma, a quote or a line break stands in
+// quotes. Every table that Lampblack writes or reads goes through here; names of species have commas.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/results_writer.hpp"
+
+namespace lampblack {
+
+// Rows of texts under a line of names.
+struct TextTable {
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> rows;
+};
+
+// One line with its end.
+std::string csvLine(const std::vector<std::string>& fields);
+// "time [s],X_C5H5O(1,3) [1]", the second in quotes.
+std::string csvHeader(const std::vector<TableColumn>& columns);
+std::string csvText(const TextTable& table);
+
+// Lines that begin with # and a byte-order mark are skipped. InputError where a row has another number of fields than
+// the first line.
+TextTable readCsv(const std::string& text);
+
+}  // namespace lampblack
