@@ -35,9 +35,9 @@ DimerSoot::DimerSoot(SootModelOptions options)
                                                                                                       "CO"} {
   const SootModelOptions& o = model_.options();
   for (const PahSpecies& pah : o.pah) species_.push_back(pah.name);
-  scalars_ = {{"number", "1/m3", "number of soot particles", 1e17, 0, 0},
-              {"carbon", "kg/m3", "carbon in soot", 1e-3, 1, 0},
-              {"hydrogen", "kg/m3", "hydrogen in soot", 1e-5, 0, 1}};
+  scalars_ = {{"number", "1/m^3", "number of soot particles", 1e17, 0, 0},
+              {"carbon", "kg/m^3", "carbon in soot", 1e-3, 1, 0},
+              {"hydrogen", "kg/m^3", "hydrogen in soot", 1e-5, 0, 1}};
 }
 
 // The population whose rates are taken: the densities themselves in any state that soot can be in.

@@ -64,12 +64,12 @@ MomicSoot::MomicSoot(MomicOptions options)
   unitDiameter_ = unitDiameter;
   nucleus_ = chemistry_.dimers().smallestNucleus() * o.carbonWeight / constants::avogadro / unit_;
   constexpr double typicalNumber = 1e16, typicalMass = 1e-3, typicalVariance = 1.5;  // of ln m
-  scalars_ = {{"number", "1/m3", "number of soot particles", typicalNumber, 0, 0},
-              {"carbon", "kg/m3", "carbon in soot", typicalMass, 1, 0},
-              {"hydrogen", "kg/m3", "hydrogen in soot", 0.01 * typicalMass, 0, 1}};
+  scalars_ = {{"number", "1/m^3", "number of soot particles", typicalNumber, 0, 0},
+              {"carbon", "kg/m^3", "carbon in soot", typicalMass, 1, 0},
+              {"hydrogen", "kg/m^3", "hydrogen in soot", 0.01 * typicalMass, 0, 1}};
   for (std::size_t k = 2; k < options_.moments; ++k) {
     const double order = static_cast<double>(k), ratio = typicalMass / (typicalNumber * unit_);
-    scalars_.push_back({fmt::format("moment_{}", k), "1/m3",
+    scalars_.push_back({fmt::format("moment_{}", k), "1/m^3",
                         fmt::format("sum of the particles' masses to the power {}, in units of {:.6e} kg", k, unit_),
                         typicalNumber * std::pow(ratio, order) * std::exp(0.5 * typicalVariance * order * (order - 1)),
                         0, 0});

@@ -54,8 +54,8 @@ SemiEmpiricalSoot::SemiEmpiricalSoot(const SemiEmpiricalOptions& options)
     : options_(options),
       spheres_(options.density, options.nucleusCarbon * options.carbonWeight / constants::avogadro),
       species_{"C2H2", "H2", "O2", "OH", "H", "CO"},
-      scalars_{{"number", "1/m3", "number of soot particles", 1e17, 0, 0},
-               {"carbon", "kg/m3", "carbon in soot", 1e-3, 1, 0}} {
+      scalars_{{"number", "1/m^3", "number of soot particles", 1e17, 0, 0},
+               {"carbon", "kg/m^3", "carbon in soot", 1e-3, 1, 0}} {
   require(options.density > 0 && options.nucleusCarbon > 0 && options.carbonWeight > 0);
   for (double constant :
        {options.inceptionFactor, options.inceptionTemperature, options.growthFactor, options.growthTemperature,

@@ -1,0 +1,143 @@
+"""The datasets of results.h5 and their units against docs/formats.md, both ways, over a small run of each problem: what is
+written is on the page with its unit, and what is on the page is written by one of the runs.
+
+Usage: formats_test.py EXECUTABLE MPIEXEC...
+"""
+
+import pathlib
+import re
+import sys
+import tempfile
+
+import running
+
+try:
+    import h5py
+except ImportError as error:
+    print(f"SKIPPED: {error}; scripts/setup installs it")
+    sys.exit(77)
+
+CASES = running.SOURCE / "cases"
+PAGE = running.SOURCE / "docs/formats.md"
+
+COUNTERFLOW = f"""problem: flame1d
+mechanism: {CASES}/mechanisms/hydrogen_h2o2_10.yaml
+flame: {{type: counterflow, length: 10 mm}}
+left: {{temperature: 300 K, composition: "H2: 0.25, N2: 0.75", velocity: 1 m/s}}
+right: {{temperature: 300 K, composition: "O2: 0.21, N2: 0.79", velocity: 1 m/s}}
+grid: {{slope: 0.3, curve: 0.5}}
+continuation: {{turning_points: 1, maximum_points: 60}}
+"""
+
+# A sooting gas of given temperature on twenty points: soot, an ensemble coupled both ways, and a little time.
+SOOT = f"""problem: flame1d
+mechanism: {CASES}/mechanisms/ethylene_bisetti2012_47.yaml
+flame: {{type: burner, energy: given, length: 6 mm}}
+inlet: {{temperature: 300 K, composition: "C2H4: 0.16, O2: 0.24, N2: 0.6", velocity: 6 cm/s}}
+temperature_profile: {{position: [0 mm, 1 mm, 2 mm, 6 mm], temperature: [400 K, 1500 K, 1700 K, 1600 K]}}
+grid: {{refine: false, initial_points: 20}}
+solver: {{species_tolerance: 1e-8}}
+soot: {{model: sectional, pah: [A2]}}
+stochastic: {{particles: 50, repeats: 2, heights: [5 mm], bins: 5, coupled: two_way, iterations: 2, tolerance: 1}}
+unsteady: {{end: 0.01 ms, output_interval: 0.01 ms, first_step: 1 us}}
+"""
+
+POPULATION = """problem: population_balance
+initial: {distribution: exponential, number: 1e6 1/cm^3, diameter: 10 nm}
+processes: {coagulation: {kernel: constant, rate: 1e-6 cm^3/s}}
+methods: {one: {type: dsmc, particles: 16}}
+time: {end: 1 s, outputs: 2}
+repeats: 2
+distribution: {minimum: 1 nm^3, maximum: 1e6 nm^3, bins: 3}
+"""
+
+
+def documented() -> list:
+    """(path with <placeholders>, units) of the tables of the page that have a column of units."""
+    found, prefix, header = [], "", None
+    page = PAGE.read_text(encoding="utf-8")
+    for line in page[page.index("## results.h5"):page.index("## results.xdmf")].splitlines():
+        if line.startswith("#"):
+            path = re.fullmatch(r"#+ `(/.*)`", line)
+            prefix, header = (path.group(1) + "/" if path else ""), None
+        if not line.startswith("|"):
+            header = None
+            continue
+        cells = [cell.strip() for cell in line.strip("|").split("|")]
+        if header is None:
+            header = cells
+            continue
+        if "unit" not in header or header[0] not in ("dataset", "column", "column of the history") or set(cells[0]) == {"-"}:
+            continue
+        folder = "/history/" if header[0] == "column of the history" else prefix
+        names = []
+        for name in re.findall("`([^`]+)`", cells[0]):
+            folder = name[:name.rindex("/") + 1] if name.startswith("/") else folder
+            names.append(folder + name[name.rfind("/") + 1:])
+        units = cells[header.index("unit")].split(", ")
+        assert len(units) in (1, len(names)), f"{len(names)} names and {len(units)} units: {line}"
+        found += [(name, (units * len(names) if len(units) == 1 else units)[i].split(" or "))
+                  for i, name in enumerate(names)]
+    return found
+
+
+def written(results: pathlib.Path) -> dict:
+    datasets = {}
+
+    def visit(name, item):
+        if isinstance(item, h5py.Dataset):
+            assert item.attrs["description"], f"{name} has no description"
+            unit = item.attrs["unit"]
+            datasets["/" + name] = unit.decode("utf-8") if isinstance(unit, bytes) else unit
+
+    with h5py.File(results, "r") as file:
+        file.visititems(visit)
+    return datasets
+
+
+def pattern(path: str) -> re.Pattern:
+    return re.compile(re.sub("<[^>]*>", "[^/]+", path.replace("^", "\\^")))
+
+
+def main(executable: str, *mpiexec: str) -> int:
+    program = running.Program(executable, list(mpiexec), 1)
+    page = [(pattern(path), path, units) for path, units in documented()]
+    assert len(page) > 150, f"only {len(page)} datasets were found on the page"
+    problems, used = [], set()
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        runs = {"flow": (running.small_case(folder),)}
+        for text, run in ((COUNTERFLOW, "counterflow"), (SOOT, "soot"), (POPULATION, "population")):
+            (folder / f"{run}.yaml").write_text(text, encoding="utf-8")
+            runs[run] = (folder / f"{run}.yaml",)
+        runs["ignition"] = (CASES / "reactor_ignition_hydrogen/deck.yaml",)
+        runs["fractions"] = (CASES / "reactor_ignition_hydrogen/deck.yaml", *running.settings(
+            "output.species=[OH]", "output.fractions=mass", "sensitivity.reactions=['1']"))
+        runs["plug_flow"] = (CASES / "reactor_plug_flow_ethylene/deck.yaml",)
+        runs["stirred"] = (CASES / "reactor_stirred_methane/deck.yaml",)
+        runs["stirred_mass"] = (*runs["stirred"], *running.settings("output.fractions=mass"))
+        runs["stirred_in_time"] = (CASES / "reactor_stirred_methane/deck.yaml", *running.settings("time.end=0.1 ms"))
+
+        def compute(run: str) -> None:
+            result = program("run", *runs[run], "--out", folder / run, timeout=120)
+            assert result.code == 0, f"{run}: {result.err}"
+
+        running.at_once(compute, runs)
+        for run in runs:
+            for path, unit in written(folder / run / "results.h5").items():
+                if re.search("[a-z][0-9]", unit):
+                    problems.append(f"{run}: {path} has the unit {unit}; powers are written with ^")
+                matches = [entry for entry in page if entry[0].fullmatch(path)]
+                # A name without placeholders says more than one with them.
+                matches = [entry for entry in matches if entry[1] == path] or matches
+                used.update(entry[1] for entry in matches)
+                if not matches:
+                    problems.append(f"{run}: {path} [{unit}] is not in docs/formats.md")
+                elif not any(unit in entry[2] or entry[2] == ["of the model"] for entry in matches):
+                    problems.append(f"{run}: {path} has the unit {unit}, docs/formats.md says {matches[0][2]}")
+    problems += [f"docs/formats.md has {path}, which no run wrote" for _, path, _ in page if path not in used]
+    print("\n".join(problems) if problems else f"{len(page)} names and units agree")
+    return 1 if problems else 0
+
+
+sys.exit(main(*sys.argv[1:]))
