@@ -12,6 +12,7 @@
 
 #include "particles/population/monte_carlo/equal_rates.hpp"
 #include "particles/population/monte_carlo/equal_weight_sample.hpp"
+#include "particles/population/monte_carlo/growth_step.hpp"
 #include "particles/population/monte_carlo/jump_process.hpp"
 #include "particles/population/monte_carlo/sample_statistics.hpp"
 
@@ -213,18 +214,18 @@ class EqualWeightMethod {
   void measureGrowth() {
     growthStep_ = std::numeric_limits<double>::infinity();
     if (!growth_.active() || growth_.treatment == GrowthOptions::Treatment::jumps) return;
-    if (growth_.step > 0) {
-      growthStep_ = growth_.step;
-      return;
+    if (alone_ && !(growth_.step > 0)) return;
+    const auto rateOf = [&](const typename Type::Particle& p) {
+      return std::abs(rates().growthJump().speed(p)) / type_.volume(p);
+    };
+    GrowthPace pace;
+    if (nucleus_) pace.nucleus = rateOf(nucleus_->particle);
+    if (size() > 0) {
+      const double n = static_cast<double>(size());
+      sample_.store().forEach([&](const Entry& entry) { pace.population += rateOf(entry.particle) / n; });
+      pace.jumpsOfEach = (2 * coagulationRate() + breakageRate() + depositionRate()) / n;
     }
-    if (alone_) return;
-    const GrowthJump<Type>& law = rates().growthJump();
-    double sum = 0;
-    sample_.store().forEach(
-        [&](const Entry& entry) { sum += std::abs(law.speed(entry.particle)) / type_.volume(entry.particle); });
-    double rate = size() > 0 ? sum / static_cast<double>(size()) : 0.0;
-    if (nucleus_) rate = std::max(rate, std::abs(law.speed(nucleus_->particle)) / type_.volume(nucleus_->particle));
-    if (rate > 0) growthStep_ = growthPart / rate;
+    growthStep_ = lampblack::growthStep(growth_, growthPart, pace);
   }
 
   Type type_;

@@ -300,20 +300,22 @@ template <ParticleType Type, class Store>
 void WeightedMethod<Type, Store>::measureGrowth() {
   growthStep_ = std::numeric_limits<double>::infinity();
   if (!growth_.active() || growth_.treatment == GrowthOptions::Treatment::jumps) return;
-  if (growth_.step > 0) {
-    growthStep_ = growth_.step;
-    return;
-  }
-  if (alone_) return;
-  const GrowthJump<Type>& law = store_.rates().growthJump();
+  if (alone_ && !(growth_.step > 0)) return;
+  const auto rateOf = [&](const Particle& p) {
+    return std::abs(store_.rates().growthJump().speed(p)) / type_.volume(p);
+  };
+  GrowthPace pace;
+  if (nucleus_) pace.nucleus = rateOf(*nucleus_);
   double sum = 0, number = 0;
   store_.forEach([&](const Entry& entry) {
-    sum += entry.weight * std::abs(law.speed(entry.particle)) / type_.volume(entry.particle);
+    sum += entry.weight * rateOf(entry.particle);
     number += entry.weight;
   });
-  double rate = number > 0 ? sum / number : 0;
-  if (nucleus_) rate = std::max(rate, std::abs(law.speed(*nucleus_)) / type_.volume(*nucleus_));
-  if (rate > 0) growthStep_ = growthPart / rate;
+  if (number > 0) {
+    pace.population = sum / number;
+    pace.jumpsOfEach = (2 * coagulationRate() + breakageRate() + depositionRate()) / static_cast<double>(store_.size());
+  }
+  growthStep_ = lampblack::growthStep(growth_, growthPart, pace);
 }
 
 }  // namespace lampblack

@@ -33,6 +33,7 @@
 #include <vector>
 
 #include "particles/population/monte_carlo/deferred_growth.hpp"
+#include "particles/population/monte_carlo/growth_step.hpp"
 #include "particles/population/monte_carlo/initial_sample.hpp"
 #include "particles/population/monte_carlo/jump_process.hpp"
 #include "particles/population/monte_carlo/weighted_rates.hpp"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "core/constants.hpp"
 #include "core/errors.hpp"
 #include "particles/population/monte_carlo/monte_carlo_options.hpp"
 #include "same_law.hpp"
@@ -96,6 +97,59 @@ TEST(Growth, DeferredHasTheLawOfSplittingWhereParticlesVanish) {
   const auto deferred = run(model, Treatment::deferred, 0.27, initial, 200, 60, 0.8, MonteCarloMethod::dsmc, 2);
   EXPECT_LT(fine[0].mean, 0.5 * number);
   test::expectSameLaw(fine, deferred);
+}
+
+class BurnOut : public testing::TestWithParam<MonteCarloMethod> {
+ protected:
+  // Equal particles of 20 nm that lose 1e-7 m/s of radius: gone at 0.1 s.
+  static constexpr double diameter = 20e-9, number = 1e16, speed = 1e-7;
+  static std::unique_ptr<PopulationSolver> solver(double kernel) {
+    PopulationModel model = coagulation(CollisionKernelType::constant);
+    model.coagulation->rate = kernel;
+    model.growth.oxidation = speed;
+    const double volume = constants::pi / 6 * diameter * diameter * diameter;
+    MonteCarloOptions options;
+    options.method = GetParam();
+    options.particles = 200;
+    return makeMonteCarlo(model, {Distribution::monodisperse, number, volume, 1}, options);
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Methods, BurnOut,
+                         testing::Values(MonteCarloMethod::dsmc, MonteCarloMethod::constantVolume,
+                                         MonteCarloMethod::constantNumberByMass,
+                                         MonteCarloMethod::constantNumberByNumber, MonteCarloMethod::mmc,
+                                         MonteCarloMethod::wfmc, MonteCarloMethod::samwfmc, MonteCarloMethod::sammc,
+                                         MonteCarloMethod::swa));
+
+// Collisions that never happen: d = d0 - 2 k t for all, then nothing.
+TEST_P(BurnOut, FollowsTheShrinkingSphereToItsEnd) {
+  const auto population = solver(1e-30);
+  const double volume = constants::pi / 6 * diameter * diameter * diameter;
+  for (const double part : {0.3, 0.9, 0.999}) {
+    population->advance(part * diameter / (2 * speed));
+    const auto moments = population->moments();
+    EXPECT_NEAR(moments[0] / number, 1, 1e-12) << part;
+    EXPECT_NEAR(moments[1] / (number * volume * std::pow(1 - part, 3)), 1, 1e-9) << part;
+  }
+  population->advance(1.001 * diameter / (2 * speed));
+  EXPECT_EQ(population->moments()[0], 0);
+  EXPECT_EQ(population->particles(), 0u);
+  EXPECT_LT(population->counters().splitSteps, 100u);
+}
+
+// Collisions at 10 1/s, which do not depend on the size: dM0/dt = -K M0^2 / 2 until the first particles vanish. What
+// has coagulated is larger and burns longer; a particle of the volume of k at the start is gone at k^(1/3) 0.1 s.
+TEST_P(BurnOut, WithCollisionsEnds) {
+  const auto population = solver(1e-15);
+  population->advance(0.099);
+  const double exact = number / (1 + 0.5 * 10 * 0.099);
+  // 200 particles of equal weights scatter by less than 1/sqrt(200); 5 of these.
+  EXPECT_NEAR(population->moments()[0] / exact, 1, 5 / std::sqrt(200.0));
+  EXPECT_LT(population->counters().splitSteps, 3000u);
+  population->advance(1);
+  EXPECT_EQ(population->moments()[0], 0);
+  // One in a thousand jumps in a step, at no more than 10 1/s for most of the time.
+  EXPECT_LT(population->counters().splitSteps, 20000u);
 }
 
 TEST(Growth, ByJumpsHasMeanAndVarianceOfTheYuleProcess) {
