@@ -2,6 +2,7 @@
 
 import json
 
+from .damage import reading
 from .results import text_of
 
 # What does not make a flame another one.
@@ -84,7 +85,7 @@ def read_runs(folder, rows):
     runs = []
     for row in rows:
         try:
-            record = json.loads((folder / row["run"] / "run.json").read_text(encoding="utf-8"))
+            record = json.loads(reading(folder / row["run"] / "run.json").read_text(encoding="utf-8"))
         except (OSError, ValueError):
             continue
         runs.append({"folder": folder / row["run"], "flat": flattened(record.get("deck", {})),

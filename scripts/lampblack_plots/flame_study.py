@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 
+from .damage import reading
 from .flame import APART, plot_together
 from .flame_figures import plot_series
 from .flame_series import read_runs, series_of
@@ -23,8 +24,8 @@ SHOWN = [
 
 def is_flame_study(folder):
     try:
-        runs = json.loads((folder / "study.json").read_text(encoding="utf-8"))["runs"]
-        record = json.loads((folder / runs[0]["run"] / "run.json").read_text(encoding="utf-8"))
+        runs = json.loads(reading(folder / "study.json").read_text(encoding="utf-8"))["runs"]
+        record = json.loads(reading(folder / runs[0]["run"] / "run.json").read_text(encoding="utf-8"))
     except (OSError, ValueError, LookupError):
         return False
     return record.get("deck", {}).get("problem") == "flame1d"

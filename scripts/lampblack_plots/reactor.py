@@ -4,6 +4,7 @@ import csv
 
 import numpy as np
 
+from .damage import reading
 from .style import plt
 
 MOST_SPECIES = 8
@@ -103,7 +104,7 @@ def _plot_sensitivities(results, pictures):
     path = results.folder / "sensitivities.csv"
     if not path.is_file():
         return
-    with open(path, newline="", encoding="utf-8") as file:
+    with open(reading(path), newline="", encoding="utf-8") as file:
         header, *rows = list(csv.reader(file))
     if len(header) < 3 or not rows:
         pictures.skip("sensitivities", "no criterion of ignition was met")

@@ -5,8 +5,10 @@ import pathlib
 
 import numpy as np
 
+from .damage import ResultsError, reading
 
-class ProfileError(Exception):
+
+class ProfileError(ResultsError):
     """The file is not a reference profile."""
 
 
@@ -14,7 +16,7 @@ def read_reference(path):
     """The columns of a reference profile as {name: values}."""
     path = pathlib.Path(path)
     try:
-        with path.open(newline="", encoding="utf-8") as file:
+        with reading(path).open(newline="", encoding="utf-8") as file:
             rows = [row for row in csv.reader(file) if row and not row[0].lstrip().startswith("#")]
     except OSError as error:
         raise ProfileError(f"{path}: {error.strerror}") from error

@@ -8,9 +8,7 @@ import pathlib
 import h5py
 import numpy as np
 
-
-class ResultsError(Exception):
-    """The folder does not hold results that can be read."""
+from .damage import ResultsError, reading
 
 
 # Other names that mechanisms use for the same species.
@@ -36,7 +34,7 @@ def opened(path, what):
     if not file.is_file():
         raise ResultsError(f"{file}: there is no such file; expected the folder of a run or its results.h5")
     try:
-        with h5py.File(file, "r") as results:
+        with h5py.File(reading(file), "r") as results:
             yield results
     except OSError as error:
         raise ResultsError(f"{file}: cannot be read ({error})") from error
@@ -52,7 +50,7 @@ class Results:
         if path is None:
             raise ResultsError(f"{self.folder}: there is no results.h5 here; expected the folder of a run or study")
         try:
-            self.file = h5py.File(path, "r")
+            self.file = h5py.File(reading(path), "r")
         except OSError as error:
             raise ResultsError(f"{path}: cannot be opened ({error}); is the run still going?") from error
         self.partial = path.name.endswith(".part")
@@ -122,9 +120,10 @@ class Results:
     def record(self):
         """run.json, or nothing where it is missing or damaged."""
         try:
-            return json.loads((self.folder / "run.json").read_text(encoding="utf-8"))
+            record = json.loads((self.folder / "run.json").read_text(encoding="utf-8"))
         except (OSError, ValueError):
             return {}
+        return record if isinstance(record, dict) else {}
 
     def trajectories(self):
         group = self.file.get("trajectories", {})
@@ -152,8 +151,7 @@ class Results:
         path = self.folder / "history.csv"
         if not path.is_file():
             return {}
-        with open(path, newline="", encoding="utf-8") as file:
-            lines = list(csv.reader(file))
+        lines = list(csv.reader(reading(path).read_text(encoding="utf-8").splitlines()))
         if len(lines) < 2:
             return {}
         rows = [[float(x) for x in line] for line in lines[1:] if len(line) == len(lines[0])]

@@ -4,6 +4,7 @@ import csv
 
 import numpy as np
 
+from .damage import reading
 from .style import plt
 
 BOUND = 3.3  # 99.9 % of a normal distribution
@@ -18,7 +19,7 @@ def read_table(path):
     """Rows of a CSV table as dictionaries; units in brackets are cut off the names."""
     if not path.is_file():
         return []
-    with open(path, newline="", encoding="utf-8") as file:
+    with open(reading(path), newline="", encoding="utf-8") as file:
         return [{key.split(" [")[0]: value for key, value in row.items()} for row in csv.DictReader(file)]
 
 
