@@ -12,6 +12,7 @@
 #include "app/population_statistics.hpp"
 #include "app/problem.hpp"
 #include "app/sweep_table.hpp"
+#include "core/stop_request.hpp"
 #include "io/run_folder.hpp"
 
 namespace lampblack {
@@ -222,6 +223,8 @@ void runConvergence(MPI_Comm comm, const ConvergenceOptions& options, const std:
     PopulationCase one = oneMethod(all, options.referenceMethod, options.referenceParticles, options.referenceRepeats);
     one.seed = all.seed + 1;  // independent of the runs it is compared with
     const PopulationStatistics statistics = runPopulation(comm, one);
+    if (statistics.stop != 0)
+      raiseStopped(comm, statistics.stop, "in the middle of a convergence study: nothing of it is kept");
     if (rank == 0) reference = statistics.methods.at(0).mean;
   }
 
@@ -234,6 +237,8 @@ void runConvergence(MPI_Comm comm, const ConvergenceOptions& options, const std:
     for (const std::int64_t particles : options.particles) {
       const std::int64_t repeats = options.product / particles;
       const PopulationStatistics statistics = runPopulation(comm, oneMethod(all, method, particles, repeats));
+      if (statistics.stop != 0)
+        raiseStopped(comm, statistics.stop, "in the middle of a convergence study: nothing of it is kept");
       collectively(comm, [&] {
         if (rank != 0) return;
         if (options.exact) reference = statistics.exact.moments;

@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "core/errors.hpp"
+#include "core/stop_request.hpp"
 
 namespace lampblack {
 namespace {
@@ -56,6 +57,8 @@ FlameEnsemblePath runPath(MPI_Comm comm, const FlameSootGas& gas, const FlameEns
   std::vector<double> all(options.repeats * width, 0.0);
   collectively(comm, [&] {
     for (std::size_t r = static_cast<std::size_t>(rank); r < options.repeats; r += static_cast<std::size_t>(ranks)) {
+      if (const int signal = stopRequest(); signal != 0)
+        throw NumericsError("stochastic soot: stopped by " + signalName(signal));
       StochasticSootOptions own = options.soot;
       own.owner = (static_cast<std::uint64_t>(index) << 32) + r;
       try {

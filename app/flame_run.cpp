@@ -12,6 +12,7 @@
 #include "app/flame_output.hpp"
 #include "app/flame_stochastic.hpp"
 #include "core/errors.hpp"
+#include "core/stop_request.hpp"
 #include "core/timers.hpp"
 #include "flow/flame/flame_from_lower_load.hpp"
 
@@ -205,11 +206,11 @@ class PreparedFlame : public PreparedRun {
         return;
       }
       results.closePartial();
-      collectively(comm_, [&] {
-        throw NumericsError(
-            fmt::format("{}\nThe last grid and profile are in {}; a deck can start from it by 'initial'",
-                        *attempt.failure, folder.results().string() + ".part"));
-      });
+      const std::string kept = fmt::format("last grid and profile are in {}; a deck can start from it by 'initial'",
+                                           folder.partialResults().string());
+      if (const int signal = agreedStopRequest(comm_); signal != 0)
+        raiseStopped(comm_, signal, "before the end of the flame's solution: the " + kept);
+      collectively(comm_, [&] { throw NumericsError(fmt::format("{}\nThe {}", *attempt.failure, kept)); });
     });
   }
 

@@ -16,6 +16,7 @@
 #include "app/soot_operator.hpp"
 #include "app/trajectories.hpp"
 #include "core/errors.hpp"
+#include "core/stop_request.hpp"
 #include "core/timers.hpp"
 #include "flow/time_step.hpp"
 #include "io/progress.hpp"
@@ -63,6 +64,7 @@ class FlowRun {
     double nextOutput = case_.output.interval;
     double dt = case_.time.firstStep;
     while (time_ < case_.time.end * (1.0 - 1e-12)) {
+      if (const int signal = agreedStopRequest(comm_); signal != 0) stop(signal, dt, folder, results, history);
       dt = chooseStep(dt, std::min(nextOutput, case_.time.end));
       step(dt);
       const bool due = time_ >= nextOutput * (1.0 - 1e-12) || time_ >= case_.time.end * (1.0 - 1e-12);
@@ -226,8 +228,23 @@ class FlowRun {
     return row;
   }
 
+  // Keeps the last state, and raises Stopped.
+  [[noreturn]] void stop(int signal, double dt, const RunFolder& folder, ResultsWriter& results,
+                         HistoryWriter& history) {
+    if (written_ != steps_) {
+      history.row(historyValues(observe(dt)));
+      output(results);
+    }
+    history.writeTo(results);
+    results.closePartial();
+    const std::string kept = folder.partialResults().string();
+    raiseStopped(comm_, signal,
+                 fmt::format("at t = {:.6g} s, step {}: the fields until then are in {}", time_, steps_, kept));
+  }
+
   void output(ResultsWriter& results) {
     const Timers::Scope scope(timers_, "output");
+    written_ = steps_;
     writeFields(results, context_, case_, state_, flow_.properties(), soot_.get(), steps_, time_);
   }
 
@@ -249,6 +266,7 @@ class FlowRun {
   Timers timers_;
   double time_ = 0.0;
   std::int64_t steps_ = 0;
+  std::int64_t written_ = -1;  // the last step in the results
   HistoryRow last_;
   Peak peakTemperature_, peakSoot_;
   double imbalanceBefore_ = 0.0, imbalanceAfter_ = 0.0;

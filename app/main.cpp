@@ -1,5 +1,5 @@
-// The lampblack command. Exit codes: 0 done; 2 the input is wrong; 3 the numbers or the machine failed; 1 a bug in
-// Lampblack.
+// The lampblack command. Exit codes: 0 done; 2 the input is wrong; 3 the numbers or the machine (a full disk, no memory)
+// failed; 128 plus its number after a signal; 1 a bug in Lampblack.
 #include <petscsys.h>
 
 #include <CLI/CLI.hpp>
@@ -18,6 +18,7 @@
 #include "app/sweep_study.hpp"
 #include "core/errors.hpp"
 #include "core/petsc.hpp"
+#include "core/stop_request.hpp"
 #include "core/system_error.hpp"
 #include "io/request_limits.hpp"
 
@@ -28,6 +29,7 @@ using namespace lampblack;
 constexpr int exitBug = 1;
 constexpr int exitInput = 2;
 constexpr int exitFailed = 3;
+constexpr int exitSignal = 128;
 
 struct Arguments {
   std::string deck;
@@ -86,6 +88,8 @@ int execute(const std::function<void()>& command) {
     return fail("", error, exitFailed);
   } catch (const std::bad_alloc&) {
     return fail("", outOfMemory(), exitFailed);
+  } catch (const Stopped& error) {
+    return fail("", error, exitSignal + error.signal());
   } catch (const std::exception& error) {
     return fail("internal error (a bug in Lampblack): ", error, exitBug);
   }
@@ -125,6 +129,7 @@ int main(int argc, char** argv) {
   if (PetscInitializeNoArguments() != 0) return exitBug;
   checkPetsc(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr));
   countMachines(PETSC_COMM_WORLD);
+  watchForSignals();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/errors.hpp"
+#include "core/stop_request.hpp"
 #include "particles/population/gelation_error.hpp"
 
 namespace lampblack {
@@ -61,7 +62,7 @@ void runRepeat(const PopulationCase& populationCase, const PopulationMethod& met
     const std::unique_ptr<PopulationSolver> solver = makeSolver(populationCase, method, repeat);
     // False where the population has gelled before that.
     const auto advance = [&](double time) {
-      if (gelled) return false;
+      if (gelled || stopRequest() != 0) return false;
       const double begin = cpuSeconds();
       try {
         if (gelation && time >= *gelation)

@@ -36,6 +36,8 @@ class RepeatRecord {
   [[nodiscard]] std::optional<double> gelation() const;       // s
   [[nodiscard]] PopulationCounters counters() const;
   [[nodiscard]] std::size_t rows() const;  // that were reached
+  // Not cut off by a signal.
+  [[nodiscard]] bool whole() const { return rows() == shape_.rows || gelation(); }
 
  private:
   [[nodiscard]] std::span<const double> tail() const {
@@ -47,8 +49,8 @@ class RepeatRecord {
 };
 
 // Solves a repeat and stops at every row and time of the distribution. Ends early where the population gels, at the
-// latest at `gelation` (s), which is then in the record. `data` has the size of the shape. InputError, NumericsError
-// with the names of method and repeat.
+// latest at `gelation` (s), which is then in the record, and where the run is asked to stop. `data` has the size of the
+// shape. InputError, NumericsError with the names of method and repeat.
 void runRepeat(const PopulationCase& populationCase, const PopulationMethod& method, std::uint64_t repeat,
                std::optional<double> gelation, const RepeatRecord::Shape& shape, std::span<double> data);
 

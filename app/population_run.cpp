@@ -10,6 +10,7 @@
 #include "app/population_statistics.hpp"
 #include "app/warnings.hpp"
 #include "core/errors.hpp"
+#include "core/stop_request.hpp"
 #include "particles/population/gelation_error.hpp"
 
 namespace lampblack {
@@ -42,37 +43,43 @@ class PreparedPopulation : public PreparedRun {
   void run(const RunOptions& options) override {
     int rank = 0;
     MPI_Comm_rank(comm_, &rank);
-    recordedRun(comm_, deck_, options, case_.seed,
-                [&](const RunFolder& folder, const RunInfo& info, RunRecord& record) {
-                  const PopulationStatistics statistics = runPopulation(comm_, case_);
-                  collectively(comm_, [&] {
-                    if (rank != 0) return;
-                    writeFileAtomically(folder.file("table.csv"), populationTable(statistics));
-                    JsonWriter json;
-                    json.beginObject();
-                    recordPopulation(json, statistics);
-                    json.endObject();
-                    record.resultsJson = json.text();
-                    record.simulatedTime = case_.times.end;
-                    for (const MethodStatistics& method : statistics.methods) {
-                      record.steps += static_cast<std::int64_t>(method.counters.events());
-                      record.stages.push_back(method.stage);
-                    }
-                  });
-                  ResultsWriter results(comm_, folder.results(), info);
-                  writePopulation(results, case_, statistics);
-                  record.peakMemoryPerRank = peakMemory(comm_);
-                  if (rank == 0) fmt::print("{}", populationSummary(case_, statistics));
-                  // What was computed until the gelation stays readable in the partial file.
-                  double gelation = statistics.gelation().value_or(std::numeric_limits<double>::infinity());
-                  MPI_Bcast(&gelation, 1, MPI_DOUBLE, 0, comm_);
-                  if (!std::isfinite(gelation)) {
-                    results.close();
-                    return;
-                  }
-                  results.closePartial();
-                  collectively(comm_, [&] { throw GelationError(gelation); });
-                });
+    recordedRun(
+        comm_, deck_, options, case_.seed, [&](const RunFolder& folder, const RunInfo& info, RunRecord& record) {
+          const PopulationStatistics statistics = runPopulation(comm_, case_);
+          collectively(comm_, [&] {
+            if (rank != 0) return;
+            writeFileAtomically(folder.file("table.csv"), populationTable(statistics));
+            JsonWriter json;
+            json.beginObject();
+            recordPopulation(json, statistics);
+            json.endObject();
+            record.resultsJson = json.text();
+            record.simulatedTime = case_.times.end;
+            for (const MethodStatistics& method : statistics.methods) {
+              record.steps += static_cast<std::int64_t>(method.counters.events());
+              record.stages.push_back(method.stage);
+            }
+          });
+          ResultsWriter results(comm_, folder.results(), info);
+          writePopulation(results, case_, statistics);
+          record.peakMemoryPerRank = peakMemory(comm_);
+          if (rank == 0) fmt::print("{}", populationSummary(case_, statistics));
+          if (statistics.stop != 0) {
+            results.closePartial();
+            raiseStopped(
+                comm_, statistics.stop,
+                "in the middle of the repeats: those that had ended are in " + folder.partialResults().string());
+          }
+          // What was computed until the gelation stays readable in the partial file.
+          double gelation = statistics.gelation().value_or(std::numeric_limits<double>::infinity());
+          MPI_Bcast(&gelation, 1, MPI_DOUBLE, 0, comm_);
+          if (!std::isfinite(gelation)) {
+            results.close();
+            return;
+          }
+          results.closePartial();
+          collectively(comm_, [&] { throw GelationError(gelation); });
+        });
   }
 
  private:

@@ -1,12 +1,16 @@
 #include "app/population_statistics.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <map>
 
 #include "app/population_accumulator.hpp"
 #include "app/population_repeat.hpp"
+#include "app/warnings.hpp"
 #include "core/errors.hpp"
+#include "core/stop_request.hpp"
 #include "core/timers.hpp"
 
 namespace lampblack {
@@ -31,12 +35,19 @@ ExactReference makeReference(const PopulationCase& populationCase, const ExactSo
   if (solution == nullptr) return reference;
   reference.name = solution->name();
   reference.gelation = solution->gelationTime();
-  const auto holds = [&](double time) { return !reference.gelation || time < *reference.gelation; };
+  double last = std::numeric_limits<double>::infinity();  // s, for which the solution can be evaluated
+  const auto holds = [&](double time) { return time <= last && (!reference.gelation || time < *reference.gelation); };
+  double reached = 0;
   for (const double time : populationCase.times.rows()) {
     Moments row{missing, missing, missing, missing};
-    if (holds(time)) {
-      const auto moments = solution->moments(time);
+    try {
+      const auto moments = holds(time) ? solution->moments(time) : std::array<std::optional<double>, 4>{};
       for (std::size_t k = 0; k < 4; ++k) row[k] = moments[k].value_or(missing);
+      reached = time;
+    } catch (const InputError& error) {
+      last = reached;
+      printWarnings(
+          {fmt::format("nothing is compared with the exact solution from t = {:g} s on: {}", time, error.what())});
     }
     reference.moments.push_back(row);
   }
@@ -143,7 +154,13 @@ PopulationStatistics runPopulation(MPI_Comm comm, const PopulationCase& populati
   for (std::size_t m = 0; m < populationCase.methods.size(); ++m) {
     const PopulationMethod& method = populationCase.methods[m];
     MethodAccumulator accumulator(populationCase, method, made, shape);
-    if (method.deterministic() && ranks.rank == 0) accumulator.add(RepeatRecord(shape, once.at(m)));
+    int whole = 0;  // repeats that came to their end, on rank 0
+    const auto add = [&](const RepeatRecord& record) {
+      if (!record.whole()) return;
+      accumulator.add(record);
+      ++whole;
+    };
+    if (method.deterministic() && ranks.rank == 0) add(RepeatRecord(shape, once.at(m)));
     const std::uint64_t repeats = method.deterministic() ? 0 : populationCase.repeats;
     for (std::uint64_t first = 0; first < repeats; first += most) {
       const std::uint64_t end = std::min(repeats, first + most);
@@ -153,14 +170,16 @@ PopulationStatistics runPopulation(MPI_Comm comm, const PopulationCase& populati
       int gelled = 0;
       for (std::size_t at = 0; at < records.size(); at += shape.size()) {
         const RepeatRecord record(shape, std::span(records).subspan(at, shape.size()));
-        accumulator.add(record);
+        add(record);
         gelled = gelled != 0 || record.gelation() ? 1 : 0;
       }
       MPI_Bcast(&gelled, 1, MPI_INT, 0, comm);
-      if (gelled != 0) break;
+      made.stop = agreedStopRequest(comm);
+      if (gelled != 0 || made.stop != 0) break;
     }
+    made.stop = std::max(made.stop, agreedStopRequest(comm));
     const Timers::Stage stage = Timers::overRanks(comm, method.name, seconds[m]);
-    if (ranks.rank != 0) continue;
+    if (ranks.rank != 0 || whole == 0) continue;
     made.methods.push_back(accumulator.finish());
     made.methods.back().stage = {stage.name, stage.least, stage.mean, stage.most};
     if (finished) finished(made.methods.back());

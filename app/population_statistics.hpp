@@ -77,7 +77,8 @@ struct PopulationStatistics {
   std::vector<double> rows;  // s
   PopulationBins bins;
   ExactReference exact;
-  std::vector<MethodStatistics> methods;                 // in the order of the case
+  std::vector<MethodStatistics> methods;  // in the order of the case
+  int stop = 0;  // the signal that stopped the run, on all ranks: the last methods lack repeats, or are not there
   [[nodiscard]] std::optional<double> gelation() const;  // s, of the earliest method
 };
 

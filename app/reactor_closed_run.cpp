@@ -44,8 +44,9 @@ class ClosedReactorDriver : public ReactorDriver {
     statistics_ = integrator.statistics();
     endTemperature_ = integrator.state().back();
     endPressure_ = reactor.pressure(integrator.state().data());
+    reached_ = integrator.time();
     seconds_ = MPI_Wtime() - begin;
-    if (case_.sensitivities.empty()) return;
+    if (case_.sensitivities.empty() || reached_ < case_.end) return;
     reactor.setParameters(case_.sensitivities);
     sensitivities_ = ignitionSensitivities(*case_.mechanism, reactor, case_.integrator, case_.ignition, events_);
     sensitivitySeconds_ = MPI_Wtime() - begin - seconds_;
@@ -55,7 +56,7 @@ class ClosedReactorDriver : public ReactorDriver {
   void write(ResultsWriter& results) const override {
     history_.writeTo(results);
     writeIgnition(results, case_, events_);
-    if (!case_.sensitivities.empty()) writeSensitivities(results, case_, sensitivities_);
+    if (!sensitivities_.values.empty()) writeSensitivities(results, case_, sensitivities_);
   }
 
   void record(JsonWriter& json) const override {
@@ -91,7 +92,7 @@ class ClosedReactorDriver : public ReactorDriver {
   }
 
   long steps() const override { return statistics_.steps; }
-  double simulatedTime() const override { return case_.end; }
+  double simulatedTime() const override { return reached_; }
 
  private:
   // The reactions the delay depends on most, by the first criterion that was met; all are in the files.
@@ -123,6 +124,7 @@ class ClosedReactorDriver : public ReactorDriver {
   std::vector<std::optional<IgnitionEvent>> events_;
   IgnitionSensitivities sensitivities_;
   StiffIntegrator::Statistics statistics_;
+  double reached_ = 0;  // s
   double startTemperature_ = 0, endTemperature_ = 0, endPressure_ = 0;
   double seconds_ = 0, sensitivitySeconds_ = 0;
 };

@@ -1,5 +1,7 @@
 #include "app/reactor_history.hpp"
 
+#include "core/stop_request.hpp"
+
 namespace lampblack {
 
 void ReactorHistory::open(const std::filesystem::path& path) {
@@ -18,7 +20,7 @@ void ReactorHistory::follow(StiffIntegrator& integrator, const std::optional<dou
     ++rows;
   };
   row(last, y);
-  while (integrator.time() < end) {
+  while (integrator.time() < end && stopRequest() == 0) {
     if (profile) integrator.stopAt(profile->nextKink(integrator.time()).value_or(end));
     integrator.step();
     afterStep();

@@ -44,6 +44,7 @@ class StirredTransientDriver : public ReactorDriver {
         },
         [] {});
     steps_ = integrator.statistics().steps;
+    reached_ = integrator.time();
     temperature_ = integrator.state()[n];
     seconds_ = MPI_Wtime() - begin;
   }
@@ -55,12 +56,13 @@ class StirredTransientDriver : public ReactorDriver {
                formatDuration(seconds_));
   }
   long steps() const override { return steps_; }
-  double simulatedTime() const override { return case_.end; }
+  double simulatedTime() const override { return reached_; }
 
  private:
   const ReactorCase& case_;
   ReactorHistory history_;
   long steps_ = 0;
+  double reached_ = 0;  // s
   double temperature_ = 0, seconds_ = 0;
 };
 

@@ -7,6 +7,7 @@
 #include "app/reactor_case.hpp"
 #include "app/reactor_driver.hpp"
 #include "core/errors.hpp"
+#include "core/stop_request.hpp"
 
 namespace lampblack {
 namespace {
@@ -62,8 +63,14 @@ class PreparedReactor : public PreparedRun {
       });
       ResultsWriter results(comm_, folder.results(), info);
       driver_->write(results);
-      results.close();
       record.peakMemoryPerRank = peakMemory(comm_);
+      if (const int signal = agreedStopRequest(comm_); signal != 0) {
+        results.closePartial();
+        raiseStopped(comm_, signal,
+                     fmt::format("at t = {:.6g} s: the rows until then are in {} and {}", driver_->simulatedTime(),
+                                 folder.history().string(), folder.partialResults().string()));
+      }
+      results.close();
       if (rank == 0) driver_->print();
     });
   }

@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <optional>
+
 #include "app/build_info.hpp"
+#include "core/stop_request.hpp"
+#include "io/disk_space.hpp"
 
 namespace lampblack {
 
@@ -31,22 +35,38 @@ void recordedRun(MPI_Comm comm, const Deck& deck, const RunOptions& options, std
   record.seed = seed;
   record.started = utcNow();
   MPI_Comm_size(comm, &record.ranks);
-  const auto writeRecord = [&] {
-    if (rank == 0) writeRunRecord(folder.runRecord(), record);
-  };
+  std::optional<SpareSpace> spare;  // so that a full disk does not keep the record from saying so
   const auto finish = [&](RunStatus status, const std::string& message) {
     record.status = status;
     record.message = message;
     record.finished = utcNow();
     record.wallTime = MPI_Wtime() - start;
-    writeRecord();
+    if (rank != 0) return;
+    spare.reset();
+    writeRunRecord(folder.runRecord(), record);
   };
-  writeRecord();
+  // What ends the run is told, not what may go wrong with its record.
+  const auto finishBadly = [&](RunStatus status, const std::string& message) {
+    try {
+      finish(status, message);
+    } catch (const std::exception&) {
+      return;
+    }
+  };
+  collectively(comm, [&] {
+    if (rank != 0) return;
+    constexpr std::int64_t results = std::int64_t{64} << 10;  // more than a run adds to its record
+    spare.emplace(folder.path(), static_cast<std::int64_t>(toJson(record).size()) + results);
+    writeRunRecord(folder.runRecord(), record);
+  });
   try {
     work(folder, {record.version, record.gitHash, deck.resolved(), record.started}, record);
-    finish(RunStatus::done, "");
+    collectively(comm, [&] { finish(RunStatus::done, ""); });
+  } catch (const Stopped& stopped) {
+    finishBadly(RunStatus::stopped, stopped.what());
+    throw;
   } catch (const std::exception& error) {
-    finish(RunStatus::failed, error.what());
+    finishBadly(RunStatus::failed, error.what());
     throw;
   }
   if (rank == 0) fmt::print("results in {}\n", folder.path().string());

@@ -12,6 +12,7 @@
 #include "app/sweep_study.hpp"
 #include "app/sweep_table.hpp"
 #include "core/errors.hpp"
+#include "core/stop_request.hpp"
 #include "core/system_error.hpp"
 #include "io/run_folder.hpp"
 
@@ -34,19 +35,20 @@ int rankOf(MPI_Comm comm) {
 }
 
 // The folder of the study: nobody else's, and not that of a single run either.
-void prepareFolder(MPI_Comm comm, const fs::path& folder, bool force) {
+RunFolder prepareFolder(MPI_Comm comm, const fs::path& folder, bool force) {
+  const fs::path last = folder / "study.json";
   collectively(comm, [&] {
-    if (rankOf(comm) != 0) return;
     std::error_code error;
-    if (!fs::exists(folder / "study.json", error)) return;
-    if (!force)
+    if (rankOf(comm) == 0 && !force && fs::exists(last, error))
       throw InputError(
           fmt::format("{}: this folder holds a study already. Choose another with --out DIR, or replace it "
                       "with --force",
                       folder.string()));
-    fs::remove(folder / "study.json", error);
   });
-  static_cast<void>(RunFolder::prepare(folder, force, comm));
+  RunFolder prepared = RunFolder::prepare(folder, force, comm);
+  std::error_code error;
+  if (rankOf(comm) == 0) fs::remove(last, error);
+  return prepared;
 }
 
 std::string withoutUnit(const std::string& column) {
@@ -97,16 +99,23 @@ void writeTables(const SweepStudy& study, const std::vector<RunOutcome>& outcome
   fmt::print("study in {}\n", folder.string());
 }
 
-// The worst failure decides how the command ends.
-void raiseFailures(MPI_Comm comm, const std::vector<RunOutcome>& outcomes) {
+// The worst failure decides how the command ends. Where the runs were cut short, its message is the first of that kind.
+void raiseFailures(MPI_Comm comm, const std::vector<RunOutcome>& outcomes, const fs::path& folder) {
   RunFailure worst = RunFailure::none;
   std::size_t failed = 0;
   for (const RunOutcome& outcome : outcomes) {
     worst = std::max(worst, outcome.failure);
     failed += outcome.failure != RunFailure::none ? 1 : 0;
   }
-  const std::string message =
-      fmt::format("{} of {} runs failed; the table says which and why", failed, outcomes.size());
+  if (worst == RunFailure::stopped)
+    raiseStopped(comm, agreedStopRequest(comm),
+                 fmt::format("after {} of {} runs: they are in the tables in {}", outcomes.size() - failed,
+                             outcomes.size(), folder.string()));
+  std::string message = fmt::format("{} of {} runs failed; the table says which and why", failed, outcomes.size());
+  if (worst == RunFailure::system)
+    message = std::find_if(outcomes.begin(), outcomes.end(), [](const RunOutcome& outcome) {
+                return outcome.failure == RunFailure::system;
+              })->message;
   collectively(comm, [&] {
     if (worst == RunFailure::input) throw InputError(message);
     if (worst == RunFailure::numerics) throw NumericsError(message);
@@ -130,13 +139,13 @@ void sweep(const Arguments& arguments) {
     return;
   }
   const fs::path folder = arguments.folder;
-  prepareFolder(comm, folder, arguments.force);
+  const RunFolder locked = prepareFolder(comm, folder, arguments.force);
   const std::vector<RunOutcome> outcomes = runStudy(comm, study, folder, arguments.force);
   collectively(comm, [&] {
     if (rankOf(comm) == 0) writeTables(study, outcomes, folder);
   });
-  if (study.convergence) runConvergence(comm, *study.convergence, folder);
-  raiseFailures(comm, outcomes);
+  if (study.convergence && agreedStopRequest(comm) == 0) runConvergence(comm, *study.convergence, folder);
+  raiseFailures(comm, outcomes, folder);
 }
 
 }  // namespace

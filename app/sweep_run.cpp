@@ -8,6 +8,7 @@
 
 #include "app/problem.hpp"
 #include "core/errors.hpp"
+#include "core/stop_request.hpp"
 #include "core/system_error.hpp"
 #include "io/json.hpp"
 
@@ -78,6 +79,9 @@ RunOutcome runOne(const Group& group, const SweepRun& run, const SweepRun* befor
     refuseLoneError(group, error);
     outcome.failure = RunFailure::system;
     outcome.message = outOfMemory().what();
+  } catch (const Stopped& error) {
+    outcome.failure = RunFailure::stopped;
+    outcome.message = error.what();
   } catch (const std::exception& error) {
     refuseLoneError(group, error);
     outcome.failure = RunFailure::bug;
@@ -119,15 +123,24 @@ std::vector<RunOutcome> runStudy(MPI_Comm comm, const SweepStudy& study, const s
   int groupRank = 0;
   MPI_Comm_rank(group.comm, &groupRank);
   std::vector<RunOutcome> outcomes(study.runs.size());
+  RunFailure ended = RunFailure::none;  // what keeps this group from going on
   for (std::size_t i = 0; i < study.runs.size(); ++i) {
     if (group.groupOf(i) != group.index) continue;
     const SweepRun& run = study.runs[i];
+    if (ended == RunFailure::none && agreedStopRequest(group.comm) != 0) ended = RunFailure::stopped;
+    if (ended != RunFailure::none) {
+      outcomes[i].failure = ended;
+      outcomes[i].message = "not begun";
+      continue;
+    }
     if (groupRank == 0) {
       fmt::print("\n--- run {} of {}: {}\n", i + 1, study.runs.size(), run.name);
       std::fflush(stdout);
     }
     const bool follows = i % study.chain > 0 && outcomes[i - 1].failure == RunFailure::none;
     outcomes[i] = runOne(group, run, follows ? &study.runs[i - 1] : nullptr, folder, force);
+    if (outcomes[i].failure == RunFailure::system || outcomes[i].failure == RunFailure::stopped)
+      ended = outcomes[i].failure;
     if (groupRank == 0 && outcomes[i].failure != RunFailure::none) {
       fmt::print("{} failed: {}\n", run.name, outcomes[i].message);
       std::fflush(stdout);

@@ -11,7 +11,7 @@
 
 namespace lampblack {
 
-enum class RunFailure { none, input, numerics, system, bug };
+enum class RunFailure { none, input, numerics, system, bug, stopped };  // from harmless to severe
 
 struct RunOutcome {
   RunFailure failure = RunFailure::none;
@@ -24,7 +24,8 @@ struct RunOutcome {
 void checkDecks(MPI_Comm comm, const SweepStudy& study);
 
 // Collective. Runs all of them, each in a folder of its name below `folder`; a run that fails does not keep the others
-// from going on. Same outcomes on every rank. InputError where ranks_per_run does not divide the ranks.
+// from going on, but a full disk and a signal do: what would have followed has their outcome. Same outcomes on every
+// rank. InputError where ranks_per_run does not divide the ranks.
 std::vector<RunOutcome> runStudy(MPI_Comm comm, const SweepStudy& study, const std::filesystem::path& folder,
                                  bool force);
 

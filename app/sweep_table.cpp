@@ -69,6 +69,8 @@ const char* wordFor(RunFailure failure) {
       return "machine failed";
     case RunFailure::bug:
       return "internal error";
+    case RunFailure::stopped:
+      return "stopped";
   }
   return "";
 }

@@ -3,16 +3,18 @@
 #include <new>
 #include <vector>
 
+#include "core/stop_request.hpp"
 #include "core/system_error.hpp"
 
 namespace lampblack {
 namespace {
 
-enum class Kind : int { bug = 1, input = 2, numerics = 3, system = 4 };
+enum class Kind : int { bug = 1, input = 2, numerics = 3, system = 4, stopped = 5 };
 
 struct Failure {
   Kind kind = Kind::bug;
   std::string message;
+  int signal = 0;  // of Kind::stopped
 };
 
 Failure describe(const std::exception_ptr& error) {
@@ -26,6 +28,8 @@ Failure describe(const std::exception_ptr& error) {
     return {Kind::system, e.what()};
   } catch (const std::bad_alloc&) {
     return {Kind::system, outOfMemory().what()};
+  } catch (const Stopped& e) {
+    return {Kind::stopped, e.what(), e.signal()};
   } catch (const std::exception& e) {
     return {Kind::bug, e.what()};
   } catch (...) {
@@ -63,8 +67,8 @@ void raiseCollectively(MPI_Comm comm, const std::exception_ptr& error) {
 
   Failure failure;
   if (rank == firstFailing) failure = describe(error);
-  int header[2] = {static_cast<int>(failure.kind), static_cast<int>(failure.message.size())};
-  MPI_Bcast(header, 2, MPI_INT, firstFailing, comm);
+  int header[3] = {static_cast<int>(failure.kind), static_cast<int>(failure.message.size()), failure.signal};
+  MPI_Bcast(header, 3, MPI_INT, firstFailing, comm);
   failure.message.resize(static_cast<std::size_t>(header[1]));
   MPI_Bcast(failure.message.data(), header[1], MPI_CHAR, firstFailing, comm);
   switch (static_cast<Kind>(header[0])) {
@@ -74,6 +78,8 @@ void raiseCollectively(MPI_Comm comm, const std::exception_ptr& error) {
       throw Collective<NumericsError>(failure.message);
     case Kind::system:
       throw Collective<SystemError>(failure.message);
+    case Kind::stopped:
+      throw Collective<Stopped>(header[2], failure.message);
     case Kind::bug:
       break;
   }

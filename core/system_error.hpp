@@ -6,7 +6,8 @@
 
 namespace lampblack {
 
-// A full disk, no memory: the message says what was wanted and what is left. Exit code 3.
+// A full disk, no memory, a file that cannot be written any more: nothing is wrong with the input or the numbers. The
+// message says what was wanted, what is left and what was lost. Exit code 3.
 class SystemError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -7,8 +7,17 @@
 #include <cstdio>
 #include <cstring>
 
+#include "io/disk_space.hpp"
+
 namespace lampblack::hdf5 {
 namespace {
+
+// More than what HDF5 adds for itself in an operation: a header, names, entries of heaps and B-trees.
+constexpr std::int64_t note = std::int64_t{4} << 10;
+// Kept for the blocks of those heaps and trees, which double now and then as a group grows, and for closing the file.
+constexpr std::int64_t margin = std::int64_t{64} << 10;
+// Claimed besides where there is room, so that few operations have to claim.
+constexpr std::int64_t plenty = std::int64_t{1} << 20;
 
 // Finds out on rank 0, with plain C, whether the file can be made: MPI-IO's own complaints say little.
 void probe(MPI_Comm comm, const std::filesystem::path& path) {
@@ -17,16 +26,15 @@ void probe(MPI_Comm comm, const std::filesystem::path& path) {
   collectively(comm, [&] {
     if (rank != 0) return;
     std::FILE* file = std::fopen(path.c_str(), "wb");
-    if (file == nullptr) {
-      throw InputError(fmt::format("{}: the file cannot be written: {}", path.string(), std::strerror(errno)));
-    }
+    if (file == nullptr) refuseWrite(path, errno);
     std::fclose(file);
+    claimSpace(path, 0, margin);
   });
 }
 
 }  // namespace
 
-ParallelFile::ParallelFile(MPI_Comm comm, const std::filesystem::path& path) : name_(path.string()) {
+ParallelFile::ParallelFile(MPI_Comm comm, const std::filesystem::path& path) : comm_(comm), name_(path.string()) {
   probe(comm, path);
   MPI_Comm_rank(comm, &rank_);
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make HDF5 access properties");
@@ -43,9 +51,44 @@ ParallelFile::ParallelFile(MPI_Comm comm, const std::filesystem::path& path) : n
   check(H5Pset_dxpl_mpio(transfer_, H5FD_MPIO_COLLECTIVE), "transfer collectively");
 }
 
+void ParallelFile::claim(std::int64_t bytes, const std::string& what) {
+  if (end_ + bytes + note + margin <= claimed_) {
+    end_ += bytes + note;
+    return;
+  }
+  // Afterwards the file is as long as what is in use.
+  check(H5Fflush(file_, H5F_SCOPE_GLOBAL), what);
+  std::int64_t room[2] = {0, 0};  // in use, claimed
+  try {
+    collectively(comm_, [&] {
+      if (rank_ != 0) return;
+      room[0] = static_cast<std::int64_t>(std::filesystem::file_size(name_));
+      const std::int64_t needed = room[0] + bytes + note + margin;
+      const std::string keeps =
+          fmt::format("It was about to {}; what was complete before is readable in {}", what, name_);
+      room[1] = needed + plenty;
+      try {
+        claimSpace(name_, room[0], room[1]);
+      } catch (const SystemError&) {
+        room[1] = needed;
+        claimSpace(name_, room[0], room[1], keeps);
+      }
+    });
+  } catch (const SystemError&) {
+    full_ = true;
+    throw;
+  }
+  MPI_Bcast(room, 2, MPI_INT64_T, 0, comm_);
+  end_ = room[0] + bytes + note;
+  claimed_ = room[1];
+}
+
 void ParallelFile::writeAny(const std::string& path, const std::vector<std::int64_t>& dims, std::int64_t firstRow,
                             std::int64_t rows, const void* data, hid_t fileType, hid_t memoryType) {
   const std::string what = fmt::format("write {} to {}", path, name_);
+  std::int64_t bytes = static_cast<std::int64_t>(H5Tget_size(fileType));
+  for (const std::int64_t extent : dims) bytes *= extent;
+  claim(bytes, what);
   const std::vector<hsize_t> shape(dims.begin(), dims.end());
   const int rank = static_cast<int>(shape.size());
   Handle space(shape.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(rank, shape.data(), nullptr), H5Sclose, what);
@@ -113,6 +156,7 @@ void ParallelFile::group(const std::string& path) {
       const htri_t exists = H5Lexists(file_, part.c_str(), H5P_DEFAULT);
       check(exists, fmt::format("look for {} in {}", part, name_));
       if (exists == 0) {
+        claim(0, fmt::format("make {} in {}", part, name_));
         Handle made(H5Gcreate2(file_, part.c_str(), linkCreation_, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
                     fmt::format("make {} in {}", part, name_));
       }
@@ -124,6 +168,7 @@ void ParallelFile::group(const std::string& path) {
 void ParallelFile::attributeAny(const std::string& path, const std::string& name, hid_t fileType, hid_t memoryType,
                                 const void* value) {
   const std::string what = fmt::format("write the attribute {} of {} to {}", name, path, name_);
+  claim(static_cast<std::int64_t>(H5Tget_size(fileType)), what);
   Handle object(H5Oopen(file_, path.c_str(), H5P_DEFAULT), H5Oclose, what);
   const htri_t exists = H5Aexists(object, name.c_str());
   check(exists, what);
@@ -152,6 +197,7 @@ void ParallelFile::attribute(const std::string& path, const std::string& name, s
 
 void ParallelFile::flush() {
   check(H5Fflush(file_, H5F_SCOPE_GLOBAL), "flush " + name_);
+  claimed_ = 0;  // that gave back what lies beyond the last byte in use
 }
 
 void ParallelFile::close() {

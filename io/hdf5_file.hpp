@@ -1,5 +1,9 @@
 // One HDF5 file that all ranks of a communicator write together: groups, attributes and datasets of which each rank
 // holds a contiguous slab. Everything here is collective.
+//
+// HDF5 over MPI-IO cannot leave a full disk: its closing crashes or waits for ever. So the room that an operation may
+// need is claimed on the disk before HDF5 is asked to take it. Where there is none, all ranks raise the same
+// SystemError, and the file is as it was before the operation: it can be closed, and read.
 #pragma once
 
 #include <mpi.h>
@@ -38,6 +42,8 @@ class ParallelFile {
 
   void flush();
   void close();
+  // Whether an operation found no room on the disk. close() works then, and is safe on the way of that exception.
+  [[nodiscard]] bool full() const { return full_; }
   // Leaves the file as it is; for when the other ranks cannot take part any more.
   void abandon() { file_.release(); }
   [[nodiscard]] bool isOpen() const { return file_.isOpen(); }
@@ -48,8 +54,15 @@ class ParallelFile {
   void attributeAny(const std::string& path, const std::string& name, hid_t fileType, hid_t memoryType,
                     const void* value);
 
+  // Room for `bytes` of values and what HDF5 notes about them.
+  void claim(std::int64_t bytes, const std::string& what);
+
   QuietErrors quiet_;
+  MPI_Comm comm_;
   std::string name_;
+  // Bytes of the file: in use, at most; and with their place on the disk.
+  std::int64_t end_ = 0, claimed_ = 0;
+  bool full_ = false;
   int rank_ = 0;
   Handle file_;
   Handle linkCreation_;

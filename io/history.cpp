@@ -1,29 +1,44 @@
 #include "io/history.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <cerrno>
 #include <stdexcept>
 
 #include "io/csv.hpp"
+#include "io/disk_space.hpp"
 
 namespace lampblack {
 
 HistoryWriter::HistoryWriter(MPI_Comm comm, const std::filesystem::path& path, std::vector<TableColumn> columns)
-    : columns_(std::move(columns)) {
+    : comm_(comm), path_(path), columns_(std::move(columns)) {
   MPI_Comm_rank(comm, &rank_);
   if (rank_ != 0) return;
   csv_.open(path, std::ios::trunc);
-  csv_ << csvHeader(columns_) << std::flush;
-  if (!csv_) throw InputError(fmt::format("{}: the history cannot be written", path.string()));
+  writeLine(csvHeader(columns_));
+}
+
+void HistoryWriter::writeLine(const std::string& line) {
+  errno = 0;
+  csv_ << line << std::flush;
+  if (csv_) {
+    size_ += line.size();
+    return;
+  }
+  const int error = errno;
+  std::error_code ignored;
+  std::filesystem::resize_file(path_, size_, ignored);
+  refuseWrite(path_, error, "What was written to it before is whole");
 }
 
 void HistoryWriter::row(std::span<const double> values) {
-  if (rank_ != 0) return;
-  if (values.size() != columns_.size()) throw std::logic_error("a row of the history does not fit its columns");
-  rows_.insert(rows_.end(), values.begin(), values.end());
-  for (std::size_t c = 0; c < values.size(); ++c) csv_ << (c > 0 ? "," : "") << fmt::format("{}", values[c]);
-  csv_ << std::endl;
-  if (!csv_) throw NumericsError("the history cannot be written any more; is the disk full?");
+  collectively(comm_, [&] {
+    if (rank_ != 0) return;
+    if (values.size() != columns_.size()) throw std::logic_error("a row of the history does not fit its columns");
+    rows_.insert(rows_.end(), values.begin(), values.end());
+    writeLine(fmt::format("{}\n", fmt::join(values, ",")));
+  });
 }
 
 void HistoryWriter::writeTo(ResultsWriter& results, const std::string& path) const {

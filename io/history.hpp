@@ -4,6 +4,7 @@
 
 #include <mpi.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <span>
@@ -19,14 +20,20 @@ class HistoryWriter {
   // Rank 0 writes `path`, with a header "time [s],steps [1],...". InputError (rank 0) where it cannot be made.
   HistoryWriter(MPI_Comm comm, const std::filesystem::path& path, std::vector<TableColumn> columns);
 
-  // One value for each column; only rank 0's count.
+  // Collective. One value for each column; only rank 0's count. SystemError where the disk is full: the file then ends
+  // with the last whole row.
   void row(std::span<const double> values);
 
   // Collective: the same rows as a table of the results file.
   void writeTo(ResultsWriter& results, const std::string& path = "/history") const;
 
  private:
+  void writeLine(const std::string& line);  // with its end
+
+  MPI_Comm comm_;
+  std::filesystem::path path_;
   int rank_ = 0;
+  std::uintmax_t size_ = 0;  // of the file, bytes
   std::vector<TableColumn> columns_;
   std::vector<double> rows_;
   std::ofstream csv_;

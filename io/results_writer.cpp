@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "io/block_exchange.hpp"
+#include "io/disk_space.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/run_folder.hpp"
 #include "io/run_record.hpp"
@@ -121,10 +122,13 @@ struct ResultsWriter::Implementation {
   }
 
   void writeXdmf(const std::string& file5) const {
-    if (rank != 0 || !xdmfMesh) return;
-    std::filesystem::path beside = path;
-    beside.replace_extension(".xdmf");
-    writeFileAtomically(beside, xdmfText(file5, *xdmfMesh, steps));
+    if (!xdmfMesh) return;
+    collectively(comm, [&] {
+      if (rank != 0) return;
+      std::filesystem::path beside = path;
+      beside.replace_extension(".xdmf");
+      writeFileAtomically(beside, xdmfText(file5, *xdmfMesh, steps));
+    });
   }
 };
 
@@ -171,7 +175,7 @@ ResultsWriter::ResultsWriter(MPI_Comm comm, std::filesystem::path path, const Ru
 
 ResultsWriter::~ResultsWriter() {
   if (!self_ || !self_->file.isOpen()) return;
-  if (std::uncaught_exceptions() > self_->exceptionsAtStart) {
+  if (std::uncaught_exceptions() > self_->exceptionsAtStart && !self_->file.full()) {
     self_->file.abandon();
     return;
   }
@@ -272,10 +276,7 @@ void ResultsWriter::close() {
     if (self_->rank != 0) return;
     std::error_code error;
     std::filesystem::rename(partName(self_->path), self_->path, error);
-    if (error) {
-      throw NumericsError(fmt::format("{} cannot be renamed to {}: {}", partName(self_->path).string(),
-                                      self_->path.string(), error.message()));
-    }
+    if (error) refuseWrite(self_->path, error.value());
   });
   self_->writeXdmf(self_->path.filename().string());
 }

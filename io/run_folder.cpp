@@ -9,6 +9,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "io/disk_space.hpp"
+
 namespace lampblack {
 namespace {
 
@@ -25,8 +27,9 @@ std::string stateOf(const fs::path& folder) {
   const std::string record{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   if (record.find("\"status\": \"done\"") != std::string::npos) return "a finished run";
   if (record.find("\"status\": \"failed\"") != std::string::npos) return "a run that failed";
+  if (record.find("\"status\": \"stopped\"") != std::string::npos) return "a run that was stopped";
   if (record.find("\"status\": \"running\"") != std::string::npos) {
-    return "a run that is still going or was cut off";
+    return "a run that was cut off";
   }
   return fs::exists(folder / "results.h5") ? "the results of a run" : "parts of a run";
 }
@@ -42,12 +45,14 @@ void removeFailedCells(const fs::path& folder) {
 }
 
 // Throws on rank 0 only.
-void prepareHere(const fs::path& path, bool force) {
+std::shared_ptr<FolderLock> prepareHere(const fs::path& path, bool force) {
   std::error_code error;
   if (fs::exists(path, error) && !fs::is_directory(path, error)) {
     throw InputError(
         fmt::format("{}: this is a file; the output has to go to a folder. Choose another with --out", path.string()));
   }
+  std::shared_ptr<FolderLock> lock;
+  if (fs::exists(path, error)) lock = std::make_shared<FolderLock>(path);
   bool used = false;
   for (const char* name : runFiles) used = used || fs::exists(path / name, error);
   if (used && !force) {
@@ -63,14 +68,18 @@ void prepareHere(const fs::path& path, bool force) {
   }
   removeFailedCells(path);
   fs::create_directories(path, error);
+  if (error == std::errc::no_space_on_device) refuseWrite(path, error.value());
   if (error) throw InputError(fmt::format("{}: the folder cannot be made: {}", path.string(), error.message()));
+  if (!lock) lock = std::make_shared<FolderLock>(path);
   const fs::path probe = path / ".writable";
   if (std::FILE* file = std::fopen(probe.c_str(), "wb")) {
     std::fclose(file);
     fs::remove(probe, error);
   } else {
+    if (errno == ENOSPC) refuseWrite(path, errno);
     throw InputError(fmt::format("{}: the folder cannot be written to: {}", path.string(), std::strerror(errno)));
   }
+  return lock;
 }
 
 }  // namespace
@@ -78,23 +87,28 @@ void prepareHere(const fs::path& path, bool force) {
 RunFolder RunFolder::prepare(const fs::path& path, bool force, MPI_Comm comm) {
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
+  std::shared_ptr<FolderLock> lock;
   collectively(comm, [&] {
-    if (rank == 0) prepareHere(path, force);
+    if (rank == 0) lock = prepareHere(path, force);
   });
-  return RunFolder(path);
+  return {path, std::move(lock)};
 }
 
 void writeFileAtomically(const fs::path& path, const std::string& content) {
   const fs::path temporary = path.string() + ".tmp";
   std::error_code error;
-  {
-    std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
-    file << content;
-    file.flush();
-    if (!file) throw InputError(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(errno)));
+  int failure = 0;
+  std::FILE* file = std::fopen(temporary.c_str(), "wb");
+  if (file == nullptr) refuseWrite(path, errno);
+  if (std::fwrite(content.data(), 1, content.size(), file) != content.size()) failure = errno;
+  if (std::fclose(file) != 0 && failure == 0) failure = errno;
+  if (failure == 0) {
+    fs::rename(temporary, path, error);
+    failure = error.value();
   }
-  fs::rename(temporary, path, error);
-  if (error) throw InputError(fmt::format("{}: cannot be written: {}", path.string(), error.message()));
+  if (failure == 0) return;
+  fs::remove(temporary, error);
+  refuseWrite(path, failure);
 }
 
 }  // namespace lampblack

@@ -1,14 +1,17 @@
 // The folder a run writes to. It is made when missing, and refused when it already holds a run - finished, failed or
-// still going - so that nothing is overwritten unless the user says so.
+// still going - so that nothing is overwritten unless the user says so. One that is still going keeps its folder
+// locked: nobody can replace it.
 #pragma once
 
 #include <mpi.h>
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "core/errors.hpp"
+#include "io/folder_lock.hpp"
 
 namespace lampblack {
 
@@ -20,6 +23,8 @@ class RunFolder {
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   [[nodiscard]] std::filesystem::path results() const { return path_ / "results.h5"; }
+  // While the run goes on, and of one that does not reach its end.
+  [[nodiscard]] std::filesystem::path partialResults() const { return path_ / "results.h5.part"; }
   [[nodiscard]] std::filesystem::path runRecord() const { return path_ / "run.json"; }
   [[nodiscard]] std::filesystem::path history() const { return path_ / "history.csv"; }
   // What a cell that could not be advanced leaves, by its number.
@@ -30,12 +35,14 @@ class RunFolder {
   [[nodiscard]] std::filesystem::path file(const std::string& name) const { return path_ / name; }
 
  private:
-  explicit RunFolder(std::filesystem::path path) : path_(std::move(path)) {}
+  RunFolder(std::filesystem::path path, std::shared_ptr<FolderLock> lock)
+      : path_(std::move(path)), lock_(std::move(lock)) {}
   std::filesystem::path path_;
+  std::shared_ptr<FolderLock> lock_;  // of rank 0, while any copy lives
 };
 
 // Writes a file so that a reader sees the old or the new one and never half of it: temporary name, then rename.
-// InputError where it cannot be written. Not collective.
+// SystemError where the disk is full, InputError where it cannot be written otherwise. Not collective.
 void writeFileAtomically(const std::filesystem::path& path, const std::string& content);
 
 }  // namespace lampblack

@@ -16,6 +16,8 @@ const char* nameOf(RunStatus status) {
       return "done";
     case RunStatus::failed:
       return "failed";
+    case RunStatus::stopped:
+      return "stopped";
   }
   return "unknown";
 }

@@ -12,11 +12,11 @@
 
 namespace lampblack {
 
-enum class RunStatus { running, done, failed };
+enum class RunStatus { running, done, failed, stopped };
 
 struct RunRecord {
   RunStatus status = RunStatus::running;
-  std::string message;                 // why it failed
+  std::string message;                 // why it failed, or what is kept of a run that was stopped
   std::string deckPath;                // absolute
   std::string deckJson;                // Deck::resolvedJson()
   std::vector<std::string> overrides;  // --set

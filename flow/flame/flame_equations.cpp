@@ -7,6 +7,7 @@
 
 #include "core/constants.hpp"
 #include "core/errors.hpp"
+#include "core/stop_request.hpp"
 #include "flow/flame/flame_equations_data.hpp"
 #include "flow/flame/flame_jacobian.hpp"
 
@@ -167,6 +168,10 @@ void FlameEquations::setExchange(std::optional<GivenExchange> exchange) {
 void FlameEquations::residual(std::span<const double> x, std::span<double> F) {
   Data& d = *data_;
   const double start = MPI_Wtime();
+  // Here, where all ranks pass together and which costs far more than asking. Whoever solves treats it as any failure,
+  // and keeps what there is; each further attempt ends here, too.
+  if (const int signal = agreedStopRequest(d.comm); signal != 0)
+    throw NumericsError("stopped by " + signalName(signal));
   d.take(x);
   const auto work = [&] {
     d.chooseBlend();

@@ -14,8 +14,11 @@ _read = []
 
 
 def reading(path):
-    """Notes the file that is read from here on, and returns it."""
-    _read.append(pathlib.Path(path))
+    """Notes the file that is read from here on, and returns it. A pipe or device could keep its reader waiting."""
+    path = pathlib.Path(path)
+    if path.exists() and not path.is_file():
+        raise ResultsError(f"{path}: this is not a file")
+    _read.append(path)
     return path
 
 
@@ -39,6 +42,6 @@ def guarded(main):
     except (ImportError, KeyboardInterrupt):
         raise
     except Exception as error:  # noqa: BLE001: a file can hold anything
-        file = f"{_read[-1]}: " if _read else ""
-        print(f"{file}the file is damaged, or lacks what is read from it ({_cause(error)})", file=sys.stderr)
+        files = " or ".join(dict.fromkeys(map(str, _read[-3:])))
+        print(f"{files or 'input'}: damaged, or without what is read from it ({_cause(error)})", file=sys.stderr)
     return 2

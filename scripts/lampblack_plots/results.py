@@ -120,7 +120,7 @@ class Results:
     def record(self):
         """run.json, or nothing where it is missing or damaged."""
         try:
-            record = json.loads((self.folder / "run.json").read_text(encoding="utf-8"))
+            record = json.loads(reading(self.folder / "run.json").read_text(encoding="utf-8"))
         except (OSError, ValueError):
             return {}
         return record if isinstance(record, dict) else {}

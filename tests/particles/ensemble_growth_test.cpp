@@ -60,6 +60,20 @@ TEST(EnsembleGrowth, OxidationIsLinearInDiameterKeepsCompositionAndRemovesWhatFa
   EXPECT_NEAR(e.hydrogenMasses()[0] / e.masses()[0], fraction, 1e-12);
 }
 
+// An O2 takes two carbon atoms (two CO), which OH does not: see surface_chemistry.hpp.
+TEST(EnsembleGrowth, OxygenTakesTwoCarbonAtoms) {
+  const test::FlameGas gas(1800, 1e-3, 0.03, 0, 0.1, 0.02, 0, {0});
+  SootModelOptions soot = test::naphthalene();
+  soot.alpha = 0.7;
+  const double events = SurfaceChemistry(soot, 1800).rates(gas.state, 0.7).oxidationO2 * gas.state.O2;  // mol/m2/s
+  const double fraction = 0.05, flux = 2 * 12.011e-3 * events / (1 - fraction);
+  Ensemble e(withoutJumps(soot));
+  e.initialise(std::vector<double>{massOf(20e-9)}, fraction, 1e15);
+  e.advance(gas.state, 0, 4e-9 * rho / (2 * flux));
+  ASSERT_EQ(e.size(), 1u);
+  EXPECT_NEAR(e.diameters()[0] / 16e-9, 1, 1e-12);
+}
+
 TEST(EnsembleGrowth, MonodisperseGrowthAndCondensationFollowTheTwoEquationModel) {
   const test::FlameGas gas(1700, 1e-3, 0.03, 1e-5, 0.08, 1e-6, 0.03, {2e-5, 3e-6, 2e-6});
   const SootModelOptions soot = test::threePah();

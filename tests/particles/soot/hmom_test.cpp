@@ -202,6 +202,22 @@ TEST(Hmom, SurfacesOfAggregatesGrowSlower) {
   }
 }
 
+// Oxidised, an aggregate keeps its shape: S goes with V^(2/3), whatever its primaries. What goes as a whole is a share
+// (nucleus/mean)^2, of 1e-9 here.
+TEST(Hmom, SurfacesOfAggregatesShrinkLikeThoseOfSpheres) {
+  SootModelOptions soot = nothing(test::naphthalene());
+  soot.oxidation = true;
+  soot.alpha = 0.1;
+  const HmomSoot model({soot});
+  const ModelGas gas(FlameGas(1900, 1e-4, 1e-3, 3e-3, 0.1, 0.02, 0, {0}), soot);
+  for (double primaries : {1.0, 10.0, 300.0}) {
+    const Scalars y = twoModes(0, 0, 1e16, sphereMass(50e-9), primaries);
+    const Scalars rates = gas.rates(model, y);
+    EXPECT_LT(rates[4], 0);
+    EXPECT_NEAR(rates[6] / y[6] / ((rates[4] + rates[5]) / (y[4] + y[5])), 2.0 / 3, 1e-8);
+  }
+}
+
 // A nucleus hit by acetylene is a large particle of its own volume and two carbon atoms more.
 TEST(Hmom, NucleiThatGrowLeaveTheirMode) {
   SootModelOptions soot = nothing(test::naphthalene());

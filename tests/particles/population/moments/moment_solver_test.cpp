@@ -167,5 +167,18 @@ TEST(MomentMethods, DeviationOfALogNormalPopulation) {
   EXPECT_TRUE(makeMoments(model, equalStart(), qmom(3))->numberInBins(std::vector<double>{0, 1}).empty());
 }
 
+// Two nodes of the exponential distribution, those of Gauss and Laguerre: v = 2 -+ sqrt(2) with the weights
+// (2 +- sqrt(2))/4. Diameters go with v^(1/3), so that ln sigma_g is a third of the deviation of ln v. The nodes come
+// from moments, with an error of some units of the last place.
+TEST(MomentMethods, DeviationOfTheNodes) {
+  const double root = std::sqrt(2.0), small = std::log(2 - root), large = std::log(2 + root);
+  const double share = (2 + root) / 4, mean = share * small + (1 - share) * large;
+  const double variance = share * std::pow(small - mean, 2) + (1 - share) * std::pow(large - mean, 2);
+  const auto model = coagulating(CollisionKernelType::constant);
+  for (const double number : {1.0, 1e16})
+    EXPECT_NEAR(makeMoments(model, exponentialStart(number, 1e-24), qmom(2))->geometricDeviation(),
+                std::exp(std::sqrt(variance) / 3), 1e-12);
+}
+
 }  // namespace
 }  // namespace lampblack::testing
