@@ -48,6 +48,32 @@ TEST(Problems, AFlameThatCannotBurnIsRefusedWhereItIsPrepared) {
   }
 }
 
+// On one rank there is a cell for it; on two the deck says so, at its place, before there is a mesh.
+TEST(Problems, AFlowNeedsACellForEveryRank) {
+  int ranks = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  const Deck deck = Deck::load(
+      test::sourceFolder / "tests/app/flame.yaml",
+      {"mechanism=" + (test::sourceFolder / "cases/mechanisms/hydrogen_h2o2_10.yaml").string(),
+       "mesh={r: [{to: 14 mm, cells: 1}], z: [{to: 8 mm, cells: 1}]}",
+       "boundaries={fuel: {type: inlet, side: z-min, velocity: 1, temperature: 300, composition: \"H2: 1\"}, "
+       "oxidiser: {type: inlet, side: z-max, velocity: 1, temperature: 300, composition: \"O2: 1\"}, "
+       "axis: {type: symmetry, side: r-min}, "
+       "outflow: {type: outlet, side: r-max, temperature: 300, composition: \"N2: 1\"}}",
+       "soot.model=none"},
+      deckKinds(), MPI_COMM_WORLD);
+  if (ranks == 1) {
+    EXPECT_THAT(problemOf(deck).prepare(MPI_COMM_WORLD, deck)->summary(), HasSubstr("1 cells"));
+    return;
+  }
+  try {
+    (void)problemOf(deck).prepare(MPI_COMM_WORLD, deck);
+    FAIL() << "one cell was spread over " << ranks << " ranks";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("mesh: 1 cells cannot be spread over"));
+  }
+}
+
 TEST(FlowCase, AnEdgeInsideAFaceIsTold) {
   const auto notes = [](const std::string& to) {
     return readFlowCase(test::flameDeck({"boundaries.fuel.to=" + to, "boundaries.fuel_flange.from=" + to})).notes;
