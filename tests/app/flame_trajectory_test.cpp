@@ -121,7 +121,10 @@ double difference(std::size_t points) {
   cold.points = points;
   solver.refine = false;
   FlameSolver flame(MPI_COMM_WORLD, hydrogenMechanism(), problem, &inert, solver);
-  const FlameProfile profile = flame.solve(initialFlame(*hydrogenMechanism(), problem, 1, cold)).profile;
+  const FlameSolution solution = flame.solve(initialFlame(*hydrogenMechanism(), problem, 1, cold));
+  const FlameProfile& profile = solution.profile;
+  EXPECT_GT(solution.scalarChange, 0) << "values of scalars between points follow the profile";
+  EXPECT_LE(solution.scalarChange, solver.scalarChange);
   EXPECT_EQ(profile.points(), points);
   const FlameSootGas gas = flameSootGas(profile, *hydrogenMechanism(), problem.pressure, {}, coefficient);
   double worst = 0, largest = 0;
