@@ -50,7 +50,7 @@ class ResultsWriter {
  public:
   // Creates `path`.part and `path` with the extension .xdmf beside it. InputError where the file cannot be made;
   // std::logic_error (on all ranks) where the mesh does not number each cell exactly once. Later failures to write are
-  // NumericsErrors.
+  // NumericsErrors; on a full disk SystemErrors of all ranks, and what was complete stays readable in `path`.part.
   ResultsWriter(MPI_Comm comm, std::filesystem::path path, const RunInfo& run, const MeshOutput& mesh);
   // The same without a mesh: tables and datasets only, and no XDMF file.
   ResultsWriter(MPI_Comm comm, std::filesystem::path path, const RunInfo& run);
@@ -87,7 +87,7 @@ class ResultsWriter {
 
   // Finishes the file and gives it its name. Without it (a failed run) closePartial() leaves `path`.part, readable,
   // with every step that ended; the XDMF file then refers to that name. The destructor does closePartial() unless an
-  // exception is passing, when a collective call could hang.
+  // exception is passing that may be one rank's alone, when a collective call could hang.
   void close();
   void closePartial();
 

@@ -74,7 +74,7 @@ TEST_F(RunFolders, ThatHoldAFinishedRunAreRefusedWithAdvice) {
 TEST_F(RunFolders, ThatHoldAFailedOrUnfinishedRunSaySo) {
   RunRecord record;
   put("run.json", toJson(record));
-  EXPECT_THAT(refusal(), HasSubstr("a run that is still going or was cut off"));
+  EXPECT_THAT(refusal(), HasSubstr("a run that was cut off"));
   record.status = RunStatus::failed;
   put("run.json", toJson(record));
   EXPECT_THAT(refusal(), HasSubstr("a run that failed"));
