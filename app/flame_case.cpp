@@ -210,6 +210,25 @@ void readUnsteady(const Deck& deck, FlameCase& flame) {
   unsteady.frequency = frequency.value_or(0.0);
 }
 
+// Paths begin where streams are, and end where particles are slow: a limit above the streams' own speeds leaves
+// nothing. Where streams have no speed of their own (potential flow, free flames) the flame has to tell.
+void requirePaths(const Deck& deck, const FlameCase& flame) {
+  const FlameProblem& problem = flame.problem;
+  if (problem.nozzles == FlameNozzles::Potential || problem.type == FlameType::Free) return;
+  double fastest = 0;
+  for (const FlamePathOptions& path : flame.stochastic->coupling.ensemble.paths) {
+    if (path.start) return;
+    const FlameStream& stream = path.fromRight ? *problem.right : problem.left;
+    fastest = std::max(
+        fastest, stream.massFlux / Thermo(*flame.mechanism).density(stream.temperature, problem.pressure, stream.Y));
+  }
+  if (const double slowest = deck.quantity("stochastic.slowest"); slowest >= fastest)
+    throw deck.error("stochastic.slowest",
+                     fmt::format("expected less than {:.4g} m/s, with which the gas comes in, found {:g} m/s: no "
+                                 "ensemble would be left",
+                                 fastest, slowest));
+}
+
 // What else may have been meant by results that cannot be read: those in a folder, those of a run that failed.
 std::string hintOnResults(const std::filesystem::path& path) {
   std::error_code error;
@@ -256,11 +275,13 @@ FlameCase readFlameCase(const Deck& deck) {
   readUnsteady(deck, flame);
   if (auto model = readSootModel(deck, *flame.mechanism)) {
     flame.soot = std::make_unique<FlameSoot>(*flame.mechanism, std::move(model), deck.boolean("soot.diffusion"));
+    flame.sootAtLimit = deck.number("soot.sectional.overflow");
   }
   if (deck.has("stochastic")) {
     if (!deck.has("soot")) throw deck.error("stochastic", "ensembles need the section 'soot': PAH, surface, switches");
     flame.stochastic = readStochastic(deck, readSootModelOptions(deck, *flame.mechanism), flame.problem.length,
                                       flame.problem.type == FlameType::Counterflow);
+    requirePaths(deck, flame);
   }
   if (const auto file = deck.optionalString("initial")) {
     const std::filesystem::path path = deck.resolvePath(*file);

@@ -35,6 +35,7 @@ struct FlameCase {
   InitialFlameOptions start;
   std::optional<NamedFlameProfile> initial;  // an earlier flame to start from
   std::unique_ptr<FlameSoot> soot;           // null: none
+  double sootAtLimit = 1;                    // the part of it in the last section that is a failure
   std::optional<StochasticRequest> stochastic;
   std::optional<FlameContinuationOptions> continuation;
   std::optional<FlameUnsteady> unsteady;

@@ -19,71 +19,25 @@ double interpolate(const std::vector<double>& z, std::span<const double> f, std:
   return (1 - share) * f[(upper - 1) * stride + k] + share * f[upper * stride + k];
 }
 
-// Exchange at the points of a flame.
-struct Exchange {
-  std::vector<double> z;
-  std::vector<double> species;           // kg/m3/s, point-major
-  std::vector<double> carbon, hydrogen;  // of the soot, kg/m3/s
-  std::vector<double> absorption;        // 1/m
-
-  Exchange(std::vector<double> points, std::size_t n)
-      : z(std::move(points)), species(z.size() * n), carbon(z.size()), hydrogen(z.size()), absorption(z.size()) {}
-};
+// Planck mean of small particles, 1/m (thesis 7.2.4).
+double sootAbsorption(double volumeFraction, double T) {
+  return 700 * volumeFraction * T;
+}
 
 class Coupling {
  public:
   Coupling(const Mechanism& mechanism, CarriedModel* transfer, const FlameEnsembleOptions& options)
-      : mechanism_(mechanism), transfer_(transfer) {
-    for (const auto& [part, name] : {std::pair{&SootExchange::H, "H"},
-                                     {&SootExchange::H2, "H2"},
-                                     {&SootExchange::OH, "OH"},
-                                     {&SootExchange::O2, "O2"},
-                                     {&SootExchange::C2H2, "C2H2"},
-                                     {&SootExchange::CO, "CO"}})
-      species_.push_back({part, mechanism.speciesIndex(name)});
-    for (const PahSpecies& pah : options.soot.soot.pah) pah_.push_back(mechanism.speciesIndex(pah.name));
-  }
+      : mechanism_(mechanism), transfer_(transfer), pah_(options.soot.soot.pah) {}
 
-  // Of the population along its paths. The points of a path are those of the flame, in order, but for the last one
-  // where particles stagnate. A point gets half of the intervals on both sides: finite volumes around points see the
-  // sum.
-  [[nodiscard]] Exchange ofPopulation(const FlameProfile& profile, const std::vector<FlameEnsemblePath>& paths) const {
-    const std::size_t n = mechanism_.numSpecies(), last = profile.points() - 1;
-    const auto weights = mechanism_.molecularWeights();
-    Exchange e(profile.z, n);
-    for (const FlameEnsemblePath& path : paths) {
-      const auto& points = path.path.path.points;
-      for (std::size_t k = 0; k + 1 < points.size(); ++k) {
-        const double dt = points[k + 1].time - points[k].time;
-        const double length = std::abs(points[k + 1].z - points[k].z);
-        for (const double end : {points[k].z, points[k + 1].z}) {
-          const auto i = static_cast<std::size_t>(
-              std::min_element(e.z.begin(), e.z.end(),
-                               [&](double a, double b) { return std::abs(a - end) < std::abs(b - end); }) -
-              e.z.begin());
-          const double below = i == 0 ? 0 : e.z[i] - e.z[i - 1], above = i == last ? 0 : e.z[i + 1] - e.z[i];
-          const double part = length / (below + above) / dt;
-          const SootExchange& x = path.exchange[k];
-          for (const auto& [member, s] : species_) e.species[i * n + s] += part * x.*member * weights[s];
-          for (std::size_t p = 0; p < pah_.size(); ++p)
-            e.species[i * n + pah_[p]] += part * x.pah[p] * weights[pah_[p]];
-          e.carbon[i] += part * x.carbon;
-          e.hydrogen[i] += part * x.hydrogen;
-        }
-      }
-      for (std::size_t i = 0; i <= last; ++i) {
-        const double z = profile.z[i];
-        for (std::size_t k = 0; k < points.size(); ++k)
-          if (points[k].z == z) e.absorption[i] += sootAbsorption(path.volumeFraction.mean[k], profile.temperature(i));
-      }
-    }
-    return e;
+  [[nodiscard]] FlameExchange ofPopulation(const FlameProfile& profile,
+                                           const std::vector<FlameEnsemblePath>& paths) const {
+    return exchangeOf(mechanism_, pah_, profile, paths);
   }
 
   // Of the transfer model in the same flame.
-  [[nodiscard]] Exchange ofTransfer(const FlameProfile& profile, const FlameSootGas& gas) const {
+  [[nodiscard]] FlameExchange ofTransfer(const FlameProfile& profile, const FlameSootGas& gas) const {
     const std::size_t n = mechanism_.numSpecies();
-    Exchange e(profile.z, n);
+    FlameExchange e(profile.z, n);
     if (transfer_ == nullptr) return e;
     const auto& scalars = transfer_->scalars();
     const auto& exchanged = transfer_->exchanged();
@@ -111,8 +65,8 @@ class Coupling {
   }
 
   // E <- (1 - w) E + w (population - transfer), at the points of the latter.
-  [[nodiscard]] GivenExchange relaxed(const GivenExchange& old, const FlameProfile& profile, const Exchange& population,
-                                      const Exchange& transfer, double w) const {
+  [[nodiscard]] GivenExchange relaxed(const GivenExchange& old, const FlameProfile& profile,
+                                      const FlameExchange& population, const FlameExchange& transfer, double w) const {
     const std::size_t n = mechanism_.numSpecies();
     GivenExchange given;
     given.z = profile.z;
@@ -131,13 +85,9 @@ class Coupling {
   }
 
  private:
-  // Planck mean of small particles, 1/m (thesis 7.2.4).
-  static double sootAbsorption(double volumeFraction, double T) { return 700 * volumeFraction * T; }
-
   const Mechanism& mechanism_;
   CarriedModel* transfer_;
-  std::vector<std::pair<double SootExchange::*, std::size_t>> species_;
-  std::vector<std::size_t> pah_;
+  std::vector<PahSpecies> pah_;
 };
 
 // Volume fraction over z, of all paths.
@@ -204,6 +154,53 @@ double change(const FlameProfile& before, const FlameProfile& after, std::size_t
 
 }  // namespace
 
+FlameExchange::FlameExchange(std::vector<double> points, std::size_t n)
+    : z(std::move(points)), species(z.size() * n), carbon(z.size()), hydrogen(z.size()), absorption(z.size()) {}
+
+FlameExchange exchangeOf(const Mechanism& mechanism, std::span<const PahSpecies> pah, const FlameProfile& profile,
+                         const std::vector<FlameEnsemblePath>& paths) {
+  std::vector<std::pair<double SootExchange::*, std::size_t>> species;
+  for (const auto& [part, name] : {std::pair{&SootExchange::H, "H"},
+                                   {&SootExchange::H2, "H2"},
+                                   {&SootExchange::OH, "OH"},
+                                   {&SootExchange::O2, "O2"},
+                                   {&SootExchange::C2H2, "C2H2"},
+                                   {&SootExchange::CO, "CO"}})
+    species.emplace_back(part, mechanism.speciesIndex(name));
+  std::vector<std::size_t> pahIndex;
+  for (const PahSpecies& one : pah) pahIndex.push_back(mechanism.speciesIndex(one.name));
+  const std::size_t n = mechanism.numSpecies(), last = profile.points() - 1;
+  const auto weights = mechanism.molecularWeights();
+  FlameExchange e(profile.z, n);
+  for (const FlameEnsemblePath& path : paths) {
+    const auto& points = path.path.path.points;
+    for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+      const double dt = points[k + 1].time - points[k].time;
+      const double length = std::abs(points[k + 1].z - points[k].z);
+      for (const double end : {points[k].z, points[k + 1].z}) {
+        const auto i = static_cast<std::size_t>(
+            std::min_element(e.z.begin(), e.z.end(),
+                             [&](double a, double b) { return std::abs(a - end) < std::abs(b - end); }) -
+            e.z.begin());
+        const double below = i == 0 ? 0 : e.z[i] - e.z[i - 1], above = i == last ? 0 : e.z[i + 1] - e.z[i];
+        const double part = length / (below + above) / dt;
+        const SootExchange& x = path.exchange[k];
+        for (const auto& [member, s] : species) e.species[i * n + s] += part * x.*member * weights[s];
+        for (std::size_t p = 0; p < pahIndex.size(); ++p)
+          e.species[i * n + pahIndex[p]] += part * x.pah[p] * weights[pahIndex[p]];
+        e.carbon[i] += part * x.carbon;
+        e.hydrogen[i] += part * x.hydrogen;
+      }
+    }
+    for (std::size_t i = 0; i <= last; ++i) {
+      const double z = profile.z[i];
+      for (std::size_t k = 0; k < points.size(); ++k)
+        if (points[k].z == z) e.absorption[i] += sootAbsorption(path.volumeFraction.mean[k], profile.temperature(i));
+    }
+  }
+  return e;
+}
+
 FlameCoupling coupleFlame(MPI_Comm comm, const Mechanism& mechanism, double pressure, FlameSolver& solver,
                           CarriedModel* transfer, FlameSolution start, const FlameCouplingOptions& options,
                           const std::function<void(const FlameCouplingStep&)>& report) {
@@ -221,7 +218,7 @@ FlameCoupling coupleFlame(MPI_Comm comm, const Mechanism& mechanism, double pres
       gas = flameSootGas(profile, mechanism, pressure, options.ensemble.soot.soot.pah, sootThermophoresis());
     });
     result.paths = runFlameEnsemble(comm, gas, options.ensemble);
-    const Exchange population = coupling.ofPopulation(profile, result.paths);
+    const FlameExchange population = coupling.ofPopulation(profile, result.paths);
     const std::vector<Volumes> volumes = volumesOf(result.paths);
     FlameCouplingStep step = describe(result.paths, volumes, before);
     before = volumes;

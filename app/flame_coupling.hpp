@@ -14,6 +14,7 @@
 
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,21 @@
 #include "flow/flame/flame_solver.hpp"
 
 namespace lampblack {
+
+// What particles exchange with the gas at the points of a flame.
+struct FlameExchange {
+  std::vector<double> z;                 // m
+  std::vector<double> species;           // production, kg/m3/s, point-major
+  std::vector<double> carbon, hydrogen;  // gained by the soot, kg/m3/s
+  std::vector<double> absorption;        // 1/m
+
+  FlameExchange(std::vector<double> points, std::size_t species);
+};
+
+// Of the population along its paths. The points of a path are those of the flame, in order, but for the last one where
+// particles stagnate. A point gets half of the intervals on both sides: finite volumes around points see the sum.
+[[nodiscard]] FlameExchange exchangeOf(const Mechanism& mechanism, std::span<const PahSpecies> pah,
+                                       const FlameProfile& profile, const std::vector<FlameEnsemblePath>& paths);
 
 struct FlameCouplingOptions {
   FlameEnsembleOptions ensemble;

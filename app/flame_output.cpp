@@ -165,8 +165,10 @@ std::vector<NamedNumber> namedNumbers(const FlameCase& flame, const FlameResult&
       numbers.push_back({"pressure_gradient", "N/m^4", s.pressureGradient});
     }
     if (s.stagnationPlane) numbers.push_back({"stagnation_plane", "m", *s.stagnationPlane});
-    if (result.soot)
+    if (result.soot) {
       for (NamedNumber& number : namedSootNumbers(result.fields, *result.soot)) numbers.push_back(std::move(number));
+      if (!result.soot->diameter.empty()) numbers.push_back({"soot_in_last_section", "1", result.soot->partAtLimit});
+    }
   }
   if (result.solution.growthRate) numbers.push_back({"growth_rate", "1/s", *result.solution.growthRate});
   if (result.extinctionLoad) numbers.push_back({"last_burning_load", "1", *result.extinctionLoad});

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -106,7 +107,25 @@ Attempt solve(MPI_Comm comm, FlameCase& flame, const std::vector<FlameProfile>& 
   }
   collectively(comm, [&] { attempt.result = flameResult(flame, std::move(*solution), !attempt.failure); });
   attempt.result.extinctionLoad = attempt.extinctionLoad;
+  if (attempt.stochastic && !attempt.failure &&
+      std::ranges::all_of(attempt.stochastic->paths,
+                          [](const FlameEnsemblePath& path) { return path.path.path.points.empty(); }))
+    attempt.failure =
+        "no ensemble: nowhere do particles move into the flame faster than 'stochastic.slowest'; a smaller value, or a "
+        "'stochastic.start' inside the flame";
   return attempt;
+}
+
+// Soot that has outgrown its sections is not the soot that was asked for.
+void refuseOverflow(const FlameCase& flame, Attempt& attempt) {
+  const auto& soot = attempt.result.soot;
+  if (attempt.failure || !soot || soot->partAtLimit <= flame.sootAtLimit) return;
+  attempt.failure = fmt::format(
+      "the sections of the soot end too early: a part {:.2g} of the largest volume fraction stands in the last one (as "
+      "a "
+      "sphere {:.3g} nm), which cannot grow; allowed is {:.2g}. More sections ('soot.sectional.sections') or a larger "
+      "'soot.sectional.factor'; 'soot.sectional.overflow: 1' only counts it",
+      soot->partAtLimit, 1e9 * soot->diameter.back(), flame.sootAtLimit);
 }
 
 void followInTime(MPI_Comm comm, FlameCase& flame, const RunFolder& folder, Attempt& attempt) {
@@ -134,6 +153,7 @@ Attempt attemptFlame(MPI_Comm comm, FlameCase& flame, const std::vector<FlamePro
   }
   if (attempt.failure) return attempt;
   if (flame.unsteady) followInTime(comm, flame, folder, attempt);
+  refuseOverflow(flame, attempt);
   if (!flame.continuation) return attempt;
   try {
     attempt.branch = followBranch(comm, flame, attempt.result.solution.profile, attempt.result.summary);

@@ -66,6 +66,7 @@ FlameSootFields flameSootFields(const Mechanism& mechanism, double pressure, con
     fields.scalars.push_back({scalar.name, scalar.unit, scalar.description, {}});
   const auto& exchanged = soot.exchanged();
   std::vector<double> concentrations(exchanged.size()), densities(fields.scalars.size());
+  double most = 0, mostAtLimit = 0;
   for (std::size_t i = 0; i < profile.points(); ++i) {
     for (std::size_t e = 0; e < exchanged.size(); ++e)
       concentrations[e] =
@@ -82,10 +83,13 @@ FlameSootFields flameSootFields(const Mechanism& mechanism, double pressure, con
     const SootProcesses processes = soot.model().processes(at, densities);
     for (std::size_t c = 0; c < processColumns.size(); ++c)
       fields.processes[c].values.push_back(processes.*processColumns[c].value);
+    most = std::max(most, properties.volumeFraction);
+    mostAtLimit = std::max(mostAtLimit, soot.model().volumeFractionAtLimit(densities));
     const SootSizeDistribution sizes = soot.model().sizeDistribution(densities);
     if (i == 0) fields.diameter = sizes.diameter;
     fields.sizeDistribution.insert(fields.sizeDistribution.end(), sizes.density.begin(), sizes.density.end());
   }
+  if (most > 0) fields.partAtLimit = mostAtLimit / most;
   return fields;
 }
 

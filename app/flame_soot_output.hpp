@@ -27,6 +27,9 @@ struct FlameSootFields {
   std::vector<Field> scalars, properties, processes;
   // dN/dlog10(d), point-major, at the diameters; both empty where the model has none.
   std::vector<double> diameter, sizeDistribution;
+  // Largest volume fraction in particles that cannot grow any more (SootModel::volumeFractionAtLimit), over the largest
+  // of all.
+  double partAtLimit = 0;
 
   [[nodiscard]] const Field& property(const std::string& name) const;
 };

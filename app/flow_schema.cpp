@@ -91,7 +91,7 @@ void addParticles(DeckSchema& schema) {
       .add(choiceKey("soot.model", {"two_equation", "none"},
                      "none: as if the sections soot and trajectories were absent (for a gas-only run by --set).")
                .byDefault("two_equation"))
-      .add(stringKey("soot.pah", "Species that dimerise.").list().byDefault("[A2]"))
+      .add(stringKey("soot.pah", "Species that dimerise: as of flames.").list().byDefault("[A2]"))
       .add(quantityKey("soot.density", units::density, "Of the particles.").byDefault("1850 kg/m^3").above(0))
       .add(numberKey("soot.alpha",
                      "Constant fraction of active sites; absent: the ABF function of temperature and size.")

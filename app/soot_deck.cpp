@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -106,12 +107,36 @@ void readSectional(const Deck& deck, SectionalSootOptions& options) {
 
 }  // namespace
 
+namespace {
+
+// Two aromatic rings or more: ten carbon atoms, as naphthalene, and no more hydrogen than carbon.
+constexpr int leastPahCarbon = 10;
+
+void requirePah(const std::string& name, int carbon, int hydrogen) {
+  if (carbon >= leastPahCarbon && hydrogen <= carbon) return;
+  throw InputError(
+      fmt::format("'{}' (C{}H{}) is not a polycyclic aromatic hydrocarbon: expected {} carbon atoms or more "
+                  "(naphthalene) and no more hydrogen than carbon",
+                  name, carbon, hydrogen, leastPahCarbon));
+}
+
+// The semi-empirical models know acetylene only; ensembles beside them read these keys.
+void refuseUnread(const Deck& deck, const std::string& model) {
+  if (deck.has("stochastic")) return;
+  for (const char* key : {"sticking", "site_density", "alpha", "alpha_table", "van_der_waals", "condensation"})
+    if (const std::string path = std::string("soot.") + key; deck.isGiven(path))
+      throw deck.error(path, fmt::format("the model {} does not read this", model));
+}
+
+}  // namespace
+
 std::vector<PahSpecies> readPahSpecies(const Deck& deck, const Mechanism& mechanism) {
   const bool given = deck.has("soot.sticking");
   const std::vector<std::string> names = deck.strings("soot.pah");
   const std::vector<double> sticking = given ? deck.numbers("soot.sticking") : std::vector<double>{};
   if (given && sticking.size() != names.size())
     throw deck.error("soot.sticking", fmt::format("{} coefficients for {} PAH", sticking.size(), names.size()));
+  if (names.empty()) throw deck.error("soot.pah", "expected a PAH: without one no soot is ever formed");
   if (names.size() > maximumPahSpecies)
     throw deck.error("soot.pah", fmt::format("{} species; at most {} are possible", names.size(), maximumPahSpecies));
   std::vector<PahSpecies> list;
@@ -119,11 +144,15 @@ std::vector<PahSpecies> readPahSpecies(const Deck& deck, const Mechanism& mechan
     const std::size_t carbon = mechanism.elementIndex("C"), hydrogen = mechanism.elementIndex("H");
     for (std::size_t i = 0; i < names.size(); ++i) {
       const std::size_t k = mechanism.speciesIndex(names[i]);
+      if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=
+          names.begin() + static_cast<std::ptrdiff_t>(i))
+        throw InputError(fmt::format("'{}' is named twice: it would count twice", names[i]));
       for (std::size_t e = 0; e < mechanism.numElements(); ++e)
         if ((e == carbon && mechanism.atoms(k, e) < 1) || (e != carbon && e != hydrogen && mechanism.atoms(k, e) != 0))
           throw InputError(fmt::format("'{}' is not a hydrocarbon", names[i]));
       PahSpecies pah{names[i], static_cast<int>(std::lround(mechanism.atoms(k, carbon))),
                      static_cast<int>(std::lround(mechanism.atoms(k, hydrogen))), 0};
+      requirePah(pah.name, pah.carbon, pah.hydrogen);
       pah.stickingCoefficient = given ? sticking[i]
                                       : defaultStickingCoefficient(names[i]).value_or(
                                             stickingCoefficientByMass(mechanism.molecularWeights()[k]));
@@ -154,6 +183,7 @@ std::unique_ptr<SootModel> readSootModel(const Deck& deck, const Mechanism& mech
   if (SootModelOptions* shared = sharedOptions(choice)) readShared(deck, mechanism, *shared);
   if (auto* semiEmpirical = std::get_if<SemiEmpiricalOptions>(&choice))
     readSemiEmpirical(deck, mechanism, *semiEmpirical);
+  if (std::holds_alternative<SemiEmpiricalOptions>(choice)) refuseUnread(deck, name);
   if (auto* sectional = std::get_if<SectionalSootOptions>(&choice)) readSectional(deck, *sectional);
   if (auto* hmom = std::get_if<HmomOptions>(&choice)) {
     hmom->fractalDimension = deck.number("soot.hmom.fractal_dimension");

@@ -14,7 +14,10 @@ void addShared(DeckSchema& schema) {
                     "Moss 1999; sectional: thesis 9.2.2; hmom: Mueller, Blanquart, Pitsch 2009; momic: Frenklach 2002; "
                     "none: as if the section were absent.")
               .byDefault("two_equation_dimer"))
-      .add(stringKey("soot.pah", "Species that dimerise or make nuclei (not of leung and moss_brookes).")
+      .add(stringKey(
+               "soot.pah",
+               "Species that dimerise or make nuclei: hydrocarbons of ten carbon atoms or more with no more hydrogen "
+               "than carbon. leung and moss_brookes do without.")
                .list()
                .byDefault("[A2]"))
       .add(numberKey("soot.sticking",
@@ -60,7 +63,8 @@ void addSemiEmpirical(DeckSchema& schema) {
   const std::string s = "soot.semi_empirical.";
   schema
       .section("soot.semi_empirical", Presence::optional,
-               "Constants of leung and moss_brookes; each absent one is as published with the model.")
+               "Constants of leung and moss_brookes; each absent one is as published with the model.",
+               {{"soot.model", {"leung", "moss_brookes", "none"}}})
       .add(quantityKey(s + "inception_factor", units::frequency, "A of A exp(-Ta/T) [C2H2].").optional().atLeast(0))
       .add(quantityKey(s + "inception_temperature", units::temperature, "Ta.").optional().atLeast(0))
       .add(numberKey(s + "nucleus_carbon", "Carbon atoms in a nucleus.").optional().above(0))
@@ -78,8 +82,17 @@ void addSemiEmpirical(DeckSchema& schema) {
 
 void addSectional(DeckSchema& schema) {
   const std::string s = "soot.sectional.";
-  schema.add(integerKey(s + "sections", "Number of sections.").byDefault("35").atLeast(2).atMost(400))
+  schema
+      .section("soot.sectional", Presence::defaulted, "Of the model sectional.",
+               {{"soot.model", {"sectional", "none"}}})
+      .add(integerKey(s + "sections", "Number of sections.").byDefault("35").atLeast(2).atMost(400))
       .add(numberKey(s + "factor", "Mass of a section over that of the one below.").byDefault("2").above(1))
+      .add(numberKey(s + "overflow",
+                     "Largest volume fraction of soot in the last section, which cannot grow, over the largest of all: "
+                     "more is a failure; 1: it is only counted (soot_in_last_section).")
+               .byDefault("1e-4")
+               .above(0)
+               .atMost(1))
       .add(numberKey(s + "nucleus_carbon",
                      "Carbon atoms of the first section; absent: of the smallest nucleus the PAH can make.")
                .optional()
@@ -118,7 +131,7 @@ void addSectional(DeckSchema& schema) {
 }
 
 void addMoments(DeckSchema& schema) {
-  schema
+  schema.section("soot.hmom", Presence::defaulted, "Of the model hmom.", {{"soot.model", {"hmom", "none"}}})
       .add(numberKey("soot.hmom.fractal_dimension", "Of collision diameters of aggregates.")
                .byDefault("1.8")
                .above(1)
@@ -129,7 +142,8 @@ void addMoments(DeckSchema& schema) {
       .add(integerKey("soot.moments", "Number of moments of model momic. With 5 and 6 steady flames may not converge.")
                .byDefault("4")
                .atLeast(3)
-               .atMost(6));
+               .atMost(6)
+               .onlyWith("soot.model", {"momic", "none"}));
 }
 
 }  // namespace

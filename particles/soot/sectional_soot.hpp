@@ -78,6 +78,7 @@ class SectionalSoot final : public SootModel {
   [[nodiscard]] SootProperties properties(const SootGas& gas, std::span<const double> densities) const override;
   [[nodiscard]] SootProcesses processes(const SootGas& gas, std::span<const double> densities) const override;
   [[nodiscard]] double volumeFraction(std::span<const double> densities) const override;
+  [[nodiscard]] double volumeFractionAtLimit(std::span<const double> densities) const override;
   [[nodiscard]] SootSizeDistribution sizeDistribution(std::span<const double> densities) const override;
 
   [[nodiscard]] std::size_t sections() const;

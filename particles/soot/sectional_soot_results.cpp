@@ -68,6 +68,11 @@ double SectionalSoot::volumeFraction(std::span<const double> densities) const {
   return carbon / impl_->options.soot.sootDensity;
 }
 
+double SectionalSoot::volumeFractionAtLimit(std::span<const double> densities) const {
+  const std::size_t last = impl_->sections - 1;
+  return std::max(densities[last], 0.0) * impl_->pivots[last] / impl_->options.soot.sootDensity;
+}
+
 SootProcesses SectionalSoot::processes(const SootGas& gas, std::span<const double> densities) const {
   Impl& m = *impl_;
   m.prepare(gas, densities);

@@ -77,6 +77,10 @@ double SootModel::volumeFraction(std::span<const double> densities) const {
   return properties(gas, densities).volumeFraction;
 }
 
+double SootModel::volumeFractionAtLimit(std::span<const double> /*densities*/) const {
+  return 0;
+}
+
 SootSizeDistribution SootModel::sizeDistribution(std::span<const double> /*densities*/) const {
   return {};
 }

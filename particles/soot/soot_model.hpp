@@ -85,6 +85,9 @@ class SootModel {
   [[nodiscard]] virtual SootProperties properties(const SootGas& gas, std::span<const double> densities) const = 0;
   // m3/m3, for radiation. The default asks `properties` in some hot gas; models override it where that costs.
   [[nodiscard]] virtual double volumeFraction(std::span<const double> densities) const;
+  // The part of it in particles as large as the model can have, which grow no more: where it counts, the model has too
+  // few sections. Zero where there is no such limit.
+  [[nodiscard]] virtual double volumeFractionAtLimit(std::span<const double> densities) const;
   [[nodiscard]] virtual SootProcesses processes(const SootGas& gas, std::span<const double> densities) const = 0;
   // Empty where the model has none.
   [[nodiscard]] virtual SootSizeDistribution sizeDistribution(std::span<const double> densities) const;

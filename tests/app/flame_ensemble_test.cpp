@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "core/constants.hpp"
 #include "core/errors.hpp"
@@ -78,6 +79,24 @@ TEST(FlameEnsemble, LeavesWithTheCarbonThatItTookFromTheGas) {
   };
   EXPECT_LT(difference(21), 2e-3);
   EXPECT_LT(difference(81), 2e-4);
+}
+
+// Repeats are the same however many there are: of two, mean and error tell both; a third gives the mean of three, and
+// with them the standard error of that mean, sqrt(sum of squared deviations / (n (n - 1))).
+TEST(FlameEnsemble, TellsTheStandardErrorOfTheMean) {
+  FlameEnsembleOptions options = smallEnsemble();
+  const auto of = [&](std::size_t repeats) {
+    options.repeats = repeats;
+    const auto result = runFlameEnsemble(MPI_COMM_SELF, burntGas(11), options);
+    return std::pair{result[0].volumeFraction.mean.back(), result[0].volumeFraction.error.back()};
+  };
+  const auto [two, errorOfTwo] = of(2);
+  const auto [three, errorOfThree] = of(3);
+  ASSERT_GT(errorOfTwo, 0);
+  double squares = 0;
+  for (const double value : {two - errorOfTwo, two + errorOfTwo, 3 * three - 2 * two})
+    squares += (value - three) * (value - three);
+  EXPECT_NEAR(errorOfThree / std::sqrt(squares / 6), 1, 1e-9);
 }
 
 TEST(FlameEnsemble, NeedsTwoRepeats) {

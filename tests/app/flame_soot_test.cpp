@@ -120,6 +120,15 @@ TEST(SootDeck, MistakesAreNamed) {
   using testing::HasSubstr;
   EXPECT_THAT(messageOf("soot: {pah: [A22]}"), HasSubstr("A22"));
   EXPECT_THAT(messageOf("soot: {pah: [CO]}"), HasSubstr("'CO' is not a hydrocarbon"));
+  EXPECT_THAT(messageOf("soot: {pah: [A2, A3, A2]}"), HasSubstr("'A2' is named twice"));
+  EXPECT_THAT(messageOf("soot: {pah: [CH4]}"), HasSubstr("'CH4' (C1H4) is not a polycyclic aromatic hydrocarbon"));
+  EXPECT_THAT(messageOf("soot: {pah: [A2, A1]}"), HasSubstr("'A1' (C6H6) is not a polycyclic"));
+  EXPECT_THAT(messageOf("soot: {pah: []}"), HasSubstr("no soot is ever formed"));
+  EXPECT_THAT(messageOf("soot: {model: hmom, sectional: {sections: 20}}"), HasSubstr("soot.sectional"));
+  EXPECT_THAT(messageOf("soot: {hmom: {fractal_dimension: 1.9}}"), HasSubstr("soot.hmom"));
+  EXPECT_THAT(messageOf("soot: {moments: 5}"), HasSubstr("soot.moments"));
+  EXPECT_THAT(messageOf("soot: {semi_empirical: {oxygen: lee}}"), HasSubstr("soot.semi_empirical"));
+  EXPECT_THAT(messageOf("soot: {model: leung, alpha: 0.5}"), HasSubstr("the model leung does not read this"));
   EXPECT_THAT(messageOf("soot: {pah: [A2], sticking: [0.1, 0.2]}"), HasSubstr("2 coefficients for 1 PAH"));
   EXPECT_THAT(messageOf("soot: {alpha: 0.5, alpha_table: [{temperature: 1500 K, alpha: 0.9}]}"), HasSubstr("either"));
   EXPECT_THAT(messageOf("soot: {alpha_table: [{temperature: 1500 K, alpha: 1}, {temperature: 1400 K, alpha: 0}]}"),

@@ -73,6 +73,25 @@ void expectExactMatrix(const FlameProblem& problem, const std::string& what) {
   EXPECT_LT(worst.difference, 1e-5) << what << ": " << worst.row << " by " << worst.column;
 }
 
+// Of the stream from the right, whose strain rate is given: Seshadri and Williams 1978.
+TEST(FlameEquations, ThePressureGradientOfPotentialFlowIsThatOfTheRightStream) {
+  FlameProblem problem = hydrogenProblem(FlameType::Counterflow);
+  problem.nozzles = FlameNozzles::Potential;
+  problem.strainRate = 150;
+  problem.stagnationPlane = 0.5 * problem.length;
+  problem.right->temperature = 700;
+  FlameEquations equations(MPI_COMM_WORLD, hydrogenMechanism(), problem);
+  FlameProfile profile = roughFlame(problem, 12);
+  const Thermo thermo(*hydrogenMechanism());
+  const double density = thermo.density(700, problem.pressure, problem.right->Y);
+  ASSERT_GT(std::abs(density / thermo.density(300, problem.pressure, problem.left.Y) - 1), 0.1);
+  profile.global(pressureGradient) = -density * 150 * 150;
+  equations.setGrid(profile.z);
+  std::vector<double> F(equations.size());
+  equations.residual(profile.x, F);
+  EXPECT_NEAR(F[F.size() - numFlameGlobals + pressureGradient], 0, 1e-9 * density * 150 * 150);
+}
+
 TEST(FlameEquations, NewtonMatrixMatchesDifferencesOfTheResidual) {
   for (const FlameType type : {FlameType::Free, FlameType::Burner, FlameType::Wall, FlameType::Counterflow})
     expectExactMatrix(hydrogenProblem(type), "type " + std::to_string(static_cast<int>(type)));

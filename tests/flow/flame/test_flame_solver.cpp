@@ -113,6 +113,8 @@ TEST(FlameSolver, BudgetsKnowWhatAnExchangeTakes) {
   EXPECT_NEAR(given(after, "O") / given(after, "mass"), 15.999 / 18.015, 1e-4);
   EXPECT_EQ(given(after, "N"), 0);
   EXPECT_NEAR(given(after, "energy"), -heatTaken, 0.02 * heatTaken);
+  // Heat that is taken goes neither to a wall nor away by radiation, which this flame does not have.
+  for (const FlameBudget& budget : after.budgets) EXPECT_NEAR(budget.radiated, 0, 1e-6 * heatTaken) << budget.name;
   EXPECT_LT(after.profile.temperature(after.profile.points() - 1),
             before.profile.temperature(before.profile.points() - 1) - 5);
 }

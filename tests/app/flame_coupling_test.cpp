@@ -1,0 +1,117 @@
+// What ensembles exchange with the gas of a flame, and where their paths start.
+#include "app/flame_coupling.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "app/stochastic_deck.hpp"
+#include "tests/flow/flame/streams.hpp"
+
+namespace lampblack {
+namespace {
+
+const Mechanism& abf() {
+  static const Mechanism mechanism = shippedMechanism("ethylene_abf2000_101.yaml");
+  return mechanism;
+}
+
+// From the left along all points, from the right to a place between two of them.
+std::vector<FlameEnsemblePath> twoPaths(const std::vector<double>& z) {
+  std::vector<FlameEnsemblePath> paths(2);
+  double time = 0;
+  for (const double at : z) {
+    SootPathPoint point;
+    point.z = at;
+    point.time = time;
+    paths[0].path.path.points.push_back(point);
+    time += 1e-3 * (1 + 100 * at);
+  }
+  paths[1].options.fromRight = true;
+  time = 0;
+  for (const double at : {z.back(), z[z.size() - 2], 0.3 * z[z.size() - 2] + 0.7 * z[z.size() - 3]}) {
+    SootPathPoint point;
+    point.z = at;
+    point.time = time;
+    paths[1].path.path.points.push_back(point);
+    time += 2e-3;
+  }
+  double value = 1;
+  for (FlameEnsemblePath& path : paths) {
+    const std::size_t points = path.path.path.points.size();
+    for (std::size_t k = 0; k < points; ++k) path.volumeFraction.mean.push_back(1e-8 * (value += 0.3));
+    for (std::size_t k = 0; k + 1 < points; ++k) {
+      SootExchange x;
+      x.C2H2 = -1e-3 * (value += 0.7);
+      x.OH = -2e-5 * value;
+      x.pah[0] = -3e-5 * value;
+      x.carbon = 2e-5 * (value += 0.1);
+      x.hydrogen = 1e-6 * value;
+      path.exchange.push_back(x);
+    }
+  }
+  return paths;
+}
+
+// Each interval's exchange, over its time, times its length: what particles take on their way per area of the flame.
+TEST(FlameCoupling, TheGasOfAFlameGivesWhatParticlesTakeAlongTheirPaths) {
+  FlameProfile profile{{abf().numSpecies(), 0}, {0, 1e-3, 1.5e-3, 3e-3, 7e-3, 8e-3}, {}};
+  profile.x.assign(profile.size(), 0.0);
+  for (std::size_t i = 0; i < profile.points(); ++i)
+    profile.at(i, FlameLayout::temperature) = 1000 + 100 * static_cast<double>(i);
+  const auto paths = twoPaths(profile.z);
+  const FlameExchange exchange = exchangeOf(abf(), std::vector<PahSpecies>{{"A2", 10, 8, 2e-3}}, profile, paths);
+
+  double carbon = 0, hydrogen = 0, acetylene = 0, hydroxyl = 0, naphthalene = 0;
+  for (const FlameEnsemblePath& path : paths)
+    for (std::size_t k = 0; k < path.exchange.size(); ++k) {
+      const auto &from = path.path.path.points[k], &to = path.path.path.points[k + 1];
+      const double part = std::abs(to.z - from.z) / (to.time - from.time);
+      carbon += part * path.exchange[k].carbon;
+      hydrogen += part * path.exchange[k].hydrogen;
+      acetylene += part * path.exchange[k].C2H2 * abf().molecularWeights()[abf().speciesIndex("C2H2")];
+      hydroxyl += part * path.exchange[k].OH * abf().molecularWeights()[abf().speciesIndex("OH")];
+      naphthalene += part * path.exchange[k].pah[0] * abf().molecularWeights()[abf().speciesIndex("A2")];
+    }
+  // As the flame's control volumes see it: each point has half of the intervals on both sides.
+  const auto integral = [&](auto&& value) {
+    double sum = 0;
+    for (std::size_t i = 0; i + 1 < profile.points(); ++i)
+      sum += 0.5 * (profile.z[i + 1] - profile.z[i]) * (value(i) + value(i + 1));
+    return sum;
+  };
+  const auto ofSpecies = [&](const char* name) {
+    return integral(
+        [&, k = abf().speciesIndex(name)](std::size_t i) { return exchange.species[i * abf().numSpecies() + k]; });
+  };
+  EXPECT_NEAR(integral([&](std::size_t i) { return exchange.carbon[i]; }) / carbon, 1, 1e-12);
+  EXPECT_NEAR(integral([&](std::size_t i) { return exchange.hydrogen[i]; }) / hydrogen, 1, 1e-12);
+  EXPECT_NEAR(ofSpecies("C2H2") / acetylene, 1, 1e-12);
+  EXPECT_NEAR(ofSpecies("OH") / hydroxyl, 1, 1e-12);
+  EXPECT_NEAR(ofSpecies("A2") / naphthalene, 1, 1e-12);
+
+  // Absorption is 700 f_v T (1/m): of both populations where both are.
+  const auto fractionAt = [&](std::size_t path, std::size_t k) { return paths[path].volumeFraction.mean[k]; };
+  EXPECT_NEAR(exchange.absorption[1] / (700 * fractionAt(0, 1) * 1100), 1, 1e-12);
+  EXPECT_NEAR(exchange.absorption[5] / (700 * (fractionAt(0, 5) + fractionAt(1, 0)) * 1500), 1, 1e-12);
+}
+
+TEST(StochasticDeck, APathFromTheRightStartsAsFarFromItsEndAsThatFromTheLeft) {
+  DeckSchema schema;
+  addStochasticKeys(schema);
+  SootModelOptions soot;
+  soot.pah = {{"A2", 10, 8, 2e-3}};
+  const Deck deck = Deck::parse("stochastic: {start: 2 mm}", "deck.yaml", {}, schema);
+  const auto request = readStochastic(deck, soot, 0.009, true);
+  ASSERT_TRUE(request);
+  const auto& paths = request->coupling.ensemble.paths;
+  ASSERT_EQ(paths.size(), 2U);
+  EXPECT_FALSE(paths[0].fromRight);
+  EXPECT_NEAR(paths[0].start.value(), 0.002, 1e-12);
+  EXPECT_TRUE(paths[1].fromRight);
+  EXPECT_NEAR(paths[1].start.value(), 0.007, 1e-12);
+}
+
+}  // namespace
+}  // namespace lampblack
