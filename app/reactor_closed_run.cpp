@@ -56,7 +56,8 @@ class ClosedReactorDriver : public ReactorDriver {
   void write(ResultsWriter& results) const override {
     history_.writeTo(results);
     writeIgnition(results, case_, events_);
-    if (!sensitivities_.values.empty()) writeSensitivities(results, case_, sensitivities_);
+    // Rank 0 alone knows how far it came; what it has not computed is NaN.
+    if (!case_.sensitivities.empty()) writeSensitivities(results, case_, sensitivities_);
   }
 
   void record(JsonWriter& json) const override {

@@ -8,6 +8,7 @@ import numpy as np
 
 # Documented to be NaN where something did not happen or is not known (docs/formats.md).
 MAY_BE_NAN = ("/ignition/", "/sensitivity/", "exact", "error", "sigma", "/methods/")
+NO_SIGNATURE = "file signature not found"
 LARGEST_IMBALANCE = 1e-5
 
 
@@ -81,6 +82,7 @@ def faults_of_remains(out: pathlib.Path, orderly: bool = True) -> str:
             return f"{path.name} is left"
         if path.name == "results.h5" or (orderly and path.name == "results.h5.part"):
             fault = faults_of_file(path)
-            if fault:
+            # Without a signature nothing was ever complete.
+            if fault and not (path.suffix == ".part" and NO_SIGNATURE in fault):
                 return fault
     return ""
