@@ -147,11 +147,8 @@ std::vector<PopulationMethod> readMethods(const Deck& deck, const PopulationCase
     else
       method.options = readMonteCarlo(deck, section, type, populationCase);
     method.claims.fill(false);
-    for (const std::string& moment : deck.strings(section + ".claims")) {
-      bool& claimed = method.claims[static_cast<std::size_t>(moment[1] - '0')];
-      if (claimed) throw deck.error(section + ".claims", fmt::format("'{}' is named twice", moment));
-      claimed = true;
-    }
+    for (const std::string& moment : deck.strings(section + ".claims"))
+      method.claims[static_cast<std::size_t>(moment[1] - '0')] = true;
     const auto mass = deck.optionalString(section + ".mass");
     method.conservesMass = mass ? *mass == "conserved" : keepsMass(method, populationCase.model);
     methods.push_back(std::move(method));

@@ -24,6 +24,13 @@ bool continuesCharacter(char c) {
   return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
 }
 
+// Control characters would move the cursor of the console; tabs may.
+std::string printable(std::string text) {
+  for (char& c : text)
+    if ((static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == 0x7f) c = '?';
+  return text;
+}
+
 // The part of a line that is shown, and where what is marked begins in it.
 struct Shown {
   std::string text;
@@ -47,7 +54,7 @@ Shown aroundPlace(const std::string& line, std::size_t first) {
 // place; the bytes inside a UTF-8 character take no room.
 std::string excerpt(const std::string& whole, const std::string& label, int column, int length) {
   const auto place = std::min(static_cast<std::size_t>(std::max(column - 1, 0)), whole.size());
-  const auto& [line, first] = aroundPlace(whole, place);
+  const auto& [line, first] = aroundPlace(printable(whole), place);
   const auto last = std::min(first + static_cast<std::size_t>(std::max(length, 1)), line.size());
   std::string marks;
   for (std::size_t i = 0; i < first; ++i) {
@@ -64,10 +71,10 @@ std::string excerpt(const std::string& whole, const std::string& label, int colu
 
 std::string shortened(const std::string& text) {
   constexpr std::size_t longest = 60;
-  if (text.size() <= longest) return text;
+  if (text.size() <= longest) return printable(text);
   std::size_t end = longest - 3;
   while (continuesCharacter(text[end])) --end;
-  return text.substr(0, end) + "...";
+  return printable(text.substr(0, end)) + "...";
 }
 
 std::string quotesHint(const std::string& key, const std::string& text) {

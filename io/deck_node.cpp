@@ -246,6 +246,9 @@ void applyOverride(DeckNode& root, const DeckSource& source, std::size_t i) {
                      message);
   };
   if (equals == std::string::npos || equals == 0) throw fail("expected 'key=value'", 0, text.size(), "");
+  if (std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(equals), '[') !=
+      std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(equals), ']'))
+    throw fail("a bracket of the key is not closed", 0, equals, text.substr(0, equals));
 
   const std::string key = text.substr(0, equals);
   const std::string valueText = text.substr(equals + 1);

@@ -34,7 +34,7 @@ SOOT = f"""problem: flame1d
 mechanism: {CASES}/mechanisms/ethylene_bisetti2012_47.yaml
 flame: {{type: burner, energy: given, length: 6 mm}}
 inlet: {{temperature: 300 K, composition: "C2H4: 0.16, O2: 0.24, N2: 0.6", velocity: 6 cm/s}}
-temperature_profile: {{position: [0 mm, 1 mm, 2 mm, 6 mm], temperature: [400 K, 1500 K, 1700 K, 1600 K]}}
+temperature_profile: {{position: [0 mm, 1 mm, 2 mm, 6 mm], temperature: [300 K, 1500 K, 1700 K, 1600 K]}}
 grid: {{refine: false, initial_points: 20}}
 solver: {{species_tolerance: 1e-8}}
 soot: {{model: sectional, pah: [A2]}}

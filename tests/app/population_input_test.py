@@ -37,7 +37,6 @@ MISTAKES = [
     # More than the machine has, or than the limit that main() sets.
     ("particles beyond the memory", METHOD, "{type: dsmc, particles: 1e9}",
      ("methods.one.particles: a sample of 1000000000 particles needs at least 37.3 GiB of memory; there are",)),
-    ("a claim twice", METHOD, "{type: dsmc, claims: [M0, M1, M0]}", ("methods.one.claims: 'M0' is named twice",)),
     ("sizes beyond the memory", METHOD, "{type: hybrid, threshold: 100000000000}", ("methods.one.threshold",)),
     # The population at the start.
     ("unknown distribution", "lognormal", "gaussian", ("initial.distribution", "expected one of: none, monodisperse")),

@@ -60,10 +60,15 @@ std::string profileOf(const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
   std::string found;
   try {
-    const auto deck =
-        Deck::load(test::sourceFolder / "cases/reactor_ignition_hydrogen/deck.yaml",
-                   {"reactor.energy=profile", "temperature_profile.file=" + path.string()}, reactorSchema());
-    for (const double T : readReactorCase(deck).profile->temperatures()) found += fmt::format("{:g} ", T);
+    const auto deck = Deck::parse(
+        "problem: reactor\nmechanism: mechanisms/hydrogen_h2o2_10.yaml\n"
+        "reactor: {type: constant_pressure, energy: profile}\n"
+        "initial: {temperature: 300 K, composition: \"H2: 1, O2: 1\"}\ntime: {end: 1 s}\n"
+        "temperature_profile: {file: " +
+            path.string() + "}\n",
+        test::sourceFolder / "cases/deck.yaml", {}, reactorSchema());
+    const ReactorCase read = readReactorCase(deck);
+    for (const double T : read.profile->temperatures()) found += fmt::format("{:g} ", T);
   } catch (const InputError& error) {
     found = error.what();
   }

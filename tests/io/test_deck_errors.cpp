@@ -211,6 +211,15 @@ TEST(DeckErrors, ATextInAnOverrideNeedsQuotesOfItsOwn) {
         << setting;
 }
 
+TEST(DeckErrors, ControlCharactersAreNotSentToTheConsole) {
+  const std::string message = messageOf("problem: flow\nmesh: {zz\x1b[2Jz: 3} # \r x\n");
+  for (const char c : {'\x1b', '\r'}) EXPECT_EQ(message.find(c), std::string::npos) << message;
+}
+
+TEST(DeckErrors, ABracketOfAnOverrideIsClosed) {
+  EXPECT_THAT(messageOf(test::sampleText, {"mesh.z[0=3"}), HasSubstr("a bracket of the key is not closed"));
+}
+
 TEST(DeckErrors, TheCaretStandsUnderTheWordWithTabsAndAccents) {
   EXPECT_THAT(messageOf("problem: flow\nmechanism: \"µµ\"   \t\nmesh: {z: [{to: µ, cells: 1}]}\n"),
               HasSubstr("     3 | mesh: {z: [{to: µ, cells: 1}]}\n       |                 ^"));
