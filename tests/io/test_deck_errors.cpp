@@ -220,6 +220,11 @@ TEST(DeckErrors, ABracketOfAnOverrideIsClosed) {
   EXPECT_THAT(messageOf(test::sampleText, {"mesh.z[0=3"}), HasSubstr("a bracket of the key is not closed"));
 }
 
+TEST(DeckErrors, AListIsMarkedByItsFirstCharacterAlone) {
+  EXPECT_THAT(messageOf(sampleWith("40 ms", "[1, 2]")),
+              testing::EndsWith("\n    22 |   end: [1, 2]\n       |        ^"));
+}
+
 TEST(DeckErrors, TheCaretStandsUnderTheWordWithTabsAndAccents) {
   EXPECT_THAT(messageOf("problem: flow\nmechanism: \"µµ\"   \t\nmesh: {z: [{to: µ, cells: 1}]}\n"),
               HasSubstr("     3 | mesh: {z: [{to: µ, cells: 1}]}\n       |                 ^"));
