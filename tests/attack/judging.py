@@ -31,6 +31,7 @@ OTHER_CODE = "another exit code than agreed"
 LOST = "nothing usable left"
 BAD = (CRASH, HANG, BUG, ACCEPTED, UNSOUND, LATE, INCONSISTENT, LEFT, MESSAGE, WRONGLY_REFUSED, OTHER_CODE, LOST)
 
+LONGEST_LINE = 1000  # characters: a state that failed is told with its mass fractions
 MOST_LINES = 3  # that go on with a message
 QUOTE = re.compile(r"^ *(\d+|--set)? \| ")
 WARNING = "lampblack: warning: "
@@ -59,7 +60,7 @@ def faults_of_message(err: str) -> str:
     more = [line for line in lines[1:] if not QUOTE.match(line)]
     if any(line.startswith("lampblack: ") for line in more) or len(more) > MOST_LINES:
         return f"more than one message: {more[0][:100]!r}"
-    if max(map(len, lines)) > 600:
+    if max(map(len, lines)) > LONGEST_LINE:
         return f"a line of {max(map(len, lines))} characters"
     return "" if PLACE.search(lines[0][len("lampblack: "):]) else f"names no place: {lines[0][:100]!r}"
 

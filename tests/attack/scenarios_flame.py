@@ -65,7 +65,7 @@ SCENARIOS = [
     ("sections' keys of another model", SOOT, {"soot.sectional": {"sections": Raw("20")}}, "refused"),
     ("moments of another model", SOOT, {"soot.moments": Raw("5")}, "refused"),
     ("semi-empirical keys of another model", SOOT, {"soot.semi_empirical": {"oxidation_factor": Raw("1")}}, "refused"),
-    ("PAH of Leung", "leung", {"soot.pah": ["A2"]}, "refused"),
+    ("PAH of Leung, as studies of models have it", "leung", {"soot.pah": ["A2"]}, "accepted"),
     ("sites of Moss and Brookes", "moss_brookes", {"soot.site_density": "1e19 1/m^2"}, "refused"),
     ("PAH that are not there", "flame_counterflow_methane", {"soot": {"model": "hmom", "pah": ["A2"]}}, "refused"),
     ("8 sections of factor 2", "sectional", {"soot.sectional": {"sections": Raw("8"), "factor": Raw("2")}}, "refused numerics"),
@@ -87,7 +87,7 @@ SCENARIOS = [
     profile("a word in the middle", ROWS + b"0.04,hot\n", "refused"),
     profile("three columns", ROWS.replace(b"1600", b"1600,5"), "refused"),
     profile("backwards", ROWS + b"0.02,1500\n", "refused"),
-    profile("one row", b"0,298\n", "refused"),
+    profile("one row", b"0,298\n", "refused numerics"),
     profile("too hot", ROWS.replace(b"1600", b"16000"), "refused"),
     profile("empty", b"", "refused"),
 ]

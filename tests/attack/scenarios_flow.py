@@ -51,7 +51,7 @@ SCENARIOS = [
     ("pressure of 1e-300 atm", SMALL, {"pressure": "1e-300 atm"}, "refused numerics"),
     ("pressure of 1e300 Pa", SMALL, {"pressure": "1e300 Pa"}, "refused numerics"),
     ("an absolute tolerance of 1e300", SMALL, {"chemistry.absolute_tolerance": Raw("1e300")}, "refused"),
-    ("a cell ratio of 1e300", SMALL, {"mesh.r[0].ratio": Raw("1e300")}, "refused"),
+    ("a cell ratio of 1e300", SMALL, {"mesh.r[0].ratio": Raw("1e300")}, "refused numerics"),
     ("a domain of 1e300 m", SMALL, {"mesh.z[0].to": "1e300 m"}, "refused numerics"),
     ("steps that do not fit", SMALL, {"time.first_step": "1 s", "time.maximum_step": "1 us"}, "refused"),
     ("a first step of 1e-300 s", SMALL, {"time.first_step": "1e-300 s"}, ""),
@@ -63,6 +63,6 @@ SCENARIOS = [
     ("mechanism that is nothing", SMALL, {"mechanism": "/dev/null"}, "refused"),
     ("fuel on both sides", SMALL, {"boundaries.oxidiser.composition": "C2H4: 1"}, "accepted refused"),
     ("nothing that burns", SMALL, {"boundaries.fuel.composition": "N2: 1", "boundaries.oxidiser.composition": "N2: 1"}, "accepted refused"),
-    ("an amount of 1e308 twice", SMALL, {"boundaries.fuel.composition": "C2H4: 1e308, N2: 1e308"}, "refused"),
+    ("an amount of 1e308 twice", SMALL, {"boundaries.fuel.composition": "C2H4: 1e308, N2: 1e308"}, "accepted"),
     ("a species twice in a composition", SMALL, {"boundaries.fuel.composition": "C2H4: 1, C2H4: 1"}, "refused"),
 ]

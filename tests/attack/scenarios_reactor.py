@@ -18,7 +18,7 @@ SCENARIOS = [
     ("an end of 1e-300 s", IGNITION, {"time.end": "1e-300 s", "sensitivity": REMOVE}, ""),
     ("1e300 Pa", IGNITION, {"pressure": "1e300 Pa"}, "refused numerics"),
     ("1e-300 Pa", IGNITION, {"pressure": "1e-300 Pa"}, ""),
-    ("amounts that overflow", IGNITION, {"initial.composition": "H2: 1e308, O2: 1e308"}, "refused"),
+    ("amounts that overflow", IGNITION, {"initial.composition": "H2: 1e308, O2: 1e308"}, "accepted"),
     ("amounts that vanish", IGNITION, {"initial.composition": "H2: 1e-320, O2: 1e-320"}, ""),
     ("negative amount", IGNITION, {"initial.composition": "H2: -1, O2: 1"}, "refused"),
     ("a residence time of 1e-300 s", STIRRED, {"reactor.residence_time": "1e-300 s"}, ""),
