@@ -10,7 +10,7 @@ namespace {
 std::string quotedWhereNeeded(const std::string& field) {
   if (field.find_first_of(",\"\n\r") == std::string::npos) return field;
   std::string text = "\"";
-  for (const char c : field) text += c == '"' ? std::string("\"\"") : std::string(1, c);
+  for (const char c : field) text.append(c == '"' ? 2 : 1, c);
   return text + '"';
 }
 
@@ -18,7 +18,10 @@ std::string quotedWhereNeeded(const std::string& field) {
 
 std::string csvLine(const std::vector<std::string>& fields) {
   std::string line;
-  for (std::size_t i = 0; i < fields.size(); ++i) line += (i > 0 ? "," : "") + quotedWhereNeeded(fields[i]);
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    if (i > 0) line += ',';
+    line += quotedWhereNeeded(fields[i]);
+  }
   return line + '\n';
 }
 

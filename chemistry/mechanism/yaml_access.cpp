@@ -95,8 +95,11 @@ std::vector<YAML::Node> YamlAccess::values(const YAML::Node& node, std::initiali
                                            std::string_view what) const {
   std::vector<YAML::Node> result;
   if (node.IsDefined() && node.IsSequence()) {
-    if (node.size() != keys.size())
-      fail(node, fmt::format("{}: expected {}; found {} values", what, fmt::join(keys, ", "), node.size()));
+    if (node.size() != keys.size()) {
+      std::string names;
+      for (const auto key : keys) names.append(names.empty() ? "" : ", ").append(key);
+      fail(node, fmt::format("{}: expected {}; found {} values", what, names, node.size()));
+    }
     for (const auto& value : node) result.push_back(value);
     return result;
   }

@@ -37,7 +37,7 @@ MISTAKES = [
     ("vacuum", (HYDROGEN, "--T", "300", "--p", "0", "--X", AIR), ("--p", "pressure above zero")),
     ("not a number", (HYDROGEN, "--T", "nan", "--X", AIR), ("--T",)),
     ("no temperature", (HYDROGEN, "--X", AIR), ("--T",)),
-    ("no mechanism", ("nowhere.yaml", "--T", "300", "--X", AIR), ("nowhere.yaml", "cannot open")),
+    ("no mechanism", ("nowhere.yaml", "--T", "300", "--X", AIR), ("nowhere.yaml", "there is no such file")),
     ("unknown transport model", (HYDROGEN, "--T", "300", "--X", AIR, "--transport", "multicomponents"),
      ("--transport", "did you mean 'multicomponent'")),
     ("unknown collision integrals", (HYDROGEN, "--T", "300", "--X", AIR, "--collision-integrals", "neufeld"),

@@ -131,7 +131,8 @@ def main(executable: str, *mpiexec: str) -> None:
             program = running.Program(executable, list(mpiexec), ranks)
             gelled = folder / f"gelation{ranks}"
             result = run(program, GELATION, gelled, code=3)
-            messages = [line for line in result.err.splitlines() if line.strip()]
+            warning, *messages = [line for line in result.err.splitlines() if line.strip()]
+            assert "warning: the population gels at t = 1 s; time.end = 2 s is later" in warning, result.err
             assert len(messages) == 1 and "the population gels at t = " in messages[0], result.err
             assert json.loads((gelled / "out/run.json").read_text(encoding="utf-8"))["status"] == "failed"
             assert not (gelled / "out/results.h5").exists()

@@ -54,7 +54,7 @@ class Cases:
         reactor = running.SOURCE / "cases/reactor_ignition_hydrogen/deck.yaml"
         population = self.put("population.yaml", POPULATION)
         flame = self.put("flame.yaml", FLAME % (running.SOURCE, "hydrogen_h2o2_10.yaml", "H2", 0.4, 0.6))
-        large = self.put("large.yaml", FLAME % (running.SOURCE, running.MECHANISM, "C2H4", 0.02, 0.03))
+        large = self.put("large.yaml", FLAME % (running.SOURCE, running.MECHANISM, "C2H4", 0.002, 0.003))
         sweep = self.put("sweep.yaml", f"study: populations\ndeck: {population}\nvary:\n  - {{key: seed, values: [1, 2, 3]}}\n")
         many = self.put("many.yaml", f"study: populations\ndeck: {population}\nvary:\n"
                                      f"  - {{key: seed, values: {list(range(1, 400))}}}\n")

@@ -1,6 +1,6 @@
 """Soot that outgrows its sections: a failure that names the keys to raise, or, asked for, a number in the record.
 
-Usage: soot_overflow_test.py EXECUTABLE
+Usage: soot_overflow_test.py EXECUTABLE MPIEXEC NUMPROC_FLAG
 """
 
 import json
@@ -13,15 +13,15 @@ import running
 DECK = f"""problem: flame1d
 mechanism: {running.SOURCE}/cases/mechanisms/ethylene_abf2000_101.yaml
 flame: {{type: burner, length: 10 mm, energy: given}}
-inlet: {{temperature: 300 K, fuel: "C2H4: 1", oxidizer: "O2: 1, N2: 3.76", equivalence_ratio: 2.3, velocity: 6 cm/s}}
+inlet: {{temperature: 400 K, fuel: "C2H4: 1", oxidizer: "O2: 1, N2: 3.76", equivalence_ratio: 2.3, velocity: 8 cm/s}}
 temperature_profile: {{position: [0 mm, 1 mm, 3 mm, 10 mm], temperature: [400 K, 1400 K, 1700 K, 1600 K]}}
 soot: {{model: sectional, sectional: {{sections: 4, aggregation: spheres}}}}
 grid: {{slope: 0.4, curve: 0.8}}
 """
 
 
-def main(executable):
-    program = running.Program(executable, [], 1)
+def main(executable, *mpiexec):
+    program = running.Program(executable, list(mpiexec), 1)
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         deck = folder / "deck.yaml"

@@ -37,8 +37,8 @@ TEST(ChemkinErrors, Files) {
   EXPECT_THAT(inputMessage([&] {
                 readChemkin({"no/such/chem.inp", {}, {}});
               }),
-              HasSubstr("no/such/chem.inp: cannot open"));
-  EXPECT_THAT(inputMessage([&] { readChemkin({"/", {}, {}}); }), HasSubstr("/: cannot"));
+              HasSubstr("no/such/chem.inp: there is no such file; expected a mechanism"));
+  EXPECT_THAT(inputMessage([&] { readChemkin({"/", {}, {}}); }), HasSubstr("/: this is a folder; expected a mechanism"));
 }
 
 TEST(ChemkinErrors, Sections) {

@@ -77,12 +77,12 @@ TEST_P(Carried, LeavesWithTheGas) {
   transport.initialise(state, dt);
   for (int i = 0; i < 3; ++i) {
     transport.advance(state, i * dt, dt);
-    double gas = 0.0;
-    for (double species : transport.boundaryAmounts().speciesOut) gas += species;
+    double leaving = 0.0;
+    for (double species : transport.boundaryAmounts().speciesOut) leaving += species;
     const double out = sumOverRanks(transport.boundaryAmounts().carriedOut[0]);
     EXPECT_GT(out, 0.0);
     // The last cells see nothing yet of the gas from the inlet, which has none.
-    EXPECT_NEAR(out / (perMass * sumOverRanks(gas)), 1.0, 1e-3);
+    EXPECT_NEAR(out / (perMass * sumOverRanks(leaving)), 1.0, 1e-3);
   }
 }
 

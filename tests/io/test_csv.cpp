@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <string>
 
 #include "io/csv.hpp"
 #include "io/history.hpp"
@@ -29,7 +30,9 @@ TEST(Csv, AByteOrderMarkIsNoPartOfTheFirstName) {
 }
 
 TEST(Csv, TheHeaderOfAHistoryHasAsManyFieldsAsItsRows) {
-  const auto path = std::filesystem::temp_directory_path() / "lampblack_csv_history.csv";
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);  // each rank has a file of its own
+  const auto path = std::filesystem::temp_directory_path() / ("lampblack_csv_history" + std::to_string(rank) + ".csv");
   {
     HistoryWriter history(MPI_COMM_SELF, path, {{"time", "s", ""}, {"X_C5H5O(1,3)", "1", ""}, {"X_OH", "1", ""}});
     history.row(std::vector<double>{0.5, 0.25, 0.125});

@@ -60,11 +60,20 @@ TEST(Trajectory, MeaninglessSamplesAreRefused) {
   EnsembleOptions options;
   options.soot = test::naphthalene();
   Ensemble e(options);
-  EXPECT_THROW((void)marchTrajectory(e, {sampleAt(0, gas)}), InputError);
+  EXPECT_THROW((void)marchTrajectory(e, {}), InputError);
   EXPECT_THROW((void)marchTrajectory(e, {sampleAt(1, gas), sampleAt(0, gas)}), InputError);
   TrajectorySample wrong = sampleAt(1, gas);
   wrong.pah.clear();
   EXPECT_THROW((void)marchTrajectory(e, {sampleAt(0, gas), wrong}), InputError);
+}
+
+TEST(Trajectory, OneSampleIsARowOfTheEnsembleAsItIs) {
+  EnsembleOptions options;
+  options.soot = test::naphthalene();
+  Ensemble e(options);
+  const auto history = marchTrajectory(e, {sampleAt(0, test::FlameGas(1700, 0, 0, 0, 0, 0, 0, {1e-6}))});
+  ASSERT_EQ(history.size(), 1u);
+  EXPECT_EQ(history.front().volumeFraction, 0.0);
 }
 
 }  // namespace
