@@ -54,7 +54,7 @@ class Cases:
         reactor = running.SOURCE / "cases/reactor_ignition_hydrogen/deck.yaml"
         population = self.put("population.yaml", POPULATION)
         flame = self.put("flame.yaml", FLAME % (running.SOURCE, "hydrogen_h2o2_10.yaml", "H2", 0.4, 0.6))
-        large = self.put("large.yaml", FLAME % (running.SOURCE, running.MECHANISM, "C2H4", 0.002, 0.003))
+        large = self.put("large.yaml", FLAME % (running.SOURCE, running.MECHANISM, "C2H4", 0.0005, 0.001))
         sweep = self.put("sweep.yaml", f"study: populations\ndeck: {population}\nvary:\n  - {{key: seed, values: [1, 2, 3]}}\n")
         many = self.put("many.yaml", f"study: populations\ndeck: {population}\nvary:\n"
                                      f"  - {{key: seed, values: {list(range(1, 400))}}}\n")
@@ -64,7 +64,7 @@ class Cases:
         self.long = {"flow": ["run", flow, *running.settings("time.end=1 s", "output.interval=0.5 s")],
                      "reactor": ["run", reactor, *running.settings("output.interval=1 ns")],
                      "population": ["run", population, *running.settings("repeats=1000000")],
-                     "flame": ["run", large], "sweep": ["sweep", many]}
+                     "flame": ["run", large, *running.settings("grid.maximum_points=50000")], "sweep": ["sweep", many]}
 
     def put(self, name, text):
         path = self.folder / name
