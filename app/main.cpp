@@ -1,5 +1,5 @@
-// The lampblack command. Exit codes: 0 done; 2 the input is wrong; 3 the numbers or the machine (a full disk, no memory)
-// failed; 128 plus its number after a signal; 1 a bug in Lampblack.
+// The lampblack command. Exit codes: 0 done; 2 the input is wrong; 3 the numbers or the machine (a full disk, no
+// memory) failed; 128 plus its number after a signal; 1 a bug in Lampblack.
 #include <petscsys.h>
 
 #include <CLI/CLI.hpp>

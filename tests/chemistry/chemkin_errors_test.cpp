@@ -38,7 +38,10 @@ TEST(ChemkinErrors, Files) {
                 readChemkin({"no/such/chem.inp", {}, {}});
               }),
               HasSubstr("no/such/chem.inp: there is no such file; expected a mechanism"));
-  EXPECT_THAT(inputMessage([&] { readChemkin({"/", {}, {}}); }), HasSubstr("/: this is a folder; expected a mechanism"));
+  EXPECT_THAT(inputMessage([&] {
+                readChemkin({"/", {}, {}});
+              }),
+              HasSubstr("/: this is a folder; expected a mechanism"));
 }
 
 TEST(ChemkinErrors, Sections) {

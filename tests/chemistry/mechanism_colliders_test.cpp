@@ -97,7 +97,8 @@ TEST(LinearBurke, IsTheMixtureRuleOfItsPaper) {
 // Eigenvalues count by their ratio to that of M; in pure M the constant is that of M alone.
 TEST(LinearBurke, EigenvaluesAreRatios) {
   const std::string table =
-      "type: pressure-dependent-Arrhenius, rate-constants: [{P: 0.01 atm, A: 2e10, b: 0, Ea: 0}, {P: 100 atm, A: 2e14, b: "
+      "type: pressure-dependent-Arrhenius, rate-constants: [{P: 0.01 atm, A: 2e10, b: 0, Ea: 0}, {P: 100 atm, A: 2e14, "
+      "b: "
       "0, "
       "Ea: 0}]";
   const auto reaction = [&](const std::string& key, const std::string& all, const std::string& argon) {
