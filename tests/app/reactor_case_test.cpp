@@ -14,6 +14,7 @@
 #include "chemistry/thermo/thermo.hpp"
 #include "core/errors.hpp"
 #include "tests/app/app_fixture.hpp"
+#include "tests/scratch.hpp"
 
 namespace lampblack {
 namespace {
@@ -56,8 +57,7 @@ TEST(ReactorCase, FlowsOfANetworkAreInBalance) {
 
 // What a profile file becomes: its temperatures, or the message about it.
 std::string profileOf(const std::string& text) {
-  const auto path = std::filesystem::temp_directory_path() / "lampblack_profile_test.csv";
-  std::ofstream(path, std::ios::binary) << text;
+  const test::ScratchFolder folder;
   std::string found;
   try {
     const auto deck = Deck::parse(
@@ -65,14 +65,13 @@ std::string profileOf(const std::string& text) {
         "reactor: {type: constant_pressure, energy: profile}\n"
         "initial: {temperature: 300 K, composition: \"H2: 1, O2: 1\"}\ntime: {end: 1 s}\n"
         "temperature_profile: {file: " +
-            path.string() + "}\n",
+            folder.file("profile.csv", text) + "}\n",
         test::sourceFolder / "cases/deck.yaml", {}, reactorSchema());
     const ReactorCase read = readReactorCase(deck);
     for (const double T : read.profile->temperatures()) found += fmt::format("{:g} ", T);
   } catch (const InputError& error) {
     found = error.what();
   }
-  std::filesystem::remove(path);
   return found;
 }
 
@@ -85,7 +84,7 @@ TEST(ReactorCase, AProfileFileLosesNoLine) {
   EXPECT_EQ(profileOf("# made by hand\n\"time, s\",\"T, K\"\n0,300\n1,+4e2"), "300 400 ");
   EXPECT_EQ(profileOf("time T\n 0 300\n\n# half way\n 1\t400\n"), "300 400 ");
   for (const auto& [text, message] : std::vector<std::pair<std::string, std::string>>{
-           {"0,nan\n1,400\n", "lampblack_profile_test.csv:1: expected two numbers, found '0,nan'"},
+           {"0,nan\n1,400\n", "profile.csv:1: expected two numbers, found '0,nan'"},
            {"nan,nan\n1,400\n", ":1: expected two numbers, found 'nan,nan'"},
            {"0;300\n1;400\n", ":2: expected two numbers, found '1;400'"},
            {"0,T\n1,400\n", ":1: expected two numbers, found '0,T'"},
