@@ -10,6 +10,7 @@
 
 #include "core/errors.hpp"
 #include "tests/messages.hpp"
+#include "tests/shared_scratch.hpp"
 
 namespace lampblack {
 namespace {
@@ -19,19 +20,6 @@ using ::testing::HasSubstr;
 
 class FlameFile : public ::testing::Test {
  protected:
-  FlameFile() {
-    int ranks = 1;
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
-    MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-    folder_ = fs::temp_directory_path() / ("lampblack_flame_file_" + std::to_string(ranks));
-    if (rank_ == 0) fs::create_directories(folder_);
-    MPI_Barrier(MPI_COMM_WORLD);
-  }
-  ~FlameFile() override {
-    MPI_Barrier(MPI_COMM_WORLD);
-    if (rank_ == 0) fs::remove_all(folder_);
-  }
-
   // Two species, one scalar, four points: numbers that have no short decimal form.
   static NamedFlameProfile sample() {
     NamedFlameProfile flame;
@@ -45,7 +33,7 @@ class FlameFile : public ::testing::Test {
   }
 
   fs::path write(const NamedFlameProfile& flame) const {
-    fs::path path = folder_ / "results.h5";
+    fs::path path = folder_.path() / "results.h5";
     ResultsWriter results(MPI_COMM_WORLD, path, {"1", "a", "", "today"});
     writeFlameProfile(results, flame);
     results.close();
@@ -57,8 +45,7 @@ class FlameFile : public ::testing::Test {
     return test::messageOf<InputError>([&] { static_cast<void>(readFlameProfile(path)); });
   }
 
-  fs::path folder_;
-  int rank_ = 0;
+  test::SharedScratchFolder folder_;
 };
 
 TEST_F(FlameFile, IsReadToTheLastBit) {
@@ -83,7 +70,7 @@ TEST_F(FlameFile, ADamagedFlameIsRefused) {
 }
 
 TEST_F(FlameFile, ResultsOfSomethingElseAreRefused) {
-  const fs::path path = folder_ / "other.h5";
+  const fs::path path = folder_.path() / "other.h5";
   {
     ResultsWriter results(MPI_COMM_WORLD, path, {"1", "a", "", "today"});
     results.close();

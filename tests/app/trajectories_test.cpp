@@ -8,6 +8,7 @@
 #include "app/flow_output.hpp"
 #include "tests/app/app_fixture.hpp"
 #include "tests/core/mpi_support.hpp"
+#include "tests/shared_scratch.hpp"
 
 namespace lampblack {
 namespace {
@@ -53,57 +54,41 @@ void writeTrajectories(MPI_Comm comm, const fs::path& path, std::uint64_t seed,
   results.close();
 }
 
-// A folder of its own for each number of ranks and test.
-fs::path freshFolder(const std::string& name) {
-  const fs::path folder =
-      fs::temp_directory_path() / ("lampblack_app_" + name + "_" + std::to_string(test::worldSize()));
-  if (test::worldRank() == 0) {
-    fs::remove_all(folder);
-    fs::create_directories(folder);
-  }
-  MPI_Barrier(MPI_COMM_WORLD);
-  return folder;
-}
-
 TEST(Trajectories, TwoThatStartAtOnePlaceHaveRandomNumbersOfTheirOwn) {
-  const fs::path folder = freshFolder("own_numbers");
-  writeTrajectories(MPI_COMM_WORLD, folder / "twins.h5", 7, {{1e-3, 4.5e-3}, {1e-3, 4.5e-3}});
+  const test::SharedScratchFolder folder;
+  writeTrajectories(MPI_COMM_WORLD, folder.path() / "twins.h5", 7, {{1e-3, 4.5e-3}, {1e-3, 4.5e-3}});
   if (test::worldRank() == 0) {
-    const Datasets twins = readTrajectories(folder / "twins.h5");
+    const Datasets twins = readTrajectories(folder.path() / "twins.h5");
     EXPECT_EQ(twins.at("0/temperature"), twins.at("1/temperature")) << "the same path";
     EXPECT_NE(twins.at("0/number_density"), twins.at("1/number_density")) << "but not the same random numbers";
-    fs::remove_all(folder);
   }
-  MPI_Barrier(MPI_COMM_WORLD);
 }
 
 TEST(Trajectories, OneThatLeavesAtOnceHasOneRowWithoutParticles) {
-  const fs::path folder = freshFolder("at_once");
+  const test::SharedScratchFolder folder;
   // Half a micrometre from the outlet, and steps of 50 us at 0.1 m/s and more.
-  writeTrajectories(MPI_COMM_WORLD, folder / "results.h5", 7, {{1e-3, 4.5e-3}, {13.9999995e-3, 4e-3}});
+  writeTrajectories(MPI_COMM_WORLD, folder.path() / "results.h5", 7, {{1e-3, 4.5e-3}, {13.9999995e-3, 4e-3}});
   if (test::worldRank() == 0) {
-    const Datasets all = readTrajectories(folder / "results.h5");
+    const Datasets all = readTrajectories(folder.path() / "results.h5");
     EXPECT_EQ(all.at("0/time").size(), 41U);
     EXPECT_EQ(all.at("1/time"), std::vector<double>{0.0});
     EXPECT_EQ(all.at("1/number_density"), std::vector<double>{0.0});
     EXPECT_GT(all.at("1/temperature").at(0), 200.0);
-    fs::remove_all(folder);
   }
-  MPI_Barrier(MPI_COMM_WORLD);
 }
 
 TEST(Trajectories, AreTheSameBitsOnAnyNumberOfRanks) {
-  const fs::path folder = freshFolder("trajectories");
-  writeTrajectories(MPI_COMM_WORLD, folder / "all.h5", 7);
+  const test::SharedScratchFolder folder;
+  writeTrajectories(MPI_COMM_WORLD, folder.path() / "all.h5", 7);
   if (test::worldRank() == 0) {
-    writeTrajectories(MPI_COMM_SELF, folder / "one.h5", 7);
-    writeTrajectories(MPI_COMM_SELF, folder / "other_seed.h5", 8);
-    const Datasets all = readTrajectories(folder / "all.h5");
-    const Datasets one = readTrajectories(folder / "one.h5");
+    writeTrajectories(MPI_COMM_SELF, folder.path() / "one.h5", 7);
+    writeTrajectories(MPI_COMM_SELF, folder.path() / "other_seed.h5", 8);
+    const Datasets all = readTrajectories(folder.path() / "all.h5");
+    const Datasets one = readTrajectories(folder.path() / "one.h5");
     EXPECT_EQ(all.size(), 5U * 9U);
     EXPECT_EQ(all, one);
     // The random numbers are really the seed's.
-    EXPECT_NE(one, readTrajectories(folder / "other_seed.h5"));
+    EXPECT_NE(one, readTrajectories(folder.path() / "other_seed.h5"));
     for (const std::string id : {"0", "1", "2", "3"}) {
       EXPECT_EQ(one.at(id + "/time").size(), 41U) << "2 ms in steps of 50 us, and the start";
       EXPECT_EQ(one.at(id + "/number_density").front(), 0.0);
@@ -112,9 +97,7 @@ TEST(Trajectories, AreTheSameBitsOnAnyNumberOfRanks) {
     }
     EXPECT_LT(one.at("4/time").size(), 41U) << "leaves the domain";
     EXPECT_NE(one.at("0/number_density"), one.at("1/number_density"));
-    fs::remove_all(folder);
   }
-  MPI_Barrier(MPI_COMM_WORLD);
 }
 
 }  // namespace

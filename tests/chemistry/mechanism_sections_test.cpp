@@ -7,6 +7,8 @@
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 #include "tests/chemistry/mechanism_text.hpp"
+#include "tests/messages.hpp"
+#include "tests/scratch.hpp"
 
 namespace {
 
@@ -151,25 +153,27 @@ TEST(MechanismSections, OwnElements) {
 
 class OtherFile : public ::testing::Test {
  protected:
-  OtherFile() {
-    std::ofstream(path_) << "here:\n" << species("N2", "N: 2") << "bad:\n" << species("N2", "N: 2, Xy: 1");
+  // Reads the text as a file beside other.yaml.
+  Mechanism read(const std::string& text) const { return Mechanism::fromFile(folder_.file("mechanism.yaml", text)); }
+  std::string messageOf(const std::string& text) const {
+    return test::messageOf<InputError>([&] { static_cast<void>(read(text)); });
   }
-  ~OtherFile() override { std::filesystem::remove(path_); }
-  std::filesystem::path path_ =
-      std::filesystem::temp_directory_path() / ("lampblack_other_" + std::to_string(::getpid()) + ".yaml");
-  std::string name_ = path_.filename().string();
+
+ private:
+  test::ScratchFolder folder_;
+  std::string other_ =
+      folder_.file("other.yaml", "here:\n" + species("N2", "N: 2") + "bad:\n" + species("N2", "N: 2, Xy: 1"));
 };
 
 TEST_F(OtherFile, SpeciesComeFromThere) {
-  EXPECT_THAT(names(readFileText(file("species: [H, {" + name_ + "/here: [N2]}], reactions: none"))),
-              ElementsAre("H", "N2"));
+  EXPECT_THAT(names(read(file("species: [H, {other.yaml/here: [N2]}], reactions: none"))), ElementsAre("H", "N2"));
 }
 
 TEST_F(OtherFile, ErrorsNameTheFileTheyAreIn) {
-  EXPECT_THAT(messageOf(file("species: [{" + name_ + "/bad: [N2]}], reactions: none, elements: [N]")),
-              AllOf(HasSubstr(name_ + ":4:"), HasSubstr("element 'Xy'")));
-  EXPECT_THAT(messageOf(file("species: [{" + name_ + "/her: [N2]}]")),
-              AllOf(HasSubstr("mechanism"), HasSubstr(":2:"), HasSubstr("no section 'her'"), HasSubstr(name_),
+  EXPECT_THAT(messageOf(file("species: [{other.yaml/bad: [N2]}], reactions: none, elements: [N]")),
+              AllOf(HasSubstr("other.yaml:4:"), HasSubstr("element 'Xy'")));
+  EXPECT_THAT(messageOf(file("species: [{other.yaml/her: [N2]}]")),
+              AllOf(HasSubstr("mechanism"), HasSubstr(":2:"), HasSubstr("no section 'her'"), HasSubstr("other.yaml"),
                     HasSubstr("the nearest name is 'here'")));
   EXPECT_THAT(messageOf(file("species: [{none.yaml/here: [N2]}]")),
               AllOf(HasSubstr(":2:"), HasSubstr("section 'none.yaml/here'"), HasSubstr("there is no file")));

@@ -1,27 +1,17 @@
 // Small mechanisms written out in a test, read through a temporary file.
 #pragma once
 
-#include <unistd.h>
-
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "chemistry/mechanism/mechanism.hpp"
+#include "tests/scratch.hpp"
 
 namespace lampblack::testing {
 
 // Writes the text to a file, reads it as a mechanism, removes the file.
 inline Mechanism readFileText(const std::string& text, const std::string& phase = "") {
-  const auto path =
-      std::filesystem::temp_directory_path() / ("lampblack_mechanism_" + std::to_string(::getpid()) + ".yaml");
-  std::ofstream(path) << text;
-  struct Remove {
-    std::filesystem::path path;
-    ~Remove() { std::filesystem::remove(path); }
-  } remove{path};
-  return Mechanism::fromFile(path.string(), phase);
+  const test::ScratchFolder folder;
+  return Mechanism::fromFile(folder.file("mechanism.yaml", text), phase);
 }
 
 // Lines 1 to 6 are fixed; the phase's species stand in line 4, `species` starts after line 6. *t and *u are

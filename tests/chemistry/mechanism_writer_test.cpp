@@ -246,13 +246,12 @@ species:
 
 TEST(MechanismWriter, FilesAppearWhole) {
   namespace fs = std::filesystem;
-  const auto folder = fs::temp_directory_path() / ("lampblack_writer_" + std::to_string(::getpid()));
-  fs::create_directory(folder);
-  const auto path = (folder / "mech.yaml").string();
+  const test::ScratchFolder folder;
+  const auto path = (folder.path() / "mech.yaml").string();
   writeMechanism(lampblack::testing::hydrogen(), path);
   EXPECT_EQ(Mechanism::fromFile(path).numReactions(), lampblack::testing::hydrogen().numReactions());
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator{}), 1);
-  fs::remove_all(folder);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator{}), 1);
+  fs::remove_all(folder.path());
   EXPECT_THAT(inputMessage([&] { writeMechanism(lampblack::testing::hydrogen(), path); }),
               ::testing::HasSubstr("cannot write the mechanism file"));
 }

@@ -2,15 +2,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 
 #include "chemistry/thermo/thermo.hpp"
 #include "core/constants.hpp"
 #include "tests/chemistry/table.hpp"
+#include "tests/scratch.hpp"
 
 namespace {
 
@@ -37,14 +35,7 @@ ConstantPressureReactor::Cell cellOf(FailedCell& failed) {
 
 class ReactorReplay : public ::testing::Test {
  protected:
-  ReactorReplay() { std::filesystem::create_directories(folder_); }
-  ~ReactorReplay() override { std::filesystem::remove_all(folder_); }
-
-  std::string write(const std::string& text) const {
-    const auto path = folder_ / "cell.yaml";
-    std::ofstream(path) << text;
-    return path.string();
-  }
+  std::string write(const std::string& text) const { return folder_.file("cell.yaml", text); }
   std::string errorOf(const std::string& text) const {
     try {
       readReplay(write(text));
@@ -53,8 +44,7 @@ class ReactorReplay : public ::testing::Test {
     }
     return "no error";
   }
-  std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / ("lampblack_replay_" + std::to_string(::getpid()));
+  test::ScratchFolder folder_;
 };
 
 std::string replaced(std::string text, const std::string& what, const std::string& by) {
@@ -167,7 +157,7 @@ TEST_F(ReactorReplay, ReadsStrictly) {
   EXPECT_THAT(errorOf(replaced(good, "  \"H2\": 0", "# \"H2\": 0")), HasSubstr("'H2' is missing"));
   EXPECT_THAT(errorOf(replaced(good, "mechanism: \"", "mechanism: \"/nowhere")), HasSubstr("/nowhere"));
   EXPECT_THAT(errorOf("a: [b"), HasSubstr("cell.yaml:"));
-  EXPECT_THROW(readReplay((folder_ / "missing.yaml").string()), InputError);
+  EXPECT_THROW(readReplay((folder_.path() / "missing.yaml").string()), InputError);
 }
 
 }  // namespace

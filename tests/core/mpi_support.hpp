@@ -11,20 +11,9 @@
 #include "core/grading.hpp"
 #include "core/mesh.hpp"
 #include "tests/messages.hpp"
+#include "tests/world.hpp"
 
 namespace lampblack::test {
-
-inline int worldRank() {
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  return rank;
-}
-
-inline int worldSize() {
-  int size = 1;
-  MPI_Comm_size(MPI_COMM_WORLD, &size);
-  return size;
-}
 
 inline double sumOverRanks(double value) {
   MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);

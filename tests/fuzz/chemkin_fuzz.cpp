@@ -1,10 +1,6 @@
 // The CHEMKIN reader accepts files or says what is wrong with them; nothing else. What it accepts is written as YAML
 // that reads back as the same mechanism.
-#include <unistd.h>
-
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -13,6 +9,7 @@
 #include "chemistry/chemkin/chemkin_reader.hpp"
 #include "chemistry/mechanism/mechanism_writer.hpp"
 #include "core/errors.hpp"
+#include "tests/scratch.hpp"
 
 namespace {
 
@@ -42,11 +39,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   } catch (const lampblack::InputError&) {
     return 0;
   }
-  static const std::string path =
-      (std::filesystem::temp_directory_path() / ("chemkin_fuzz_" + std::to_string(getpid()) + ".yaml")).string();
-  std::ofstream(path, std::ios::binary | std::ios::trunc) << text;
-  if (lampblack::mechanismYaml(lampblack::Mechanism::fromFile(path)) != text)
+  const lampblack::test::ScratchFolder folder;
+  if (lampblack::mechanismYaml(lampblack::Mechanism::fromFile(folder.file("mechanism.yaml", text))) != text)
     throw std::runtime_error("the YAML reads back as another mechanism");
-  std::filesystem::remove(path);
   return 0;
 }

@@ -1,18 +1,15 @@
 // The mechanism reader accepts a file or says what is wrong with it; nothing else. What it accepts holds finite
 // numbers.
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
 #include <span>
 #include <stdexcept>
 
 #include "chemistry/mechanism/mechanism.hpp"
 #include "core/errors.hpp"
+#include "tests/scratch.hpp"
 
 namespace {
 
@@ -59,16 +56,10 @@ void requireFinite(const Mechanism& mechanism) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const std::string path =
-      (std::filesystem::temp_directory_path() / ("mechanism_fuzz_" + std::to_string(getpid()) + ".yaml")).string();
-  {
-    std::ofstream file(path, std::ios::binary | std::ios::trunc);
-    file.write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
-  }
+  const test::ScratchFolder folder;
   try {
-    requireFinite(Mechanism::fromFile(path));
+    requireFinite(Mechanism::fromFile(folder.file("mechanism.yaml", {reinterpret_cast<const char*>(data), size})));
   } catch (const InputError&) {
   }
-  std::filesystem::remove(path);
   return 0;
 }

@@ -5,19 +5,18 @@
 // the file, entry by entry, and HDF5 writes that in memory and onto the disk: entries may be missing, there twice, of
 // another kind, shape or size, links instead of data.
 #include <hdf5.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "app/flame_file.hpp"
 #include "core/errors.hpp"
+#include "tests/scratch.hpp"
 
 namespace {
 
@@ -114,8 +113,8 @@ void writeEntry(hid_t group, Bytes& bytes) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace lampblack;
-  static const std::string path =
-      (std::filesystem::temp_directory_path() / ("restart_fuzz_" + std::to_string(getpid()) + ".h5")).string();
+  const test::ScratchFolder folder;
+  const std::string path = (folder.path() / "results.h5").string();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
   if (file < 0) throw std::runtime_error("cannot write " + path);
@@ -136,6 +135,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       throw std::runtime_error("what was read is no flame");
   } catch (const InputError&) {
   }
-  std::filesystem::remove(path);
   return 0;
 }

@@ -3,13 +3,13 @@
 #include <gtest/gtest.h>
 #include <mpi.h>
 
-#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
 
 #include "io/csv.hpp"
 #include "io/history.hpp"
+#include "tests/scratch.hpp"
 
 namespace lampblack {
 namespace {
@@ -30,9 +30,8 @@ TEST(Csv, AByteOrderMarkIsNoPartOfTheFirstName) {
 }
 
 TEST(Csv, TheHeaderOfAHistoryHasAsManyFieldsAsItsRows) {
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);  // each rank has a file of its own
-  const auto path = std::filesystem::temp_directory_path() / ("lampblack_csv_history" + std::to_string(rank) + ".csv");
+  const test::ScratchFolder folder;
+  const auto path = folder.path() / "history.csv";
   {
     HistoryWriter history(MPI_COMM_SELF, path, {{"time", "s", ""}, {"X_C5H5O(1,3)", "1", ""}, {"X_OH", "1", ""}});
     history.row(std::vector<double>{0.5, 0.25, 0.125});
@@ -40,7 +39,6 @@ TEST(Csv, TheHeaderOfAHistoryHasAsManyFieldsAsItsRows) {
   std::ifstream file(path);
   std::ostringstream text;
   text << file.rdbuf();
-  std::filesystem::remove(path);
   EXPECT_EQ(text.str(), "time [s],\"X_C5H5O(1,3) [1]\",X_OH [1]\n0.5,0.25,0.125\n");
   EXPECT_EQ(readCsv(text.str()).columns.size(), 3U);
 }

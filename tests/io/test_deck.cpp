@@ -1,8 +1,8 @@
 #include <cmath>
-#include <fstream>
 #include <stdexcept>
 
 #include "tests/io/sample_deck.hpp"
+#include "tests/scratch.hpp"
 
 namespace lampblack {
 namespace {
@@ -114,10 +114,9 @@ TEST(Deck, PointsOtherPeoplesErrorsAtTheRightPlace) {
 }
 
 TEST(Deck, IsReadFromAFile) {
-  const auto path = std::filesystem::temp_directory_path() / "lampblack_test_deck.yaml";
-  std::ofstream(path) << test::sampleText;
-  EXPECT_EQ(Deck::load(path, {"seed=9"}, test::sampleSchema()).integer("seed"), 9);
-  std::filesystem::remove(path);
+  const test::ScratchFolder folder;
+  EXPECT_EQ(Deck::load(folder.file("deck.yaml", test::sampleText), {"seed=9"}, test::sampleSchema()).integer("seed"),
+            9);
 }
 
 TEST(Deck, TakesKeysOfSectionsLeftEmpty) {

@@ -1,6 +1,7 @@
 #include <fstream>
 
 #include "tests/io/sample_deck.hpp"
+#include "tests/shared_scratch.hpp"
 
 namespace lampblack {
 namespace {
@@ -15,18 +16,20 @@ bool sameEverywhere(const std::string& text) {
   return low == high;
 }
 
+// The sample deck as a file of the first rank.
+struct SampleFile {
+  SampleFile() {
+    if (test::worldRank() == 0) std::ofstream(path) << test::sampleText;
+  }
+  test::SharedScratchFolder folder;
+  std::filesystem::path path = folder.path() / "deck.yaml";
+};
+
 TEST(DeckOnRanks, IsReadByTheFirstAndKnownToAll) {
-  int rank = 0;
-  int ranks = 1;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-  const auto path = std::filesystem::temp_directory_path() / ("lampblack_deck_" + std::to_string(ranks) + ".yaml");
-  if (rank == 0) std::ofstream(path) << test::sampleText;
-  const Deck deck = Deck::load(path, {"seed=3"}, test::sampleSchema(), MPI_COMM_WORLD);
+  const SampleFile file;
+  const Deck deck = Deck::load(file.path, {"seed=3"}, test::sampleSchema(), MPI_COMM_WORLD);
   EXPECT_EQ(deck.integer("seed"), 3);
   EXPECT_TRUE(sameEverywhere(deck.resolved()));
-  MPI_Barrier(MPI_COMM_WORLD);
-  if (rank == 0) std::filesystem::remove(path);
 }
 
 // The message of the error that loading raises, which all ranks have to raise together.
@@ -42,17 +45,9 @@ std::string failureOf(const std::filesystem::path& path) {
 }
 
 TEST(DeckOnRanks, FailsAlikeOnAll) {
-  int rank = 0;
-  int ranks = 1;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
   EXPECT_EQ(failureOf("/nowhere/deck.yaml"), "/nowhere/deck.yaml: there is no such file; expected a deck");
-  const auto path = std::filesystem::temp_directory_path() / ("lampblack_bad_deck_" + std::to_string(ranks) + ".yaml");
-  if (rank == 0) std::ofstream(path) << test::sampleText;
-  MPI_Barrier(MPI_COMM_WORLD);
-  EXPECT_THAT(failureOf(path), testing::HasSubstr("--set seed=many: seed: expected an integer, found 'many'"));
-  MPI_Barrier(MPI_COMM_WORLD);
-  if (rank == 0) std::filesystem::remove(path);
+  const SampleFile file;
+  EXPECT_THAT(failureOf(file.path), testing::HasSubstr("--set seed=many: seed: expected an integer, found 'many'"));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "core/errors.hpp"
 #include "io/hdf5_reader.hpp"
 #include "io/results_writer.hpp"
+#include "tests/shared_scratch.hpp"
 
 namespace lampblack {
 namespace {
@@ -21,16 +22,7 @@ using ::testing::HasSubstr;
 class Hdf5ReaderTest : public ::testing::Test {
  protected:
   Hdf5ReaderTest() {
-    int rank = 0, ranks = 1;
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-    MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-    folder_ = fs::temp_directory_path() / ("lampblack_hdf5_reader_" + std::to_string(ranks));
-    if (rank == 0) {
-      fs::remove_all(folder_);
-      fs::create_directories(folder_);
-      std::ofstream(folder_ / "text.h5") << "this is no HDF5 file\n";
-    }
-    MPI_Barrier(MPI_COMM_WORLD);
+    if (test::worldRank() == 0) std::ofstream(folder_ / "text.h5") << "this is no HDF5 file\n";
     ResultsWriter results(MPI_COMM_WORLD, folder_ / "results.h5", {"1.2", "abc", "problem: none", "today"});
     const std::vector<double> values{1.5, std::numeric_limits<double>::denorm_min(), -3, 4, 5, 6};
     const std::vector<std::int64_t> counts{7, 8};
@@ -43,8 +35,6 @@ class Hdf5ReaderTest : public ::testing::Test {
     results.close();
     MPI_Barrier(MPI_COMM_WORLD);
   }
-  ~Hdf5ReaderTest() override { MPI_Barrier(MPI_COMM_WORLD); }
-
   template <typename Work>
   static std::string messageOf(Work work) {
     try {
@@ -54,7 +44,8 @@ class Hdf5ReaderTest : public ::testing::Test {
     }
     return "no InputError";
   }
-  fs::path folder_;
+  test::SharedScratchFolder scratch_;
+  fs::path folder_ = scratch_.path();
 };
 
 TEST_F(Hdf5ReaderTest, WhatWasWrittenIsReadToTheLastBit) {

@@ -8,33 +8,13 @@
 
 #include "io/history.hpp"
 #include "tests/io/sample_mesh.hpp"
+#include "tests/shared_scratch.hpp"
 
 namespace lampblack {
 namespace {
 
 namespace fs = std::filesystem;
 using test::SampleMesh;
-
-struct World {
-  World() {
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-    MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-  }
-  int rank = 0;
-  int ranks = 1;
-};
-
-// A folder of its own for each number of ranks and test, empty.
-fs::path freshFolder(const std::string& name) {
-  const World world;
-  fs::path folder = fs::temp_directory_path() / ("lampblack_io_" + name + "_" + std::to_string(world.ranks));
-  if (world.rank == 0) {
-    fs::remove_all(folder);
-    fs::create_directories(folder);
-  }
-  MPI_Barrier(MPI_COMM_WORLD);
-  return folder;
-}
 
 // Every dataset of a file as raw bytes with its shape, by path; read serially.
 std::map<std::string, std::pair<std::vector<hsize_t>, std::vector<double>>> readAll(const fs::path& path) {
@@ -60,27 +40,24 @@ std::map<std::string, std::pair<std::vector<hsize_t>, std::vector<double>>> read
 }
 
 TEST(Results, HaveTheSameDatasetsOnAnyNumberOfRanks) {
-  const fs::path folder = freshFolder("same");
-  test::writeSample(MPI_COMM_WORLD, folder / "many.h5", {});
-  const World world;
-  if (world.rank == 0) {
-    test::writeSample(MPI_COMM_SELF, folder / "one.h5", {});
-    auto many = readAll(folder / "many.h5");
-    auto one = readAll(folder / "one.h5");
+  const test::SharedScratchFolder folder;
+  test::writeSample(MPI_COMM_WORLD, folder.path() / "many.h5", {});
+  if (test::worldRank() == 0) {
+    test::writeSample(MPI_COMM_SELF, folder.path() / "one.h5", {});
+    auto many = readAll(folder.path() / "many.h5");
+    auto one = readAll(folder.path() / "one.h5");
     EXPECT_GT(many.size(), 12U);
     many.erase("mesh/owner");
     one.erase("mesh/owner");
     EXPECT_EQ(many, one);
   }
-  MPI_Barrier(MPI_COMM_WORLD);
 }
 
 TEST(Results, StoreValuesInGlobalOrderWithTheirShape) {
-  const fs::path folder = freshFolder("order");
-  test::writeSample(MPI_COMM_WORLD, folder / "results.h5", {});
-  const World world;
-  if (world.rank == 0) {
-    const auto all = readAll(folder / "results.h5");
+  const test::SharedScratchFolder folder;
+  test::writeSample(MPI_COMM_WORLD, folder.path() / "results.h5", {});
+  if (test::worldRank() == 0) {
+    const auto all = readAll(folder.path() / "results.h5");
     const auto& [shape, temperature] = all.at("steps/000020/temperature");
     EXPECT_EQ(shape, std::vector<hsize_t>{35});
     for (std::size_t cell = 0; cell < temperature.size(); ++cell) {
@@ -94,44 +71,41 @@ TEST(Results, StoreValuesInGlobalOrderWithTheirShape) {
     EXPECT_EQ(all.at("trajectories/0/size_distribution").first, (std::vector<hsize_t>{2, 3}));
     EXPECT_EQ(all.at("trajectories/0/size_distribution").second, (std::vector<double>{1, 2, 3, 4, 5, 6}));
     EXPECT_EQ(all.at("empty").first, (std::vector<hsize_t>{0, 4}));
-    EXPECT_FALSE(fs::exists(folder / "results.h5.part"));
+    EXPECT_FALSE(fs::exists(folder.path() / "results.h5.part"));
   }
-  MPI_Barrier(MPI_COMM_WORLD);
 }
 
 TEST(Results, OfARunThatFailedStayReadableUnderTheTemporaryName) {
-  const fs::path folder = freshFolder("partial");
+  const test::SharedScratchFolder folder;
   const MeshOutput mesh = SampleMesh{}.part(MPI_COMM_WORLD);
   {
-    ResultsWriter results(MPI_COMM_WORLD, folder / "results.h5", {}, mesh);
+    ResultsWriter results(MPI_COMM_WORLD, folder.path() / "results.h5", {}, mesh);
     results.beginStep(3, 0.5);
     results.cellField("density", "kg/m^3", 1, std::vector<double>(mesh.globalCell.size(), 1.2), "Density");
     results.endStep();
     results.beginStep(4, 0.6);
   }
-  const World world;
-  if (world.rank == 0) {
-    EXPECT_FALSE(fs::exists(folder / "results.h5"));
-    EXPECT_EQ(readAll(folder / "results.h5.part").count("steps/000003/density"), 1U);
-    std::ifstream xdmf(folder / "results.xdmf");
+  if (test::worldRank() == 0) {
+    EXPECT_FALSE(fs::exists(folder.path() / "results.h5"));
+    EXPECT_EQ(readAll(folder.path() / "results.h5.part").count("steps/000003/density"), 1U);
+    std::ifstream xdmf(folder.path() / "results.xdmf");
     const std::string text{std::istreambuf_iterator<char>(xdmf), {}};
     EXPECT_THAT(text, testing::HasSubstr("results.h5.part:/steps/000003/density"));
     EXPECT_THAT(text, testing::Not(testing::HasSubstr("000004")));
   }
-  MPI_Barrier(MPI_COMM_WORLD);
 }
 
 TEST(Results, RefuseAMeshThatMissesOrRepeatsCells) {
-  const fs::path folder = freshFolder("holes");
+  const test::SharedScratchFolder folder;
   MeshOutput missing = SampleMesh{}.part(MPI_COMM_WORLD);
   missing.totalCells += 1;
-  EXPECT_THROW(ResultsWriter(MPI_COMM_WORLD, folder / "a.h5", {}, missing), std::logic_error);
+  EXPECT_THROW(ResultsWriter(MPI_COMM_WORLD, folder.path() / "a.h5", {}, missing), std::logic_error);
   MeshOutput repeated = SampleMesh{}.part(MPI_COMM_WORLD);
-  if (World().rank == 0) repeated.globalCell[1] = repeated.globalCell[0];
-  EXPECT_THROW(ResultsWriter(MPI_COMM_WORLD, folder / "b.h5", {}, repeated), std::logic_error);
+  if (test::worldRank() == 0) repeated.globalCell[1] = repeated.globalCell[0];
+  EXPECT_THROW(ResultsWriter(MPI_COMM_WORLD, folder.path() / "b.h5", {}, repeated), std::logic_error);
   MeshOutput lopsided = SampleMesh{}.part(MPI_COMM_WORLD);
-  if (World().rank == 0) lopsided.cellVolume.pop_back();
-  EXPECT_THROW(ResultsWriter(MPI_COMM_WORLD, folder / "c.h5", {}, lopsided), std::logic_error);
+  if (test::worldRank() == 0) lopsided.cellVolume.pop_back();
+  EXPECT_THROW(ResultsWriter(MPI_COMM_WORLD, folder.path() / "c.h5", {}, lopsided), std::logic_error);
 }
 
 TEST(Results, ThatCannotBeMadeAreAnInputErrorOnAllRanks) {
@@ -144,9 +118,9 @@ TEST(Results, ThatCannotBeMadeAreAnInputErrorOnAllRanks) {
 }
 
 TEST(Results, RefuseFieldsOutsideAStepOrWithTheWrongSize) {
-  const fs::path folder = freshFolder("misuse");
+  const test::SharedScratchFolder folder;
   const MeshOutput mesh = SampleMesh{}.part(MPI_COMM_WORLD);
-  ResultsWriter results(MPI_COMM_WORLD, folder / "results.h5", {}, mesh);
+  ResultsWriter results(MPI_COMM_WORLD, folder.path() / "results.h5", {}, mesh);
   const std::vector<double> values(mesh.globalCell.size(), 1.0);
   EXPECT_THROW(results.cellField("a", "1", 1, values, ""), std::logic_error);
   EXPECT_THROW(results.endStep(), std::logic_error);
@@ -157,21 +131,20 @@ TEST(Results, RefuseFieldsOutsideAStepOrWithTheWrongSize) {
 }
 
 TEST(History, IsACsvFileAndATable) {
-  const fs::path folder = freshFolder("history");
-  ResultsWriter results(MPI_COMM_WORLD, folder / "results.h5", {}, SampleMesh{}.part(MPI_COMM_WORLD));
-  HistoryWriter history(MPI_COMM_WORLD, folder / "history.csv", {{"time", "s", "Time"}, {"peak_T", "K", "Peak"}});
+  const test::SharedScratchFolder folder;
+  ResultsWriter results(MPI_COMM_WORLD, folder.path() / "results.h5", {}, SampleMesh{}.part(MPI_COMM_WORLD));
+  HistoryWriter history(MPI_COMM_WORLD, folder.path() / "history.csv",
+                        {{"time", "s", "Time"}, {"peak_T", "K", "Peak"}});
   history.row(std::vector<double>{0.0, 300.0});
   history.row(std::vector<double>{0.1, 2300.5});
   history.writeTo(results);
   results.close();
-  const World world;
-  if (world.rank == 0) {
-    std::ifstream csv(folder / "history.csv");
+  if (test::worldRank() == 0) {
+    std::ifstream csv(folder.path() / "history.csv");
     const std::string text{std::istreambuf_iterator<char>(csv), {}};
     EXPECT_EQ(text, "time [s],peak_T [K]\n0,300\n0.1,2300.5\n");
-    EXPECT_EQ(readAll(folder / "results.h5").at("history/peak_T").second, (std::vector<double>{300.0, 2300.5}));
+    EXPECT_EQ(readAll(folder.path() / "results.h5").at("history/peak_T").second, (std::vector<double>{300.0, 2300.5}));
   }
-  MPI_Barrier(MPI_COMM_WORLD);
 }
 
 }  // namespace

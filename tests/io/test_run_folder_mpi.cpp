@@ -6,6 +6,7 @@
 
 #include "io/run_folder.hpp"
 #include "io/run_record.hpp"
+#include "tests/shared_scratch.hpp"
 
 namespace lampblack {
 namespace {
@@ -13,27 +14,10 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-int worldRank() {
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  return rank;
-}
-
 class RunFolders : public testing::Test {
  protected:
-  void SetUp() override {
-    int ranks = 1;
-    MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-    folder = fs::temp_directory_path() / ("lampblack_folder_" + std::to_string(ranks));
-    if (worldRank() == 0) fs::remove_all(folder);
-    MPI_Barrier(MPI_COMM_WORLD);
-  }
-  void TearDown() override {
-    MPI_Barrier(MPI_COMM_WORLD);
-    if (worldRank() == 0) fs::remove_all(folder);
-  }
   void put(const std::string& name, const std::string& text) const {
-    if (worldRank() == 0) {
+    if (test::worldRank() == 0) {
       fs::create_directories(folder);
       std::ofstream(folder / name) << text;
     }
@@ -48,7 +32,8 @@ class RunFolders : public testing::Test {
     }
     return "accepted";
   }
-  fs::path folder;
+  test::SharedScratchFolder scratch;
+  fs::path folder = scratch.path() / "run";  // not there at first
 };
 
 TEST_F(RunFolders, AreMadeWithTheFoldersAbove) {
@@ -96,14 +81,14 @@ TEST_F(RunFolders, LoseTheOldRunAndNothingElseWithForce) {
 }
 
 TEST_F(RunFolders, MayNotBeFiles) {
-  if (worldRank() == 0) std::ofstream(folder) << "x";
+  if (test::worldRank() == 0) std::ofstream(folder) << "x";
   MPI_Barrier(MPI_COMM_WORLD);
   EXPECT_THAT(refusal(), HasSubstr("this is a file; the output has to go to a folder"));
 }
 
 TEST_F(RunFolders, FilesAreReplacedWhole) {
   put("a.txt", "old");
-  if (worldRank() == 0) {
+  if (test::worldRank() == 0) {
     writeFileAtomically(folder / "a.txt", "new");
     std::ifstream file(folder / "a.txt");
     EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), "new");
