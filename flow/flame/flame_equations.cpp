@@ -133,6 +133,7 @@ void FlameEquations::setGrid(std::span<const double> z) {
     d.displacements[r] = static_cast<int>(startOf(r) * d.width());
     d.counts[r] = static_cast<int>((startOf(r + 1) - startOf(r)) * d.width());
   }
+  d.steadyFactors = false;
   d.matrix = std::make_unique<BlockTridiagonal>(d.comm, n, d.width(), numFlameGlobals);
   d.anchor = std::min(d.anchor, n - 1);
 }
@@ -203,6 +204,7 @@ bool FlameEquations::factorise(std::span<const double> x, double inverseTimeStep
   Data& d = *data_;
   const double start = MPI_Wtime();
   d.take(x);
+  d.steadyFactors = false;
   const auto work = [&] {
     const std::size_t begin = d.matrix->ownedBegin(), end = d.matrix->ownedEnd();
     d.matrix->clear();
@@ -221,6 +223,7 @@ bool FlameEquations::factorise(std::span<const double> x, double inverseTimeStep
   const double filled = MPI_Wtime();
   d.counters.jacobianSeconds += filled - start;
   const bool regular = d.matrix->factorise();
+  d.steadyFactors = regular && inverseTimeStep == 0 && !d.holds;
   d.counters.factoriseSeconds += MPI_Wtime() - filled;
   return regular;
 }
@@ -229,6 +232,10 @@ void FlameEquations::solve(std::span<double> b) {
   const double start = MPI_Wtime();
   data_->matrix->solve(b);
   data_->counters.solveSeconds += MPI_Wtime() - start;
+}
+
+bool FlameEquations::hasSteadyFactors() const {
+  return data_->steadyFactors;
 }
 
 int FlameEquations::determinantSign() const {

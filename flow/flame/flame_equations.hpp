@@ -90,6 +90,8 @@ class FlameEquations : public UnsteadySystem {
   void storage(std::span<const double> x, std::span<const double> rate, std::span<double> F) override;
   [[nodiscard]] bool factoriseUnsteady(std::span<const double> x, double shift) override;
 
+  // Whether the factors at hand are those of the steady equations, with nothing held, at some state on this grid.
+  [[nodiscard]] bool hasSteadyFactors() const;
   // Sign of the determinant of the matrix that was factorised last.
   [[nodiscard]] int determinantSign() const;
 

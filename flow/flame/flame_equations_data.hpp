@@ -44,6 +44,7 @@ struct FlameEquations::Data {
   double anchorTemperature = 0;
   double loadValue = 1;
   bool unsteady = false;  // the matrix is that of factoriseUnsteady
+  bool steadyFactors = false;
   std::optional<LoadConstraint> constraint;
   std::optional<GivenExchange> exchange;
   std::function<bool(std::size_t)> holds;

@@ -48,7 +48,10 @@ void FlameSolver::Data::leave(FlameEquations& equations, NewtonSolver& solver, c
 }
 
 void FlameSolver::Data::preferStable(FlameEquations& equations, NewtonSolver& solver, const std::string& name) {
-  std::optional<GrowingMode> mode = growingMode(equations, solution.profile.x);
+  // The last steps begin with factors of their own, and change the profile by less than the tolerances of Newton's
+  // method.
+  const bool atHand = options.polish > 0;
+  std::optional<GrowingMode> mode = growingMode(equations, solution.profile.x, atHand);
   for (int tries = 0; mode && tries < mostTries; ++tries) {
     const FlameProfile unstable = solution.profile;
     const std::size_t stages = solution.stages.size();
@@ -66,7 +69,7 @@ void FlameSolver::Data::preferStable(FlameEquations& equations, NewtonSolver& so
       place(equations);
       break;
     }
-    mode = growingMode(equations, solution.profile.x);
+    mode = growingMode(equations, solution.profile.x, atHand);
   }
   solution.growthRate.reset();
   if (mode) solution.growthRate = mode->rate;

@@ -1,4 +1,4 @@
-// A shipped deck at the end of its range, from the streams alone.
+// Shipped decks at the ends of their ranges, from the streams alone.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,6 +8,7 @@
 #include "app/problem.hpp"
 #include "flow/flame/flame_fields.hpp"
 #include "flow/flame/flame_solver.hpp"
+#include "flow/flame/flame_state.hpp"
 #include "flow/flame/initial_flame.hpp"
 
 namespace lampblack {
@@ -33,6 +34,21 @@ TEST(ShippedFlame, TheMostStrainedSootingFlameConvergesFromItsStreams) {
   ASSERT_TRUE(summary.strain && summary.strain->global);
   EXPECT_NEAR(*summary.strain->global, 173, 0.5);  // as the thesis rounds it
   EXPECT_GT(summary.maximumTemperature, 2000);     // it burns
+}
+
+// Methane against air at global strain rates near extinction, where Newton's method finds solutions between the turning
+// points (1760.5 and 1763.9 K).
+TEST(ShippedFlame, StrainedMethaneEndsOnTheStableBranch) {
+  const std::string path = std::string(LAMPBLACK_SOURCE_DIR) + "/cases/flame_counterflow_methane/deck.yaml";
+  for (const auto& [strain, peak] : {std::pair{530.0, 1815.6}, {532.0, 1812.4}}) {
+    const std::string left = std::to_string(0.3352566974612946 * strain / 50), right = std::to_string(strain / 200);
+    const FlameCase flame = readFlameCase(Deck::load(
+        path, {"left.velocity=" + left + " m/s", "right.velocity=" + right + " m/s"}, deckKinds(), MPI_COMM_WORLD));
+    FlameSolver solver(MPI_COMM_WORLD, flame.mechanism, flame.problem, nullptr, flame.solver);
+    const FlameSolution solution = solver.solve(initialFlame(*flame.mechanism, flame.problem, 0, flame.start));
+    EXPECT_EQ(stateOf(*flame.mechanism, flame.problem, solution), FlameState::Burning) << strain;
+    EXPECT_NEAR(solution.profile.peakTemperature(), peak, 2) << strain;
+  }
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Which solutions last, what is done about those that do not, and flames that their own start does not light.
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <vector>
 
 #include "flow/flame/flame_continuation.hpp"
@@ -12,13 +13,21 @@
 namespace lampblack {
 namespace {
 
-std::optional<GrowingMode> modeOf(const FlameProblem& problem, const FlameProfile& profile) {
-  FlameEquations equations(MPI_COMM_WORLD, hydrogenMechanism(), problem);
-  equations.setGrid(profile.z);
-  equations.setLoad(profile.global(load));
+std::unique_ptr<FlameEquations> equationsAt(const FlameProblem& problem, const FlameProfile& profile) {
+  auto equations = std::make_unique<FlameEquations>(MPI_COMM_WORLD, hydrogenMechanism(), problem);
+  equations->setGrid(profile.z);
+  equations->setLoad(profile.global(load));
   std::vector<double> F(profile.size());
-  equations.residual(profile.x, F);
-  return growingMode(equations, profile.x);
+  equations->residual(profile.x, F);
+  return equations;
+}
+
+std::optional<GrowingMode> modeOf(const FlameProblem& problem, const FlameProfile& profile) {
+  return growingMode(*equationsAt(problem, profile), profile.x);
+}
+
+std::optional<GrowingMode> singleModeOf(const FlameProblem& problem, const FlameProfile& profile) {
+  return singleGrowingMode(*equationsAt(problem, profile), profile.x);
 }
 
 FlameProblem fasterBy(FlameProblem problem, double factor) {
@@ -64,13 +73,20 @@ TEST(FlameStability, AModeGrowsBehindTheTurningPointAndNoneBeforeIt) {
   const std::size_t turn = branch.turningPoints.front().index;
   ASSERT_GT(turn, 20u);
   ASSERT_GT(profiles.size(), turn + 6);
-  for (std::size_t i = turn - 20; i < turn; ++i) EXPECT_FALSE(modeOf(problem, profiles[i])) << i - turn;
+  for (std::size_t i = turn - 20; i < turn; ++i) {
+    EXPECT_FALSE(modeOf(problem, profiles[i])) << i - turn;
+    EXPECT_FALSE(singleModeOf(problem, profiles[i])) << i - turn;
+  }
   double rate = 0;
   for (std::size_t i = turn + 1; i < profiles.size(); ++i) {
     const auto mode = modeOf(problem, profiles[i]);
     ASSERT_TRUE(mode) << i - turn;
     EXPECT_GT(mode->rate, rate) << i - turn;  // it passes through zero at the turn
     rate = mode->rate;
+    // Either way of the two is within a tenth of its own rate; there is but one mode.
+    const auto single = singleModeOf(problem, profiles[i]);
+    ASSERT_TRUE(single) << i - turn;
+    EXPECT_NEAR(single->rate / rate, 1, 0.2) << i - turn;
   }
 
   // The mode is one: residuals beside the solution grow with it. Transport coefficients change along with the
@@ -122,6 +138,21 @@ TEST(FlameStability, AnUnstableSolutionIsLeftForTheFlameThatLasts) {
   const FlameSolution stable = solved(problem, true);
   EXPECT_NEAR(stable.profile.peakTemperature(), 1805, 5);
   EXPECT_FALSE(stable.growthRate);
+}
+
+// The Newton matrix of a time step of 10 us decays everywhere.
+TEST(FlameStability, FactorsOfATimeStepAreNotTakenForSteadyOnes) {
+  const FlameProblem problem = diluted(32);
+  const FlameProfile unstable = solved(problem, false).profile;
+  const GrowingMode mode = modeOf(problem, unstable).value();
+  const auto equations = equationsAt(problem, unstable);
+  EXPECT_FALSE(equations->hasSteadyFactors());
+  ASSERT_TRUE(equations->factorise(unstable.x, 0));
+  EXPECT_TRUE(equations->hasSteadyFactors());
+  EXPECT_EQ(growingMode(*equations, unstable.x, true).value().rate, mode.rate);
+  ASSERT_TRUE(equations->factorise(unstable.x, 1e5));
+  EXPECT_FALSE(equations->hasSteadyFactors());
+  EXPECT_EQ(growingMode(*equations, unstable.x, true).value().rate, mode.rate);
 }
 
 TEST(FlameFromLowerLoad, BurnsWhereItsOwnStartGoesOut) {
