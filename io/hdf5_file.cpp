@@ -28,7 +28,13 @@ void probe(MPI_Comm comm, const std::filesystem::path& path) {
     std::FILE* file = std::fopen(path.c_str(), "wb");
     if (file == nullptr) refuseWrite(path, errno);
     std::fclose(file);
-    claimSpace(path, 0, margin);
+    try {
+      claimSpace(path, 0, margin);
+    } catch (const SystemError&) {
+      std::error_code ignored;
+      std::filesystem::remove(path, ignored);  // nothing that could be read
+      throw;
+    }
   });
 }
 

@@ -1,11 +1,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hdf5.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <fstream>
 #include <map>
 #include <stdexcept>
 
+#include "core/system_error.hpp"
 #include "io/history.hpp"
 #include "tests/io/sample_mesh.hpp"
 #include "tests/shared_scratch.hpp"
@@ -115,6 +118,19 @@ TEST(Results, ThatCannotBeMadeAreAnInputErrorOnAllRanks) {
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(), "/nowhere/results.h5.part: cannot be written: No such file or directory");
   }
+}
+
+TEST(Results, LeaveNoFileWhereNotEvenItsHeadHasRoom) {
+  const test::SharedScratchFolder folder;
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit small{10000, before.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &small);
+  EXPECT_THROW(ResultsWriter(MPI_COMM_WORLD, folder.path() / "results.h5", {}, SampleMesh{}.part(MPI_COMM_WORLD)),
+               SystemError);
+  setrlimit(RLIMIT_FSIZE, &before);
+  EXPECT_FALSE(fs::exists(folder.path() / "results.h5.part"));
 }
 
 TEST(Results, RefuseFieldsOutsideAStepOrWithTheWrongSize) {
