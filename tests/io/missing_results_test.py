@@ -40,6 +40,14 @@ def main():
             print(f"{'ok' if good else 'FAILED':8}{script}, {folder.name}: {done.returncode} {done.stderr.strip()}")
             return not good
 
+        def crash():
+            """A library that crashes on a file takes its own process along, not what the script says."""
+            script = "import os, sys; from lampblack_plots.damage import guarded; sys.exit(guarded(os.abort))"
+            done = subprocess.run([sys.executable, "-c", script, damaged], capture_output=True, text=True, check=False, cwd=SCRIPTS)
+            assert (done.returncode, done.stderr) == (
+                2, f"{damaged}: damaged: the library that reads it crashed (SIGABRT)\n"), done
+
+        crash()
         with concurrent.futures.ThreadPoolExecutor(2) as pool:
             return 1 if any(list(pool.map(problem, [(c, folder) for c in COMMANDS for folder in (missing, damaged)]))) else 0
 
