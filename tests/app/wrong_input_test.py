@@ -262,7 +262,7 @@ def main(executable: str, ranks: str, *mpiexec: str) -> int:
             return checker.failures
 
     # All messages on one rank; that only one of several ranks speaks does not need every one of them.
-    mistakes = [wrong for i, wrong in enumerate(MISTAKES) if program.ranks == 1 or i % 4 == 0 or wrong.name in OF_RANKS]
+    mistakes = [wrong for i, wrong in enumerate(MISTAKES) if program.ranks == 1 or i % 8 == 0 or wrong.name in OF_RANKS]
     assert {wrong.name for wrong in mistakes}.issuperset(OF_RANKS)
     tasks = [("mistake", wrong) for wrong in mistakes] + [("usage", *case) for case in USAGE]
     run = {"results.h5": "not to be lost", "results.xdmf": "<Xdmf/>", "history.csv": "time [s]\n0\n", "notes.txt": "mine"}
