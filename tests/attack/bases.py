@@ -3,6 +3,7 @@ takes a second or a few; the mechanisms and other files they name by absolute pa
 """
 
 import dataclasses
+import functools
 import pathlib
 
 import deck_text
@@ -64,6 +65,7 @@ def is_deck(path: pathlib.Path) -> bool:
     return path.parent.name != "mechanisms" and "problem:" in path.read_text(encoding="utf-8")
 
 
+@functools.cache
 def shipped() -> list:
     """All decks of cases/ and the small flow of the tests, in a fixed order."""
     paths = [path for path in sorted((SOURCE / "cases").rglob("*.yaml")) if is_deck(path)]
