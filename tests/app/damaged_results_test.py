@@ -16,31 +16,17 @@ import sys
 import tempfile
 
 import running
+import small_decks
 
 SCRIPTS = running.SOURCE / "scripts"
 sys.path.insert(0, str(SCRIPTS))
-try:
-    import h5py
-    import numpy as np
-    from lampblack_plots import flame, flame_study, planes, population, reactor, sizes  # noqa: F401  (once for all children)
-except ImportError as error:
-    print(f"SKIPPED: {error}; scripts/setup installs it")
-    sys.exit(77)
+h5py = running.package("h5py")
+np = running.package("numpy")
+for module in ("flame", "flame_study", "planes", "population", "reactor", "sizes"):  # once for all children
+    running.package(f"lampblack_plots.{module}")
 
-POPULATION = """problem: population_balance
-initial: {distribution: monodisperse, number: 1e6 1/cm^3, volume: 1 m^3}
-processes: {coagulation: {kernel: constant, rate: 1e-6 cm^3/s}}
-methods: {dsmc: {type: dsmc, particles: 50}}
-time: {end: 1 s, outputs: 5}
-repeats: 2
-distribution: {minimum: 0.5 m^3, maximum: 10.5 m^3, bins: 10, spacing: linear, times: [1]}
-"""
-FLAME = f"""problem: flame1d
-mechanism: {running.SOURCE}/cases/mechanisms/hydrogen_h2o2_10.yaml
-flame: {{type: free, length: 20 mm}}
-inlet: {{temperature: 298 K, fuel: "H2: 1", oxidizer: "O2: 1, N2: 3.76", equivalence_ratio: 1}}
-grid: {{slope: 0.5, curve: 0.8}}
-"""
+POPULATION = small_decks.population("dsmc: {type: dsmc, particles: 50}", repeats=2, outputs=5, bins=10, times=[1])
+FLAME = small_decks.free_flame("hydrogen_h2o2_10.yaml", "H2", slope=0.5, curve=0.8)
 SECONDS = 30  # of the processor; a script that takes more hangs
 
 

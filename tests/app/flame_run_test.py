@@ -12,12 +12,8 @@ import tempfile
 
 import running
 
-try:
-    import h5py
-    import numpy as np
-except ImportError as error:
-    print(f"skipped: {error}")
-    sys.exit(77)
+h5py = running.package("h5py")
+np = running.package("numpy")
 
 DECK = f"""problem: flame1d
 title: test

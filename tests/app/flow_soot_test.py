@@ -11,11 +11,7 @@ import tempfile
 
 import running
 
-try:
-    import h5py
-except ImportError as error:
-    print(f"skipped: {error}")
-    sys.exit(77)
+h5py = running.package("h5py")
 
 AVOGADRO, BOLTZMANN = 6.02214076e23, 1.380649e-23
 CARBON, HYDROGEN = 12.011e-3, 1.008e-3

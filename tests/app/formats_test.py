@@ -11,11 +11,7 @@ import tempfile
 
 import running
 
-try:
-    import h5py
-except ImportError as error:
-    print(f"SKIPPED: {error}; scripts/setup installs it")
-    sys.exit(77)
+h5py = running.package("h5py")
 
 CASES = running.SOURCE / "cases"
 PAGE = running.SOURCE / "docs/formats.md"

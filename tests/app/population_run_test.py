@@ -11,12 +11,8 @@ import tempfile
 
 import running
 
-try:
-    import h5py
-    import numpy as np
-except ImportError as missing:
-    print(f"SKIPPED: {missing}; install python3-h5py (scripts/setup does)")
-    sys.exit(77)
+h5py = running.package("h5py")
+np = running.package("numpy")
 
 # Constant kernel from particles of one size (Smoluchowski 1916): N0 = 1e12 1/m3, A = 1e-12 m3/s, so that tau = t.
 DECK = """problem: population_balance

@@ -14,13 +14,9 @@ import tempfile
 
 import running
 
-try:
-    import h5py
-    import meshio
-    import numpy as np
-except ImportError as missing:
-    print(f"SKIPPED: {missing}; install python3-h5py and python3-meshio (scripts/setup does)")
-    sys.exit(77)
+h5py = running.package("h5py")
+meshio = running.package("meshio")
+np = running.package("numpy")
 
 DECK = running.SOURCE / "cases/counterflow_ethylene/deck.yaml"
 ABSOLUTE = 1e-15  # of the chemistry, in mass fraction

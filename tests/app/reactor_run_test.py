@@ -14,13 +14,9 @@ import tempfile
 
 import running
 
-try:
-    import h5py
-    import matplotlib  # noqa: F401
-    import numpy as np
-except ImportError as error:
-    print(f"SKIPPED: {error}; scripts/setup installs it")
-    sys.exit(77)
+h5py = running.package("h5py")
+running.package("matplotlib")  # for scripts/plot
+np = running.package("numpy")
 
 CASES = running.SOURCE / "cases"
 

@@ -1,7 +1,8 @@
 """How runs end when something outside ends them: a full disk, a signal, another run in the same folder.
 
 Usage: run_end_test.py EXECUTABLE RANKS MPIEXEC... [--all]. With --all twenty sizes of disk for every problem, on real small
-disks (tmpfs) too where the user may mount them, and both signals; otherwise one of each. Exit code 77 (skipped) where a Python package is missing.
+disks (tmpfs) too where the user may mount them, and both signals; otherwise one of each. Exit code 77 (skipped) where a
+Python package is missing.
 """
 
 import json
@@ -16,27 +17,11 @@ import tempfile
 import time
 
 import running
+import small_decks
 
-try:
-    import h5py
-except ImportError as error:
-    print(f"SKIPPED: {error}; scripts/setup installs it")
-    sys.exit(77)
+h5py = running.package("h5py")
 
-POPULATION = """problem: population_balance
-initial: {distribution: monodisperse, number: 1e6 1/cm^3, volume: 1 m^3}
-processes: {coagulation: {kernel: constant, rate: 1e-6 cm^3/s}}
-methods: {sections: {type: sectional, sections: 20, smallest: 1 m^3, spacing: 2}, dsmc: {type: dsmc, particles: 50}}
-time: {end: 10 s, outputs: 200}
-repeats: 4
-distribution: {minimum: 0.5 m^3, maximum: 50.5 m^3, bins: 200, spacing: linear, times: [2, 4, 6, 8, 10]}
-"""
-FLAME = """problem: flame1d
-mechanism: %s/cases/mechanisms/%s
-flame: {type: free, length: 20 mm}
-inlet: {temperature: 298 K, fuel: "%s: 1", oxidizer: "O2: 1, N2: 3.76", equivalence_ratio: 1}
-grid: {slope: %g, curve: %g}
-"""
+METHODS = "sections: {type: sectional, sections: 20, smallest: 1 m^3, spacing: 2}, dsmc: {type: dsmc, particles: 50}"
 PREFIX = "lampblack: disk full: "
 
 
@@ -52,9 +37,10 @@ class Cases:
         self.folder = folder
         flow = running.small_case(folder)
         reactor = running.SOURCE / "cases/reactor_ignition_hydrogen/deck.yaml"
-        population = self.put("population.yaml", POPULATION)
-        flame = self.put("flame.yaml", FLAME % (running.SOURCE, "hydrogen_h2o2_10.yaml", "H2", 0.4, 0.6))
-        large = self.put("large.yaml", FLAME % (running.SOURCE, running.MECHANISM, "C2H4", 0.0005, 0.001))
+        population = self.put("population.yaml", small_decks.population(METHODS, repeats=4, outputs=200, bins=200,
+                                                                        times=[2, 4, 6, 8, 10]))
+        flame = self.put("flame.yaml", small_decks.free_flame("hydrogen_h2o2_10.yaml", "H2", slope=0.4, curve=0.6))
+        large = self.put("large.yaml", small_decks.free_flame(running.MECHANISM, "C2H4", slope=0.0005, curve=0.001))
         sweep = self.put("sweep.yaml", f"study: populations\ndeck: {population}\nvary:\n  - {{key: seed, values: [1, 2, 3]}}\n")
         many = self.put("many.yaml", f"study: populations\ndeck: {population}\nvary:\n"
                                      f"  - {{key: seed, values: {list(range(1, 400))}}}\n")

@@ -13,11 +13,7 @@ import tempfile
 
 import running
 
-try:
-    import h5py
-except ImportError as error:
-    print(f"skipped: {error}")
-    sys.exit(77)
+h5py = running.package("h5py")
 
 SCRIPT = running.SOURCE / "scripts/check_soot_rates"
 # Other numbers than the published ones, so that the deck's count.
