@@ -18,6 +18,32 @@ void requireBounded(const Deck& deck, const std::string& key, double rate, doubl
                          what, rate * end, rate < 0 ? -largestExponent : largestExponent, largestExponent / end));
 }
 
+// By how much collisions alone lower the number density until the end, as the exponent of e, for the kernels whose law
+// is known (Smoluchowski 1916): 1 + A N0 t/2 of the constant one, exp(A M1 t) of the additive one.
+double fallByCollisions(const PopulationCase& made) {
+  const CollisionKernelOptions& kernel = *made.model.coagulation;
+  const InitialPopulation& initial = made.initial;
+  if (initial.distribution == InitialPopulation::Distribution::none || kernel.efficiencyDiameter != 0) return 0;
+  const double rate = kernel.rate * kernel.efficiency;
+  if (kernel.type == CollisionKernelType::constant) return std::log1p(0.5 * rate * initial.number * made.times.end);
+  if (kernel.type != CollisionKernelType::additive) return 0;
+  // The mean volume over the median one (Hatch and Choate 1929).
+  const double logarithm = std::log(initial.geometricDeviation);
+  const bool median = initial.distribution == InitialPopulation::Distribution::lognormal;
+  const double mean = initial.volume * (median ? std::exp(4.5 * logarithm * logarithm) : 1);
+  return rate * initial.number * mean * made.times.end;
+}
+
+void checkCollisions(const Deck& deck, const PopulationCase& made) {
+  const PopulationModel& model = made.model;
+  if (!model.coagulation || model.nucleation || model.breakage) return;
+  if (const double fall = fallByCollisions(made); !(fall <= largestExponent))
+    throw deck.error("processes.coagulation.rate",
+                     fmt::format("until time.end collisions lower the number density by the factor e^{:.4g}; "
+                                 "expected e^{:g} at most: a lower rate, fewer particles or an earlier end",
+                                 fall, largestExponent));
+}
+
 // Processes of the first order, whose effect until the end is known.
 void checkRates(const Deck& deck, const PopulationModel& model, double end) {
   requireBounded(deck, "processes.condensation.rate", model.growth.condensation, end, "every volume");
@@ -86,6 +112,7 @@ void checkMethod(const Deck& deck, const PopulationCase& made, const PopulationM
 void checkProcesses(const Deck& deck, const PopulationCase& made) {
   checkParticles(deck, made);
   checkRates(deck, made.model, made.times.end);
+  checkCollisions(deck, made);
   checkGrowth(deck, made);
 }
 

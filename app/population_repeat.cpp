@@ -16,6 +16,9 @@ namespace {
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
+// The run is asked to stop in the middle of a repeat.
+struct Cut {};
+
 double cpuSeconds() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
@@ -50,7 +53,8 @@ std::size_t RepeatRecord::rows() const {
 }
 
 void runRepeat(const PopulationCase& populationCase, const PopulationMethod& method, std::uint64_t repeat,
-               std::optional<double> gelation, const RepeatRecord::Shape& shape, std::span<double> data) {
+               std::optional<double> gelation, const RepeatRecord::Shape& shape, PopulationProgress& progress,
+               std::span<double> data) {
   const std::vector<double> rows = populationCase.times.rows();
   const PopulationBins& bins = populationCase.bins;
   std::fill(data.begin(), data.end(), missing);
@@ -60,7 +64,11 @@ void runRepeat(const PopulationCase& populationCase, const PopulationMethod& met
   const auto tail = numbers.subspan(shape.times * shape.bins);
   try {
     const std::unique_ptr<PopulationSolver> solver = makeSolver(populationCase, method, repeat);
-    // False where the population has gelled before that.
+    solver->watchBy([&] {
+      if (stopRequest() != 0) throw Cut{};
+      progress.at(method, repeat, solver->time());
+    });
+    // False where the population has gelled before that, and where the run is to stop.
     const auto advance = [&](double time) {
       if (gelled || stopRequest() != 0) return false;
       const double begin = cpuSeconds();
@@ -71,6 +79,8 @@ void runRepeat(const PopulationCase& populationCase, const PopulationMethod& met
           solver->advance(time);
       } catch (const GelationError& error) {
         gelled = error.time();
+      } catch (const Cut&) {
+        return false;
       }
       seconds += cpuSeconds() - begin;
       return !gelled;
@@ -95,6 +105,7 @@ void runRepeat(const PopulationCase& populationCase, const PopulationMethod& met
     PopulationCounters counters = solver->counters();
     const auto from = fields(counters);
     for (std::size_t k = 0; k < RepeatRecord::numCounters; ++k) tail[2 + k] = static_cast<double>(*from[k]);
+    progress.repeatEnded();
   } catch (const InputError& error) {
     throw InputError(fmt::format("method {}: {}", method.name, error.what()));
   } catch (const NumericsError& error) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/population_case.hpp"
+#include "app/population_progress.hpp"
 
 namespace lampblack {
 
@@ -52,6 +53,7 @@ class RepeatRecord {
 // latest at `gelation` (s), which is then in the record, and where the run is asked to stop. `data` has the size of the
 // shape. InputError, NumericsError with the names of method and repeat.
 void runRepeat(const PopulationCase& populationCase, const PopulationMethod& method, std::uint64_t repeat,
-               std::optional<double> gelation, const RepeatRecord::Shape& shape, std::span<double> data);
+               std::optional<double> gelation, const RepeatRecord::Shape& shape, PopulationProgress& progress,
+               std::span<double> data);
 
 }  // namespace lampblack

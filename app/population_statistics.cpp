@@ -64,7 +64,7 @@ ExactReference makeReference(const PopulationCase& populationCase, const ExactSo
 // first; the following ones go round.
 std::vector<double> runBatch(const Ranks& ranks, const PopulationCase& populationCase, const PopulationMethod& method,
                              std::uint64_t first, std::uint64_t end, int owner, std::optional<double> gelation,
-                             const RepeatRecord::Shape& shape, double& seconds) {
+                             const RepeatRecord::Shape& shape, PopulationProgress& progress, double& seconds) {
   const std::size_t width = shape.size(), total = end - first;
   const auto size = static_cast<std::size_t>(ranks.size);
   const auto offset = [&](int rank) { return static_cast<std::size_t>((rank - owner + ranks.size) % ranks.size); };
@@ -73,7 +73,7 @@ std::vector<double> runBatch(const Ranks& ranks, const PopulationCase& populatio
   const double begin = MPI_Wtime();
   collectively(ranks.comm, [&] {
     for (std::size_t i = 0; i < count(ranks.rank); ++i)
-      runRepeat(populationCase, method, first + offset(ranks.rank) + i * size, gelation, shape,
+      runRepeat(populationCase, method, first + offset(ranks.rank) + i * size, gelation, shape, progress,
                 std::span(mine).subspan(i * width, width));
     seconds += MPI_Wtime() - begin;
   });
@@ -101,7 +101,7 @@ std::vector<double> runBatch(const Ranks& ranks, const PopulationCase& populatio
 // `seconds` are those of this rank for each method.
 std::map<std::size_t, std::vector<double>> runOnce(const Ranks& ranks, const PopulationCase& populationCase,
                                                    std::optional<double> gelation, const RepeatRecord::Shape& shape,
-                                                   std::vector<double>& seconds) {
+                                                   PopulationProgress& progress, std::vector<double>& seconds) {
   std::map<std::size_t, std::vector<double>> records;
   std::map<std::size_t, int> owners;
   for (std::size_t m = 0; m < populationCase.methods.size(); ++m)
@@ -111,7 +111,8 @@ std::map<std::size_t, std::vector<double>> runOnce(const Ranks& ranks, const Pop
       if (owner != ranks.rank && ranks.rank != 0) continue;
       std::vector<double>& record = records.emplace(m, std::vector<double>(shape.size())).first->second;
       const double begin = MPI_Wtime();
-      if (owner == ranks.rank) runRepeat(populationCase, populationCase.methods[m], 0, gelation, shape, record);
+      if (owner == ranks.rank)
+        runRepeat(populationCase, populationCase.methods[m], 0, gelation, shape, progress, record);
       seconds[m] += MPI_Wtime() - begin;
     }
   });
@@ -150,7 +151,8 @@ PopulationStatistics runPopulation(MPI_Comm comm, const PopulationCase& populati
                                   made.bins.edges.empty() ? 0 : made.bins.edges.size() - 1};
   const std::uint64_t most = std::max<std::uint64_t>(gathered / shape.size(), static_cast<std::uint64_t>(ranks.size));
   std::vector<double> seconds(populationCase.methods.size(), 0.0);
-  const auto once = runOnce(ranks, populationCase, gelation, shape, seconds);
+  PopulationProgress progress(comm, populationCase);
+  const auto once = runOnce(ranks, populationCase, gelation, shape, progress, seconds);
   for (std::size_t m = 0; m < populationCase.methods.size(); ++m) {
     const PopulationMethod& method = populationCase.methods[m];
     MethodAccumulator accumulator(populationCase, method, made, shape);
@@ -166,7 +168,7 @@ PopulationStatistics runPopulation(MPI_Comm comm, const PopulationCase& populati
       const std::uint64_t end = std::min(repeats, first + most);
       const auto owner = static_cast<int>(first % static_cast<std::uint64_t>(ranks.size));
       const std::vector<double> records =
-          runBatch(ranks, populationCase, method, first, end, owner, gelation, shape, seconds[m]);
+          runBatch(ranks, populationCase, method, first, end, owner, gelation, shape, progress, seconds[m]);
       int gelled = 0;
       for (std::size_t at = 0; at < records.size(); at += shape.size()) {
         const RepeatRecord record(shape, std::span(records).subspan(at, shape.size()));
@@ -182,8 +184,11 @@ PopulationStatistics runPopulation(MPI_Comm comm, const PopulationCase& populati
     if (ranks.rank != 0 || whole == 0) continue;
     made.methods.push_back(accumulator.finish());
     made.methods.back().stage = {stage.name, stage.least, stage.mean, stage.most};
-    if (finished) finished(made.methods.back());
+    if (!finished) continue;
+    progress.finish();
+    finished(made.methods.back());
   }
+  progress.finish();
   return made;
 }
 

@@ -13,6 +13,8 @@
 namespace lampblack {
 namespace {
 
+constexpr double year = 365.0 * 86400;  // s
+
 // Open MPI hands each rank a terminal of its own making, whatever the user's output is; then the launcher's output
 // tells (on another node than the launcher's it is a pipe, which is right, too).
 bool writesToTerminal() {
@@ -33,23 +35,26 @@ std::ostream* rankZeroOutput(MPI_Comm comm) {
 
 }  // namespace
 
-Progress::Progress(MPI_Comm comm, double start, double end)
+Progress::Progress(MPI_Comm comm, double start, double end, Clock::duration quiet)
     : out_(rankZeroOutput(comm)),
       terminal_(writesToTerminal()),
       start_(start),
       end_(end),
+      quiet_(quiet),
       begun_(Clock::now()),
       last_(begun_) {}
 
-Progress::Progress(std::ostream& out, bool terminal, double start, double end, Clock::time_point now)
-    : out_(&out), terminal_(terminal), start_(start), end_(end), begun_(now), last_(now) {}
+Progress::Progress(std::ostream& out, bool terminal, double start, double end, Clock::time_point now,
+                   Clock::duration quiet)
+    : out_(&out), terminal_(terminal), start_(start), end_(end), quiet_(quiet), begun_(now), last_(now) {}
 
 std::string Progress::line(Clock::time_point now) const {
   const double span = end_ - start_;
-  const double done = span > 0.0 ? std::clamp((time_ - start_) / span, 0.0, 1.0) : 1.0;
+  const double done = span > 0.0 ? std::clamp((at_ - start_) / span, 0.0, 1.0) : 1.0;
   const double elapsed = std::chrono::duration<double>(now - begun_).count();
-  std::string text = fmt::format("step {:>6}  t {:.4g} s  dt {:.3g} s  {:5.1f} %", step_, time_, dt_, 100.0 * done);
-  if (done > 0.0 && done < 1.0) text += "  to go " + formatDuration(elapsed * (1.0 - done) / done);
+  std::string text = fmt::format("{}  {:5.1f} %", where_, 100.0 * done);
+  const double left = elapsed * (1.0 - done) / done;  // s
+  if (done > 0.0 && done < 1.0) text += "  to go " + (left < year ? formatDuration(left) : "more than a year");
   if (!extras_.empty()) text += "  " + extras_;
   return text;
 }
@@ -70,13 +75,21 @@ void Progress::print(Clock::time_point now) {
 }
 
 void Progress::update(std::int64_t step, double time, double dt, const std::string& extras, Clock::time_point now) {
-  if (out_ == nullptr) return;
-  step_ = step;
-  time_ = time;
-  dt_ = dt;
+  say(fmt::format("step {:>6}  t {:.4g} s  dt {:.3g} s", step, time, dt), time, extras, now);
+}
+
+void Progress::say(const std::string& where, double at, const std::string& extras, Clock::time_point now) {
+  if (out_ == nullptr || now - begun_ < quiet_) return;
+  where_ = where;
+  at_ = at;
   extras_ = extras;
   pending_ = true;
-  if (!printed_ || now - last_ >= (terminal_ ? terminalInterval : logInterval)) print(now);
+  if (due(now)) print(now);
+}
+
+bool Progress::due(Clock::time_point now) const {
+  if (out_ == nullptr || now - begun_ < quiet_) return false;
+  return !printed_ || now - last_ >= (terminal_ ? terminalInterval : logInterval);
 }
 
 void Progress::finish(Clock::time_point now) {

@@ -1,5 +1,5 @@
 // How far a run has come, from rank 0: one line that updates itself on a terminal, one line every few seconds in a log
-// file. The time to go is judged from the simulated time covered so far.
+// file. The time to go is judged from the part covered so far.
 #pragma once
 
 #include <mpi.h>
@@ -15,14 +15,20 @@ class Progress {
  public:
   using Clock = std::chrono::steady_clock;
 
-  // Simulated time runs from `start` to `end`, s. Prints to standard output, which is asked whether it is a terminal.
-  Progress(MPI_Comm comm, double start, double end);
+  // Simulated time, or what else tells how far a run is, goes from `start` to `end`. Nothing is said in the first
+  // `quiet` time, so that short runs need no line. Prints to standard output, which is asked whether it is a terminal.
+  Progress(MPI_Comm comm, double start, double end, Clock::duration quiet = {});
   // The same on any stream; `now` is for tests.
-  Progress(std::ostream& out, bool terminal, double start, double end, Clock::time_point now = Clock::now());
+  Progress(std::ostream& out, bool terminal, double start, double end, Clock::time_point now = Clock::now(),
+           Clock::duration quiet = {});
 
   // Say where the run is; prints only when it is time to. `extras` is appended: "Tmax 2103 K  fv 0.31 ppm".
   void update(std::int64_t step, double time, double dt, const std::string& extras = {},
               Clock::time_point now = Clock::now());
+  // The same in other words than those of a run in time: "swa, repeat 3 of 50". `at` lies between start and end.
+  void say(const std::string& where, double at, const std::string& extras = {}, Clock::time_point now = Clock::now());
+  // Whether a line would be printed: where the words cost more than the steps.
+  [[nodiscard]] bool due(Clock::time_point now = Clock::now()) const;
   // Prints the last state in any case and ends the line. Before other output, too, so that lines do not mix.
   void finish(Clock::time_point now = Clock::now());
 
@@ -37,14 +43,14 @@ class Progress {
   bool terminal_;
   double start_;
   double end_;
+  Clock::duration quiet_;
   Clock::time_point begun_;
   Clock::time_point last_;
   bool printed_ = false;
   bool pending_ = false;
   std::size_t width_ = 0;
-  std::int64_t step_ = 0;
-  double time_ = 0.0;
-  double dt_ = 0.0;
+  std::string where_;
+  double at_ = 0.0;
   std::string extras_;
 };
 

@@ -3,9 +3,11 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "particles/population/model/population_model.hpp"
@@ -34,6 +36,10 @@ class PopulationSolver {
 
   // From time() to `end` (s). Throws NumericsError; gelation() of what is thrown then says so, see GelationError.
   virtual void advance(double end) = 0;
+  // `watch` is called every so often on the way (each step, or some hundred events), at most some milliseconds apart
+  // for samples and sections of common sizes. What it throws ends advance(), in the middle of whatever was going on:
+  // such a solver is of no more use.
+  void watchBy(std::function<void()> watch) { watch_ = std::move(watch); }
   [[nodiscard]] virtual double time() const = 0;
 
   // M_0 to M_3, M_k being the sum of v^k per m3 (m^(3k-3)).
@@ -46,6 +52,14 @@ class PopulationSolver {
   [[nodiscard]] virtual std::size_t particles() const = 0;  // numerical particles, sections or moments
   [[nodiscard]] virtual std::size_t bytes() const = 0;      // of memory that grows with their number
   [[nodiscard]] virtual const PopulationCounters& counters() const = 0;
+
+ protected:
+  void lookUp() const {
+    if (watch_) watch_();
+  }
+
+ private:
+  std::function<void()> watch_;
 };
 
 }  // namespace lampblack

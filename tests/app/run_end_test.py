@@ -22,6 +22,14 @@ import small_decks
 h5py = running.package("h5py")
 
 METHODS = "sections: {type: sectional, sections: 20, smallest: 1 m^3, spacing: 2}, dsmc: {type: dsmc, particles: 50}"
+# The first repeats take milliseconds, each of the others a minute.
+LONG_REPEAT = """problem: population_balance
+initial: {distribution: monodisperse, number: 1e6 1/cm^3, volume: 1 m^3}
+processes: {coagulation: {kernel: constant, rate: 1e-6 cm^3/s}, breakage: {rate: 20 1/s}}
+methods: {short: {type: dsmc, particles: 10}, long: {type: dsmc, particles: 5000, rates: exact}}
+time: {end: 10 s, outputs: 200}
+repeats: 4
+"""
 PREFIX = "lampblack: disk full: "
 
 
@@ -44,12 +52,14 @@ class Cases:
         sweep = self.put("sweep.yaml", f"study: populations\ndeck: {population}\nvary:\n  - {{key: seed, values: [1, 2, 3]}}\n")
         many = self.put("many.yaml", f"study: populations\ndeck: {population}\nvary:\n"
                                      f"  - {{key: seed, values: {list(range(1, 400))}}}\n")
+        long_repeat = self.put("long_repeat.yaml", LONG_REPEAT)
         soon = running.settings("time.end=6 us", "output.interval=1 us")
         self.short = {"flow": ["run", flow, *soon], "reactor": ["run", reactor, *running.settings("time.end=0.4 ms")],
                       "population": ["run", population], "flame": ["run", flame], "sweep": ["sweep", sweep]}
         self.long = {"flow": ["run", flow, *running.settings("time.end=1 s", "output.interval=0.5 s")],
                      "reactor": ["run", reactor, *running.settings("output.interval=1 ns")],
                      "population": ["run", population, *running.settings("repeats=1000000")],
+                     "long repeat": ["run", long_repeat],
                      "flame": ["run", large, *running.settings("grid.maximum_points=50000")], "sweep": ["sweep", many]}
 
     def put(self, name, text):
@@ -192,11 +202,12 @@ def is_going(problem, out):
 def check_signal(program, arguments, problem, out, number):
     process = start(program, arguments, out)
     wait_for(lambda: is_going(problem, out), process, "start of the run")
-    if problem in ("population", "flame"):
+    if problem in ("population", "long repeat", "flame"):
         time.sleep(1.0)
-    # One rank is enough where ranks work together; a reactor is computed by the first alone. mpirun tells all.
+    # One rank is enough where ranks work together; a reactor is computed by the first alone, and each rank has repeats of
+    # its own. mpirun tells all.
     ranks = ranks_of(program, process)
-    for rank in ranks if problem == "reactor" else ranks[-1:]:
+    for rank in ranks if problem in ("reactor", "long repeat") else ranks[-1:]:
         os.kill(rank, number)
     said, told = process.communicate(timeout=100)
     assert process.returncode == 128 + number, f"{problem} ends with {process.returncode}: {told}{said[-2000:]}"
@@ -219,8 +230,13 @@ def check_signal(program, arguments, problem, out, number):
         rows = (out / "history.csv").read_text(encoding="utf-8").count("\n") - 1
         assert len(kept["history/time"]) == rows > 2
         assert abs(kept["history/time"][-1] - record["simulated_time_s"]) < 2e-6
-    elif problem == "population":
-        assert "methods/sections/M0" in kept or any(name.startswith("methods/sections/") for name in kept), sorted(kept)[:20]
+    elif problem in ("population", "long repeat"):
+        # What is kept is whole: all 201 rows of each method, of repeats that came to their end.
+        rows = {name: len(values) for name, values in kept.items() if name.endswith("/history/M0")}
+        methods = {"dsmc": 201, "sections": 201} if problem == "population" else {"short": 201, "long": 0}
+        assert rows == {"exact/history/M0": 201, **{f"methods/{name}/history/M0": n for name, n in methods.items()}}, rows
+        if problem == "population":
+            assert 1 < len(kept["methods/dsmc/repeats/M0"]) < 1000000 and (kept["methods/dsmc/repeats/M0"] > 0).all()
     else:
         assert len(kept["flame/z"]) > 5 and "flame/restart/unknowns" in kept
 

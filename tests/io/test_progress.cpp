@@ -24,6 +24,28 @@ TEST(Progress, PrintsALineEveryFewSecondsToALog) {
   EXPECT_THAT(text, HasSubstr("100.0 %"));
 }
 
+TEST(Progress, SaysNothingOfShortRuns) {
+  std::ostringstream out;
+  const auto start = Progress::Clock::now();
+  Progress progress(out, false, 0.0, 8.0, start, seconds(5));
+  progress.say("swa, repeat 1 of 8", 0.5, "", start + seconds(4));
+  EXPECT_FALSE(progress.due(start + seconds(4)));
+  progress.finish(start + seconds(4));
+  EXPECT_EQ(out.str(), "");
+  EXPECT_TRUE(progress.due(start + seconds(6)));
+  progress.say("swa, repeat 2 of 8", 2.0, "", start + seconds(6));
+  EXPECT_EQ(out.str(), "swa, repeat 2 of 8   25.0 %  to go 18 s\n");
+  EXPECT_FALSE(progress.due(start + seconds(7)));
+}
+
+TEST(Progress, DoesNotCountYears) {
+  std::ostringstream out;
+  const auto start = Progress::Clock::now();
+  Progress progress(out, false, 0.0, 1e300, start);
+  progress.update(1, 1e-5, 1e-5, "", start + seconds(1));
+  EXPECT_THAT(out.str(), HasSubstr("0.0 %  to go more than a year\n"));
+}
+
 TEST(Progress, KeepsOneLineOnATerminal) {
   std::ostringstream out;
   const auto start = Progress::Clock::now();

@@ -27,7 +27,10 @@ class MomentSolver final : public PopulationSolver {
     while (time_ < end) {
       const double stop = segmentEnd(end);
       begin(stop);
-      while (time_ < stop) step(stop);
+      while (time_ < stop) {
+        lookUp();
+        step(stop);
+      }
     }
   }
   double time() const override { return time_; }

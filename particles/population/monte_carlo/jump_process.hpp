@@ -3,9 +3,12 @@
 // and may turn out fictitious, which leaves the law of the others exact.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <concepts>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>
@@ -69,6 +72,7 @@ class JumpProcess final : public PopulationSolver {
     const bool continuous = model_.growth.active() && model_.growth.treatment != GrowthOptions::Treatment::jumps;
     const bool deferred = continuous && model_.growth.treatment == GrowthOptions::Treatment::deferred;
     while (time_ < end) {
+      lookUp();
       double next = end;
       if (continuous) next = std::min(next, time_ + method_.growthStep());
       if (model_.dilution != 0) next = std::min(next, time_ + dilutionStep / std::abs(model_.dilution));
@@ -102,14 +106,18 @@ class JumpProcess final : public PopulationSolver {
 
  private:
   static constexpr double dilutionStep = 0.02;
+  static constexpr std::uint64_t eventsUnwatched = 256;
 
   void jump(double end, bool deferred) {
     while (true) {
+      if (++attempts_ % eventsUnwatched == 0) lookUp();
       const double coagulation = model_.coagulation ? method_.coagulationRate() : 0;
       const double breakage = model_.breakage ? method_.breakageRate() : 0;
       const double deposition = model_.deposition ? method_.depositionRate() : 0;
       const double condensation = condenses_ ? method_.condensationRate() : 0;
       const double total = coagulation + breakage + deposition + condensation;
+      if (!(total < infinity))
+        throw NumericsError(fmt::format("the rates of the events are too large for numbers at t = {:.6g} s", time_));
       const double next = total > 0 ? time_ + random_.exponential(total) : infinity;
       if (schedule_) {
         if (sampling_ == NucleationSampling::random && method_.nucleusWeight() != plannedWeight_) replanNucleus();
@@ -175,6 +183,7 @@ class JumpProcess final : public PopulationSolver {
   std::optional<NucleationSchedule> schedule_;
   bool condenses_;
   double time_ = 0;
+  std::uint64_t attempts_ = 0;
   double intervalStart_ = 0, nucleusAt_ = 0, plannedWeight_ = 0;  // 1/m3
   double nucleusTime_ = infinity;                                 // s
 };

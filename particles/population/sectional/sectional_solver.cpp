@@ -109,7 +109,10 @@ void SectionalSolver::advance(double end) {
   while (self.time < end) {
     const double stop = self.segmentEnd(end);
     self.begin(stop);
-    while (self.time < stop) self.step();
+    while (self.time < stop) {
+      lookUp();
+      self.step();
+    }
   }
 }
 
