@@ -10,6 +10,8 @@
 #include "app/reactor_history.hpp"
 #include "app/reactor_output.hpp"
 #include "chemistry/reactor/ignition_sensitivity.hpp"
+#include "core/stop_request.hpp"
+#include "io/progress.hpp"
 #include "io/report.hpp"
 
 namespace lampblack {
@@ -48,8 +50,16 @@ class ClosedReactorDriver : public ReactorDriver {
     seconds_ = MPI_Wtime() - begin;
     if (case_.sensitivities.empty() || reached_ < case_.end) return;
     reactor.setParameters(case_.sensitivities);
-    sensitivities_ = ignitionSensitivities(*case_.mechanism, reactor, case_.integrator, case_.ignition, events_);
+    Progress progress(MPI_COMM_SELF, 0, 1, Progress::logInterval);
+    sensitivities_ = ignitionSensitivities(*case_.mechanism, reactor, case_.integrator, case_.ignition, events_,
+                                           [&](double time, double end) {
+                                             if (progress.due())
+                                               progress.say(fmt::format("sensitivities, t {:.4g} s", time), time / end);
+                                             return stopRequest() == 0;
+                                           });
+    progress.finish();
     sensitivitySeconds_ = MPI_Wtime() - begin - seconds_;
+    if (stopRequest() != 0) return;
     writeSensitivityTable(folder.file("sensitivities.csv"), case_, sensitivities_);
   }
 

@@ -1,6 +1,9 @@
 #include "app/reactor_history.hpp"
 
+#include <fmt/format.h>
+
 #include "core/stop_request.hpp"
+#include "io/progress.hpp"
 
 namespace lampblack {
 
@@ -20,10 +23,15 @@ void ReactorHistory::follow(StiffIntegrator& integrator, const std::optional<dou
     ++rows;
   };
   row(last, y);
+  Progress progress(MPI_COMM_SELF, last, end, Progress::logInterval);
   while (integrator.time() < end && stopRequest() == 0) {
     if (profile) integrator.stopAt(profile->nextKink(integrator.time()).value_or(end));
     integrator.step();
     afterStep();
+    if (progress.due())
+      progress.say(fmt::format("step {}  {} {:.4g} {}", integrator.statistics().steps, columns_[0].name,
+                               integrator.time(), columns_[0].unit),
+                   integrator.time());
     if (interval) {
       for (double next = static_cast<double>(rows) * *interval; next <= integrator.time();
            next = static_cast<double>(rows) * *interval) {
@@ -34,6 +42,7 @@ void ReactorHistory::follow(StiffIntegrator& integrator, const std::optional<dou
     }
     row(integrator.time(), integrator.state());
   }
+  progress.finish();
 }
 
 void ReactorHistory::writeTo(ResultsWriter& results) const {

@@ -24,7 +24,7 @@ class ReactorHistory {
   void open(const std::filesystem::path& path);
   // Integrates from the integrator's start to `end` and writes rows: the start, each step (or each `interval`, by
   // interpolation), and the end. The kinks of a profile are stops. `afterStep` is called after each step.
-  // Ends early where the run is asked to stop.
+  // Ends early where the run is asked to stop; long ones say now and then how far they are.
   void follow(StiffIntegrator& integrator, const std::optional<double>& interval, double end,
               const std::optional<TemperatureProfile>& profile, const MakeRow& makeRow,
               const std::function<void()>& afterStep);

@@ -112,7 +112,8 @@ std::vector<Sample> samplesAround(const std::vector<IgnitionCriterion>& criteria
 IgnitionSensitivities ignitionSensitivities(const Mechanism& mechanism, ClosedReactor& reactor,
                                             const StiffIntegrator::Options& options,
                                             const std::vector<IgnitionCriterion>& criteria,
-                                            const std::vector<std::optional<IgnitionEvent>>& events) {
+                                            const std::vector<std::optional<IgnitionEvent>>& events,
+                                            const std::function<bool(double time, double end)>& goesOn) {
   IgnitionSensitivities result;
   result.values.resize(criteria.size());
   const std::vector<Sample> samples = samplesAround(criteria, events);
@@ -122,7 +123,10 @@ IgnitionSensitivities ignitionSensitivities(const Mechanism& mechanism, ClosedRe
   integrator.start(0.0, reactor.initialState(), samples.back().time, reactor);
   Sampler sampler(mechanism, reactor, criteria);
   for (const Sample& sample : samples) {
-    while (integrator.time() < sample.time) integrator.step();
+    while (integrator.time() < sample.time) {
+      if (goesOn && !goesOn(integrator.time(), samples.back().time)) return result;
+      integrator.step();
+    }
     sampler.take(integrator, sample);
   }
   for (std::size_t i = 0; i < criteria.size(); ++i) {

@@ -5,6 +5,7 @@
 // (docs/theory/reactors.md). Slowing down all reactions alike stretches time: the sum over all reactions is -1.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "chemistry/reactor/closed_reactor.hpp"
@@ -19,10 +20,12 @@ struct IgnitionSensitivities {
 };
 
 // Integrates `reactor` once more, with the sensitivities to its parameters (ClosedReactor::setParameters), to just
-// behind the last of `events`, which a run without sensitivities and with the same tolerances found.
+// behind the last of `events`, which a run without sensitivities and with the same tolerances found. `goesOn` is asked
+// with the time (s) reached and the last one before each step; nothing is met where it says no.
 IgnitionSensitivities ignitionSensitivities(const Mechanism& mechanism, ClosedReactor& reactor,
                                             const StiffIntegrator::Options& options,
                                             const std::vector<IgnitionCriterion>& criteria,
-                                            const std::vector<std::optional<IgnitionEvent>>& events);
+                                            const std::vector<std::optional<IgnitionEvent>>& events,
+                                            const std::function<bool(double time, double end)>& goesOn = {});
 
 }  // namespace lampblack

@@ -9,6 +9,7 @@
 #include "chemistry/numerics/dense_lu.hpp"
 #include "chemistry/reactor/stiff_integrator.hpp"
 #include "core/errors.hpp"
+#include "core/stop_request.hpp"
 
 namespace lampblack {
 
@@ -89,6 +90,8 @@ SteadyState findSteadyState(OdeSystem& system, const std::vector<double>& start,
   integrator.start(0.0, start, patience * timeScale);
   double nextTry = timeScale;
   while (integrator.time() < patience * timeScale) {
+    if (const int signal = stopRequest(); signal != 0)
+      throw Stopped(signal, "stopped by " + signalName(signal) + " on the way to the steady state: nothing is kept");
     integrator.step();
     if (integrator.time() < nextTry) continue;
     const std::vector<double> y(integrator.state().begin(), integrator.state().end());

@@ -19,6 +19,9 @@ namespace {
 
 using sundials::check;
 
+// CVODES may lengthen a step that is lost in the rounding of the time by ten at each: after so many it does not.
+constexpr int kMostStill = 100;
+
 // Vectors of one sensitivity each.
 class VectorArray {
  public:
@@ -67,6 +70,7 @@ struct StiffIntegrator::Impl {
   std::string reason;
   double end = 0;
   long steps = 0;
+  int still = 0;  // steps in a row that were too small to be seen in the time
 
   sundials::Context context;
   sundials::Vector y, interpolated, tolerances;
@@ -207,6 +211,7 @@ void StiffIntegrator::Impl::reinitialise(double time, std::span<const double> st
   check(CVodeSetStopTime(cvode.get(), endTime), "CVodeSetStopTime");
   end = endTime;
   steps = 0;
+  still = 0;
   reason.clear();
 }
 
@@ -258,6 +263,10 @@ void StiffIntegrator::step() {
     throw NumericsError(fmt::format("the integration cannot go on: {}; {}",
                                     self.system.describe(reached, N_VGetArrayPointer(self.y.get())), self.reason));
   }
+  self.still = reached > before ? 0 : self.still + 1;
+  if (self.still > kMostStill)
+    throw NumericsError(fmt::format("the integration cannot go on: {}; steps are too small to be added to {:g}",
+                                    self.system.describe(reached, N_VGetArrayPointer(self.y.get())), reached));
   previousTime_ = before;
   time_ = reached;
   self.system.prescribe(reached, N_VGetArrayPointer(self.y.get()));

@@ -151,6 +151,23 @@ TEST_P(IgnitionSensitivity, MatchesRepeatedRuns) {
 }
 
 // All reactions slowed down alike stretch time: the sensitivities add up to -1.
+// A run that is asked to stop does not wait until the sensitivities are complete.
+TEST(IgnitionSensitivities, EndWhereTheyAreToldTo) {
+  const GasState state = mixture(hydrogen(), "H2: 2, O2: 1, N2: 3.76", 1200);
+  const auto criteria = allCriteria(hydrogen());
+  const auto run = ignite(hydrogen(), state, 4e-4, Held::Pressure);
+  ClosedReactor reactor(hydrogen(), state, Held::Pressure);
+  reactor.setParameters({2, 5});
+  int steps = 0;
+  const auto sensitivities =
+      ignitionSensitivities(hydrogen(), reactor, kDefault, criteria, run.events, [&](double time, double end) {
+        EXPECT_LT(time, end);
+        return ++steps < 10;
+      });
+  EXPECT_EQ(steps, 10);
+  for (const auto& values : sensitivities.values) EXPECT_TRUE(values.empty());
+}
+
 TEST_P(IgnitionSensitivity, AddsUpToMinusOne) {
   const GasState state = mixture(hydrogen(), "H2: 1, O2: 1, N2: 3.76", 1100);
   const auto criteria = allCriteria(hydrogen());

@@ -1,10 +1,14 @@
 // The stiff integrator by itself, on systems with known solutions.
 #include "chemistry/reactor/stiff_integrator.hpp"
 
+#include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
+
+#include "core/errors.hpp"
 
 namespace lampblack {
 namespace {
@@ -65,6 +69,35 @@ TEST(StiffIntegrator, GoesOnBeyondItsEndWithoutANewStart) {
   EXPECT_NEAR(integrator.state()[0], std::exp(-1.5), 1e-7);
   // A new start would begin with tiny steps of first order again.
   EXPECT_LT(integrator.statistics().steps - first, first / 2);
+}
+
+// y' = y^2 with y(1) = 1 is 1/(2 - t): at the pole steps become shorter than the time's last bit.
+class Pole final : public OdeSystem {
+ public:
+  std::size_t size() const override { return 1; }
+  bool rates(double, const double* y, double* f) override {
+    f[0] = y[0] * y[0];
+    return true;
+  }
+  bool jacobian(double t, const double* y, double* f, double* J, std::size_t) override {
+    J[0] = 2 * y[0];
+    return rates(t, y, f);
+  }
+  std::string describe(double t, const double*) const override { return fmt::format("t = {:g} s", t); }
+};
+
+TEST(StiffIntegrator, EndsWhereStepsMoveTheTimeNoLonger) {
+  Pole system;
+  StiffIntegrator integrator(system, {1e-6, 1e-9, 0, 1000000});
+  integrator.start(1, std::vector{1.0}, 3);
+  std::string message;
+  try {
+    while (integrator.time() < 3) integrator.step();
+  } catch (const NumericsError& error) {
+    message = error.what();
+  }
+  EXPECT_THAT(message, testing::HasSubstr("steps are too small to be added to 1.9999"));
+  EXPECT_LT(integrator.statistics().steps, 10000);
 }
 
 }  // namespace
