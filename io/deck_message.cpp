@@ -77,11 +77,6 @@ std::string shortened(const std::string& text) {
   return printable(text.substr(0, end)) + "...";
 }
 
-std::string quotesHint(const std::string& key, const std::string& text) {
-  if (text.find(": ") == std::string::npos) return {};
-  return fmt::format("; a text with ': ' needs quotes of its own: --set '{}=\"{}\"'", key, shortened(text));
-}
-
 std::string foundText(const DeckNode& node) {
   switch (node.kind) {
     case DeckNode::Kind::null:

@@ -258,8 +258,13 @@ void applyOverride(DeckNode& root, const DeckSource& source, std::size_t i) {
   } catch (const StructureError& error) {
     throw fail(error.message, equals + 1, valueText.size(), key);
   } catch (const YAML::Exception& error) {
-    throw fail(fromYaml(error).message + quotesHint(key, valueText), equals + 1, valueText.size(), key);
+    if (valueText.find(": ") == std::string::npos || valueText.find_first_of("{}[]\n") != std::string::npos)
+      throw fail(fromYaml(error).message, equals + 1, valueText.size(), key);
+    value.kind = DeckNode::Kind::scalar;
+    value.text = valueText;
+    value.at = {index, 1, 1, static_cast<int>(valueText.size())};
   }
+  if (value.kind == DeckNode::Kind::map && !valueText.starts_with('{')) value.text = valueText;
   relocate(value, index, static_cast<int>(equals) + 1);
 
   DeckNode* node = &root;

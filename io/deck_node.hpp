@@ -34,7 +34,7 @@ struct DeckNode {
   std::string name;  // key in the enclosing map; empty in a list
   DeckLocation nameAt;
   DeckLocation at;
-  std::string text;     // scalar
+  std::string text;     // scalar; of a map that an override gives without braces: as it was written
   bool quoted = false;  // scalar in quotes: never null
   std::vector<DeckNode> children;
 
@@ -57,11 +57,8 @@ InputError deckError(const DeckSource& source, const DeckLocation& at, const std
 DeckNode parseDeck(const DeckSource& source);
 
 // Applies source.overrides[i] to the tree. Parts of maps that are missing are made; a list takes an index up to its
-// length.
+// length. What a shell has left of a text with colons, "H2: 2, O2: 1", is taken as that text.
 void applyOverride(DeckNode& root, const DeckSource& source, std::size_t i);
-
-// What to add to a message about "key=text" that was to be a text but is none to YAML: how the shell keeps its quotes.
-std::string quotesHint(const std::string& key, const std::string& text);
 
 // "mesh.z[0].cells" or "mesh.z.0.cells" into {"mesh", "z", "0", "cells"}.
 std::vector<std::string> splitDeckPath(std::string_view path);

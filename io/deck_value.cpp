@@ -106,17 +106,12 @@ void readScalar(const DeckKey& key, const std::string& text, DeckValue& value) {
 DeckValue readDeckValue(const DeckSource& source, const DeckKey& key, const std::string& path, const DeckNode& node) {
   DeckValue value{key, path, false, true, {}, {}, {}};
   const auto scalar = [&](const DeckNode& item, const std::string& itemPath) {
-    if (item.kind != DeckNode::Kind::scalar) {
+    const bool textOfMap = key.type == KeyType::string && item.kind == DeckNode::Kind::map && !item.text.empty();
+    if (item.kind != DeckNode::Kind::scalar && !textOfMap) {
       DeckKey one = key;
       one.isList = key.isList && &item == &node;
       const DeckLocation at = item.at.line > 0 ? item.at : item.nameAt;
-      std::string hint;
-      if (key.type == KeyType::string && at.overrideIndex >= 0) {
-        const std::string& override = source.overrides[static_cast<std::size_t>(at.overrideIndex)];
-        hint = quotesHint(path, override.substr(override.find('=') + 1));
-      }
-      throw deckError(source, at, itemPath,
-                      fmt::format("expected {}, found {}{}", expectation(one), foundText(item), hint));
+      throw deckError(source, at, itemPath, fmt::format("expected {}, found {}", expectation(one), foundText(item)));
     }
     try {
       readScalar(key, item.text, value);

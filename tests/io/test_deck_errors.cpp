@@ -204,13 +204,6 @@ TEST(DeckErrors, AnIntegerBeyondExactFloatingPoint) {
         << tooLarge;
 }
 
-TEST(DeckErrors, ATextInAnOverrideNeedsQuotesOfItsOwn) {
-  for (const char* setting : {"mechanism=H2: 2, O2: 1", "mechanism='a(1,3)': 1"})
-    EXPECT_THAT(messageOf(test::sampleText, {setting}),
-                HasSubstr("a text with ': ' needs quotes of its own: --set 'mechanism=\""))
-        << setting;
-}
-
 TEST(DeckErrors, ControlCharactersAreNotSentToTheConsole) {
   const std::string message = messageOf("problem: flow\nmesh: {zz\x1b[2Jz: 3} # \r x\n");
   for (const char c : {'\x1b', '\r'}) EXPECT_EQ(message.find(c), std::string::npos) << message;

@@ -28,6 +28,19 @@ TEST(DeckOverrides, ReplaceWholeSections) {
   EXPECT_FALSE(deck.has("boundaries.fuel.velocity"));
 }
 
+// A shell takes the quotes around the whole; what is left is a map to YAML, or nothing at all.
+TEST(DeckOverrides, TextsWithColonsNeedNoQuotesOfTheirOwn) {
+  for (const char* text : {"H2: 2, O2: 1", "H2: 1", "'a(1,3)': 1"})
+    EXPECT_EQ(sampleDeck({std::string("mechanism=") + text}).string("mechanism"), text);
+  EXPECT_EQ(sampleDeck({"mechanism=\"H2: 2, O2: 1\""}).string("mechanism"), "H2: 2, O2: 1");
+}
+
+TEST(DeckOverrides, MapsAreNoTexts) {
+  EXPECT_THAT(messageOf(sampleText, {"mechanism={H2: 1}"}), HasSubstr("mechanism: expected a text, found a map"));
+  EXPECT_THAT(messageOf(sampleText, {"seed=H2: 2, O2: 1"}),
+              HasSubstr("seed: expected an integer, found 'H2: 2, O2: 1'"));
+}
+
 TEST(DeckOverrides, ErrorsPointIntoTheOverride) {
   EXPECT_EQ(messageOf(sampleText, {"boundaries.fuel.velocity=20 cm"}),
             "--set boundaries.fuel.velocity=20 cm: boundaries.fuel.velocity: expected a velocity (for instance "
