@@ -17,6 +17,7 @@
 #include "app/sweep_command.hpp"
 #include "app/sweep_study.hpp"
 #include "core/errors.hpp"
+#include "core/long_lines.hpp"
 #include "core/petsc.hpp"
 #include "core/stop_request.hpp"
 #include "core/system_error.hpp"
@@ -70,10 +71,15 @@ int fail(const char* kind, const std::exception& error, int code) {
   const bool everywhere = ranks == 1 || isCollective(error);
   if (rank == 0 || !everywhere) {
     std::cout.flush();
-    std::cerr << "lampblack: " << kind << error.what() << std::endl;
+    std::cerr << "lampblack: " << kind << withoutLongLines(error.what()) << std::endl;
   }
   if (!everywhere) MPI_Abort(PETSC_COMM_WORLD, code);
   return code;
+}
+
+// Of a damaged file HDF5 cannot close all, and says so when MPI ends, after the message that the file is damaged.
+void sayNoMore() {
+  if (std::freopen("/dev/null", "w", stderr) == nullptr) return;  // then it does
 }
 
 int execute(const std::function<void()>& command) {
@@ -145,5 +151,6 @@ int main(int argc, char** argv) {
     return PetscFinalize() == 0 ? status : exitBug;
   }
   const int code = execute(command);
+  if (code != 0) sayNoMore();
   return PetscFinalize() == 0 ? code : exitBug;
 }

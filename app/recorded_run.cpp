@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "app/build_info.hpp"
+#include "core/long_lines.hpp"
 #include "core/stop_request.hpp"
 #include "io/disk_space.hpp"
 
@@ -38,7 +39,7 @@ void recordedRun(MPI_Comm comm, const Deck& deck, const RunOptions& options, std
   std::optional<SpareSpace> spare;  // so that a full disk does not keep the record from saying so
   const auto finish = [&](RunStatus status, const std::string& message) {
     record.status = status;
-    record.message = message;
+    record.message = withoutLongLines(message);
     record.finished = utcNow();
     record.wallTime = MPI_Wtime() - start;
     if (rank != 0) return;

@@ -4,6 +4,8 @@
 
 #include <iostream>
 
+#include "core/long_lines.hpp"
+
 namespace lampblack {
 
 void printWarnings(const std::vector<std::string>& warnings) {
@@ -11,7 +13,7 @@ void printWarnings(const std::vector<std::string>& warnings) {
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   if (rank != 0 || warnings.empty()) return;
   std::cout.flush();
-  for (const auto& warning : warnings) std::cerr << "lampblack: warning: " << warning << '\n';
+  for (const auto& warning : warnings) std::cerr << "lampblack: warning: " << withoutLongLines(warning) << '\n';
   std::cerr.flush();
 }
 

@@ -17,6 +17,7 @@ import running
 
 MECHANISM_KEY = f"mechanism: ../mechanisms/{running.MECHANISM}"
 SOOT = "soot:\n  pah: [A2]\n"
+LONGEST = 1100  # letters of a line
 # A line of the deck under a message, or the mark below it.
 QUOTE = re.compile(r"^ *(\d+|--set)? \| ")
 
@@ -151,8 +152,10 @@ MISTAKES = [
           "trajectories.start[1]", ("lies on the outlet 'outflow'",)),
     Wrong("mechanism without an end", MECHANISM_KEY, "mechanism: /dev/urandom", "/dev/urandom", "mechanism",
           ("/dev/urandom: this is no regular file",)),
-    Wrong("composition without its quotes in --set", key="boundaries.fuel.composition",
-          expected=("needs quotes of its own",), settings=("boundaries.fuel.composition=C2H4: 1",)),
+    Wrong("composition without quotes in --set", key="boundaries.fuel.composition",
+          expected=("'C2H44'",), settings=("boundaries.fuel.composition=C2H44: 1",)),
+    Wrong("a hundred thousand letters", "C2H4: 1", f"C2H4: {100_000 * 'a'}", "C2H4: aa", "boundaries.fuel.composition",
+          (" ... ",)),
     Wrong("not YAML", "pressure: 1 atm", "pressure: [1 atm", "", ""),
 ]
 
@@ -194,6 +197,8 @@ class Checker:
         lines = err.splitlines()
         if not lines or not lines[0].startswith("lampblack: "):
             return ["the first line is no message of lampblack"]
+        if max(map(len, lines)) > LONGEST:
+            return ["a line that no console shows"]
         return [f"more than one message: '{line}'" for line in lines[1:] if not QUOTE.match(line)]
 
     def mistake(self, wrong: Wrong) -> None:
