@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "chemistry/kinetics/kinetics.hpp"
 #include "chemistry/reactor/network_solver.hpp"
 #include "chemistry/reactor/plug_flow.hpp"
 #include "chemistry/reactor/steady_state.hpp"
@@ -105,6 +106,27 @@ TEST(NetworkSystem, JacobianIsTheDerivative) {
     measured("difference from central differences", error);
     EXPECT_LT(error, 1e-6);
   }
+}
+
+// W/m^3: of the rates by themselves, - sum h_k W_k wdot_k.
+TEST(NetworkSystem, HeatReleaseIsThatOfTheRatesPerVolume) {
+  NetworkSystem system(hydrogen(), recycling());
+  const std::size_t n = hydrogen().numSpecies();
+  const GasState gas = hydrogenAir(1500, "H2: 2, O2: 1, N2: 3.76, H: 0.01, OH: 0.01");
+  std::vector<double> y;
+  for (int r = 0; r < 3; ++r) {
+    y.insert(y.end(), gas.Y.begin(), gas.Y.end());
+    y.push_back(gas.temperature);
+  }
+  const Thermo thermo(hydrogen());
+  const double density = thermo.density(gas.temperature, kAtm, gas.Y);
+  std::vector<double> concentrations(n), wdot(n), h(n);
+  for (std::size_t k = 0; k < n; ++k) concentrations[k] = density * gas.Y[k] / hydrogen().molecularWeights()[k];
+  Kinetics(hydrogen()).netProductionRates(gas.temperature, concentrations, wdot);
+  thermo.speciesEnthalpies(gas.temperature, h);
+  double expected = 0;
+  for (std::size_t k = 0; k < n; ++k) expected -= h[k] * hydrogen().molecularWeights()[k] * wdot[k];
+  for (std::size_t r = 0; r < 3; ++r) EXPECT_NEAR(system.heatRelease(y.data(), r) / expected, 1.0, 1e-12) << r;
 }
 
 TEST(PlugFlow, JacobianIsTheDerivative) {

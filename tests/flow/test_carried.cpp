@@ -118,6 +118,32 @@ TEST_P(Carried, HugeDiffusivityIsStableConservedAndBounded) {
   EXPECT_LE(largest(b.mesh, [&](int c) { return std::abs(state.carried[at(c)] - mean); }), 1e-3 * mean);
 }
 
+// At a face between particles that diffuse and others that do not, both sides count, whichever is the lower one: two
+// scalars that are mirror images of each other stay so.
+TEST_P(Carried, DiffusivityOfAFaceIsThatOfBothCells) {
+  Box b = box(0.0);
+  State state = b.state(
+      [&](const auto&) {
+        return Box::Local{{0.0, 0.0}, 300.0, air};
+      },
+      {{"upwards", "1/m3", "", 0.0}, {"downwards", "1/m3", "", 0.0}});
+  const auto isBelow = [&](int c) { return b.mesh.centre[at(c)][1] < 0.006; };
+  for (int c = 0; c < b.mesh.cells; ++c)
+    for (int s = 0; s < 2; ++s) {
+      const bool full = isBelow(c) == (s == 0);
+      state.carried[at(2 * c + s)] = full ? 1.0 : 0.0;
+      state.carriedDiffusivity[at(2 * c + s)] = full ? 1e-4 : 0.0;
+    }
+  TransportOperator transport(b.context, state);
+  transport.initialise(state, 1e-3);
+  transport.advance(state, 0.0, 1e-3);
+  const auto crossed = [&](int s) {
+    return integral(b.mesh, [&](int c) { return isBelow(c) == (s == 0) ? 0.0 : state.carried[at(2 * c + s)]; });
+  };
+  EXPECT_GT(crossed(0), 0.0);
+  EXPECT_NEAR(crossed(1) / crossed(0), 1.0, 1e-6) << "the tolerance of the solver is 1e-9";
+}
+
 TEST_P(Carried, ThermophoresisDriftsToTheCold) {
   const double K = 0.55;
   Box b = box(0.0);
