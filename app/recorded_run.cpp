@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <new>
 #include <optional>
 
 #include "app/build_info.hpp"
 #include "core/long_lines.hpp"
 #include "core/stop_request.hpp"
+#include "core/system_error.hpp"
 #include "io/disk_space.hpp"
 
 namespace lampblack {
@@ -65,6 +67,9 @@ void recordedRun(MPI_Comm comm, const Deck& deck, const RunOptions& options, std
     collectively(comm, [&] { finish(RunStatus::done, ""); });
   } catch (const Stopped& stopped) {
     finishBadly(RunStatus::stopped, stopped.what());
+    throw;
+  } catch (const std::bad_alloc&) {
+    finishBadly(RunStatus::failed, outOfMemory().what());
     throw;
   } catch (const std::exception& error) {
     finishBadly(RunStatus::failed, error.what());

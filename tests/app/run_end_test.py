@@ -241,6 +241,19 @@ def check_signal(program, arguments, problem, out, number):
         assert len(kept["flame/z"]) > 5 and "flame/restart/unknowns" in kept
 
 
+def check_memory(program, arguments, out):
+    """A flame whose grid grows beyond what the machine has."""
+    enough_to_begin = 600 << 20
+    done = subprocess.run([*program.command, *map(str, arguments), "--out", str(out)], env=running.environment(),
+                          stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=100, check=False,
+                          preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (enough_to_begin, enough_to_begin)))
+    assert done.returncode == 3 and done.stderr.startswith("lampblack: out of memory: "), done
+    assert len(done.stderr.splitlines()) == 1, done.stderr
+    record = json.loads((out / "run.json").read_text(encoding="utf-8"))
+    assert record["status"] == "failed" and f"lampblack: {record['message']}\n" == done.stderr, record["message"]
+    assert not leftovers(out), leftovers(out)
+
+
 def check_second_signal(program, arguments, out):
     """Who asks twice does not want to wait."""
     process = start(program, arguments, out)
@@ -289,6 +302,8 @@ def main():
                 check_signal(program, long, problem, folder / f"{problem}_{number}", number)
         if program.ranks == 1:
             check_second_signal(program, cases.long["flow"], folder / "twice")
+            if "ASAN_OPTIONS" not in os.environ:  # the sanitizer wants terabytes of addresses
+                check_memory(program, cases.long["flame"], folder / "memory")
         check_lock(program, cases.long["flow"], folder / "locked")
     print("ends of runs: all in order")
 
