@@ -72,6 +72,7 @@ def guarded(main):
         said.seek(0)
         sys.stderr.write(said.read().decode("utf-8", "replace"))
     if code < 0:
-        signal.signal(-code, signal.SIG_DFL)
+        if -code != signal.SIGKILL:
+            signal.signal(-code, signal.SIG_DFL)
         os.kill(os.getpid(), -code)
     return code
