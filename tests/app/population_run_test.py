@@ -39,6 +39,14 @@ methods:
 time: {end: 2 s, outputs: 20}
 repeats: 5
 """
+# More pieces than the exact solution can count: 2 B(v0) t = 2e8 at the end.
+SHATTERED = """problem: population_balance
+initial: {distribution: monodisperse, number: 1 1/m^3, volume: 1 m^3}
+processes: {breakage: {rate: 1e8 1/s, exponent: 1, reference_volume: 1 m^3}}
+methods: {dsmc: {type: dsmc, particles: 16}}
+time: {end: 1 s, outputs: 1}
+repeats: 1
+"""
 REPEATS, ROWS, OWN = 25, 21, "/seconds"
 
 
@@ -137,6 +145,13 @@ def main(executable: str, *mpiexec: str) -> None:
             assert 3 < len(times) and times[-1] < 1, f"rows up to {times[-1]} s; it gels at 1 s"
             result = program("check", gelled / "deck.yaml")
             assert result.code == 0 and "warning: the population gels at t = 1 s" in result.err, result.err
+
+        result = run(running.Program(executable, list(mpiexec), 1), SHATTERED, folder / "shattered")
+        assert result.err.splitlines() == [
+            "lampblack: warning: nothing is compared with the exact solution from t = 1 s on: the exact solution of breakage "
+            "into equal pieces is for times below 1e7 / (pieces B(v0))"], result.err
+        exact = datasets(folder / "shattered/out/results.h5")["exact/history/M0"]
+        assert exact[0] == 1 and np.isnan(exact[1]), exact
     print("the same numbers on 1, 2 and 3 ranks; gelation stops with its time")
 
 
