@@ -80,6 +80,11 @@ def network(program, folder):
         assert file["reactors"].attrs["names"].decode() == ",".join(results["reactors"])
     assert head[1] == "temperature [K]" and np.array_equal([float(row[1]) for row in rows], temperature)
     assert list(temperature) == [reactor["temperature_K"] for reactor in results["reactors"].values()]
+    with h5py.File(out / "results.h5") as file:
+        column = {name: file["reactors"][name][()] for name in ("volume", "density", "mass_flow", "residence_time")}
+    assert np.allclose(column["volume"], [1e-4, 2e-4, 1e-4, 3e-4, 3e-4, 3e-4], rtol=1e-9), "volumes of the deck, in m3"
+    assert np.allclose(column["mass_flow"][2:], 0.13, rtol=1e-6), "all that the inlets bring"
+    assert np.allclose(column["residence_time"], column["density"] * column["volume"] / column["mass_flow"], rtol=1e-9)
 
 
 def transient(program, folder):

@@ -174,6 +174,13 @@ TEST(DeckErrors, ALongLineIsCutAroundTheCaret) {
   EXPECT_THAT(wrong, HasSubstr("     3 | mesh: {z: [{to: soon, cells: 1}]} # aaa"));
   EXPECT_THAT(wrong, HasSubstr("\n       |                 ^~~~"));
   EXPECT_THAT(messageOf(test::sampleText, {"time.end=" + before}), HasSubstr("--set time.end=aaa"));
+  // And where the line is cut in front of it.
+  std::string items;
+  for (int i = 0; i < 40; ++i) items += "{to: 1 mm, cells: 1}, ";
+  const std::string late = messageOf("problem: flow\nmechanism: m\nmesh: {z: [" + items + "{to: soon, cells: 1}]}\n");
+  const std::size_t line = late.find('\n') + 1, marks = late.find('\n', line) + 1;
+  ASSERT_THAT(late, HasSubstr("...")) << late;
+  EXPECT_EQ(late.find("soon, cells", line) - line, late.find("^~~~", marks) - marks) << late;
 }
 
 TEST(DeckErrors, DeepNestingIsAMistakeOfTheDeck) {
