@@ -27,11 +27,11 @@ double sootAbsorption(double volumeFraction, double T) {
 class Coupling {
  public:
   Coupling(const Mechanism& mechanism, CarriedModel* transfer, const FlameEnsembleOptions& options)
-      : mechanism_(mechanism), transfer_(transfer), pah_(options.soot.soot.pah) {}
+      : mechanism_(mechanism), transfer_(transfer), soot_(options.soot.soot) {}
 
   [[nodiscard]] FlameExchange ofPopulation(const FlameProfile& profile,
                                            const std::vector<FlameEnsemblePath>& paths) const {
-    return exchangeOf(mechanism_, pah_, profile, paths);
+    return exchangeOf(mechanism_, soot_, profile, paths);
   }
 
   // Of the transfer model in the same flame.
@@ -46,13 +46,12 @@ class Coupling {
     std::vector<double> concentrations(exchanged.size()), densities(scalars.size()), rates(scalars.size()),
         production(exchanged.size());
     for (std::size_t i = 0; i < profile.points(); ++i) {
-      const SootGasState& s = gas.state[i];
+      const CarrierGas& s = gas.carrier[i];
       for (std::size_t k = 0; k < exchanged.size(); ++k)
         concentrations[k] = s.density * profile.massFractions(i)[exchanged[k]] / weights[exchanged[k]];
       for (std::size_t k = 0; k < scalars.size(); ++k)
         densities[k] = profile.scalars(i)[k] * scalars[k].scale * s.density;
-      const CarriedGas there{s.temperature, s.pressure, s.density, s.viscosity, s.meanMolecularWeight, concentrations};
-      transfer_->sources(there, densities, rates, production);
+      transfer_->sources({s, concentrations}, densities, rates, production);
       for (std::size_t k = 0; k < exchanged.size(); ++k)
         e.species[i * n + exchanged[k]] = production[k] * weights[exchanged[k]];
       for (std::size_t k = 0; k < scalars.size(); ++k) {
@@ -87,7 +86,7 @@ class Coupling {
  private:
   const Mechanism& mechanism_;
   CarriedModel* transfer_;
-  std::vector<PahSpecies> pah_;
+  const SootModelOptions& soot_;
 };
 
 // Volume fraction over z, of all paths.
@@ -99,7 +98,7 @@ std::vector<Volumes> volumesOf(const std::vector<FlameEnsemblePath>& paths) {
   std::vector<Volumes> result;
   for (const FlameEnsemblePath& path : paths) {
     Volumes v;
-    for (const SootPathPoint& p : path.path.path.points) v.z.push_back(p.z);
+    v.z = path.path.z;
     v.value = path.volumeFraction.mean;
     if (path.options.fromRight) {
       std::reverse(v.z.begin(), v.z.end());
@@ -114,14 +113,13 @@ FlameCouplingStep describe(const std::vector<FlameEnsemblePath>& paths, const st
                            const std::vector<Volumes>& before) {
   FlameCouplingStep step;
   for (const FlameEnsemblePath& path : paths) {
-    const auto& points = path.path.path.points;
-    for (std::size_t k = 0; k < points.size(); ++k) {
+    for (std::size_t k = 0; k < path.path.z.size(); ++k) {
       if (path.volumeFraction.mean[k] <= step.volumeFraction) continue;
       step.volumeFraction = path.volumeFraction.mean[k];
       step.noise = path.volumeFraction.error[k] / step.volumeFraction;
     }
-    if (points.empty()) continue;
-    const double out = std::abs(points.back().velocity);
+    if (path.path.z.empty()) continue;
+    const double out = std::abs(path.path.velocity.back());
     step.carbonLeaving += out * path.carbon.mean.back();
     step.hydrogenLeaving += out * path.hydrogen.mean.back();
   }
@@ -157,27 +155,20 @@ double change(const FlameProfile& before, const FlameProfile& after, std::size_t
 FlameExchange::FlameExchange(std::vector<double> points, std::size_t n)
     : z(std::move(points)), species(z.size() * n), carbon(z.size()), hydrogen(z.size()), absorption(z.size()) {}
 
-FlameExchange exchangeOf(const Mechanism& mechanism, std::span<const PahSpecies> pah, const FlameProfile& profile,
+FlameExchange exchangeOf(const Mechanism& mechanism, const SootModelOptions& soot, const FlameProfile& profile,
                          const std::vector<FlameEnsemblePath>& paths) {
-  std::vector<std::pair<double SootExchange::*, std::size_t>> species;
-  for (const auto& [part, name] : {std::pair{&SootExchange::H, "H"},
-                                   {&SootExchange::H2, "H2"},
-                                   {&SootExchange::OH, "OH"},
-                                   {&SootExchange::O2, "O2"},
-                                   {&SootExchange::C2H2, "C2H2"},
-                                   {&SootExchange::CO, "CO"}})
-    species.emplace_back(part, mechanism.speciesIndex(name));
-  std::vector<std::size_t> pahIndex;
-  for (const PahSpecies& one : pah) pahIndex.push_back(mechanism.speciesIndex(one.name));
+  std::vector<std::size_t> species;
+  for (const std::string& name : sootSpecies(soot)) species.push_back(mechanism.speciesIndex(name));
   const std::size_t n = mechanism.numSpecies(), last = profile.points() - 1;
   const auto weights = mechanism.molecularWeights();
   FlameExchange e(profile.z, n);
   for (const FlameEnsemblePath& path : paths) {
     const auto& points = path.path.path.points;
+    const std::vector<double>& z = path.path.z;
     for (std::size_t k = 0; k + 1 < points.size(); ++k) {
       const double dt = points[k + 1].time - points[k].time;
-      const double length = std::abs(points[k + 1].z - points[k].z);
-      for (const double end : {points[k].z, points[k + 1].z}) {
+      const double length = std::abs(z[k + 1] - z[k]);
+      for (const double end : {z[k], z[k + 1]}) {
         const auto i = static_cast<std::size_t>(
             std::min_element(e.z.begin(), e.z.end(),
                              [&](double a, double b) { return std::abs(a - end) < std::abs(b - end); }) -
@@ -185,17 +176,16 @@ FlameExchange exchangeOf(const Mechanism& mechanism, std::span<const PahSpecies>
         const double below = i == 0 ? 0 : e.z[i] - e.z[i - 1], above = i == last ? 0 : e.z[i + 1] - e.z[i];
         const double part = length / (below + above) / dt;
         const SootExchange& x = path.exchange[k];
-        for (const auto& [member, s] : species) e.species[i * n + s] += part * x.*member * weights[s];
-        for (std::size_t p = 0; p < pahIndex.size(); ++p)
-          e.species[i * n + pahIndex[p]] += part * x.pah[p] * weights[pahIndex[p]];
+        for (std::size_t s = 0; s < species.size(); ++s)
+          e.species[i * n + species[s]] += part * x.gas[s] * weights[species[s]];
         e.carbon[i] += part * x.carbon;
         e.hydrogen[i] += part * x.hydrogen;
       }
     }
     for (std::size_t i = 0; i <= last; ++i) {
-      const double z = profile.z[i];
-      for (std::size_t k = 0; k < points.size(); ++k)
-        if (points[k].z == z) e.absorption[i] += sootAbsorption(path.volumeFraction.mean[k], profile.temperature(i));
+      for (std::size_t k = 0; k < z.size(); ++k)
+        if (z[k] == profile.z[i])
+          e.absorption[i] += sootAbsorption(path.volumeFraction.mean[k], profile.temperature(i));
     }
   }
   return e;
@@ -215,7 +205,7 @@ FlameCoupling coupleFlame(MPI_Comm comm, const Mechanism& mechanism, double pres
     const FlameProfile& profile = result.solution.profile;
     FlameSootGas gas;
     collectively(comm, [&] {
-      gas = flameSootGas(profile, mechanism, pressure, options.ensemble.soot.soot.pah, sootThermophoresis());
+      gas = flameSootGas(profile, mechanism, pressure, options.ensemble.soot.soot, sootThermophoresis());
     });
     result.paths = runFlameEnsemble(comm, gas, options.ensemble);
     const FlameExchange population = coupling.ofPopulation(profile, result.paths);

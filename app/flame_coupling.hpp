@@ -37,7 +37,7 @@ struct FlameExchange {
 
 // Of the population along its paths. The points of a path are those of the flame, in order, but for the last one where
 // particles stagnate. A point gets half of the intervals on both sides: finite volumes around points see the sum.
-[[nodiscard]] FlameExchange exchangeOf(const Mechanism& mechanism, std::span<const PahSpecies> pah,
+[[nodiscard]] FlameExchange exchangeOf(const Mechanism& mechanism, const SootModelOptions& soot,
                                        const FlameProfile& profile, const std::vector<FlameEnsemblePath>& paths);
 
 struct FlameCouplingOptions {

@@ -20,7 +20,7 @@ void pack(const SootPathResult& result, std::size_t bins, double* out) {
   for (const SootPathRecord& r : result.records) {
     const auto& t = r.totals;
     const double n = t.number;
-    for (const double value : {n, r.volumeFraction, n > 0 ? t.diameters / n : 0.0, r.geometricDeviation,
+    for (const double value : {n, r.volumeFraction, t.meanDiameter(), r.geometricDeviation,
                                n > 0 ? t.primaries / n : 0.0, t.carbon, t.hydrogen, t.surface})
       *out++ = value;
     for (std::size_t b = 0; b < bins; ++b) *out++ = r.distribution[b];

@@ -14,16 +14,16 @@ void writePath(ResultsWriter& results, std::size_t id, const FlameEnsemblePath& 
   const auto& points = path.path.path.points;
   const auto rows = static_cast<std::int64_t>(points.size());
   if (rows == 0) return;
-  const auto column = [&](const std::string& name, const std::string& unit, const std::string& text, auto&& of) {
-    std::vector<double> values;
-    values.reserve(points.size());
-    for (const SootPathPoint& p : points) values.push_back(of(p));
-    results.dataset(group + name, {rows}, values, unit, text, 0);
-  };
-  column("z", "m", "position", [](const SootPathPoint& p) { return p.z; });
-  column("time", "s", "since the start of the path", [](const SootPathPoint& p) { return p.time; });
-  column("velocity", "m/s", "of the particles", [](const SootPathPoint& p) { return p.velocity; });
-  column("temperature", "K", "of the gas", [](const SootPathPoint& p) { return p.gas.temperature; });
+  const std::vector<double>& z = path.path.z;
+  std::vector<double> time, temperature;
+  for (const GasSample& point : points) {
+    time.push_back(point.time);
+    temperature.push_back(point.gas.temperature);
+  }
+  results.dataset(group + "z", {rows}, z, "m", "position", 0);
+  results.dataset(group + "time", {rows}, time, "s", "since the start of the path", 0);
+  results.dataset(group + "velocity", {rows}, path.path.velocity, "m/s", "of the particles", 0);
+  results.dataset(group + "temperature", {rows}, temperature, "K", "of the gas", 0);
   const auto repeated = [&](const std::string& name, const std::string& unit, const std::string& text,
                             const RepeatedValue& value) {
     results.dataset(group + name, {rows}, value.mean, unit, text + ", mean of the repeats", 0);
@@ -39,18 +39,14 @@ void writePath(ResultsWriter& results, std::size_t id, const FlameEnsemblePath& 
   repeated("surface", "m^2/m^3", "surface of particles", path.surface);
 
   const std::size_t bins = options.march.bins;
-  std::vector<double> edges;
-  const double width = (options.march.logDiameterMax - options.march.logDiameterMin) / static_cast<double>(bins);
-  for (std::size_t b = 0; b <= bins; ++b)
-    edges.push_back(std::pow(10.0, options.march.logDiameterMin + width * static_cast<double>(b)));
-  results.dataset(group + "bin_edges", {static_cast<std::int64_t>(bins) + 1}, edges, "m", "diameters between the bins",
-                  0);
+  results.dataset(group + "bin_edges", {static_cast<std::int64_t>(bins) + 1}, options.march.binEdges(), "m",
+                  "diameters between the bins", 0);
   std::vector<double> at, mean, error;
   for (const double height : heights) {
     std::size_t best = 0;
-    for (std::size_t i = 1; i < points.size(); ++i)
-      if (std::abs(points[i].z - height) < std::abs(points[best].z - height)) best = i;
-    at.push_back(points[best].z);
+    for (std::size_t i = 1; i < z.size(); ++i)
+      if (std::abs(z[i] - height) < std::abs(z[best] - height)) best = i;
+    at.push_back(z[best]);
     const auto append = [&](std::vector<double>& to, const std::vector<double>& from) {
       const auto begin = from.begin() + static_cast<std::ptrdiff_t>(best * bins);
       to.insert(to.end(), begin, begin + static_cast<std::ptrdiff_t>(bins));

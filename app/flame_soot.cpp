@@ -18,24 +18,20 @@ FlameSoot::FlameSoot(const Mechanism& mechanism, std::unique_ptr<SootModel> mode
   for (const std::string& name : model_->gasSpecies()) exchanged_.push_back(mechanism.speciesIndex(name));
 }
 
-SootGas FlameSoot::gasOf(const CarriedGas& gas) {
-  return {gas.temperature, gas.pressure, gas.density, gas.viscosity, gas.meanMolecularWeight, gas.concentrations};
-}
-
-void FlameSoot::sources(const CarriedGas& gas, std::span<const double> densities, std::span<double> rates,
+void FlameSoot::sources(const ParticleGas& gas, std::span<const double> densities, std::span<double> rates,
                         std::span<double> exchange) {
-  model_->sources(gasOf(gas), densities, rates, exchange);
+  model_->sources(gas, densities, rates, exchange);
 }
 
-void FlameSoot::jacobian(const CarriedGas& gas, std::span<const double> densities, const CarriedJacobian& out) {
+void FlameSoot::jacobian(const ParticleGas& gas, std::span<const double> densities, const CarriedJacobian& out) {
   if (out.columns != scalars_.size() + exchanged_.size() + 1)
     throw std::logic_error("soot: the Jacobian has another number of columns than the model");
-  model_->jacobian(gasOf(gas), densities, out.values);
+  model_->jacobian(gas, densities, out.values);
 }
 
-void FlameSoot::diffusivities(const CarriedGas& gas, std::span<const double> densities, std::span<double> D) {
+void FlameSoot::diffusivities(const ParticleGas& gas, std::span<const double> densities, std::span<double> D) {
   if (diffusion_)
-    model_->diffusivities(gasOf(gas), densities, D);
+    model_->diffusivities(gas, densities, D);
   else
     std::fill(D.begin(), D.end(), 0.0);
 }

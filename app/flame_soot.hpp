@@ -27,16 +27,14 @@ class FlameSoot final : public CarriedModel {
   FlameSoot(const Mechanism& mechanism, std::unique_ptr<SootModel> model, bool diffusion = true);
 
   [[nodiscard]] const SootModel& model() const { return *model_; }
-  // The gas as the model sees it; the concentrations are those that `gas` refers to.
-  [[nodiscard]] static SootGas gasOf(const CarriedGas& gas);
 
   [[nodiscard]] const std::vector<Scalar>& scalars() const override { return scalars_; }
   [[nodiscard]] const std::vector<std::size_t>& exchanged() const override { return exchanged_; }
   [[nodiscard]] std::vector<std::vector<double>> gridSums() const override { return model_->gridSums(); }
-  void sources(const CarriedGas& gas, std::span<const double> densities, std::span<double> rates,
+  void sources(const ParticleGas& gas, std::span<const double> densities, std::span<double> rates,
                std::span<double> exchange) override;
-  void jacobian(const CarriedGas& gas, std::span<const double> densities, const CarriedJacobian& out) override;
-  void diffusivities(const CarriedGas& gas, std::span<const double> densities, std::span<double> D) override;
+  void jacobian(const ParticleGas& gas, std::span<const double> densities, const CarriedJacobian& out) override;
+  void diffusivities(const ParticleGas& gas, std::span<const double> densities, std::span<double> D) override;
   // Soot carbon has the enthalpy of graphite, soot hydrogen that of H2.
   void enthalpies(double temperature, std::span<double> h, std::span<double> slope) override;
   // 700 f_v T 1/m (thesis 7.2.4).

@@ -75,8 +75,8 @@ FlameSootFields flameSootFields(const Mechanism& mechanism, double pressure, con
       densities[s] = profile.scalars(i)[s] * soot.scalars()[s].scale * gas.density[i];
       fields.scalars[s].values.push_back(densities[s]);
     }
-    const SootGas at{gas.temperature[i],         pressure,      gas.density[i], gas.viscosity[i],
-                     gas.meanMolecularWeight[i], concentrations};
+    const ParticleGas at{{gas.temperature[i], pressure, gas.density[i], gas.viscosity[i], gas.meanMolecularWeight[i]},
+                         concentrations};
     const SootProperties properties = soot.model().properties(at, densities);
     for (std::size_t c = 0; c < propertyColumns.size(); ++c)
       fields.properties[c].values.push_back(properties.*propertyColumns[c].value);

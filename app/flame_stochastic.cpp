@@ -37,7 +37,7 @@ StochasticFlame runStochasticFlame(MPI_Comm comm, const Mechanism& mechanism, do
   if (!request.twoWay) {
     FlameSootGas gas;
     collectively(comm, [&] {
-      gas = flameSootGas(solution.profile, mechanism, pressure, ensemble.soot.soot.pah, sootThermophoresis());
+      gas = flameSootGas(solution.profile, mechanism, pressure, ensemble.soot.soot, sootThermophoresis());
     });
     result.paths = runFlameEnsemble(comm, gas, ensemble);
     return result;
@@ -111,9 +111,9 @@ std::string stochasticFlameReport(const StochasticFlame& flame) {
         "  from z = {:.4g} mm to {:.4g} mm ({}), {:.3g} ms: volume fraction up to {:.4e} +- {:.1e} at {:.4g} mm, "
         "number "
         "{:.3e} 1/m^3, mean diameter {:.3g} nm\n",
-        1e3 * points.front().z, 1e3 * points.back().z,
+        1e3 * path.path.z.front(), 1e3 * path.path.z.back(),
         path.path.stagnates ? "near the stagnation plane" : "the end of the flame", 1e3 * points.back().time,
-        path.volumeFraction.mean[k], path.volumeFraction.error[k], 1e3 * points[k].z, path.number.mean[k],
+        path.volumeFraction.mean[k], path.volumeFraction.error[k], 1e3 * path.path.z[k], path.number.mean[k],
         1e9 * path.meanDiameter.mean[k]);
   }
   if (flame.steps.empty()) return text;

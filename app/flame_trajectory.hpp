@@ -25,16 +25,15 @@ namespace lampblack {
 // The gas of a flame at its points as soot sees it.
 struct FlameSootGas {
   std::vector<double> z;
-  std::vector<SootGasState> state;                       // spans not used
-  std::vector<double> pah;                               // point-major
+  std::vector<CarrierGas> carrier;
+  std::vector<double> concentrations;                    // mol/m3, in the order of SootSpecies, point-major
   std::vector<double> velocity, thermophoresis, spread;  // u, V_T (m/s), V (1/s)
-  std::vector<double> rho;                               // kg/m3
 };
 
-// `thermophoresis`: of V_T = -thermophoresis (mu/rho) grad T / T. H, H2, OH, H2O, O2, C2H2 that the mechanism lacks are
+// `thermophoresis`: of V_T = -thermophoresis (mu/rho) grad T / T. Of SootSpecies, those that the mechanism lacks are
 // not there; InputError where it lacks a PAH.
 [[nodiscard]] FlameSootGas flameSootGas(const FlameProfile& profile, const Mechanism& mechanism, double pressure,
-                                        const std::vector<PahSpecies>& pah, double thermophoresis);
+                                        const SootModelOptions& soot, double thermophoresis);
 
 struct FlamePathOptions {
   bool fromRight = false;       // from the right end towards smaller z
@@ -44,7 +43,8 @@ struct FlamePathOptions {
 
 struct FlamePath {
   SootPath path;
-  bool stagnates = false;  // ended at the particles' stagnation plane; otherwise at the end of the flame
+  std::vector<double> z, velocity;  // of its points: m; m/s, of the particles
+  bool stagnates = false;           // ended at the particles' stagnation plane; otherwise at the end of the flame
 };
 
 // Empty where particles at the start do not move into the flame.

@@ -20,19 +20,7 @@ double relative(double value, double exact) {
 }
 
 void addCounters(PopulationCounters& sum, const PopulationCounters& more) {
-  sum.coagulations += more.coagulations;
-  sum.fictitious += more.fictitious;
-  sum.nucleations += more.nucleations;
-  sum.breakages += more.breakages;
-  sum.depositions += more.depositions;
-  sum.condensations += more.condensations;
-  sum.merges += more.merges;
-  sum.doublings += more.doublings;
-  sum.copies += more.copies;
-  sum.removals += more.removals;
-  sum.vanished += more.vanished;
-  sum.splitSteps += more.splitSteps;
-  sum.limited += more.limited;
+  for (const PopulationCounter& counter : populationCounters) sum.*counter.value += more.*counter.value;
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ double readDependent(const Deck& deck, const std::string& key, const units::Dime
   return value;
 }
 
-KernelGas readGas(const Deck& deck, const std::string& kernel) {
+CarrierGas readGas(const Deck& deck, const std::string& kernel) {
   const std::vector<std::string> free{"free_molecular", "continuum", "transition", "transition_fuchs", "gravitational"};
   const std::vector<std::string> slip{"continuum", "transition", "transition_fuchs", "gravitational"};
   const auto value = [&](const char* key, const std::vector<std::string>& kernels) {
@@ -36,8 +36,8 @@ KernelGas readGas(const Deck& deck, const std::string& kernel) {
                        fmt::format("the kernel {} needs '{}'", kernel, path));
     return deck.quantity(path);
   };
-  return {value("temperature", free), value("pressure", slip), value("viscosity", slip),
-          value("mean_molecular_weight", slip), deck.optionalQuantity("gas.density").value_or(0.0)};
+  return {value("temperature", free), value("pressure", slip), deck.optionalQuantity("gas.density").value_or(0.0),
+          value("viscosity", slip), value("mean_molecular_weight", slip)};
 }
 
 CollisionKernelOptions readCoagulation(const Deck& deck) {

@@ -20,23 +20,6 @@ void addMoments(std::vector<TableColumn>& columns, const std::string& prefix, bo
                        fmt::format("{} sum of v^{} per volume of gas", what, k)});
 }
 
-// The counters of events by name.
-std::vector<std::pair<const char*, std::uint64_t>> named(const PopulationCounters& c) {
-  return {{"coagulations", c.coagulations},
-          {"nucleations", c.nucleations},
-          {"breakages", c.breakages},
-          {"depositions", c.depositions},
-          {"condensations", c.condensations},
-          {"fictitious", c.fictitious},
-          {"merges", c.merges},
-          {"doublings", c.doublings},
-          {"copies", c.copies},
-          {"removals", c.removals},
-          {"vanished", c.vanished},
-          {"split_steps", c.splitSteps},
-          {"limited", c.limited}};
-}
-
 void writeHistory(ResultsWriter& results, const std::string& path, const PopulationStatistics& statistics,
                   const MethodStatistics* method) {
   std::vector<TableColumn> columns{{"time", "s", "time"}};
@@ -75,7 +58,7 @@ void writeRepeats(ResultsWriter& results, const std::string& path, const MethodS
   columns.push_back({"mass_error", "1", "largest relative deviation of M1 in time"});
   columns.push_back({"particles", "1", "numerical particles at the end"});
   columns.push_back({"seconds", "s", "processor time of the computation alone"});
-  for (const auto& [name, count] : named(PopulationCounters{})) columns.push_back({name, "1", "events of this kind"});
+  for (const PopulationCounter& c : populationCounters) columns.push_back({c.name, "1", "events of this kind"});
   std::vector<double> rows;
   for (std::size_t r = 0; method != nullptr && r < method->repeats.size(); ++r) {
     const RepeatResult& repeat = method->repeats[r];
@@ -83,7 +66,7 @@ void writeRepeats(ResultsWriter& results, const std::string& path, const MethodS
     rows.insert(rows.end(), repeat.moments.begin(), repeat.moments.end());
     rows.insert(rows.end(), repeat.sigma.begin(), repeat.sigma.end());
     rows.insert(rows.end(), {repeat.massError, repeat.particles, repeat.seconds});
-    for (const auto& [name, count] : named(repeat.counters)) rows.push_back(static_cast<double>(count));
+    for (const PopulationCounter& c : populationCounters) rows.push_back(static_cast<double>(repeat.counters.*c.value));
   }
   results.table(path, columns, rows);
 }
@@ -142,7 +125,7 @@ std::string populationTable(const PopulationStatistics& statistics) {
     for (std::size_t k = 0; k < 4; ++k) text += fmt::format(",{}M{} [{}]", name, k, unit ? momentUnits[k] : "1");
   text += ",geometric_standard_deviation [1],geometric_standard_deviation_error [1],mass_error [1]";
   text += ",seconds_per_repeat [s],events_per_second [1/s]";
-  for (const auto& [name, count] : named(PopulationCounters{})) text += fmt::format(",{} [1]", name);
+  for (const PopulationCounter& c : populationCounters) text += fmt::format(",{} [1]", c.name);
   text += ",verdict\n";
   for (const MethodStatistics& method : statistics.methods) {
     text += fmt::format("{},{},{}", method.name, method.type, method.repeats.size());
@@ -158,7 +141,7 @@ std::string populationTable(const PopulationStatistics& statistics) {
                           cell(method.geometricDeviationError[last]), cell(method.massError));
     }
     text += fmt::format(",{},{}", cell(method.secondsPerRepeat), cell(method.eventsPerSecond));
-    for (const auto& [name, count] : named(method.counters)) text += fmt::format(",{}", count);
+    for (const PopulationCounter& c : populationCounters) text += fmt::format(",{}", method.counters.*c.value);
     text += fmt::format(",\"{}\"\n", method.verdict);
   }
   return text;
@@ -188,7 +171,7 @@ void recordPopulation(JsonWriter& json, const PopulationStatistics& statistics) 
       json.field("mass_error", method.massError);
     }
     json.field("seconds_per_repeat", method.secondsPerRepeat).field("events_per_second", method.eventsPerSecond);
-    for (const auto& [name, count] : named(method.counters)) json.field(name, count);
+    for (const PopulationCounter& c : populationCounters) json.field(c.name, method.counters.*c.value);
     json.field("verdict", method.verdict);
     json.endObject();
   }

@@ -25,13 +25,6 @@ double cpuSeconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-template <typename Counters>
-auto fields(Counters& c) {
-  return std::array{&c.coagulations,  &c.fictitious, &c.nucleations, &c.breakages, &c.depositions,
-                    &c.condensations, &c.merges,     &c.doublings,   &c.copies,    &c.removals,
-                    &c.splitSteps,    &c.vanished,   &c.limited};
-}
-
 }  // namespace
 
 std::optional<double> RepeatRecord::gelation() const {
@@ -40,9 +33,8 @@ std::optional<double> RepeatRecord::gelation() const {
 
 PopulationCounters RepeatRecord::counters() const {
   PopulationCounters counters;
-  const auto into = fields(counters);
-  static_assert(std::tuple_size_v<decltype(fields(counters))> == numCounters);
-  for (std::size_t k = 0; k < numCounters; ++k) *into[k] = static_cast<std::uint64_t>(tail()[2 + k]);
+  for (std::size_t k = 0; k < numCounters; ++k)
+    counters.*populationCounters[k].value = static_cast<std::uint64_t>(tail()[2 + k]);
   return counters;
 }
 
@@ -102,9 +94,8 @@ void runRepeat(const PopulationCase& populationCase, const PopulationMethod& met
     }
     tail[0] = seconds;
     tail[1] = gelled.value_or(missing);
-    PopulationCounters counters = solver->counters();
-    const auto from = fields(counters);
-    for (std::size_t k = 0; k < RepeatRecord::numCounters; ++k) tail[2 + k] = static_cast<double>(*from[k]);
+    for (std::size_t k = 0; k < RepeatRecord::numCounters; ++k)
+      tail[2 + k] = static_cast<double>(solver->counters().*populationCounters[k].value);
     progress.repeatEnded();
   } catch (const InputError& error) {
     throw InputError(fmt::format("method {}: {}", method.name, error.what()));

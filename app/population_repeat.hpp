@@ -16,7 +16,7 @@ namespace lampblack {
 // have, are NaN.
 class RepeatRecord {
  public:
-  static constexpr std::size_t numCounters = 13;
+  static constexpr std::size_t numCounters = std::size(populationCounters);
 
   struct Shape {
     std::size_t rows = 0;   // of the history

@@ -97,7 +97,7 @@ void readSectional(const Deck& deck, SectionalSootOptions& options) {
                                                                       : SectionalSootOptions::ActiveSites::aggregate;
   if (deck.choice(key("growth_scheme")) == "limited")
     options.growthScheme = SectionalSootOptions::GrowthScheme::limited;
-  if (deck.choice(key("kernel")) == "free_molecular") options.kernel = CoagulationKernel::freeMolecular;
+  if (deck.choice(key("kernel")) == "free_molecular") options.kernel = CollisionKernelType::freeMolecular;
   options.fragmentation = deck.boolean(key("fragmentation"));
   options.fragmentationFactor = deck.number(key("fragmentation_factor"));
   options.carbonisation = deck.boolean(key("carbonisation"));

@@ -29,10 +29,11 @@ class SootOperator : public Operator {
 
   [[nodiscard]] const TwoEquationSoot& model() const { return model_; }
   [[nodiscard]] TwoEquationSoot::Population populationOf(const State& state, int cell) const;
-  // The gas of a cell as the model sees it; `pah` is storage for its concentrations.
-  [[nodiscard]] SootGasState gasOf(const State& state, int cell, double viscosity, std::vector<double>& pah) const;
-  // Species indices of the model's PAH list.
-  [[nodiscard]] const std::vector<std::size_t>& pahSpecies() const { return pah_; }
+  // The gas of a cell as the model sees it; its concentrations are in `concentrations`.
+  [[nodiscard]] ParticleGas gasOf(const State& state, int cell, double viscosity,
+                                  std::vector<double>& concentrations) const;
+  // The species that the model sees, by their indices of the mechanism.
+  [[nodiscard]] const std::vector<std::size_t>& species() const { return species_; }
 
   // Sums over all owned cells and steps so far: sub-steps in which oxidation was limited by the oxidiser there was.
   [[nodiscard]] long limitedOxidations() const { return limitedOxidations_; }
@@ -42,9 +43,8 @@ class SootOperator : public Operator {
 
   const FlowContext& context_;
   TwoEquationSoot model_;
-  std::size_t H_, H2_, OH_, H2O_, O2_, C2H2_, CO_;
-  std::vector<std::size_t> pah_;
-  std::vector<double> speciesEnthalpy_, partialDensity_, pahConcentration_, pahState_;
+  std::vector<std::size_t> species_;
+  std::vector<double> speciesEnthalpy_, partialDensity_, before_, after_;  // the latter two: concentrations
   long limitedOxidations_ = 0;
 };
 

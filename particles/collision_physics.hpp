@@ -5,20 +5,12 @@
 #include <cmath>
 
 #include "core/constants.hpp"
+#include "core/particle_gas.hpp"
 
 namespace lampblack {
 
-// The gas the particles are in.
-struct KernelGas {
-  double temperature = 0;          // K
-  double pressure = 0;             // Pa
-  double viscosity = 0;            // Pa s
-  double meanMolecularWeight = 0;  // kg/mol
-  double density = 0;              // kg/m3; of the gas, for the buoyancy of settling particles
-};
-
 // Mean free path of the gas, m (thesis eq. 7-33).
-[[nodiscard]] inline double meanFreePath(const KernelGas& gas) {
+[[nodiscard]] inline double meanFreePath(const CarrierGas& gas) {
   return gas.viscosity / gas.pressure *
          std::sqrt(constants::pi * constants::gasConstant * gas.temperature / (2 * gas.meanMolecularWeight));
 }
@@ -26,6 +18,12 @@ struct KernelGas {
 // Cunningham slip correction at Knudsen number 2 lambda / d (Davies 1945; thesis eq. 7-31).
 [[nodiscard]] inline double slipCorrection(double knudsen) {
   return 1 + knudsen * (1.257 + 0.4 * std::exp(-1.1 / knudsen));
+}
+
+// Brownian diffusivity of a sphere, m2/s (thesis eqs. 7-30 to 7-33).
+[[nodiscard]] inline double brownianDiffusivity(const CarrierGas& gas, double diameter) {
+  return constants::boltzmann * gas.temperature / (3 * constants::pi * gas.viscosity * diameter) *
+         slipCorrection(2 * meanFreePath(gas) / diameter);
 }
 
 // Free-molecular kernel (thesis eq. 9-28) is `prefactor * sqrt(1/mi + 1/mj) (di + dj)^2`; this is the prefactor.

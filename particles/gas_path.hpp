@@ -11,9 +11,9 @@
 namespace lampblack {
 
 struct GasSample {
-  double time = 0;          // s
-  SootGasState gas;         // its span is not used: see pah
-  std::vector<double> pah;  // mol/m3
+  double time = 0;  // s
+  CarrierGas gas;
+  std::vector<double> concentrations;  // mol/m3, in the order of SootSpecies
 };
 
 // Largest change of temperature (K) and of any concentration (relative to its larger end) over one constant state:
@@ -24,24 +24,25 @@ struct GasDivision {
   std::size_t most = 64;  // parts of an interval
 };
 
-// (1 - w) `from` + w `to`; concentrations of PAH go to `pah`, which the result's span shows.
-[[nodiscard]] SootGasState mixed(const GasSample& from, const GasSample& to, double w, std::span<double> pah);
+// (1 - w) `from` + w `to`, at the time of `from`.
+[[nodiscard]] GasSample mixed(const GasSample& from, const GasSample& to, double w);
 
-// Throws InputError where time falls from one sample to the next, or where either has not `pah` PAH.
-void checkInterval(const GasSample& from, const GasSample& to, std::size_t pah);
+// Throws InputError where time falls from one sample to the next, or where either has not this number of species.
+void checkInterval(const GasSample& from, const GasSample& to, std::size_t species);
 
 [[nodiscard]] std::size_t parts(const GasSample& from, const GasSample& to, const GasDivision& division);
 
-// Calls advance(gas, w, dt) for each part of the way from one sample to the next; w in (0, 1) is where it was taken.
+// Calls advance(gas, w, dt) with the ParticleGas of each part of the way from one sample to the next; w in (0, 1) is
+// where it was taken.
 template <typename Advance>
 void marchInterval(const GasSample& from, const GasSample& to, const GasDivision& division, Advance&& advance) {
   const auto count = static_cast<double>(parts(from, to, division));
   const double dt = (to.time - from.time) / count;
   if (!(dt > 0)) return;
-  std::vector<double> pah(from.pah.size());
   for (double part = 0; part < count; ++part) {
     const double w = (part + 0.5) / count;
-    advance(mixed(from, to, w, pah), w, dt);
+    const GasSample middle = mixed(from, to, w);
+    advance(ParticleGas{middle.gas, middle.concentrations}, w, dt);
   }
 }
 

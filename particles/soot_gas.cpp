@@ -1,6 +1,10 @@
 #include "particles/soot_gas.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
+
+#include "core/errors.hpp"
 
 namespace lampblack {
 
@@ -27,6 +31,18 @@ double pahDensity(int carbon, int hydrogen) {
   const double atoms = carbon + hydrogen;
   const double meanWeight = (12.011 * carbon + 1.008 * hydrogen) / atoms;
   return 1e3 * meanWeight / (0.260884 * basalCell * basalCell * spacing);
+}
+
+std::vector<std::string> sootSpecies(const SootModelOptions& options) {
+  std::vector<std::string> names{"H", "H2", "OH", "H2O", "O2", "C2H2", "CO"};
+  for (const PahSpecies& pah : options.pah) names.push_back(pah.name);
+  return names;
+}
+
+void requirePhysical(const CarrierGas& gas, std::string_view what) {
+  if (gas.temperature > 0 && gas.pressure > 0 && gas.viscosity > 0 && gas.meanMolecularWeight > 0) return;
+  throw NumericsError(fmt::format("{}: gas at T = {} K, p = {} Pa, viscosity {} Pa s, W = {} kg/mol", what,
+                                  gas.temperature, gas.pressure, gas.viscosity, gas.meanMolecularWeight));
 }
 
 }  // namespace lampblack

@@ -1,5 +1,5 @@
-// What a soot model needs to be told: the local gas as soot sees it, the polycyclic aromatic hydrocarbons (PAH) that
-// form dimers, and the constants of the soot models. Plain data, so that a reactor, a flame, a flow cell or a
+// What a soot model needs to be told: the species of the gas that it sees, the polycyclic aromatic hydrocarbons (PAH)
+// that form dimers, and the constants of the soot models. Plain data, so that a reactor, a flame, a flow cell or a
 // trajectory can all drive the same models.
 #pragma once
 
@@ -19,24 +19,12 @@ namespace lampblack {
 inline constexpr std::size_t maximumPahSpecies = 16;
 using PahArray = std::array<double, maximumPahSpecies>;
 
-struct SootGasState {
-  double temperature = 0;          // K
-  double pressure = 0;             // Pa
-  double density = 0;              // kg/m3, gas only
-  double viscosity = 0;            // Pa s
-  double meanMolecularWeight = 0;  // kg/mol
-  // Molar concentrations, mol/m3.
-  double H = 0, H2 = 0, OH = 0, H2O = 0, O2 = 0, C2H2 = 0;
-  std::span<const double> pah;  // same order as SootModelOptions::pah
-
-  [[nodiscard]] KernelGas kernelGas() const { return {temperature, pressure, viscosity, meanMolecularWeight, density}; }
+// Species that detailed soot models exchange with the gas, in this order; the PAH of the model follow.
+struct SootSpecies {
+  enum Index : std::size_t { H, H2, OH, H2O, O2, C2H2, CO, fixed };
 };
-
-// Concentrations (mol/m3) of the species soot exchanges with, read and written by TwoEquationSoot::advance.
-struct SootCellGas {
-  double H = 0, H2 = 0, OH = 0, H2O = 0, O2 = 0, C2H2 = 0, CO = 0;
-  std::span<double> pah;
-};
+// Amounts of all of them.
+using SootSpeciesArray = std::array<double, SootSpecies::fixed + maximumPahSpecies>;
 
 struct PahSpecies {
   std::string name;
@@ -56,9 +44,6 @@ struct PahSpecies {
 // Density (kg/m3) of a PAH with the given atoms, from stacked graphitic sheets (thesis eq. 7-38): the graphite limit is
 // 2270 kg/m3.
 [[nodiscard]] double pahDensity(int carbon, int hydrogen);
-
-// Coagulation kernels. Constant and additive have exact solutions and are there for verification.
-enum class CoagulationKernel { transition, freeMolecular, constant, additive };
 
 // The fraction of active sites at a temperature (K).
 struct AlphaPoint {
@@ -83,5 +68,11 @@ struct SootModelOptions {
   bool oxidation = true;
   double relativeTolerance = 4e-3;  // of the local error of a sub-step of TwoEquationSoot::advance
 };
+
+// Names of the species, as mechanisms call them.
+[[nodiscard]] std::vector<std::string> sootSpecies(const SootModelOptions& options);
+
+// Throws NumericsError, in the name of `what`, for a gas that is not physical.
+void requirePhysical(const CarrierGas& gas, std::string_view what);
 
 }  // namespace lampblack

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cmath>
+#include <span>
 
 #include "particles/soot_gas.hpp"
 
@@ -30,12 +31,12 @@ class SurfaceChemistry {
   // options. `meanCarbonAtoms`: mean number of carbon atoms of a particle of the population, mu_1, above 1.
   [[nodiscard]] double alpha(double meanCarbonAtoms) const;
 
-  // `gas` needs H, H2, OH, H2O, O2, C2H2 (SootGasState or SootCellGas), mol/m3.
-  template <class Gas>
-  [[nodiscard]] SurfaceRates rates(const Gas& gas, double alpha) const {
-    const double opening = k1_ * gas.H + k2_ * gas.OH;
+  // `c`: concentrations in the order of SootSpecies, mol/m3.
+  [[nodiscard]] SurfaceRates rates(std::span<const double> c, double alpha) const {
+    using S = SootSpecies;
+    const double opening = k1_ * c[S::H] + k2_ * c[S::OH];
     const double closing =
-        k1r_ * gas.H2 + k2r_ * gas.H2O + k3_ * gas.H + k4_ * gas.C2H2 + k5_ * gas.O2;  // thesis eq. 7-46
+        k1r_ * c[S::H2] + k2r_ * c[S::H2O] + k3_ * c[S::H] + k4_ * c[S::C2H2] + k5_ * c[S::O2];  // thesis eq. 7-46
     const double radicals = closing > 0 ? alpha * sites_ * opening / closing : 0;
     return {growthOn_ * k4_ * radicals, oxidationOn_ * k5_ * radicals, oxidationOn_ * ohFlux_};
   }

@@ -32,25 +32,20 @@ double TwoEquationSoot::surfaceArea(const Population& population) const {
   return constants::pi * d * d * std::max(population.number, 0.0);
 }
 
-double TwoEquationSoot::diffusivity(const SootGasState& gas, const Population& population) const {
-  const double d = std::max(meanDiameter(population), nucleusDiameter_);
-  return constants::boltzmann * gas.temperature / (3 * constants::pi * gas.viscosity * d) *
-         slipCorrection(2 * meanFreePath(gas.kernelGas()) / d);
+double TwoEquationSoot::diffusivity(const CarrierGas& gas, const Population& population) const {
+  return brownianDiffusivity(gas, std::max(meanDiameter(population), nucleusDiameter_));
 }
 
-TwoEquationSoot::Frozen TwoEquationSoot::freeze(const SootGasState& gas) const {
-  if (!(gas.temperature > 0) || !(gas.pressure > 0) || !(gas.viscosity > 0) || !(gas.meanMolecularWeight > 0)) {
-    throw NumericsError(fmt::format("soot: gas at T = {} K, p = {} Pa, viscosity {} Pa s, W = {} kg/mol",
-                                    gas.temperature, gas.pressure, gas.viscosity, gas.meanMolecularWeight));
-  }
+TwoEquationSoot::Frozen TwoEquationSoot::freeze(const CarrierGas& gas) const {
+  requirePhysical(gas, "soot");
   return {SurfaceChemistry(options_, gas.temperature), gas.temperature,
           freeMolecularPrefactor(gas.temperature, options_.vanDerWaals),
-          continuumPrefactor(gas.temperature, gas.viscosity), 2 * meanFreePath(gas.kernelGas())};
+          continuumPrefactor(gas.temperature, gas.viscosity), 2 * meanFreePath(gas)};
 }
 
 TwoEquationSoot::Rates TwoEquationSoot::rates(const Frozen& frozen, const State& state) const {
   Rates r;
-  dimers_.lossRates(frozen.temperature, state.pah, r.pahLoss);
+  dimers_.lossRates(frozen.temperature, state.pah(dimers_.size()), r.pahLoss);
   r.number = state.number;
   r.carbon = state.carbon;
   const double mass = state.carbon * options_.carbonWeight + state.hydrogen * options_.hydrogenWeight;
@@ -71,29 +66,23 @@ TwoEquationSoot::Rates TwoEquationSoot::rates(const Frozen& frozen, const State&
   return r;
 }
 
-TwoEquationSoot::Sources TwoEquationSoot::sources(const SootGasState& gas, const Population& population) const {
-  if (gas.pah.size() != dimers_.size()) throw std::invalid_argument("soot: PAH concentrations and PAH list differ");
+TwoEquationSoot::Sources TwoEquationSoot::sources(const ParticleGas& gas, const Population& population) const {
+  using S = SootSpecies;
+  const std::size_t n = dimers_.size();
+  if (gas.concentrations.size() != S::fixed + n)
+    throw std::invalid_argument("soot: the gas has other species than the model");
   const Frozen frozen = freeze(gas);
   State state;
   state.number = std::max(population.number, 0.0);
   state.carbon = std::max(population.carbon, 0.0) / options_.carbonWeight;
   state.hydrogen = std::max(population.hydrogen, 0.0) / options_.hydrogenWeight;
-  const auto positive = [](double x) { return std::max(x, 0.0); };
-  state.gas = {positive(gas.H),
-               positive(gas.H2),
-               positive(gas.OH),
-               positive(gas.H2O),
-               positive(gas.O2),
-               positive(gas.C2H2),
-               0,
-               {}};
-  const std::size_t n = dimers_.size();
-  for (std::size_t i = 0; i < n; ++i) state.pah[i] = positive(gas.pah[i]);
+  for (std::size_t k = 0; k < S::fixed + n; ++k) state.gas[k] = std::max(gas.concentrations[k], 0.0);
+  const std::span<const double> pah = state.pah(n);
   const Rates r = rates(frozen, state);
 
   Sources s;
   PahArray consumption{};
-  for (std::size_t i = 0; i < n; ++i) consumption[i] = r.pahLoss[i] * state.pah[i];
+  for (std::size_t i = 0; i < n; ++i) consumption[i] = r.pahLoss[i] * pah[i];
   const DimerProduction dimer = dimers_.production(frozen.temperature, {consumption.data(), n});
   const double self = options_.inception ? dimer.selfCollision : 0;
   const double withParticles =
@@ -104,7 +93,7 @@ TwoEquationSoot::Sources TwoEquationSoot::sources(const SootGasState& gas, const
   if (self + withParticles > 0) {
     s.dimerNumber = steadyDimers(dimer.rate, self, withParticles);
     for (std::size_t i = 0; i < n; ++i) {
-      s.pah[i] = -consumption[i];
+      s.gas[S::fixed + i] = -consumption[i];
       carbon += dimers_.carbonAtoms(i) * consumption[i];
       hydrogen += dimers_.hydrogenAtoms(i) * consumption[i];
     }
@@ -114,8 +103,8 @@ TwoEquationSoot::Sources TwoEquationSoot::sources(const SootGasState& gas, const
     s.nucleation = mass - s.condensation;
     s.nucleationNumber = 0.5 * self * s.dimerNumber * s.dimerNumber;
   }
-  const double growth = r.growth * state.gas.C2H2, byO2 = r.oxidationO2 * state.gas.O2,
-               byOH = r.oxidationOH * state.gas.OH;
+  const double growth = r.growth * state.gas[S::C2H2], byO2 = r.oxidationO2 * state.gas[S::O2],
+               byOH = r.oxidationOH * state.gas[S::OH];
   const double x = state.carbon > 0 ? state.hydrogen / state.carbon : 0;
   const double perCarbon = options_.carbonWeight + x * options_.hydrogenWeight;
   carbon += 2 * growth - 2 * byO2 - byOH;
@@ -123,12 +112,12 @@ TwoEquationSoot::Sources TwoEquationSoot::sources(const SootGasState& gas, const
   s.growth = 2 * growth * options_.carbonWeight;
   s.oxidationO2 = -2 * byO2 * perCarbon;
   s.oxidationOH = -byOH * perCarbon;
-  s.C2H2 = -growth;
-  s.O2 = -byO2;
-  s.OH = -byOH;
-  s.CO = 2 * byO2 + byOH;
-  s.H = byOH;
-  s.H2 = growth + x * byO2 + 0.5 * x * byOH;
+  s.gas[S::C2H2] = -growth;
+  s.gas[S::O2] = -byO2;
+  s.gas[S::OH] = -byOH;
+  s.gas[S::CO] = 2 * byO2 + byOH;
+  s.gas[S::H] = byOH;
+  s.gas[S::H2] = growth + x * byO2 + 0.5 * x * byOH;
   s.carbon = carbon * options_.carbonWeight;
   s.hydrogen = hydrogen * options_.hydrogenWeight;
   s.coagulationNumber = -r.coagulation * state.number * state.number;

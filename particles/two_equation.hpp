@@ -25,9 +25,7 @@ class TwoEquationSoot {
   struct Sources {
     double number = 0;                // 1/m3/s
     double carbon = 0, hydrogen = 0;  // kg/m3/s
-    // Gas production rates, mol/m3/s; H2O is not exchanged and stays zero.
-    double H = 0, H2 = 0, OH = 0, H2O = 0, O2 = 0, C2H2 = 0, CO = 0;
-    PahArray pah{};
+    SootSpeciesArray gas{};           // production, mol/m3/s; H2O is not exchanged and stays zero
     // Parts. Soot mass rates, kg/m3/s; oxidation is negative.
     double nucleation = 0, condensation = 0, growth = 0, oxidationO2 = 0, oxidationOH = 0;
     double nucleationNumber = 0, coagulationNumber = 0, oxidationNumber = 0;  // 1/m3/s, the latter two negative
@@ -45,19 +43,20 @@ class TwoEquationSoot {
   explicit TwoEquationSoot(SootModelOptions options);  // throws InputError
 
   // Negative concentrations or populations (transport may leave some) count as zero in every rate.
-  [[nodiscard]] Sources sources(const SootGasState& gas, const Population& population) const;
+  [[nodiscard]] Sources sources(const ParticleGas& gas, const Population& population) const;
 
-  // Advances population and gas together over `dt` (s) at the temperature, pressure and viscosity of `gas`, whose
-  // concentrations are not read: they come from and return to `cell`. Adaptive sub-steps of an exponential midpoint
-  // rule; nothing becomes negative, whatever dt. Negative input entries are left as they are and count as zero. Throws
-  // NumericsError for a temperature, pressure or viscosity that is not positive, or without convergence.
-  Report advance(const SootGasState& gas, double dt, Population& population, SootCellGas& cell) const;
+  // Advances population and gas together over `dt` (s) at the temperature, pressure and viscosity of `gas`;
+  // `concentrations`, in the order of SootSpecies, come from the gas and return to it. Adaptive sub-steps of an
+  // exponential midpoint rule; nothing becomes negative, whatever dt. Negative input entries are left as they are and
+  // count as zero. Throws NumericsError for a temperature, pressure or viscosity that is not positive, or without
+  // convergence.
+  Report advance(const CarrierGas& gas, double dt, Population& population, std::span<double> concentrations) const;
 
   // V_T = -thermophoreticCoefficient() (mu/rho) grad T / T (thesis eq. 7-29), full accommodation.
   [[nodiscard]] static double thermophoreticCoefficient();
 
   // Brownian diffusivity, m2/s (thesis eqs. 7-30 to 7-33) of the mean sphere, at least a nucleus in size.
-  [[nodiscard]] double diffusivity(const SootGasState& gas, const Population& population) const;
+  [[nodiscard]] double diffusivity(const CarrierGas& gas, const Population& population) const;
 
   [[nodiscard]] double volumeFraction(const Population& population) const {
     return population.mass() / options_.sootDensity;
@@ -79,7 +78,7 @@ class TwoEquationSoot {
   struct Frozen;   // what depends on temperature only, for one call
   struct Rates;    // coefficients at one state
   struct Extents;  // what happens in one sub-step
-  [[nodiscard]] Frozen freeze(const SootGasState& gas) const;
+  [[nodiscard]] Frozen freeze(const CarrierGas& gas) const;
   [[nodiscard]] Rates rates(const Frozen& frozen, const State& state) const;
   [[nodiscard]] Extents extents(const Frozen& frozen, const Rates& rates, const State& start, double dt) const;
   [[nodiscard]] State apply(const State& start, const Extents& extents) const;

@@ -32,10 +32,12 @@ double riccati(double number, double source, double coagulation, double dt) {
 TwoEquationSoot::Extents TwoEquationSoot::extents(const Frozen& frozen, const Rates& r, const State& start,
                                                   double dt) const {
   Extents x;
+  using S = SootSpecies;
   const std::size_t n = dimers_.size();
+  const std::span<const double> pah = start.pah(n);
   PahArray consumption{};
   for (std::size_t i = 0; i < n; ++i) {
-    x.pah[i] = -start.pah[i] * std::expm1(-r.pahLoss[i] * dt);
+    x.pah[i] = -pah[i] * std::expm1(-r.pahLoss[i] * dt);
     consumption[i] = x.pah[i] / dt;
   }
   const DimerProduction dimer = dimers_.production(frozen.temperature, {consumption.data(), n});
@@ -60,11 +62,11 @@ TwoEquationSoot::Extents TwoEquationSoot::extents(const Frozen& frozen, const Ra
     }
   }
   x.finalNumber = riccati(start.number, nucleationRate, r.coagulation, dt);
-  x.growth = -start.gas.C2H2 * std::expm1(-r.growth * dt);
+  x.growth = -start.gas[S::C2H2] * std::expm1(-r.growth * dt);
 
   // Oxidation: reactants deplete at their own rate, and soot at the rate that this leaves.
-  const double byO2 = r.oxidationO2 * start.gas.O2 * meanDecay(r.oxidationO2 * dt);
-  const double byOH = r.oxidationOH * start.gas.OH * meanDecay(r.oxidationOH * dt);
+  const double byO2 = r.oxidationO2 * start.gas[S::O2] * meanDecay(r.oxidationO2 * dt);
+  const double byOH = r.oxidationOH * start.gas[S::OH] * meanDecay(r.oxidationOH * dt);
   const double loss = 2 * byO2 + byOH;  // mol C/m3/s
   if (loss > 0 && r.carbon > 0) {
     const double decay = loss * dt / r.carbon;
@@ -73,8 +75,8 @@ TwoEquationSoot::Extents TwoEquationSoot::extents(const Frozen& frozen, const Ra
     const double hydrogenLost = start.hydrogen * (1 - kept) + x.pahHydrogen * (1 - keptOfGain);
     const double unlimited = carbonLost;
     const double shareO2 = 2 * byO2 / loss;
-    if (0.5 * shareO2 * carbonLost > start.gas.O2) carbonLost = 2 * start.gas.O2 / shareO2;
-    if ((1 - shareO2) * carbonLost > start.gas.OH) carbonLost = start.gas.OH / (1 - shareO2);
+    if (0.5 * shareO2 * carbonLost > start.gas[S::O2]) carbonLost = 2 * start.gas[S::O2] / shareO2;
+    if ((1 - shareO2) * carbonLost > start.gas[S::OH]) carbonLost = start.gas[S::OH] / (1 - shareO2);
     x.limited = carbonLost < unlimited;
     x.O2 = 0.5 * shareO2 * carbonLost;
     x.OH = (1 - shareO2) * carbonLost;
@@ -86,37 +88,41 @@ TwoEquationSoot::Extents TwoEquationSoot::extents(const Frozen& frozen, const Ra
 TwoEquationSoot::State TwoEquationSoot::apply(const State& start, const Extents& x) const {
   // Round-off can leave a species that is used up at minus one unit in the last place of what it was.
   const auto rest = [](double value) { return std::max(value, 0.0); };
+  using S = SootSpecies;
   State end = start;
-  for (std::size_t i = 0; i < dimers_.size(); ++i) end.pah[i] = rest(start.pah[i] - x.pah[i]);
+  for (std::size_t i = 0; i < dimers_.size(); ++i) end.gas[S::fixed + i] = rest(start.gas[S::fixed + i] - x.pah[i]);
   end.carbon = rest(start.carbon + x.pahCarbon + 2 * x.growth - (2 * x.O2 + x.OH));
   end.hydrogen = rest(start.hydrogen + x.pahHydrogen - x.hydrogenLost);
-  end.gas.C2H2 = rest(start.gas.C2H2 - x.growth);
-  end.gas.O2 = rest(start.gas.O2 - x.O2);
-  end.gas.OH = rest(start.gas.OH - x.OH);
-  end.gas.CO += 2 * x.O2 + x.OH;
-  end.gas.H += x.OH;
-  end.gas.H2 += x.growth + 0.5 * x.hydrogenLost;
+  end.gas[S::C2H2] = rest(start.gas[S::C2H2] - x.growth);
+  end.gas[S::O2] = rest(start.gas[S::O2] - x.O2);
+  end.gas[S::OH] = rest(start.gas[S::OH] - x.OH);
+  end.gas[S::CO] += 2 * x.O2 + x.OH;
+  end.gas[S::H] += x.OH;
+  end.gas[S::H2] += x.growth + 0.5 * x.hydrogenLost;
   end.number = std::min(x.finalNumber, end.carbon / nucleusCarbon_);
   return end;
 }
 
 double TwoEquationSoot::error(const State& start, const State& low, const State& high) const {
+  using S = SootSpecies;
   const auto relative = [](double from, double a, double b, double floor) {
     return std::abs(a - b) / (std::max({from, a, b}) + floor);
   };
   // Floors: what is of no account in a flame (number 1/m3, moles/m3).
   double e = relative(start.number, low.number, high.number, 1e8);
   e = std::max(e, relative(start.carbon, low.carbon, high.carbon, 1e-11));
-  e = std::max(e, relative(start.gas.C2H2, low.gas.C2H2, high.gas.C2H2, 1e-9));
-  e = std::max(e, relative(start.gas.O2, low.gas.O2, high.gas.O2, 1e-9));
-  e = std::max(e, relative(start.gas.OH, low.gas.OH, high.gas.OH, 1e-9));
+  e = std::max(e, relative(start.gas[S::C2H2], low.gas[S::C2H2], high.gas[S::C2H2], 1e-9));
+  e = std::max(e, relative(start.gas[S::O2], low.gas[S::O2], high.gas[S::O2], 1e-9));
+  e = std::max(e, relative(start.gas[S::OH], low.gas[S::OH], high.gas[S::OH], 1e-9));
   for (std::size_t i = 0; i < dimers_.size(); ++i) {
-    e = std::max(e, relative(start.pah[i], low.pah[i], high.pah[i], 1e-11));
+    const std::size_t k = S::fixed + i;
+    e = std::max(e, relative(start.gas[k], low.gas[k], high.gas[k], 1e-11));
   }
   return e / options_.relativeTolerance;
 }
 
 TwoEquationSoot::Report TwoEquationSoot::integrate(const Frozen& frozen, State& state, double dt) const {
+  using S = SootSpecies;
   constexpr int maximumSubSteps = 100000;
   Report report;
   double done = 0, step = dt;
@@ -133,12 +139,7 @@ TwoEquationSoot::Report TwoEquationSoot::integrate(const Frozen& frozen, State& 
     half(middle.number, low.number);
     half(middle.carbon, low.carbon);
     half(middle.hydrogen, low.hydrogen);
-    half(middle.gas.H, low.gas.H);
-    half(middle.gas.H2, low.gas.H2);
-    half(middle.gas.OH, low.gas.OH);
-    half(middle.gas.O2, low.gas.O2);
-    half(middle.gas.C2H2, low.gas.C2H2);
-    for (std::size_t i = 0; i < dimers_.size(); ++i) half(middle.pah[i], low.pah[i]);
+    for (std::size_t k = 0; k < S::fixed + dimers_.size(); ++k) half(middle.gas[k], low.gas[k]);
     const Extents x = extents(frozen, rates(frozen, middle), state, step);
     const State high = apply(state, x);
     const double e = error(state, low, high);
@@ -167,23 +168,21 @@ TwoEquationSoot::Report TwoEquationSoot::integrate(const Frozen& frozen, State& 
   return report;
 }
 
-TwoEquationSoot::Report TwoEquationSoot::advance(const SootGasState& gas, double dt, Population& population,
-                                                 SootCellGas& cell) const {
-  const std::size_t n = dimers_.size();
-  if (cell.pah.size() != n) throw std::invalid_argument("soot: PAH concentrations and PAH list differ");
+TwoEquationSoot::Report TwoEquationSoot::advance(const CarrierGas& gas, double dt, Population& population,
+                                                 std::span<double> concentrations) const {
+  const std::size_t species = SootSpecies::fixed + dimers_.size();
+  if (concentrations.size() != species) throw std::invalid_argument("soot: the gas has other species than the model");
+  const auto positive = [](double v) { return std::max(v, 0.0); };
   double totalPah = 0;
-  for (std::size_t i = 0; i < n; ++i) totalPah += std::max(cell.pah[i], 0.0);
+  for (std::size_t k = SootSpecies::fixed; k < species; ++k) totalPah += positive(concentrations[k]);
   if (!(dt > 0) || (totalPah < negligiblePah && population.carbon < negligibleCarbon)) return {};
 
   const Frozen frozen = freeze(gas);
-  const auto positive = [](double v) { return std::max(v, 0.0); };
   State start;
   start.number = positive(population.number);
   start.carbon = positive(population.carbon) / options_.carbonWeight;
   start.hydrogen = positive(population.hydrogen) / options_.hydrogenWeight;
-  start.gas = {positive(cell.H),  positive(cell.H2),   positive(cell.OH), positive(cell.H2O),
-               positive(cell.O2), positive(cell.C2H2), positive(cell.CO), {}};
-  for (std::size_t i = 0; i < n; ++i) start.pah[i] = positive(cell.pah[i]);
+  for (std::size_t k = 0; k < species; ++k) start.gas[k] = positive(concentrations[k]);
 
   State end = start;
   const Report report = integrate(frozen, end, dt);
@@ -193,13 +192,7 @@ TwoEquationSoot::Report TwoEquationSoot::advance(const SootGasState& gas, double
   store(population.number, start.number, end.number);
   store(population.carbon, start.carbon * options_.carbonWeight, end.carbon * options_.carbonWeight);
   store(population.hydrogen, start.hydrogen * options_.hydrogenWeight, end.hydrogen * options_.hydrogenWeight);
-  store(cell.H, start.gas.H, end.gas.H);
-  store(cell.H2, start.gas.H2, end.gas.H2);
-  store(cell.OH, start.gas.OH, end.gas.OH);
-  store(cell.O2, start.gas.O2, end.gas.O2);
-  store(cell.C2H2, start.gas.C2H2, end.gas.C2H2);
-  store(cell.CO, start.gas.CO, end.gas.CO);
-  for (std::size_t i = 0; i < n; ++i) store(cell.pah[i], start.pah[i], end.pah[i]);
+  for (std::size_t k = 0; k < species; ++k) store(concentrations[k], start.gas[k], end.gas[k]);
   return report;
 }
 

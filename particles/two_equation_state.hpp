@@ -8,8 +8,8 @@ namespace lampblack {
 struct TwoEquationSoot::State {
   double number = 0;                // 1/m3
   double carbon = 0, hydrogen = 0;  // of soot, mol/m3
-  SootCellGas gas;                  // its span is not used
-  PahArray pah{};                   // mol/m3
+  SootSpeciesArray gas{};           // mol/m3
+  [[nodiscard]] std::span<const double> pah(std::size_t count) const { return {&gas[SootSpecies::fixed], count}; }
 };
 
 struct TwoEquationSoot::Frozen {

@@ -7,17 +7,9 @@
 #include <string>
 #include <vector>
 
-namespace lampblack {
+#include "core/particle_gas.hpp"
 
-// The gas at a point.
-struct CarriedGas {
-  double temperature = 0;                  // K
-  double pressure = 0;                     // Pa
-  double density = 0;                      // kg/m3, gas only
-  double viscosity = 0;                    // Pa s
-  double meanMolecularWeight = 0;          // kg/mol
-  std::span<const double> concentrations;  // mol/m3, of CarriedModel::exchanged()
-};
+namespace lampblack {
 
 // Where the derivatives of the sources go, row-major: rows are the scalars, then the exchanged species; columns the
 // scalars' densities, then the concentrations of the exchanged species, then the temperature (all else held).
@@ -38,7 +30,7 @@ class CarriedModel {
 
   virtual ~CarriedModel() = default;
   [[nodiscard]] virtual const std::vector<Scalar>& scalars() const = 0;
-  // Species of the mechanism whose concentrations matter and that may be exchanged.
+  // Species of the mechanism whose concentrations matter and that may be exchanged: those of a ParticleGas.
   [[nodiscard]] virtual const std::vector<std::size_t>& exchanged() const = 0;
 
   // Sums over the scalars whose profiles, beside those of the gas, decide about the grid: weights of all scalars'
@@ -47,10 +39,10 @@ class CarriedModel {
 
   // `densities`: of every scalar per m3, negative ones count as zero. `rates`: of the scalars, per m3 and s;
   // `exchange`: production of the exchanged species, mol/m3/s.
-  virtual void sources(const CarriedGas& gas, std::span<const double> densities, std::span<double> rates,
+  virtual void sources(const ParticleGas& gas, std::span<const double> densities, std::span<double> rates,
                        std::span<double> exchange) = 0;
-  virtual void jacobian(const CarriedGas& gas, std::span<const double> densities, const CarriedJacobian& out) = 0;
-  virtual void diffusivities(const CarriedGas& gas, std::span<const double> densities,
+  virtual void jacobian(const ParticleGas& gas, std::span<const double> densities, const CarriedJacobian& out) = 0;
+  virtual void diffusivities(const ParticleGas& gas, std::span<const double> densities,
                              std::span<double> D) = 0;  // m2/s
   // Enthalpy of a unit of each scalar, J, and its slope, J/K.
   virtual void enthalpies(double temperature, std::span<double> h, std::span<double> slope) = 0;

@@ -141,7 +141,7 @@ double FlameGas::lossSlope(const FlameProfile& x, std::size_t i) const {
   return radiation_ ? radiation_->lossSlope(nodes.absorption[i], x.temperature(i)) : 0;
 }
 
-CarriedGas FlameGas::carriedGas(const FlameProfile& x, std::size_t i, std::vector<double>& storage) {
+ParticleGas FlameGas::carriedGas(const FlameProfile& x, std::size_t i, std::vector<double>& storage) {
   const auto& species = carried_->exchanged();
   storage.resize(species.size());
   const double rho = nodes.density[i];
@@ -152,7 +152,7 @@ CarriedGas FlameGas::carriedGas(const FlameProfile& x, std::size_t i, std::vecto
   const double mu = i == 0      ? faces.viscosity[0]
                     : i == last ? faces.viscosity[last - 1]
                                 : 0.5 * (faces.viscosity[i - 1] + faces.viscosity[i]);
-  return {x.temperature(i), pressure_, rho, mu, nodes.weight[i], storage};
+  return {{x.temperature(i), pressure_, rho, mu, nodes.weight[i]}, storage};
 }
 
 void FlameGas::densities(const FlameProfile& x, std::size_t i, std::span<double> out) const {
@@ -161,7 +161,7 @@ void FlameGas::densities(const FlameProfile& x, std::size_t i, std::span<double>
 }
 
 void FlameGas::scalarSources(const FlameProfile& x, std::size_t i) {
-  const CarriedGas gas = carriedGas(x, i, carriedConcentrations_);
+  const ParticleGas gas = carriedGas(x, i, carriedConcentrations_);
   densities(x, i, densities_);
   carried_->sources(gas, densities_, carriedRates_, carriedExchange_);
   std::copy(carriedRates_.begin(), carriedRates_.end(), nodes.scalarRate.begin() + i * scalarScale.size());

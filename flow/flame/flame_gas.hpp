@@ -81,7 +81,7 @@ class FlameGas {
   void chooseScalarValues(const FlameProfile& x);  // of scalars alone; the drift is there
 
   // The gas of a point as the carried model wants it; `storage` holds its concentrations.
-  [[nodiscard]] CarriedGas carriedGas(const FlameProfile& x, std::size_t point, std::vector<double>& storage);
+  [[nodiscard]] ParticleGas carriedGas(const FlameProfile& x, std::size_t point, std::vector<double>& storage);
   // Densities (per m3) of the scalars of a point.
   void densities(const FlameProfile& x, std::size_t point, std::span<double> out) const;
 

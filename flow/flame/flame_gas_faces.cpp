@@ -171,7 +171,7 @@ void FlameGas::scalarFluxes(const FlameProfile& x, std::size_t f) {
   const double T = 0.5 * (x.temperature(f) + x.temperature(f + 1));
   const double W = 0.5 * (nodes.weight[f] + nodes.weight[f + 1]);
   const double rho = pressure_ * W / (constants::gasConstant * T);
-  CarriedGas gas = carriedGas(x, upstreamPoint, carriedConcentrations_);
+  ParticleGas gas = carriedGas(x, upstreamPoint, carriedConcentrations_);
   gas.temperature = T;
   gas.density = rho;
   gas.viscosity = faces.viscosity[f];

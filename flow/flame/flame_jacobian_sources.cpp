@@ -50,7 +50,7 @@ void addCarried(FlameEquations::Data& data, std::size_t i, FlameEquations::Data:
   const std::size_t E = exchanged.size(), rows = S + E, columns = rows + 1;
   const double dv = data.volume[i], rho = data.gas.nodes.density[i], W = data.gas.nodes.weight[i];
   const double temperature = data.profile.temperature(i);
-  const CarriedGas gas = data.gas.carriedGas(data.profile, i, work.carriedConcentrations);
+  const ParticleGas gas = data.gas.carriedGas(data.profile, i, work.carriedConcentrations);
   data.gas.densities(data.profile, i, work.densities);
   data.carried->jacobian(gas, work.densities, {work.carried, columns});
   const auto fractions = data.profile.massFractions(i);

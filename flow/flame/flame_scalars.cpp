@@ -69,7 +69,7 @@ void FlameScalars::timeWeights(std::span<const double> /*x*/, std::span<double> 
 void FlameScalars::fillRow(std::size_t i, double inverseTimeStep) {
   const std::size_t S = scalars_, last = flame_.points() - 1;
   const double dv = flame_.volume[i], rho = flame_.gas.nodes.density[i];
-  const CarriedGas gas = flame_.gas.carriedGas(flame_.profile, i, concentrations_);
+  const ParticleGas gas = flame_.gas.carriedGas(flame_.profile, i, concentrations_);
   flame_.gas.densities(flame_.profile, i, densities_);
   const std::size_t columns = S + flame_.carried->exchanged().size() + 1;
   flame_.carried->jacobian(gas, densities_, {jacobian_, columns});

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <span>
@@ -26,6 +27,26 @@ struct PopulationCounters {
     return coagulations + nucleations + breakages + depositions + condensations;
   }
 };
+
+// All of them, by the names they have in results.
+struct PopulationCounter {
+  const char* name;
+  std::uint64_t PopulationCounters::*value;
+};
+inline constexpr PopulationCounter populationCounters[] = {{"coagulations", &PopulationCounters::coagulations},
+                                                           {"nucleations", &PopulationCounters::nucleations},
+                                                           {"breakages", &PopulationCounters::breakages},
+                                                           {"depositions", &PopulationCounters::depositions},
+                                                           {"condensations", &PopulationCounters::condensations},
+                                                           {"fictitious", &PopulationCounters::fictitious},
+                                                           {"merges", &PopulationCounters::merges},
+                                                           {"doublings", &PopulationCounters::doublings},
+                                                           {"copies", &PopulationCounters::copies},
+                                                           {"removals", &PopulationCounters::removals},
+                                                           {"vanished", &PopulationCounters::vanished},
+                                                           {"split_steps", &PopulationCounters::splitSteps},
+                                                           {"limited", &PopulationCounters::limited}};
+static_assert(sizeof(PopulationCounters) == std::size(populationCounters) * sizeof(std::uint64_t));
 
 class PopulationSolver {
  public:

@@ -16,25 +16,12 @@ double nucleusOf(const TwoEquationSoot& model) {
   return model.dimers().smallestNucleus() * model.options().carbonWeight / constants::avogadro;  // kg of carbon
 }
 
-SootGasState stateOf(const SootGas& gas) {
-  SootGasState state;
-  state.temperature = gas.temperature;
-  state.pressure = gas.pressure;
-  state.density = gas.density;
-  state.viscosity = gas.viscosity;
-  state.meanMolecularWeight = gas.meanMolecularWeight;
-  return state;
-}
-
 }  // namespace
 
 DimerSoot::DimerSoot(SootModelOptions options)
-    : model_(std::move(options)), spheres_(model_.options().sootDensity, nucleusOf(model_)), species_{"H",  "H2",
-                                                                                                      "OH", "H2O",
-                                                                                                      "O2", "C2H2",
-                                                                                                      "CO"} {
-  const SootModelOptions& o = model_.options();
-  for (const PahSpecies& pah : o.pah) species_.push_back(pah.name);
+    : model_(std::move(options)),
+      spheres_(model_.options().sootDensity, nucleusOf(model_)),
+      species_(sootSpecies(model_.options())) {
   scalars_ = {{"number", "1/m^3", "number of soot particles", 1e17, 0, 0},
               {"carbon", "kg/m^3", "carbon in soot", 1e-3, 1, 0},
               {"hydrogen", "kg/m^3", "hydrogen in soot", 1e-5, 0, 1}};
@@ -51,18 +38,9 @@ TwoEquationSoot::Population DimerSoot::populationOf(std::span<const double> dens
   return p;
 }
 
-TwoEquationSoot::Sources DimerSoot::evaluate(const SootGas& gas, std::span<const double> densities) const {
+TwoEquationSoot::Sources DimerSoot::evaluate(const ParticleGas& gas, std::span<const double> densities) const {
   const TwoEquationSoot::Population population = populationOf(densities);
-  SootGasState state = stateOf(gas);
-  const auto& c = gas.concentrations;
-  state.H = c[H];
-  state.H2 = c[H2];
-  state.OH = c[OH];
-  state.H2O = c[H2O];
-  state.O2 = c[O2];
-  state.C2H2 = c[C2H2];
-  state.pah = c.subspan(fixedSpecies);
-  TwoEquationSoot::Sources s = model_.sources(state, population);
+  TwoEquationSoot::Sources s = model_.sources(gas, population);
 
   s.oxidationNumber = 0;
   const double present = std::max(densities[number], 0.0);
@@ -78,31 +56,24 @@ TwoEquationSoot::Sources DimerSoot::evaluate(const SootGas& gas, std::span<const
   return s;
 }
 
-void DimerSoot::sources(const SootGas& gas, std::span<const double> densities, std::span<double> rates,
+void DimerSoot::sources(const ParticleGas& gas, std::span<const double> densities, std::span<double> rates,
                         std::span<double> exchange) const {
   const TwoEquationSoot::Sources s = evaluate(gas, densities);
   rates[number] = s.number;
   rates[carbon] = s.carbon;
   rates[hydrogen] = s.hydrogen;
-  exchange[H] = s.H;
-  exchange[H2] = s.H2;
-  exchange[OH] = s.OH;
-  exchange[H2O] = s.H2O;
-  exchange[O2] = s.O2;
-  exchange[C2H2] = s.C2H2;
-  exchange[CO] = s.CO;
-  for (std::size_t i = 0; i < model_.dimers().size(); ++i) exchange[fixedSpecies + i] = s.pah[i];
+  std::copy_n(s.gas.begin(), species_.size(), exchange.begin());
 }
 
-void DimerSoot::diffusivities(const SootGas& gas, std::span<const double> densities, std::span<double> D) const {
-  std::fill(D.begin(), D.end(), model_.diffusivity(stateOf(gas), populationOf(densities)));
+void DimerSoot::diffusivities(const ParticleGas& gas, std::span<const double> densities, std::span<double> D) const {
+  std::fill(D.begin(), D.end(), model_.diffusivity(gas, populationOf(densities)));
 }
 
 double DimerSoot::volumeFraction(std::span<const double> densities) const {
   return (std::max(densities[carbon], 0.0) + std::max(densities[hydrogen], 0.0)) / model_.options().sootDensity;
 }
 
-SootProperties DimerSoot::properties(const SootGas& /*gas*/, std::span<const double> densities) const {
+SootProperties DimerSoot::properties(const ParticleGas& /*gas*/, std::span<const double> densities) const {
   const TwoEquationSoot::Population p = populationOf(densities);
   SootProperties out = spheres_.properties(p.number, p.mass());
   out.numberDensity = std::max(densities[number], 0.0);
@@ -110,7 +81,7 @@ SootProperties DimerSoot::properties(const SootGas& /*gas*/, std::span<const dou
   return out;
 }
 
-SootProcesses DimerSoot::processes(const SootGas& gas, std::span<const double> densities) const {
+SootProcesses DimerSoot::processes(const ParticleGas& gas, std::span<const double> densities) const {
   const TwoEquationSoot::Sources s = evaluate(gas, densities);
   SootProcesses out;
   out.nucleationNumber = s.nucleationNumber;
@@ -122,7 +93,8 @@ SootProcesses DimerSoot::processes(const SootGas& gas, std::span<const double> d
   out.oxidationO2 = s.oxidationO2;
   out.oxidationOH = s.oxidationOH;
   out.dimerNumber = s.dimerNumber;
-  for (std::size_t i = 0; i < model_.dimers().size(); ++i) out.dimerProduction -= 0.5 * constants::avogadro * s.pah[i];
+  for (std::size_t i = 0; i < model_.dimers().size(); ++i)
+    out.dimerProduction -= 0.5 * constants::avogadro * s.gas[SootSpecies::fixed + i];
   return out;
 }
 

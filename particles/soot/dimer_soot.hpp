@@ -17,20 +17,18 @@ class DimerSoot final : public SootModel {
 
   [[nodiscard]] const std::vector<std::string>& gasSpecies() const override { return species_; }
   [[nodiscard]] const std::vector<SootScalar>& scalars() const override { return scalars_; }
-  void sources(const SootGas& gas, std::span<const double> densities, std::span<double> rates,
+  void sources(const ParticleGas& gas, std::span<const double> densities, std::span<double> rates,
                std::span<double> exchange) const override;
-  void diffusivities(const SootGas& gas, std::span<const double> densities, std::span<double> D) const override;
-  [[nodiscard]] SootProperties properties(const SootGas& gas, std::span<const double> densities) const override;
-  [[nodiscard]] SootProcesses processes(const SootGas& gas, std::span<const double> densities) const override;
+  void diffusivities(const ParticleGas& gas, std::span<const double> densities, std::span<double> D) const override;
+  [[nodiscard]] SootProperties properties(const ParticleGas& gas, std::span<const double> densities) const override;
+  [[nodiscard]] SootProcesses processes(const ParticleGas& gas, std::span<const double> densities) const override;
   [[nodiscard]] double volumeFraction(std::span<const double> densities) const override;
 
   [[nodiscard]] const TwoEquationSoot& twoEquation() const { return model_; }
 
  private:
-  // Order of gasSpecies(); the PAH follow.
-  enum Gas : std::size_t { H, H2, OH, H2O, O2, C2H2, CO, fixedSpecies };
   [[nodiscard]] TwoEquationSoot::Population populationOf(std::span<const double> densities) const;
-  [[nodiscard]] TwoEquationSoot::Sources evaluate(const SootGas& gas, std::span<const double> densities) const;
+  [[nodiscard]] TwoEquationSoot::Sources evaluate(const ParticleGas& gas, std::span<const double> densities) const;
 
   TwoEquationSoot model_;
   EqualSpheres spheres_;  // a nucleus being known by its carbon

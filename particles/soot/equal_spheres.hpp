@@ -47,12 +47,9 @@ class EqualSpheres {
     return oxidised / mass * netOxidation(oxidised, gained) * present * nucleusInMean * nucleusInMean;
   }
 
-  // Brownian diffusivity, m2/s (thesis eqs. 7-30 to 7-33), of a sphere at least a nucleus in size.
-  [[nodiscard]] double diffusivity(const SootGas& gas, double number, double mass) const {
-    const double d = std::max(diameter(number, mass), diameter(1, nucleus_));
-    const KernelGas kernelGas{gas.temperature, gas.pressure, gas.viscosity, gas.meanMolecularWeight, gas.density};
-    return constants::boltzmann * gas.temperature / (3 * constants::pi * gas.viscosity * d) *
-           slipCorrection(2 * meanFreePath(kernelGas) / d);
+  // Brownian diffusivity, m2/s, of the mean sphere, at least a nucleus in size.
+  [[nodiscard]] double diffusivity(const CarrierGas& gas, double number, double mass) const {
+    return brownianDiffusivity(gas, std::max(diameter(number, mass), diameter(1, nucleus_)));
   }
 
   // Of densities as they are, negative ones being zero.

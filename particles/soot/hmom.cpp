@@ -93,8 +93,8 @@ struct Kernel {
 void HmomSoot::addCoagulation(const MomentGas& gas, const State& state, Rates& rates) const {
   if (!options_.soot.coagulation) return;
   const Mode &n = state.nuclei, &l = state.large;
-  const Kernel kernel{gas.freeMolecular, continuumPrefactor(gas.state.temperature, gas.state.viscosity),
-                      2 * meanFreePath(gas.state.kernelGas())};
+  const Kernel kernel{gas.freeMolecular, continuumPrefactor(gas.gas.temperature, gas.gas.viscosity),
+                      2 * meanFreePath(gas.gas)};
   // Two nuclei coalesce.
   const double pairs = kernel(n.particle, n.collisionDiameter, n.particle, n.collisionDiameter) * n.number;
   rates.leaveNuclei(n, pairs, true);
@@ -210,7 +210,7 @@ HmomSoot::Rates HmomSoot::evaluate(const MomentGas& gas, std::span<const double>
   return rates;
 }
 
-void HmomSoot::sources(const SootGas& gas, std::span<const double> densities, std::span<double> rates,
+void HmomSoot::sources(const ParticleGas& gas, std::span<const double> densities, std::span<double> rates,
                        std::span<double> exchange) const {
   const MomentGas read = chemistry_.read(gas);
   const Rates r = evaluate(read, densities);

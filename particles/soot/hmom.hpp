@@ -35,11 +35,11 @@ class HmomSoot final : public SootModel {
 
   [[nodiscard]] const std::vector<std::string>& gasSpecies() const override { return chemistry_.species(); }
   [[nodiscard]] const std::vector<SootScalar>& scalars() const override { return scalars_; }
-  void sources(const SootGas& gas, std::span<const double> densities, std::span<double> rates,
+  void sources(const ParticleGas& gas, std::span<const double> densities, std::span<double> rates,
                std::span<double> exchange) const override;
-  void diffusivities(const SootGas& gas, std::span<const double> densities, std::span<double> D) const override;
-  [[nodiscard]] SootProperties properties(const SootGas& gas, std::span<const double> densities) const override;
-  [[nodiscard]] SootProcesses processes(const SootGas& gas, std::span<const double> densities) const override;
+  void diffusivities(const ParticleGas& gas, std::span<const double> densities, std::span<double> D) const override;
+  [[nodiscard]] SootProperties properties(const ParticleGas& gas, std::span<const double> densities) const override;
+  [[nodiscard]] SootProcesses processes(const ParticleGas& gas, std::span<const double> densities) const override;
   [[nodiscard]] double volumeFraction(std::span<const double> densities) const override;
 
   [[nodiscard]] const HmomOptions& options() const { return options_; }

@@ -11,14 +11,14 @@ double HmomSoot::mobilityDiameter(const Mode& mode) {
   return 6 * mode.volume / mode.surface * std::pow(mode.primaries, 0.45);  // thesis eq. 9-21
 }
 
-void HmomSoot::diffusivities(const SootGas& gas, std::span<const double> densities, std::span<double> D) const {
+void HmomSoot::diffusivities(const ParticleGas& gas, std::span<const double> densities, std::span<double> D) const {
   const State s = stateOf(densities);
-  const double ofNuclei = MomentChemistry::diffusivity(gas, s.nuclei.collisionDiameter);
-  const double ofLarge = MomentChemistry::diffusivity(gas, mobilityDiameter(s.large));
+  const double ofNuclei = brownianDiffusivity(gas, s.nuclei.collisionDiameter);
+  const double ofLarge = brownianDiffusivity(gas, mobilityDiameter(s.large));
   for (std::size_t i = 0; i < scalarCount; ++i) D[i] = i <= nucleiHydrogen ? ofNuclei : ofLarge;
 }
 
-SootProperties HmomSoot::properties(const SootGas& /*gas*/, std::span<const double> densities) const {
+SootProperties HmomSoot::properties(const ParticleGas& /*gas*/, std::span<const double> densities) const {
   const State s = stateOf(densities);
   const Mode &n = s.nuclei, &l = s.large;
   SootProperties p;
@@ -47,7 +47,7 @@ double HmomSoot::volumeFraction(std::span<const double> densities) const {
   return mass / options_.soot.sootDensity;
 }
 
-SootProcesses HmomSoot::processes(const SootGas& gas, std::span<const double> densities) const {
+SootProcesses HmomSoot::processes(const ParticleGas& gas, std::span<const double> densities) const {
   const MomentGas read = chemistry_.read(gas);
   const State state = stateOf(densities);
   const Rates r = evaluate(read, densities);

@@ -9,33 +9,16 @@
 namespace lampblack {
 
 MomentChemistry::MomentChemistry(const SootModelOptions& options)
-    : options_(options), dimers_(options), species_{"H", "H2", "OH", "H2O", "O2", "C2H2", "CO"} {
-  for (const PahSpecies& pah : options.pah) species_.push_back(pah.name);
-}
+    : options_(options), dimers_(options), species_(sootSpecies(options)) {}
 
-MomentGas MomentChemistry::read(const SootGas& gas) const {
-  if (!(gas.temperature > 0) || !(gas.pressure > 0) || !(gas.viscosity > 0) || !(gas.meanMolecularWeight > 0)) {
-    throw NumericsError(fmt::format("soot: gas at T = {} K, p = {} Pa, viscosity {} Pa s, W = {} kg/mol",
-                                    gas.temperature, gas.pressure, gas.viscosity, gas.meanMolecularWeight));
-  }
-  MomentGas read{{}, {}, SurfaceChemistry(options_, gas.temperature), {}, 0};
-  SootGasState& state = read.state;
-  state.temperature = gas.temperature;
-  state.pressure = gas.pressure;
-  state.density = gas.density;
-  state.viscosity = gas.viscosity;
-  state.meanMolecularWeight = gas.meanMolecularWeight;
-  const auto amount = [&](std::size_t i) { return std::max(gas.concentrations[i], 0.0); };
-  state.H = amount(H);
-  state.H2 = amount(H2);
-  state.OH = amount(OH);
-  state.H2O = amount(H2O);
-  state.O2 = amount(O2);
-  state.C2H2 = amount(C2H2);
+MomentGas MomentChemistry::read(const ParticleGas& gas) const {
+  requirePhysical(gas, "soot");
+  MomentGas read{gas, {}, {}, SurfaceChemistry(options_, gas.temperature), {}, 0};
   const std::size_t n = dimers_.size();
-  PahArray pah{};
-  for (std::size_t i = 0; i < n; ++i) pah[i] = amount(fixedSpecies + i);
-  dimers_.lossRates(gas.temperature, {pah.data(), n}, read.consumption);
+  for (std::size_t k = 0; k < SootSpecies::fixed + n; ++k)
+    read.concentrations[k] = std::max(gas.concentrations[k], 0.0);
+  const std::span<const double> pah{&read.concentrations[SootSpecies::fixed], n};
+  dimers_.lossRates(gas.temperature, pah, read.consumption);
   for (std::size_t i = 0; i < n; ++i) read.consumption[i] *= pah[i];
   read.dimer = dimers_.production(gas.temperature, {read.consumption.data(), n});
   read.freeMolecular = freeMolecularPrefactor(gas.temperature, options_.vanDerWaals);
@@ -58,24 +41,26 @@ DimerBalance MomentChemistry::balance(const MomentGas& gas, double withParticles
 }
 
 SurfaceEvents MomentChemistry::events(const MomentGas& gas, double area, double meanCarbonAtoms) const {
-  const SurfaceRates rates = gas.surface.rates(gas.state, gas.surface.alpha(std::max(meanCarbonAtoms, 2.0)));
-  return {rates.growth * area * gas.state.C2H2, rates.oxidationO2 * area * gas.state.O2,
-          rates.oxidationOH * area * gas.state.OH};
+  const SootSpeciesArray& c = gas.concentrations;
+  const SurfaceRates rates = gas.surface.rates(c, gas.surface.alpha(std::max(meanCarbonAtoms, 2.0)));
+  return {rates.growth * area * c[SootSpecies::C2H2], rates.oxidationO2 * area * c[SootSpecies::O2],
+          rates.oxidationOH * area * c[SootSpecies::OH]};
 }
 
 void MomentChemistry::exchange(const MomentGas& gas, const DimerBalance& dimers, const SurfaceEvents& events,
                                double hydrogenLost, std::span<double> production) const {
+  using S = SootSpecies;
   const double byO2 = events.oxidationO2, byOH = events.oxidationOH;
-  production[H] = byOH;
-  production[H2] = events.growth + 0.5 * hydrogenLost;
-  production[OH] = -byOH;
-  production[H2O] = 0;
-  production[O2] = -byO2;
-  production[C2H2] = -events.growth;
-  production[CO] = 2 * byO2 + byOH;
+  production[S::H] = byOH;
+  production[S::H2] = events.growth + 0.5 * hydrogenLost;
+  production[S::OH] = -byOH;
+  production[S::H2O] = 0;
+  production[S::O2] = -byO2;
+  production[S::C2H2] = -events.growth;
+  production[S::CO] = 2 * byO2 + byOH;
   const bool consumes = dimers.number > 0;
   for (std::size_t i = 0; i < dimers_.size(); ++i) {
-    production[fixedSpecies + i] = consumes ? -gas.consumption[i] : 0;
+    production[S::fixed + i] = consumes ? -gas.consumption[i] : 0;
   }
 }
 
@@ -94,13 +79,6 @@ SootProcesses MomentChemistry::processes(const SootModelOptions& options, const 
   p.dimerNumber = dimers.number;
   p.dimerProduction = gas.dimer.rate;
   return p;
-}
-
-double MomentChemistry::diffusivity(const SootGas& gas, double diameter) {
-  const double knudsen =
-      2 * meanFreePath({gas.temperature, gas.pressure, gas.viscosity, gas.meanMolecularWeight}) / diameter;
-  return constants::boltzmann * gas.temperature / (3 * constants::pi * gas.viscosity * diameter) *
-         slipCorrection(knudsen);
 }
 
 }  // namespace lampblack

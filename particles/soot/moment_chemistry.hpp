@@ -16,7 +16,8 @@ namespace lampblack {
 
 // The gas at one point, digested; negative concentrations are zero.
 struct MomentGas {
-  SootGasState state;  // its span is not used
+  CarrierGas gas;
+  SootSpeciesArray concentrations{};
   PahArray consumption{};
   SurfaceChemistry surface;
   DimerProduction dimer;
@@ -45,12 +46,10 @@ class MomentChemistry {
  public:
   explicit MomentChemistry(const SootModelOptions& options);  // throws InputError
 
-  // Order of species(); the PAH follow.
-  enum Gas : std::size_t { H, H2, OH, H2O, O2, C2H2, CO, fixedSpecies };
   [[nodiscard]] const std::vector<std::string>& species() const { return species_; }
   [[nodiscard]] const DimerModel& dimers() const { return dimers_; }
 
-  [[nodiscard]] MomentGas read(const SootGas& gas) const;  // throws NumericsError for a gas that is not physical
+  [[nodiscard]] MomentGas read(const ParticleGas& gas) const;  // throws NumericsError for a gas that is not physical
   // `withParticles`: sum over particles of their collision rate with a dimer, 1/s.
   [[nodiscard]] DimerBalance balance(const MomentGas& gas, double withParticles) const;
   [[nodiscard]] SurfaceEvents events(const MomentGas& gas, double area, double meanCarbonAtoms) const;
@@ -69,9 +68,6 @@ class MomentChemistry {
   [[nodiscard]] static SootProcesses processes(const SootModelOptions& options, const MomentGas& gas,
                                                const DimerBalance& dimers, const SurfaceEvents& events,
                                                double hydrogenToCarbon);
-
-  // Brownian, m2/s, of a sphere (thesis eqs. 7-30 to 7-33).
-  [[nodiscard]] static double diffusivity(const SootGas& gas, double diameter);
 
  private:
   SootModelOptions options_;

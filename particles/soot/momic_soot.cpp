@@ -106,7 +106,7 @@ void MomicSoot::addCoagulation(const MomentGas& gas, const State& state, Rates& 
   if (!options_.soot.coagulation) return;
   CollisionKernelOptions kernel;
   kernel.type = CollisionKernelType::transition;
-  kernel.gas = gas.state.kernelGas();
+  kernel.gas = gas.gas;
   kernel.enhancement = options_.soot.vanDerWaals;
   MomicCoagulation coagulation = coagulation_;
   coagulation.set(kernel, unit_ / options_.soot.sootDensity, options_.soot.sootDensity);
@@ -213,7 +213,7 @@ MomicSoot::Rates MomicSoot::evaluate(const MomentGas& gas, std::span<const doubl
   return rates;
 }
 
-void MomicSoot::sources(const SootGas& gas, std::span<const double> densities, std::span<double> rates,
+void MomicSoot::sources(const ParticleGas& gas, std::span<const double> densities, std::span<double> rates,
                         std::span<double> exchange) const {
   const MomentGas read = chemistry_.read(gas);
   const Rates r = evaluate(read, densities);
@@ -224,13 +224,13 @@ void MomicSoot::sources(const SootGas& gas, std::span<const double> densities, s
   chemistry_.exchange(read, r.dimers, r.events, r.hydrogenLost, exchange);
 }
 
-void MomicSoot::diffusivities(const SootGas& gas, std::span<const double> densities, std::span<double> D) const {
+void MomicSoot::diffusivities(const ParticleGas& gas, std::span<const double> densities, std::span<double> D) const {
   const double smallest = unitDiameter_ * std::cbrt(nucleus_);
-  const double diffusivity = MomentChemistry::diffusivity(gas, std::max(stateOf(densities).meanDiameter, smallest));
+  const double diffusivity = brownianDiffusivity(gas, std::max(stateOf(densities).meanDiameter, smallest));
   for (double& d : D) d = diffusivity;
 }
 
-SootProperties MomicSoot::properties(const SootGas& /*gas*/, std::span<const double> densities) const {
+SootProperties MomicSoot::properties(const ParticleGas& /*gas*/, std::span<const double> densities) const {
   const State s = stateOf(densities);
   SootProperties p;
   p.numberDensity = s.present;
@@ -247,7 +247,7 @@ double MomicSoot::volumeFraction(std::span<const double> densities) const {
   return (std::max(densities[carbon], 0.0) + std::max(densities[hydrogen], 0.0)) / options_.soot.sootDensity;
 }
 
-SootProcesses MomicSoot::processes(const SootGas& gas, std::span<const double> densities) const {
+SootProcesses MomicSoot::processes(const ParticleGas& gas, std::span<const double> densities) const {
   const MomentGas read = chemistry_.read(gas);
   const Rates r = evaluate(read, densities);
   SootProcesses p = MomentChemistry::processes(options_.soot, read, r.dimers, r.events, r.hydrogenToCarbon);

@@ -46,7 +46,7 @@ void check(const SectionalSootOptions& options) {
   const auto require = [](bool fine, const char* message) {
     if (!fine) throw InputError(message);
   };
-  require(options.kernel == CoagulationKernel::transition || options.kernel == CoagulationKernel::freeMolecular,
+  require(options.kernel == CollisionKernelType::transition || options.kernel == CollisionKernelType::freeMolecular,
           "soot: sections coagulate by the transition or the free-molecular kernel");
   require(options.soot.sootDensity > 0, "soot: the density of soot has to be above zero");
   require(options.nucleationFactor >= 0 && options.condensationEfficiency >= 0 && options.coalescenceDiameter >= 0 &&
@@ -67,13 +67,12 @@ SectionalSoot::Impl::Impl(const SectionalSootOptions& wanted)
       withHydrogen(wanted.carbonisation),
       sections(wanted.sections),
       pahs(wanted.soot.pah.size()),
-      species{"H", "H2", "OH", "H2O", "O2", "C2H2", "CO"},
+      species(sootSpecies(wanted.soot)),
       numberScale(emptyNumbers(pivots)),
       shapes(pivots, wanted.soot.sootDensity, numberScale, spheres),
       pairs(pivots, wanted.factor, meltingSections(pivots, wanted)),
       pah(wanted, pivots) {
   check(options);
-  for (const PahSpecies& molecule : options.soot.pah) species.push_back(molecule.name);
   constexpr double usualPrimary = 7.7e-21;  // kg, 20 nm
   for (std::size_t i = 0; i < sections; ++i) {
     scalars.push_back({fmt::format("section_{:02}_aggregates", i + 1), "1/m^3",
@@ -108,11 +107,10 @@ SectionalSoot::Impl::Impl(const SectionalSootOptions& wanted)
   perSection.fill(state.aggregates);
 }
 
-SectionalSoot::Impl::Surface SectionalSoot::Impl::surface(const SurfaceChemistry& chemistry,
-                                                          const std::array<double, 6>& c, double alpha) const {
-  const SootCellGas gas{c[H], c[H2], c[OH], c[H2O], c[O2], c[C2H2], 0, {}};
-  const SurfaceRates rates = chemistry.rates(gas, alpha);
-  return {rates.growth * gas.C2H2, rates.oxidationO2 * gas.O2, rates.oxidationOH * gas.OH};
+SectionalSoot::Impl::Surface SectionalSoot::Impl::surface(const SurfaceChemistry& chemistry, const SootSpeciesArray& c,
+                                                          double alpha) {
+  const SurfaceRates rates = chemistry.rates(c, alpha);
+  return {rates.growth * c[C2H2], rates.oxidationO2 * c[O2], rates.oxidationOH * c[OH]};
 }
 
 double SectionalSoot::Impl::meanSize(double carbon, double number) const {
@@ -127,9 +125,9 @@ double SectionalSoot::Impl::sizeNumber() const {
   return number;
 }
 
-SectionPairs::Gas SectionalSoot::Impl::collisionGas(const SootGas& gas) const {
+SectionPairs::Gas SectionalSoot::Impl::collisionGas(const ParticleGas& gas) const {
   return {freeMolecularPrefactor(gas.temperature, options.soot.vanDerWaals),
-          continuumPrefactor(gas.temperature, gas.viscosity), options.kernel == CoagulationKernel::transition};
+          continuumPrefactor(gas.temperature, gas.viscosity), options.kernel == CollisionKernelType::transition};
 }
 
 std::array<double, 2> SectionalSoot::Impl::breaking(double n) const {
@@ -154,23 +152,19 @@ void SectionalSoot::Impl::prepareSections(std::span<const double> densities) {
   shapes.update(s.aggregates, s.primaries);
 }
 
-void SectionalSoot::Impl::prepare(const SootGas& gas, std::span<const double> densities) {
-  if (!(gas.temperature > 0) || !(gas.pressure > 0) || !(gas.viscosity > 0) || !(gas.meanMolecularWeight > 0)) {
-    throw NumericsError(fmt::format("soot sections: gas at T = {} K, p = {} Pa, viscosity {} Pa s, W = {} kg/mol",
-                                    gas.temperature, gas.pressure, gas.viscosity, gas.meanMolecularWeight));
-  }
+void SectionalSoot::Impl::prepare(const ParticleGas& gas, std::span<const double> densities) {
+  requirePhysical(gas, "soot sections");
   State& s = state;
   prepareSections(densities);
   s.temperature = gas.temperature;
-  for (std::size_t k = 0; k < s.gas.size(); ++k) s.gas[k] = std::max(gas.concentrations[k], 0.0);
-  for (std::size_t k = 0; k < pahs; ++k) s.pah[k] = std::max(gas.concentrations[firstPah + k], 0.0);
-  shapes.updateGas(2 * meanFreePath({gas.temperature, gas.pressure, gas.viscosity, gas.meanMolecularWeight, 0}));
+  for (std::size_t k = 0; k < species.size(); ++k) s.gas[k] = std::max(gas.concentrations[k], 0.0);
+  shapes.updateGas(2 * meanFreePath(gas));
 
   const SurfaceChemistry chemistry(options.soot, gas.temperature);
   s.size = meanSize(s.carbon, sizeNumber());
   s.alpha = chemistry.alpha(s.size);
   s.surface = surface(chemistry, s.gas, s.alpha);
-  pah.evaluate(gas.temperature, {s.pah.data(), pahs}, shapes, s.aggregates, s.uptake);
+  pah.evaluate(gas.temperature, {&s.gas[fixed], pahs}, shapes, s.aggregates, s.uptake);
 
   const double weight = options.soot.carbonWeight;
   const double growing = 2 * weight * s.surface.growth;                                   // kg/m2/s
@@ -227,7 +221,7 @@ void SectionalSoot::Impl::sources(std::span<double> rates, std::span<double> exc
 
   double hydrogen = 0;  // mol/m3/s that PAH bring
   for (std::size_t k = 0; k < pahs; ++k) {
-    exchange[firstPah + k] = -s.uptake.consumption[k];
+    exchange[fixed + k] = -s.uptake.consumption[k];
     hydrogen += options.soot.pah[k].hydrogen * s.uptake.consumption[k];
   }
   double released = hydrogen;
@@ -270,7 +264,7 @@ const SectionalSootOptions& SectionalSoot::options() const {
   return impl_->options;
 }
 
-void SectionalSoot::sources(const SootGas& gas, std::span<const double> densities, std::span<double> rates,
+void SectionalSoot::sources(const ParticleGas& gas, std::span<const double> densities, std::span<double> rates,
                             std::span<double> exchange) const {
   impl_->prepare(gas, densities);
   impl_->pairs.updateKernels(impl_->shapes, impl_->collisionGas(gas));

@@ -9,6 +9,7 @@
 
 #include <memory>
 
+#include "particles/population/model/collision_kernel.hpp"
 #include "particles/soot/soot_model.hpp"
 #include "particles/soot_gas.hpp"
 
@@ -45,7 +46,7 @@ struct SectionalSootOptions {
   double coalescenceDiameter = 0;  // m; who is smaller (as a sphere) melts into its partner; zero: nobody does
   ActiveSites activeSites = ActiveSites::aggregate;
   GrowthScheme growthScheme = GrowthScheme::upwind;
-  CoagulationKernel kernel = CoagulationKernel::transition;  // or freeMolecular
+  CollisionKernelType kernel = CollisionKernelType::transition;  // or freeMolecular
 
   // Break-up of aggregates by oxidation: see docs/theory/soot_models.md. Off by default, as in the thesis.
   bool fragmentation = false;
@@ -71,12 +72,12 @@ class SectionalSoot final : public SootModel {
   [[nodiscard]] const std::vector<SootScalar>& scalars() const override;
   // Aggregates, primaries, surface of the equivalent spheres, carbon and its second moment; hydrogen.
   [[nodiscard]] std::vector<std::vector<double>> gridSums() const override;
-  void sources(const SootGas& gas, std::span<const double> densities, std::span<double> rates,
+  void sources(const ParticleGas& gas, std::span<const double> densities, std::span<double> rates,
                std::span<double> exchange) const override;
-  void jacobian(const SootGas& gas, std::span<const double> densities, std::span<double> values) const override;
-  void diffusivities(const SootGas& gas, std::span<const double> densities, std::span<double> D) const override;
-  [[nodiscard]] SootProperties properties(const SootGas& gas, std::span<const double> densities) const override;
-  [[nodiscard]] SootProcesses processes(const SootGas& gas, std::span<const double> densities) const override;
+  void jacobian(const ParticleGas& gas, std::span<const double> densities, std::span<double> values) const override;
+  void diffusivities(const ParticleGas& gas, std::span<const double> densities, std::span<double> D) const override;
+  [[nodiscard]] SootProperties properties(const ParticleGas& gas, std::span<const double> densities) const override;
+  [[nodiscard]] SootProcesses processes(const ParticleGas& gas, std::span<const double> densities) const override;
   [[nodiscard]] double volumeFraction(std::span<const double> densities) const override;
   [[nodiscard]] double volumeFractionAtLimit(std::span<const double> densities) const override;
   [[nodiscard]] SootSizeDistribution sizeDistribution(std::span<const double> densities) const override;

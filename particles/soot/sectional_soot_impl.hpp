@@ -14,10 +14,7 @@
 
 namespace lampblack {
 
-struct SectionalSoot::Impl {
-  // Gas species that every list of them begins with.
-  enum Species : std::size_t { H, H2, OH, H2O, O2, C2H2, CO, firstPah };
-
+struct SectionalSoot::Impl : SootSpecies {
   // Events of surface chemistry per area, mol/m2/s, and by ln(alpha).
   struct Surface {
     double growth = 0, oxidationO2 = 0, oxidationOH = 0;
@@ -29,9 +26,8 @@ struct SectionalSoot::Impl {
     std::vector<double> aggregates, primaries;  // 1/m3, not negative; primaries of spheres stay empty
     double hydrogen = 0;                        // kg/m3, not negative
     double number = 0, carbon = 0;              // sums over the sections: 1/m3, kg/m3
-    std::array<double, 6> gas{};                // mol/m3, not negative: H to C2H2
-    PahArray pah{};
-    double size = 0;  // mu_1, carbon atoms
+    SootSpeciesArray gas{};                     // mol/m3, not negative
+    double size = 0;                            // mu_1, carbon atoms
     double alpha = 0;
     Surface surface;
     SectionFlux up, down;          // by growth and condensation, by oxidation
@@ -46,8 +42,7 @@ struct SectionalSoot::Impl {
 
   [[nodiscard]] std::size_t numberScalars() const { return scalars.size(); }
   [[nodiscard]] std::size_t hydrogenScalar() const { return scalars.size() - 1; }  // with carbonisation
-  [[nodiscard]] Surface surface(const SurfaceChemistry& chemistry, const std::array<double, 6>& gas,
-                                double alpha) const;
+  [[nodiscard]] static Surface surface(const SurfaceChemistry& chemistry, const SootSpeciesArray& gas, double alpha);
   [[nodiscard]] double meanSize(double carbon, double number) const;
   // Primaries of an aggregate as they are moved with it; not bounded as in its shape.
   [[nodiscard]] double primaryRatio(std::size_t i) const {
@@ -56,13 +51,13 @@ struct SectionalSoot::Impl {
   }
   // Number whose mean size is mu_1, 1/m3.
   [[nodiscard]] double sizeNumber() const;
-  [[nodiscard]] SectionPairs::Gas collisionGas(const SootGas& gas) const;
+  [[nodiscard]] SectionPairs::Gas collisionGas(const ParticleGas& gas) const;
   // Rates of break-up of an aggregate, 1/s per (kg/m2/s) of oxidised carbon, and by n_p.
   [[nodiscard]] std::array<double, 2> breaking(double primariesEach) const;
-  void prepareSections(std::span<const double> densities);              // what does not depend on the gas
-  void prepare(const SootGas& gas, std::span<const double> densities);  // throws NumericsError
+  void prepareSections(std::span<const double> densities);                  // what does not depend on the gas
+  void prepare(const ParticleGas& gas, std::span<const double> densities);  // throws NumericsError
   void sources(std::span<double> rates, std::span<double> exchange);
-  void jacobian(const SootGas& gas, std::span<const double> densities, std::span<double> values);
+  void jacobian(const ParticleGas& gas, std::span<const double> densities, std::span<double> values);
   // Parts of the Jacobian; `spare`: a column that is zero, and will be again.
   struct Assembly;
   void addSections(Assembly& a);

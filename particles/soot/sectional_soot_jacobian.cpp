@@ -100,7 +100,7 @@ void SectionalSoot::Impl::addSections(Assembly& a) {
     std::vector<double>&each = perSection[0], &slope = perSection[1];
     std::fill(each.begin(), each.end(), 0);
     std::fill(slope.begin(), slope.end(), 0);
-    pah.addConsumption(s.temperature, s.pah[k], shapes, k, each, slope);
+    pah.addConsumption(s.temperature, s.gas[fixed + k], shapes, k, each, slope);
     double* row = events + (firstConsumption + k) * ld;
     for (std::size_t i = 0; i < sections; ++i) {
       row[i] += each[i] + s.aggregates[i] * slope[i] * shapes.byAggregates[i];
@@ -184,8 +184,9 @@ void SectionalSoot::Impl::addGas(Assembly& a, const SurfaceChemistry& chemistry)
   State& s = state;
   const std::size_t first = numberScalars();
   double scale = 0;
-  for (const double c : s.gas) scale += c;
-  for (std::size_t k = 0; k < s.gas.size() && scale > 0; ++k) {
+  // No rate depends on CO, which is only made.
+  for (std::size_t k = 0; k < CO; ++k) scale += s.gas[k];
+  for (std::size_t k = 0; k < CO && scale > 0; ++k) {
     const double c = s.gas[k], h = 1e-5 * (c + 1e-5 * scale), low = std::max(c - h, 0.0);
     auto gas = s.gas;
     gas[k] = c + h;
@@ -198,14 +199,14 @@ void SectionalSoot::Impl::addGas(Assembly& a, const SurfaceChemistry& chemistry)
                 over * (upper.oxidationOH - lower.oxidationOH)});
   }
   double pahScale = 1e-12;
-  for (std::size_t k = 0; k < pahs; ++k) pahScale = std::max(pahScale, s.pah[k]);
+  for (std::size_t k = 0; k < pahs; ++k) pahScale = std::max(pahScale, s.gas[fixed + k]);
   for (std::size_t k = 0; k < pahs; ++k) {
-    const std::size_t c = first + firstPah + k;
-    const double at = s.pah[k], h = 1e-5 * (at + 1e-4 * pahScale), low = std::max(at - h, 0.0);
-    auto changed = s.pah;
+    const std::size_t c = first + fixed + k;
+    const double at = s.gas[fixed + k], h = 1e-5 * (at + 1e-4 * pahScale), low = std::max(at - h, 0.0);
+    auto changed = s.gas;
     for (const bool upper : {true, false}) {
-      changed[k] = upper ? at + h : low;
-      pah.evaluate(s.temperature, {changed.data(), pahs}, shapes, s.aggregates, spareUptake);
+      changed[fixed + k] = upper ? at + h : low;
+      pah.evaluate(s.temperature, {&changed[fixed], pahs}, shapes, s.aggregates, spareUptake);
       const double over = (upper ? 1 : -1) / (at + h - low);
       for (std::size_t i = 0; i + 1 < sections; ++i)
         a.addFlux(c, i, s.up, true, over * spareUptake.condensation[i] * s.aggregates[i]);
@@ -228,7 +229,7 @@ void SectionalSoot::Impl::addExchange(Assembly& a) {
     const auto event = [&](std::size_t e) { return a.events[e * a.ld + c]; };
     double hydrogen = 0;
     for (std::size_t k = 0; k < pahs; ++k) {
-      row(firstPah + k)[c] = -event(firstConsumption + k);
+      row(fixed + k)[c] = -event(firstConsumption + k);
       hydrogen += options.soot.pah[k].hydrogen * event(firstConsumption + k);
     }
     double released = hydrogen;
@@ -248,7 +249,8 @@ void SectionalSoot::Impl::addExchange(Assembly& a) {
   }
 }
 
-void SectionalSoot::Impl::jacobian(const SootGas& gas, std::span<const double> densities, std::span<double> values) {
+void SectionalSoot::Impl::jacobian(const ParticleGas& gas, std::span<const double> densities,
+                                   std::span<double> values) {
   const std::size_t scalarCount = numberScalars(), unknowns = scalarCount + species.size(), ld = unknowns + 1;
   std::fill(values.begin(), values.end(), 0);
   work.assign((firstConsumption + pahs) * ld, 0);
@@ -275,7 +277,7 @@ void SectionalSoot::Impl::jacobian(const SootGas& gas, std::span<const double> d
   fullRow.resize(unknowns);
   const std::span<double> rates(fullRow.data(), unknowns);
   for (const bool upper : {true, false}) {
-    SootGas changed = gas;
+    ParticleGas changed = gas;
     changed.temperature += upper ? h : -h;
     prepare(changed, densities);
     pairs.updateKernels(shapes, collisionGas(changed));
@@ -285,7 +287,8 @@ void SectionalSoot::Impl::jacobian(const SootGas& gas, std::span<const double> d
   }
 }
 
-void SectionalSoot::jacobian(const SootGas& gas, std::span<const double> densities, std::span<double> values) const {
+void SectionalSoot::jacobian(const ParticleGas& gas, std::span<const double> densities,
+                             std::span<double> values) const {
   impl_->jacobian(gas, densities, values);
 }
 

@@ -6,10 +6,11 @@
 
 namespace lampblack {
 
-void SectionalSoot::diffusivities(const SootGas& gas, std::span<const double> densities, std::span<double> D) const {
+void SectionalSoot::diffusivities(const ParticleGas& gas, std::span<const double> densities,
+                                  std::span<double> D) const {
   Impl& m = *impl_;
   m.prepareSections(densities);
-  m.shapes.updateGas(2 * meanFreePath({gas.temperature, gas.pressure, gas.viscosity, gas.meanMolecularWeight, 0}));
+  m.shapes.updateGas(2 * meanFreePath(gas));
   // Thesis eqs. 9-17 to 9-20. Hydrogen moves as the carbon it is bound to.
   const double scale = constants::boltzmann * gas.temperature / (3 * constants::pi * gas.viscosity);
   double carbon = 0, flux = 0;
@@ -40,7 +41,7 @@ std::vector<std::vector<double>> SectionalSoot::gridSums() const {
   return sums;
 }
 
-SootProperties SectionalSoot::properties(const SootGas& /*gas*/, std::span<const double> densities) const {
+SootProperties SectionalSoot::properties(const ParticleGas& /*gas*/, std::span<const double> densities) const {
   Impl& m = *impl_;
   m.prepareSections(densities);
   const Impl::State& s = m.state;
@@ -73,7 +74,7 @@ double SectionalSoot::volumeFractionAtLimit(std::span<const double> densities) c
   return std::max(densities[last], 0.0) * impl_->pivots[last] / impl_->options.soot.sootDensity;
 }
 
-SootProcesses SectionalSoot::processes(const SootGas& gas, std::span<const double> densities) const {
+SootProcesses SectionalSoot::processes(const ParticleGas& gas, std::span<const double> densities) const {
   Impl& m = *impl_;
   m.prepare(gas, densities);
   const Impl::State& s = m.state;

@@ -63,7 +63,7 @@ SemiEmpiricalSoot::SemiEmpiricalSoot(const SemiEmpiricalOptions& options)
     require(constant >= 0);
 }
 
-SemiEmpiricalSoot::Rates SemiEmpiricalSoot::evaluate(const SootGas& gas, std::span<const double> densities) const {
+SemiEmpiricalSoot::Rates SemiEmpiricalSoot::evaluate(const ParticleGas& gas, std::span<const double> densities) const {
   const SemiEmpiricalOptions& o = options_;
   const double T = gas.temperature, mass = std::max(densities[carbon], 0.0);
   const double present = std::max(densities[number], 0.0), possible = spheres_.possibleNumber(densities[number], mass);
@@ -103,7 +103,7 @@ SemiEmpiricalSoot::Rates SemiEmpiricalSoot::evaluate(const SootGas& gas, std::sp
   return r;
 }
 
-void SemiEmpiricalSoot::sources(const SootGas& gas, std::span<const double> densities, std::span<double> rates,
+void SemiEmpiricalSoot::sources(const ParticleGas& gas, std::span<const double> densities, std::span<double> rates,
                                 std::span<double> exchange) const {
   const Rates r = evaluate(gas, densities);
   const double deposited = r.inception + r.growth, burnt = r.O2 + r.OH;
@@ -117,13 +117,13 @@ void SemiEmpiricalSoot::sources(const SootGas& gas, std::span<const double> dens
   exchange[CO] = burnt;
 }
 
-void SemiEmpiricalSoot::diffusivities(const SootGas& gas, std::span<const double> densities,
+void SemiEmpiricalSoot::diffusivities(const ParticleGas& gas, std::span<const double> densities,
                                       std::span<double> D) const {
   const double possible = spheres_.possibleNumber(densities[number], densities[carbon]);
   std::fill(D.begin(), D.end(), spheres_.diffusivity(gas, possible, densities[carbon]));
 }
 
-SootProperties SemiEmpiricalSoot::properties(const SootGas& /*gas*/, std::span<const double> densities) const {
+SootProperties SemiEmpiricalSoot::properties(const ParticleGas& /*gas*/, std::span<const double> densities) const {
   return spheres_.properties(densities[number], densities[carbon]);
 }
 
@@ -131,7 +131,7 @@ double SemiEmpiricalSoot::volumeFraction(std::span<const double> densities) cons
   return std::max(densities[carbon], 0.0) / options_.density;
 }
 
-SootProcesses SemiEmpiricalSoot::processes(const SootGas& gas, std::span<const double> densities) const {
+SootProcesses SemiEmpiricalSoot::processes(const ParticleGas& gas, std::span<const double> densities) const {
   const Rates r = evaluate(gas, densities);
   SootProcesses out;
   out.nucleationNumber = r.nucleated;

@@ -43,11 +43,11 @@ class SemiEmpiricalSoot final : public SootModel {
 
   [[nodiscard]] const std::vector<std::string>& gasSpecies() const override { return species_; }
   [[nodiscard]] const std::vector<SootScalar>& scalars() const override { return scalars_; }
-  void sources(const SootGas& gas, std::span<const double> densities, std::span<double> rates,
+  void sources(const ParticleGas& gas, std::span<const double> densities, std::span<double> rates,
                std::span<double> exchange) const override;
-  void diffusivities(const SootGas& gas, std::span<const double> densities, std::span<double> D) const override;
-  [[nodiscard]] SootProperties properties(const SootGas& gas, std::span<const double> densities) const override;
-  [[nodiscard]] SootProcesses processes(const SootGas& gas, std::span<const double> densities) const override;
+  void diffusivities(const ParticleGas& gas, std::span<const double> densities, std::span<double> D) const override;
+  [[nodiscard]] SootProperties properties(const ParticleGas& gas, std::span<const double> densities) const override;
+  [[nodiscard]] SootProcesses processes(const ParticleGas& gas, std::span<const double> densities) const override;
   [[nodiscard]] double volumeFraction(std::span<const double> densities) const override;
 
   [[nodiscard]] const SemiEmpiricalOptions& options() const { return options_; }
@@ -59,7 +59,7 @@ class SemiEmpiricalSoot final : public SootModel {
     double O2 = 0, OH = 0;                                     // carbon, mol/m3/s
     double nucleated = 0, coagulated = 0, oxidisedNumber = 0;  // 1/m3/s, positive
   };
-  [[nodiscard]] Rates evaluate(const SootGas& gas, std::span<const double> densities) const;
+  [[nodiscard]] Rates evaluate(const ParticleGas& gas, std::span<const double> densities) const;
 
   SemiEmpiricalOptions options_;
   EqualSpheres spheres_;

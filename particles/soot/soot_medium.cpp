@@ -18,28 +18,24 @@ void SootMoved::add(double weight, const SootMoved& other) {
     this->*part += weight * other.*part;
 }
 
-SootMedium::SootMedium(const SootModelOptions& options, const DimerModel& dimers, const SootGasState& given,
+SootMedium::SootMedium(const SootModelOptions& options, const DimerModel& dimers, const ParticleGas& gas,
                        bool keepsHydrogen)
     : options_(options),
-      surface_(options, given.temperature),
-      kernelGas_(given.kernelGas()),
+      surface_(options, gas.temperature),
+      gas_(gas),
       leastCarbon_(dimers.smallestNucleus() * options.carbonWeight / constants::avogadro * (1 - 1e-9)) {
-  SootGasState gas = given;
-  for (const auto species : {&SootGasState::H, &SootGasState::H2, &SootGasState::OH, &SootGasState::H2O,
-                             &SootGasState::O2, &SootGasState::C2H2}) {
-    gas.*species = std::max(gas.*species, 0.0);
-  }
-  if (gas.pah.size() != dimers.size()) throw std::invalid_argument("soot: PAH concentrations and PAH list differ");
-  if (!(gas.temperature > 0) || !(gas.pressure > 0) || !(gas.viscosity > 0) || !(gas.meanMolecularWeight > 0)) {
-    throw NumericsError(fmt::format("stochastic soot: gas at T = {} K, p = {} Pa, viscosity {} Pa s, W = {} kg/mol",
-                                    gas.temperature, gas.pressure, gas.viscosity, gas.meanMolecularWeight));
-  }
+  using S = SootSpecies;
+  if (gas.concentrations.size() != S::fixed + dimers.size())
+    throw std::invalid_argument("soot: the gas has other species than the model");
+  requirePhysical(gas, "stochastic soot");
+  SootSpeciesArray c{};
+  for (std::size_t k = 0; k < gas.concentrations.size(); ++k) c[k] = std::max(gas.concentrations[k], 0.0);
   if (dimers.consumes()) {
     const std::size_t n = dimers.size();
     PahArray consumption{};
-    dimers.lossRates(gas.temperature, gas.pah, consumption);
+    dimers.lossRates(gas.temperature, {&c[S::fixed], n}, consumption);
     double sum = 0;
-    for (std::size_t i = 0; i < n; ++i) sum += consumption[i] *= std::max(gas.pah[i], 0.0);
+    for (std::size_t i = 0; i < n; ++i) sum += consumption[i] *= c[S::fixed + i];
     dimer_ = dimers.production(gas.temperature, {consumption.data(), n});
     if (dimer_.rate > 0) {
       for (std::size_t i = 0; i < n; ++i) pahOfDimer_[i] = 2 * consumption[i] / sum;
@@ -56,10 +52,10 @@ SootMedium::SootMedium(const SootModelOptions& options, const DimerModel& dimers
     selfCollision_ = options.inception ? dimer_.selfCollision : 0;
     condensing_ = options.condensation;
   }
-  const SurfaceRates most = surface_.rates(gas, 1.0);
-  growth_ = 2 * most.growth * gas.C2H2 * options.carbonWeight;
-  O2_ = 2 * most.oxidationO2 * gas.O2 * options.carbonWeight;
-  OH_ = most.oxidationOH * gas.OH * options.carbonWeight;
+  const SurfaceRates most = surface_.rates(c, 1.0);
+  growth_ = 2 * most.growth * c[S::C2H2] * options.carbonWeight;
+  O2_ = 2 * most.oxidationO2 * c[S::O2] * options.carbonWeight;
+  OH_ = most.oxidationOH * c[S::OH] * options.carbonWeight;
   surfaceActive_ = growth_ > 0 || O2_ > 0 || OH_ > 0;
 }
 

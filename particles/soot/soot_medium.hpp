@@ -32,7 +32,7 @@ class SootMedium {
  public:
   // `gas`: negative concentrations count as zero. Without `keepsHydrogen` that of the PAH returns to the gas as they
   // are taken up. Throws NumericsError for a gas that is not physical.
-  SootMedium(const SootModelOptions& options, const DimerModel& dimers, const SootGasState& gas, bool keepsHydrogen);
+  SootMedium(const SootModelOptions& options, const DimerModel& dimers, const ParticleGas& gas, bool keepsHydrogen);
 
   [[nodiscard]] const DimerProduction& dimer() const { return dimer_; }
   // Moles of each PAH in a mole of dimers.
@@ -40,7 +40,7 @@ class SootMedium {
   [[nodiscard]] bool incepting() const { return selfCollision_ > 0; }
   [[nodiscard]] bool condensing() const { return condensing_; }
   [[nodiscard]] bool surfaceActive() const { return surfaceActive_; }
-  [[nodiscard]] const KernelGas& kernelGas() const { return kernelGas_; }
+  [[nodiscard]] const CarrierGas& gas() const { return gas_; }
   [[nodiscard]] double dimerCarbon() const { return dimerCarbon_; }      // kg in a dimer
   [[nodiscard]] double dimerHydrogen() const { return dimerHydrogen_; }  // kg in a dimer
   [[nodiscard]] double freedHydrogen() const { return freedHydrogen_; }  // kg that a dimer gives back as H2
@@ -75,7 +75,7 @@ class SootMedium {
   SurfaceChemistry surface_;
   DimerProduction dimer_;
   PahArray pahOfDimer_{};
-  KernelGas kernelGas_;
+  CarrierGas gas_;
   double selfCollision_ = 0, freeMolecular_ = 0;
   double dimerCarbon_ = 0, dimerHydrogen_ = 0, freedHydrogen_ = 0;
   double growth_ = 0, O2_ = 0, OH_ = 0;  // kg carbon/m2/s

@@ -36,7 +36,7 @@ constexpr double smallestShare = 1e-5;
 
 }  // namespace
 
-void SootModel::jacobian(const SootGas& gas, std::span<const double> densities, std::span<double> values) const {
+void SootModel::jacobian(const ParticleGas& gas, std::span<const double> densities, std::span<double> values) const {
   const std::size_t n = scalars().size(), m = gasSpecies().size(), rows = n + m, columns = rows + 1;
   thread_local std::vector<double> state, base, moved;
   state.resize(rows);
@@ -44,7 +44,7 @@ void SootModel::jacobian(const SootGas& gas, std::span<const double> densities, 
   moved.resize(rows);
   for (std::size_t i = 0; i < n; ++i) state[i] = std::max(densities[i], 0.0);
   for (std::size_t i = 0; i < m; ++i) state[n + i] = std::max(gas.concentrations[i], 0.0);
-  SootGas at = gas;
+  ParticleGas at = gas;
   at.concentrations = {state.data() + n, m};
   const auto evaluate = [&](std::vector<double>& out) {
     sources(at, {state.data(), n}, {out.data(), n}, {out.data() + n, m});
@@ -67,7 +67,7 @@ void SootModel::jacobian(const SootGas& gas, std::span<const double> densities, 
 
 double SootModel::volumeFraction(std::span<const double> densities) const {
   const std::vector<double> none(gasSpecies().size(), 0.0);
-  SootGas gas;  // nitrogen at 1500 K
+  ParticleGas gas;  // nitrogen at 1500 K
   gas.temperature = 1500;
   gas.pressure = constants::oneAtmosphere;
   gas.meanMolecularWeight = 0.028;

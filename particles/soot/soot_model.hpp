@@ -10,16 +10,9 @@
 #include <utility>
 #include <vector>
 
-namespace lampblack {
+#include "core/particle_gas.hpp"
 
-struct SootGas {
-  double temperature = 0;                  // K
-  double pressure = 0;                     // Pa
-  double density = 0;                      // kg/m3, gas only
-  double viscosity = 0;                    // Pa s
-  double meanMolecularWeight = 0;          // kg/mol
-  std::span<const double> concentrations;  // mol/m3, in the order of SootModel::gasSpecies()
-};
+namespace lampblack {
 
 struct SootScalar {
   std::string name;         // "number", "section_07_aggregates"
@@ -60,7 +53,8 @@ class SootModel {
  public:
   virtual ~SootModel() = default;
 
-  // Gas species by their usual mechanism names, whose concentrations matter or that are exchanged.
+  // Gas species by their usual mechanism names, whose concentrations matter or that are exchanged: those of a
+  // ParticleGas, in this order.
   [[nodiscard]] virtual const std::vector<std::string>& gasSpecies() const = 0;
   [[nodiscard]] virtual const std::vector<SootScalar>& scalars() const = 0;
 
@@ -71,24 +65,24 @@ class SootModel {
 
   // `densities`: of the scalars, per m3; negative ones (and negative concentrations) count as zero. `rates`: of the
   // scalars, per m3 and s. `exchange`: production of the gas species, mol/m3/s.
-  virtual void sources(const SootGas& gas, std::span<const double> densities, std::span<double> rates,
+  virtual void sources(const ParticleGas& gas, std::span<const double> densities, std::span<double> rates,
                        std::span<double> exchange) const = 0;
 
   // Derivatives of (rates, exchange), row-major, with respect to (densities, concentrations, temperature), each with
   // everything else held: (scalars + species) rows of (scalars + species + 1) columns. The default takes one-sided
   // differences of `sources`, away from zero, and at zero for what is negative; models with many scalars override it.
-  virtual void jacobian(const SootGas& gas, std::span<const double> densities, std::span<double> values) const;
+  virtual void jacobian(const ParticleGas& gas, std::span<const double> densities, std::span<double> values) const;
 
   // Brownian diffusivity of each scalar, m2/s. All scalars move by thermophoresis with sootThermophoresis().
-  virtual void diffusivities(const SootGas& gas, std::span<const double> densities, std::span<double> D) const = 0;
+  virtual void diffusivities(const ParticleGas& gas, std::span<const double> densities, std::span<double> D) const = 0;
 
-  [[nodiscard]] virtual SootProperties properties(const SootGas& gas, std::span<const double> densities) const = 0;
+  [[nodiscard]] virtual SootProperties properties(const ParticleGas& gas, std::span<const double> densities) const = 0;
   // m3/m3, for radiation. The default asks `properties` in some hot gas; models override it where that costs.
   [[nodiscard]] virtual double volumeFraction(std::span<const double> densities) const;
   // The part of it in particles as large as the model can have, which grow no more: where it counts, the model has too
   // few sections. Zero where there is no such limit.
   [[nodiscard]] virtual double volumeFractionAtLimit(std::span<const double> densities) const;
-  [[nodiscard]] virtual SootProcesses processes(const SootGas& gas, std::span<const double> densities) const = 0;
+  [[nodiscard]] virtual SootProcesses processes(const ParticleGas& gas, std::span<const double> densities) const = 0;
   // Empty where the model has none.
   [[nodiscard]] virtual SootSizeDistribution sizeDistribution(std::span<const double> densities) const;
 };

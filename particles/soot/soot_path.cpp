@@ -1,5 +1,7 @@
 #include "particles/soot/soot_path.hpp"
 
+#include <cmath>
+
 #include "core/errors.hpp"
 
 namespace lampblack {
@@ -16,20 +18,29 @@ SootPathRecord record(const StochasticSoot& soot, const SootPathOptions& options
 
 }  // namespace
 
+std::vector<double> SootPathOptions::binEdges() const {
+  const double width = (logDiameterMax - logDiameterMin) / static_cast<double>(bins);
+  std::vector<double> edges;
+  for (std::size_t b = 0; b <= bins; ++b)
+    edges.push_back(std::pow(10.0, logDiameterMin + width * static_cast<double>(b)));
+  return edges;
+}
+
 SootPathResult marchPath(StochasticSoot& soot, const SootPath& path, const SootPathOptions& options) {
   const auto& points = path.points;
-  if (points.size() < 2 || path.divergence.size() + 1 != points.size())
-    throw InputError("path of soot: at least two points are needed, and a divergence between each and the next");
-  const std::size_t n = soot.options().soot.pah.size();
+  if (points.empty() || path.divergence.size() + 1 != points.size())
+    throw InputError("path of soot: at least one point is needed, and a divergence between each and the next");
+  const std::size_t species = SootSpecies::fixed + soot.options().soot.pah.size();
   SootPathResult result;
   result.records.reserve(points.size());
   result.exchange.reserve(points.size() - 1);
   result.records.push_back(record(soot, options));
   (void)soot.takeExchange();
   for (std::size_t k = 0; k + 1 < points.size(); ++k) {
-    checkInterval(points[k], points[k + 1], n);
-    marchInterval(points[k], points[k + 1], options.division,
-                  [&](const SootGasState& gas, double, double dt) { soot.advance(gas, path.divergence[k], dt); });
+    checkInterval(points[k], points[k + 1], species);
+    marchInterval(points[k], points[k + 1], options.division, [&](const ParticleGas& gas, double w, double dt) {
+      soot.advance(gas, path.divergence[k].at(w), dt);
+    });
     result.records.push_back(record(soot, options));
     result.exchange.push_back(soot.takeExchange());
   }

@@ -10,20 +10,21 @@
 
 namespace lampblack {
 
-struct SootPathPoint : GasSample {
-  double z = 0;         // m
-  double velocity = 0;  // m/s, of the particles: of the gas and by thermophoresis
-};
-
 struct SootPath {
-  std::vector<SootPathPoint> points;  // in the order of time
-  std::vector<double> divergence;     // 1/s: mean of the particles' velocity between a point and the next
+  std::vector<GasSample> points;  // in the order of time
+  // Of the particles' velocity, 1/s, between a point and the next: at its two ends, linear in time.
+  struct Divergence {
+    double first = 0, last = 0;
+    [[nodiscard]] double at(double w) const { return first + w * (last - first); }
+  };
+  std::vector<Divergence> divergence;
 };
 
 struct SootPathOptions {
   double logDiameterMin = -9.2, logDiameterMax = -6.2;  // bins of log10(d/m)
   std::size_t bins = 60;
   GasDivision division;
+  [[nodiscard]] std::vector<double> binEdges() const;  // m, bins + 1
 };
 
 struct SootPathRecord {
@@ -37,7 +38,8 @@ struct SootPathResult {
   std::vector<SootExchange> exchange;   // one an interval
 };
 
-// Throws InputError for fewer than two points, times that fall, or PAH lists that are not the population's.
+// Throws InputError without a point or where a divergence is missing, for times that fall, and for species that are
+// not the population's.
 [[nodiscard]] SootPathResult marchPath(StochasticSoot& soot, const SootPath& path, const SootPathOptions& options = {});
 
 }  // namespace lampblack

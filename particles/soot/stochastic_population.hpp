@@ -1,6 +1,7 @@
 // StochasticProcess: its population as given and as seen from outside. Included by stochastic_process.hpp.
 #pragma once
 
+#include "core/packed_doubles.hpp"
 #include "particles/population/monte_carlo/weighted_deviation.hpp"
 #include "particles/soot/stochastic_process.hpp"
 
@@ -31,6 +32,39 @@ void StochasticProcess<Method>::initialise(std::span<const SootParticleGiven> po
   exchange_ = {};
   reached_ = 0;
   planned_ = false;
+}
+
+// Which layout of a packed state this is; another one is refused.
+inline constexpr double packedVersion = 1;
+
+template <class Method>
+std::vector<double> StochasticProcess<Method>::pack() const {
+  std::vector<double> state;
+  packDoubles(state,
+              std::array{packedVersion, static_cast<double>(options_.method), static_cast<double>(options_.particles),
+                         static_cast<double>(random_.position()), reached_, nucleusAfter_, planned_ ? 1.0 : 0.0});
+  packDoubles(state, exchange_);
+  for (const PopulationCounter& counter : populationCounters)
+    state.push_back(static_cast<double>(counters().*counter.value));  // below 2^53
+  method_.pack(state);
+  return state;
+}
+
+template <class Method>
+void StochasticProcess<Method>::unpack(std::span<const double> values) {
+  PackedDoubles state(values);
+  if (state.next() != packedVersion || state.next() != static_cast<double>(options_.method) ||
+      state.next() != static_cast<double>(options_.particles))
+    throw InputError("stochastic soot: the saved state is of a population with another method or number of particles");
+  random_.seek(static_cast<std::uint64_t>(state.next()));
+  reached_ = state.next();
+  nucleusAfter_ = state.next();
+  planned_ = state.next() != 0;
+  exchange_ = state.next<SootExchange>();
+  for (const PopulationCounter& counter : populationCounters)
+    method_.counters().*counter.value = static_cast<std::uint64_t>(state.next());
+  method_.unpack(state);
+  if (state.left() != 0) throw InputError("stochastic soot: the saved state is longer than its population");
 }
 
 template <class Method>

@@ -32,8 +32,11 @@ class StochasticProcess final : public StochasticSoot {
         random_(random) {}
 
   void initialise(std::span<const SootParticleGiven> population) override;
-  void advance(const SootGasState& gas, double dilution, double dt) override;
+  void advance(const ParticleGas& gas, double dilution, double dt) override;
   [[nodiscard]] SootExchange takeExchange() override { return std::exchange(exchange_, {}); }
+
+  [[nodiscard]] std::vector<double> pack() const override;
+  void unpack(std::span<const double> state) override;
 
   [[nodiscard]] std::size_t size() const override { return method_.size(); }
   [[nodiscard]] Totals totals() const override;
@@ -142,16 +145,17 @@ double StochasticProcess<Method>::step(const SootMedium& medium, const Sums& s, 
 }
 
 template <class Method>
-void StochasticProcess<Method>::advance(const SootGasState& gas, double dilution, double dt) {
+void StochasticProcess<Method>::advance(const ParticleGas& gas, double dilution, double dt) {
   if (!(dt > 0)) return;
   const SootMedium medium(options_.soot, dimers_, gas, options_.keepsHydrogen);
   if (options_.soot.coagulation) {
-    CollisionKernelOptions kernel;
-    kernel.type = CollisionKernelType::transition;
-    kernel.gas = medium.kernelGas();
+    CollisionKernelOptions kernel = options_.kernel;
+    kernel.gas = medium.gas();
     kernel.enhancement = options_.soot.vanDerWaals;
     kernel_.emplace(kernel);
     method_.setKernel(kernel);
+  } else {
+    method_.rebuild();
   }
   double remaining = dt;
   while (remaining > 0) {
@@ -241,8 +245,8 @@ void StochasticProcess<Method>::jump(const SootMedium& medium, double dt, double
 template <class Method>
 void StochasticProcess<Method>::book(const SootMedium& medium, double dimers) {
   for (std::size_t i = 0; i < dimers_.size(); ++i)
-    exchange_.pah[i] -= dimers * medium.pahOfDimer()[i] / constants::avogadro;
-  exchange_.H2 += 0.5 * dimers * medium.freedHydrogen() / options_.soot.hydrogenWeight;
+    exchange_.gas[SootSpecies::fixed + i] -= dimers * medium.pahOfDimer()[i] / constants::avogadro;
+  exchange_.gas[SootSpecies::H2] += 0.5 * dimers * medium.freedHydrogen() / options_.soot.hydrogenWeight;
   exchange_.carbon += dimers * medium.dimerCarbon();
   exchange_.hydrogen += dimers * medium.dimerHydrogen();
 }
@@ -285,13 +289,14 @@ void StochasticProcess<Method>::grow(const SootMedium& medium, double dt) {
   exchange_.carbon += all.growth - all.oxidationO2 - all.oxidationOH;
   exchange_.hydrogen -= all.hydrogenO2 + all.hydrogenOH;
   // See surface_chemistry.hpp for what an event moves.
+  using S = SootSpecies;
   const double perCarbon = 1 / soot.carbonWeight, perH2 = 0.5 / soot.hydrogenWeight;
-  exchange_.C2H2 -= 0.5 * all.growth * perCarbon;
-  exchange_.O2 -= 0.5 * all.oxidationO2 * perCarbon;
-  exchange_.OH -= all.oxidationOH * perCarbon;
-  exchange_.CO += (all.oxidationO2 + all.oxidationOH) * perCarbon;
-  exchange_.H += all.oxidationOH * perCarbon;
-  exchange_.H2 += 0.5 * all.growth * perCarbon + (all.hydrogenO2 + all.hydrogenOH) * perH2;
+  exchange_.gas[S::C2H2] -= 0.5 * all.growth * perCarbon;
+  exchange_.gas[S::O2] -= 0.5 * all.oxidationO2 * perCarbon;
+  exchange_.gas[S::OH] -= all.oxidationOH * perCarbon;
+  exchange_.gas[S::CO] += (all.oxidationO2 + all.oxidationOH) * perCarbon;
+  exchange_.gas[S::H] += all.oxidationOH * perCarbon;
+  exchange_.gas[S::H2] += 0.5 * all.growth * perCarbon + (all.hydrogenO2 + all.hydrogenOH) * perH2;
 }
 
 }  // namespace lampblack

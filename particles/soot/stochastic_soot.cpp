@@ -30,9 +30,8 @@ std::unique_ptr<StochasticSoot> makeStochasticSoot(StochasticSootOptions options
   PopulationModel model;
   if (options.soot.coagulation) {
     // Of some gas, until there is the right one.
-    CollisionKernelOptions kernel;
-    kernel.type = CollisionKernelType::transition;
-    kernel.gas = {1500, constants::oneAtmosphere, 5e-5, 0.028, 0.2};
+    CollisionKernelOptions kernel = options.kernel;
+    kernel.gas = {1500, constants::oneAtmosphere, 0.2, 5e-5, 0.028};
     kernel.enhancement = options.soot.vanDerWaals;
     model.coagulation = kernel;
   }

@@ -18,6 +18,7 @@
 #include <span>
 #include <vector>
 
+#include "particles/population/model/collision_kernel.hpp"
 #include "particles/population/population_solver.hpp"
 #include "particles/soot_gas.hpp"
 
@@ -31,6 +32,9 @@ struct StochasticSootOptions {
   std::uint64_t seed = 1;
   std::uint64_t owner = 0;  // global trajectory and repeat: makes the random numbers independent of the rank
   SootModelOptions soot;
+  // Of coagulation; the gas gives its gas, and soot.vanDerWaals its enhancement. The kernels with exact solutions are
+  // there for verification.
+  CollisionKernelOptions kernel{.type = CollisionKernelType::transition};
   bool coalescing = true;           // spheres; otherwise aggregates of primaries
   bool alphaOfPrimaries = false;    // mu_1 in alpha(T, mu_1) is of the mean primary (thesis eq. 9-37), not particle
   bool keepsHydrogen = true;        // false: that of PAH returns to the gas as H2 when they are taken up
@@ -41,9 +45,8 @@ struct StochasticSootOptions {
 // What a population took from (negative) and gave to the gas and what happened to its own mass, summed over the steps
 // since the last look, per m3 of the gas of each moment.
 struct SootExchange {
-  double H = 0, H2 = 0, OH = 0, O2 = 0, C2H2 = 0, CO = 0;  // mol/m3
-  PahArray pah{};                                          // mol/m3
-  double nucleatedNumber = 0, oxidisedNumber = 0;          // 1/m3
+  SootSpeciesArray gas{};                          // mol/m3
+  double nucleatedNumber = 0, oxidisedNumber = 0;  // 1/m3
   // Soot mass, kg/m3; oxidation positive.
   double nucleated = 0, condensed = 0, grown = 0, oxidisedO2 = 0, oxidisedOH = 0;
   double carbon = 0, hydrogen = 0;  // of the soot, by all of these: kg/m3
@@ -67,9 +70,14 @@ class StochasticSoot {
 
   // Over dt (s) in the given gas; `dilution` (1/s) is the divergence of the particles' velocity. Throws NumericsError
   // for a gas that is not physical.
-  virtual void advance(const SootGasState& gas, double dilution, double dt) = 0;
+  virtual void advance(const ParticleGas& gas, double dilution, double dt) = 0;
   // Since it was asked for last.
   [[nodiscard]] virtual SootExchange takeExchange() = 0;
+
+  // The complete state: a population of the same options that unpacks it goes on to the same bits, whether it was
+  // saved, went to another rank or stayed. Throws InputError for what pack() did not write.
+  [[nodiscard]] virtual std::vector<double> pack() const = 0;
+  virtual void unpack(std::span<const double> state) = 0;
 
   [[nodiscard]] virtual std::size_t size() const = 0;
   // Carbon, hydrogen in kg/m3; number of particles and of primaries in 1/m3; surface in m2/m3.
@@ -77,6 +85,7 @@ class StochasticSoot {
     double number = 0, carbon = 0, hydrogen = 0, primaries = 0, surface = 0;
     double diameters = 0;  // of mobility, m/m3
     [[nodiscard]] double mass() const { return carbon + hydrogen; }
+    [[nodiscard]] double meanDiameter() const { return number > 0 ? diameters / number : 0; }  // m, by number
   };
   [[nodiscard]] virtual Totals totals() const = 0;
   // Sum over particles of volume^order per m3.

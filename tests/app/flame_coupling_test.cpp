@@ -22,19 +22,19 @@ std::vector<FlameEnsemblePath> twoPaths(const std::vector<double>& z) {
   std::vector<FlameEnsemblePath> paths(2);
   double time = 0;
   for (const double at : z) {
-    SootPathPoint point;
-    point.z = at;
+    GasSample point;
     point.time = time;
     paths[0].path.path.points.push_back(point);
+    paths[0].path.z.push_back(at);
     time += 1e-3 * (1 + 100 * at);
   }
   paths[1].options.fromRight = true;
   time = 0;
   for (const double at : {z.back(), z[z.size() - 2], 0.3 * z[z.size() - 2] + 0.7 * z[z.size() - 3]}) {
-    SootPathPoint point;
-    point.z = at;
+    GasSample point;
     point.time = time;
     paths[1].path.path.points.push_back(point);
+    paths[1].path.z.push_back(at);
     time += 2e-3;
   }
   double value = 1;
@@ -43,9 +43,9 @@ std::vector<FlameEnsemblePath> twoPaths(const std::vector<double>& z) {
     for (std::size_t k = 0; k < points; ++k) path.volumeFraction.mean.push_back(1e-8 * (value += 0.3));
     for (std::size_t k = 0; k + 1 < points; ++k) {
       SootExchange x;
-      x.C2H2 = -1e-3 * (value += 0.7);
-      x.OH = -2e-5 * value;
-      x.pah[0] = -3e-5 * value;
+      x.gas[SootSpecies::C2H2] = -1e-3 * (value += 0.7);
+      x.gas[SootSpecies::OH] = -2e-5 * value;
+      x.gas[SootSpecies::fixed] = -3e-5 * value;
       x.carbon = 2e-5 * (value += 0.1);
       x.hydrogen = 1e-6 * value;
       path.exchange.push_back(x);
@@ -61,18 +61,22 @@ TEST(FlameCoupling, TheGasOfAFlameGivesWhatParticlesTakeAlongTheirPaths) {
   for (std::size_t i = 0; i < profile.points(); ++i)
     profile.at(i, FlameLayout::temperature) = 1000 + 100 * static_cast<double>(i);
   const auto paths = twoPaths(profile.z);
-  const FlameExchange exchange = exchangeOf(abf(), std::vector<PahSpecies>{{"A2", 10, 8, 2e-3}}, profile, paths);
+  SootModelOptions soot;
+  soot.pah = {{"A2", 10, 8, 2e-3}};
+  const FlameExchange exchange = exchangeOf(abf(), soot, profile, paths);
 
   double carbon = 0, hydrogen = 0, acetylene = 0, hydroxyl = 0, naphthalene = 0;
   for (const FlameEnsemblePath& path : paths)
     for (std::size_t k = 0; k < path.exchange.size(); ++k) {
       const auto &from = path.path.path.points[k], &to = path.path.path.points[k + 1];
-      const double part = std::abs(to.z - from.z) / (to.time - from.time);
+      const double part = std::abs(path.path.z[k + 1] - path.path.z[k]) / (to.time - from.time);
       carbon += part * path.exchange[k].carbon;
       hydrogen += part * path.exchange[k].hydrogen;
-      acetylene += part * path.exchange[k].C2H2 * abf().molecularWeights()[abf().speciesIndex("C2H2")];
-      hydroxyl += part * path.exchange[k].OH * abf().molecularWeights()[abf().speciesIndex("OH")];
-      naphthalene += part * path.exchange[k].pah[0] * abf().molecularWeights()[abf().speciesIndex("A2")];
+      acetylene +=
+          part * path.exchange[k].gas[SootSpecies::C2H2] * abf().molecularWeights()[abf().speciesIndex("C2H2")];
+      hydroxyl += part * path.exchange[k].gas[SootSpecies::OH] * abf().molecularWeights()[abf().speciesIndex("OH")];
+      naphthalene +=
+          part * path.exchange[k].gas[SootSpecies::fixed] * abf().molecularWeights()[abf().speciesIndex("A2")];
     }
   // As the flame's control volumes see it: each point has half of the intervals on both sides.
   const auto integral = [&](auto&& value) {

@@ -152,7 +152,7 @@ TEST(FlameSoot, ExchangeConservesTheElementsOfTheMechanism) {
   const std::size_t n = soot.scalars().size(), m = soot.exchanged().size();
   std::vector<double> concentrations(m), rates(n), exchange(m);
   for (std::size_t i = 0; i < m; ++i) concentrations[i] = 0.01 / static_cast<double>(i + 1);
-  const CarriedGas gas{1700, 101325, 0.2, 5e-5, 0.028, concentrations};
+  const ParticleGas gas{1700, 101325, 0.2, 5e-5, 0.028, concentrations};
   const std::vector<double> densities{1e17, 1e-3, 1e-5};
   soot.sources(gas, densities, rates, exchange);
   for (std::size_t e = 0; e < abf().numElements(); ++e) {

@@ -38,7 +38,7 @@ class PopulationStatisticsTest : public ::testing::Test {
     data[13] = 0.5;      // s
     data[14] = missing;  // does not gel
     data[15] = 7;        // coagulations
-    data[16] = 3;        // fictitious
+    data[20] = 3;        // fictitious: in the order of populationCounters
     return data;
   }
 

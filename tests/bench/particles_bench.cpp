@@ -1,28 +1,24 @@
-// Cost of the soot models: a cell of the two-equation model, and coagulation events of ensembles.
+// Cost of the soot models: a cell of the two-equation model, and coagulation events of stochastic soot.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
 #include <vector>
 
-#include "particles/ensemble.hpp"
+#include "particles/soot/stochastic_soot.hpp"
 #include "particles/two_equation.hpp"
 
 namespace {
 
 using namespace lampblack;
 
+// At one atmosphere, with naphthalene.
 struct Flame {
-  std::vector<double> pah;
-  SootGasState gas;
-  explicit Flame(double pahFraction) {
+  std::vector<double> concentrations;
+  ParticleGas gas;
+  explicit Flame(double pahFraction) : concentrations{1e-3, 0.03, 1e-4, 0.08, 1e-4, 0.03, 0, pahFraction} {
     const double T = 1700, c = constants::oneAtmosphere / (constants::gasConstant * T);
-    pah = {pahFraction * c};
-    gas = {T,         constants::oneAtmosphere,
-           0.028 * c, 6e-5,
-           0.028,     1e-3 * c,
-           0.03 * c,  1e-4 * c,
-           0.08 * c,  1e-4 * c,
-           0.03 * c,  pah};
+    for (double& x : concentrations) x *= c;
+    gas = {{T, constants::oneAtmosphere, 0.028 * c, 6e-5, 0.028}, concentrations};
   }
   Flame(const Flame&) = delete;
   Flame& operator=(const Flame&) = delete;
@@ -40,11 +36,9 @@ void twoEquationAdvance(benchmark::State& state) {
   const TwoEquationSoot model(naphthalene());
   const double dt = 1e-9 * static_cast<double>(state.range(0));
   for (auto _ : state) {
-    std::vector<double> pah = flame.pah;
-    const auto& g = flame.gas;
-    SootCellGas cell{g.H, g.H2, g.OH, g.H2O, g.O2, g.C2H2, 0, pah};
+    std::vector<double> cell = flame.concentrations;
     TwoEquationSoot::Population soot{1e17, 2e-4, 6e-6};
-    benchmark::DoNotOptimize(model.advance(g, dt, soot, cell));
+    benchmark::DoNotOptimize(model.advance(flame.gas, dt, soot, cell));
     benchmark::DoNotOptimize(soot);
   }
 }
@@ -53,11 +47,9 @@ BENCHMARK(twoEquationAdvance)->Arg(1000)->Arg(10000)->Arg(100000);
 void twoEquationNothing(benchmark::State& state) {
   const Flame flame(0);
   const TwoEquationSoot model(naphthalene());
-  std::vector<double> pah = flame.pah;
-  const auto& g = flame.gas;
-  SootCellGas cell{g.H, g.H2, g.OH, g.H2O, g.O2, g.C2H2, 0, pah};
+  std::vector<double> cell = flame.concentrations;
   TwoEquationSoot::Population soot;
-  for (auto _ : state) benchmark::DoNotOptimize(model.advance(g, 1e-5, soot, cell));
+  for (auto _ : state) benchmark::DoNotOptimize(model.advance(flame.gas, 1e-5, soot, cell));
 }
 BENCHMARK(twoEquationNothing);
 
@@ -69,42 +61,45 @@ void twoEquationSources(benchmark::State& state) {
 BENCHMARK(twoEquationSources);
 
 // Coagulation alone from equal spheres, until an eighth of the number is left: real events a second.
-void coagulation(benchmark::State& state, CoagulationKernel kernel) {
+void coagulation(benchmark::State& state, CollisionKernelType kernel) {
   const Flame flame(0);
-  EnsembleOptions options;
-  options.capacity = static_cast<std::size_t>(state.range(0));
-  options.kernel = kernel;
+  StochasticSootOptions options;
+  options.particles = static_cast<std::size_t>(state.range(0));
+  options.kernel.type = kernel;
   options.soot = naphthalene();
   options.soot.surfaceGrowth = options.soot.oxidation = false;
-  const std::vector<double> masses(options.capacity, 1e-23);
+  const std::vector<SootParticleGiven> spheres(options.particles,
+                                               {0.96e-23, 0.04e-23, 1, 1e18 / static_cast<double>(options.particles)});
   double events = 0;
   for (auto _ : state) {
-    Ensemble ensemble(options);
-    ensemble.initialise(masses, 0.04, 1e18);
-    ensemble.advance(flame.gas, 0, 3e-3);
-    events += static_cast<double>(ensemble.counters().coagulations);
+    const auto soot = makeStochasticSoot(options);
+    soot->initialise(spheres);
+    soot->advance(flame.gas, 0, 3e-3);
+    events += static_cast<double>(soot->counters().coagulations);
   }
   state.counters["events/s"] = benchmark::Counter(events, benchmark::Counter::kIsRate);
 }
-BENCHMARK_CAPTURE(coagulation, freeMolecular, CoagulationKernel::freeMolecular)->Arg(1000)->Arg(10000)->Arg(100000);
-BENCHMARK_CAPTURE(coagulation, transition, CoagulationKernel::transition)->Arg(1000)->Arg(10000)->Arg(100000);
+BENCHMARK_CAPTURE(coagulation, freeMolecular, CollisionKernelType::freeMolecular)->Arg(1000)->Arg(10000)->Arg(100000);
+BENCHMARK_CAPTURE(coagulation, transition, CollisionKernelType::transition)->Arg(1000)->Arg(10000)->Arg(100000);
 
 // Everything on, from nothing, over 2 ms of a sooting gas: jumps (real, fictitious and inceptions) a second.
-void sootingGas(benchmark::State& state) {
+void sootingGas(benchmark::State& state, StochasticSootMethod method) {
   const Flame flame(2e-5);
-  EnsembleOptions options;
-  options.capacity = static_cast<std::size_t>(state.range(0));
+  StochasticSootOptions options;
+  options.method = method;
+  options.particles = static_cast<std::size_t>(state.range(0));
   options.soot = naphthalene();
   double jumps = 0;
   for (auto _ : state) {
-    Ensemble ensemble(options);
-    ensemble.advance(flame.gas, 0, 2e-3);
-    const auto& c = ensemble.counters();
-    jumps += static_cast<double>(c.coagulations + c.fictitious + c.inceptions);
+    const auto soot = makeStochasticSoot(options);
+    soot->advance(flame.gas, 0, 2e-3);
+    const auto& c = soot->counters();
+    jumps += static_cast<double>(c.coagulations + c.fictitious + c.nucleations);
   }
   state.counters["jumps/s"] = benchmark::Counter(jumps, benchmark::Counter::kIsRate);
 }
-BENCHMARK(sootingGas)->Arg(1000)->Arg(10000);
+BENCHMARK_CAPTURE(sootingGas, dsmc, StochasticSootMethod::dsmc)->Arg(1000)->Arg(10000);
+BENCHMARK_CAPTURE(sootingGas, sammc, StochasticSootMethod::sammc)->Arg(1000)->Arg(10000);
 
 // Accuracy, not time: relative error of number and carbon after two steps of 0.1 ms, at a tolerance of range(0) 1e-5.
 void twoEquationAccuracy(benchmark::State& state) {
@@ -113,11 +108,9 @@ void twoEquationAccuracy(benchmark::State& state) {
     SootModelOptions options = naphthalene();
     options.relativeTolerance = tolerance;
     const TwoEquationSoot model(options);
-    std::vector<double> pah = flame.pah;
-    const auto& g = flame.gas;
-    SootCellGas cell{g.H, g.H2, g.OH, g.H2O, g.O2, g.C2H2, 0, pah};
+    std::vector<double> cell = flame.concentrations;
     TwoEquationSoot::Population soot{1e17, 2e-5, 6e-7};
-    for (int k = 0; k < 2; ++k) model.advance(g, 1e-4, soot, cell);
+    for (int k = 0; k < 2; ++k) model.advance(flame.gas, 1e-4, soot, cell);
     return soot;
   };
   const auto exact = run(1e-8);
@@ -131,8 +124,8 @@ BENCHMARK(twoEquationAccuracy)->Arg(100)->Arg(400)->Arg(2000);
 // Accuracy: mean and standard error over 400 repeats of the sooting gas at a splitting tolerance of range(0) 1e-4.
 void splittingAccuracy(benchmark::State& state) {
   const Flame flame(2e-5);
-  EnsembleOptions options;
-  options.capacity = 1024;
+  StochasticSootOptions options;
+  options.particles = 1024;
   options.soot = naphthalene();
   options.splitTolerance = 1e-4 * static_cast<double>(state.range(0));
   const int repeats = 400;
@@ -140,11 +133,11 @@ void splittingAccuracy(benchmark::State& state) {
   for (auto _ : state) {
     for (int repeat = 0; repeat < repeats; ++repeat) {
       options.owner = static_cast<std::uint64_t>(repeat);
-      Ensemble ensemble(options);
-      ensemble.advance(flame.gas, 0, 2e-3);
-      number += ensemble.numberDensity() / repeats;
-      squares += std::pow(ensemble.numberDensity(), 2) / repeats;
-      volume += ensemble.volumeFraction() / repeats;
+      const auto soot = makeStochasticSoot(options);
+      soot->advance(flame.gas, 0, 2e-3);
+      number += soot->totals().number / repeats;
+      squares += std::pow(soot->totals().number, 2) / repeats;
+      volume += soot->volumeFraction() / repeats;
     }
   }
   state.counters["number"] = number;

@@ -33,7 +33,7 @@ PopulationModel freeMolecular() {
   PopulationModel model;
   CollisionKernelOptions kernel;
   kernel.type = CollisionKernelType::freeMolecular;
-  kernel.gas = {1500, 101325, 5e-5, 0.029, 0.2};
+  kernel.gas = {1500, 101325, 0.2, 5e-5, 0.029};
   model.coagulation = kernel;
   return model;
 }

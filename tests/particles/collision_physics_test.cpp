@@ -16,7 +16,7 @@ TEST(CollisionPhysics, SlipCorrectionHasItsTwoLimits) {
 }
 
 TEST(CollisionPhysics, MeanFreePathOfAirAtRoomConditions) {
-  KernelGas air;
+  CarrierGas air;
   air.temperature = 293.15;
   air.pressure = 101325;
   air.viscosity = 1.8193e-5;

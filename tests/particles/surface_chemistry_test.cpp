@@ -51,32 +51,33 @@ TEST(SurfaceChemistry, RatesAreThoseOfTheTableWorkedOutInMolesAndCentimetres) {
   const SootModelOptions options;
   const SurfaceChemistry chemistry(options, 1700);
   const double alpha = 0.4;
-  const SurfaceRates rates = chemistry.rates(gas.state, alpha);
+  const SurfaceRates rates = chemistry.rates(gas.concentrations, alpha);
 
   const auto k = [](double A, double n, double E) {
     return A * std::pow(1700.0, n) * std::exp(-E / (1.98720425864083e-3 * 1700));
   };
   const auto c = [](double x) { return x * 1e-6; };  // mol/cm3
-  const auto& g = gas.state;
-  const double open = k(4.2e13, 0, 13) * c(g.H) + k(1e10, 0.734, 1.43) * c(g.OH);
-  const double close = k(3.9e12, 0, 11) * c(g.H2) + k(3.68e8, 1.139, 17.1) * c(g.H2O) + k(2e13, 0, 0) * c(g.H) +
-                       k(8e7, 1.56, 3.8) * c(g.C2H2) + k(2.2e12, 0, 7.5) * c(g.O2);
+  using S = SootSpecies;
+  const double open = k(4.2e13, 0, 13) * c(gas[S::H]) + k(1e10, 0.734, 1.43) * c(gas[S::OH]);
+  const double close = k(3.9e12, 0, 11) * c(gas[S::H2]) + k(3.68e8, 1.139, 17.1) * c(gas[S::H2O]) +
+                       k(2e13, 0, 0) * c(gas[S::H]) + k(8e7, 1.56, 3.8) * c(gas[S::C2H2]) +
+                       k(2.2e12, 0, 7.5) * c(gas[S::O2]);
   const double radicals = alpha * 2.3e15 / constants::avogadro * open / close;  // mol/cm2
-  const double growth = k(8e7, 1.56, 3.8) * c(g.C2H2) * radicals * 1e4;         // mol/m2/s
-  EXPECT_NEAR(rates.growth * g.C2H2 / growth, 1, 1e-9);
-  EXPECT_NEAR(rates.oxidationO2 * g.O2 / (k(2.2e12, 0, 7.5) * c(g.O2) * radicals * 1e4), 1, 1e-9);
+  const double growth = k(8e7, 1.56, 3.8) * c(gas[S::C2H2]) * radicals * 1e4;   // mol/m2/s
+  EXPECT_NEAR(rates.growth * gas[S::C2H2] / growth, 1, 1e-9);
+  EXPECT_NEAR(rates.oxidationO2 * gas[S::O2] / (k(2.2e12, 0, 7.5) * c(gas[S::O2]) * radicals * 1e4), 1, 1e-9);
 }
 
 TEST(SurfaceChemistry, HydroxylOxidationIsTheCollisionRateTimesItsEfficiency) {
   const test::FlameGas gas(1700, 0, 0, 1e-3, 0, 0, 0, {});
   const SurfaceChemistry chemistry(SootModelOptions{}, 1700);
   const double meanSpeed = std::sqrt(8 * constants::gasConstant * 1700 / (constants::pi * 17.007e-3));
-  EXPECT_NEAR(chemistry.rates(gas.state, 0.0).oxidationOH, 0.13 * meanSpeed / 4, 1e-10);
+  EXPECT_NEAR(chemistry.rates(gas.concentrations, 0.0).oxidationOH, 0.13 * meanSpeed / 4, 1e-10);
 }
 
 TEST(SurfaceChemistry, WithoutAnySpeciesNothingHappens) {
   const SurfaceChemistry chemistry(SootModelOptions{}, 1700);
-  const SurfaceRates rates = chemistry.rates(SootGasState{}, 1.0);
+  const SurfaceRates rates = chemistry.rates(SootSpeciesArray{}, 1.0);
   EXPECT_EQ(rates.growth, 0);
   EXPECT_EQ(rates.oxidationO2, 0);
 }

@@ -1,5 +1,6 @@
-// Coagulation of ensembles against references that share no code with them: the exact cluster sizes of the constant
-// kernel, and for the physical kernels a sectional solution by the fixed pivot technique (Kumar and Ramkrishna 1996).
+// Coagulation of stochastic soot against references that share no code with them: the exact cluster sizes of the
+// constant kernel, and for the physical kernels a sectional solution by the fixed pivot technique (Kumar and Ramkrishna
+// 1996).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,15 +8,15 @@
 #include <cstdio>
 #include <vector>
 
-#include "particles/ensemble.hpp"
+#include "particles/soot/stochastic_soot.hpp"
 
 namespace lampblack {
 namespace {
 
 constexpr double rho = 1850;
 
-SootGasState gasAt(double pressure) {
-  SootGasState gas;
+CarrierGas gasAt(double pressure) {
+  CarrierGas gas;
   gas.temperature = 1700;
   gas.pressure = pressure;
   gas.meanMolecularWeight = 0.028;
@@ -24,13 +25,20 @@ SootGasState gasAt(double pressure) {
   return gas;
 }
 
-EnsembleOptions coagulationOnly(CoagulationKernel kernel, std::uint64_t owner, std::size_t capacity) {
-  EnsembleOptions options;
-  options.capacity = capacity;
+// Equal spheres of one mass (kg), at n0 (1/m3), after coagulation by `kernel` alone for a time.
+std::unique_ptr<StochasticSoot> coagulated(const CollisionKernelOptions& kernel, const CarrierGas& gas,
+                                           std::uint64_t owner, std::size_t particles, double mass, double n0,
+                                           double time) {
+  StochasticSootOptions options;
+  options.particles = particles;
   options.owner = owner;
   options.kernel = kernel;
   options.soot.surfaceGrowth = options.soot.oxidation = false;
-  return options;
+  auto soot = makeStochasticSoot(options);
+  soot->initialise(std::vector<SootParticleGiven>(particles, {mass, 0, 1, n0 / static_cast<double>(particles)}));
+  const std::vector<double> none(SootSpecies::fixed);
+  soot->advance({gas, none}, 0, time);
+  return soot;
 }
 
 struct Repeats {
@@ -49,7 +57,7 @@ struct Repeats {
 };
 
 // The kernel written out here on its own: Davies' slip, harmonic mean (thesis eqs. 9-28 to 9-30).
-double kernelOf(const SootGasState& gas, bool transition, double vi, double vj) {
+double kernelOf(const CarrierGas& gas, bool transition, double vi, double vj) {
   const double kT = constants::boltzmann * gas.temperature;
   const double di = std::cbrt(6 * vi / constants::pi), dj = std::cbrt(6 * vj / constants::pi);
   const double fm = 2.2 * std::sqrt(0.5 * constants::pi * kT / rho * (1 / vi + 1 / vj)) * std::pow(di + dj, 2);
@@ -68,7 +76,7 @@ struct Sectional {
   double number = 0, spread = 0, massError = 0;
 };
 
-Sectional solveSectional(const SootGasState& gas, bool transition, double v0, double n0, double time, double ratio) {
+Sectional solveSectional(const CarrierGas& gas, bool transition, double v0, double n0, double time, double ratio) {
   const auto sections = static_cast<std::size_t>(std::log(3e5) / std::log(ratio));
   std::vector<double> v(sections), n(sections, 0.0);
   for (std::size_t k = 0; k < sections; ++k) v[k] = v0 * std::pow(ratio, static_cast<double>(k));
@@ -129,20 +137,18 @@ Sectional solveSectional(const SootGasState& gas, bool transition, double v0, do
   return out;
 }
 
-void compareWithSections(CoagulationKernel kernel, const SootGasState& gas, double mass, double n0, double time,
+void compareWithSections(CollisionKernelType kernel, const CarrierGas& gas, double mass, double n0, double time,
                          double selfPreservingSpread) {
-  const bool transition = kernel == CoagulationKernel::transition;
+  const bool transition = kernel == CollisionKernelType::transition;
   const Sectional fine = solveSectional(gas, transition, mass / rho, n0, time, 1.12);
   const Sectional coarse = solveSectional(gas, transition, mass / rho, n0, time, 1.12 * 1.12);
   ASSERT_LT(fine.massError, 1e-9);
   ASSERT_LT(fine.number, 0.05 * n0);
   Repeats number, spread;
   for (std::uint64_t repeat = 0; repeat < 96; ++repeat) {
-    Ensemble e(coagulationOnly(kernel, repeat, 8192));
-    e.initialise(std::vector<double>(8192, mass), 0, n0);
-    e.advance(gas, 0, time);
-    number.values.push_back(e.numberDensity() / n0);
-    spread.values.push_back(e.geometricStandardDeviation());
+    const auto soot = coagulated({.type = kernel}, gas, repeat, 8192, mass, n0, time);
+    number.values.push_back(soot->totals().number / n0);
+    spread.values.push_back(soot->geometricDeviation());
   }
   // The sectional method is of second order in the ratio less one: its fine error is below the difference of the two.
   const double zLimit = 3.3;
@@ -157,26 +163,25 @@ void compareWithSections(CoagulationKernel kernel, const SootGasState& gas, doub
 }
 
 TEST(ParticlesVerification, FreeMolecularCoagulationMatchesTheSectionalSolution) {
-  compareWithSections(CoagulationKernel::freeMolecular, gasAt(101325), 1e-23, 1e18, 0.02, 1.46);
+  compareWithSections(CollisionKernelType::freeMolecular, gasAt(101325), 1e-23, 1e18, 0.02, 1.46);
 }
 
 TEST(ParticlesVerification, ContinuumCoagulationMatchesTheSectionalSolution) {
-  compareWithSections(CoagulationKernel::transition, gasAt(1e8), 1e-17, 1e14, 1500, 1.44);
+  compareWithSections(CollisionKernelType::transition, gasAt(1e8), 1e-17, 1e14, 1500, 1.44);
 }
 
 TEST(ParticlesVerification, ConstantKernelGivesTheExactClusterSizes) {
   const double tau = 1, K = 1e-15, n0 = 1e18, mass = 1e-23;
   std::vector<Repeats> sizes(5);
   for (std::uint64_t repeat = 0; repeat < 100; ++repeat) {
-    EnsembleOptions options = coagulationOnly(CoagulationKernel::constant, repeat, 4096);
-    options.verificationScale = K;
-    Ensemble e(options);
-    e.initialise(std::vector<double>(4096, mass), 0, n0);
-    e.advance(gasAt(101325), 0, tau / (K * n0));
+    const auto soot = coagulated({.type = CollisionKernelType::constant, .rate = K}, gasAt(101325), repeat, 4096, mass,
+                                 n0, tau / (K * n0));
+    // A bin around each of the first five cluster sizes.
     std::vector<double> count(5, 0.0);
-    for (const double m : e.masses()) {
-      const auto k = static_cast<std::size_t>(std::lround(m / mass));
-      if (k <= 5) count[k - 1] += 1 / (e.sampleVolume() * n0);
+    for (std::size_t k = 0; k < 5; ++k) {
+      const auto at = [&](double monomers) { return std::log10(std::cbrt(6 * monomers * mass / rho / constants::pi)); };
+      const double size = static_cast<double>(k + 1), low = at(size - 0.4), high = at(size + 0.4);
+      count[k] = soot->sizeDistribution(low, high, 1)[0] * (high - low) / n0;
     }
     for (std::size_t k = 0; k < 5; ++k) sizes[k].values.push_back(count[k]);
   }

@@ -14,7 +14,7 @@ void require(bool given, Type type, std::string_view what) {
 }
 
 void requireGas(const CollisionKernelOptions& options) {
-  const KernelGas& gas = options.gas;
+  const CarrierGas& gas = options.gas;
   require(gas.temperature > 0, options.type, "a temperature");
   if (options.type == Type::freeMolecular) return;
   require(gas.pressure > 0, options.type, "a pressure");
@@ -50,7 +50,7 @@ std::string_view nameOf(CollisionKernelType type) {
 }
 
 CollisionKernel::CollisionKernel(const CollisionKernelOptions& options) : options_(options) {
-  const KernelGas& gas = options.gas;
+  const CarrierGas& gas = options.gas;
   const double efficiency = options.efficiency;
   if (!(efficiency > 0 && efficiency <= 1)) {
     throw InputError(fmt::format("coagulation: the efficiency needs to be in (0, 1], not {}", efficiency));

@@ -35,7 +35,7 @@ enum class CollisionKernelType {
 struct CollisionKernelOptions {
   CollisionKernelType type = CollisionKernelType::constant;
   double rate = 0;  // A of the first three: m3/s, 1/s, 1/(m3 s)
-  KernelGas gas;
+  CarrierGas gas{};
   double enhancement = 1;  // of free-molecular collisions (van der Waals)
   double shearRate = 0;    // 1/s
   // Probability that a collision sticks: `efficiency`, times 1 / (1 + (efficiencyDiameter / d)^efficiencyExponent) of

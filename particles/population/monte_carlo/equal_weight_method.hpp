@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/packed_doubles.hpp"
 #include "particles/population/monte_carlo/equal_rates.hpp"
 #include "particles/population/monte_carlo/equal_weight_sample.hpp"
 #include "particles/population/monte_carlo/growth_step.hpp"
@@ -149,22 +150,39 @@ class EqualWeightMethod {
   void forEachParticle(F f) const {
     sample_.store().forEach([&](const Entry& entry) { f(entry.particle, sample_.weight()); });
   }
-  // Of the type there was.
+  // Of the type there was; rebuilds.
   void setKernel(const CollisionKernelOptions& kernel) {
     sample_.store().rates().setKernel(kernel);
     if (rates().tunable())
       retune();
     else
-      sample_.store().transform([](const Entry&) { return true; });
+      rebuild();
+  }
+  // The store as made of its particles alone, without a trace of the events there were.
+  void rebuild() {
+    sample_.store().transform([](const Entry&) { return true; });
   }
   // What nucleate() puts in.
   void setNucleus(const typename Type::Particle& nucleus) { nucleus_ = rates().entry(nucleus); }
   // Replaces all particles; each stands for `weight` (1/m3).
   template <class Particles>
   void replace(const Particles& particles, double weight, RandomStream& random) {
-    sample_.replace(weight, particles.size(), [&](std::size_t k) { return rates().entry(particles[k]); });
+    sample_.replace(weight, false, particles.size(), [&](std::size_t k) { return rates().entry(particles[k]); });
     retune();
     sample_.settle(random, counters_);
+  }
+  // What a population in a gas has to keep so that it goes on as it would have: counters apart.
+  void pack(std::vector<double>& state) const {
+    packDoubles(state, std::array{sample_.weight(), sample_.filled() ? 1.0 : 0.0, static_cast<double>(size())});
+    sample_.store().forEach([&](const Entry& entry) { packDoubles(state, entry.particle); });
+  }
+  void unpack(PackedDoubles& state) {
+    const double weight = state.next();
+    const bool filled = state.next() != 0;
+    const std::size_t count = state.nextCount();
+    sample_.replace(weight, filled, count,
+                    [&](std::size_t) { return rates().entry(state.next<typename Type::Particle>()); });
+    retune();
   }
   void dilute(double factor) { sample_.dilute(factor); }
   void beginStep(double, double) {}

@@ -83,12 +83,14 @@ class EqualWeightSample {
     weight_ *= factor;
     mass_ *= factor;
   }
+  // Whether it was full once, so that it is kept so.
+  [[nodiscard]] bool filled() const { return filled_; }
   // All particles anew; f(k) is the k-th entry.
   template <class F>
-  void replace(double weight, std::size_t count, F f) {
+  void replace(double weight, bool filled, std::size_t count, F f) {
     store_.clear();
     weight_ = weight;
-    filled_ = false;
+    filled_ = filled;
     for (std::size_t k = 0; k < count; ++k) store_operations::insert(store_, f(k), 1);
     measure();
   }

@@ -248,8 +248,24 @@ void WeightedMethod<Type, Store>::changeParticles(F f) {
 
 template <ParticleType Type, class Store>
 void WeightedMethod<Type, Store>::setKernel(const CollisionKernelOptions& kernel) {
+  std::vector<Entry> entries = takeAll();
   store_.changeRates([&](WeightedRates<Type>& rates) { rates.setKernel(kernel); });
+  assign(std::move(entries));
   retune();
+}
+
+template <ParticleType Type, class Store>
+void WeightedMethod<Type, Store>::rebuild() {
+  assign(takeAll());
+}
+
+template <ParticleType Type, class Store>
+auto WeightedMethod<Type, Store>::takeAll() -> std::vector<Entry> {
+  std::vector<Entry> entries;
+  entries.reserve(store_.size());
+  store_.forEach([&](const Entry& entry) { entries.push_back(entry); });
+  store_.clear();
+  return entries;
 }
 
 template <ParticleType Type, class Store>
@@ -261,6 +277,24 @@ void WeightedMethod<Type, Store>::replace(std::vector<Entry> entries) {
   });
   assign(std::move(entries));
   filled_ = store_.size() >= capacity_;
+  retune();
+}
+
+template <ParticleType Type, class Store>
+void WeightedMethod<Type, Store>::pack(std::vector<double>& state) const {
+  packDoubles(state, std::array{nucleusWeight_, filled_ ? 1.0 : 0.0, static_cast<double>(size())});
+  store_.forEach([&](const Entry& entry) { packDoubles(state, entry); });
+}
+
+template <ParticleType Type, class Store>
+void WeightedMethod<Type, Store>::unpack(PackedDoubles& state) {
+  nucleusWeight_ = state.next();
+  const bool filled = state.next() != 0;
+  std::vector<Entry> entries(state.nextCount(), first_);
+  for (Entry& entry : entries) entry = state.next<Entry>();
+  store_.clear();
+  assign(std::move(entries));
+  filled_ = filled;
   retune();
 }
 

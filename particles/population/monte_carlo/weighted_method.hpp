@@ -32,6 +32,7 @@
 #include <span>
 #include <vector>
 
+#include "core/packed_doubles.hpp"
 #include "particles/population/monte_carlo/deferred_growth.hpp"
 #include "particles/population/monte_carlo/growth_step.hpp"
 #include "particles/population/monte_carlo/initial_sample.hpp"
@@ -97,8 +98,10 @@ class WeightedMethod {
   void forEachParticle(F f) const {
     store_.forEach([&](const Entry& entry) { f(entry.particle, entry.weight); });
   }
-  // Of the type there was.
+  // Of the type there was; rebuilds.
   void setKernel(const CollisionKernelOptions& kernel);
+  // The store as made of its particles alone, without a trace of the events there were.
+  void rebuild();
   // What nucleate() puts in, and for how many real ones (1/m3) that stands.
   void setNucleus(const Particle& nucleus, double weight) {
     nucleus_ = nucleus;
@@ -106,6 +109,9 @@ class WeightedMethod {
   }
   // Replaces all particles.
   void replace(std::vector<Entry> entries);
+  // What a population in a gas has to keep so that it goes on as it would have: counters apart.
+  void pack(std::vector<double>& state) const;
+  void unpack(PackedDoubles& state);
   void dilute(double factor);
   void beginStep(double, double) {}
   void atTime(double) {}
@@ -146,6 +152,7 @@ class WeightedMethod {
     held_[1] += mass * v;
   }
   void assign(std::vector<Entry> entries);
+  [[nodiscard]] std::vector<Entry> takeAll();  // in the order of the store
   void retune();
   void measureGrowth();
 

@@ -19,7 +19,7 @@ std::vector<double> reducedDistribution(const PopulationSolver& solver, std::spa
   return psi;
 }
 
-KernelGas continuumLimit(KernelGas gas) {
+CarrierGas continuumLimit(CarrierGas gas) {
   gas.pressure = 1e20;
   return gas;
 }

@@ -30,6 +30,6 @@ struct SelfPreservingDistribution {
                                                         const SectionalOptions& options, double decades);
 
 // Gas in which Brownian particles are in the continuum whatever their size: a mean free path of zero in all but name.
-[[nodiscard]] KernelGas continuumLimit(KernelGas gas);
+[[nodiscard]] CarrierGas continuumLimit(CarrierGas gas);
 
 }  // namespace lampblack

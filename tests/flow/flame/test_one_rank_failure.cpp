@@ -34,16 +34,16 @@ class Failing final : public CarriedModel {
   }
   [[nodiscard]] const std::vector<Scalar>& scalars() const override { return scalars_; }
   [[nodiscard]] const std::vector<std::size_t>& exchanged() const override { return exchanged_; }
-  void sources(const CarriedGas&, std::span<const double>, std::span<double> rates, std::span<double>) override {
+  void sources(const ParticleGas&, std::span<const double>, std::span<double> rates, std::span<double>) override {
     std::ranges::fill(rates, 0.0);
     if (!last_ || failures == 0) return;
     --failures;
     throw NumericsError(message);
   }
-  void jacobian(const CarriedGas&, std::span<const double>, const CarriedJacobian& out) override {
+  void jacobian(const ParticleGas&, std::span<const double>, const CarriedJacobian& out) override {
     std::ranges::fill(out.values, 0.0);
   }
-  void diffusivities(const CarriedGas&, std::span<const double>, std::span<double> D) override {
+  void diffusivities(const ParticleGas&, std::span<const double>, std::span<double> D) override {
     std::ranges::fill(D, 1e-5);
   }
   void enthalpies(double, std::span<double> h, std::span<double> slope) override {

@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "particles/ensemble.hpp"
 #include "particles/soot/soot_oxidation.hpp"
 #include "soot_model_checks.hpp"
 #include "tests/particles/soot_fixtures.hpp"
@@ -33,18 +32,13 @@ TEST(DimerSoot, IsTheTwoEquationModelWhereSootIsInAPossibleState) {
   const DimerSoot soot(test::threePah());
   const TwoEquationSoot::Population population{1e17, 1e-3, 2e-5};
   const auto expected = soot.twoEquation().sources(gas.state, population);
-  std::vector<double> concentrations{
-      gas.state.H, gas.state.H2, gas.state.OH, gas.state.H2O, gas.state.O2, gas.state.C2H2, 0};
-  concentrations.insert(concentrations.end(), gas.pah.begin(), gas.pah.end());
-  const SootGas at{gas.state.temperature,         gas.state.pressure, gas.state.density, gas.state.viscosity,
-                   gas.state.meanMolecularWeight, concentrations};
   const std::vector<double> densities{population.number, population.carbon, population.hydrogen};
-  std::vector<double> rates(3), exchange(concentrations.size());
-  soot.sources(at, densities, rates, exchange);
+  std::vector<double> rates(3), exchange(gas.concentrations.size());
+  soot.sources(gas.state, densities, rates, exchange);
   EXPECT_EQ(rates[1], expected.carbon);
   EXPECT_EQ(rates[2], expected.hydrogen);
-  EXPECT_EQ(exchange[4], expected.O2);
-  EXPECT_EQ(exchange[7], expected.pah[0]);
+  EXPECT_EQ(exchange[4], expected.gas[SootSpecies::O2]);
+  EXPECT_EQ(exchange[7], expected.gas[SootSpecies::fixed]);
   // What oxidation takes from the number: (nucleus / mean)^2 of its share of the mass. A mean particle has 1e-20 kg of
   // carbon, a nucleus of four naphthalenes 40 atoms, 8e-25 kg: 6.4e-9.
   const double share = std::pow(40 * 12.011e-3 / constants::avogadro / 1e-20, 2);
@@ -52,7 +46,8 @@ TEST(DimerSoot, IsTheTwoEquationModelWhereSootIsInAPossibleState) {
   // Only of what is lost on balance.
   const double net =
       netOxidation(-expected.oxidationO2 - expected.oxidationOH, expected.growth + expected.condensation);
-  EXPECT_NEAR(soot.processes(at, densities).oxidationNumber / (net * share * lost * population.number), 1, 1e-12);
+  EXPECT_NEAR(soot.processes(gas.state, densities).oxidationNumber / (net * share * lost * population.number), 1,
+              1e-12);
   EXPECT_NEAR(rates[0], expected.number, 1e-8 * std::abs(lost) * population.number);
 }
 
@@ -60,17 +55,14 @@ TEST(DimerSoot, BurnsNumberInProportionToMassOnceTheMeanParticleIsANucleus) {
   const test::FlameGas gas(1900, 1e-4, 1e-4, 3e-3, 0.1, 0.05, 0, {0});
   const DimerSoot soot(test::naphthalene());
   const double carbon = 1e-10, number = carbon / (40 * 12.011e-3 / constants::avogadro);
-  const std::vector<double> concentrations{
-      gas.state.H, gas.state.H2, gas.state.OH, gas.state.H2O, gas.state.O2, 0, 0, 0};
-  const SootGas at{gas.state.temperature,         gas.state.pressure, gas.state.density, gas.state.viscosity,
-                   gas.state.meanMolecularWeight, concentrations};
   std::vector<double> rates(3), exchange(8);
   // Also where an iterate has more particles than the carbon makes nuclei.
   for (double excess : {1.0, 10.0}) {
     const std::vector<double> densities{excess * number, carbon, 0};
-    soot.sources(at, densities, rates, exchange);
+    soot.sources(gas.state, densities, rates, exchange);
     EXPECT_LT(rates[1], 0);
-    EXPECT_NEAR(soot.processes(at, densities).oxidationNumber / (excess * number) / (rates[1] / carbon), 1, 1e-12);
+    EXPECT_NEAR(soot.processes(gas.state, densities).oxidationNumber / (excess * number) / (rates[1] / carbon), 1,
+                1e-12);
   }
 }
 
@@ -84,21 +76,17 @@ TEST(DimerSoot, ParticlesThatGrowOnBalanceDoNotVanish) {
   const double nucleus = 40 * 12.011e-3 / constants::avogadro, number = 1e17, carbon = 1.1 * nucleus * number;
   for (const bool acetylene : {true, false}) {
     const test::FlameGas gas(1700, 1e-2, 0.03, 1e-4, 0.08, 1e-4, acetylene ? 1.0 : 0.0, {0});
-    const std::vector<double> concentrations{
-        gas.state.H, gas.state.H2, gas.state.OH, gas.state.H2O, gas.state.O2, gas.state.C2H2, 0, 0};
-    const SootGas at{gas.state.temperature,         gas.state.pressure, gas.state.density, gas.state.viscosity,
-                     gas.state.meanMolecularWeight, concentrations};
     const std::vector<double> densities{number, carbon, 0};
-    const SootProcesses p = soot.processes(at, densities);
+    const SootProcesses p = soot.processes(gas.state, densities);
     const double burning = -(p.oxidationO2 + p.oxidationOH) / carbon;  // 1/s
     ASSERT_EQ(acetylene, p.growth > -2 * (p.oxidationO2 + p.oxidationOH));
-    EnsembleOptions ensembleOptions;
-    ensembleOptions.capacity = 200;
-    ensembleOptions.soot = options;
-    Ensemble ensemble(ensembleOptions);
-    ensemble.initialise(std::vector<double>(100, carbon / number), 0, number);
-    ensemble.advance(gas.state, 0, 1 / burning);
-    EXPECT_EQ(ensemble.counters().oxidised, acetylene ? 0u : 100u);
+    StochasticSootOptions stochastic;
+    stochastic.particles = 200;
+    stochastic.soot = options;
+    const auto particles = makeStochasticSoot(stochastic);
+    particles->initialise(test::equalSpheres(100, carbon / number, 0, number));
+    particles->advance(gas.state, 0, 1 / burning);
+    EXPECT_EQ(particles->counters().vanished, acetylene ? 0U : 100U);
     const double vanishing = -p.oxidationNumber / number / burning;
     if (acetylene)
       EXPECT_LT(vanishing, 1e-3);
@@ -111,18 +99,13 @@ TEST(DimerSoot, ParticlesThatGrowOnBalanceDoNotVanish) {
 TEST(DimerSoot, CountsDimersByTheirMoleculesAndCollisionsByTheirParticles) {
   const test::FlameGas gas(1600, 1e-3, 0.03, 1e-4, 0.08, 2e-4, 0.03, {1e-6, 3e-7, 1e-7});
   const DimerSoot soot(test::threePah());
-  std::vector<double> concentrations{
-      gas.state.H, gas.state.H2, gas.state.OH, gas.state.H2O, gas.state.O2, gas.state.C2H2, 0};
-  concentrations.insert(concentrations.end(), gas.pah.begin(), gas.pah.end());
-  const SootGas at{gas.state.temperature,         gas.state.pressure, gas.state.density, gas.state.viscosity,
-                   gas.state.meanMolecularWeight, concentrations};
   const double carbon = 1e-6, nuclei = carbon / (40 * 12.011e-3 / constants::avogadro);
-  std::vector<double> rates(3), exchange(concentrations.size());
-  soot.sources(at, std::vector<double>{nuclei, carbon, 0}, rates, exchange);
-  const SootProcesses full = soot.processes(at, std::vector<double>{nuclei, carbon, 0});
+  std::vector<double> rates(3), exchange(gas.concentrations.size());
+  soot.sources(gas.state, std::vector<double>{nuclei, carbon, 0}, rates, exchange);
+  const SootProcesses full = soot.processes(gas.state, std::vector<double>{nuclei, carbon, 0});
   EXPECT_NEAR(full.dimerProduction / (-0.5 * constants::avogadro * (exchange[7] + exchange[8] + exchange[9])), 1,
               1e-14);
-  const SootProcesses twice = soot.processes(at, std::vector<double>{2 * nuclei, carbon, 0});
+  const SootProcesses twice = soot.processes(gas.state, std::vector<double>{2 * nuclei, carbon, 0});
   EXPECT_LT(full.coagulationNumber, 0);
   EXPECT_NEAR(twice.coagulationNumber / full.coagulationNumber, 4, 1e-14);
 }
@@ -130,18 +113,14 @@ TEST(DimerSoot, CountsDimersByTheirMoleculesAndCollisionsByTheirParticles) {
 TEST(DimerSoot, StaysBoundedInStatesThatNoSootIsIn) {
   const test::FlameGas gas(1700, 1e-3, 0.03, 1e-4, 0.08, 2e-4, 0.03, {1e-6});
   const DimerSoot soot(test::naphthalene());
-  const std::vector<double> concentrations{
-      gas.state.H, gas.state.H2, gas.state.OH, gas.state.H2O, gas.state.O2, gas.state.C2H2, 0, gas.pah[0]};
-  const SootGas at{gas.state.temperature,         gas.state.pressure, gas.state.density, gas.state.viscosity,
-                   gas.state.meanMolecularWeight, concentrations};
   // Surface events over the carbon there is: at most those of nuclei, whose surface over carbon is the largest.
   const double nucleus = 40 * 12.011e-3 / constants::avogadro;
   std::vector<double> rates(3), exchange(8), nuclei(8);
   for (double carbon : {1e-20, 1e-10, 1e-3}) {
-    soot.sources(at, std::vector<double>{carbon / nucleus, carbon, 0}, rates, nuclei);
+    soot.sources(gas.state, std::vector<double>{carbon / nucleus, carbon, 0}, rates, nuclei);
     for (double number : {0.0, 1e-30, 1e10, 1e20, 1e40}) {
       for (double hydrogen : {0.0, 1e-20, 1.0}) {
-        soot.sources(at, std::vector<double>{number, carbon, hydrogen}, rates, exchange);
+        soot.sources(gas.state, std::vector<double>{number, carbon, hydrogen}, rates, exchange);
         // Hydrogen up to two atoms a carbon atom widens the sphere by (1 + 2/12)^(2/3) at most.
         EXPECT_LE(std::abs(exchange[5]), 1.11 * 1.0001 * std::abs(nuclei[5]));
       }

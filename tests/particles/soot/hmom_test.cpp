@@ -126,7 +126,7 @@ TEST(Hmom, CollisionDiametersAreFractal) {
   EXPECT_NEAR(gas.rates(HmomSoot({soot}), twoModes(0, 0, N, mass, 1))[3] / equal.number, 1, 1e-12);
   const double primaries = 64, dp = 20e-9 / 4;  // of a 64th of the volume
   for (double dimension : {1.8, 3.0}) {
-    const double dc = dp * std::pow(primaries, 1 / dimension), path = 2 * meanFreePath(sootingGas().state.kernelGas());
+    const double dc = dp * std::pow(primaries, 1 / dimension), path = 2 * meanFreePath(sootingGas().state);
     const double kernel =
         harmonicMean(freeMolecularKernel(freeMolecularPrefactor(1700, 2.2), mass, dc, mass, dc),
                      4 * continuumPrefactor(1700, sootingGas().state.viscosity) * slipCorrection(path / dc));

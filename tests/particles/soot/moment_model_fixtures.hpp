@@ -15,16 +15,15 @@ namespace lampblack::test {
 // The gas of a fixture in the order of a model's species.
 class ModelGas {
  public:
-  ModelGas(const FlameGas& flame, const SootModelOptions& options) {
-    const SootGasState& s = flame.state;
-    concentrations_ = {s.H, s.H2, s.OH, s.H2O, s.O2, s.C2H2, 0};
-    for (std::size_t i = 0; i < options.pah.size(); ++i) concentrations_.push_back(flame.pah[i]);
-    gas = {s.temperature, s.pressure, s.density, s.viscosity, s.meanMolecularWeight, concentrations_};
+  ModelGas(const FlameGas& flame, const SootModelOptions& options) : concentrations_(flame.concentrations) {
+    concentrations_.resize(SootSpecies::fixed + options.pah.size());
+    gas = flame.state;
+    gas.concentrations = concentrations_;
   }
   ModelGas(const ModelGas&) = delete;
   ModelGas& operator=(const ModelGas&) = delete;
 
-  SootGas gas;
+  ParticleGas gas;
 
   [[nodiscard]] std::vector<double> rates(const SootModel& model, const std::vector<double>& densities) const {
     std::vector<double> rates(model.scalars().size()), exchange(model.gasSpecies().size());

@@ -1,13 +1,11 @@
-// MOMIC and HMOM against the stochastic ensemble in one gas, with the same chemistry: what closures cost. The ensemble
-// knows no approximation but its finite number of particles; they are spheres, as MOMIC's are, while HMOM's are
-// aggregates.
+// MOMIC and HMOM against stochastic soot in one gas, with the same chemistry: what closures cost. The particles know no
+// approximation but their finite number; they are spheres, as MOMIC's are, while HMOM's are aggregates.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
 #include "moment_model_fixtures.hpp"
-#include "particles/ensemble.hpp"
 #include "particles/soot/hmom.hpp"
 #include "particles/soot/momic_soot.hpp"
 
@@ -28,7 +26,7 @@ Result resultOf(const SootModel& model, const ModelGas& gas, double time) {
 }
 
 // Inception, condensation, growth, oxidation and coagulation from nothing.
-TEST(MomentModels, AgreeWithTheEnsembleWhereThereIsOneMaximum) {
+TEST(MomentModels, AgreeWithParticlesWhereThereIsOneMaximum) {
   SootModelOptions soot = test::naphthalene();
   soot.alpha = 0.2;
   const FlameGas flame(1700, 1e-3, 0.03, 2e-4, 0.08, 1e-4, 0.03, {2e-6});
@@ -37,15 +35,14 @@ TEST(MomentModels, AgreeWithTheEnsembleWhereThereIsOneMaximum) {
   const std::vector<double> times{1e-3, 5e-3};
   std::vector<Result> mean(2), square(2);
   for (int r = 0; r < repeats; ++r) {
-    EnsembleOptions options;
-    options.capacity = 1024;
+    StochasticSootOptions options;
+    options.particles = 1024;
     options.owner = static_cast<std::uint64_t>(r);
     options.soot = soot;
-    options.expectedNumberDensity = 5e16;
-    Ensemble ensemble(options);
+    const auto particles = makeStochasticSoot(options);
     for (std::size_t t = 0; t < 2; ++t) {
-      ensemble.advance(flame.state, 0, t == 0 ? times[0] : times[1] - times[0]);
-      const double n = ensemble.numberDensity(), v = ensemble.volumeFraction();
+      particles->advance(flame.state, 0, t == 0 ? times[0] : times[1] - times[0]);
+      const double n = particles->totals().number, v = particles->volumeFraction();
       mean[t].number += n / repeats;
       mean[t].volumeFraction += v / repeats;
       square[t].number += n * n / repeats;

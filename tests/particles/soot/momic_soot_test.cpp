@@ -134,10 +134,10 @@ TEST(MomicSoot, LogNormalPopulationsGrowWithinTheErrorOfTheInterpolation) {
   EXPECT_LT(errors[6], errors[3]);
 }
 
-CollisionKernelOptions kernelIn(const SootGas& gas) {
+CollisionKernelOptions kernelIn(const ParticleGas& gas) {
   CollisionKernelOptions kernel;
   kernel.type = CollisionKernelType::transition;
-  kernel.gas = {gas.temperature, gas.pressure, gas.viscosity, gas.meanMolecularWeight, gas.density};
+  kernel.gas = gas;
   kernel.enhancement = 2.2;
   return kernel;
 }

@@ -13,7 +13,7 @@ namespace lampblack::test {
 
 class SectionBatch final : public OdeSystem {
  public:
-  SectionBatch(const SootModel& model, const SootGas& gas)
+  SectionBatch(const SootModel& model, const ParticleGas& gas)
       : model_(model), gas_(gas), exchange_(model.gasSpecies().size()) {
     const std::size_t rows = size() + exchange_.size();
     jacobian_.resize(rows * (rows + 1));
@@ -35,11 +35,11 @@ class SectionBatch final : public OdeSystem {
 
  private:
   const SootModel& model_;
-  SootGas gas_;
+  ParticleGas gas_;
   std::vector<double> exchange_, jacobian_;
 };
 
-inline std::vector<double> evolve(const SootModel& model, const SootGas& gas, std::vector<double> y, double time,
+inline std::vector<double> evolve(const SootModel& model, const ParticleGas& gas, std::vector<double> y, double time,
                                   double tolerance = 1e-6) {
   SectionBatch system(model, gas);
   StiffIntegrator::Options options;

@@ -2,8 +2,8 @@
 // against resolved particles, and against itself with more sections.
 #include <gtest/gtest.h>
 
-#include "particles/ensemble.hpp"
 #include "particles/population/sectional/section_coagulation.hpp"
+#include "particles/soot/stochastic_soot.hpp"
 #include "tests/particles/soot/section_batch.hpp"
 #include "tests/particles/soot/sectional_soot_fixtures.hpp"
 
@@ -24,7 +24,7 @@ SectionalSootOptions spheresFromDimers() {
   return options;
 }
 
-SectionalSoot coagulatingSpheres(CoagulationKernel kernel, double factor, std::size_t sections) {
+SectionalSoot coagulatingSpheres(CollisionKernelType kernel, double factor, std::size_t sections) {
   SectionalSootOptions options = spheresFromDimers();
   options.soot.inception = options.soot.condensation = options.soot.surfaceGrowth = false;
   options.kernel = kernel;
@@ -36,7 +36,7 @@ SectionalSoot coagulatingSpheres(CoagulationKernel kernel, double factor, std::s
 // Two programs for the same fixed pivots: rates of coagulation agree to rounding.
 TEST(SectionalEvolution, CoagulationIsThatOfThePopulationBalance) {
   for (const double factor : {2.0, 1.3}) {
-    const SectionalSoot model = coagulatingSpheres(CoagulationKernel::transition, factor, 30);
+    const SectionalSoot model = coagulatingSpheres(CollisionKernelType::transition, factor, 30);
     const SectionGas gas(1650, sooting({0}));
     SectionalOptions grid;
     grid.sections = 30;
@@ -44,7 +44,7 @@ TEST(SectionalEvolution, CoagulationIsThatOfThePopulationBalance) {
     grid.spacing = factor;
     CollisionKernelOptions kernel;
     kernel.type = CollisionKernelType::transition;
-    kernel.gas = {1650, gas.gas.pressure, gas.gas.viscosity, gas.gas.meanMolecularWeight, 0};
+    kernel.gas = gas.gas;
     kernel.enhancement = 2.2;
     SectionCoagulation other(SectionGrid(grid), CollisionKernel(kernel), 1800);
     auto y = randomState(model, 4);
@@ -74,7 +74,7 @@ double geometricDeviation(const SectionalSoot& model, const std::vector<double>&
 // The self-preserving distribution of free molecules has a geometric standard deviation of 1.46 (Lee, Chen and Gieseke
 // 1984; Vemury, Kusters and Pratsinis 1994 with 1.462 by number).
 TEST(SectionalEvolution, FreeMolecularCoagulationBecomesSelfPreserving) {
-  const SectionalSoot model = coagulatingSpheres(CoagulationKernel::freeMolecular, 1.25, 90);
+  const SectionalSoot model = coagulatingSpheres(CollisionKernelType::freeMolecular, 1.25, 90);
   const SectionGas gas(1650, sooting({0}));
   std::vector<double> y(90, 0);
   y[0] = 1e19;
@@ -126,8 +126,7 @@ TEST(SectionalEvolution, MoreSectionsConverge) {
   EXPECT_LT(std::abs(volume(GrowthScheme::limited, 2.0) / exact - 1), 0.02);
 }
 
-// Number, volume and the second moment from dimers, condensation, growth and coagulation. The gas acts in short calls
-// on the ensemble, as an ensemble that starts empty takes its first splitting step without knowing how fast it grows.
+// Number, volume and the distribution from dimers, condensation, growth and coagulation.
 TEST(SectionalEvolution, SectionsLieOnResolvedParticles) {
   const SectionGas gas(1650, sooting({1e-7}));
   SectionalSootOptions options = spheresFromDimers();
@@ -160,29 +159,14 @@ TEST(SectionalEvolution, SectionsLieOnResolvedParticles) {
   constexpr int repeats = 8;
   std::vector<std::array<double, 2 + bins>> results;
   for (int r = 0; r < repeats; ++r) {
-    EnsembleOptions ensembleOptions;
-    ensembleOptions.capacity = 2048;
-    ensembleOptions.seed = 1000 + static_cast<std::uint64_t>(r);
-    ensembleOptions.soot = options.soot;
-    ensembleOptions.expectedNumberDensity = 3e15;
-    Ensemble ensemble(ensembleOptions);
-    const auto& c = gas.concentrations;
-    const std::vector<double> pah = {c[7]};
-    const SootGasState state{gas.gas.temperature,
-                             gas.gas.pressure,
-                             gas.gas.density,
-                             gas.gas.viscosity,
-                             gas.gas.meanMolecularWeight,
-                             c[0],
-                             c[1],
-                             c[2],
-                             c[3],
-                             c[4],
-                             c[5],
-                             pah};
-    for (int k = 0; k < 300; ++k) ensemble.advance(state, 0, time / 300);
-    std::array<double, 2 + bins> result{ensemble.numberDensity(), ensemble.volumeFraction()};
-    const auto density = ensemble.sizeDistribution(logMin, logMin + width * (bins + 8), bins + 8);
+    StochasticSootOptions stochastic;
+    stochastic.particles = 2048;
+    stochastic.seed = 1000 + static_cast<std::uint64_t>(r);
+    stochastic.soot = options.soot;
+    const auto particles = makeStochasticSoot(stochastic);
+    particles->advance(gas.gas, 0, time);
+    std::array<double, 2 + bins> result{particles->totals().number, particles->volumeFraction()};
+    const auto density = particles->sizeDistribution(logMin, logMin + width * (bins + 8), bins + 8);
     for (std::size_t b = 0; b < bins + 8; ++b) result[2 + std::min(b, bins - 1)] += density[b] * width;
     results.push_back(result);
   }

@@ -14,7 +14,7 @@ namespace lampblack::test {
 // Mole fractions H, H2, OH, H2O, O2, C2H2, CO, then PAH, at one atmosphere.
 struct SectionGas {
   std::vector<double> concentrations;
-  SootGas gas;
+  ParticleGas gas;
 
   SectionGas(double temperature, std::vector<double> fractions) : concentrations(std::move(fractions)) {
     gas.temperature = temperature;
@@ -71,7 +71,7 @@ struct SectionRates {
   std::vector<double> scalars, exchange;
 };
 
-inline SectionRates sourcesOf(const SootModel& model, const SootGas& gas, const std::vector<double>& y) {
+inline SectionRates sourcesOf(const SootModel& model, const ParticleGas& gas, const std::vector<double>& y) {
   SectionRates f{std::vector<double>(model.scalars().size()), std::vector<double>(model.gasSpecies().size())};
   model.sources(gas, y, f.scalars, f.exchange);
   return f;

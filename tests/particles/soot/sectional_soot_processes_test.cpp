@@ -49,7 +49,7 @@ TEST(SectionalSoot, CoagulationTakesOneParticleACollision) {
   const SectionGas gas(1600, sooting({1e-6}));
   auto y = randomState(model, 3);
   for (std::size_t i = 25; i < y.size(); ++i) y[i] = 0;
-  const double lambda = meanFreePath({1600, gas.gas.pressure, gas.gas.viscosity, 0.028, 0});
+  const double lambda = meanFreePath(gas.gas);
   const auto diameter = [&](std::size_t i) { return std::cbrt(6 * model.pivots()[i] / (constants::pi * 1800)); };
   double collisions = 0;
   for (std::size_t i = 0; i < y.size(); ++i) {
@@ -79,9 +79,8 @@ TEST(SectionalSoot, GrowthAddsTheCarbonOfTheSurfaceAndNoNumber) {
   const auto properties = model.properties(gas.gas, y);
   const SurfaceChemistry chemistry(options.soot, 1700);
   const auto& c = gas.concentrations;
-  const SootCellGas cell{c[0], c[1], c[2], c[3], c[4], c[5], 0, {}};
   const double expected =
-      2 * options.soot.carbonWeight * chemistry.rates(cell, 0.3).growth * c[5] * properties.surfaceArea;
+      2 * options.soot.carbonWeight * chemistry.rates(c, 0.3).growth * c[SootSpecies::C2H2] * properties.surfaceArea;
   EXPECT_NEAR(carbonOf(model, f.scalars), expected, 1e-12 * expected);
   double size = 0;
   for (std::size_t i = 0; i < n; ++i) size += std::abs(f.scalars[i]);

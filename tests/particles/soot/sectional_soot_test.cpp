@@ -83,7 +83,7 @@ TEST_P(SectionalElements, JacobianIsThatOfDifferences) {
     auto value = [&](double relative) {
       auto changed = y;
       auto concentrations = gas.concentrations;
-      SootGas g = gas.gas;
+      ParticleGas g = gas.gas;
       g.concentrations = concentrations;
       if (c < S)
         changed[c] *= 1 + relative;
@@ -162,7 +162,7 @@ TEST(SectionalSoot, ShapesOfOnePrimaryAndOfMany) {
   EXPECT_NEAR(p.surfaceArea, 40e14 * constants::pi * primary * primary, 1e-8 * p.surfaceArea);
   std::vector<double> D(2 * n);
   model.diffusivities(gas.gas, y, D);
-  const double lambda = meanFreePath({1600, gas.gas.pressure, gas.gas.viscosity, 0.028, 0});
+  const double lambda = meanFreePath(gas.gas);
   const double expected = constants::boltzmann * 1600 / (3 * constants::pi * gas.gas.viscosity * mobility) *
                           slipCorrection(2 * lambda / mobility);
   EXPECT_NEAR(D[i], expected, 1e-8 * expected);
@@ -210,7 +210,7 @@ TEST(SectionalSoot, WrongOptionsAreNamed) {
   fails([](auto& o) { o.factor = 1; }, "ratio");
   fails([](auto& o) { o.soot.pah.clear(); }, "nucleus");
   fails([](auto& o) { o.nucleusCarbon = 40; }, "32");
-  fails([](auto& o) { o.kernel = CoagulationKernel::additive; }, "kernel");
+  fails([](auto& o) { o.kernel = CollisionKernelType::additive; }, "kernel");
   fails(
       [](auto& o) {
         o.fragmentation = true;

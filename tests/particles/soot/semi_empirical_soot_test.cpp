@@ -20,7 +20,7 @@ constexpr double boltzmann = 1.380649e-23;  // J/K
 // Gas at 1700 K with C2H2, H2, O2, OH, H, CO in mol/m3, and soot of 1e17 particles and 1e-3 kg in a cubic metre.
 struct Case {
   std::vector<double> concentrations{0.2, 0.1, 0.02, 1e-3, 1e-3, 0.3}, densities{1e17, 1e-3};
-  SootGas gas;
+  ParticleGas gas;
   std::vector<double> rates{0, 0}, exchange{0, 0, 0, 0, 0, 0};
   SootProcesses processes;
 

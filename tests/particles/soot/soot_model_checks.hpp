@@ -35,7 +35,7 @@ struct ModelWeights {
 
 // Everything a model is given at a point.
 struct ModelState {
-  SootGas gas;
+  ParticleGas gas;
   std::vector<double> concentrations, densities;
   void connect() { gas.concentrations = concentrations; }
 };
@@ -70,7 +70,7 @@ class RandomStates {
 inline Atoms imbalance(const SootModel& model, const ModelState& s, const ModelWeights& weights = {}) {
   const std::size_t n = model.scalars().size(), m = model.gasSpecies().size();
   std::vector<double> rates(n), exchange(m);
-  SootGas gas = s.gas;
+  ParticleGas gas = s.gas;
   gas.concentrations = s.concentrations;
   model.sources(gas, s.densities, rates, exchange);
   Atoms sum{}, moved{};

@@ -47,19 +47,19 @@ class Formula final : public SootModel {
  public:
   const std::vector<std::string>& gasSpecies() const override { return species_; }
   const std::vector<SootScalar>& scalars() const override { return scalars_; }
-  void sources(const SootGas& gas, std::span<const double> x, std::span<double> rates,
+  void sources(const ParticleGas& gas, std::span<const double> x, std::span<double> rates,
                std::span<double> exchange) const override {
     const double N = std::max(x[0], 0.0), c = std::max(gas.concentrations[0], 0.0);
     rates[0] = 3 * c * c - 2e-16 * N * N + 5 * N;
     exchange[0] = -std::exp(-1e4 / gas.temperature) * N * c;
   }
-  void diffusivities(const SootGas&, std::span<const double>, std::span<double>) const override {}
-  SootProperties properties(const SootGas& gas, std::span<const double> x) const override {
+  void diffusivities(const ParticleGas&, std::span<const double>, std::span<double>) const override {}
+  SootProperties properties(const ParticleGas& gas, std::span<const double> x) const override {
     SootProperties out;
     out.volumeFraction = gas.concentrations.size() == 1 ? 1e-24 * x[0] : 0;
     return out;
   }
-  SootProcesses processes(const SootGas&, std::span<const double>) const override { return {}; }
+  SootProcesses processes(const ParticleGas&, std::span<const double>) const override { return {}; }
 
  private:
   std::vector<std::string> species_{"C2H2"};
@@ -71,7 +71,7 @@ TEST(SootModelDefaults, DifferencesHoldFromZeroToDense) {
   for (double N : {-1.0, 0.0, 1.0, 1e8, 1e16, 1e20}) {
     for (double concentration : {-1e-9, 0.0, 1e-12, 1.0}) {
       const std::vector<double> c{concentration}, x{N};
-      SootGas gas;
+      ParticleGas gas;
       gas.temperature = 1600;
       gas.pressure = 101325;
       gas.density = 0.2;

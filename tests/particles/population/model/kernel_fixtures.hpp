@@ -9,9 +9,9 @@
 namespace lampblack::test {
 
 // Air at 298 K and one atmosphere.
-inline KernelGas air() {
+inline CarrierGas air() {
   return {
-      .temperature = 298, .pressure = 101325, .viscosity = 1.837e-5, .meanMolecularWeight = 0.028964, .density = 1.184};
+      .temperature = 298, .pressure = 101325, .density = 1.184, .viscosity = 1.837e-5, .meanMolecularWeight = 0.028964};
 }
 
 inline CollisionKernel::Properties sphere(double diameter, double density = 1000) {

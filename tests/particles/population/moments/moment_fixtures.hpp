@@ -27,7 +27,7 @@ inline PopulationModel coagulating(CollisionKernelType type, double rate = 1) {
   model.coagulation.emplace();
   model.coagulation->type = type;
   model.coagulation->rate = rate;
-  model.coagulation->gas = {1500, 101325, 5.6e-5, 0.029, 0.24};
+  model.coagulation->gas = {1500, 101325, 0.24, 5.6e-5, 0.029};
   model.coagulation->shearRate = 1;
   return model;
 }

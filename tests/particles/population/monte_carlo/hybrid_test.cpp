@@ -276,8 +276,8 @@ TEST(Hybrid, StopsWhereThePopulationGels) {
 // In the transition regime the majorant is tuned to the population as it grows: same means as the direct simulation.
 TEST(Hybrid, HasTheLawOfTheDirectSimulationInTheTransitionRegime) {
   PopulationModel model = coagulation(CollisionKernelType::transition);
-  KernelGas& gas = model.coagulation->gas;
-  gas = {1800, 1e6, 6e-5, 0.028, 2};
+  CarrierGas& gas = model.coagulation->gas;
+  gas = {1800, 1e6, 2, 6e-5, 0.028};
   const double nucleus = 1e-23, rate = 1e15, end = 1;
   withNucleation(model, rate, nucleus);
   const auto direct = test::outcomes(

@@ -31,7 +31,7 @@ PopulationModel coagulating(CollisionKernelType kernel) {
   PopulationModel model;
   model.coagulation.emplace().type = kernel;
   model.coagulation->gas = {
-      .temperature = 1500, .pressure = 101325, .viscosity = 5.5e-5, .meanMolecularWeight = 0.028, .density = 0.23};
+      .temperature = 1500, .pressure = 101325, .density = 0.23, .viscosity = 5.5e-5, .meanMolecularWeight = 0.028};
   return model;
 }
 

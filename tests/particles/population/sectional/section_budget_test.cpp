@@ -21,7 +21,7 @@ CollisionKernelOptions kernelOf(CollisionKernelType type) {
   CollisionKernelOptions kernel;
   kernel.type = type;
   kernel.rate = 0.7;
-  kernel.gas = {1700, 101325, 6e-5, 0.028, 0.2};
+  kernel.gas = {1700, 101325, 0.2, 6e-5, 0.028};
   return kernel;
 }
 

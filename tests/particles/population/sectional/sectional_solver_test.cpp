@@ -171,7 +171,7 @@ TEST(SectionalBudgets, NumberBelowTheFirstPivotIsNotLost) {
 TEST(SectionalSoot, NucleationGrowthAndCoagulationTogether) {
   PopulationModel model = coagulating(CollisionKernelType::transition);
   model.coagulation->enhancement = 2.2;
-  model.coagulation->gas = {1700, 101325, 6e-5, 0.028, 0.2};
+  model.coagulation->gas = {1700, 101325, 0.2, 6e-5, 0.028};
   NucleationOptions nuclei;
   nuclei.source = NucleationOptions::Source::precursor;
   nuclei.rateConstant = 100;

@@ -21,7 +21,7 @@ using Distribution = InitialPopulation::Distribution;
 CollisionKernelOptions brownian(CollisionKernelType type) {
   CollisionKernelOptions kernel;
   kernel.type = type;
-  kernel.gas = {1500, 101325, 5e-5, 0.029, 0.24};
+  kernel.gas = {1500, 101325, 0.24, 5e-5, 0.029};
   if (type == CollisionKernelType::continuum) kernel.gas = continuumLimit(kernel.gas);
   return kernel;
 }
