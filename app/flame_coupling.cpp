@@ -63,26 +63,6 @@ class Coupling {
     return e;
   }
 
-  // E <- (1 - w) E + w (population - transfer), at the points of the latter.
-  [[nodiscard]] GivenExchange relaxed(const GivenExchange& old, const FlameProfile& profile,
-                                      const FlameExchange& population, const FlameExchange& transfer, double w) const {
-    const std::size_t n = mechanism_.numSpecies();
-    GivenExchange given;
-    given.z = profile.z;
-    for (std::size_t i = 0; i < given.z.size(); ++i) {
-      const GivenExchange::Sample before = old.at(given.z[i]);
-      const auto mix = [&](double earlier, double target) { return (1 - w) * earlier + w * target; };
-      for (std::size_t k = 0; k < n; ++k)
-        given.species.push_back(mix(before.species(k), population.species[i * n + k] - transfer.species[i * n + k]));
-      given.absorption.push_back(mix(before.absorption(), population.absorption[i] - transfer.absorption[i]));
-      const double T = profile.temperature(i);
-      const double toSoot = sootCarbonEnthalpy(T).first * (population.carbon[i] - transfer.carbon[i]) +
-                            sootHydrogenEnthalpy(T).first * (population.hydrogen[i] - transfer.hydrogen[i]);
-      given.enthalpy.push_back(mix(before.enthalpy(), -toSoot));
-    }
-    return given;
-  }
-
  private:
   const Mechanism& mechanism_;
   CarriedModel* transfer_;
@@ -155,6 +135,25 @@ double change(const FlameProfile& before, const FlameProfile& after, std::size_t
 FlameExchange::FlameExchange(std::vector<double> points, std::size_t n)
     : z(std::move(points)), species(z.size() * n), carbon(z.size()), hydrogen(z.size()), absorption(z.size()) {}
 
+GivenExchange relaxed(const GivenExchange& old, const FlameProfile& profile, const FlameExchange& population,
+                      const FlameExchange& transfer, double w) {
+  const std::size_t n = profile.layout.species;
+  GivenExchange given;
+  given.z = profile.z;
+  for (std::size_t i = 0; i < given.z.size(); ++i) {
+    const GivenExchange::Sample before = old.at(given.z[i]);
+    const auto mix = [&](double earlier, double target) { return (1 - w) * earlier + w * target; };
+    for (std::size_t k = 0; k < n; ++k)
+      given.species.push_back(mix(before.species(k), population.species[i * n + k] - transfer.species[i * n + k]));
+    given.absorption.push_back(mix(before.absorption(), population.absorption[i] - transfer.absorption[i]));
+    const double T = profile.temperature(i);
+    const double toSoot = sootCarbonEnthalpy(T).first * (population.carbon[i] - transfer.carbon[i]) +
+                          sootHydrogenEnthalpy(T).first * (population.hydrogen[i] - transfer.hydrogen[i]);
+    given.enthalpy.push_back(mix(before.enthalpy(), -toSoot));
+  }
+  return given;
+}
+
 FlameExchange exchangeOf(const Mechanism& mechanism, const SootModelOptions& soot, const FlameProfile& profile,
                          const std::vector<FlameEnsemblePath>& paths) {
   std::vector<std::size_t> species;
@@ -222,7 +221,7 @@ FlameCoupling coupleFlame(MPI_Comm comm, const Mechanism& mechanism, double pres
     result.converged = step.volumeFractionChange <= std::max(options.tolerance, noise) &&
                        temperatureChange <= options.tolerance && acetyleneChange <= std::max(options.tolerance, noise);
     if (!result.converged && k < options.iterations) {
-      given = coupling.relaxed(given, profile, population, coupling.ofTransfer(profile, gas), options.relaxation);
+      given = relaxed(given, profile, population, coupling.ofTransfer(profile, gas), options.relaxation);
       solver.setExchange(given);
       const FlameProfile old = profile;
       result.solution = solver.solve(old);

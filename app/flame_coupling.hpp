@@ -22,6 +22,7 @@
 #include "chemistry/mechanism/mechanism.hpp"
 #include "flow/flame/carried_model.hpp"
 #include "flow/flame/flame_solver.hpp"
+#include "flow/flame/given_exchange.hpp"
 
 namespace lampblack {
 
@@ -39,6 +40,11 @@ struct FlameExchange {
 // particles stagnate. A point gets half of the intervals on both sides: finite volumes around points see the sum.
 [[nodiscard]] FlameExchange exchangeOf(const Mechanism& mechanism, const SootModelOptions& soot,
                                        const FlameProfile& profile, const std::vector<FlameEnsemblePath>& paths);
+
+// (1 - w) `old` + w (population - transfer), at the points of the profile: what the flame is given besides its transfer
+// model. With carbon and hydrogen goes their enthalpy.
+[[nodiscard]] GivenExchange relaxed(const GivenExchange& old, const FlameProfile& profile,
+                                    const FlameExchange& population, const FlameExchange& transfer, double w);
 
 struct FlameCouplingOptions {
   FlameEnsembleOptions ensemble;

@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "app/stochastic_deck.hpp"
+#include "particles/soot/soot_model.hpp"
 #include "tests/flow/flame/streams.hpp"
 
 namespace lampblack {
@@ -115,6 +116,41 @@ TEST(StochasticDeck, APathFromTheRightStartsAsFarFromItsEndAsThatFromTheLeft) {
   EXPECT_NEAR(paths[0].start.value(), 0.002, 1e-12);
   EXPECT_TRUE(paths[1].fromRight);
   EXPECT_NEAR(paths[1].start.value(), 0.007, 1e-12);
+}
+
+// A third of what is asked for anew, two thirds of what there was; half-way between its points the old is their mean.
+TEST(FlameCoupling, TheGasIsGivenThePopulationLessTheTransferModel) {
+  const std::size_t n = abf().numSpecies(), k = abf().speciesIndex("C2H2");
+  FlameProfile profile{{n, 0}, {0, 1e-3, 2e-3}, {}};
+  profile.x.assign(profile.size(), 0.0);
+  for (std::size_t i = 0; i < 3; ++i) profile.at(i, FlameLayout::temperature) = 1500;
+  GivenExchange old;
+  old.z = {0, 2e-3};
+  old.species.assign(2 * n, 0.0);
+  old.species[k] = 6;
+  old.species[n + k] = 12;
+  old.absorption = {3, 9};
+  old.enthalpy = {300, 600};
+  FlameExchange population(profile.z, n), transfer(profile.z, n);
+  for (std::size_t i = 0; i < 3; ++i) {
+    population.species[i * n + k] = 5;
+    transfer.species[i * n + k] = 2;
+    population.absorption[i] = 7;
+    transfer.absorption[i] = 1;
+    population.carbon[i] = 4e-3;
+    transfer.carbon[i] = 1e-3;
+    population.hydrogen[i] = 5e-4;
+    transfer.hydrogen[i] = 3e-4;
+  }
+  const GivenExchange given = relaxed(old, profile, population, transfer, 1.0 / 3);
+  EXPECT_EQ(given.z, profile.z);
+  ASSERT_EQ(given.species.size(), 3 * n);
+  EXPECT_NEAR(given.species[n + k], 2.0 / 3 * 9 + 1, 1e-12);
+  EXPECT_EQ(given.species[n + k + 1], 0);
+  EXPECT_NEAR(given.absorption[1], 2.0 / 3 * 6 + 2, 1e-12);
+  const double toSoot = 3e-3 * sootCarbonEnthalpy(1500).first + 2e-4 * sootHydrogenEnthalpy(1500).first;
+  ASSERT_GT(2e-4 * sootHydrogenEnthalpy(1500).first, 100);
+  EXPECT_NEAR(given.enthalpy[1], 2.0 / 3 * 450 - toSoot / 3, 1e-9);
 }
 
 }  // namespace

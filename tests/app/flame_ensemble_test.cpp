@@ -95,6 +95,15 @@ TEST(FlameEnsemble, TellsTheStandardErrorOfTheMean) {
   EXPECT_NEAR(errorOfThree / std::sqrt(squares / 6), 1, 1e-9);
 }
 
+TEST(FlameEnsemble, PathsHaveRandomNumbersOfTheirOwn) {
+  FlameEnsembleOptions options = smallEnsemble();
+  options.paths.resize(2);
+  const auto twins = runFlameEnsemble(MPI_COMM_SELF, burntGas(11), options);
+  EXPECT_EQ(twins[0].path.z, twins[1].path.z);
+  EXPECT_NE(twins[0].volumeFraction.mean, twins[1].volumeFraction.mean);
+  EXPECT_NE(twins[0].volumeFraction.error, twins[1].volumeFraction.error);
+}
+
 TEST(FlameEnsemble, NeedsTwoRepeats) {
   FlameEnsembleOptions options = smallEnsemble();
   options.repeats = 1;

@@ -1,6 +1,8 @@
 // Carried scalars: conserved, never negative, stable at any diffusivity, and drifting from hot to cold.
 #include <gtest/gtest.h>
 
+#include "core/constants.hpp"
+#include "flow/budget.hpp"
 #include "flow/transport_operator.hpp"
 #include "flow_fixture.hpp"
 
@@ -60,6 +62,51 @@ TEST_P(Carried, ScalarsAreConservedAndStayNonNegative) {
     EXPECT_NEAR(total(s) + left[s], start[s], 5.0 * steps * epsilon * start[s]) << "scalar " << s;
     EXPECT_GT(left[s], 0.3 * start[s]);
   }
+}
+
+// What carried scalars weigh stands in the budgets, also when it has left.
+TEST_P(Carried, StaysInTheBudgetsWhenItLeaves) {
+  Box b = box(0.5);
+  State state = b.state(
+      [&](const auto& x) {
+        return Box::Local{{0.0, 0.5}, 400.0 + 1e4 * x[0], air};
+      },
+      {{"carbon", "kg/m3", "", 0.55}});
+  fill(b, state, 0, 2.0);  // more than there is of the gas
+  TransportOperator transport(b.context, state);
+  const double dt = 2e-4;
+  transport.initialise(state, dt);
+  std::vector<double> elements(gas.mechanism.numElements(), 0.0);
+  elements[0] = 1.0;
+  Budget budget(b.context, massAndElements(gas.mechanism, {elements}), state);
+  const double before = integral(b.mesh, [&](int c) { return state.carried[at(c)]; });
+  for (int i = 0; i < 60; ++i) {
+    transport.advance(state, i * dt, dt);
+    budget.addStep(transport.boundaryAmounts());
+  }
+  EXPECT_LT(integral(b.mesh, [&](int c) { return state.carried[at(c)]; }), 0.7 * before);
+  for (const Budget::Line& line : budget.lines(state)) EXPECT_LT(line.error, 1e-11) << line.name;
+}
+
+// A cosine along the box is an eigenvector of the scheme: of its amplitude 1/(1 + D lambda dt) is left, lambda = 2 (1 -
+// cos(pi/n)) / h^2.
+TEST_P(Carried, AWaveDecaysAtTheRateOfItsDiffusivity) {
+  Box b = box(0.0);
+  State state = b.state([&](const auto&) { return Box::Local{{0.0, 0.0}, 300.0, air}; }, {{"wave", "1/m3", "", 0.0}});
+  constexpr double length = 0.012, cells = 24, spacing = length / cells, D = 2e-3, dt = 5e-3;
+  const auto cosine = [&](int c) { return std::cos(constants::pi * b.mesh.centre[at(c)][1] / length); };
+  for (int c = 0; c < b.mesh.cells; ++c) state.carried[at(c)] = 1 + 0.5 * cosine(c);
+  std::fill(state.carriedDiffusivity.begin(), state.carriedDiffusivity.end(), D);
+  TransportOperator transport(b.context, state);
+  transport.initialise(state, dt);
+  const auto amplitude = [&] {
+    return integral(b.mesh, [&](int c) { return state.carried[at(c)] * cosine(c); }) /
+           integral(b.mesh, [&](int c) { return cosine(c) * cosine(c); });
+  };
+  ASSERT_NEAR(amplitude(), 0.5, 1e-12);
+  transport.advance(state, 0.0, dt);
+  const double eigenvalue = 2 * (1 - std::cos(constants::pi / cells)) / (spacing * spacing);
+  EXPECT_NEAR(amplitude() / (0.5 / (1 + D * eigenvalue * dt)), 1, 1e-6);
 }
 
 // A scalar that is everywhere the same per mass of gas leaves in proportion to the gas.
