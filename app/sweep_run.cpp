@@ -102,6 +102,30 @@ void share(MPI_Comm comm, int from, RunOutcome& outcome) {
   MPI_Bcast(outcome.message.data(), length, MPI_CHAR, from, comm);
 }
 
+// What is wrong with a run before its first step; empty where it can begin.
+std::string whyItCannotBegin(const SweepRun& run) {
+  try {
+    const Deck deck = Deck::load(run.deck, run.overrides, deckKinds(), MPI_COMM_SELF);
+    static_cast<void>(problemOf(deck).prepare(MPI_COMM_SELF, deck));
+  } catch (const InputError& error) {
+    return error.what();
+  } catch (const NumericsError&) {
+    return {};  // is told in its row of the table
+  }
+  return {};
+}
+
+// Rank 0. InputError where not one run can begin: what is wrong is in the deck then, not in a value of the study.
+void requireThatOneCanBegin(const SweepStudy& study) {
+  std::string first;
+  for (const SweepRun& run : study.runs) {
+    const std::string why = whyItCannotBegin(run);
+    if (why.empty()) return;
+    if (first.empty()) first = why;
+  }
+  if (!study.runs.empty()) throw InputError(first);  // a convergence study may stand alone
+}
+
 }  // namespace
 
 void checkDecks(MPI_Comm comm, const SweepStudy& study) {
@@ -115,6 +139,11 @@ void checkDecks(MPI_Comm comm, const SweepStudy& study) {
                         run.deck.string(), study.chain, name));
       });
   }
+  collectively(comm, [&] {
+    int rank = 0;
+    MPI_Comm_rank(comm, &rank);
+    if (rank == 0) requireThatOneCanBegin(study);
+  });
 }
 
 std::vector<RunOutcome> runStudy(MPI_Comm comm, const SweepStudy& study, const std::filesystem::path& folder,

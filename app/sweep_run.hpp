@@ -19,8 +19,8 @@ struct RunOutcome {
   double seconds = 0.0;  // wall time
 };
 
-// Collective. Reads every deck of the study, so that a mistake in the last one is known before the first is run.
-// InputError.
+// Collective. Reads every deck of the study, so that a mistake in the last one is known before the first is run, and
+// makes all that is there before the first step of the first run that can begin. InputError, also where none can.
 void checkDecks(MPI_Comm comm, const SweepStudy& study);
 
 // Collective. Runs all of them, each in a folder of its name below `folder`; a run that fails does not keep the others

@@ -104,6 +104,13 @@ def check_refused(program: running.Program, folder: pathlib.Path) -> None:
             assert f"lampblack: {deck}{place}" in result.err and expected in result.err, f"{name}: {result.err}"
         assert not (folder / name).exists(), f"{name}: a study that cannot be carried out was begun"
 
+    # A deck of which no run can begin.
+    none = study(folder, STUDY + "variants: [{name: a, set: ['mechanism=nowhere.yaml']}]\n")
+    for arguments in (("--check",), ("--out", folder / "none")):
+        result = program("sweep", none, *arguments)
+        assert result.code == 2 and "nowhere.yaml: there is no such file" in result.err, result.err
+    assert not (folder / "none").exists(), "a study of which no run can begin was begun"
+
 
 def check_groups(program: running.Program, folder: pathlib.Path) -> None:
     """Runs side by side have the results of runs one after another."""
