@@ -17,6 +17,7 @@ GIGABYTE = 1 << 30
 LIBC = ctypes.CDLL(None)
 PR_SET_PDEATHSIG = 1
 STOP_WITHIN = 10.0  # s, from SIGTERM to the end
+SIGKILL_TIMEOUT = 5  # s, that mpirun gives its ranks between SIGTERM and SIGKILL
 
 
 @dataclasses.dataclass
@@ -78,7 +79,7 @@ def environment(patient: bool = False) -> dict:
     leaves them a quarter of one (measured with Open MPI 4.1)."""
     env = dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
     env.update(OMPI_MCA_pml="ob1", OMPI_MCA_rmaps_base_oversubscribe="1")
-    env.update(OMPI_MCA_odls_base_sigkill_timeout="5" if patient else "0")
+    env.update(OMPI_MCA_odls_base_sigkill_timeout=str(SIGKILL_TIMEOUT if patient else 0))
     env.update(PYTHONDONTWRITEBYTECODE="1", MPLBACKEND="Agg")
     if os.geteuid() == 0:
         env.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
@@ -133,10 +134,10 @@ class Run:
         self.process.send_signal(number)
         return self.ends_within()
 
-    def ends_within(self) -> float | None:
+    def ends_within(self, seconds: float = STOP_WITHIN) -> float | None:
         sent = time.monotonic()
         try:
-            self.process.wait(STOP_WITHIN)
+            self.process.wait(seconds)
             return time.monotonic() - sent
         except subprocess.TimeoutExpired:
             return None

@@ -8,7 +8,7 @@ import time
 import judging
 import oracles
 import subjects
-from execution import Limits, Program, Run, processes_of, run, send
+from execution import SIGKILL_TIMEOUT, STOP_WITHIN, Limits, Program, Run, processes_of, run, send
 
 CODES = {signal.SIGTERM: (143, -signal.SIGTERM), signal.SIGINT: (130, -signal.SIGINT), signal.SIGKILL: (137, -signal.SIGKILL)}
 
@@ -36,9 +36,11 @@ class Kills:
         time.sleep(chance.uniform(0, 3))
         what = f"{which.name}{' to one rank' if to_rank else ''} in {name} after {time.monotonic() - begun.begin:.1f} s, {ranks} rank(s)"
         if to_rank:
+            # mpirun gives the ranks that are left, which wait for the lost one, their seconds twice.
+            ranks_wait = 2 * SIGKILL_TIMEOUT if ranks > 1 else 0
             ranks_of = [process for process in processes_of(begun.process.pid) if process != begun.process.pid]
             send(which, ranks_of[-1:] or [begun.process.pid])
-            stopped = begun.ends_within()
+            stopped = begun.ends_within(STOP_WITHIN + ranks_wait)
         else:
             stopped = begun.stop(which)
         verdict = self.judge(begun, stopped, which, ranks, out)
@@ -52,7 +54,7 @@ class Kills:
     def judge(self, begun: Run, stopped: float | None, which: signal.Signals, ranks: int, out: pathlib.Path):
         if stopped is None:
             begun.finish()
-            return judging.Verdict(judging.HANG, "not ended ten seconds after the signal")
+            return judging.Verdict(judging.HANG, "not ended in time after the signal")
         ended = begun.finish()
         if ended.left:
             return judging.Verdict(judging.LEFT, f"{len(ended.left)} processes")
