@@ -55,6 +55,24 @@ TEST(FlameFields, AStagnationFlowHasItsStrainRates) {
   EXPECT_EQ(s.thermalThickness, 0);
 }
 
+// The left stream twice as hot: half as dense and twice as fast. Each side's strain rate has its own density, and that
+// of the whole, 2/L (u_r + u_l (rho_l/rho_r)^1/2), both.
+TEST(FlameFields, UnlikeStreamsHaveStrainRatesOfTheirOwn) {
+  const auto mechanism = hydrogenMechanism();
+  const double length = 0.02, m0 = 0.5, lambda = -800;
+  FlameProblem problem = hydrogenProblem(FlameType::Counterflow);
+  FlameProfile flow = stagnationFlow(*mechanism, length, m0);
+  flow.global(pressureGradient) = lambda;
+  for (std::size_t i = 0; i < 3; ++i) flow.at(i, FlameLayout::temperature) = 600;
+  const FlameSummary s = flameSummary(problem, flow, flameFields(*mechanism, problem, flow));
+  const std::vector<double> Y(flow.massFractions(0).begin(), flow.massFractions(0).end());
+  const double rho = Thermo(*mechanism).density(300, problem.pressure, Y);
+  ASSERT_TRUE(s.strain && s.strain->global);
+  EXPECT_NEAR(s.strain->left, std::sqrt(-2 * lambda / rho), 1e-9);
+  EXPECT_NEAR(s.strain->right, std::sqrt(-lambda / rho), 1e-9);
+  EXPECT_NEAR(*s.strain->global, 2 / length * (m0 / rho + 2 * m0 / rho * std::sqrt(0.5)), 1e-9);
+}
+
 TEST(FlameFields, ARampOfTemperatureHasItsThickness) {
   const auto mechanism = hydrogenMechanism();
   const FlameProblem problem = hydrogenProblem(FlameType::Free);

@@ -63,6 +63,20 @@ TEST_P(PackedSoot, GoesOnToTheSameBits) {
   EXPECT_EQ(one->takeExchange().carbon, other->takeExchange().carbon);
 }
 
+// What particles that burn away leave room for depends on whether the sample was full once.
+TEST_P(PackedSoot, GoesOnToTheSameBitsWhileItBurnsAway) {
+  const test::FlameGas burning(1800, 0, 0, 5e-3, 0.1, 0, 0, {0, 0, 0});
+  for (std::uint64_t owner = 0; owner < 4; ++owner) {
+    const auto one = makeStochasticSoot(options(owner)), other = makeStochasticSoot(options(owner));
+    one->advance(flame().state, 0, 1e-3);
+    other->unpack(one->pack());
+    for (const auto* soot : {&one, &other}) (*soot)->advance(burning.state, 0, 1e-4);
+    EXPECT_GT(one->counters().vanished, 2U);
+    EXPECT_GT(one->size(), 20U);
+    EXPECT_EQ(one->pack(), other->pack());
+  }
+}
+
 TEST_P(PackedSoot, DependsOnOwnerAndSeedOnlyNotOnTheOrderOfProcessing) {
   std::vector<std::vector<double>> alone;
   for (std::uint64_t owner = 0; owner < 3; ++owner) {
