@@ -53,11 +53,16 @@ class StochasticProcess final : public StochasticSoot {
     double collisions = 0, slopes = 0;  // with dimers, 1/s, and their change with the logarithm of all diameters
   };
   [[nodiscard]] Sums sums(const SootMedium& medium) const;
+  struct Atoms {
+    double carbon = 0, hydrogen = 0;  // kg/m3
+  };
+  [[nodiscard]] Atoms atoms() const;
   // Change of the sum of collisions with dimers by coagulation, 1/s2, as for a population of equal particles.
   [[nodiscard]] double coagulating(const SootMedium& medium, const Sums& sums) const;
   [[nodiscard]] double step(const SootMedium& medium, const Sums& sums, double dilution, double remaining) const;
   void dilute(double factor);
-  void jump(const SootMedium& medium, double dt, double stepLength);
+  // `start`: of the population as it is.
+  void jump(const SootMedium& medium, const Sums& start, double dt, double stepLength);
   void grow(const SootMedium& medium, double dt);
   void planNucleus(double weight) { nucleusAfter_ = weight * random_.uniform(); }
   void book(const SootMedium& medium, double dimers);
@@ -97,6 +102,16 @@ typename StochasticProcess<Method>::Sums StochasticProcess<Method>::sums(const S
 }
 
 template <class Method>
+typename StochasticProcess<Method>::Atoms StochasticProcess<Method>::atoms() const {
+  Atoms all;
+  method_.forEachParticle([&](const Particle& p, double w) {
+    all.carbon += w * p.carbon;
+    all.hydrogen += w * p.hydrogen;
+  });
+  return all;
+}
+
+template <class Method>
 double StochasticProcess<Method>::coagulating(const SootMedium& medium, const Sums& s) const {
   if (!kernel_ || !(s.number > 0)) return 0;
   const double mass = (s.carbon + s.hydrogen) / s.number, d = s.diameters / s.number;
@@ -124,7 +139,8 @@ double StochasticProcess<Method>::step(const SootMedium& medium, const Sums& s, 
     const SootFluxes flux = medium.fluxes();
     const double most = (flux.growth + flux.O2 + flux.OH) * s.area + s.collisions * dimers * medium.dimer().mass;
     fastest = std::max(fastest, most / (3 * (s.carbon + s.hydrogen)));
-    if (kernel_) {
+    // By itself coagulation needs no steps.
+    if (kernel_ && (medium.condensing() || medium.surfaceActive())) {
       const double mass = (s.carbon + s.hydrogen) / s.number;
       const CollisionKernel::Properties mean{mass / options_.soot.sootDensity, mass, s.diameters / s.number};
       fastest = std::max(fastest, 0.5 * kernel_->value(mean, mean) * s.number);
@@ -160,11 +176,12 @@ void StochasticProcess<Method>::advance(const ParticleGas& gas, double dilution,
   double remaining = dt;
   while (remaining > 0) {
     if (size() == 0 && !medium.incepting()) return;
-    const double length = step(medium, sums(medium), dilution, remaining);
+    const Sums before = sums(medium);
+    const double length = step(medium, before, dilution, remaining);
     if (dilution != 0) dilute(std::exp(-0.5 * dilution * length));
-    jump(medium, 0.5 * length, length);
+    jump(medium, dilution != 0 ? sums(medium) : before, 0.5 * length, length);
     grow(medium, length);
-    jump(medium, 0.5 * length, length);
+    jump(medium, sums(medium), 0.5 * length, length);
     if (dilution != 0) dilute(std::exp(-0.5 * dilution * length));
     ++method_.counters().splitSteps;
     remaining = length < remaining ? remaining - length : 0;
@@ -174,7 +191,7 @@ void StochasticProcess<Method>::advance(const ParticleGas& gas, double dilution,
 
 template <class Method>
 void StochasticProcess<Method>::dilute(double factor) {
-  const Totals before = totals();
+  const Atoms before = atoms();
   method_.dilute(factor);
   for (double* number : {&reached_, &nucleusAfter_}) *number *= factor;
   exchange_.dilutedCarbon += before.carbon * (1 - factor);
@@ -182,8 +199,7 @@ void StochasticProcess<Method>::dilute(double factor) {
 }
 
 template <class Method>
-void StochasticProcess<Method>::jump(const SootMedium& medium, double dt, double stepLength) {
-  const Sums start = sums(medium);
+void StochasticProcess<Method>::jump(const SootMedium& medium, const Sums& start, double dt, double stepLength) {
   const double nucleusCarbon = 2 * medium.dimerCarbon(), nucleusHydrogen = 2 * medium.dimerHydrogen();
   double inception = 0;  // 1/m3/s, of the middle of this step
   if (medium.incepting()) {
@@ -231,7 +247,7 @@ void StochasticProcess<Method>::jump(const SootMedium& medium, double dt, double
     time = next;
     if (!method_.coagulate(random_)) ++method_.counters().fictitious;
   }
-  const Totals after = totals();
+  const Atoms after = atoms();
   exchange_.resampledCarbon += after.carbon - start.carbon - nucleatedCarbon;
   exchange_.resampledHydrogen += after.hydrogen - start.hydrogen - nucleatedHydrogen;
   if (nucleated > 0) {
