@@ -95,6 +95,16 @@ def pattern(path: str) -> re.Pattern:
     return re.compile(re.sub("<[^>]*>", "[^/]+", path.replace("^", "\\^")))
 
 
+def check_atoms(results: pathlib.Path) -> None:
+    """As a two-way coupled run is at hand: the ensemble of a burner flame leaves with what it took from the gas."""
+    with h5py.File(results, "r") as file:
+        last = {name: float(column[-1]) for name, column in file["stochastic/iterations"].items()}
+    for element in ("carbon", "hydrogen"):
+        taken, leaving = last[f"{element}_taken"], last[f"{element}_leaving"]
+        assert taken > 0 and abs(leaving / taken - 1) < 0.01, f"{element}: {taken} taken, {leaving} leaves"
+    assert last["hydrogen_taken"] < 0.02 * last["carbon_taken"], "soot has less than an atom of hydrogen for four of carbon"
+
+
 def main(executable: str, *mpiexec: str) -> int:
     program = running.Program(executable, list(mpiexec), 1)
     page = [(pattern(path), path, units) for path, units in documented()]
@@ -119,6 +129,7 @@ def main(executable: str, *mpiexec: str) -> int:
             assert result.code == 0, f"{run}: {result.err}"
 
         running.at_once(compute, runs)
+        check_atoms(folder / "soot/results.h5")
         for run in runs:
             for path, unit in written(folder / run / "results.h5").items():
                 if re.search("[a-z][0-9]", unit):
