@@ -21,12 +21,12 @@ double slope(const std::vector<double>& z, const std::vector<double>& f, std::si
   return (a / b * (f[i + 1] - f[i]) + b / a * (f[i] - f[i - 1])) / (a + b);
 }
 
-struct PathPoint : GasSample {
+struct FlamePathPoint : GasSample {
   double z = 0, velocity = 0;
 };
 
-PathPoint pointAt(const FlameSootGas& gas, std::size_t i) {
-  PathPoint p;
+FlamePathPoint pointAt(const FlameSootGas& gas, std::size_t i) {
+  FlamePathPoint p;
   p.z = gas.z[i];
   p.velocity = gas.velocity[i] + gas.thermophoresis[i];
   p.gas = gas.carrier[i];
@@ -36,13 +36,13 @@ PathPoint pointAt(const FlameSootGas& gas, std::size_t i) {
   return p;
 }
 
-PathPoint between(const PathPoint& a, const PathPoint& b, double w) {
+FlamePathPoint between(const FlamePathPoint& a, const FlamePathPoint& b, double w) {
   const auto mix = [w](double x, double y) { return (1 - w) * x + w * y; };
   return {mixed(a, b, w), mix(a.z, b.z), mix(a.velocity, b.velocity)};
 }
 
 // Time from one point to the next with a velocity that is linear in z.
-double travel(const PathPoint& a, const PathPoint& b) {
+double travel(const FlamePathPoint& a, const FlamePathPoint& b) {
   const double ratio = b.velocity / a.velocity, dz = b.z - a.z;
   if (std::abs(ratio - 1) < 1e-6) return 2 * dz / (a.velocity + b.velocity);
   return dz * std::log(ratio) / (b.velocity - a.velocity);
@@ -97,19 +97,19 @@ FlamePath flamePath(const FlameSootGas& gas, const FlamePathOptions& options) {
   const double sign = options.fromRight ? -1 : 1;
   const auto at = [&](std::size_t k) { return options.fromRight ? gridPoints - 1 - k : k; };
   FlamePath result;
-  std::vector<PathPoint> points;
+  std::vector<FlamePathPoint> points;
   std::size_t k = 0;
   if (options.start) {
     while (k < gridPoints && sign * (gas.z[at(k)] - *options.start) < 0) ++k;
   }
   for (; k < gridPoints && !result.stagnates; ++k) {
-    PathPoint next = pointAt(gas, at(k));
+    FlamePathPoint next = pointAt(gas, at(k));
     if (points.empty()) {
       result.stagnates = !(sign * next.velocity > options.slowest);
       points.push_back(std::move(next));
       continue;
     }
-    const PathPoint& from = points.back();
+    const FlamePathPoint& from = points.back();
     if (sign * next.velocity < options.slowest) {
       const double v = sign * from.velocity;
       next = between(from, next, (v - options.slowest) / (v - sign * next.velocity));
@@ -124,7 +124,7 @@ FlamePath flamePath(const FlameSootGas& gas, const FlamePathOptions& options) {
     points.push_back(std::move(next));
   }
   if (points.size() < 2) return result;
-  for (PathPoint& point : points) {
+  for (FlamePathPoint& point : points) {
     result.z.push_back(point.z);
     result.velocity.push_back(point.velocity);
     result.path.points.push_back(std::move(point));
