@@ -14,8 +14,8 @@
 
 #include "app/gas_input.hpp"
 #include "app/gas_output.hpp"
-#include "app/gas_properties.hpp"
-#include "app/mechanism_files.hpp"
+#include "app/gas_report.hpp"
+#include "app/mechanism_file_names.hpp"
 #include "app/temperature_input.hpp"
 #include "app/warnings.hpp"
 #include "chemistry/thermo/thermo.hpp"
@@ -26,7 +26,7 @@ namespace lampblack {
 namespace {
 
 struct Arguments {
-  MechanismFiles files;
+  MechanismFileNames files;
   std::string temperature, pressure;
   std::string moleFractions, massFractions;
   std::string fuel, oxidizer;
@@ -118,8 +118,7 @@ Answer answer(const Arguments& arguments) {
   GasTransportChoice transport;
   if (!arguments.transport.empty()) transport.model = transportModel(arguments.transport);
   if (!arguments.collisionIntegrals.empty()) transport.integrals = collisionIntegrals(arguments.collisionIntegrals);
-  GasProperties gas =
-      constant.empty() ? gasProperties(mechanism, T, p, X) : gasAtEquilibrium(mechanism, T, p, X, constant);
+  GasReport gas = constant.empty() ? gasReport(mechanism, T, p, X) : gasAtEquilibrium(mechanism, T, p, X, constant);
   addTransport(mechanism, transport, !arguments.transport.empty() || !arguments.collisionIntegrals.empty(), gas);
   Answer result;
   result.warnings = mechanism.warnings();

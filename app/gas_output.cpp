@@ -41,7 +41,7 @@ void inFileOrder(JsonWriter& json, const char* key, const std::vector<double>& v
   json.endArray();
 }
 
-std::string stateTable(const Mechanism& mechanism, const GasProperties& gas) {
+std::string stateTable(const Mechanism& mechanism, const GasReport& gas) {
   std::string out = fmt::format("{}: {} species, {} reactions\n\n", mechanism.fileName(), mechanism.numSpecies(),
                                 mechanism.numReactions());
   if (!gas.equilibrium.empty())
@@ -72,7 +72,7 @@ std::size_t widestName(const Mechanism& mechanism) {
   return width;
 }
 
-std::string speciesTable(const Mechanism& mechanism, const GasProperties& gas, bool all) {
+std::string speciesTable(const Mechanism& mechanism, const GasReport& gas, bool all) {
   const std::size_t width = widestName(mechanism);
   // At equilibrium net rates are what rounding leaves.
   double fastest = gas.equilibrium.empty() ? 0 : INFINITY;
@@ -102,7 +102,7 @@ std::string speciesTable(const Mechanism& mechanism, const GasProperties& gas, b
   return out;
 }
 
-std::string reactionTable(const Mechanism& mechanism, const GasProperties& gas) {
+std::string reactionTable(const Mechanism& mechanism, const GasReport& gas) {
   std::size_t width = std::string_view("reaction").size();
   for (const Reaction& reaction : mechanism.reactions()) width = std::max(width, reaction.equation.size());
   std::string out = "\n  rate constants in (m^3/mol)^(order-1)/s\n";
@@ -115,7 +115,7 @@ std::string reactionTable(const Mechanism& mechanism, const GasProperties& gas) 
 
 }  // namespace
 
-std::string gasJson(const Mechanism& mechanism, const GasProperties& gas) {
+std::string gasJson(const Mechanism& mechanism, const GasReport& gas) {
   JsonWriter json;
   json.beginObject();
   json.field("temperature", gas.temperature).field("pressure", gas.pressure).field("density", gas.density);
@@ -152,7 +152,7 @@ std::string gasJson(const Mechanism& mechanism, const GasProperties& gas) {
   return json.text() + "\n";
 }
 
-std::string gasText(const Mechanism& mechanism, const GasProperties& gas, const GasTables& tables) {
+std::string gasText(const Mechanism& mechanism, const GasReport& gas, const GasTables& tables) {
   std::string out = stateTable(mechanism, gas) + speciesTable(mechanism, gas, tables.allSpecies);
   if (tables.reactions) out += reactionTable(mechanism, gas);
   return out;

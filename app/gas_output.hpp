@@ -3,17 +3,17 @@
 
 #include <string>
 
-#include "app/gas_properties.hpp"
+#include "app/gas_report.hpp"
 
 namespace lampblack {
 
-std::string gasJson(const Mechanism& mechanism, const GasProperties& gas);
+std::string gasJson(const Mechanism& mechanism, const GasReport& gas);
 
 struct GasTables {
   bool allSpecies = false;  // also those that are neither present nor produced
   bool reactions = false;   // rate constants
 };
 
-std::string gasText(const Mechanism& mechanism, const GasProperties& gas, const GasTables& tables);
+std::string gasText(const Mechanism& mechanism, const GasReport& gas, const GasTables& tables);
 
 }  // namespace lampblack

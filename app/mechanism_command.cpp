@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/mechanism_files.hpp"
+#include "app/mechanism_file_names.hpp"
 #include "app/warnings.hpp"
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/mechanism/mechanism_writer.hpp"
@@ -22,7 +22,7 @@ namespace lampblack {
 namespace {
 
 struct Arguments {
-  MechanismFiles files;
+  MechanismFileNames files;
   std::string output;  // empty if not given
 };
 

@@ -1,4 +1,4 @@
-#include "app/mechanism_files.hpp"
+#include "app/mechanism_file_names.hpp"
 
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@ bool isYaml(const std::string& path) {
   return extension == ".yaml" || extension == ".yml";
 }
 
-Mechanism readMechanism(const MechanismFiles& files) {
+Mechanism readMechanism(const MechanismFileNames& files) {
   if (!isYaml(files.mechanism)) {
     if (!files.phase.empty())
       throw InputError(

@@ -1,4 +1,4 @@
-#include "app/gas_properties.hpp"
+#include "app/gas_report.hpp"
 
 #include <fmt/format.h>
 
@@ -14,8 +14,8 @@
 namespace lampblack {
 namespace {
 
-GasProperties thermodynamics(const Mechanism& mechanism, double T, double p, std::span<const double> X) {
-  GasProperties gas;
+GasReport thermodynamics(const Mechanism& mechanism, double T, double p, std::span<const double> X) {
+  GasReport gas;
   gas.temperature = T;
   gas.pressure = p;
   gas.moleFractions.assign(X.begin(), X.end());
@@ -30,7 +30,7 @@ GasProperties thermodynamics(const Mechanism& mechanism, double T, double p, std
   return gas;
 }
 
-void setRates(const Mechanism& mechanism, GasProperties& gas) {
+void setRates(const Mechanism& mechanism, GasReport& gas) {
   auto concentrations = gas.moleFractions;
   for (double& c : concentrations) c *= gas.pressure / (constants::gasConstant * gas.temperature);
   Kinetics kinetics(mechanism);
@@ -41,7 +41,7 @@ void setRates(const Mechanism& mechanism, GasProperties& gas) {
   kinetics.rateConstants(gas.temperature, concentrations, gas.forwardConstants, gas.reverseConstants);
 }
 
-void requireFinite(const GasProperties& gas) {
+void requireFinite(const GasReport& gas) {
   const auto check = [&](std::span<const double> values, const char* what) {
     if (!std::ranges::all_of(values, [](double v) { return std::isfinite(v); }))
       throw NumericsError(
@@ -56,16 +56,16 @@ void requireFinite(const GasProperties& gas) {
 
 }  // namespace
 
-GasProperties gasProperties(const Mechanism& mechanism, double T, double p, std::span<const double> X) {
-  GasProperties gas = thermodynamics(mechanism, T, p, X);
+GasReport gasReport(const Mechanism& mechanism, double T, double p, std::span<const double> X) {
+  GasReport gas = thermodynamics(mechanism, T, p, X);
   setRates(mechanism, gas);
   requireFinite(gas);
   return gas;
 }
 
-GasProperties gasAtEquilibrium(const Mechanism& mechanism, double T, double p, std::span<const double> X,
-                               const std::string& constant) {
-  const GasProperties start = thermodynamics(mechanism, T, p, X);
+GasReport gasAtEquilibrium(const Mechanism& mechanism, double T, double p, std::span<const double> X,
+                           const std::string& constant) {
+  const GasReport start = thermodynamics(mechanism, T, p, X);
   const Thermo thermo(mechanism);
   Equilibrium equilibrium(mechanism);
   std::vector<double> Y = start.massFractions, result(Y.size());
@@ -83,12 +83,12 @@ GasProperties gasAtEquilibrium(const Mechanism& mechanism, double T, double p, s
     throw std::logic_error("unknown pair of constant quantities " + constant);
   if (constant == "TV" || constant == "UV") p *= start.density / thermo.density(T, p, Y);
   thermo.massToMole(Y, result);
-  GasProperties gas = gasProperties(mechanism, T, p, result);
+  GasReport gas = gasReport(mechanism, T, p, result);
   gas.equilibrium = constant;
   return gas;
 }
 
-void addTransport(const Mechanism& mechanism, const GasTransportChoice& choice, bool needed, GasProperties& gas) {
+void addTransport(const Mechanism& mechanism, const GasTransportChoice& choice, bool needed, GasReport& gas) {
   const auto compute = [&] {
     gas.transport = gasTransport(mechanism, gas.temperature, gas.pressure, gas.moleFractions, choice);
   };

@@ -1,4 +1,4 @@
-#include "app/gas_properties.hpp"
+#include "app/gas_report.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -23,14 +23,14 @@ std::vector<std::string> shippedMechanisms() {
   return paths;
 }
 
-class GasProperties : public ::testing::TestWithParam<std::string> {};
+class GasReports : public ::testing::TestWithParam<std::string> {};
 
 void expectNumbers(const std::vector<double>& values) {
   for (const double value : values) EXPECT_TRUE(std::isfinite(value)) << value;
 }
 
 // A pure gas, all other species being absent, and all species at once; as they are and at equilibrium.
-TEST_P(GasProperties, AreNumbersInStatesAtTheEdge) {
+TEST_P(GasReports, AreNumbersInStatesAtTheEdge) {
   const Mechanism mechanism = Mechanism::fromFile(GetParam());
   const std::size_t n = mechanism.numSpecies();
   std::vector<double> pure(n), all(n, 1.0 / static_cast<double>(n));
@@ -39,7 +39,7 @@ TEST_P(GasProperties, AreNumbersInStatesAtTheEdge) {
     for (const double T : {200.0, 4000.0})
       for (const double p : {0.1, 1e7}) {
         SCOPED_TRACE(std::to_string(T) + " K, " + std::to_string(p) + " Pa");
-        for (auto gas : {gasProperties(mechanism, T, p, X), gasAtEquilibrium(mechanism, T, p, X, "TP")}) {
+        for (auto gas : {gasReport(mechanism, T, p, X), gasAtEquilibrium(mechanism, T, p, X, "TP")}) {
           addTransport(mechanism, {}, false, gas);
           expectNumbers({gas.density, gas.cpMass, gas.enthalpyMass, gas.entropyMass});
           expectNumbers(gas.forwardConstants);
@@ -57,15 +57,15 @@ TEST_P(GasProperties, AreNumbersInStatesAtTheEdge) {
       }
 }
 
-INSTANTIATE_TEST_SUITE_P(Mechanisms, GasProperties, ::testing::ValuesIn(shippedMechanisms()),
+INSTANTIATE_TEST_SUITE_P(Mechanisms, GasReports, ::testing::ValuesIn(shippedMechanisms()),
                          [](const auto& param) { return std::filesystem::path(param.param).stem().string(); });
 
 TEST(GasAtTheEdge, ThatHasNoNumbersIsAnError) {
   const Mechanism mechanism = Mechanism::fromFile(shippedMechanisms().front());
   std::vector<double> X(mechanism.numSpecies());
   X[mechanism.speciesIndex("H2")] = 1;
-  EXPECT_THROW(gasProperties(mechanism, 1e-300, 1e5, X), NumericsError);
-  EXPECT_THROW(gasProperties(mechanism, 300, 1e308, X), NumericsError);
+  EXPECT_THROW(gasReport(mechanism, 1e-300, 1e5, X), NumericsError);
+  EXPECT_THROW(gasReport(mechanism, 300, 1e308, X), NumericsError);
 }
 
 TEST(GasAtTheEdge, OfTheDataIsWarnedOf) {

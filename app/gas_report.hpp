@@ -1,4 +1,4 @@
-// All properties of a gas at one state, gathered from the models of the chemistry room for `lampblack gas`.
+// What `lampblack gas` says of a gas at one state, gathered from the models of the chemistry room.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace lampblack {
 
-struct GasProperties {
+struct GasReport {
   std::string equilibrium;         // "HP": what was held constant on the way to equilibrium; empty if it was not sought
   double temperature = 0;          // K
   double pressure = 0;             // Pa
@@ -29,16 +29,16 @@ struct GasProperties {
 
 // All of it at T (K), p (Pa) and mole fractions X that sum to one; `transport` is left empty. NumericsError if a number
 // is not finite.
-GasProperties gasProperties(const Mechanism& mechanism, double T, double p, std::span<const double> X);
+GasReport gasReport(const Mechanism& mechanism, double T, double p, std::span<const double> X);
 
 // The same at the chemical equilibrium that T, p and X turn into while two quantities stay constant: "TP", "HP", "SP",
 // "TV" or "UV" (temperature, pressure, enthalpy, entropy, volume, internal energy). NumericsError if there is none.
-GasProperties gasAtEquilibrium(const Mechanism& mechanism, double T, double p, std::span<const double> X,
-                               const std::string& constant);
+GasReport gasAtEquilibrium(const Mechanism& mechanism, double T, double p, std::span<const double> X,
+                           const std::string& constant);
 
 // Adds the transport properties. Without transport data, or outside the range of temperature of the model, that is an
 // error if they are `needed` (InputError, NumericsError), else a note.
-void addTransport(const Mechanism& mechanism, const GasTransportChoice& choice, bool needed, GasProperties& gas);
+void addTransport(const Mechanism& mechanism, const GasTransportChoice& choice, bool needed, GasReport& gas);
 
 // Says that T is outside the range of thermodynamic data, and names the species whose range ends first; empty if
 // inside.

@@ -7,7 +7,7 @@
 
 namespace lampblack {
 
-struct MechanismFiles {
+struct MechanismFileNames {
   std::string mechanism;          // YAML by its ending (.yaml, .yml), else CHEMKIN
   std::string thermo, transport;  // CHEMKIN data in files of their own; empty if not given
   std::string phase;              // of a YAML file; empty: the first ideal gas
@@ -16,6 +16,6 @@ struct MechanismFiles {
 bool isYaml(const std::string& path);
 
 // InputError, also where a YAML file comes with others, and a CHEMKIN file with a phase.
-Mechanism readMechanism(const MechanismFiles& files);
+Mechanism readMechanism(const MechanismFileNames& files);
 
 }  // namespace lampblack
