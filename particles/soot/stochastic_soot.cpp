@@ -43,8 +43,8 @@ std::unique_ptr<StochasticSoot> makeStochasticSoot(StochasticSootOptions options
   switch (options.method) {
     case StochasticSootMethod::dsmc:
       monteCarlo.method = MonteCarloMethod::dsmc;
-      return make<EqualWeightMethod<SootAggregate, ClassStore<EqualRates<SootAggregate>>, MonteCarloMethod::dsmc>>(
-          std::move(options), model, monteCarlo);
+      return make<EqualWeightMethod<SootAggregate, ClassStore<EqualRates<SootAggregate>>>>(std::move(options), model,
+                                                                                           monteCarlo);
     case StochasticSootMethod::sammc:
       monteCarlo.method = MonteCarloMethod::sammc;
       break;

@@ -1,6 +1,6 @@
-// The jumps of the methods whose numerical particles all have the same weight, for any type of particles, store and way
-// to keep the number of particles in range (see equal_weight_sample.hpp). Without treatment of deferred growth: that is
-// a method around this one.
+// The jumps of the methods whose numerical particles all have the same weight, for any type of particles and store. How
+// the methods keep the number of particles in range: equal_weight_sample.hpp. Without treatment of deferred growth:
+// that is a method around this one.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@
 
 namespace lampblack {
 
-template <ParticleType Type, class Store, MonteCarloMethod Method>
+template <ParticleType Type, class Store>
 class EqualWeightMethod {
  public:
   using Entry = typename Store::Entry;
@@ -31,7 +31,8 @@ class EqualWeightMethod {
         growth_(model.growth),
         alone_(!model.coagulation && !model.breakage && !model.deposition && !model.nucleation),
         retuneAfter_(options.particles),
-        sample_(Store(EqualRates<Type>(type, model)), initialWeight(initial, options), options.particles) {
+        sample_(Store(EqualRates<Type>(type, model)), options.method, initialWeight(initial, options),
+                options.particles) {
     if (model.nucleation) {
       nucleusVolume_ = model.nucleation->volume;
       nucleus_ = rates().entry(type_.make(nucleusVolume_));
@@ -254,7 +255,7 @@ class EqualWeightMethod {
   double growthStep_ = 0;
   double nucleusVolume_ = 0;  // m3
   std::optional<Entry> nucleus_;
-  EqualWeightSample<Store, Method> sample_;
+  EqualWeightSample<Store> sample_;
   PopulationCounters counters_;
 };
 

@@ -27,20 +27,32 @@
 
 namespace lampblack {
 
-template <class Store, MonteCarloMethod Method>
+// The numbers of particles that a method leaves as they are.
+struct SampleRange {
+  std::size_t fewest = 0, most = 0;
+};
+
+[[nodiscard]] inline SampleRange sampleRange(MonteCarloMethod method, std::size_t capacity) {
+  if (method == MonteCarloMethod::dsmc) return {capacity / 2 + 1, capacity};
+  if (method == MonteCarloMethod::constantVolume) return {(capacity + 1) / 2, 2 * capacity};
+  return {capacity, capacity};
+}
+
+template <class Store>
 class EqualWeightSample {
  public:
   using Entry = typename Store::Entry;
-  static constexpr bool keepsMass = Method == MonteCarloMethod::constantNumberByMass;
-  static constexpr bool constantNumber = keepsMass || Method == MonteCarloMethod::constantNumberByNumber;
 
-  EqualWeightSample(Store store, double weight, std::size_t capacity)
+  EqualWeightSample(Store store, MonteCarloMethod method, double weight, std::size_t capacity)
       : store_(std::move(store)),
+        method_(method),
+        keepsMass_(method == MonteCarloMethod::constantNumberByMass),
         capacity_(capacity),
-        fullAt_(constantNumber ? capacity : capacity - capacity / 4),
+        range_(sampleRange(method, capacity)),
+        fullAt_(range_.fewest == range_.most ? capacity : capacity - capacity / 4),
         weight_(weight),
         gels_(store_.rates().gels()),
-        tracked_(keepsMass || gels_),
+        tracked_(keepsMass_ || gels_),
         // See gelled().
         gelShare_(std::min(0.5, 2 / std::cbrt(static_cast<double>(capacity)))) {}
 
@@ -59,7 +71,7 @@ class EqualWeightSample {
   }
   // To be called after an event that changes the mass, and after growth.
   void massChanged() {
-    if constexpr (keepsMass) mass_ = weight_ * volume_.value();
+    if (keepsMass_) mass_ = weight_ * volume_.value();
   }
   // To be called when an event is over: brings the number of particles into range.
   [[gnu::always_inline]] void settle(RandomStream& random, PopulationCounters& counters) {
@@ -69,13 +81,13 @@ class EqualWeightSample {
       filled_ = true;
       massChanged();
     }
-    if (count == 0) return;
-    if constexpr (constantNumber) {
-      if (count != capacity_) restore(random, counters);
-    } else if constexpr (Method == MonteCarloMethod::dsmc) {
-      if (2 * count <= capacity_ || count > capacity_) adjust(random, counters);
+    if (count == 0 || (count >= range_.fewest && count <= range_.most)) return;
+    if (method_ == MonteCarloMethod::dsmc) {
+      adjust(random, counters);
+    } else if (method_ == MonteCarloMethod::constantVolume) {
+      step(random, counters);
     } else {
-      if (2 * count < capacity_ || count > 2 * capacity_) step(random, counters);
+      restore(random, counters);
     }
   }
 
@@ -135,7 +147,7 @@ class EqualWeightSample {
       if (tracked_) changed(copy, 1);
     }
     removeDownTo(capacity_, random, counters);
-    if constexpr (keepsMass)
+    if (keepsMass_)
       weight_ = mass_ / volume_.value();
     else
       weight_ *= static_cast<double>(before) / static_cast<double>(capacity_);
@@ -169,12 +181,16 @@ class EqualWeightSample {
   }
 
   Store store_;
-  std::size_t capacity_, fullAt_;
+  MonteCarloMethod method_;
+  bool keepsMass_;
+  std::size_t capacity_;
+  SampleRange range_;
+  std::size_t fullAt_;
   double weight_;  // 1/m3
   bool gels_;
   bool tracked_;     // whether the volume of all is kept
   double gelShare_;  // of the mass in one particle
-  double mass_ = 0;  // M_1, of keepsMass
+  double mass_ = 0;  // M_1, where keepsMass_
   bool filled_ = false;
   CompensatedSum volume_;       // m3, of all particles
   mutable double largest_ = 0;  // m3, at least that of the largest particle

@@ -3,7 +3,6 @@
 
 #include <memory>
 
-#include "core/errors.hpp"
 #include "particles/population/monte_carlo/class_store.hpp"
 #include "particles/population/monte_carlo/deferred_growth.hpp"
 #include "particles/population/monte_carlo/equal_weight_method.hpp"
@@ -12,33 +11,15 @@
 
 namespace lampblack {
 
-template <ParticleType Type, class Store, MonteCarloMethod Method>
-std::unique_ptr<PopulationSolver> makeEqualWeightWith(const Type& type, const PopulationModel& model,
-                                                      const InitialPopulation& initial,
-                                                      const MonteCarloOptions& options) {
-  using Jumps = DeferredWhereChanging<Type, EqualWeightMethod<Type, Store, Method>>;
-  using Process = JumpProcess<Jumps>;
-  RandomStream random(options.seed, options.repeat, Process::streamPurpose);
-  Jumps method(type, model, initial, options, random);
-  return std::make_unique<Process>(std::move(method), model, options, random);
-}
-
 template <ParticleType Type, class Store>
 std::unique_ptr<PopulationSolver> makeEqualWeightIn(const Type& type, const PopulationModel& model,
                                                     const InitialPopulation& initial,
                                                     const MonteCarloOptions& options) {
-  switch (options.method) {
-    case MonteCarloMethod::dsmc:
-      return makeEqualWeightWith<Type, Store, MonteCarloMethod::dsmc>(type, model, initial, options);
-    case MonteCarloMethod::constantVolume:
-      return makeEqualWeightWith<Type, Store, MonteCarloMethod::constantVolume>(type, model, initial, options);
-    case MonteCarloMethod::constantNumberByMass:
-      return makeEqualWeightWith<Type, Store, MonteCarloMethod::constantNumberByMass>(type, model, initial, options);
-    case MonteCarloMethod::constantNumberByNumber:
-      return makeEqualWeightWith<Type, Store, MonteCarloMethod::constantNumberByNumber>(type, model, initial, options);
-    default:
-      throw InputError("not a method with equal weights");
-  }
+  using Jumps = DeferredWhereChanging<Type, EqualWeightMethod<Type, Store>>;
+  using Process = JumpProcess<Jumps>;
+  RandomStream random(options.seed, options.repeat, Process::streamPurpose);
+  Jumps method(type, model, initial, options, random);
+  return std::make_unique<Process>(std::move(method), model, options, random);
 }
 
 template <ParticleType Type>

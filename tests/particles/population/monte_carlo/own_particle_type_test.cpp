@@ -157,7 +157,7 @@ TEST(OwnParticleType, AggregatesHaveTheExactNumbersOfPrimaries) {
 
 // The particles themselves, from the store: every one is a tree of as many primaries as its volume says.
 TEST(OwnParticleType, TreesStayWhole) {
-  using Method = EqualWeightMethod<TreeAggregate, ClassStore<EqualRates<TreeAggregate>>, MonteCarloMethod::dsmc>;
+  using Method = EqualWeightMethod<TreeAggregate, ClassStore<EqualRates<TreeAggregate>>>;
   TreeAggregate::Seen seen;
   RandomStream random(1, 2, 3);
   const TreeAggregate type(seen);
