@@ -48,19 +48,21 @@ Progress::Progress(std::ostream& out, bool terminal, double start, double end, C
                    Clock::duration quiet)
     : out_(&out), terminal_(terminal), start_(start), end_(end), quiet_(quiet), begun_(now), last_(now) {}
 
-std::string Progress::line(Clock::time_point now) const {
+double Progress::done() const {
   const double span = end_ - start_;
-  const double done = span > 0.0 ? std::clamp((at_ - start_) / span, 0.0, 1.0) : 1.0;
-  const double elapsed = std::chrono::duration<double>(now - begun_).count();
-  std::string text = fmt::format("{}  {:5.1f} %", where_, 100.0 * done);
-  const double left = elapsed * (1.0 - done) / done;  // s
-  if (done > 0.0 && done < 1.0) text += "  to go " + (left < year ? formatDuration(left) : "more than a year");
+  return span > 0.0 ? std::clamp((at_ - start_) / span, 0.0, 1.0) : 1.0;
+}
+
+std::string Progress::line() const {
+  std::string text = fmt::format("{}  {:5.1f} %", where_, 100.0 * done());
+  const auto left = left_.seconds();
+  if (left && done() < 1.0) text += "  to go " + (*left < year ? formatDuration(*left) : "more than a year");
   if (!extras_.empty()) text += "  " + extras_;
   return text;
 }
 
 void Progress::print(Clock::time_point now) {
-  const std::string text = line(now);
+  const std::string text = line();
   if (terminal_) {
     // The line before may have been longer: cover what is left of it.
     *out_ << '\r' << text << std::string(width_ > text.size() ? width_ - text.size() : 0, ' ');
@@ -79,9 +81,11 @@ void Progress::update(std::int64_t step, double time, double dt, const std::stri
 }
 
 void Progress::say(const std::string& where, double at, const std::string& extras, Clock::time_point now) {
-  if (out_ == nullptr || now - begun_ < quiet_) return;
-  where_ = where;
+  if (out_ == nullptr) return;
   at_ = at;
+  left_.report(std::chrono::duration<double>(now - begun_).count(), done());
+  if (now - begun_ < quiet_) return;
+  where_ = where;
   extras_ = extras;
   pending_ = true;
   if (due(now)) print(now);

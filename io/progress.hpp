@@ -1,5 +1,5 @@
 // How far a run has come, from rank 0: one line that updates itself on a terminal, one line every few seconds in a log
-// file. The time to go is judged from the part covered so far.
+// file. The time to go is said once it can be judged (TimeLeft).
 #pragma once
 
 #include <mpi.h>
@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <iosfwd>
 #include <string>
+
+#include "io/time_left.hpp"
 
 namespace lampblack {
 
@@ -36,7 +38,8 @@ class Progress {
   static constexpr std::chrono::milliseconds logInterval{5000};
 
  private:
-  [[nodiscard]] std::string line(Clock::time_point now) const;
+  [[nodiscard]] double done() const;
+  [[nodiscard]] std::string line() const;
   void print(Clock::time_point now);
 
   std::ostream* out_;  // nullptr on ranks other than 0
@@ -52,6 +55,7 @@ class Progress {
   std::string where_;
   double at_ = 0.0;
   std::string extras_;
+  TimeLeft left_;
 };
 
 }  // namespace lampblack

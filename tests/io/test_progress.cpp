@@ -28,7 +28,7 @@ TEST(Progress, SaysNothingOfShortRuns) {
   std::ostringstream out;
   const auto start = Progress::Clock::now();
   Progress progress(out, false, 0.0, 8.0, start, seconds(5));
-  progress.say("swa, repeat 1 of 8", 0.5, "", start + seconds(4));
+  progress.say("swa, repeat 2 of 8", 4.0 / 3, "", start + seconds(4));
   EXPECT_FALSE(progress.due(start + seconds(4)));
   progress.finish(start + seconds(4));
   EXPECT_EQ(out.str(), "");
@@ -42,8 +42,16 @@ TEST(Progress, DoesNotCountYears) {
   std::ostringstream out;
   const auto start = Progress::Clock::now();
   Progress progress(out, false, 0.0, 1e300, start);
-  progress.update(1, 1e-5, 1e-5, "", start + seconds(1));
+  for (int i = 1; i <= 30; ++i) progress.update(i, i, 1, "", start + seconds(i));
   EXPECT_THAT(out.str(), HasSubstr("0.0 %  to go more than a year\n"));
+}
+
+TEST(Progress, SaysNothingOfTheTimeToGoAtTheFirstStep) {
+  std::ostringstream out;
+  const auto start = Progress::Clock::now();
+  Progress progress(out, false, 0.0, 1.0, start);
+  progress.update(1, 1e-5, 1e-5, "Tmax 2000 K", start + seconds(1));
+  EXPECT_EQ(out.str(), "step      1  t 1e-05 s  dt 1e-05 s    0.0 %  Tmax 2000 K\n");
 }
 
 TEST(Progress, KeepsOneLineOnATerminal) {
