@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "chemistry/mechanism/mechanism.hpp"
-#include "chemistry/thermo/species_thermo.hpp"
+#include "chemistry/mechanism/nasa_polynomials.hpp"
 #include "core/errors.hpp"
 
 namespace lampblack {

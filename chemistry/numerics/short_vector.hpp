@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "chemistry/reactor/sundials_handles.hpp"
+#include "chemistry/numerics/sundials_handles.hpp"
 
 namespace lampblack::sundials {
 

@@ -5,9 +5,9 @@
 #include <functional>
 #include <string>
 
+#include "chemistry/numerics/sundials_handles.hpp"
 #include "chemistry/reactor/reactor_linear_solver.hpp"
 #include "chemistry/reactor/reactor_system.hpp"
-#include "chemistry/reactor/sundials_handles.hpp"
 
 namespace lampblack {
 

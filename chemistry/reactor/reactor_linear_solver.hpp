@@ -2,9 +2,9 @@
 // interfaces for matrices and linear solvers.
 #pragma once
 
+#include "chemistry/numerics/sundials_handles.hpp"
 #include "chemistry/reactor/newton_matrix.hpp"
 #include "chemistry/reactor/reactor_system.hpp"
-#include "chemistry/reactor/sundials_handles.hpp"
 
 namespace lampblack {
 

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "chemistry/numerics/dense_lu.hpp"
-#include "chemistry/reactor/sundials_handles.hpp"
+#include "chemistry/numerics/sundials_handles.hpp"
 #include "core/errors.hpp"
 
 namespace lampblack {

@@ -42,12 +42,4 @@ double cpOverR(const Species& species, double T);
 double enthalpyOverRT(const Species& species, double T);
 double entropyOverR(const Species& species, double T);
 
-// The polynomials of one range.
-double cpOverR(const std::array<double, 7>& a, double T);
-double enthalpyOverRT(const std::array<double, 7>& a, double T);
-double entropyOverR(const std::array<double, 7>& a, double T, double lnT);
-double cpOverR(const std::array<double, 9>& a, double T);
-double enthalpyOverRT(const std::array<double, 9>& a, double T, double lnT);
-double entropyOverR(const std::array<double, 9>& a, double T, double lnT);
-
 }  // namespace lampblack

@@ -1,4 +1,4 @@
-#include "chemistry/reactor/sundials_handles.hpp"
+#include "chemistry/numerics/sundials_handles.hpp"
 
 #include <cvodes/cvodes.h>
 #include <fmt/format.h>

@@ -1,0 +1,116 @@
+"""No #include goes against the arrows of docs/architecture.md: from room to room, nor between the folders of chemistry.
+
+A template or an inline function of a forbidden room needs no library, so that linking alone does not find it. What a room
+may know is what its CMakeLists.txt links; the page's column "knows" has to say the same. The order of the folders of
+chemistry is that of the page.
+
+Usage: arrows_test.py [ROOT]
+"""
+import re
+import sys
+import tempfile
+from pathlib import Path
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]', re.M)
+FOLDERS = "The chemistry room has folders"
+
+
+def rooms_linked(root):
+    """Room -> rooms it links, from lampblack_room(...) of each folder."""
+    linked = {}
+    for file in sorted(root.glob("*/CMakeLists.txt")):
+        call = re.search(r"lampblack_room\((\w+)(.*?)\)", re.sub(r"#.*", "", file.read_text()), re.S)
+        if call:
+            linked[call[1]] = set(re.findall(r"\blampblack_(\w+)", call[2]))
+    return linked
+
+
+def rooms_on_page(page, rooms):
+    """Room -> rooms it knows, from the first table of the page."""
+    known = {}
+    for name, knows in re.findall(r"^\| `(\w+)/` \| ([^|]*) \|", page, re.M):
+        if name in rooms:
+            known[name] = rooms - {name} if knows.strip() == "all" else set(re.findall(r"`(\w+)`", knows))
+    return known
+
+
+def chemistry_order(page):
+    """Folders of chemistry, each building on those before it."""
+    return re.findall(r"^\| `chemistry/(\w+)/` \|", page[page.find(FOLDERS):], re.M)
+
+
+def includes(root, folder):
+    for file in sorted((root / folder).rglob("*")):
+        if file.suffix in (".hpp", ".cpp", ".h", ".inc"):
+            for _, target in INCLUDE.findall(file.read_text()):
+                yield file.relative_to(root), target
+
+
+def wrong_arrows(root):
+    page = (root / "docs/architecture.md").read_text()
+    linked = rooms_linked(root)
+    known = rooms_on_page(page, set(linked))
+    wrong = []
+    for room in linked:
+        if known.get(room) != linked[room]:
+            wrong.append(f"docs/architecture.md says that {room} knows {sorted(known.get(room, []))}, "
+                         f"{room}/CMakeLists.txt that it links {sorted(linked[room])}")
+        for file, target in includes(root, room):
+            other = target.split("/")[0]
+            if ".." in target or (other in linked and other != room and other not in linked[room]):
+                wrong.append(f"{file}: {room} may not know {target}")
+    order = chemistry_order(page)
+    for place, folder in enumerate(order):
+        for file, target in includes(root, f"chemistry/{folder}"):
+            later = [f for f in order[place + 1:] if target.startswith(f"chemistry/{f}/")]
+            if later:
+                wrong.append(f"{file}: {target} builds on chemistry/{folder}, not the other way round")
+    present = {path.name for path in (root / "chemistry").iterdir() if path.is_dir()}
+    if present != set(order):
+        wrong.append(f"docs/architecture.md has the folders {sorted(order)} of chemistry, there are {sorted(present)}")
+    return wrong
+
+
+def toy(root):
+    """A house of two rooms with one include against each kind of arrow, and some that may be."""
+    files = {
+        "core/CMakeLists.txt": "lampblack_room(core SOURCES a.cpp PUBLIC MPI::MPI_CXX)",
+        "chemistry/CMakeLists.txt": "lampblack_room(chemistry SOURCES b.cpp PUBLIC lampblack_core)",
+        "core/a.hpp": '#include <vector>\n#include "chemistry/thermo/b.hpp"\ntemplate <class T> T twice(T x);',
+        "core/c.hpp": '#include "../chemistry/thermo/b.hpp"',
+        "core/d.hpp": '  #  include <chemistry/thermo/b.hpp>',
+        "chemistry/thermo/b.hpp": '#include "core/a.hpp"\n#include "chemistry/numerics/n.hpp"',
+        "chemistry/numerics/n.hpp": '#include "chemistry/thermo/b.hpp"',
+        "docs/architecture.md": "| `core/` | MPI | errors |\n| `chemistry/` | `core` | gas |\n\n" + FOLDERS +
+                                "\n| `chemistry/numerics/` | x |\n| `chemistry/thermo/` | y |\n",
+    }
+    for name, text in files.items():
+        (root / name).parent.mkdir(parents=True, exist_ok=True)
+        (root / name).write_text(text)
+
+
+def check_the_checker():
+    with tempfile.TemporaryDirectory() as folder:
+        root = Path(folder)
+        toy(root)
+        found = [line.split(":")[0] for line in wrong_arrows(root)]
+        assert sorted(found) == ["chemistry/numerics/n.hpp", "core/a.hpp", "core/c.hpp", "core/d.hpp"], found
+        page = root / "docs/architecture.md"
+        page.write_text(page.read_text().replace("| MPI |", "| MPI, `chemistry` |"))
+        assert any("says that core knows ['chemistry']" in line for line in wrong_arrows(root))
+
+
+def main():
+    check_the_checker()
+    root = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).resolve().parents[1]
+    assert len(rooms_linked(root)) >= 6, "the rooms are not where this test looks for them"
+    wrong = wrong_arrows(root)
+    for line in wrong:
+        print(line)
+    if wrong:
+        sys.exit(f"{len(wrong)} against the arrows of docs/architecture.md")
+    print("Every #include follows the arrows of docs/architecture.md.")
+
+
+if __name__ == "__main__":
+    main()
