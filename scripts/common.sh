@@ -26,3 +26,20 @@ processors() { env -u OMP_NUM_THREADS -u OMP_THREAD_LIMIT nproc; }
 
 # Linear algebra libraries start a thread a core in each rank; here each rank is one thread.
 export OMP_NUM_THREADS="${OMP_NUM_THREADS:-1}" OPENBLAS_NUM_THREADS="${OPENBLAS_NUM_THREADS:-1}"
+
+# For a build without a terminal. Reads what ninja prints: passes on what says something, and says every so many seconds ($1)
+# how far it is. NINJA_STATUS has to be "[%f/%t] ".
+build_progress() {
+  local line begin=$SECONDS next=$1 elapsed done all
+  while IFS= read -r line; do
+    if [[ "$line" =~ ^\[([0-9]+)/([0-9]+)\] ]]; then
+      done=${BASH_REMATCH[1]} all=${BASH_REMATCH[2]} elapsed=$((SECONDS - begin))
+      if [ "$elapsed" -ge "$next" ] && [ "$done" -lt "$all" ]; then
+        echo "Built $done of $all files, about $(duration $(((all - done) * elapsed / done))) to go"
+        next=$((elapsed + $1))
+      fi
+    elif [[ ! "$line" =~ ^(ninja: |-- ) ]]; then
+      printf '%s\n' "$line"
+    fi
+  done
+}
