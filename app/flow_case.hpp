@@ -31,6 +31,13 @@ struct OutputControl {
   std::vector<std::size_t> species;  // mole fractions written
 };
 
+// When checkpoints are written besides when they are asked for.
+struct CheckpointControl {
+  std::optional<std::int64_t> steps;  // between two
+  double wallTime = 0.0;              // s, between two
+  bool atEnd = false;
+};
+
 struct TrajectoryStart {
   double r = 0.0, z = 0.0;  // m; x and y in planar geometry
 };
@@ -54,6 +61,7 @@ struct FlowCase {
   MixingLayer initial;
   TimeControl time;
   OutputControl output;
+  CheckpointControl checkpoint;
   TransportOptions transport;
   ReactionOperator::Options chemistry;
   std::optional<SootModelOptions> soot;

@@ -12,11 +12,14 @@
 
 #include "app/failed_cell.hpp"
 #include "app/flow_case.hpp"
+#include "app/flow_checkpoint.hpp"
 #include "app/flow_output.hpp"
 #include "app/soot_operator.hpp"
 #include "app/trajectories.hpp"
+#include "app/warnings.hpp"
 #include "core/errors.hpp"
 #include "core/stop_request.hpp"
+#include "core/system_error.hpp"
 #include "core/timers.hpp"
 #include "flow/time_step.hpp"
 #include "io/progress.hpp"
@@ -51,6 +54,17 @@ class FlowRun {
         massAndElements(*case_.mechanism,
                         case_.soot ? SootOperator::elementMass(*case_.mechanism) : std::vector<std::vector<double>>{}),
         state_);
+    dt_ = case_.time.firstStep;
+    nextOutput_ = case_.output.interval;
+  }
+
+  // Takes everything from a checkpoint. InputError where it is another run's; nothing is written.
+  void load(const WholeCheckpoint& checkpoint) {
+    CheckpointReader reader(comm_, checkpoint.file, stateNumbers(mesh_), flowFingerprint(case_, state_.scalars));
+    saveOrLoad(reader, earlierRows_);
+    state_.updateHalo(halo_);
+    for (Operator* op : operators_) op->endStep(state_);
+    restart_ = checkpoint;
   }
 
   [[nodiscard]] std::int64_t cells() const { return mesh_.totalCells; }
@@ -59,28 +73,42 @@ class FlowRun {
     folder_ = folder;
     ResultsWriter results(comm_, folder.results(), info, meshOutput(mesh_));
     HistoryWriter history(comm_, folder.history(), historyColumns(budget_->lines(state_)));
-    Progress progress(comm_, 0.0, case_.time.end);
-    output(results);
-    double nextOutput = case_.output.interval;
-    double dt = case_.time.firstStep;
+    Progress progress(comm_, time_, case_.time.end);
+    FlowCheckpoints checkpoints(mesh_, case_.checkpoint, flowFingerprint(case_, state_.scalars), folder.path());
+    if (restart_) {
+      restore(results, history);
+      checkpoints.startedFrom(*restart_, steps_);
+    } else {
+      output(results);
+    }
     while (time_ < case_.time.end * (1.0 - 1e-12)) {
-      if (const int signal = agreedStopRequest(comm_); signal != 0) stop(signal, dt, folder, results, history);
-      dt = chooseStep(dt, std::min(nextOutput, case_.time.end));
-      step(dt);
-      const bool due = time_ >= nextOutput * (1.0 - 1e-12) || time_ >= case_.time.end * (1.0 - 1e-12);
+      if (const int signal = agreedStopRequest(comm_); signal != 0) stop(signal, folder, checkpoints, results, history);
+      if (checkpoints.due(steps_)) {
+        progress.finish();
+        const std::string problem = writeCheckpoint(checkpoints, results, history);
+        if (!problem.empty()) printWarnings({problem});
+      }
+      dt_ = chooseStep(dt_, std::min(nextOutput_, case_.time.end));
+      step(dt_);
+      const bool due = time_ >= nextOutput_ * (1.0 - 1e-12) || time_ >= case_.time.end * (1.0 - 1e-12);
       if (due || steps_ % case_.output.historySteps == 0) {
-        const HistoryRow row = observe(dt);
+        const HistoryRow row = observe();
         history.row(historyValues(row));
         progress.update(
-            steps_, time_, dt,
+            steps_, time_, dt_,
             fmt::format("Tmax {:.0f} K  fv {:.3g} ppm", row.extremes.maximumTemperature, 1e6 * row.peakVolumeFraction));
       }
       if (due) {
         output(results);
-        nextOutput += case_.output.interval;
+        nextOutput_ += case_.output.interval;
       }
     }
     progress.finish();
+    if (case_.checkpoint.atEnd) {
+      const std::string problem = writeCheckpoint(checkpoints, results, history);
+      if (!problem.empty()) printWarnings({problem});
+    }
+    if (last_.step != steps_) observe();  // a restart at the very end
     // A trajectory that fails takes nothing from the flow: its results are closed first.
     std::exception_ptr failure;
     if (case_.trajectories) {
@@ -203,12 +231,12 @@ class FlowRun {
     return peak;
   }
 
-  HistoryRow observe(double dt) {
+  HistoryRow observe() {
     const Timers::Scope scope(timers_, "monitoring");
     HistoryRow row;
     row.step = steps_;
     row.time = time_;
-    row.dt = dt;
+    row.dt = dt_;
     row.extremes = extremesOf(context_, state_);
     row.transport = flow_.diagnostics();
     row.chemistry = chemistry_.takeDiagnostics();
@@ -228,18 +256,78 @@ class FlowRun {
     return row;
   }
 
-  // Keeps the last state, and raises Stopped.
-  [[noreturn]] void stop(int signal, double dt, const RunFolder& folder, ResultsWriter& results,
+  // All that the next step, its outputs and the report depend on.
+  void saveOrLoad(StateArchive& archive, std::vector<double>& history) {
+    state_.saveOrLoad(archive);
+    for (Operator* op : operators_) op->saveOrLoad(archive);
+    budget_->saveOrLoad(archive);
+    const double interval = case_.output.interval;
+    std::vector<double> clock{time_,
+                              static_cast<double>(steps_),
+                              dt_,
+                              nextOutput_,
+                              interval,
+                              static_cast<double>(written_),
+                              imbalanceBefore_,
+                              imbalanceAfter_,
+                              static_cast<double>(sharedStages_),
+                              static_cast<double>(historyColumns(budget_->lines(state_)).size())};
+    const double columns = clock.back();
+    archive.shared("clock", clock);
+    archive.shared("history", history);
+    if (!archive.loading()) return;
+    if (clock.size() != 10 || clock[9] != columns)
+      throw InputError("the checkpoint was written by another version of Lampblack, with another history");
+    time_ = clock[0];
+    steps_ = static_cast<std::int64_t>(clock[1]);
+    dt_ = clock[2];
+    // Another interval counts from the start.
+    nextOutput_ = clock[4] == interval ? clock[3] : interval * (std::floor(time_ / interval * (1.0 + 1e-12)) + 1.0);
+    written_ = static_cast<std::int64_t>(clock[5]);
+    imbalanceBefore_ = clock[6];
+    imbalanceAfter_ = clock[7];
+    sharedStages_ = static_cast<int>(clock[8]);
+  }
+
+  // What the run had written before: its results and history are whole again.
+  void restore(ResultsWriter& results, HistoryWriter& history) {
+    for (const auto& file : restart_->outputs) results.loadSteps(file);
+    const std::size_t width = history.columnCount();
+    for (std::size_t i = 0; i + width <= earlierRows_.size(); i += width)
+      history.row(std::span<const double>(earlierRows_).subspan(i, width));
+    earlierRows_.clear();
+  }
+
+  // What kept it from being written, or nothing: a run does not end because its checkpoint has no room.
+  std::string writeCheckpoint(FlowCheckpoints& checkpoints, const ResultsWriter& results,
+                              const HistoryWriter& history) {
+    const Timers::Scope scope(timers_, "checkpoints");
+    try {
+      checkpoints.write(steps_, results, [&](StateArchive& archive) {
+        std::vector<double> rows = history.rows();
+        saveOrLoad(archive, rows);
+      });
+    } catch (const SystemError& error) {
+      return fmt::format("no checkpoint at step {}: {}", steps_, error.what());
+    }
+    return "";
+  }
+
+  // Writes a checkpoint, keeps the last state in the results too, and raises Stopped.
+  [[noreturn]] void stop(int signal, const RunFolder& folder, FlowCheckpoints& checkpoints, ResultsWriter& results,
                          HistoryWriter& history) {
+    std::string checkpoint = writeCheckpoint(checkpoints, results, history);
+    if (checkpoint.empty()) checkpoint = fmt::format("--restart goes on from {}", checkpoints.last().string());
     if (written_ != steps_) {
-      history.row(historyValues(observe(dt)));
+      history.row(historyValues(observe()));
       output(results);
     }
     history.writeTo(results);
     results.closePartial();
     const std::string kept = folder.partialResults().string();
-    raiseStopped(comm_, signal,
-                 fmt::format("at t = {:.6g} s, step {}: the fields until then are in {}", time_, steps_, kept));
+    raiseStopped(
+        comm_, signal,
+        fmt::format("at t = {:.6g} s, step {}: the fields until then are in {}; {}", time_, steps_, kept, checkpoint));
   }
 
   void output(ResultsWriter& results) {
@@ -264,7 +352,11 @@ class FlowRun {
   std::vector<Stage> stages_;
   std::unique_ptr<Budget> budget_;
   Timers timers_;
+  std::optional<WholeCheckpoint> restart_;  // what the run goes on from
+  std::vector<double> earlierRows_;         // of the history before that
   double time_ = 0.0;
+  double dt_ = 0.0;  // of the last step
+  double nextOutput_ = 0.0;
   std::int64_t steps_ = 0;
   std::int64_t written_ = -1;  // the last step in the results
   HistoryRow last_;
@@ -299,9 +391,20 @@ class PreparedFlow : public PreparedRun {
   void run(const RunOptions& options) override {
     int rank = 0;
     MPI_Comm_rank(comm_, &rank);
+    std::optional<WholeCheckpoint> restart;
+    if (options.restart) {
+      restart =
+          options.restart->empty() ? newestCheckpoint(comm_, options.folder) : wholeCheckpoint(comm_, *options.restart);
+      run_->load(*restart);
+    }
     recordedRun(comm_, deck_, options, seed_, [&](const RunFolder& folder, const RunInfo& info, RunRecord& record) {
       if (rank == 0)
         for (const std::string& note : notes_) fmt::print("note: {}\n", note);
+      if (restart) {
+        record.restartedFrom = restart->file.string();
+        printWarnings(restart->damaged);
+        if (rank == 0) fmt::print("continues from {}\n", restart->file.string());
+      }
       run_->run(folder, info);
       run_->report(MPI_Wtime() - start_, record);
     });

@@ -83,7 +83,19 @@ void addTimeAndOutput(DeckSchema& schema) {
       .add(integerKey("output.history_steps", "Steps between rows of the history.").byDefault("1").atLeast(1))
       .add(stringKey("output.species", "Species whose mole fractions are written; 'all' writes every one.")
                .list()
-               .byDefault("[all]"));
+               .byDefault("[all]"))
+      .add(integerKey(
+               "checkpoint.steps",
+               "Time steps between two checkpoints, from which `lampblack run --restart` continues a run that was "
+               "interrupted; absent: checkpoints by wall time and on request only.")
+               .optional()
+               .atLeast(1))
+      .add(quantityKey("checkpoint.wall_time", units::time, "Wall time between two checkpoints.")
+               .byDefault("30 min")
+               .above(0))
+      .add(booleanKey("checkpoint.at_end",
+                      "Write a checkpoint at the end of the run too, from which it can be continued to a later end.")
+               .byDefault("false"));
 }
 
 void addParticles(DeckSchema& schema) {

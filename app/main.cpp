@@ -37,6 +37,8 @@ struct Arguments {
   std::vector<std::string> overrides;
   std::string folder;
   bool force = false;
+  std::string restart;    // a checkpoint; empty: the newest
+  bool restarts = false;  // --restart was given
   bool json = false;
 };
 
@@ -50,7 +52,12 @@ void check(const Arguments& arguments) {
 
 void run(const Arguments& arguments) {
   const Deck deck = Deck::load(arguments.deck, arguments.overrides, deckKinds(), PETSC_COMM_WORLD);
-  problemOf(deck).prepare(PETSC_COMM_WORLD, deck)->run({arguments.folder, arguments.force, arguments.overrides});
+  const Problem& problem = problemOf(deck);
+  if (arguments.restarts && !problem.restarts)
+    throw deck.error("problem", "runs of this problem write no checkpoints: there is nothing to restart from");
+  RunOptions options{arguments.folder, arguments.force, arguments.overrides, std::nullopt};
+  if (arguments.restarts) options.restart = arguments.restart;
+  problem.prepare(PETSC_COMM_WORLD, deck)->run(options);
 }
 
 void reference(const Arguments& arguments) {
@@ -115,7 +122,16 @@ int main(int argc, char** argv) {
   runCommand->add_option("--set", arguments.overrides, "Override a key: a.b=c.")->allow_extra_args(false);
   runCommand->add_option("--out", arguments.folder, "Folder for the results.")->default_val("results/run");
   runCommand->add_flag("--force", arguments.force, "Replace an earlier run in that folder.");
-  runCommand->callback([&] { command = [&] { run(arguments); }; });
+  CLI::Option* restart =
+      runCommand
+          ->add_option(
+              "--restart", arguments.restart,
+              "Continue an interrupted run from the newest checkpoint in the folder of --out, or from this one.")
+          ->expected(0, 1);
+  runCommand->callback([&, restart] {
+    arguments.restarts = restart->count() > 0;
+    command = [&] { run(arguments); };
+  });
 
   CLI::App* checkCommand = app.add_subcommand("check", "Read everything a deck names and run nothing.");
   checkCommand->add_option("deck", arguments.deck, "Input deck (YAML).")->required();

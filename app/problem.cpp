@@ -15,7 +15,7 @@ namespace lampblack {
 
 const std::vector<Problem>& problems() {
   static const std::vector<Problem> table{
-      {"flow", "A reacting flow on a mesh, with or without soot.", flowSchema, prepareFlow},
+      {"flow", "A reacting flow on a mesh, with or without soot.", flowSchema, prepareFlow, true},
       {"flame1d", "One-dimensional flames: free, burner-stabilised, against a wall, counterflow; with or without soot.",
        flameSchema, prepareFlame},
       {"reactor",

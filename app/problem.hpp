@@ -20,6 +20,7 @@ struct Problem {
   // Collective. Reads everything the deck names and makes all that is there before the first step; the deck has to live
   // as long. InputError, NumericsError.
   std::unique_ptr<PreparedRun> (*prepare)(MPI_Comm, const Deck&);
+  bool restarts = false;  // whether its runs write checkpoints and can be restarted from them
 };
 
 const std::vector<Problem>& problems();

@@ -10,9 +10,22 @@
 #include "core/long_lines.hpp"
 #include "core/stop_request.hpp"
 #include "core/system_error.hpp"
+#include "io/checkpoint_folder.hpp"
 #include "io/disk_space.hpp"
 
 namespace lampblack {
+
+namespace {
+
+// Whether a run continues in the folder that its checkpoint is from.
+bool goesOnHere(const RunOptions& options) {
+  if (!options.restart) return false;
+  if (options.restart->empty()) return true;
+  std::error_code error;
+  return std::filesystem::equivalent(options.restart->parent_path(), CheckpointFolder(options.folder).path(), error);
+}
+
+}  // namespace
 
 double peakMemory(MPI_Comm comm) {
   rusage usage{};
@@ -26,7 +39,8 @@ void recordedRun(MPI_Comm comm, const Deck& deck, const RunOptions& options, std
   const double start = MPI_Wtime();
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
-  const RunFolder folder = RunFolder::prepare(options.folder, options.force, comm);
+  const RunFolder folder = goesOnHere(options) ? RunFolder::goOn(options.folder, comm)
+                                               : RunFolder::prepare(options.folder, options.force, comm);
 
   RunRecord record;
   record.deckPath = std::filesystem::absolute(deck.path()).string();

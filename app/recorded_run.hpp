@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,8 @@ struct RunOptions {
   std::filesystem::path folder;  // results go here
   bool force = false;            // replace an earlier run in `folder`
   std::vector<std::string> overrides;
+  // Go on from this checkpoint, or where the name is empty from the newest one in `folder`.
+  std::optional<std::filesystem::path> restart = {};
 };
 
 // The part of a run that is its own: computes, writes its results, and completes the record (steps, stages, results).

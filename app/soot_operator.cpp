@@ -89,6 +89,12 @@ void SootOperator::advanceCell(State& state, int cell, double viscosity, double 
   state.temperature[cell] = context_.thermo.temperatureFromEnthalpy(state.enthalpy[cell], {Y, n}, gas.temperature);
 }
 
+void SootOperator::saveOrLoad(StateArchive& archive) {
+  double limited = static_cast<double>(limitedOxidations_);
+  archive.sums("limited_oxidations", {&limited, 1});
+  limitedOxidations_ = static_cast<long>(limited);
+}
+
 void SootOperator::advance(State& state, double time, double dt) {
   const Mesh& m = context_.mesh;
   collectively(m.comm, [&] {

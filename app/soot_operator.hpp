@@ -25,6 +25,7 @@ class SootOperator : public Operator {
   SootOperator(const FlowContext& context, SootModelOptions options);
 
   void advance(State& state, double time, double dt) override;
+  void saveOrLoad(StateArchive& archive) override;
   [[nodiscard]] const char* name() const override { return "particles"; }
 
   [[nodiscard]] const TwoEquationSoot& model() const { return model_; }

@@ -199,6 +199,26 @@ Mesh::Mesh(MPI_Comm communicator, MeshSpec meshSpec, const std::vector<double>& 
   linkCellsToFaces(*this);
 }
 
+std::int64_t Mesh::totalFaces() const {
+  const auto n0 = static_cast<std::int64_t>(cellsAlong[0]);
+  const auto n1 = static_cast<std::int64_t>(cellsAlong[1]);
+  return (n0 + 1) * n1 + n0 * (n1 + 1);
+}
+
+std::vector<std::int64_t> Mesh::naturalFaces() const {
+  const auto n0 = static_cast<std::int64_t>(cellsAlong[0]);
+  const auto n1 = static_cast<std::int64_t>(cellsAlong[1]);
+  std::vector<std::int64_t> numbers;
+  for (std::size_t face = 0; face < static_cast<std::size_t>(faces); ++face) {
+    const std::int64_t cell = naturalCell[static_cast<std::size_t>(low[face])];
+    const std::int64_t beyond = normalSign[face] > 0.0 ? 1 : 0;  // whether the face is at the cell's upper side
+    const std::int64_t i = cell % n0;
+    const std::int64_t j = cell / n0;
+    numbers.push_back(normalAxis[face] == 0 ? i + beyond + j * (n0 + 1) : (n0 + 1) * n1 + i + (j + beyond) * n0);
+  }
+  return numbers;
+}
+
 int Mesh::findOwned(std::int64_t natural) const {
   // Owned cells are ordered by natural index.
   const auto end = naturalCell.begin() + owned;

@@ -81,6 +81,10 @@ class Mesh {
   [[nodiscard]] const std::string& patchName(int face) const {
     return spec.patches[static_cast<std::size_t>(patch[static_cast<std::size_t>(face - interiorFaces)])].name;
   }
+  // Rank-independent numbers of the local faces, 0 to totalFaces() - 1: those normal to axis 0 row by row, then those
+  // normal to axis 1. A face between two ranks is local to both.
+  [[nodiscard]] std::vector<std::int64_t> naturalFaces() const;
+  [[nodiscard]] std::int64_t totalFaces() const;
   // Local index of a natural cell among the owned ones, or -1.
   [[nodiscard]] int findOwned(std::int64_t natural) const;
 };

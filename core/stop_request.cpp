@@ -8,6 +8,7 @@ namespace lampblack {
 namespace {
 
 volatile std::sig_atomic_t requested = 0;
+volatile std::sig_atomic_t checkpointAsked = 0;
 
 void note(int signal) {
   if (requested != 0) {  // asked twice: what a signal does to others
@@ -24,6 +25,16 @@ void watchForSignals() {
   std::signal(SIGTERM, note);
   std::signal(SIGINT, note);
   std::signal(SIGXFSZ, SIG_IGN);
+}
+
+void watchForCheckpointSignal() {
+  std::signal(SIGUSR1, [](int) { checkpointAsked = 1; });
+}
+
+bool takeCheckpointSignal() {
+  const bool asked = checkpointAsked != 0;
+  checkpointAsked = 0;
+  return asked;
 }
 
 int stopRequest() {

@@ -28,6 +28,12 @@ int stopRequest();
 // Collective: the signal that asked any rank to stop, or 0. From then on stopRequest() gives it on all of them.
 int agreedStopRequest(MPI_Comm comm);
 
+// From here on SIGUSR1 asks a run for a checkpoint; before, it ends the process as it does others.
+void watchForCheckpointSignal();
+
+// Whether this rank was asked for a checkpoint since the last call.
+bool takeCheckpointSignal();
+
 // "SIGTERM".
 std::string signalName(int signal);
 

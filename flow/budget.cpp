@@ -54,6 +54,12 @@ std::vector<double> Budget::contents(const State& state) const {
   return contents;
 }
 
+void Budget::saveOrLoad(StateArchive& archive) {
+  archive.shared("budget_start", start_);
+  archive.sums("budget_inflow", inflow_);
+  archive.sums("budget_outflow", outflow_);
+}
+
 void Budget::addStep(const TransportOperator::BoundaryAmounts& amounts) {
   for (std::size_t i = 0; i < quantities_.size(); ++i) {
     const ConservedQuantity& q = quantities_[i];

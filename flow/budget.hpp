@@ -37,6 +37,8 @@ class Budget {
 
   Budget(const FlowContext& context, std::vector<ConservedQuantity> quantities, const State& start);  // collective
 
+  void saveOrLoad(StateArchive& archive);  // collective
+
   void addStep(const TransportOperator::BoundaryAmounts& amounts);  // local
   [[nodiscard]] std::vector<Line> lines(const State& state) const;  // collective
 

@@ -24,6 +24,8 @@ class Momentum {
   Projection::Result advance(State& state, const GasProperties& properties, std::span<const double> newDensity,
                              std::span<const double> divergence, double dt, std::span<double> faceVelocity);
 
+  void saveOrLoad(StateArchive& archive) { projection_.saveOrLoad(archive); }
+
  private:
   void boundaryVelocities(const State& state);
   void outletPressures(const State& state);

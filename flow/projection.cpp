@@ -38,13 +38,17 @@ Projection::Projection(const FlowContext& context, double tolerance) : context_(
   checkPetsc(KSPSetFromOptions(solver_.get()));
 }
 
-void Projection::assemble(double dt, std::span<const double> inverseDensity) {
+void Projection::conductances(double dt, std::span<const double> inverseDensity) {
   const Mesh& m = context_.mesh;
   conductance_.resize(m.faces);
   for (int face = 0; face < m.faces; ++face) {
     const bool open = m.high[face] >= 0 || context_.boundaryOf(face).kind == BoundaryKind::Outlet;
     conductance_[face] = open ? dt * inverseDensity[face] * m.area[face] / m.distance[face] : 0.0;
   }
+}
+
+void Projection::assemble() {
+  const Mesh& m = context_.mesh;
   checkPetsc(MatZeroEntries(matrix_.get()));
   for (int face = 0; face < m.faces; ++face) {
     const double g = conductance_[face];
@@ -67,11 +71,27 @@ void Projection::assemble(double dt, std::span<const double> inverseDensity) {
   checkPetsc(MatAssemblyEnd(matrix_.get(), MAT_FINAL_ASSEMBLY));
 }
 
+void Projection::saveOrLoad(StateArchive& archive) {
+  double iterations = iterationsAfterSetup_;
+  archive.shared("pressure_iterations_after_setup", iterations);
+  setupConductance_.resize(static_cast<std::size_t>(context_.mesh.faces));
+  archive.faces("pressure_preconditioner", setupConductance_, 1);
+  if (!archive.loading()) return;
+  iterationsAfterSetup_ = static_cast<int>(iterations);
+  if (iterationsAfterSetup_ < 0) return;  // the next solve makes a new one
+  conductance_ = setupConductance_;
+  assemble();
+  checkPetsc(KSPSetOperators(solver_.get(), matrix_.get(), matrix_.get()));
+  checkPetsc(KSPSetReusePreconditioner(solver_.get(), PETSC_FALSE));
+  checkPetsc(KSPSetUp(solver_.get()));
+}
+
 Projection::Result Projection::solve(double dt, std::span<const double> inverseDensity,
                                      std::span<const double> divergence, std::span<const double> boundaryPressure,
                                      std::span<double> faceVelocity, std::span<double> pressure) {
   const Mesh& m = context_.mesh;
-  assemble(dt, inverseDensity);
+  conductances(dt, inverseDensity);
+  assemble();
 
   // Net outflow of the uncorrected velocities beyond the wanted one; the pressure has to take it away.
   std::vector<double> excess(m.owned);
@@ -99,6 +119,7 @@ Projection::Result Projection::solve(double dt, std::span<const double> inverseD
   // The tolerance is absolute: a fraction of the largest face flow, so that continuity holds alike in every step.
   checkPetsc(KSPSetTolerances(solver_.get(), 1e-14, tolerance_ * std::max(flowScale, 1e-300), PETSC_DEFAULT, 500));
   checkPetsc(KSPSetOperators(solver_.get(), matrix_.get(), matrix_.get()));
+  if (iterationsAfterSetup_ < 0) setupConductance_ = conductance_;
   checkPetsc(KSPSetReusePreconditioner(solver_.get(), iterationsAfterSetup_ >= 0 ? PETSC_TRUE : PETSC_FALSE));
   checkPetsc(KSPSolve(solver_.get(), rightSide_.get(), solution_.get()));
   KSPConvergedReason reason = KSP_CONVERGED_ITERATING;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/petsc.hpp"
+#include "core/state_archive.hpp"
 #include "flow/flow_context.hpp"
 
 namespace lampblack {
@@ -28,13 +29,18 @@ class Projection {
   Result solve(double dt, std::span<const double> inverseDensity, std::span<const double> divergence,
                std::span<const double> boundaryPressure, std::span<double> faceVelocity, std::span<double> pressure);
 
+  // The preconditioner is kept as the conductances of the matrix it was made from, and made from them again.
+  void saveOrLoad(StateArchive& archive);
+
  private:
-  void assemble(double dt, std::span<const double> inverseDensity);
+  void conductances(double dt, std::span<const double> inverseDensity);
+  void assemble();
 
   const FlowContext& context_;
   double tolerance_;
   std::vector<PetscInt> row_;  // global matrix row of every local cell
   std::vector<double> conductance_;
+  std::vector<double> setupConductance_;  // when the preconditioner was set up
   PetscMatrix matrix_;
   PetscVector rightSide_, solution_;
   PetscSolver solver_;

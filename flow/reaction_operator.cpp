@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "core/errors.hpp"
 
@@ -114,6 +115,20 @@ void ReactionOperator::advance(State& state, double time, double dt) {
 void ReactionOperator::endStep(State& state) {
   if (!options_.deferred) return;
   before_.assign(state.Y.begin(), state.Y.begin() + static_cast<std::ptrdiff_t>(cost_.size()) * state.species);
+}
+
+// The mass fractions of the last step's end are the state's: endStep() takes them from there after loading.
+void ReactionOperator::saveOrLoad(StateArchive& archive) {
+  archive.cells("chemistry_cost", cost_, 1);
+  archive.cells("chemistry_first_step", initialStep_, 1);
+  std::array<double, 4> counted{diagnostics_.solverSteps, diagnostics_.integratedCells, diagnostics_.skippedCells,
+                                diagnostics_.retries};
+  archive.sums("chemistry_counts", counted);
+  std::vector<double> stages{diagnostics_.imbalanceBefore, diagnostics_.imbalanceAfter,
+                             static_cast<double>(diagnostics_.stages)};
+  archive.shared("chemistry_stages", stages);
+  diagnostics_ = {
+      counted[0], counted[1], counted[2], counted[3], stages.at(0), stages.at(1), static_cast<int>(stages.at(2))};
 }
 
 ReactionOperator::Diagnostics ReactionOperator::takeDiagnostics() {

@@ -42,6 +42,7 @@ class ReactionOperator : public Operator {
 
   void advance(State& state, double time, double dt) override;
   void endStep(State& state) override;
+  void saveOrLoad(StateArchive& archive) override;
   [[nodiscard]] const char* name() const override { return "chemistry"; }
   Diagnostics takeDiagnostics();  // collective
 

@@ -29,4 +29,19 @@ void State::updateHalo(HaloExchange& halo) {
   halo.update(fields);
 }
 
+void State::saveOrLoad(StateArchive& archive) {
+  archive.cells("velocity", velocity, 2);
+  archive.cells("pressure", pressure, 1);
+  archive.cells("temperature", temperature, 1);
+  archive.cells("density", density, 1);
+  archive.cells("enthalpy", enthalpy, 1);
+  archive.cells("Y", Y, species);
+  archive.cells("balance", balance, species);
+  if (!scalars.empty()) {
+    archive.cells("carried", carried, carriedCount());
+    archive.cells("carried_diffusivity", carriedDiffusivity, carriedCount());
+  }
+  archive.faces("mass_flux", massFlux, 1);
+}
+
 }  // namespace lampblack

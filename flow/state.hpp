@@ -7,6 +7,7 @@
 
 #include "core/halo_exchange.hpp"
 #include "core/mesh.hpp"
+#include "core/state_archive.hpp"
 
 namespace lampblack {
 
@@ -46,6 +47,9 @@ struct State {
 
   // Fills the halo of everything a neighbour needs.
   void updateHalo(HaloExchange& halo);
+
+  // Everything above but the pressure p0, which is the deck's. The halo of a loaded state has to be updated.
+  void saveOrLoad(StateArchive& archive);
 };
 
 // Advances the state by one physical process; the driver strings them together.
@@ -55,6 +59,9 @@ class Operator {
   virtual void advance(State& state, double time, double dt) = 0;  // collective
   // Called once when all operators have advanced by a whole step.
   virtual void endStep(State&) {}
+  // What the operator keeps from step to step besides the state: with both, the next step is the same to the last bit.
+  // Between two steps. Collective.
+  virtual void saveOrLoad(StateArchive&) {}
   [[nodiscard]] virtual const char* name() const = 0;
 };
 

@@ -216,6 +216,17 @@ void TransportOperator::recordBoundary(const State& state, double dt) {
   }
 }
 
+void TransportOperator::saveOrLoad(StateArchive& archive) {
+  // What others look at between two steps; the rest of the properties is evaluated where a step begins.
+  archive.cells("viscosity", properties_.viscosity, 1);
+  std::vector<double> seen{diagnostics_.continuityError, diagnostics_.pressureDrift,
+                           static_cast<double>(diagnostics_.pressureIterations),
+                           static_cast<double>(diagnostics_.speciesIterations)};
+  archive.shared("transport_diagnostics", seen);
+  diagnostics_ = {seen.at(0), seen.at(1), static_cast<int>(seen.at(2)), static_cast<int>(seen.at(3))};
+  momentum_.saveOrLoad(archive);
+}
+
 void TransportOperator::advance(State& state, double, double dt) {
   const Mesh& m = context_.mesh;
   // A temperature out of range on one rank must stop all of them.

@@ -48,6 +48,7 @@ class TransportOperator : public Operator {
   TransportOperator(const FlowContext& context, const State& state) : TransportOperator(context, state, Options{}) {}
 
   void advance(State& state, double time, double dt) override;
+  void saveOrLoad(StateArchive& archive) override;
   [[nodiscard]] const char* name() const override { return "transport"; }
 
   [[nodiscard]] const Diagnostics& diagnostics() const { return diagnostics_; }

@@ -109,4 +109,22 @@ std::vector<std::int64_t> BlockExchange::toBlock(std::span<const std::int64_t> v
   return exchange(values, width, MPI_INT64_T);
 }
 
+std::vector<double> BlockExchange::fromBlock(std::span<const double> block, int width) const {
+  const auto w = static_cast<std::size_t>(width);
+  std::vector<double> sent(positions_.size() * w);
+  for (std::size_t i = 0; i < positions_.size(); ++i) {
+    const auto position = static_cast<std::size_t>(positions_[i]);
+    for (std::size_t c = 0; c < w; ++c) sent[i * w + c] = block[position * w + c];
+  }
+  const std::vector<int> sendCounts = scaled(receiveCounts_, width);
+  const std::vector<int> receiveCounts = scaled(sendCounts_, width);
+  std::vector<double> received(order_.size() * w);
+  MPI_Alltoallv(sent.data(), sendCounts.data(), displacements(sendCounts).data(), MPI_DOUBLE, received.data(),
+                receiveCounts.data(), displacements(receiveCounts).data(), MPI_DOUBLE, comm_);
+  std::vector<double> values(received.size());
+  for (std::size_t i = 0; i < order_.size(); ++i)
+    for (std::size_t c = 0; c < w; ++c) values[order_[i] * w + c] = received[i * w + c];
+  return values;
+}
+
 }  // namespace lampblack

@@ -29,6 +29,8 @@ class BlockExchange {
   // rank's value is kept. Collective.
   [[nodiscard]] std::vector<double> toBlock(std::span<const double> values, int width) const;
   [[nodiscard]] std::vector<std::int64_t> toBlock(std::span<const std::int64_t> values, int width) const;
+  // The way back: what this rank's block holds goes to all that gave its numbers. Collective.
+  [[nodiscard]] std::vector<double> fromBlock(std::span<const double> block, int width) const;
 
  private:
   template <typename T>

@@ -140,6 +140,27 @@ void ParallelFile::write(const std::string& path, const std::vector<std::int64_t
   writeAny(path, dims, firstRow, rows, data, H5T_STD_I64LE, H5T_NATIVE_INT64);
 }
 
+std::vector<double> ParallelFile::read(const std::string& path, std::int64_t firstRow, std::int64_t rows,
+                                       std::int64_t width) const {
+  const std::string what = fmt::format("read {} of {}", path, name_);
+  const Handle dataset(H5Dopen2(file_, path.c_str(), H5P_DEFAULT), H5Dclose, what);
+  const Handle space(H5Dget_space(dataset), H5Sclose, what);
+  const auto size = static_cast<hsize_t>(rows * width);
+  const Handle memory(H5Screate_simple(1, &size, nullptr), H5Sclose, what);
+  std::vector<double> values(static_cast<std::size_t>(size));
+  if (size == 0) {
+    check(H5Sselect_none(space), what);
+    check(H5Sselect_none(memory), what);
+  } else {
+    const hsize_t start[2] = {static_cast<hsize_t>(firstRow), 0};
+    const hsize_t count[2] = {static_cast<hsize_t>(rows), static_cast<hsize_t>(width)};
+    check(H5Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, count, nullptr), what);
+  }
+  double nothing = 0.0;
+  check(H5Dread(dataset, H5T_NATIVE_DOUBLE, memory, space, transfer_, size > 0 ? values.data() : &nothing), what);
+  return values;
+}
+
 void ParallelFile::write(const std::string& path, const std::vector<std::string>& texts) {
   std::size_t size = 1;
   for (const std::string& text : texts) size = std::max(size, text.size());

@@ -29,6 +29,10 @@ class ParallelFile {
   void write(const std::string& path, const std::vector<std::int64_t>& dims, std::int64_t firstRow, std::int64_t rows,
              const std::int64_t* data);
 
+  // Rows of a dataset of this file: those that this rank asks for.
+  [[nodiscard]] std::vector<double> read(const std::string& path, std::int64_t firstRow, std::int64_t rows,
+                                         std::int64_t width) const;
+
   // A list of texts, the same on all ranks, stored with the length of the longest.
   void write(const std::string& path, const std::vector<std::string>& texts);
 

@@ -116,6 +116,26 @@ std::vector<double> Hdf5Reader::numbers(const std::string& path, const std::vect
   return numbers(path);
 }
 
+std::vector<double> Hdf5Reader::rows(const std::string& path, std::int64_t first, std::int64_t count) const {
+  const Handle dataset = open(path);
+  const Handle space = taken(H5Dget_space(dataset), H5Sclose, name_, path);
+  const auto whole = extents(space);
+  need(!whole.empty() && first >= 0 && count >= 0 && first + count <= whole[0], name_, path + " has too few rows");
+  if (count == 0) return {};
+  std::vector<hsize_t> start(whole.size(), 0);
+  std::vector<hsize_t> block(whole.begin(), whole.end());
+  start[0] = static_cast<hsize_t>(first);
+  block[0] = static_cast<hsize_t>(count);
+  hsize_t size = 1;
+  for (const hsize_t extent : block) size *= extent;
+  const Handle memory = taken(H5Screate_simple(1, &size, nullptr), H5Sclose, name_, path);
+  std::vector<double> values(size);
+  if (H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr) < 0 ||
+      H5Dread(dataset, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()) < 0)
+    throw InputError(fmt::format("{}: {} cannot be read: {}", name_, path, hdf5::lastError()));
+  return values;
+}
+
 std::vector<std::string> Hdf5Reader::texts(const std::string& path) const {
   const Handle dataset = open(path);
   const Handle type = taken(H5Dget_type(dataset), H5Tclose, name_, path);

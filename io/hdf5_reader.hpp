@@ -28,6 +28,8 @@ class Hdf5Reader {
   [[nodiscard]] std::vector<double> numbers(const std::string& path) const;
   // The same, which have to have this shape.
   [[nodiscard]] std::vector<double> numbers(const std::string& path, const std::vector<std::int64_t>& shape) const;
+  // The rows [first, first + count) of the first dimension.
+  [[nodiscard]] std::vector<double> rows(const std::string& path, std::int64_t first, std::int64_t count) const;
   [[nodiscard]] std::vector<std::string> texts(const std::string& path) const;
   [[nodiscard]] std::string textAttribute(const std::string& path, const std::string& name) const;
   [[nodiscard]] double numberAttribute(const std::string& path, const std::string& name) const;

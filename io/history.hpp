@@ -24,6 +24,10 @@ class HistoryWriter {
   // with the last whole row.
   void row(std::span<const double> values);
 
+  // The rows so far, row-major, on rank 0.
+  [[nodiscard]] const std::vector<double>& rows() const { return rows_; }
+  [[nodiscard]] std::size_t columnCount() const { return columns_.size(); }
+
   // Collective: the same rows as a table of the results file.
   void writeTo(ResultsWriter& results, const std::string& path = "/history") const;
 

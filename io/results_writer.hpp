@@ -70,6 +70,15 @@ class ResultsWriter {
   // Ends the step: everything so far is on disk and in the XDMF file.
   void endStep();
 
+  // How many steps there are.
+  [[nodiscard]] std::size_t stepCount() const;
+  // Copies the steps from the one of index `first` on to a sealed file (sealed_file.hpp). SystemError on a full disk:
+  // nothing is left of it then.
+  void saveSteps(const std::filesystem::path& path, std::size_t first) const;
+  // Writes the steps of such a file, found whole by sealProblem(), those beyond the last step there is. InputError
+  // where they are of another mesh.
+  void loadSteps(const std::filesystem::path& path);
+
   // A table as a group of one-dimensional datasets, one for each column. Rows are rank 0's, row-major.
   void table(const std::string& path, const std::vector<TableColumn>& columns, std::span<const double> rows);
 

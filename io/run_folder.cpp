@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "io/checkpoint_folder.hpp"
 #include "io/disk_space.hpp"
 
 namespace lampblack {
@@ -44,8 +45,10 @@ void removeFailedCells(const fs::path& folder) {
   }
 }
 
+enum class Earlier { refused, replaced, continued };
+
 // Throws on rank 0 only.
-std::shared_ptr<FolderLock> prepareHere(const fs::path& path, bool force) {
+std::shared_ptr<FolderLock> prepareHere(const fs::path& path, Earlier earlier) {
   std::error_code error;
   if (fs::exists(path, error) && !fs::is_directory(path, error)) {
     throw InputError(
@@ -55,7 +58,8 @@ std::shared_ptr<FolderLock> prepareHere(const fs::path& path, bool force) {
   if (fs::exists(path, error)) lock = std::make_shared<FolderLock>(path);
   bool used = false;
   for (const char* name : runFiles) used = used || fs::exists(path / name, error);
-  if (used && !force) {
+  used = used || !CheckpointFolder(path).checkpoints().empty();
+  if (used && earlier == Earlier::refused) {
     throw InputError(
         fmt::format("{}: this folder holds {} already. Choose another with --out DIR, or replace that run with --force",
                     path.string(), stateOf(path)));
@@ -67,6 +71,7 @@ std::shared_ptr<FolderLock> prepareHere(const fs::path& path, bool force) {
     }
   }
   removeFailedCells(path);
+  if (earlier != Earlier::continued) CheckpointFolder(path).removeAllBut({});
   fs::create_directories(path, error);
   if (error == std::errc::no_space_on_device) refuseWrite(path, error.value());
   if (error) throw InputError(fmt::format("{}: the folder cannot be made: {}", path.string(), error.message()));
@@ -82,16 +87,24 @@ std::shared_ptr<FolderLock> prepareHere(const fs::path& path, bool force) {
   return lock;
 }
 
-}  // namespace
-
-RunFolder RunFolder::prepare(const fs::path& path, bool force, MPI_Comm comm) {
+std::shared_ptr<FolderLock> prepareTogether(const fs::path& path, Earlier earlier, MPI_Comm comm) {
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
   std::shared_ptr<FolderLock> lock;
   collectively(comm, [&] {
-    if (rank == 0) lock = prepareHere(path, force);
+    if (rank == 0) lock = prepareHere(path, earlier);
   });
-  return {path, std::move(lock)};
+  return lock;
+}
+
+}  // namespace
+
+RunFolder RunFolder::prepare(const fs::path& path, bool force, MPI_Comm comm) {
+  return {path, prepareTogether(path, force ? Earlier::replaced : Earlier::refused, comm)};
+}
+
+RunFolder RunFolder::goOn(const fs::path& path, MPI_Comm comm) {
+  return {path, prepareTogether(path, Earlier::continued, comm)};
 }
 
 void writeFileAtomically(const fs::path& path, const std::string& content) {

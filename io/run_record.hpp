@@ -20,6 +20,7 @@ struct RunRecord {
   std::string deckPath;                // absolute
   std::string deckJson;                // Deck::resolvedJson()
   std::vector<std::string> overrides;  // --set
+  std::string restartedFrom;           // the checkpoint that the run went on from; may be empty
   std::string version;                 // Lampblack's
   std::string gitHash;
   std::map<std::string, std::string> libraries;  // "PETSc": "3.18.5"

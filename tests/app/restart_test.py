@@ -1,0 +1,259 @@
+"""A flow that was interrupted and restarted against one that was not: the same results and history, to the last bit on the same
+number of ranks, to the solvers' tolerance on another. And restarts that must be refused.
+
+Usage: restart_test.py EXECUTABLE RANKS MPIEXEC...
+"""
+
+import csv
+import os
+import pathlib
+import random
+import re
+import resource
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+import running
+
+h5py = running.package("h5py")
+numpy = running.package("numpy")
+
+SETTINGS = ("time.end=40 us", "time.maximum_step=2 us", "output.interval=7 us")
+MIDDLE = 14  # of some 27 steps
+WALL_TIMES = ("imbalance_before", "imbalance_after")  # ratios of them: no two runs have the same
+
+
+def rows(out):
+    """The history: all columns that depend on no clock."""
+    with open(out / "history.csv", newline="", encoding="utf-8") as file:
+        return [{key: value for key, value in row.items() if not key.startswith(WALL_TIMES)} for row in csv.DictReader(file)]
+
+
+def datasets(path):
+    found = {}
+    with h5py.File(path, "r") as file:
+        file.visititems(lambda name, item: found.update({name: item[()]}) if isinstance(item, h5py.Dataset) else None)
+    return {name: values for name, values in found.items() if not name.endswith(WALL_TIMES)}
+
+
+def assert_equal(out, reference, but=()):
+    """The same to the last bit: results, history, and the description of the results."""
+    found, expected = datasets(out / "results.h5"), datasets(reference / "results.h5")
+    assert found.keys() == expected.keys(), found.keys() ^ expected.keys()
+    different = [name for name in expected if name not in but and found[name].tobytes() != expected[name].tobytes()]
+    assert not different, f"{out.name} differs from {reference.name} in {different}"
+    assert rows(out) == rows(reference), f"{out.name} has another history than {reference.name}"
+    assert (out / "results.xdmf").read_text("utf-8") == (reference / "results.xdmf").read_text("utf-8")
+
+
+def largest_difference(out, reference):
+    """Of the last fields, relative to the largest value of each."""
+    found, expected = datasets(out / "results.h5"), datasets(reference / "results.h5")
+    assert found.keys() == expected.keys(), found.keys() ^ expected.keys()
+    last = max(name for name in expected if name.startswith("steps/")).rsplit("/", 1)[0]
+    worst = ("", 0.0)
+    for name in expected:
+        scale = abs(expected[name]).max() if name.startswith(last) else 0
+        # Traces below the stiff solver's absolute tolerance, and pressure, which is 1e-8 of that of the gas, are noise.
+        if scale > 1e-9 and not name.endswith("/pressure"):
+            worst = max(worst, (name, abs(found[name] - expected[name]).max() / scale), key=lambda pair: pair[1])
+    return worst
+
+
+def run(program, *arguments):
+    result = program("run", *arguments)
+    assert result.code == 0, f"{arguments}: {result.err}"
+    return result
+
+
+def check_middle(program, folder, deck, coupling):
+    """N steps against N/2, a restart, N/2."""
+    options = running.settings(*SETTINGS, f"checkpoint.steps={MIDDLE}", f"chemistry.coupling={coupling}")
+    whole = folder / f"whole_{coupling}"
+    run(program, deck, *options, "--out", whole)
+    assert [file.name for file in sorted((whole / "checkpoint").glob("step_*"))] == [f"step_{MIDDLE:06}.h5"]
+    rest = folder / f"rest_{coupling}"
+    run(program, deck, *options, "--out", rest, "--restart", whole / f"checkpoint/step_{MIDDLE:06}.h5")
+    assert_equal(rest, whole)
+    return whole
+
+
+def check_other_ranks(executable, mpiexec, folder, deck, whole, ranks, others):
+    for number in others:
+        out = folder / f"from_{ranks}_on_{number}"
+        run(running.Program(executable, mpiexec, number), deck, *running.settings(*SETTINGS), "--out", out, "--restart",
+            whole / f"checkpoint/step_{MIDDLE:06}.h5")
+        name, difference = largest_difference(out, whole)
+        print(f"from {ranks} to {number} ranks: {difference:.1e} in {name}")
+        assert difference < 1e-5, (name, difference)
+        # What came in and left is summed over the ranks.
+        for column, value in rows(out)[-1].items():
+            if "flow" in column or "content" in column:
+                assert abs(float(value) - float(rows(whole)[-1][column])) <= 1e-6 * abs(float(value)), column
+
+
+def wait_for(ready, process, what):
+    for _ in range(3000):
+        if ready():
+            return
+        assert process.poll() is None, f"the run ended before {what}: {process.communicate()}"
+        time.sleep(0.01)
+    process.kill()
+    raise AssertionError(f"no {what} in half a minute")
+
+
+def start(program, *arguments):
+    return subprocess.Popen([*program.command, "run", *map(str, arguments)], env=running.environment(), text=True,
+                            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+
+
+def checkpoints(out):
+    return sorted(file.name for file in (out / "checkpoint").glob("step_*.h5"))
+
+
+def steps_in(out):
+    history = out / "history.csv"
+    return history.read_bytes().count(b"\n") - 1 if history.is_file() else 0
+
+
+def check_requests(program, folder, deck):
+    """Checkpoints by signal and by file, a stop, and going on from there: against a run that was left alone."""
+    options = running.settings("time.end=0.2 ms", "time.maximum_step=1 us", "output.interval=0.07 ms")
+    whole, out = folder / "alone", folder / "asked"
+    run(program, deck, *options, "--out", whole)
+    process = start(program, deck, *options, "--out", out)
+    wait_for(lambda: steps_in(out) > 10, process, "step")
+    # One rank is enough.
+    children = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text(encoding="utf-8").split()
+    rank = int(children[-1]) if program.ranks > 1 else process.pid
+    os.kill(rank, signal.SIGUSR1)
+    wait_for(lambda: len(checkpoints(out)) == 1, process, "checkpoint after SIGUSR1")
+    (out / "checkpoint-now").touch()
+    wait_for(lambda: not (out / "checkpoint-now").exists() and len(checkpoints(out)) == 2, process, "second checkpoint")
+    first = checkpoints(out)
+    os.kill(rank, signal.SIGTERM)
+    _, told = process.communicate(timeout=60)
+    assert process.returncode == 128 + signal.SIGTERM and len(told.splitlines()) == 1, told
+    assert f"--restart goes on from {out}/checkpoint/{checkpoints(out)[-1]}" in told, told
+    assert len(checkpoints(out)) == 2 and checkpoints(out)[0] == first[1], "the last two are kept"
+    assert run(program, deck, *options, "--out", out, "--restart").out.count("continues from") == 1
+    assert_equal(out, whole)
+
+
+def check_later_end(program, folder, deck, whole):
+    """A run that has ended goes on to a later end, with another interval of outputs."""
+    out = folder / "later"
+    result = run(program, deck, *running.settings(*SETTINGS, "checkpoint.at_end=true"), "--out", out)
+    assert_equal(out, whole)
+    before = rows(out)
+    result = run(program, deck, *running.settings("time.end=44 us", "output.interval=3 us"), "--out", out, "--restart")
+    assert "continues from" in result.out
+    assert rows(out)[: len(before)] == before and abs(float(rows(out)[-1]["time [s]"]) - 44e-6) < 1e-15
+    with h5py.File(out / "results.h5", "r") as file:
+        times = sorted(step.attrs["time"] for step in file["steps"].values())
+    assert len(times) == 9 and abs(numpy.array(times[-3:]) - [40e-6, 42e-6, 44e-6]).max() < 1e-12, times
+
+
+def refusal(program, before, folder, words, *arguments):
+    result = program("run", *arguments)
+    assert result.code == 2 and result.err.count("lampblack: ") == 1 and result.err.startswith("lampblack: "), (words, result)
+    for word in words:
+        assert word in result.err, (word, result.err)
+    assert running.snapshot(folder) == before, f"{words}: something was written"
+
+
+def check_wrong(program, folder, deck, whole):
+    """One message, exit code 2, and nothing written."""
+    base = running.settings(*SETTINGS)
+    mechanism = folder / "mechanisms" / running.MECHANISM
+    text = mechanism.read_text(encoding="utf-8")
+    constant = re.search(r"A: ([0-9.e+]+)", text)
+    mechanism.with_name("other.yaml").write_text(text[: constant.start()] + "A: 1.5" + text[constant.end():], encoding="utf-8")
+    before = running.snapshot(folder)
+    others = {"mesh": ["mesh.refinement=2"], "boundaries": ["boundaries.oxidiser_flange.type=symmetry"], "pressure": ["pressure=2 atm"],
+              "mechanism": ["mechanism=../mechanisms/other.yaml"],
+              "coupling": ["chemistry.coupling=strang"], "particle model": ["soot.model=none"]}
+    for name, values in others.items():
+        wrong = [*base, *running.settings(*values)]
+        refusal(program, before, folder, [f"of another {name} (its own: "], deck, *wrong, "--out", whole, "--restart")
+    refusal(program, before, folder, ["there is no checkpoint in this folder"], deck, *base, "--out", folder / "none", "--restart")
+    refusal(program, before, folder, ["is missing"], deck, *base, "--out", whole, "--restart", folder / "none.h5")
+    refusal(program, before, folder, ["write no checkpoints"], running.SOURCE / "cases/reactor_ignition_hydrogen/deck.yaml",
+            "--out", whole, "--restart")
+    file = whole / f"checkpoint/step_{MIDDLE:06}.h5"
+    refusal(program, before, folder, ["already", "--force"], deck, *base, "--out", folder / "rest_deferred", "--restart", file)
+    outputs = next((whole / "checkpoint").glob("outputs_*.h5"))
+    for victim in (file, outputs):
+        check_damage(program, folder, deck, base, whole, victim)
+
+
+def check_damage(program, folder, deck, base, whole, victim):
+    """One bit, or the end of the file; anywhere."""
+    chance = random.Random(3)
+    good = victim.read_bytes()
+    places = [0, len(good) // 2, len(good) - 1, len(good) - 50] + [chance.randrange(len(good)) for _ in range(4)]
+    bad = [good[:place] + bytes([good[place] ^ 1 << chance.randrange(8)]) + good[place + 1:] for place in places]
+    bad += [good[:length] for length in (0, 10, len(good) // 2, len(good) - 1)]
+    for content in bad:
+        victim.write_bytes(content)
+        refusal(program, running.snapshot(folder), folder, [victim.name, "and there is no other checkpoint"], deck, *base,
+                "--out", whole, "--restart")
+    victim.write_bytes(good)
+
+
+def check_one_before(program, folder, deck, whole):
+    """Where the newest is damaged the one before it is taken, and the run says so."""
+    out = folder / "two"
+    options = running.settings(*SETTINGS, f"checkpoint.steps={MIDDLE // 2}")
+    run(program, deck, *options, "--out", out)
+    older, newest = sorted((out / "checkpoint").glob("step_*.h5"))
+    newest.write_bytes(newest.read_bytes()[:-1])
+    result = run(program, deck, *options, "--out", out, "--restart")
+    assert result.err.count("warning") == 1 and newest.name in result.err and older.name in result.out, result
+    assert_equal(out, whole)
+
+
+def check_full_disk(program, folder, deck):
+    """A checkpoint for which there is no room is told, the former stays, and the run goes on. A limit on the size of files is
+    treated as a full disk; the results are small enough for it."""
+    out = folder / "full"
+    options = running.settings(*SETTINGS, "output.interval=1 s", "output.species=[O2]", "mesh.refinement=4", "soot.model=none")
+    run(program, deck, *options, *running.settings("time.end=2 us", "checkpoint.at_end=true"), "--out", out)
+    (former,) = (out / "checkpoint").glob("step_*.h5")
+    before = former.read_bytes()
+    limit = len(before) - 1
+    with tempfile.TemporaryDirectory() as session:
+        done = subprocess.run([*program.command, "run", str(deck), *options, *running.settings("checkpoint.steps=3", "time.end=8 us"), "--out",
+                               str(out), "--restart"], env=running.environment(session), stdin=subprocess.DEVNULL,
+                              capture_output=True, text=True, check=False,
+                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
+    assert done.returncode == 0 and "no checkpoint at step" in done.stderr and "disk full: " in done.stderr, done
+    assert former.read_bytes() == before and checkpoints(out) == [former.name], checkpoints(out)
+    assert not [file.name for file in out.rglob("*") if file.name.endswith(".part")]
+    assert abs(float(rows(out)[-1]["time [s]"]) - 8e-6) < 1e-15
+
+
+def main(executable, ranks, *mpiexec):
+    program = running.Program(executable, list(mpiexec), int(ranks))
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        deck = running.small_case(folder)
+        whole = check_middle(program, folder, deck, "deferred")
+        check_middle(program, folder, deck, "strang")
+        check_requests(program, folder, deck)
+        if program.ranks == 1:
+            check_other_ranks(executable, list(mpiexec), folder, deck, whole, 1, [3])
+            check_later_end(program, folder, deck, whole)
+            check_wrong(program, folder, deck, whole)
+            check_one_before(program, folder, deck, whole)
+            check_full_disk(program, folder, deck)
+        else:
+            check_other_ranks(executable, list(mpiexec), folder, deck, whole, 2, [1])
+    print("restarts: all in order")
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
