@@ -53,7 +53,7 @@ cat >program <<'PROGRAM'
 #!/usr/bin/env bash
 [ "${OMPI_COMM_WORLD_RANK:-0}" = 0 ] || exit 0
 out="$4" force=no
-for word in "$@"; do [ "$word" != --force ] || force=yes; done
+for word in "$@"; do [[ "$word" != --force && "$word" != --restart ]] || force=yes; done
 if [ -e "$out/run.json" ] && [ $force = no ]; then echo "$out: this folder holds a finished run already" >&2; exit 2; fi
 mkdir -p "$out" && touch "$out/results.h5"
 printf '{\n  "status": "done",\n  "ranks": 2,\n  "wall_time_s": 7.5,\n  "peak_memory_per_rank_bytes": 104857600\n}\n' >"$out/run.json"
@@ -68,6 +68,7 @@ check "run does the same run once" 0 "holds a finished run of this deck already"
 check "run takes another folder for other settings" 0 "flame-2 --set a.b=1" "${run[@]}" cases/flame --set a.b=1
 check "run finds that folder again" 0 "flame-2 holds a finished run" "${run[@]}" cases/flame --set a.b=1
 check "run computes again with --force" 0 "results/flame --force" "${run[@]}" cases/flame --force
+check "run goes on in the same folder with --restart" 0 "results/flame --restart" "${run[@]}" cases/flame --restart
 check "run passes on the refusal of a folder that was asked for" 2 "this folder holds a finished run already" \
   "${run[@]}" cases/flame --set a.b=2 --out results/flame
 check "run on more ranks than processors" 0 "they will take turns" "${run[@]}" cases/flame --ranks $(($(env -u OMP_NUM_THREADS -u OMP_THREAD_LIMIT nproc) + 1)) --out many
