@@ -216,6 +216,8 @@ def check_one_before(program, folder, deck, whole):
     options = running.settings(*SETTINGS, f"checkpoint.steps={MIDDLE // 2}")
     run(program, deck, *options, "--out", out)
     older, newest = sorted((out / "checkpoint").glob("step_*.h5"))
+    saved = [step for file in (out / "checkpoint").glob("outputs_*.h5") for step in h5py.File(file)["steps"]]
+    assert len(saved) == len(set(saved)) > 2, f"each output is saved once: {saved}"
     newest.write_bytes(newest.read_bytes()[:-1])
     result = run(program, deck, *options, "--out", out, "--restart")
     assert result.err.count("warning") == 1 and newest.name in result.err and older.name in result.out, result
