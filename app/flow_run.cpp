@@ -276,8 +276,10 @@ class FlowRun {
     archive.shared("clock", clock);
     archive.shared("history", history);
     if (!archive.loading()) return;
-    if (clock.size() != 10 || clock[9] != columns)
-      throw InputError("the checkpoint was written by another version of Lampblack, with another history");
+    collectively(comm_, [&] {
+      if (clock.size() != 10 || clock[9] != columns)
+        throw InputError("the checkpoint was written by another version of Lampblack, with another history");
+    });
     time_ = clock[0];
     steps_ = static_cast<std::int64_t>(clock[1]);
     dt_ = clock[2];

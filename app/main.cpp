@@ -53,8 +53,10 @@ void check(const Arguments& arguments) {
 void run(const Arguments& arguments) {
   const Deck deck = Deck::load(arguments.deck, arguments.overrides, deckKinds(), PETSC_COMM_WORLD);
   const Problem& problem = problemOf(deck);
-  if (arguments.restarts && !problem.restarts)
-    throw deck.error("problem", "runs of this problem write no checkpoints: there is nothing to restart from");
+  collectively(PETSC_COMM_WORLD, [&] {
+    if (arguments.restarts && !problem.restarts)
+      throw deck.error("problem", "runs of this problem write no checkpoints: there is nothing to restart from");
+  });
   RunOptions options{arguments.folder, arguments.force, arguments.overrides, std::nullopt};
   if (arguments.restarts) options.restart = arguments.restart;
   problem.prepare(PETSC_COMM_WORLD, deck)->run(options);

@@ -105,8 +105,8 @@ CheckpointReader::CheckpointReader(MPI_Comm comm, const std::filesystem::path& p
   MPI_Comm_rank(comm, &rank_);
   MPI_Comm_size(comm, &ranks_);
   const std::string problem = sealProblem(comm, path);
-  if (!problem.empty()) throw InputError(fmt::format("{}: this file {}", path.string(), problem));
   collectively(comm, [&] {
+    if (!problem.empty()) throw InputError(fmt::format("{}: this file {}", path.string(), problem));
     file_ = std::make_unique<Hdf5Reader>(path);
     if (!file_->hasAttribute("/", "file_type") || file_->textAttribute("/", "file_type") != fileType)
       throw InputError(fmt::format("{}: this is no checkpoint of Lampblack", path.string()));

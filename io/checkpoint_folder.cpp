@@ -105,7 +105,9 @@ std::vector<fs::path> CheckpointFolder::checkpoints() const {
 WholeCheckpoint wholeCheckpoint(MPI_Comm comm, const fs::path& file) {
   WholeCheckpoint found{file, {}, {}};
   const std::string problem = problemOf(comm, file, found.outputs);
-  if (!problem.empty()) throw InputError(problem);
+  collectively(comm, [&] {
+    if (!problem.empty()) throw InputError(problem);
+  });
   return found;
 }
 
@@ -120,12 +122,15 @@ WholeCheckpoint newestCheckpoint(MPI_Comm comm, const fs::path& runFolder) {
     }
     found.damaged.push_back(problem);
   }
-  if (found.damaged.empty())
-    throw InputError(
-        fmt::format("{}: there is no checkpoint in this folder to restart from. Name the folder of the "
-                    "interrupted run with --out, or a checkpoint with --restart FILE",
-                    folder.path().string()));
-  throw InputError(fmt::format("{}, and there is no other checkpoint", found.damaged.front()));
+  collectively(comm, [&] {
+    if (found.damaged.empty())
+      throw InputError(fmt::format(
+          "{}: there is no checkpoint in this folder to restart from. Name the folder of the interrupted run with "
+          "--out, or a checkpoint with --restart FILE",
+          folder.path().string()));
+    throw InputError(fmt::format("{}, and there is no other checkpoint", found.damaged.front()));
+  });
+  return found;
 }
 
 }  // namespace lampblack

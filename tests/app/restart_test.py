@@ -171,9 +171,21 @@ def refusal(program, before, folder, words, *arguments):
     assert running.snapshot(folder) == before, f"{words}: something was written"
 
 
+def check_absent(program, folder, deck, base, whole):
+    """Nothing to restart from; one message on any number of ranks."""
+    before = running.snapshot(folder)
+    refusal(program, before, folder, ["there is no checkpoint in this folder"], deck, *base, "--out", folder / "none", "--restart")
+    refusal(program, before, folder, ["is missing"], deck, *base, "--out", whole, "--restart", folder / "none.h5")
+    refusal(program, before, folder, ["of another pressure"], deck, *base, *running.settings("pressure=2 atm"), "--out", whole,
+            "--restart")
+    refusal(program, before, folder, ["write no checkpoints"], running.SOURCE / "cases/reactor_ignition_hydrogen/deck.yaml",
+            "--out", whole, "--restart")
+
+
 def check_wrong(program, folder, deck, whole):
     """One message, exit code 2, and nothing written."""
     base = running.settings(*SETTINGS)
+    check_absent(program, folder, deck, base, whole)
     mechanism = folder / "mechanisms" / running.MECHANISM
     text = mechanism.read_text(encoding="utf-8")
     constant = re.search(r"A: ([0-9.e+]+)", text)
@@ -185,10 +197,6 @@ def check_wrong(program, folder, deck, whole):
     for name, values in others.items():
         wrong = [*base, *running.settings(*values)]
         refusal(program, before, folder, [f"of another {name} (its own: "], deck, *wrong, "--out", whole, "--restart")
-    refusal(program, before, folder, ["there is no checkpoint in this folder"], deck, *base, "--out", folder / "none", "--restart")
-    refusal(program, before, folder, ["is missing"], deck, *base, "--out", whole, "--restart", folder / "none.h5")
-    refusal(program, before, folder, ["write no checkpoints"], running.SOURCE / "cases/reactor_ignition_hydrogen/deck.yaml",
-            "--out", whole, "--restart")
     file = whole / f"checkpoint/step_{MIDDLE:06}.h5"
     refusal(program, before, folder, ["already", "--force"], deck, *base, "--out", folder / "rest_deferred", "--restart", file)
     outputs = next((whole / "checkpoint").glob("outputs_*.h5"))
@@ -260,6 +268,7 @@ def main(executable, ranks, *mpiexec):
             check_full_disk(program, folder, deck)
         else:
             check_other_ranks(executable, list(mpiexec), folder, deck, whole, 2, [1])
+            check_absent(program, folder, deck, running.settings(*SETTINGS), whole)
     print("restarts: all in order")
 
 
