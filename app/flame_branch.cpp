@@ -14,8 +14,8 @@ double strainAt(const FlameBranchResult& result, double load) {
   return result.strain ? load * *result.strain : std::nan("");
 }
 
-const std::vector<TableColumn>& columns() {
-  static const std::vector<TableColumn> table{
+const std::vector<Quantity>& columns() {
+  static const std::vector<Quantity> table{
       {"load", "1", "factor on the strain: of strain rates and of the streams' mass fluxes"},
       {"strain_rate", "1/s", "global strain rate, or that of the potential flow; NaN where there is none"},
       {"maximum_temperature", "K", "largest temperature"},

@@ -260,7 +260,7 @@ const char* nameOf(FlameType type) {
 std::vector<std::string> FlameCase::scalarNames() const {
   std::vector<std::string> names;
   if (soot)
-    for (const CarriedModel::Scalar& scalar : soot->scalars()) names.push_back(scalar.name);
+    for (const CarriedModel::Scalar& scalar : soot->scalars()) names.push_back(scalar.density.name);
   return names;
 }
 
@@ -274,7 +274,7 @@ FlameCase readFlameCase(const Deck& deck) {
   readContinuation(deck, flame);
   readUnsteady(deck, flame);
   if (auto model = readSootModel(deck, *flame.mechanism)) {
-    flame.soot = std::make_unique<FlameSoot>(*flame.mechanism, std::move(model), deck.boolean("soot.diffusion"));
+    flame.soot = std::make_unique<CarriedParticles>(*flame.mechanism, std::move(model), deck.boolean("soot.diffusion"));
     flame.sootAtLimit = deck.number("soot.sectional.overflow");
   }
   if (deck.has("stochastic")) {

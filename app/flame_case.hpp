@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "app/flame_soot.hpp"
 #include "app/stochastic_deck.hpp"
 #include "chemistry/mechanism/mechanism.hpp"
+#include "coupling/carried_particles.hpp"
 #include "flow/flame/flame_continuation.hpp"
 #include "flow/flame/flame_problem.hpp"
 #include "flow/flame/flame_solver.hpp"
@@ -34,7 +34,7 @@ struct FlameCase {
   FlameSolverOptions solver;
   InitialFlameOptions start;
   std::optional<NamedFlameProfile> initial;  // an earlier flame to start from
-  std::unique_ptr<FlameSoot> soot;           // null: none
+  std::unique_ptr<CarriedParticles> soot;    // null: none
   double sootAtLimit = 1;                    // the part of it in the last section that is a failure
   std::optional<StochasticRequest> stochastic;
   std::optional<FlameContinuationOptions> continuation;

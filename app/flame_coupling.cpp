@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "particles/collision_physics.hpp"
 #include "particles/soot/soot_model.hpp"
 
 namespace lampblack {
@@ -17,11 +18,6 @@ double interpolate(const std::vector<double>& z, std::span<const double> f, std:
       static_cast<std::size_t>(std::upper_bound(z.begin(), z.end(), at) - z.begin()), 1, z.size() - 1);
   const double share = (at - z[upper - 1]) / (z[upper] - z[upper - 1]);
   return (1 - share) * f[(upper - 1) * stride + k] + share * f[upper * stride + k];
-}
-
-// Planck mean of small particles, 1/m (thesis 7.2.4).
-double sootAbsorption(double volumeFraction, double T) {
-  return 700 * volumeFraction * T;
 }
 
 class Coupling {
@@ -184,7 +180,7 @@ FlameExchange exchangeOf(const Mechanism& mechanism, const SootModelOptions& soo
     for (std::size_t i = 0; i <= last; ++i) {
       for (std::size_t k = 0; k < z.size(); ++k)
         if (z[k] == profile.z[i])
-          e.absorption[i] += sootAbsorption(path.volumeFraction.mean[k], profile.temperature(i));
+          e.absorption[i] += sootAbsorption(profile.temperature(i), path.volumeFraction.mean[k]);
     }
   }
   return e;
@@ -204,7 +200,7 @@ FlameCoupling coupleFlame(MPI_Comm comm, const Mechanism& mechanism, double pres
     const FlameProfile& profile = result.solution.profile;
     FlameSootGas gas;
     collectively(comm, [&] {
-      gas = flameSootGas(profile, mechanism, pressure, options.ensemble.soot.soot, sootThermophoresis());
+      gas = flameSootGas(profile, mechanism, pressure, options.ensemble.soot.soot, waldmannThermophoresis());
     });
     result.paths = runFlameEnsemble(comm, gas, options.ensemble);
     const FlameExchange population = coupling.ofPopulation(profile, result.paths);

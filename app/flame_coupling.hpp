@@ -20,7 +20,7 @@
 
 #include "app/flame_ensemble.hpp"
 #include "chemistry/mechanism/mechanism.hpp"
-#include "flow/flame/carried_model.hpp"
+#include "flow/carried_model.hpp"
 #include "flow/flame/flame_solver.hpp"
 #include "flow/flame/given_exchange.hpp"
 

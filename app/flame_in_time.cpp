@@ -42,13 +42,13 @@ std::vector<double> historyRow(const FlameCase& flame, double time, const FlameP
 
 }  // namespace
 
-std::vector<TableColumn> flameHistoryColumns(const FlameCase& flame) {
-  std::vector<TableColumn> columns{{"time", "s", "time"},
-                                   {"load", "1", "factor on the strain"},
-                                   {"maximum_temperature", "K", "largest temperature"},
-                                   {"position_of_maximum_temperature", "m", "its place"},
-                                   {"heat_release", "W/m^2", "heat release, integrated over z"},
-                                   {"stagnation_plane", "m", "where the velocity changes sign; NaN where nowhere"}};
+std::vector<Quantity> flameHistoryColumns(const FlameCase& flame) {
+  std::vector<Quantity> columns{{"time", "s", "time"},
+                                {"load", "1", "factor on the strain"},
+                                {"maximum_temperature", "K", "largest temperature"},
+                                {"position_of_maximum_temperature", "m", "its place"},
+                                {"heat_release", "W/m^2", "heat release, integrated over z"},
+                                {"stagnation_plane", "m", "where the velocity changes sign; NaN where nowhere"}};
   if (flame.soot)
     for (const auto& [name, unit] : {std::pair{"maximum_volume_fraction", "1"},
                                      {"position_of_maximum_volume_fraction", "m"},

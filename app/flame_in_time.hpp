@@ -25,7 +25,7 @@ struct FlameInTime {
 FlameInTime flameInTime(MPI_Comm comm, FlameCase& flame, FlameProfile& start, HistoryWriter& history);
 
 // Columns of the history.
-std::vector<TableColumn> flameHistoryColumns(const FlameCase& flame);
+std::vector<Quantity> flameHistoryColumns(const FlameCase& flame);
 
 // Collective: /unsteady.
 void writeFlameInTime(ResultsWriter& results, const FlameCase& flame, const FlameInTime& course);

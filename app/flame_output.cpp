@@ -74,14 +74,14 @@ void writeFields(ResultsWriter& results, const FlameCase& flame, const FlameFiel
 }
 
 void writeStages(ResultsWriter& results, const FlameSolution& solution) {
-  const std::vector<TableColumn> columns{{"points", "1", "points of the grid"},
-                                         {"newton_steps", "1", "Newton steps"},
-                                         {"time_steps", "1", "pseudo-transient steps"},
-                                         {"factorisations", "1", "Newton matrices built and factorised"},
-                                         {"residuals", "1", "evaluations of the equations by the solver"},
-                                         {"step_size", "1", "scaled size of the last Newton step"},
-                                         {"worst_residual", "1", "scaled Newton correction at its worst unknown"},
-                                         {"seconds", "s", "wall time"}};
+  const std::vector<Quantity> columns{{"points", "1", "points of the grid"},
+                                      {"newton_steps", "1", "Newton steps"},
+                                      {"time_steps", "1", "pseudo-transient steps"},
+                                      {"factorisations", "1", "Newton matrices built and factorised"},
+                                      {"residuals", "1", "evaluations of the equations by the solver"},
+                                      {"step_size", "1", "scaled size of the last Newton step"},
+                                      {"worst_residual", "1", "scaled Newton correction at its worst unknown"},
+                                      {"seconds", "s", "wall time"}};
   std::vector<double> rows;
   std::vector<std::string> names, worst;
   for (const FlameStage& stage : solution.stages) {
@@ -98,7 +98,7 @@ void writeStages(ResultsWriter& results, const FlameSolution& solution) {
 }
 
 void writeBudgets(ResultsWriter& results, const FlameSolution& solution) {
-  const std::vector<TableColumn> columns{
+  const std::vector<Quantity> columns{
       {"in", "kg/m^2/s", "with the streams; of energy W/m^2"},
       {"out", "kg/m^2/s", "at the ends and sideways, by spreading; of energy W/m^2"},
       {"wall", "kg/m^2/s", "deposited on burner or wall; of energy conducted into it, W/m^2"},

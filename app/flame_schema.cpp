@@ -2,6 +2,7 @@
 
 #include "app/flame_case.hpp"
 #include "app/gas_input.hpp"
+#include "app/soot_deck.hpp"
 #include "app/temperature_input.hpp"
 
 namespace lampblack {

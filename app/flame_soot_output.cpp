@@ -9,36 +9,24 @@
 namespace lampblack {
 namespace {
 
-template <typename Values>
-struct Column {
+struct ProcessName {
   const char *name, *unit, *description;
-  double Values::*value;
+  double ParticleProcesses::*value;
 };
 
-constexpr std::array<Column<SootProperties>, 8> propertyColumns{{
-    {"volume_fraction", "1", "soot volume per volume of gas", &SootProperties::volumeFraction},
-    {"number_density", "1/m^3", "aggregates", &SootProperties::numberDensity},
-    {"mean_diameter", "m", "of the sphere of mean volume", &SootProperties::meanDiameter},
-    {"surface_area", "m^2/m^3", "surface of all particles", &SootProperties::surfaceArea},
-    {"primary_diameter", "m", "of primary particles", &SootProperties::primaryDiameter},
-    {"primaries_per_aggregate", "1", "primary particles in an aggregate", &SootProperties::primariesPerAggregate},
-    {"mobility_diameter", "m", "mean mobility diameter", &SootProperties::mobilityDiameter},
-    {"gyration_diameter", "m", "mean diameter of gyration", &SootProperties::gyrationDiameter},
-}};
-
-constexpr std::array<Column<SootProcesses>, 12> processColumns{{
-    {"nucleation_number", "1/m^3/s", "new particles", &SootProcesses::nucleationNumber},
-    {"coagulation_number", "1/m^3/s", "particles lost by coagulation, negative", &SootProcesses::coagulationNumber},
-    {"oxidation_number", "1/m^3/s", "particles lost by oxidation, negative", &SootProcesses::oxidationNumber},
-    {"fragmentation_number", "1/m^3/s", "particles from fragmentation", &SootProcesses::fragmentationNumber},
-    {"nucleation", "kg/m^3/s", "soot mass from nucleation", &SootProcesses::nucleation},
-    {"condensation", "kg/m^3/s", "soot mass from condensation", &SootProcesses::condensation},
-    {"growth", "kg/m^3/s", "soot mass from surface growth", &SootProcesses::growth},
-    {"oxidation_O2", "kg/m^3/s", "soot mass lost by oxidation by O2, negative", &SootProcesses::oxidationO2},
-    {"oxidation_OH", "kg/m^3/s", "soot mass lost by oxidation by OH, negative", &SootProcesses::oxidationOH},
-    {"carbonisation", "kg/m^3/s", "soot mass lost by carbonisation, negative", &SootProcesses::carbonisation},
-    {"dimer_number", "1/m^3", "dimers", &SootProcesses::dimerNumber},
-    {"dimer_production", "1/m^3/s", "dimers formed", &SootProcesses::dimerProduction},
+constexpr std::array<ProcessName, 12> processNames{{
+    {"nucleation_number", "1/m^3/s", "new particles", &ParticleProcesses::nucleationNumber},
+    {"coagulation_number", "1/m^3/s", "particles lost by coagulation, negative", &ParticleProcesses::coagulationNumber},
+    {"oxidation_number", "1/m^3/s", "particles lost by oxidation, negative", &ParticleProcesses::oxidationNumber},
+    {"fragmentation_number", "1/m^3/s", "particles from fragmentation", &ParticleProcesses::fragmentationNumber},
+    {"nucleation", "kg/m^3/s", "soot mass from nucleation", &ParticleProcesses::nucleation},
+    {"condensation", "kg/m^3/s", "soot mass from condensation", &ParticleProcesses::condensation},
+    {"growth", "kg/m^3/s", "soot mass from surface growth", &ParticleProcesses::growth},
+    {"oxidation_O2", "kg/m^3/s", "soot mass lost by oxidation by O2, negative", &ParticleProcesses::oxidationO2},
+    {"oxidation_OH", "kg/m^3/s", "soot mass lost by oxidation by OH, negative", &ParticleProcesses::oxidationOH},
+    {"carbonisation", "kg/m^3/s", "soot mass lost by carbonisation, negative", &ParticleProcesses::carbonisation},
+    {"dimer_number", "1/m^3", "dimers", &ParticleProcesses::dimerNumber},
+    {"dimer_production", "1/m^3/s", "dimers formed", &ParticleProcesses::dimerProduction},
 }};
 
 template <typename Columns>
@@ -57,12 +45,12 @@ const FlameSootFields::Field& FlameSootFields::property(const std::string& name)
   throw std::logic_error("soot has no property " + name);
 }
 
-FlameSootFields flameSootFields(const Mechanism& mechanism, double pressure, const FlameSoot& soot,
+FlameSootFields flameSootFields(const Mechanism& mechanism, double pressure, const CarriedParticles& soot,
                                 const FlameProfile& profile, const FlameFields& gas) {
   FlameSootFields fields;
-  fields.properties = emptyFields(propertyColumns);
-  fields.processes = emptyFields(processColumns);
-  for (const SootScalar& scalar : soot.model().scalars())
+  fields.properties = emptyFields(particlePropertyNames);
+  fields.processes = emptyFields(processNames);
+  for (const ParticleScalar& scalar : soot.model().scalars())
     fields.scalars.push_back({scalar.name, scalar.unit, scalar.description, {}});
   const auto& exchanged = soot.exchanged();
   std::vector<double> concentrations(exchanged.size()), densities(fields.scalars.size());
@@ -77,15 +65,15 @@ FlameSootFields flameSootFields(const Mechanism& mechanism, double pressure, con
     }
     const ParticleGas at{{gas.temperature[i], pressure, gas.density[i], gas.viscosity[i], gas.meanMolecularWeight[i]},
                          concentrations};
-    const SootProperties properties = soot.model().properties(at, densities);
-    for (std::size_t c = 0; c < propertyColumns.size(); ++c)
-      fields.properties[c].values.push_back(properties.*propertyColumns[c].value);
-    const SootProcesses processes = soot.model().processes(at, densities);
-    for (std::size_t c = 0; c < processColumns.size(); ++c)
-      fields.processes[c].values.push_back(processes.*processColumns[c].value);
+    const ParticleProperties properties = soot.model().properties(at, densities);
+    for (std::size_t c = 0; c < particlePropertyNames.size(); ++c)
+      fields.properties[c].values.push_back(properties.*particlePropertyNames[c].value);
+    const ParticleProcesses processes = soot.model().processes(at, densities);
+    for (std::size_t c = 0; c < processNames.size(); ++c)
+      fields.processes[c].values.push_back(processes.*processNames[c].value);
     most = std::max(most, properties.volumeFraction);
     mostAtLimit = std::max(mostAtLimit, soot.model().volumeFractionAtLimit(densities));
-    const SootSizeDistribution sizes = soot.model().sizeDistribution(densities);
+    const SizeDistribution sizes = soot.model().sizeDistribution(densities);
     if (i == 0) fields.diameter = sizes.diameter;
     fields.sizeDistribution.insert(fields.sizeDistribution.end(), sizes.density.begin(), sizes.density.end());
   }

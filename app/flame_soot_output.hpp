@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/flame_soot.hpp"
+#include "coupling/carried_particles.hpp"
 #include "flow/flame/flame_fields.hpp"
 #include "io/results_writer.hpp"
 
@@ -27,14 +27,14 @@ struct FlameSootFields {
   std::vector<Field> scalars, properties, processes;
   // dN/dlog10(d), point-major, at the diameters; both empty where the model has none.
   std::vector<double> diameter, sizeDistribution;
-  // Largest volume fraction in particles that cannot grow any more (SootModel::volumeFractionAtLimit), over the largest
-  // of all.
+  // Largest volume fraction in particles that cannot grow any more (ParticleModel::volumeFractionAtLimit), over the
+  // largest of all.
   double partAtLimit = 0;
 
   [[nodiscard]] const Field& property(const std::string& name) const;
 };
 
-[[nodiscard]] FlameSootFields flameSootFields(const Mechanism& mechanism, double pressure, const FlameSoot& soot,
+[[nodiscard]] FlameSootFields flameSootFields(const Mechanism& mechanism, double pressure, const CarriedParticles& soot,
                                               const FlameProfile& profile, const FlameFields& gas);
 
 [[nodiscard]] std::vector<NamedNumber> namedSootNumbers(const FlameFields& gas, const FlameSootFields& soot);

@@ -7,7 +7,7 @@
 
 #include "app/flame_ensemble_output.hpp"
 #include "core/errors.hpp"
-#include "particles/soot/soot_model.hpp"
+#include "particles/collision_physics.hpp"
 
 namespace lampblack {
 namespace {
@@ -37,7 +37,7 @@ StochasticFlame runStochasticFlame(MPI_Comm comm, const Mechanism& mechanism, do
   if (!request.twoWay) {
     FlameSootGas gas;
     collectively(comm, [&] {
-      gas = flameSootGas(solution.profile, mechanism, pressure, ensemble.soot.soot, sootThermophoresis());
+      gas = flameSootGas(solution.profile, mechanism, pressure, ensemble.soot.soot, waldmannThermophoresis());
     });
     result.paths = runFlameEnsemble(comm, gas, ensemble);
     return result;

@@ -11,6 +11,7 @@
 #include "app/temperature_input.hpp"
 #include "core/errors.hpp"
 #include "core/grading.hpp"
+#include "coupling/carried_particles.hpp"
 
 namespace lampblack {
 
@@ -92,30 +93,15 @@ void readOutput(const Deck& deck, FlowCase& flowCase) {
 }
 
 void readSoot(const Deck& deck, FlowCase& flowCase) {
-  if (!deck.has("soot")) return;
-  if (deck.choice("soot.model") == "none") {
-    if (deck.has("trajectories"))
+  auto model = readSootModel(deck, *flowCase.mechanism);
+  if (!model) {
+    if (deck.has("soot") && deck.has("trajectories"))
       flowCase.notes.push_back("soot.model is none: the trajectories of the deck are left out");
     return;
   }
-  const Mechanism& mechanism = *flowCase.mechanism;
-  SootModelOptions options;
-  options.sootDensity = deck.quantity("soot.density");
-  options.alpha = deck.optionalNumber("soot.alpha");
-  options.ohEfficiency = deck.number("soot.oh_efficiency");
-  options.vanDerWaals = deck.number("soot.van_der_waals");
-  try {
-    const std::size_t carbon = mechanism.elementIndex("C");
-    const std::size_t hydrogen = mechanism.elementIndex("H");
-    options.carbonWeight = mechanism.atomicWeight(carbon);
-    options.hydrogenWeight = mechanism.atomicWeight(hydrogen);
-    for (const char* name : {"H", "H2", "OH", "H2O", "O2", "C2H2", "CO"})
-      static_cast<void>(mechanism.speciesIndex(name));
-  } catch (const InputError& error) {
-    throw deck.error("soot.pah", error.what());
-  }
-  options.pah = readPahSpecies(deck, mechanism);
-  flowCase.soot = options;
+  flowCase.carried =
+      std::make_shared<CarriedParticles>(*flowCase.mechanism, std::move(model), deck.boolean("soot.diffusion"));
+  flowCase.carriedOptions = {flowCase.chemistry.shareWork, deck.number("soot.sectional.overflow"), tooFewSections};
 }
 
 void readTransport(const Deck& deck, FlowCase& flowCase) {
@@ -145,9 +131,14 @@ const std::string* outletAt(const FlowCase& flowCase, const std::array<double, 2
 void readTrajectories(const Deck& deck, FlowCase& flowCase) {
   if (!deck.has("trajectories")) return;
   if (deck.has("soot") && deck.choice("soot.model") == "none") return;
-  if (!flowCase.soot)
+  if (!flowCase.carried)
     throw deck.error("trajectories", "trajectories need a 'soot' section: it names the particle model");
   TrajectoryRequest options;
+  options.soot = readSootModelOptions(deck, *flowCase.mechanism);
+  for (const std::string& species : sootSpecies(options.soot))
+    if (!flowCase.mechanism->findSpecies(species))
+      throw deck.error("trajectories",
+                       fmt::format("ensembles need the species '{}', which the mechanism lacks", species));
   options.duration = deck.quantity("trajectories.duration");
   options.timeStep = deck.quantity("trajectories.time_step");
   options.particles = deck.integer<int>("trajectories.particles");
@@ -182,7 +173,8 @@ FlowCase readFlowCase(const Deck& deck) {
   readBoundaries(deck, flowCase);
   readInitial(deck, flowCase);
   flowCase.time = {deck.quantity("time.end"), deck.quantity("time.first_step"), deck.quantity("time.maximum_step"),
-                   deck.number("time.courant"), deck.number("time.growth")};
+                   deck.number("time.growth")};
+  flowCase.flow.courant = deck.number("time.courant");
   if (flowCase.time.firstStep > flowCase.time.maximumStep)
     throw deck.error("time.first_step", "expected no more than 'maximum_step'");
   flowCase.chemistry.deferred = deck.choice("chemistry.coupling") == "deferred";

@@ -10,8 +10,11 @@
 #include "chemistry/transport/transport.hpp"
 #include "core/mesh.hpp"
 #include "flow/boundary.hpp"
+#include "flow/carried_model.hpp"
+#include "flow/carried_operator.hpp"
 #include "flow/mixing_layer.hpp"
 #include "flow/reaction_operator.hpp"
+#include "flow/transport_operator.hpp"
 #include "io/deck.hpp"
 #include "particles/soot_gas.hpp"
 
@@ -21,8 +24,7 @@ struct TimeControl {
   double end = 0.0;          // s
   double firstStep = 1e-6;   // s
   double maximumStep = 1.0;  // s
-  double courant = 0.5;
-  double growth = 1.2;  // of the step from one to the next, at most
+  double growth = 1.2;       // of the step from one to the next, at most
 };
 
 struct OutputControl {
@@ -49,6 +51,7 @@ struct TrajectoryRequest {
   int particles = 0;                     // capacity of each ensemble
   int bins = 0;                          // of the size distribution
   double smallest = 0.0, largest = 0.0;  // m, diameter range of the bins
+  SootModelOptions soot;
 };
 
 struct FlowCase {
@@ -64,7 +67,9 @@ struct FlowCase {
   CheckpointControl checkpoint;
   TransportOptions transport;
   ReactionOperator::Options chemistry;
-  std::optional<SootModelOptions> soot;
+  TransportOperator::Options flow;
+  std::shared_ptr<CarriedModel> carried;  // null: nothing
+  CarriedOperator::Options carriedOptions;
   std::optional<TrajectoryRequest> trajectories;
   std::vector<std::string> notes;  // what the user should be told before the run
 };

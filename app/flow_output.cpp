@@ -34,9 +34,8 @@ MeshOutput meshOutput(const Mesh& mesh) {
 }
 
 void writeFields(ResultsWriter& results, const FlowContext& context, const FlowCase& flowCase, const State& state,
-                 const GasProperties& properties, const SootOperator* soot, std::int64_t step, double time) {
-  const Mesh& m = context.mesh;
-  const auto owned = static_cast<std::size_t>(m.owned);
+                 const std::vector<Operator*>& operators, std::int64_t step, double time) {
+  const auto owned = static_cast<std::size_t>(context.mesh.owned);
   const auto n = static_cast<std::size_t>(state.species);
   const auto part = [owned](const std::vector<double>& field, std::size_t components) {
     return std::span<const double>{field.data(), owned * components};
@@ -46,9 +45,7 @@ void writeFields(ResultsWriter& results, const FlowContext& context, const FlowC
   results.cellField("density", "kg/m^3", 1, part(state.density, 1), "gas density");
   results.cellField("velocity", "m/s", 2, part(state.velocity, 2), "gas velocity along the mesh's axes");
   results.cellField("pressure", "Pa", 1, part(state.pressure, 1), "hydrodynamic pressure");
-  results.cellField("viscosity", "Pa s", 1, part(properties.viscosity, 1), "dynamic viscosity");
   std::vector<double> column(owned);
-  std::vector<double> X(n);
   std::vector<double> all(owned * n);
   for (std::size_t c = 0; c < owned; ++c) context.thermo.massToMole({&state.Y[c * n], n}, {&all[c * n], n});
   for (std::size_t k : flowCase.output.species) {
@@ -56,45 +53,22 @@ void writeFields(ResultsWriter& results, const FlowContext& context, const FlowC
     const std::string& name = context.mechanism.speciesName(k);
     results.cellField("X_" + name, "1", 1, column, "mole fraction of " + name);
   }
-  const auto scalars = static_cast<std::size_t>(state.carriedCount());
-  for (std::size_t s = 0; s < scalars; ++s) {
-    for (std::size_t c = 0; c < owned; ++c) column[c] = state.carried[c * scalars + s];
-    results.cellField(state.scalars[s].name, state.scalars[s].unit, 1, column, state.scalars[s].description);
-  }
-  if (soot != nullptr) {
-    std::vector<double> diameter(owned);
-    for (std::size_t c = 0; c < owned; ++c) {
-      const auto population = soot->populationOf(state, static_cast<int>(c));
-      column[c] = soot->model().volumeFraction(population);
-      diameter[c] = soot->model().meanDiameter(population);
-    }
-    results.cellField("soot_volume_fraction", "1", 1, column, "soot volume per volume");
-    results.cellField("soot_mean_diameter", "m", 1, diameter, "diameter of the sphere of mean volume");
-  }
+  for (const Operator* op : operators)
+    op->fields(state, [&](const Quantity& field, std::span<const double> values) {
+      results.cellField(field.name, field.unit, 1, values, field.description);
+    });
   results.endStep();
 }
 
-std::vector<TableColumn> historyColumns(const std::vector<Budget::Line>& budget) {
-  std::vector<TableColumn> columns{
-      {"step", "1", "number of the step"},
-      {"time", "s", "simulated time"},
-      {"dt", "s", "time step"},
-      {"maximum_temperature", "K", "largest gas temperature"},
-      {"minimum_mass_fraction", "1", "most negative mass fraction; nothing is clipped"},
-      {"mass_fraction_sum_error", "1", "largest |sum of mass fractions - 1|"},
-      {"pressure_drift", "1", "largest |p_eos - p0| / p0 after the last transport step"},
-      {"continuity_error", "1/s", "largest error of the projected velocity's divergence"},
-      {"pressure_iterations", "1", "of the pressure solve"},
-      {"species_iterations", "1", "of the implicit species diffusion"},
-      {"stiff_solver_steps", "1", "internal steps of the stiff solver over all cells since the last row"},
-      {"reacting_cells", "1", "cells integrated since the last row, over all stages"},
-      {"skipped_cells", "1", "cells skipped for negligible rates since the last row, over all stages"},
-      {"stiff_solver_retries", "1", "repeated stiff solves since the last row"},
-      {"imbalance_before", "1", "busiest rank's chemistry cost over the mean, as partitioned"},
-      {"imbalance_after", "1", "the same as measured, with work sharing"},
-      {"peak_soot_volume_fraction", "1", "largest soot volume fraction"},
-      {"limited_oxidations", "1",
-       "sub-steps since the start in which soot oxidation was limited by the oxidiser left"}};
+std::vector<Quantity> historyColumns(const std::vector<Operator*>& operators, const std::vector<Budget::Line>& budget) {
+  std::vector<Quantity> columns{{"step", "1", "number of the step"},
+                                {"time", "s", "simulated time"},
+                                {"dt", "s", "time step"},
+                                {"maximum_temperature", "K", "largest gas temperature"},
+                                {"minimum_mass_fraction", "1", "most negative mass fraction; nothing is clipped"},
+                                {"mass_fraction_sum_error", "1", "largest |sum of mass fractions - 1|"}};
+  for (const Operator* op : operators)
+    for (Quantity& column : op->historyColumns()) columns.push_back(std::move(column));
   for (const Budget::Line& line : budget) {
     columns.push_back({line.name + "_content", "kg/rad", line.name + " in the domain (planar: kg/m)"});
     columns.push_back({line.name + "_inflow", "kg/rad", line.name + " that came in since the start"});
@@ -110,19 +84,8 @@ std::vector<double> historyValues(const HistoryRow& row) {
                              row.dt,
                              row.extremes.maximumTemperature,
                              row.extremes.minimumMassFraction,
-                             row.extremes.massFractionSumError,
-                             row.transport.pressureDrift,
-                             row.transport.continuityError,
-                             static_cast<double>(row.transport.pressureIterations),
-                             static_cast<double>(row.transport.speciesIterations),
-                             row.chemistry.solverSteps,
-                             row.chemistry.integratedCells,
-                             row.chemistry.skippedCells,
-                             row.chemistry.retries,
-                             row.chemistry.imbalanceBefore,
-                             row.chemistry.imbalanceAfter,
-                             row.peakVolumeFraction,
-                             row.limitedOxidations};
+                             row.extremes.massFractionSumError};
+  values.insert(values.end(), row.operators.begin(), row.operators.end());
   for (const Budget::Line& line : row.budget)
     for (double value : {line.content, line.inflow, line.outflow, line.error}) values.push_back(value);
   return values;

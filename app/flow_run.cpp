@@ -14,14 +14,14 @@
 #include "app/flow_case.hpp"
 #include "app/flow_checkpoint.hpp"
 #include "app/flow_output.hpp"
-#include "app/soot_operator.hpp"
 #include "app/trajectories.hpp"
 #include "app/warnings.hpp"
 #include "core/errors.hpp"
 #include "core/stop_request.hpp"
 #include "core/system_error.hpp"
 #include "core/timers.hpp"
-#include "flow/time_step.hpp"
+#include "flow/carried_operator.hpp"
+#include "flow/transport_operator.hpp"
 #include "io/progress.hpp"
 #include "io/report.hpp"
 
@@ -40,20 +40,20 @@ class FlowRun {
         transport_(*case_.mechanism, case_.transport),
         context_{mesh_, halo_, *case_.mechanism, thermo_, transport_, case_.boundaries},
         state_(mesh_, case_.mechanism->numSpecies(),
-               case_.soot ? SootOperator::carriedScalars() : std::vector<CarriedScalar>{}),
-        flow_(context_, state_),
+               case_.carried ? CarriedOperator::scalarsOf(*case_.carried) : std::vector<CarriedScalar>{}),
+        flow_(context_, state_, case_.flow),
         chemistry_(context_, keepingFailedCells(case_.chemistry)) {
     state_.thermodynamicPressure = case_.pressure;
-    if (case_.soot) soot_ = std::make_unique<SootOperator>(context_, *case_.soot);
+    if (case_.carried) carried_ = std::make_unique<CarriedOperator>(context_, *case_.carried, 0, case_.carriedOptions);
     collectively(comm_, [&] { setMixingLayer(context_, case_.initial, state_); });
     flow_.initialise(state_, case_.time.firstStep);
     planStep();
     for (Operator* op : operators_) op->endStep(state_);
-    budget_ = std::make_unique<Budget>(
-        context_,
-        massAndElements(*case_.mechanism,
-                        case_.soot ? SootOperator::elementMass(*case_.mechanism) : std::vector<std::vector<double>>{}),
-        state_);
+    std::vector<std::vector<double>> carriedMass;
+    if (case_.carried)
+      for (const CarriedModel::Scalar& scalar : case_.carried->scalars()) carriedMass.push_back(scalar.elements);
+    budget_ = std::make_unique<Budget>(context_, massAndElements(*case_.mechanism, carriedMass), state_);
+    flow_.watchBoundary([this](const TransportOperator::BoundaryAmounts& amounts) { budget_->addStep(amounts); });
     dt_ = case_.time.firstStep;
     nextOutput_ = case_.output.interval;
   }
@@ -72,7 +72,7 @@ class FlowRun {
   void run(const RunFolder& folder, const RunInfo& info) {
     folder_ = folder;
     ResultsWriter results(comm_, folder.results(), info, meshOutput(mesh_));
-    HistoryWriter history(comm_, folder.history(), historyColumns(budget_->lines(state_)));
+    HistoryWriter history(comm_, folder.history(), historyColumns(operators_, budget_->lines(state_)));
     Progress progress(comm_, time_, case_.time.end);
     FlowCheckpoints checkpoints(mesh_, case_.checkpoint, flowFingerprint(case_, state_.scalars), folder.path());
     if (restart_) {
@@ -94,9 +94,7 @@ class FlowRun {
       if (due || steps_ % case_.output.historySteps == 0) {
         const HistoryRow row = observe();
         history.row(historyValues(row));
-        progress.update(
-            steps_, time_, dt_,
-            fmt::format("Tmax {:.0f} K  fv {:.3g} ppm", row.extremes.maximumTemperature, 1e6 * row.peakVolumeFraction));
+        progress.update(steps_, time_, dt_, status(row));
       }
       if (due) {
         output(results);
@@ -114,7 +112,7 @@ class FlowRun {
     if (case_.trajectories) {
       const Timers::Scope scope(timers_, "trajectories");
       try {
-        runTrajectories(context_, case_, state_, flow_.properties(), *soot_, results);
+        runTrajectories(context_, case_, state_, flow_.properties(), results);
       } catch (const NumericsError&) {
         failure = std::current_exception();
       }
@@ -134,8 +132,9 @@ class FlowRun {
     closing.peakMemoryPerRank = peakMemory(comm_);
     for (const auto& stage : timers_.gather(comm_))
       closing.stages.push_back({stage.name, stage.least, stage.mean, stage.most});
-    if (sharedStages_ > 0)
-      closing.imbalances.push_back({"chemistry", imbalanceBefore_ / sharedStages_, imbalanceAfter_ / sharedStages_});
+    for (const Operator* op : operators_)
+      if (const auto imbalance = op->imbalance())
+        closing.imbalances.push_back({op->name(), imbalance->before, imbalance->after});
     record.stages = closing.stages;
     record.peakMemoryPerRank = closing.peakMemoryPerRank;
     record.steps = steps_;
@@ -146,15 +145,12 @@ class FlowRun {
     fmt::print("peak temperature {:.1f} K at {} = ({:.3f}, {:.3f}) mm\n", last_.extremes.maximumTemperature,
                mesh_.axisymmetric() ? "(r, z)" : "(x, y)", 1e3 * peakTemperature_.place[0],
                1e3 * peakTemperature_.place[1]);
-    if (soot_)
-      fmt::print("peak soot volume fraction {:.4g} ppm at ({:.3f}, {:.3f}) mm\n", 1e6 * last_.peakVolumeFraction,
-                 1e3 * peakSoot_.place[0], 1e3 * peakSoot_.place[1]);
+    for (const Operator* op : operators_)
+      for (const std::string& line : op->closingLines()) fmt::print("{}\n", line);
     for (const Budget::Line& line : last_.budget)
       fmt::print("budget of {:<5} closed to {:.2e} of the inflow\n", line.name, line.error);
     fmt::print("sum of mass fractions 1 to {:.1e}; most negative mass fraction {:.1e} (nothing is clipped)\n",
                last_.extremes.massFractionSumError, last_.extremes.minimumMassFraction);
-    if (last_.limitedOxidations > 0)
-      fmt::print("soot oxidation was limited by the oxidiser left in {:.0f} sub-steps\n", last_.limitedOxidations);
   }
 
  private:
@@ -172,14 +168,14 @@ class FlowRun {
   };
   void planStep() {
     operators_ = {&flow_, &chemistry_};
-    if (soot_) operators_.push_back(soot_.get());
+    if (carried_) operators_.push_back(carried_.get());
     if (case_.chemistry.deferred) {
       for (Operator* op : operators_) stages_.push_back({op, 1.0});
       return;
     }
     // Strang splitting around the chemistry, which costs most and so is solved once a step.
-    stages_.push_back({&flow_, 0.5});
-    if (soot_) stages_.push_back({soot_.get(), 0.5});
+    for (Operator* op : operators_)
+      if (op != &chemistry_) stages_.push_back({op, 0.5});
     stages_.push_back({&chemistry_, 1.0});
     for (std::size_t i = stages_.size() - 1; i-- > 0;) stages_.push_back(stages_[i]);
   }
@@ -189,11 +185,9 @@ class FlowRun {
     std::array<double, 2> place{};
   };
 
-  double chooseStep(double previous, double until) const {
-    // In Strang splitting a step has two transport stages of half its length, and the Courant number is theirs.
-    const double stages = case_.chemistry.deferred ? 1.0 : 2.0;
-    double dt = std::min({case_.time.maximumStep, previous * case_.time.growth,
-                          stages * convectiveTimeStep(mesh_, state_, case_.time.courant)});
+  double chooseStep(double previous, double until) {
+    double dt = std::min(case_.time.maximumStep, previous * case_.time.growth);
+    for (Operator* op : operators_) dt = std::min(dt, op->largestStep(state_) / shareOf(op));
     if (steps_ == 0) dt = std::min(dt, case_.time.firstStep);
     // Land on the output without a sliver of a step before it.
     const double left = until - time_;
@@ -201,11 +195,13 @@ class FlowRun {
     return left < 2.0 * dt ? 0.5 * left : dt;
   }
 
+  // Of a step, that one stage of it advances.
+  double shareOf(const Operator* op) const { return std::ranges::find(stages_, op, &Stage::op)->share; }
+
   void step(double dt) {
     for (const Stage& stage : stages_) {
       const Timers::Scope scope(timers_, stage.op->name());
       stage.op->advance(state_, time_, stage.share * dt);
-      if (stage.op == &flow_) budget_->addStep(flow_.boundaryAmounts());
     }
     for (Operator* op : operators_) op->endStep(state_);
     time_ += dt;
@@ -238,22 +234,21 @@ class FlowRun {
     row.time = time_;
     row.dt = dt_;
     row.extremes = extremesOf(context_, state_);
-    row.transport = flow_.diagnostics();
-    row.chemistry = chemistry_.takeDiagnostics();
-    imbalanceBefore_ += row.chemistry.imbalanceBefore * row.chemistry.stages;
-    imbalanceAfter_ += row.chemistry.imbalanceAfter * row.chemistry.stages;
-    sharedStages_ += row.chemistry.stages;
+    for (Operator* op : operators_) {
+      const std::vector<double> values = op->historyValues(state_);
+      row.operators.insert(row.operators.end(), values.begin(), values.end());
+    }
     row.budget = budget_->lines(state_);
     peakTemperature_ = peakOf([&](int c) { return state_.temperature[c]; });
-    if (soot_) {
-      peakSoot_ = peakOf([&](int c) { return soot_->model().volumeFraction(soot_->populationOf(state_, c)); });
-      row.peakVolumeFraction = peakSoot_.value;
-      double limited = static_cast<double>(soot_->limitedOxidations());
-      MPI_Allreduce(MPI_IN_PLACE, &limited, 1, MPI_DOUBLE, MPI_SUM, comm_);
-      row.limitedOxidations = limited;
-    }
     last_ = row;
     return row;
+  }
+
+  [[nodiscard]] std::string status(const HistoryRow& row) const {
+    std::string text = fmt::format("Tmax {:.0f} K", row.extremes.maximumTemperature);
+    for (const Operator* op : operators_)
+      if (const std::string more = op->status(); !more.empty()) text += "  " + more;
+    return text;
   }
 
   // All that the next step, its outputs and the report depend on.
@@ -268,16 +263,13 @@ class FlowRun {
                               nextOutput_,
                               interval,
                               static_cast<double>(written_),
-                              imbalanceBefore_,
-                              imbalanceAfter_,
-                              static_cast<double>(sharedStages_),
-                              static_cast<double>(historyColumns(budget_->lines(state_)).size())};
+                              static_cast<double>(historyColumns(operators_, budget_->lines(state_)).size())};
     const double columns = clock.back();
     archive.shared("clock", clock);
     archive.shared("history", history);
     if (!archive.loading()) return;
     collectively(comm_, [&] {
-      if (clock.size() != 10 || clock[9] != columns)
+      if (clock.size() != 7 || clock[6] != columns)
         throw InputError("the checkpoint was written by another version of Lampblack, with another history");
     });
     time_ = clock[0];
@@ -286,9 +278,6 @@ class FlowRun {
     // Another interval counts from the start.
     nextOutput_ = clock[4] == interval ? clock[3] : interval * (std::floor(time_ / interval * (1.0 + 1e-12)) + 1.0);
     written_ = static_cast<std::int64_t>(clock[5]);
-    imbalanceBefore_ = clock[6];
-    imbalanceAfter_ = clock[7];
-    sharedStages_ = static_cast<int>(clock[8]);
   }
 
   // What the run had written before: its results and history are whole again.
@@ -335,7 +324,7 @@ class FlowRun {
   void output(ResultsWriter& results) {
     const Timers::Scope scope(timers_, "output");
     written_ = steps_;
-    writeFields(results, context_, case_, state_, flow_.properties(), soot_.get(), steps_, time_);
+    writeFields(results, context_, case_, state_, operators_, steps_, time_);
   }
 
   MPI_Comm comm_;
@@ -349,7 +338,7 @@ class FlowRun {
   State state_;
   TransportOperator flow_;
   ReactionOperator chemistry_;
-  std::unique_ptr<SootOperator> soot_;
+  std::unique_ptr<CarriedOperator> carried_;
   std::vector<Operator*> operators_;
   std::vector<Stage> stages_;
   std::unique_ptr<Budget> budget_;
@@ -362,9 +351,7 @@ class FlowRun {
   std::int64_t steps_ = 0;
   std::int64_t written_ = -1;  // the last step in the results
   HistoryRow last_;
-  Peak peakTemperature_, peakSoot_;
-  double imbalanceBefore_ = 0.0, imbalanceAfter_ = 0.0;
-  int sharedStages_ = 0;
+  Peak peakTemperature_;
 };
 
 class PreparedFlow : public PreparedRun {

@@ -1,5 +1,6 @@
 #include "app/flow_case.hpp"
 #include "app/gas_input.hpp"
+#include "app/soot_deck.hpp"
 #include "app/temperature_input.hpp"
 
 namespace lampblack {
@@ -99,22 +100,8 @@ void addTimeAndOutput(DeckSchema& schema) {
 }
 
 void addParticles(DeckSchema& schema) {
-  schema.section("soot", Presence::optional, "The dimer two-equation soot model, carried by the flow; absent: no soot.")
-      .add(choiceKey("soot.model", {"two_equation", "none"},
-                     "none: as if the sections soot and trajectories were absent (for a gas-only run by --set).")
-               .byDefault("two_equation"))
-      .add(stringKey("soot.pah", "Species that dimerise: as of flames.").list().byDefault("[A2]"))
-      .add(quantityKey("soot.density", units::density, "Of the particles.").byDefault("1850 kg/m^3").above(0))
-      .add(numberKey("soot.alpha",
-                     "Constant fraction of active sites; absent: the ABF function of temperature and size.")
-               .optional()
-               .atLeast(0)
-               .atMost(1))
-      .add(numberKey("soot.oh_efficiency", "Reaction probability of an OH collision.")
-               .byDefault("0.13")
-               .atLeast(0)
-               .atMost(1))
-      .add(numberKey("soot.van_der_waals", "Enhancement of dimer and particle collisions.").byDefault("2.2").above(0))
+  addSootModelKeys(schema);
+  schema
       .section("trajectories", Presence::optional,
                "Stochastic ensembles that ride along streamlines of the final flow; needs the soot section.")
       .add(quantityKey("trajectories.duration", units::time, "Longest ride.").byDefault("50 ms").above(0))

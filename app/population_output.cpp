@@ -14,7 +14,7 @@ std::string momentName(std::size_t k) {
   return fmt::format("M{}", k);
 }
 
-void addMoments(std::vector<TableColumn>& columns, const std::string& prefix, bool units, const std::string& what) {
+void addMoments(std::vector<Quantity>& columns, const std::string& prefix, bool units, const std::string& what) {
   for (std::size_t k = 0; k < 4; ++k)
     columns.push_back({fmt::format("{}{}", prefix, momentName(k)), units ? momentUnits[k] : "1",
                        fmt::format("{} sum of v^{} per volume of gas", what, k)});
@@ -22,7 +22,7 @@ void addMoments(std::vector<TableColumn>& columns, const std::string& prefix, bo
 
 void writeHistory(ResultsWriter& results, const std::string& path, const PopulationStatistics& statistics,
                   const MethodStatistics* method) {
-  std::vector<TableColumn> columns{{"time", "s", "time"}};
+  std::vector<Quantity> columns{{"time", "s", "time"}};
   for (std::size_t k = 0; k < 4; ++k) {
     columns.push_back({momentName(k), momentUnits[k], fmt::format("mean over the repeats of the sum of v^{}", k)});
     columns.push_back({momentName(k) + "_error", momentUnits[k], "standard error of the mean"});
@@ -41,7 +41,7 @@ void writeHistory(ResultsWriter& results, const std::string& path, const Populat
 
 void writeMoments(ResultsWriter& results, const std::string& path, const std::string& prefix, bool units,
                   const std::string& what, const std::vector<double>& times, const std::vector<Moments>& values) {
-  std::vector<TableColumn> columns{{"time", "s", "time"}};
+  std::vector<Quantity> columns{{"time", "s", "time"}};
   addMoments(columns, prefix, units, what);
   std::vector<double> rows;
   for (std::size_t r = 0; r < values.size(); ++r) {
@@ -52,7 +52,7 @@ void writeMoments(ResultsWriter& results, const std::string& path, const std::st
 }
 
 void writeRepeats(ResultsWriter& results, const std::string& path, const MethodStatistics* method) {
-  std::vector<TableColumn> columns{{"repeat", "1", "number of the repeat"}};
+  std::vector<Quantity> columns{{"repeat", "1", "number of the repeat"}};
   addMoments(columns, "", true, "at the end:");
   addMoments(columns, "sigma_", false, "root of the time mean of the squared relative deviation of the");
   columns.push_back({"mass_error", "1", "largest relative deviation of M1 in time"});

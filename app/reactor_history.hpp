@@ -18,7 +18,7 @@ class ReactorHistory {
  public:
   using MakeRow = std::function<std::vector<double>(double at, std::span<const double> y)>;
 
-  explicit ReactorHistory(std::vector<TableColumn> columns) : columns_(std::move(columns)) {}
+  explicit ReactorHistory(std::vector<Quantity> columns) : columns_(std::move(columns)) {}
 
   // Rank 0. InputError where the file cannot be made.
   void open(const std::filesystem::path& path);
@@ -32,7 +32,7 @@ class ReactorHistory {
   void writeTo(ResultsWriter& results) const;
 
  private:
-  std::vector<TableColumn> columns_;
+  std::vector<Quantity> columns_;
   std::optional<HistoryWriter> writer_;  // of rank 0
 };
 

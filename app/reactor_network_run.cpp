@@ -12,12 +12,12 @@
 namespace lampblack {
 namespace {
 
-std::vector<TableColumn> stirredColumns(const ReactorCase& reactorCase) {
-  std::vector<TableColumn> columns{{"time", "s", "time"},
-                                   {"temperature", "K", "gas temperature"},
-                                   {"density", "kg/m^3", "density"},
-                                   {"residence_time", "s", "mass inside over mass flow in"},
-                                   {"heat_release", "W/m^3", "heat set free by the reactions"}};
+std::vector<Quantity> stirredColumns(const ReactorCase& reactorCase) {
+  std::vector<Quantity> columns{{"time", "s", "time"},
+                                {"temperature", "K", "gas temperature"},
+                                {"density", "kg/m^3", "density"},
+                                {"residence_time", "s", "mass inside over mass flow in"},
+                                {"heat_release", "W/m^3", "heat set free by the reactions"}};
   for (auto& column : speciesColumns(*reactorCase.mechanism, reactorCase.output)) columns.push_back(std::move(column));
   return columns;
 }
@@ -124,13 +124,13 @@ class SteadyNetworkDriver : public ReactorDriver {
   double simulatedTime() const override { return 0.0; }
 
  private:
-  std::vector<TableColumn> columns() const {
-    std::vector<TableColumn> columns{{"temperature", "K", "gas temperature"},
-                                     {"density", "kg/m^3", "density"},
-                                     {"volume", "m^3", "volume"},
-                                     {"residence_time", "s", "mass inside over mass flow"},
-                                     {"mass_flow", "kg/s", "mass flow through the reactor"},
-                                     {"heat_release", "W/m^3", "heat set free by the reactions"}};
+  std::vector<Quantity> columns() const {
+    std::vector<Quantity> columns{{"temperature", "K", "gas temperature"},
+                                  {"density", "kg/m^3", "density"},
+                                  {"volume", "m^3", "volume"},
+                                  {"residence_time", "s", "mass inside over mass flow"},
+                                  {"mass_flow", "kg/s", "mass flow through the reactor"},
+                                  {"heat_release", "W/m^3", "heat set free by the reactions"}};
     for (auto& column : speciesColumns(*case_.mechanism, case_.output)) columns.push_back(std::move(column));
     return columns;
   }

@@ -10,8 +10,8 @@ namespace lampblack {
 
 using Kind = IgnitionCriterion::Kind;
 
-std::vector<TableColumn> speciesColumns(const Mechanism& mechanism, const ReactorOutput& output) {
-  std::vector<TableColumn> columns;
+std::vector<Quantity> speciesColumns(const Mechanism& mechanism, const ReactorOutput& output) {
+  std::vector<Quantity> columns;
   for (const std::size_t k : output.species) {
     const std::string& name = mechanism.speciesName(k);
     columns.push_back({(output.massFractions ? "Y_" : "X_") + name, "1",
@@ -28,13 +28,13 @@ void appendSpecies(const Mechanism& mechanism, const ReactorOutput& output, std:
   for (const std::size_t k : output.species) row.push_back(output.massFractions ? Y[k] : Y[k] / (W[k] * moles));
 }
 
-std::vector<TableColumn> closedColumns(const ReactorCase& reactorCase) {
-  std::vector<TableColumn> columns{{"time", "s", "time"},
-                                   {"temperature", "K", "gas temperature"},
-                                   {"pressure", "Pa", "pressure"},
-                                   {"density", "kg/m^3", "density"},
-                                   {"temperature_rate", "K/s", "dT/dt"},
-                                   {"heat_release", "W/m^3", "heat set free by the reactions"}};
+std::vector<Quantity> closedColumns(const ReactorCase& reactorCase) {
+  std::vector<Quantity> columns{{"time", "s", "time"},
+                                {"temperature", "K", "gas temperature"},
+                                {"pressure", "Pa", "pressure"},
+                                {"density", "kg/m^3", "density"},
+                                {"temperature_rate", "K/s", "dT/dt"},
+                                {"heat_release", "W/m^3", "heat set free by the reactions"}};
   for (auto& column : speciesColumns(*reactorCase.mechanism, reactorCase.output)) columns.push_back(std::move(column));
   return columns;
 }

@@ -14,12 +14,12 @@
 namespace lampblack {
 
 // The columns of the chosen species, and their values at mass fractions Y.
-std::vector<TableColumn> speciesColumns(const Mechanism& mechanism, const ReactorOutput& output);
+std::vector<Quantity> speciesColumns(const Mechanism& mechanism, const ReactorOutput& output);
 void appendSpecies(const Mechanism& mechanism, const ReactorOutput& output, std::span<const double> Y,
                    std::vector<double>& row);
 
 // Columns of a closed reactor's history, and a row at a time (s) of it.
-std::vector<TableColumn> closedColumns(const ReactorCase& reactorCase);
+std::vector<Quantity> closedColumns(const ReactorCase& reactorCase);
 std::vector<double> closedRow(const ReactorCase& reactorCase, ClosedReactor& reactor, double time,
                               std::span<const double> y);
 

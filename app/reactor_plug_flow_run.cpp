@@ -10,12 +10,12 @@
 namespace lampblack {
 namespace {
 
-std::vector<TableColumn> plugFlowColumns(const ReactorCase& reactorCase) {
-  std::vector<TableColumn> columns{{"position", "m", "distance from the inlet"},
-                                   {"time", "s", "residence time since the inlet"},
-                                   {"velocity", "m/s", "velocity of the gas"},
-                                   {"temperature", "K", "gas temperature"},
-                                   {"density", "kg/m^3", "density"}};
+std::vector<Quantity> plugFlowColumns(const ReactorCase& reactorCase) {
+  std::vector<Quantity> columns{{"position", "m", "distance from the inlet"},
+                                {"time", "s", "residence time since the inlet"},
+                                {"velocity", "m/s", "velocity of the gas"},
+                                {"temperature", "K", "gas temperature"},
+                                {"density", "kg/m^3", "density"}};
   for (auto& column : speciesColumns(*reactorCase.mechanism, reactorCase.output)) columns.push_back(std::move(column));
   return columns;
 }

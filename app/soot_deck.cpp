@@ -6,7 +6,6 @@
 #include <cmath>
 #include <optional>
 
-#include "app/flame_soot.hpp"
 #include "particles/soot/make_soot_model.hpp"
 
 namespace lampblack {
@@ -122,7 +121,7 @@ void requirePah(const std::string& name, int carbon, int hydrogen) {
 
 // The semi-empirical models know acetylene only; ensembles beside them read these keys.
 void refuseUnread(const Deck& deck, const std::string& model) {
-  if (deck.has("stochastic")) return;
+  if (deck.has("stochastic") || deck.has("trajectories")) return;
   for (const char* key : {"sticking", "site_density", "alpha", "alpha_table", "van_der_waals", "condensation"})
     if (const std::string path = std::string("soot.") + key; deck.isGiven(path))
       throw deck.error(path, fmt::format("the model {} does not read this", model));
@@ -175,7 +174,7 @@ SootModelOptions readSootModelOptions(const Deck& deck, const Mechanism& mechani
   return options;
 }
 
-std::unique_ptr<SootModel> readSootModel(const Deck& deck, const Mechanism& mechanism) {
+std::unique_ptr<ParticleModel> readSootModel(const Deck& deck, const Mechanism& mechanism) {
   if (!deck.has("soot")) return nullptr;
   const std::string name = deck.choice("soot.model");
   if (name == "none") return nullptr;
@@ -191,7 +190,7 @@ std::unique_ptr<SootModel> readSootModel(const Deck& deck, const Mechanism& mech
   }
   if (auto* momic = std::get_if<MomicOptions>(&choice)) momic->moments = deck.integer<std::size_t>("soot.moments");
 
-  std::unique_ptr<SootModel> model;
+  std::unique_ptr<ParticleModel> model;
   try {
     model = makeSootModel(choice);
   } catch (const InputError& error) {

@@ -1,4 +1,4 @@
-#include "app/flame_soot.hpp"
+#include "app/soot_deck.hpp"
 #include "particles/soot/make_soot_model.hpp"
 
 namespace lampblack {
@@ -7,13 +7,14 @@ namespace {
 void addShared(DeckSchema& schema) {
   std::vector<std::string> models = sootModelNames();
   models.emplace_back("none");
-  schema.section("soot", Presence::optional, "Soot, carried by the flame; absent: none.")
+  schema.section("soot", Presence::optional, "Soot, carried by the gas; absent: none.")
       .add(
           choiceKey("soot.model", models,
                     "two_equation_dimer: thesis 7.2.2; leung: Leung, Lindstedt, Jones 1991; moss_brookes: Brookes and "
                     "Moss 1999; sectional: thesis 9.2.2; hmom: Mueller, Blanquart, Pitsch 2009; momic: Frenklach 2002; "
                     "none: as if the section were absent.")
-              .byDefault("two_equation_dimer"))
+              .byDefault("two_equation_dimer")
+              .formerly("two_equation", "two_equation_dimer"))
       .add(stringKey(
                "soot.pah",
                "Species that dimerise or make nuclei: hydrocarbons of ten carbon atoms or more with no more hydrogen "

@@ -7,7 +7,9 @@
 #include "app/warnings.hpp"
 #include "core/errors.hpp"
 #include "core/gather.hpp"
+#include "flow/carried_operator.hpp"
 #include "flow/streamline.hpp"
+#include "particles/collision_physics.hpp"
 #include "particles/soot/soot_path.hpp"
 
 namespace lampblack {
@@ -16,13 +18,17 @@ namespace {
 // The gas as soot sees it, on the whole domain.
 class GasOnPath {
  public:
-  GasOnPath(const FlowContext& context, const State& state, const GasProperties& properties, const SootOperator& soot)
-      : pressure_(state.thermodynamicPressure), width_(fixed + static_cast<int>(soot.species().size())) {
+  GasOnPath(const FlowContext& context, const State& state, const GasProperties& properties,
+            const SootModelOptions& soot)
+      : pressure_(state.thermodynamicPressure) {
+    std::vector<std::size_t> species;
+    for (const std::string& name : sootSpecies(soot)) species.push_back(context.mechanism.speciesIndex(name));
+    width_ = fixed + static_cast<int>(species.size());
     const int owned = context.mesh.owned;
     std::vector<double> local(static_cast<std::size_t>(owned) * width_);
     std::vector<double> concentrations;
     for (int c = 0; c < owned; ++c) {
-      const ParticleGas gas = soot.gasOf(state, c, properties.viscosity[c], concentrations);
+      const ParticleGas gas = gasOfCell(context, state, c, properties.viscosity[c], species, concentrations);
       double* out = &local[static_cast<std::size_t>(c) * width_];
       for (double value : {gas.temperature, gas.density, gas.viscosity, gas.meanMolecularWeight}) *out++ = value;
       for (double value : concentrations) *out++ = value;
@@ -40,7 +46,7 @@ class GasOnPath {
  private:
   static constexpr int fixed = 4;
   double pressure_;
-  int width_;
+  int width_ = 0;
   std::vector<double> fields_;
 };
 
@@ -101,11 +107,11 @@ void warnOfShortPaths(const Mesh& m, const TrajectoryRequest& request, const std
 }  // namespace
 
 void runTrajectories(const FlowContext& context, const FlowCase& flowCase, const State& state,
-                     const GasProperties& properties, const SootOperator& soot, ResultsWriter& results) {
+                     const GasProperties& properties, ResultsWriter& results) {
   const TrajectoryRequest& request = *flowCase.trajectories;
   const Mesh& m = context.mesh;
-  const Streamlines streamlines(m, state, properties, TwoEquationSoot::thermophoreticCoefficient());
-  const GasOnPath gas(context, state, properties, soot);
+  const Streamlines streamlines(m, state, properties, waldmannThermophoresis());
+  const GasOnPath gas(context, state, properties, request.soot);
 
   SootPathOptions march;
   march.logDiameterMin = std::log10(request.smallest);
@@ -114,7 +120,7 @@ void runTrajectories(const FlowContext& context, const FlowCase& flowCase, const
   StochasticSootOptions options;
   options.particles = static_cast<std::size_t>(request.particles);
   options.seed = flowCase.seed;
-  options.soot = *flowCase.soot;
+  options.soot = request.soot;
 
   std::vector<Trajectory> trajectories(request.starts.size());
   const auto ranks = static_cast<std::size_t>(m.ranks);

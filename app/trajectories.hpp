@@ -2,7 +2,6 @@
 #pragma once
 
 #include "app/flow_case.hpp"
-#include "app/soot_operator.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/state.hpp"
 #include "flow/transport_operator.hpp"
@@ -13,6 +12,6 @@ namespace lampblack {
 // Collective. Traces the deck's trajectories through the state's flow, marches an ensemble along each (trajectory i on
 // rank i mod ranks; its random numbers depend on the seed and i alone) and writes them under /trajectories.
 void runTrajectories(const FlowContext& context, const FlowCase& flowCase, const State& state,
-                     const GasProperties& properties, const SootOperator& soot, ResultsWriter& results);
+                     const GasProperties& properties, ResultsWriter& results);
 
 }  // namespace lampblack

@@ -20,4 +20,10 @@ struct ParticleGas : CarrierGas {
   std::span<const double> concentrations;  // mol/m3, of the species that the model names, in its order
 };
 
+// What advancing particles over a time took.
+struct ParticleAdvance {
+  int steps = 0, rejected = 0;
+  int limitedOxidations = 0;  // steps in which oxidation would have used more of an oxidiser than there was
+};
+
 }  // namespace lampblack

@@ -109,6 +109,9 @@ void ReactionOperator::advance(State& state, double time, double dt) {
   diagnostics_.imbalanceBefore += statistics.imbalanceBefore;
   diagnostics_.imbalanceAfter += statistics.imbalanceAfter;
   ++diagnostics_.stages;
+  imbalances_.before += statistics.imbalanceBefore;
+  imbalances_.after += statistics.imbalanceAfter;
+  ++stages_;
   state.updateHalo(context_.halo);
 }
 
@@ -124,11 +127,14 @@ void ReactionOperator::saveOrLoad(StateArchive& archive) {
   std::array<double, 4> counted{diagnostics_.solverSteps, diagnostics_.integratedCells, diagnostics_.skippedCells,
                                 diagnostics_.retries};
   archive.sums("chemistry_counts", counted);
-  std::vector<double> stages{diagnostics_.imbalanceBefore, diagnostics_.imbalanceAfter,
-                             static_cast<double>(diagnostics_.stages)};
+  std::vector<double> stages{
+      diagnostics_.imbalanceBefore, diagnostics_.imbalanceAfter, static_cast<double>(diagnostics_.stages),
+      imbalances_.before,           imbalances_.after,           static_cast<double>(stages_)};
   archive.shared("chemistry_stages", stages);
   diagnostics_ = {
       counted[0], counted[1], counted[2], counted[3], stages.at(0), stages.at(1), static_cast<int>(stages.at(2))};
+  imbalances_ = {stages.at(3), stages.at(4)};
+  stages_ = static_cast<int>(stages.at(5));
 }
 
 ReactionOperator::Diagnostics ReactionOperator::takeDiagnostics() {
@@ -145,6 +151,25 @@ ReactionOperator::Diagnostics ReactionOperator::takeDiagnostics() {
   }
   diagnostics_ = {};
   return all;
+}
+
+std::vector<Quantity> ReactionOperator::historyColumns() const {
+  return {{"stiff_solver_steps", "1", "internal steps of the stiff solver over all cells since the last row"},
+          {"reacting_cells", "1", "cells integrated since the last row, over all stages"},
+          {"skipped_cells", "1", "cells skipped for negligible rates since the last row, over all stages"},
+          {"stiff_solver_retries", "1", "repeated stiff solves since the last row"},
+          {"imbalance_before", "1", "busiest rank's chemistry cost over the mean, as partitioned"},
+          {"imbalance_after", "1", "the same as measured, with work sharing"}};
+}
+
+std::vector<double> ReactionOperator::historyValues(const State&) {
+  const Diagnostics d = takeDiagnostics();
+  return {d.solverSteps, d.integratedCells, d.skippedCells, d.retries, d.imbalanceBefore, d.imbalanceAfter};
+}
+
+std::optional<Operator::Imbalance> ReactionOperator::imbalance() const {
+  if (stages_ == 0) return {};
+  return Imbalance{imbalances_.before / stages_, imbalances_.after / stages_};
 }
 
 }  // namespace lampblack

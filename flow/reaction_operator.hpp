@@ -17,7 +17,7 @@
 #include "chemistry/reactor/reactor_failure.hpp"
 #include "core/work_sharing.hpp"
 #include "flow/flow_context.hpp"
-#include "flow/state.hpp"
+#include "flow/operator.hpp"
 
 namespace lampblack {
 
@@ -44,6 +44,9 @@ class ReactionOperator : public Operator {
   void endStep(State& state) override;
   void saveOrLoad(StateArchive& archive) override;
   [[nodiscard]] const char* name() const override { return "chemistry"; }
+  [[nodiscard]] std::vector<Quantity> historyColumns() const override;
+  [[nodiscard]] std::vector<double> historyValues(const State& state) override;
+  [[nodiscard]] std::optional<Imbalance> imbalance() const override;
   Diagnostics takeDiagnostics();  // collective
 
  private:
@@ -60,6 +63,8 @@ class ReactionOperator : public Operator {
   std::vector<double> initialStep_;  // s, first internal step of the next solve
   std::vector<double> before_;       // mass fractions at the end of the last step, species a owned cell; deferred only
   Diagnostics diagnostics_;
+  Imbalance imbalances_{0.0, 0.0};  // sums over all stages
+  int stages_ = 0;
 };
 
 }  // namespace lampblack

@@ -52,17 +52,4 @@ struct State {
   void saveOrLoad(StateArchive& archive);
 };
 
-// Advances the state by one physical process; the driver strings them together.
-class Operator {
- public:
-  virtual ~Operator() = default;
-  virtual void advance(State& state, double time, double dt) = 0;  // collective
-  // Called once when all operators have advanced by a whole step.
-  virtual void endStep(State&) {}
-  // What the operator keeps from step to step besides the state: with both, the next step is the same to the last bit.
-  // Between two steps. Collective.
-  virtual void saveOrLoad(StateArchive&) {}
-  [[nodiscard]] virtual const char* name() const = 0;
-};
-
 }  // namespace lampblack

@@ -5,7 +5,9 @@
 
 #include "core/constants.hpp"
 #include "core/errors.hpp"
+#include "core/flush_denormals.hpp"
 #include "flow/face_fluxes.hpp"
+#include "flow/time_step.hpp"
 
 namespace lampblack {
 
@@ -228,6 +230,7 @@ void TransportOperator::saveOrLoad(StateArchive& archive) {
 }
 
 void TransportOperator::advance(State& state, double, double dt) {
+  const FlushDenormals flush;
   const Mesh& m = context_.mesh;
   // A temperature out of range on one rank must stop all of them.
   collectively(m.comm, [&] { properties_.update(context_, state); });
@@ -254,7 +257,29 @@ void TransportOperator::advance(State& state, double, double dt) {
   collectively(m.comm, [&] { finish(state, dt); });
   recordBoundary(state, dt);
   MPI_Allreduce(MPI_IN_PLACE, &diagnostics_.pressureDrift, 1, MPI_DOUBLE, MPI_MAX, m.comm);
+  for (const auto& watcher : watchers_) watcher(boundary_);
   state.updateHalo(context_.halo);
+}
+
+double TransportOperator::largestStep(const State& state) {
+  return convectiveTimeStep(context_.mesh, state, options_.courant);
+}
+
+std::vector<Quantity> TransportOperator::historyColumns() const {
+  return {{"pressure_drift", "1", "largest |p_eos - p0| / p0 after the last transport step"},
+          {"continuity_error", "1/s", "largest error of the projected velocity's divergence"},
+          {"pressure_iterations", "1", "of the pressure solve"},
+          {"species_iterations", "1", "of the implicit species diffusion"}};
+}
+
+std::vector<double> TransportOperator::historyValues(const State&) {
+  return {diagnostics_.pressureDrift, diagnostics_.continuityError,
+          static_cast<double>(diagnostics_.pressureIterations), static_cast<double>(diagnostics_.speciesIterations)};
+}
+
+void TransportOperator::fields(const State&, const FieldSink& sink) const {
+  sink({"viscosity", "Pa s", "dynamic viscosity"},
+       {properties_.viscosity.data(), static_cast<std::size_t>(context_.mesh.owned)});
 }
 
 }  // namespace lampblack

@@ -10,6 +10,8 @@
 // Order: first in time, second in space. Mass, species and enthalpy are conserved to round-off.
 #pragma once
 
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "flow/carried_transport.hpp"
@@ -18,8 +20,8 @@
 #include "flow/gas_properties.hpp"
 #include "flow/implicit_diffusion.hpp"
 #include "flow/momentum.hpp"
+#include "flow/operator.hpp"
 #include "flow/species_diffusion.hpp"
-#include "flow/state.hpp"
 
 namespace lampblack {
 
@@ -29,6 +31,7 @@ class TransportOperator : public Operator {
     // s, in which p_eos - p0 is taken away, but at least a step: a start's very short steps would otherwise turn a
     // drift of a per cent into a gust.
     double driftTime = 2e-5;
+    double courant = 0.5;  // share of a cell's volume that may flow out in a step
   };
   struct Diagnostics {
     double continuityError = 0.0;  // 1/s
@@ -50,6 +53,13 @@ class TransportOperator : public Operator {
   void advance(State& state, double time, double dt) override;
   void saveOrLoad(StateArchive& archive) override;
   [[nodiscard]] const char* name() const override { return "transport"; }
+  [[nodiscard]] double largestStep(const State& state) override;
+  [[nodiscard]] std::vector<Quantity> historyColumns() const override;
+  [[nodiscard]] std::vector<double> historyValues(const State& state) override;
+  void fields(const State& state, const FieldSink& sink) const override;
+
+  // Is called at the end of each `advance`: budgets count what crossed the boundary.
+  void watchBoundary(std::function<void(const BoundaryAmounts&)> watcher) { watchers_.push_back(std::move(watcher)); }
 
   [[nodiscard]] const Diagnostics& diagnostics() const { return diagnostics_; }
   [[nodiscard]] const BoundaryAmounts& boundaryAmounts() const { return boundary_; }
@@ -77,6 +87,7 @@ class TransportOperator : public Operator {
   CarriedTransport carried_;
   Diagnostics diagnostics_;
   BoundaryAmounts boundary_;
+  std::vector<std::function<void(const BoundaryAmounts&)>> watchers_;
 
   std::vector<double> content_;       // kg, rho Y V of the owned cells as it is being advanced
   std::vector<double> heatContent_;   // J, rho h V

@@ -25,9 +25,9 @@ std::string csvLine(const std::vector<std::string>& fields) {
   return line + '\n';
 }
 
-std::string csvHeader(const std::vector<TableColumn>& columns) {
+std::string csvHeader(const std::vector<Quantity>& columns) {
   std::vector<std::string> names;
-  for (const TableColumn& column : columns) names.push_back(fmt::format("{} [{}]", column.name, column.unit));
+  for (const Quantity& column : columns) names.push_back(fmt::format("{} [{}]", column.name, column.unit));
   return csvLine(names);
 }
 

@@ -18,7 +18,7 @@ struct TextTable {
 // One line with its end.
 std::string csvLine(const std::vector<std::string>& fields);
 // "time [s],X_C5H5O(1,3) [1]", the second in quotes.
-std::string csvHeader(const std::vector<TableColumn>& columns);
+std::string csvHeader(const std::vector<Quantity>& columns);
 std::string csvText(const TextTable& table);
 
 // Lines that begin with # and a byte-order mark are skipped. InputError where a row has another number of fields than

@@ -52,6 +52,11 @@ DeckKey& DeckKey::list(std::size_t n) {
   return *this;
 }
 
+DeckKey& DeckKey::formerly(std::string before, std::string now) {
+  formerChoices.emplace_back(std::move(before), std::move(now));
+  return *this;
+}
+
 DeckKey& DeckKey::onlyWith(std::string otherKey, std::vector<std::string> otherChoices) {
   conditions.push_back({std::move(otherKey), std::move(otherChoices)});
   return *this;

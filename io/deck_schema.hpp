@@ -20,6 +20,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/units.hpp"
@@ -58,6 +59,8 @@ class DeckKey {
   DeckKey& below(double si);
   DeckKey& list();                   // a list of any length of this type
   DeckKey& list(std::size_t count);  // a list of exactly `count`, for instance a vector
+  // A choice that had another name once: a deck with that name is told the new one.
+  DeckKey& formerly(std::string before, std::string now);
   // The key counts only with these choices of another key; said twice, both have to hold.
   DeckKey& onlyWith(std::string otherKey, std::vector<std::string> otherChoices);
 
@@ -66,6 +69,7 @@ class DeckKey {
   std::string doc;
   units::Dimension dimension;
   std::vector<std::string> choices;
+  std::vector<std::pair<std::string, std::string>> formerChoices;  // before, now
   Presence presence = Presence::required;
   std::string defaultText;
   std::optional<Bound> minimum;

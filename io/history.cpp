@@ -11,7 +11,7 @@
 
 namespace lampblack {
 
-HistoryWriter::HistoryWriter(MPI_Comm comm, const std::filesystem::path& path, std::vector<TableColumn> columns)
+HistoryWriter::HistoryWriter(MPI_Comm comm, const std::filesystem::path& path, std::vector<Quantity> columns)
     : comm_(comm), path_(path), columns_(std::move(columns)) {
   MPI_Comm_rank(comm, &rank_);
   if (rank_ != 0) return;

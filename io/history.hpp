@@ -18,7 +18,7 @@ namespace lampblack {
 class HistoryWriter {
  public:
   // Rank 0 writes `path`, with a header "time [s],steps [1],...". InputError (rank 0) where it cannot be made.
-  HistoryWriter(MPI_Comm comm, const std::filesystem::path& path, std::vector<TableColumn> columns);
+  HistoryWriter(MPI_Comm comm, const std::filesystem::path& path, std::vector<Quantity> columns);
 
   // Collective. One value for each column; only rank 0's count. SystemError where the disk is full: the file then ends
   // with the last whole row.
@@ -38,7 +38,7 @@ class HistoryWriter {
   std::filesystem::path path_;
   int rank_ = 0;
   std::uintmax_t size_ = 0;  // of the file, bytes
-  std::vector<TableColumn> columns_;
+  std::vector<Quantity> columns_;
   std::vector<double> rows_;
   std::ofstream csv_;
 };

@@ -91,8 +91,7 @@ void ResultsWriter::endStep() {
   self_->writeXdmf(self_->path.filename().string());
 }
 
-void ResultsWriter::table(const std::string& path, const std::vector<TableColumn>& columns,
-                          std::span<const double> rows) {
+void ResultsWriter::table(const std::string& path, const std::vector<Quantity>& columns, std::span<const double> rows) {
   if (columns.empty()) throw std::logic_error("a table has no columns");
   const std::size_t width = columns.size();
   agree(self_->comm, self_->rank != 0 || rows.size() % width == 0,

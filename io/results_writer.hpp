@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/errors.hpp"
+#include "core/quantity.hpp"
 
 namespace lampblack {
 
@@ -37,13 +38,6 @@ struct MeshOutput {
   std::vector<double> cellVolume;  // owned cells, m^3
   std::vector<double> cellCentre;  // 3 for each owned cell, m
   std::vector<int> owner;          // rank of each owned cell; may be empty: this rank
-};
-
-// A column of a table.
-struct TableColumn {
-  std::string name;
-  std::string unit;
-  std::string description;
 };
 
 class ResultsWriter {
@@ -80,7 +74,7 @@ class ResultsWriter {
   void loadSteps(const std::filesystem::path& path);
 
   // A table as a group of one-dimensional datasets, one for each column. Rows are rank 0's, row-major.
-  void table(const std::string& path, const std::vector<TableColumn>& columns, std::span<const double> rows);
+  void table(const std::string& path, const std::vector<Quantity>& columns, std::span<const double> rows);
 
   // Any dataset, from the rank that has it; missing groups are made. `dims` and `data` of other ranks are ignored.
   void dataset(const std::string& path, const std::vector<std::int64_t>& dims, std::span<const double> data,

@@ -26,6 +26,12 @@ namespace lampblack {
          slipCorrection(2 * meanFreePath(gas) / diameter);
 }
 
+// Particles far smaller than the mean free path drift with V_T = -this (mu/rho) grad T / T (Waldmann; thesis eq. 7-29
+// with full accommodation).
+[[nodiscard]] constexpr double waldmannThermophoresis() {
+  return 0.75 / (1 + constants::pi / 8);
+}
+
 // Free-molecular kernel (thesis eq. 9-28) is `prefactor * sqrt(1/mi + 1/mj) (di + dj)^2`; this is the prefactor.
 [[nodiscard]] inline double freeMolecularPrefactor(double temperature, double enhancement) {
   return enhancement * std::sqrt(0.5 * constants::pi * constants::boltzmann * temperature);

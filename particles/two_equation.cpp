@@ -18,10 +18,6 @@ TwoEquationSoot::TwoEquationSoot(SootModelOptions options) : options_(std::move(
   nucleusDiameter_ = sphereDiameter(nucleusCarbon_ * options_.carbonWeight / options_.sootDensity);
 }
 
-double TwoEquationSoot::thermophoreticCoefficient() {
-  return 0.75 / (1 + constants::pi / 8);
-}
-
 double TwoEquationSoot::meanDiameter(const Population& population) const {
   if (!(population.number > 0) || !(population.mass() > 0)) return 0;
   return sphereDiameter(population.mass() / (options_.sootDensity * population.number));

@@ -52,9 +52,6 @@ class TwoEquationSoot {
   // convergence.
   Report advance(const CarrierGas& gas, double dt, Population& population, std::span<double> concentrations) const;
 
-  // V_T = -thermophoreticCoefficient() (mu/rho) grad T / T (thesis eq. 7-29), full accommodation.
-  [[nodiscard]] static double thermophoreticCoefficient();
-
   // Brownian diffusivity, m2/s (thesis eqs. 7-30 to 7-33) of the mean sphere, at least a nucleus in size.
   [[nodiscard]] double diffusivity(const CarrierGas& gas, const Population& population) const;
 

@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "chemistry/mechanism/mechanism.hpp"
+#include "flow/carried_model.hpp"
 #include "flow/flame/block_tridiagonal.hpp"
-#include "flow/flame/carried_model.hpp"
 #include "flow/flame/flame_problem.hpp"
 #include "flow/flame/flame_profile.hpp"
 #include "flow/flame/given_exchange.hpp"

@@ -11,7 +11,7 @@
 #include "chemistry/thermo/species_thermo.hpp"
 #include "chemistry/transport/multicomponent_transport.hpp"
 #include "chemistry/transport/transport.hpp"
-#include "flow/flame/carried_model.hpp"
+#include "flow/carried_model.hpp"
 #include "flow/flame/flame_equations.hpp"
 #include "flow/flame/flame_problem.hpp"
 #include "flow/flame/flame_profile.hpp"

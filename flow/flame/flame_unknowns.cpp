@@ -83,7 +83,7 @@ std::string FlameEquations::Data::nameOf(std::size_t point, std::size_t c) const
                            : c == FlameLayout::spread      ? "spread rate"
                            : c == FlameLayout::temperature ? "temperature"
                            : c < layout.firstScalar()      ? mechanism->speciesName(c - FlameLayout::firstSpecies)
-                                                           : carried->scalars()[c - layout.firstScalar()].name;
+                                                           : carried->scalars()[c - layout.firstScalar()].density.name;
   return fmt::format("{} at z = {:.4g} mm (point {} of {})", name, 1e3 * profile.z[point], point + 1, points());
 }
 

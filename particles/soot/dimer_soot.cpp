@@ -22,9 +22,9 @@ DimerSoot::DimerSoot(SootModelOptions options)
     : model_(std::move(options)),
       spheres_(model_.options().sootDensity, nucleusOf(model_)),
       species_(sootSpecies(model_.options())) {
-  scalars_ = {{"number", "1/m^3", "number of soot particles", 1e17, 0, 0},
-              {"carbon", "kg/m^3", "carbon in soot", 1e-3, 1, 0},
-              {"hydrogen", "kg/m^3", "hydrogen in soot", 1e-5, 0, 1}};
+  scalars_ = {{"number", "1/m^3", "number of soot particles", 1e17},
+              {"carbon", "kg/m^3", "carbon in soot", 1e-3, {{"C", 1}}},
+              {"hydrogen", "kg/m^3", "hydrogen in soot", 1e-5, {{"H", 1}}}};
 }
 
 // The population whose rates are taken: the densities themselves in any state that soot can be in.
@@ -65,6 +65,16 @@ void DimerSoot::sources(const ParticleGas& gas, std::span<const double> densitie
   std::copy_n(s.gas.begin(), species_.size(), exchange.begin());
 }
 
+ParticleAdvance DimerSoot::advance(const CarrierGas& gas, double dt, std::span<double> densities,
+                                   std::span<double> concentrations) const {
+  TwoEquationSoot::Population population{densities[number], densities[carbon], densities[hydrogen]};
+  const TwoEquationSoot::Report report = model_.advance(gas, dt, population, concentrations);
+  densities[number] = population.number;
+  densities[carbon] = population.carbon;
+  densities[hydrogen] = population.hydrogen;
+  return {report.subSteps, report.rejected, report.limitedOxidation};
+}
+
 void DimerSoot::diffusivities(const ParticleGas& gas, std::span<const double> densities, std::span<double> D) const {
   std::fill(D.begin(), D.end(), model_.diffusivity(gas, populationOf(densities)));
 }
@@ -73,17 +83,17 @@ double DimerSoot::volumeFraction(std::span<const double> densities) const {
   return (std::max(densities[carbon], 0.0) + std::max(densities[hydrogen], 0.0)) / model_.options().sootDensity;
 }
 
-SootProperties DimerSoot::properties(const ParticleGas& /*gas*/, std::span<const double> densities) const {
+ParticleProperties DimerSoot::properties(const ParticleGas& /*gas*/, std::span<const double> densities) const {
   const TwoEquationSoot::Population p = populationOf(densities);
-  SootProperties out = spheres_.properties(p.number, p.mass());
+  ParticleProperties out = spheres_.properties(p.number, p.mass());
   out.numberDensity = std::max(densities[number], 0.0);
   out.volumeFraction = volumeFraction(densities);
   return out;
 }
 
-SootProcesses DimerSoot::processes(const ParticleGas& gas, std::span<const double> densities) const {
+ParticleProcesses DimerSoot::processes(const ParticleGas& gas, std::span<const double> densities) const {
   const TwoEquationSoot::Sources s = evaluate(gas, densities);
-  SootProcesses out;
+  ParticleProcesses out;
   out.nucleationNumber = s.nucleationNumber;
   out.coagulationNumber = s.coagulationNumber;
   out.oxidationNumber = s.oxidationNumber;

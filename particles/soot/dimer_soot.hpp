@@ -16,12 +16,15 @@ class DimerSoot final : public SootModel {
   explicit DimerSoot(SootModelOptions options);  // throws InputError
 
   [[nodiscard]] const std::vector<std::string>& gasSpecies() const override { return species_; }
-  [[nodiscard]] const std::vector<SootScalar>& scalars() const override { return scalars_; }
+  [[nodiscard]] const std::vector<ParticleScalar>& scalars() const override { return scalars_; }
   void sources(const ParticleGas& gas, std::span<const double> densities, std::span<double> rates,
                std::span<double> exchange) const override;
+  // By the exponential rule of TwoEquationSoot, whose events move whole atoms and leave nothing negative.
+  ParticleAdvance advance(const CarrierGas& gas, double dt, std::span<double> densities,
+                          std::span<double> concentrations) const override;
   void diffusivities(const ParticleGas& gas, std::span<const double> densities, std::span<double> D) const override;
-  [[nodiscard]] SootProperties properties(const ParticleGas& gas, std::span<const double> densities) const override;
-  [[nodiscard]] SootProcesses processes(const ParticleGas& gas, std::span<const double> densities) const override;
+  [[nodiscard]] ParticleProperties properties(const ParticleGas& gas, std::span<const double> densities) const override;
+  [[nodiscard]] ParticleProcesses processes(const ParticleGas& gas, std::span<const double> densities) const override;
   [[nodiscard]] double volumeFraction(std::span<const double> densities) const override;
 
   [[nodiscard]] const TwoEquationSoot& twoEquation() const { return model_; }
@@ -33,7 +36,7 @@ class DimerSoot final : public SootModel {
   TwoEquationSoot model_;
   EqualSpheres spheres_;  // a nucleus being known by its carbon
   std::vector<std::string> species_;
-  std::vector<SootScalar> scalars_;
+  std::vector<ParticleScalar> scalars_;
 };
 
 }  // namespace lampblack

@@ -53,9 +53,9 @@ class EqualSpheres {
   }
 
   // Of densities as they are, negative ones being zero.
-  [[nodiscard]] SootProperties properties(double number, double mass) const {
+  [[nodiscard]] ParticleProperties properties(double number, double mass) const {
     const double possible = possibleNumber(number, mass);
-    SootProperties out;
+    ParticleProperties out;
     out.numberDensity = std::max(number, 0.0);
     out.volumeFraction = std::max(mass, 0.0) / density_;
     out.meanDiameter = diameter(possible, mass);

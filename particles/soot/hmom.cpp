@@ -32,13 +32,13 @@ HmomSoot::HmomSoot(HmomOptions options) : options_(std::move(options)), chemistr
     throw InputError(fmt::format("soot: HMOM needs a surface exponent of 0 or more, not {}", options_.surfaceExponent));
   }
   nucleusMass_ = chemistry_.dimers().smallestNucleus() * options_.soot.carbonWeight / constants::avogadro;
-  scalars_ = {{"nuclei", "1/m^3", "number of soot nuclei", 1e15, 0, 0},
-              {"nuclei_carbon", "kg/m^3", "carbon in soot nuclei", 1e-7, 1, 0},
-              {"nuclei_hydrogen", "kg/m^3", "hydrogen in soot nuclei", 1e-8, 0, 1},
-              {"number", "1/m^3", "number of larger soot particles", 1e16, 0, 0},
-              {"carbon", "kg/m^3", "carbon in larger soot particles", 1e-3, 1, 0},
-              {"hydrogen", "kg/m^3", "hydrogen in larger soot particles", 1e-5, 0, 1},
-              {"surface", "m^2/m^3", "surface of larger soot particles", 100, 0, 0}};
+  scalars_ = {{"nuclei", "1/m^3", "number of soot nuclei", 1e15},
+              {"nuclei_carbon", "kg/m^3", "carbon in soot nuclei", 1e-7, {{"C", 1}}},
+              {"nuclei_hydrogen", "kg/m^3", "hydrogen in soot nuclei", 1e-8, {{"H", 1}}},
+              {"number", "1/m^3", "number of larger soot particles", 1e16},
+              {"carbon", "kg/m^3", "carbon in larger soot particles", 1e-3, {{"C", 1}}},
+              {"hydrogen", "kg/m^3", "hydrogen in larger soot particles", 1e-5, {{"H", 1}}},
+              {"surface", "m^2/m^3", "surface of larger soot particles", 100}};
 }
 
 HmomSoot::Mode HmomSoot::modeOf(double particles, double carbonMass, double hydrogenMass, double largest) const {

@@ -34,12 +34,12 @@ class HmomSoot final : public SootModel {
   explicit HmomSoot(HmomOptions options);  // throws InputError
 
   [[nodiscard]] const std::vector<std::string>& gasSpecies() const override { return chemistry_.species(); }
-  [[nodiscard]] const std::vector<SootScalar>& scalars() const override { return scalars_; }
+  [[nodiscard]] const std::vector<ParticleScalar>& scalars() const override { return scalars_; }
   void sources(const ParticleGas& gas, std::span<const double> densities, std::span<double> rates,
                std::span<double> exchange) const override;
   void diffusivities(const ParticleGas& gas, std::span<const double> densities, std::span<double> D) const override;
-  [[nodiscard]] SootProperties properties(const ParticleGas& gas, std::span<const double> densities) const override;
-  [[nodiscard]] SootProcesses processes(const ParticleGas& gas, std::span<const double> densities) const override;
+  [[nodiscard]] ParticleProperties properties(const ParticleGas& gas, std::span<const double> densities) const override;
+  [[nodiscard]] ParticleProcesses processes(const ParticleGas& gas, std::span<const double> densities) const override;
   [[nodiscard]] double volumeFraction(std::span<const double> densities) const override;
 
   [[nodiscard]] const HmomOptions& options() const { return options_; }
@@ -62,7 +62,7 @@ class HmomSoot final : public SootModel {
   HmomOptions options_;
   MomentChemistry chemistry_;
   double nucleusMass_ = 0;  // kg of carbon in the smallest nucleus
-  std::vector<SootScalar> scalars_;
+  std::vector<ParticleScalar> scalars_;
 };
 
 }  // namespace lampblack

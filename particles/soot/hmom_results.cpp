@@ -18,10 +18,10 @@ void HmomSoot::diffusivities(const ParticleGas& gas, std::span<const double> den
   for (std::size_t i = 0; i < scalarCount; ++i) D[i] = i <= nucleiHydrogen ? ofNuclei : ofLarge;
 }
 
-SootProperties HmomSoot::properties(const ParticleGas& /*gas*/, std::span<const double> densities) const {
+ParticleProperties HmomSoot::properties(const ParticleGas& /*gas*/, std::span<const double> densities) const {
   const State s = stateOf(densities);
   const Mode &n = s.nuclei, &l = s.large;
-  SootProperties p;
+  ParticleProperties p;
   p.numberDensity = n.number + l.number;
   const double mass = n.mass + l.mass, present = n.present + l.present;
   if (!(present > 0)) return p;
@@ -47,12 +47,13 @@ double HmomSoot::volumeFraction(std::span<const double> densities) const {
   return mass / options_.soot.sootDensity;
 }
 
-SootProcesses HmomSoot::processes(const ParticleGas& gas, std::span<const double> densities) const {
+ParticleProcesses HmomSoot::processes(const ParticleGas& gas, std::span<const double> densities) const {
   const MomentGas read = chemistry_.read(gas);
   const State state = stateOf(densities);
   const Rates r = evaluate(read, densities);
-  SootProcesses p = MomentChemistry::processes(options_.soot, read, r.dimers, r.onLarge, state.large.hydrogenToCarbon);
-  const SootProcesses q =
+  ParticleProcesses p =
+      MomentChemistry::processes(options_.soot, read, r.dimers, r.onLarge, state.large.hydrogenToCarbon);
+  const ParticleProcesses q =
       MomentChemistry::processes(options_.soot, read, r.dimers, r.onNuclei, state.nuclei.hydrogenToCarbon);
   p.growth += q.growth;
   p.oxidationO2 += q.oxidationO2;

@@ -64,10 +64,10 @@ void MomentChemistry::exchange(const MomentGas& gas, const DimerBalance& dimers,
   }
 }
 
-SootProcesses MomentChemistry::processes(const SootModelOptions& options, const MomentGas& gas,
-                                         const DimerBalance& dimers, const SurfaceEvents& events,
-                                         double hydrogenToCarbon) {
-  SootProcesses p;
+ParticleProcesses MomentChemistry::processes(const SootModelOptions& options, const MomentGas& gas,
+                                             const DimerBalance& dimers, const SurfaceEvents& events,
+                                             double hydrogenToCarbon) {
+  ParticleProcesses p;
   const double fromGas = dimers.atoms.carbon * options.carbonWeight + dimers.atoms.hydrogen * options.hydrogenWeight;
   const double perCarbon = options.carbonWeight + hydrogenToCarbon * options.hydrogenWeight;
   p.nucleationNumber = dimers.nucleation;

@@ -65,9 +65,9 @@ class MomentChemistry {
                 std::span<double> production) const;
 
   // All but the numbers lost.
-  [[nodiscard]] static SootProcesses processes(const SootModelOptions& options, const MomentGas& gas,
-                                               const DimerBalance& dimers, const SurfaceEvents& events,
-                                               double hydrogenToCarbon);
+  [[nodiscard]] static ParticleProcesses processes(const SootModelOptions& options, const MomentGas& gas,
+                                                   const DimerBalance& dimers, const SurfaceEvents& events,
+                                                   double hydrogenToCarbon);
 
  private:
   SootModelOptions options_;

@@ -64,15 +64,15 @@ MomicSoot::MomicSoot(MomicOptions options)
   unitDiameter_ = unitDiameter;
   nucleus_ = chemistry_.dimers().smallestNucleus() * o.carbonWeight / constants::avogadro / unit_;
   constexpr double typicalNumber = 1e16, typicalMass = 1e-3, typicalVariance = 1.5;  // of ln m
-  scalars_ = {{"number", "1/m^3", "number of soot particles", typicalNumber, 0, 0},
-              {"carbon", "kg/m^3", "carbon in soot", typicalMass, 1, 0},
-              {"hydrogen", "kg/m^3", "hydrogen in soot", 0.01 * typicalMass, 0, 1}};
+  scalars_ = {{"number", "1/m^3", "number of soot particles", typicalNumber},
+              {"carbon", "kg/m^3", "carbon in soot", typicalMass, {{"C", 1}}},
+              {"hydrogen", "kg/m^3", "hydrogen in soot", 0.01 * typicalMass, {{"H", 1}}}};
   for (std::size_t k = 2; k < options_.moments; ++k) {
     const double order = static_cast<double>(k), ratio = typicalMass / (typicalNumber * unit_);
-    scalars_.push_back({fmt::format("moment_{}", k), "1/m^3",
-                        fmt::format("sum of the particles' masses to the power {}, in units of {:.6e} kg", k, unit_),
-                        typicalNumber * std::pow(ratio, order) * std::exp(0.5 * typicalVariance * order * (order - 1)),
-                        0, 0});
+    scalars_.push_back(
+        {fmt::format("moment_{}", k), "1/m^3",
+         fmt::format("sum of the particles' masses to the power {}, in units of {:.6e} kg", k, unit_),
+         typicalNumber * std::pow(ratio, order) * std::exp(0.5 * typicalVariance * order * (order - 1))});
   }
 }
 
@@ -230,9 +230,9 @@ void MomicSoot::diffusivities(const ParticleGas& gas, std::span<const double> de
   for (double& d : D) d = diffusivity;
 }
 
-SootProperties MomicSoot::properties(const ParticleGas& /*gas*/, std::span<const double> densities) const {
+ParticleProperties MomicSoot::properties(const ParticleGas& /*gas*/, std::span<const double> densities) const {
   const State s = stateOf(densities);
-  SootProperties p;
+  ParticleProperties p;
   p.numberDensity = s.present;
   if (!s.any) return p;
   p.volumeFraction = s.mass / options_.soot.sootDensity;
@@ -247,18 +247,18 @@ double MomicSoot::volumeFraction(std::span<const double> densities) const {
   return (std::max(densities[carbon], 0.0) + std::max(densities[hydrogen], 0.0)) / options_.soot.sootDensity;
 }
 
-SootProcesses MomicSoot::processes(const ParticleGas& gas, std::span<const double> densities) const {
+ParticleProcesses MomicSoot::processes(const ParticleGas& gas, std::span<const double> densities) const {
   const MomentGas read = chemistry_.read(gas);
   const Rates r = evaluate(read, densities);
-  SootProcesses p = MomentChemistry::processes(options_.soot, read, r.dimers, r.events, r.hydrogenToCarbon);
+  ParticleProcesses p = MomentChemistry::processes(options_.soot, read, r.dimers, r.events, r.hydrogenToCarbon);
   p.coagulationNumber = r.coagulated;
   p.oxidationNumber = r.burntOut;
   return p;
 }
 
-SootSizeDistribution MomicSoot::sizeDistribution(std::span<const double> densities) const {
+SizeDistribution MomicSoot::sizeDistribution(std::span<const double> densities) const {
   const State s = stateOf(densities);
-  SootSizeDistribution distribution;
+  SizeDistribution distribution;
   if (!s.any) return distribution;
   const double variance = s.logarithms[0] + s.logarithms[2] - 2 * s.logarithms[1];  // of ln m
   const double width = std::max(std::sqrt(variance) / 3, 0.02);                     // of ln d

@@ -28,15 +28,15 @@ class MomicSoot final : public SootModel {
   explicit MomicSoot(MomicOptions options);  // throws InputError
 
   [[nodiscard]] const std::vector<std::string>& gasSpecies() const override { return chemistry_.species(); }
-  [[nodiscard]] const std::vector<SootScalar>& scalars() const override { return scalars_; }
+  [[nodiscard]] const std::vector<ParticleScalar>& scalars() const override { return scalars_; }
   void sources(const ParticleGas& gas, std::span<const double> densities, std::span<double> rates,
                std::span<double> exchange) const override;
   void diffusivities(const ParticleGas& gas, std::span<const double> densities, std::span<double> D) const override;
-  [[nodiscard]] SootProperties properties(const ParticleGas& gas, std::span<const double> densities) const override;
-  [[nodiscard]] SootProcesses processes(const ParticleGas& gas, std::span<const double> densities) const override;
+  [[nodiscard]] ParticleProperties properties(const ParticleGas& gas, std::span<const double> densities) const override;
+  [[nodiscard]] ParticleProcesses processes(const ParticleGas& gas, std::span<const double> densities) const override;
   [[nodiscard]] double volumeFraction(std::span<const double> densities) const override;
   // Of the log-normal distribution with the same M_0, M_1 and M_2.
-  [[nodiscard]] SootSizeDistribution sizeDistribution(std::span<const double> densities) const override;
+  [[nodiscard]] SizeDistribution sizeDistribution(std::span<const double> densities) const override;
 
   [[nodiscard]] const MomicOptions& options() const { return options_; }
   // Mass (kg) in which the moments above the first are counted: their scalar is the sum of (m/massUnit)^k, 1/m3.
@@ -60,7 +60,7 @@ class MomicSoot final : public SootModel {
   double unit_ = 0;               // kg
   double unitDiameter_ = 0;       // m, of the sphere of that mass
   double nucleus_ = 0;            // the smallest particle, in units
-  std::vector<SootScalar> scalars_;
+  std::vector<ParticleScalar> scalars_;
 };
 
 }  // namespace lampblack

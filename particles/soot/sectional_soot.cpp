@@ -75,16 +75,18 @@ SectionalSoot::Impl::Impl(const SectionalSootOptions& wanted)
   check(options);
   constexpr double usualPrimary = 7.7e-21;  // kg, 20 nm
   for (std::size_t i = 0; i < sections; ++i) {
-    scalars.push_back({fmt::format("section_{:02}_aggregates", i + 1), "1/m^3",
+    scalars.push_back({fmt::format("section_{:02}_aggregates", i + 1),
+                       "1/m^3",
                        fmt::format("soot aggregates of {:.4g} nm (sphere of equal volume)", 1e9 * shapes.sphere[i]),
-                       typicalNumber(pivots[i]), pivots[i], 0});
+                       typicalNumber(pivots[i]),
+                       {{"C", pivots[i]}}});
   }
   for (std::size_t i = 0; i < sections && !spheres; ++i) {
     scalars.push_back({fmt::format("section_{:02}_primaries", i + 1), "1/m^3",
                        fmt::format("primary particles of the aggregates of section {}", i + 1),
-                       typicalNumber(pivots[i]) * std::max(1.0, pivots[i] / usualPrimary), 0, 0});
+                       typicalNumber(pivots[i]) * std::max(1.0, pivots[i] / usualPrimary)});
   }
-  if (withHydrogen) scalars.push_back({"soot_hydrogen", "kg/m^3", "hydrogen of soot", 1e-5, 0, 1});
+  if (withHydrogen) scalars.push_back({"hydrogen", "kg/m^3", "hydrogen of soot", 1e-5, {{"H", 1}}});
 
   // Half an aggregate lies `below` pivots lower or up to one higher than that.
   auto below = static_cast<std::size_t>(std::ceil(std::log(2.0) / std::log(options.factor) - 1e-9));
@@ -248,7 +250,7 @@ const std::vector<std::string>& SectionalSoot::gasSpecies() const {
   return impl_->species;
 }
 
-const std::vector<SootScalar>& SectionalSoot::scalars() const {
+const std::vector<ParticleScalar>& SectionalSoot::scalars() const {
   return impl_->scalars;
 }
 

@@ -69,18 +69,18 @@ class SectionalSoot final : public SootModel {
   ~SectionalSoot() override;
 
   [[nodiscard]] const std::vector<std::string>& gasSpecies() const override;
-  [[nodiscard]] const std::vector<SootScalar>& scalars() const override;
+  [[nodiscard]] const std::vector<ParticleScalar>& scalars() const override;
   // Aggregates, primaries, surface of the equivalent spheres, carbon and its second moment; hydrogen.
   [[nodiscard]] std::vector<std::vector<double>> gridSums() const override;
   void sources(const ParticleGas& gas, std::span<const double> densities, std::span<double> rates,
                std::span<double> exchange) const override;
   void jacobian(const ParticleGas& gas, std::span<const double> densities, std::span<double> values) const override;
   void diffusivities(const ParticleGas& gas, std::span<const double> densities, std::span<double> D) const override;
-  [[nodiscard]] SootProperties properties(const ParticleGas& gas, std::span<const double> densities) const override;
-  [[nodiscard]] SootProcesses processes(const ParticleGas& gas, std::span<const double> densities) const override;
+  [[nodiscard]] ParticleProperties properties(const ParticleGas& gas, std::span<const double> densities) const override;
+  [[nodiscard]] ParticleProcesses processes(const ParticleGas& gas, std::span<const double> densities) const override;
   [[nodiscard]] double volumeFraction(std::span<const double> densities) const override;
   [[nodiscard]] double volumeFractionAtLimit(std::span<const double> densities) const override;
-  [[nodiscard]] SootSizeDistribution sizeDistribution(std::span<const double> densities) const override;
+  [[nodiscard]] SizeDistribution sizeDistribution(std::span<const double> densities) const override;
 
   [[nodiscard]] std::size_t sections() const;
   [[nodiscard]] std::span<const double> pivots() const;  // kg of carbon

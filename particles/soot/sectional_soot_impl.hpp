@@ -81,7 +81,7 @@ struct SectionalSoot::Impl : SootSpecies {
     double number[2] = {1, 0}, primaries[2] = {1, 0};
   } halves;
   std::vector<std::string> species;
-  std::vector<SootScalar> scalars;
+  std::vector<ParticleScalar> scalars;
   std::vector<double> numberScale;  // 1/m3, below which a section counts as empty for its n_p
   SectionShapes shapes;
   SectionPairs pairs;

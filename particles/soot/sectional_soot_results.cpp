@@ -41,11 +41,11 @@ std::vector<std::vector<double>> SectionalSoot::gridSums() const {
   return sums;
 }
 
-SootProperties SectionalSoot::properties(const ParticleGas& /*gas*/, std::span<const double> densities) const {
+ParticleProperties SectionalSoot::properties(const ParticleGas& /*gas*/, std::span<const double> densities) const {
   Impl& m = *impl_;
   m.prepareSections(densities);
   const Impl::State& s = m.state;
-  SootProperties p;
+  ParticleProperties p;
   p.numberDensity = s.number;
   p.volumeFraction = s.carbon / m.options.soot.sootDensity;
   if (!(s.number > 0)) return p;
@@ -74,11 +74,11 @@ double SectionalSoot::volumeFractionAtLimit(std::span<const double> densities) c
   return std::max(densities[last], 0.0) * impl_->pivots[last] / impl_->options.soot.sootDensity;
 }
 
-SootProcesses SectionalSoot::processes(const ParticleGas& gas, std::span<const double> densities) const {
+ParticleProcesses SectionalSoot::processes(const ParticleGas& gas, std::span<const double> densities) const {
   Impl& m = *impl_;
   m.prepare(gas, densities);
   const Impl::State& s = m.state;
-  SootProcesses p;
+  ParticleProcesses p;
   for (std::size_t k = 0; k < s.uptake.kinds; ++k) {
     p.nucleationNumber += s.uptake.nuclei[k].rate;
     p.nucleation += s.uptake.nuclei[k].carbon;
@@ -110,10 +110,10 @@ SootProcesses SectionalSoot::processes(const ParticleGas& gas, std::span<const d
   return p;
 }
 
-SootSizeDistribution SectionalSoot::sizeDistribution(std::span<const double> densities) const {
+SizeDistribution SectionalSoot::sizeDistribution(std::span<const double> densities) const {
   const Impl& m = *impl_;
   const double width = std::log10(m.options.factor) / 3;
-  SootSizeDistribution distribution;
+  SizeDistribution distribution;
   for (std::size_t i = 0; i < m.sections; ++i) {
     distribution.diameter.push_back(m.shapes.sphere[i]);
     distribution.density.push_back(std::max(densities[i], 0.0) / width);

@@ -54,8 +54,8 @@ SemiEmpiricalSoot::SemiEmpiricalSoot(const SemiEmpiricalOptions& options)
     : options_(options),
       spheres_(options.density, options.nucleusCarbon * options.carbonWeight / constants::avogadro),
       species_{"C2H2", "H2", "O2", "OH", "H", "CO"},
-      scalars_{{"number", "1/m^3", "number of soot particles", 1e17, 0, 0},
-               {"carbon", "kg/m^3", "carbon in soot", 1e-3, 1, 0}} {
+      scalars_{{"number", "1/m^3", "number of soot particles", 1e17},
+               {"carbon", "kg/m^3", "carbon in soot", 1e-3, {{"C", 1}}}} {
   require(options.density > 0 && options.nucleusCarbon > 0 && options.carbonWeight > 0);
   for (double constant :
        {options.inceptionFactor, options.inceptionTemperature, options.growthFactor, options.growthTemperature,
@@ -123,7 +123,7 @@ void SemiEmpiricalSoot::diffusivities(const ParticleGas& gas, std::span<const do
   std::fill(D.begin(), D.end(), spheres_.diffusivity(gas, possible, densities[carbon]));
 }
 
-SootProperties SemiEmpiricalSoot::properties(const ParticleGas& /*gas*/, std::span<const double> densities) const {
+ParticleProperties SemiEmpiricalSoot::properties(const ParticleGas& /*gas*/, std::span<const double> densities) const {
   return spheres_.properties(densities[number], densities[carbon]);
 }
 
@@ -131,9 +131,9 @@ double SemiEmpiricalSoot::volumeFraction(std::span<const double> densities) cons
   return std::max(densities[carbon], 0.0) / options_.density;
 }
 
-SootProcesses SemiEmpiricalSoot::processes(const ParticleGas& gas, std::span<const double> densities) const {
+ParticleProcesses SemiEmpiricalSoot::processes(const ParticleGas& gas, std::span<const double> densities) const {
   const Rates r = evaluate(gas, densities);
-  SootProcesses out;
+  ParticleProcesses out;
   out.nucleationNumber = r.nucleated;
   out.coagulationNumber = -r.coagulated;
   out.oxidationNumber = -r.oxidisedNumber;

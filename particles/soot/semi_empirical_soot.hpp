@@ -42,12 +42,13 @@ class SemiEmpiricalSoot final : public SootModel {
   explicit SemiEmpiricalSoot(const SemiEmpiricalOptions& options);  // throws InputError
 
   [[nodiscard]] const std::vector<std::string>& gasSpecies() const override { return species_; }
-  [[nodiscard]] const std::vector<SootScalar>& scalars() const override { return scalars_; }
+  [[nodiscard]] std::vector<std::size_t> precursors() const override { return {C2H2}; }
+  [[nodiscard]] const std::vector<ParticleScalar>& scalars() const override { return scalars_; }
   void sources(const ParticleGas& gas, std::span<const double> densities, std::span<double> rates,
                std::span<double> exchange) const override;
   void diffusivities(const ParticleGas& gas, std::span<const double> densities, std::span<double> D) const override;
-  [[nodiscard]] SootProperties properties(const ParticleGas& gas, std::span<const double> densities) const override;
-  [[nodiscard]] SootProcesses processes(const ParticleGas& gas, std::span<const double> densities) const override;
+  [[nodiscard]] ParticleProperties properties(const ParticleGas& gas, std::span<const double> densities) const override;
+  [[nodiscard]] ParticleProcesses processes(const ParticleGas& gas, std::span<const double> densities) const override;
   [[nodiscard]] double volumeFraction(std::span<const double> densities) const override;
 
   [[nodiscard]] const SemiEmpiricalOptions& options() const { return options_; }
@@ -64,7 +65,7 @@ class SemiEmpiricalSoot final : public SootModel {
   SemiEmpiricalOptions options_;
   EqualSpheres spheres_;
   std::vector<std::string> species_;
-  std::vector<SootScalar> scalars_;
+  std::vector<ParticleScalar> scalars_;
 };
 
 }  // namespace lampblack

@@ -1,10 +1,9 @@
 #include "particles/soot/soot_model.hpp"
 
-#include <algorithm>
 #include <array>
 
 #include "core/constants.hpp"
-#include "particles/two_equation.hpp"
+#include "particles/soot_gas.hpp"
 
 namespace lampblack {
 namespace {
@@ -29,64 +28,33 @@ constexpr EnthalpyFit hydrogenMolecule{
     {2.34433112e+00, 7.98052075e-03, -1.94781510e-05, 2.01572094e-08, -7.37611761e-12, -9.17935173e+02},
     {3.33727920e+00, -4.94024731e-05, 4.99456778e-07, -1.79566394e-10, 2.00255376e-14, -9.50158922e+02}};
 
-// Steps of the differences: a relative 1e-7, where half the digits are left in the quotient; of a value far below its
-// typical size, that of the smallest value that matters.
-constexpr double relativeStep = 1e-7;
-constexpr double smallestShare = 1e-5;
-
 }  // namespace
 
-void SootModel::jacobian(const ParticleGas& gas, std::span<const double> densities, std::span<double> values) const {
-  const std::size_t n = scalars().size(), m = gasSpecies().size(), rows = n + m, columns = rows + 1;
-  thread_local std::vector<double> state, base, moved;
-  state.resize(rows);
-  base.resize(rows);
-  moved.resize(rows);
-  for (std::size_t i = 0; i < n; ++i) state[i] = std::max(densities[i], 0.0);
-  for (std::size_t i = 0; i < m; ++i) state[n + i] = std::max(gas.concentrations[i], 0.0);
-  ParticleGas at = gas;
-  at.concentrations = {state.data() + n, m};
-  const auto evaluate = [&](std::vector<double>& out) {
-    sources(at, {state.data(), n}, {out.data(), n}, {out.data() + n, m});
-  };
-  const auto column = [&](std::size_t j, double step) {
-    evaluate(moved);
-    for (std::size_t i = 0; i < rows; ++i) values[i * columns + j] = (moved[i] - base[i]) / step;
-  };
-  evaluate(base);
-  const double total = gas.pressure / (constants::gasConstant * gas.temperature);  // mol/m3
-  for (std::size_t j = 0; j < rows; ++j) {
-    const double x = state[j], typical = j < n ? scalars()[j].scale * gas.density : total;
-    state[j] = x + relativeStep * std::max(x, smallestShare * typical);
-    column(j, state[j] - x);
-    state[j] = x;
+std::vector<std::size_t> SootModel::precursors() const {
+  std::vector<std::size_t> pah;
+  for (std::size_t i = SootSpecies::fixed; i < gasSpecies().size(); ++i) pah.push_back(i);
+  return pah;
+}
+
+void SootModel::enthalpies(double temperature, std::span<double> h, std::span<double> slope) const {
+  const auto [carbon, carbonSlope] = sootCarbonEnthalpy(temperature);
+  const auto [hydrogen, hydrogenSlope] = sootHydrogenEnthalpy(temperature);
+  for (std::size_t i = 0; i < scalars().size(); ++i) {
+    h[i] = slope[i] = 0;
+    for (const ElementMass& part : scalars()[i].elements) {
+      const bool isCarbon = part.element == "C";
+      h[i] += part.mass * (isCarbon ? carbon : hydrogen);
+      slope[i] += part.mass * (isCarbon ? carbonSlope : hydrogenSlope);
+    }
   }
-  at.temperature = gas.temperature * (1 + relativeStep);
-  column(rows, at.temperature - gas.temperature);
 }
 
-double SootModel::volumeFraction(std::span<const double> densities) const {
-  const std::vector<double> none(gasSpecies().size(), 0.0);
-  ParticleGas gas;  // nitrogen at 1500 K
-  gas.temperature = 1500;
-  gas.pressure = constants::oneAtmosphere;
-  gas.meanMolecularWeight = 0.028;
-  gas.density = gas.pressure * gas.meanMolecularWeight / (constants::gasConstant * gas.temperature);
-  gas.viscosity = 5.4e-5;
-  gas.concentrations = none;
-  return properties(gas, densities).volumeFraction;
+double SootModel::absorption(double temperature, double volumeFraction) const {
+  return sootAbsorption(temperature, volumeFraction);
 }
 
-double SootModel::volumeFractionAtLimit(std::span<const double> /*densities*/) const {
-  return 0;
-}
-
-SootSizeDistribution SootModel::sizeDistribution(std::span<const double> /*densities*/) const {
-  return {};
-}
-
-double sootThermophoresis() {
-  return TwoEquationSoot::thermophoreticCoefficient();
+double sootAbsorption(double temperature, double volumeFraction) {
+  return 700 * volumeFraction * temperature;
 }
 
 std::pair<double, double> sootCarbonEnthalpy(double temperature) {

@@ -8,13 +8,16 @@
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/flow_case.hpp"
-#include "app/soot_operator.hpp"
+#include "coupling/carried_particles.hpp"
+#include "flow/carried_operator.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/gas_properties.hpp"
 #include "flow/state.hpp"
+#include "particles/soot/dimer_soot.hpp"
 
 namespace lampblack::test {
 
@@ -27,6 +30,12 @@ inline Deck flameDeck(std::vector<std::string> overrides = {}) {
   return Deck::load(sourceFolder / "tests/app/flame.yaml", overrides, flowSchema());
 }
 
+// What the deck says of the two-equation model.
+inline const SootModelOptions& dimerOptions(const FlowCase& flowCase) {
+  const auto& particles = dynamic_cast<const CarriedParticles&>(*flowCase.carried);
+  return dynamic_cast<const DimerSoot&>(particles.model()).twoEquation().options();
+}
+
 // Temperature and mole fractions ("A2: 1e-5, N2: 1") at a place.
 struct Gas {
   double temperature = 300.0;
@@ -35,14 +44,14 @@ struct Gas {
 
 struct Flame {
   template <typename GasAt>
-  Flame(MPI_Comm comm, const GasAt& gasAt)
-      : flowCase(readFlowCase(flameDeck())),
+  Flame(MPI_Comm comm, const GasAt& gasAt, std::vector<std::string> overrides = {})
+      : flowCase(readFlowCase(flameDeck(std::move(overrides)))),
         mesh(comm, flowCase.mesh),
         halo(mesh),
         thermo(*flowCase.mechanism),
         transport(*flowCase.mechanism),
         context{mesh, halo, *flowCase.mechanism, thermo, transport, flowCase.boundaries},
-        state(mesh, flowCase.mechanism->numSpecies(), SootOperator::carriedScalars()) {
+        state(mesh, flowCase.mechanism->numSpecies(), CarriedOperator::scalarsOf(*flowCase.carried)) {
     state.thermodynamicPressure = flowCase.pressure;
     const std::size_t n = flowCase.mechanism->numSpecies();
     for (std::size_t c = 0; c < static_cast<std::size_t>(mesh.cells); ++c) {

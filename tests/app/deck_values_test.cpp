@@ -54,7 +54,7 @@ TEST(DeckValues, OfAFlow) {
   EXPECT_DOUBLE_EQ(flow.time.end, 3e-6);
   EXPECT_DOUBLE_EQ(flow.time.firstStep, 0.2e-6);
   EXPECT_DOUBLE_EQ(flow.time.maximumStep, 0.4e-6);
-  EXPECT_EQ(flow.time.courant, 0.3);
+  EXPECT_EQ(flow.flow.courant, 0.3);
   EXPECT_EQ(flow.time.growth, 1.5);
   EXPECT_DOUBLE_EQ(flow.output.interval, 2e-6);
   EXPECT_EQ(flow.output.historySteps, 3);
@@ -64,10 +64,12 @@ TEST(DeckValues, OfAFlow) {
   EXPECT_FALSE(flow.chemistry.shareWork);
   EXPECT_EQ(flow.chemistry.reactor.relativeTolerance, 1e-5);
   EXPECT_EQ(flow.chemistry.reactor.absoluteTolerance, 1e-11);
-  EXPECT_EQ(flow.soot->sootDensity, 1700);
-  EXPECT_EQ(flow.soot->alpha, 0.4);
-  EXPECT_EQ(flow.soot->ohEfficiency, 0.1);
-  EXPECT_EQ(flow.soot->vanDerWaals, 1.5);
+  for (const SootModelOptions* soot : {&test::dimerOptions(flow), &flow.trajectories->soot}) {
+    EXPECT_EQ(soot->sootDensity, 1700);
+    EXPECT_EQ(soot->alpha, 0.4);
+    EXPECT_EQ(soot->ohEfficiency, 0.1);
+    EXPECT_EQ(soot->vanDerWaals, 1.5);
+  }
   const TrajectoryRequest& paths = *flow.trajectories;
   EXPECT_DOUBLE_EQ(paths.duration, 2e-3);
   EXPECT_DOUBLE_EQ(paths.timeStep, 20e-6);

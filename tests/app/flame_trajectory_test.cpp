@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "flow/flame/carried_model.hpp"
+#include "flow/carried_model.hpp"
 #include "flow/flame/flame_solver.hpp"
 #include "flow/flame/initial_flame.hpp"
 #include "tests/flow/flame/flame_fixture.hpp"
@@ -86,12 +86,15 @@ TEST(FlamePath, StartsWhereItIsTold) {
 class Inert final : public CarriedModel {
  public:
   static double rate(double T) { return 1e15 * std::exp(-std::pow((T - 600) / 60, 2)); }  // 1/m3/s
-  Inert(std::size_t elements) : scalars_{{"number", "1/m3", 1e12, coefficient, std::vector<double>(elements, 0.0)}} {}
+  explicit Inert(std::size_t elements)
+      : scalars_{{{"number", "1/m^3", "inert"}, 1e12, coefficient, std::vector<double>(elements, 0.0)}} {}
+  [[nodiscard]] std::string material() const override { return "inert"; }
   [[nodiscard]] const std::vector<Scalar>& scalars() const override { return scalars_; }
   [[nodiscard]] const std::vector<std::size_t>& exchanged() const override { return exchanged_; }
   void sources(const ParticleGas& gas, std::span<const double>, std::span<double> rates, std::span<double>) override {
     rates[0] = rate(gas.temperature);
   }
+  ParticleAdvance advance(const CarrierGas&, double, std::span<double>, std::span<double>) override { return {}; }
   void jacobian(const ParticleGas& gas, std::span<const double>, const CarriedJacobian& out) override {
     out(0, 0) = 0;
     out(0, 1) = -2 * (gas.temperature - 600) / 3600 * rate(gas.temperature);

@@ -68,12 +68,13 @@ TEST(FlowCase, ReadsTheShippedDeck) {
   EXPECT_EQ(flowCase.initial.low.Y, fuel.Y);
   EXPECT_EQ(flowCase.initial.high.Y, flowCase.boundaries[1].Y);
   EXPECT_TRUE(flowCase.initial.burnt);
-  ASSERT_TRUE(flowCase.soot);
-  ASSERT_EQ(flowCase.soot->pah.size(), 1U);
-  EXPECT_EQ(flowCase.soot->pah[0].name, "A2");
-  EXPECT_EQ(flowCase.soot->pah[0].carbon, 10);
-  EXPECT_EQ(flowCase.soot->pah[0].hydrogen, 8);
-  EXPECT_DOUBLE_EQ(flowCase.soot->pah[0].stickingCoefficient, *defaultStickingCoefficient("A2"));
+  ASSERT_TRUE(flowCase.carried);
+  const SootModelOptions& soot = test::dimerOptions(flowCase);
+  ASSERT_EQ(soot.pah.size(), 1U);
+  EXPECT_EQ(soot.pah[0].name, "A2");
+  EXPECT_EQ(soot.pah[0].carbon, 10);
+  EXPECT_EQ(soot.pah[0].hydrogen, 8);
+  EXPECT_DOUBLE_EQ(soot.pah[0].stickingCoefficient, *defaultStickingCoefficient("A2"));
   ASSERT_TRUE(flowCase.trajectories);
   ASSERT_EQ(flowCase.trajectories->starts.size(), 4U);
   EXPECT_DOUBLE_EQ(flowCase.trajectories->starts[0].r, 0.5e-3);
@@ -90,8 +91,8 @@ TEST(FlowCase, FillsInDefaultsInSi) {
   EXPECT_EQ(flowCase.output.species.size(), flowCase.mechanism->numSpecies());
   EXPECT_TRUE(flowCase.chemistry.deferred);
   EXPECT_DOUBLE_EQ(flowCase.chemistry.reactor.relativeTolerance, 1e-6);
-  EXPECT_DOUBLE_EQ(flowCase.soot->sootDensity, 1850.0);
-  EXPECT_FALSE(flowCase.soot->alpha);
+  EXPECT_DOUBLE_EQ(test::dimerOptions(flowCase).sootDensity, 1850.0);
+  EXPECT_FALSE(test::dimerOptions(flowCase).alpha);
   EXPECT_DOUBLE_EQ(flowCase.trajectories->smallest, 0.5e-9);
   EXPECT_DOUBLE_EQ(flowCase.trajectories->largest, 200e-9);
 }
@@ -109,7 +110,7 @@ TEST(FlowCase, NeedsNoTitle) {
 
 TEST(FlowCase, WithoutSootThereAreNoTrajectories) {
   const FlowCase flowCase = readFlowCase(test::flameDeck({"soot.model=none"}));
-  EXPECT_FALSE(flowCase.soot);
+  EXPECT_FALSE(flowCase.carried);
   EXPECT_FALSE(flowCase.trajectories);
 }
 

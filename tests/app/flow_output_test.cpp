@@ -59,10 +59,40 @@ TEST(MeshOutput, HasCounterClockwiseQuadrilateralsInGlobalNumbers) {
   EXPECT_NEAR(test::sumOverRanks(volume), 0.5 * 14e-3 * 14e-3 * 8e-3, 1e-18);
 }
 
-TEST(History, HasAValueForEveryColumn) {
+// A new operator is its own file and nothing else: a spark that heats every cell at a rate.
+class Spark final : public Operator {
+ public:
+  [[nodiscard]] const char* name() const override { return "spark"; }
+  void advance(State& state, double, double dt) override {
+    for (double& T : state.temperature) T += 1e6 * dt;
+    ++sparks_;
+  }
+  [[nodiscard]] std::vector<Quantity> historyColumns() const override { return {{"sparks", "1", "so far"}}; }
+  [[nodiscard]] std::vector<double> historyValues(const State&) override { return {sparks_}; }
+  void fields(const State& state, const FieldSink& sink) const override {
+    sink({"spark", "K", "temperature after it"}, state.temperature);
+  }
+
+ private:
+  double sparks_ = 0;
+};
+
+TEST(History, HasAValueForEveryColumnOfEveryOperator) {
+  const Mesh mesh(MPI_COMM_WORLD, readFlowCase(test::flameDeck()).mesh);
+  State state(mesh, 2, {});
+  Spark spark;
+  spark.advance(state, 0.0, 1e-6);
   HistoryRow row;
   row.budget = {{}, {}};
-  EXPECT_EQ(historyColumns(row.budget).size(), historyValues(row).size());
+  row.operators = spark.historyValues(state);
+  const std::vector<Quantity> columns = historyColumns({&spark}, row.budget);
+  const std::vector<double> values = historyValues(row);
+  ASSERT_EQ(columns.size(), values.size());
+  const auto place = std::ranges::find(columns, "sparks", &Quantity::name) - columns.begin();
+  EXPECT_EQ(values.at(static_cast<std::size_t>(place)), 1);
+  std::vector<std::string> fields;
+  spark.fields(state, [&](const Quantity& field, std::span<const double>) { fields.push_back(field.name); });
+  EXPECT_EQ(fields, std::vector<std::string>{"spark"});
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ def main(executable, *mpiexec):
             assert result.code == 0, result.err
             with h5py.File(out / "results.h5", "r") as file:
                 last = file["steps"][max(file["steps"])]
-                carbon = last["soot_carbon_density"][()]
+                carbon = last["soot_carbon"][()]
             # Away from the inlets. What a third of the naphthalene gives off warms the gas by some 1.5 K, of which rate and
             # concentration feel one part in 1e4.
             ratio = carbon.max() / expected()

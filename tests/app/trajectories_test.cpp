@@ -48,9 +48,8 @@ void writeTrajectories(MPI_Comm comm, const fs::path& path, std::uint64_t seed,
   flame.flowCase.seed = seed;
   flame.flowCase.trajectories->starts = starts;
   flame.flowCase.trajectories->duration = 2e-3;
-  const SootOperator soot(flame.context, *flame.flowCase.soot);
   ResultsWriter results(comm, path, {}, meshOutput(flame.mesh));
-  runTrajectories(flame.context, flame.flowCase, flame.state, flame.properties, soot, results);
+  runTrajectories(flame.context, flame.flowCase, flame.state, flame.properties, results);
   results.close();
 }
 

@@ -14,7 +14,7 @@ inline DeckSchema sampleSchema() {
       .add(quantityKey("mesh.z[].to", units::length, "End of the segment."))
       .add(integerKey("mesh.z[].cells", "Cells of the segment.").atLeast(1).atMost(100000))
       .section("boundaries", Presence::required, "Named boundaries.")
-      .add(choiceKey("boundaries.*.type", {"inlet", "outlet", "wall"}, "Kind."))
+      .add(choiceKey("boundaries.*.type", {"inlet", "outlet", "wall"}, "Kind.").formerly("entrance", "inlet"))
       .add(quantityKey("boundaries.*.velocity", units::velocity, "Inward velocity.").optional())
       .add(quantityKey("boundaries.*.temperature", units::temperature, "Temperature.").byDefault("25 degC").above(0.0))
       .add(numberKey("boundaries.*.composition.*", "Mole fraction.").atLeast(0.0).atMost(1.0))

@@ -244,7 +244,7 @@ TEST(TwoEquationSoot, NegativeEntriesOfTransportCountAsZeroAndKeepTheirDeficit) 
 }
 
 TEST(TwoEquationSoot, TransportPropertiesHaveTheirLimits) {
-  EXPECT_NEAR(TwoEquationSoot::thermophoreticCoefficient(), 0.5385, 1e-4);  // Waldmann's 0.54
+  EXPECT_NEAR(waldmannThermophoresis(), 0.5385, 1e-4);  // Waldmann's 0.54
   const TwoEquationSoot model(test::naphthalene());
   const test::FlameGas gas(1700, 0, 0, 0, 0, 0, 0, {0});
   const Population soot = sootOf(1e15, 20e-9);

@@ -30,8 +30,9 @@ class Failing final : public CarriedModel {
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     MPI_Comm_size(MPI_COMM_WORLD, &ranks);
     last_ = rank == ranks - 1;
-    scalars_.push_back({"inert", "1/m3", 1, 0, std::vector<double>(hydrogenMechanism()->numElements())});
+    scalars_.push_back({{"inert", "1/m^3", ""}, 1, 0, std::vector<double>(hydrogenMechanism()->numElements())});
   }
+  [[nodiscard]] std::string material() const override { return "inert"; }
   [[nodiscard]] const std::vector<Scalar>& scalars() const override { return scalars_; }
   [[nodiscard]] const std::vector<std::size_t>& exchanged() const override { return exchanged_; }
   void sources(const ParticleGas&, std::span<const double>, std::span<double> rates, std::span<double>) override {
@@ -40,6 +41,7 @@ class Failing final : public CarriedModel {
     --failures;
     throw NumericsError(message);
   }
+  ParticleAdvance advance(const CarrierGas&, double, std::span<double>, std::span<double>) override { return {}; }
   void jacobian(const ParticleGas&, std::span<const double>, const CarriedJacobian& out) override {
     std::ranges::fill(out.values, 0.0);
   }

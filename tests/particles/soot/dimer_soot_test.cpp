@@ -77,7 +77,7 @@ TEST(DimerSoot, ParticlesThatGrowOnBalanceDoNotVanish) {
   for (const bool acetylene : {true, false}) {
     const test::FlameGas gas(1700, 1e-2, 0.03, 1e-4, 0.08, 1e-4, acetylene ? 1.0 : 0.0, {0});
     const std::vector<double> densities{number, carbon, 0};
-    const SootProcesses p = soot.processes(gas.state, densities);
+    const ParticleProcesses p = soot.processes(gas.state, densities);
     const double burning = -(p.oxidationO2 + p.oxidationOH) / carbon;  // 1/s
     ASSERT_EQ(acetylene, p.growth > -2 * (p.oxidationO2 + p.oxidationOH));
     StochasticSootOptions stochastic;
@@ -102,10 +102,10 @@ TEST(DimerSoot, CountsDimersByTheirMoleculesAndCollisionsByTheirParticles) {
   const double carbon = 1e-6, nuclei = carbon / (40 * 12.011e-3 / constants::avogadro);
   std::vector<double> rates(3), exchange(gas.concentrations.size());
   soot.sources(gas.state, std::vector<double>{nuclei, carbon, 0}, rates, exchange);
-  const SootProcesses full = soot.processes(gas.state, std::vector<double>{nuclei, carbon, 0});
+  const ParticleProcesses full = soot.processes(gas.state, std::vector<double>{nuclei, carbon, 0});
   EXPECT_NEAR(full.dimerProduction / (-0.5 * constants::avogadro * (exchange[7] + exchange[8] + exchange[9])), 1,
               1e-14);
-  const SootProcesses twice = soot.processes(gas.state, std::vector<double>{2 * nuclei, carbon, 0});
+  const ParticleProcesses twice = soot.processes(gas.state, std::vector<double>{2 * nuclei, carbon, 0});
   EXPECT_LT(full.coagulationNumber, 0);
   EXPECT_NEAR(twice.coagulationNumber / full.coagulationNumber, 4, 1e-14);
 }

@@ -76,7 +76,7 @@ TEST(Hmom, NucleationMakesNucleiOfTwoDimers) {
   const ModelGas gas(flame, soot);
   const Scalars rates = gas.rates(model, Scalars(7, 0.0));
   const DimerModel dimers(soot);
-  const SootProcesses p = model.processes(gas.gas, Scalars(7, 0.0));
+  const ParticleProcesses p = model.processes(gas.gas, Scalars(7, 0.0));
   EXPECT_NEAR(rates[0] / (p.dimerProduction / 2), 1, 1e-14);
   EXPECT_NEAR((rates[1] + rates[2]) / p.nucleation, 1, 1e-14);
   for (std::size_t i = 3; i < 7; ++i) EXPECT_EQ(rates[i], 0);
@@ -110,7 +110,7 @@ TEST(Hmom, AggregationKeepsVolumeAndSurface) {
   EXPECT_LT(end[3], 0.25 * start[3]);
   for (std::size_t i : {4, 5, 6}) EXPECT_EQ(end[i], start[i]);
   // So primaries stay what they were, and there are as many as particles at the start.
-  const SootProperties p = model.properties(gas.gas, end);
+  const ParticleProperties p = model.properties(gas.gas, end);
   EXPECT_NEAR(p.primaryDiameter / 15e-9, 1, 1e-12);
   EXPECT_NEAR(p.primariesPerAggregate * end[3] / start[3], 1, 1e-12);
   EXPECT_NEAR(p.mobilityDiameter / (15e-9 * std::pow(p.primariesPerAggregate, 0.45)), 1, 1e-12);
@@ -174,7 +174,7 @@ TEST(Hmom, LargeSpheresGrowCondenseAndOxidiseAsTheTwoEquationModelDoes) {
   const ModelGas gas(sootingGas(), soot);
   const Scalars y = twoModes(0, 0, 1e17, sphereMass(20e-9), 1);
   const auto two = TwoEquationSoot(soot).sources(sootingGas().state, {y[3], y[4], y[5]});
-  const SootProcesses p = model.processes(gas.gas, y);
+  const ParticleProcesses p = model.processes(gas.gas, y);
   EXPECT_NEAR(p.growth / two.growth, 1, 1e-12);
   EXPECT_NEAR(p.oxidationO2 / two.oxidationO2, 1, 1e-12);
   EXPECT_NEAR(p.oxidationOH / two.oxidationOH, 1, 1e-12);

@@ -36,8 +36,8 @@ TEST_P(EverySootModel, ExchangesWhatItsProcessesSay) {
     model->sources(s.gas, s.densities, rates, exchange);
     double mass = 0;
     for (std::size_t k = 0; k < rates.size(); ++k)
-      mass += rates[k] * (model->scalars()[k].carbon + model->scalars()[k].hydrogen);
-    const SootProcesses p = model->processes(s.gas, s.densities);
+      mass += rates[k] * (model->scalars()[k].massOf("C") + model->scalars()[k].massOf("H"));
+    const ParticleProcesses p = model->processes(s.gas, s.densities);
     const double parts[] = {p.nucleation, p.condensation, p.growth, p.oxidationO2, p.oxidationOH, p.carbonisation};
     double sum = 0, moved = 0;
     for (double part : parts) {
@@ -75,7 +75,7 @@ TEST_P(EverySootModel, DensitiesOfGasAloneMakeSootOnlyByNucleation) {
   s.connect();
   s.gas.temperature = 1600;
   std::fill(s.densities.begin(), s.densities.end(), 0.0);
-  const SootProcesses p = model->processes(s.gas, s.densities);
+  const ParticleProcesses p = model->processes(s.gas, s.densities);
   EXPECT_GT(p.nucleation, 0);
   EXPECT_GT(p.nucleationNumber, 0);
   for (double other : {p.condensation, p.growth, p.oxidationO2, p.oxidationOH, p.coagulationNumber})

@@ -21,7 +21,7 @@ struct Result {
 
 Result resultOf(const SootModel& model, const ModelGas& gas, double time) {
   const std::vector<double> y = gas.integrate(model, std::vector<double>(model.scalars().size(), 0.0), time, 1e-6);
-  const SootProperties p = model.properties(gas.gas, y);
+  const ParticleProperties p = model.properties(gas.gas, y);
   return {p.numberDensity, p.volumeFraction};
 }
 

@@ -61,8 +61,8 @@ TEST_P(SectionalElements, AreConservedToRoundOff) {
       add(O, sizeO, atoms[k].O * f.exchange[k]);
     }
     for (std::size_t i = 0; i < model.scalars().size(); ++i) {
-      add(C, sizeC, model.scalars()[i].carbon * f.scalars[i] / model.options().soot.carbonWeight);
-      add(H, sizeH, model.scalars()[i].hydrogen * f.scalars[i] / model.options().soot.hydrogenWeight);
+      add(C, sizeC, model.scalars()[i].massOf("C") * f.scalars[i] / model.options().soot.carbonWeight);
+      add(H, sizeH, model.scalars()[i].massOf("H") * f.scalars[i] / model.options().soot.hydrogenWeight);
     }
     // Rounding of a few hundred terms.
     EXPECT_NEAR(C, 0, 1e-13 * sizeC);

@@ -22,7 +22,7 @@ struct Case {
   std::vector<double> concentrations{0.2, 0.1, 0.02, 1e-3, 1e-3, 0.3}, densities{1e17, 1e-3};
   ParticleGas gas;
   std::vector<double> rates{0, 0}, exchange{0, 0, 0, 0, 0, 0};
-  SootProcesses processes;
+  ParticleProcesses processes;
 
   explicit Case(const SemiEmpiricalOptions& options) {
     const SemiEmpiricalSoot soot(options);

@@ -56,7 +56,7 @@ class RandomStates {
     for (std::size_t i = 0; i < model.gasSpecies().size(); ++i)
       s.concentrations.push_back(total * std::pow(10, -1 - 11 * uniform()));
     const double amount = std::pow(10, 4 - 16 * uniform());
-    for (const SootScalar& scalar : model.scalars())
+    for (const ParticleScalar& scalar : model.scalars())
       s.densities.push_back(amount * scalar.scale * std::pow(10, 2 * uniform() - 1));
     return s;
   }
@@ -79,8 +79,8 @@ inline Atoms imbalance(const SootModel& model, const ModelState& s, const ModelW
     moved[e] += std::abs(amount);
   };
   for (std::size_t i = 0; i < n; ++i) {
-    add(0, rates[i] * model.scalars()[i].carbon / weights.carbon);
-    add(1, rates[i] * model.scalars()[i].hydrogen / weights.hydrogen);
+    add(0, rates[i] * model.scalars()[i].massOf("C") / weights.carbon);
+    add(1, rates[i] * model.scalars()[i].massOf("H") / weights.hydrogen);
   }
   for (std::size_t i = 0; i < m; ++i) {
     const Atoms& atoms = atomsOfSpecies().at(model.gasSpecies()[i]);

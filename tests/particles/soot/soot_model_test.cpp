@@ -46,7 +46,8 @@ TEST(SootEnthalpy, SlopesAreTheDerivatives) {
 class Formula final : public SootModel {
  public:
   const std::vector<std::string>& gasSpecies() const override { return species_; }
-  const std::vector<SootScalar>& scalars() const override { return scalars_; }
+  std::vector<std::size_t> precursors() const override { return {0}; }
+  const std::vector<ParticleScalar>& scalars() const override { return scalars_; }
   void sources(const ParticleGas& gas, std::span<const double> x, std::span<double> rates,
                std::span<double> exchange) const override {
     const double N = std::max(x[0], 0.0), c = std::max(gas.concentrations[0], 0.0);
@@ -54,16 +55,16 @@ class Formula final : public SootModel {
     exchange[0] = -std::exp(-1e4 / gas.temperature) * N * c;
   }
   void diffusivities(const ParticleGas&, std::span<const double>, std::span<double>) const override {}
-  SootProperties properties(const ParticleGas& gas, std::span<const double> x) const override {
-    SootProperties out;
+  ParticleProperties properties(const ParticleGas& gas, std::span<const double> x) const override {
+    ParticleProperties out;
     out.volumeFraction = gas.concentrations.size() == 1 ? 1e-24 * x[0] : 0;
     return out;
   }
-  SootProcesses processes(const ParticleGas&, std::span<const double>) const override { return {}; }
+  ParticleProcesses processes(const ParticleGas&, std::span<const double>) const override { return {}; }
 
  private:
   std::vector<std::string> species_{"C2H2"};
-  std::vector<SootScalar> scalars_{{"number", "1/m3", "", 1e16, 0, 0}};
+  std::vector<ParticleScalar> scalars_{{"number", "1/m3", "", 1e16}};
 };
 
 TEST(SootModelDefaults, DifferencesHoldFromZeroToDense) {
@@ -101,9 +102,8 @@ TEST(SootModelDefaults, VolumeFractionIsThatOfTheProperties) {
   EXPECT_TRUE(Formula().sizeDistribution(x).diameter.empty());
 }
 
-TEST(SootModelDefaults, ThermophoresisHasOneCoefficient) {
-  EXPECT_EQ(sootThermophoresis(), TwoEquationSoot::thermophoreticCoefficient());
-  EXPECT_NEAR(sootThermophoresis(), 0.5385, 5e-5);  // thesis eq. 7-29, full accommodation
+TEST(SootModelDefaults, ThermophoresisIsThatOfSmallParticles) {
+  EXPECT_NEAR(Formula().thermophoresis(), 0.5385, 5e-5);  // thesis eq. 7-29, full accommodation
 }
 
 }  // namespace

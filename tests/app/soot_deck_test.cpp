@@ -1,4 +1,4 @@
-#include "app/flame_soot.hpp"
+#include "app/soot_deck.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,6 +8,8 @@
 
 #include "core/constants.hpp"
 #include "core/errors.hpp"
+#include "coupling/carried_particles.hpp"
+#include "particles/collision_physics.hpp"
 #include "particles/soot/dimer_soot.hpp"
 #include "particles/soot/hmom.hpp"
 #include "particles/soot/make_soot_model.hpp"
@@ -40,7 +42,7 @@ std::string messageOf(const std::string& text, const Mechanism& mechanism = abf(
   return test::messageOf<InputError>([&] { const auto model = readSootModel(deckOf(text), mechanism); });
 }
 
-const SootModelOptions& optionsOf(const std::unique_ptr<SootModel>& model) {
+const SootModelOptions& optionsOf(const std::unique_ptr<ParticleModel>& model) {
   return dynamic_cast<const DimerSoot&>(*model).twoEquation().options();
 }
 
@@ -86,7 +88,7 @@ TEST(SootDeck, EveryModelOfTheListCanBeMade) {
   for (const std::string& name : sootModelNames()) {
     const auto model = readSootModel(deckOf("soot: {pah: [A2, A3, A4], model: " + name + "}"), abf());
     ASSERT_NE(model, nullptr) << name;
-    const FlameSoot soot(abf(), readSootModel(deckOf("soot: {model: " + name + "}"), abf()));
+    const CarriedParticles soot(abf(), readSootModel(deckOf("soot: {model: " + name + "}"), abf()));
     EXPECT_EQ(soot.scalars().size(), soot.model().scalars().size());
   }
 }
@@ -118,6 +120,7 @@ TEST(SootDeck, SemiEmpiricalConstantsAreThePublishedOnesUntilSet) {
 
 TEST(SootDeck, MistakesAreNamed) {
   using testing::HasSubstr;
+  EXPECT_THAT(messageOf("soot: {model: two_equation}"), HasSubstr("'two_equation' is called 'two_equation_dimer' now"));
   EXPECT_THAT(messageOf("soot: {pah: [A22]}"), HasSubstr("A22"));
   EXPECT_THAT(messageOf("soot: {pah: [CO]}"), HasSubstr("'CO' is not a hydrocarbon"));
   EXPECT_THAT(messageOf("soot: {pah: [A2, A3, A2]}"), HasSubstr("'A2' is named twice"));
@@ -136,19 +139,19 @@ TEST(SootDeck, MistakesAreNamed) {
   EXPECT_THAT(messageOf("soot: {pah: []}", mechanismOf("hydrogen_h2o2_10")), HasSubstr("carbon"));
 }
 
-TEST(FlameSoot, SpeciesBecomeIndicesAndScalarsElements) {
-  FlameSoot soot(abf(), readSootModel(deckOf("soot: {pah: [A2, A4]}"), abf()));
+TEST(CarriedParticles, SpeciesBecomeIndicesAndScalarsElements) {
+  CarriedParticles soot(abf(), readSootModel(deckOf("soot: {pah: [A2, A4]}"), abf()));
   ASSERT_EQ(soot.exchanged().size(), soot.model().gasSpecies().size());
   for (std::size_t i = 0; i < soot.exchanged().size(); ++i)
     EXPECT_EQ(abf().speciesName(soot.exchanged()[i]), soot.model().gasSpecies()[i]);
   EXPECT_EQ(soot.scalars()[DimerSoot::carbon].elements[abf().elementIndex("C")], 1);
   EXPECT_EQ(soot.scalars()[DimerSoot::number].elements[abf().elementIndex("C")], 0);
   EXPECT_EQ(soot.scalars()[DimerSoot::hydrogen].elements[abf().elementIndex("H")], 1);
-  EXPECT_EQ(soot.scalars()[0].thermophoresis, sootThermophoresis());
+  EXPECT_EQ(soot.scalars()[0].thermophoresis, waldmannThermophoresis());
 }
 
-TEST(FlameSoot, ExchangeConservesTheElementsOfTheMechanism) {
-  FlameSoot soot(abf(), readSootModel(deckOf("soot: {pah: [A2, A3]}"), abf()));
+TEST(CarriedParticles, ExchangeConservesTheElementsOfTheMechanism) {
+  CarriedParticles soot(abf(), readSootModel(deckOf("soot: {pah: [A2, A3]}"), abf()));
   const std::size_t n = soot.scalars().size(), m = soot.exchanged().size();
   std::vector<double> concentrations(m), rates(n), exchange(m);
   for (std::size_t i = 0; i < m; ++i) concentrations[i] = 0.01 / static_cast<double>(i + 1);
@@ -170,8 +173,8 @@ TEST(FlameSoot, ExchangeConservesTheElementsOfTheMechanism) {
   EXPECT_THAT(J, testing::Contains(testing::Gt(0.0)));
 }
 
-TEST(FlameSoot, AbsorbsAndHasTheEnthalpyOfGraphiteAndHydrogen) {
-  FlameSoot soot(abf(), readSootModel(deckOf("soot: {}"), abf()));
+TEST(CarriedParticles, AbsorbsAndHasTheEnthalpyOfGraphiteAndHydrogen) {
+  CarriedParticles soot(abf(), readSootModel(deckOf("soot: {}"), abf()));
   const std::vector<double> densities{1e17, 1.85e-3 - 1e-5, 1e-5};
   EXPECT_NEAR(soot.absorption(1600, densities), 700 * 1e-6 * 1600, 1e-12);
   std::vector<double> h(3), slope(3);
@@ -181,9 +184,9 @@ TEST(FlameSoot, AbsorbsAndHasTheEnthalpyOfGraphiteAndHydrogen) {
   EXPECT_EQ(slope[2], sootHydrogenEnthalpy(1200).second);
 }
 
-TEST(FlameSoot, DiffusesUnlessToldNotTo) {
+TEST(CarriedParticles, DiffusesUnlessToldNotTo) {
   for (const bool diffusion : {true, false}) {
-    FlameSoot soot(abf(), readSootModel(deckOf("soot: {}"), abf()), diffusion);
+    CarriedParticles soot(abf(), readSootModel(deckOf("soot: {}"), abf()), diffusion);
     const std::vector<double> concentrations(soot.exchanged().size(), 1e-3), densities{1e17, 1.85e-3 - 1e-5, 1e-5};
     std::vector<double> D(3, -1.0);
     soot.diffusivities({1700, 101325, 0.2, 5e-5, 0.028, concentrations}, densities, D);

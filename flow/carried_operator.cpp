@@ -1,0 +1,267 @@
+#include "flow/carried_operator.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "core/errors.hpp"
+
+namespace lampblack {
+namespace {
+
+// How a cell is packed for the trip to another rank and back. In: place, number, gas, densities, concentrations; out:
+// seconds, steps, limited oxidations, densities, concentrations.
+constexpr std::size_t inHeader = 8, outHeader = 3;
+
+constexpr double firstCost = 1e-5;  // s, before a cell was ever advanced
+
+}  // namespace
+
+ParticleGas gasOfCell(const FlowContext& context, const State& state, int cell, double viscosity,
+                      const std::vector<std::size_t>& species, std::vector<double>& concentrations) {
+  const auto n = static_cast<std::size_t>(state.species);
+  const double* Y = &state.Y[static_cast<std::size_t>(cell) * n];
+  const auto W = context.mechanism.molecularWeights();
+  const double rho = state.density[cell];
+  concentrations.clear();
+  for (const std::size_t k : species) concentrations.push_back(rho * Y[k] / W[k]);
+  return {{state.temperature[cell], state.thermodynamicPressure, rho, viscosity,
+           context.thermo.meanMolecularWeight({Y, n})},
+          concentrations};
+}
+
+std::vector<CarriedScalar> CarriedOperator::scalarsOf(const CarriedModel& model) {
+  std::vector<CarriedScalar> scalars;
+  for (const CarriedModel::Scalar& scalar : model.scalars())
+    scalars.push_back({model.material() + "_" + scalar.density.name, scalar.density.unit,
+                       scalar.density.description + ", per volume", scalar.thermophoresis});
+  return scalars;
+}
+
+CarriedOperator::CarriedOperator(const FlowContext& context, CarriedModel& model, std::size_t first, Options options)
+    : context_(context),
+      model_(model),
+      first_(first),
+      scalars_(model.scalars().size()),
+      options_(std::move(options)),
+      sharing_(context.mesh.comm, options_.shareWork),
+      cost_(context.mesh.owned, firstCost),
+      speciesEnthalpy_(context.mechanism.numSpecies()),
+      partialDensity_(context.mechanism.numSpecies()),
+      enthalpy_(scalars_),
+      slope_(scalars_) {}
+
+std::span<double> CarriedOperator::densities(State& state, int cell) const {
+  return {&state.carried[static_cast<std::size_t>(cell) * state.scalars.size() + first_], scalars_};
+}
+
+std::span<const double> CarriedOperator::densities(const State& state, int cell) const {
+  return {&state.carried[static_cast<std::size_t>(cell) * state.scalars.size() + first_], scalars_};
+}
+
+double CarriedOperator::viscosityOf(const State& state, int cell) const {
+  const auto n = static_cast<std::size_t>(state.species);
+  thread_local std::vector<double> X, D;
+  X.resize(n);
+  D.resize(n);
+  context_.thermo.massToMole({&state.Y[static_cast<std::size_t>(cell) * n], n}, X);
+  return context_.transport.mixture(state.temperature[cell], state.thermodynamicPressure, X, D).viscosity;
+}
+
+void CarriedOperator::solve(double time, double dt, std::span<const double> in, std::span<double> out) const {
+  const double start = MPI_Wtime();
+  const std::span<double> values = out.subspan(outHeader);
+  std::ranges::copy(in.subspan(inHeader), values.begin());
+  try {
+    const ParticleAdvance done =
+        model_.advance({in[3], in[4], in[5], in[6], in[7]}, dt, values.first(scalars_), values.subspan(scalars_));
+    out[1] = done.steps + done.rejected;
+    out[2] = done.limitedOxidations;
+  } catch (const NumericsError& error) {
+    throw NumericsError(fmt::format("{} failed in cell {:.0f} at ({:.6g}, {:.6g}) m at time {:.6g} s: {}",
+                                    model_.material(), in[2], in[0], in[1], time, error.what()));
+  }
+  out[0] = MPI_Wtime() - start;
+}
+
+void CarriedOperator::unpack(State& state, int cell, std::span<const double> in, std::span<const double> out) {
+  // A smoothed cost: one solve's time is noisy on a shared machine.
+  cost_[cell] = 0.5 * (cost_[cell] + out[0]);
+  steps_ += static_cast<long>(out[1]);
+  limitedOxidations_ += static_cast<long>(out[2]);
+
+  const std::vector<std::size_t>& species = model_.exchanged();
+  const std::span<const double> before = in.subspan(inHeader), after = out.subspan(outHeader);
+  const std::span<double> scalars = densities(state, cell);
+  std::copy_n(after.begin(), scalars_, scalars.begin());
+  const auto isSame = [&](std::size_t i) { return before[scalars_ + i] == after[scalars_ + i]; };
+
+  // Back to the gas's partial densities; what did not change keeps its bits.
+  const auto n = static_cast<std::size_t>(state.species);
+  double* Y = &state.Y[static_cast<std::size_t>(cell) * n];
+  const auto W = context_.mechanism.molecularWeights();
+  const double rho = state.density[cell];
+  bool isChanged = false;
+  for (std::size_t k = 0; k < n; ++k) partialDensity_[k] = rho * Y[k];
+  for (std::size_t i = 0; i < species.size(); ++i) {
+    if (isSame(i)) continue;
+    partialDensity_[species[i]] += (after[scalars_ + i] - before[scalars_ + i]) * W[species[i]];
+    isChanged = true;
+  }
+  if (!isChanged) return;
+
+  double mass = 0.0;
+  for (std::size_t k = 0; k < n; ++k) mass += partialDensity_[k];
+  for (std::size_t k = 0; k < n; ++k) Y[k] = partialDensity_[k] / mass;
+  const double temperature = state.temperature[cell];
+  model_.enthalpies(temperature, enthalpy_, slope_);
+  double given = 0.0;
+  for (std::size_t s = 0; s < scalars_; ++s) given += (after[s] - before[s]) * enthalpy_[s];
+  state.enthalpy[cell] = (rho * state.enthalpy[cell] - given) / mass;
+  state.density[cell] = mass;
+  state.temperature[cell] = context_.thermo.temperatureFromEnthalpy(state.enthalpy[cell], {Y, n}, temperature);
+}
+
+void CarriedOperator::setDiffusivities(State& state, int cell, double viscosity) {
+  const std::span<double> D{&state.carriedDiffusivity[static_cast<std::size_t>(cell) * state.scalars.size() + first_],
+                            scalars_};
+  model_.diffusivities(gasOfCell(context_, state, cell, viscosity, model_.exchanged(), concentrations_),
+                       densities(state, cell), D);
+}
+
+void CarriedOperator::advance(State& state, double time, double dt) {
+  const Mesh& m = context_.mesh;
+  struct Busy {
+    int cell;
+    double viscosity;
+    std::vector<double> packed;
+  };
+  std::vector<Busy> busy;
+  WorkSharing::Items items;
+  collectively(m.comm, [&] {
+    for (int c = 0; c < m.owned; ++c) {
+      const ParticleGas still = gasOfCell(context_, state, c, 0.0, model_.exchanged(), concentrations_);
+      if (model_.idle(still, densities(state, c))) {
+        std::fill_n(&state.carriedDiffusivity[static_cast<std::size_t>(c) * state.scalars.size() + first_], scalars_,
+                    0.0);
+        continue;
+      }
+      const double viscosity = viscosityOf(state, c);
+      std::vector<double> packed{m.centre[c][0],    m.centre[c][1],           static_cast<double>(m.naturalCell[c]),
+                                 still.temperature, still.pressure,           still.density,
+                                 viscosity,         still.meanMolecularWeight};
+      const std::span<const double> carried = densities(state, c);
+      packed.insert(packed.end(), carried.begin(), carried.end());
+      packed.insert(packed.end(), concentrations_.begin(), concentrations_.end());
+      busy.push_back({c, viscosity, std::move(packed)});
+      items.cost.push_back(cost_[c]);
+    }
+  });
+  items.inputSize = inHeader + scalars_ + model_.exchanged().size();
+  items.outputSize = outHeader + scalars_ + model_.exchanged().size();
+  items.pack = [&](std::size_t i, std::span<double> in) { std::ranges::copy(busy[i].packed, in.begin()); };
+  items.advance = [&](std::span<const double> in, std::span<double> out) { solve(time, dt, in, out); };
+  items.unpack = [&](std::size_t i, std::span<const double> out) {
+    unpack(state, busy[i].cell, busy[i].packed, out);
+    setDiffusivities(state, busy[i].cell, busy[i].viscosity);
+  };
+  const WorkSharing::Statistics statistics = sharing_.run(items);
+  imbalances_.before += statistics.imbalanceBefore;
+  imbalances_.after += statistics.imbalanceAfter;
+  ++stages_;
+  state.updateHalo(context_.halo);
+}
+
+void CarriedOperator::saveOrLoad(StateArchive& archive) {
+  archive.cells("carried_cost", cost_, 1);
+  std::array<double, 2> counted{static_cast<double>(steps_), static_cast<double>(limitedOxidations_)};
+  archive.sums("carried_counts", counted);
+  steps_ = static_cast<long>(counted[0]);
+  limitedOxidations_ = static_cast<long>(counted[1]);
+  std::vector<double> stages{imbalances_.before, imbalances_.after, static_cast<double>(stages_)};
+  archive.shared("carried_stages", stages);
+  imbalances_ = {stages.at(0), stages.at(1)};
+  stages_ = static_cast<int>(stages.at(2));
+}
+
+std::optional<Operator::Imbalance> CarriedOperator::imbalance() const {
+  if (stages_ == 0) return {};
+  return Imbalance{imbalances_.before / stages_, imbalances_.after / stages_};
+}
+
+std::vector<Quantity> CarriedOperator::historyColumns() const {
+  const std::string material = model_.material();
+  return {
+      {"peak_" + material + "_volume_fraction", "1", "largest volume fraction of " + material},
+      {material + "_at_limit", "1",
+       "largest volume fraction in particles that cannot grow any more, over the largest of all"},
+      {material + "_solver_steps", "1", "internal steps of its stiff solver over all cells since the start"},
+      {"limited_oxidations", "1", "steps of it since the start in which oxidation was limited by the oxidiser left"}};
+}
+
+std::vector<double> CarriedOperator::historyValues(const State& state) {
+  const Mesh& m = context_.mesh;
+  struct {
+    double value;
+    int rank;
+  } best{-1.0, m.rank};
+  double atLimit = 0.0;
+  for (int c = 0; c < m.owned; ++c) {
+    const double fraction = model_.volumeFraction(densities(state, c));
+    atLimit = std::max(atLimit, model_.volumeFractionAtLimit(densities(state, c)));
+    if (fraction <= best.value) continue;
+    best.value = fraction;
+    place_ = m.centre[c];
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &best, 1, MPI_DOUBLE_INT, MPI_MAXLOC, m.comm);
+  MPI_Bcast(place_.data(), 2, MPI_DOUBLE, best.rank, m.comm);
+  MPI_Allreduce(MPI_IN_PLACE, &atLimit, 1, MPI_DOUBLE, MPI_MAX, m.comm);
+  double counts[2] = {static_cast<double>(steps_), static_cast<double>(limitedOxidations_)};
+  MPI_Allreduce(MPI_IN_PLACE, counts, 2, MPI_DOUBLE, MPI_SUM, m.comm);
+  peak_ = best.value;
+  limited_ = counts[1];
+  const double part = peak_ > 0.0 ? atLimit / peak_ : 0.0;
+  if (part > options_.allowedAtLimit)
+    throw NumericsError(fmt::format(
+        "a part {:.2g} of the largest volume fraction of {} stands in the largest particles that the model can have; "
+        "allowed is {:.2g}. {}",
+        part, model_.material(), options_.allowedAtLimit, options_.advice));
+  return {peak_, part, counts[0], limited_};
+}
+
+std::string CarriedOperator::status() const {
+  return fmt::format("fv {:.3g} ppm", 1e6 * peak_);
+}
+
+std::vector<std::string> CarriedOperator::closingLines() const {
+  std::vector<std::string> lines{fmt::format("peak {} volume fraction {:.4g} ppm at ({:.3f}, {:.3f}) mm",
+                                             model_.material(), 1e6 * peak_, 1e3 * place_[0], 1e3 * place_[1])};
+  if (limited_ > 0)
+    lines.push_back(
+        fmt::format("{} oxidation was limited by the oxidiser left in {:.0f} steps", model_.material(), limited_));
+  return lines;
+}
+
+void CarriedOperator::fields(const State& state, const FieldSink& sink) const {
+  const auto owned = static_cast<std::size_t>(context_.mesh.owned);
+  std::vector<double> column(owned), concentrations;
+  for (std::size_t s = first_; s < first_ + scalars_; ++s) {
+    for (std::size_t c = 0; c < owned; ++c) column[c] = state.carried[c * state.scalars.size() + s];
+    sink({state.scalars[s].name, state.scalars[s].unit, state.scalars[s].description}, column);
+  }
+  const std::vector<Quantity> properties = model_.properties();
+  std::vector<double> values(properties.size()), all(properties.size() * owned);
+  for (std::size_t c = 0; c < owned; ++c) {
+    const int cell = static_cast<int>(c);
+    const ParticleGas gas =
+        gasOfCell(context_, state, cell, viscosityOf(state, cell), model_.exchanged(), concentrations);
+    model_.evaluateProperties(gas, densities(state, cell), values);
+    for (std::size_t p = 0; p < properties.size(); ++p) all[p * owned + c] = values[p];
+  }
+  for (std::size_t p = 0; p < properties.size(); ++p)
+    sink({model_.material() + "_" + properties[p].name, properties[p].unit, properties[p].description},
+         {&all[p * owned], owned});
+}
+
+}  // namespace lampblack

@@ -1,0 +1,51 @@
+// One physical process of a flow: what advances the state, and what it has to say of itself. The run strings operators
+// together and writes what they tell, without knowing which they are.
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/quantity.hpp"
+#include "core/state_archive.hpp"
+#include "flow/state.hpp"
+
+namespace lampblack {
+
+class Operator {
+ public:
+  // Busiest rank's cost over the mean: as the mesh is partitioned, and with work sharing, means over the stages so far.
+  struct Imbalance {
+    double before = 1.0, after = 1.0;
+  };
+  // Takes one field: a value for each owned cell.
+  using FieldSink = std::function<void(const Quantity&, std::span<const double>)>;
+
+  virtual ~Operator() = default;
+  [[nodiscard]] virtual const char* name() const = 0;
+
+  virtual void advance(State& state, double time, double dt) = 0;  // collective
+  // Called once when all operators have advanced by a whole step.
+  virtual void endStep(State&) {}
+  // What the operator keeps from step to step besides the state: with both, the next step is the same to the last bit.
+  // Between two steps. Collective.
+  virtual void saveOrLoad(StateArchive&) {}
+  // s, that `advance` may be asked for in this state. Collective.
+  [[nodiscard]] virtual double largestStep(const State&) { return std::numeric_limits<double>::infinity(); }
+
+  // What a row of the history has of it, and the values now: of the state, or since the last row. Collective.
+  [[nodiscard]] virtual std::vector<Quantity> historyColumns() const { return {}; }
+  [[nodiscard]] virtual std::vector<double> historyValues(const State&) { return {}; }
+  // Of the last row, for the line that tells how far the run is: "fv 0.1 ppm"; may be empty.
+  [[nodiscard]] virtual std::string status() const { return {}; }
+  // Of the last row, for the report at the end: a line each.
+  [[nodiscard]] virtual std::vector<std::string> closingLines() const { return {}; }
+  [[nodiscard]] virtual std::optional<Imbalance> imbalance() const { return {}; }
+
+  virtual void fields(const State&, const FieldSink&) const {}
+};
+
+}  // namespace lampblack

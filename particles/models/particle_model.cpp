@@ -1,0 +1,135 @@
+#include "particles/models/particle_model.hpp"
+
+#include <algorithm>
+
+#include "chemistry/numerics/rosenbrock_solver.hpp"
+#include "core/constants.hpp"
+#include "particles/collision_physics.hpp"
+
+namespace lampblack {
+namespace {
+
+// Steps of the differences: a relative 1e-7, where half the digits are left in the quotient; of a value far below its
+// typical size, that of the smallest value that matters.
+constexpr double relativeStep = 1e-7;
+constexpr double smallestShare = 1e-5;
+
+// Of concentrations in `advance`.
+constexpr double smallestMoleFraction = 1e-10;
+
+// Below these there are no particles, and none can be born.
+constexpr double negligibleVolumeFraction = 1e-21;
+constexpr double negligibleMoleFraction = 1e-15;
+
+double totalConcentration(const CarrierGas& gas) {  // mol/m3
+  return gas.pressure / (constants::gasConstant * gas.temperature);
+}
+
+}  // namespace
+
+double ParticleScalar::massOf(std::string_view element) const {
+  double mass = 0;
+  for (const ElementMass& part : elements)
+    if (part.element == element) mass += part.mass;
+  return mass;
+}
+
+void ParticleModel::jacobian(const ParticleGas& gas, std::span<const double> densities,
+                             std::span<double> values) const {
+  const std::size_t n = scalars().size(), m = gasSpecies().size(), rows = n + m, columns = rows + 1;
+  thread_local std::vector<double> state, base, moved;
+  state.resize(rows);
+  base.resize(rows);
+  moved.resize(rows);
+  for (std::size_t i = 0; i < n; ++i) state[i] = std::max(densities[i], 0.0);
+  for (std::size_t i = 0; i < m; ++i) state[n + i] = std::max(gas.concentrations[i], 0.0);
+  ParticleGas at = gas;
+  at.concentrations = {state.data() + n, m};
+  const auto evaluate = [&](std::vector<double>& out) {
+    sources(at, {state.data(), n}, {out.data(), n}, {out.data() + n, m});
+  };
+  const auto column = [&](std::size_t j, double step) {
+    evaluate(moved);
+    for (std::size_t i = 0; i < rows; ++i) values[i * columns + j] = (moved[i] - base[i]) / step;
+  };
+  evaluate(base);
+  const double total = totalConcentration(gas);
+  for (std::size_t j = 0; j < rows; ++j) {
+    const double x = state[j], typical = j < n ? scalars()[j].scale * gas.density : total;
+    state[j] = x + relativeStep * std::max(x, smallestShare * typical);
+    column(j, state[j] - x);
+    state[j] = x;
+  }
+  at.temperature = gas.temperature * (1 + relativeStep);
+  column(rows, at.temperature - gas.temperature);
+}
+
+ParticleAdvance ParticleModel::advance(const CarrierGas& gas, double dt, std::span<double> densities,
+                                       std::span<double> concentrations) const {
+  const std::size_t n = scalars().size(), m = gasSpecies().size(), size = n + m;
+  thread_local RosenbrockSolver solver;
+  thread_local std::vector<double> state, smallest, values;
+  state.resize(size);
+  smallest.resize(size);
+  values.resize(size * (size + 1));
+  for (std::size_t i = 0; i < n; ++i) {
+    state[i] = densities[i];
+    smallest[i] = smallestShare * scalars()[i].scale * gas.density;
+  }
+  for (std::size_t i = 0; i < m; ++i) {
+    state[n + i] = concentrations[i];
+    smallest[n + i] = smallestMoleFraction * totalConcentration(gas);
+  }
+  ParticleGas at{gas, {}};
+  const auto rates = [&](std::span<const double> y, std::span<double> f) {
+    at.concentrations = y.subspan(n);
+    sources(at, y.first(n), f.first(n), f.subspan(n));
+  };
+  const auto derivatives = [&](std::span<const double> y, DenseLu& J) {
+    at.concentrations = y.subspan(n);
+    jacobian(at, y.first(n), values);
+    for (std::size_t j = 0; j < size; ++j)
+      for (std::size_t i = 0; i < size; ++i) J.column(j)[i] = values[i * (size + 1) + j];
+  };
+  const auto result = solver.integrate(rates, derivatives, dt, state, {advanceTolerance_, smallest});
+  std::copy_n(state.begin(), n, densities.begin());
+  std::copy_n(state.begin() + static_cast<std::ptrdiff_t>(n), m, concentrations.begin());
+  return {result.steps, result.rejected, 0};
+}
+
+bool ParticleModel::isNegligible(std::span<const double> densities) const {
+  return volumeFraction(densities) < negligibleVolumeFraction;
+}
+
+bool ParticleModel::idle(const ParticleGas& gas, std::span<const double> densities) const {
+  if (!isNegligible(densities)) return false;
+  double sum = 0;
+  for (const std::size_t i : precursors()) sum += std::max(gas.concentrations[i], 0.0);
+  return sum < negligibleMoleFraction * totalConcentration(gas);
+}
+
+double ParticleModel::thermophoresis() const {
+  return waldmannThermophoresis();
+}
+
+double ParticleModel::volumeFraction(std::span<const double> densities) const {
+  const std::vector<double> none(gasSpecies().size(), 0.0);
+  ParticleGas gas;  // nitrogen at 1500 K
+  gas.temperature = 1500;
+  gas.pressure = constants::oneAtmosphere;
+  gas.meanMolecularWeight = 0.028;
+  gas.density = gas.pressure * gas.meanMolecularWeight / (constants::gasConstant * gas.temperature);
+  gas.viscosity = 5.4e-5;
+  gas.concentrations = none;
+  return properties(gas, densities).volumeFraction;
+}
+
+double ParticleModel::volumeFractionAtLimit(std::span<const double> /*densities*/) const {
+  return 0;
+}
+
+SizeDistribution ParticleModel::sizeDistribution(std::span<const double> /*densities*/) const {
+  return {};
+}
+
+}  // namespace lampblack

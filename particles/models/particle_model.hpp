@@ -1,0 +1,146 @@
+// What every model of particles that a gas can carry looks like from outside: a few (or many) scalars per volume of
+// gas, their sources, and what they exchange with the gas. The same object serves a one-dimensional flame, a reactor
+// and a flow cell; it knows neither mesh nor mechanism. Exchange conserves every element to round-off: those of the
+// scalars plus those of the gas species do not change.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/particle_gas.hpp"
+
+namespace lampblack {
+
+struct ElementMass {
+  std::string element;  // "C"
+  double mass = 0;      // kg
+};
+
+struct ParticleScalar {
+  std::string name;         // "number", "section_07_aggregates"
+  std::string unit;         // of its density: "1/m^3", "kg/m^3"
+  std::string description;  // one line for the results file
+  double scale = 1;         // typical amount per kg of gas where there are particles; unknowns are scaled by it
+  std::vector<ElementMass> elements = {};  // in one unit; without those that are not in it
+
+  // kg of an element in one unit.
+  [[nodiscard]] double massOf(std::string_view element) const;
+};
+
+// What is measured or plotted, at one point.
+struct ParticleProperties {
+  double numberDensity = 0;          // 1/m3, of aggregates
+  double volumeFraction = 0;         // m3/m3
+  double meanDiameter = 0;           // m, of the sphere of the mean volume
+  double surfaceArea = 0;            // m2/m3
+  double primaryDiameter = 0;        // m
+  double primariesPerAggregate = 0;  // 1 for spheres
+  double mobilityDiameter = 0;       // m
+  double gyrationDiameter = 0;       // m
+};
+
+// How results files name them.
+struct ParticlePropertyName {
+  const char *name, *unit, *description;
+  double ParticleProperties::*value;
+};
+inline constexpr std::array<ParticlePropertyName, 8> particlePropertyNames{{
+    {"volume_fraction", "1", "particle volume per volume of gas", &ParticleProperties::volumeFraction},
+    {"number_density", "1/m^3", "aggregates", &ParticleProperties::numberDensity},
+    {"mean_diameter", "m", "of the sphere of mean volume", &ParticleProperties::meanDiameter},
+    {"surface_area", "m^2/m^3", "surface of all particles", &ParticleProperties::surfaceArea},
+    {"primary_diameter", "m", "of primary particles", &ParticleProperties::primaryDiameter},
+    {"primaries_per_aggregate", "1", "primary particles in an aggregate", &ParticleProperties::primariesPerAggregate},
+    {"mobility_diameter", "m", "mean mobility diameter", &ParticleProperties::mobilityDiameter},
+    {"gyration_diameter", "m", "mean diameter of gyration", &ParticleProperties::gyrationDiameter},
+}};
+
+// Rates of the processes at one point, for budgets and figures: number in 1/m3/s, particle mass in kg/m3/s, losses
+// negative.
+struct ParticleProcesses {
+  double nucleationNumber = 0, coagulationNumber = 0, oxidationNumber = 0, fragmentationNumber = 0;
+  double nucleation = 0, condensation = 0, growth = 0, oxidationO2 = 0, oxidationOH = 0, carbonisation = 0;
+  double dimerNumber = 0;      // 1/m3, where the model has dimers
+  double dimerProduction = 0;  // 1/m3/s
+};
+
+// dN/dlog10(d) (1/m3) at diameters d (m, of the equivalent sphere).
+struct SizeDistribution {
+  std::vector<double> diameter, density;
+};
+
+class ParticleModel {
+ public:
+  virtual ~ParticleModel() = default;
+
+  // What the particles are of, "soot": results files put it before the names of scalars and properties.
+  [[nodiscard]] virtual std::string material() const = 0;
+  // Gas species by their usual mechanism names, whose concentrations matter or that are exchanged: those of a
+  // ParticleGas, in this order.
+  [[nodiscard]] virtual const std::vector<std::string>& gasSpecies() const = 0;
+  // Where in `gasSpecies` those stand without which no particle is ever born.
+  [[nodiscard]] virtual std::vector<std::size_t> precursors() const = 0;
+  [[nodiscard]] virtual const std::vector<ParticleScalar>& scalars() const = 0;
+
+  // Sums over the scalars whose profiles decide how fine a grid has to be: weights of all scalars' densities, each sum
+  // of order one per kg of gas where there are particles. Empty: every scalar by itself. Sections travel as waves of
+  // their own, but what is asked of them are moments.
+  [[nodiscard]] virtual std::vector<std::vector<double>> gridSums() const { return {}; }
+
+  // `densities`: of the scalars, per m3; negative ones (and negative concentrations) count as zero. `rates`: of the
+  // scalars, per m3 and s. `exchange`: production of the gas species, mol/m3/s.
+  virtual void sources(const ParticleGas& gas, std::span<const double> densities, std::span<double> rates,
+                       std::span<double> exchange) const = 0;
+
+  // Derivatives of (rates, exchange), row-major, with respect to (densities, concentrations, temperature), each with
+  // everything else held: (scalars + species) rows of (scalars + species + 1) columns. The default takes one-sided
+  // differences of `sources`, away from zero, and at zero for what is negative; models with many scalars override it.
+  virtual void jacobian(const ParticleGas& gas, std::span<const double> densities, std::span<double> values) const;
+
+  // Advances the scalars' densities and the concentrations (mol/m3, in the order of gasSpecies; they come from the gas
+  // and return to it) together over `dt` (s), at the temperature, pressure and viscosity of `gas`, whose own
+  // concentrations are not looked at. The default integrates `sources` with `jacobian` by RosenbrockSolver. Throws
+  // NumericsError without convergence.
+  virtual ParticleAdvance advance(const CarrierGas& gas, double dt, std::span<double> densities,
+                                  std::span<double> concentrations) const;
+  // Relative error allowed in a step of the default `advance`. At 1e-3 the volume fraction of a counterflow flame is
+  // within 0.002 % (sections) to 0.13 % (MOMIC) of that at 1e-6 (docs/verification.md).
+  void setAdvanceTolerance(double relative) { advanceTolerance_ = relative; }
+
+  // Whether there are no particles to speak of: a volume fraction below 1e-21.
+  [[nodiscard]] bool isNegligible(std::span<const double> densities) const;
+  // Whether there are none and nothing that could make one: precursors below a mole fraction of 1e-15.
+  [[nodiscard]] bool idle(const ParticleGas& gas, std::span<const double> densities) const;
+
+  // Brownian diffusivity of each scalar, m2/s. All scalars move by thermophoresis with thermophoresis().
+  virtual void diffusivities(const ParticleGas& gas, std::span<const double> densities, std::span<double> D) const = 0;
+  // V_T = -thermophoresis() (mu/rho) grad T / T; by default Waldmann's limit of small particles with full accommodation
+  // (thesis eq. 7-29).
+  [[nodiscard]] virtual double thermophoresis() const;
+
+  // Enthalpy of a unit of each scalar, J, and its slope, J/K.
+  virtual void enthalpies(double temperature, std::span<double> h, std::span<double> slope) const = 0;
+  // Planck-mean absorption coefficient, 1/m.
+  [[nodiscard]] virtual double absorption(double temperature, double volumeFraction) const = 0;
+
+  [[nodiscard]] virtual ParticleProperties properties(const ParticleGas& gas,
+                                                      std::span<const double> densities) const = 0;
+  // m3/m3, for radiation. The default asks `properties` in some hot gas; models override it where that costs.
+  [[nodiscard]] virtual double volumeFraction(std::span<const double> densities) const;
+  // The part of it in particles as large as the model can have, which grow no more: where it counts, the model has too
+  // few sections. Zero where there is no such limit.
+  [[nodiscard]] virtual double volumeFractionAtLimit(std::span<const double> densities) const;
+  [[nodiscard]] virtual ParticleProcesses processes(const ParticleGas& gas,
+                                                    std::span<const double> densities) const = 0;
+  // Empty where the model has none.
+  [[nodiscard]] virtual SizeDistribution sizeDistribution(std::span<const double> densities) const;
+
+ private:
+  double advanceTolerance_ = 1e-3;
+};
+
+}  // namespace lampblack

@@ -1,0 +1,274 @@
+// What the coupling of particles and gas keeps in the cells of a flow, with every model: mass, elements, enthalpy, and
+// every bit of a cell without soot.
+#include "flow/carried_operator.hpp"
+
+#include <cstring>
+#include <memory>
+
+#include "core/constants.hpp"
+#include "coupling/carried_particles.hpp"
+#include "flow/budget.hpp"
+#include "particles/collision_physics.hpp"
+#include "particles/soot/dimer_soot.hpp"
+#include "particles/soot/make_soot_model.hpp"
+#include "tests/app/app_fixture.hpp"
+
+namespace lampblack {
+namespace {
+
+using test::Flame;
+
+CarriedOperator operatorOf(Flame& flame) {
+  return {flame.context, *flame.flowCase.carried, 0, flame.flowCase.carriedOptions};
+}
+
+// What a cell holds per volume, particles included.
+struct Contents {
+  double mass = 0.0, enthalpy = 0.0;
+  std::vector<double> elements;
+};
+
+// The particles being as warm as `temperature`.
+Contents contentsOf(const Flame& flame, int cell, double temperature) {
+  const Mechanism& mechanism = *flame.flowCase.mechanism;
+  CarriedModel& model = *flame.flowCase.carried;
+  const auto Y = flame.massFractions(cell);
+  const auto c = static_cast<std::size_t>(cell);
+  const std::size_t n = model.scalars().size();
+  const double rho = flame.state.density[c];
+  const std::span<const double> carried{&flame.state.carried[n * c], n};
+  std::vector<double> h(n), slope(n);
+  model.enthalpies(temperature, h, slope);
+  Contents contents{rho, rho * flame.state.enthalpy[c], {}};
+  for (std::size_t e = 0; e < mechanism.numElements(); ++e) {
+    double mass = 0.0;
+    for (std::size_t k = 0; k < mechanism.numSpecies(); ++k)
+      mass += rho * Y[k] / mechanism.molecularWeights()[k] * mechanism.atoms(k, e) * mechanism.atomicWeight(e);
+    for (std::size_t s = 0; s < n; ++s) {
+      mass += carried[s] * model.scalars()[s].elements[e];
+      contents.mass += carried[s] * model.scalars()[s].elements[e];
+    }
+    contents.elements.push_back(mass);
+  }
+  for (std::size_t s = 0; s < n; ++s) contents.enthalpy += carried[s] * h[s];
+  return contents;
+}
+
+class EveryModel : public testing::TestWithParam<std::string> {
+ protected:
+  [[nodiscard]] static std::vector<std::string> deckLines() { return {"soot.model=" + GetParam()}; }
+};
+
+TEST_P(EveryModel, KeepsMassElementsAndEnthalpy) {
+  Flame flame(MPI_COMM_WORLD, test::sootingGas, deckLines());
+  CarriedOperator particles = operatorOf(flame);
+  double worst = 0.0;
+  for (int step = 0; step < 5; ++step) {
+    const std::vector<double> temperature = flame.state.temperature;
+    std::vector<Contents> before;
+    for (int c = 0; c < flame.mesh.owned; ++c)
+      before.push_back(contentsOf(flame, c, temperature[static_cast<std::size_t>(c)]));
+    particles.advance(flame.state, step * 1e-4, 1e-4);
+    for (int c = 0; c < flame.mesh.owned; ++c) {
+      const auto cell = static_cast<std::size_t>(c);
+      const Contents after = contentsOf(flame, c, temperature[cell]);
+      const Contents& start = before[cell];
+      worst = std::max(worst, std::abs(after.mass / start.mass - 1.0));
+      for (std::size_t e = 0; e < start.elements.size(); ++e)
+        if (start.elements[e] > 0.0) worst = std::max(worst, std::abs(after.elements[e] / start.elements[e] - 1.0));
+      // Against the gas's sensible enthalpy, as that of formation may cancel it.
+      worst = std::max(worst, std::abs(after.enthalpy - start.enthalpy) / (start.mass * 1e6));
+      EXPECT_NEAR(flame.thermo.enthalpyMass(flame.state.temperature[cell], flame.massFractions(c)),
+                  flame.state.enthalpy[cell], 1e-3);
+    }
+  }
+  EXPECT_LT(worst, 1e-12);  // of some 5 to 50 linear solves
+  // Something has happened: there is soot, and it diffuses.
+  const CarriedModel& model = *flame.flowCase.carried;
+  for (int c = 0; c < flame.mesh.owned; ++c) {
+    EXPECT_GT(model.volumeFraction(particles.densities(std::as_const(flame.state), c)), 1e-13);
+    EXPECT_GT(flame.state.carriedDiffusivity[model.scalars().size() * static_cast<std::size_t>(c)], 0.0);
+  }
+}
+
+TEST_P(EveryModel, LeavesEveryBitOfACellWithoutSoot) {
+  const auto gas = [](const std::array<double, 2>& x) {
+    return x[1] < 4e-3 ? test::sootingGas(x) : test::Gas{300.0 + 1e4 * x[0], "C2H4: 0.3, N2: 0.5, O2: 0.2"};
+  };
+  Flame flame(MPI_COMM_WORLD, gas, deckLines());
+  CarriedOperator particles = operatorOf(flame);
+  const State before = flame.state;
+  particles.advance(flame.state, 0.0, 1e-4);
+  const auto same = [](const std::vector<double>& a, const std::vector<double>& b, int cell, int components) {
+    const std::size_t start = static_cast<std::size_t>(cell) * static_cast<std::size_t>(components);
+    return std::memcmp(&a[start], &b[start], sizeof(double) * static_cast<std::size_t>(components)) == 0;
+  };
+  for (int c = 0; c < flame.mesh.owned; ++c) {
+    const bool cold = flame.mesh.centre[static_cast<std::size_t>(c)][1] > 4e-3;
+    EXPECT_EQ(same(flame.state.Y, before.Y, c, before.species), cold);
+    EXPECT_EQ(same(flame.state.density, before.density, c, 1), cold);
+    EXPECT_EQ(same(flame.state.enthalpy, before.enthalpy, c, 1), cold);
+    EXPECT_EQ(same(flame.state.temperature, before.temperature, c, 1), cold);
+    EXPECT_EQ(same(flame.state.carried, before.carried, c, before.carriedCount()), cold);
+  }
+}
+
+// Shared between the ranks or not: the same bits, as a cell depends on what was sent of it alone.
+TEST_P(EveryModel, DoesNotDependOnWhichRankAdvancesACell) {
+  std::vector<State> states;
+  for (const bool share : {true, false}) {
+    Flame flame(MPI_COMM_WORLD, test::sootingGas, deckLines());
+    flame.flowCase.carriedOptions.shareWork = share;
+    CarriedOperator particles = operatorOf(flame);
+    // More and more work on one rank.
+    for (int step = 0; step < 3; ++step) particles.advance(flame.state, 0.0, 5e-5);
+    states.push_back(flame.state);
+  }
+  EXPECT_EQ(states[0].carried, states[1].carried);
+  EXPECT_EQ(states[0].Y, states[1].Y);
+}
+
+INSTANTIATE_TEST_SUITE_P(CarriedOperator, EveryModel, testing::ValuesIn(sootModelNames()),
+                         [](const auto& info) { return info.param; });
+
+// Mole fractions times p / RT, of the species that are asked for.
+TEST(CarriedOperator, SeesTheGasOfItsCell) {
+  Flame flame(MPI_COMM_WORLD, test::sootingGas);
+  const Mechanism& mechanism = *flame.flowCase.mechanism;
+  std::vector<double> concentrations, X(mechanism.numSpecies());
+  for (int c = 0; c < flame.mesh.owned; ++c) {
+    const auto cell = static_cast<std::size_t>(c);
+    const std::vector<std::size_t>& species = flame.flowCase.carried->exchanged();
+    const ParticleGas gas = gasOfCell(flame.context, flame.state, c, 5e-5, species, concentrations);
+    const double p = flame.flowCase.pressure, T = flame.state.temperature[cell];
+    flame.thermo.massToMole(flame.massFractions(c), X);
+    const auto concentration = [&](const char* name) {
+      return X[mechanism.speciesIndex(name)] * p / (constants::gasConstant * T);
+    };
+    const std::vector<const char*> names{"H", "H2", "OH", "H2O", "O2", "C2H2", "CO", "A2"};
+    ASSERT_EQ(gas.concentrations.size(), names.size());
+    for (std::size_t i = 0; i < names.size(); ++i)
+      EXPECT_NEAR(gas.concentrations[i] / concentration(names[i]), 1, 1e-13) << names[i];
+    EXPECT_EQ(gas.temperature, T);
+    EXPECT_EQ(gas.pressure, p);
+    EXPECT_EQ(gas.viscosity, 5e-5);
+    // kg/mol, by the ideal gas law.
+    EXPECT_NEAR(gas.meanMolecularWeight / (gas.density * constants::gasConstant * T / p), 1, 1e-13);
+  }
+}
+
+// Per volume, over all of the step: what a cell makes is what the model makes of its gas.
+TEST(CarriedOperator, DoesInEveryCellWhatTheModelDoes) {
+  Flame flame(MPI_COMM_WORLD, test::sootingGas);
+  CarriedOperator particles = operatorOf(flame);
+  CarriedModel& model = *flame.flowCase.carried;
+  const State before = flame.state;
+  const double dt = 1e-4;
+  particles.advance(flame.state, 0.0, dt);
+  const std::size_t n = flame.flowCase.mechanism->numSpecies();
+  std::vector<double> exchanged, later, X(n), D(n), diffusivity(3);
+  for (int c = 0; c < flame.mesh.owned; ++c) {
+    const auto cell = static_cast<std::size_t>(c);
+    const auto viscosity = [&](const State& state) {
+      flame.thermo.massToMole({&state.Y[cell * n], n}, X);
+      return flame.transport.mixture(state.temperature[cell], state.thermodynamicPressure, X, D).viscosity;
+    };
+    const ParticleGas gas = gasOfCell(flame.context, before, c, viscosity(before), model.exchanged(), exchanged);
+    const auto start = particles.densities(before, c);
+    std::vector<double> expected(start.begin(), start.end());
+    model.advance(gas, dt, expected, exchanged);
+    const auto found = particles.densities(std::as_const(flame.state), c);
+    for (std::size_t s = 0; s < 3; ++s) EXPECT_NEAR(found[s] / expected[s], 1, 1e-12);
+    // Diffusing with the size they have then, in a gas that is hardly another (its viscosity is that of the start).
+    const ParticleGas end = gasOfCell(flame.context, flame.state, c, viscosity(before), model.exchanged(), later);
+    model.diffusivities(end, found, diffusivity);
+    for (std::size_t s = 0; s < 3; ++s)
+      EXPECT_NEAR(flame.state.carriedDiffusivity[3 * cell + s] / diffusivity[s], 1, 1e-12);
+  }
+}
+
+// What the budgets of a run count: nothing of number, carbon and hydrogen as mass and as themselves.
+TEST(CarriedOperator, ItsAtomsStandInTheBudgets) {
+  Flame flame(MPI_COMM_WORLD, test::sootingGas);
+  std::vector<std::vector<double>> elements;
+  for (const CarriedModel::Scalar& scalar : flame.flowCase.carried->scalars()) elements.push_back(scalar.elements);
+  for (const ConservedQuantity& q : massAndElements(*flame.flowCase.mechanism, elements)) {
+    ASSERT_EQ(q.perCarried.size(), 3U) << q.name;
+    EXPECT_EQ(q.perCarried[DimerSoot::number], 0.0) << q.name;
+    EXPECT_EQ(q.perCarried[DimerSoot::carbon], q.name == "mass" || q.name == "C" ? 1.0 : 0.0) << q.name;
+    EXPECT_EQ(q.perCarried[DimerSoot::hydrogen], q.name == "mass" || q.name == "H" ? 1.0 : 0.0) << q.name;
+  }
+}
+
+// Towards the cold, all alike, under names of their own.
+TEST(CarriedOperator, ItsScalarsDriftByThermophoresis) {
+  Flame flame(MPI_COMM_WORLD, test::sootingGas);
+  for (const CarriedScalar& scalar : CarriedOperator::scalarsOf(*flame.flowCase.carried)) {
+    EXPECT_NEAR(scalar.thermophoresis, waldmannThermophoresis(), 1e-15) << scalar.name;
+    EXPECT_EQ(scalar.name.rfind("soot_", 0), 0U) << scalar.name;
+  }
+}
+
+// A row of the history has what its columns say; the peak is that of all ranks.
+TEST(CarriedOperator, TellsItsPeakAndRefusesTooFewSections) {
+  Flame flame(MPI_COMM_WORLD, test::sootingGas,
+              {"soot.model=sectional", "soot.sectional.sections=4", "soot.sectional.overflow=1"});
+  CarriedOperator particles = operatorOf(flame);
+  for (int step = 0; step < 3; ++step) particles.advance(flame.state, 0.0, 1e-3);
+  const std::vector<double> row = particles.historyValues(flame.state);
+  ASSERT_EQ(row.size(), particles.historyColumns().size());
+  double peak = 0;
+  for (int c = 0; c < flame.mesh.owned; ++c)
+    peak = std::max(peak, flame.flowCase.carried->volumeFraction(particles.densities(std::as_const(flame.state), c)));
+  MPI_Allreduce(MPI_IN_PLACE, &peak, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+  EXPECT_EQ(row[0], peak);
+  EXPECT_GT(row[1], 0.1);  // most of it has outgrown four sections
+  CarriedOperator strict(flame.context, *flame.flowCase.carried, 0, {true, 1e-4, "More sections help."});
+  EXPECT_THROW(strict.historyValues(flame.state), NumericsError);
+}
+
+// A new model is its own file and nothing else: dust that falls apart at a rate of 100 1/s into the hydrogen it is made
+// of.
+class Dust final : public ParticleModel {
+ public:
+  [[nodiscard]] std::string material() const override { return "dust"; }
+  [[nodiscard]] const std::vector<std::string>& gasSpecies() const override { return species_; }
+  [[nodiscard]] std::vector<std::size_t> precursors() const override { return {}; }
+  [[nodiscard]] const std::vector<ParticleScalar>& scalars() const override { return scalars_; }
+  void sources(const ParticleGas&, std::span<const double> densities, std::span<double> rates,
+               std::span<double> exchange) const override {
+    rates[0] = -100 * densities[0];
+    exchange[0] = 100 * densities[0] / 2.01588e-3;
+  }
+  void diffusivities(const ParticleGas&, std::span<const double>, std::span<double> D) const override { D[0] = 1e-6; }
+  void enthalpies(double, std::span<double> h, std::span<double> slope) const override { h[0] = slope[0] = 0; }
+  [[nodiscard]] double absorption(double, double) const override { return 0; }
+  [[nodiscard]] ParticleProperties properties(const ParticleGas&, std::span<const double> densities) const override {
+    ParticleProperties p;
+    p.volumeFraction = densities[0] / 1000;
+    return p;
+  }
+  [[nodiscard]] ParticleProcesses processes(const ParticleGas&, std::span<const double>) const override { return {}; }
+
+ private:
+  std::vector<std::string> species_{"H2"};
+  std::vector<ParticleScalar> scalars_{{"mass", "kg/m^3", "dust", 1e-3, {{"H", 1}}}};
+};
+
+TEST(CarriedOperator, ANewModelNeedsNoOtherFile) {
+  Flame flame(MPI_COMM_WORLD, test::sootingGas);
+  CarriedParticles dust(*flame.flowCase.mechanism, std::make_unique<Dust>());
+  flame.state = State(flame.mesh, flame.flowCase.mechanism->numSpecies(), CarriedOperator::scalarsOf(dust));
+  Flame gas(MPI_COMM_WORLD, test::sootingGas);
+  for (auto field : {&State::temperature, &State::density, &State::enthalpy, &State::Y, &State::velocity})
+    flame.state.*field = gas.state.*field;
+  std::fill(flame.state.carried.begin(), flame.state.carried.end(), 2e-3);
+  CarriedOperator particles(flame.context, dust, 0, {});
+  particles.advance(flame.state, 0.0, 5e-3);
+  for (int c = 0; c < flame.mesh.owned; ++c)
+    EXPECT_NEAR(particles.densities(flame.state, c)[0] / (2e-3 * std::exp(-0.5)), 1, 1e-3);
+  EXPECT_EQ(flame.state.scalars[0].name, "dust_mass");
+}
+
+}  // namespace
+}  // namespace lampblack
