@@ -9,26 +9,6 @@
 namespace lampblack {
 namespace {
 
-struct ProcessName {
-  const char *name, *unit, *description;
-  double ParticleProcesses::*value;
-};
-
-constexpr std::array<ProcessName, 12> processNames{{
-    {"nucleation_number", "1/m^3/s", "new particles", &ParticleProcesses::nucleationNumber},
-    {"coagulation_number", "1/m^3/s", "particles lost by coagulation, negative", &ParticleProcesses::coagulationNumber},
-    {"oxidation_number", "1/m^3/s", "particles lost by oxidation, negative", &ParticleProcesses::oxidationNumber},
-    {"fragmentation_number", "1/m^3/s", "particles from fragmentation", &ParticleProcesses::fragmentationNumber},
-    {"nucleation", "kg/m^3/s", "soot mass from nucleation", &ParticleProcesses::nucleation},
-    {"condensation", "kg/m^3/s", "soot mass from condensation", &ParticleProcesses::condensation},
-    {"growth", "kg/m^3/s", "soot mass from surface growth", &ParticleProcesses::growth},
-    {"oxidation_O2", "kg/m^3/s", "soot mass lost by oxidation by O2, negative", &ParticleProcesses::oxidationO2},
-    {"oxidation_OH", "kg/m^3/s", "soot mass lost by oxidation by OH, negative", &ParticleProcesses::oxidationOH},
-    {"carbonisation", "kg/m^3/s", "soot mass lost by carbonisation, negative", &ParticleProcesses::carbonisation},
-    {"dimer_number", "1/m^3", "dimers", &ParticleProcesses::dimerNumber},
-    {"dimer_production", "1/m^3/s", "dimers formed", &ParticleProcesses::dimerProduction},
-}};
-
 template <typename Columns>
 std::vector<FlameSootFields::Field> emptyFields(const Columns& columns) {
   std::vector<FlameSootFields::Field> fields;
@@ -49,7 +29,7 @@ FlameSootFields flameSootFields(const Mechanism& mechanism, double pressure, con
                                 const FlameProfile& profile, const FlameFields& gas) {
   FlameSootFields fields;
   fields.properties = emptyFields(particlePropertyNames);
-  fields.processes = emptyFields(processNames);
+  fields.processes = emptyFields(particleProcessNames);
   for (const ParticleScalar& scalar : soot.model().scalars())
     fields.scalars.push_back({scalar.name, scalar.unit, scalar.description, {}});
   const auto& exchanged = soot.exchanged();
@@ -69,8 +49,8 @@ FlameSootFields flameSootFields(const Mechanism& mechanism, double pressure, con
     for (std::size_t c = 0; c < particlePropertyNames.size(); ++c)
       fields.properties[c].values.push_back(properties.*particlePropertyNames[c].value);
     const ParticleProcesses processes = soot.model().processes(at, densities);
-    for (std::size_t c = 0; c < processNames.size(); ++c)
-      fields.processes[c].values.push_back(processes.*processNames[c].value);
+    for (std::size_t c = 0; c < particleProcessNames.size(); ++c)
+      fields.processes[c].values.push_back(processes.*particleProcessNames[c].value);
     most = std::max(most, properties.volumeFraction);
     mostAtLimit = std::max(mostAtLimit, soot.model().volumeFractionAtLimit(densities));
     const SizeDistribution sizes = soot.model().sizeDistribution(densities);

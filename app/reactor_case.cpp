@@ -4,6 +4,8 @@
 
 #include "app/gas_input.hpp"
 #include "app/reactor_case_parts.hpp"
+#include "app/reactor_particle_output.hpp"
+#include "app/soot_deck.hpp"
 #include "app/temperature_input.hpp"
 #include "core/errors.hpp"
 #include "io/request_limits.hpp"
@@ -98,9 +100,27 @@ namespace {
 void refuseRows(const Deck& deck, const std::string& key, const ReactorCase& reactorCase, double range) {
   if (!reactorCase.output.interval) return;
   const double rows = range / *reactorCase.output.interval;
-  const double bytes = sizeof(double) * static_cast<double>(6 + reactorCase.output.species.size());
+  std::size_t columns = 6 + reactorCase.output.species.size();
+  if (reactorCase.soot) columns += particleColumns(*reactorCase.soot).size();
+  const double bytes = sizeof(double) * static_cast<double>(columns);
   requireOutputs(deck, key, "rows of the history", rows, bytes);
   requireMemory(deck, key, fmt::format("a history of {:.3g} rows", rows), rows * bytes);
+}
+
+void readParticles(const Deck& deck, ReactorCase& reactorCase) {
+  auto model = readSootModel(deck, *reactorCase.mechanism);
+  if (!model) return;
+  if (deck.isGiven("soot.diffusion"))
+    throw deck.error("soot.diffusion", "a reactor is well mixed: nothing diffuses in it; leave it out");
+  if (deck.has("sensitivity"))
+    throw deck.error("sensitivity", "sensitivities are those of a gas alone; leave out the section 'soot' or this one");
+  reactorCase.soot = std::make_shared<CarriedParticles>(*reactorCase.mechanism, std::move(model));
+  try {
+    reactorCase.particles = std::make_shared<ReactorParticles>(*reactorCase.mechanism, *reactorCase.soot);
+  } catch (const InputError& error) {
+    throw deck.error("soot", fmt::format("particles need the gas's viscosity: {}", error.what()));
+  }
+  reactorCase.sootAtLimit = deck.number("soot.sectional.overflow");
 }
 
 }  // namespace
@@ -134,6 +154,7 @@ ReactorCase readReactorCase(const Deck& deck) {
     reactorCase.type = ReactorType::Network;
     reactorcase::readNetwork(deck, reactorCase);
   }
+  readParticles(deck, reactorCase);
   const bool plugFlow = reactorCase.type == ReactorType::PlugFlow;
   refuseRows(deck, plugFlow ? "output.spacing" : "output.interval", reactorCase,
              plugFlow ? reactorCase.length : reactorCase.end);

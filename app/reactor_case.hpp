@@ -13,6 +13,7 @@
 #include "chemistry/reactor/network_solver.hpp"
 #include "chemistry/reactor/reactor_network.hpp"
 #include "chemistry/reactor/stiff_integrator.hpp"
+#include "coupling/reactor_particles.hpp"
 #include "io/deck.hpp"
 
 namespace lampblack {
@@ -32,6 +33,10 @@ struct ReactorCase {
   StiffIntegrator::Options integrator;
   ReactorOutput output;
   std::optional<TemperatureProfile> profile;  // a given temperature of a closed reactor or a plug flow
+  // Particles that the gas carries and exchanges with; null: none. The second looks at the first.
+  std::shared_ptr<CarriedParticles> soot;
+  std::shared_ptr<ReactorParticles> particles;
+  double sootAtLimit = 1;  // largest volume fraction in the model's largest particles, over the largest of all
 
   // Closed reactors.
   GasState initial;

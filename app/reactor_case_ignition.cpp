@@ -16,7 +16,8 @@ namespace {
 
 // The temperature of equilibrium in an adiabatic reactor; none where it cannot be computed.
 std::optional<double> burntTemperature(const ReactorCase& reactorCase) {
-  const auto& [T, p, start] = reactorCase.initial;
+  const double T = reactorCase.initial.temperature, p = reactorCase.initial.pressure;
+  const std::vector<double>& start = reactorCase.initial.Y;
   const Thermo thermo(*reactorCase.mechanism);
   std::vector<double> Y = start;
   try {

@@ -9,6 +9,7 @@
 #include "app/reactor_driver.hpp"
 #include "app/reactor_history.hpp"
 #include "app/reactor_output.hpp"
+#include "app/reactor_particle_output.hpp"
 #include "chemistry/reactor/ignition_sensitivity.hpp"
 #include "core/stop_request.hpp"
 #include "io/progress.hpp"
@@ -23,31 +24,39 @@ constexpr double kIgnited = 50;
 class ClosedReactorDriver : public ReactorDriver {
  public:
   explicit ClosedReactorDriver(const ReactorCase& reactorCase)
-      : case_(reactorCase), history_(closedColumns(reactorCase)), events_(reactorCase.ignition.size()) {}
+      : case_(reactorCase),
+        particles_(reactorCase, kept(reactorCase)),
+        history_(closedColumns(reactorCase), particles_.columns()),
+        events_(reactorCase.ignition.size()) {}
 
   void compute(const RunFolder& folder) override {
     const double begin = MPI_Wtime();
     ClosedReactor reactor(
         *case_.mechanism, case_.initial,
         case_.type == ReactorType::ConstantPressure ? ReactorSystem::Held::Pressure : ReactorSystem::Held::Density,
-        case_.profile);
+        case_.profile, case_.particles.get());
     StiffIntegrator integrator(reactor, case_.integrator);
     IgnitionMonitor monitor(*case_.mechanism, reactor, case_.ignition);
     const std::vector<double> start = reactor.initialState();
-    startTemperature_ = start.back();
+    startTemperature_ = start[case_.mechanism->numSpecies()];
     integrator.start(0.0, start, case_.end);
     monitor.begin(0.0, start.data());
     history_.open(folder.history());
     history_.follow(
         integrator, case_.output.interval, case_.end, case_.profile,
-        [&](double time, std::span<const double> y) { return closedRow(case_, reactor, time, y); },
+        [&](double time, std::span<const double> y) {
+          std::vector<double> row = closedRow(case_, reactor, time, y);
+          particles_.append(reactor.pressure(y.data()), reactor.density(y.data()), y, row);
+          return row;
+        },
         [&] { monitor.observe(integrator); });
     events_ = monitor.events();
     statistics_ = integrator.statistics();
-    endTemperature_ = integrator.state().back();
+    endTemperature_ = integrator.state()[case_.mechanism->numSpecies()];
     endPressure_ = reactor.pressure(integrator.state().data());
     reached_ = integrator.time();
     seconds_ = MPI_Wtime() - begin;
+    particles_.requireRoom();
     if (case_.sensitivities.empty() || reached_ < case_.end) return;
     reactor.setParameters(case_.sensitivities);
     Progress progress(MPI_COMM_SELF, 0, 1, Progress::logInterval);
@@ -65,6 +74,7 @@ class ClosedReactorDriver : public ReactorDriver {
 
   void write(ResultsWriter& results) const override {
     history_.writeTo(results);
+    particles_.write(results);
     writeIgnition(results, case_, events_);
     // Rank 0 alone knows how far it came; what it has not computed is NaN.
     if (!case_.sensitivities.empty()) writeSensitivities(results, case_, sensitivities_);
@@ -81,6 +91,7 @@ class ClosedReactorDriver : public ReactorDriver {
     }
     json.endObject();
     json.field("final_temperature_K", endTemperature_).field("final_pressure_Pa", endPressure_);
+    particles_.record(json);
     json.field("rate_evaluations", static_cast<std::int64_t>(statistics_.rateEvaluations));
     json.field("jacobian_evaluations", static_cast<std::int64_t>(statistics_.jacobianEvaluations));
   }
@@ -97,6 +108,7 @@ class ClosedReactorDriver : public ReactorDriver {
       fmt::print("note: the temperature changed by {:.2g} K only; this gas has not ignited\n",
                  endTemperature_ - startTemperature_);
     fmt::print("T = {:.4f} K, p = {:.6g} Pa after {:g} s\n", endTemperature_, endPressure_, case_.end);
+    particles_.print();
     fmt::print("{} steps, {} rate and {} Jacobian evaluations of the integrator in {}\n", statistics_.steps,
                statistics_.rateEvaluations, statistics_.jacobianEvaluations, formatDuration(seconds_));
     if (!case_.sensitivities.empty()) printSensitivities();
@@ -130,7 +142,14 @@ class ClosedReactorDriver : public ReactorDriver {
     }
   }
 
+  static ReactorParticleOutput::Kept kept(const ReactorCase& reactorCase) {
+    using Kept = ReactorParticleOutput::Kept;
+    if (reactorCase.profile) return Kept::elements;
+    return reactorCase.type == ReactorType::ConstantPressure ? Kept::enthalpy : Kept::internalEnergy;
+  }
+
   const ReactorCase& case_;
+  ReactorParticleOutput particles_;
   ReactorHistory history_;
   std::vector<std::optional<IgnitionEvent>> events_;
   IgnitionSensitivities sensitivities_;

@@ -18,7 +18,11 @@ class ReactorHistory {
  public:
   using MakeRow = std::function<std::vector<double>(double at, std::span<const double> y)>;
 
-  explicit ReactorHistory(std::vector<Quantity> columns) : columns_(std::move(columns)) {}
+  // Columns of the gas, then of the particles.
+  explicit ReactorHistory(std::vector<Quantity> columns, const std::vector<Quantity>& more = {})
+      : columns_(std::move(columns)) {
+    columns_.insert(columns_.end(), more.begin(), more.end());
+  }
 
   // Rank 0. InputError where the file cannot be made.
   void open(const std::filesystem::path& path);

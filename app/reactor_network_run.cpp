@@ -6,6 +6,7 @@
 #include "app/reactor_driver.hpp"
 #include "app/reactor_history.hpp"
 #include "app/reactor_output.hpp"
+#include "app/reactor_particle_output.hpp"
 #include "io/csv.hpp"
 #include "io/report.hpp"
 
@@ -25,13 +26,15 @@ std::vector<Quantity> stirredColumns(const ReactorCase& reactorCase) {
 class StirredTransientDriver : public ReactorDriver {
  public:
   explicit StirredTransientDriver(const ReactorCase& reactorCase)
-      : case_(reactorCase), history_(stirredColumns(reactorCase)) {}
+      : case_(reactorCase),
+        particles_(reactorCase, ReactorParticleOutput::Kept::nothing),
+        history_(stirredColumns(reactorCase), particles_.columns()) {}
 
   void compute(const RunFolder& folder) override {
     const double begin = MPI_Wtime();
-    NetworkSystem system(*case_.mechanism, case_.network);
+    NetworkSystem system(*case_.mechanism, case_.network, case_.particles.get());
     StiffIntegrator integrator(system, case_.integrator);
-    integrator.start(0.0, startUnknowns(*case_.mechanism, case_.network, case_.start), case_.end);
+    integrator.start(0.0, startUnknowns(*case_.mechanism, case_.network, case_.start, system.numCarried()), case_.end);
     history_.open(folder.history());
     const std::size_t n = case_.mechanism->numSpecies();
     history_.follow(
@@ -40,6 +43,7 @@ class StirredTransientDriver : public ReactorDriver {
           std::vector<double> row{time, y[n], system.density(y.data()), system.residenceTime(y.data(), 0),
                                   system.heatRelease(y.data(), 0)};
           appendSpecies(*case_.mechanism, case_.output, y.first(n), row);
+          particles_.append(case_.network.pressure, system.density(y.data()), y, row);
           return row;
         },
         [] {});
@@ -47,19 +51,28 @@ class StirredTransientDriver : public ReactorDriver {
     reached_ = integrator.time();
     temperature_ = integrator.state()[n];
     seconds_ = MPI_Wtime() - begin;
+    particles_.requireRoom();
   }
 
-  void write(ResultsWriter& results) const override { history_.writeTo(results); }
-  void record(JsonWriter& json) const override { json.field("final_temperature_K", temperature_); }
+  void write(ResultsWriter& results) const override {
+    history_.writeTo(results);
+    particles_.write(results);
+  }
+  void record(JsonWriter& json) const override {
+    json.field("final_temperature_K", temperature_);
+    particles_.record(json);
+  }
   void print() const override {
-    fmt::print("T = {:.4f} K after {:g} s\n{} steps of the integrator in {}\n", temperature_, case_.end, steps_,
-               formatDuration(seconds_));
+    fmt::print("T = {:.4f} K after {:g} s\n", temperature_, case_.end);
+    particles_.print();
+    fmt::print("{} steps of the integrator in {}\n", steps_, formatDuration(seconds_));
   }
   long steps() const override { return steps_; }
   double simulatedTime() const override { return reached_; }
 
  private:
   const ReactorCase& case_;
+  ReactorParticleOutput particles_;
   ReactorHistory history_;
   long steps_ = 0;
   double reached_ = 0;  // s

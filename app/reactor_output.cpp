@@ -43,7 +43,7 @@ std::vector<double> closedRow(const ReactorCase& reactorCase, ClosedReactor& rea
                               std::span<const double> y) {
   std::vector<double> f(y.size());
   reactor.rates(time, y.data(), f.data());
-  const std::size_t n = y.size() - 1;
+  const std::size_t n = reactorCase.mechanism->numSpecies();
   std::vector<double> row{
       time, y[n], reactor.pressure(y.data()), reactor.density(y.data()), f[n], reactor.heatRelease(y.data())};
   appendSpecies(*reactorCase.mechanism, reactorCase.output, y.first(n), row);

@@ -4,6 +4,7 @@
 #include "app/reactor_driver.hpp"
 #include "app/reactor_history.hpp"
 #include "app/reactor_output.hpp"
+#include "app/reactor_particle_output.hpp"
 #include "chemistry/reactor/plug_flow.hpp"
 #include "io/report.hpp"
 
@@ -23,11 +24,15 @@ std::vector<Quantity> plugFlowColumns(const ReactorCase& reactorCase) {
 class PlugFlowDriver : public ReactorDriver {
  public:
   explicit PlugFlowDriver(const ReactorCase& reactorCase)
-      : case_(reactorCase), history_(plugFlowColumns(reactorCase)) {}
+      : case_(reactorCase),
+        particles_(reactorCase, reactorCase.profile ? ReactorParticleOutput::Kept::elements
+                                                    : ReactorParticleOutput::Kept::enthalpy),
+        history_(plugFlowColumns(reactorCase), particles_.columns()) {}
 
   void compute(const RunFolder& folder) override {
     const double begin = MPI_Wtime();
-    PlugFlow flow(*case_.mechanism, case_.inlet, case_.massFlux, case_.length, case_.profile);
+    PlugFlow flow(*case_.mechanism, case_.inlet, case_.massFlux, case_.length, case_.profile,
+                  case_.particles.get());
     StiffIntegrator integrator(flow, case_.integrator);
     integrator.start(0.0, flow.initialState(), case_.length);
     history_.open(folder.history());
@@ -38,6 +43,7 @@ class PlugFlowDriver : public ReactorDriver {
           std::vector<double> row{z, flow.residenceTime(y.data()), flow.velocity(y.data()), y[n],
                                   flow.density(y.data())};
           appendSpecies(*case_.mechanism, case_.output, y.first(n), row);
+          particles_.append(case_.inlet.pressure, flow.density(y.data()), y, row);
           return row;
         },
         [] {});
@@ -46,18 +52,24 @@ class PlugFlowDriver : public ReactorDriver {
     velocity_ = flow.velocity(integrator.state().data());
     time_ = flow.residenceTime(integrator.state().data());
     seconds_ = MPI_Wtime() - begin;
+    particles_.requireRoom();
   }
 
-  void write(ResultsWriter& results) const override { history_.writeTo(results); }
+  void write(ResultsWriter& results) const override {
+    history_.writeTo(results);
+    particles_.write(results);
+  }
 
   void record(JsonWriter& json) const override {
     json.field("final_temperature_K", temperature_).field("final_velocity_m_per_s", velocity_);
     json.field("residence_time_s", time_);
+    particles_.record(json);
   }
 
   void print() const override {
     fmt::print("T = {:.4f} K, u = {:.6g} m/s at z = {:g} m, {:.6e} s after the inlet\n", temperature_, velocity_,
                case_.length, time_);
+    particles_.print();
     fmt::print("{} steps of the integrator in {}\n", steps_, formatDuration(seconds_));
   }
 
@@ -66,6 +78,7 @@ class PlugFlowDriver : public ReactorDriver {
 
  private:
   const ReactorCase& case_;
+  ReactorParticleOutput particles_;
   ReactorHistory history_;
   long steps_ = 0;
   double temperature_ = 0, velocity_ = 0, time_ = 0, seconds_ = 0;

@@ -1,5 +1,6 @@
 #include "app/gas_input.hpp"
 #include "app/reactor_case.hpp"
+#include "app/soot_deck.hpp"
 #include "app/temperature_input.hpp"
 
 namespace lampblack {
@@ -175,6 +176,7 @@ DeckSchema reactorSchema() {
                .above(0)
                .onlyWith(typeKey, inTime));
   addIgnition(schema);
+  addSootModelKeys(schema);
   schema
       .section("integrator", Presence::defaulted, "The stiff solver of everything but steady states.",
                {{typeKey, integrated}})

@@ -12,9 +12,6 @@ namespace lampblack {
 
 namespace {
 
-// The carried temperature of a given profile must not steer the steps.
-constexpr double kIgnored = 1e30;
-
 std::vector<StoichiometricTerm> netStoichiometry(const Reaction& reaction) {
   std::map<std::size_t, double> net;
   for (const auto& term : reaction.products) net[term.species] += term.coefficient;
@@ -28,12 +25,12 @@ std::vector<StoichiometricTerm> netStoichiometry(const Reaction& reaction) {
 }  // namespace
 
 ClosedReactor::ClosedReactor(const Mechanism& mechanism, const GasState& initial, ReactorSystem::Held held,
-                             std::optional<TemperatureProfile> profile)
+                             std::optional<TemperatureProfile> profile, CarriedPhase* carried)
     : mechanism_(mechanism),
       initial_(initial),
       profile_(std::move(profile)),
       thermo_(mechanism),
-      system_(mechanism),
+      system_(mechanism, carried),
       kinetics_(mechanism),
       y_(system_.size()),
       concentrations_(mechanism.numSpecies()),
@@ -50,8 +47,14 @@ ClosedReactor::ClosedReactor(const Mechanism& mechanism, const GasState& initial
 }
 
 std::vector<double> ClosedReactor::initialState() const {
-  std::vector<double> y = initial_.Y;
-  y.push_back(initial_.temperature);
+  return unknownsOf(initial_, system_.numCarried());
+}
+
+std::vector<double> unknownsOf(const GasState& state, std::size_t carried) {
+  std::vector<double> y = state.Y;
+  y.push_back(state.temperature);
+  y.insert(y.end(), state.carried.begin(), state.carried.end());
+  y.resize(state.Y.size() + 1 + carried, 0.0);
   return y;
 }
 
@@ -82,7 +85,7 @@ double ClosedReactor::heatRelease(const double* y) {
 const double* ClosedReactor::withGivenTemperature(double t, const double* y) {
   if (!profile_) return y;
   std::copy_n(y, y_.size(), y_.begin());
-  y_.back() = profile_->value(t);
+  y_[mechanism_.numSpecies()] = profile_->value(t);
   conditions_.temperatureRate = profile_->slope(t);
   system_.setConditions(conditions_);
   return y_.data();
@@ -94,16 +97,16 @@ bool ClosedReactor::rates(double t, const double* y, double* f) {
 
 bool ClosedReactor::jacobian(double t, const double* y, double* f, double* J, std::size_t ld) {
   if (!system_.jacobian(withGivenTemperature(t, y), f, J, ld)) return false;
-  if (profile_) std::fill_n(J + (size() - 1) * ld, size(), 0.0);
+  if (profile_) std::fill_n(J + mechanism_.numSpecies() * ld, size(), 0.0);
   return true;
 }
 
 void ClosedReactor::prescribe(double t, double* y) const {
-  if (profile_) y[size() - 1] = profile_->value(t);
+  if (profile_) y[mechanism_.numSpecies()] = profile_->value(t);
 }
 
 double ClosedReactor::toleranceScale(std::size_t i) const {
-  return profile_ && i + 1 == size() ? kIgnored : 1.0;
+  return reactorToleranceScale(i, mechanism_.numSpecies(), profile_.has_value());
 }
 
 std::string ClosedReactor::describe(double t, const double* y) const {

@@ -1,5 +1,6 @@
 // A closed, well-mixed reactor of constant pressure or volume, adiabatic or of given temperature, in the unknowns
-// (Y_1..Y_N, T); with the derivatives of its rates by the logarithm of the rate constants, for sensitivities.
+// (Y_1..Y_N, T) and the amounts of what it carries (ReactorSystem); with the derivatives of its rates by the logarithm
+// of the rate constants, for sensitivities of a gas alone.
 #pragma once
 
 #include <optional>
@@ -16,21 +17,22 @@ struct GasState {
   double temperature = 0;  // K
   double pressure = 0;     // Pa
   std::vector<double> Y;   // mass fractions
+  std::vector<double> carried = {};  // amounts of a carried phase; empty: none of it
 };
 
 class ClosedReactor : public OdeSystem, public OdeParameters {
  public:
   // A reactor that starts from `initial` and holds its pressure or its density. With a profile (over time, s) the
-  // temperature is given. The mechanism has to live as long.
+  // temperature is given. The mechanism and the carried phase have to live as long.
   ClosedReactor(const Mechanism& mechanism, const GasState& initial, ReactorSystem::Held held,
-                std::optional<TemperatureProfile> profile = std::nullopt);
+                std::optional<TemperatureProfile> profile = std::nullopt, CarriedPhase* carried = nullptr);
 
   // The start as unknowns; a given temperature replaces that of the initial state.
   std::vector<double> initialState() const;
   bool isAdiabatic() const { return !profile_; }
   const std::optional<TemperatureProfile>& profile() const { return profile_; }
 
-  // Density (kg/m3) and pressure (Pa) of a state.
+  // Density (kg/m3, of all the reactor holds) and pressure (Pa) of a state.
   double density(const double* y) const;
   double pressure(const double* y) const;
   // Heat set free by the reactions, W/m3.
@@ -69,6 +71,9 @@ class ClosedReactor : public OdeSystem, public OdeParameters {
   std::vector<double> energy_;  // of species, J/kg: enthalpies, or internal energies at constant volume
   double capacity_ = 0, density_ = 0;
 };
+
+// The unknowns (Y, T, amounts of a carried phase of `carried` scalars) of a state.
+std::vector<double> unknownsOf(const GasState& state, std::size_t carried);
 
 // "CH4: 0.1, ..." of the mass fractions above 1e-6 in size, for messages.
 std::string compositionText(const Mechanism& mechanism, std::span<const double> Y);

@@ -88,6 +88,7 @@ IgnitionMonitor::IgnitionMonitor(const Mechanism& mechanism, OdeSystem& system, 
       criteria_(std::move(criteria)),
       events_(criteria_.size()),
       signals_(criteria_.size()),
+      temperature_(mechanism.numSpecies()),
       y_(system.size()) {
   for (const auto& criterion : criteria_) needsJacobian_ = needsJacobian_ || criterion.kind == Kind::TemperatureRate;
 }
@@ -98,7 +99,7 @@ double IgnitionMonitor::signal(std::size_t i, const IgnitionQuantity::Value& val
 
 void IgnitionMonitor::begin(double time, const double* y) {
   events_.assign(criteria_.size(), std::nullopt);
-  startTemperature_ = y[y_.size() - 1];
+  startTemperature_ = y[temperature_];
   quantity_.prepare(time, y, needsJacobian_);
   for (std::size_t i = 0; i < criteria_.size(); ++i) signals_[i] = signal(i, quantity_.of(criteria_[i], y));
 }

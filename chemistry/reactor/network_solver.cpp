@@ -24,14 +24,15 @@ ReactorNetwork partOf(const ReactorNetwork& network, const std::vector<std::size
   }
   for (const InflowStream& stream : network.inflows)
     if (inPart[stream.to] != kUnseen)
-      part.inflows.push_back({inPart[stream.to], stream.massFlow, stream.temperature, stream.Y});
+      part.inflows.push_back({inPart[stream.to], stream.massFlow, stream.temperature, stream.Y, stream.carried});
   for (const InnerStream& stream : network.streams) {
     const std::size_t to = inPart[stream.to], from = inPart[stream.from];
     if (to == kUnseen) continue;
     if (from != kUnseen)
       part.streams.push_back({from, to, stream.massFlow});
     else
-      part.inflows.push_back({to, stream.massFlow, solved[stream.from].state.temperature, solved[stream.from].state.Y});
+      part.inflows.push_back({to, stream.massFlow, solved[stream.from].state.temperature, solved[stream.from].state.Y,
+                              solved[stream.from].state.carried});
   }
   return part;
 }
@@ -92,30 +93,36 @@ GasState startOf(const Mechanism& mechanism, const ReactorNetwork& network, cons
 }
 
 std::vector<double> startUnknowns(const Mechanism& mechanism, const ReactorNetwork& network,
-                                  const NetworkStart& start) {
-  const GasState begin = startOf(mechanism, network, start);
+                                  const NetworkStart& start, std::size_t carried) {
+  GasState begin = startOf(mechanism, network, start);
+  const double temperature = begin.temperature;
   std::vector<double> y;
   for (const StirredReactor& reactor : network.reactors) {
-    y.insert(y.end(), begin.Y.begin(), begin.Y.end());
-    y.push_back(reactor.temperature.value_or(begin.temperature));
+    begin.temperature = reactor.temperature.value_or(temperature);
+    const std::vector<double> block = unknownsOf(begin, carried);
+    y.insert(y.end(), block.begin(), block.end());
   }
   return y;
 }
 
 std::vector<ReactorSteadyState> solveNetwork(const Mechanism& mechanism, const ReactorNetwork& network,
-                                             const NetworkStart& start) {
+                                             const NetworkStart& start, CarriedPhase* carried) {
   std::vector<ReactorSteadyState> solved(network.reactors.size());
   for (const auto& group : solutionOrder(network)) {
-    NetworkSystem system(mechanism, partOf(network, group, solved));
+    NetworkSystem system(mechanism, partOf(network, group, solved), carried);
     const ReactorNetwork& part = system.network();
-    const std::vector<double> y = startUnknowns(mechanism, part, start);
+    const std::vector<double> y = startUnknowns(mechanism, part, start, system.numCarried());
     double slowest = 0;
     for (std::size_t i = 0; i < group.size(); ++i) slowest = std::max(slowest, system.residenceTime(y.data(), i));
     const SteadyState steady = findSteadyState(system, y, slowest);
     for (std::size_t i = 0; i < group.size(); ++i) {
       const double* block = system.block(steady.y.data(), i);
       ReactorSteadyState& result = solved[group[i]];
-      result.state = {block[mechanism.numSpecies()], network.pressure, {block, block + mechanism.numSpecies()}};
+      const double* amounts = block + mechanism.numSpecies() + 1;
+      result.state = {block[mechanism.numSpecies()],
+                      network.pressure,
+                      {block, block + mechanism.numSpecies()},
+                      {amounts, amounts + system.numCarried()}};
       result.massFlow = part.throughflow(i);
       result.density = system.density(block);
       result.residenceTime = system.residenceTime(steady.y.data(), i);

@@ -35,11 +35,12 @@ std::vector<std::vector<std::size_t>> solutionOrder(const ReactorNetwork& networ
 // The start of a reactor, or of all in a group, fed by `inflows` alone: mass fractions and temperature.
 GasState startOf(const Mechanism& mechanism, const ReactorNetwork& network, const NetworkStart& start);
 
-// The same as unknowns of NetworkSystem.
-std::vector<double> startUnknowns(const Mechanism& mechanism, const ReactorNetwork& network, const NetworkStart& start);
+// The same as unknowns of NetworkSystem, with none of the `carried` scalars of a phase.
+std::vector<double> startUnknowns(const Mechanism& mechanism, const ReactorNetwork& network, const NetworkStart& start,
+                                  std::size_t carried = 0);
 
-// In the order of the reactors. NumericsError as findSteadyState.
+// In the order of the reactors, with the amounts of a carried phase in their states. NumericsError as findSteadyState.
 std::vector<ReactorSteadyState> solveNetwork(const Mechanism& mechanism, const ReactorNetwork& network,
-                                             const NetworkStart& start);
+                                             const NetworkStart& start, CarriedPhase* carried = nullptr);
 
 }  // namespace lampblack

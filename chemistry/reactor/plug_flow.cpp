@@ -6,24 +6,17 @@
 
 namespace lampblack {
 
-namespace {
-
-// The carried temperature of a given profile must not steer the steps.
-constexpr double kIgnored = 1e30;
-
-}  // namespace
-
 PlugFlow::PlugFlow(const Mechanism& mechanism, const GasState& inlet, double massFlux, double length,
-                   std::optional<TemperatureProfile> profile)
+                   std::optional<TemperatureProfile> profile, CarriedPhase* carried)
     : mechanism_(mechanism),
       inlet_(inlet),
       massFlux_(massFlux),
       profile_(std::move(profile)),
       species_(mechanism.numSpecies()),
       thermo_(mechanism),
-      system_(mechanism),
-      y_(species_ + 1),
-      f_(species_ + 1) {
+      system_(mechanism, carried),
+      y_(system_.size()),
+      f_(system_.size()) {
   if (profile_) inlet_.temperature = profile_->value(0.0);
   timeScale_ = length * density(initialState().data()) / massFlux_;
   ReactorSystem::Conditions conditions;
@@ -33,8 +26,7 @@ PlugFlow::PlugFlow(const Mechanism& mechanism, const GasState& inlet, double mas
 }
 
 std::vector<double> PlugFlow::initialState() const {
-  std::vector<double> y = inlet_.Y;
-  y.push_back(inlet_.temperature);
+  std::vector<double> y = unknownsOf(inlet_, system_.numCarried());
   y.push_back(0.0);
   return y;
 }
@@ -44,7 +36,7 @@ double PlugFlow::density(const double* y) const {
 }
 
 void PlugFlow::takeState(double z, const double* y) {
-  std::copy_n(y, species_ + 1, y_.begin());
+  std::copy_n(y, system_.size(), y_.begin());
   if (profile_) y_[species_] = profile_->value(z);
 }
 
@@ -52,9 +44,9 @@ bool PlugFlow::rates(double z, const double* y, double* f) {
   takeState(z, y);
   if (!system_.rates(y_.data(), f)) return false;
   const double timePerLength = system_.density() / massFlux_;
-  for (std::size_t i = 0; i <= species_; ++i) f[i] *= timePerLength;
+  for (std::size_t i = 0; i < system_.size(); ++i) f[i] *= timePerLength;
   if (profile_) f[species_] = profile_->slope(z);
-  f[species_ + 1] = timePerLength;
+  f[system_.size()] = timePerLength;
   return true;
 }
 
@@ -62,23 +54,23 @@ bool PlugFlow::rates(double z, const double* y, double* f) {
 bool PlugFlow::jacobian(double z, const double* y, double* f, double* J, std::size_t ld) {
   takeState(z, y);
   if (!system_.jacobian(y_.data(), f_.data(), J, ld)) return false;
-  const std::size_t n = species_;
+  const std::size_t n = species_, m = system_.size();
   const double timePerLength = system_.density() / massFlux_;
   const double Wbar = thermo_.meanMolecularWeight({y_.data(), n});
-  for (std::size_t j = 0; j <= n; ++j) {
+  for (std::size_t j = 0; j < m; ++j) {
     double* column = J + j * ld;
-    const double slope = j < n ? -Wbar / mechanism_.molecularWeights()[j] : -1.0 / y_[n];
-    for (std::size_t i = 0; i <= n; ++i) column[i] = timePerLength * (column[i] + f_[i] * slope);
-    column[n + 1] = timePerLength * slope;
+    const double slope = j > n ? 0.0 : j < n ? -Wbar / mechanism_.molecularWeights()[j] : -1.0 / y_[n];
+    for (std::size_t i = 0; i < m; ++i) column[i] = timePerLength * (column[i] + f_[i] * slope);
+    column[m] = timePerLength * slope;
   }
-  std::fill_n(J + (n + 1) * ld, n + 2, 0.0);
+  std::fill_n(J + m * ld, m + 1, 0.0);
   if (profile_) {
-    std::fill_n(J + n * ld, n + 2, 0.0);
-    for (std::size_t j = 0; j <= n; ++j) J[n + j * ld] = 0.0;
+    std::fill_n(J + n * ld, m + 1, 0.0);
+    for (std::size_t j = 0; j < m; ++j) J[n + j * ld] = 0.0;
   }
-  for (std::size_t i = 0; i <= n; ++i) f[i] = timePerLength * f_[i];
+  for (std::size_t i = 0; i < m; ++i) f[i] = timePerLength * f_[i];
   if (profile_) f[n] = profile_->slope(z);
-  f[n + 1] = timePerLength;
+  f[m] = timePerLength;
   return true;
 }
 
@@ -87,8 +79,8 @@ void PlugFlow::prescribe(double z, double* y) const {
 }
 
 double PlugFlow::toleranceScale(std::size_t i) const {
-  if (i == species_ + 1) return 1e6 * timeScale_;
-  return profile_ && i == species_ ? kIgnored : 1.0;
+  if (i == system_.size()) return 1e6 * timeScale_;
+  return reactorToleranceScale(i, species_, profile_.has_value());
 }
 
 std::string PlugFlow::describe(double z, const double* y) const {

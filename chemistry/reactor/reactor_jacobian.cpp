@@ -35,21 +35,28 @@ void ReactorSystem::finishExcess(double T, double* temperatureColumn) {
 }
 
 // f from the production rates, the energies of the species, and the mixture's heat capacity.
-void ReactorSystem::finishRates(const double* y, double* f) {
+bool ReactorSystem::finishRates(const double* y, double* f) {
   const std::size_t n = weights_.size();
   const double volume = 1.0 / density_;
   for (std::size_t k = 0; k < n; ++k) f[k] = wdot_[k] * weights_[k] * volume + source_[k] - conditions_.removal * y[k];
   const bool given = conditions_.energy == Energy::GivenTemperature;
+  if (carried_ != nullptr && !addCarriedRates(y, f)) return false;
   if (!given) speciesEnergies(y[n]);
-  inverseCapacity_ = given ? 0.0 : 1.0 / dot(capacity_.data(), y, n);
+  inverseCapacity_ = given ? 0.0 : 1.0 / heatCapacity(y);
   f[n] = temperatureSlope(y, f);
+  return true;
 }
 
 double ReactorSystem::temperatureDiagonal(const double* y, const double* f, const double* temperatureColumn) {
   const std::size_t n = weights_.size();
   if (inverseCapacity_ == 0) return 0;
   thermo_.speciesCpSlope(y[n], capacitySlope_);
-  const double closed = dot(capacity_.data(), f, n) + conditions_.removal * dot(capacity_.data(), y, n);
+  double closed = dot(capacity_.data(), f, n) + conditions_.removal * dot(capacity_.data(), y, n);
+  // Without the slope of its heat capacity: a small part of a small part.
+  if (const std::size_t count = numCarried(); count > 0)
+    closed += dot(carriedCapacity_.data(), f + n + 1, count) +
+              conditions_.removal * dot(carriedCapacity_.data(), y + n + 1, count) +
+              dot(carriedEnergy_.data(), temperatureColumn + n + 1, count);
   return -inverseCapacity_ *
          (closed + dot(energy_.data(), temperatureColumn, n) + dot(capacitySlope_.data(), y, n) * f[n]);
 }
@@ -71,11 +78,22 @@ bool ReactorSystem::jacobian(const double* y, double* f, double* J, std::size_t 
   }
   double* last = J + n * ld;
   finishExcess(y[n], last);
-  finishRates(y, f);
+  if (!finishRates(y, f)) return false;
   speciesBlock(J, ld);
+  if (carried_ != nullptr) addCarriedJacobian(y, J, ld);
+  const std::size_t count = numCarried();
+  const auto heating = [&](const double* column) {
+    const double gas = dot(energy_.data(), column, n);
+    return count == 0 ? gas : gas + dot(carriedEnergy_.data(), column + n + 1, count);
+  };
   for (std::size_t j = 0; j < n; ++j)
-    J[n + j * ld] = -inverseCapacity_ * (dot(energy_.data(), J + j * ld, n) + capacity_[j] * f[n]);
+    J[n + j * ld] = -inverseCapacity_ * (heating(J + j * ld) + capacity_[j] * f[n]);
   last[n] = temperatureDiagonal(y, f, last);
+  for (std::size_t s = 0; s < count; ++s) {
+    double* column = J + (n + 1 + s) * ld;
+    column[n] = -inverseCapacity_ * (heating(column) + carriedCapacity_[s] * f[n]);
+    column[n + 1 + s] -= conditions_.removal;
+  }
   for (std::size_t k = 0; k < n; ++k) J[k + k * ld] -= conditions_.removal;
   return accept(f);
 }
@@ -114,7 +132,7 @@ bool ReactorSystem::sparseJacobian(const double* y, double* f, SparseJacobian& J
       excess_[entries.row[e]] += J.species[e] * c;
   }
   finishExcess(y[n], J.temperatureColumn.data());
-  finishRates(y, f);
+  if (!finishRates(y, f)) return false;
   sparseColumns(J);
   for (std::size_t k = 0; k < n; ++k) J.product[k] = weights_[k] * (common_[k] + excess_[k]);
   J.product[n] = -inverseCapacity_ * dot(energy_.data(), J.product.data(), n);

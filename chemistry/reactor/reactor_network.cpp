@@ -16,21 +16,41 @@ double ReactorNetwork::throughflow(std::size_t reactor) const {
   return flow;
 }
 
-NetworkSystem::NetworkSystem(const Mechanism& mechanism, ReactorNetwork network)
+NetworkSystem::NetworkSystem(const Mechanism& mechanism, ReactorNetwork network, CarriedPhase* carried)
     : mechanism_(mechanism),
       network_(std::move(network)),
+      carried_(carried),
       species_(mechanism.numSpecies()),
       thermo_(mechanism),
-      system_(mechanism),
+      system_(mechanism, carried),
       source_(species_),
+      carriedSource_(numCarried()),
       blockJ_(blockSize() * blockSize()),
       blockF_(blockSize()),
       h_(species_),
-      upstreamH_(species_) {
+      upstreamH_(species_),
+      carriedH_(numCarried()),
+      upstreamCarriedH_(numCarried()),
+      carriedCapacity_(numCarried()) {
   feed_.Y.resize(species_);
+  feed_.carried.resize(numCarried());
+  for (InflowStream& stream : network_.inflows) stream.carried.resize(numCarried(), 0.0);
   for (std::size_t r = 0; r < network_.reactors.size(); ++r) throughflow_.push_back(network_.throughflow(r));
   for (const InflowStream& stream : network_.inflows)
-    inflowEnthalpy_.push_back(thermo_.enthalpyMass(stream.temperature, stream.Y));
+    inflowEnthalpy_.push_back(enthalpy(stream.temperature, stream.Y.data(), stream.carried.data()));
+}
+
+// J/kg, of the gas and what it carries
+double NetworkSystem::enthalpy(double T, const double* Y, const double* carried) {
+  double h = thermo_.enthalpyMass(T, {Y, species_});
+  if (carried_ == nullptr) return h;
+  carried_->enthalpies(T, carriedH_, carriedCapacity_);
+  for (std::size_t s = 0; s < numCarried(); ++s) h += carried[s] * carriedH_[s];
+  return h;
+}
+
+double NetworkSystem::toleranceScale(std::size_t i) const {
+  return reactorToleranceScale(i % blockSize(), species_, false);
 }
 
 double NetworkSystem::density(const double* block) const {
@@ -59,20 +79,24 @@ double NetworkSystem::heatRelease(const double* y, std::size_t reactor) {
 
 void NetworkSystem::gatherFeed(const double* y, std::size_t reactor) {
   std::fill(feed_.Y.begin(), feed_.Y.end(), 0.0);
+  std::fill(feed_.carried.begin(), feed_.carried.end(), 0.0);
   feed_.enthalpy = 0;
   feed_.massFlow = throughflow_[reactor];
-  const auto add = [&](double massFlow, const double* Y, double enthalpy) {
+  const auto add = [&](double massFlow, const double* Y, const double* carried, double enthalpy) {
     const double share = massFlow / feed_.massFlow;
     for (std::size_t k = 0; k < species_; ++k) feed_.Y[k] += share * Y[k];
+    for (std::size_t s = 0; s < numCarried(); ++s) feed_.carried[s] += share * carried[s];
     feed_.enthalpy += share * enthalpy;
   };
   for (std::size_t i = 0; i < network_.inflows.size(); ++i)
     if (network_.inflows[i].to == reactor)
-      add(network_.inflows[i].massFlow, network_.inflows[i].Y.data(), inflowEnthalpy_[i]);
+      add(network_.inflows[i].massFlow, network_.inflows[i].Y.data(), network_.inflows[i].carried.data(),
+          inflowEnthalpy_[i]);
   for (const InnerStream& stream : network_.streams)
     if (stream.to == reactor) {
       const double* from = block(y, stream.from);
-      add(stream.massFlow, from, thermo_.enthalpyMass(from[species_], {from, species_}));
+      const double* carried = from + species_ + 1;
+      add(stream.massFlow, from, carried, enthalpy(from[species_], from, carried));
     }
 }
 
@@ -81,10 +105,12 @@ void NetworkSystem::setConditions(const double* block, std::size_t reactor, doub
   const StirredReactor& vessel = network_.reactors[reactor];
   const double rate = feed_.massFlow / mass;
   for (std::size_t k = 0; k < species_; ++k) source_[k] = rate * feed_.Y[k];
+  for (std::size_t s = 0; s < numCarried(); ++s) carriedSource_[s] = rate * feed_.carried[s];
   ReactorSystem::Conditions conditions;
   conditions.value = network_.pressure;
   if (vessel.temperature) conditions.energy = ReactorSystem::Energy::GivenTemperature;
   conditions.source = source_;
+  conditions.carriedSource = carriedSource_;
   conditions.removal = rate;
   conditions.heating = rate * feed_.enthalpy - vessel.conductance * (block[species_] - vessel.surroundings) / mass;
   system_.setConditions(conditions);
@@ -126,8 +152,13 @@ void NetworkSystem::addFlowDerivatives(const double* y, std::size_t reactor, dou
   const double* state = block(y, reactor);
   const double T = state[n], rate = feed_.massFlow / mass;
   const bool energy = !vessel.temperature;
-  const double cp = thermo_.cpMass(T, {state, n});
+  const std::size_t count = numCarried();
+  double cp = thermo_.cpMass(T, {state, n});
   thermo_.speciesEnthalpies(T, h_);
+  if (carried_ != nullptr) {
+    carried_->enthalpies(T, carriedH_, carriedCapacity_);
+    for (std::size_t s = 0; s < count; ++s) cp += carriedCapacity_[s] * state[n + 1 + s];
+  }
   if (vessel.volume) {
     // All flow terms g go with 1/m, and -d ln m/dY_j = Wbar/W_j, -d ln m/dT = 1/T.
     double heat = feed_.enthalpy;
@@ -135,11 +166,15 @@ void NetworkSystem::addFlowDerivatives(const double* y, std::size_t reactor, dou
       blockF_[k] = rate * (feed_.Y[k] - state[k]);
       heat -= feed_.Y[k] * h_[k];
     }
+    for (std::size_t s = 0; s < count; ++s) {
+      blockF_[n + 1 + s] = rate * (feed_.carried[s] - state[n + 1 + s]);
+      heat -= feed_.carried[s] * carriedH_[s];
+    }
     blockF_[n] = energy ? (rate * heat - vessel.conductance * (T - vessel.surroundings) / mass) / cp : 0.0;
     const double Wbar = thermo_.meanMolecularWeight({state, n});
     for (std::size_t j = 0; j <= n; ++j) {
       const double factor = j < n ? Wbar / mechanism_.molecularWeights()[j] : 1.0 / T;
-      for (std::size_t i = 0; i <= n; ++i) J[i + (first + j) * ld] += factor * blockF_[i];
+      for (std::size_t i = 0; i < blockSize(); ++i) J[i + (first + j) * ld] += factor * blockF_[i];
     }
   }
   if (energy) J[n + (first + n) * ld] -= vessel.conductance / (mass * cp);
@@ -149,10 +184,18 @@ void NetworkSystem::addFlowDerivatives(const double* y, std::size_t reactor, dou
     const double* from = block(y, stream.from);
     double* columns = J + stream.from * blockSize() * ld;
     for (std::size_t k = 0; k < n; ++k) columns[k + k * ld] += share;
+    for (std::size_t i = n + 1; i < blockSize(); ++i) columns[i + i * ld] += share;
     if (!energy) continue;
     thermo_.speciesEnthalpies(from[n], upstreamH_);
     for (std::size_t k = 0; k < n; ++k) columns[n + k * ld] += share * (upstreamH_[k] - h_[k]) / cp;
     columns[n + n * ld] += share * thermo_.cpMass(from[n], {from, n}) / cp;
+    if (carried_ == nullptr) continue;
+    carried_->enthalpies(from[n], upstreamCarriedH_, carriedCapacity_);
+    for (std::size_t s = 0; s < count; ++s) {
+      const std::size_t i = n + 1 + s;
+      columns[n + i * ld] += share * (upstreamCarriedH_[s] - carriedH_[s]) / cp;
+      columns[n + n * ld] += share * carriedCapacity_[s] * from[i] / cp;
+    }
   }
 }
 

@@ -1,5 +1,5 @@
 // Perfectly stirred reactors of one pressure, alone or joined by streams, as ordinary differential equations over time
-// in the unknowns (Y_1..Y_N, T) of each reactor. The mass flows of the streams are given and in balance; equations and
+// in the unknowns (Y_1..Y_N, T, amounts of what it carries) of each reactor. The mass flows of the streams are given and in balance; equations and
 // their analytic Jacobian: docs/theory/reactors.md.
 #pragma once
 
@@ -28,6 +28,7 @@ struct InflowStream {
   double massFlow = 0;  // kg/s
   double temperature = 0;
   std::vector<double> Y;
+  std::vector<double> carried = {};  // amounts per kg of a carried phase; empty: none of it
 };
 
 // A stream from one reactor to another.
@@ -49,11 +50,12 @@ struct ReactorNetwork {
 // what flows in, less what it takes up.
 class NetworkSystem : public OdeSystem {
  public:
-  // The mechanism has to live as long.
-  NetworkSystem(const Mechanism& mechanism, ReactorNetwork network);
+  // The mechanism and the phase that all reactors carry have to live as long.
+  NetworkSystem(const Mechanism& mechanism, ReactorNetwork network, CarriedPhase* carried = nullptr);
 
   const ReactorNetwork& network() const { return network_; }
-  std::size_t blockSize() const { return species_ + 1; }
+  std::size_t blockSize() const { return system_.size(); }
+  std::size_t numCarried() const { return system_.numCarried(); }
   // Of a state y of all reactors: the unknowns of one, its density (kg/m3), residence time (s) and heat release (W/m3).
   const double* block(const double* y, std::size_t reactor) const { return y + reactor * blockSize(); }
   double density(const double* block) const;
@@ -63,14 +65,16 @@ class NetworkSystem : public OdeSystem {
   std::size_t size() const override { return network_.reactors.size() * blockSize(); }
   bool rates(double t, const double* y, double* f) override;
   bool jacobian(double t, const double* y, double* f, double* J, std::size_t ld) override;
+  double toleranceScale(std::size_t i) const override;
   std::string describe(double t, const double* y) const override;
 
  private:
   // What flows into a reactor, by mass: the mean of the streams.
   struct Feed {
     double massFlow = 0, enthalpy = 0;  // kg/s, J/kg
-    std::vector<double> Y;
+    std::vector<double> Y, carried;
   };
+  double enthalpy(double T, const double* Y, const double* carried);
   void gatherFeed(const double* y, std::size_t reactor);
   double holdUp(const double* block, std::size_t reactor) const;
   void setConditions(const double* block, std::size_t reactor, double holdUp);
@@ -78,13 +82,15 @@ class NetworkSystem : public OdeSystem {
 
   const Mechanism& mechanism_;
   ReactorNetwork network_;
+  CarriedPhase* carried_;
   std::size_t species_;
   Thermo thermo_;
   ReactorSystem system_;
   std::vector<double> throughflow_;
   std::vector<double> inflowEnthalpy_;
   Feed feed_;
-  std::vector<double> source_, blockJ_, blockF_, h_, upstreamH_;
+  std::vector<double> source_, carriedSource_, blockJ_, blockF_, h_, upstreamH_;
+  std::vector<double> carriedH_, upstreamCarriedH_, carriedCapacity_;
 };
 
 }  // namespace lampblack

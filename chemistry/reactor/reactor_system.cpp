@@ -12,16 +12,28 @@
 
 namespace lampblack {
 
-ReactorSystem::ReactorSystem(const Mechanism& mechanism)
+ReactorSystem::ReactorSystem(const Mechanism& mechanism, CarriedPhase* carried)
     : thermo_(mechanism),
       kinetics_(mechanism),
-      weights_(mechanism.molecularWeights().begin(), mechanism.molecularWeights().end()) {
+      weights_(mechanism.molecularWeights().begin(), mechanism.molecularWeights().end()),
+      carried_(carried) {
   for (const double W : weights_) {
     inverseWeights_.push_back(1.0 / W);
     gasConstants_.push_back(constants::gasConstant / W);
   }
   for (auto* work : {&source_, &c_, &wdot_, &energy_, &capacity_, &capacitySlope_, &excess_, &byT_, &common_})
     work->assign(weights_.size(), 0.0);
+  if (carried_ == nullptr) return;
+  for (auto* work : {&carriedSource_, &carriedDensity_, &carriedRates_, &carriedEnergy_, &carriedCapacity_})
+    work->assign(carried_->size(), 0.0);
+  const std::size_t rows = carried_->size() + carried_->exchanged().size();
+  exchange_.assign(carried_->exchanged().size(), 0.0);
+  carriedJacobian_.assign(rows * (rows + 1), 0.0);
+}
+
+double reactorToleranceScale(std::size_t i, std::size_t species, bool temperatureIsGiven) {
+  if (i > species) return 1e4;
+  return i == species && temperatureIsGiven ? 1e30 : 1.0;
 }
 
 void ReactorSystem::setConditions(const Conditions& conditions) {
@@ -30,7 +42,9 @@ void ReactorSystem::setConditions(const Conditions& conditions) {
     std::fill(source_.begin(), source_.end(), 0.0);
   else
     std::copy(conditions.source.begin(), conditions.source.end(), source_.begin());
-  conditions_.source = {};
+  std::fill(carriedSource_.begin(), carriedSource_.end(), 0.0);
+  std::copy(conditions.carriedSource.begin(), conditions.carriedSource.end(), carriedSource_.begin());
+  conditions_.source = conditions_.carriedSource = {};
 }
 
 void ReactorSystem::setConditions(double pressure, std::span<const double> source) {
@@ -49,6 +63,7 @@ bool ReactorSystem::accept(const double* f) {
   const std::size_t n = weights_.size();
   double sum = f[n];
   for (std::size_t k = 0; k < n; ++k) sum += f[k];
+  for (std::size_t s = n + 1; s < size(); ++s) sum += f[s];
   return std::isfinite(sum) || refuse("rates that are not finite");
 }
 
@@ -103,7 +118,19 @@ double ReactorSystem::temperatureSlope(const double* y, const double* f) {
   const std::size_t n = weights_.size();
   double supply = conditions_.heating;
   if (conditions_.removal != 0) supply -= conditions_.removal * dot(energy_.data(), y, n);
-  return (supply - dot(energy_.data(), f, n)) / dot(capacity_.data(), y, n);
+  if (carried_ != nullptr) {
+    const std::size_t count = numCarried();
+    supply -= conditions_.removal * dot(carriedEnergy_.data(), y + n + 1, count);
+    supply -= dot(carriedEnergy_.data(), f + n + 1, count);
+  }
+  return (supply - dot(energy_.data(), f, n)) / heatCapacity(y);
+}
+
+// J/kg/K
+double ReactorSystem::heatCapacity(const double* y) const {
+  const std::size_t n = weights_.size();
+  const double gas = dot(capacity_.data(), y, n);
+  return carried_ == nullptr ? gas : gas + dot(carriedCapacity_.data(), y + n + 1, numCarried());
 }
 
 bool ReactorSystem::rates(const double* y, double* f) {
@@ -111,6 +138,7 @@ bool ReactorSystem::rates(const double* y, double* f) {
   const std::size_t n = weights_.size();
   const double removal = conditions_.removal;
   for (std::size_t k = 0; k < n; ++k) f[k] += source_[k] - removal * y[k];
+  if (carried_ != nullptr && !addCarriedRates(y, f)) return false;
   if (conditions_.energy == Energy::Conserved) speciesEnergies(y[n]);
   f[n] = temperatureSlope(y, f);
   return accept(f);

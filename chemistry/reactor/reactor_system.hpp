@@ -8,6 +8,10 @@
 //
 // A source alone (r = q = 0) brings the enthalpy (energy) that keeps the mixture's. A perfectly stirred reactor of
 // residence time tau and constant pressure has S = Y_in/tau, r = 1/tau, q = h_in/tau; losses to a wall lower q.
+//
+// A reactor may carry a phase besides its gas (particles), whose amounts z per kg follow (Y, T) as unknowns. Everything
+// per kg is then per kg of gas and particles together: the mass fractions of the species sum to the gas's share, rho is
+// the mass of both per volume, and the phase takes part in the balances of species and energy (reactor_carried.cpp).
 #pragma once
 
 #include <cstddef>
@@ -16,6 +20,7 @@
 #include <vector>
 
 #include "chemistry/kinetics/kinetics.hpp"
+#include "chemistry/reactor/carried_phase.hpp"
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/thermo/thermo.hpp"
 
@@ -32,6 +37,7 @@ class ReactorSystem {
     Energy energy = Energy::Conserved;
     double temperatureRate = 0;      // dT/dt, K/s, where the temperature is given
     std::span<const double> source;  // S, 1/s, a value a species; copied; may be empty
+    std::span<const double> carriedSource;  // the same of a carried phase
     double removal = 0;              // r, 1/s
     double heating = 0;              // q, J/kg/s
   };
@@ -45,10 +51,12 @@ class ReactorSystem {
     std::vector<double> product;            // u_i, a value an unknown
   };
 
-  explicit ReactorSystem(const Mechanism& mechanism);
+  // The carried phase, if any, has to live as long.
+  explicit ReactorSystem(const Mechanism& mechanism, CarriedPhase* carried = nullptr);
 
   std::size_t numSpecies() const { return weights_.size(); }
-  std::size_t size() const { return weights_.size() + 1; }
+  std::size_t numCarried() const { return carriedSource_.size(); }
+  std::size_t size() const { return weights_.size() + 1 + carriedSource_.size(); }
   Thermo& thermo() { return thermo_; }
   std::span<const double> inverseWeights() const { return inverseWeights_; }  // mol/kg
   const SparsePattern& pattern() const { return kinetics_.jacobianPattern(); }
@@ -65,7 +73,7 @@ class ReactorSystem {
   bool chemicalRates(const double* y, double* f);
   // J[i + ld*j] = d f_i / d y_j; also leaves f.
   bool jacobian(const double* y, double* f, double* J, std::size_t ld);
-  // The same; sizes its argument.
+  // The same, of a gas alone; sizes its argument.
   bool sparseJacobian(const double* y, double* f, SparseJacobian& J);
 
   // Why an evaluation returned false last; empty if none has since clearRefusal().
@@ -80,10 +88,15 @@ class ReactorSystem {
   bool prepare(const double* y);
   bool refuse(std::string reason);
   bool accept(const double* f);
+  // Of a carried phase: f of its amounts, and what it adds to those of the species; the same of the Jacobian, after
+  // the rates.
+  bool addCarriedRates(const double* y, double* f);
+  void addCarriedJacobian(const double* y, double* J, std::size_t ld);
+  double heatCapacity(const double* y) const;
   void speciesEnergies(double T);
   double temperatureSlope(const double* y, const double* f);
   void finishExcess(double T, double* temperatureColumn);
-  void finishRates(const double* y, double* f);
+  bool finishRates(const double* y, double* f);
   void speciesBlock(double* J, std::size_t ld) const;
   void sparseColumns(SparseJacobian& J) const;
   double temperatureDiagonal(const double* y, const double* f, const double* temperatureColumn);
@@ -99,7 +112,14 @@ class ReactorSystem {
   // Enthalpies and cp at constant pressure, internal energies and cv at constant density; J/kg, J/kg/K, J/kg/K2.
   std::vector<double> energy_, capacity_, capacitySlope_, gasConstants_;
   std::vector<double> excess_, byT_, common_;
+  CarriedPhase* carried_;
+  std::vector<double> carriedSource_, carriedDensity_, carriedRates_, carriedEnergy_, carriedCapacity_;
+  std::vector<double> exchange_, carriedJacobian_;
   std::string refusal_;
 };
+
+// What the absolute tolerance of unknown i is multiplied with: one for mass fractions and the temperature, which steers
+// no steps where it is given; of a carried phase 1e4, as it is in units of its typical amounts.
+double reactorToleranceScale(std::size_t i, std::size_t species, bool temperatureIsGiven);
 
 }  // namespace lampblack

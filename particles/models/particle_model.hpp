@@ -68,6 +68,26 @@ struct ParticleProcesses {
   double dimerProduction = 0;  // 1/m3/s
 };
 
+// How results files name them.
+struct ParticleProcessName {
+  const char *name, *unit, *description;
+  double ParticleProcesses::*value;
+};
+inline constexpr std::array<ParticleProcessName, 12> particleProcessNames{{
+    {"nucleation_number", "1/m^3/s", "new particles", &ParticleProcesses::nucleationNumber},
+    {"coagulation_number", "1/m^3/s", "particles lost by coagulation, negative", &ParticleProcesses::coagulationNumber},
+    {"oxidation_number", "1/m^3/s", "particles lost by oxidation, negative", &ParticleProcesses::oxidationNumber},
+    {"fragmentation_number", "1/m^3/s", "particles from fragmentation", &ParticleProcesses::fragmentationNumber},
+    {"nucleation", "kg/m^3/s", "soot mass from nucleation", &ParticleProcesses::nucleation},
+    {"condensation", "kg/m^3/s", "soot mass from condensation", &ParticleProcesses::condensation},
+    {"growth", "kg/m^3/s", "soot mass from surface growth", &ParticleProcesses::growth},
+    {"oxidation_O2", "kg/m^3/s", "soot mass lost by oxidation by O2, negative", &ParticleProcesses::oxidationO2},
+    {"oxidation_OH", "kg/m^3/s", "soot mass lost by oxidation by OH, negative", &ParticleProcesses::oxidationOH},
+    {"carbonisation", "kg/m^3/s", "soot mass lost by carbonisation, negative", &ParticleProcesses::carbonisation},
+    {"dimer_number", "1/m^3", "dimers", &ParticleProcesses::dimerNumber},
+    {"dimer_production", "1/m^3/s", "dimers formed", &ParticleProcesses::dimerProduction},
+}};
+
 // dN/dlog10(d) (1/m3) at diameters d (m, of the equivalent sphere).
 struct SizeDistribution {
   std::vector<double> diameter, density;

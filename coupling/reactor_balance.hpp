@@ -1,0 +1,36 @@
+// What a reactor holds per kg of gas and particles: elements, enthalpy, internal energy. Those of a closed reactor, and
+// of a plug flow along its way, do not change.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "chemistry/mechanism/mechanism.hpp"
+#include "chemistry/thermo/thermo.hpp"
+#include "coupling/reactor_particles.hpp"
+
+namespace lampblack {
+
+class ReactorBalance {
+ public:
+  // Both have to live as long.
+  ReactorBalance(const Mechanism& mechanism, ReactorParticles& particles);
+
+  // kg/kg of each element; Y and amounts as the unknowns of the reactor.
+  [[nodiscard]] std::vector<double> elements(std::span<const double> Y, std::span<const double> amounts) const;
+  [[nodiscard]] double enthalpy(double T, std::span<const double> Y, std::span<const double> amounts);        // J/kg
+  [[nodiscard]] double internalEnergy(double T, std::span<const double> Y, std::span<const double> amounts);  // J/kg
+
+ private:
+  [[nodiscard]] double carriedEnthalpy(double T, std::span<const double> amounts);
+
+  const Mechanism& mechanism_;
+  ReactorParticles& particles_;
+  Thermo thermo_;
+  std::vector<double> h_, slope_;
+};
+
+// The largest difference of an element between the two, relative to what `first` has of it.
+[[nodiscard]] double largestImbalance(std::span<const double> first, std::span<const double> second);
+
+}  // namespace lampblack
