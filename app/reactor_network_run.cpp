@@ -7,6 +7,7 @@
 #include "app/reactor_history.hpp"
 #include "app/reactor_output.hpp"
 #include "app/reactor_particle_output.hpp"
+#include "core/errors.hpp"
 #include "io/csv.hpp"
 #include "io/report.hpp"
 
@@ -81,16 +82,19 @@ class StirredTransientDriver : public ReactorDriver {
 
 class SteadyNetworkDriver : public ReactorDriver {
  public:
-  explicit SteadyNetworkDriver(const ReactorCase& reactorCase) : case_(reactorCase) {}
+  explicit SteadyNetworkDriver(const ReactorCase& reactorCase)
+      : case_(reactorCase), particles_(reactorCase, ReactorParticleOutput::Kept::nothing) {}
 
   void compute(const RunFolder& folder) override {
     const double begin = MPI_Wtime();
-    reactors_ = solveNetwork(*case_.mechanism, case_.network, case_.start);
+    solve();
+    makeRows();
+    particles_.requireRoom();
     seconds_ = MPI_Wtime() - begin;
     std::string text = "name," + csvHeader(columns());
     for (std::size_t r = 0; r < reactors_.size(); ++r) {
       std::vector<std::string> fields{case_.network.reactors[r].name};
-      for (const double value : row(reactors_[r])) fields.push_back(fmt::format("{}", value));
+      for (const double value : rows_[r]) fields.push_back(fmt::format("{}", value));
       text += csvLine(fields);
     }
     writeFileAtomically(folder.file("reactors.csv"), text);
@@ -98,9 +102,9 @@ class SteadyNetworkDriver : public ReactorDriver {
 
   void write(ResultsWriter& results) const override {
     std::vector<double> rows;
-    for (const ReactorSteadyState& reactor : reactors_)
-      for (const double value : row(reactor)) rows.push_back(value);
+    for (const auto& row : rows_) rows.insert(rows.end(), row.begin(), row.end());
     results.table("/reactors", columns(), rows);
+    particles_.write(results);
     std::vector<std::string> names;
     for (const StirredReactor& reactor : case_.network.reactors) names.push_back(reactor.name);
     std::string line = csvLine(names);
@@ -113,7 +117,13 @@ class SteadyNetworkDriver : public ReactorDriver {
     for (std::size_t r = 0; r < reactors_.size(); ++r) {
       json.key(case_.network.reactors[r].name).beginObject();
       json.field("temperature_K", reactors_[r].state.temperature);
-      json.field("residence_time_s", reactors_[r].residenceTime).field("residual", reactors_[r].residual).endObject();
+      json.field("residence_time_s", reactors_[r].residenceTime).field("residual", reactors_[r].residual);
+      if (case_.particles) {
+        const std::string material = case_.soot->material() + "_";
+        for (const auto& p : particlePropertyNames) json.field(material + p.name, properties_[r].*p.value);
+        json.field("element_imbalance", balances_[r].elements).field("energy_imbalance", balances_[r].energy);
+      }
+      json.endObject();
     }
     json.endObject();
   }
@@ -126,6 +136,10 @@ class SteadyNetworkDriver : public ReactorDriver {
       fmt::print("{:<16} {:>10.4f} {:>14.6e} {:>12.4e} {:>12.4e} {:>12.4e} {:>10.1e}\n", case_.network.reactors[r].name,
                  s.state.temperature, s.residenceTime, s.volume, s.massFlow, s.heatRelease * s.volume, s.residual);
     }
+    for (std::size_t r = 0; r < properties_.size(); ++r)
+      fmt::print("{:<16} {} volume fraction {:.4g}, mean diameter {:.4g} nm; elements balance to {:.1e}, energy to {:.1e}\n",
+                 case_.network.reactors[r].name, case_.soot->material(), properties_[r].volumeFraction,
+                 1e9 * properties_[r].meanDiameter, balances_[r].elements, balances_[r].energy);
     fmt::print("{} steps of the integrator in {}\n", steps(), formatDuration(seconds_));
   }
 
@@ -145,7 +159,36 @@ class SteadyNetworkDriver : public ReactorDriver {
                                   {"mass_flow", "kg/s", "mass flow through the reactor"},
                                   {"heat_release", "W/m^3", "heat set free by the reactions"}};
     for (auto& column : speciesColumns(*case_.mechanism, case_.output)) columns.push_back(std::move(column));
+    for (auto& column : particles_.columns()) columns.push_back(std::move(column));
+    if (!case_.particles) return columns;
+    columns.push_back({"element_imbalance", "1", "largest difference of an element between what comes in and leaves"});
+    columns.push_back({"energy_imbalance", "1", "the same of energy over cp T; zero where the temperature is given"});
     return columns;
+  }
+
+  void solve() {
+    try {
+      reactors_ = solveNetwork(*case_.mechanism, case_.network, case_.start, case_.particles.get());
+    } catch (const NumericsError& error) {
+      if (!case_.particles) throw;
+      throw NumericsError(fmt::format(
+          "{}. Particles in a stirred reactor may have no steady state: those there are take what new ones would be "
+          "made of, and both rise and fall in turn; 'time.end' of a single reactor shows it",
+          error.what()));
+    }
+  }
+
+  void makeRows() {
+    if (case_.particles) balances_ = steadyBalances(*case_.mechanism, *case_.particles, case_.network, reactors_);
+    for (std::size_t r = 0; r < reactors_.size(); ++r) {
+      const ReactorSteadyState& s = reactors_[r];
+      rows_.push_back(row(s));
+      if (!case_.particles) continue;
+      const std::vector<double> y = unknownsOf(s.state, case_.particles->size());
+      particles_.append(s.state.pressure, s.density, y, rows_.back());
+      properties_.push_back(particles_.last());
+      rows_.back().insert(rows_.back().end(), {balances_[r].elements, balances_[r].energy});
+    }
   }
 
   std::vector<double> row(const ReactorSteadyState& s) const {
@@ -155,7 +198,11 @@ class SteadyNetworkDriver : public ReactorDriver {
   }
 
   const ReactorCase& case_;
+  ReactorParticleOutput particles_;
   std::vector<ReactorSteadyState> reactors_;
+  std::vector<std::vector<double>> rows_;
+  std::vector<ParticleProperties> properties_;  // empty without particles
+  std::vector<SteadyBalance> balances_;
   double seconds_ = 0;
 };
 

@@ -79,7 +79,7 @@ void ReactorParticleOutput::write(ResultsWriter& results) const {
   const auto count = static_cast<std::int64_t>(sizes), rows = static_cast<std::int64_t>(distribution_.size() / sizes);
   results.dataset("/particles/diameter", {count}, diameter_, "m", "diameters of the size distribution");
   results.dataset("/particles/size_distribution", {rows, count}, distribution_, "1/m^3",
-                  "dN/dlog10 d of each row of the history");
+                  "dN/dlog10 d of each row of the table");
 }
 
 void ReactorParticleOutput::record(JsonWriter& json) const {

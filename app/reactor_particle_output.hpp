@@ -31,6 +31,9 @@ class ReactorParticleOutput {
   // call is what changes refer to.
   void append(double pressure, double density, std::span<const double> y, std::vector<double>& row);
 
+  // Of the state appended last.
+  [[nodiscard]] const ParticleProperties& last() const { return last_; }
+
   // Collective: /particles, where the model has sizes.
   void write(ResultsWriter& results) const;
   void record(JsonWriter& json) const;

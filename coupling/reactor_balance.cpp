@@ -44,4 +44,36 @@ double largestImbalance(std::span<const double> first, std::span<const double> s
   return largest;
 }
 
+std::vector<SteadyBalance> steadyBalances(const Mechanism& mechanism, ReactorParticles& particles,
+                                          const ReactorNetwork& network,
+                                          const std::vector<ReactorSteadyState>& states) {
+  ReactorBalance balance(mechanism, particles);
+  std::vector<SteadyBalance> results;
+  for (std::size_t r = 0; r < states.size(); ++r) {
+    std::vector<double> in(mechanism.numElements(), 0.0);
+    double energyIn = 0;
+    const auto add = [&](double massFlow, double T, std::span<const double> Y, std::span<const double> carried) {
+      const std::vector<double> elements = balance.elements(Y, carried);
+      for (std::size_t e = 0; e < in.size(); ++e) in[e] += massFlow * elements[e];
+      energyIn += massFlow * balance.enthalpy(T, Y, carried);
+    };
+    for (const InflowStream& stream : network.inflows)
+      if (stream.to == r) add(stream.massFlow, stream.temperature, stream.Y, stream.carried);
+    for (const InnerStream& stream : network.streams) {
+      const GasState& from = states[stream.from].state;
+      if (stream.to == r) add(stream.massFlow, from.temperature, from.Y, from.carried);
+    }
+    const GasState& state = states[r].state;
+    const StirredReactor& vessel = network.reactors[r];
+    std::vector<double> out = balance.elements(state.Y, state.carried);
+    for (double& value : out) value *= states[r].massFlow;
+    const double energyOut = states[r].massFlow * balance.enthalpy(state.temperature, state.Y, state.carried) +
+                             vessel.conductance * (state.temperature - vessel.surroundings);
+    const double scale =
+        states[r].massFlow * Thermo(mechanism).cpMass(state.temperature, state.Y) * state.temperature;
+    results.push_back({largestImbalance(in, out), vessel.temperature ? 0.0 : (energyIn - energyOut) / scale});
+  }
+  return results;
+}
+
 }  // namespace lampblack

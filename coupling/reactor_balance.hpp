@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "chemistry/mechanism/mechanism.hpp"
+#include "chemistry/reactor/network_solver.hpp"
 #include "chemistry/thermo/thermo.hpp"
 #include "coupling/reactor_particles.hpp"
 
@@ -32,5 +33,16 @@ class ReactorBalance {
 
 // The largest difference of an element between the two, relative to what `first` has of it.
 [[nodiscard]] double largestImbalance(std::span<const double> first, std::span<const double> second);
+
+// What comes into a reactor of a steady network less what leaves it.
+struct SteadyBalance {
+  double elements = 0;  // the largest difference of an element, relative to what comes in
+  double energy = 0;    // relative to M cp T; zero where the temperature is given
+};
+
+// In the order of the reactors.
+[[nodiscard]] std::vector<SteadyBalance> steadyBalances(const Mechanism& mechanism, ReactorParticles& particles,
+                                                        const ReactorNetwork& network,
+                                                        const std::vector<ReactorSteadyState>& states);
 
 }  // namespace lampblack

@@ -74,7 +74,7 @@ void ReactorParticles::enthalpies(double T, std::span<double> h, std::span<doubl
 
 std::vector<double> ReactorParticles::elements(std::span<const double> amounts) const {
   std::vector<double> sums;
-  for (std::size_t s = 0; s < size(); ++s) {
+  for (std::size_t s = 0; s < amounts.size(); ++s) {
     const std::vector<double>& parts = particles_.scalars()[s].elements;
     sums.resize(parts.size(), 0.0);
     for (std::size_t e = 0; e < parts.size(); ++e) sums[e] += amounts[s] * scales_[s] * parts[e];
