@@ -33,6 +33,7 @@ class StochasticProcess final : public StochasticSoot {
 
   void initialise(std::span<const SootParticleGiven> population) override;
   void advance(const ParticleGas& gas, double dilution, double dt) override;
+  void dilute(double factor) override;
   [[nodiscard]] SootExchange takeExchange() override { return std::exchange(exchange_, {}); }
 
   [[nodiscard]] std::vector<double> pack() const override;
@@ -60,7 +61,6 @@ class StochasticProcess final : public StochasticSoot {
   // Change of the sum of collisions with dimers by coagulation, 1/s2, as for a population of equal particles.
   [[nodiscard]] double coagulating(const SootMedium& medium, const Sums& sums) const;
   [[nodiscard]] double step(const SootMedium& medium, const Sums& sums, double dilution, double remaining) const;
-  void dilute(double factor);
   // `start`: of the population as it is.
   void jump(const SootMedium& medium, const Sums& start, double dt, double stepLength);
   void grow(const SootMedium& medium, double dt);

@@ -71,6 +71,8 @@ class StochasticSoot {
   // Over dt (s) in the given gas; `dilution` (1/s) is the divergence of the particles' velocity. Throws NumericsError
   // for a gas that is not physical.
   virtual void advance(const ParticleGas& gas, double dilution, double dt) = 0;
+  // Multiplies all numbers per volume: the gas grew by 1/factor.
+  virtual void dilute(double factor) = 0;
   // Since it was asked for last.
   [[nodiscard]] virtual SootExchange takeExchange() = 0;
 

@@ -1,0 +1,47 @@
+#include "coupling/reactor_ensemble.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "core/constants.hpp"
+#include "core/errors.hpp"
+
+namespace lampblack {
+namespace {
+
+// Mole fraction of all PAH below which none are born.
+constexpr double negligibleMoleFraction = 1e-15;
+
+}  // namespace
+
+ReactorEnsemble::ReactorEnsemble(const Mechanism& mechanism, StochasticSootOptions options) {
+  for (const std::string& name : sootSpecies(options.soot)) {
+    const auto k = mechanism.findSpecies(name);
+    if (!k) throw InputError(fmt::format("ensembles need the species '{}', which is not in the mechanism", name));
+    species_.push_back(*k);
+  }
+  population_ = makeStochasticSoot(std::move(options));
+}
+
+SplitParticles::Exchange ReactorEnsemble::advance(const ParticleGas& gas, double dt) {
+  population_->advance(gas, 0, dt);
+  const SootExchange taken = population_->takeExchange();
+  return {{taken.gas.begin(), taken.gas.begin() + static_cast<std::ptrdiff_t>(species_.size())},
+          taken.carbon,
+          taken.hydrogen};
+}
+
+void ReactorEnsemble::dilute(double factor) {
+  if (factor != 1) population_->dilute(factor);
+}
+
+bool ReactorEnsemble::idle(const ParticleGas& gas) const {
+  if (population_->size() > 0) return false;
+  double pah = 0;
+  for (std::size_t i = SootSpecies::fixed; i < species_.size(); ++i) pah += std::max(gas.concentrations[i], 0.0);
+  return pah < negligibleMoleFraction * gas.pressure / (constants::gasConstant * gas.temperature);
+}
+
+}  // namespace lampblack

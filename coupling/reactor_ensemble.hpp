@@ -1,0 +1,32 @@
+// A stochastic population of soot as the particles of a split reactor.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "chemistry/mechanism/mechanism.hpp"
+#include "coupling/split_reactor.hpp"
+#include "particles/soot/stochastic_soot.hpp"
+
+namespace lampblack {
+
+class ReactorEnsemble final : public SplitParticles {
+ public:
+  // InputError where the mechanism lacks a species that soot exchanges, and as makeStochasticSoot().
+  ReactorEnsemble(const Mechanism& mechanism, StochasticSootOptions options);
+
+  [[nodiscard]] const StochasticSoot& population() const { return *population_; }
+
+  [[nodiscard]] const std::vector<std::size_t>& species() const override { return species_; }
+  Exchange advance(const ParticleGas& gas, double dt) override;
+  void dilute(double factor) override;
+  [[nodiscard]] bool idle(const ParticleGas& gas) const override;
+  [[nodiscard]] std::vector<double> save() const override { return population_->pack(); }
+  void restore(std::span<const double> state) override { population_->unpack(state); }
+
+ private:
+  std::unique_ptr<StochasticSoot> population_;
+  std::vector<std::size_t> species_;
+};
+
+}  // namespace lampblack

@@ -1,0 +1,124 @@
+// A reactor whose particles stand in no Newton matrix, such as an ensemble: gas and particles in turn, by symmetric
+// splitting (Strang 1968). In each step the gas reacts for the first half with the particles at rest, the particles
+// change for all of it in a gas that does not change, and the gas reacts for the second half. The gas that they see is
+// that of the middle of their own exchange, by what they exchanged in the step before, which keeps the second order. What the particles exchange with
+// the gas is booked at once: elements and energy are those of both together, to round-off in that part, to the tolerance
+// of the stiff solver in the other. While the gas reacts, particles take part with their heat, expand with it, and
+// leave with what flows out.
+//
+// The step follows from what changes in it; a step in which more changes than twice the aim is taken back.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "chemistry/mechanism/mechanism.hpp"
+#include "chemistry/reactor/ode_system.hpp"
+#include "chemistry/reactor/stiff_integrator.hpp"
+#include "chemistry/thermo/thermo.hpp"
+#include "coupling/reactor_particles.hpp"
+
+namespace lampblack {
+
+// Particles of carbon and hydrogen that change in a given gas.
+class SplitParticles {
+ public:
+  struct Exchange {
+    std::vector<double> gas;          // mol/m3, of the species
+    double carbon = 0, hydrogen = 0;  // kg/m3, gained by the particles: the same atoms
+  };
+  virtual ~SplitParticles() = default;
+  // Of the mechanism, in the order of the gas that `advance` is given.
+  [[nodiscard]] virtual const std::vector<std::size_t>& species() const = 0;
+  virtual Exchange advance(const ParticleGas& gas, double dt) = 0;
+  // Multiplies all amounts per volume.
+  virtual void dilute(double factor) = 0;
+  // There are none, and none can be born of this gas.
+  [[nodiscard]] virtual bool idle(const ParticleGas& gas) const = 0;
+  [[nodiscard]] virtual std::vector<double> save() const = 0;
+  virtual void restore(std::span<const double> state) = 0;
+
+ protected:
+  SplitParticles() = default;
+  SplitParticles(const SplitParticles&) = default;
+  SplitParticles& operator=(const SplitParticles&) = default;
+};
+
+// What the gas carries while it reacts: carbon and hydrogen of the particles (kg/kg), and a mark, one at the beginning
+// of each part of a step, that says what part of it has flown out.
+class ParticlesAtRest final : public CarriedPhase {
+ public:
+  enum Amount : std::size_t { carbon, hydrogen, mark, count };
+  [[nodiscard]] std::size_t size() const override { return count; }
+  [[nodiscard]] const std::vector<std::size_t>& exchanged() const override { return none_; }
+  void sources(double T, double p, std::span<const double> concentrations, std::span<const double> densities,
+               std::span<double> rates, std::span<double> exchange) override;
+  void jacobian(double T, double p, std::span<const double> concentrations, std::span<const double> densities,
+                std::span<double> values) override;
+  void enthalpies(double T, std::span<double> h, std::span<double> slope) override;
+
+ private:
+  std::vector<std::size_t> none_;
+};
+
+class SplitReactor {
+ public:
+  // The gas's equations, which carry ParticlesAtRest, in the unknowns (Y, T, carbon, hydrogen, mark, ...) over time or
+  // place; and what is held.
+  struct Gas {
+    OdeSystem* system = nullptr;
+    std::function<double(const double* y)> density, pressure;  // kg/m3 of gas and particles, Pa
+    std::function<double(const double* y)> timePerUnit;        // s, of the independent variable
+    enum class Kept { temperature, enthalpy, internalEnergy } kept = Kept::enthalpy;
+    std::function<double(double x)> nextStop;  // a kink of the equations behind x; may be empty
+  };
+  struct Options {
+    StiffIntegrator::Options integrator;
+    // What may change in a step: concentrations that the particles see, relative, by the particles alone and altogether,
+    // and the temperature over 200 K.
+    double change = 0.1;
+    double largestStep = 0;  // 0: no limit. Fixed, with `fixedStep`
+    bool fixedStep = false;
+  };
+  struct Work {
+    long steps = 0, rejected = 0, gasSteps = 0;
+  };
+
+  // All have to live as long.
+  SplitReactor(const Mechanism& mechanism, Gas gas, SplitParticles& particles, const Options& options);
+
+  void start(double x, std::span<const double> y);
+  // To x, exactly. NumericsError.
+  void advance(double x);
+
+  [[nodiscard]] double position() const { return x_; }
+  [[nodiscard]] std::span<const double> state() const { return y_; }
+  [[nodiscard]] const Work& work() const { return work_; }
+  // The gas as the particles see it.
+  [[nodiscard]] const ParticleGas& gas();
+
+ private:
+  double step(double h);
+  void react(double h);
+  // The particles over h; the largest part of a concentration that they take or give.
+  double exchange(double h);
+  [[nodiscard]] double energy(double T);
+  [[nodiscard]] double heatCapacity(double T);
+
+  const Mechanism& mechanism_;
+  Gas gas_;
+  SplitParticles& particles_;
+  Options options_;
+  StiffIntegrator integrator_;
+  ParticlesAtRest atRest_;
+  Thermo thermo_;
+  ReactorGas seen_;
+  double x_ = 0, h_ = 0;
+  std::vector<double> y_;
+  std::vector<double> exchanged_;  // change of the unknowns by the particles' last step, a unit of x
+  Work work_;
+};
+
+}  // namespace lampblack
