@@ -8,6 +8,7 @@
 #include "app/soot_deck.hpp"
 #include "app/temperature_input.hpp"
 #include "core/errors.hpp"
+#include "coupling/reactor_ensemble.hpp"
 #include "io/request_limits.hpp"
 
 namespace lampblack {
@@ -107,7 +108,32 @@ void refuseRows(const Deck& deck, const std::string& key, const ReactorCase& rea
   requireMemory(deck, key, fmt::format("a history of {:.3g} rows", rows), rows * bytes);
 }
 
+void readReactorEnsemble(const Deck& deck, ReactorCase& reactorCase) {
+  if (!deck.has("soot")) throw deck.error("stochastic", "ensembles need the section 'soot': PAH, surface, switches");
+  if (deck.isGiven("soot.model") && deck.choice("soot.model") != "none")
+    throw deck.error("soot.model",
+                     "in a reactor an ensemble takes the place of a model: leave this out, or the section 'stochastic'");
+  if (deck.isGiven("ignition") || deck.has("sensitivity"))
+    throw deck.error(deck.isGiven("ignition") ? "ignition" : "sensitivity",
+                     "ignition delays of a gas with an ensemble are not computed; leave it out");
+  if (reactorCase.type == ReactorType::Network)
+    throw deck.error("stochastic", "ensembles are in single reactors; the models of 'soot.model' are in networks, too");
+  if (reactorCase.type == ReactorType::Stirred && reactorCase.end == 0)
+    throw deck.error("stochastic",
+                     "the steady state of an ensemble is a mean over time: give time.end, of many residence times; the "
+                     "second half is averaged");
+  reactorCase.ensemble = readEnsemble(deck, readSootModelOptions(deck, *reactorCase.mechanism));
+  reactorCase.couplingChange = deck.number("stochastic.coupling_change");
+  try {
+    const ReactorEnsemble trial(*reactorCase.mechanism, reactorCase.ensemble->soot);
+    const ReactorGas gas(*reactorCase.mechanism, trial.species());
+  } catch (const InputError& error) {
+    throw deck.error("stochastic", error.what());
+  }
+}
+
 void readParticles(const Deck& deck, ReactorCase& reactorCase) {
+  if (deck.has("stochastic")) return readReactorEnsemble(deck, reactorCase);
   auto model = readSootModel(deck, *reactorCase.mechanism);
   if (!model) return;
   if (deck.isGiven("soot.diffusion"))

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/stochastic_deck.hpp"
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/reactor/closed_reactor.hpp"
 #include "chemistry/reactor/ignition.hpp"
@@ -36,6 +37,8 @@ struct ReactorCase {
   // Particles that the gas carries and exchanges with; null: none. The second looks at the first.
   std::shared_ptr<CarriedParticles> soot;
   std::shared_ptr<ReactorParticles> particles;
+  std::optional<EnsembleRequest> ensemble;  // in place of these
+  double couplingChange = 0;                // SplitReactor::Options::change
   double sootAtLimit = 1;  // largest volume fraction in the model's largest particles, over the largest of all
 
   // Closed reactors.

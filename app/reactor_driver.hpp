@@ -37,5 +37,6 @@ std::unique_ptr<ReactorDriver> closedReactorDriver(const ReactorCase& reactorCas
 std::unique_ptr<ReactorDriver> plugFlowDriver(const ReactorCase& reactorCase);
 std::unique_ptr<ReactorDriver> stirredTransientDriver(const ReactorCase& reactorCase);
 std::unique_ptr<ReactorDriver> steadyNetworkDriver(const ReactorCase& reactorCase);
+std::unique_ptr<ReactorDriver> ensembleReactorDriver(const ReactorCase& reactorCase);
 
 }  // namespace lampblack

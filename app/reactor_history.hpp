@@ -26,6 +26,7 @@ class ReactorHistory {
 
   // Rank 0. InputError where the file cannot be made.
   void open(const std::filesystem::path& path);
+  void row(std::span<const double> values) { writer_->row(values); }
   // Integrates from the integrator's start to `end` and writes rows: the start, each step (or each `interval`, by
   // interpolation), and the end. The kinks of a profile are stops. `afterStep` is called after each step.
   // Ends early where the run is asked to stop; long ones say now and then how far they are.

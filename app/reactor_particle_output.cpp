@@ -23,7 +23,7 @@ std::vector<Quantity> particleColumns(const CarriedParticles& particles) {
 ReactorParticleOutput::ReactorParticleOutput(const ReactorCase& reactorCase, Kept kept)
     : case_(reactorCase), kept_(kept) {
   if (!case_.particles) return;
-  balance_.emplace(*case_.mechanism, *case_.particles);
+  balance_.emplace(*case_.mechanism, *case_.particles, case_.particles->unitElements());
   densities_.resize(case_.particles->size());
 }
 

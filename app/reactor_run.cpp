@@ -13,6 +13,7 @@ namespace lampblack {
 namespace {
 
 std::unique_ptr<ReactorDriver> driverOf(const ReactorCase& reactorCase) {
+  if (reactorCase.ensemble) return ensembleReactorDriver(reactorCase);
   switch (reactorCase.type) {
     case ReactorType::ConstantPressure:
     case ReactorType::ConstantVolume:

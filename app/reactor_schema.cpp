@@ -1,6 +1,7 @@
 #include "app/gas_input.hpp"
 #include "app/reactor_case.hpp"
 #include "app/soot_deck.hpp"
+#include "app/stochastic_deck.hpp"
 #include "app/temperature_input.hpp"
 
 namespace lampblack {
@@ -177,6 +178,7 @@ DeckSchema reactorSchema() {
                .onlyWith(typeKey, inTime));
   addIgnition(schema);
   addSootModelKeys(schema);
+  addReactorEnsembleKeys(schema);
   schema
       .section("integrator", Presence::defaulted, "The stiff solver of everything but steady states.",
                {{typeKey, integrated}})

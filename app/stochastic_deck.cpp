@@ -9,21 +9,20 @@
 
 namespace lampblack {
 
-void addStochasticKeys(DeckSchema& schema) {
-  schema
-      .section("stochastic", Presence::optional,
-               "Ensembles of soot particles along the flame, by repeats of independent random numbers; needs the "
-               "section soot, whose PAH, surface and switches are theirs.")
-      .add(choiceKey("stochastic.coupled", {"decoupled", "two_way"},
-                     "decoupled: the flame as solved with soot.model, whose exchange with the gas stands for the "
-                     "ensemble's; two_way: iterated until the gas sees what the ensemble exchanges.")
-               .byDefault("decoupled"))
+namespace {
+
+// The section and what every ensemble is told.
+void addEnsembleKeys(DeckSchema& schema, const std::string& description) {
+  schema.section("stochastic", Presence::optional, description)
       .add(choiceKey("stochastic.method", {"dsmc", "sammc", "swa"},
                      "Equal weights, doubled and contracted; weighted, nearest neighbours merged; stochastic weighted "
                      "algorithm with mass weights.")
                .byDefault("sammc"))
       .add(integerKey("stochastic.particles", "Numerical particles of a repeat.").byDefault("2000").atLeast(8))
-      .add(integerKey("stochastic.repeats", "Of every path.").byDefault("8").atLeast(2).atMost(100000))
+      .add(integerKey("stochastic.repeats", "Independent repeats of every ensemble.")
+               .byDefault("8")
+               .atLeast(2)
+               .atMost(100000))
       .add(integerKey("stochastic.seed", "Of the random numbers.").byDefault("1").atLeast(0))
       .add(choiceKey("stochastic.shape", {"spheres", "aggregates"},
                      "spheres: that coalesce; aggregates: coagulation keeps the primaries.")
@@ -40,6 +39,38 @@ void addStochasticKeys(DeckSchema& schema) {
                .byDefault("0.01")
                .above(0)
                .atMost(1))
+      .add(integerKey("stochastic.bins", "Of the size distribution.").byDefault("60").atLeast(2).atMost(10000))
+      .add(quantityKey("stochastic.smallest", units::length, "Lower end of the bins (diameter).")
+               .byDefault("0.5 nm")
+               .above(0))
+      .add(quantityKey("stochastic.largest", units::length, "Upper end of the bins (diameter).")
+               .byDefault("500 nm")
+               .above(0));
+}
+
+}  // namespace
+
+void addReactorEnsembleKeys(DeckSchema& schema) {
+  addEnsembleKeys(schema,
+                  "Ensembles of soot particles in place of soot.model, coupled with the gas both ways: every repeat is a "
+                  "reactor of its own. Needs the section soot, whose PAH, surface and switches are theirs.");
+  schema.add(numberKey("stochastic.coupling_change",
+                       "Steps in which gas and particles change in turn are so long that a concentration which the "
+                       "particles see changes by about this part of itself, or the temperature by this part of 200 K.")
+                 .byDefault("0.1")
+                 .above(0)
+                 .atMost(1));
+}
+
+void addStochasticKeys(DeckSchema& schema) {
+  addEnsembleKeys(schema,
+                  "Ensembles of soot particles along the flame, by repeats of independent random numbers; needs the "
+                  "section soot, whose PAH, surface and switches are theirs.");
+  schema
+      .add(choiceKey("stochastic.coupled", {"decoupled", "two_way"},
+                     "decoupled: the flame as solved with soot.model, whose exchange with the gas stands for the "
+                     "ensemble's; two_way: iterated until the gas sees what the ensemble exchanges.")
+               .byDefault("decoupled"))
       .add(quantityKey("stochastic.start", units::length,
                        "Where paths start, from the end that particles come from; absent: at that end.")
                .optional()
@@ -48,11 +79,6 @@ void addStochasticKeys(DeckSchema& schema) {
                        "Paths end where particles are slower: near the stagnation plane.")
                .byDefault("1 mm/s")
                .above(0))
-      .add(integerKey("stochastic.bins", "Of the size distribution.").byDefault("60").atLeast(2).atMost(10000))
-      .add(quantityKey("stochastic.smallest", units::length, "Lower end of the bins (diameter).")
-               .byDefault("0.5 nm")
-               .above(0))
-      .add(quantityKey("stochastic.largest", units::length, "Upper end of the bins.").byDefault("500 nm").above(0))
       .add(quantityKey("stochastic.heights", units::length, "Where distributions are written.").list().optional())
       .add(integerKey("stochastic.iterations", "At most.")
                .byDefault("10")
@@ -69,18 +95,10 @@ void addStochasticKeys(DeckSchema& schema) {
                .onlyWith("stochastic.coupled", {"two_way"}));
 }
 
-std::optional<StochasticRequest> readStochastic(const Deck& deck, const SootModelOptions& soot, double length,
-                                                bool bothSides) {
-  if (!deck.has("stochastic")) return std::nullopt;
-  StochasticRequest request;
-  request.twoWay = deck.choice("stochastic.coupled") == "two_way";
-  FlameCouplingOptions& coupling = request.coupling;
-  coupling.iterations = deck.integer<std::size_t>("stochastic.iterations");
-  coupling.relaxation = deck.number("stochastic.relaxation");
-  coupling.tolerance = deck.number("stochastic.tolerance");
-  FlameEnsembleOptions& ensemble = coupling.ensemble;
-  ensemble.repeats = deck.integer<std::size_t>("stochastic.repeats");
-  StochasticSootOptions& options = ensemble.soot;
+EnsembleRequest readEnsemble(const Deck& deck, const SootModelOptions& soot) {
+  EnsembleRequest request;
+  request.repeats = deck.integer<std::size_t>("stochastic.repeats");
+  StochasticSootOptions& options = request.soot;
   const std::string method = deck.choice("stochastic.method");
   options.method = method == "dsmc"    ? StochasticSootMethod::dsmc
                    : method == "sammc" ? StochasticSootMethod::sammc
@@ -94,12 +112,28 @@ std::optional<StochasticRequest> readStochastic(const Deck& deck, const SootMode
   options.alphaOfPrimaries = deck.choice("stochastic.active_sites") == "primary";
   options.keepsHydrogen = deck.boolean("stochastic.keep_hydrogen");
   options.splitTolerance = deck.number("stochastic.split_tolerance");
-  SootPathOptions& march = ensemble.march;
-  march.bins = deck.integer<std::size_t>("stochastic.bins");
-  march.logDiameterMin = std::log10(deck.quantity("stochastic.smallest"));
-  march.logDiameterMax = std::log10(deck.quantity("stochastic.largest"));
-  if (!(march.logDiameterMax > march.logDiameterMin))
+  request.bins = {std::log10(deck.quantity("stochastic.smallest")), std::log10(deck.quantity("stochastic.largest")),
+                  deck.integer<std::size_t>("stochastic.bins"), {}};
+  if (!(request.bins.logDiameterMax > request.bins.logDiameterMin))
     throw deck.error("stochastic.largest", "expected more than 'smallest'");
+  if (soot.pah.empty()) throw deck.error("stochastic", "ensembles need PAH that dimerise: name them in soot.pah");
+  return request;
+}
+
+std::optional<StochasticRequest> readStochastic(const Deck& deck, const SootModelOptions& soot, double length,
+                                                bool bothSides) {
+  if (!deck.has("stochastic")) return std::nullopt;
+  StochasticRequest request;
+  request.twoWay = deck.choice("stochastic.coupled") == "two_way";
+  FlameCouplingOptions& coupling = request.coupling;
+  coupling.iterations = deck.integer<std::size_t>("stochastic.iterations");
+  coupling.relaxation = deck.number("stochastic.relaxation");
+  coupling.tolerance = deck.number("stochastic.tolerance");
+  FlameEnsembleOptions& ensemble = coupling.ensemble;
+  const EnsembleRequest given = readEnsemble(deck, soot);
+  ensemble.soot = given.soot;
+  ensemble.repeats = given.repeats;
+  ensemble.march = given.bins;
   FlamePathOptions path;
   path.slowest = deck.quantity("stochastic.slowest");
   path.start = deck.optionalQuantity("stochastic.start");
@@ -115,8 +149,6 @@ std::optional<StochasticRequest> readStochastic(const Deck& deck, const SootMode
   for (const double z : request.heights)
     if (z < 0 || z > length)
       throw deck.error("stochastic.heights", fmt::format("{:g} m is outside the flame, 0 to {:g} m", z, length));
-  if (options.soot.pah.empty())
-    throw deck.error("stochastic", "ensembles need PAH that dimerise: name them in soot.pah");
   return request;
 }
 

@@ -2,20 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace lampblack {
 
-ReactorBalance::ReactorBalance(const Mechanism& mechanism, ReactorParticles& particles)
+ReactorBalance::ReactorBalance(const Mechanism& mechanism, CarriedPhase& phase,
+                               std::vector<std::vector<double>> unitElements)
     : mechanism_(mechanism),
-      particles_(particles),
+      phase_(phase),
+      unitElements_(std::move(unitElements)),
       thermo_(mechanism),
-      h_(particles.size()),
-      slope_(particles.size()) {}
+      h_(phase.size()),
+      slope_(phase.size()) {}
 
 std::vector<double> ReactorBalance::elements(std::span<const double> Y, std::span<const double> amounts) const {
-  std::vector<double> sums = particles_.elements(amounts);
-  sums.resize(mechanism_.numElements(), 0.0);
+  std::vector<double> sums(mechanism_.numElements(), 0.0);
   const auto W = mechanism_.molecularWeights();
+  for (std::size_t s = 0; s < amounts.size(); ++s)
+    for (std::size_t e = 0; e < sums.size(); ++e) sums[e] += amounts[s] * unitElements_[s][e];
   for (std::size_t e = 0; e < sums.size(); ++e)
     for (std::size_t k = 0; k < Y.size(); ++k)
       sums[e] += Y[k] / W[k] * mechanism_.atoms(k, e) * mechanism_.atomicWeight(e);
@@ -23,7 +27,7 @@ std::vector<double> ReactorBalance::elements(std::span<const double> Y, std::spa
 }
 
 double ReactorBalance::carriedEnthalpy(double T, std::span<const double> amounts) {
-  particles_.enthalpies(T, h_, slope_);
+  phase_.enthalpies(T, h_, slope_);
   double sum = 0;
   for (std::size_t s = 0; s < amounts.size(); ++s) sum += amounts[s] * h_[s];
   return sum;
@@ -47,7 +51,7 @@ double largestImbalance(std::span<const double> first, std::span<const double> s
 std::vector<SteadyBalance> steadyBalances(const Mechanism& mechanism, ReactorParticles& particles,
                                           const ReactorNetwork& network,
                                           const std::vector<ReactorSteadyState>& states) {
-  ReactorBalance balance(mechanism, particles);
+  ReactorBalance balance(mechanism, particles, particles.unitElements());
   std::vector<SteadyBalance> results;
   for (std::size_t r = 0; r < states.size(); ++r) {
     std::vector<double> in(mechanism.numElements(), 0.0);

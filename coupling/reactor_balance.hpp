@@ -14,8 +14,8 @@ namespace lampblack {
 
 class ReactorBalance {
  public:
-  // Both have to live as long.
-  ReactorBalance(const Mechanism& mechanism, ReactorParticles& particles);
+  // `unitElements`: kg of each element in a unit of each amount. Mechanism and phase have to live as long.
+  ReactorBalance(const Mechanism& mechanism, CarriedPhase& phase, std::vector<std::vector<double>> unitElements);
 
   // kg/kg of each element; Y and amounts as the unknowns of the reactor.
   [[nodiscard]] std::vector<double> elements(std::span<const double> Y, std::span<const double> amounts) const;
@@ -26,7 +26,8 @@ class ReactorBalance {
   [[nodiscard]] double carriedEnthalpy(double T, std::span<const double> amounts);
 
   const Mechanism& mechanism_;
-  ReactorParticles& particles_;
+  CarriedPhase& phase_;
+  std::vector<std::vector<double>> unitElements_;
   Thermo thermo_;
   std::vector<double> h_, slope_;
 };

@@ -72,14 +72,13 @@ void ReactorParticles::enthalpies(double T, std::span<double> h, std::span<doubl
   }
 }
 
-std::vector<double> ReactorParticles::elements(std::span<const double> amounts) const {
-  std::vector<double> sums;
-  for (std::size_t s = 0; s < amounts.size(); ++s) {
-    const std::vector<double>& parts = particles_.scalars()[s].elements;
-    sums.resize(parts.size(), 0.0);
-    for (std::size_t e = 0; e < parts.size(); ++e) sums[e] += amounts[s] * scales_[s] * parts[e];
+std::vector<std::vector<double>> ReactorParticles::unitElements() const {
+  std::vector<std::vector<double>> elements;
+  for (const CarriedModel::Scalar& scalar : particles_.scalars()) {
+    elements.push_back(scalar.elements);
+    for (double& mass : elements.back()) mass *= scalar.scale;
   }
-  return sums;
+  return elements;
 }
 
 }  // namespace lampblack

@@ -51,8 +51,8 @@ class ReactorParticles final : public CarriedPhase {
 
   // Amounts per m3 in the model's units from those of the unknowns, `density` (kg/m3) being that of gas and particles.
   void densities(double density, std::span<const double> amounts, std::span<double> out) const;
-  // kg of each element of the mechanism in all amounts (none: nothing is there), per kg.
-  [[nodiscard]] std::vector<double> elements(std::span<const double> amounts) const;
+  // kg of each element of the mechanism in a unit of each amount.
+  [[nodiscard]] std::vector<std::vector<double>> unitElements() const;
 
  private:
   CarriedParticles& particles_;

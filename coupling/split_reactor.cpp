@@ -38,6 +38,12 @@ void ParticlesAtRest::enthalpies(double T, std::span<double> h, std::span<double
   h[mark] = slope[mark] = 0;
 }
 
+std::vector<std::vector<double>> ParticlesAtRest::unitElements(const Mechanism& mechanism) {
+  std::vector<std::vector<double>> elements(count, std::vector<double>(mechanism.numElements(), 0.0));
+  elements[carbon][mechanism.elementIndex("C")] = elements[hydrogen][mechanism.elementIndex("H")] = 1;
+  return elements;
+}
+
 SplitReactor::SplitReactor(const Mechanism& mechanism, Gas gas, SplitParticles& particles, const Options& options)
     : mechanism_(mechanism),
       gas_(std::move(gas)),

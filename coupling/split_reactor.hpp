@@ -58,6 +58,8 @@ class ParticlesAtRest final : public CarriedPhase {
   void jacobian(double T, double p, std::span<const double> concentrations, std::span<const double> densities,
                 std::span<double> values) override;
   void enthalpies(double T, std::span<double> h, std::span<double> slope) override;
+  // kg of each element of the mechanism in a unit of each amount.
+  [[nodiscard]] static std::vector<std::vector<double>> unitElements(const Mechanism& mechanism);
 
  private:
   std::vector<std::size_t> none_;
