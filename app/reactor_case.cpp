@@ -113,9 +113,10 @@ void readReactorEnsemble(const Deck& deck, ReactorCase& reactorCase) {
   if (deck.isGiven("soot.model") && deck.choice("soot.model") != "none")
     throw deck.error("soot.model",
                      "in a reactor an ensemble takes the place of a model: leave this out, or the section 'stochastic'");
-  if (deck.isGiven("ignition") || deck.has("sensitivity"))
-    throw deck.error(deck.isGiven("ignition") ? "ignition" : "sensitivity",
+  if (deck.has("sensitivity") || (deck.isGiven("ignition") && !reactorCase.ignition.empty()))
+    throw deck.error(deck.has("sensitivity") ? "sensitivity" : "ignition",
                      "ignition delays of a gas with an ensemble are not computed; leave it out");
+  reactorCase.ignition.clear();
   if (reactorCase.type == ReactorType::Network)
     throw deck.error("stochastic", "ensembles are in single reactors; the models of 'soot.model' are in networks, too");
   if (reactorCase.type == ReactorType::Stirred && reactorCase.end == 0)

@@ -11,6 +11,7 @@
 #include "app/reactor_history.hpp"
 #include "app/reactor_output.hpp"
 #include "chemistry/reactor/plug_flow.hpp"
+#include "core/constants.hpp"
 #include "core/errors.hpp"
 #include "core/stop_request.hpp"
 #include "coupling/reactor_balance.hpp"
@@ -174,7 +175,8 @@ class EnsembleReactorDriver : public ReactorDriver {
                                  Quantity{"density", "kg/m^3", "density of gas and particles"},
                                  Quantity{"soot_volume_fraction", "1", "particle volume per volume of gas"},
                                  Quantity{"soot_number_density", "1/m^3", "particles"},
-                                 Quantity{"soot_mean_diameter", "m", "of mobility, by number"},
+                                 Quantity{"soot_mean_diameter", "m", "of the sphere of mean volume"},
+                                 Quantity{"soot_mobility_diameter", "m", "mean mobility diameter"},
                                  Quantity{"soot_geometric_deviation", "1", "of the diameter of mobility, by number"},
                                  Quantity{"soot_surface_area", "m^2/m^3", "surface of all particles"},
                                  Quantity{"soot_carbon", "kg/m^3", "carbon in particles"},
@@ -266,13 +268,15 @@ class EnsembleReactorDriver : public ReactorDriver {
     const std::span<const double> Y = y.first(n), amounts = y.subspan(n + 1, ParticlesAtRest::count);
     const double T = y[n], density = gas.gas().density(y.data());
     const StochasticSoot::Totals totals = ensemble.population().totals();
+    const double fraction = ensemble.population().volumeFraction();
     std::vector<double> row{reactor.position(),
                             gas.time(reactor.position(), y),
                             T,
                             gas.gas().pressure(y.data()),
                             density,
-                            ensemble.population().volumeFraction(),
+                            fraction,
                             totals.number,
+                            totals.number > 0 ? std::cbrt(6 / constants::pi * fraction / totals.number) : 0.0,
                             totals.meanDiameter(),
                             ensemble.population().geometricDeviation(),
                             totals.surface,

@@ -57,7 +57,7 @@ void addReactorEnsembleKeys(DeckSchema& schema) {
   schema.add(numberKey("stochastic.coupling_change",
                        "Steps in which gas and particles change in turn are so long that a concentration which the "
                        "particles see changes by about this part of itself, or the temperature by this part of 200 K.")
-                 .byDefault("0.1")
+                 .byDefault("0.05")
                  .above(0)
                  .atMost(1));
 }

@@ -80,7 +80,7 @@ class SplitReactor {
     StiffIntegrator::Options integrator;
     // What may change in a step: concentrations that the particles see, relative, by the particles alone and altogether,
     // and the temperature over 200 K.
-    double change = 0.1;
+    double change = 0.05;
     double largestStep = 0;  // 0: no limit. Fixed, with `fixedStep`
     bool fixedStep = false;
   };

@@ -11,6 +11,7 @@ import tempfile
 import running
 
 HYDROGEN = running.SOURCE / "cases/mechanisms/hydrogen_h2o2_10.yaml"
+ETHYLENE = running.SOURCE / "cases/mechanisms/ethylene_abf2000_101.yaml"
 
 CLOSED = f"""problem: reactor
 mechanism: {HYDROGEN}
@@ -63,7 +64,42 @@ network:
 """
 
 # Name, deck, text to replace, its replacement, what the message says.
-MISTAKES = [
+SOOT = f"""problem: reactor
+mechanism: {ETHYLENE}
+reactor:
+  type: stirred
+  residence_time: 1 ms
+inlet:
+  temperature: 300 K
+  composition: "C2H4: 0.11, O2: 0.17, N2: 0.72"
+soot:
+  pah: [A2]
+"""
+
+CLOSED_SOOT = CLOSED[:CLOSED.index("sensitivity:")].replace(str(HYDROGEN), str(ETHYLENE)) + "soot:\n  pah: [A2]\n"
+
+SOOT_MISTAKES = [
+    ("soot of another mechanism", STIRRED, "inlet:", "soot: {pah: [A2]}\ninlet:", ("soot",)),
+    ("diffusion in a reactor", SOOT, "pah: [A2]", "diffusion: true", ("soot.diffusion: a reactor is well mixed",)),
+    ("unknown model", SOOT, "pah: [A2]", "model: two_equation", ("soot.model",)),
+    ("PAH that is none", SOOT, "pah: [A2]", "pah: [A1]", ("soot.pah", "is not a polycyclic aromatic hydrocarbon")),
+    ("sensitivities with soot", CLOSED_SOOT, "pah: [A2]", "pah: [A2]\nsensitivity: {reactions: [all]}",
+     ("sensitivity: sensitivities are those of a gas alone",)),
+    ("ignition with an ensemble", CLOSED_SOOT, "pah: [A2]", "pah: [A2]\nstochastic: {repeats: 2}\nignition: {species: [OH]}",
+     ("ignition: ignition delays of a gas with an ensemble",)),
+    ("ensemble in a network", NETWORK.replace(str(HYDROGEN), str(ETHYLENE)), "\nnetwork:\n", "\nsoot: {pah: [A2]}\nstochastic: {repeats: 2}\nnetwork:\n",
+     ("stochastic: ensembles are in single reactors",)),
+    ("ensemble without soot", STIRRED, "inlet:", "stochastic: {repeats: 2}\ninlet:",
+     ("stochastic: ensembles need the section 'soot'",)),
+    ("ensemble and model", SOOT, "pah: [A2]", "model: hmom\nstochastic: {repeats: 2}",
+     ("soot.model: in a reactor an ensemble takes the place of a model",)),
+    ("steady ensemble", SOOT, "pah: [A2]", "pah: [A2]\nstochastic: {repeats: 2}",
+     ("stochastic: the steady state of an ensemble is a mean over time",)),
+    ("key of flames", SOOT, "pah: [A2]", "pah: [A2]\nstochastic: {coupled: two_way}", ("stochastic.coupled",)),
+    ("one repeat", SOOT, "pah: [A2]", "pah: [A2]\nstochastic: {repeats: 1}", ("stochastic.repeats",)),
+]
+
+MISTAKES = SOOT_MISTAKES + [
     ("no problem", CLOSED, "problem: reactor\n", "", ("problem: this key is missing", "flow, flame1d, reactor")),
     ("misspelt problem", CLOSED, "problem:", "probelm:", ("unknown key 'probelm'", "did you mean 'problem'?")),
     ("unknown problem", CLOSED, "problem: reactor", "problem: reacter", ("expected one of: flow, flame1d, reactor", "did you mean 'reactor'?")),
