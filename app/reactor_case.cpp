@@ -111,8 +111,9 @@ void refuseRows(const Deck& deck, const std::string& key, const ReactorCase& rea
 void readReactorEnsemble(const Deck& deck, ReactorCase& reactorCase) {
   if (!deck.has("soot")) throw deck.error("stochastic", "ensembles need the section 'soot': PAH, surface, switches");
   if (deck.isGiven("soot.model") && deck.choice("soot.model") != "none")
-    throw deck.error("soot.model",
-                     "in a reactor an ensemble takes the place of a model: leave this out, or the section 'stochastic'");
+    throw deck.error(
+        "soot.model",
+        "in a reactor an ensemble takes the place of a model: leave this out, or the section 'stochastic'");
   if (deck.has("sensitivity") || (deck.isGiven("ignition") && !reactorCase.ignition.empty()))
     throw deck.error(deck.has("sensitivity") ? "sensitivity" : "ignition",
                      "ignition delays of a gas with an ensemble are not computed; leave it out");

@@ -131,7 +131,8 @@ class EnsembleReactorDriver : public ReactorDriver {
       json.field("final_" + columns_[c].name + "_error", rows_.back()[n - 1 + c]);
     }
     for (const Late& late : late_)
-      json.field("late_mean_" + late.name, late.mean).field("late_mean_" + late.name + "_error", late.error)
+      json.field("late_mean_" + late.name, late.mean)
+          .field("late_mean_" + late.name + "_error", late.error)
           .field("late_drift_" + late.name, late.drift);
   }
 
@@ -166,31 +167,33 @@ class EnsembleReactorDriver : public ReactorDriver {
   static bool isKept(const ReactorCase& reactorCase) { return reactorCase.type != ReactorType::Stirred; }
 
   static std::vector<Quantity> columnsOf(const ReactorCase& reactorCase) {
-    std::vector<Quantity> columns{reactorCase.type == ReactorType::PlugFlow
-                                      ? Quantity{"position", "m", "distance from the inlet"}
-                                      : Quantity{"time", "s", "time"}};
-    for (const Quantity& more : {Quantity{"residence_time", "s", "since the start or the inlet"},
-                                 Quantity{"temperature", "K", "gas temperature"},
-                                 Quantity{"pressure", "Pa", "pressure"},
-                                 Quantity{"density", "kg/m^3", "density of gas and particles"},
-                                 Quantity{"soot_volume_fraction", "1", "particle volume per volume of gas"},
-                                 Quantity{"soot_number_density", "1/m^3", "particles"},
-                                 Quantity{"soot_mean_diameter", "m", "of the sphere of mean volume"},
-                                 Quantity{"soot_mobility_diameter", "m", "mean mobility diameter"},
-                                 Quantity{"soot_geometric_deviation", "1", "of the diameter of mobility, by number"},
-                                 Quantity{"soot_surface_area", "m^2/m^3", "surface of all particles"},
-                                 Quantity{"soot_carbon", "kg/m^3", "carbon in particles"},
-                                 Quantity{"soot_hydrogen", "kg/m^3", "hydrogen in particles"},
-                                 Quantity{"soot_booked", "kg/m^3",
-                                          "mass of particles by what they exchanged with the gas; differs from carbon and "
-                                          "hydrogen by numerical particles that come and go, zero in the mean"}})
+    std::vector<Quantity> columns{{"time", "s", "time"}};
+    if (reactorCase.type == ReactorType::PlugFlow)
+      columns = {{"position", "m", "distance from the inlet"},
+                 {"time", "s", "residence time since the inlet"},
+                 {"velocity", "m/s", "velocity of gas and particles"}};
+    for (const Quantity& more :
+         {Quantity{"temperature", "K", "gas temperature"}, Quantity{"pressure", "Pa", "pressure"},
+          Quantity{"density", "kg/m^3", "density of gas and particles"},
+          Quantity{"soot_volume_fraction", "1", "particle volume per volume of gas"},
+          Quantity{"soot_number_density", "1/m^3", "particles"},
+          Quantity{"soot_mean_diameter", "m", "of the sphere of mean volume"},
+          Quantity{"soot_mobility_diameter", "m", "mean mobility diameter"},
+          Quantity{"soot_geometric_deviation", "1", "of the diameter of mobility, by number"},
+          Quantity{"soot_surface_area", "m^2/m^3", "surface of all particles"},
+          Quantity{"soot_carbon", "kg/m^3", "carbon in particles"},
+          Quantity{"soot_hydrogen", "kg/m^3", "hydrogen in particles"},
+          Quantity{"soot_booked", "kg/m^3",
+                   "mass of particles by what they exchanged with the gas; differs from carbon and "
+                   "hydrogen by numerical particles that come and go, zero in the mean"}})
       columns.push_back(more);
     if (isKept(reactorCase)) {
       columns.push_back({"element_imbalance", "1", "largest relative change of an element in gas and particles"});
       if (!reactorCase.profile)
         columns.push_back({"energy_imbalance", "1", "change of the energy of gas and particles over cp T"});
     }
-    for (auto& column : speciesColumns(*reactorCase.mechanism, reactorCase.output)) columns.push_back(std::move(column));
+    for (auto& column : speciesColumns(*reactorCase.mechanism, reactorCase.output))
+      columns.push_back(std::move(column));
     return columns;
   }
 
@@ -269,20 +272,14 @@ class EnsembleReactorDriver : public ReactorDriver {
     const double T = y[n], density = gas.gas().density(y.data());
     const StochasticSoot::Totals totals = ensemble.population().totals();
     const double fraction = ensemble.population().volumeFraction();
-    std::vector<double> row{reactor.position(),
-                            gas.time(reactor.position(), y),
-                            T,
-                            gas.gas().pressure(y.data()),
-                            density,
-                            fraction,
-                            totals.number,
-                            totals.number > 0 ? std::cbrt(6 / constants::pi * fraction / totals.number) : 0.0,
-                            totals.meanDiameter(),
-                            ensemble.population().geometricDeviation(),
-                            totals.surface,
-                            totals.carbon,
-                            totals.hydrogen,
-                            density * (amounts[ParticlesAtRest::carbon] + amounts[ParticlesAtRest::hydrogen])};
+    std::vector<double> row{reactor.position()};
+    if (case_.type == ReactorType::PlugFlow)
+      row.insert(row.end(), {gas.time(reactor.position(), y), 1 / gas.gas().timePerUnit(y.data())});
+    row.insert(row.end(),
+               {T, gas.gas().pressure(y.data()), density, fraction, totals.number,
+                totals.number > 0 ? std::cbrt(6 / constants::pi * fraction / totals.number) : 0.0,
+                totals.meanDiameter(), ensemble.population().geometricDeviation(), totals.surface, totals.carbon,
+                totals.hydrogen, density * (amounts[ParticlesAtRest::carbon] + amounts[ParticlesAtRest::hydrogen])});
     if (isKept(case_)) {
       const std::vector<double> elements = kept.balance.elements(Y, amounts);
       const bool isFirst = kept.elements.empty();

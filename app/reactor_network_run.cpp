@@ -137,9 +137,10 @@ class SteadyNetworkDriver : public ReactorDriver {
                  s.state.temperature, s.residenceTime, s.volume, s.massFlow, s.heatRelease * s.volume, s.residual);
     }
     for (std::size_t r = 0; r < properties_.size(); ++r)
-      fmt::print("{:<16} {} volume fraction {:.4g}, mean diameter {:.4g} nm; elements balance to {:.1e}, energy to {:.1e}\n",
-                 case_.network.reactors[r].name, case_.soot->material(), properties_[r].volumeFraction,
-                 1e9 * properties_[r].meanDiameter, balances_[r].elements, balances_[r].energy);
+      fmt::print(
+          "{:<16} {} volume fraction {:.4g}, mean diameter {:.4g} nm; elements balance to {:.1e}, energy to {:.1e}\n",
+          case_.network.reactors[r].name, case_.soot->material(), properties_[r].volumeFraction,
+          1e9 * properties_[r].meanDiameter, balances_[r].elements, balances_[r].energy);
     fmt::print("{} steps of the integrator in {}\n", steps(), formatDuration(seconds_));
   }
 

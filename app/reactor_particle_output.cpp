@@ -64,8 +64,8 @@ void ReactorParticleOutput::append(double pressure, double density, std::span<co
   row.push_back(largestImbalance(elements_, elements));
   elementImbalance_ = std::max(elementImbalance_, row.back());
   if (!keepsEnergy()) return;
-  const double energy = kept_ == Kept::enthalpy ? balance_->enthalpy(T, Y, amounts)
-                                                    : balance_->internalEnergy(T, Y, amounts);
+  const double energy =
+      kept_ == Kept::enthalpy ? balance_->enthalpy(T, Y, amounts) : balance_->internalEnergy(T, Y, amounts);
   if (isFirst) energyAtStart_ = energy;
   row.push_back((energy - energyAtStart_) / (Thermo(*case_.mechanism).cpMass(T, Y) * T));
   energyImbalance_ = std::max(energyImbalance_, std::abs(row.back()));
@@ -89,7 +89,7 @@ void ReactorParticleOutput::record(JsonWriter& json) const {
   json.field("maximum_" + material + "volume_fraction", most_);
   if (keepsElements()) json.field("element_imbalance", elementImbalance_);
   if (keepsEnergy()) json.field("energy_imbalance", energyImbalance_);
-  if (!diameter_.empty()) json.field(material + "in_last_section", most_ > 0 ? mostAtLimit_ / most_ : 0.0);
+  if (mostAtLimit_ > 0) json.field(material + "in_last_section", mostAtLimit_ / most_);
 }
 
 void ReactorParticleOutput::print() const {

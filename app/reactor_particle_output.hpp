@@ -1,5 +1,5 @@
-// What a reactor run writes of its particles: columns beside those of the gas, size distributions, and how well elements
-// and energy are kept.
+// What a reactor run writes of its particles: columns beside those of the gas, size distributions, and how well
+// elements and energy are kept.
 #pragma once
 
 #include <optional>

@@ -25,14 +25,13 @@ class PlugFlowDriver : public ReactorDriver {
  public:
   explicit PlugFlowDriver(const ReactorCase& reactorCase)
       : case_(reactorCase),
-        particles_(reactorCase, reactorCase.profile ? ReactorParticleOutput::Kept::elements
-                                                    : ReactorParticleOutput::Kept::enthalpy),
+        particles_(reactorCase,
+                   reactorCase.profile ? ReactorParticleOutput::Kept::elements : ReactorParticleOutput::Kept::enthalpy),
         history_(plugFlowColumns(reactorCase), particles_.columns()) {}
 
   void compute(const RunFolder& folder) override {
     const double begin = MPI_Wtime();
-    PlugFlow flow(*case_.mechanism, case_.inlet, case_.massFlux, case_.length, case_.profile,
-                  case_.particles.get());
+    PlugFlow flow(*case_.mechanism, case_.inlet, case_.massFlux, case_.length, case_.profile, case_.particles.get());
     StiffIntegrator integrator(flow, case_.integrator);
     integrator.start(0.0, flow.initialState(), case_.length);
     history_.open(folder.history());

@@ -51,9 +51,10 @@ void addEnsembleKeys(DeckSchema& schema, const std::string& description) {
 }  // namespace
 
 void addReactorEnsembleKeys(DeckSchema& schema) {
-  addEnsembleKeys(schema,
-                  "Ensembles of soot particles in place of soot.model, coupled with the gas both ways: every repeat is a "
-                  "reactor of its own. Needs the section soot, whose PAH, surface and switches are theirs.");
+  addEnsembleKeys(
+      schema,
+      "Ensembles of soot particles in place of soot.model, coupled with the gas both ways: every repeat is a "
+      "reactor of its own. Needs the section soot, whose PAH, surface and switches are theirs.");
   schema.add(numberKey("stochastic.coupling_change",
                        "Steps in which gas and particles change in turn are so long that a concentration which the "
                        "particles see changes by about this part of itself, or the temperature by this part of 200 K.")
@@ -112,8 +113,10 @@ EnsembleRequest readEnsemble(const Deck& deck, const SootModelOptions& soot) {
   options.alphaOfPrimaries = deck.choice("stochastic.active_sites") == "primary";
   options.keepsHydrogen = deck.boolean("stochastic.keep_hydrogen");
   options.splitTolerance = deck.number("stochastic.split_tolerance");
-  request.bins = {std::log10(deck.quantity("stochastic.smallest")), std::log10(deck.quantity("stochastic.largest")),
-                  deck.integer<std::size_t>("stochastic.bins"), {}};
+  request.bins = {std::log10(deck.quantity("stochastic.smallest")),
+                  std::log10(deck.quantity("stochastic.largest")),
+                  deck.integer<std::size_t>("stochastic.bins"),
+                  {}};
   if (!(request.bins.logDiameterMax > request.bins.logDiameterMin))
     throw deck.error("stochastic.largest", "expected more than 'smallest'");
   if (soot.pah.empty()) throw deck.error("stochastic", "ensembles need PAH that dimerise: name them in soot.pah");

@@ -73,8 +73,7 @@ std::vector<SteadyBalance> steadyBalances(const Mechanism& mechanism, ReactorPar
     for (double& value : out) value *= states[r].massFlow;
     const double energyOut = states[r].massFlow * balance.enthalpy(state.temperature, state.Y, state.carried) +
                              vessel.conductance * (state.temperature - vessel.surroundings);
-    const double scale =
-        states[r].massFlow * Thermo(mechanism).cpMass(state.temperature, state.Y) * state.temperature;
+    const double scale = states[r].massFlow * Thermo(mechanism).cpMass(state.temperature, state.Y) * state.temperature;
     results.push_back({largestImbalance(in, out), vessel.temperature ? 0.0 : (energyIn - energyOut) / scale});
   }
   return results;

@@ -46,8 +46,7 @@ void ReactorParticles::densities(double density, std::span<const double> amounts
 }
 
 void ReactorParticles::sources(double T, double p, std::span<const double> concentrations,
-                               std::span<const double> densities, std::span<double> rates,
-                               std::span<double> exchange) {
+                               std::span<const double> densities, std::span<double> rates, std::span<double> exchange) {
   for (std::size_t s = 0; s < size(); ++s) densities_[s] = densities[s] * scales_[s];
   particles_.sources(gas_.at(T, p, concentrations), densities_, rates, exchange);
   for (std::size_t s = 0; s < size(); ++s) rates[s] /= scales_[s];

@@ -95,8 +95,8 @@ double SplitReactor::heatCapacity(double T) {
   const double* amounts = y_.data() + n + 1;
   double h[ParticlesAtRest::count], slope[ParticlesAtRest::count];
   atRest_.enthalpies(T, h, slope);
-  const double gas = gas_.kept == Gas::Kept::enthalpy ? thermo_.cpMass(T, {y_.data(), n})
-                                                      : thermo_.cvMass(T, {y_.data(), n});
+  const double gas =
+      gas_.kept == Gas::Kept::enthalpy ? thermo_.cpMass(T, {y_.data(), n}) : thermo_.cvMass(T, {y_.data(), n});
   return gas + amounts[0] * slope[0] + amounts[1] * slope[1];
 }
 
@@ -170,9 +170,9 @@ void SplitReactor::advance(double end) {
     const bool isTooMuch = !options_.fixedStep && change > 2 * options_.change;
     if (isTooMuch) {
       if (h < smallestPart * std::abs(end))
-        throw NumericsError(fmt::format(
-            "gas and particles change by {:.3g} in a step of {:.3g} at {:.6g}: no step is short enough", change, h,
-            begin));
+        throw NumericsError(
+            fmt::format("gas and particles change by {:.3g} in a step of {:.3g} at {:.6g}: no step is short enough",
+                        change, h, begin));
       ++work_.rejected;
       x_ = begin;
       y_ = state;

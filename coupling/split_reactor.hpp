@@ -1,10 +1,10 @@
 // A reactor whose particles stand in no Newton matrix, such as an ensemble: gas and particles in turn, by symmetric
 // splitting (Strang 1968). In each step the gas reacts for the first half with the particles at rest, the particles
 // change for all of it in a gas that does not change, and the gas reacts for the second half. The gas that they see is
-// that of the middle of their own exchange, by what they exchanged in the step before, which keeps the second order. What the particles exchange with
-// the gas is booked at once: elements and energy are those of both together, to round-off in that part, to the tolerance
-// of the stiff solver in the other. While the gas reacts, particles take part with their heat, expand with it, and
-// leave with what flows out.
+// that of the middle of their own exchange, by what they exchanged in the step before, which keeps the second order.
+// What the particles exchange with the gas is booked at once: elements and energy are those of both together, to
+// round-off in that part, to the tolerance of the stiff solver in the other. While the gas reacts, particles take part
+// with their heat, expand with it, and leave with what flows out.
 //
 // The step follows from what changes in it; a step in which more changes than twice the aim is taken back.
 #pragma once
@@ -71,15 +71,15 @@ class SplitReactor {
   // place; and what is held.
   struct Gas {
     OdeSystem* system = nullptr;
-    std::function<double(const double* y)> density, pressure;  // kg/m3 of gas and particles, Pa
-    std::function<double(const double* y)> timePerUnit;        // s, of the independent variable
+    std::function<double(const double*y)> density, pressure;  // kg/m3 of gas and particles, Pa
+    std::function<double(const double* y)> timePerUnit;       // s, of the independent variable
     enum class Kept { temperature, enthalpy, internalEnergy } kept = Kept::enthalpy;
     std::function<double(double x)> nextStop;  // a kink of the equations behind x; may be empty
   };
   struct Options {
     StiffIntegrator::Options integrator;
-    // What may change in a step: concentrations that the particles see, relative, by the particles alone and altogether,
-    // and the temperature over 200 K.
+    // What may change in a step: concentrations that the particles see, relative, by the particles alone and
+    // altogether, and the temperature over 200 K.
     double change = 0.05;
     double largestStep = 0;  // 0: no limit. Fixed, with `fixedStep`
     bool fixedStep = false;

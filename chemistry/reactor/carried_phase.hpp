@@ -1,6 +1,6 @@
 // What the gas of a reactor carries and exchanges species with, such as particles, as the equations of the reactor see
-// it: the amounts of some scalars, as unknowns beside mass fractions and temperature. coupling/ puts models of particles
-// behind it.
+// it: the amounts of some scalars, as unknowns beside mass fractions and temperature. coupling/ puts models of
+// particles behind it.
 #pragma once
 
 #include <cstddef>

@@ -14,9 +14,9 @@
 namespace lampblack {
 
 struct GasState {
-  double temperature = 0;  // K
-  double pressure = 0;     // Pa
-  std::vector<double> Y;   // mass fractions
+  double temperature = 0;            // K
+  double pressure = 0;               // Pa
+  std::vector<double> Y;             // mass fractions
   std::vector<double> carried = {};  // amounts of a carried phase; empty: none of it
 };
 

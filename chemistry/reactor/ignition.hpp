@@ -85,7 +85,7 @@ class IgnitionMonitor {
   std::vector<IgnitionCriterion> criteria_;
   std::vector<std::optional<IgnitionEvent>> events_;
   std::vector<double> signals_;  // at the end of the last step
-  std::size_t temperature_;  // its unknown
+  std::size_t temperature_;      // its unknown
   std::vector<double> y_;
   double startTemperature_ = 0;
   bool needsJacobian_ = false;

@@ -92,8 +92,8 @@ GasState startOf(const Mechanism& mechanism, const ReactorNetwork& network, cons
   return state;
 }
 
-std::vector<double> startUnknowns(const Mechanism& mechanism, const ReactorNetwork& network,
-                                  const NetworkStart& start, std::size_t carried) {
+std::vector<double> startUnknowns(const Mechanism& mechanism, const ReactorNetwork& network, const NetworkStart& start,
+                                  std::size_t carried) {
   GasState begin = startOf(mechanism, network, start);
   const double temperature = begin.temperature;
   std::vector<double> y;

@@ -1,5 +1,5 @@
-// What a carried phase adds to the equations of a reactor. With amounts z_s per kg of gas and particles, rho the mass of
-// both per volume, n = rho z, rates R_s(n, c, T) and exchange X_k(n, c, T) per volume,
+// What a carried phase adds to the equations of a reactor. With amounts z_s per kg of gas and particles, rho the mass
+// of both per volume, n = rho z, rates R_s(n, c, T) and exchange X_k(n, c, T) per volume,
 //   dz_s/dt = R_s/rho,   dY_k/dt += W_k X_k/rho.
 // For a row F = R/rho (or W X/rho):
 //   dF/dz_t = dR/dn_t,   dF/dY_j = (dR/dc_j)/W_j + g Q,   dF/dT = (dR/dT)/rho + g_T Q,

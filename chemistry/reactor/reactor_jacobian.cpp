@@ -86,8 +86,7 @@ bool ReactorSystem::jacobian(const double* y, double* f, double* J, std::size_t 
     const double gas = dot(energy_.data(), column, n);
     return count == 0 ? gas : gas + dot(carriedEnergy_.data(), column + n + 1, count);
   };
-  for (std::size_t j = 0; j < n; ++j)
-    J[n + j * ld] = -inverseCapacity_ * (heating(J + j * ld) + capacity_[j] * f[n]);
+  for (std::size_t j = 0; j < n; ++j) J[n + j * ld] = -inverseCapacity_ * (heating(J + j * ld) + capacity_[j] * f[n]);
   last[n] = temperatureDiagonal(y, f, last);
   for (std::size_t s = 0; s < count; ++s) {
     double* column = J + (n + 1 + s) * ld;

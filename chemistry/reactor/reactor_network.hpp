@@ -1,6 +1,6 @@
 // Perfectly stirred reactors of one pressure, alone or joined by streams, as ordinary differential equations over time
-// in the unknowns (Y_1..Y_N, T, amounts of what it carries) of each reactor. The mass flows of the streams are given and in balance; equations and
-// their analytic Jacobian: docs/theory/reactors.md.
+// in the unknowns (Y_1..Y_N, T, amounts of what it carries) of each reactor. The mass flows of the streams are given
+// and in balance; equations and their analytic Jacobian: docs/theory/reactors.md.
 #pragma once
 
 #include <optional>

@@ -18,11 +18,13 @@ def plot_reactor(results, pictures):
         if "position" in columns:
             factor, unit = _unit(np.max(columns["position"]), (("m", 1.0), ("cm", 1e2), ("mm", 1e3)))
             _plot_history(columns, columns["position"] * factor, f"z, {unit}", {}, pictures)
+            _plot_particles(columns, columns["position"] * factor, f"z, {unit}", pictures)
         else:
             shown = 2.5 * max(delays.values()) if delays else np.max(columns["time"])
             factor, unit = _unit(shown, (("s", 1.0), ("ms", 1e3), ("us", 1e6), ("ns", 1e9)))
             delays = {name: time * factor for name, time in delays.items()}
             _plot_history(columns, columns["time"] * factor, f"time, {unit}", delays, pictures)
+            _plot_particles(columns, columns["time"] * factor, f"time, {unit}", pictures)
             _plot_ignition(columns, columns["time"] * factor, f"time, {unit}", delays, pictures)
     _plot_reactors(results, pictures)
     _plot_sensitivities(results, pictures)
@@ -35,7 +37,7 @@ def _unit(largest, units):
 
 def _main_species(columns):
     """The fractions that are largest and that change."""
-    names = [name for name in columns if name.startswith(("X_", "Y_"))]
+    names = [name for name in columns if name.startswith(("X_", "Y_")) and not name.endswith("_error")]
     moving = [name for name in names if np.ptp(columns[name]) > 0.02 * np.max(np.abs(columns[name]), initial=1e-300)]
     return sorted(moving or names, key=lambda name: -np.max(columns[name]))[:MOST_SPECIES]
 
@@ -56,6 +58,24 @@ def _plot_history(columns, axis, label, delays, pictures):
     if delays:
         above.set_xlim(0, min(axis[-1], 2.5 * max(delays.values())))
     pictures.save(figure, "reactor")
+
+
+def _plot_particles(columns, axis, label, pictures):
+    """Volume fraction, number and mean diameter; of ensembles with the standard error of the repeats."""
+    shown = [name for name in columns if name.endswith(("_volume_fraction", "_number_density", "_mean_diameter"))]
+    if not shown:
+        return
+    figure, panels = plt.subplots(len(shown), 1, figsize=(6.4, 2.4 * len(shown)), sharex=True)
+    units = {"fraction": ("volume fraction, ppm", 1e6), "density": ("number, 1/m$^3$", 1.0), "diameter": ("mean diameter, nm", 1e9)}
+    for panel, name in zip(panels, shown, strict=True):
+        title, factor = units[name.rsplit("_", 1)[1]]
+        panel.plot(axis, factor * columns[name], color="black")
+        if f"{name}_error" in columns:
+            spread = 2 * factor * columns[f"{name}_error"]
+            panel.fill_between(axis, factor * columns[name] - spread, factor * columns[name] + spread, color="0.8")
+        panel.set_ylabel(title)
+    panels[-1].set_xlabel(label)
+    pictures.save(figure, "particles")
 
 
 def _plot_ignition(columns, axis, label, delays, pictures):

@@ -124,6 +124,13 @@ def main(executable: str, *mpiexec: str) -> int:
         runs["stirred_mass"] = (*runs["stirred"], *running.settings("output.fractions=mass"))
         runs["stirred_in_time"] = (CASES / "reactor_stirred_methane/deck.yaml", *running.settings("time.end=0.1 ms"))
 
+        sections = ("soot.model=sectional", "soot.sectional.overflow=1", "output.species=[A2]")
+        runs["closed_soot"] = (CASES / "reactor_closed_soot/deck.yaml", *running.settings("time.end=0.1 ms", *sections))
+        runs["stirred_soot"] = (CASES / "reactor_stirred_soot/deck.yaml", *running.settings(*sections))
+        runs["ensemble"] = (CASES / "reactor_plug_flow_soot/deck.yaml", *running.settings(
+            "reactor.length=5 mm", "output.spacing=5 mm", "soot.model=none", "stochastic.repeats=2", "stochastic.particles=50",
+            "stochastic.bins=5"))
+
         def compute(run: str) -> None:
             result = program("run", *runs[run], "--out", folder / run, timeout=120)
             assert result.code == 0, f"{run}: {result.err}"

@@ -8,6 +8,7 @@ import csv
 import json
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -121,9 +122,48 @@ def species_with_comma(program, folder):
     assert len(head) == len(rows[0])
 
 
+def soot(program, folder):
+    """Each model and an ensemble by one changed line, in each kind of reactor: elements to round-off, in all files."""
+    models = ("two_equation_dimer", "leung", "moss_brookes", "hmom", "momic", "sectional")
+    short = {"closed": ("time.end=0.5 ms",), "plug_flow": ("reactor.length=1 cm",), "stirred": ()}
+    for kind, settings in short.items():
+        for model in models:
+            out, results, text = run(program, f"reactor_{kind}_soot", folder, f"soot.model={model}", *settings, "output.species=[A2]")
+            results = results["reactors"]["reactor"] if kind == "stirred" else results
+            assert results["element_imbalance"] < 1e-13 and abs(results["energy_imbalance"]) < 1e-9, (kind, model, results)
+            fraction = results["soot_volume_fraction" if kind == "stirred" else "final_soot_volume_fraction"]
+            assert fraction > 1e-13 and "soot" in text, (kind, model, fraction)
+            with h5py.File(out / "results.h5", "r") as file:
+                group = file["reactors" if kind == "stirred" else "history"]
+                assert group["soot_volume_fraction"][-1] == fraction, (kind, model)
+                assert ("particles" in file) == (model in ("momic", "sectional")), (kind, model)
+                if model == "sectional":
+                    assert file["particles/size_distribution"].shape == (group["soot_volume_fraction"].size, file["particles/diameter"].size)
+            shutil.rmtree(out)
+        ensemble = ("soot.model=none", "stochastic.repeats=2", "stochastic.particles=50", "integrator.relative_tolerance=1e-6",
+                    "stochastic.coupling_change=0.3", *settings, *(("time.end=0.2 ms",) if kind == "stirred" else ()))
+        out, results, text = run(program, f"reactor_{kind}_soot", folder, *ensemble)
+        with h5py.File(out / "results.h5", "r") as file:
+            history = file["history"]
+            assert results["repeats"] == 2 and history["soot_volume_fraction"][-1] == results["final_soot_volume_fraction"]
+            assert history["soot_volume_fraction"][-1] > 0 and history["soot_volume_fraction_error"][-1] > 0
+            if kind != "stirred":
+                assert np.max(history["element_imbalance"]) < 1e-13 and np.max(np.abs(history["energy_imbalance"])) < 1e-7
+        done = subprocess.run([sys.executable, running.SOURCE / "scripts/plot", out], capture_output=True, text=True, check=False)
+        assert done.returncode == 0 and (out / "pictures/particles.png").stat().st_size > 5000, done.stderr
+        shutil.rmtree(out)
+
+
+def too_few_sections(program, folder):
+    """Soot that outgrows its sections: one message, exit code 3."""
+    result = program("run", CASES / "reactor_closed_soot/deck.yaml", "--out", folder / "out",
+                     *running.settings("soot.model=sectional", "soot.sectional.sections=6"))
+    assert result.code == 3 and "stands in the largest particles" in result.err and "soot.sectional.sections" in result.err, result.err
+
+
 def main(executable, ranks, *mpiexec):
     program = running.Program(executable, list(mpiexec), int(ranks))
-    for test in (ignition, regular_output, network, transient, species_with_comma):
+    for test in (ignition, regular_output, network, transient, species_with_comma, soot, too_few_sections):
         with tempfile.TemporaryDirectory() as folder:
             test(program, pathlib.Path(folder))
         print(f"ok  {test.__name__}")

@@ -121,9 +121,7 @@ TEST(ReactorParticles, StirredReactorsInARowHaveTheClosedSolution) {
 
 SootModelChoice choiceOf(const std::string& name) {
   SootModelChoice choice = publishedSootModel(name);
-  const auto weight = [](const char* element) {
-    return ethylene().atomicWeight(ethylene().elementIndex(element));
-  };
+  const auto weight = [](const char* element) { return ethylene().atomicWeight(ethylene().elementIndex(element)); };
   if (SootModelOptions* shared = sharedOptions(choice)) {
     shared->pah = {{"A2", 10, 8, 2e-3}};
     shared->carbonWeight = weight("C");
@@ -145,10 +143,10 @@ class EveryModel : public ::testing::TestWithParam<std::string> {
     const auto count = particles.size();
     const auto amounts = y.subspan(n + 1, count), amounts0 = y0.subspan(n + 1, count);
     EXPECT_LT(largestImbalance(balance.elements(y0.first(n), amounts0), balance.elements(y.first(n), amounts)), 1e-13);
-    const double change = isPressureHeld ? balance.enthalpy(y[n], y.first(n), amounts) -
-                                               balance.enthalpy(y0[n], y0.first(n), amounts0)
-                                         : balance.internalEnergy(y[n], y.first(n), amounts) -
-                                               balance.internalEnergy(y0[n], y0.first(n), amounts0);
+    const double change =
+        isPressureHeld
+            ? balance.enthalpy(y[n], y.first(n), amounts) - balance.enthalpy(y0[n], y0.first(n), amounts0)
+            : balance.internalEnergy(y[n], y.first(n), amounts) - balance.internalEnergy(y0[n], y0.first(n), amounts0);
     // Within the tolerance of the stiff solver, 1e-9.
     EXPECT_LT(std::abs(change) / (Thermo(ethylene()).cpMass(y[n], y.first(n)) * y[n]), 1e-9);
     std::vector<double> densities(count);
@@ -182,7 +180,8 @@ TEST_P(EveryModel, BalancesInASteadyStirredReactor) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, EveryModel,
-                         ::testing::Values("two_equation_dimer", "leung", "moss_brookes", "hmom", "momic", "sectional"));
+                         ::testing::Values("two_equation_dimer", "leung", "moss_brookes", "hmom", "momic",
+                                           "sectional"));
 
 }  // namespace
 }  // namespace lampblack

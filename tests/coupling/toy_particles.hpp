@@ -1,6 +1,6 @@
 // Particles that take up acetylene whole: w = A exp(-B/T) c (1 + b n) mol/m3/s of it, n the particles' carbon in kg/m3.
-// Once as a phase in the equations of a reactor, with the derivatives written out, and once for splitting, by the closed
-// solution in a gas that does not change.
+// Once as a phase in the equations of a reactor, with the derivatives written out, and once for splitting, by the
+// closed solution in a gas that does not change.
 #pragma once
 
 #include <cmath>
@@ -18,9 +18,9 @@
 namespace lampblack::test {
 
 struct Toy {
-  std::size_t acetylene = 0;  // species
-  double A = 0, B = 0;        // 1/s, K
-  double b = 0;               // m3/kg
+  std::size_t acetylene = 0;                    // species
+  double A = 0, B = 0;                          // 1/s, K
+  double b = 0;                                 // m3/kg
   double carbonWeight = 0, hydrogenWeight = 0;  // kg/mol
 
   Toy(const Mechanism& mechanism, double rate, double temperature, double growth)
