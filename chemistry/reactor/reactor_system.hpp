@@ -37,7 +37,7 @@ class ReactorSystem {
     Energy energy = Energy::Conserved;
     double temperatureRate = 0;             // dT/dt, K/s, where the temperature is given
     std::span<const double> source;         // S, 1/s, a value a species; copied; may be empty
-    std::span<const double> carriedSource;  // the same of a carried phase
+    std::span<const double> carriedSource = {};  // the same of a carried phase
     double removal = 0;                     // r, 1/s
     double heating = 0;                     // q, J/kg/s
   };
