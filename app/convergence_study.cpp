@@ -79,7 +79,7 @@ ConvergencePoint pointOf(const MethodStatistics& statistics, const std::vector<M
   return point;
 }
 
-std::string number(double value) {
+std::string shortNumber(double value) {
   return std::isfinite(value) ? fmt::format("{:.8g}", value) : "";
 }
 
@@ -90,7 +90,8 @@ TextTable pointTable(const std::vector<ConvergencePoint>& points) {
   for (const ConvergencePoint& point : points) {
     std::vector<std::string> row{point.method, std::to_string(point.particles), std::to_string(point.repeats)};
     for (std::size_t k = 0; k < 4; ++k)
-      for (const double value : {point.error[k], point.confidence[k], point.scatter[k]}) row.push_back(number(value));
+      for (const double value : {point.error[k], point.confidence[k], point.scatter[k]})
+        row.push_back(shortNumber(value));
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -111,8 +112,9 @@ TextTable slopeTable(const std::vector<ConvergencePoint>& points, const std::vec
         scatter.push_back(point.scatter[k]);
       }
       const FittedLine errorLine = fitPowerLaw(particles, error), scatterLine = fitPowerLaw(particles, scatter);
-      table.rows.push_back({method, fmt::format("M{}", k), number(errorLine.slope), number(errorLine.slopeError),
-                            number(scatterLine.slope), number(scatterLine.slopeError)});
+      table.rows.push_back({method, fmt::format("M{}", k), shortNumber(errorLine.slope),
+                            shortNumber(errorLine.slopeError), shortNumber(scatterLine.slope),
+                            shortNumber(scatterLine.slopeError)});
     }
   }
   return table;
@@ -121,11 +123,11 @@ TextTable slopeTable(const std::vector<ConvergencePoint>& points, const std::vec
 void addHistory(TextTable& table, const MethodStatistics& statistics, const PopulationStatistics& frame,
                 const std::vector<Moments>& reference, std::int64_t particles) {
   for (std::size_t j = 0; j < statistics.mean.size(); ++j) {
-    std::vector<std::string> row{statistics.name, std::to_string(particles), number(frame.rows[j])};
+    std::vector<std::string> row{statistics.name, std::to_string(particles), shortNumber(frame.rows[j])};
     for (std::size_t k = 0; k < 4; ++k) {
-      row.push_back(number(statistics.mean[j][k]));
-      row.push_back(number(confidenceFactor * statistics.error[j][k]));
-      row.push_back(j < reference.size() ? number(reference[j][k]) : "");
+      row.push_back(shortNumber(statistics.mean[j][k]));
+      row.push_back(shortNumber(confidenceFactor * statistics.error[j][k]));
+      row.push_back(j < reference.size() ? shortNumber(reference[j][k]) : "");
     }
     table.rows.push_back(std::move(row));
   }

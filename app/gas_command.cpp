@@ -25,7 +25,7 @@
 namespace lampblack {
 namespace {
 
-struct Arguments {
+struct GasArguments {
   MechanismFileNames files;
   std::string temperature, pressure;
   std::string moleFractions, massFractions;
@@ -70,7 +70,7 @@ std::vector<double> composition(const Mechanism& mechanism, const char* option, 
 }
 
 // Mole fractions of the gas that the options describe.
-std::vector<double> moleFractions(const Arguments& arguments, const Mechanism& mechanism) {
+std::vector<double> moleFractions(const GasArguments& arguments, const Mechanism& mechanism) {
   const bool byRatio = !arguments.fuel.empty() || !arguments.oxidizer.empty() || arguments.ratio;
   const int ways = (arguments.moleFractions.empty() ? 0 : 1) + (arguments.massFractions.empty() ? 0 : 1) + byRatio;
   if (ways != 1)
@@ -93,7 +93,7 @@ std::vector<double> moleFractions(const Arguments& arguments, const Mechanism& m
   return X;
 }
 
-void chooseConstant(Arguments& arguments, const EquilibriumOption& option) {
+void chooseConstant(GasArguments& arguments, const EquilibriumOption& option) {
   if (!arguments.constant.empty() && arguments.constant != option.constant)
     throw CLI::ValidationError(option.name,
                                "there is one equilibrium at a time; expected one of --tp, --hp, --sp, "
@@ -107,7 +107,7 @@ struct Answer {
 };
 
 // The gas of the options, brought to the equilibrium they ask for.
-Answer answer(const Arguments& arguments) {
+Answer answer(const GasArguments& arguments) {
   const Mechanism mechanism = readMechanism(arguments.files);
   const double T = positiveQuantity("--T", arguments.temperature, units::temperature);
   if (const std::string problem = temperatureProblem(T, mechanism, TemperatureUse::properties); !problem.empty())
@@ -129,7 +129,7 @@ Answer answer(const Arguments& arguments) {
   return result;
 }
 
-void run(const Arguments& arguments) {
+void runGas(const GasArguments& arguments) {
   Answer result;
   collectively(PETSC_COMM_WORLD, [&] { result = answer(arguments); });
   printWarnings(result.warnings);
@@ -144,7 +144,7 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void addGasCommand(CLI::App& app, std::function<void()>& command) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<GasArguments>();
   CLI::App* gas = app.add_subcommand("gas", "Properties, rates and equilibrium of a gas.");
   gas->add_option("mechanism", arguments->files.mechanism, "Mechanism: YAML by its ending, else CHEMKIN.")->required();
   gas->add_option("thermo", arguments->files.thermo, "CHEMKIN thermodynamic data.");
@@ -166,7 +166,7 @@ void addGasCommand(CLI::App& app, std::function<void()>& command) {
   gas->add_flag("--json", arguments->json, "One JSON object (docs/formats.md) in place of tables.");
   gas->add_flag("--all", arguments->tables.allSpecies, "Tables: every species, also those that are not there.");
   gas->add_flag("--reactions", arguments->tables.reactions, "Tables: the rate constants too.");
-  gas->callback([arguments, &command] { command = [arguments] { run(*arguments); }; });
+  gas->callback([arguments, &command] { command = [arguments] { runGas(*arguments); }; });
 }
 
 }  // namespace lampblack

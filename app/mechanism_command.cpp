@@ -21,12 +21,12 @@
 namespace lampblack {
 namespace {
 
-struct Arguments {
+struct MechanismArguments {
   MechanismFileNames files;
   std::string output;  // empty if not given
 };
 
-void checkOutput(const Arguments& arguments) {
+void checkOutput(const MechanismArguments& arguments) {
   if (arguments.output.empty()) return;
   if (!isYaml(arguments.output))
     throw InputError(fmt::format("-o: expected a name that ends with .yaml or .yml, found '{}'", arguments.output));
@@ -75,7 +75,7 @@ std::string summary(const Mechanism& mechanism) {
   return text;
 }
 
-void run(const Arguments& arguments) {
+void runMechanism(const MechanismArguments& arguments) {
   int rank = 0;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   std::vector<std::string> warnings;
@@ -97,7 +97,7 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void addMechanismCommand(CLI::App& app, std::function<void()>& command) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<MechanismArguments>();
   CLI::App* mechanism = app.add_subcommand("mechanism", "Check a mechanism and convert CHEMKIN files to YAML.");
   mechanism->add_option("mechanism", arguments->files.mechanism, "CHEMKIN mechanism (chem.inp), or YAML by its ending.")
       ->required();
@@ -105,7 +105,7 @@ void addMechanismCommand(CLI::App& app, std::function<void()>& command) {
   mechanism->add_option("transport", arguments->files.transport, "CHEMKIN transport data (tran.dat).");
   mechanism->add_option("--phase", arguments->files.phase, "Phase of a YAML file; without it the first ideal gas.");
   mechanism->add_option("-o,--output", arguments->output, "YAML file to write; without it, check and summarise only.");
-  mechanism->callback([arguments, &command] { command = [arguments] { run(*arguments); }; });
+  mechanism->callback([arguments, &command] { command = [arguments] { runMechanism(*arguments); }; });
 }
 
 }  // namespace lampblack

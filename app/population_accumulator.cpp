@@ -7,9 +7,8 @@
 namespace lampblack {
 namespace {
 
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 // Scatter of the repeats below this part of the mean is round-off, not noise.
-constexpr double roundOff = 1e-12;
+constexpr double scatterRoundOff = 1e-12;
 
 Moments all(double value) {
   return {value, value, value, value};
@@ -119,7 +118,8 @@ MethodStatistics MethodAccumulator::finish() const {
   for (std::size_t k = 0; k < 4 && reachedRows_ > 0 && !frame_.exact.moments.empty(); ++k) {
     const double exact = frame_.exact.moments[last][k], away = made.mean[last][k] - exact;
     made.deviation[k] = relative(made.mean[last][k], exact);
-    if (made.error[last][k] * std::sqrt(count) > roundOff * std::abs(exact)) made.z[k] = away / made.error[last][k];
+    if (made.error[last][k] * std::sqrt(count) > scatterRoundOff * std::abs(exact))
+      made.z[k] = away / made.error[last][k];
   }
   double seconds = 0;
   made.massError = 0;

@@ -14,8 +14,6 @@
 namespace lampblack {
 namespace {
 
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-
 // The run is asked to stop in the middle of a repeat.
 struct Cut {};
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -11,6 +12,9 @@
 #include "app/population_progress.hpp"
 
 namespace lampblack {
+
+// What was not reached, or what a method does not have.
+inline constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 // Where the numbers of a repeat stand in its record. Rows and bins that were not reached, or that a method does not
 // have, are NaN.

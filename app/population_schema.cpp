@@ -34,7 +34,7 @@ void addSizeDependentRate(DeckSchema& schema, const std::string& section, const 
                .above(0));
 }
 
-void addParticles(DeckSchema& schema) {
+void addParticleTypes(DeckSchema& schema) {
   schema
       .add(choiceKey(
                "particles.type", {"volume", "fractal", "surface_volume", "components"},
@@ -348,7 +348,7 @@ DeckSchema populationSchema() {
   schema.add(choiceKey("problem", {"population_balance"}, "What is solved."))
       .add(stringKey("name", "Of the case, for tables and pictures.").byDefault("''"))
       .add(stringKey("title", "One line for reports and pictures.").byDefault("''"));
-  addParticles(schema);
+  addParticleTypes(schema);
   addCoagulation(schema);
   addNucleation(schema);
   addSingleProcesses(schema);

@@ -16,7 +16,6 @@
 namespace lampblack {
 namespace {
 
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 // Numbers of repeats that are gathered at a time; bounds the memory and the size of a message.
 constexpr std::size_t gathered = std::size_t{1} << 24;
 

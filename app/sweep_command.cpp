@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct SweepArguments {
   std::string study;
   std::vector<std::string> overrides, settings;
   std::string folder;
@@ -124,7 +124,7 @@ void raiseFailures(MPI_Comm comm, const std::vector<RunOutcome>& outcomes, const
   });
 }
 
-void sweep(const Arguments& arguments) {
+void sweep(const SweepArguments& arguments) {
   const MPI_Comm comm = PETSC_COMM_WORLD;
   const Deck deck = Deck::load(arguments.study, arguments.overrides, studySchema(), comm);
   SweepStudy study;
@@ -151,7 +151,7 @@ void sweep(const Arguments& arguments) {
 }  // namespace
 
 void addSweepCommand(CLI::App& app, std::function<void()>& command) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<SweepArguments>();
   CLI::App* subcommand = app.add_subcommand("sweep", "Run a study: many decks, or many variants of one, and a table.");
   subcommand->add_option("study", arguments->study, "Study (YAML).")->required();
   subcommand->add_option("--set", arguments->settings, "Override a key of every deck: a.b=c.")->allow_extra_args(false);

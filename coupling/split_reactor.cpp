@@ -16,7 +16,7 @@ namespace {
 // A change of temperature that counts as much as a concentration's of one.
 constexpr double temperatureScale = 200;
 // Mole fraction below which a concentration may change as it likes.
-constexpr double negligibleMoleFraction = 1e-9;
+constexpr double smallestCountedMoleFraction = 1e-9;
 constexpr double smallestPart = 1e-9;  // of the way to the next stop
 constexpr double firstPart = 1e-3;
 
@@ -110,7 +110,7 @@ double SplitReactor::exchange(double h) {
   const double middle = gas_.density(y_.data()), volume = 1 / middle;
   particles_.dilute(middle / density);
   const ParticleGas& seen = gas();
-  const double negligible = negligibleMoleFraction * seen.pressure / (constants::gasConstant * seen.temperature);
+  const double negligible = smallestCountedMoleFraction * seen.pressure / (constants::gasConstant * seen.temperature);
   const auto taken = particles_.advance(seen, h * gas_.timePerUnit(y_.data()));
   double change = 0;
   for (std::size_t i = 0; i < species.size(); ++i)
@@ -146,7 +146,7 @@ double SplitReactor::step(double h) {
   double change = exchange(h);
   react(0.5 * h);
   const ParticleGas& last = gas();
-  const double negligible = negligibleMoleFraction * last.pressure / (constants::gasConstant * last.temperature);
+  const double negligible = smallestCountedMoleFraction * last.pressure / (constants::gasConstant * last.temperature);
   if (idle && particles_.idle(last)) return 0;
   change = std::max(change, std::abs(y_[n] - T) / temperatureScale);
   for (std::size_t i = 0; i < species.size(); ++i)

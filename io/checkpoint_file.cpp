@@ -15,7 +15,7 @@ namespace {
 constexpr std::int64_t formatVersion = 1;
 constexpr const char* fileType = "lampblack checkpoint";
 
-std::filesystem::path partName(const std::filesystem::path& path) {
+std::filesystem::path unfinishedName(const std::filesystem::path& path) {
   return path.string() + ".part";
 }
 
@@ -33,7 +33,7 @@ CheckpointWriter::CheckpointWriter(MPI_Comm comm, std::filesystem::path path, co
       faces_(comm, numbers.faces, numbers.totalFaces),
       localCells_(numbers.cells.size()),
       localFaces_(numbers.faces.size()),
-      file_(comm, partName(path_)),
+      file_(comm, unfinishedName(path_)),
       exceptionsAtStart_(std::uncaught_exceptions()) {
   MPI_Comm_rank(comm, &rank_);
   MPI_Comm_size(comm, &ranks_);
@@ -55,7 +55,7 @@ CheckpointWriter::~CheckpointWriter() {
     file_.abandon();
   }
   std::error_code ignored;
-  if (rank_ == 0) std::filesystem::remove(partName(path_), ignored);
+  if (rank_ == 0) std::filesystem::remove(unfinishedName(path_), ignored);
 }
 
 void CheckpointWriter::ordered(const BlockExchange& exchange, const std::string& name,
@@ -91,10 +91,10 @@ void CheckpointWriter::texts(const std::string& name, const std::vector<std::str
 void CheckpointWriter::finish() {
   file_.close();
   try {
-    sealAndRename(comm_, partName(path_), path_);
+    sealAndRename(comm_, unfinishedName(path_), path_);
   } catch (const std::exception&) {
     std::error_code ignored;
-    if (rank_ == 0) std::filesystem::remove(partName(path_), ignored);
+    if (rank_ == 0) std::filesystem::remove(unfinishedName(path_), ignored);
     throw;
   }
 }

@@ -12,10 +12,6 @@ namespace {
 
 using SchemaNode = DeckSchema::Node;
 
-std::string join(const std::string& path, const std::string& name) {
-  return path.empty() ? name : path + "." + name;
-}
-
 class Checker {
  public:
   Checker(const DeckSource& source, const DeckSchema& schema) : source_(source), schema_(schema) {}
@@ -42,7 +38,7 @@ class Checker {
     const SchemaNode* any = schema.child("*");
     for (const DeckNode& child : node.children) {
       const SchemaNode* known = schema.child(child.name);
-      const std::string childPath = join(path, child.name);
+      const std::string childPath = joinedPath(path, child.name);
       if (known == nullptr && any != nullptr && child.name.find_first_of(".[]") != std::string::npos) {
         throw deckError(source_, child.nameAt, childPath, "a name may not contain '.', '[' or ']'");
       }
@@ -105,12 +101,12 @@ class Checker {
     if (!empty && node->kind != DeckNode::Kind::map) throw wrongKind("a map of keys", *node, path);
     for (const SchemaNode& child : schema.children) {
       if (child.name != "*") {
-        read(child, empty ? nullptr : node->child(child.name), join(path, child.name), here);
+        read(child, empty ? nullptr : node->child(child.name), joinedPath(path, child.name), here);
         continue;
       }
       for (std::size_t i = 0; !empty && i < node->children.size(); ++i) {
         const DeckNode& entry = node->children[i];
-        if (schema.child(entry.name) == nullptr) read(child, &entry, join(path, entry.name), here);
+        if (schema.child(entry.name) == nullptr) read(child, &entry, joinedPath(path, entry.name), here);
       }
     }
   }

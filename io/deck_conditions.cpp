@@ -26,10 +26,6 @@ std::string beside(const std::string& other, const std::string& path) {
   return result;
 }
 
-std::string join(const std::string& path, const std::string& name) {
-  return path.empty() ? name : path + "." + name;
-}
-
 std::string textOf(const DeckValue& value) {
   if (value.key.type == KeyType::boolean) return value.integers[0] != 0 ? "true" : "false";
   return value.texts[0];
@@ -56,10 +52,10 @@ class Conditions {
           if (child.name == "[]")
             apply(child, &entry, fmt::format("{}[{}]", path, i), counts);
           else if (schema.child(entry.name) == nullptr)
-            apply(child, &entry, join(path, entry.name), counts);
+            apply(child, &entry, joinedPath(path, entry.name), counts);
         }
       } else {
-        apply(child, node == nullptr ? nullptr : node->child(child.name), join(path, child.name), counts);
+        apply(child, node == nullptr ? nullptr : node->child(child.name), joinedPath(path, child.name), counts);
       }
     }
   }

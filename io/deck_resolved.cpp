@@ -36,8 +36,7 @@ void addSections(const DeckNode& node, const std::string& path, const Index& val
   for (std::size_t i = 0; i < node.children.size(); ++i) {
     const DeckNode& child = node.children[i];
     const std::string name = branch.isList ? std::to_string(i) : child.name;
-    const std::string childPath =
-        branch.isList ? fmt::format("{}[{}]", path, i) : (path.empty() ? "" : path + ".") + name;
+    const std::string childPath = branch.isList ? fmt::format("{}[{}]", path, i) : joinedPath(path, name);
     Branch& made = branch.child(name);
     if (!values.contains(childPath)) addSections(child, childPath, values, made);
   }

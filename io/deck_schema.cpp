@@ -10,6 +10,10 @@
 
 namespace lampblack {
 
+std::string joinedPath(const std::string& path, const std::string& name) {
+  return path.empty() ? name : path + "." + name;
+}
+
 DeckKey& DeckKey::optional() {
   presence = Presence::optional;
   return *this;

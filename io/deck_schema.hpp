@@ -27,6 +27,9 @@
 
 namespace lampblack {
 
+// "mesh" and "x" to "mesh.x"; the root has the path "".
+[[nodiscard]] std::string joinedPath(const std::string& path, const std::string& name);
+
 enum class KeyType { quantity, number, integer, boolean, string, choice };
 
 // A key that is absent: `required` is an error, `optional` leaves it unset, `defaulted` takes the default.

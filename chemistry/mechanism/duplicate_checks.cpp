@@ -43,7 +43,7 @@ std::optional<double> molecules(const std::vector<StoichiometricTerm>& terms) {
 
 // The species that acts as a third body in an elementary reaction: the only one on both sides, where one side has three
 // molecules.
-std::optional<std::size_t> namedCollider(const Reaction& reaction) {
+std::optional<std::size_t> repeatedSpecies(const Reaction& reaction) {
   if (reaction.type != Reaction::Type::Elementary || !reaction.orders.empty()) return std::nullopt;
   const auto left = molecules(reaction.reactants), right = molecules(reaction.products);
   if (!left || !right || (*left != 3 && *right != 3)) return std::nullopt;
@@ -65,7 +65,7 @@ void removeOne(Side& side, std::size_t species) {
 
 Compared compared(const Reaction& reaction) {
   Compared c{reaction.type, sorted(reaction.reactants), sorted(reaction.products), true, reaction.thirdBody, {}};
-  if (const auto named = namedCollider(reaction)) {
+  if (const auto named = repeatedSpecies(reaction)) {
     c.type = Reaction::Type::ThreeBody;
     c.collider = named;
     c.body = ThirdBody{0, {{*named, 1.0}}};

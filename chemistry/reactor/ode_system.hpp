@@ -18,7 +18,9 @@ class OdeSystem {
   virtual bool jacobian(double t, const double* y, double* f, double* J, std::size_t ld) = 0;
   // Puts into y what is a given function of time and only carried along, such as a given temperature.
   virtual void prescribe(double /*t*/, double* /*y*/) const {}
-  // What the absolute tolerance is multiplied with for unknown i: one for mass fractions.
+  // What the absolute tolerance is multiplied with for unknown i: one for mass fractions, and for what is only carried
+  // along, which must not steer the steps, carriedScale.
+  static constexpr double carriedScale = 1e30;
   virtual double toleranceScale(std::size_t /*i*/) const { return 1.0; }
   // For unknowns that change by decades: whether the absolute tolerance follows the state, with the scales at y (above
   // zero) instead of toleranceScale.

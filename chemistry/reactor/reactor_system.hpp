@@ -35,11 +35,11 @@ class ReactorSystem {
     Held held = Held::Pressure;
     double value = 0;  // Pa or kg/m3
     Energy energy = Energy::Conserved;
-    double temperatureRate = 0;             // dT/dt, K/s, where the temperature is given
-    std::span<const double> source;         // S, 1/s, a value a species; copied; may be empty
+    double temperatureRate = 0;                  // dT/dt, K/s, where the temperature is given
+    std::span<const double> source;              // S, 1/s, a value a species; copied; may be empty
     std::span<const double> carriedSource = {};  // the same of a carried phase
-    double removal = 0;                     // r, 1/s
-    double heating = 0;                     // q, J/kg/s
+    double removal = 0;                          // r, 1/s
+    double heating = 0;                          // q, J/kg/s
   };
 
   // J in parts, the sum of a sparse matrix with a full last row and column and of a product of two vectors:

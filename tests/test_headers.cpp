@@ -1,0 +1,1 @@
+// Nothing: a source for the precompiled headers that the tests share (CMakeLists.txt).
