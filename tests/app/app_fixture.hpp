@@ -18,15 +18,13 @@
 #include "flow/gas_properties.hpp"
 #include "flow/state.hpp"
 #include "particles/soot/dimer_soot.hpp"
+#include "tests/source_folder.hpp"
 
 namespace lampblack::test {
 
-inline const std::filesystem::path sourceFolder{LAMPBLACK_SOURCE_DIR};
-
 // tests/app/flame.yaml with the shipped mechanism.
 inline Deck flameDeck(std::vector<std::string> overrides = {}) {
-  overrides.insert(overrides.begin(),
-                   "mechanism=" + (sourceFolder / "cases/mechanisms/ethylene_bisetti2012_47.yaml").string());
+  overrides.insert(overrides.begin(), "mechanism=" + sourcePath("cases/mechanisms/ethylene_bisetti2012_47.yaml"));
   return Deck::load(sourceFolder / "tests/app/flame.yaml", overrides, flowSchema());
 }
 

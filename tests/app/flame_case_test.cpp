@@ -10,13 +10,14 @@
 #include "chemistry/thermo/thermo.hpp"
 #include "core/errors.hpp"
 #include "tests/messages.hpp"
+#include "tests/source_folder.hpp"
 
 namespace lampblack {
 namespace {
 
 using ::testing::HasSubstr;
 
-const std::filesystem::path sourceFolder{LAMPBLACK_SOURCE_DIR};
+using test::sourceFolder;
 
 const std::string freeFlame = R"(problem: flame1d
 mechanism: mechanisms/hydrogen_h2o2_10.yaml

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/errors.hpp"
+#include "tests/source_folder.hpp"
 
 namespace {
 
@@ -17,7 +18,7 @@ using ::testing::HasSubstr;
 
 std::vector<std::string> shippedMechanisms() {
   std::vector<std::string> paths;
-  for (const auto& entry : std::filesystem::directory_iterator(LAMPBLACK_SOURCE_DIR "/cases/mechanisms"))
+  for (const auto& entry : std::filesystem::directory_iterator(test::sourceFolder / "cases/mechanisms"))
     if (entry.path().extension() == ".yaml") paths.push_back(entry.path().string());
   std::sort(paths.begin(), paths.end());
   return paths;
@@ -69,7 +70,7 @@ TEST(GasAtTheEdge, ThatHasNoNumbersIsAnError) {
 }
 
 TEST(GasAtTheEdge, OfTheDataIsWarnedOf) {
-  const Mechanism mechanism = Mechanism::fromFile(LAMPBLACK_SOURCE_DIR "/cases/mechanisms/methane_gri30_53.yaml");
+  const Mechanism mechanism = Mechanism::fromFile(test::sourcePath("cases/mechanisms/methane_gri30_53.yaml"));
   EXPECT_EQ(rangeWarning(mechanism, 1000), "");
   double lowest = 1e9;
   for (const Species& species : mechanism.allSpecies()) lowest = std::min(lowest, species.thermo.maxTemperature);

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "core/errors.hpp"
+#include "tests/source_folder.hpp"
 
 namespace lampblack {
 namespace {
@@ -165,7 +166,7 @@ TEST(PopulationCase, ModelsWithAnExactSolutionAreRecognised) {
 }
 
 TEST(PopulationCase, ShippedDecksAreValid) {
-  const std::filesystem::path folder = std::filesystem::path(LAMPBLACK_SOURCE_DIR) / "cases/population_balance";
+  const std::filesystem::path folder = test::sourceFolder / "cases/population_balance";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no decks yet";
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     if (entry.path().extension() != ".yaml" || entry.path().filename().string().starts_with("study")) continue;

@@ -9,13 +9,14 @@
 #include "chemistry/thermo/equilibrium.hpp"
 #include "chemistry/thermo/thermo.hpp"
 #include "core/constants.hpp"
+#include "tests/source_folder.hpp"
 
 namespace {
 
 using namespace lampblack;
 
 void adiabaticFlame(benchmark::State& state, const char* file, const char* composition, double T) {
-  const auto mechanism = Mechanism::fromFile(std::string(LAMPBLACK_SOURCE_DIR "/cases/mechanisms/") + file);
+  const auto mechanism = Mechanism::fromFile(test::sourcePath(std::string("cases/mechanisms/") + file));
   const Thermo thermo(mechanism);
   Equilibrium equilibrium(mechanism);
   std::vector<double> Y(mechanism.numSpecies());

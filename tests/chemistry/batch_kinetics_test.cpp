@@ -18,10 +18,10 @@ namespace {
 
 using namespace lampblack;
 using Instructions = BatchKinetics::Instructions;
-using lampblack::testing::measured;
-using lampblack::testing::raise;
-using lampblack::testing::RateTypes;
-using lampblack::testing::Table;
+using lampblack::test::measured;
+using lampblack::test::raise;
+using lampblack::test::RateTypes;
+using lampblack::test::Table;
 
 std::vector<Instructions> availableInstructions() {
   std::vector<Instructions> result;
@@ -31,7 +31,7 @@ std::vector<Instructions> availableInstructions() {
 }
 
 Mechanism shipped(const std::string& name) {
-  return Mechanism::fromFile(lampblack::testing::sourcePath("cases/mechanisms/" + name + ".yaml"));
+  return Mechanism::fromFile(lampblack::test::sourcePath("cases/mechanisms/" + name + ".yaml"));
 }
 
 // States in the layout of a batch.
@@ -146,7 +146,7 @@ TEST(BatchKinetics, AgreesWithKineticsForEveryRateType) {
 
 // Every other species by nine coefficients in three ranges that do not meet: which one holds at a bound matters.
 TEST(BatchKinetics, AgreesWithKineticsForNasa9) {
-  const auto& base = lampblack::testing::hydrogen();
+  const auto& base = lampblack::test::hydrogen();
   std::vector<Element> elements;
   for (std::size_t i = 0; i < base.numElements(); ++i) elements.push_back({base.elementName(i), base.atomicWeight(i)});
   std::vector<Species> species(base.allSpecies().begin(), base.allSpecies().end());
@@ -231,7 +231,7 @@ TEST(BatchKinetics, AStateDoesNotKnowItsBatch) {
 }
 
 TEST(BatchKinetics, TouchesNothingBetweenTheRows) {
-  const auto& mechanism = lampblack::testing::hydrogen();
+  const auto& mechanism = lampblack::test::hydrogen();
   const std::size_t n = mechanism.numSpecies(), count = 11, stride = 17;
   const auto states = anyStates(n, count);
   for (const auto instructions : availableInstructions()) {
@@ -248,7 +248,7 @@ TEST(BatchKinetics, TouchesNothingBetweenTheRows) {
 }
 
 TEST(BatchKinetics, ATemperatureThatIsNoNumberHasNoRates) {
-  const auto& mechanism = lampblack::testing::hydrogen();
+  const auto& mechanism = lampblack::test::hydrogen();
   auto states = anyStates(mechanism.numSpecies(), 10);
   for (const auto instructions : availableInstructions()) {
     BatchKinetics kinetics(mechanism, instructions);
@@ -269,7 +269,7 @@ TEST(BatchKinetics, ATemperatureThatIsNoNumberHasNoRates) {
 }
 
 TEST(BatchKinetics, WantsArraysThatHoldTheBatch) {
-  const auto& mechanism = lampblack::testing::hydrogen();
+  const auto& mechanism = lampblack::test::hydrogen();
   BatchKinetics kinetics(mechanism);
   const std::size_t n = mechanism.numSpecies();
   const std::vector<double> T(3, 1000.0), c(3 * n, 1.0);
@@ -304,7 +304,7 @@ TEST(BatchKinetics, OffersTheBestAvailableInstructions) {
   EXPECT_TRUE(BatchKinetics::available(Instructions::Generic));
   EXPECT_EQ(BatchKinetics::best(), availableInstructions().back());
   for (const auto i : {Instructions::Avx2, Instructions::Avx512}) {
-    const auto construct = [i] { BatchKinetics kinetics(lampblack::testing::hydrogen(), i); };
+    const auto construct = [i] { BatchKinetics kinetics(lampblack::test::hydrogen(), i); };
     if (BatchKinetics::available(i)) {
       EXPECT_NO_THROW(construct());
     } else {

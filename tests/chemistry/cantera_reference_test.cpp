@@ -13,9 +13,9 @@
 namespace {
 
 using namespace lampblack;
-using lampblack::testing::measured;
-using lampblack::testing::raise;
-using lampblack::testing::Table;
+using lampblack::test::measured;
+using lampblack::test::raise;
+using lampblack::test::Table;
 
 double order(const std::vector<StoichiometricTerm>& terms) {
   double sum = 0;
@@ -41,7 +41,7 @@ class CanteraReference : public ::testing::TestWithParam<Reference> {
   }
 
   Mechanism mechanism =
-      Mechanism::fromFile(lampblack::testing::sourcePath(std::string("cases/mechanisms/") + GetParam().mechanism));
+      Mechanism::fromFile(lampblack::test::sourcePath(std::string("cases/mechanisms/") + GetParam().mechanism));
 };
 
 TEST_P(CanteraReference, Thermodynamics) {

@@ -12,7 +12,7 @@
 namespace {
 
 using namespace lampblack;
-using lampblack::testing::readText;
+using lampblack::test::readText;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 

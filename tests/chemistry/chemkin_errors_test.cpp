@@ -7,11 +7,11 @@
 namespace {
 
 using namespace lampblack;
-using lampblack::testing::chemkinHead;
-using lampblack::testing::chemkinThermo;
-using lampblack::testing::inputMessage;
-using lampblack::testing::readChemkinText;
-using lampblack::testing::thermoCards;
+using lampblack::test::chemkinHead;
+using lampblack::test::chemkinThermo;
+using lampblack::test::inputMessage;
+using lampblack::test::readChemkinText;
+using lampblack::test::thermoCards;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;

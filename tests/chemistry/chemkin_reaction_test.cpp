@@ -10,7 +10,7 @@
 namespace {
 
 using namespace lampblack;
-using lampblack::testing::readChemkinReactions;
+using lampblack::test::readChemkinReactions;
 using ::testing::HasSubstr;
 
 constexpr double kR = 8.31446261815324;   // J/mol/K

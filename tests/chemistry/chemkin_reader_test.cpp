@@ -10,9 +10,9 @@
 namespace {
 
 using namespace lampblack;
-using lampblack::testing::chemkinThermo;
-using lampblack::testing::readChemkinText;
-using lampblack::testing::thermoCards;
+using lampblack::test::chemkinThermo;
+using lampblack::test::readChemkinText;
+using lampblack::test::thermoCards;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -105,12 +105,12 @@ TEST(ChemkinReader, TheSecondFileMayBeTransportData) {
     EXPECT_EQ(
         readChemkinText(mechanism, nullptr, heading + "H2 1 38. 2.92 0.0 .79 280.\n").species(0).transport->wellDepth,
         38);
-  EXPECT_THAT(lampblack::testing::inputMessage([&] {
+  EXPECT_THAT(lampblack::test::inputMessage([&] {
                 readChemkinText(mechanism, nullptr, "H2 1 38. 2.92 0.0 .79 280.\n", "H2 1 38. 2.92 0.0 .79 280.\n");
               }),
               AllOf(HasSubstr("therm.dat: "), HasSubstr("found transport data")));
   // Without thermodynamic data anywhere it is these that are missing.
-  EXPECT_THAT(lampblack::testing::inputMessage(
+  EXPECT_THAT(lampblack::test::inputMessage(
                   [] { readChemkinText("ELEM H END SPEC H2 END", nullptr, "H2 1 38. 2.92 0.0 .79 280.\n"); }),
               HasSubstr("no thermodynamic data of any species"));
 }

@@ -9,7 +9,7 @@
 #include "chemistry/chemkin/chemkin_reader.hpp"
 #include "core/errors.hpp"
 
-namespace lampblack::testing {
+namespace lampblack::test {
 
 // Four cards of a species in the columns they belong to. `elements` fills columns 25 to 44, five for each element
 // ("C   1H   4"); `temperatures` columns 46 to 73. The coefficients of the upper range are 2.5, 1e-3, 0, 0, 0, -1000,
@@ -92,4 +92,4 @@ std::string inputMessage(Read&& read) {
   return "no error";
 }
 
-}  // namespace lampblack::testing
+}  // namespace lampblack::test

@@ -15,10 +15,10 @@
 namespace {
 
 using namespace lampblack;
-using lampblack::testing::hydrogen;
-using lampblack::testing::measured;
-using lampblack::testing::raise;
-using lampblack::testing::readText;
+using lampblack::test::hydrogen;
+using lampblack::test::measured;
+using lampblack::test::raise;
+using lampblack::test::readText;
 using Held = ReactorSystem::Held;
 
 // A => B of first order, k = 1000/s exp(-2000 K/T) with the activation energy in cal/mol.

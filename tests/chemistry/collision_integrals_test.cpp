@@ -11,8 +11,8 @@
 namespace {
 
 using namespace lampblack;
-using lampblack::testing::measured;
-using lampblack::testing::raise;
+using lampblack::test::measured;
+using lampblack::test::raise;
 using monchickMason::dipoles;
 using monchickMason::temperatures;
 

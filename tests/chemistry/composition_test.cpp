@@ -11,7 +11,7 @@ using ::testing::HasSubstr;
 
 std::string messageOf(const std::string& text) {
   try {
-    parseComposition(lampblack::testing::hydrogen(), text);
+    parseComposition(lampblack::test::hydrogen(), text);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -19,7 +19,7 @@ std::string messageOf(const std::string& text) {
 }
 
 TEST(Composition, IsNormalisedToMoleFractions) {
-  const auto& mechanism = lampblack::testing::hydrogen();
+  const auto& mechanism = lampblack::test::hydrogen();
   for (const char* text : {"H2: 2, O2: 1, N2: 5", "  H2:2 O2:1 N2:5 ", "O2: 1e0,H2 : 2.0,N2: 5"}) {
     const auto X = parseComposition(mechanism, text);
     EXPECT_DOUBLE_EQ(X[mechanism.speciesIndex("H2")], 0.25) << text;
@@ -30,7 +30,7 @@ TEST(Composition, IsNormalisedToMoleFractions) {
 }
 
 TEST(Composition, ANameMayStandInQuotes) {
-  const auto& mechanism = lampblack::testing::hydrogen();
+  const auto& mechanism = lampblack::test::hydrogen();
   for (const char* text : {"'H2': 2, \"O2\" = 1, N2: 5", "'H2':2 'O2':1 'N2':5"}) {
     const auto X = parseComposition(mechanism, text);
     EXPECT_DOUBLE_EQ(X[mechanism.speciesIndex("H2")], 0.25) << text;
@@ -39,7 +39,7 @@ TEST(Composition, ANameMayStandInQuotes) {
 }
 
 TEST(Composition, AmountsNearTheEndOfFloatingPoint) {
-  const auto& mechanism = lampblack::testing::hydrogen();
+  const auto& mechanism = lampblack::test::hydrogen();
   const auto X = parseComposition(mechanism, "H2: 1e308, O2: 1e308, N2: 1.6e308");
   EXPECT_DOUBLE_EQ(X[mechanism.speciesIndex("H2")], 1 / 3.6);
   EXPECT_DOUBLE_EQ(X[mechanism.speciesIndex("N2")], 1.6 / 3.6);

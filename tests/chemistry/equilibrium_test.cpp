@@ -17,10 +17,10 @@
 namespace {
 
 using namespace lampblack;
-using lampblack::testing::hydrogen;
-using lampblack::testing::measured;
-using lampblack::testing::raise;
-using lampblack::testing::sourcePath;
+using lampblack::test::hydrogen;
+using lampblack::test::measured;
+using lampblack::test::raise;
+using lampblack::test::sourcePath;
 
 Mechanism shipped(const std::string& name) {
   return Mechanism::fromFile(sourcePath("cases/mechanisms/" + name));

@@ -16,10 +16,10 @@
 namespace {
 
 using namespace lampblack;
-using lampblack::testing::hydrogen;
-using lampblack::testing::measured;
-using lampblack::testing::raise;
-using lampblack::testing::sourcePath;
+using lampblack::test::hydrogen;
+using lampblack::test::measured;
+using lampblack::test::raise;
+using lampblack::test::sourcePath;
 using Held = ReactorSystem::Held;
 using Kind = IgnitionCriterion::Kind;
 

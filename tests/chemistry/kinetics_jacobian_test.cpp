@@ -13,12 +13,12 @@
 namespace {
 
 using namespace lampblack;
-using lampblack::testing::ethylene;
-using lampblack::testing::hydrogen;
-using lampblack::testing::measured;
-using lampblack::testing::plainRates;
-using lampblack::testing::raise;
-using lampblack::testing::RateTypes;
+using lampblack::test::ethylene;
+using lampblack::test::hydrogen;
+using lampblack::test::measured;
+using lampblack::test::plainRates;
+using lampblack::test::raise;
+using lampblack::test::RateTypes;
 using Complex = std::complex<double>;
 
 // Derivatives of the plain formulas by complex steps, exact to round-off; column n is that by temperature.
@@ -40,7 +40,7 @@ std::vector<std::vector<double>> plainDerivatives(const Mechanism& mechanism, do
 // The plain formulas lose a few digits where large terms cancel, so each entry is held to its column's largest.
 TEST(KineticsJacobian, AgreesWithComplexStepsThroughThePlainFormulas) {
   const auto all = RateTypes::mechanism();
-  const auto methane = Mechanism::fromFile(lampblack::testing::sourcePath("cases/mechanisms/methane_gri30_53.yaml"));
+  const auto methane = Mechanism::fromFile(lampblack::test::sourcePath("cases/mechanisms/methane_gri30_53.yaml"));
   double worst = 0, worstByT = 0;
   for (const auto* mechanism : {&all, &hydrogen(), &ethylene(), &methane}) {
     Kinetics kinetics(*mechanism);

@@ -8,7 +8,7 @@
 #include "chemistry/mechanism/mechanism.hpp"
 #include "tests/chemistry/table.hpp"
 
-namespace lampblack::testing {
+namespace lampblack::test {
 
 class RateTypes {
  public:
@@ -217,4 +217,4 @@ class RateTypes {
   std::vector<Reaction> reactions_;
 };
 
-}  // namespace lampblack::testing
+}  // namespace lampblack::test

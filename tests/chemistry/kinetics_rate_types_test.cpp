@@ -17,13 +17,13 @@
 namespace {
 
 using namespace lampblack;
-using lampblack::testing::ethylene;
-using lampblack::testing::hydrogen;
-using lampblack::testing::measured;
-using lampblack::testing::plainArrhenius;
-using lampblack::testing::plainRates;
-using lampblack::testing::raise;
-using lampblack::testing::RateTypes;
+using lampblack::test::ethylene;
+using lampblack::test::hydrogen;
+using lampblack::test::measured;
+using lampblack::test::plainArrhenius;
+using lampblack::test::plainRates;
+using lampblack::test::raise;
+using lampblack::test::RateTypes;
 
 // Uneven concentrations with the sum p/RT.
 std::vector<double> uneven(std::size_t n, double T, double p) {
@@ -58,8 +58,8 @@ std::string messageOf(const Reaction& reaction, double T) {
 // the range of doubles with a full mantissa and add nothing to any rate.
 TEST(KineticsRateTypes, ConstantsAreThePlainFormulasFrom200To4000K) {
   const auto all = RateTypes::mechanism();
-  const auto methane = Mechanism::fromFile(lampblack::testing::sourcePath("cases/mechanisms/methane_gri30_53.yaml"));
-  const auto coronene = Mechanism::fromFile(lampblack::testing::sourcePath("cases/mechanisms/ethylene_km2_202.yaml"));
+  const auto methane = Mechanism::fromFile(lampblack::test::sourcePath("cases/mechanisms/methane_gri30_53.yaml"));
+  const auto coronene = Mechanism::fromFile(lampblack::test::sourcePath("cases/mechanisms/ethylene_km2_202.yaml"));
   double worst = 0;
   for (const auto* mechanism : {&all, &ethylene(), &methane, &coronene}) {
     Kinetics kinetics(*mechanism);

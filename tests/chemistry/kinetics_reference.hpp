@@ -9,7 +9,7 @@
 #include "chemistry/mechanism/mechanism.hpp"
 #include "core/constants.hpp"
 
-namespace lampblack::testing {
+namespace lampblack::test {
 
 template <class Number>
 struct PlainRates {
@@ -257,4 +257,4 @@ PlainRates<Number> plainRates(const Mechanism& mechanism, Number T, const std::v
   return rates;
 }
 
-}  // namespace lampblack::testing
+}  // namespace lampblack::test

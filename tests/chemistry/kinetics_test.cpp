@@ -11,8 +11,8 @@
 namespace {
 
 using namespace lampblack;
-using lampblack::testing::ethylene;
-using lampblack::testing::hydrogen;
+using lampblack::test::ethylene;
+using lampblack::test::hydrogen;
 
 // kf/kr = Kc, and at concentrations with prod c^nu = Kc nothing happens.
 TEST(Kinetics, ForwardAndReverseBalanceAtEquilibrium) {

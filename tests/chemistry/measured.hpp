@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <string>
 
-namespace lampblack::testing {
+namespace lampblack::test {
 
 inline void measured(const std::string& what, double value) {
   char text[32];
@@ -22,4 +22,4 @@ inline void raise(double& worst, double value) {
   worst = std::isnan(value) ? INFINITY : std::max(worst, std::abs(value));
 }
 
-}  // namespace lampblack::testing
+}  // namespace lampblack::test

@@ -11,8 +11,8 @@
 namespace {
 
 using namespace lampblack;
-using lampblack::testing::readFileText;
-using lampblack::testing::readText;
+using lampblack::test::readFileText;
+using lampblack::test::readText;
 
 constexpr double kCalorie = 4.184 / constants::gasConstant;  // K for 1 cal/mol
 constexpr double kAtmosphere = 101325.0;

@@ -9,8 +9,8 @@
 namespace {
 
 using namespace lampblack;
-using lampblack::testing::mechanismText;
-using lampblack::testing::readFileText;
+using lampblack::test::mechanismText;
+using lampblack::test::readFileText;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 

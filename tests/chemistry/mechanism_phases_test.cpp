@@ -8,7 +8,7 @@
 namespace {
 
 using namespace lampblack;
-using lampblack::testing::readFileText;
+using lampblack::test::readFileText;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 

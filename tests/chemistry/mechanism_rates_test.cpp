@@ -11,7 +11,7 @@
 namespace {
 
 using namespace lampblack;
-using lampblack::testing::readText;
+using lampblack::test::readText;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using Type = Reaction::Type;

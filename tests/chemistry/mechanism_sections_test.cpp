@@ -13,7 +13,7 @@
 namespace {
 
 using namespace lampblack;
-using lampblack::testing::readFileText;
+using lampblack::test::readFileText;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;

@@ -16,9 +16,9 @@
 namespace {
 
 using namespace lampblack;
-using lampblack::testing::ethylene;
-using lampblack::testing::hydrogen;
-using lampblack::testing::readText;
+using lampblack::test::ethylene;
+using lampblack::test::hydrogen;
+using lampblack::test::readText;
 
 TEST(Mechanism, EthyleneFileHasThePublishedSize) {
   const auto& mechanism = ethylene();

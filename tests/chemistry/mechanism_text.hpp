@@ -6,7 +6,7 @@
 #include "chemistry/mechanism/mechanism.hpp"
 #include "tests/scratch.hpp"
 
-namespace lampblack::testing {
+namespace lampblack::test {
 
 // Writes the text to a file, reads it as a mechanism, removes the file.
 inline Mechanism readFileText(const std::string& text, const std::string& phase = "") {
@@ -36,4 +36,4 @@ inline Mechanism readText(const std::string& phaseSpecies, const std::string& sp
   return readFileText(mechanismText(phaseSpecies, species, reactions));
 }
 
-}  // namespace lampblack::testing
+}  // namespace lampblack::test

@@ -10,8 +10,8 @@
 namespace {
 
 using namespace lampblack;
-using lampblack::testing::readFileText;
-using lampblack::testing::readText;
+using lampblack::test::readFileText;
+using lampblack::test::readText;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -55,10 +55,10 @@ TEST(MechanismWarnings, RangesOfNasa9ThatJump) {
 
 // Three of the fits of KM2 do not meet in enthalpy by more than half an RT; GRI-Mech's all do.
 TEST(MechanismWarnings, OfPublishedMechanisms) {
-  EXPECT_THAT(Mechanism::fromFile(lampblack::testing::sourcePath("cases/mechanisms/methane_gri30_53.yaml")).warnings(),
+  EXPECT_THAT(Mechanism::fromFile(lampblack::test::sourcePath("cases/mechanisms/methane_gri30_53.yaml")).warnings(),
               IsEmpty());
   const auto warnings =
-      Mechanism::fromFile(lampblack::testing::sourcePath("cases/mechanisms/ethylene_km2_202.yaml")).warnings();
+      Mechanism::fromFile(lampblack::test::sourcePath("cases/mechanisms/ethylene_km2_202.yaml")).warnings();
   EXPECT_THAT(warnings, ::testing::Contains(HasSubstr("species 'C4H5-2': the thermodynamic data jump at 1000 K")));
   EXPECT_EQ(warnings.size(), 5U);
 }

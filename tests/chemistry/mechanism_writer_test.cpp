@@ -22,8 +22,8 @@
 namespace {
 
 using namespace lampblack;
-using lampblack::testing::inputMessage;
-using lampblack::testing::readFileText;
+using lampblack::test::inputMessage;
+using lampblack::test::readFileText;
 
 TEST(YamlText, NumbersComeBack) {
   std::mt19937_64 random(3);
@@ -190,15 +190,15 @@ void expectRoundTrip(const Mechanism& mechanism) {
 }
 
 TEST(MechanismWriter, ShippedMechanisms) {
-  expectRoundTrip(lampblack::testing::hydrogen());
-  expectRoundTrip(lampblack::testing::ethylene());
+  expectRoundTrip(lampblack::test::hydrogen());
+  expectRoundTrip(lampblack::test::ethylene());
 }
 
 TEST(MechanismWriter, EveryFeatureOfChemkin) {
-  std::ifstream file(lampblack::testing::sourcePath("tests/chemistry/data/chemkin_features.inp"));
+  std::ifstream file(lampblack::test::sourcePath("tests/chemistry/data/chemkin_features.inp"));
   std::ostringstream text;
   text << file.rdbuf();
-  const auto mechanism = lampblack::testing::readChemkinText(text.str(), nullptr, std::nullopt);
+  const auto mechanism = lampblack::test::readChemkinText(text.str(), nullptr, std::nullopt);
   for (const auto type : {Reaction::Type::Elementary, Reaction::Type::ThreeBody, Reaction::Type::Falloff,
                           Reaction::Type::ChemicallyActivated, Reaction::Type::PressureLog, Reaction::Type::Chebyshev})
     EXPECT_TRUE(std::ranges::any_of(mechanism.reactions(), [&](const auto& r) { return r.type == type; }));
@@ -206,7 +206,7 @@ TEST(MechanismWriter, EveryFeatureOfChemkin) {
 }
 
 TEST(MechanismWriter, EveryKindOfRate) {
-  expectRoundTrip(lampblack::testing::RateTypes::mechanism());
+  expectRoundTrip(lampblack::test::RateTypes::mechanism());
 }
 
 // Ions and electrons, Shomate polynomials and constant heat capacities.
@@ -248,11 +248,11 @@ TEST(MechanismWriter, FilesAppearWhole) {
   namespace fs = std::filesystem;
   const test::ScratchFolder folder;
   const auto path = (folder.path() / "mech.yaml").string();
-  writeMechanism(lampblack::testing::hydrogen(), path);
-  EXPECT_EQ(Mechanism::fromFile(path).numReactions(), lampblack::testing::hydrogen().numReactions());
+  writeMechanism(lampblack::test::hydrogen(), path);
+  EXPECT_EQ(Mechanism::fromFile(path).numReactions(), lampblack::test::hydrogen().numReactions());
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator{}), 1);
   fs::remove_all(folder.path());
-  EXPECT_THAT(inputMessage([&] { writeMechanism(lampblack::testing::hydrogen(), path); }),
+  EXPECT_THAT(inputMessage([&] { writeMechanism(lampblack::test::hydrogen(), path); }),
               ::testing::HasSubstr("cannot write the mechanism file"));
 }
 

@@ -15,11 +15,11 @@
 namespace {
 
 using namespace lampblack;
-using lampblack::testing::ethylene;
-using lampblack::testing::hydrogen;
-using lampblack::testing::measured;
-using lampblack::testing::raise;
-using lampblack::testing::Table;
+using lampblack::test::ethylene;
+using lampblack::test::hydrogen;
+using lampblack::test::measured;
+using lampblack::test::raise;
+using lampblack::test::Table;
 
 struct Reference {
   const char* tables;
@@ -47,7 +47,7 @@ double electronicConduction(const Mechanism& mechanism, double T, const std::vec
 // coefficients, which change sign, are compared relative to themselves or to a hundredth of the mixture's largest.
 TEST_P(MulticomponentReference, AgreesWithCantera) {
   const auto mechanism =
-      Mechanism::fromFile(lampblack::testing::sourcePath(std::string("cases/mechanisms/") + GetParam().mechanism));
+      Mechanism::fromFile(lampblack::test::sourcePath(std::string("cases/mechanisms/") + GetParam().mechanism));
   MulticomponentTransport transport(mechanism);
   const auto states = table("states"), mixture = table("mixture"), species = table("species");
   const std::size_t n = mechanism.numSpecies();
@@ -193,13 +193,13 @@ TEST(MulticomponentTransport, ArgonAloneConductsAsKineticTheorySays) {
 
 // Atoms of oxygen have electronic heat capacity, which no model takes for internal energy that collisions exchange.
 TEST(MulticomponentTransport, AtomsConductByTranslationAlone) {
-  const auto mechanism = lampblack::testing::readText("species: [O]", R"(
+  const auto mechanism = lampblack::test::readText("species: [O]", R"(
 - name: O
   composition: {O: 1}
   thermo: {model: constant-cp, cp0: 21.9e3, h0: 2.5e8, s0: 1.6e5}
   transport: {model: gas, geometry: atom, well-depth: 80, diameter: 2.75}
 - {name: O2, composition: {O: 2}, thermo: *t})",
-                                                      "[]");
+                                                   "[]");
   const PureGas gas(mechanism);
   Transport averaged(mechanism);
   MulticomponentTransport multicomponent(mechanism);

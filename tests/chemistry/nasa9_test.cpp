@@ -12,7 +12,7 @@
 namespace {
 
 using namespace lampblack;
-using lampblack::testing::readText;
+using lampblack::test::readText;
 
 // Nitrogen of McBride, Zehe, Gordon (2002), NASA/TP-2002-211556.
 const char* const kNitrogen = R"(

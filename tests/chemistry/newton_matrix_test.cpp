@@ -13,10 +13,10 @@
 namespace {
 
 using namespace lampblack;
-using lampblack::testing::ethylene;
-using lampblack::testing::measured;
-using lampblack::testing::raise;
-using lampblack::testing::Table;
+using lampblack::test::ethylene;
+using lampblack::test::measured;
+using lampblack::test::raise;
+using lampblack::test::Table;
 
 // Backward errors of one solution, row by row: the residual of (I - gamma J) x = b in units of the terms of the row,
 // and in units of its largest entry times the largest unknown, temperatures in 1000 K.

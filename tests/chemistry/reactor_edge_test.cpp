@@ -16,13 +16,13 @@
 namespace {
 
 using namespace lampblack;
-using lampblack::testing::measured;
-using lampblack::testing::raise;
+using lampblack::test::measured;
+using lampblack::test::raise;
 using ::testing::HasSubstr;
 
 const Mechanism& methane() {
   static const auto mechanism =
-      Mechanism::fromFile(lampblack::testing::sourcePath("cases/mechanisms/methane_gri30_53.yaml"));
+      Mechanism::fromFile(lampblack::test::sourcePath("cases/mechanisms/methane_gri30_53.yaml"));
   return mechanism;
 }
 

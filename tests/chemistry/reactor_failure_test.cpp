@@ -12,7 +12,7 @@
 namespace {
 
 using namespace lampblack;
-using lampblack::testing::hydrogen;
+using lampblack::test::hydrogen;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;

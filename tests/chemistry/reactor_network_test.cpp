@@ -19,10 +19,10 @@
 namespace {
 
 using namespace lampblack;
-using lampblack::testing::hydrogen;
-using lampblack::testing::measured;
-using lampblack::testing::raise;
-using lampblack::testing::readText;
+using lampblack::test::hydrogen;
+using lampblack::test::measured;
+using lampblack::test::raise;
+using lampblack::test::readText;
 
 constexpr double kAtm = constants::oneAtmosphere;
 constexpr double kRate = 1000;  // 1/s

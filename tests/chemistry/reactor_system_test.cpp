@@ -13,10 +13,10 @@
 namespace {
 
 using namespace lampblack;
-using lampblack::testing::ethylene;
-using lampblack::testing::measured;
-using lampblack::testing::raise;
-using lampblack::testing::Table;
+using lampblack::test::ethylene;
+using lampblack::test::measured;
+using lampblack::test::raise;
+using lampblack::test::Table;
 using Held = ReactorSystem::Held;
 using Energy = ReactorSystem::Energy;
 using Conditions = ReactorSystem::Conditions;

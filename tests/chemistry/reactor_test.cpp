@@ -15,11 +15,11 @@
 namespace {
 
 using namespace lampblack;
-using lampblack::testing::ethylene;
-using lampblack::testing::hydrogen;
-using lampblack::testing::measured;
-using lampblack::testing::raise;
-using lampblack::testing::Table;
+using lampblack::test::ethylene;
+using lampblack::test::hydrogen;
+using lampblack::test::measured;
+using lampblack::test::raise;
+using lampblack::test::Table;
 using Options = ConstantPressureReactor::Options;
 
 constexpr double kAtm = constants::oneAtmosphere;

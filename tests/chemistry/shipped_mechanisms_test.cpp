@@ -12,9 +12,9 @@
 namespace {
 
 using namespace lampblack;
-using lampblack::testing::measured;
-using lampblack::testing::raise;
-using lampblack::testing::sourcePath;
+using lampblack::test::measured;
+using lampblack::test::raise;
+using lampblack::test::sourcePath;
 
 struct Shipped {
   const char* file;

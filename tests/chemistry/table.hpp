@@ -9,12 +9,9 @@
 #include <vector>
 
 #include "chemistry/mechanism/mechanism.hpp"
+#include "tests/source_folder.hpp"
 
-namespace lampblack::testing {
-
-inline std::string sourcePath(const std::string& path) {
-  return std::string(LAMPBLACK_SOURCE_DIR) + "/" + path;
-}
+namespace lampblack::test {
 
 inline const Mechanism& hydrogen() {
   static const auto mechanism = Mechanism::fromFile(sourcePath("cases/mechanisms/hydrogen_h2o2_10.yaml"));
@@ -72,4 +69,4 @@ class Table {
   std::vector<std::vector<std::string>> rows_;
 };
 
-}  // namespace lampblack::testing
+}  // namespace lampblack::test

@@ -10,7 +10,7 @@
 namespace {
 
 using namespace lampblack;
-using lampblack::testing::readText;
+using lampblack::test::readText;
 
 constexpr double R = constants::gasConstant;
 

@@ -13,13 +13,13 @@
 namespace {
 
 using namespace lampblack;
-using lampblack::testing::hydrogen;
-using lampblack::testing::measured;
-using lampblack::testing::raise;
-using lampblack::testing::Table;
+using lampblack::test::hydrogen;
+using lampblack::test::measured;
+using lampblack::test::raise;
+using lampblack::test::Table;
 
 TEST(Thermo, TemperatureComesBackFromEnthalpyWhateverTheGuess) {
-  const auto& mechanism = lampblack::testing::ethylene();
+  const auto& mechanism = lampblack::test::ethylene();
   const Thermo thermo(mechanism);
   const Table states("counterflow_c2h4_states.csv");
   std::vector<double> Y(mechanism.numSpecies());
@@ -38,7 +38,7 @@ TEST(Thermo, TemperatureComesBackFromEnthalpyWhateverTheGuess) {
 }
 
 TEST(Thermo, TemperatureComesBackFromInternalEnergyWhateverTheGuess) {
-  const auto& mechanism = lampblack::testing::ethylene();
+  const auto& mechanism = lampblack::test::ethylene();
   const Thermo thermo(mechanism);
   const Table states("counterflow_c2h4_states.csv");
   std::vector<double> Y(mechanism.numSpecies());
@@ -108,7 +108,7 @@ TEST(Thermo, MassAndMoleFractionsAreInverse) {
 
 // The data's two ranges meet at the middle temperature: cp and h jump there only by the digits of the fit.
 TEST(Thermo, RangesJoin) {
-  const auto& mechanism = lampblack::testing::ethylene();
+  const auto& mechanism = lampblack::test::ethylene();
   const Thermo thermo(mechanism);
   std::vector<double> below(mechanism.numSpecies()), above(mechanism.numSpecies());
   for (std::size_t k = 0; k < mechanism.numSpecies(); ++k) {

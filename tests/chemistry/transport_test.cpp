@@ -16,11 +16,11 @@
 namespace {
 
 using namespace lampblack;
-using lampblack::testing::ethylene;
-using lampblack::testing::hydrogen;
-using lampblack::testing::measured;
-using lampblack::testing::raise;
-using lampblack::testing::Table;
+using lampblack::test::ethylene;
+using lampblack::test::hydrogen;
+using lampblack::test::measured;
+using lampblack::test::raise;
+using lampblack::test::Table;
 
 struct Reference {
   const char* tables;
@@ -80,7 +80,7 @@ class TransportReference : public ::testing::TestWithParam<Reference> {
   }
 
   Mechanism mechanism =
-      Mechanism::fromFile(lampblack::testing::sourcePath(std::string("cases/mechanisms/") + GetParam().mechanism));
+      Mechanism::fromFile(lampblack::test::sourcePath(std::string("cases/mechanisms/") + GetParam().mechanism));
 };
 
 // The same theory, equations and tables: what is left is Cantera's own fit of degree 4 in ln T.
@@ -125,7 +125,7 @@ TEST(Transport, BinaryCoefficientsAgreeWithCantera) {
 
 // From two to 202 species, coronene among them.
 TEST(Transport, PolynomialsFollowKineticTheory) {
-  const auto coronene = Mechanism::fromFile(lampblack::testing::sourcePath("cases/mechanisms/ethylene_km2_202.yaml"));
+  const auto coronene = Mechanism::fromFile(lampblack::test::sourcePath("cases/mechanisms/ethylene_km2_202.yaml"));
   for (const auto* mechanism : {&hydrogen(), &ethylene(), &coronene}) {
     const double error = Transport(*mechanism).largestFitError(PureGas(*mechanism));
     measured(std::to_string(mechanism->numSpecies()) + " species", error);
@@ -272,8 +272,7 @@ TEST(Transport, SaysWhenItCannotAnswer) {
   EXPECT_THROW(transport.mixture(100, 1e5, X, D), NumericsError);
   EXPECT_THROW(transport.mixture(4201, 1e5, X, D), NumericsError);
   EXPECT_THROW(transport.mixture(std::nan(""), 1e5, X, D), NumericsError);
-  const auto bare =
-      lampblack::testing::readText("species: [N2]", "\n- {name: N2, composition: {N: 2}, thermo: *t}", "[]");
+  const auto bare = lampblack::test::readText("species: [N2]", "\n- {name: N2, composition: {N: 2}, thermo: *t}", "[]");
   try {
     Transport none(bare);
     FAIL();

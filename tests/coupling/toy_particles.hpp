@@ -14,6 +14,7 @@
 #include "chemistry/reactor/stiff_integrator.hpp"
 #include "coupling/split_reactor.hpp"
 #include "particles/soot/soot_model.hpp"
+#include "tests/source_folder.hpp"
 
 namespace lampblack::test {
 
@@ -93,8 +94,7 @@ class ToySplit final : public SplitParticles {
 };
 
 inline const Mechanism& ethylene() {
-  static const Mechanism mechanism =
-      Mechanism::fromFile(LAMPBLACK_SOURCE_DIR "/cases/mechanisms/ethylene_abf2000_101.yaml");
+  static const Mechanism mechanism = Mechanism::fromFile(sourcePath("cases/mechanisms/ethylene_abf2000_101.yaml"));
   return mechanism;
 }
 

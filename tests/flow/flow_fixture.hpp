@@ -17,6 +17,7 @@
 #include "core/grading.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/state.hpp"
+#include "tests/source_folder.hpp"
 
 namespace lampblack::test {
 
@@ -25,7 +26,7 @@ inline constexpr double epsilon = std::numeric_limits<double>::epsilon();
 // One gas for all tests of an executable: its transport fits are made once.
 struct Gas {
   explicit Gas(const std::string& file)
-      : mechanism(Mechanism::fromFile(std::string(LAMPBLACK_SOURCE_DIR) + "/cases/mechanisms/" + file)),
+      : mechanism(Mechanism::fromFile(sourcePath("cases/mechanisms/" + file))),
         thermo(mechanism),
         transport(mechanism) {}
   static Gas& hydrogen() {

@@ -7,11 +7,12 @@
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/thermo/thermo.hpp"
 #include "flow/flame/flame_problem.hpp"
+#include "tests/source_folder.hpp"
 
 namespace lampblack {
 
 inline Mechanism shippedMechanism(const std::string& file) {
-  return Mechanism::fromFile(std::string(LAMPBLACK_SOURCE_DIR) + "/cases/mechanisms/" + file);
+  return Mechanism::fromFile(test::sourcePath("cases/mechanisms/" + file));
 }
 
 // A mixture by moles, with a mass flux (kg/m2/s).

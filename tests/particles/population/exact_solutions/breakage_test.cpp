@@ -3,7 +3,7 @@
 #include "particles/population/exact_solutions/breakage_chain.hpp"
 #include "tests/particles/population/exact_solutions/exact_support.hpp"
 
-namespace lampblack::testing {
+namespace lampblack::test {
 namespace {
 
 constexpr auto equalPieces = BreakageOptions::Daughters::equal;
@@ -137,4 +137,4 @@ TEST(ExactBreakage, WhatHasNoSolutionHasNone) {
 }
 
 }  // namespace
-}  // namespace lampblack::testing
+}  // namespace lampblack::test

@@ -3,7 +3,7 @@
 #include "particles/population/exact_solutions/series.hpp"
 #include "tests/particles/population/exact_solutions/exact_support.hpp"
 
-namespace lampblack::testing {
+namespace lampblack::test {
 namespace {
 
 constexpr auto constant = CollisionKernelType::constant;
@@ -195,4 +195,4 @@ TEST(ExactCoagulation, ScaledBesselFunctionInBothBranches) {
 }
 
 }  // namespace
-}  // namespace lampblack::testing
+}  // namespace lampblack::test

@@ -2,7 +2,7 @@
 #include "particles/population/exact_solutions/extrapolation.hpp"
 #include "tests/particles/population/exact_solutions/exact_support.hpp"
 
-namespace lampblack::testing {
+namespace lampblack::test {
 namespace {
 
 constexpr auto constant = CollisionKernelType::constant;
@@ -159,4 +159,4 @@ TEST(ExactCombined, WhatIsNotClosedHasNoSolution) {
 }
 
 }  // namespace
-}  // namespace lampblack::testing
+}  // namespace lampblack::test

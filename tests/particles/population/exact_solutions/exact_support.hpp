@@ -9,7 +9,7 @@
 
 #include "particles/population/exact_solutions/exact_solution.hpp"
 
-namespace lampblack::testing {
+namespace lampblack::test {
 
 inline InitialPopulation start(InitialPopulation::Distribution distribution, double number, double volume,
                                double deviation = 1) {
@@ -87,4 +87,4 @@ inline double sum(const std::vector<double>& numbers) {
   return total;
 }
 
-}  // namespace lampblack::testing
+}  // namespace lampblack::test

@@ -3,7 +3,7 @@
 #include "particles/population/model/sphere.hpp"
 #include "tests/particles/population/exact_solutions/exact_support.hpp"
 
-namespace lampblack::testing {
+namespace lampblack::test {
 namespace {
 
 TEST(ExactTransported, NucleationAlone) {
@@ -138,4 +138,4 @@ TEST(ExactTransported, LogNormalMomentsAndNumbers) {
 }
 
 }  // namespace
-}  // namespace lampblack::testing
+}  // namespace lampblack::test

@@ -6,7 +6,7 @@
 #include "particles/population/sectional/sectional_options.hpp"
 #include "tests/particles/population/moments/moment_fixtures.hpp"
 
-namespace lampblack::testing {
+namespace lampblack::test {
 namespace {
 
 constexpr double number = 1e18, volume = 1e-27;  // 1/m3, m3
@@ -136,4 +136,4 @@ TEST(MomentClosure, BothInversionsTakeTheSamePath) {
 }
 
 }  // namespace
-}  // namespace lampblack::testing
+}  // namespace lampblack::test

@@ -10,7 +10,7 @@
 #include "particles/population/exact_solutions/exact_solution.hpp"
 #include "particles/population/moments/moment_options.hpp"
 
-namespace lampblack::testing {
+namespace lampblack::test {
 
 inline InitialPopulation equalStart(double number = 1, double volume = 1) {
   return {InitialPopulation::Distribution::monodisperse, number, volume, 1};
@@ -58,4 +58,4 @@ inline std::vector<Closure> everyClosure() {
           {"MOMIC 8", momic(8)}};
 }
 
-}  // namespace lampblack::testing
+}  // namespace lampblack::test

@@ -3,7 +3,7 @@
 #include "particles/population/gelation_error.hpp"
 #include "tests/particles/population/moments/moment_fixtures.hpp"
 
-namespace lampblack::testing {
+namespace lampblack::test {
 namespace {
 
 constexpr auto uniform = BreakageOptions::Daughters::uniform;
@@ -181,4 +181,4 @@ TEST(MomentMethods, DeviationOfTheNodes) {
 }
 
 }  // namespace
-}  // namespace lampblack::testing
+}  // namespace lampblack::test
