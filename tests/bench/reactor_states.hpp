@@ -21,12 +21,12 @@ struct GasState {
 };
 
 inline Mechanism shippedMechanism(const std::string& name) {
-  return Mechanism::fromFile(testing::sourcePath("cases/mechanisms/" + name + ".yaml"));
+  return Mechanism::fromFile(test::sourcePath("cases/mechanisms/" + name + ".yaml"));
 }
 
 // Every tenth of a thousand states along a premixed flame of methane and air, GRI-Mech 3.0, 1 atm.
 inline std::vector<GasState> methaneFlameStates(const Mechanism& mechanism) {
-  const testing::Table table("reactor_states_ch4_flame.csv");
+  const test::Table table("reactor_states_ch4_flame.csv");
   std::vector<GasState> states;
   for (std::size_t row = 0; row < table.size(); ++row) {
     GasState state{table.number(row, "T"), table.number(row, "p"), {}};

@@ -54,7 +54,7 @@ inline const FlameGas& ethyleneFlame() {
   static const FlameGas gas = [] {
     auto mechanism = shippedMechanism("ethylene_bisetti2012_47");
     const Thermo thermo(mechanism);
-    const testing::Table table("counterflow_c2h4_states.csv");
+    const test::Table table("counterflow_c2h4_states.csv");
     std::vector<FlameState> states;
     for (std::size_t i = 0; i < table.size(); ++i) {
       std::vector<double> Y(mechanism.numSpecies());

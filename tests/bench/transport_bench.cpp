@@ -15,7 +15,7 @@ namespace {
 using namespace lampblack;
 
 Mechanism mechanismOf(const char* file) {
-  return Mechanism::fromFile(testing::sourcePath(std::string("cases/mechanisms/") + file));
+  return Mechanism::fromFile(test::sourcePath(std::string("cases/mechanisms/") + file));
 }
 
 struct States {
@@ -24,7 +24,7 @@ struct States {
   std::vector<std::vector<double>> X;
 
   States() {
-    const testing::Table table("transport_gri30_states.csv");
+    const test::Table table("transport_gri30_states.csv");
     for (std::size_t s = 0; s < table.size(); ++s) {
       T.push_back(table.number(s, "T"));
       p.push_back(table.number(s, "p"));

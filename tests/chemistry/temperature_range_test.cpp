@@ -25,7 +25,7 @@ TemperatureRange rangeOf(const std::string& low, const std::string& high) {
            from + ", 1200, " + to + "], data: [[3.5, 0, 0, 0, 0, -900, 4], [3.5, 0, 0, 0, 0, -900, 4]]}}";
   };
   return temperatureRange(
-      testing::readText("species: [A, B]", species("A", low, high) + species("B", "1000", "1500"), "[]"));
+      test::readText("species: [A, B]", species("A", low, high) + species("B", "1000", "1500"), "[]"));
 }
 
 TEST(TemperatureRange, IsThatOfAllSpeciesAndALittleBeyond) {
@@ -40,7 +40,7 @@ TEST(TemperatureRange, IsThatOfAllSpeciesAndALittleBeyond) {
 }
 
 TEST(TemperatureRange, OfMechanismsThatAreShipped) {
-  const TemperatureRange range = temperatureRange(testing::hydrogen());
+  const TemperatureRange range = temperatureRange(test::hydrogen());
   EXPECT_EQ(range.low, 200);
   EXPECT_EQ(range.high, 6000);
   EXPECT_TRUE(range.contains(200));
@@ -54,7 +54,7 @@ TEST(TemperatureRange, OfMechanismsThatAreShipped) {
 
 // Nitrogen at 300 K: cp = 29.12 J/mol/K (NIST), so 353.0 m/s; argon, without internal energy, sqrt(5/3 R T/W) = 322.6.
 TEST(SoundSpeed, OfNitrogenAndArgon) {
-  const auto& mechanism = testing::hydrogen();
+  const auto& mechanism = test::hydrogen();
   const Thermo thermo(mechanism);
   const auto of = [&](const char* name) {
     std::vector<double> Y(mechanism.numSpecies(), 0.0);
@@ -68,7 +68,7 @@ TEST(SoundSpeed, OfNitrogenAndArgon) {
 // Flames at 200 and 4000 K need room beyond the range of the fits. Eight and six terms that are good to 2e-4 inside
 // grow by the Chebyshev polynomial T7 = 5 of the place 190 K, a twentieth beyond.
 TEST(TransportRoom, PolynomialsAreGoodALittleBeyondTheirRange) {
-  const auto& mechanism = testing::hydrogen();
+  const auto& mechanism = test::hydrogen();
   const Transport transport(mechanism);
   const PureGas gas(mechanism, CollisionIntegrals::MonchickMason);
   double worst = 0;
@@ -80,7 +80,7 @@ TEST(TransportRoom, PolynomialsAreGoodALittleBeyondTheirRange) {
             worst,
             std::abs(T * std::sqrt(T) / (1e5 * transport.binaryDiffusion(T, 1e5, j, k)) / gas.resistance(j, k, T) - 1));
     }
-  testing::measured("transport polynomials 10 K below and 200 K above their range", worst);
+  test::measured("transport polynomials 10 K below and 200 K above their range", worst);
   EXPECT_LT(worst, 1e-3);
 }
 

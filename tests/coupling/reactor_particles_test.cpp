@@ -23,7 +23,7 @@ using Held = ReactorSystem::Held;
 
 // A gas that does not react: acetylene in nitrogen.
 const Mechanism& inert() {
-  static const Mechanism mechanism = testing::readFileText(testing::mechanismText(
+  static const Mechanism mechanism = test::readFileText(test::mechanismText(
       "species: [C2H2, N2]",
       "\n- {name: C2H2, composition: {C: 2, H: 2}, thermo: *t}\n- {name: N2, composition: {N: 2}, thermo: *t}", "[]"));
   return mechanism;

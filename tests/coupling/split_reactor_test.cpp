@@ -83,7 +83,7 @@ class SplitToy : public ::testing::Test {
     double last = 0;
     for (const std::size_t count : {8u, 16u, 32u}) {
       const double error = split(system, own, start, end, count).distance(exact);
-      testing::measured("error", error);
+      test::measured("error", error);
       if (last > 0) {
         EXPECT_NEAR(std::log2(last / error), 2, 0.3) << count << " steps: " << error;
       }
