@@ -129,7 +129,7 @@ TEST_P(EveryModel, DoesNotDependOnWhichRankAdvancesACell) {
 }
 
 INSTANTIATE_TEST_SUITE_P(CarriedOperator, EveryModel, testing::ValuesIn(sootModelNames()),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& given) { return given.param; });
 
 // Mole fractions times p / RT, of the species that are asked for.
 TEST(CarriedOperator, SeesTheGasOfItsCell) {
