@@ -162,7 +162,7 @@ void addGasCommand(CLI::App& app, std::function<void()>& command) {
     gas->add_flag_callback(
         option.name, [arguments, &option] { chooseConstant(*arguments, option); }, option.help);
   gas->add_option("--transport", arguments->transport, "mixture-averaged (default), multicomponent or unity-lewis.");
-  gas->add_option("--collision-integrals", arguments->collisionIntegrals, "monchick-mason (default) or thesis.");
+  gas->add_option("--collision-integrals", arguments->collisionIntegrals, "monchick-mason (default) or wang.");
   gas->add_flag("--json", arguments->json, "One JSON object (docs/formats.md) in place of tables.");
   gas->add_flag("--all", arguments->tables.allSpecies, "Tables: every species, also those that are not there.");
   gas->add_flag("--reactions", arguments->tables.reactions, "Tables: the rate constants too.");

@@ -114,14 +114,14 @@ void addTransportKeys(DeckSchema& schema, std::vector<std::string> models, const
                      "Lewis numbers, 'H2: 0.3, CH4: 0.97'; species that are not named have 1.")
                .optional()
                .onlyWith("transport.model", {"constant_lewis"}))
-      .add(choiceKey("transport.collision_integrals", {"monchick_mason", "thesis_fits"},
-                     "The tables of Monchick and Mason (1961), or the fits of the thesis (eqs 6-36, 6-37).")
+      .add(choiceKey("transport.collision_integrals", {"monchick_mason", "wang_fits"},
+                     "The tables of Monchick and Mason (1961), or the fits of Wang (2025, eqs 6-36 and 6-37).")
                .byDefault("monchick_mason"));
 }
 
 CollisionIntegrals readCollisionIntegrals(const Deck& deck, const Mechanism& mechanism) {
-  const auto integrals = deck.choice("transport.collision_integrals") == "thesis_fits"
-                             ? CollisionIntegrals::ThesisFits
+  const auto integrals = deck.choice("transport.collision_integrals") == "wang_fits"
+                             ? CollisionIntegrals::WangFits
                              : CollisionIntegrals::MonchickMason;
   at(deck, "mechanism", [&] { static_cast<void>(PureGas(mechanism, integrals)); });
   return integrals;

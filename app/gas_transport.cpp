@@ -30,7 +30,7 @@ constexpr std::array<std::pair<const char*, Model>, 3> models = {{{"mixture-aver
                                                                   {"multicomponent", Model::Multicomponent},
                                                                   {"unity-lewis", Model::UnityLewis}}};
 constexpr std::array<std::pair<const char*, CollisionIntegrals>, 2> integralNames = {
-    {{"monchick-mason", CollisionIntegrals::MonchickMason}, {"thesis", CollisionIntegrals::ThesisFits}}};
+    {{"monchick-mason", CollisionIntegrals::MonchickMason}, {"wang", CollisionIntegrals::WangFits}}};
 
 }  // namespace
 

@@ -25,7 +25,7 @@ struct GasTransport {
   std::vector<double> multicomponentDiffusion;  // m2/s, [k][j]; of the multicomponent model alone
 };
 
-// "mixture-averaged", "multicomponent", "unity-lewis" and back; "monchick-mason", "thesis". InputError with the nearest
+// "mixture-averaged", "multicomponent", "unity-lewis" and back; "monchick-mason", "wang". InputError with the nearest
 // known name.
 GasTransportChoice::Model transportModel(const std::string& name);
 std::string transportModelName(GasTransportChoice::Model model);

@@ -8,13 +8,13 @@ void addShared(DeckSchema& schema) {
   std::vector<std::string> models = sootModelNames();
   models.emplace_back("none");
   schema.section("soot", Presence::optional, "Soot, carried by the gas; absent: none.")
-      .add(
-          choiceKey("soot.model", models,
-                    "two_equation_dimer: thesis 7.2.2; leung: Leung, Lindstedt, Jones 1991; moss_brookes: Brookes and "
-                    "Moss 1999; sectional: thesis 9.2.2; hmom: Mueller, Blanquart, Pitsch 2009; momic: Frenklach 2002; "
-                    "none: as if the section were absent.")
-              .byDefault("two_equation_dimer")
-              .formerly("two_equation", "two_equation_dimer"))
+      .add(choiceKey("soot.model", models,
+                     "two_equation_dimer: Wang 2025, section 7.2.2; leung: Leung, Lindstedt, Jones 1991; "
+                     "moss_brookes: Brookes and Moss 1999; sectional: Wang 2025, section 9.2.2; hmom: Mueller, "
+                     "Blanquart, Pitsch 2009; momic: Frenklach 2002; "
+                     "none: as if the section were absent.")
+               .byDefault("two_equation_dimer")
+               .formerly("two_equation", "two_equation_dimer"))
       .add(stringKey(
                "soot.pah",
                "Species that dimerise or make nuclei: hydrocarbons of ten carbon atoms or more with no more hydrogen "
@@ -98,10 +98,12 @@ void addSectional(DeckSchema& schema) {
                      "Carbon atoms of the first section; absent: of the smallest nucleus the PAH can make.")
                .optional()
                .above(0))
-      .add(
-          choiceKey(s + "nucleation", {"pah", "dimer"}, "Of two PAH (thesis eq. 9-23) or of two dimers (thesis 7.2.2).")
-              .byDefault("pah"))
-      .add(numberKey(s + "nucleation_factor", "Of nucleation by PAH (thesis eq. 9-23).").byDefault("0.002").atLeast(0))
+      .add(choiceKey(s + "nucleation", {"pah", "dimer"},
+                     "Of two PAH (Wang 2025, eq. 9-23) or of two dimers (Wang 2025, section 7.2.2).")
+               .byDefault("pah"))
+      .add(numberKey(s + "nucleation_factor", "Of nucleation by PAH (Wang 2025, eq. 9-23).")
+               .byDefault("0.002")
+               .atLeast(0))
       .add(numberKey(s + "condensation_efficiency", "Of collisions of PAH with aggregates.")
                .byDefault("0.5")
                .atLeast(0)
@@ -116,8 +118,9 @@ void addSectional(DeckSchema& schema) {
       .add(choiceKey(s + "active_sites", {"aggregate", "primary"},
                      "Whose carbon atoms decide about the fraction of active sites.")
                .byDefault("aggregate"))
-      .add(choiceKey(s + "growth_scheme", {"upwind", "limited"},
-                     "How growth and oxidation move soot between sections: thesis eqs. 9-41 to 9-44, or second order.")
+      .add(choiceKey(
+               s + "growth_scheme", {"upwind", "limited"},
+               "How growth and oxidation move soot between sections: Wang 2025, eqs. 9-41 to 9-44, or second order.")
                .byDefault("upwind"))
       .add(choiceKey(s + "kernel", {"transition", "free_molecular"}, "Of coagulation.").byDefault("transition"))
       .add(booleanKey(s + "fragmentation", "Break-up of aggregates by oxidation.").byDefault("false"))

@@ -1,4 +1,4 @@
-// Momentum of the low-Mach equations (thesis of F. Wang 2025, eqs. 6-2 and 6-5): limited upwind convection by the face
+// Momentum of the low-Mach equations (Wang 2025, eqs. 6-2 and 6-5): limited upwind convection by the face
 // mass flux, implicit viscosity, and the pressure gradient of the last step, to be corrected by the projection.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Mixture-averaged species diffusion (thesis of F. Wang 2025, eqs. 6-6 to 6-9): fluxes along mole-fraction gradients
+// Mixture-averaged species diffusion (Wang 2025, eqs. 6-6 to 6-9): fluxes along mole-fraction gradients
 //   j_k = -rho D_k (grad Y_k + Y_k grad ln W) + Y_k c,   c such that the fluxes sum to zero at every face,
 // the first term implicit. The fluxes are evaluated from the implicit solution, so that what leaves one cell enters the
 // next to the last bit, whatever the linear solver's tolerance.

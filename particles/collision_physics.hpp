@@ -9,30 +9,30 @@
 
 namespace lampblack {
 
-// Mean free path of the gas, m (thesis eq. 7-33).
+// Mean free path of the gas, m (Wang 2025, eq. 7-33).
 [[nodiscard]] inline double meanFreePath(const CarrierGas& gas) {
   return gas.viscosity / gas.pressure *
          std::sqrt(constants::pi * constants::gasConstant * gas.temperature / (2 * gas.meanMolecularWeight));
 }
 
-// Cunningham slip correction at Knudsen number 2 lambda / d (Davies 1945; thesis eq. 7-31).
+// Cunningham slip correction at Knudsen number 2 lambda / d (Davies 1945; Wang 2025, eq. 7-31).
 [[nodiscard]] inline double slipCorrection(double knudsen) {
   return 1 + knudsen * (1.257 + 0.4 * std::exp(-1.1 / knudsen));
 }
 
-// Brownian diffusivity of a sphere, m2/s (thesis eqs. 7-30 to 7-33).
+// Brownian diffusivity of a sphere, m2/s (Wang 2025, eqs. 7-30 to 7-33).
 [[nodiscard]] inline double brownianDiffusivity(const CarrierGas& gas, double diameter) {
   return constants::boltzmann * gas.temperature / (3 * constants::pi * gas.viscosity * diameter) *
          slipCorrection(2 * meanFreePath(gas) / diameter);
 }
 
-// Particles far smaller than the mean free path drift with V_T = -this (mu/rho) grad T / T (Waldmann; thesis eq. 7-29
-// with full accommodation).
+// Particles far smaller than the mean free path drift with V_T = -this (mu/rho) grad T / T (Waldmann; Wang 2025, eq.
+// 7-29 with full accommodation).
 [[nodiscard]] constexpr double waldmannThermophoresis() {
   return 0.75 / (1 + constants::pi / 8);
 }
 
-// Free-molecular kernel (thesis eq. 9-28) is `prefactor * sqrt(1/mi + 1/mj) (di + dj)^2`; this is the prefactor.
+// Free-molecular kernel (Wang 2025, eq. 9-28) is `prefactor * sqrt(1/mi + 1/mj) (di + dj)^2`; this is the prefactor.
 [[nodiscard]] inline double freeMolecularPrefactor(double temperature, double enhancement) {
   return enhancement * std::sqrt(0.5 * constants::pi * constants::boltzmann * temperature);
 }
@@ -42,12 +42,12 @@ namespace lampblack {
   return prefactor * std::sqrt(1 / mi + 1 / mj) * sum * sum;
 }
 
-// Continuum kernel with slip (thesis eq. 9-29) is `prefactor * (Ci/di + Cj/dj) (di + dj)`; this is the prefactor.
+// Continuum kernel with slip (Wang 2025, eq. 9-29) is `prefactor * (Ci/di + Cj/dj) (di + dj)`; this is the prefactor.
 [[nodiscard]] inline double continuumPrefactor(double temperature, double viscosity) {
   return 2 * constants::boltzmann * temperature / (3 * viscosity);
 }
 
-// Harmonic mean of the two limits (thesis eq. 9-30), never above either.
+// Harmonic mean of the two limits (Wang 2025, eq. 9-30), never above either.
 [[nodiscard]] inline double harmonicMean(double freeMolecular, double continuum) {
   return freeMolecular * continuum / (freeMolecular + continuum);
 }

@@ -1,6 +1,6 @@
-// Dimers of PAH molecules, the link from the gas to soot (Blanquart and Pitsch 2009; thesis eqs. 7-34 to 7-43). Dimers
-// are in steady state: made by sticking PAH collisions, used up by colliding with each other (a new particle) and with
-// particles (condensation). Both soot models share this one.
+// Dimers of PAH molecules, the link from the gas to soot (Blanquart and Pitsch 2009; Wang 2025, eqs. 7-34 to 7-43).
+// Dimers are in steady state: made by sticking PAH collisions, used up by colliding with each other (a new particle)
+// and with particles (condensation). Both soot models share this one.
 #pragma once
 
 #include <array>

@@ -26,7 +26,8 @@ double stickingCoefficientByMass(double molecularWeight) {
 }
 
 double pahDensity(int carbon, int hydrogen) {
-  // Thesis eq. 7-38 takes the weights in g/mol, lengths in angstrom and gives g/cm3: 0.260884 = (sqrt(3)/4) N_A 1e-24.
+  // Wang (2025, eq. 7-38) takes the weights in g/mol, lengths in angstrom and gives g/cm3: 0.260884 = (sqrt(3)/4) N_A
+  // 1e-24.
   constexpr double basalCell = 2.46, spacing = 3.35;  // angstrom, graphite
   const double atoms = carbon + hydrogen;
   const double meanWeight = (12.011 * carbon + 1.008 * hydrogen) / atoms;

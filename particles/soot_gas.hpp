@@ -33,16 +33,16 @@ struct PahSpecies {
   double stickingCoefficient = 0;  // of two equal molecules
 };
 
-// Published sticking coefficient of a PAH by its usual mechanism name (Blanquart and Pitsch 2009, table; thesis
-// 7.2.2.4). Empty for a name that is not in the table.
+// Published sticking coefficient of a PAH by its usual mechanism name (Blanquart and Pitsch 2009, table; Wang
+// 2025, section 7.2.2.4). Empty for a name that is not in the table.
 [[nodiscard]] std::optional<double> defaultStickingCoefficient(std::string_view name);
 
 // Sticking coefficient by the law behind the table: proportional to the fourth power of the molecular mass, 1.5e-11
 // (g/mol)^-4 (Blanquart and Pitsch 2009). `molecularWeight` in kg/mol.
 [[nodiscard]] double stickingCoefficientByMass(double molecularWeight);
 
-// Density (kg/m3) of a PAH with the given atoms, from stacked graphitic sheets (thesis eq. 7-38): the graphite limit is
-// 2270 kg/m3.
+// Density (kg/m3) of a PAH with the given atoms, from stacked graphitic sheets (Wang 2025, eq. 7-38): the graphite
+// limit is 2270 kg/m3.
 [[nodiscard]] double pahDensity(int carbon, int hydrogen);
 
 // The fraction of active sites at a temperature (K).
@@ -52,12 +52,13 @@ struct AlphaPoint {
 
 struct SootModelOptions {
   std::vector<PahSpecies> pah;
-  double sootDensity = 1850;    // kg/m3 (thesis chapter 7)
+  double sootDensity = 1850;    // kg/m3 (Wang 2025, chapter 7)
   double siteDensity = 2.3e19;  // 1/m2, C-H sites (Appel, Bockhorn, Frenklach 2000)
-  // Fraction of active sites: a constant, or else a table in the temperature, or else alpha(T, mu1) of ABF 2000.
+  // Fraction of active sites: a constant, or else a table in the temperature, or else alpha(T, mu1) of Appel, Bockhorn
+  // and Frenklach (2000).
   std::optional<double> alpha;
   std::vector<AlphaPoint> alphaTable;  // rising temperatures; straight in between, constant outside
-  double ohEfficiency = 0.13;          // reaction probability of an OH collision (ABF 2000, S6)
+  double ohEfficiency = 0.13;          // reaction probability of an OH collision (Appel, Bockhorn, Frenklach 2000, S6)
   double vanDerWaals = 2.2;            // enhancement of free-molecular collisions of dimers and particles
   double carbonWeight = 12.011e-3;     // kg/mol; set to the mechanism's so that mass budgets close
   double hydrogenWeight = 1.008e-3;    // kg/mol

@@ -12,7 +12,7 @@ double arrhenius(double A, double n, double kcal, double logT, double inverseRT)
   return 1e-6 * A * std::exp(n * logT - 1e3 * constants::thermochemicalCalorie * kcal * inverseRT);
 }
 
-// Thesis eqs. 7-47 to 7-49.
+// Wang (2025), eqs. 7-47 to 7-49.
 double siteSlope(double temperature) {
   return 12.65 - 0.00563 * temperature;
 }

@@ -1,6 +1,7 @@
-// The dimer two-equation soot model (thesis 7.2.2; Blanquart and Pitsch 2009 dimers, Appel, Bockhorn and Frenklach 2000
-// surface chemistry): a population of equal spheres carried as number, carbon mass and hydrogen mass per volume of gas.
-// Every event moves whole atoms between gas and soot, so that elements and mass are conserved to round-off.
+// The dimer two-equation soot model (Wang 2025, section 7.2.2; Blanquart and Pitsch 2009 dimers, Appel, Bockhorn and
+// Frenklach 2000 surface chemistry): a population of equal spheres carried as number, carbon mass and hydrogen mass per
+// volume of gas. Every event moves whole atoms between gas and soot, so that elements and mass are conserved to
+// round-off.
 #pragma once
 
 #include <array>
@@ -52,15 +53,15 @@ class TwoEquationSoot {
   // convergence.
   Report advance(const CarrierGas& gas, double dt, Population& population, std::span<double> concentrations) const;
 
-  // Brownian diffusivity, m2/s (thesis eqs. 7-30 to 7-33) of the mean sphere, at least a nucleus in size.
+  // Brownian diffusivity, m2/s (Wang 2025, eqs. 7-30 to 7-33) of the mean sphere, at least a nucleus in size.
   [[nodiscard]] double diffusivity(const CarrierGas& gas, const Population& population) const;
 
   [[nodiscard]] double volumeFraction(const Population& population) const {
     return population.mass() / options_.sootDensity;
   }
-  // Diameter (m) of the mean sphere (thesis eq. 7-23); zero without soot.
+  // Diameter (m) of the mean sphere (Wang 2025, eq. 7-23); zero without soot.
   [[nodiscard]] double meanDiameter(const Population& population) const;
-  // Surface area, m2/m3 (thesis eq. 7-24).
+  // Surface area, m2/m3 (Wang 2025, eq. 7-24).
   [[nodiscard]] double surfaceArea(const Population& population) const;
 
   [[nodiscard]] const SootModelOptions& options() const { return options_; }

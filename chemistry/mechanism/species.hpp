@@ -13,8 +13,8 @@ namespace lampblack {
 // the entropy constant. Shomate polynomials are kept as NASA-9, constant heat capacities as NASA-7: both are special
 // cases, to the last term.
 //
-// NASA seven-coefficient polynomials (thesis eqs 6-15..6-17): `low` holds up to and including `midTemperature`, `high`
-// above. A file that gives a single range has low == high.
+// NASA seven-coefficient polynomials (Wang 2025, eqs 6-15..6-17): `low` holds up to and including `midTemperature`,
+// `high` above. A file that gives a single range has low == high.
 struct Nasa7 {
   double minTemperature = 0;  // K
   double midTemperature = 0;  // K
@@ -31,7 +31,7 @@ struct Nasa9 {
 
 enum class MoleculeShape { Atom, Linear, Nonlinear };
 
-// Parameters of the Stockmayer potential and of rotational relaxation (thesis section 6.2.3).
+// Parameters of the Stockmayer potential and of rotational relaxation (Wang 2025, section 6.2.3).
 struct TransportData {
   MoleculeShape shape = MoleculeShape::Atom;
   double wellDepth = 0;             // eps/k_B, K

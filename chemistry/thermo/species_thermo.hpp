@@ -1,4 +1,4 @@
-// Standard-state thermodynamics of all species as flat arrays: NASA-7 polynomials in loops over species (thesis eqs
+// Standard-state thermodynamics of all species as flat arrays: NASA-7 polynomials in loops over species (Wang 2025, eqs
 // 6-15..6-17), species with NASA-9 polynomials (McBride, Zehe, Gordon 2002, NASA/TP-2002-211556) after them.
 #pragma once
 

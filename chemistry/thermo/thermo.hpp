@@ -1,4 +1,4 @@
-// Thermodynamics of an ideal-gas mixture from NASA polynomials (thesis eqs 6-13..6-17). Holds flat copies of the
+// Thermodynamics of an ideal-gas mixture from NASA polynomials (Wang 2025, eqs 6-13..6-17). Holds flat copies of the
 // species data; no call allocates. An object has a small workspace, so use one per thread.
 #pragma once
 

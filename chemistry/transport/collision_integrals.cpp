@@ -67,7 +67,7 @@ CubicSpline splineOf(const Column& column) {
   return {kLogTemperatures, column};
 }
 
-double thesisFit(const std::array<double, 6>& a, double logT, double dipole) {
+double wangFit(const std::array<double, 6>& a, double logT, double dipole) {
   const double T = std::exp(logT);
   const double nonpolar = a[0] * std::exp(-a[1] * logT) + std::pow(T + a[2], -a[3]);
   const double polar = (std::exp(a[4] / T) - std::exp(-a[5] / T)) * dipole * dipole / (2.0 + 2.5 * dipole);
@@ -85,19 +85,19 @@ ReducedIntegrals::ReducedIntegrals(double reducedDipole, CollisionIntegrals sour
       ratioC_(splineOf(smoothed(columnAt(monchickMason::ratioC, dipole_)))) {}
 
 double ReducedIntegrals::omega11(double logT) const {
-  if (source_ == CollisionIntegrals::ThesisFits)
-    return thesisFit({1.0548, 0.15504, 0.55909, 2.1705, 0.093193, 1.5}, logT, dipole_);
+  if (source_ == CollisionIntegrals::WangFits)
+    return wangFit({1.0548, 0.15504, 0.55909, 2.1705, 0.093193, 1.5}, logT, dipole_);
   return std::exp(logOmega22_(logT)) / ratioA_(std::max(logT, kColdest));
 }
 
 double ReducedIntegrals::omega22(double logT) const {
-  if (source_ == CollisionIntegrals::ThesisFits)
-    return thesisFit({1.0413, 0.11930, 0.43628, 1.6041, 0.095661, 2.0}, logT, dipole_);
+  if (source_ == CollisionIntegrals::WangFits)
+    return wangFit({1.0413, 0.11930, 0.43628, 1.6041, 0.095661, 2.0}, logT, dipole_);
   return std::exp(logOmega22_(logT));
 }
 
 double ReducedIntegrals::ratioA(double logT) const {
-  if (source_ == CollisionIntegrals::ThesisFits) return omega22(logT) / omega11(logT);
+  if (source_ == CollisionIntegrals::WangFits) return omega22(logT) / omega11(logT);
   return ratioA_(std::max(logT, kColdest));
 }
 
@@ -110,7 +110,7 @@ double ReducedIntegrals::ratioC(double logT) const {
 }
 
 ReducedIntegrals::All ReducedIntegrals::all(double logT) const {
-  if (source_ == CollisionIntegrals::ThesisFits || !(logT >= kColdest && logT <= kHottest))
+  if (source_ == CollisionIntegrals::WangFits || !(logT >= kColdest && logT <= kHottest))
     return {omega11(logT), ratioA(logT), ratioB(logT), ratioC(logT)};
   const auto place = logOmega22_.placeOf(logT);
   const double A = ratioA_(place);

@@ -10,9 +10,9 @@ namespace lampblack {
 enum class CollisionIntegrals {
   // The tables of Monchick, Mason, J. Chem. Phys. 35 (1961) 1676-1697.
   MonchickMason,
-  // The fits of the thesis (eqs 6-36, 6-37, Table 6.1) to Omega(1,1)* and Omega(2,2)*, within 2.5 % of the tables. The
+  // The fits of Wang (2025, eqs 6-36, 6-37, Table 6.1) to Omega(1,1)* and Omega(2,2)*, within 2.5 % of the tables. The
   // other ratios are those of the tables.
-  ThesisFits,
+  WangFits,
 };
 
 // The integrals of one reduced dipole moment delta* = mu_j mu_k / (2 (4 pi eps0) eps sigma^3) as functions of the

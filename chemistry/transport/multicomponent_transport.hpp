@@ -1,5 +1,5 @@
 // Multicomponent transport of a gas: the linear systems of Dixon-Lewis, Proc. R. Soc. Lond. A 307 (1968) 111-135, in
-// the notation of Kee, Coltrin, Glarborg (Chemically Reacting Flow, 2003, section 12.4). They give the conductivity
+// the notation of Kee, Coltrin, Glarborg (2003, section 12.4). They give the conductivity
 // with its translational, rotational and vibrational parts, the matrix of ordinary diffusion coefficients and the
 // coefficients of thermal diffusion. Costs an LU factorisation of twice as many unknowns as species, the internal ones
 // being eliminated before (one times for diffusion). What depends on temperature alone is kept for the next call. An

@@ -58,7 +58,7 @@ PureGas::Pair PureGas::makePair(std::size_t j, std::size_t k, CollisionIntegrals
   double diameter = 0.5 * (a->diameter + b->diameter);        // eq. 6-41
   if ((a->dipole > 0) != (b->dipole > 0)) {
     // Polar with nonpolar, eqs 6-42..6-46. The induced dipole enters with the square of the reduced dipole moment
-    // (Hirschfelder, Curtiss, Bird 1954, eq. 8.6-3); the thesis prints the first power.
+    // (Hirschfelder, Curtiss, Bird 1954, eq. 8.6-3); Wang (2025) prints the first power.
     if (b->dipole > 0) std::swap(a, b);  // a polar, b not
     const double polarizability = b->polarizability / std::pow(b->diameter, 3);
     const double dipoleSquared = 2.0 * reducedDipole(a->dipole, a->dipole, a->wellDepth, a->diameter);

@@ -1,4 +1,4 @@
-// Kinetic theory of pure gases and pairs of gases (thesis eqs 6-22..6-46), evaluated directly: what the models of
+// Kinetic theory of pure gases and pairs of gases (Wang 2025, eqs 6-22..6-46), evaluated directly: what the models of
 // mixtures are built from. Slow; Transport fits polynomials to it once.
 #pragma once
 

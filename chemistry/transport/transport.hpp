@@ -1,6 +1,6 @@
-// Mixture-averaged transport properties of a gas (thesis eqs 6-18..6-46). Pure viscosities, conductivities and binary
-// diffusion coefficients come from kinetic theory once, at construction, and are then polynomials in ln T; a mixture is
-// a handful of matrix-vector products. An object holds its workspace, so use one per thread.
+// Mixture-averaged transport properties of a gas (Wang 2025, eqs 6-18..6-46). Pure viscosities, conductivities and
+// binary diffusion coefficients come from kinetic theory once, at construction, and are then polynomials in ln T; a
+// mixture is a handful of matrix-vector products. An object holds its workspace, so use one per thread.
 #pragma once
 
 #include <cstddef>
@@ -56,7 +56,7 @@ class Transport {
   // (1-X_k)/sum_{j!=k} X_j/D_jk, molar fluxes in the molar-averaged frame, J_k = -c D_k grad X_k, and
   void molarDiffusion(double T, double p, std::span<const double> X, std::span<double> D);
   // 1/(sum_{j!=k} X_j/D_jk + X_k/(1-Y_k) sum_{j!=k} Y_j/D_jk), mass fluxes from gradients of mass fractions,
-  // j_k = -rho D_k grad Y_k (Kee, Coltrin, Glarborg, Chemically Reacting Flow, 2003, section 12.7).
+  // j_k = -rho D_k grad Y_k (Kee, Coltrin, Glarborg 2003, section 12.7).
   void massDiffusion(double T, double p, std::span<const double> X, std::span<double> D);
 
   // Thermal diffusion coefficients DT (kg/m/s) in the mixture-averaged approximation of Chapman and Cowling (Schlup,

@@ -1,6 +1,5 @@
 // Eigenvalues of a large matrix that is known by its products only: those on the rim of its spectrum come first.
-// Arnoldi's method (W. E. Arnoldi, Quarterly of Applied Mathematics 9, 1951; Saad, Numerical Methods for Large
-// Eigenvalue Problems, 2nd ed. 2011, chapter 6), each new vector orthogonalised twice.
+// Arnoldi's method (Arnoldi 1951; Saad 2011, chapter 6), each new vector orthogonalised twice.
 #pragma once
 
 #include <complex>

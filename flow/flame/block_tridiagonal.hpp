@@ -8,9 +8,8 @@
 // Elimination goes from both ends to a block in the middle, with pivoting inside blocks (rows scaled), so that
 // two ranks share the work without more of it; the result has the same bits on any number of ranks. The border is
 // eliminated along with the ends and then pivoted together with the middle block: a matrix that is singular without its
-// border, as at the turning point of a family of flames, is no difficulty. (Twisted factors: Golub and Van Loan, Matrix
-// Computations, 4th ed. 2013, section 4.5; bordering: Govaerts, Numerical Methods for Bifurcations of Dynamical
-// Equilibria, 2000.)
+// border, as at the turning point of a family of flames, is no difficulty. (Twisted factors: Golub and Van Loan
+// 2013, section 4.5; bordering: Govaerts 2000.)
 #pragma once
 
 #include <mpi.h>

@@ -7,7 +7,7 @@
 //    then large and of the other sign than those of modes that decay;
 //  - s = 3e4 1/s: fast modes, of which several may grow (hydrogen at high pressure has two).
 // Besides, the number of real lambda in (0, s) is odd where det J and det(J + s M) have different signs (Kubicek and
-// Marek, Computational Methods in Bifurcation Theory and Dissipative Structures, 1983): a single mode is not missed,
+// Marek 1983): a single mode is not missed,
 // whatever Arnoldi's method has seen. Nothing is to be known of the order or the signs of the equations; algebraic ones
 // (mass flux, pressure gradient, the anchor of a free flame) are welcome.
 //

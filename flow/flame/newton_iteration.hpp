@@ -1,7 +1,7 @@
 // One nonlinear solve of NewtonSolver: PETSc's SNES runs the loop; the linear solver, the line search and the decision
 // to keep old factors are ours (shells).
 //
-// Line search: the error-oriented Newton method NLEQ-ERR (Deuflhard, Newton Methods for Nonlinear Problems, 2004,
+// Line search: the error-oriented Newton method NLEQ-ERR (Deuflhard 2004,
 // section 3.3.3). With s the Newton step at x and s' = -J(x)^-1 F(x + lambda s) the simplified one after it, a damping
 // lambda is accepted where |s'| <= (1 - lambda/4) |s|, or where s' is below the tolerance. s' serves as the next step
 // while the factors are kept, so that it costs nothing then.

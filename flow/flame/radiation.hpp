@@ -19,7 +19,7 @@ class ThinRadiation {
   // from 300 to 2500 K; colder and hotter gas absorbs as at these ends. That of CO rises by 1.2 % at 750 K, where its
   // two polynomials meet.
   [[nodiscard]] double absorption(double T, double p, std::span<const double> X) const;
-  // Heat lost, W/m3: 4 sigma a (T^4 - T_s^4) (thesis eq. 7-13 with the sign of a loss).
+  // Heat lost, W/m3: 4 sigma a (T^4 - T_s^4) (Wang 2025, eq. 7-13 with the sign of a loss).
   [[nodiscard]] double loss(double absorption, double T) const;
   [[nodiscard]] double lossSlope(double absorption, double T) const;  // of loss with T at constant absorption
 

@@ -139,7 +139,7 @@ class ParticleModel {
   // Brownian diffusivity of each scalar, m2/s. All scalars move by thermophoresis with thermophoresis().
   virtual void diffusivities(const ParticleGas& gas, std::span<const double> densities, std::span<double> D) const = 0;
   // V_T = -thermophoresis() (mu/rho) grad T / T; by default Waldmann's limit of small particles with full accommodation
-  // (thesis eq. 7-29).
+  // (Wang 2025, eq. 7-29).
   [[nodiscard]] virtual double thermophoresis() const;
 
   // Enthalpy of a unit of each scalar, J, and its slope, J/K.

@@ -1,6 +1,6 @@
-// The dimer two-equation model (thesis 7.2.2) as a SootModel: number, carbon and hydrogen of a population of equal
-// spheres, with the sources of TwoEquationSoot. What is added here makes them fit for Newton's method, whose iterates
-// may be states that no soot is ever in: see the theory page "soot models".
+// The dimer two-equation model (Wang 2025, section 7.2.2) as a SootModel: number, carbon and hydrogen of a population
+// of equal spheres, with the sources of TwoEquationSoot. What is added here makes them fit for Newton's method, whose
+// iterates may be states that no soot is ever in: see the theory page "soot models".
 #pragma once
 
 #include "particles/soot/equal_spheres.hpp"

@@ -78,7 +78,7 @@ HmomSoot::State HmomSoot::stateOf(std::span<const double> densities) const {
 
 namespace {
 
-// Transition kernel of two particles: harmonic mean of the limits (thesis eqs. 9-28 to 9-30).
+// Transition kernel of two particles: harmonic mean of the limits (Wang 2025, eqs. 9-28 to 9-30).
 struct Kernel {
   double freeMolecular, continuum, twiceMeanFreePath;
 

@@ -8,7 +8,7 @@
 namespace lampblack {
 
 double HmomSoot::mobilityDiameter(const Mode& mode) {
-  return 6 * mode.volume / mode.surface * std::pow(mode.primaries, 0.45);  // thesis eq. 9-21
+  return 6 * mode.volume / mode.surface * std::pow(mode.primaries, 0.45);  // Wang (2025), eq. 9-21
 }
 
 void HmomSoot::diffusivities(const ParticleGas& gas, std::span<const double> densities, std::span<double> D) const {
@@ -37,7 +37,8 @@ ParticleProperties HmomSoot::properties(const ParticleGas& /*gas*/, std::span<co
   p.primariesPerAggregate = mean(1, l.primaries);
   p.mobilityDiameter = mean(n.collisionDiameter, mobilityDiameter(l));
   const double gyration = l.primaries > 1.8 ? 1 / (std::pow(l.primaries, -0.2) + 0.4) : std::sqrt(0.6);
-  p.gyrationDiameter = mean(std::sqrt(0.6) * n.collisionDiameter, gyration * mobilityDiameter(l));  // thesis eq. 9-22
+  p.gyrationDiameter =
+      mean(std::sqrt(0.6) * n.collisionDiameter, gyration * mobilityDiameter(l));  // Wang (2025), eq. 9-22
   return p;
 }
 

@@ -36,7 +36,7 @@ SootModelChoice publishedSootModel(std::string_view name) {
   if (name == "momic") return MomicOptions{};
   if (name == "sectional") {
     SectionalSootOptions options;
-    options.soot.sootDensity = 1800;  // thesis chapter 9
+    options.soot.sootDensity = 1800;  // Wang (2025), chapter 9
     return options;
   }
   throw InputError(fmt::format("there is no soot model '{}'", name));

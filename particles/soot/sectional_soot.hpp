@@ -1,6 +1,6 @@
-// The sectional soot model (thesis 9.2.2): soot in sections of fixed carbon mass on a geometric grid (fixed pivots,
-// Kumar and Ramkrishna 1996), each with a number of aggregates and a number of primary particles, so that size and
-// shape evolve together. A section's aggregates are equal: n_p = primaries / aggregates spheres in point contact.
+// The sectional soot model (Wang 2025, section 9.2.2): soot in sections of fixed carbon mass on a geometric grid (fixed
+// pivots, Kumar and Ramkrishna 1996), each with a number of aggregates and a number of primary particles, so that size
+// and shape evolve together. A section's aggregates are equal: n_p = primaries / aggregates spheres in point contact.
 //
 // The pivots are masses of carbon. Without carbonisation soot has no hydrogen: that of PAH returns to the gas as H2 as
 // the PAH is taken up. With carbonisation it stays in the soot, one more scalar, and leaves it at a first-order rate.
@@ -17,24 +17,24 @@ namespace lampblack {
 
 struct SectionalSootOptions {
   enum class Nucleation {
-    pah,   // two equal PAH make a nucleus, PAH condense (thesis eqs. 9-23, 9-31), for every listed PAH
-    dimer  // two dimers make a nucleus, dimers condense (thesis 7.2.2), as in the dimer two-equation model
+    pah,   // two equal PAH make a nucleus, PAH condense (Wang 2025, eqs. 9-23, 9-31), for every listed PAH
+    dimer  // two dimers make a nucleus, dimers condense (Wang 2025, section 7.2.2), as in the dimer two-equation model
   };
   enum class Aggregation {
-    aggregates,  // point contact: coagulation keeps the number of primaries (thesis eq. 9-27)
+    aggregates,  // point contact: coagulation keeps the number of primaries (Wang 2025, eq. 9-27)
     spheres      // coalescence on contact: no primaries are carried, n_p = 1
   };
   enum class ActiveSites {  // whose carbon atoms are mu_1 in alpha(T, mu_1), a mean over the population
     aggregate,              // all carbon over the number of aggregates: M_1/M_0 of Appel, Bockhorn and Frenklach (2000)
-    primary                 // over the number of primaries (thesis eq. 9-37)
+    primary                 // over the number of primaries (Wang 2025, eq. 9-37)
   };
   enum class GrowthScheme {  // of what growth and oxidation move from section to section, carbon exact in both
-    upwind,                  // thesis eqs. 9-41 to 9-44: first order, spreads the sizes
+    upwind,                  // Wang (2025), eqs. 9-41 to 9-44: first order, spreads the sizes
     limited                  // second order where the distribution is smooth, upwind where it is steep
   };
 
   // PAH list, densities, HACA, OH efficiency, van der Waals enhancement and switches, as in all soot models.
-  // soot.sootDensity is the mass of carbon per volume of soot; thesis chapter 9 has 1800 kg/m3.
+  // soot.sootDensity is the mass of carbon per volume of soot; Wang (2025, chapter 9) has 1800 kg/m3.
   SootModelOptions soot;
   std::size_t sections = 35;  // 2 to 400
   double factor = 2;          // mass ratio of neighbouring sections, above 1
@@ -48,12 +48,12 @@ struct SectionalSootOptions {
   GrowthScheme growthScheme = GrowthScheme::upwind;
   CollisionKernelType kernel = CollisionKernelType::transition;  // or freeMolecular
 
-  // Break-up of aggregates by oxidation: see docs/theory/soot_models.md. Off by default, as in the thesis.
+  // Break-up of aggregates by oxidation: see docs/theory/soot_models.md. Off by default, as in Wang (2025).
   bool fragmentation = false;
   double fragmentationFactor = 1e5;  // m2/kg: of the rate of break-up to that of oxidation per area
   double fractalDimension = 1.8;     // of the exponent of n_p in the rate of break-up
 
-  // Loss of the hydrogen that PAH brought, A exp(-E/RT) (Dobbins 2002). Off by default, as in the thesis.
+  // Loss of the hydrogen that PAH brought, A exp(-E/RT) (Dobbins 2002). Off by default, as in Wang (2025).
   bool carbonisation = false;
   double carbonisationRate = 1.78e6;    // A, 1/s
   double carbonisationEnergy = 1.13e5;  // E, J/mol

@@ -88,7 +88,7 @@ void SectionPah::evaluate(double temperature, std::span<const double> concentrat
       const double c = concentrations[k];
       if (!(c > 0)) continue;
       if (soot.inception) {
-        // Half the collisions of a gas with itself (thesis eq. 9-23).
+        // Half the collisions of a gas with itself (Wang 2025, eq. 9-23).
         const double number = constants::avogadro * c, d = molecule.diameter;
         const double rate = 0.5 * options_.nucleationFactor *
                             freeMolecularKernel(freeMolecularPrefactor(temperature, soot.vanDerWaals), molecule.mass, d,
@@ -98,7 +98,7 @@ void SectionPah::evaluate(double temperature, std::span<const double> concentrat
         uptake.consumption[k] += 2 * rate / constants::avogadro;
       }
       if (!soot.condensation) continue;
-      // Collisions of the section's aggregates with one PAH after the other (thesis eq. 9-31).
+      // Collisions of the section's aggregates with one PAH after the other (Wang 2025, eq. 9-31).
       std::fill(uptake.collision.begin(), uptake.collision.end(), 0);
       std::fill(uptake.collisionSlope.begin(), uptake.collisionSlope.end(), 0);
       addConsumption(temperature, c, shapes, k, uptake.collision, uptake.collisionSlope);

@@ -19,9 +19,9 @@ SectionPairs::SectionPairs(std::span<const double> pivots, double factor, std::s
     while (std::pow(factor, static_cast<double>(shift + 1)) <= sum) ++shift;
     line.shift = shift;
     const double lower = std::pow(factor, static_cast<double>(shift)), upper = lower * factor;
-    line.number[1] = (smaller + (1 - lower)) / (upper - lower);  // thesis eq. 9-26
+    line.number[1] = (smaller + (1 - lower)) / (upper - lower);  // Wang (2025), eq. 9-26
     line.number[0] = 1 - line.number[1];
-    line.primaries[1] = line.number[1] * upper / sum;  // thesis eq. 9-27
+    line.primaries[1] = line.number[1] * upper / sum;  // Wang (2025), eq. 9-27
     line.primaries[0] = 1 - line.primaries[1];
     line.beyond = sum;
     line.ratio = smaller;

@@ -11,7 +11,7 @@ void SectionalSoot::diffusivities(const ParticleGas& gas, std::span<const double
   Impl& m = *impl_;
   m.prepareSections(densities);
   m.shapes.updateGas(2 * meanFreePath(gas));
-  // Thesis eqs. 9-17 to 9-20. Hydrogen moves as the carbon it is bound to.
+  // Wang (2025), eqs. 9-17 to 9-20. Hydrogen moves as the carbon it is bound to.
   const double scale = constants::boltzmann * gas.temperature / (3 * constants::pi * gas.viscosity);
   double carbon = 0, flux = 0;
   for (std::size_t i = 0; i < m.sections; ++i) {

@@ -24,7 +24,7 @@ class SectionShapes {
 
   std::vector<double> sphere;                                    // m, diameter of the sphere of the pivot
   std::vector<double> primariesEach, byAggregates, byPrimaries;  // n_p, its derivatives by the two densities, m3
-  std::vector<double> primary, mobility, collision;              // m (thesis eqs. 9-21, 9-22)
+  std::vector<double> primary, mobility, collision;              // m (Wang 2025, eqs. 9-21, 9-22)
   std::vector<double> area, areaSlope;                           // m2 of an aggregate; slopes are derivatives by n_p
   std::vector<double> collisionSlope;                            // m
   std::vector<double> slip, slipOver, slipOverSlope;             // C, C/d of the collision diameter (1/m) and its slope

@@ -2,8 +2,8 @@
 // particles it goes through every Monte Carlo method of population/.
 //
 // Aggregates keep their primaries: coagulation adds them up, growth and oxidation change their diameter. Mobility and
-// gyration diameter follow from primaries (thesis eqs. 9-21, 9-22), and aggregates collide with the larger of the two.
-// Coalescing spheres have one primary for ever.
+// gyration diameter follow from primaries (Wang 2025, eqs. 9-21, 9-22), and aggregates collide with the larger of the
+// two. Coalescing spheres have one primary for ever.
 #pragma once
 
 #include <algorithm>
@@ -49,7 +49,7 @@ class SootAggregate {
 
   // Diameters over that of the primaries.
   [[nodiscard]] static double mobilityFactor(double primaries) {
-    return primaries > 1 ? std::pow(primaries, 0.45) : 1;  // thesis eq. 9-21
+    return primaries > 1 ? std::pow(primaries, 0.45) : 1;  // Wang (2025), eq. 9-21
   }
   [[nodiscard]] static double collisionFactor(double primaries) {
     if (primaries <= 1) return 1;

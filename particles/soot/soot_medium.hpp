@@ -1,5 +1,5 @@
 // The gas around a stochastic soot population, digested once for a step of time, and what it does to one particle:
-// condensation of dimers, surface growth, oxidation (thesis sections 7.2.2, 9.2.2).
+// condensation of dimers, surface growth, oxidation (Wang 2025, sections 7.2.2, 9.2.2).
 #pragma once
 
 #include "particles/collision_physics.hpp"

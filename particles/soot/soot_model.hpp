@@ -17,7 +17,7 @@ class SootModel : public ParticleModel {
   [[nodiscard]] double absorption(double temperature, double volumeFraction) const override;
 };
 
-// 700 f_v T, 1/m (thesis 7.2.4).
+// 700 f_v T, 1/m (Wang 2025, section 7.2.4).
 [[nodiscard]] double sootAbsorption(double temperature, double volumeFraction);
 // Enthalpy of soot carbon (graphite) and hydrogen (as in H2), J/kg, and slopes, J/kg/K (NASA polynomials of Gurvich's
 // data; Burcat and Ruscic 2005).

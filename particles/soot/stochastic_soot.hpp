@@ -4,7 +4,7 @@
 // growth and oxidation; dilution by the divergence of the particles' velocity. The gas is given and is not changed, but
 // what is taken from it and given to it is reported: the same atoms that the soot gains, to round-off.
 //
-// The gas's dimers play the part of the transfer species of a decoupled solution (Kraft, lecture 2022): their number is
+// The gas's dimers play the part of the transfer species of a decoupled solution (Kraft 2022): their number is
 // made to follow the gas's PAH at all times, and particles begin and grow by them.
 //
 // Splitting: jumps for half a step, growth for a whole one, jumps for half a step; steps over which the population
@@ -36,7 +36,7 @@ struct StochasticSootOptions {
   // there for verification.
   CollisionKernelOptions kernel{.type = CollisionKernelType::transition};
   bool coalescing = true;           // spheres; otherwise aggregates of primaries
-  bool alphaOfPrimaries = false;    // mu_1 in alpha(T, mu_1) is of the mean primary (thesis eq. 9-37), not particle
+  bool alphaOfPrimaries = false;    // mu_1 in alpha(T, mu_1) is of the mean primary (Wang 2025, eq. 9-37), not particle
   bool keepsHydrogen = true;        // false: that of PAH returns to the gas as H2 when they are taken up
   double splitTolerance = 0.01;     // relative change of the population in a splitting step
   double startNumberDensity = 1e6;  // 1/m3: dsmc, at which an empty sample is full at first; contraction does the rest

@@ -47,7 +47,7 @@ def is_unimodal(values, noise=1e-3):
 def shape(flame, soot_density):
     """Primaries in an aggregate, mobility and gyration diameter in nm, and whether they are the model's own.
 
-    A model of spheres has none: there the primaries are the nuclei, by Wang's thesis (2025) eqs. 7-26 to 7-28, with the
+    A model of spheres has none: there the primaries are the nuclei, by Wang (2025), eqs. 7-26 to 7-28, with the
     nucleus for the primary's diameter."""
     soot = flame.soot
     number = soot.get("primaries_per_aggregate")

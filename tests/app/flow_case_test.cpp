@@ -16,8 +16,8 @@ FlowCase withTransport(const std::vector<std::string>& overrides) {
 TEST(FlowCase, ReadsTheTransportModel) {
   EXPECT_EQ(withTransport({}).transport.diffusion, DiffusionModel::MixtureAveraged);
   EXPECT_EQ(withTransport({}).transport.integrals, CollisionIntegrals::MonchickMason);
-  EXPECT_EQ(withTransport({"transport.collision_integrals=thesis_fits"}).transport.integrals,
-            CollisionIntegrals::ThesisFits);
+  EXPECT_EQ(withTransport({"transport.collision_integrals=wang_fits"}).transport.integrals,
+            CollisionIntegrals::WangFits);
   EXPECT_EQ(withTransport({"transport.model=unity_lewis"}).transport.diffusion, DiffusionModel::UnityLewis);
   const auto constant =
       withTransport({"transport.model=constant_lewis", "transport.lewis_numbers='H2: 0.3, C2H4: 1.2'"});

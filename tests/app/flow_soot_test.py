@@ -20,7 +20,7 @@ GAS = f"temperature={T} K", f'composition="A2: {FRACTION}, N2: {1 - FRACTION}"'
 
 
 def expected():
-    """Carbon in soot at the end, kg/m3: thesis eqs. 7-34 to 7-42 for one PAH of sticking coefficient 0.002."""
+    """Carbon in soot at the end, kg/m3: Wang (2025), eqs. 7-34 to 7-42 for one PAH of sticking coefficient 0.002."""
     mass = (10 * CARBON + 8 * HYDROGEN) / AVOGADRO
     density = 1e6 * (10 * CARBON + 8 * HYDROGEN) / 18 / (0.260884 * 2.46**2 * 3.35)
     diameter = (6 * mass / (math.pi * density)) ** (1 / 3)

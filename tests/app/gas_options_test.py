@@ -41,7 +41,7 @@ MISTAKES = [
     ("unknown transport model", (HYDROGEN, "--T", "300", "--X", AIR, "--transport", "multicomponents"),
      ("--transport", "did you mean 'multicomponent'")),
     ("unknown collision integrals", (HYDROGEN, "--T", "300", "--X", AIR, "--collision-integrals", "neufeld"),
-     ("--collision-integrals", "monchick-mason", "thesis")),
+     ("--collision-integrals", "monchick-mason", "wang")),
     ("no transport data for the model asked for", (SILICA, "--T", "300", "--X", "CO:1", "--transport",
                                                    "mixture-averaged"), ("has no transport data",)),
     ("YAML with CHEMKIN data", (HYDROGEN, "therm.dat", "--T", "300", "--X", AIR), ("is YAML", "therm.dat")),

@@ -15,7 +15,7 @@
 namespace lampblack {
 namespace {
 
-// Of the series over the strain in chapter 7 of the thesis (Wang 2025) the flame of the fastest streams, 34.9 cm/s. In
+// Of the series over the strain in chapter 7 of Wang (2025) the flame of the fastest streams, 34.9 cm/s. In
 // the study it starts from its neighbour.
 TEST(ShippedFlame, TheMostStrainedSootingFlameConvergesFromItsStreams) {
   const std::string path = test::sourcePath("cases/flame_counterflow_ethylene_soot/deck.yaml");
@@ -33,7 +33,7 @@ TEST(ShippedFlame, TheMostStrainedSootingFlameConvergesFromItsStreams) {
   const FlameSummary summary =
       flameSummary(flame.problem, solution.profile, flameFields(*flame.mechanism, flame.problem, solution.profile));
   ASSERT_TRUE(summary.strain && summary.strain->global);
-  EXPECT_NEAR(*summary.strain->global, 173, 0.5);  // as the thesis rounds it
+  EXPECT_NEAR(*summary.strain->global, 173, 0.5);  // as Wang (2025) rounds it
   EXPECT_GT(summary.maximumTemperature, 2000);     // it burns
 }
 

@@ -1,5 +1,5 @@
-"""The soot of the shipped counterflow flame, on a coarse grid, against scripts/check_soot_rates: equations 7-20 to 7-56 of the
-thesis recomputed without the program. And that the script sees what it is there for.
+"""The soot of the shipped counterflow flame, on a coarse grid, against scripts/check_soot_rates: equations 7-20 to 7-56 of
+Wang (2025) recomputed without the program. And that the script sees what it is there for.
 
 Usage: soot_rates_test.py EXECUTABLE MPIEXEC...
 """

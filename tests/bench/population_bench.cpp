@@ -1,5 +1,5 @@
 // Monte Carlo of the population balance: coagulation events per second with the free-molecular kernel against the
-// number of particles, and the cases of the thesis for which it gives times (200 repeats, 2000 particles).
+// number of particles, and the cases of Wang (2025) for which it gives times (200 repeats, 2000 particles).
 #include <benchmark/benchmark.h>
 
 #include "particles/population/monte_carlo/monte_carlo_options.hpp"
@@ -55,7 +55,7 @@ struct Case {
   int outputs = 50;
 };
 
-Case thesisCase(int number) {
+Case wangCase(int number) {
   Case result;
   result.initial = {Distribution::monodisperse, 1, 1, 1};
   PopulationModel& model = result.model;
@@ -88,8 +88,8 @@ Case thesisCase(int number) {
 }
 
 // All 200 repeats of a case, with moments at 50 times.
-void thesis(benchmark::State& state, MonteCarloMethod method, int number) {
-  const Case chosen = thesisCase(number);
+void wang(benchmark::State& state, MonteCarloMethod method, int number) {
+  const Case chosen = wangCase(number);
   MonteCarloOptions options;
   options.method = method;
   double events = 0, sum = 0;
@@ -114,17 +114,17 @@ constexpr auto constantVolume = MonteCarloMethod::constantVolume;
 
 BENCHMARK_CAPTURE(coagulation, dsmc, MonteCarloMethod::dsmc)->RangeMultiplier(10)->Range(1000, 1000000);
 BENCHMARK_CAPTURE(coagulation, constantNumberByMass, byMass)->RangeMultiplier(10)->Range(1000, 1000000);
-BENCHMARK_CAPTURE(thesis, case1_constantVolume, constantVolume, 1)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(thesis, case1_constantNumberByMass, byMass, 1)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(thesis, case1_constantNumberByNumber, byNumber, 1)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(thesis, case2_constantVolume, constantVolume, 2)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(thesis, case2_constantNumberByMass, byMass, 2)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(thesis, case2_constantNumberByNumber, byNumber, 2)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(thesis, case5_constantVolume, constantVolume, 5)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(thesis, case5_constantNumberByMass, byMass, 5)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(thesis, case5_constantNumberByNumber, byNumber, 5)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(thesis, case9_constantVolume, constantVolume, 9)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(thesis, case9_constantNumberByMass, byMass, 9)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(wang, case1_constantVolume, constantVolume, 1)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(wang, case1_constantNumberByMass, byMass, 1)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(wang, case1_constantNumberByNumber, byNumber, 1)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(wang, case2_constantVolume, constantVolume, 2)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(wang, case2_constantNumberByMass, byMass, 2)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(wang, case2_constantNumberByNumber, byNumber, 2)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(wang, case5_constantVolume, constantVolume, 5)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(wang, case5_constantNumberByMass, byMass, 5)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(wang, case5_constantNumberByNumber, byNumber, 5)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(wang, case9_constantVolume, constantVolume, 9)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(wang, case9_constantNumberByMass, byMass, 9)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 

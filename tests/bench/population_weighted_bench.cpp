@@ -1,5 +1,5 @@
 // Speed of the methods with different weights: events per second against the number of numerical particles, and the
-// cases of chapter 5 of the thesis with 2000 numerical particles and 200 repeats.
+// cases of chapter 5 of Wang (2025) with 2000 numerical particles and 200 repeats.
 //
 //   population_weighted_bench [events | cases [start of a name]]
 
@@ -16,7 +16,7 @@
 namespace {
 
 using namespace lampblack;
-// CPU time, as in the tables of the thesis: a busy machine does not disturb it much.
+// CPU time, as in the tables of Wang (2025): a busy machine does not disturb it much.
 double cpuSeconds() {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
@@ -140,7 +140,7 @@ void cases() {
   nucleation.nucleation->source = NucleationOptions::Source::precursor;
   nucleation.nucleation->rateConstant = 5e-6;
   nucleation.nucleation->precursor = 1e5;
-  fmt::print("thesis chapter 5, 2000 numerical particles, 200 repeats\n");
+  fmt::print("Wang 2025, chapter 5, 2000 numerical particles, 200 repeats\n");
   run({"1 sammc", nucleation, monoBreak, sammcOptions, 1e6});
   run({"2 mmc", coagulation, mono, mmcOptions, 50});
   run({"2 sammc", coagulation, mono, sammcOptions, 50});

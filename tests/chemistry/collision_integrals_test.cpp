@@ -133,22 +133,22 @@ TEST(CollisionIntegrals, TablesAreSmooth) {
   EXPECT_LT(worst, 0.0025);
 }
 
-TEST(CollisionIntegrals, ThesisFitsFollowTheTables) {
+TEST(CollisionIntegrals, WangFitsFollowTheTables) {
   double worst11 = 0, worst22 = 0;
-  const ReducedIntegrals fits(0, CollisionIntegrals::ThesisFits), tables(0);
+  const ReducedIntegrals fits(0, CollisionIntegrals::WangFits), tables(0);
   for (double T = 0.5; T < 50; T *= 1.1) {
     raise(worst11, fits.omega11(std::log(T)) / tables.omega11(std::log(T)) - 1);
     raise(worst22, fits.omega22(std::log(T)) / tables.omega22(std::log(T)) - 1);
     EXPECT_NEAR(fits.ratioA(std::log(T)), fits.omega22(std::log(T)) / fits.omega11(std::log(T)), 1e-12);
   }
-  measured("thesis fit of (1,1)", worst11);
-  measured("thesis fit of (2,2)", worst22);
+  measured("Wang (2025) fit of (1,1)", worst11);
+  measured("Wang (2025) fit of (2,2)", worst22);
   EXPECT_LT(worst11, 0.01);
   EXPECT_LT(worst22, 0.025);
 }
 
 TEST(CollisionIntegrals, AreTheSameAllAtOnceAndOneByOne) {
-  for (const auto source : {CollisionIntegrals::MonchickMason, CollisionIntegrals::ThesisFits})
+  for (const auto source : {CollisionIntegrals::MonchickMason, CollisionIntegrals::WangFits})
     for (const double dipole : {0.0, 0.7}) {
       const ReducedIntegrals integrals(dipole, source);
       for (double T = 0.05; T < 200; T *= 1.07) {
@@ -163,7 +163,7 @@ TEST(CollisionIntegrals, AreTheSameAllAtOnceAndOneByOne) {
 
 // Dipoles attract: they raise the integral, most where it is cold.
 TEST(CollisionIntegrals, RiseWithTheDipole) {
-  for (const auto source : {CollisionIntegrals::MonchickMason, CollisionIntegrals::ThesisFits}) {
+  for (const auto source : {CollisionIntegrals::MonchickMason, CollisionIntegrals::WangFits}) {
     const ReducedIntegrals without(0, source), with(1, source);
     for (const double T : {0.5, 1.0, 5.0}) {
       EXPECT_GT(with.omega11(std::log(T)), without.omega11(std::log(T)));

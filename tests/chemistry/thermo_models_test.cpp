@@ -14,7 +14,7 @@ using lampblack::test::readText;
 
 constexpr double R = constants::gasConstant;
 
-// Nitrogen of Chase, NIST-JANAF Thermochemical Tables (1998), in the coefficients of the NIST Chemistry WebBook.
+// Nitrogen of Chase (1998), in the coefficients of the NIST Chemistry WebBook.
 constexpr double kLow[] = {28.98641, 1.853978, -9.647459, 16.63537, 0.000117, -8.671914, 226.4168};
 constexpr double kHigh[] = {19.50583, 19.88705, -8.598535, 1.369784, 0.527601, -4.935202, 212.3900};
 const char* const kNitrogen = R"(

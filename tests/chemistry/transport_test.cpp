@@ -95,8 +95,8 @@ TEST_P(TransportReference, DefaultIntegrals) {
   EXPECT_LT(worst.pureViscosity, 0.003);
 }
 
-TEST_P(TransportReference, ThesisFits) {
-  const auto worst = fromCantera(CollisionIntegrals::ThesisFits);
+TEST_P(TransportReference, WangFits) {
+  const auto worst = fromCantera(CollisionIntegrals::WangFits);
   EXPECT_LT(worst.viscosity, 0.03);
   EXPECT_LT(worst.conductivity, 0.03);
   EXPECT_LT(worst.diffusion, 0.01);

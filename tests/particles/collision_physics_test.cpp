@@ -25,7 +25,7 @@ TEST(CollisionPhysics, MeanFreePathOfAirAtRoomConditions) {
   EXPECT_NEAR(meanFreePath(air), 65.43e-9 * 0.4987445 / 0.5, 0.05e-9);
 }
 
-TEST(CollisionPhysics, MonodisperseRateIsThatOfThesisEquation744) {
+TEST(CollisionPhysics, MonodisperseRateIsThatOfWang2025Equation744) {
   // -1/2 beta N^2 with the kernel of equal spheres is the printed E_F sqrt(24 kT/rho) (6M/(pi rho))^(1/6) N^(11/6).
   const double d = 5e-9, m = density * constants::pi / 6 * d * d * d, N = 1e17, M = m * N, T = 1600;
   const double printed = 2.2 * std::sqrt(24 * constants::boltzmann * T / density) *

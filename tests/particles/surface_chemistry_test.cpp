@@ -23,7 +23,7 @@ TEST(SurfaceChemistry, ActiveFractionUsesTheDecimalLogarithmAndStaysInItsBounds)
   }
 }
 
-// What the rates are multiplied with: thesis eqs. 7-47 to 7-49, worked out by hand.
+// What the rates are multiplied with: Wang (2025), eqs. 7-47 to 7-49, worked out by hand.
 TEST(SurfaceChemistry, AlphaOfTheModelIsThatOfAppelBockhornAndFrenklach) {
   const SootModelOptions options;
   for (const auto& [T, a, b] : {std::tuple{1400.0, 4.768, -0.428}, {1600.0, 3.642, -0.292}, {1900.0, 1.953, -0.088}})

@@ -139,7 +139,7 @@ TEST(TwoEquationSoot, MonodisperseFreeMolecularCoagulationIsExact) {
 }
 
 // Harmonic mean of the free-molecular kernel of equal spheres, 2.2 sqrt(pi k T / m) 4 d^2, and the continuum one,
-// 8 k T C / (3 mu), with slip C at the Knudsen number 2 lambda / d (thesis eqs. 7-31 to 7-33, 9-28 to 9-30).
+// 8 k T C / (3 mu), with slip C at the Knudsen number 2 lambda / d (Wang 2025, eqs. 7-31 to 7-33, 9-28 to 9-30).
 TEST(TwoEquationSoot, CoagulationOfEqualSpheresHasTheKernelOfItsSize) {
   const TwoEquationSoot model((SootModelOptions()));
   test::FlameGas gas(1600, 0, 0, 0, 0, 0, 0, {});

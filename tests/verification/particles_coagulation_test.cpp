@@ -56,7 +56,7 @@ struct Repeats {
   }
 };
 
-// The kernel written out here on its own: Davies' slip, harmonic mean (thesis eqs. 9-28 to 9-30).
+// The kernel written out here on its own: Davies' slip, harmonic mean (Wang 2025, eqs. 9-28 to 9-30).
 double kernelOf(const CarrierGas& gas, bool transition, double vi, double vj) {
   const double kT = constants::boltzmann * gas.temperature;
   const double di = std::cbrt(6 * vi / constants::pi), dj = std::cbrt(6 * vj / constants::pi);

@@ -22,9 +22,9 @@ enum class CollisionKernelType {
   constant,         // A
   additive,         // A (u + v)
   multiplicative,   // A u v
-  freeMolecular,    // thesis eq. 9-28
-  continuum,        // with slip, thesis eq. 9-29
-  transition,       // harmonic mean of the two, thesis eq. 9-30
+  freeMolecular,    // Wang (2025), eq. 9-28
+  continuum,        // with slip, Wang (2025), eq. 9-29
+  transition,       // harmonic mean of the two, Wang (2025), eq. 9-30
   transitionFuchs,  // Fuchs interpolation (Fuchs 1964; Seinfeld and Pandis, table 13.1)
   shear,            // laminar shear, rate/6 (di + dj)^3 (Smoluchowski 1917)
   gravitational     // pi/4 (di + dj)^2 |vi - vj| with the settling velocities of Stokes, with slip and buoyancy

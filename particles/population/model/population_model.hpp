@@ -1,6 +1,6 @@
 // What happens to a population of particles in a well-stirred volume of gas: the processes of the population balance
-// equation (thesis eq. 5-1) as plain data, independent of the method that solves it. Everything in SI: volumes in m3,
-// number densities in 1/m3. Benchmarks without dimensions are run with a unit volume of 1 m3.
+// equation (Wang 2025, eq. 5-1) as plain data, independent of the method that solves it. Everything in SI: volumes in
+// m3, number densities in 1/m3. Benchmarks without dimensions are run with a unit volume of 1 m3.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 namespace lampblack {
 
 // New particles of one volume. The rate J(t), in particles per m3 and s, is constant, follows a precursor that decays
-// by a first-order reaction (thesis eq. 5-22: J = K C0 exp(-K t)), or is linear between the points of a table.
+// by a first-order reaction (Wang 2025, eq. 5-22: J = K C0 exp(-K t)), or is linear between the points of a table.
 struct NucleationOptions {
   enum class Source { constant, precursor, table };
   Source source = Source::constant;

@@ -1,4 +1,4 @@
-// Entries with the exact rates of all pairs by the plain bookkeeping of the thesis (eqs. 5-17, 5-18; Kruis, Maisels,
+// Entries with the exact rates of all pairs by the plain bookkeeping of Wang (2025, eqs. 5-17, 5-18; Kruis, Maisels,
 // Fissan 2000): each entry has a row, the sum of its rates with all others, and an entry that comes or goes costs one
 // loop over the others. A pair is drawn by the inverse method, row then partner, so that no jump is fictitious. O(N) a
 // change and independent of every majorant: the reference of the other stores, which have the same law.

@@ -1,6 +1,6 @@
 // The part alpha, in (0, 1], of the real particles of the smaller of two weights that takes part in a coagulation of
 // two weighted particles (Jiang and Chan 2021). The pair then coagulates at max(w_i, w_j) / alpha times the kernel
-// (thesis eqs. 4-5, 5-5), and alpha min(w_i, w_j) of each do.
+// (Wang 2025, eqs. 4-5, 5-5), and alpha min(w_i, w_j) of each do.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@ class FractionLaw {
     }
   }
 
-  // Thesis eqs. 4-11 to 4-14, 5-4; of the volumes or the weights.
+  // Wang (2025), eqs. 4-11 to 4-14, 5-4; of the volumes or the weights.
   [[nodiscard]] double operator()(double vi, double vj, double wi, double wj) const {
     if (function_ == FractionFunction::one) return 1;
     if (function_ == FractionFunction::constant) return constant_;

@@ -13,23 +13,23 @@ enum class MonteCarloMethod {
   // Equal weights.
   dsmc,                    // doubling when half empty, contraction when full (Goodson and Kraft 2002)
   constantVolume,          // stepwise: doubled below N/2, halved above 2N (Maisels, Kruis, Fissan 2004)
-  constantNumberByMass,    // one copied or removed after each event, weights keep M1 (Smith and Matsoukas 1998; Lin,
-  constantNumberByNumber,  // Lee, Matsoukas 2002) or M0
+  constantNumberByMass,    // one copied or removed after each event, weights keep M1 (Smith and Matsoukas 1998)
+  constantNumberByNumber,  // or M0 (Lin, Lee, Matsoukas 2002)
   // Different weights.
   mmc,      // multi-Monte Carlo (Zhao, Zheng, Xu 2005)
   wfmc,     // weighted fraction (Jiang and Chan 2021)
-  samwfmc,  // sorting, what is left over is merged into a neighbour (thesis chapter 4)
-  sammc,    // sorting, the two nearest neighbours are merged (thesis chapter 5)
+  samwfmc,  // sorting, what is left over is merged into a neighbour (Wang 2025, chapter 4)
+  sammc,    // sorting, the two nearest neighbours are merged (Wang 2025, chapter 5)
   swa,      // stochastic weighted algorithm (Patterson, Wagner, Kraft 2011)
   // Small particles as numbers, large ones as particles (Boje, Akroyd, Kraft 2019).
   hybrid
 };
 
 enum class FractionFunction { one, hyperbolic, exponential, stepwise, constant };
-enum class FractionOf { volumes, weights };           // what the fraction functions compare (thesis chapters 4 and 5)
-enum class MergingDifference { absolute, relative };  // of the volumes of neighbours (thesis eqs. 5-11, 5-12)
+enum class FractionOf { volumes, weights };  // what the fraction functions compare (Wang 2025, chapters 4 and 5)
+enum class MergingDifference { absolute, relative };  // of the volumes of neighbours (Wang 2025, eqs. 5-11, 5-12)
 enum class WeightTransfer { harmonic, half, mass };   // w_i w_j/(w_i+w_j), w_i/2, w_i m_i/(m_i+m_j)
-enum class EventRates { majorant, exact };  // fictitious jumps in O(log N), or the O(N) bookkeeping of the thesis
+enum class EventRates { majorant, exact };  // fictitious jumps in O(log N), or the O(N) bookkeeping of Wang (2025)
 // Nuclei at random times, or one in each interval of the integral of the nucleation rate that is as long as its weight:
 // the same mean with hardly any noise.
 enum class NucleationSampling { random, even };

@@ -36,7 +36,7 @@ struct SortedChunk {
   double lowest = 0, highest = 0;                 // volumes for which the bounds of terms and singles hold
   std::uint32_t changes = 0;                      // since these bounds were found from the entries
 
-  // The smallest difference (thesis eqs. 5-11, 5-12) and the weight of the lower particle of that pair, which is at
+  // The smallest difference (Wang 2025, eqs. 5-11, 5-12) and the weight of the lower particle of that pair, which is at
   // `leastAt`; where stale, `least` is a bound from below.
   LeastOfChunks::Key least;
   std::uint32_t leastAt = 0;

@@ -28,7 +28,7 @@ template <class R>
 concept SortedRates = EntryRates<R> && requires(const R rates, const typename R::Entry entry, double x) {
   { R::bare } -> std::convertible_to<bool>;                  // the particle is its volume
   { rates.entry(x, x) } -> std::same_as<typename R::Entry>;  // where bare
-  { rates.relativeDifference() } -> std::same_as<bool>;      // thesis eq. 5-12 instead of 5-11
+  { rates.relativeDifference() } -> std::same_as<bool>;      // Wang (2025), eq. 5-12 instead of 5-11
   { rates.merges() } -> std::same_as<bool>;                  // mergeNearest() may be called
   { rates.keepsHeaviest() } -> std::same_as<bool>;           // takeHeaviest() may be called
   { rates.monotone() } -> std::same_as<bool>;  // terms and single rates are largest at an end of a range of volumes
@@ -64,10 +64,11 @@ class SortedStore {
   [[nodiscard]] Entry takeUniform(RandomStream& random);
 
   // Takes out the two neighbours with the smallest difference, of equal differences the one whose lower particle has
-  // the smallest weight (thesis section 5.2.6), and inserts meanOf(lower, upper). False with fewer than two entries.
+  // the smallest weight (Wang 2025, section 5.2.6), and inserts meanOf(lower, upper). False with fewer than two
+  // entries.
   template <class MeanOf>
   bool mergeNearest(MeanOf&& meanOf);
-  // Takes out the entry whose volume is nearest to that of `like`, as seen from where `like` would be (thesis eqs.
+  // Takes out the entry whose volume is nearest to that of `like`, as seen from where `like` would be (Wang 2025, eqs.
   // 4-16, 4-17: the upper one when both are as near). There is one at least.
   [[nodiscard]] Entry takeNearest(const Entry& like);
   [[nodiscard]] Entry takeHeaviest();

@@ -1,7 +1,7 @@
 // Where a Monte Carlo method keeps its numerical particles ("entries") and draws the partners of an event from. Stores
-// differ in how they find them - classes of like particles, a sorted structure, or the plain O(N) bookkeeping of the
-// thesis - and all give the same law. An event takes its entries out and the method inserts what becomes of them, so
-// that no store has to hand out positions that could go stale.
+// differ in how they find them - classes of like particles, a sorted structure, or the plain O(N) bookkeeping of
+// Wang (2025) - and all give the same law. An event takes its entries out and the method inserts what becomes of them,
+// so that no store has to hand out positions that could go stale.
 #pragma once
 
 #include <array>

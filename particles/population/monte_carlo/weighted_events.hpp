@@ -23,17 +23,17 @@ bool WeightedMethod<Type, Store>::coagulate(RandomStream& random) {
     const double leftI = i.weight - amount, leftJ = j.weight - amount;
     const Particle fresh = type_.coagulated(i.particle, j.particle);
     if (leftI > 0 && leftJ > 0) {
-      if (vi == vj && method_ != MonteCarloMethod::wfmc) {  // thesis eqs. 4-19, 4-20, 5-15
+      if (vi == vj && method_ != MonteCarloMethod::wfmc) {  // Wang (2025), eqs. 4-19, 4-20, 5-15
         const Entry rest = meanOf({i.particle, leftI}, {j.particle, leftJ});
         put(rest.particle, rest.weight);
       } else {
         coagulateLeftOvers(i, leftI, j, leftJ, random);
       }
       put(fresh, amount);
-    } else if (leftI > 0 || leftJ > 0) {  // thesis eqs. 4-21, 4-22, 5-14
+    } else if (leftI > 0 || leftJ > 0) {  // Wang (2025), eqs. 4-21, 4-22, 5-14
       put(leftI > 0 ? i.particle : j.particle, std::max(leftI, leftJ));
       put(fresh, amount);
-    } else {  // thesis eqs. 4-18, 5-13
+    } else {  // Wang (2025), eqs. 4-18, 5-13
       put(fresh, 0.5 * amount);
       put(fresh, 0.5 * amount);
     }
@@ -51,7 +51,7 @@ bool WeightedMethod<Type, Store>::coagulate(RandomStream& random) {
 template <ParticleType Type, class Store>
 void WeightedMethod<Type, Store>::coagulateLeftOvers(const Entry& i, double leftI, const Entry& j, double leftJ,
                                                      RandomStream& random) {
-  if (method_ == MonteCarloMethod::sammc) {  // thesis eq. 5-16
+  if (method_ == MonteCarloMethod::sammc) {  // Wang (2025), eq. 5-16
     put(i.particle, leftI);
     put(j.particle, leftJ);
     makeRoom(1);
@@ -67,7 +67,7 @@ void WeightedMethod<Type, Store>::coagulateLeftOvers(const Entry& i, double left
     ++counters_.removals;
     return;
   }
-  // samwfmc, thesis eqs. 4-21, 4-22
+  // samwfmc, Wang (2025), eqs. 4-21, 4-22
   const bool lighterIsI = i.weight <= j.weight;
   const Entry& lighter = lighterIsI ? i : j;
   const double left = lighterIsI ? leftI : leftJ;

@@ -1,14 +1,15 @@
 // The jumps of the methods whose numerical particles have different weights, for any type of particles. There is room
 // for options.particles numerical particles in 1 m3; no sample grows, shrinks or is doubled.
 //
-// Two numerical particles coagulate at max(w_i, w_j) / alpha K (thesis eqs. 4-5, 5-5): then alpha min(w_i, w_j) real
-// ones of each do, and the rest of each is left over. What the methods do with one particle too many:
+// Two numerical particles coagulate at max(w_i, w_j) / alpha K (Wang 2025, eqs. 4-5, 5-5): then alpha min(w_i, w_j)
+// real ones of each do, and the rest of each is left over. What the methods do with one particle too many:
 // - mmc (alpha = 1; Zhao, Zheng, Xu 2005): there is none in coagulation. A nucleus or fragment adds its weight to the
 //   particle of the most similar volume, which conserves number, not mass: biased wherever volumes differ. Events that
 //   did so with different volumes are counted as `limited`.
-// - sammc (thesis chapter 5): the two nearest neighbours are merged into their mean before. Number and mass conserved;
+// - sammc (Wang 2025, chapter 5): the two nearest neighbours are merged into their mean before. Number and mass
+// conserved;
 //   moments above the first lose w_k w_l / (w_k + w_l) (v_k - v_l)^2 and more.
-// - samwfmc (thesis chapter 4): what is left of the one with the smaller weight goes into the particle nearest in
+// - samwfmc (Wang 2025, chapter 4): what is left of the one with the smaller weight goes into the particle nearest in
 // volume,
 //   the weight of which changes so that mass is conserved; number is not, by the relative difference of the volumes.
 //   Coagulation, deposition and growth only.
@@ -19,7 +20,7 @@
 //   right mean. Mass is conserved exactly by WeightTransfer::mass, in the mean by the others; number in the mean.
 //   Where other processes add particles, neighbours are merged as in sammc.
 //
-// In all: a deposited or vanished particle is replaced by halving the one with the highest weight (thesis section
+// In all: a deposited or vanished particle is replaced by halving the one with the highest weight (Wang 2025, section
 // 5.2.8), once the population has been full. Nuclei stand for nucleusWeight() real ones each, fragments for as many as
 // their parent.
 #pragma once

@@ -96,7 +96,7 @@ class WeightedRates {
   [[nodiscard]] CollisionKernel::Properties properties(const Entry& entry) const {
     return kernelProperties(*kernel_, type_, entry.particle);
   }
-  // The kernel's factor: thesis eq. 5-5, or the two orders of the pair in SWA.
+  // The kernel's factor: Wang (2025), eq. 5-5, or the two orders of the pair in SWA.
   [[nodiscard]] double weightPart(const Entry& i, const Entry& j) const {
     if (!exists(type_, i.particle) || !exists(type_, j.particle)) return 0;
     if (swa_) return i.weight + j.weight;

@@ -48,7 +48,7 @@ TEST_P(EverySootModel, ExchangesWhatItsProcessesSay) {
   }
 }
 
-// Models that see soot as spheres: Stokes, Einstein and Cunningham for the mobility diameter (thesis eqs. 7-30 to
+// Models that see soot as spheres: Stokes, Einstein and Cunningham for the mobility diameter (Wang 2025, eqs. 7-30 to
 // 7-33).
 TEST_P(EverySootModel, SpheresDiffuseByTheirMobility) {
   if (GetParam() == "sectional" || GetParam() == "hmom") GTEST_SKIP() << "several sizes diffuse, each by its own";

@@ -108,7 +108,7 @@ TEST(SectionalSoot, OxidationTakesNumberOnlyFromTheFirstSection) {
   EXPECT_NEAR(sum({f.scalars.data(), n}), 0, 1e-14 * size);
 }
 
-// Thesis eq. 9-23 by hand.
+// Wang (2025), eq. 9-23 by hand.
 TEST(SectionalSoot, PyreneNucleatesAtThePublishedRate) {
   SectionalSootOptions options = pyrene();
   turnOff(options.soot);

@@ -103,7 +103,7 @@ TEST(SootModelDefaults, VolumeFractionIsThatOfTheProperties) {
 }
 
 TEST(SootModelDefaults, ThermophoresisIsThatOfSmallParticles) {
-  EXPECT_NEAR(Formula().thermophoresis(), 0.5385, 5e-5);  // thesis eq. 7-29, full accommodation
+  EXPECT_NEAR(Formula().thermophoresis(), 0.5385, 5e-5);  // Wang (2025), eq. 7-29, full accommodation
 }
 
 }  // namespace

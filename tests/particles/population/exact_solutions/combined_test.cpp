@@ -10,7 +10,7 @@ constexpr auto equalPieces = BreakageOptions::Daughters::equal;
 constexpr auto uniform = BreakageOptions::Daughters::uniform;
 
 TEST(ExactCombined, CoagulationAndConstantNucleation) {
-  // Thesis case 9: N0 = 1e11 /m3, A = 1e-11 m3/s, J = 1e12 /m3/s; dM0/dt = J - A M0^2/2 is a tanh.
+  // Wang (2025), case 9: N0 = 1e11 /m3, A = 1e-11 m3/s, J = 1e12 /m3/s; dM0/dt = J - A M0^2/2 is a tanh.
   auto model = coagulating(constant, 1e-11);
   model.nucleation = steadyNuclei(1e12, 1);
   const auto solution = exactSolution(model, equalStart(1e11, 1));
@@ -75,7 +75,7 @@ TEST(ExactCombined, CoagulationAndBreakageAtAConstantRate) {
 }
 
 TEST(ExactCombined, CoagulationAndLinearBreakageKeepAnExponential) {
-  // Thesis case 15 is stationary.
+  // Wang (2025), case 15 is stationary.
   auto model = coagulating(constant);
   model.breakage = BreakageOptions{.rate = 0.5, .exponent = 1, .fragments = 2, .daughters = uniform};
   const auto still = exactSolution(model, exponentialStart());

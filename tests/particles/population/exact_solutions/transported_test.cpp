@@ -7,7 +7,7 @@ namespace lampblack::test {
 namespace {
 
 TEST(ExactTransported, NucleationAlone) {
-  // Thesis case 1.
+  // Wang (2025), case 1.
   PopulationModel model;
   model.nucleation = precursorNuclei(5e-6, 1e5, 1);
   const auto solution = exactSolution(model, equalStart(3000, 1));

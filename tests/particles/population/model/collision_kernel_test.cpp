@@ -55,7 +55,7 @@ TEST(CollisionKernel, TransitionTendsToItsLimits) {
   }
 }
 
-// Seinfeld and Pandis, Atmospheric Chemistry and Physics (2006), table 13.3: coagulation coefficients of particles of
+// Seinfeld and Pandis (2006), table 13.3: coagulation coefficients of particles of
 // 1 g/cm3 in air at 25 C by the formula of Fuchs, 1e-10 cm3/s, with two digits; 0.5 % more for the constants of air.
 TEST(CollisionKernel, FuchsIsAsPrinted) {
   auto options = kernelOptions(Type::transitionFuchs);

@@ -63,12 +63,12 @@ TEST(MomentMethods, SingleProcessesAreExact) {
 TEST(MomentMethods, ProcessesTogetherAreExactWhereTheyClose) {
   auto model = coagulating(CollisionKernelType::constant, 1e-11);
   model.nucleation = steadyNuclei(1e12, 1);
-  expectExact(model, equalStart(1e11, 1), 20);  // thesis case 9
+  expectExact(model, equalStart(1e11, 1), 20);  // Wang (2025), case 9
   expectExact(model, {}, 20);
   for (const auto daughters : {uniform, equalPieces}) {
     auto both = coagulating(CollisionKernelType::constant);
     both.breakage = BreakageOptions{.rate = 0.5, .exponent = 0, .fragments = 2, .daughters = daughters};
-    expectExact(both, equalStart(), 20);  // thesis cases 10 and 12
+    expectExact(both, equalStart(), 20);  // Wang (2025), cases 10 and 12
     both.deposition = DepositionOptions{.rate = 0.1, .exponent = 0};
     both.growth.condensation = 0.2;
     both.nucleation = steadyNuclei(0.3, 0.5);

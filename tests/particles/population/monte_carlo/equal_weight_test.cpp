@@ -271,7 +271,7 @@ TEST_P(EqualWeight, GelationStopsAtItsTime) {
   }
 }
 
-// The thesis's case stops at 60 % of the time of gelation.
+// The case of Wang (2025) stops at 60 % of the time of gelation.
 TEST(EqualWeightGelation, DoesNotStopEarly) {
   const PopulationModel model = coagulation(CollisionKernelType::multiplicative);
   for (std::uint64_t repeat = 0; repeat < 200; ++repeat) {

@@ -7,8 +7,8 @@
 namespace lampblack {
 namespace {
 
-// Thesis eqs. 4-11 to 4-14 by hand, the other pair of arguments being of no influence.
-TEST(FractionLaw, HasTheValuesOfTheThesis) {
+// Wang (2025), eqs. 4-11 to 4-14 by hand, the other pair of arguments being of no influence.
+TEST(FractionLaw, HasTheValuesOfWang2025) {
   for (const auto of : {FractionOf::volumes, FractionOf::weights}) {
     const auto alpha = [of](FractionFunction f, double a, double b) {
       const FractionLaw law(f, of, 0.3);

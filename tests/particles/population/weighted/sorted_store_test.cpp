@@ -196,7 +196,7 @@ TEST(SortedStore, CarriesWhateverAParticleIs) {
   randomOperations<false>(true, 3);
 }
 
-TEST(SortedStore, TakesTheNeighbourTheThesisSays) {
+TEST(SortedStore, TakesTheNeighbourOfWang2025) {
   using Rates = WeightedTestRates<true>;
   SortedStore<Rates> store{Rates()};
   for (const double v : {1.0, 3.0, 4.0}) store.insert({{v}, 1});
