@@ -8,14 +8,15 @@ namespace {
 
 void addMesh(DeckSchema& schema) {
   schema
-      .add(
-          choiceKey("mesh.geometry", {"axisymmetric", "planar"}, "Axes r and z, or x and y.").byDefault("axisymmetric"))
+      .add(choiceKey("mesh.geometry", {"axisymmetric", "planar"},
+                     "Symmetry of the domain: axisymmetric, with axes r and z, or planar, with x and y.")
+               .byDefault("axisymmetric"))
       .add(numberKey("mesh.refinement", "Multiplies the cell count of every segment.").byDefault("1").above(0));
   for (const std::string axis : {"r", "z", "x", "y"}) {
     const std::string list = "mesh." + axis;
     schema.section(list, Presence::optional, "Segments of the " + axis + " axis, one after the other from zero.")
-        .add(quantityKey(list + "[].to", units::length, "End of the segment.").above(0))
-        .add(integerKey(list + "[].cells", "Cells of the segment.").atLeast(1))
+        .add(quantityKey(list + "[].to", units::length, "Coordinate at which the segment ends.").above(0))
+        .add(integerKey(list + "[].cells", "Number of cells of the segment.").atLeast(1))
         .add(
             numberKey(list + "[].ratio", "Last cell size over first; above 1 the cells grow.").byDefault("1").above(0));
   }
@@ -23,11 +24,17 @@ void addMesh(DeckSchema& schema) {
 
 void addBoundaries(DeckSchema& schema) {
   schema.section("boundaries", Presence::required, "Named parts of the surface and what happens there.")
-      .add(choiceKey("boundaries.*.type", {"inlet", "outlet", "wall", "symmetry"}, "Kind of boundary."))
+      .add(choiceKey(
+          "boundaries.*.type", {"inlet", "outlet", "wall", "symmetry"},
+          "Kind of boundary: a stream that comes in, an opening, a solid wall or an axis or plane of symmetry."))
       .add(choiceKey("boundaries.*.side", {"r-min", "r-max", "z-min", "z-max", "x-min", "x-max", "y-min", "y-max"},
-                     "Side of the box it lies on."))
-      .add(quantityKey("boundaries.*.from", units::length, "Start along the side.").optional())
-      .add(quantityKey("boundaries.*.to", units::length, "End along the side.").optional())
+                     "Side of the box that the boundary lies on."))
+      .add(quantityKey("boundaries.*.from", units::length,
+                       "Coordinate along the side where the boundary starts; absent: the lower end of the side.")
+               .optional())
+      .add(quantityKey("boundaries.*.to", units::length,
+                       "Coordinate along the side where the boundary ends; absent: the upper end of the side.")
+               .optional())
       .add(quantityKey("boundaries.*.velocity", units::velocity, "Normal velocity into the domain.")
                .optional()
                .atLeast(0)
@@ -36,14 +43,16 @@ void addBoundaries(DeckSchema& schema) {
                           "inlet: of the stream; outlet: of entrained gas; wall: isothermal at this temperature.")
                .optional()
                .onlyWith("boundaries.*.type", {"inlet", "outlet", "wall"}))
-      .add(stringKey("boundaries.*.composition", "Of the stream or of entrained gas: mole fractions, 'C2H4: 1, N2: 3'.")
+      .add(stringKey("boundaries.*.composition",
+                     "Mole fractions of the stream (inlet) or of gas that is entrained (outlet), 'C2H4: 1, N2: 3'.")
                .optional()
                .onlyWith("boundaries.*.type", {"inlet", "outlet"}))
       .add(choiceKey("boundaries.*.species", {"flux", "fixed"},
                      "Fix the total species flux (no diffusive loss into the nozzle) or the mass fractions.")
                .byDefault("flux")
                .onlyWith("boundaries.*.type", {"inlet"}))
-      .add(booleanKey("boundaries.*.slip", "Without friction.")
+      .add(booleanKey("boundaries.*.slip",
+                      "true: the gas slides along the wall without friction; false: it sticks to the wall.")
                .byDefault("false")
                .onlyWith("boundaries.*.type", {"wall"}));
 }
@@ -56,7 +65,8 @@ void addInitial(DeckSchema& schema) {
                .byDefault("burnt"))
       .add(stringKey("initial.low", "Boundary whose stream fills the low end of the axis."))
       .add(stringKey("initial.high", "Boundary whose stream fills the high end."))
-      .add(quantityKey("initial.position", units::length, "Where the mixture is half and half."))
+      .add(quantityKey("initial.position", units::length,
+                       "Coordinate on the axis where half of the mixture is of either stream."))
       .add(quantityKey("initial.width", units::length, "Width of the mixing layer.").above(0))
       .add(temperatureKey("initial.temperature", "burnt: upper limit of the temperature; hot: peak of the hot layer.")
                .byDefault("2200 K"))
@@ -70,18 +80,20 @@ void addInitial(DeckSchema& schema) {
 }
 
 void addTimeAndOutput(DeckSchema& schema) {
-  schema.add(quantityKey("time.end", units::time, "Simulated time.").above(0))
+  schema.add(quantityKey("time.end", units::time, "Time at which the run ends, from zero.").above(0))
       .add(quantityKey("time.first_step", units::time, "First time step.").byDefault("1 us").above(0))
       .add(quantityKey("time.maximum_step", units::time, "Largest time step.").byDefault("1 ms").above(0))
       .add(numberKey("time.courant", "Share of a cell's volume that may flow out in a step.")
                .byDefault("0.5")
                .above(0)
                .atMost(1))
-      .add(numberKey("time.growth", "Largest ratio of successive steps.").byDefault("1.2").above(1))
+      .add(numberKey("time.growth", "Largest ratio of a time step to the one before.").byDefault("1.2").above(1))
       .add(quantityKey("output.interval", units::time, "Time between field outputs; the last state is always written.")
                .optional()
                .above(0))
-      .add(integerKey("output.history_steps", "Steps between rows of the history.").byDefault("1").atLeast(1))
+      .add(integerKey("output.history_steps", "Number of time steps between two rows of the history.")
+               .byDefault("1")
+               .atLeast(1))
       .add(stringKey("output.species", "Species whose mole fractions are written; 'all' writes every one.")
                .list()
                .byDefault("[all]"))
@@ -104,18 +116,33 @@ void addParticles(DeckSchema& schema) {
   schema
       .section("trajectories", Presence::optional,
                "Stochastic ensembles that ride along streamlines of the final flow; needs the soot section.")
-      .add(quantityKey("trajectories.duration", units::time, "Longest ride.").byDefault("50 ms").above(0))
-      .add(
-          quantityKey("trajectories.time_step", units::time, "Between samples of the gas.").byDefault("50 us").above(0))
-      .add(integerKey("trajectories.particles", "Capacity of each ensemble.").byDefault("4096").atLeast(16))
-      .add(integerKey("trajectories.bins", "Bins of the size distribution.").byDefault("60").atLeast(2))
-      .add(quantityKey("trajectories.smallest", units::length, "Lower end of the bins (diameter).")
+      .add(quantityKey("trajectories.duration", units::time,
+                       "Longest time that an ensemble is followed along its streamline.")
+               .byDefault("50 ms")
+               .above(0))
+      .add(quantityKey("trajectories.time_step", units::time,
+                       "Time between two points of a streamline at which the state of the gas is taken.")
+               .byDefault("50 us")
+               .above(0))
+      .add(integerKey("trajectories.particles",
+                      "Largest number of numerical particles of an ensemble: more have less noise and cost more.")
+               .byDefault("4096")
+               .atLeast(16))
+      .add(integerKey("trajectories.bins", "Number of bins of the size distribution.").byDefault("60").atLeast(2))
+      .add(quantityKey("trajectories.smallest", units::length,
+                       "Smallest diameter of the size distribution, the lower end of its bins.")
                .byDefault("0.5 nm")
                .above(0))
-      .add(quantityKey("trajectories.largest", units::length, "Upper end of the bins.").byDefault("200 nm").above(0))
+      .add(quantityKey("trajectories.largest", units::length,
+                       "Largest diameter of the size distribution, the upper end of its bins.")
+               .byDefault("200 nm")
+               .above(0))
       .section("trajectories.start", Presence::required, "Where the ensembles start.")
-      .add(quantityKey("trajectories.start[].r", units::length, "Radius (planar: x).").atLeast(0))
-      .add(quantityKey("trajectories.start[].z", units::length, "Axial position (planar: y).").atLeast(0));
+      .add(quantityKey("trajectories.start[].r", units::length, "Where a streamline starts: radius (planar: x).")
+               .atLeast(0))
+      .add(
+          quantityKey("trajectories.start[].z", units::length, "Where a streamline starts: axial position (planar: y).")
+              .atLeast(0));
 }
 
 }  // namespace
@@ -125,8 +152,14 @@ DeckSchema flowSchema() {
   schema.add(choiceKey("problem", {"flow"}, "What is solved."))
       .add(stringKey("title", "One line for reports and pictures.").byDefault("''"));
   addMechanismKeys(schema);
-  schema.add(quantityKey("pressure", units::pressure, "Thermodynamic pressure.").byDefault("1 atm").above(0))
-      .add(integerKey("seed", "Of all random numbers.").byDefault("1").atLeast(0));
+  schema
+      .add(quantityKey("pressure", units::pressure, "Thermodynamic pressure p0 of the gas, the same everywhere.")
+               .byDefault("1 atm")
+               .above(0))
+      .add(integerKey("seed",
+                      "Start of all random numbers: another seed gives another sample, the same seed the same result.")
+               .byDefault("1")
+               .atLeast(0));
   addMesh(schema);
   addBoundaries(schema);
   addInitial(schema);
@@ -137,9 +170,16 @@ DeckSchema flowSchema() {
                "deferred: reactions see the transport as a constant source, so that a steady flame does not depend "
                "on the time step; strang: Strang splitting.")
                .byDefault("deferred"))
-      .add(booleanKey("chemistry.share_work", "Send stiff cells to less busy ranks.").byDefault("true"))
-      .add(numberKey("chemistry.relative_tolerance", "Of the stiff solver.").byDefault("1e-6").above(0).below(1))
-      .add(numberKey("chemistry.absolute_tolerance", "Of the stiff solver, in mass fraction.")
+      .add(booleanKey("chemistry.share_work", "Whether cells with costly chemistry are sent to less busy ranks.")
+               .byDefault("true"))
+      .add(numberKey("chemistry.relative_tolerance",
+                     "Relative tolerance of the stiff solver of the chemistry: smaller is more accurate and slower.")
+               .byDefault("1e-6")
+               .above(0)
+               .below(1))
+      .add(numberKey("chemistry.absolute_tolerance",
+                     "Absolute tolerance of the stiff solver of the chemistry, in mass fraction: smaller is more "
+                     "accurate and slower.")
                .byDefault("1e-12")
                .above(0)
                .below(1));

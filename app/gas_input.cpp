@@ -42,10 +42,18 @@ void addMixtureKeys(DeckSchema& schema, const std::string& section) {
                      "Mole fractions, 'CH4: 1, O2: 2, N2: 7.52'; any sum. A name with ':' or '=' "
                      "stands in quotes of its own.")
                .optional())
-      .add(stringKey(section + ".mass_fractions", "Mass fractions instead, in the same way.").optional())
-      .add(stringKey(section + ".fuel", "Or a fuel (mole fractions), with oxidizer and equivalence_ratio.").optional())
-      .add(stringKey(section + ".oxidizer", "What it burns with (mole fractions), 'O2: 1, N2: 3.76'.").optional())
-      .add(numberKey(section + ".equivalence_ratio", "Of fuel and oxidizer; 1 is stoichiometric.")
+      .add(stringKey(
+               section + ".mass_fractions",
+               "Mass fractions, in place of mole fractions and written like them, 'CH4: 0.05, O2: 0.22, N2: 0.73'.")
+               .optional())
+      .add(stringKey(
+               section + ".fuel",
+               "Mole fractions of the fuel, 'CH4: 1'; with oxidizer and equivalence_ratio, in place of a composition.")
+               .optional())
+      .add(
+          stringKey(section + ".oxidizer", "Mole fractions of what the fuel burns with, 'O2: 1, N2: 3.76'.").optional())
+      .add(numberKey(section + ".equivalence_ratio",
+                     "Equivalence ratio of fuel and oxidizer: 1 is stoichiometric, above 1 rich.")
                .optional()
                .atLeast(0));
 }
@@ -115,7 +123,8 @@ void addTransportKeys(DeckSchema& schema, std::vector<std::string> models, const
                .optional()
                .onlyWith("transport.model", {"constant_lewis"}))
       .add(choiceKey("transport.collision_integrals", {"monchick_mason", "wang_fits"},
-                     "The tables of Monchick and Mason (1961), or the fits of Wang (2025, eqs 6-36 and 6-37).")
+                     "Collision integrals of viscosity and diffusion: monchick_mason: the tables of Monchick and Mason "
+                     "(1961); wang_fits: the fits of Wang (2025, eqs. 6-36 and 6-37), within 2.5 % of them.")
                .byDefault("monchick_mason"));
 }
 

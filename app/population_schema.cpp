@@ -15,9 +15,9 @@ const std::vector<std::string> spread{"monodisperse", "exponential", "lognormal"
 // A size of a particle, as a volume or as the diameter of the sphere that has it.
 void addSize(DeckSchema& schema, const std::string& section, const std::string& what,
              const std::vector<DeckCondition>& conditions = {}) {
-  DeckKey volume = quantityKey(section + ".volume", units::volume, "Volume " + what + ", or diameter.");
-  DeckKey diameter =
-      quantityKey(section + ".diameter", units::length, "Instead: diameter of the sphere of that volume.");
+  DeckKey volume = quantityKey(section + ".volume", units::volume, "Volume " + what + "; either this or the diameter.");
+  DeckKey diameter = quantityKey(section + ".diameter", units::length,
+                                 "Diameter of the sphere of that volume, in place of the volume.");
   for (DeckKey* key : {&volume, &diameter}) {
     key->optional().above(0).conditions = conditions;
     schema.add(*key);
@@ -27,9 +27,10 @@ void addSize(DeckSchema& schema, const std::string& section, const std::string& 
 // The rate rate (v / reference_volume)^exponent of a process of single particles.
 void addSizeDependentRate(DeckSchema& schema, const std::string& section, const std::string& what) {
   schema.add(quantityKey(section + ".rate", units::frequency, what + " of a particle of reference_volume.").atLeast(0))
-      .add(numberKey(section + ".exponent", "The rate goes with this power of the volume.").byDefault("0"))
+      .add(numberKey(section + ".exponent", "Exponent e of the volume v in the rate, rate (v / reference_volume)^e.")
+               .byDefault("0"))
       .add(quantityKey(section + ".reference_volume", units::volume,
-                       "The volume that has the rate, if it depends on it.")
+                       "Volume of a particle that has just the rate; of no effect where the exponent is 0.")
                .byDefault("1 m^3")
                .above(0));
 }
@@ -41,16 +42,18 @@ void addParticleTypes(DeckSchema& schema) {
                "volume: coalescing spheres; fractal: aggregates of equal primary particles; surface_volume: volume "
                "and surface; components: spheres of several components by mass.")
                .byDefault("volume"))
-      .add(quantityKey("particles.density", units::density, "Of the material; components have their own.")
+      .add(quantityKey("particles.density", units::density,
+                       "Density of the material of the particles; components have their own.")
                .byDefault("1800 kg/m^3")
                .above(0)
                .onlyWith("particles.type", {"volume", "fractal", "surface_volume"}))
-      .add(numberKey("particles.fractal_dimension", "Of aggregates; 1.8 if not given.")
+      .add(numberKey("particles.fractal_dimension",
+                     "Fractal dimension of aggregates; 1.8 if not given. Smaller is more open.")
                .optional()
                .atLeast(1)
                .atMost(3)
                .onlyWith("particles.type", {"fractal", "surface_volume"}))
-      .add(quantityKey("particles.primary_diameter", units::length, "Of the primary particles.")
+      .add(quantityKey("particles.primary_diameter", units::length, "Diameter of the primary particles.")
                .optional()
                .above(0)
                .onlyWith("particles.type", {"fractal"}))
@@ -59,19 +62,23 @@ void addParticleTypes(DeckSchema& schema) {
                .optional()
                .above(0)
                .onlyWith("particles.type", {"surface_volume"}))
-      .section("particles.components", Presence::optional, "Named, four at most.", {{"particles.type", {"components"}}})
-      .add(quantityKey("particles.components.*.density", units::density, "Of the component.").above(0))
-      .add(numberKey("particles.components.*.nucleus", "Mass fraction in nuclei and in the initial particles.")
+      .section("particles.components", Presence::optional,
+               "Components of the particles, each with a name; four at most.", {{"particles.type", {"components"}}})
+      .add(quantityKey("particles.components.*.density", units::density, "Density of the component.").above(0))
+      .add(numberKey("particles.components.*.nucleus",
+                     "Mass fraction of the component in nuclei and in the initial particles.")
                .byDefault("0")
                .atLeast(0))
-      .add(numberKey("particles.components.*.condensing", "Mass fraction in what condenses or grows on the surface.")
+      .add(numberKey("particles.components.*.condensing",
+                     "Mass fraction of the component in what condenses or grows on the surface.")
                .byDefault("0")
                .atLeast(0));
   schema
       .add(choiceKey("initial.distribution", {"none", "monodisperse", "exponential", "lognormal"},
-                     "Of the volumes at time zero; lognormal: of the diameters.")
+                     "Distribution of the volumes of the particles at time zero (lognormal: of their diameters); none: "
+                     "no particles.")
                .byDefault("none"))
-      .add(quantityKey("initial.number", units::perVolume, "Number density.")
+      .add(quantityKey("initial.number", units::perVolume, "Number density of the particles at time zero.")
                .optional()
                .above(0)
                .onlyWith("initial.distribution", spread));
@@ -103,8 +110,12 @@ void addCoagulation(DeckSchema& schema) {
                        "multiplied by 1 / (1 + (efficiency_diameter / d)^efficiency_exponent).")
                .optional()
                .above(0))
-      .add(numberKey(at + ".efficiency_exponent", "See efficiency_diameter.").optional().above(0))
-      .add(numberKey(at + ".enhancement", "Of free-molecular collisions by van der Waals forces.")
+      .add(numberKey(at + ".efficiency_exponent",
+                     "Exponent in the efficiency of collisions of small particles, 1 / (1 + (efficiency_diameter / "
+                     "d)^efficiency_exponent): bigger makes a sharper limit.")
+               .optional()
+               .above(0))
+      .add(numberKey(at + ".enhancement", "Factor by which van der Waals forces enhance free-molecular collisions.")
                .optional()
                .above(0)
                .onlyWith(at + ".kernel", {"free_molecular", "transition", "transition_fuchs"}))
@@ -126,7 +137,8 @@ void addNucleation(DeckSchema& schema) {
                .optional()
                .above(0)
                .onlyWith(at + ".source", {"constant"}))
-      .add(quantityKey(at + ".rate_constant", units::frequency, "Of the precursor's first-order reaction.")
+      .add(quantityKey(at + ".rate_constant", units::frequency,
+                       "Rate constant of the first-order reaction of the precursor to nuclei.")
                .optional()
                .above(0)
                .onlyWith(at + ".source", {"precursor"}))
@@ -134,11 +146,11 @@ void addNucleation(DeckSchema& schema) {
                .optional()
                .above(0)
                .onlyWith(at + ".source", {"precursor"}))
-      .add(quantityKey(at + ".times", units::time, "Times, rising.")
+      .add(quantityKey(at + ".times", units::time, "Times of the points of the table, rising.")
                .list()
                .optional()
                .onlyWith(at + ".source", {"table"}))
-      .add(quantityKey(at + ".rates", units::ratePerVolume, "Rates at the times.")
+      .add(quantityKey(at + ".rates", units::ratePerVolume, "Nuclei per volume and time at the times of the table.")
                .list()
                .optional()
                .atLeast(0)
@@ -148,17 +160,27 @@ void addNucleation(DeckSchema& schema) {
 
 void addSingleProcesses(DeckSchema& schema) {
   schema.section("processes.breakage", Presence::optional, "Particles break into pieces.");
-  addSizeDependentRate(schema, "processes.breakage", "Rate");
-  schema.add(integerKey("processes.breakage.fragments", "Number of pieces.").byDefault("2").atLeast(2).atMost(1000))
+  addSizeDependentRate(schema, "processes.breakage", "Rate of breakage");
+  schema
+      .add(integerKey("processes.breakage.fragments", "Number of pieces that a particle breaks into.")
+               .byDefault("2")
+               .atLeast(2)
+               .atMost(1000))
       .add(choiceKey("processes.breakage.daughters", {"equal", "uniform"},
                      "equal: all pieces alike; uniform (two pieces): every split equally probable.")
                .byDefault("equal"));
   schema.section("processes.condensation", Presence::optional, "dv/dt = rate v; evaporation where it is negative.")
-      .add(quantityKey("processes.condensation.rate", units::frequency, "Rate."))
+      .add(quantityKey("processes.condensation.rate", units::frequency,
+                       "Relative rate at which all number densities fall as the gas expands, dn/dt = -rate n; "
+                       "negative: compression."))
       .section("processes.surface_growth", Presence::optional, "dv/dt = rate S, with the surface S of the particle.")
-      .add(quantityKey("processes.surface_growth.rate", units::velocity, "Growth normal to the surface.").above(0))
+      .add(quantityKey("processes.surface_growth.rate", units::velocity,
+                       "Speed at which the surface of particles grows outwards, the rate in dv/dt = rate S.")
+               .above(0))
       .section("processes.oxidation", Presence::optional, "dv/dt = -rate S.")
-      .add(quantityKey("processes.oxidation.rate", units::velocity, "Recession normal to the surface.").above(0))
+      .add(quantityKey("processes.oxidation.rate", units::velocity,
+                       "Speed at which the surface of particles recedes, the rate in dv/dt = -rate S.")
+               .above(0))
       .section("processes.growth", Presence::optional, "How condensation, surface growth and oxidation are computed.")
       .add(
           choiceKey("processes.growth.treatment", {"split", "deferred", "jumps"},
@@ -173,34 +195,41 @@ void addSingleProcesses(DeckSchema& schema) {
                .optional()
                .above(0)
                .onlyWith("processes.growth.treatment", {"jumps"}))
-      .add(quantityKey("processes.growth.smallest_volume", units::volume, "Particles that shrink below it vanish.")
+      .add(quantityKey("processes.growth.smallest_volume", units::volume,
+                       "Volume below which particles that shrink vanish.")
                .optional()
                .above(0))
       .section("processes.deposition", Presence::optional, "Particles are lost.");
-  addSizeDependentRate(schema, "processes.deposition", "Rate");
+  addSizeDependentRate(schema, "processes.deposition", "Rate of loss");
   schema
       .section("processes.dilution", Presence::optional,
                "All number densities fall at this rate, as where the gas expands; negative: compression.")
-      .add(quantityKey("processes.dilution.rate", units::frequency, "Rate."));
+      .add(quantityKey("processes.dilution.rate", units::frequency,
+                       "Relative rate at which all number densities fall as the gas expands, dn/dt = -rate n; "
+                       "negative: compression."));
 }
 
 void addGas(DeckSchema& schema) {
   const std::string kernel = "processes.coagulation.kernel";
   const std::vector<std::string> slip{"continuum", "transition", "transition_fuchs", "gravitational"};
   schema.section("gas", Presence::optional, "The gas around the particles, for the physical kernels.")
-      .add(temperatureKey("gas.temperature", "Temperature.")
+      .add(temperatureKey("gas.temperature", "Temperature of the gas.")
                .optional()
                .onlyWith(kernel, {"free_molecular", "continuum", "transition", "transition_fuchs", "gravitational"}))
-      .add(quantityKey("gas.pressure", units::pressure, "Pressure.").optional().above(0).onlyWith(kernel, slip))
-      .add(quantityKey("gas.viscosity", units::viscosity, "Dynamic viscosity.")
+      .add(quantityKey("gas.pressure", units::pressure, "Pressure of the gas.")
                .optional()
                .above(0)
                .onlyWith(kernel, slip))
-      .add(quantityKey("gas.mean_molecular_weight", units::molarMass, "Mean molar mass.")
+      .add(quantityKey("gas.viscosity", units::viscosity, "Dynamic viscosity of the gas.")
                .optional()
                .above(0)
                .onlyWith(kernel, slip))
-      .add(quantityKey("gas.density", units::density, "Density; none if not given.")
+      .add(quantityKey("gas.mean_molecular_weight", units::molarMass, "Mean molar mass of the gas.")
+               .optional()
+               .above(0)
+               .onlyWith(kernel, slip))
+      .add(quantityKey("gas.density", units::density,
+                       "Density of the gas, which the particles float in; 0 if not given.")
                .optional()
                .atLeast(0)
                .onlyWith(kernel, {"gravitational"}));
@@ -230,17 +259,20 @@ void addMethods(DeckSchema& schema) {
                .atMost(1e9)
                .onlyWith(at + ".type", monteCarlo))
       .add(choiceKey(at + ".rates", {"majorant", "exact"},
-                     "Rates bounded by majorants, with fictitious jumps; or every rate summed, O(N).")
+                     "How events are drawn: majorant: from upper bounds of the rates, with fictitious jumps, fast; "
+                     "exact: from the sums of all rates, at a cost that goes with the number of particles.")
                .optional()
                .onlyWith(at + ".type", monteCarlo))
       .add(choiceKey(at + ".fraction", {"one", "hyperbolic", "exponential", "stepwise", "constant"},
-                     "Fraction function of coagulation.")
+                     "Fraction function of coagulation alpha: the part of the smaller weight that coagulates in an "
+                     "event (Wang 2025, eqs. 4-11 to 4-14).")
                .optional()
                .onlyWith(at + ".type", fractions))
-      .add(choiceKey(at + ".fraction_of", {"volumes", "weights"}, "What the fraction function compares.")
+      .add(choiceKey(at + ".fraction_of", {"volumes", "weights"},
+                     "What of the two particles the fraction function compares: volumes or weights.")
                .optional()
                .onlyWith(at + ".fraction", {"hyperbolic", "exponential", "stepwise"}))
-      .add(numberKey(at + ".fraction_constant", "The fraction.")
+      .add(numberKey(at + ".fraction_constant", "The constant value of the fraction function alpha.")
                .optional()
                .above(0)
                .atMost(1)
@@ -249,14 +281,18 @@ void addMethods(DeckSchema& schema) {
                      "Which difference of the volumes of neighbours is to be smallest.")
                .optional()
                .onlyWith(at + ".type", {"sammc", "swa"}))
-      .add(choiceKey(at + ".weight_transfer", {"mass", "half", "harmonic"}, "Weight transfer function.")
+      .add(choiceKey(at + ".weight_transfer", {"mass", "half", "harmonic"},
+                     "Weight transfer function gamma of the stochastic weighted algorithm: the weight of the particle "
+                     "that two make (Patterson, Wagner, Kraft 2011).")
                .optional()
                .onlyWith(at + ".type", {"swa"}))
       .add(choiceKey(at + ".nucleation", {"even", "random"},
                      "Nuclei evenly spaced in the integral of their rate (hardly any noise) or at random.")
                .optional()
                .onlyWith(at + ".type", monteCarlo))
-      .add(quantityKey(at + ".nucleus_weight", units::perVolume, "Number density a nucleus stands for.")
+      .add(quantityKey(at + ".nucleus_weight", units::perVolume,
+                       "Number density of real particles that a new numerical particle (nucleus) stands for: smaller "
+                       "is more accurate and slower.")
                .optional()
                .above(0)
                .onlyWith(at + ".type", weighted))
@@ -265,11 +301,13 @@ void addMethods(DeckSchema& schema) {
                .optional()
                .above(0)
                .onlyWith(at + ".type", monteCarlo))
-      .add(integerKey(at + ".threshold", "Largest size, in nuclei, kept as a number.")
+      .add(integerKey(at + ".threshold",
+                      "Largest size, in nuclei, of particles that are kept as a number of each size; larger ones are "
+                      "kept one by one.")
                .optional()
                .atLeast(1)
                .onlyWith(at + ".type", {"hybrid"}))
-      .add(integerKey(at + ".sections", "Number of sections.")
+      .add(integerKey(at + ".sections", "Number of sections of mass: more of them reach larger particles.")
                .optional()
                .atLeast(20)
                .atMost(400)
@@ -302,15 +340,18 @@ void addMethods(DeckSchema& schema) {
                .atLeast(2)
                .atMost(20)
                .onlyWith(at + ".type", {"qmom", "momic"}))
-      .add(choiceKey(at + ".inversion", {"wheeler", "product_difference"}, "Moments to quadrature.")
+      .add(choiceKey(at + ".inversion", {"wheeler", "product_difference"},
+                     "Algorithm that finds nodes and weights of the quadrature from the moments.")
                .optional()
                .onlyWith(at + ".type", {"qmom"}))
-      .add(numberKey(at + ".relative_tolerance", "Of the integrator.")
+      .add(numberKey(at + ".relative_tolerance",
+                     "Relative tolerance of the integrator: smaller is more accurate and slower.")
                .optional()
                .above(0)
                .below(1)
                .onlyWith(at + ".type", {"sectional", "qmom", "momic"}))
-      .add(numberKey(at + ".absolute_tolerance", "In the largest number density.")
+      .add(numberKey(at + ".absolute_tolerance",
+                     "Absolute tolerance of the integrator, as part of the largest number density.")
                .optional()
                .above(0)
                .below(1)
@@ -318,27 +359,40 @@ void addMethods(DeckSchema& schema) {
 }
 
 void addOutput(DeckSchema& schema) {
-  schema.add(quantityKey("time.end", units::time, "Simulated time.").above(0))
+  schema.add(quantityKey("time.end", units::time, "Time at which the run ends, from zero.").above(0))
       .add(integerKey("time.outputs", "Rows of the histories after that at time zero.")
                .byDefault("100")
                .atLeast(1)
                .atMost(100000))
-      .add(choiceKey("time.spacing", {"linear", "logarithmic"}, "Of the rows.").byDefault("linear"))
-      .add(quantityKey("time.first", units::time, "The first row after that at time zero.")
+      .add(choiceKey("time.spacing", {"linear", "logarithmic"}, "Spacing of the rows in time.").byDefault("linear"))
+      .add(quantityKey("time.first", units::time, "Time of the first row after that at time zero.")
                .optional()
                .above(0)
                .onlyWith("time.spacing", {"logarithmic"}))
-      .add(integerKey("repeats", "Of each Monte Carlo method, with random numbers of their own.")
+      .add(integerKey("repeats",
+                      "Number of repeats of each Monte Carlo method, with random numbers of their own: more have less "
+                      "noise and cost more.")
                .byDefault("20")
                .atLeast(1)
                .atMost(1e8))
-      .add(integerKey("seed", "Of the random numbers.").byDefault("1").atLeast(0));
+      .add(integerKey("seed",
+                      "Start of the random numbers: another seed gives another sample, the same seed the same result.")
+               .byDefault("1")
+               .atLeast(0));
   schema.section("distribution", Presence::optional, "Number densities in bins of volume.")
-      .add(quantityKey("distribution.minimum", units::volume, "Lower edge of the first bin.").atLeast(0))
-      .add(quantityKey("distribution.maximum", units::volume, "Upper edge of the last bin.").above(0))
-      .add(integerKey("distribution.bins", "Number of bins.").byDefault("50").atLeast(1).atMost(100000))
-      .add(choiceKey("distribution.spacing", {"logarithmic", "linear"}, "Of the edges.").byDefault("logarithmic"))
-      .add(quantityKey("distribution.times", units::time, "When; time.end if not given.").list().optional().atLeast(0));
+      .add(quantityKey("distribution.minimum", units::volume, "Volume at the lower edge of the first bin.").atLeast(0))
+      .add(quantityKey("distribution.maximum", units::volume, "Volume at the upper edge of the last bin.").above(0))
+      .add(integerKey("distribution.bins", "Number of bins of the distribution.")
+               .byDefault("50")
+               .atLeast(1)
+               .atMost(100000))
+      .add(choiceKey("distribution.spacing", {"logarithmic", "linear"}, "Spacing of the edges of the bins.")
+               .byDefault("logarithmic"))
+      .add(quantityKey("distribution.times", units::time,
+                       "Times at which the distribution is written; absent: at time.end.")
+               .list()
+               .optional()
+               .atLeast(0));
 }
 
 }  // namespace
@@ -346,7 +400,7 @@ void addOutput(DeckSchema& schema) {
 DeckSchema populationSchema() {
   DeckSchema schema;
   schema.add(choiceKey("problem", {"population_balance"}, "What is solved."))
-      .add(stringKey("name", "Of the case, for tables and pictures.").byDefault("''"))
+      .add(stringKey("name", "Name of the case, for tables and pictures.").byDefault("''"))
       .add(stringKey("title", "One line for reports and pictures.").byDefault("''"));
   addParticleTypes(schema);
   addCoagulation(schema);

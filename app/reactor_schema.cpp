@@ -15,20 +15,22 @@ const std::vector<std::string> integrated{"constant_pressure", "constant_volume"
 // What a stirred reactor has, alone or in a network.
 void addVesselKeys(DeckSchema& schema, const std::string& section, const std::string& type) {
   schema
-      .add(quantityKey(section + ".volume", units::volume, "Or residence_time.")
+      .add(quantityKey(section + ".volume", units::volume, "Volume of the reactor; either this or residence_time.")
                .optional()
                .above(0)
                .onlyWith(typeKey, {type}))
-      .add(quantityKey(section + ".residence_time", units::time,
-                       "Mass inside over mass flow; the volume follows from it.")
+      .add(quantityKey(
+               section + ".residence_time", units::time,
+               "Residence time, the mass inside over the mass flow; the volume follows from it. Either this or volume.")
                .optional()
                .above(0)
                .onlyWith(typeKey, {type}))
       .section(section + ".heat_loss", Presence::optional, "Where there is an energy equation.", {{typeKey, {type}}})
       .add(quantityKey(section + ".heat_loss.conductance", units::watt / units::temperature,
-                       "Heat lost a kelvin above the surroundings.")
+                       "Heat lost per time and kelvin above the surroundings, in W/K: bigger cools more.")
                .atLeast(0))
-      .add(quantityKey(section + ".heat_loss.surroundings", units::temperature, "Temperature of the surroundings.")
+      .add(quantityKey(section + ".heat_loss.surroundings", units::temperature,
+                       "Temperature of the surroundings that heat is lost to.")
                .atLeast(0)
                .byDefault("300 K"));
 }
@@ -51,21 +53,23 @@ void addReactor(DeckSchema& schema) {
                      "is.")
                .byDefault("burnt")
                .onlyWith(typeKey, {"stirred", "network"}))
-      .add(quantityKey("reactor.length", units::length, "Of the duct.")
+      .add(quantityKey("reactor.length", units::length, "Length of the duct.")
                .optional()
                .above(0)
                .onlyWith(typeKey, {"plug_flow"}))
-      .add(quantityKey("reactor.area", units::area, "Cross-section, where the inlet has a mass_flow.")
-               .optional()
-               .above(0)
-               .onlyWith(typeKey, {"plug_flow"}));
+      .add(
+          quantityKey("reactor.area", units::area, "Cross-section of the duct; needed where the inlet has a mass_flow.")
+              .optional()
+              .above(0)
+              .onlyWith(typeKey, {"plug_flow"}));
   addVesselKeys(schema, "reactor", "stirred");
   schema.section("inlet", Presence::optional, "The stream that comes in.", {{typeKey, {"stirred", "plug_flow"}}})
-      .add(temperatureKey("inlet.temperature", "Temperature."))
-      .add(quantityKey("inlet.mass_flow", units::massFlow, "stirred (with a volume), plug_flow (with an area).")
+      .add(temperatureKey("inlet.temperature", "Temperature of the gas."))
+      .add(quantityKey("inlet.mass_flow", units::massFlow,
+                       "Mass flow into the reactor: a stirred one with reactor.volume, plug flow with reactor.area.")
                .optional()
                .above(0))
-      .add(quantityKey("inlet.velocity", units::velocity, "Instead of mass_flow.")
+      .add(quantityKey("inlet.velocity", units::velocity, "Velocity of the stream at the inlet, in place of mass_flow.")
                .optional()
                .above(0)
                .onlyWith(typeKey, {"plug_flow"}));
@@ -77,26 +81,28 @@ void addNetwork(DeckSchema& schema) {
       .section("network", Presence::optional, "Stirred reactors of one pressure and the streams between them.",
                {{typeKey, {"network"}}})
       .section("network.reactors", Presence::required, "Named reactors.")
-      .add(temperatureKey("network.reactors.*.temperature", "Where it is given; the energy equation otherwise.")
+      .add(temperatureKey("network.reactors.*.temperature",
+                          "Temperature at which this reactor is held; absent: it follows from the energy equation.")
                .optional());
   addVesselKeys(schema, "network.reactors.*", "network");
   schema.section("network.inlets", Presence::required, "Named streams from outside.")
-      .add(stringKey("network.inlets.*.to", "The reactor it flows into."))
-      .add(quantityKey("network.inlets.*.mass_flow", units::massFlow, "Mass flow.").above(0))
-      .add(temperatureKey("network.inlets.*.temperature", "Temperature."));
+      .add(stringKey("network.inlets.*.to", "Name of the reactor that the stream flows into."))
+      .add(quantityKey("network.inlets.*.mass_flow", units::massFlow, "Mass flow of the stream.").above(0))
+      .add(temperatureKey("network.inlets.*.temperature", "Temperature of the gas."));
   addMixtureKeys(schema, "network.inlets.*");
   schema
       .section("network.connections", Presence::optional,
                "Streams between reactors. What a reactor does not pass on leaves the network.")
-      .add(stringKey("network.connections[].from", "The reactor it leaves."))
-      .add(stringKey("network.connections[].to", "The reactor it flows into."))
+      .add(stringKey("network.connections[].from", "Name of the reactor that the stream leaves."))
+      .add(stringKey("network.connections[].to", "Name of the reactor that the stream flows into."))
       .add(numberKey("network.connections[].fraction",
-                     "Of all that flows through the reactor it leaves; 1 if neither "
+                     "Part of all that flows through the reactor it leaves that takes this connection; 1 if neither "
                      "this nor mass_flow is given.")
                .optional()
                .above(0)
                .atMost(1))
-      .add(quantityKey("network.connections[].mass_flow", units::massFlow, "Instead of a fraction.")
+      .add(quantityKey("network.connections[].mass_flow", units::massFlow,
+                       "Mass flow of the connection, in place of a fraction.")
                .optional()
                .above(0));
 }
@@ -123,16 +129,17 @@ void addIgnition(DeckSchema& schema) {
                "What marks ignition in a closed reactor. Delays are found on the integrator's dense output, well below "
                "its steps.",
                {{typeKey, closed}})
-      .add(booleanKey("ignition.temperature_rate", "The largest dT/dt.")
+      .add(booleanKey("ignition.temperature_rate",
+                      "Whether the time of the largest dT/dt is reported as an ignition delay.")
                .byDefault("true")
                .onlyWith("reactor.energy", {"adiabatic"}))
       .add(stringKey("ignition.species",
-                     "The largest mole and the largest mass fraction of these species; OH only where the mechanism has "
-                     "it.")
+                     "Species whose times of the largest mole and of the largest mass fraction are reported as "
+                     "ignition delays; OH only where the mechanism has it.")
                .list()
                .byDefault("[OH]"))
       .add(quantityKey("ignition.temperature_rise", units::temperature,
-                       "The temperature first is so much above the initial one.")
+                       "Reports as an ignition delay when the temperature first is this much above the initial one.")
                .optional()
                .above(0)
                .onlyWith("reactor.energy", {"adiabatic"}))
@@ -140,7 +147,8 @@ void addIgnition(DeckSchema& schema) {
                "Sensitivities d ln tau / d ln k of the ignition delays to the rate constants, forward and reverse "
                "together.",
                {{typeKey, closed}})
-      .add(choiceKey("sensitivity.of", {"ignition_delay"}, "Of what.").byDefault("ignition_delay"))
+      .add(choiceKey("sensitivity.of", {"ignition_delay"}, "Result whose sensitivities are computed.")
+               .byDefault("ignition_delay"))
       .add(stringKey("sensitivity.reactions",
                      "Reactions by their number in the file, from 1, or by their equation; 'all' takes every one.")
                .list()
@@ -154,14 +162,14 @@ DeckSchema reactorSchema() {
   schema.add(choiceKey("problem", {"reactor"}, "What is solved."))
       .add(stringKey("title", "One line for reports and pictures.").byDefault("''"));
   addMechanismKeys(schema);
-  schema.add(quantityKey("pressure", units::pressure, "Pressure; of constant_volume at the start.")
+  schema.add(quantityKey("pressure", units::pressure, "Pressure of the gas; with constant_volume that at the start.")
                  .byDefault("1 atm")
                  .above(0));
   addReactor(schema);
   schema
       .section("initial", Presence::optional, "The gas at the start; a stirred reactor may do without.",
                {{typeKey, inTime}})
-      .add(temperatureKey("initial.temperature", "Temperature."));
+      .add(temperatureKey("initial.temperature", "Temperature of the gas."));
   addMixtureKeys(schema, "initial");
   addProfile(schema);
   addNetwork(schema);
@@ -182,12 +190,20 @@ DeckSchema reactorSchema() {
   schema
       .section("integrator", Presence::defaulted, "The stiff solver of everything but steady states.",
                {{typeKey, integrated}})
-      .add(numberKey("integrator.relative_tolerance", "Of the stiff solver.").byDefault("1e-9").above(0).below(1))
-      .add(numberKey("integrator.absolute_tolerance", "Of the stiff solver, in mass fraction.")
+      .add(numberKey("integrator.relative_tolerance",
+                     "Relative tolerance of the stiff solver of the chemistry: smaller is more accurate and slower.")
+               .byDefault("1e-9")
+               .above(0)
+               .below(1))
+      .add(numberKey("integrator.absolute_tolerance",
+                     "Absolute tolerance of the stiff solver of the chemistry, in mass fraction: smaller is more "
+                     "accurate and slower.")
                .byDefault("1e-15")
                .above(0)
                .below(1))
-      .add(integerKey("integrator.maximum_steps", "Steps after which the run gives up.").byDefault("1000000").above(0))
+      .add(integerKey("integrator.maximum_steps", "Number of steps of the integrator after which the run gives up.")
+               .byDefault("1000000")
+               .above(0))
       .add(quantityKey("output.interval", units::time, "Time between rows; absent: each step of the integrator.")
                .optional()
                .above(0)
@@ -199,7 +215,8 @@ DeckSchema reactorSchema() {
       .add(stringKey("output.species", "Species whose fractions are written; 'all' writes every one.")
                .list()
                .byDefault("[all]"))
-      .add(choiceKey("output.fractions", {"mole", "mass"}, "Which fractions are written.").byDefault("mole"));
+      .add(choiceKey("output.fractions", {"mole", "mass"}, "Whether mole or mass fractions of the species are written.")
+               .byDefault("mole"));
   return schema;
 }
 

@@ -15,35 +15,50 @@ namespace {
 void addEnsembleKeys(DeckSchema& schema, const std::string& description) {
   schema.section("stochastic", Presence::optional, description)
       .add(choiceKey("stochastic.method", {"dsmc", "sammc", "swa"},
-                     "Equal weights, doubled and contracted; weighted, nearest neighbours merged; stochastic weighted "
-                     "algorithm with mass weights.")
+                     "Monte Carlo method. dsmc: particles of equal weight, doubled when few, reduced when many; sammc: "
+                     "particles of different weight, the nearest neighbours in size are merged; swa: stochastic "
+                     "weighted algorithm, weights that conserve mass.")
                .byDefault("sammc"))
-      .add(integerKey("stochastic.particles", "Numerical particles of a repeat.").byDefault("2000").atLeast(8))
-      .add(integerKey("stochastic.repeats", "Independent repeats of every ensemble.")
+      .add(integerKey("stochastic.particles",
+                      "Number of numerical particles of a repeat: more have less noise and cost more.")
+               .byDefault("2000")
+               .atLeast(8))
+      .add(integerKey("stochastic.repeats",
+                      "Number of independent repeats of every ensemble, from which mean and confidence follow.")
                .byDefault("8")
                .atLeast(2)
                .atMost(100000))
-      .add(integerKey("stochastic.seed", "Of the random numbers.").byDefault("1").atLeast(0))
-      .add(choiceKey("stochastic.shape", {"spheres", "aggregates"},
-                     "spheres: that coalesce; aggregates: coagulation keeps the primaries.")
+      .add(integerKey("stochastic.seed",
+                      "Start of the random numbers: another seed gives another sample, the same seed the same result.")
+               .byDefault("1")
+               .atLeast(0))
+      .add(choiceKey(
+               "stochastic.shape", {"spheres", "aggregates"},
+               "spheres: particles coalesce when they coagulate; aggregates: their primary particles stay and touch.")
                .byDefault("spheres"))
-      .add(
-          choiceKey("stochastic.active_sites", {"particle", "primary"},
-                    "Whose carbon atoms the ABF function of the fraction of active sites sees: of the mean particle or "
-                    "the mean primary.")
-              .byDefault("particle"))
+      .add(choiceKey("stochastic.active_sites", {"particle", "primary"},
+                     "The mean size in the fraction alpha of active sites (Appel, Bockhorn, Frenklach 2000): carbon "
+                     "atoms of the mean particle or of the mean primary particle.")
+               .byDefault("particle"))
       .add(booleanKey("stochastic.keep_hydrogen",
-                      "Soot keeps the hydrogen of PAH; false: it returns to the gas as H2 when they are taken up.")
+                      "true: soot keeps the hydrogen of PAH; false: it returns to the gas as H2 when PAH become soot.")
                .byDefault("true"))
-      .add(numberKey("stochastic.split_tolerance", "Relative change of the population in a splitting step.")
+      .add(numberKey(
+               "stochastic.split_tolerance",
+               "Largest relative change of the population in a splitting step: smaller is more accurate and slower.")
                .byDefault("0.01")
                .above(0)
                .atMost(1))
-      .add(integerKey("stochastic.bins", "Of the size distribution.").byDefault("60").atLeast(2).atMost(10000))
-      .add(quantityKey("stochastic.smallest", units::length, "Lower end of the bins (diameter).")
+      .add(integerKey("stochastic.bins", "Number of bins of the size distribution.")
+               .byDefault("60")
+               .atLeast(2)
+               .atMost(10000))
+      .add(quantityKey("stochastic.smallest", units::length,
+                       "Smallest diameter of the size distribution, the lower end of its bins.")
                .byDefault("0.5 nm")
                .above(0))
-      .add(quantityKey("stochastic.largest", units::length, "Upper end of the bins (diameter).")
+      .add(quantityKey("stochastic.largest", units::length,
+                       "Largest diameter of the size distribution, the upper end of its bins.")
                .byDefault("500 nm")
                .above(0));
 }
@@ -73,24 +88,31 @@ void addStochasticKeys(DeckSchema& schema) {
                      "ensemble's; two_way: iterated until the gas sees what the ensemble exchanges.")
                .byDefault("decoupled"))
       .add(quantityKey("stochastic.start", units::length,
-                       "Where paths start, from the end that particles come from; absent: at that end.")
+                       "Distance at which paths start, from the end of the domain that particles come from; absent: at "
+                       "that end.")
                .optional()
                .atLeast(0))
       .add(quantityKey("stochastic.slowest", units::velocity,
-                       "Paths end where particles are slower: near the stagnation plane.")
+                       "A path ends where the particles are slower than this, near the stagnation plane.")
                .byDefault("1 mm/s")
                .above(0))
-      .add(quantityKey("stochastic.heights", units::length, "Where distributions are written.").list().optional())
-      .add(integerKey("stochastic.iterations", "At most.")
+      .add(quantityKey("stochastic.heights", units::length, "Positions at which size distributions are written.")
+               .list()
+               .optional())
+      .add(integerKey("stochastic.iterations", "Largest number of iterations between gas and ensemble.")
                .byDefault("10")
                .atLeast(1)
                .onlyWith("stochastic.coupled", {"two_way"}))
-      .add(numberKey("stochastic.relaxation", "Part of a new exchange in an iteration.")
+      .add(numberKey("stochastic.relaxation",
+                     "Weight of the new exchange between gas and ensemble in an iteration, the rest being the old one: "
+                     "smaller is steadier and slower.")
                .byDefault("0.7")
                .above(0)
                .atMost(1)
                .onlyWith("stochastic.coupled", {"two_way"}))
-      .add(numberKey("stochastic.tolerance", "Change of volume fraction, temperature and acetylene, relative.")
+      .add(numberKey("stochastic.tolerance",
+                     "The iteration has converged where volume fraction, temperature and acetylene change relatively "
+                     "by less than this.")
                .byDefault("0.01")
                .above(0)
                .onlyWith("stochastic.coupled", {"two_way"}));

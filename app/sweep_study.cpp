@@ -170,14 +170,17 @@ DeckSchema studySchema() {
   DeckSchema schema;
   schema.add(stringKey("study", "Name of the study, for its table."))
       .add(stringKey("decks", "Decks to run, relative to this file.").list().byDefault("[]"))
-      .add(stringKey("deck", "One deck instead.").optional())
+      .add(stringKey("deck", "One deck, in place of a list of decks.").optional())
       .section("vary", Presence::optional, "What is varied in every deck; all combinations are run.")
-      .add(stringKey("vary[].key", "A key of the deck: initial.temperature."))
-      .add(stringKey("vary[].values", "Its values, as they would stand in the deck: [900 K, 1000 K].").list())
+      .add(stringKey("vary[].key", "Key of the deck that is varied: initial.temperature."))
+      .add(stringKey("vary[].values", "Values of the key, as they would stand in the deck: [900 K, 1000 K].").list())
       .section("variants", Presence::optional,
                "Variants of every deck, each with several settings at once; combined with what is varied.")
-      .add(stringKey("variants[].name", "Part of the run's name, and a column of the table."))
-      .add(stringKey("variants[].set", "Assignments: [left.velocity=25 cm/s, right.velocity=25 cm/s].").list())
+      .add(stringKey("variants[].name", "Name of the variant: part of the run's name, and a column of the table."))
+      .add(stringKey("variants[].set",
+                     "Assignments to keys of the deck that make this variant: [left.velocity=25 cm/s, "
+                     "right.velocity=25 cm/s].")
+               .list())
       .add(stringKey("set", "Assignments applied to every deck before what is varied: [time.end=1 s, repeats=10].")
                .list()
                .byDefault("[]"))
@@ -208,18 +211,26 @@ DeckSchema studySchema() {
       .section("convergence", Presence::optional,
                "Error of Monte Carlo methods against the number of particles, particles times repeats kept constant.")
       .add(stringKey("convergence.deck", "A deck of problem population_balance, relative to this file."))
-      .add(stringKey("convergence.set", "Assignments for that deck.").list().byDefault("[]"))
+      .add(stringKey("convergence.set", "Assignments to keys of that deck: [time.end=1 s].").list().byDefault("[]"))
       .add(stringKey("convergence.methods", "Methods of the deck by name; none named: all Monte Carlo methods.")
                .list()
                .byDefault("[]"))
       .add(integerKey("convergence.particles", "Numbers of particles: [512, 1024, 2048].").list().atLeast(2))
-      .add(integerKey("convergence.product", "Particles times repeats.").byDefault("131072").atLeast(4))
+      .add(integerKey("convergence.product", "Particles times repeats, the same for every number of particles.")
+               .byDefault("131072")
+               .atLeast(4))
       .add(choiceKey("convergence.reference.type", {"exact", "run"},
                      "What the error is counted from: the exact solution, or a run with many particles.")
                .byDefault("exact"))
-      .add(stringKey("convergence.reference.method", "run: its method, by name in the deck.").optional())
-      .add(integerKey("convergence.reference.particles", "run: its particles.").optional().atLeast(2))
-      .add(integerKey("convergence.reference.repeats", "run: its repeats.").optional().atLeast(1));
+      .add(stringKey("convergence.reference.method",
+                     "With type run: the method of the reference, by its name in the deck.")
+               .optional())
+      .add(integerKey("convergence.reference.particles", "With type run: the number of particles of the reference.")
+               .optional()
+               .atLeast(2))
+      .add(integerKey("convergence.reference.repeats", "With type run: the number of repeats of the reference.")
+               .optional()
+               .atLeast(1));
   return schema;
 }
 

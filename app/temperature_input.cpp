@@ -129,8 +129,11 @@ double readTemperature(const Deck& deck, const std::string& key, const Mechanism
 }
 
 void addTemperatureProfileKeys(DeckSchema& schema, const std::string& fileDoc) {
-  schema.add(temperatureKey("temperature_profile.temperature", "Temperatures of the points.").list().optional())
-      .add(stringKey("temperature_profile.file", "Instead: a CSV file of two columns, " + fileDoc +
+  schema
+      .add(
+          temperatureKey("temperature_profile.temperature", "Temperatures of the gas at the points.").list().optional())
+      .add(stringKey("temperature_profile.file", "CSV file with the points, in place of lists, of two columns, " +
+                                                     fileDoc +
                                                      " and temperature in K; a first line of names and lines that "
                                                      "begin with # are skipped. Relative to the deck.")
                .optional());

@@ -36,6 +36,7 @@ def key_name(surname):
 def text_of(file):
     """The text with comment marks and line breaks gone, so that a citation over two lines is one."""
     text = re.sub(r"\n\s*(?://+|#+|\*|>)?\s*", " ", file.read_text(errors="replace"))
+    text = text.replace('" "', "")  # a string in two pieces
     return re.sub(r"['\"`*]+ ", " ", text)
 
 
