@@ -125,7 +125,9 @@ void readTransport(const Deck& deck, FlameCase& flame) {
                     : model == "constant_lewis" ? Model::ConstantLewis
                                                 : Model::MixtureAveraged;
   if (transport.soret && (transport.model == Model::UnityLewis || transport.model == Model::ConstantLewis))
-    throw deck.error("transport.soret", fmt::format("the model {} knows no thermal diffusion", model));
+    throw deck.error("transport.soret", fmt::format("the transport model {} has no thermal diffusion; set soret to "
+                                                    "false, or choose mixture_averaged or multicomponent",
+                                                    model));
   flame.problem.radiation = {deck.choice("radiation.model") == "optically_thin",
                              deck.quantity("radiation.surroundings")};
 }
@@ -137,7 +139,9 @@ void readSolver(const Deck& deck, FlameCase& flame) {
   options.grid.ratio = deck.number("grid.ratio");
   options.grid.prune = deck.number("grid.prune");
   if (options.grid.prune >= std::min(options.grid.slope, options.grid.curve))
-    throw deck.error("grid.prune", "expected less than 'slope' and 'curve': points would go and come back");
+    throw deck.error(
+        "grid.prune",
+        "expected less than 'slope' and 'curve': the same points would be taken out and put in again without end");
   options.grid.maximumPoints = deck.integer<std::size_t>("grid.maximum_points");
   flame.start.points = deck.integer<std::size_t>("grid.initial_points");
   if (flame.start.points > options.grid.maximumPoints)
@@ -184,7 +188,10 @@ void readContinuation(const Deck& deck, FlameCase& flame) {
 
 void readUnsteady(const Deck& deck, FlameCase& flame) {
   if (!deck.has("unsteady")) return;
-  if (flame.continuation) throw deck.error("unsteady", "a run follows either time or a branch (continuation)");
+  if (flame.continuation)
+    throw deck.error("unsteady",
+                     "a flame is followed either in time (unsteady) or along a branch (continuation); leave out one of "
+                     "the two sections");
   FlameUnsteady& unsteady = flame.unsteady.emplace();
   unsteady.fromInitial = deck.choice("unsteady.start") == "initial";
   if (unsteady.fromInitial && !deck.has("initial"))
@@ -206,7 +213,7 @@ void readUnsteady(const Deck& deck, FlameCase& flame) {
   unsteady.amplitude = deck.number("unsteady.amplitude");
   const auto frequency = deck.optionalQuantity("unsteady.frequency");
   if ((unsteady.amplitude > 0) != frequency.has_value())
-    throw deck.error("unsteady", "'amplitude' and 'frequency' belong together");
+    throw deck.error("unsteady", "'amplitude' and 'frequency' belong together: give both or neither");
   unsteady.frequency = frequency.value_or(0.0);
 }
 

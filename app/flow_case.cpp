@@ -137,8 +137,9 @@ void readTrajectories(const Deck& deck, FlowCase& flowCase) {
   options.soot = readSootModelOptions(deck, *flowCase.mechanism);
   for (const std::string& species : sootSpecies(options.soot))
     if (!flowCase.mechanism->findSpecies(species))
-      throw deck.error("trajectories",
-                       fmt::format("ensembles need the species '{}', which the mechanism lacks", species));
+      throw deck.error("trajectories", fmt::format("ensembles need the species '{}', but the mechanism has no species "
+                                                   "of this name; choose another mechanism",
+                                                   species));
   options.duration = deck.quantity("trajectories.duration");
   options.timeStep = deck.quantity("trajectories.time_step");
   options.particles = deck.integer<int>("trajectories.particles");
@@ -152,9 +153,14 @@ void readTrajectories(const Deck& deck, FlowCase& flowCase) {
     const std::string item = fmt::format("trajectories.start[{}]", i);
     const TrajectoryStart start{deck.quantity(item + ".r"), deck.quantity(item + ".z")};
     const auto& v = flowCase.mesh.vertices;
-    if (start.r > v[0].back() || start.z > v[1].back()) throw deck.error(item, "the start lies outside the mesh");
+    if (start.r > v[0].back() || start.z > v[1].back())
+      throw deck.error(item, "the start lies outside the mesh; expected a place inside it");
     if (const std::string* outlet = outletAt(flowCase, {start.r, start.z}))
-      throw deck.error(item, fmt::format("the start lies on the outlet '{}': the path would leave at once", *outlet));
+      throw deck.error(
+          item,
+          fmt::format(
+              "the start lies on the outlet '{}', where the path would leave at once; expected a place inside the mesh",
+              *outlet));
     options.starts.push_back(start);
   }
   flowCase.trajectories = options;

@@ -61,8 +61,11 @@ void addMixtureKeys(DeckSchema& schema, const std::string& section) {
 std::vector<double> mixByEquivalenceRatio(const Mechanism& mechanism, const std::vector<double>& fuel,
                                           const std::vector<double>& oxidizer, double ratio) {
   const double need = oxygenNeed(mechanism, fuel), spare = -oxygenNeed(mechanism, oxidizer);
-  if (!(need > 0)) throw InputError("the fuel needs no oxygen, so that there is no equivalence ratio");
-  if (!(spare > 0)) throw InputError("the oxidizer has no oxygen to give, so that there is no equivalence ratio");
+  if (!(need > 0))
+    throw InputError("the fuel needs no oxygen, so that it has no equivalence ratio; expected a fuel that burns");
+  if (!(spare > 0))
+    throw InputError(
+        "the oxidizer has no oxygen to give, so that it has no equivalence ratio; expected one with O2 or the like");
   std::vector<double> X(fuel.size());
   double sum = 0;
   for (std::size_t k = 0; k < X.size(); ++k) sum += X[k] = ratio * spare / need * fuel[k] + oxidizer[k];

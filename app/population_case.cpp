@@ -57,10 +57,10 @@ PopulationBins readBins(const Deck& deck, double end) {
     bins.edges.push_back(k == count ? high : logarithmic ? low * std::pow(high / low, x) : low + x * (high - low));
   }
   bins.times = deck.has("distribution.times") ? deck.quantities("distribution.times") : std::vector<double>{end};
-  if (bins.times.empty()) throw deck.error("distribution.times", "the list is empty");
+  if (bins.times.empty()) throw deck.error("distribution.times", "the list is empty; expected at least one time");
   for (std::size_t k = 0; k < bins.times.size(); ++k) {
     const std::string key = fmt::format("distribution.times[{}]", k);
-    if (bins.times[k] > end) throw deck.error(key, "this is after time.end");
+    if (bins.times[k] > end) throw deck.error(key, "this time is after time.end; expected one before it");
     if (k > 0 && !(bins.times[k] > bins.times[k - 1])) throw deck.error(key, "the times have to rise");
   }
   return bins;

@@ -56,7 +56,7 @@ MonteCarloOptions readMonteCarlo(const Deck& deck, const std::string& section, c
                                           : WeightTransfer::harmonic;
   for (const char* key : {"nucleation", "nucleus_weight"})
     if (deck.isGiven(section + "." + key) && !populationCase.model.nucleation)
-      throw deck.error(section + "." + key, "there is no nucleation");
+      throw deck.error(section + "." + key, "there is no nucleation that this key could act on; leave it out");
   if (deck.optionalString(section + ".nucleation") == "random") options.nucleation = NucleationSampling::random;
   options.nucleusWeight = deck.optionalQuantity(section + ".nucleus_weight").value_or(0.0);
   const bool empty = populationCase.initial.distribution == InitialPopulation::Distribution::none;
@@ -65,7 +65,8 @@ MonteCarloOptions readMonteCarlo(const Deck& deck, const std::string& section, c
                                           "particles: the number density at which its sample is full",
                                           type));
   if (!empty && deck.has(section + ".expected_number"))
-    throw deck.error(section + ".expected_number", "the number density at the start is given by 'initial'");
+    throw deck.error(section + ".expected_number",
+                     "the number density at the start is that of 'initial'; leave this key out");
   options.expectedNumber = deck.optionalQuantity(section + ".expected_number").value_or(0.0);
   options.threshold = count(deck, section + ".threshold", options.threshold);
   requireMemory(deck, section + ".threshold", fmt::format("a threshold of {} sizes", options.threshold),

@@ -57,7 +57,7 @@ CollisionKernelOptions readCoagulation(const Deck& deck) {
   options.efficiency = deck.number(section + ".efficiency");
   options.enhancement = deck.optionalNumber(section + ".enhancement").value_or(1.0);
   if (deck.has(section + ".efficiency_diameter") != deck.has(section + ".efficiency_exponent"))
-    throw deck.error(section, "'efficiency_diameter' and 'efficiency_exponent' belong together");
+    throw deck.error(section, "'efficiency_diameter' and 'efficiency_exponent' belong together: give both or neither");
   options.efficiencyDiameter = deck.optionalQuantity(section + ".efficiency_diameter").value_or(0.0);
   options.efficiencyExponent = deck.optionalNumber(section + ".efficiency_exponent").value_or(0.0);
   const std::string who = "the kernel " + kernel;
@@ -107,7 +107,9 @@ void readSizeDependent(const Deck& deck, const std::string& section, double& rat
   rate = deck.quantity(section + ".rate");
   exponent = deck.number(section + ".exponent");
   if (exponent == 0 && deck.isGiven(section + ".reference_volume"))
-    throw deck.error(section + ".reference_volume", "the rate does not depend on the volume: its exponent is 0");
+    throw deck.error(
+        section + ".reference_volume",
+        "the rate does not depend on the volume, as its exponent is 0; leave this key out or give an exponent");
   rate /= std::pow(deck.quantity(section + ".reference_volume"), exponent);
   if (!std::isfinite(rate)) throw deck.error(section, "this rate is beyond the range of numbers");
 }
@@ -133,7 +135,9 @@ GrowthOptions readGrowth(const Deck& deck) {
   if (deck.has("processes.oxidation")) growth.oxidation = deck.quantity("processes.oxidation.rate");
   if (!deck.has(section)) return growth;
   if (!growth.active() && !deck.has("particles.sintering_time"))
-    throw deck.error(section, "nothing grows: there is no condensation, surface_growth or oxidation");
+    throw deck.error(
+        section,
+        "there is no condensation, surface_growth or oxidation, so that nothing grows; leave this section out");
   const std::string treatment = deck.choice(section + ".treatment");
   growth.treatment = treatment == "split"      ? GrowthOptions::Treatment::split
                      : treatment == "deferred" ? GrowthOptions::Treatment::deferred
@@ -188,7 +192,7 @@ PopulationModel readModel(const Deck& deck) {
   if (deck.has("processes.coagulation"))
     model.coagulation = readCoagulation(deck);
   else if (deck.has("gas"))
-    throw deck.error("gas", "no process needs the gas: there is no coagulation");
+    throw deck.error("gas", "only coagulation needs the gas, and there is none; leave this section out");
   if (deck.has("processes.nucleation")) model.nucleation = readNucleation(deck);
   if (deck.has("processes.breakage")) model.breakage = readBreakage(deck);
   if (deck.has("processes.deposition")) {

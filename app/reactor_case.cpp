@@ -46,7 +46,7 @@ void refuseTimes(const Deck& deck) {
   for (const char* key : {"time.maximum_step", "output.interval", "integrator"})
     if (deck.isGiven(key))
       throw deck.error(key,
-                       "without time.end the steady state is searched, which does not have this; leave it out, or "
+                       "without time.end the steady state is computed, which has no use for this key; leave it out, or "
                        "give time.end");
 }
 
@@ -81,7 +81,10 @@ void readPlugFlow(const Deck& deck, ReactorCase& reactorCase) {
   const Thermo thermo(mechanism);
   const double density = thermo.density(inlet.temperature, inlet.pressure, inlet.Y);
   if (const auto velocity = deck.optionalQuantity("inlet.velocity")) {
-    if (deck.has("reactor.area")) throw deck.error("reactor.area", "it goes with 'inlet.mass_flow'; found 'velocity'");
+    if (deck.has("reactor.area"))
+      throw deck.error(
+          "reactor.area",
+          "the area is only used with 'inlet.mass_flow', but 'inlet.velocity' is given; leave one of the two out");
     reactorCase.massFlux = *velocity * density;
   } else {
     reactorCase.massFlux =
@@ -116,7 +119,7 @@ void readReactorEnsemble(const Deck& deck, ReactorCase& reactorCase) {
         "in a reactor an ensemble takes the place of a model: leave this out, or the section 'stochastic'");
   if (deck.has("sensitivity") || (deck.isGiven("ignition") && !reactorCase.ignition.empty()))
     throw deck.error(deck.has("sensitivity") ? "sensitivity" : "ignition",
-                     "ignition delays of a gas with an ensemble are not computed; leave it out");
+                     "ignition delays of a gas with an ensemble are not computed; leave this section out");
   reactorCase.ignition.clear();
   if (reactorCase.type == ReactorType::Network)
     throw deck.error("stochastic", "ensembles are in single reactors; the models of 'soot.model' are in networks, too");
@@ -139,7 +142,7 @@ void readParticles(const Deck& deck, ReactorCase& reactorCase) {
   auto model = readSootModel(deck, *reactorCase.mechanism);
   if (!model) return;
   if (deck.isGiven("soot.diffusion"))
-    throw deck.error("soot.diffusion", "a reactor is well mixed: nothing diffuses in it; leave it out");
+    throw deck.error("soot.diffusion", "a reactor is well mixed and nothing diffuses in it; leave this key out");
   if (deck.has("sensitivity"))
     throw deck.error("sensitivity", "sensitivities are those of a gas alone; leave out the section 'soot' or this one");
   reactorCase.soot = std::make_shared<CarriedParticles>(*reactorCase.mechanism, std::move(model));

@@ -34,7 +34,7 @@ std::optional<double> burntTemperature(const ReactorCase& reactorCase) {
 void requireIgnition(const Deck& deck, const std::string& key, const ReactorCase& reactorCase) {
   const auto burnt = burntTemperature(reactorCase);
   if (burnt && *burnt < reactorCase.initial.temperature + 1)
-    throw deck.error(key, fmt::format("this gas does not ignite: from {:g} K it goes to an equilibrium at {:.6g} K",
+    throw deck.error(key, fmt::format("this gas does not ignite: its equilibrium from {:g} K is at {:.6g} K",
                                       reactorCase.initial.temperature, *burnt));
 }
 
@@ -95,7 +95,9 @@ void readSensitivity(const Deck& deck, ReactorCase& reactorCase) {
   const Mechanism& mechanism = *reactorCase.mechanism;
   auto& reactions = reactorCase.sensitivities;
   if (reactorCase.ignition.empty())
-    throw deck.error("sensitivity", "there is no criterion of ignition, so that there is no delay");
+    throw deck.error(
+        "sensitivity",
+        "there is no ignition delay to compute sensitivities of; give a criterion in the section 'ignition'");
   if (!reactorCase.profile) requireIgnition(deck, "sensitivity", reactorCase);
   for (const std::string& text : deck.strings("sensitivity.reactions")) {
     if (text == "all") {

@@ -29,7 +29,9 @@ StirredReactor readVessel(const Deck& deck, const std::string& section, std::str
 
 void refuseHeatLoss(const Deck& deck, const std::string& section, const StirredReactor& reactor) {
   if (reactor.temperature && deck.has(section + ".heat_loss"))
-    throw deck.error(section + ".heat_loss", "the temperature of this reactor is given");
+    throw deck.error(section + ".heat_loss",
+                     "the temperature of this reactor is given, so that a loss of heat would change nothing; leave "
+                     "this section out");
 }
 
 std::size_t reactorNamed(const Deck& deck, const std::string& key, const ReactorNetwork& network) {
@@ -56,7 +58,8 @@ std::vector<Connection> readConnections(const Deck& deck, const ReactorNetwork& 
     const auto fraction = deck.optionalNumber(item + ".fraction");
     const auto massFlow = deck.optionalQuantity(item + ".mass_flow");
     if (fraction && massFlow) throw deck.error(item, "expected 'fraction' or 'mass_flow', found both");
-    if (connection.from == connection.to) throw deck.error(item, "a reactor is mixed already; it cannot feed itself");
+    if (connection.from == connection.to)
+      throw deck.error(item, "this connection leads from a reactor to itself; expected another reactor");
     connection.massFlow = massFlow.value_or(0.0);
     if (!massFlow) connection.fraction = fraction.value_or(1.0);
     connections.push_back(connection);
@@ -120,7 +123,10 @@ void readStirred(const Deck& deck, ReactorCase& reactorCase) {
   reactorCase.start.burnt = deck.choice("reactor.start") == "burnt";
   reactorCase.end = deck.optionalQuantity("time.end").value_or(0.0);
   if (!deck.has("initial")) return;
-  if (deck.isGiven("reactor.start")) throw deck.error("reactor.start", "the section 'initial' is the start already");
+  if (deck.isGiven("reactor.start"))
+    throw deck.error(
+        "reactor.start",
+        "the section 'initial' already says from where the steady state is searched; leave one of the two out");
   reactorCase.start.given = {readTemperature(deck, "initial.temperature", mechanism, TemperatureUse::reactor), pressure,
                              readMixture(deck, "initial", *reactorCase.mechanism)};
 }

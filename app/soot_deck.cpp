@@ -124,7 +124,8 @@ void refuseUnread(const Deck& deck, const std::string& model) {
   if (deck.has("stochastic") || deck.has("trajectories")) return;
   for (const char* key : {"sticking", "site_density", "alpha", "alpha_table", "van_der_waals", "condensation"})
     if (const std::string path = std::string("soot.") + key; deck.isGiven(path))
-      throw deck.error(path, fmt::format("the model {} does not read this", model));
+      throw deck.error(
+          path, fmt::format("the model {} does not use this key; leave it out or choose another soot.model", model));
 }
 
 }  // namespace
@@ -198,7 +199,9 @@ std::unique_ptr<ParticleModel> readSootModel(const Deck& deck, const Mechanism& 
   }
   for (const std::string& species : model->gasSpecies())
     if (!mechanism.findSpecies(species))
-      throw deck.error("soot.model", fmt::format("it needs the species '{}', which the mechanism has not", species));
+      throw deck.error("soot.model", fmt::format("the model needs the species '{}', but the mechanism has no species "
+                                                 "of this name; choose another mechanism or another model",
+                                                 species));
   return model;
 }
 

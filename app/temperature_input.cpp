@@ -150,7 +150,7 @@ TemperatureProfile readPoints(const Deck& deck, const std::string& points) {
     if (!listed) return readProfileFile(deck.resolvePath(deck.string(section + ".file")));
     for (const std::string& name : {points, std::string("temperature")})
       if (!deck.has(section + "." + name))
-        throw InputError(fmt::format("'{}' and 'temperature' belong together", points));
+        throw InputError(fmt::format("'{}' and 'temperature' belong together: give both or neither", points));
     return {deck.quantities(section + "." + points), deck.quantities(section + ".temperature")};
   } catch (const InputError& error) {
     throw deck.error(listed ? section : section + ".file", error.what());

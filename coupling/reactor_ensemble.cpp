@@ -19,7 +19,10 @@ constexpr double negligibleMoleFraction = 1e-15;
 ReactorEnsemble::ReactorEnsemble(const Mechanism& mechanism, StochasticSootOptions options) {
   for (const std::string& name : sootSpecies(options.soot)) {
     const auto k = mechanism.findSpecies(name);
-    if (!k) throw InputError(fmt::format("ensembles need the species '{}', which is not in the mechanism", name));
+    if (!k)
+      throw InputError(fmt::format(
+          "ensembles need the species '{}', but the mechanism has no species of this name; choose another mechanism",
+          name));
     species_.push_back(*k);
   }
   population_ = makeStochasticSoot(std::move(options));

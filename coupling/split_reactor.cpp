@@ -166,7 +166,8 @@ void SplitReactor::advance(double end) {
     const double h = h_ >= left * (1 - 1e-12) ? left : h_ > 0.5 * left && !options_.fixedStep ? 0.5 * left : h_;
     const std::vector<double> state = y_, exchanged = exchanged_, particles = particles_.save();
     const double change = step(h);
-    if (!std::isfinite(change)) throw NumericsError(fmt::format("a step from {:.6g} went out of all bounds", begin));
+    if (!std::isfinite(change))
+      throw NumericsError(fmt::format("the step that began at {:.6g} gave values that are not finite", begin));
     const bool isTooMuch = !options_.fixedStep && change > 2 * options_.change;
     if (isTooMuch) {
       if (h < smallestPart * std::abs(end))

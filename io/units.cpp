@@ -195,7 +195,8 @@ class UnitParser {
       divided = divided || sign == '/';
       skipBlanks();
       const Unit right = factor(depth);
-      if (left.offset != 0.0 || right.offset != 0.0) fail("degC stands alone; use K here");
+      if (left.offset != 0.0 || right.offset != 0.0)
+        fail("degC cannot be part of a longer unit or have a power; use K here");
       left = sign == '/' ? Unit{left.factor / right.factor, 0.0, left.dimension / right.dimension}
                          : Unit{left.factor * right.factor, 0.0, left.dimension * right.dimension};
     }
@@ -223,7 +224,7 @@ class UnitParser {
     }
     const int exponent = readExponent();
     if (exponent == 1) return base;
-    if (base.offset != 0.0) fail("degC stands alone; use K here");
+    if (base.offset != 0.0) fail("degC cannot be part of a longer unit or have a power; use K here");
     return {std::pow(base.factor, exponent), 0.0, power(base.dimension, exponent)};
   }
 

@@ -98,7 +98,8 @@ bool NewtonIteration::search(std::span<const double> x, std::span<const double> 
   } else if (!fresh) {
     renew_ = true;
   } else if (room < options_.smallestDamping) {
-    fail(SNES_DIVERGED_LINE_SEARCH, fmt::format("{} = {:.6g} is held by its bound", system_.nameOf(limit), x[limit]));
+    fail(SNES_DIVERGED_LINE_SEARCH,
+         fmt::format("{} = {:.6g} has reached its bound and cannot change further", system_.nameOf(limit), x[limit]));
     worst_ = limit;
   } else {
     fail(SNES_DIVERGED_LINE_SEARCH,

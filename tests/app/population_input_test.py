@@ -77,7 +77,7 @@ MISTAKES = [
     ("three uniform daughters", BREAKAGE, "breakage: {rate: 1 1/s, fragments: 3, daughters: uniform}", ("breakage.daughters", "uniform daughters are two")),
     ("one fragment", BREAKAGE, "breakage: {rate: 1 1/s, fragments: 1}", ("breakage.fragments", "from 2 to")),
     ("reference of a constant rate", BREAKAGE, "breakage: {rate: 1 1/s, reference_volume: 1 m^3}", ("does not depend on the volume",)),
-    ("growth of nothing", BREAKAGE, "growth: {step: 1 s}", ("processes.growth: nothing grows",)),
+    ("growth of nothing", BREAKAGE, "growth: {step: 1 s}", ("processes.growth: there is no condensation, surface_growth or oxidation",)),
     ("jumps without a monomer", BREAKAGE, "condensation: {rate: 1 1/s}\n  growth: {treatment: jumps}", ("the treatment jumps needs the key 'monomer'",)),
     ("negative oxidation", BREAKAGE, "oxidation: {rate: -1 m/s}", ("processes.oxidation.rate", "above 0")),
     # Methods.
@@ -98,7 +98,7 @@ MISTAKES = [
     ("negative weight", METHOD, "{type: sammc, nucleus_weight: -1}", ("methods.one.nucleus_weight", "above 0")),
     ("weight without nucleation", METHOD, "{type: sammc, nucleus_weight: 1}", ("methods.one.nucleus_weight", "there is no nucleation")),
     ("empty start", INITIAL + "processes:\n", EMPTY, ("methods.one", "needs the key 'expected_number'")),
-    ("expected number of particles that are there", METHOD, "{type: dsmc, expected_number: 1 1/m^3}", ("given by 'initial'",)),
+    ("expected number of particles that are there", METHOD, "{type: dsmc, expected_number: 1 1/m^3}", ("that of 'initial'; leave this key out",)),
     ("claims", METHOD, "{type: dsmc, claims: [M4]}", ("methods.one.claims", "M0, M1, M2, M3")),
     ("no first section", METHOD, "{type: sectional, spacing: 2}", ("needs the key 'smallest'",)),
     ("two spacings", METHOD, "{type: sectional, smallest: 1 nm^3, spacing: 2, largest: 1 um^3}", ("needs either 'spacing' or 'largest'",)),

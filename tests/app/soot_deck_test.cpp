@@ -131,7 +131,7 @@ TEST(SootDeck, MistakesAreNamed) {
   EXPECT_THAT(messageOf("soot: {hmom: {fractal_dimension: 1.9}}"), HasSubstr("soot.hmom"));
   EXPECT_THAT(messageOf("soot: {moments: 5}"), HasSubstr("soot.moments"));
   EXPECT_THAT(messageOf("soot: {semi_empirical: {oxygen: lee}}"), HasSubstr("soot.semi_empirical"));
-  EXPECT_THAT(messageOf("soot: {model: leung, alpha: 0.5}"), HasSubstr("the model leung does not read this"));
+  EXPECT_THAT(messageOf("soot: {model: leung, alpha: 0.5}"), HasSubstr("the model leung does not use this key"));
   EXPECT_THAT(messageOf("soot: {pah: [A2], sticking: [0.1, 0.2]}"), HasSubstr("2 coefficients for 1 PAH"));
   EXPECT_THAT(messageOf("soot: {alpha: 0.5, alpha_table: [{temperature: 1500 K, alpha: 0.9}]}"), HasSubstr("either"));
   EXPECT_THAT(messageOf("soot: {alpha_table: [{temperature: 1500 K, alpha: 1}, {temperature: 1400 K, alpha: 0}]}"),

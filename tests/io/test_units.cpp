@@ -75,8 +75,8 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"3 m/", units::length, "it ends too early"}, Refused{"3 m^", units::length, "needs an integer"},
         Refused{"3 m^99", units::length, "-9 to 9"}, Refused{"3 (m", units::length, "')' is missing"},
         Refused{"3 m)", units::length, "not expected here"}, Refused{"3 W/m K", units::conductivity, "ambiguous"},
-        Refused{"3 degC/m", units::temperatureGradient, "degC stands alone"},
-        Refused{"3 degC^2", units::temperature, "degC stands alone"},
+        Refused{"3 degC/m", units::temperatureGradient, "degC cannot be part of a longer unit"},
+        Refused{"3 degC^2", units::temperature, "degC cannot be part of a longer unit"},
         Refused{"3 kg m", units::length, "a quantity in kg m"}, Refused{"1 2 m", units::length, "cannot be read"},
         Refused{"+-3 m", units::length, "expected a length"}, Refused{"0x10 m", units::length, "not a unit"}));
 

@@ -88,7 +88,8 @@ class MomentSolver final : public PopulationSolver {
       throw;
     } catch (const NumericsError& error) {
       smooth_ = false;
-      throw NumericsError(fmt::format("the moments have stopped to be those of a population: {}", error.what()));
+      throw NumericsError(
+          fmt::format("the moments are no longer those of any population of particles: {}", error.what()));
     }
     ++counters_.splitSteps;
     time_ = integrator_.time();

@@ -16,7 +16,7 @@ void checkWeighted(const PopulationModel& model, const MonteCarloOptions& option
   }
   if (fractions && (model.nucleation || model.breakage)) {
     throw InputError(
-        "the methods wfmc and samwfmc have no place for particles that nucleation or breakage adds; use sammc");
+        "the methods wfmc and samwfmc cannot add the particles that nucleation or breakage makes; use sammc");
   }
 }
 
