@@ -80,7 +80,7 @@ class FlameEquations : public UnsteadySystem {
   void bounds(std::span<double> lower, std::span<double> upper) const override;
   // Scalars stay positive: a step that would take more than nine tenths of one takes nine tenths.
   void correct(std::span<const double> x, std::span<double> trial) const override;
-  void settle(std::span<double> x) const override;
+  void clipNegativeAmounts(std::span<double> x) const override;
   void scales(std::span<const double> x, std::span<double> scale) const override;
   [[nodiscard]] std::string nameOf(std::size_t unknown) const override;
 

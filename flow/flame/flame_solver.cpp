@@ -56,7 +56,7 @@ void FlameSolver::Data::fail(const FlameStage& stage) {
 }
 
 // The composition at the temperature of the first guess: without radicals a flame would cool before it burns.
-void FlameSolver::Data::ripen(FlameEquations& equations, NewtonSolver& solver) {
+void FlameSolver::Data::reactAtFixedTemperature(FlameEquations& equations, NewtonSolver& solver) {
   const std::size_t width = solution.profile.layout.width();
   const bool free = problem.type == FlameType::Free;
   equations.hold(
@@ -64,11 +64,11 @@ void FlameSolver::Data::ripen(FlameEquations& equations, NewtonSolver& solver) {
         return component == FlameLayout::temperature || (free && component == width + leftMassFlux);
       },
       solution.profile.x);
-  NewtonReport ripening;
+  NewtonReport reacting;
   double dt = 1e-6;
   for (std::size_t attempts = 0; attempts < 12 && dt < 1e-3; ++attempts) {
-    const bool ok = solver.timeStep(equations, solution.profile.x, dt, ripening);
-    equations.settle(solution.profile.x);
+    const bool ok = solver.timeStep(equations, solution.profile.x, dt, reacting);
+    equations.clipNegativeAmounts(solution.profile.x);
     dt *= ok ? 3 : 0.2;
   }
   equations.release();
@@ -86,14 +86,14 @@ void FlameSolver::Data::steady(FlameEquations& equations, NewtonSolver& solver, 
   const double start = MPI_Wtime();
   FlameStage stage;
   stage.name = name;
-  place(equations);
+  setGridAndAnchor(equations);
   std::size_t failures = 0;
   stage.newton = solver.steady(equations, solution.profile.x, [&] {
     watchFlux();
     if (failures++ > 0)
-      follow(equations);
+      moveGridToFlame(equations);
     else if (solution.stages.empty())
-      ripen(equations, solver);
+      reactAtFixedTemperature(equations, solver);
   });
   finish(stage, start);
 }
@@ -114,7 +114,7 @@ void FlameSolver::Data::scalarsAlone(FlameEquations& equations, NewtonSolver& so
   const double start = MPI_Wtime();
   FlameStage stage;
   stage.name = "scalars in the gas";
-  place(equations);
+  setGridAndAnchor(equations);
   FlameScalars scalars(equations, solution.profile);
   std::vector<double> x = scalars.start();
   stage.newton = solver.steady(scalars, x);

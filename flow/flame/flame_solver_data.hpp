@@ -39,9 +39,9 @@ struct FlameSolver::Data {
   void leave(FlameEquations& equations, NewtonSolver& solver, const GrowingMode& mode);
   // Stages on ever better grids until none is needed.
   void refine(FlameEquations& equations, NewtonSolver& solver, const std::string& name);
-  void place(FlameEquations& equations);
-  void follow(FlameEquations& equations);
-  void ripen(FlameEquations& equations, NewtonSolver& solver);
+  void setGridAndAnchor(FlameEquations& equations);
+  void moveGridToFlame(FlameEquations& equations);
+  void reactAtFixedTemperature(FlameEquations& equations, NewtonSolver& solver);
   bool widen();
   [[nodiscard]] std::vector<std::size_t> anchorPoint() const;
   void anchorIn(const FlameProfile& profile);

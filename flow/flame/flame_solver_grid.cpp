@@ -61,7 +61,7 @@ std::vector<std::size_t> FlameSolver::Data::anchorPoint() const {
   return keep;
 }
 
-void FlameSolver::Data::place(FlameEquations& equations) {
+void FlameSolver::Data::setGridAndAnchor(FlameEquations& equations) {
   const FlameProfile& p = solution.profile;
   equations.setGrid(p.z);
   if (problem.type != FlameType::Free) return;
@@ -72,7 +72,7 @@ void FlameSolver::Data::place(FlameEquations& equations) {
 
 // Points where the flame has gone to: a front in coarse cells moves from one to the next by ignitions, each of which
 // takes many small time steps.
-void FlameSolver::Data::follow(FlameEquations& equations) {
+void FlameSolver::Data::moveGridToFlame(FlameEquations& equations) {
   if (!options.refine) return;
   GridOptions coarse = options.grid;
   coarse.slope = std::max(coarse.slope, 0.2);
@@ -85,7 +85,7 @@ void FlameSolver::Data::follow(FlameEquations& equations) {
   } catch (const NumericsError&) {
     return;  // no more points are allowed: on with these
   }
-  place(equations);
+  setGridAndAnchor(equations);
 }
 
 bool FlameSolver::Data::widen() {

@@ -26,7 +26,7 @@ void FlameSolver::Data::leave(FlameEquations& equations, NewtonSolver& solver, c
   equations.bounds(lower, upper);
   for (std::size_t i = 0; i < p.size(); ++i)
     p.x[i] = std::clamp(p.x[i] + disturbance * mode.direction[i], lower[i], upper[i]);
-  equations.settle(p.x);
+  equations.clipNegativeAmounts(p.x);
 
   double dt = stepOverGrowth / mode.rate, time = 0;
   while (time < mostTime / mode.rate) {
@@ -36,7 +36,7 @@ void FlameSolver::Data::leave(FlameEquations& equations, NewtonSolver& solver, c
       if (dt < options.transient.smallestStep) break;
       continue;
     }
-    equations.settle(p.x);
+    equations.clipNegativeAmounts(p.x);
     time += dt;
     const double change = std::abs(p.peakTemperature() - peak) / (dt * mode.rate);
     if (time > leastTime / mode.rate && change < settled * (p.peakTemperature() - before)) break;
@@ -66,7 +66,7 @@ void FlameSolver::Data::preferStable(FlameEquations& equations, NewtonSolver& so
     if (!hotter) {
       solution.profile = unstable;
       solution.stages.resize(stages);
-      place(equations);
+      setGridAndAnchor(equations);
       break;
     }
     mode = growingMode(equations, solution.profile.x, atHand);

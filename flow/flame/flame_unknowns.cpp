@@ -41,7 +41,7 @@ void FlameEquations::correct(std::span<const double> x, std::span<double> trial)
 
 // At concentrations below zero a radical that is lost to itself is lost the faster the less there is of it: without
 // this, undershoots at a front that moves grow without bounds.
-void FlameEquations::settle(std::span<double> x) const {
+void FlameEquations::clipNegativeAmounts(std::span<double> x) const {
   const Data& d = *data_;
   for (std::size_t i = 0; i < d.points(); ++i)
     for (std::size_t c = FlameLayout::firstSpecies; c < d.width(); ++c) {

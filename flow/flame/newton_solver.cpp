@@ -51,7 +51,7 @@ struct NewtonSolver::Data {
       if (attempt(iteration, x, dt, report)) {
         ++report.timeSteps;
         ++done;
-        system.settle(x);
+        system.clipNegativeAmounts(x);
         if (3 * (report.steps - before) <= transient.newtonSteps) dt *= transient.growth;
       } else {
         dt *= transient.cut;

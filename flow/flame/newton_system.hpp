@@ -34,7 +34,7 @@ class NewtonSystem {
     static_cast<void>(trial);
   }
   // Makes the best of a state between pseudo-transient steps, which need not be exact: amounts below zero become zero.
-  virtual void settle(std::span<double> x) const { static_cast<void>(x); }
+  virtual void clipNegativeAmounts(std::span<double> x) const { static_cast<void>(x); }
   // Size of a change of x that counts as 1: relative and absolute tolerances of each unknown.
   virtual void scales(std::span<const double> x, std::span<double> scale) const = 0;
   // "T at z = 3.2 mm (point 41)", for messages.

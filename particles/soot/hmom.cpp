@@ -127,7 +127,7 @@ void HmomSoot::addDimers(const MomentGas& gas, const State& state, Rates& rates)
         n.present * DimerModel::particleCollision(gas.dimer, gas.freeMolecular, n.particle, n.collisionDiameter);
     onLarge = l.present * DimerModel::particleCollision(gas.dimer, gas.freeMolecular, l.particle, l.collisionDiameter);
   }
-  rates.dimers = chemistry_.balance(gas, onNucleus + onLarge);
+  rates.dimers = chemistry_.dimerBalance(gas, onNucleus + onLarge);
   const DimerBalance& b = rates.dimers;
   if (!(b.number > 0)) return;
   const double carbonMass = b.atoms.carbon * o.carbonWeight, hydrogenMass = b.atoms.hydrogen * o.hydrogenWeight;

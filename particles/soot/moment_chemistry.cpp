@@ -25,7 +25,7 @@ MomentGas MomentChemistry::read(const ParticleGas& gas) const {
   return read;
 }
 
-DimerBalance MomentChemistry::balance(const MomentGas& gas, double withParticles) const {
+DimerBalance MomentChemistry::dimerBalance(const MomentGas& gas, double withParticles) const {
   DimerBalance b;
   const double self = options_.inception ? gas.dimer.selfCollision : 0;
   const double condensing = options_.condensation ? withParticles : 0;

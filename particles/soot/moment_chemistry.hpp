@@ -51,7 +51,7 @@ class MomentChemistry {
 
   [[nodiscard]] MomentGas read(const ParticleGas& gas) const;  // throws NumericsError for a gas that is not physical
   // `withParticles`: sum over particles of their collision rate with a dimer, 1/s.
-  [[nodiscard]] DimerBalance balance(const MomentGas& gas, double withParticles) const;
+  [[nodiscard]] DimerBalance dimerBalance(const MomentGas& gas, double withParticles) const;
   [[nodiscard]] SurfaceEvents events(const MomentGas& gas, double area, double meanCarbonAtoms) const;
 
   // Atoms that oxidation takes from soot of this ratio of hydrogen to carbon atoms, mol/m3/s.

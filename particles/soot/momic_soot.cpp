@@ -135,7 +135,7 @@ void MomicSoot::addDimers(const MomentGas& gas, const State& state, Rates& rates
       collisions[l] = prefactor * std::sqrt(heavy * (heavy + md * light));
     }
   }
-  rates.dimers = chemistry_.balance(gas, collisions[0]);
+  rates.dimers = chemistry_.dimerBalance(gas, collisions[0]);
   const DimerBalance& b = rates.dimers;
   if (!(b.number > 0)) return;
   rates.atoms.carbon += b.atoms.carbon;

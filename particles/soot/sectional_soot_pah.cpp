@@ -48,7 +48,7 @@ SectionPah::Uptake SectionPah::makeUptake() const {
   return uptake;
 }
 
-SectionPah::Nuclei SectionPah::place(double rate, double mass) const {
+SectionPah::Nuclei SectionPah::divideBetweenPivots(double rate, double mass) const {
   Nuclei nuclei;
   nuclei.rate = rate;
   nuclei.carbon = rate * mass;
@@ -94,7 +94,7 @@ void SectionPah::evaluate(double temperature, std::span<const double> concentrat
                             freeMolecularKernel(freeMolecularPrefactor(temperature, soot.vanDerWaals), molecule.mass, d,
                                                 molecule.mass, d) *
                             number * number;
-        uptake.nuclei[uptake.kinds++] = place(rate, 2 * molecule.carbon * carbonMass_);
+        uptake.nuclei[uptake.kinds++] = divideBetweenPivots(rate, 2 * molecule.carbon * carbonMass_);
         uptake.consumption[k] += 2 * rate / constants::avogadro;
       }
       if (!soot.condensation) continue;
@@ -145,7 +145,8 @@ void SectionPah::evaluate(double temperature, std::span<const double> concentrat
     uptake.slope[i] = carbon * uptake.collisionSlope[i];
   }
   if (self > 0) {
-    uptake.nuclei[uptake.kinds++] = place(0.5 * self * uptake.dimers * uptake.dimers, 2 * dimer.carbon * carbonMass_);
+    uptake.nuclei[uptake.kinds++] =
+        divideBetweenPivots(0.5 * self * uptake.dimers * uptake.dimers, 2 * dimer.carbon * carbonMass_);
   }
 }
 

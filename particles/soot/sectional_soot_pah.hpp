@@ -50,7 +50,7 @@ class SectionPah {
     double carbon, mass, diameter;  // atoms, kg, m
     std::vector<double> root;       // sqrt(1/mass + 1/pivot)
   };
-  [[nodiscard]] Nuclei place(double rate, double carbonMass) const;
+  [[nodiscard]] Nuclei divideBetweenPivots(double rate, double carbonMass) const;
 
   SectionalSootOptions options_;
   DimerModel dimerModel_;

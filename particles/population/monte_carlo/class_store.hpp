@@ -85,8 +85,8 @@ class ClassStore {
     std::size_t r = 0;
     for (; r + 1 < rank_ && x >= pairRate(r); ++r) x -= pairRate(r);
     Place first, second;
-    if (!place(1 + r, x / sums_.total(1 + rank_ + r), random, first)) return false;
-    if (!place(1 + rank_ + r, random.uniform() * sums_.total(1 + rank_ + r), random, second)) return false;
+    if (!findMember(1 + r, x / sums_.total(1 + rank_ + r), random, first)) return false;
+    if (!findMember(1 + rank_ + r, random.uniform() * sums_.total(1 + rank_ + r), random, second)) return false;
     if (first.slot == second.slot && first.index == second.index) return false;
     const Entry& a = classes_[first.slot][first.index];
     const Entry& b = classes_[second.slot][second.index];
@@ -115,7 +115,7 @@ class ClassStore {
   bool drawSingle(SingleProcess process, RandomStream& random, Entry& entry) {
     const std::size_t component = single_[static_cast<std::size_t>(process)];
     Place at;
-    if (!place(component, random.uniform() * sums_.total(component), random, at)) return false;
+    if (!findMember(component, random.uniform() * sums_.total(component), random, at)) return false;
     const Entry& candidate = classes_[at.slot][at.index];
     const double rate = rates_.single(process, candidate), most = bound(at.slot, component);
     if (rate < most && random.uniform() * most >= rate) return false;
@@ -188,7 +188,7 @@ class ClassStore {
   }
   [[nodiscard]] double total(std::size_t component) const { return sums_.total(component); }
   // Where `x` in [0, total) of a component falls; false where rounding led to a class without members.
-  [[nodiscard]] bool place(std::size_t component, double x, Place& at) const {
+  [[nodiscard]] bool findMember(std::size_t component, double x, Place& at) const {
     at.slot = sums_.find(component, x);
     if (at.slot >= classes_.size() || classes_[at.slot].empty()) return false;
     const std::size_t count = classes_[at.slot].size();
@@ -299,7 +299,8 @@ class ClassStore {
   }
 
   // The same by a second random number: the member is known without waiting for the remainder of the first.
-  [[nodiscard, gnu::always_inline]] bool place(std::size_t component, double x, RandomStream& random, Place& at) const {
+  [[nodiscard, gnu::always_inline]] bool findMember(std::size_t component, double x, RandomStream& random,
+                                                    Place& at) const {
     at.slot = sums_.find(component, x);
     if (at.slot >= classes_.size() || classes_[at.slot].empty()) return false;
     at.index = static_cast<std::size_t>(random.below(classes_[at.slot].size()));

@@ -39,7 +39,7 @@ class EqualWeightMethod {
     }
     for (const double v : initialVolumes(initial, options.particles, random)) sample_.put(rates().entry(type.make(v)));
     retune();
-    sample_.settle(random, counters_);
+    sample_.bringNumberIntoRange(random, counters_);
     measureGrowth();
   }
 
@@ -54,7 +54,7 @@ class EqualWeightMethod {
     sample_.put(rates().entry(type_.coagulated(i.particle, j.particle)));
     ++counters_.coagulations;
     if (rates().tunable() && --retuneAfter_ == 0) retune();
-    sample_.settle(random, counters_);
+    sample_.bringNumberIntoRange(random, counters_);
     return true;
   }
 
@@ -72,7 +72,7 @@ class EqualWeightMethod {
       sample_.put(rates().entry(type_.fragment(parent.particle, 1 - fraction)));
     }
     ++counters_.breakages;
-    sample_.settle(random, counters_);
+    sample_.bringNumberIntoRange(random, counters_);
     return true;
   }
 
@@ -108,7 +108,7 @@ class EqualWeightMethod {
     sample_.put(*nucleus_);
     ++counters_.nucleations;
     sample_.massChanged();
-    sample_.settle(random, counters_);
+    sample_.bringNumberIntoRange(random, counters_);
   }
   [[nodiscard]] double nucleusWeight() const { return sample_.weight(); }
 
@@ -170,7 +170,7 @@ class EqualWeightMethod {
   void replace(const Particles& particles, double weight, RandomStream& random) {
     sample_.replace(weight, false, particles.size(), [&](std::size_t k) { return rates().entry(particles[k]); });
     retune();
-    sample_.settle(random, counters_);
+    sample_.bringNumberIntoRange(random, counters_);
   }
   // What a population in a gas has to keep so that it goes on as it would have: counters apart.
   void pack(std::vector<double>& state) const {
@@ -216,7 +216,7 @@ class EqualWeightMethod {
   void lose(const Entry& gone, RandomStream& random) {
     sample_.taken(gone);
     sample_.massChanged();
-    sample_.settle(random, counters_);
+    sample_.bringNumberIntoRange(random, counters_);
   }
 
   // A majorant that suits the particles as they are; with the cost of N events, after N events.

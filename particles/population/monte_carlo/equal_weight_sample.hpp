@@ -74,7 +74,7 @@ class EqualWeightSample {
     if (keepsMass_) mass_ = weight_ * volume_.value();
   }
   // To be called when an event is over: brings the number of particles into range.
-  [[gnu::always_inline]] void settle(RandomStream& random, PopulationCounters& counters) {
+  [[gnu::always_inline]] void bringNumberIntoRange(RandomStream& random, PopulationCounters& counters) {
     const std::size_t count = size();
     if (!filled_) {
       if (count < fullAt_) return;

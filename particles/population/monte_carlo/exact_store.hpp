@@ -42,7 +42,7 @@ class ExactStore {
     outdated();
   }
   void insert(Entry entry) {
-    const std::size_t at = place(entry);
+    const std::size_t at = insertionIndex(entry);
     if (rowsValid_) {
       double row = 0;
       for (std::size_t k = 0; k < size(); ++k) {
@@ -162,7 +162,7 @@ class ExactStore {
     const double va = rates_.volume(a), vb = rates_.volume(b);
     return va < vb || (va == vb && rates_.weight(a) < rates_.weight(b));
   }
-  [[nodiscard]] std::size_t place(const Entry& entry) const {
+  [[nodiscard]] std::size_t insertionIndex(const Entry& entry) const {
     const auto at = std::upper_bound(entries_.begin(), entries_.end(), entry,
                                      [this](const Entry& a, const Entry& b) { return less(a, b); });
     return static_cast<std::size_t>(at - entries_.begin());

@@ -157,7 +157,7 @@ class HybridPopulation {
     if (x < numbers) {
       drawn.size = numbers_.find(component, x);
     } else {
-      drawn.particle = store_.size() > 0 && store_.place(component, x - numbers, drawn.place);
+      drawn.particle = store_.size() > 0 && store_.findMember(component, x - numbers, drawn.place);
     }
     return drawn;
   }

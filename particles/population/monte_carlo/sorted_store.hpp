@@ -100,10 +100,10 @@ class SortedStore {
       return {chunk.particles[at], chunk.weight(at)};
   }
   [[nodiscard]] Slot locate(double volume, double weight) const;
-  // Out of its chunk; settle() is due.
+  // Out of its chunk; joinIfSparse() is due.
   void erase(Place place);
   void eraseTwo(Place place);  // this one and the next, in one chunk; the smallest difference gets stale
-  void settle(Slot slot);
+  void joinIfSparse(Slot slot);
   Entry take(Place place);
 
   // Structure: sorted_store_chunks.hpp.

@@ -146,7 +146,7 @@ void SortedStore<Rates>::eraseTwo(Place place) {
 }
 
 template <SortedRates Rates>
-void SortedStore<Rates>::settle(Slot slot) {
+void SortedStore<Rates>::joinIfSparse(Slot slot) {
   if (chunks_[slot].size >= sparse || !join(slot)) touched(slot);
 }
 
@@ -155,7 +155,7 @@ typename Rates::Entry SortedStore<Rates>::take(Place place) {
   Entry entry = entryAt(chunks_[place.slot], place.at);
   erase(place);
   recent_ = {place.slot, recent_[0]};
-  settle(place.slot);
+  joinIfSparse(place.slot);
   return entry;
 }
 

@@ -58,8 +58,8 @@ bool SortedStore<Rates>::drawPair(RandomStream& random, Entry& first, Entry& sec
     erase({a, i});
     erase({b, j});
   }
-  settle(a);
-  if (b != a && chunks_[b].used) settle(b);
+  joinIfSparse(a);
+  if (b != a && chunks_[b].used) joinIfSparse(b);
   return true;
 }
 
@@ -108,8 +108,8 @@ bool SortedStore<Rates>::mergeNearest(MeanOf&& meanOf) {
     const Entry mean = meanOf(lower, entryAt(chunks_[next], 0));
     erase({next, 0});
     erase({slot, k});
-    settle(slot);
-    if (chunks_[next].used) settle(next);
+    joinIfSparse(slot);
+    if (chunks_[next].used) joinIfSparse(next);
     insert(mean);
     return true;
   }
@@ -122,7 +122,7 @@ bool SortedStore<Rates>::mergeNearest(MeanOf&& meanOf) {
   const std::uint32_t at = chunk.position(volume, weight) - below;
   if (at < k || at == 0 || at + 2 >= chunk.size || rates_.keepsHeaviest()) {
     eraseTwo({slot, k});
-    settle(slot);
+    joinIfSparse(slot);
     insert(mean);
     return true;
   }
@@ -138,7 +138,7 @@ bool SortedStore<Rates>::mergeNearest(MeanOf&& meanOf) {
   if (raiseBounds(chunk, mean))
     publish(slot);
   else
-    settle(slot);
+    joinIfSparse(slot);
   return true;
 }
 

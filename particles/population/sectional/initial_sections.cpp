@@ -60,7 +60,7 @@ std::vector<double> initialSections(const SectionGrid& grid, const InitialPopula
                       "{:.4g} to {:.4g} m3",
                       initial.volume, grid.volume(1), end));
     }
-    const auto place = grid.place(initial.volume);
+    const auto place = grid.pivotsAround(initial.volume);
     y[place.lower] = (1 - place.upper) * initial.number;
     y[place.lower + 1] = place.upper * initial.number;
     return y;

@@ -30,7 +30,7 @@ void LinearProcesses::addBreakage(const SectionGrid& grid, const BreakageOptions
     if (j == 0) {
       at(0, 0) += (pieces - 1) * rate;
     } else if (breakage.daughters == BreakageOptions::Daughters::equal) {
-      const auto place = grid.place(v / pieces);
+      const auto place = grid.pivotsAround(v / pieces);
       at(place.lower, j) += pieces * (1 - place.upper) * rate;
       at(place.lower + 1, j) += pieces * place.upper * rate;
       at(j, j) -= rate;

@@ -32,7 +32,7 @@ SectionGrid::SectionGrid(const SectionalOptions& options) : spacing_(options.spa
   if (!std::isfinite(volumes_[n])) throw InputError("sections: the volume of the last pivot is not finite");
 }
 
-SectionGrid::Place SectionGrid::place(double volume) const {
+SectionGrid::Place SectionGrid::pivotsAround(double volume) const {
   const auto above = std::upper_bound(volumes_.begin(), volumes_.end(), volume);
   const auto k = std::min(static_cast<std::size_t>(above - volumes_.begin()) - 1, last() - 1);
   return {k, (volume - volumes_[k]) / (volumes_[k + 1] - volumes_[k])};

@@ -39,7 +39,7 @@ class SectionGrid {
   [[nodiscard]] std::span<const double> volumes() const { return volumes_; }
   [[nodiscard]] double spacing() const { return spacing_; }
   // For a volume from zero to the last pivot.
-  [[nodiscard]] Place place(double volume) const;
+  [[nodiscard]] Place pivotsAround(double volume) const;
   // The harmonic mean of pivot k and the one below it, also for k = 1 and k = last() + 1. A uniform density between
   // lowerBoundary(k) and lowerBoundary(k + 1) has its mean in pivot k.
   [[nodiscard]] double lowerBoundary(std::size_t k) const;

@@ -22,7 +22,7 @@ SectionSystem::SectionSystem(const SectionGrid& grid, const PopulationModel& mod
           fmt::format("the volume of a nucleus, {:.4g} m3, is outside the sectional grid, {:.4g} to {:.4g} m3",
                       nucleusVolume_, first, grid.volume(grid.last())));
     }
-    nuclei_ = grid.place(nucleusVolume_);
+    nuclei_ = grid.pivotsAround(nucleusVolume_);
   }
 }
 

@@ -137,7 +137,7 @@ std::vector<double> SectionalSolver::numberInBins(std::span<const double> edges)
     if (volume < grid.lowerBoundary(1)) return below[0];
     if (volume >= grid.lowerBoundary(grid.last() + 1)) return below.back();
     // The section is that of the pivot below or above.
-    std::size_t k = std::clamp<std::size_t>(grid.place(volume).lower, 1, grid.last());
+    std::size_t k = std::clamp<std::size_t>(grid.pivotsAround(volume).lower, 1, grid.last());
     if (k < grid.last() && volume >= grid.lowerBoundary(k + 1)) ++k;
     const double from = grid.lowerBoundary(k), to = grid.lowerBoundary(k + 1);
     return below[k - 1] + (volume - from) / (to - from) * y[k];

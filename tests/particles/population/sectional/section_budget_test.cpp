@@ -71,7 +71,7 @@ TEST_P(SectionCoagulationRates, AreThoseOfTheFixedPivotTechnique) {
         add(layout.overNumber(), event);
         add(layout.overVolume(), event * sum / grid.volume(grid.last()));
       } else {
-        const auto place = grid.place(sum);
+        const auto place = grid.pivotsAround(sum);
         add(place.lower, (1 - place.upper) * event);
         add(place.lower + 1, place.upper * event);
       }
