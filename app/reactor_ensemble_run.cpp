@@ -183,7 +183,7 @@ class EnsembleReactorDriver : public ReactorDriver {
           Quantity{"soot_surface_area", "m^2/m^3", "surface of all particles"},
           Quantity{"soot_carbon", "kg/m^3", "carbon in particles"},
           Quantity{"soot_hydrogen", "kg/m^3", "hydrogen in particles"},
-          Quantity{"soot_booked", "kg/m^3",
+          Quantity{"soot_mass_exchanged", "kg/m^3",
                    "mass of particles by what they exchanged with the gas; differs from carbon and "
                    "hydrogen by numerical particles that come and go, zero in the mean"}})
       columns.push_back(more);

@@ -12,7 +12,7 @@ namespace lampblack {
 BranchTracer::BranchTracer(LoadedSystem& system, ContinuationOptions options)
     : system_(system), options_(options), solver_(options.newton), step_(options.firstStep) {}
 
-void BranchTracer::weigh() {
+void BranchTracer::setWeights() {
   const std::size_t n = x_.size();
   weights_.resize(n);
   system_.scales(x_, weights_);
@@ -57,7 +57,7 @@ bool BranchTracer::start(std::span<const double> x) {
     return false;
   }
   ++counts_.factorisations;
-  weigh();
+  setWeights();
   findTangent(options_.towardsHigherLoad ? 1 : -1);
   tangentIsExact_ = true;
   firstSlope_ = tangent_.back();
@@ -119,7 +119,7 @@ bool BranchTracer::advance() {
 
   const double chord = std::hypot(step_, deviation_);
   x_ = candidate;
-  weigh();
+  setWeights();
   findTangent(1);
   tangentIsExact_ = false;
   double factor = static_cast<double>(options_.goodSteps) / static_cast<double>(std::max<std::size_t>(report.steps, 1));
@@ -133,14 +133,14 @@ bool BranchTracer::advance() {
 bool BranchTracer::resume(std::span<const double> x, std::span<const double> tangent) {
   x_.assign(x.begin(), x.end());
   tangent_.assign(tangent.begin(), tangent.end());
-  weigh();
+  setWeights();
   const double length = std::sqrt(product(tangent_, tangent_));
   for (double& t : tangent_) t /= length;
   std::vector<double> candidate;
   NewtonReport report;
   if (correct(candidate, 0, report) != Outcome::Converged) return false;
   x_ = candidate;
-  weigh();
+  setWeights();
   findTangent(1);
   tangentIsExact_ = false;
   return true;

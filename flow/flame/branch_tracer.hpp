@@ -67,7 +67,7 @@ class BranchTracer {
   // What became of a try to correct a point.
   enum class Outcome { Converged, TooFar, Failed };
 
-  void weigh();  // weights of the present point
+  void setWeights();  // weights of the present point
   [[nodiscard]] double product(std::span<const double> a, std::span<const double> b) const;
   void constrain(double step);
   Outcome correct(std::vector<double>& candidate, double step, NewtonReport& report);

@@ -79,7 +79,7 @@ FlameBudget energyBudget(const FlameEquations::Data& d) {
 
 std::vector<FlameBudget> FlameEquations::budgets(std::span<const double> x) {
   Data& d = *data_;
-  d.take(x);
+  d.setUnknowns(x);
   std::vector<FlameBudget> result;
   // Every rank evaluates all points: once a flame, and the sums are alike.
   collectively(d.comm, [&] {
@@ -103,7 +103,7 @@ std::vector<FlameBudget> FlameEquations::budgets(std::span<const double> x) {
 
 double FlameEquations::burnerHeatFlux(std::span<const double> x) {
   Data& d = *data_;
-  d.take(x);
+  d.setUnknowns(x);
   collectively(d.comm, [&] {
     d.chooseBlend();
     d.evaluate(0, 1);

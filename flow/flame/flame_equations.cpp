@@ -173,7 +173,7 @@ void FlameEquations::residual(std::span<const double> x, std::span<double> F) {
   // and keeps what there is; each further attempt ends here, too.
   if (const int signal = agreedStopRequest(d.comm); signal != 0)
     throw NumericsError("stopped by " + signalName(signal));
-  d.take(x);
+  d.setUnknowns(x);
   const auto work = [&] {
     d.chooseBlend();
     d.evaluate(d.begin, d.end);
@@ -193,7 +193,7 @@ void FlameEquations::residual(std::span<const double> x, std::span<double> F) {
 
 void FlameEquations::timeWeights(std::span<const double> x, std::span<double> M) {
   Data& d = *data_;
-  d.take(x);
+  d.setUnknowns(x);
   d.gas.composition(d.profile, 0, d.points());
   d.gas.heatCapacities(d.profile);
   for (std::size_t i = 0; i < d.points(); ++i) d.pointTimeWeights(i, &M[i * d.width()]);
@@ -203,7 +203,7 @@ void FlameEquations::timeWeights(std::span<const double> x, std::span<double> M)
 bool FlameEquations::factorise(std::span<const double> x, double inverseTimeStep) {
   Data& d = *data_;
   const double start = MPI_Wtime();
-  d.take(x);
+  d.setUnknowns(x);
   d.steadyFactors = false;
   const auto work = [&] {
     const std::size_t begin = d.matrix->ownedBegin(), end = d.matrix->ownedEnd();
@@ -253,7 +253,7 @@ bool FlameEquations::factoriseUnsteady(std::span<const double> x, double shift) 
 
 void FlameEquations::storage(std::span<const double> x, std::span<const double> rate, std::span<double> F) {
   Data& d = *data_;
-  d.take(x);
+  d.setUnknowns(x);
   d.gas.composition(d.profile, 0, d.points());
   for (std::size_t i = 0; i < d.points(); ++i) {
     const double* dot = &rate[i * d.width()];

@@ -62,7 +62,7 @@ struct FlameEquations::Data {
 
   [[nodiscard]] std::string nameOf(std::size_t point, std::size_t component) const;
 
-  void take(std::span<const double> x) { std::copy(x.begin(), x.end(), profile.x.begin()); }
+  void setUnknowns(std::span<const double> x) { std::copy(x.begin(), x.end(), profile.x.begin()); }
   bool blendIsChosen = false;
   void chooseBlend();
   // Gas at the points [first, last) and the faces beside them.

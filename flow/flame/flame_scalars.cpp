@@ -16,7 +16,7 @@ FlameScalars::FlameScalars(FlameEquations& equations, const FlameProfile& flame)
       densities_(scalars_) {
   const std::size_t rows = scalars_ + flame_.carried->exchanged().size();
   jacobian_.resize(rows * (rows + 1));
-  flame_.take(flame.x);
+  flame_.setUnknowns(flame.x);
   // Every rank evaluates all points: fast beside the gas.
   collectively(flame_.comm, [&] {
     flame_.chooseBlend();

@@ -106,7 +106,7 @@ void FlameSolver::Data::gasAlone(const FlameProblem& flame, NewtonSolver& solver
   FlameEquations gas(comm, mechanism, flame, nullptr, options.tolerances);
   gas.setExchange(exchange);
   refine(gas, solver, name);
-  count(gas);
+  addCounters(gas);
   solution.profile = withLayout(solution.profile, full);
 }
 
@@ -122,7 +122,7 @@ void FlameSolver::Data::scalarsAlone(FlameEquations& equations, NewtonSolver& so
   finish(stage, start);
 }
 
-void FlameSolver::Data::count(const FlameEquations& equations) {
+void FlameSolver::Data::addCounters(const FlameEquations& equations) {
   FlameEquations::Counters& sum = solution.counters;
   const FlameEquations::Counters& more = equations.counters();
   sum.residuals += more.residuals;
@@ -239,7 +239,7 @@ void FlameSolver::Data::solve() {
   const std::string name = layout.scalars > 0 ? "gas and scalars" : "flame";
   toLastSteps(equations, solver, name);
   if (options.preferStable) preferStable(equations, solver, name);
-  count(equations);
+  addCounters(equations);
   solution.budgets = equations.budgets(solution.profile.x);
   if (problem.type == FlameType::Burner) solution.burnerHeatFlux = equations.burnerHeatFlux(solution.profile.x);
 }

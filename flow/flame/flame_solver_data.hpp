@@ -36,7 +36,7 @@ struct FlameSolver::Data {
   // Where the solution would not last, to the one that the flame goes to from there if it is disturbed towards higher
   // temperatures. What cannot be left stays, with its growth rate.
   void preferStable(FlameEquations& equations, NewtonSolver& solver, const std::string& name);
-  void leave(FlameEquations& equations, NewtonSolver& solver, const GrowingMode& mode);
+  void leaveUnstableFlame(FlameEquations& equations, NewtonSolver& solver, const GrowingMode& mode);
   // Stages on ever better grids until none is needed.
   void refine(FlameEquations& equations, NewtonSolver& solver, const std::string& name);
   void setGridAndAnchor(FlameEquations& equations);
@@ -47,7 +47,7 @@ struct FlameSolver::Data {
   void anchorIn(const FlameProfile& profile);
   void gasAlone(const FlameProblem& flame, NewtonSolver& solver, const std::string& name);
   void scalarsAlone(FlameEquations& equations, NewtonSolver& solver);
-  void count(const FlameEquations& equations);
+  void addCounters(const FlameEquations& equations);
   [[nodiscard]] bool withoutScalars() const {
     for (std::size_t i = 0; i < solution.profile.points(); ++i)
       for (double value : solution.profile.scalars(i))

@@ -15,7 +15,7 @@ constexpr int mostTries = 2;
 
 }  // namespace
 
-void FlameSolver::Data::leave(FlameEquations& equations, NewtonSolver& solver, const GrowingMode& mode) {
+void FlameSolver::Data::leaveUnstableFlame(FlameEquations& equations, NewtonSolver& solver, const GrowingMode& mode) {
   const double start = MPI_Wtime();
   FlameProfile& p = solution.profile;
   FlameStage stage;
@@ -57,7 +57,7 @@ void FlameSolver::Data::preferStable(FlameEquations& equations, NewtonSolver& so
     const std::size_t stages = solution.stages.size();
     bool hotter = false;
     try {
-      leave(equations, solver, *mode);
+      leaveUnstableFlame(equations, solver, *mode);
       toLastSteps(equations, solver, name + ", stable");
       hotter = solution.profile.peakTemperature() > unstable.peakTemperature();
     } catch (const FlameFailure&) {

@@ -65,7 +65,7 @@ class StochasticProcess final : public StochasticSoot {
   void jump(const SootMedium& medium, const Sums& start, double dt, double stepLength);
   void grow(const SootMedium& medium, double dt);
   void planNucleus(double weight) { nucleusAfter_ = weight * random_.uniform(); }
-  void book(const SootMedium& medium, double dimers);
+  void recordUptakeOfDimers(const SootMedium& medium, double dimers);
 
   static constexpr bool weighted = requires(Method method, const Particle& p) { method.setNucleus(p, 1.0); };
 
@@ -251,7 +251,7 @@ void StochasticProcess<Method>::jump(const SootMedium& medium, const Sums& start
   exchange_.resampledCarbon += after.carbon - start.carbon - nucleatedCarbon;
   exchange_.resampledHydrogen += after.hydrogen - start.hydrogen - nucleatedHydrogen;
   if (nucleated > 0) {
-    book(medium, 2 * nucleated);
+    recordUptakeOfDimers(medium, 2 * nucleated);
     exchange_.nucleatedNumber += nucleated;
     exchange_.nucleated += nucleatedCarbon + nucleatedHydrogen;
   }
@@ -259,7 +259,7 @@ void StochasticProcess<Method>::jump(const SootMedium& medium, const Sums& start
 
 // Dimers that became soot.
 template <class Method>
-void StochasticProcess<Method>::book(const SootMedium& medium, double dimers) {
+void StochasticProcess<Method>::recordUptakeOfDimers(const SootMedium& medium, double dimers) {
   for (std::size_t i = 0; i < dimers_.size(); ++i)
     exchange_.gas[SootSpecies::fixed + i] -= dimers * medium.pahOfDimer()[i] / constants::avogadro;
   exchange_.gas[SootSpecies::H2] += 0.5 * dimers * medium.freedHydrogen() / options_.soot.hydrogenWeight;
@@ -296,7 +296,7 @@ void StochasticProcess<Method>::grow(const SootMedium& medium, double dt) {
     all.add(w, moved);
     return left;
   });
-  book(medium, all.dimers);
+  recordUptakeOfDimers(medium, all.dimers);
   exchange_.condensed += all.dimers * (medium.dimerCarbon() + medium.dimerHydrogen());
   exchange_.grown += all.growth;
   exchange_.oxidisedO2 += all.oxidationO2 + all.hydrogenO2;

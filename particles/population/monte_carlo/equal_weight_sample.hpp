@@ -83,11 +83,11 @@ class EqualWeightSample {
     }
     if (count == 0 || (count >= range_.fewest && count <= range_.most)) return;
     if (method_ == MonteCarloMethod::dsmc) {
-      adjust(random, counters);
+      doubleOrContract(random, counters);
     } else if (method_ == MonteCarloMethod::constantVolume) {
-      step(random, counters);
+      keepVolumeStepwise(random, counters);
     } else {
-      restore(random, counters);
+      keepNumber(random, counters);
     }
   }
 
@@ -140,7 +140,7 @@ class EqualWeightSample {
   }
 
   // Constant number.
-  void restore(RandomStream& random, PopulationCounters& counters) {
+  void keepNumber(RandomStream& random, PopulationCounters& counters) {
     const std::size_t before = size();
     for (; size() < capacity_; ++counters.copies) {
       const Entry copy = store_operations::copyUniform(store_, random);
@@ -153,14 +153,14 @@ class EqualWeightSample {
       weight_ *= static_cast<double>(before) / static_cast<double>(capacity_);
   }
   // Doubling and contraction.
-  void adjust(RandomStream& random, PopulationCounters& counters) {
+  void doubleOrContract(RandomStream& random, PopulationCounters& counters) {
     while (2 * size() <= capacity_) duplicate(counters);
     if (size() <= capacity_) return;
     weight_ *= static_cast<double>(size()) / static_cast<double>(capacity_);
     removeDownTo(capacity_, random, counters);
   }
   // Stepwise constant volume.
-  void step(RandomStream& random, PopulationCounters& counters) {
+  void keepVolumeStepwise(RandomStream& random, PopulationCounters& counters) {
     while (2 * size() < capacity_) duplicate(counters);
     while (size() > 2 * capacity_) {
       const std::size_t before = size();

@@ -52,7 +52,7 @@ class HybridNumbers {
 
   void add(std::size_t size) { set(size, numbers_[size - 1] + 1); }
   void remove(std::size_t size) { set(size, numbers_[size - 1] - 1); }
-  void twice() {
+  void doubleAll() {
     for (std::size_t size = 1; size <= threshold(); ++size) set(size, 2 * numbers_[size - 1]);
   }
 

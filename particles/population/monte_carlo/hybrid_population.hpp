@@ -51,7 +51,7 @@ class HybridPopulation {
   // A second copy of each.
   void duplicate() {
     store_.duplicate();
-    numbers_.twice();
+    numbers_.doubleAll();
   }
 
   // Bound of the sum of all rates of pairs, m3/s.
