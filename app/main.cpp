@@ -9,13 +9,13 @@
 #include <new>
 #include <sstream>
 
-#include "app/build_info.hpp"
-#include "app/gas_command.hpp"
-#include "app/mechanism_command.hpp"
-#include "app/problem.hpp"
-#include "app/replay_command.hpp"
-#include "app/sweep_command.hpp"
-#include "app/sweep_study.hpp"
+#include "app/run/build_info.hpp"
+#include "app/run/problem.hpp"
+#include "app/study/sweep_command.hpp"
+#include "app/study/sweep_study.hpp"
+#include "app/tools/gas_command.hpp"
+#include "app/tools/mechanism_command.hpp"
+#include "app/tools/replay_command.hpp"
 #include "core/errors.hpp"
 #include "core/long_lines.hpp"
 #include "core/petsc.hpp"
@@ -26,6 +26,7 @@
 namespace {
 
 using namespace lampblack;
+using namespace lampblack::app;
 
 constexpr int exitBug = 1;
 constexpr int exitInput = 2;

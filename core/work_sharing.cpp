@@ -5,6 +5,8 @@
 #include <exception>
 #include <limits>
 #include <numeric>
+#include <optional>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -23,23 +25,65 @@ double imbalance(const std::vector<double>& cost) {
   return sum > 0.0 ? most * static_cast<double>(cost.size()) / sum : 1.0;
 }
 
-// Items on their way to another rank, and the room for what comes back.
+// Items on their way to another rank.
 struct Parcel {
   int peer;
   std::vector<std::size_t> item;
-  std::vector<double> input, output;
+  std::vector<double> values, results;
 };
+
+// The values of several items in one message: of each how many, then the values; `noValues` for one that failed.
+constexpr double noValues = -1;
+
+void append(std::vector<double>& message, std::span<const double> values) {
+  message.push_back(static_cast<double>(values.size()));
+  message.insert(message.end(), values.begin(), values.end());
+}
+
+class MessageReader {
+ public:
+  explicit MessageReader(std::span<const double> message) : rest_(message) {}
+  [[nodiscard]] bool done() const { return rest_.empty(); }
+  // Of the next item; empty optional for one that failed.
+  std::optional<std::span<const double>> next() {
+    const double count = rest_.front();
+    rest_ = rest_.subspan(1);
+    if (count == noValues) return std::nullopt;
+    const auto values = rest_.first(static_cast<std::size_t>(count));
+    rest_ = rest_.subspan(values.size());
+    return values;
+  }
+
+ private:
+  std::span<const double> rest_;
+};
+
+std::vector<double> receive(int from, int tag, MPI_Comm comm) {
+  MPI_Status status;
+  MPI_Probe(from, tag, comm, &status);
+  int count = 0;
+  MPI_Get_count(&status, MPI_DOUBLE, &count);
+  std::vector<double> message(static_cast<std::size_t>(count));
+  MPI_Recv(message.data(), count, MPI_DOUBLE, from, tag, comm, MPI_STATUS_IGNORE);
+  return message;
+}
+
+void send(const std::vector<double>& message, int to, int tag, MPI_Comm comm, std::vector<MPI_Request>& requests) {
+  MPI_Isend(message.data(), static_cast<int>(message.size()), MPI_DOUBLE, to, tag, comm, &requests.emplace_back());
+}
 
 // Keeps the first failure and skips everything after it: the run is lost, only the communication has to be completed.
 class FirstFailure {
  public:
   template <typename Work>
-  void unlessFailed(Work&& work) {
-    if (error_) return;
+  bool unlessFailed(Work&& work) {  // whether it was done
+    if (error_) return false;
     try {
       work();
+      return true;
     } catch (...) {
       error_ = std::current_exception();
+      return false;
     }
   }
   [[nodiscard]] const std::exception_ptr& error() const { return error_; }
@@ -48,15 +92,10 @@ class FirstFailure {
   std::exception_ptr error_;
 };
 
-std::span<double> slot(std::vector<double>& values, std::size_t item, std::size_t size) {
-  return {values.data() + item * size, size};
-}
-
 // This rank's total cost; not a number when its items are not valid, which every rank then notices.
 double totalCost(const WorkSharing::Items& items) {
   const auto& cost = items.cost;
-  const bool valid = items.inputSize > 0 &&
-                     std::all_of(cost.begin(), cost.end(), [](double c) { return c >= 0.0 && std::isfinite(c); });
+  const bool valid = std::all_of(cost.begin(), cost.end(), [](double c) { return c >= 0.0 && std::isfinite(c); });
   return valid ? std::accumulate(cost.begin(), cost.end(), 0.0) : std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -119,25 +158,32 @@ WorkSharing::Statistics WorkSharing::run(const Items& items) {
   std::vector<double> costOfRank(static_cast<std::size_t>(ranks));
   MPI_Allgather(&ownCost, 1, MPI_DOUBLE, costOfRank.data(), 1, MPI_DOUBLE, comm_);
   for (double cost : costOfRank)
-    if (!std::isfinite(cost))
-      throw std::invalid_argument("WorkSharing: inputSize is zero, or a cost is negative or not finite");
+    if (!std::isfinite(cost)) throw std::invalid_argument("WorkSharing: a cost is negative or not finite");
   SharingPlan plan = planSharing(costOfRank);
   if (!enabled_) plan.transfers.clear();
 
   FirstFailure guard;
+  std::vector<double> input, output;
+  const auto pack = [&](std::size_t item) {
+    input.clear();
+    return guard.unlessFailed([&] { items.pack(item, input); });
+  };
+  const auto advance = [&](std::span<const double> values) {
+    output.clear();
+    return guard.unlessFailed([&] { items.advance(values, output); });
+  };
+
   std::vector<char> away(items.cost.size(), 0);
   std::vector<Parcel> sent = chooseParcels(plan, rank, items.cost, away);
   std::vector<MPI_Request> requests;
   for (Parcel& parcel : sent) {
-    parcel.input.resize(parcel.item.size() * items.inputSize);
-    parcel.output.resize(parcel.item.size() * items.outputSize);
-    for (std::size_t i = 0; i < parcel.item.size(); ++i) {
-      guard.unlessFailed([&] { items.pack(parcel.item[i], slot(parcel.input, i, items.inputSize)); });
+    for (const std::size_t item : parcel.item) {
+      if (pack(item))
+        append(parcel.values, input);
+      else
+        parcel.values.push_back(noValues);
     }
-    MPI_Isend(parcel.input.data(), static_cast<int>(parcel.input.size()), MPI_DOUBLE, parcel.peer, itemsTag, comm_,
-              &requests.emplace_back());
-    MPI_Irecv(parcel.output.data(), static_cast<int>(parcel.output.size()), MPI_DOUBLE, parcel.peer, resultsTag, comm_,
-              &requests.emplace_back());
+    send(parcel.values, parcel.peer, itemsTag, comm_, requests);
   }
 
   // Others' items first, so that they travel back while this rank advances its own.
@@ -146,47 +192,38 @@ WorkSharing::Statistics WorkSharing::run(const Items& items) {
   returned.reserve(plan.transfers.size());  // MPI keeps pointers to the elements' values
   for (const auto& transfer : plan.transfers) {
     if (transfer.to != rank) continue;
-    MPI_Status status;
-    MPI_Probe(transfer.from, itemsTag, comm_, &status);
-    int values = 0;
-    MPI_Get_count(&status, MPI_DOUBLE, &values);
-    std::vector<double> input(static_cast<std::size_t>(values));
-    MPI_Recv(input.data(), values, MPI_DOUBLE, transfer.from, itemsTag, comm_, MPI_STATUS_IGNORE);
-    const std::size_t foreign = input.size() / items.inputSize;
-    std::vector<double>& output = returned.emplace_back(foreign * items.outputSize);
+    const std::vector<double> received = receive(transfer.from, itemsTag, comm_);
+    std::vector<double>& results = returned.emplace_back();
     const double start = MPI_Wtime();
-    for (std::size_t i = 0; i < foreign; ++i)
-      guard.unlessFailed([&] { items.advance(slot(input, i, items.inputSize), slot(output, i, items.outputSize)); });
+    for (MessageReader message(received); !message.done();) {
+      const auto values = message.next();
+      if (values && advance(*values))
+        append(results, output);
+      else
+        results.push_back(noValues);
+    }
     busy += MPI_Wtime() - start;
-    MPI_Isend(output.data(), static_cast<int>(output.size()), MPI_DOUBLE, transfer.from, resultsTag, comm_,
-              &requests.emplace_back());
+    send(results, transfer.from, resultsTag, comm_, requests);
   }
 
-  std::vector<double> input(items.inputSize);
-  std::vector<double> output(items.outputSize);
   int allArrived = requests.empty() ? 1 : 0;
   const double start = MPI_Wtime();
   for (std::size_t item = 0; item < items.cost.size(); ++item) {
     if (away[item]) continue;
-    std::fill(input.begin(), input.end(), 0.0);
-    std::fill(output.begin(), output.end(), 0.0);
-    guard.unlessFailed([&] {
-      items.pack(item, input);
-      items.advance(input, output);
-      items.unpack(item, output);
-    });
+    if (pack(item) && advance(input)) guard.unlessFailed([&] { items.unpack(item, output); });
     // MPI moves large parcels only while it is called: without this, the receivers would wait for this loop's end.
     if (!allArrived) MPI_Testall(static_cast<int>(requests.size()), requests.data(), &allArrived, MPI_STATUSES_IGNORE);
   }
   busy += MPI_Wtime() - start;
+  for (Parcel& parcel : sent) parcel.results = receive(parcel.peer, resultsTag, comm_);
   MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
   raiseCollectively(comm_, guard.error());
 
   Statistics statistics;
-  for (Parcel& parcel : sent) {
+  for (const Parcel& parcel : sent) {
     statistics.itemsSent += parcel.item.size();
-    for (std::size_t i = 0; i < parcel.item.size(); ++i)
-      guard.unlessFailed([&] { items.unpack(parcel.item[i], slot(parcel.output, i, items.outputSize)); });
+    MessageReader message(parcel.results);
+    for (const std::size_t item : parcel.item) guard.unlessFailed([&] { items.unpack(item, message.next().value()); });
   }
   raiseCollectively(comm_, guard.error());
   statistics.imbalanceBefore = plan.imbalanceBefore;

@@ -1,6 +1,6 @@
-// Spreads per-cell work over the ranks: items with an estimated cost are packed, sent from busy ranks to idle ones,
-// advanced there and sent back. What an item computes must depend on its packed input alone, so that results do not
-// depend on where it ran.
+// Spreads work over the ranks: items with an estimated cost (the chemistry of a cell, an ensemble of particles) are
+// packed, sent from busy ranks to idle ones, advanced there and sent back. What an item computes must depend on its
+// packed input alone, so that results do not depend on where it ran.
 #pragma once
 
 #include <mpi.h>
@@ -28,12 +28,11 @@ SharingPlan planSharing(const std::vector<double>& costOfRank, double tolerance 
 class WorkSharing {
  public:
   struct Items {
-    std::vector<double> cost;   // of each item, in seconds or any common unit; zero or more
-    std::size_t inputSize = 0;  // values an item, at least 1 and alike on all ranks, also where there are no items
-    std::size_t outputSize = 0;
-    std::function<void(std::size_t item, std::span<double> input)> pack;  // `input` comes zeroed
-    // Advances one item; runs on any rank. `output` comes zeroed.
-    std::function<void(std::span<const double> input, std::span<double> output)> advance;
+    std::vector<double> cost;  // of each item, in seconds or any common unit; zero or more
+    // Appends what the item needs to `input`, which comes empty: as many values as it likes, and other items others.
+    std::function<void(std::size_t item, std::vector<double>& input)> pack;
+    // Advances one item and appends to `output`, which comes empty; runs on any rank.
+    std::function<void(std::span<const double> input, std::vector<double>& output)> advance;
     std::function<void(std::size_t item, std::span<const double> output)> unpack;
   };
   struct Statistics {
@@ -46,7 +45,7 @@ class WorkSharing {
 
   // Collective. Advances all items of all ranks. A failing item (in any of its three functions) stops every rank with
   // its message, after the communication has been completed; some items have been unpacked by then, others not.
-  // std::invalid_argument on all ranks when inputSize is zero or a cost is negative or not finite.
+  // std::invalid_argument on all ranks when a cost is negative or not finite.
   Statistics run(const Items& items);
 
  private:

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace lampblack {
+namespace lampblack::coupling {
 
 CarriedParticles::CarriedParticles(const Mechanism& mechanism, std::unique_ptr<ParticleModel> model, bool diffusion)
     : model_(std::move(model)), diffusion_(diffusion) {
@@ -73,4 +73,4 @@ double CarriedParticles::volumeFractionAtLimit(std::span<const double> densities
   return model_->volumeFractionAtLimit(densities);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::coupling

@@ -6,10 +6,11 @@
 #include <vector>
 
 #include "chemistry/mechanism/mechanism.hpp"
+#include "core/rooms.hpp"
 #include "flow/carried_model.hpp"
 #include "particles/models/particle_model.hpp"
 
-namespace lampblack {
+namespace lampblack::coupling {
 
 class CarriedParticles final : public CarriedModel {
  public:
@@ -46,4 +47,4 @@ class CarriedParticles final : public CarriedModel {
   std::vector<std::size_t> exchanged_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::coupling

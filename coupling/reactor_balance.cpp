@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-namespace lampblack {
+namespace lampblack::coupling {
 
 ReactorBalance::ReactorBalance(const Mechanism& mechanism, CarriedPhase& phase,
                                std::vector<std::vector<double>> unitElements)
@@ -79,4 +79,4 @@ std::vector<SteadyBalance> steadyBalances(const Mechanism& mechanism, ReactorPar
   return results;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::coupling

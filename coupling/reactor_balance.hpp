@@ -8,9 +8,10 @@
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/reactor/network_solver.hpp"
 #include "chemistry/thermo/thermo.hpp"
+#include "core/rooms.hpp"
 #include "coupling/reactor_particles.hpp"
 
-namespace lampblack {
+namespace lampblack::coupling {
 
 class ReactorBalance {
  public:
@@ -46,4 +47,4 @@ struct SteadyBalance {
                                                         const ReactorNetwork& network,
                                                         const std::vector<ReactorSteadyState>& states);
 
-}  // namespace lampblack
+}  // namespace lampblack::coupling

@@ -8,7 +8,7 @@
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::coupling {
 namespace {
 
 // Mole fraction of all PAH below which none are born.
@@ -16,7 +16,7 @@ constexpr double negligibleMoleFraction = 1e-15;
 
 }  // namespace
 
-ReactorEnsemble::ReactorEnsemble(const Mechanism& mechanism, StochasticSootOptions options) {
+ReactorEnsemble::ReactorEnsemble(const Mechanism& mechanism, EnsembleOptions options) {
   for (const std::string& name : sootSpecies(options.soot)) {
     const auto k = mechanism.findSpecies(name);
     if (!k)
@@ -25,12 +25,12 @@ ReactorEnsemble::ReactorEnsemble(const Mechanism& mechanism, StochasticSootOptio
           name));
     species_.push_back(*k);
   }
-  population_ = makeStochasticSoot(std::move(options));
+  population_ = makeEnsemble(std::move(options));
 }
 
 SplitParticles::Exchange ReactorEnsemble::advance(const ParticleGas& gas, double dt) {
   population_->advance(gas, 0, dt);
-  const SootExchange taken = population_->takeExchange();
+  const EnsembleExchange taken = population_->takeExchange();
   return {{taken.gas.begin(), taken.gas.begin() + static_cast<std::ptrdiff_t>(species_.size())},
           taken.carbon,
           taken.hydrogen};
@@ -47,4 +47,4 @@ bool ReactorEnsemble::idle(const ParticleGas& gas) const {
   return pah < negligibleMoleFraction * gas.pressure / (constants::gasConstant * gas.temperature);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::coupling

@@ -5,17 +5,18 @@
 #include <vector>
 
 #include "chemistry/mechanism/mechanism.hpp"
+#include "core/rooms.hpp"
 #include "coupling/split_reactor.hpp"
-#include "particles/soot/stochastic_soot.hpp"
+#include "particles/ensemble/ensemble.hpp"
 
-namespace lampblack {
+namespace lampblack::coupling {
 
 class ReactorEnsemble final : public SplitParticles {
  public:
-  // InputError where the mechanism lacks a species that soot exchanges, and as makeStochasticSoot().
-  ReactorEnsemble(const Mechanism& mechanism, StochasticSootOptions options);
+  // InputError where the mechanism lacks a species that soot exchanges, and as makeEnsemble().
+  ReactorEnsemble(const Mechanism& mechanism, EnsembleOptions options);
 
-  [[nodiscard]] const StochasticSoot& population() const { return *population_; }
+  [[nodiscard]] const Ensemble& population() const { return *population_; }
 
   [[nodiscard]] const std::vector<std::size_t>& species() const override { return species_; }
   Exchange advance(const ParticleGas& gas, double dt) override;
@@ -25,8 +26,8 @@ class ReactorEnsemble final : public SplitParticles {
   void restore(std::span<const double> state) override { population_->unpack(state); }
 
  private:
-  std::unique_ptr<StochasticSoot> population_;
+  std::unique_ptr<Ensemble> population_;
   std::vector<std::size_t> species_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::coupling

@@ -5,7 +5,7 @@
 
 #include "core/constants.hpp"
 
-namespace lampblack {
+namespace lampblack::coupling {
 
 ReactorGas::ReactorGas(const Mechanism& mechanism, std::vector<std::size_t> species)
     : weights_(mechanism.molecularWeights().begin(), mechanism.molecularWeights().end()),
@@ -80,4 +80,4 @@ std::vector<std::vector<double>> ReactorParticles::unitElements() const {
   return elements;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::coupling

@@ -9,9 +9,10 @@
 #include "chemistry/reactor/carried_phase.hpp"
 #include "chemistry/thermo/thermo.hpp"
 #include "chemistry/transport/transport.hpp"
+#include "core/rooms.hpp"
 #include "coupling/carried_particles.hpp"
 
-namespace lampblack {
+namespace lampblack::coupling {
 
 // The gas of a reactor at a state of it: all concentrations, and those that particles see.
 class ReactorGas {
@@ -61,4 +62,4 @@ class ReactorParticles final : public CarriedPhase {
   std::vector<double> densities_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::coupling

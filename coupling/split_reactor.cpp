@@ -8,9 +8,9 @@
 
 #include "core/constants.hpp"
 #include "core/errors.hpp"
-#include "particles/soot/soot_model.hpp"
+#include "particles/models/soot_model.hpp"
 
-namespace lampblack {
+namespace lampblack::coupling {
 namespace {
 
 // A change of temperature that counts as much as a concentration's of one.
@@ -191,4 +191,4 @@ void SplitReactor::advance(double end) {
   }
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::coupling

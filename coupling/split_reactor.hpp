@@ -18,9 +18,10 @@
 #include "chemistry/reactor/ode_system.hpp"
 #include "chemistry/reactor/stiff_integrator.hpp"
 #include "chemistry/thermo/thermo.hpp"
+#include "core/rooms.hpp"
 #include "coupling/reactor_particles.hpp"
 
-namespace lampblack {
+namespace lampblack::coupling {
 
 // Particles of carbon and hydrogen that change in a given gas.
 class SplitParticles {
@@ -123,4 +124,4 @@ class SplitReactor {
   Work work_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::coupling

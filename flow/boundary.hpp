@@ -4,7 +4,9 @@
 #include <string>
 #include <vector>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::flow {
 
 enum class BoundaryKind {
   Inlet,     // given normal velocity, temperature and composition
@@ -26,4 +28,4 @@ struct BoundaryCondition {
   bool slip = false;        // Wall
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-namespace lampblack {
+namespace lampblack::flow {
 
 std::vector<ConservedQuantity> massAndElements(const Mechanism& mechanism,
                                                const std::vector<std::vector<double>>& carriedMass) {
@@ -108,4 +108,4 @@ StateExtremes extremesOf(const FlowContext& context, const State& state) {
   return {worst[0], -worst[1], worst[2]};
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

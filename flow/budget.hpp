@@ -4,11 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/state.hpp"
 #include "flow/transport_operator.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 // A linear combination of species masses and carried scalars, such as total mass or the mass of one element in gas and
 // particles.
@@ -57,4 +58,4 @@ struct StateExtremes {
 };
 StateExtremes extremesOf(const FlowContext& context, const State& state);
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

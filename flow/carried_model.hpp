@@ -10,8 +10,9 @@
 
 #include "core/particle_gas.hpp"
 #include "core/quantity.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 // Where the derivatives of the sources go, row-major: rows are the scalars, then the exchanged species; columns the
 // scalars' densities, then the concentrations of the exchanged species, then the temperature (all else held).
@@ -66,4 +67,4 @@ class CarriedModel {
   [[nodiscard]] virtual double volumeFractionAtLimit(std::span<const double>) const { return 0; }
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -7,7 +7,7 @@
 
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 namespace {
 
 // How a cell is packed for the trip to another rank and back. In: place, number, gas, densities, concentrations; out:
@@ -158,10 +158,11 @@ void CarriedOperator::advance(State& state, double time, double dt) {
       items.cost.push_back(cost_[c]);
     }
   });
-  items.inputSize = inHeader + scalars_ + model_.exchanged().size();
-  items.outputSize = outHeader + scalars_ + model_.exchanged().size();
-  items.pack = [&](std::size_t i, std::span<double> in) { std::ranges::copy(busy[i].packed, in.begin()); };
-  items.advance = [&](std::span<const double> in, std::span<double> out) { solve(time, dt, in, out); };
+  items.pack = [&](std::size_t i, std::vector<double>& in) { in = busy[i].packed; };
+  items.advance = [&](std::span<const double> in, std::vector<double>& out) {
+    out.resize(outHeader + scalars_ + model_.exchanged().size());
+    solve(time, dt, in, out);
+  };
   items.unpack = [&](std::size_t i, std::span<const double> out) {
     unpack(state, busy[i].cell, busy[i].packed, out);
     setDiffusivities(state, busy[i].cell, busy[i].viscosity);
@@ -264,4 +265,4 @@ void CarriedOperator::fields(const State& state, const FieldSink& sink) const {
          {&all[p * owned], owned});
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -10,12 +10,13 @@
 #include <vector>
 
 #include "core/particle_gas.hpp"
+#include "core/rooms.hpp"
 #include "core/work_sharing.hpp"
 #include "flow/carried_model.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/operator.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 // The gas of a cell as a model sees it; its concentrations, of the species named by their indices, are in
 // `concentrations`.
@@ -75,4 +76,4 @@ class CarriedOperator : public Operator {
   std::vector<double> speciesEnthalpy_, partialDensity_, concentrations_, enthalpy_, slope_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

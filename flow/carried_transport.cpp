@@ -4,7 +4,7 @@
 
 #include "flow/face_fluxes.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 void CarriedTransport::advance(State& state, const GasProperties& properties, const FaceState& faces,
                                std::span<const double> faceVelocity, std::span<const double> newMass, double dt) {
@@ -73,4 +73,4 @@ void CarriedTransport::diffuse(const State& state, const FaceState& faces, std::
   addFaceFluxes(m, flux, n, dt, content);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -5,13 +5,14 @@
 #include <span>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "flow/face_state.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/gas_properties.hpp"
 #include "flow/implicit_diffusion.hpp"
 #include "flow/state.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 class CarriedTransport {
  public:
@@ -38,4 +39,4 @@ class CarriedTransport {
   std::vector<double> flux_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

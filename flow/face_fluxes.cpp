@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-namespace lampblack {
+namespace lampblack::flow {
 
 void addFaceFluxes(const Mesh& m, std::span<const double> flux, int components, double dt, std::span<double> content) {
   for (int face = 0; face < m.faces; ++face) {
@@ -20,4 +20,4 @@ void addFaceFluxes(const Mesh& m, std::span<const double> flux, int components, 
   }
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -5,7 +5,7 @@
 #include "core/constants.hpp"
 #include "flow/limiter.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 namespace {
 
 // The two cells of an interior face as an upwind scheme sees them.
@@ -103,4 +103,4 @@ double FaceState::carriedPerMass(int face, int scalar, double direction) const {
   return limitedFaceValue(perMass_[u.up * carried_ + scalar], perMass_[u.down * carried_ + scalar], slope, u.fraction);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

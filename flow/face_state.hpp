@@ -6,11 +6,12 @@
 #include <span>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/gradient.hpp"
 #include "flow/state.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 class FaceState {
  public:
@@ -43,4 +44,4 @@ class FaceState {
   std::vector<double> speciesEnthalpy_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -8,9 +8,10 @@
 #include "chemistry/transport/transport.hpp"
 #include "core/halo_exchange.hpp"
 #include "core/mesh.hpp"
+#include "core/rooms.hpp"
 #include "flow/boundary.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 struct FlowContext {
   const Mesh& mesh;
@@ -25,4 +26,4 @@ struct FlowContext {
   }
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

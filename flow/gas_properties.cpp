@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace lampblack {
+namespace lampblack::flow {
 
 void GasProperties::update(const FlowContext& context, const State& state) {
   const int cells = context.mesh.cells;
@@ -32,4 +32,4 @@ void GasProperties::update(const FlowContext& context, const State& state) {
   }
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -3,10 +3,11 @@
 
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/state.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 struct GasProperties {
   std::vector<double> viscosity;        // Pa s
@@ -23,4 +24,4 @@ struct GasProperties {
   std::vector<double> X_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace lampblack {
+namespace lampblack::flow {
 
 Gradient::Gradient(const Mesh& mesh) : mesh_(mesh) {}
 
@@ -36,4 +36,4 @@ void Gradient::compute(std::span<const double> values, std::span<const double> b
   }
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -5,8 +5,9 @@
 #include <vector>
 
 #include "core/mesh.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 class Gradient {
  public:
@@ -22,4 +23,4 @@ class Gradient {
   const Mesh& mesh_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

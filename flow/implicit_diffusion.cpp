@@ -7,7 +7,7 @@
 
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 void ImplicitDiffusion::apply(int fields, std::span<const double> diagonal, std::span<const double> conductance,
                               std::span<const double> x, std::span<double> result) const {
@@ -118,4 +118,4 @@ ImplicitDiffusion::Result ImplicitDiffusion::solve(int fields, std::span<const d
   return result;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -9,8 +9,9 @@
 
 #include "core/halo_exchange.hpp"
 #include "core/mesh.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 class ImplicitDiffusion {
  public:
@@ -36,4 +37,4 @@ class ImplicitDiffusion {
   std::vector<double> residual_, direction_, product_, inverse_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -3,7 +3,9 @@
 
 #include <cmath>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::flow {
 
 // Face value between the upwind value `up` and the downwind value `down`. `slope` is the upwind cell's gradient along
 // the direction up -> down times their distance; `fraction` the distance up -> face over the distance up -> down.
@@ -17,4 +19,4 @@ inline double limitedFaceValue(double up, double down, double slope, double frac
   return up + fraction * limited;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -6,7 +6,7 @@
 
 #include "chemistry/thermo/equilibrium.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 namespace {
 
 // Converts the fuel of a mixture to products as far as its oxygen reaches.
@@ -121,4 +121,4 @@ void setMixingLayer(const FlowContext& context, const MixingLayer& layer, State&
   }
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -3,10 +3,11 @@
 
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/state.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 struct Stream {
   double temperature = 298.0;  // K
@@ -30,4 +31,4 @@ struct MixingLayer {
 // Fills temperature, Y, enthalpy and density (halo included); leaves the velocity alone.
 void setMixingLayer(const FlowContext& context, const MixingLayer& layer, State& state);
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

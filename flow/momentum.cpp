@@ -5,7 +5,7 @@
 
 #include "flow/limiter.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 namespace {
 
 // Whether the velocity component along `component` is given at this boundary face.
@@ -195,4 +195,4 @@ Projection::Result Momentum::advance(State& state, const GasProperties& properti
   return result;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/gas_properties.hpp"
 #include "flow/gradient.hpp"
@@ -12,7 +13,7 @@
 #include "flow/projection.hpp"
 #include "flow/state.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 class Momentum {
  public:
@@ -43,4 +44,4 @@ class Momentum {
   std::vector<double> diagonal_, conductance_, source_, predicted_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -10,10 +10,11 @@
 #include <vector>
 
 #include "core/quantity.hpp"
+#include "core/rooms.hpp"
 #include "core/state_archive.hpp"
 #include "flow/state.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 class Operator {
  public:
@@ -48,4 +49,4 @@ class Operator {
   virtual void fields(const State&, const FieldSink&) const {}
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

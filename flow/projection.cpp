@@ -7,7 +7,7 @@
 
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 Projection::Projection(const FlowContext& context, double tolerance) : context_(context), tolerance_(tolerance) {
   const Mesh& m = context.mesh;
@@ -158,4 +158,4 @@ Projection::Result Projection::solve(double dt, std::span<const double> inverseD
   return result;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

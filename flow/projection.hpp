@@ -8,10 +8,11 @@
 #include <vector>
 
 #include "core/petsc.hpp"
+#include "core/rooms.hpp"
 #include "core/state_archive.hpp"
 #include "flow/flow_context.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 class Projection {
  public:
@@ -47,4 +48,4 @@ class Projection {
   int iterationsAfterSetup_ = -1;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -7,7 +7,7 @@
 
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 // How a cell is packed for the trip to another rank and back.
 struct ReactionOperator::Layout {
@@ -100,10 +100,14 @@ void ReactionOperator::advance(State& state, double time, double dt) {
   const auto n = static_cast<std::size_t>(state.species);
   WorkSharing::Items items;
   items.cost = cost_;
-  items.inputSize = Layout::inHeader + 2 * n;
-  items.outputSize = Layout::outHeader + n;
-  items.pack = [&](std::size_t cell, std::span<double> in) { pack(state, cell, dt, in); };
-  items.advance = [&](std::span<const double> in, std::span<double> out) { solve(time, dt, in, out); };
+  items.pack = [&](std::size_t cell, std::vector<double>& in) {
+    in.resize(Layout::inHeader + 2 * n);
+    pack(state, cell, dt, in);
+  };
+  items.advance = [&](std::span<const double> in, std::vector<double>& out) {
+    out.resize(Layout::outHeader + n);
+    solve(time, dt, in, out);
+  };
   items.unpack = [&](std::size_t cell, std::span<const double> out) { unpack(state, cell, dt, out); };
   const auto statistics = sharing_.run(items);
   diagnostics_.imbalanceBefore += statistics.imbalanceBefore;
@@ -172,4 +176,4 @@ std::optional<Operator::Imbalance> ReactionOperator::imbalance() const {
   return Imbalance{imbalances_.before / stages_, imbalances_.after / stages_};
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -15,11 +15,12 @@
 
 #include "chemistry/reactor/reactor.hpp"
 #include "chemistry/reactor/reactor_failure.hpp"
+#include "core/rooms.hpp"
 #include "core/work_sharing.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/operator.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 class ReactionOperator : public Operator {
  public:
@@ -67,4 +68,4 @@ class ReactionOperator : public Operator {
   int stages_ = 0;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

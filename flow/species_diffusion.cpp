@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace lampblack {
+namespace lampblack::flow {
 
 void SpeciesDiffusion::faceFlux(int face, bool gradientTerm, const double* low, const double* high, double lowWeight,
                                 double* flux) const {
@@ -88,4 +88,4 @@ ImplicitDiffusion::Result SpeciesDiffusion::computeFlux(const State& state, cons
   return result;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

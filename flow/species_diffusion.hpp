@@ -7,12 +7,13 @@
 #include <span>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/gas_properties.hpp"
 #include "flow/implicit_diffusion.hpp"
 #include "flow/state.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 class SpeciesDiffusion {
  public:
@@ -34,4 +35,4 @@ class SpeciesDiffusion {
                 double* flux) const;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace lampblack {
+namespace lampblack::flow {
 
 State::State(const Mesh& mesh, std::size_t speciesCount, std::vector<CarriedScalar> carriedScalars)
     : species(static_cast<int>(speciesCount)), scalars(std::move(carriedScalars)) {
@@ -44,4 +44,4 @@ void State::saveOrLoad(StateArchive& archive) {
   archive.faces("mass_flux", massFlux, 1);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

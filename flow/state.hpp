@@ -7,9 +7,10 @@
 
 #include "core/halo_exchange.hpp"
 #include "core/mesh.hpp"
+#include "core/rooms.hpp"
 #include "core/state_archive.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 // A quantity that the flow carries without knowing what it means (soot number, sections, moments): its density per
 // volume is transported by the gas velocity, thermophoresis, and a diffusivity that its model sets.
@@ -52,4 +53,4 @@ struct State {
   void saveOrLoad(StateArchive& archive);
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

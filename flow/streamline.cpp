@@ -6,7 +6,7 @@
 
 #include "core/gather.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 namespace {
 
 // Derivative at index i of samples f(i) at places x by the parabola through its neighbours (one-sided at the ends).
@@ -108,4 +108,4 @@ std::vector<PathPoint> Streamlines::trace(std::array<double, 2> start, double ti
   return path;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -8,10 +8,11 @@
 #include <vector>
 
 #include "core/mesh.hpp"
+#include "core/rooms.hpp"
 #include "flow/gas_properties.hpp"
 #include "flow/state.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 // Where a point lies between four cell centres, and their weights.
 struct BilinearPoint {
@@ -52,4 +53,4 @@ class Streamlines {
   std::vector<double> velocity_, divergence_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-namespace lampblack {
+namespace lampblack::flow {
 
 double convectiveTimeStep(const Mesh& m, const State& state, double courant) {
   std::vector<double> outflow(m.owned, 0.0);
@@ -19,4 +19,4 @@ double convectiveTimeStep(const Mesh& m, const State& state, double courant) {
   return rate > 0.0 ? courant / rate : std::numeric_limits<double>::infinity();
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

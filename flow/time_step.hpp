@@ -2,12 +2,13 @@
 #pragma once
 
 #include "core/mesh.hpp"
+#include "core/rooms.hpp"
 #include "flow/state.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 // Collective. The largest step (s) at which in no cell the volume that flows out exceeds `courant` of the cell's; with
 // no flow at all, infinity.
 double convectiveTimeStep(const Mesh& mesh, const State& state, double courant);
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -9,7 +9,7 @@
 #include "flow/face_fluxes.hpp"
 #include "flow/time_step.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 TransportOperator::TransportOperator(const FlowContext& context, const State& state, Options options)
     : context_(context),
@@ -282,4 +282,4 @@ void TransportOperator::fields(const State&, const FieldSink& sink) const {
        {properties_.viscosity.data(), static_cast<std::size_t>(context_.mesh.owned)});
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

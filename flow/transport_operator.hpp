@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "flow/carried_transport.hpp"
 #include "flow/face_state.hpp"
 #include "flow/flow_context.hpp"
@@ -23,7 +24,7 @@
 #include "flow/operator.hpp"
 #include "flow/species_diffusion.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 class TransportOperator : public Operator {
  public:
@@ -101,4 +102,4 @@ class TransportOperator : public Operator {
   std::vector<double> temperature_;   // K, cells, implicit
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

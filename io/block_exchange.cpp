@@ -4,7 +4,7 @@
 #include <numeric>
 #include <stdexcept>
 
-namespace lampblack {
+namespace lampblack::io {
 namespace {
 
 std::int64_t blockStart(std::int64_t total, int ranks, int rank) {
@@ -127,4 +127,4 @@ std::vector<double> BlockExchange::fromBlock(std::span<const double> block, int 
   return values;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::io

@@ -9,7 +9,9 @@
 #include <span>
 #include <vector>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::io {
 
 class BlockExchange {
  public:
@@ -48,4 +50,4 @@ class BlockExchange {
   std::vector<std::int64_t> positions_;  // in my block, of the values received
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::io

@@ -9,7 +9,7 @@
 #include "core/errors.hpp"
 #include "io/sealed_file.hpp"
 
-namespace lampblack {
+namespace lampblack::io {
 namespace {
 
 constexpr std::int64_t formatVersion = 1;
@@ -183,4 +183,4 @@ std::vector<std::string> CheckpointReader::textsOf(MPI_Comm comm, const std::fil
   return values;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::io

@@ -12,12 +12,13 @@
 #include <utility>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "core/state_archive.hpp"
 #include "io/block_exchange.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/hdf5_reader.hpp"
 
-namespace lampblack {
+namespace lampblack::io {
 
 // Global numbers of this rank's owned cells and local faces.
 struct StateNumbers {
@@ -85,4 +86,4 @@ class CheckpointReader : public StateArchive {
   int rank_ = 0, ranks_ = 1;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::io

@@ -10,7 +10,7 @@
 #include "io/disk_space.hpp"
 #include "io/sealed_file.hpp"
 
-namespace lampblack {
+namespace lampblack::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -133,4 +133,4 @@ WholeCheckpoint newestCheckpoint(MPI_Comm comm, const fs::path& runFolder) {
   return found;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::io

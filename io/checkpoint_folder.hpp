@@ -9,7 +9,9 @@
 #include <string>
 #include <vector>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::io {
 
 class CheckpointFolder {
  public:
@@ -44,4 +46,4 @@ WholeCheckpoint wholeCheckpoint(MPI_Comm comm, const std::filesystem::path& file
 // Collective. The newest of a run; InputError where there is none.
 WholeCheckpoint newestCheckpoint(MPI_Comm comm, const std::filesystem::path& runFolder);
 
-}  // namespace lampblack
+}  // namespace lampblack::io

@@ -4,7 +4,7 @@
 
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::io {
 namespace {
 
 std::string quotedWhereNeeded(const std::string& field) {
@@ -83,4 +83,4 @@ TextTable readCsv(const std::string& text) {
   return table;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::io

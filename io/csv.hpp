@@ -5,9 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "io/results_writer.hpp"
 
-namespace lampblack {
+namespace lampblack::io {
 
 // Rows of texts under a line of names.
 struct TextTable {
@@ -25,4 +26,4 @@ std::string csvText(const TextTable& table);
 // the first line.
 TextTable readCsv(const std::string& text);
 
-}  // namespace lampblack
+}  // namespace lampblack::io

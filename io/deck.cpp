@@ -8,7 +8,7 @@
 #include "core/text_file.hpp"
 #include "io/deck_check.hpp"
 
-namespace lampblack {
+namespace lampblack::io {
 namespace {
 
 constexpr std::uintmax_t largestDeck = 16U << 20U;  // bytes; a deck is a page or two
@@ -214,4 +214,4 @@ std::filesystem::path Deck::resolvePath(const std::string& name) const {
   return file.is_absolute() ? file : source_->path.parent_path() / file;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::io

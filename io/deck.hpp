@@ -18,10 +18,11 @@
 #include <vector>
 
 #include "core/errors.hpp"
+#include "core/rooms.hpp"
 #include "io/deck_node.hpp"
 #include "io/deck_schema.hpp"
 
-namespace lampblack {
+namespace lampblack::io {
 
 // One checked value; a list holds several numbers or texts.
 struct DeckValue {
@@ -125,4 +126,4 @@ class Deck {
   std::map<std::string, std::size_t, std::less<>> index_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::io

@@ -7,7 +7,7 @@
 #include "io/deck_conditions.hpp"
 #include "io/deck_value.hpp"
 
-namespace lampblack {
+namespace lampblack::io {
 namespace {
 
 using SchemaNode = DeckSchema::Node;
@@ -158,4 +158,4 @@ bool isDeclared(const DeckSchema& schema, std::string_view path) {
   return false;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::io

@@ -1,9 +1,10 @@
 // Checks a deck's tree against a schema and reads every value.
 #pragma once
 
+#include "core/rooms.hpp"
 #include "io/deck.hpp"
 
-namespace lampblack {
+namespace lampblack::io {
 
 // All values of the deck with the defaults filled in, in the order of the schema. InputError for unknown keys, missing
 // required keys, and values that are not what their key says.
@@ -15,4 +16,4 @@ const DeckKind& chooseKind(const DeckSource& source, const DeckNode& root, const
 // Whether a path such as "mesh.z[0].cells" is one of the schema's keys.
 bool isDeclared(const DeckSchema& schema, std::string_view path);
 
-}  // namespace lampblack
+}  // namespace lampblack::io

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <map>
 
-namespace lampblack {
+namespace lampblack::io {
 namespace {
 
 using SchemaNode = DeckSchema::Node;
@@ -91,4 +91,4 @@ void applyConditions(const DeckSource& source, const SchemaNode& schema, const D
   Conditions(source, values).apply(schema, &root, "", true);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::io

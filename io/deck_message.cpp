@@ -5,7 +5,7 @@
 
 #include "io/deck_node.hpp"
 
-namespace lampblack {
+namespace lampblack::io {
 namespace {
 
 std::string lineOf(const std::string& text, int line) {
@@ -105,4 +105,4 @@ InputError deckError(const DeckSource& source, const DeckLocation& at, const std
                                 excerpt(lineOf(source.text, at.line), std::to_string(at.line), at.column, at.length)));
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::io

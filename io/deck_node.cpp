@@ -12,7 +12,7 @@
 #include <sstream>
 #include <unordered_map>
 
-namespace lampblack {
+namespace lampblack::io {
 namespace {
 
 // Found while YAML events arrive; turned into an InputError where the source is known.
@@ -320,4 +320,4 @@ std::vector<std::string> splitDeckPath(std::string_view path) {
   return parts;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::io

@@ -9,8 +9,9 @@
 #include <vector>
 
 #include "core/errors.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::io {
 
 // The texts that messages quote from.
 struct DeckSource {
@@ -63,4 +64,4 @@ void applyOverride(DeckNode& root, const DeckSource& source, std::size_t i);
 // "mesh.z[0].cells" or "mesh.z.0.cells" into {"mesh", "z", "0", "cells"}.
 std::vector<std::string> splitDeckPath(std::string_view path);
 
-}  // namespace lampblack
+}  // namespace lampblack::io

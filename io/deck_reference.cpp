@@ -5,7 +5,7 @@
 #include "io/deck_schema.hpp"
 #include "io/json.hpp"
 
-namespace lampblack {
+namespace lampblack::io {
 namespace {
 
 using Node = DeckSchema::Node;
@@ -229,4 +229,4 @@ std::string jsonSchema(const DeckKinds& kinds) {
   return json.text() + "\n";
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::io

@@ -7,7 +7,7 @@
 #include "io/deck.hpp"
 #include "io/json.hpp"
 
-namespace lampblack {
+namespace lampblack::io {
 namespace {
 
 // The values as a tree again.
@@ -155,4 +155,4 @@ std::string Deck::resolvedJson() const {
   return json.text();
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::io

@@ -8,7 +8,7 @@
 
 #include "io/deck_node.hpp"
 
-namespace lampblack {
+namespace lampblack::io {
 
 std::string joinedPath(const std::string& path, const std::string& name) {
   return path.empty() ? name : path + "." + name;
@@ -225,4 +225,4 @@ DeckSchema::Node DeckSchema::tree() const {
   return root;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::io

@@ -23,9 +23,10 @@
 #include <utility>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "io/units.hpp"
 
-namespace lampblack {
+namespace lampblack::io {
 
 // "mesh" and "x" to "mesh.x"; the root has the path "".
 [[nodiscard]] std::string joinedPath(const std::string& path, const std::string& name);
@@ -161,4 +162,4 @@ std::string markdownPart(int level, const std::string& heading, const std::strin
 std::string jsonSchema(const DeckSchema& schema);
 std::string jsonSchema(const DeckKinds& kinds);
 
-}  // namespace lampblack
+}  // namespace lampblack::io

@@ -10,7 +10,7 @@
 
 #include "core/nearest_name.hpp"
 
-namespace lampblack {
+namespace lampblack::io {
 namespace {
 
 void checkRange(const DeckKey& key, double value, const std::string& found) {
@@ -145,4 +145,4 @@ DeckValue defaultDeckValue(const DeckKey& key, const std::string& path) {
   }
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::io

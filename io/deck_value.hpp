@@ -1,9 +1,10 @@
 // One value of a deck read as what its key says it is.
 #pragma once
 
+#include "core/rooms.hpp"
 #include "io/deck.hpp"
 
-namespace lampblack {
+namespace lampblack::io {
 
 // Reads `node` as `key`; InputError pointing into `source` where it has another type, dimension, length or range.
 DeckValue readDeckValue(const DeckSource& source, const DeckKey& key, const std::string& path, const DeckNode& node);
@@ -11,4 +12,4 @@ DeckValue readDeckValue(const DeckSource& source, const DeckKey& key, const std:
 // Reads the default of a key. A default that the key itself refuses is a mistake in the schema: std::logic_error.
 DeckValue defaultDeckValue(const DeckKey& key, const std::string& path);
 
-}  // namespace lampblack
+}  // namespace lampblack::io

@@ -12,7 +12,7 @@
 #include "core/errors.hpp"
 #include "io/report.hpp"
 
-namespace lampblack {
+namespace lampblack::io {
 namespace {
 
 // 0, or the errno of what went wrong.
@@ -74,4 +74,4 @@ void SpareSpace::giveBack() {
   file_ = -1;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::io

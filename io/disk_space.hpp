@@ -6,9 +6,10 @@
 #include <filesystem>
 #include <string>
 
+#include "core/rooms.hpp"
 #include "core/system_error.hpp"
 
-namespace lampblack {
+namespace lampblack::io {
 
 // Throws what the failure `error` (an errno) of writing to `path` means: SystemError where the disk is full (or the
 // user's quota of it, or a limit on the size of a file is reached), otherwise InputError "<path>: cannot be written".
@@ -35,4 +36,4 @@ class SpareSpace {
   int file_ = -1;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::io

@@ -16,7 +16,7 @@
 
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::io {
 namespace {
 
 // The process of this machine that holds a lock on the open folder, by the kernel's list of locks: lines like
@@ -78,4 +78,4 @@ FolderLock::~FolderLock() {
   if (file_ >= 0) close(file_);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::io

@@ -3,7 +3,9 @@
 
 #include <filesystem>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::io {
 
 // A lock on the folder itself (flock), held while this lives. It leaves no file behind and ends with the process,
 // however that ends. Between machines that share a disk it holds where their file system passes it on; a file system
@@ -20,4 +22,4 @@ class FolderLock {
   int file_ = -1;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::io

@@ -9,7 +9,7 @@
 
 #include "io/disk_space.hpp"
 
-namespace lampblack::hdf5 {
+namespace lampblack::io::hdf5 {
 namespace {
 
 // More than what HDF5 adds for itself in an operation: a header, names, entries of heaps and B-trees.
@@ -231,4 +231,4 @@ void ParallelFile::close() {
   file_.close("close " + name_);
 }
 
-}  // namespace lampblack::hdf5
+}  // namespace lampblack::io::hdf5

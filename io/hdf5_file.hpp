@@ -13,9 +13,10 @@
 #include <string>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "io/hdf5_handle.hpp"
 
-namespace lampblack::hdf5 {
+namespace lampblack::io::hdf5 {
 
 class ParallelFile {
  public:
@@ -73,4 +74,4 @@ class ParallelFile {
   Handle transfer_;
 };
 
-}  // namespace lampblack::hdf5
+}  // namespace lampblack::io::hdf5

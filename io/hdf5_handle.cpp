@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace lampblack::hdf5 {
+namespace lampblack::io::hdf5 {
 
 QuietErrors::QuietErrors() {
   H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
@@ -39,4 +39,4 @@ void Handle::close(const std::string& what) {
   check(status, what);
 }
 
-}  // namespace lampblack::hdf5
+}  // namespace lampblack::io::hdf5

@@ -8,8 +8,9 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack::hdf5 {
+namespace lampblack::io::hdf5 {
 
 // Turns off HDF5's own printing of errors while it lives.
 class QuietErrors {
@@ -67,4 +68,4 @@ class Handle {
   Close close_ = nullptr;
 };
 
-}  // namespace lampblack::hdf5
+}  // namespace lampblack::io::hdf5

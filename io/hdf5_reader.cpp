@@ -8,7 +8,7 @@
 
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::io {
 namespace {
 
 using hdf5::Handle;
@@ -179,4 +179,4 @@ double Hdf5Reader::numberAttribute(const std::string& path, const std::string& n
   return value;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::io

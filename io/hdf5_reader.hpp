@@ -8,9 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "io/hdf5_handle.hpp"
 
-namespace lampblack {
+namespace lampblack::io {
 
 class Hdf5Reader {
  public:
@@ -45,4 +46,4 @@ class Hdf5Reader {
   hdf5::Handle file_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::io

@@ -9,7 +9,7 @@
 #include "io/csv.hpp"
 #include "io/disk_space.hpp"
 
-namespace lampblack {
+namespace lampblack::io {
 
 HistoryWriter::HistoryWriter(MPI_Comm comm, const std::filesystem::path& path, std::vector<Quantity> columns)
     : comm_(comm), path_(path), columns_(std::move(columns)) {
@@ -45,4 +45,4 @@ void HistoryWriter::writeTo(ResultsWriter& results, const std::string& path) con
   results.table(path, columns_, rows_);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::io

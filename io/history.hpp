@@ -11,9 +11,10 @@
 #include <string>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "io/results_writer.hpp"
 
-namespace lampblack {
+namespace lampblack::io {
 
 class HistoryWriter {
  public:
@@ -43,4 +44,4 @@ class HistoryWriter {
   std::ofstream csv_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::io

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace lampblack {
+namespace lampblack::io {
 namespace {
 
 // Length of the UTF-8 character that starts here, 0 where there is none.
@@ -127,4 +127,4 @@ JsonWriter& JsonWriter::raw(std::string_view json) {
   return *this;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::io

@@ -7,7 +7,9 @@
 #include <string_view>
 #include <vector>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::io {
 
 // Text in quotes with everything escaped that JSON wants escaped. Bytes that are not UTF-8 become U+FFFD.
 std::string jsonString(std::string_view text);
@@ -53,4 +55,4 @@ class JsonWriter {
   bool afterKey_ = false;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::io

@@ -10,7 +10,7 @@
 
 #include "io/report.hpp"
 
-namespace lampblack {
+namespace lampblack::io {
 namespace {
 
 constexpr double year = 365.0 * 86400;  // s
@@ -103,4 +103,4 @@ void Progress::finish(Clock::time_point now) {
   width_ = 0;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::io

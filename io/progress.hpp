@@ -9,9 +9,10 @@
 #include <iosfwd>
 #include <string>
 
+#include "core/rooms.hpp"
 #include "io/time_left.hpp"
 
-namespace lampblack {
+namespace lampblack::io {
 
 class Progress {
  public:
@@ -58,4 +59,4 @@ class Progress {
   TimeLeft left_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::io

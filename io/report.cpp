@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace lampblack {
+namespace lampblack::io {
 
 std::string formatBytes(double bytes) {
   const char* const units[] = {"B", "KiB", "MiB", "GiB", "TiB"};
@@ -66,4 +66,4 @@ std::string formatReport(const ClosingReport& report) {
   return text;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::io

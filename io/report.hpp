@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::io {
 
 // Wall time of one stage of the step over the ranks, in s.
 struct StageTime {
@@ -40,4 +42,4 @@ std::string formatReport(const ClosingReport& report);
 std::string formatBytes(double bytes);
 std::string formatDuration(double seconds);
 
-}  // namespace lampblack
+}  // namespace lampblack::io

@@ -10,7 +10,7 @@
 
 #include "io/report.hpp"
 
-namespace lampblack {
+namespace lampblack::io {
 namespace {
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
@@ -77,4 +77,4 @@ void requireOutputs(const Deck& deck, const std::string& key, const std::string&
                                     formatBytes(count * bytes), formatBytes(largestOutput)));
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::io

@@ -6,9 +6,10 @@
 
 #include <string>
 
+#include "core/rooms.hpp"
 #include "io/deck.hpp"
 
-namespace lampblack {
+namespace lampblack::io {
 
 // Bytes that this process may still take: what the kernel calls available, swap included, less where its control group
 // or the limit of its address space leave less.
@@ -26,4 +27,4 @@ void requireMemory(const Deck& deck, const std::string& key, const std::string& 
 inline constexpr double largestOutput = 64.0 * 1024 * 1024 * 1024;  // bytes
 void requireOutputs(const Deck& deck, const std::string& key, const std::string& what, double count, double bytes);
 
-}  // namespace lampblack
+}  // namespace lampblack::io

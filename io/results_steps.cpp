@@ -8,7 +8,7 @@
 #include "io/results_writer_impl.hpp"
 #include "io/sealed_file.hpp"
 
-namespace lampblack {
+namespace lampblack::io {
 
 using namespace resultswriter;
 
@@ -112,4 +112,4 @@ void ResultsWriter::loadSteps(const std::filesystem::path& path) {
   }
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::io

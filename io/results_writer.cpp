@@ -7,7 +7,7 @@
 
 #include "io/results_writer_impl.hpp"
 
-namespace lampblack {
+namespace lampblack::io {
 using namespace resultswriter;
 
 ResultsWriter::ResultsWriter(MPI_Comm comm, std::filesystem::path path, const RunInfo& run, const MeshOutput& mesh) {
@@ -165,4 +165,4 @@ void ResultsWriter::closePartial() {
   self_->writeXdmf(partName(self_->path).filename().string());
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::io

@@ -15,8 +15,9 @@
 
 #include "core/errors.hpp"
 #include "core/quantity.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::io {
 
 // What every results file says about its origin.
 struct RunInfo {
@@ -99,4 +100,4 @@ class ResultsWriter {
   std::unique_ptr<Implementation> self_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::io

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/rooms.hpp"
 #include "io/block_exchange.hpp"
 #include "io/disk_space.hpp"
 #include "io/hdf5_file.hpp"
@@ -18,7 +19,7 @@
 #include "io/run_record.hpp"
 #include "io/xdmf.hpp"
 
-namespace lampblack {
+namespace lampblack::io {
 
 namespace resultswriter {
 
@@ -141,4 +142,4 @@ struct ResultsWriter::Implementation {
   }
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::io

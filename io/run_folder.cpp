@@ -12,7 +12,7 @@
 #include "io/checkpoint_folder.hpp"
 #include "io/disk_space.hpp"
 
-namespace lampblack {
+namespace lampblack::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -124,4 +124,4 @@ void writeFileAtomically(const fs::path& path, const std::string& content) {
   refuseWrite(path, failure);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::io

@@ -11,9 +11,10 @@
 #include <string>
 
 #include "core/errors.hpp"
+#include "core/rooms.hpp"
 #include "io/folder_lock.hpp"
 
-namespace lampblack {
+namespace lampblack::io {
 
 class RunFolder {
  public:
@@ -47,4 +48,4 @@ class RunFolder {
 // SystemError where the disk is full, InputError where it cannot be written otherwise. Not collective.
 void writeFileAtomically(const std::filesystem::path& path, const std::string& content);
 
-}  // namespace lampblack
+}  // namespace lampblack::io

@@ -5,7 +5,7 @@
 #include "io/json.hpp"
 #include "io/run_folder.hpp"
 
-namespace lampblack {
+namespace lampblack::io {
 namespace {
 
 const char* nameOf(RunStatus status) {
@@ -73,4 +73,4 @@ std::string utcNow() {
   return {text, size};
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::io

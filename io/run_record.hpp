@@ -8,9 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "io/report.hpp"
 
-namespace lampblack {
+namespace lampblack::io {
 
 enum class RunStatus { running, done, failed, stopped };
 
@@ -46,4 +47,4 @@ void writeRunRecord(const std::filesystem::path& path, const RunRecord& record);
 // The time now, UTC, as "2024-05-01T12:00:00Z".
 std::string utcNow();
 
-}  // namespace lampblack
+}  // namespace lampblack::io

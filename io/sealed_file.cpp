@@ -15,7 +15,7 @@
 #include "core/errors.hpp"
 #include "io/disk_space.hpp"
 
-namespace lampblack {
+namespace lampblack::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -122,4 +122,4 @@ std::string sealProblem(MPI_Comm comm, const fs::path& path) {
                                                : "is cut off, or no checkpoint of Lampblack";
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::io

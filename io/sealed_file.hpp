@@ -8,7 +8,9 @@
 #include <filesystem>
 #include <string>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::io {
 
 // Collective. Seals the finished file `temporary`, makes sure that it is on the disk, and renames it to `path`.
 // SystemError or InputError, as refuseWrite(), where that fails.
@@ -17,4 +19,4 @@ void sealAndRename(MPI_Comm comm, const std::filesystem::path& temporary, const 
 // Collective. Empty where the file is whole, else what is wrong with it, in words that follow its name ("is cut off").
 std::string sealProblem(MPI_Comm comm, const std::filesystem::path& path);
 
-}  // namespace lampblack
+}  // namespace lampblack::io

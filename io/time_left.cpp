@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace lampblack {
+namespace lampblack::io {
 namespace {
 
 constexpr double enoughDone = 0.05;
@@ -42,4 +42,4 @@ std::optional<double> TimeLeft::seconds() const {
   return 0.25 * elapsed / last * (1 - done);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::io

@@ -8,7 +8,9 @@
 #include <optional>
 #include <vector>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::io {
 
 class TimeLeft {
  public:
@@ -29,4 +31,4 @@ class TimeLeft {
   std::size_t count_ = 0;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::io

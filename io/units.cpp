@@ -11,7 +11,7 @@
 
 #include "core/errors.hpp"
 
-namespace lampblack::units {
+namespace lampblack::io::units {
 namespace {
 
 struct NamedDimension {
@@ -334,4 +334,4 @@ double parseQuantity(std::string_view text, const Dimension& dimension) {
   return value;
 }
 
-}  // namespace lampblack::units
+}  // namespace lampblack::io::units

@@ -6,7 +6,9 @@
 #include <string>
 #include <string_view>
 
-namespace lampblack::units {
+#include "core/rooms.hpp"
+
+namespace lampblack::io::units {
 
 // Integer exponents of the base units m, kg, s, K, mol and rad.
 struct Dimension {
@@ -94,4 +96,4 @@ double parseNumber(std::string_view text);
 // of the expected dimension: "expected a velocity (for instance '20 cm/s'), found '20 cm', a length".
 double parseQuantity(std::string_view text, const Dimension& expected);
 
-}  // namespace lampblack::units
+}  // namespace lampblack::io::units

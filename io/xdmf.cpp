@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace lampblack {
+namespace lampblack::io {
 namespace {
 
 std::string escaped(const std::string& text) {
@@ -80,4 +80,4 @@ std::string xdmfText(const std::string& file, const XdmfMesh& mesh, const std::v
   return text + "    </Grid>\n  </Domain>\n</Xdmf>\n";
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::io

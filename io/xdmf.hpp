@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::io {
 
 struct XdmfField {
   std::string name;
@@ -29,4 +31,4 @@ struct XdmfMesh {
 // The whole file as text; `file` is the HDF5 file's name beside it.
 std::string xdmfText(const std::string& file, const XdmfMesh& mesh, const std::vector<XdmfStep>& steps);
 
-}  // namespace lampblack
+}  // namespace lampblack::io

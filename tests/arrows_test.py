@@ -1,8 +1,8 @@
-"""No #include goes against the arrows of docs/architecture.md: from room to room, nor between the folders of chemistry.
+"""No #include goes against the arrows of docs/architecture.md: from room to room, nor between the folders of a room.
 
 A template or an inline function of a forbidden room needs no library, so that linking alone does not find it. What a room
 may know is what its CMakeLists.txt links; the page's column "knows" has to say the same. The order of the folders of
-chemistry is that of the page.
+chemistry and particles is that of the page.
 
 Usage: arrows_test.py [ROOT]
 """
@@ -12,7 +12,6 @@ import tempfile
 from pathlib import Path
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]', re.M)
-FOLDERS = "The chemistry room has folders"
 
 
 def rooms_linked(root):
@@ -34,9 +33,12 @@ def rooms_on_page(page, rooms):
     return known
 
 
-def chemistry_order(page):
-    """Folders of chemistry, each building on those before it."""
-    return re.findall(r"^\| `chemistry/(\w+)/` \|", page[page.find(FOLDERS):], re.M)
+# Rooms with folders that the page lists, each building on those before it.
+ORDERED = ("chemistry", "particles")
+
+
+def folders_on_page(page, room):
+    return re.findall(rf"^\| `{room}/(\w+)/` \|", page, re.M)
 
 
 def includes(root, folder):
@@ -59,15 +61,16 @@ def wrong_arrows(root):
             other = target.split("/")[0]
             if ".." in target or (other in linked and other != room and other not in linked[room]):
                 wrong.append(f"{file}: {room} may not know {target}")
-    order = chemistry_order(page)
-    for place, folder in enumerate(order):
-        for file, target in includes(root, f"chemistry/{folder}"):
-            later = [f for f in order[place + 1:] if target.startswith(f"chemistry/{f}/")]
-            if later:
-                wrong.append(f"{file}: {target} builds on chemistry/{folder}, not the other way round")
-    present = {path.name for path in (root / "chemistry").iterdir() if path.is_dir()}
-    if present != set(order):
-        wrong.append(f"docs/architecture.md has the folders {sorted(order)} of chemistry, there are {sorted(present)}")
+    for room in (room for room in ORDERED if room in linked):
+        order = folders_on_page(page, room)
+        for place, folder in enumerate(order):
+            for file, target in includes(root, f"{room}/{folder}"):
+                later = [f for f in order[place + 1:] if target.startswith(f"{room}/{f}/")]
+                if later:
+                    wrong.append(f"{file}: {target} builds on {room}/{folder}, not the other way round")
+        present = {path.name for path in (root / room).iterdir() if path.is_dir()}
+        if present != set(order):
+            wrong.append(f"docs/architecture.md has the folders {sorted(order)} of {room}, there are {sorted(present)}")
     return wrong
 
 
@@ -81,8 +84,8 @@ def toy(root):
         "core/d.hpp": '  #  include <chemistry/thermo/b.hpp>',
         "chemistry/thermo/b.hpp": '#include "core/a.hpp"\n#include "chemistry/numerics/n.hpp"',
         "chemistry/numerics/n.hpp": '#include "chemistry/thermo/b.hpp"',
-        "docs/architecture.md": "| `core/` | MPI | errors |\n| `chemistry/` | `core` | gas |\n\n" + FOLDERS +
-                                "\n| `chemistry/numerics/` | x |\n| `chemistry/thermo/` | y |\n",
+        "docs/architecture.md": "| `core/` | MPI | errors |\n| `chemistry/` | `core` | gas |\n\n"
+                                "| `chemistry/numerics/` | x |\n| `chemistry/thermo/` | y |\n",
     }
     for name, text in files.items():
         (root / name).parent.mkdir(parents=True, exist_ok=True)

@@ -4,6 +4,8 @@
 #include <exception>
 #include <string>
 
+#include "tests/every_room.hpp"
+
 namespace lampblack::test {
 
 // Runs `work` and returns the message of the `Error` it throws (empty: threw nothing; "other: ..." for another type).

@@ -8,6 +8,8 @@
 #include <string>
 #include <system_error>
 
+#include "tests/every_room.hpp"
+
 namespace lampblack::test {
 
 // A new, empty folder in the machine's temporary one.

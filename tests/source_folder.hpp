@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include "tests/every_room.hpp"
+
 namespace lampblack::test {
 
 inline const std::filesystem::path sourceFolder{LAMPBLACK_SOURCE_DIR};

@@ -3,6 +3,8 @@
 
 #include <mpi.h>
 
+#include "tests/every_room.hpp"
+
 namespace lampblack::test {
 
 inline int worldRank() {

@@ -8,7 +8,7 @@
 #include "core/errors.hpp"
 #include "core/nearest_name.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -158,4 +158,4 @@ ChemkinEquation ChemkinEquationParser::parse(std::string_view given) const {
   explain(text);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

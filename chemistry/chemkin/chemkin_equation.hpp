@@ -11,8 +11,9 @@
 #include <vector>
 
 #include "chemistry/mechanism/reaction.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 struct ChemkinEquation {
   std::vector<StoichiometricTerm> reactants;  // each species once, coefficients added up
@@ -55,4 +56,4 @@ class ChemkinEquationParser {
   std::size_t longest_ = 0;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -9,7 +9,7 @@
 #include "core/constants.hpp"
 #include "core/nearest_name.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -94,4 +94,4 @@ std::string_view ChemkinUnits::expected() {
   return "CAL/MOLE, KCAL/MOLE, JOULES/MOLE, KJOULES/MOLE, KELVINS, EVOLTS, MOLES or MOLECULES";
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

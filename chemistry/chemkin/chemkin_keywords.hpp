@@ -5,7 +5,9 @@
 #include <string>
 #include <string_view>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::chemistry {
 
 // A keyword of auxiliary data, whether Lampblack can use it or not; letters in either case.
 bool isChemkinKeyword(std::string_view word);
@@ -26,4 +28,4 @@ struct ChemkinUnits {
   static std::string_view expected();  // the words, for messages
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -11,7 +11,7 @@
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -317,4 +317,4 @@ std::vector<Reaction> readChemkinReaction(const ChemkinSource& source, const Che
   return ReactionBuilder(source, entry, units, species, warnings).build();
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -9,8 +9,9 @@
 #include "chemistry/chemkin/chemkin_reaction_lines.hpp"
 #include "chemistry/chemkin/chemkin_text.hpp"
 #include "chemistry/mechanism/reaction.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 // One reaction; two where REV gives a rate of its own to the reverse direction: both are irreversible then. `units` are
 // those of the section. Throws InputError with file, line and what was expected.
@@ -18,4 +19,4 @@ std::vector<Reaction> readChemkinReaction(const ChemkinSource& source, const Che
                                           const ChemkinUnits& units, const ChemkinEquationParser& species,
                                           std::vector<std::string>& warnings);
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -8,7 +8,7 @@
 
 #include "chemistry/chemkin/chemkin_keywords.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -129,4 +129,4 @@ std::vector<ChemkinReactionEntry> splitChemkinReactions(const ChemkinSource& sou
   return ReactionLines(source, species).split(section);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

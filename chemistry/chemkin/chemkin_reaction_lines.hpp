@@ -9,8 +9,9 @@
 
 #include "chemistry/chemkin/chemkin_equation.hpp"
 #include "chemistry/chemkin/chemkin_text.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 // "LOW / 1e20 0 100 /", "H2O/6/" or "DUP"
 struct ChemkinAuxiliary {
@@ -33,4 +34,4 @@ std::vector<ChemkinReactionEntry> splitChemkinReactions(const ChemkinSource& sou
                                                         std::span<const ChemkinLine> section,
                                                         const ChemkinEquationParser& species);
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

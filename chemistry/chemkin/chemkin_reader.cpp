@@ -17,7 +17,7 @@
 #include "core/errors.hpp"
 #include "core/nearest_name.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -297,4 +297,4 @@ Mechanism parseChemkin(const ChemkinText& mechanism, const std::optional<Chemkin
   return ChemkinReader(mechanism).read(thermo, transport);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -7,8 +7,9 @@
 
 #include "chemistry/chemkin/chemkin_text.hpp"
 #include "chemistry/mechanism/mechanism.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 struct ChemkinFiles {
   std::string mechanism;                 // ELEMENTS, SPECIES, REACTIONS; THERMO and TRANSPORT may be there too
@@ -25,4 +26,4 @@ Mechanism readChemkin(const ChemkinFiles& files);
 Mechanism parseChemkin(const ChemkinText& mechanism, const std::optional<ChemkinText>& thermo,
                        const std::optional<ChemkinText>& transport);
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -9,7 +9,7 @@
 
 #include "core/nearest_name.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -124,4 +124,4 @@ std::vector<ChemkinSection> splitChemkinSections(const ChemkinSource& source, co
   return SectionSplitter(source, implied, warnings).split();
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

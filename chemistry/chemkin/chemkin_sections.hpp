@@ -5,8 +5,9 @@
 #include <vector>
 
 #include "chemistry/chemkin/chemkin_text.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 struct ChemkinSection {
   enum class Kind { Elements, Species, Thermo, Reactions, Transport };
@@ -24,4 +25,4 @@ struct ChemkinSection {
 std::vector<ChemkinSection> splitChemkinSections(const ChemkinSource& source, const ChemkinSection::Kind* implied,
                                                  std::vector<std::string>& warnings);
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

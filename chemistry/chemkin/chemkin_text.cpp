@@ -10,7 +10,7 @@
 #include "core/errors.hpp"
 #include "core/text_file.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -128,4 +128,4 @@ std::optional<double> fortranNumber(std::string_view text) {
   return value;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -6,7 +6,9 @@
 #include <string_view>
 #include <vector>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::chemistry {
 
 // A file in memory. `name` is what messages call it.
 struct ChemkinText {
@@ -53,4 +55,4 @@ std::vector<std::string_view> chemkinWords(std::string_view text, std::string_vi
 // number that slipped out of its columns.
 std::optional<double> fortranNumber(std::string_view text);
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

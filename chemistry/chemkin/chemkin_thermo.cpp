@@ -8,7 +8,7 @@
 #include <optional>
 #include <unordered_set>
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -304,4 +304,4 @@ void readChemkinThermo(const ChemkinSource& source, std::span<const ChemkinLine>
   ThermoReader(source, section, wanted).read(table, warnings);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

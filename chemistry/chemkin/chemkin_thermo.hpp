@@ -11,8 +11,9 @@
 
 #include "chemistry/chemkin/chemkin_text.hpp"
 #include "chemistry/mechanism/species.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 struct ChemkinThermo {
   Nasa7 thermo;
@@ -36,4 +37,4 @@ void readChemkinThermo(const ChemkinSource& source, std::span<const ChemkinLine>
                        const std::function<bool(std::string_view)>& wanted, ChemkinThermoTable& table,
                        std::vector<std::string>& warnings);
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

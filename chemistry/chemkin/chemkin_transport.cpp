@@ -8,7 +8,7 @@
 
 #include "core/constants.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -86,4 +86,4 @@ void readChemkinTransport(const ChemkinSource& source, std::span<const ChemkinLi
   }
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

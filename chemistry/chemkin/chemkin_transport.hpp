@@ -10,8 +10,9 @@
 
 #include "chemistry/chemkin/chemkin_text.hpp"
 #include "chemistry/mechanism/species.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 struct ChemkinTransport {
   TransportData data;
@@ -33,4 +34,4 @@ void readChemkinTransport(const ChemkinSource& source, std::span<const ChemkinLi
 // Whether a file is one of transport data, whatever it was given for: by its heading or its first line.
 bool isChemkinTransport(const ChemkinSource& source);
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -16,7 +16,7 @@
 #include "chemistry/thermo/species_thermo.hpp"
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -192,4 +192,4 @@ void BatchKinetics::netProductionRates(std::span<const double> T, std::span<cons
   batchRatesGeneric(state_->view, state_->work, states);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

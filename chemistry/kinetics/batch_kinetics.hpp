@@ -13,8 +13,9 @@
 #include <span>
 
 #include "chemistry/mechanism/mechanism.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 class BatchTables;
 
@@ -52,4 +53,4 @@ class BatchKinetics {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -5,7 +5,7 @@
 #include "chemistry/kinetics/batch_kinetics_kernel.hpp"
 #include "chemistry/kinetics/batch_kinetics_targets.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -26,4 +26,4 @@ void batchRatesAvx2(const BatchView& view, const BatchWork& work, const BatchSta
   BatchKernel<Doubled<Avx2Vector>>::run(view, work, states);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -5,7 +5,7 @@
 #include "chemistry/kinetics/batch_kinetics_kernel.hpp"
 #include "chemistry/kinetics/batch_kinetics_targets.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -42,4 +42,4 @@ void batchRatesAvx512(const BatchView& view, const BatchWork& work, const BatchS
   BatchKernel<Avx512Vector>::run(view, work, states);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

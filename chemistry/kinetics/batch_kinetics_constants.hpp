@@ -4,8 +4,9 @@
 
 #include "chemistry/kinetics/batch_kinetics_simd.hpp"
 #include "chemistry/kinetics/batch_kinetics_view.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 namespace {
 
 template <class V>
@@ -248,4 +249,4 @@ class BatchConstants {
 };
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

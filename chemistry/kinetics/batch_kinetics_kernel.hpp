@@ -10,8 +10,9 @@
 #include "chemistry/kinetics/batch_kinetics_constants.hpp"
 #include "chemistry/kinetics/batch_kinetics_simd.hpp"
 #include "chemistry/kinetics/batch_kinetics_view.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 namespace {
 
 template <class V>
@@ -205,4 +206,4 @@ class BatchKernel {
 };
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

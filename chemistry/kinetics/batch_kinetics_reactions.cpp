@@ -5,7 +5,7 @@
 
 #include "chemistry/kinetics/batch_kinetics_tables.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -174,4 +174,4 @@ bool BatchTables::productsAreSafe(const KineticsTables& tables, double T) const 
   return true;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -6,7 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::chemistry {
 namespace {
 
 // Vectors of Bytes/8 doubles by the compiler's own means. An instruction set hides what it does better.
@@ -185,4 +187,4 @@ typename V::D log2(typename V::D x) {
 }
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -7,7 +7,7 @@
 #include "chemistry/kinetics/kinetics_powers.hpp"
 #include "core/constants.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -211,4 +211,4 @@ std::uint32_t BatchTables::addTerms(const std::vector<StoichiometricTerm>& terms
   return begin;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -11,8 +11,9 @@
 #include "chemistry/kinetics/batch_kinetics_view.hpp"
 #include "chemistry/kinetics/kinetics_tables.hpp"
 #include "chemistry/mechanism/mechanism.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 class BatchTables {
  public:
@@ -84,4 +85,4 @@ class BatchTables {
   std::vector<std::uint32_t> entry_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -3,11 +3,12 @@
 #pragma once
 
 #include "chemistry/kinetics/batch_kinetics_view.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 void batchRatesGeneric(const BatchView& view, const BatchWork& work, const BatchStates& states);
 void batchRatesAvx2(const BatchView& view, const BatchWork& work, const BatchStates& states);
 void batchRatesAvx512(const BatchView& view, const BatchWork& work, const BatchStates& states);
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

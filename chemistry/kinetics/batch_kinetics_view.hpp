@@ -13,7 +13,9 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::chemistry {
 
 inline constexpr std::size_t batchLanes = 8;
 
@@ -171,4 +173,4 @@ struct BatchStates {
   const double* given;  // the factors: that of entry i for state j at i * n + j
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -7,7 +7,7 @@
 #include "chemistry/numerics/vector_math.hpp"
 #include "core/constants.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 // Everything that depends on temperature alone; nothing to do if it has not changed.
 void Kinetics::updateTemperature(double T) {
@@ -167,4 +167,4 @@ void Kinetics::netProductionRates(double T, std::span<const double> concentratio
   sumProduction(wdot.data());
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -25,8 +25,9 @@
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/numerics/sparse_pattern.hpp"
 #include "chemistry/thermo/species_thermo.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 class Kinetics {
  public:
@@ -116,4 +117,4 @@ class Kinetics {
   std::vector<double> sparseValues_, common_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -1,6 +1,6 @@
 #include "chemistry/kinetics/kinetics_enthalpy.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -50,4 +50,4 @@ std::span<const double> EnthalpyFactors::slopes(const KineticsTables& tables, do
   return values_;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

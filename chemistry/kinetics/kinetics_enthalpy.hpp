@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "chemistry/kinetics/kinetics_tables.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 class EnthalpyFactors {
  public:
@@ -24,4 +25,4 @@ class EnthalpyFactors {
   std::vector<double> values_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -4,7 +4,7 @@
 
 #include "chemistry/numerics/vector_math.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -124,4 +124,4 @@ void FalloffFactors::evaluateSlopes(const KineticsTables& tables) {
   }
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

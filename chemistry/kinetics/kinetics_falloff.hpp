@@ -9,8 +9,9 @@
 #include <vector>
 
 #include "chemistry/kinetics/kinetics_tables.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 class FalloffFactors {
  public:
@@ -36,4 +37,4 @@ class FalloffFactors {
   std::vector<double> byM_, byT_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

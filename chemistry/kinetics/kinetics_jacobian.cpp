@@ -4,7 +4,7 @@
 #include "chemistry/kinetics/kinetics.hpp"
 #include "chemistry/kinetics/kinetics_powers.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 // d progress / d concentration of each slot, the factor held constant. An empty slot counts as one; its derivative is
 // not used.
@@ -165,4 +165,4 @@ void Kinetics::netProductionRatesAndJacobian(double T, std::span<const double> c
   }
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -5,7 +5,7 @@
 #include <map>
 #include <set>
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -165,4 +165,4 @@ void JacobianTable::addExcess(const KineticsTables& tables, std::size_t set, con
   }
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

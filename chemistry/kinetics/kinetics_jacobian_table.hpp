@@ -13,8 +13,9 @@
 
 #include "chemistry/kinetics/kinetics_tables.hpp"
 #include "chemistry/numerics/sparse_pattern.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 class JacobianTable {
  public:
@@ -69,4 +70,4 @@ class JacobianTable {
   std::vector<std::vector<std::uint32_t>> colliders_;  // positions by collider, row; one list each of linearBurke
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -6,7 +6,7 @@
 #include "chemistry/kinetics/kinetics_powers.hpp"
 #include "core/constants.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -171,4 +171,4 @@ void LinearBurkeFactors::evaluateSlopes() {
   }
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

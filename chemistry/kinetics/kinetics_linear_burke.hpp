@@ -12,8 +12,9 @@
 #include "chemistry/kinetics/kinetics_falloff.hpp"
 #include "chemistry/kinetics/kinetics_pressure.hpp"
 #include "chemistry/kinetics/kinetics_tables.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 class LinearBurkeFactors {
  public:
@@ -82,4 +83,4 @@ class LinearBurkeFactors {
   std::vector<double> values_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

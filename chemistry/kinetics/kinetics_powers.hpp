@@ -7,7 +7,9 @@
 
 #include <cmath>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::chemistry {
 
 inline constexpr double smallestConcentration = 1e-10;  // mol/m3, s above; also the least sum that sets a pressure
 
@@ -32,4 +34,4 @@ inline double concentrationPowerSlope(double c, double n) {
   return c > 0 ? n * std::pow(c, n - 1) : 0.0;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

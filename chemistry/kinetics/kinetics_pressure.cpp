@@ -7,7 +7,7 @@
 
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -144,4 +144,4 @@ PressureRates::Slope PressureRates::chebyshevSlope(const KineticsTables& tables,
   return slope;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

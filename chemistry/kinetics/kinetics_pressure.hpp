@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "chemistry/kinetics/kinetics_tables.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 class PressureRates {
  public:
@@ -38,4 +39,4 @@ class PressureRates {
   std::vector<double> chebySlopes_;      // its derivative with respect to T
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

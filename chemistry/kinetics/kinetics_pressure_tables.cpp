@@ -7,7 +7,7 @@
 #include "chemistry/kinetics/kinetics_tables.hpp"
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -206,4 +206,4 @@ void KineticsTables::addLinearBurke(std::size_t i, const Reaction& reaction) {
     if (collider.species) linearBurke.back().colliders.push_back(*collider.species);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

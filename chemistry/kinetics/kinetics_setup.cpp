@@ -7,7 +7,7 @@
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 Kinetics::Kinetics(const Mechanism& mechanism)
     : tables_(mechanism),
@@ -94,4 +94,4 @@ void Kinetics::equilibriumConstants(double T, std::span<double> Kc) {
   }
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

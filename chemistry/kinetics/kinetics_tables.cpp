@@ -7,7 +7,7 @@
 
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -188,4 +188,4 @@ void KineticsTables::setProductionTable() {
   }
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

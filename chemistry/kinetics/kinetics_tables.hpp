@@ -16,8 +16,9 @@
 #include <vector>
 
 #include "chemistry/mechanism/mechanism.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 struct KineticsTables {
   // A reaction with more than three reactants, or products if reversible, decimal coefficients or orders: handled by
@@ -130,4 +131,4 @@ struct KineticsTables {
   std::size_t thirdBodySet(const ThirdBody& body);
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -9,7 +9,7 @@
 
 #include "chemistry/mechanism/rate_reader.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -135,4 +135,4 @@ std::vector<Collider> readColliders(const YamlAccess& yaml, const UnitSystem& un
   return ColliderReader(yaml, units, entry, reaction, scope, warnings).read();
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

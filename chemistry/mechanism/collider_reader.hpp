@@ -7,8 +7,9 @@
 #include "chemistry/mechanism/reaction.hpp"
 #include "chemistry/mechanism/reaction_reader.hpp"
 #include "chemistry/mechanism/yaml_access.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 // The colliders of a reaction whose reactants and orders are known: M first, then species with an efficiency (or the
 // eigenvalue eig0, of which the efficiency is the ratio to that of M) and perhaps a rate of their own. InputError with
@@ -17,4 +18,4 @@ std::vector<Collider> readColliders(const YamlAccess& yaml, const UnitSystem& un
                                     const Reaction& reaction, const ReactionScope& scope,
                                     std::vector<std::string>& warnings);
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

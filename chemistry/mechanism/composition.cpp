@@ -9,7 +9,7 @@
 #include "chemistry/mechanism/mechanism.hpp"
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -77,4 +77,4 @@ std::vector<double> parseComposition(const Mechanism& mechanism, std::string_vie
   return X;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -9,7 +9,7 @@
 #include "chemistry/mechanism/mechanism_checks.hpp"
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -157,4 +157,4 @@ void checkDuplicates(const std::string& file, std::span<const Species> species, 
   }
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -4,7 +4,7 @@
 #include <cctype>
 #include <utility>
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -46,4 +46,4 @@ std::optional<double> standardAtomicWeight(std::string_view element) {
   return std::nullopt;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -6,7 +6,7 @@
 
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -122,4 +122,4 @@ ParsedEquation parseEquation(std::string_view equation) {
   return result;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -6,7 +6,9 @@
 #include <utility>
 #include <vector>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::chemistry {
 
 struct ParsedEquation {
   using Side = std::vector<std::pair<std::string, double>>;  // each species once, coefficients added up
@@ -20,4 +22,4 @@ struct ParsedEquation {
 // Throws InputError whose text says what is wrong with the equation (without file and line).
 ParsedEquation parseEquation(std::string_view equation);
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

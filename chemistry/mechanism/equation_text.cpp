@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -40,4 +40,4 @@ std::string equationText(const Reaction& reaction, const std::function<std::stri
   return fmt::format("{} {} {}", side(reaction.reactants), reaction.reversible ? "<=>" : "=>", side(reaction.products));
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -8,8 +8,9 @@
 #include <string_view>
 
 #include "chemistry/mechanism/reaction.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 // "H + O2 (+M) <=> HO2 (+M)", "2 OH => ...", "0.5 O2 + ...": terms in the order of the reaction's lists, the
 // coefficients such that they read back as the same doubles. A fall-off reaction with one collider of efficiency one
@@ -19,4 +20,4 @@ std::string equationText(const Reaction& reaction, const std::function<std::stri
 // The species that "(+AR)" names, if the reaction is of that kind.
 std::optional<std::size_t> namedCollider(const Reaction& reaction);
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -8,7 +8,7 @@
 #include "core/errors.hpp"
 #include "core/nearest_name.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 Mechanism::Mechanism(std::string file, std::string description, std::vector<Element> elements,
                      std::vector<Species> species, std::vector<Reaction> reactions, std::vector<std::string> warnings)
@@ -70,4 +70,4 @@ std::size_t Mechanism::elementIndex(std::string_view name) const {
                                closestName(name, names)));
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

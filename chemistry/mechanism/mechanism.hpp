@@ -12,8 +12,9 @@
 
 #include "chemistry/mechanism/reaction.hpp"
 #include "chemistry/mechanism/species.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 struct Element {
   std::string name;
@@ -81,4 +82,4 @@ std::vector<double> parseComposition(const Mechanism& mechanism, std::string_vie
 std::vector<double> parseAmounts(const Mechanism& mechanism, std::string_view text, std::string_view what,
                                  double absent);
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

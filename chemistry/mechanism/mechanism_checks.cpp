@@ -9,7 +9,7 @@
 #include "chemistry/mechanism/nasa_polynomials.hpp"
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -76,4 +76,4 @@ void checkThermo(const std::string& file, std::span<const Species> species, std:
   }
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

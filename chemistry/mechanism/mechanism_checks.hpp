@@ -7,8 +7,9 @@
 
 #include "chemistry/mechanism/reaction.hpp"
 #include "chemistry/mechanism/species.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 struct Element;
 
@@ -35,4 +36,4 @@ std::vector<ColliderPair> findColliderPairs(std::span<const Species> species, st
 // 1 %, h/RT by more than 0.001 cp/R or s/R by more than 0.001 (s + cp)/R (the limits of Cantera).
 void checkThermo(const std::string& file, std::span<const Species> species, std::vector<std::string>& warnings);
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

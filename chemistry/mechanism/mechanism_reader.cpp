@@ -13,7 +13,7 @@
 #include "core/errors.hpp"
 #include "core/nearest_name.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -237,4 +237,4 @@ Mechanism Mechanism::fromFile(const std::string& path, const std::string& phase)
   }
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -8,7 +8,7 @@
 #include "core/nearest_name.hpp"
 #include "core/text_file.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -92,4 +92,4 @@ const MechanismSection& MechanismFiles::section(const std::string& name, std::st
   return section;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

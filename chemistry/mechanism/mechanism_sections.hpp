@@ -11,8 +11,9 @@
 #include <vector>
 
 #include "chemistry/mechanism/yaml_access.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 // A file as it was read. Nodes and YamlAccess live as long as the MechanismFiles that loaded it.
 struct MechanismFile {
@@ -50,4 +51,4 @@ class MechanismFiles {
   std::map<std::pair<std::string, std::string>, MechanismSection> sections_;  // by name and key
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -11,7 +11,7 @@
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -213,4 +213,4 @@ double UnitSystem::activationTemperature() const {
   return activation_ > 0 ? activation_ : energy_ / amount_ / constants::gasConstant;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

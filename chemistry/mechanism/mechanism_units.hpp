@@ -6,7 +6,9 @@
 #include <string>
 #include <string_view>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::chemistry {
 
 // A value in this unit is `factor` times the value in SI with mol.
 struct MechanismUnit {
@@ -52,4 +54,4 @@ class UnitSystem {
   double activation_ = 0;  // K; zero means energy per amount
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

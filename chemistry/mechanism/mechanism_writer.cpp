@@ -17,7 +17,7 @@
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -153,4 +153,4 @@ void writeMechanism(const Mechanism& mechanism, const std::string& path) {
   if (error) throw InputError(fmt::format("{}: cannot rename {} to it: {}", path, part, error.message()));
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -4,8 +4,9 @@
 #include <string>
 
 #include "chemistry/mechanism/mechanism.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 // The whole mechanism: elements with weights of their own, species with thermodynamic and transport data, reactions.
 // Units are m, mol, s, Pa and K, and numbers have the fewest digits that read back as the same double, so that
@@ -16,4 +17,4 @@ std::string mechanismYaml(const Mechanism& mechanism);
 // The same in a file, which appears whole: it is written as `path`.part and renamed. InputError if that fails.
 void writeMechanism(const Mechanism& mechanism, const std::string& path);
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

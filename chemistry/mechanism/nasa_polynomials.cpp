@@ -1,6 +1,6 @@
 #include "chemistry/mechanism/nasa_polynomials.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 double cpOverR(const std::array<double, 7>& a, double T) {
   return a[0] + T * (a[1] + T * (a[2] + T * (a[3] + T * a[4])));
@@ -26,4 +26,4 @@ double entropyOverR(const std::array<double, 9>& a, double T, double lnT) {
   return (-a[0] / (2 * T) - a[1]) / T + a[2] * lnT + T * (a[3] + T * (a[4] / 2 + T * (a[5] / 3 + T * a[6] / 4))) + a[8];
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -4,7 +4,9 @@
 
 #include <array>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::chemistry {
 
 double cpOverR(const std::array<double, 7>& a, double T);
 double enthalpyOverRT(const std::array<double, 7>& a, double T);
@@ -13,4 +15,4 @@ double cpOverR(const std::array<double, 9>& a, double T);
 double enthalpyOverRT(const std::array<double, 9>& a, double T, double lnT);
 double entropyOverR(const std::array<double, 9>& a, double T, double lnT);
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -124,4 +124,4 @@ std::pair<std::string, YAML::Node> sectionRule(const YamlAccess& yaml, const YAM
   return {std::string(map.entries()[0].key), map.entries()[0].value};
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -9,8 +9,9 @@
 
 #include "chemistry/mechanism/mechanism_sections.hpp"
 #include "chemistry/mechanism/yaml_access.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 // The phase of this name, or the first ideal gas if the name is empty. InputError with the names there are if it is not
 // among them, and with the phase's type if that is not an ideal gas.
@@ -36,4 +37,4 @@ bool isWord(const YAML::Node* node, std::string_view word);
 // The one key and value of "- {section: ...}"; `what` names the list in messages.
 std::pair<std::string, YAML::Node> sectionRule(const YamlAccess& yaml, const YAML::Node& item, const std::string& what);
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

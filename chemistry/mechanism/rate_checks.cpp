@@ -6,7 +6,7 @@
 #include <cmath>
 #include <span>
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -49,4 +49,4 @@ std::string rateProblem(const Reaction& reaction) {
   return {};
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

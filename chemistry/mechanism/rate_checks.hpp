@@ -4,8 +4,9 @@
 #include <string>
 
 #include "chemistry/mechanism/reaction.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 // What is wrong and what was expected, or nothing: limits of opposite sign or zero; SRI parameters that give no
 // positive F; a bond energy that is not above the intrinsic activation energy, or this below zero; rates tabulated over
@@ -13,4 +14,4 @@ namespace lampblack {
 // is interpolated).
 std::string rateProblem(const Reaction& reaction);
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -8,7 +8,7 @@
 #include "chemistry/mechanism/rate_checks.hpp"
 #include "core/constants.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -228,4 +228,4 @@ void readRates(const YamlAccess& yaml, const UnitSystem& units, const YamlMap& e
   RateReader(yaml, units, entry, reaction, warnings).read();
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

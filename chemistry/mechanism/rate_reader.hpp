@@ -6,12 +6,13 @@
 
 #include "chemistry/mechanism/reaction.hpp"
 #include "chemistry/mechanism/yaml_access.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 // Fills the rate constants of a reaction whose type, reactants and orders are known. InputError with file, line and
 // equation; warnings (file and line) are appended.
 void readRates(const YamlAccess& yaml, const UnitSystem& units, const YamlMap& entry, Reaction& reaction,
                std::vector<std::string>& warnings);
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::chemistry {
 
 // k = A T^b exp(-Ta/T)
 struct Arrhenius {
@@ -123,4 +125,4 @@ struct Collider {
   Reaction rate;  // of a fall-off (p stands for its [M]), PLOG or Chebyshev reaction
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -11,7 +11,7 @@
 #include "chemistry/mechanism/rate_reader.hpp"
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -302,4 +302,4 @@ std::optional<Reaction> readReaction(const YamlAccess& yaml, const UnitSystem& u
   return ReactionReader(yaml, units, node, scope, warnings).read();
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -9,8 +9,9 @@
 
 #include "chemistry/mechanism/reaction.hpp"
 #include "chemistry/mechanism/yaml_access.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 // What a reaction needs to know about the phase it belongs to.
 struct ReactionScope {
@@ -26,4 +27,4 @@ struct ReactionScope {
 std::optional<Reaction> readReaction(const YamlAccess& yaml, const UnitSystem& units, const YAML::Node& node,
                                      const ReactionScope& scope, std::vector<std::string>& warnings);
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

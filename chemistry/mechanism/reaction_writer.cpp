@@ -7,7 +7,7 @@
 #include "chemistry/mechanism/equation_text.hpp"
 #include "chemistry/mechanism/yaml_text.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -167,4 +167,4 @@ std::string reactionYaml(const Reaction& reaction, const Mechanism& mechanism) {
   return ReactionWriter(reaction, mechanism).write();
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

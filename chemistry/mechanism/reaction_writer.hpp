@@ -5,10 +5,11 @@
 
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/mechanism/reaction.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 // An entry of the list `reactions`, in units of m, mol, s, Pa and K.
 std::string reactionYaml(const Reaction& reaction, const Mechanism& mechanism);
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::chemistry {
 
 // The standard state of all thermodynamic data is the ideal gas at 1 atm: a reader of data for another pressure shifts
 // the entropy constant. Shomate polynomials are kept as NASA-9, constant heat capacities as NASA-7: both are special
@@ -52,4 +54,4 @@ struct Species {
   std::string file;  // empty if it is the mechanism's
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

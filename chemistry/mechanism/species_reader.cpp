@@ -8,7 +8,7 @@
 
 #include "core/constants.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -247,4 +247,4 @@ Species readSpecies(const YamlAccess& yaml, const UnitSystem& units, const YAML:
   return species;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -5,12 +5,13 @@
 
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/mechanism/yaml_access.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 // InputError with file, line and species for what is missing, unknown or out of range. `elements` are those of the
 // phase; a pressure without a unit is in `units`, unless the entry has units of its own.
 Species readSpecies(const YamlAccess& yaml, const UnitSystem& units, const YAML::Node& node,
                     std::span<const Element> elements);
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -10,7 +10,7 @@
 #include "core/errors.hpp"
 #include "core/nearest_name.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -175,4 +175,4 @@ double YamlMap::number(std::string_view key, double standard) const {
   return found == nullptr ? standard : yaml_.number(*found, fmt::format("{}, '{}'", what_, key));
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -10,8 +10,9 @@
 #include <vector>
 
 #include "chemistry/mechanism/mechanism_units.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 class YamlAccess {
  public:
@@ -76,4 +77,4 @@ class YamlMap {
   std::vector<Entry> entries_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

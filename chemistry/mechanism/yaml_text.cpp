@@ -8,7 +8,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -134,4 +134,4 @@ std::string yamlList(const std::vector<std::string>& words, std::size_t indent) 
   return result;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -6,7 +6,9 @@
 #include <string_view>
 #include <vector>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::chemistry {
 
 // The fewest digits that read back as the same double; always with a point where there is an exponent, as YAML 1.1
 // wants.
@@ -27,4 +29,4 @@ std::string yamlBlock(std::string_view text);
 // "[a, b, ...]" broken into lines of at most 120 characters; `indent` for all but the first line.
 std::string yamlList(const std::vector<std::string>& words, std::size_t indent);
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

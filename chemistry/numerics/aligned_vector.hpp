@@ -5,7 +5,9 @@
 #include <new>
 #include <vector>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::chemistry {
 
 template <class T>
 struct CacheLineAllocator {
@@ -23,4 +25,4 @@ struct CacheLineAllocator {
 
 using AlignedVector = std::vector<double, CacheLineAllocator<double>>;
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

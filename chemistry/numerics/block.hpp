@@ -4,7 +4,9 @@
 
 #include <cstddef>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::chemistry {
 
 constexpr std::size_t kBlockWidth = 8;
 
@@ -23,4 +25,4 @@ constexpr std::size_t wholeBlocks(std::size_t n) {
   return (n + kBlockWidth - 1) / kBlockWidth * kBlockWidth;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -4,8 +4,9 @@
 #pragma once
 
 #include "chemistry/numerics/block_tile_targets.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 namespace {
 
 // Rows come in packs of eight doubles; Vector is as wide as the registers.
@@ -57,4 +58,4 @@ void addTiles(BlockTiles& tiles) {
 }
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -1,7 +1,7 @@
 // Tiles of dense blocks, compiled for AVX2 with FMA.
 #include "chemistry/numerics/block_tile.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 typedef double Vector __attribute__((vector_size(32)));
@@ -13,4 +13,4 @@ BlockTiles blockTilesAvx2() {
   return tiles;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

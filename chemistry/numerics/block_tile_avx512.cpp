@@ -1,7 +1,7 @@
 // Tiles of dense blocks, compiled for AVX-512 (F).
 #include "chemistry/numerics/block_tile.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 typedef double Vector __attribute__((vector_size(64)));
@@ -15,4 +15,4 @@ BlockTiles blockTilesAvx512() {
   return tiles;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

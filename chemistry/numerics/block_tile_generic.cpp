@@ -1,7 +1,7 @@
 // Tiles of dense blocks, compiled for any processor.
 #include "chemistry/numerics/block_tile.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 typedef double Vector __attribute__((vector_size(16)));
@@ -13,4 +13,4 @@ BlockTiles blockTilesGeneric() {
   return tiles;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -4,7 +4,9 @@
 
 #include <cstddef>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::chemistry {
 
 // C (rows x columns, column-major) -= A B, or = A B. A has `packs` times eight rows, zero beyond `rows`, stored one
 // column after the other on a cache line; `columns` and `packs` are in the place of the function. B may be C where one
@@ -23,4 +25,4 @@ BlockTiles blockTilesGeneric();
 BlockTiles blockTilesAvx2();
 BlockTiles blockTilesAvx512();
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -265,4 +265,4 @@ void addProduct(std::size_t m, std::size_t n, double alpha, const double* A, con
   addColumns(m, n, alpha, A, m, x, y);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

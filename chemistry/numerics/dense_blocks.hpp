@@ -11,8 +11,9 @@
 
 #include "chemistry/numerics/aligned_vector.hpp"
 #include "chemistry/numerics/block_tile_targets.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 class DenseBlocks {
  public:
@@ -44,4 +45,4 @@ class DenseBlocks {
 // y += alpha A x, A being m x n without gaps between columns.
 void addProduct(std::size_t m, std::size_t n, double alpha, const double* A, const double* x, double* y);
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <utility>
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -86,4 +86,4 @@ void DenseLu::solve(double* b) {
   for (std::size_t i = 0; i < n_; ++i) b[i] = x[i];
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -5,7 +5,9 @@
 #include <cstddef>
 #include <vector>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::chemistry {
 
 class DenseLu {
  public:
@@ -33,4 +35,4 @@ class DenseLu {
   std::vector<double> inverseDiagonal_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

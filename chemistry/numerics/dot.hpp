@@ -3,7 +3,9 @@
 
 #include <cstddef>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::chemistry {
 
 inline double dot(const double* __restrict a, const double* __restrict b, std::size_t n) {
   constexpr std::size_t width = 8;
@@ -15,4 +17,4 @@ inline double dot(const double* __restrict a, const double* __restrict b, std::s
   return ((sums[0] + sums[4]) + (sums[2] + sums[6])) + ((sums[1] + sums[5]) + (sums[3] + sums[7]));
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -15,8 +15,9 @@
 
 #include "chemistry/numerics/dense_lu.hpp"
 #include "core/errors.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 class RosenbrockSolver {
  public:
@@ -116,4 +117,4 @@ class RosenbrockSolver {
   std::vector<double> f_, k1_, k2_, k3_, k4_, end_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

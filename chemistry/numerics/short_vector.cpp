@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace lampblack::sundials {
+namespace lampblack::chemistry::sundials {
 
 namespace {
 
@@ -137,4 +137,4 @@ Vector makeShortVector(std::size_t n, SUNContext context) {
   return vector;
 }
 
-}  // namespace lampblack::sundials
+}  // namespace lampblack::chemistry::sundials

@@ -5,10 +5,11 @@
 #include <cstddef>
 
 #include "chemistry/numerics/sundials_handles.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack::sundials {
+namespace lampblack::chemistry::sundials {
 
 // A serial vector of n zeros, all of whose copies (N_VClone) have the faster operations too.
 Vector makeShortVector(std::size_t n, SUNContext context);
 
-}  // namespace lampblack::sundials
+}  // namespace lampblack::chemistry::sundials

@@ -6,7 +6,7 @@
 
 #include "chemistry/numerics/block.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -247,4 +247,4 @@ void SparseLu::solve(double* b) {
   for (std::size_t k = 0; k < n_; ++k) b[unknown_[k]] = x_[k];
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

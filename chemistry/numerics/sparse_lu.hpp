@@ -9,8 +9,9 @@
 #include <vector>
 
 #include "chemistry/numerics/aligned_vector.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 class SparseLu {
  public:
@@ -82,4 +83,4 @@ class SparseLu {
   AlignedVector x_;                // right-hand side in the order of elimination
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

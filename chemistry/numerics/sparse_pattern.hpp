@@ -6,7 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::chemistry {
 
 struct SparsePattern {
   std::size_t size = 0;                   // rows and columns
@@ -16,4 +18,4 @@ struct SparsePattern {
   std::size_t numEntries() const { return row.size(); }
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

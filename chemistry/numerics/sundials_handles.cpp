@@ -5,7 +5,7 @@
 
 #include "core/errors.hpp"
 
-namespace lampblack::sundials {
+namespace lampblack::chemistry::sundials {
 
 void CvodeDeleter::operator()(void* memory) const {
   CVodeFree(&memory);
@@ -25,4 +25,4 @@ void check(const void* made, const char* call) {
   if (made == nullptr) throw NumericsError(fmt::format("SUNDIALS call {} returned nothing", call));
 }
 
-}  // namespace lampblack::sundials
+}  // namespace lampblack::chemistry::sundials

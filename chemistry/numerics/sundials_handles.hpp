@@ -8,7 +8,9 @@
 
 #include <memory>
 
-namespace lampblack::sundials {
+#include "core/rooms.hpp"
+
+namespace lampblack::chemistry::sundials {
 
 struct ContextDeleter {
   void operator()(SUNContext context) const { SUNContext_Free(&context); }
@@ -38,4 +40,4 @@ Context makeContext();
 void check(int flag, const char* call);
 void check(const void* made, const char* call);
 
-}  // namespace lampblack::sundials
+}  // namespace lampblack::chemistry::sundials

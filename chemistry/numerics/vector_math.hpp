@@ -6,7 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace lampblack::vectormath {
+#include "core/rooms.hpp"
+
+namespace lampblack::chemistry::vectormath {
 
 // exp(x) for |x| <= 708; outside, the exponent saturates at that bound (about 3e-308 and 3e+307). Reduction
 // x = n ln2 + r with |r| <= ln2/2, then the Taylor polynomial of degree 13 of exp(r), truncated below 1e-17.
@@ -68,4 +70,4 @@ inline void log(const double* x, double* y, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) y[i] = logOne(x[i]);
 }
 
-}  // namespace lampblack::vectormath
+}  // namespace lampblack::chemistry::vectormath

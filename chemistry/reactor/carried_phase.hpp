@@ -7,7 +7,9 @@
 #include <span>
 #include <vector>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::chemistry {
 
 class CarriedPhase {
  public:
@@ -36,4 +38,4 @@ class CarriedPhase {
   CarriedPhase& operator=(const CarriedPhase&) = default;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

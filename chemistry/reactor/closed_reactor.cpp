@@ -8,7 +8,7 @@
 
 #include "core/constants.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -160,4 +160,4 @@ std::string compositionText(const Mechanism& mechanism, std::span<const double> 
   return text;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -10,8 +10,9 @@
 #include "chemistry/reactor/ode_system.hpp"
 #include "chemistry/reactor/reactor_system.hpp"
 #include "chemistry/reactor/temperature_profile.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 struct GasState {
   double temperature = 0;            // K
@@ -78,4 +79,4 @@ std::vector<double> unknownsOf(const GasState& state, std::size_t carried);
 // "CH4: 0.1, ..." of the mass fractions above 1e-6 in size, for messages.
 std::string compositionText(const Mechanism& mechanism, std::span<const double> Y);
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -7,7 +7,7 @@
 
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 using Kind = IgnitionCriterion::Kind;
 
@@ -156,4 +156,4 @@ void IgnitionMonitor::locate(std::size_t i, const StiffIntegrator& integrator, d
   events_[i] = event;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -11,8 +11,9 @@
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/reactor/ode_system.hpp"
 #include "chemistry/reactor/stiff_integrator.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 struct IgnitionCriterion {
   enum class Kind {
@@ -91,4 +92,4 @@ class IgnitionMonitor {
   bool needsJacobian_ = false;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

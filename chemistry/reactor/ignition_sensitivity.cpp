@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -144,4 +144,4 @@ IgnitionSensitivities ignitionSensitivities(const Mechanism& mechanism, ClosedRe
   return result;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -10,8 +10,9 @@
 
 #include "chemistry/reactor/closed_reactor.hpp"
 #include "chemistry/reactor/ignition.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 struct IgnitionSensitivities {
   // [criterion][parameter]: d ln tau / d ln k; empty for a criterion that was not met.
@@ -28,4 +29,4 @@ IgnitionSensitivities ignitionSensitivities(const Mechanism& mechanism, ClosedRe
                                             const std::vector<std::optional<IgnitionEvent>>& events,
                                             const std::function<bool(double time, double end)>& goesOn = {});
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -6,7 +6,7 @@
 #include "chemistry/reactor/steady_state.hpp"
 #include "chemistry/thermo/equilibrium.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -135,4 +135,4 @@ std::vector<ReactorSteadyState> solveNetwork(const Mechanism& mechanism, const R
   return solved;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -7,8 +7,9 @@
 
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/reactor/reactor_network.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 // Where the transient to the steady state begins: with the equilibrium of what flows in (at constant enthalpy), with
 // what flows in as it is, or with a given gas. A given temperature of a reactor holds in any case.
@@ -43,4 +44,4 @@ std::vector<double> startUnknowns(const Mechanism& mechanism, const ReactorNetwo
 std::vector<ReactorSteadyState> solveNetwork(const Mechanism& mechanism, const ReactorNetwork& network,
                                              const NetworkStart& start, CarriedPhase* carried = nullptr);
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -103,4 +103,4 @@ void NewtonMatrix::solve(double* b) {
   std::copy_n(rightHandSide_.begin(), size_, b);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

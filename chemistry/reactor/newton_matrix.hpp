@@ -10,8 +10,9 @@
 #include "chemistry/numerics/dense_lu.hpp"
 #include "chemistry/numerics/sparse_lu.hpp"
 #include "chemistry/reactor/reactor_system.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 class NewtonMatrix {
  public:
@@ -45,4 +46,4 @@ class NewtonMatrix {
   long pivoted_ = 0;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -5,7 +5,9 @@
 #include <cstddef>
 #include <string>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::chemistry {
 
 class OdeSystem {
  public:
@@ -52,4 +54,4 @@ class OdeParameters {
   OdeParameters& operator=(const OdeParameters&) = default;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

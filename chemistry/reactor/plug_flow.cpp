@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 PlugFlow::PlugFlow(const Mechanism& mechanism, const GasState& inlet, double massFlux, double length,
                    std::optional<TemperatureProfile> profile, CarriedPhase* carried)
@@ -88,4 +88,4 @@ std::string PlugFlow::describe(double z, const double* y) const {
                      inlet_.pressure, compositionText(mechanism_, {y, species_}));
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -11,8 +11,9 @@
 #include "chemistry/reactor/ode_system.hpp"
 #include "chemistry/reactor/reactor_system.hpp"
 #include "chemistry/reactor/temperature_profile.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 class PlugFlow : public OdeSystem {
  public:
@@ -48,4 +49,4 @@ class PlugFlow : public OdeSystem {
   std::vector<double> y_, f_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -13,7 +13,7 @@
 #include "chemistry/reactor/reactor_integrator.hpp"
 #include "chemistry/reactor/reactor_system.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -227,4 +227,4 @@ ConstantPressureReactor::Result ConstantPressureReactor::advance(Cell& cell, dou
   self.giveUp(cell, dt);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

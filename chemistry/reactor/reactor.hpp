@@ -9,8 +9,9 @@
 #include <string>
 
 #include "chemistry/mechanism/mechanism.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 class ConstantPressureReactor {
  public:
@@ -76,4 +77,4 @@ class ConstantPressureReactor {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

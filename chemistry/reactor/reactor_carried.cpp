@@ -10,7 +10,7 @@
 #include "chemistry/reactor/reactor_system.hpp"
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 bool ReactorSystem::addCarriedRates(const double* y, double* f) {
   const std::size_t n = weights_.size(), count = carried_->size();
@@ -61,4 +61,4 @@ void ReactorSystem::addCarriedJacobian(const double* y, double* J, std::size_t l
   }
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

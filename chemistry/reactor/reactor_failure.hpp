@@ -7,8 +7,9 @@
 
 #include "chemistry/reactor/reactor.hpp"
 #include "core/errors.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 struct FailedCell {
   double temperature = 0;      // K
@@ -30,4 +31,4 @@ class ReactorFailure : public NumericsError {
   FailedCell cell_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -7,7 +7,7 @@
 
 #include "chemistry/numerics/short_vector.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 using sundials::check;
 
@@ -83,4 +83,4 @@ bool ReactorIntegrator::run(const Interval& interval, const Watcher& watcher) {
   return true;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -8,8 +8,9 @@
 #include "chemistry/numerics/sundials_handles.hpp"
 #include "chemistry/reactor/reactor_linear_solver.hpp"
 #include "chemistry/reactor/reactor_system.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 class ReactorIntegrator {
  public:
@@ -61,4 +62,4 @@ class ReactorIntegrator {
   sundials::Cvode cvode_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

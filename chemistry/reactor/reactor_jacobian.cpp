@@ -13,7 +13,7 @@
 #include "chemistry/reactor/reactor_system.hpp"
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 // From excess_ = s to what constant pressure adds, in units of A; zero at constant density. Leaves the column of the
 // temperature, its last entry excepted.
@@ -160,4 +160,4 @@ void ReactorSystem::sparseColumns(SparseJacobian& J) const {
   }
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 // The matrix of the interface holds nothing but a pointer to us.
 ReactorLinearSolver::ReactorLinearSolver(ReactorSystem& system, SUNContext context)
@@ -58,4 +58,4 @@ int ReactorLinearSolver::solve(SUNLinearSolver solver, SUNMatrix /*A*/, N_Vector
   return SUNLS_SUCCESS;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

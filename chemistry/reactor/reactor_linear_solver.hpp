@@ -5,8 +5,9 @@
 #include "chemistry/numerics/sundials_handles.hpp"
 #include "chemistry/reactor/newton_matrix.hpp"
 #include "chemistry/reactor/reactor_system.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 class ReactorLinearSolver {
  public:
@@ -34,4 +35,4 @@ class ReactorLinearSolver {
   sundials::LinearSolver solver_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

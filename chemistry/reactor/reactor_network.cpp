@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 double ReactorNetwork::throughflow(std::size_t reactor) const {
   double flow = 0;
@@ -209,4 +209,4 @@ std::string NetworkSystem::describe(double t, const double* y) const {
   return text;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -10,8 +10,9 @@
 #include "chemistry/reactor/closed_reactor.hpp"
 #include "chemistry/reactor/ode_system.hpp"
 #include "chemistry/reactor/reactor_system.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 struct StirredReactor {
   std::string name;
@@ -93,4 +94,4 @@ class NetworkSystem : public OdeSystem {
   std::vector<double> carriedH_, upstreamCarriedH_, carriedCapacity_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -10,7 +10,7 @@
 #include "chemistry/mechanism/yaml_access.hpp"
 #include "core/text_file.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -147,4 +147,4 @@ Replay readReplay(const std::string& path) {
   return {std::move(mechanism), std::move(cell)};
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -6,8 +6,9 @@
 
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/reactor/reactor_failure.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 // The text of the file. The mechanism's path is written absolute.
 std::string replayText(const Mechanism& mechanism, const FailedCell& cell);
@@ -22,4 +23,4 @@ struct Replay {
 // numbers. Numbers that are no state of a gas (.nan, for one) are taken: they may be what failed.
 Replay readReplay(const std::string& path);
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -10,7 +10,7 @@
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 ReactorSystem::ReactorSystem(const Mechanism& mechanism, CarriedPhase* carried)
     : thermo_(mechanism),
@@ -144,4 +144,4 @@ bool ReactorSystem::rates(const double* y, double* f) {
   return accept(f);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

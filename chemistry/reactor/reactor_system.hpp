@@ -23,8 +23,9 @@
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/reactor/carried_phase.hpp"
 #include "chemistry/thermo/thermo.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 class ReactorSystem {
  public:
@@ -122,4 +123,4 @@ class ReactorSystem {
 // no steps where it is given; of a carried phase 1e4, as it is in units of its typical amounts.
 double reactorToleranceScale(std::size_t i, std::size_t species, bool temperatureIsGiven);
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -11,7 +11,7 @@
 #include "core/errors.hpp"
 #include "core/stop_request.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -110,4 +110,4 @@ SteadyState findSteadyState(OdeSystem& system, const std::vector<double>& start,
                                   system.describe(integrator.time(), integrator.state().data())));
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -5,8 +5,9 @@
 #include <vector>
 
 #include "chemistry/reactor/ode_system.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 struct SteadyState {
   std::vector<double> y;
@@ -21,4 +22,4 @@ struct SteadyState {
 SteadyState findSteadyState(OdeSystem& system, const std::vector<double>& start, double timeScale,
                             double patience = 1e5);
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -13,7 +13,7 @@
 #include "chemistry/numerics/sundials_handles.hpp"
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -307,4 +307,4 @@ StiffIntegrator::Statistics StiffIntegrator::statistics() const {
   return result;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "chemistry/reactor/ode_system.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 class StiffIntegrator {
  public:
@@ -60,4 +61,4 @@ class StiffIntegrator {
   double time_ = 0, previousTime_ = 0;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -7,7 +7,7 @@
 #include "chemistry/thermo/thermo.hpp"
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 TemperatureProfile::TemperatureProfile(double temperature) : TemperatureProfile({0.0}, {temperature}) {}
 
@@ -47,4 +47,4 @@ std::optional<double> TemperatureProfile::nextKink(double x) const {
   return *next;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

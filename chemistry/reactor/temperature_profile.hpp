@@ -4,7 +4,9 @@
 #include <optional>
 #include <vector>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::chemistry {
 
 class TemperatureProfile {
  public:
@@ -25,4 +27,4 @@ class TemperatureProfile {
   std::vector<double> points_, temperatures_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

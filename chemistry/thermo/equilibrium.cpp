@@ -9,7 +9,7 @@
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 namespace {
 
 using constants::gasConstant;
@@ -225,4 +225,4 @@ double Equilibrium::atEnergyAndDensity(double u, double density, std::span<doubl
   return search(Property::Energy, u, Y);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -11,8 +11,9 @@
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/thermo/equilibrium_path.hpp"
 #include "chemistry/thermo/species_thermo.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 class Equilibrium {
  public:
@@ -63,4 +64,4 @@ class Equilibrium {
   EquilibriumPath path_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

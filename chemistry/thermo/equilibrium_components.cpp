@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace lampblack {
+namespace lampblack::chemistry {
 namespace {
 
 // Atoms are small numbers: what elimination leaves below this is rounding.
@@ -80,4 +80,4 @@ bool EquilibriumComponents::fit(std::span<const double> lnAmounts, double tolera
   return true;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

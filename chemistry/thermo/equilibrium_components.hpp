@@ -7,7 +7,9 @@
 #include <span>
 #include <vector>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::chemistry {
 
 class EquilibriumComponents {
  public:
@@ -35,4 +37,4 @@ class EquilibriumComponents {
   std::vector<bool> rowUsed_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -5,7 +5,7 @@
 
 #include "chemistry/numerics/vector_math.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 namespace {
 
 constexpr double basisTolerance = 1.0;  // e-fold by which a species may exceed its components before they are rechosen
@@ -307,4 +307,4 @@ void EquilibriumPath::sensitivity(std::span<const double> dg, std::span<double> 
   }
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -14,8 +14,9 @@
 #include <vector>
 
 #include "chemistry/thermo/equilibrium_components.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 class EquilibriumPath {
  public:
@@ -73,4 +74,4 @@ class EquilibriumPath {
   std::size_t iterations_ = 0;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

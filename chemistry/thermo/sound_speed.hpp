@@ -4,10 +4,11 @@
 #include <span>
 
 #include "chemistry/thermo/thermo.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 // m/s, at T (K) and mass fractions Y: sqrt(cp/cv R T/W).
 double soundSpeed(const Thermo& thermo, double T, std::span<const double> Y);
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

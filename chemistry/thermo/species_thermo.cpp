@@ -5,7 +5,7 @@
 
 #include "chemistry/mechanism/nasa_polynomials.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -75,24 +75,24 @@ SpeciesThermo::SpeciesThermo(std::span<const Species> species) {
 
 void SpeciesThermo::cpOverR(double T, double* cp) const {
   combine<0, 5>(T, mid_, low_, high_, {1.0, T, T * T, T * T * T, T * T * T * T}, cp);
-  for (const auto& s : nasa9_) cp[s.index] = lampblack::cpOverR(range(s.data, T), T);
+  for (const auto& s : nasa9_) cp[s.index] = chemistry::cpOverR(range(s.data, T), T);
 }
 
 void SpeciesThermo::cpSlopeOverR(double T, double* slope) const {
   combine<1, 4>(T, mid_, low_, high_, {1.0, 2 * T, 3 * T * T, 4 * T * T * T}, slope);
-  for (const auto& s : nasa9_) slope[s.index] = lampblack::cpSlopeOverR(range(s.data, T), T);
+  for (const auto& s : nasa9_) slope[s.index] = chemistry::cpSlopeOverR(range(s.data, T), T);
 }
 
 void SpeciesThermo::enthalpyOverRT(double T, double* h) const {
   combine<0, 6>(T, mid_, low_, high_, {1.0, T / 2, T * T / 3, T * T * T / 4, T * T * T * T / 5, 1 / T}, h);
   if (nasa9_.empty()) return;
   const double lnT = std::log(T);
-  for (const auto& s : nasa9_) h[s.index] = lampblack::enthalpyOverRT(range(s.data, T), T, lnT);
+  for (const auto& s : nasa9_) h[s.index] = chemistry::enthalpyOverRT(range(s.data, T), T, lnT);
 }
 
 void SpeciesThermo::entropyOverR(double T, double lnT, double* s) const {
   combine<0, 7>(T, mid_, low_, high_, {lnT, T, T * T / 2, T * T * T / 3, T * T * T * T / 4, 0.0, 1.0}, s);
-  for (const auto& one : nasa9_) s[one.index] = lampblack::entropyOverR(range(one.data, T), T, lnT);
+  for (const auto& one : nasa9_) s[one.index] = chemistry::entropyOverR(range(one.data, T), T, lnT);
 }
 
 void SpeciesThermo::gibbsOverRT(double T, double lnT, double* g) const {
@@ -100,8 +100,8 @@ void SpeciesThermo::gibbsOverRT(double T, double lnT, double* g) const {
                 {1.0 - lnT, -T / 2, -T * T / 6, -T * T * T / 12, -T * T * T * T / 20, 1 / T, -1.0}, g);
   for (const auto& s : nasa9_) {
     const auto& a = range(s.data, T);
-    g[s.index] = lampblack::enthalpyOverRT(a, T, lnT) - lampblack::entropyOverR(a, T, lnT);
+    g[s.index] = chemistry::enthalpyOverRT(a, T, lnT) - chemistry::entropyOverR(a, T, lnT);
   }
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -8,8 +8,9 @@
 #include <vector>
 
 #include "chemistry/mechanism/species.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 class SpeciesThermo {
  public:
@@ -42,4 +43,4 @@ double cpOverR(const Species& species, double T);
 double enthalpyOverRT(const Species& species, double T);
 double entropyOverR(const Species& species, double T);
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 TemperatureRange TemperatureRange::within(const TemperatureRange& other) const {
   return {std::max(low, other.low), std::min(high, other.high)};
@@ -22,4 +22,4 @@ TemperatureRange temperatureRange(const Mechanism& mechanism) {
   return {std::min(low, std::max(low - furtherDown, usualLow)), std::max(high, std::min(high + furtherUp, usualHigh))};
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

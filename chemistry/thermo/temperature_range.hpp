@@ -2,8 +2,9 @@
 #pragma once
 
 #include "chemistry/mechanism/mechanism.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 struct TemperatureRange {
   double low = 0, high = 0;  // K, both allowed
@@ -16,4 +17,4 @@ struct TemperatureRange {
 // 200 K and by at most 1000 K up to 6000 K. Species whose own data end earlier are extrapolated as far.
 TemperatureRange temperatureRange(const Mechanism& mechanism);
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -7,7 +7,7 @@
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 Thermo::Thermo(const Mechanism& mechanism)
     : table_(mechanism.allSpecies()),
@@ -151,4 +151,4 @@ void Thermo::moleToMass(std::span<const double> X, std::span<double> Y) const {
   for (std::size_t k = 0; k < weights_.size(); ++k) Y[k] = X[k] * weights_[k] * factor;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

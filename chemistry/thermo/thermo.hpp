@@ -8,8 +8,9 @@
 
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/thermo/species_thermo.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 class Thermo {
  public:
@@ -57,4 +58,4 @@ class Thermo {
   mutable std::vector<double> work_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

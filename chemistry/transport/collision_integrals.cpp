@@ -8,7 +8,7 @@
 #include "chemistry/transport/monchick_mason_tables.hpp"
 #include "chemistry/transport/polynomial_fit.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -117,4 +117,4 @@ ReducedIntegrals::All ReducedIntegrals::all(double logT) const {
   return {std::exp(logOmega22_(place)) / A, A, ratioB_(place), ratioC_(place)};
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

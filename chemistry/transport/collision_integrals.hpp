@@ -3,8 +3,9 @@
 #pragma once
 
 #include "chemistry/transport/cubic_spline.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 // Where the integrals come from.
 enum class CollisionIntegrals {
@@ -48,4 +49,4 @@ class ReducedIntegrals {
   CubicSpline logOmega22_, ratioA_, ratioB_, ratioC_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

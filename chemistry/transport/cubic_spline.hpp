@@ -6,7 +6,9 @@
 #include <span>
 #include <vector>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::chemistry {
 
 class CubicSpline {
  public:
@@ -70,4 +72,4 @@ class CubicSpline {
   std::vector<double> x_, y_, curvature_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -5,11 +5,13 @@
 #include <cstddef>
 #include <cstring>
 
+#include "core/rooms.hpp"
+
 // GCC warns that such values pass differently between functions compiled for different processors; these pass between
 // functions of one program only, all compiled alike.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 constexpr std::size_t laneCount = 8;
 
@@ -58,4 +60,4 @@ inline double sumOf(const double* a, std::size_t n) {
   return sum;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

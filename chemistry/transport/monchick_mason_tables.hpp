@@ -5,7 +5,9 @@
 
 #include <array>
 
-namespace lampblack::monchickMason {
+#include "core/rooms.hpp"
+
+namespace lampblack::chemistry::monchickMason {
 
 inline constexpr std::array<double, 37> temperatures = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.2, 1.4, 1.6,
                                                         1.8, 2.0, 2.5, 3.0, 3.5, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10., 12.,
@@ -178,4 +180,4 @@ inline constexpr Table ratioC = {{
     {0.94881, 0.9488, 0.9489, 0.949, 0.9487, 0.9482, 0.9476, 0.9468},   // 75.0
     {0.94863, 0.9487, 0.9489, 0.9491, 0.9493, 0.9491, 0.9483, 0.9476},  // 100.0
 }};
-}  // namespace lampblack::monchickMason
+}  // namespace lampblack::chemistry::monchickMason

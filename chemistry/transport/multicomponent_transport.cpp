@@ -9,7 +9,7 @@
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -192,4 +192,4 @@ void MulticomponentTransport::fluxMatrix(double T, double p, std::span<const dou
     for (std::size_t j = 0; j < n_; ++j) M[i * n_ + j] = inverse_[j * n_ + i];
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

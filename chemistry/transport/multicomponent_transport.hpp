@@ -15,8 +15,9 @@
 #include "chemistry/thermo/species_thermo.hpp"
 #include "chemistry/transport/pure_gas.hpp"
 #include "chemistry/transport/transport.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 class MulticomponentTransport {
  public:
@@ -71,4 +72,4 @@ class MulticomponentTransport {
   double temperature_ = 0;  // of what depends on it alone
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

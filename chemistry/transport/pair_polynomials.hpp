@@ -9,8 +9,9 @@
 #include <vector>
 
 #include "chemistry/transport/lanes.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 template <std::size_t Terms>
 class PairPolynomials {
@@ -79,4 +80,4 @@ class PairPolynomials {
   std::vector<Lanes> transposed_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

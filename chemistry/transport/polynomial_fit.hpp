@@ -6,7 +6,9 @@
 #include <span>
 #include <vector>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::chemistry {
 
 class PolynomialFit {
  public:
@@ -53,4 +55,4 @@ class PolynomialFit {
   std::vector<double> q_, r_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

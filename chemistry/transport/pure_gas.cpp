@@ -9,7 +9,7 @@
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -167,4 +167,4 @@ double PureGas::conductivity(std::size_t k, double T, double cpOverR) const {
   return viscosity(k, T) / molecules_[k].weight * gasConstant * (eucken.rigid + eucken.vibrating * cpOverR);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

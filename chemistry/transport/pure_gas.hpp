@@ -7,8 +7,9 @@
 
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/transport/collision_integrals.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 class PureGas {
  public:
@@ -64,4 +65,4 @@ class PureGas {
   std::vector<double> dipoles_;              // these
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -12,7 +12,7 @@
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -204,4 +204,4 @@ double Transport::speciesConductivity(double T, std::size_t k) const {
   return speciesViscosity(T, k) * gasConstants_[k] * (rigid + vibrating * cp_[k]);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -11,8 +11,9 @@
 #include "chemistry/thermo/species_thermo.hpp"
 #include "chemistry/transport/collision_integrals.hpp"
 #include "chemistry/transport/pair_polynomials.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 class PureGas;
 
@@ -112,4 +113,4 @@ class Transport {
   std::vector<double> x_, root_, u_, a_, b_, c_, sum0_, sum1_, sum2_, wilkeSum_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -12,7 +12,7 @@
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 
 namespace {
 
@@ -136,4 +136,4 @@ double Transport::largestFitError(const PureGas& gas) const {
   return error;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -2,9 +2,11 @@
 // the range has room there, while inputs stay within Transport::minTemperature and maxTemperature.
 #pragma once
 
-namespace lampblack::transportroom {
+#include "core/rooms.hpp"
+
+namespace lampblack::chemistry::transportroom {
 
 inline constexpr double coldest = 190.0;   // K
 inline constexpr double hottest = 4200.0;  // K
 
-}  // namespace lampblack::transportroom
+}  // namespace lampblack::chemistry::transportroom

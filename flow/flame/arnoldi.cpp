@@ -12,7 +12,7 @@
 
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 namespace {
 
 double product(std::span<const double> a, std::span<const double> b) {
@@ -92,4 +92,4 @@ std::vector<double> Arnoldi::vector(const RitzPair& pair) const {
   return v;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

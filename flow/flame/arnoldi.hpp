@@ -7,7 +7,9 @@
 #include <span>
 #include <vector>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::flow {
 
 struct RitzPair {
   std::complex<double> value;
@@ -33,4 +35,4 @@ class Arnoldi {
   std::vector<std::vector<double>> columns_;  // of the Hessenberg matrix, each with the entry below its diagonal
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -9,7 +9,7 @@
 #include <sys/mman.h>
 #endif
 
-namespace lampblack {
+namespace lampblack::flow {
 
 namespace {
 
@@ -103,7 +103,7 @@ std::size_t BlockSweep::factorise(double* corner) {
 int BlockSweep::determinantSign() const {
   int sign = 1;
   for (std::size_t k = 0; k < count_; ++k)
-    sign *= lampblack::determinantSign(n_, storage_.data() + k * rowStride_ + stride_, pivots_.data() + k * n_);
+    sign *= chemistry::determinantSign(n_, storage_.data() + k * rowStride_ + stride_, pivots_.data() + k * n_);
   return sign;
 }
 
@@ -126,4 +126,4 @@ void BlockSweep::backward(double* y, std::ptrdiff_t step, const double* next, co
   }
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -13,8 +13,9 @@
 
 #include "chemistry/numerics/aligned_vector.hpp"
 #include "chemistry/numerics/dense_blocks.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 class BlockSweep {
  public:
@@ -58,4 +59,4 @@ class BlockSweep {
 [[nodiscard]] bool rowScales(std::size_t m, std::size_t n, const double* A, double* scale);
 void multiplyRows(std::size_t m, std::size_t n, const double* scale, double* A);
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

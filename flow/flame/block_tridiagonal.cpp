@@ -5,7 +5,7 @@
 #include "chemistry/numerics/dense_blocks.hpp"
 #include "flow/flame/block_tridiagonal_data.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 BlockTridiagonal::BlockTridiagonal(MPI_Comm comm, std::size_t points, std::size_t width, std::size_t border) {
   if (points == 0 || width == 0) throw std::logic_error("BlockTridiagonal: empty");
@@ -94,4 +94,4 @@ void BlockTridiagonal::multiply(std::span<const double> x, std::span<double> y) 
   MPI_Allreduce(MPI_IN_PLACE, y.data(), static_cast<int>(y.size()), MPI_DOUBLE, MPI_SUM, d.comm);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

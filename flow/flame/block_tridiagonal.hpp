@@ -18,7 +18,9 @@
 #include <memory>
 #include <span>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::flow {
 
 class BlockTridiagonal {
  public:
@@ -67,4 +69,4 @@ class BlockTridiagonal {
   std::unique_ptr<Data> data_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -5,10 +5,11 @@
 #include <stdexcept>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "flow/flame/block_sweep.hpp"
 #include "flow/flame/block_tridiagonal.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 enum Side : std::size_t { left, right };
 
@@ -78,4 +79,4 @@ struct BlockTridiagonal::Data {
   }
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -2,7 +2,7 @@
 
 #include "flow/flame/block_tridiagonal_data.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 namespace {
 
@@ -91,7 +91,7 @@ bool BlockTridiagonal::factorise() {
   if (d.factorised) {
     // Rows were scaled by positive numbers, and blocks exchanged along with their columns: neither changes the sign.
     d.sign = d.ends[left].determinantSign() * d.ends[right].determinantSign();
-    if (d.owns[left]) d.sign *= lampblack::determinantSign(d.n + d.border, d.core.data(), d.corePivots.data());
+    if (d.owns[left]) d.sign *= chemistry::determinantSign(d.n + d.border, d.core.data(), d.corePivots.data());
     MPI_Allreduce(MPI_IN_PLACE, &d.sign, 1, MPI_INT, MPI_PROD, d.comm);
   }
   return d.factorised;
@@ -146,4 +146,4 @@ void BlockTridiagonal::solve(std::span<double> b) {
   MPI_Bcast(middle + n, static_cast<int>((d.points - 1 - d.middle) * n), MPI_DOUBLE, d.rightRank(), d.comm);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -7,7 +7,7 @@
 
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 BranchTracer::BranchTracer(LoadedSystem& system, ContinuationOptions options)
     : system_(system), options_(options), solver_(options.newton), step_(options.firstStep) {}
@@ -173,4 +173,4 @@ void BranchTracer::addTurningPoint(std::size_t index, const BranchPoint& from, d
   turningPoints_.push_back({index, from.load + 0.5 * slope * s, from.arcLength + s, curvature < 0});
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -12,10 +12,11 @@
 #include <string>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "flow/flame/loaded_system.hpp"
 #include "flow/flame/newton_solver.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 struct ContinuationOptions {
   bool towardsHigherLoad = true;  // at the start
@@ -90,4 +91,4 @@ class BranchTracer {
   NewtonReport counts_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

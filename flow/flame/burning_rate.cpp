@@ -9,7 +9,7 @@
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 namespace {
 
 // A reactor burns where it is warmer than this share of the way to the equilibrium. It goes out by itself at 0.7 to
@@ -100,4 +100,4 @@ double burningRate(const Mechanism& mechanism, const FlameStream& stream, double
          std::sqrt(reactor->density * conductivityOverCp(reactor->state.temperature) / reactor->residenceTime);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

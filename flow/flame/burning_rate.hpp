@@ -2,9 +2,10 @@
 #pragma once
 
 #include "chemistry/mechanism/mechanism.hpp"
+#include "core/rooms.hpp"
 #include "flow/flame/flame_problem.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 // lambda/cp of combustion gases, kg/m/s (Smooke, Giovangigli 1991): good enough for
 // the thickness of a guess.
@@ -17,4 +18,4 @@ namespace lampblack {
 // too slow where it is hot and ten too fast where it is lean. Where no reactor burns, a power law.
 [[nodiscard]] double burningRate(const Mechanism& mechanism, const FlameStream& stream, double pressure, double burnt);
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -2,7 +2,7 @@
 #include "core/errors.hpp"
 #include "flow/flame/flame_equations_data.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 namespace {
 
 // The content of a kilogram of gas with given mass fractions, and of a unit of each scalar.
@@ -111,4 +111,4 @@ double FlameEquations::burnerHeatFlux(std::span<const double> x) {
   return -d.energyResidual(0);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -6,7 +6,7 @@
 
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 namespace {
 
 std::vector<double> copyOf(std::span<const double> values) {
@@ -85,4 +85,4 @@ FlameBranch followFlame(MPI_Comm comm, std::shared_ptr<const Mechanism> mechanis
   return branch;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

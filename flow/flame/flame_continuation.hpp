@@ -10,11 +10,12 @@
 #include <string>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "flow/flame/branch_tracer.hpp"
 #include "flow/flame/flame_equations.hpp"
 #include "flow/flame/flame_grid.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 struct FlameContinuationOptions {
   ContinuationOptions continuation;
@@ -49,4 +50,4 @@ FlameBranch followFlame(MPI_Comm comm, std::shared_ptr<const Mechanism> mechanis
                         CarriedModel* carried, const FlameProfile& start, const FlameContinuationOptions& options,
                         const std::function<void(const FlameBranchPoint&, const FlameProfile&)>& onPoint = {});
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

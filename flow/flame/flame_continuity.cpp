@@ -4,7 +4,7 @@
 
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 namespace {
 
 // What leaves the volume of point i sideways, per unit of V.
@@ -40,4 +40,4 @@ double scaleSpreading(FlameProfile& profile, std::span<const double> density, do
   return factor;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -4,9 +4,10 @@
 
 #include <span>
 
+#include "core/rooms.hpp"
 #include "flow/flame/flame_profile.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 // Sets the mass fluxes that `left` (rho u at the first point, kg/m2/s) and the spreading of the profile leave, with the
 // densities of the points (kg/m3).
@@ -16,4 +17,4 @@ void setMassFlux(FlameProfile& profile, std::span<const double> density, double 
 // factor of the spreading is returned. NumericsError where the profile has no spreading to be scaled.
 double scaleSpreading(FlameProfile& profile, std::span<const double> density, double left, double right);
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

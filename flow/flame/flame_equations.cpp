@@ -11,7 +11,7 @@
 #include "flow/flame/flame_equations_data.hpp"
 #include "flow/flame/flame_jacobian.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 namespace {
 
 double streamDensity(const Mechanism& mechanism, double pressure, const FlameStream& stream) {
@@ -264,4 +264,4 @@ void FlameEquations::storage(std::span<const double> x, std::span<const double> 
   }
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "chemistry/mechanism/mechanism.hpp"
+#include "core/rooms.hpp"
 #include "flow/carried_model.hpp"
 #include "flow/flame/block_tridiagonal.hpp"
 #include "flow/flame/flame_problem.hpp"
@@ -23,7 +24,7 @@
 #include "flow/flame/given_exchange.hpp"
 #include "flow/flame/unsteady_system.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 // Relative and absolute sizes of a change of an unknown that counts as 1.
 struct FlameTolerances {
@@ -120,4 +121,4 @@ class FlameEquations : public UnsteadySystem {
   std::unique_ptr<Data> data_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

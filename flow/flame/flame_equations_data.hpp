@@ -9,10 +9,11 @@
 #include <vector>
 
 #include "chemistry/kinetics/kinetics.hpp"
+#include "core/rooms.hpp"
 #include "flow/flame/flame_equations.hpp"
 #include "flow/flame/flame_gas.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 // What happens at an end of the domain.
 enum class FlameEnd { Stream, Outlet, Wall };
@@ -108,4 +109,4 @@ struct FlameEquations::Data {
   [[nodiscard]] Plane stagnationPlane() const;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -1,6 +1,6 @@
 #include "flow/flame/flame_jacobian.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 void FaceDerivatives::side(const FlameEquations::Data& data, std::size_t f, bool isRight) {
   const std::size_t n = data.species(), i = isRight ? f + 1 : f;
@@ -80,4 +80,4 @@ void FaceDerivatives::compute(const FlameEquations::Data& data, std::size_t f) {
   }
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -9,7 +9,7 @@
 #include "chemistry/transport/multicomponent_transport.hpp"
 #include "chemistry/transport/transport.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 namespace {
 
 // Linear between the two faces of a point's control volume, whose places are halfway to its neighbours (or the ends).
@@ -111,4 +111,4 @@ FlameSummary flameSummary(const FlameProblem& problem, const FlameProfile& profi
   return summary;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

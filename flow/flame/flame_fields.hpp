@@ -7,10 +7,11 @@
 #include <vector>
 
 #include "chemistry/mechanism/mechanism.hpp"
+#include "core/rooms.hpp"
 #include "flow/flame/flame_problem.hpp"
 #include "flow/flame/flame_profile.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 // One value a point, SI. X and Y are point-major.
 struct FlameFields {
@@ -50,4 +51,4 @@ struct FlameSummary {
 [[nodiscard]] FlameSummary flameSummary(const FlameProblem& problem, const FlameProfile& profile,
                                         const FlameFields& fields);
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -8,7 +8,7 @@
 #include "flow/flame/flame_continuation.hpp"
 #include "flow/flame/flame_state.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 namespace {
 
 constexpr std::array startLoads{0.3, 0.1, 0.03, 0.01, 0.001};
@@ -103,4 +103,4 @@ RaisedFlame flameFromLowerLoad(MPI_Comm comm, const std::shared_ptr<const Mechan
   return raise.start(start) ? raise.raise() : RaisedFlame{};
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

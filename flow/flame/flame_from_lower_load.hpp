@@ -10,10 +10,11 @@
 #include <optional>
 #include <string>
 
+#include "core/rooms.hpp"
 #include "flow/flame/flame_solver.hpp"
 #include "flow/flame/initial_flame.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 struct RaisedFlame {
   std::optional<FlameProfile> profile;   // of the gas alone, burning at the load of the problem (1)
@@ -27,4 +28,4 @@ struct RaisedFlame {
                                              const InitialFlameOptions& start,
                                              const std::function<void(double load, double peak)>& report = {});
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

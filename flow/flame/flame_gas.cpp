@@ -5,7 +5,7 @@
 
 #include "core/constants.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 namespace {
 
 TransportOptions transportOptions(const FlameTransport& flame) {
@@ -191,4 +191,4 @@ void FlameGas::addExchange(const FlameProfile& x, std::size_t i, const GivenExch
   nodes.loss[i] -= given.enthalpy();
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -11,13 +11,14 @@
 #include "chemistry/thermo/species_thermo.hpp"
 #include "chemistry/transport/multicomponent_transport.hpp"
 #include "chemistry/transport/transport.hpp"
+#include "core/rooms.hpp"
 #include "flow/carried_model.hpp"
 #include "flow/flame/flame_equations.hpp"
 #include "flow/flame/flame_problem.hpp"
 #include "flow/flame/flame_profile.hpp"
 #include "flow/flame/radiation.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 // At the points. Arrays of species (and scalars) are point-major.
 struct FlameNodes {
@@ -127,4 +128,4 @@ class FlameGas {
   std::vector<double> carriedConcentrations_, densities_, carriedRates_, carriedExchange_, carriedD_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

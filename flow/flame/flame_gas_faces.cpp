@@ -6,7 +6,7 @@
 #include "core/constants.hpp"
 #include "flow/flame/flame_gas.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 void FlameGas::evaluateCoefficients(double T, std::size_t f, double h) {
   double moles = 0;
@@ -187,4 +187,4 @@ void FlameGas::scalarFluxes(const FlameProfile& x, std::size_t f) {
   }
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -9,7 +9,7 @@
 
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 namespace {
 
 void check(const GridOptions& o) {
@@ -173,4 +173,4 @@ GridChange refineGrid(const FlameProfile& profile, const GridOptions& options, s
   return change;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -5,9 +5,10 @@
 #include <span>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "flow/flame/flame_profile.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 // The criteria are those of PREMIX (Kee, Grcar, Smooke, Miller 1985) and Cantera, with which users compare; all of
 // them are fractions of a component's range, of values (slope) or of slopes (curve) over the whole flame.
@@ -45,4 +46,4 @@ struct GridChange {
 // points whose spacing grows by half from that at the end. The first point keeps its z, the flame moves by `left`.
 [[nodiscard]] FlameProfile widened(const FlameProfile& profile, double left, double right);
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

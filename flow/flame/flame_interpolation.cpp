@@ -5,7 +5,7 @@
 #include "core/errors.hpp"
 #include "flow/flame/flame_grid.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 namespace {
 
 // Slope at the end of three points whose neighbouring slopes are a (at the end) and b, of intervals ha and hb: that of
@@ -160,4 +160,4 @@ FlameProfile widened(const FlameProfile& profile, double left, double right) {
   return result;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

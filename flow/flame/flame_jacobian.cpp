@@ -1,7 +1,7 @@
 // The Newton matrix of a flame: the rows of a point, what is held, and the rows of the globals.
 #include "flow/flame/flame_jacobian.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 using namespace flamejacobian;
 
 FlameEquations::Data::JacobianWork::JacobianWork(const Data& data) {
@@ -165,4 +165,4 @@ void FlameEquations::Data::fillGlobals() {
   }
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

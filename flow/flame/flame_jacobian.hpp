@@ -5,9 +5,10 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "flow/flame/flame_equations_data.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 // Of the species' fluxes through face f. Matrices are column-major, species by species.
 struct FaceDerivatives {
@@ -50,4 +51,4 @@ void addReactions(FlameEquations::Data& data, std::size_t i, FlameEquations::Dat
 void addCarried(FlameEquations::Data& data, std::size_t i, FlameEquations::Data::JacobianWork& work);
 
 }  // namespace flamejacobian
-}  // namespace lampblack
+}  // namespace lampblack::flow

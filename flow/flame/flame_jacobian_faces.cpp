@@ -2,7 +2,7 @@
 #include "chemistry/numerics/dot.hpp"
 #include "flow/flame/flame_jacobian.hpp"
 
-namespace lampblack::flamejacobian {
+namespace lampblack::flow::flamejacobian {
 
 void addFace(const FlameEquations::Data& data, std::size_t i, bool isRight, const FaceDerivatives& face,
              FlameEquations::Data::JacobianWork& work) {
@@ -86,4 +86,4 @@ void addFace(const FlameEquations::Data& data, std::size_t i, bool isRight, cons
   }
 }
 
-}  // namespace lampblack::flamejacobian
+}  // namespace lampblack::flow::flamejacobian

@@ -4,7 +4,7 @@
 #include "chemistry/numerics/dot.hpp"
 #include "flow/flame/flame_jacobian.hpp"
 
-namespace lampblack::flamejacobian {
+namespace lampblack::flow::flamejacobian {
 
 void addReactions(FlameEquations::Data& data, std::size_t i, FlameEquations::Data::JacobianWork& work) {
   const std::size_t n = data.species(), w = data.width();
@@ -100,4 +100,4 @@ void addCarried(FlameEquations::Data& data, std::size_t i, FlameEquations::Data:
   }
 }
 
-}  // namespace lampblack::flamejacobian
+}  // namespace lampblack::flow::flamejacobian

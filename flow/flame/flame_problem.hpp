@@ -13,8 +13,9 @@
 #include <vector>
 
 #include "chemistry/transport/transport.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 enum class FlameType {
   Free,         // premixed, freely propagating: the mass flux is the eigenvalue
@@ -68,4 +69,4 @@ struct FlameProblem {
   FlameRadiation radiation;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace lampblack {
+namespace lampblack::flow {
 
 double FlameProfile::peakTemperature() const {
   double peak = 0;
@@ -24,4 +24,4 @@ FlameProfile withLayout(const FlameProfile& from, const FlameLayout& layout) {
   return to;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -5,7 +5,9 @@
 #include <span>
 #include <vector>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::flow {
 
 // The unknowns of a point, in this order.
 struct FlameLayout {
@@ -56,4 +58,4 @@ struct FlameProfile {
 // The same profile with more or fewer scalars (new ones are zero), or species that come last.
 [[nodiscard]] FlameProfile withLayout(const FlameProfile& from, const FlameLayout& layout);
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -2,7 +2,7 @@
 #include "core/constants.hpp"
 #include "flow/flame/flame_equations_data.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 double FlameEquations::Data::speciesFluxLeft(std::size_t i, std::size_t k) const {
   return i == 0 ? profile.global(leftMassFlux) * problem.left.Y[k] : gas.faces.flux[(i - 1) * species() + k];
@@ -185,4 +185,4 @@ void FlameEquations::Data::pointTimeWeights(std::size_t i, double* M) const {
     if (isHeld(c)) M[c] = 0;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -7,7 +7,7 @@
 #include "core/errors.hpp"
 #include "flow/flame/flame_equations_data.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 FlameScalars::FlameScalars(FlameEquations& equations, const FlameProfile& flame)
     : flame_(equations.data()),
@@ -130,4 +130,4 @@ std::string FlameScalars::nameOf(std::size_t unknown) const {
   return flame_.nameOf(unknown / scalars_, flame_.layout.firstScalar() + unknown % scalars_);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

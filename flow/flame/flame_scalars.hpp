@@ -5,10 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "flow/flame/block_tridiagonal.hpp"
 #include "flow/flame/flame_equations.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 class FlameScalars : public NewtonSystem {
  public:
@@ -40,4 +41,4 @@ class FlameScalars : public NewtonSystem {
   std::vector<double> jacobian_, concentrations_, densities_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -9,7 +9,7 @@
 #include "flow/flame/flame_scalars.hpp"
 #include "flow/flame/flame_solver_data.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 FlameSolver::FlameSolver(MPI_Comm comm, std::shared_ptr<const Mechanism> mechanism, FlameProblem problem,
                          CarriedModel* carried, FlameSolverOptions options)
@@ -244,4 +244,4 @@ void FlameSolver::Data::solve() {
   if (problem.type == FlameType::Burner) solution.burnerHeatFlux = equations.burnerHeatFlux(solution.profile.x);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

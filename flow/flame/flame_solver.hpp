@@ -11,11 +11,12 @@
 #include <vector>
 
 #include "core/errors.hpp"
+#include "core/rooms.hpp"
 #include "flow/flame/flame_equations.hpp"
 #include "flow/flame/flame_grid.hpp"
 #include "flow/flame/newton_solver.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 struct FlameSolverOptions {
   GridOptions grid;
@@ -86,4 +87,4 @@ class FlameSolver {
   std::unique_ptr<Data> data_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

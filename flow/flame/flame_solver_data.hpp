@@ -7,10 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "flow/flame/flame_solver.hpp"
 #include "flow/flame/flame_stability.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 struct FlameSolver::Data {
   MPI_Comm comm = MPI_COMM_NULL;
@@ -63,4 +64,4 @@ struct FlameSolver::Data {
   double anchorZ = 0, anchorTemperature = 0;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -6,7 +6,7 @@
 
 #include "flow/flame/flame_solver_data.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 namespace {
 
 // The profile as the criteria of the grid see it: of what is carried, the sums that decide.
@@ -131,4 +131,4 @@ void FlameSolver::Data::refine(FlameEquations& equations, NewtonSolver& solver, 
   }
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

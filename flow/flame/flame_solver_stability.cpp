@@ -4,7 +4,7 @@
 
 #include "flow/flame/flame_solver_data.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 namespace {
 
 constexpr double push = 0.005;                    // of the rise of temperature: the disturbance
@@ -75,4 +75,4 @@ void FlameSolver::Data::preferStable(FlameEquations& equations, NewtonSolver& so
   if (mode) solution.growthRate = mode->rate;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -6,7 +6,7 @@
 #include "core/errors.hpp"
 #include "flow/flame/arnoldi.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 namespace {
 
 constexpr double slowest = 1e-3;  // 1/s, slower growth is none
@@ -160,4 +160,4 @@ std::optional<GrowingMode> singleGrowingMode(FlameEquations& equations, std::spa
   return modes.single(atFast);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -23,9 +23,10 @@
 #include <span>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "flow/flame/flame_equations.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 // The disturbance that grows.
 struct GrowingMode {
@@ -43,4 +44,4 @@ struct GrowingMode {
 // grows more slowly than 3e4 1/s, or where what grows is the sum of the mass fractions.
 [[nodiscard]] std::optional<GrowingMode> singleGrowingMode(FlameEquations& equations, std::span<const double> x);
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

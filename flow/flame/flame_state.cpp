@@ -4,7 +4,7 @@
 
 #include "flow/flame/stream_mixture.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 const char* nameOf(FlameState state) {
   switch (state) {
@@ -37,4 +37,4 @@ FlameState stateOf(const Mechanism& mechanism, const FlameProblem& problem, cons
   return solution.growthRate ? FlameState::UnstableBranch : FlameState::Burning;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -2,9 +2,10 @@
 #pragma once
 
 #include "chemistry/mechanism/mechanism.hpp"
+#include "core/rooms.hpp"
 #include "flow/flame/flame_solver.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 enum class FlameState {
   Burning,         // warmer somewhere than what bounds it
@@ -22,4 +23,4 @@ enum class FlameState {
 [[nodiscard]] FlameState stateOf(const Mechanism& mechanism, const FlameProblem& problem,
                                  const FlameSolution& solution);
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -9,7 +9,7 @@
 #include "chemistry/transport/transport_room.hpp"
 #include "flow/flame/flame_equations_data.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 void FlameEquations::bounds(std::span<double> lower, std::span<double> upper) const {
   const Data& d = *data_;
@@ -87,4 +87,4 @@ std::string FlameEquations::Data::nameOf(std::size_t point, std::size_t c) const
   return fmt::format("{} at z = {:.4g} mm (point {} of {})", name, 1e3 * profile.z[point], point + 1, points());
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

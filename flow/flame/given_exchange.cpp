@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace lampblack {
+namespace lampblack::flow {
 
 GivenExchange::Sample::Sample(const GivenExchange& exchange, double z) : exchange_(&exchange) {
   const std::vector<double>& points = exchange.z;
@@ -30,4 +30,4 @@ double GivenExchange::Sample::enthalpy() const {
   return between(exchange_->enthalpy, 1, 0);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -5,7 +5,9 @@
 #include <cstddef>
 #include <vector>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::flow {
 
 // At points, linear between them, zero outside.
 struct GivenExchange {
@@ -31,4 +33,4 @@ struct GivenExchange {
   [[nodiscard]] Sample at(double height) const { return {*this, height}; }
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -12,7 +12,7 @@
 #include "flow/flame/mixing_profile.hpp"
 #include "flow/flame/stream_mixture.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 namespace {
 
 // Thicknesses of a free flame that its domain has at least, a third of them ahead of it: pressed against an end it
@@ -257,4 +257,4 @@ std::vector<FlameProfile> initialFlames(const Mechanism& mechanism, const FlameP
   return starts;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -7,10 +7,11 @@
 #include <vector>
 
 #include "chemistry/mechanism/mechanism.hpp"
+#include "core/rooms.hpp"
 #include "flow/flame/flame_problem.hpp"
 #include "flow/flame/flame_profile.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 struct InitialFlameOptions {
   std::size_t points = 40;
@@ -42,4 +43,4 @@ struct NamedFlameProfile {
 [[nodiscard]] FlameProfile startFrom(const NamedFlameProfile& other, const Mechanism& mechanism,
                                      const FlameProblem& problem, std::span<const std::string> scalars);
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

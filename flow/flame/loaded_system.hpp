@@ -5,9 +5,10 @@
 #include <optional>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "flow/flame/newton_system.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 // A condition  sum_i coefficients[i] x[i] = value  in place of `load = value` (arc length).
 struct LoadConstraint {
@@ -22,4 +23,4 @@ class LoadedSystem : public NewtonSystem {
   virtual void setConstraint(std::optional<LoadConstraint> constraint) = 0;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -5,7 +5,7 @@
 
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 namespace {
 
 constexpr std::size_t points = 401;
@@ -92,4 +92,4 @@ MixingProfile mixOpposedStreams(const OpposedStreams& s) {
   return p;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -4,7 +4,9 @@
 #include <functional>
 #include <vector>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::flow {
 
 struct OpposedStreams {
   double length = 0;                                 // m
@@ -33,4 +35,4 @@ struct MixingProfile {
 // properties are constant. Density and flow are found from each other in turn.
 [[nodiscard]] MixingProfile mixOpposedStreams(const OpposedStreams& streams);
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -8,7 +8,7 @@
 
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 NewtonIteration::NewtonIteration(NewtonSystem& system, NewtonOptions options) : system_(system), options_(options) {
   const std::size_t n = system.size();
@@ -232,4 +232,4 @@ PetscErrorCode NewtonIteration::convergedCallback(SNES, PetscInt iteration, Pets
   return self->exceptions_.guard([&] { *reason = iteration == 0 ? SNES_CONVERGED_ITERATING : self->decide(); });
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

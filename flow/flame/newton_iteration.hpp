@@ -16,10 +16,11 @@
 
 #include "core/petsc.hpp"
 #include "core/petsc_callbacks.hpp"
+#include "core/rooms.hpp"
 #include "flow/flame/newton_solver.hpp"
 #include "flow/flame/newton_system.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 class NewtonIteration {
  public:
@@ -95,4 +96,4 @@ class NewtonIteration {
   std::size_t steps_ = 0, polishRenewals_ = 0, worst_ = 0;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -6,7 +6,7 @@
 
 #include "flow/flame/newton_iteration.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 void NewtonIteration::searchLine(SNESLineSearch lineSearch) {
   Vec X = nullptr, F = nullptr, Y = nullptr;
@@ -141,4 +141,4 @@ void NewtonIteration::stopPolishing(bool fresh) {
   }
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -7,7 +7,7 @@
 
 #include "flow/flame/newton_iteration.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 namespace {
 
 NewtonOptions ofTimeSteps(NewtonOptions newton, const PseudoTransientOptions& transient) {
@@ -106,4 +106,4 @@ NewtonReport NewtonSolver::steady(NewtonSystem& system, std::vector<double>& x, 
   }
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -14,9 +14,10 @@
 #include <string>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "flow/flame/newton_system.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 struct NewtonOptions {
   double stepTolerance = 1e-3;  // converged once the next step changes no unknown by more than this (scaled)
@@ -70,4 +71,4 @@ class NewtonSolver {
   std::unique_ptr<Data> data_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

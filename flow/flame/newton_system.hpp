@@ -8,7 +8,9 @@
 #include <span>
 #include <string>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::flow {
 
 class NewtonSystem {
  public:
@@ -41,4 +43,4 @@ class NewtonSystem {
   [[nodiscard]] virtual std::string nameOf(std::size_t unknown) const = 0;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -7,7 +7,7 @@
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 namespace {
 
 template <std::size_t n>
@@ -58,4 +58,4 @@ double ThinRadiation::lossSlope(double absorption, double T) const {
   return 16 * constants::stefanBoltzmann * absorption * T * T * T;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

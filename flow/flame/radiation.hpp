@@ -7,8 +7,9 @@
 #include <span>
 
 #include "chemistry/mechanism/mechanism.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 class ThinRadiation {
  public:
@@ -28,4 +29,4 @@ class ThinRadiation {
   double surroundings4_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -9,7 +9,7 @@
 #include "flow/flame/flame_grid.hpp"
 #include "flow/flame/initial_flame.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 namespace {
 
 // The profile on the names of another mechanism and of other scalars.
@@ -155,4 +155,4 @@ FlameProfile startFrom(const NamedFlameProfile& other, const Mechanism& mechanis
   return profile;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

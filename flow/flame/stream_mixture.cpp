@@ -10,7 +10,7 @@
 #include "chemistry/thermo/equilibrium.hpp"
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 namespace {
 
 constexpr double leastRise = 100;  // K, by burning at constant pressure
@@ -161,4 +161,4 @@ std::string whyItCannotBurn(const Mechanism& mechanism, const FlameProblem& prob
   return {};
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -10,9 +10,10 @@
 
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/thermo/thermo.hpp"
+#include "core/rooms.hpp"
 #include "flow/flame/flame_problem.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 // What a gas could burn and burn with: mol of O atoms per kg that are missing to CO2, H2O (SO2, SiO2), and that are
 // there to be had. Products have neither.
@@ -58,4 +59,4 @@ class StreamMixture {
 // Why the streams of a flame cannot burn ("the stream has no fuel"); empty where they can.
 [[nodiscard]] std::string whyItCannotBurn(const Mechanism& mechanism, const FlameProblem& problem);
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -12,7 +12,7 @@
 #include "flow/flame/newton_iteration.hpp"
 #include "flow/flame/unsteady_step.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 namespace {
 
 using PetscTimeStepper = PetscOwner<TS, TSDestroy>;
@@ -223,4 +223,4 @@ UnsteadyReport integrateInTime(UnsteadySystem& system, std::span<double> x, cons
   return Integration(system, options, output).run(x);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -9,10 +9,11 @@
 #include <span>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "flow/flame/newton_solver.hpp"
 #include "flow/flame/unsteady_system.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 struct UnsteadyOptions {
   double start = 0, end = 0;  // s
@@ -39,4 +40,4 @@ struct UnsteadyReport {
 UnsteadyReport integrateInTime(UnsteadySystem& system, std::span<double> x, const UnsteadyOptions& options,
                                const std::function<void(double time, std::span<const double> x)>& output = {});
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

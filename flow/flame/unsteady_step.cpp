@@ -5,7 +5,7 @@
 
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 void UnsteadyStep::attach(SNES snes, Vec x, Vec F, Mat matrix) {
   snes_ = snes;
@@ -66,4 +66,4 @@ PetscErrorCode UnsteadyStep::matrix(Vec x, double shift) {
   });
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -10,10 +10,11 @@
 #include <vector>
 
 #include "core/petsc_callbacks.hpp"
+#include "core/rooms.hpp"
 #include "flow/flame/newton_system.hpp"
 #include "flow/flame/unsteady_system.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 class UnsteadyStep : public NewtonSystem {
  public:
@@ -49,4 +50,4 @@ class UnsteadyStep : public NewtonSystem {
   bool regular_ = false;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

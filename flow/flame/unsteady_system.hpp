@@ -5,9 +5,10 @@
 
 #include <span>
 
+#include "core/rooms.hpp"
 #include "flow/flame/loaded_system.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 class UnsteadySystem : public LoadedSystem {
  public:
@@ -18,4 +19,4 @@ class UnsteadySystem : public LoadedSystem {
   [[nodiscard]] virtual bool factoriseUnsteady(std::span<const double> x, double shift) = 0;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -4,9 +4,9 @@
 
 #include "chemistry/numerics/rosenbrock_solver.hpp"
 #include "core/constants.hpp"
-#include "particles/collision_physics.hpp"
+#include "particles/collisions/collision_physics.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 namespace {
 
 // Steps of the differences: a relative 1e-7, where half the digits are left in the quotient; of a value far below its
@@ -132,4 +132,4 @@ SizeDistribution ParticleModel::sizeDistribution(std::span<const double> /*densi
   return {};
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -12,8 +12,9 @@
 #include <vector>
 
 #include "core/particle_gas.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 struct ElementMass {
   std::string element;  // "C"
@@ -156,11 +157,11 @@ class ParticleModel {
   [[nodiscard]] virtual double volumeFractionAtLimit(std::span<const double> densities) const;
   [[nodiscard]] virtual ParticleProcesses processes(const ParticleGas& gas,
                                                     std::span<const double> densities) const = 0;
-  // Empty where the model has none.
+  // Empty where the model has none; else at the same diameters for all densities, also where there are no particles.
   [[nodiscard]] virtual SizeDistribution sizeDistribution(std::span<const double> densities) const;
 
  private:
   double advanceTolerance_ = 1e-3;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

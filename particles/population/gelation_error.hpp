@@ -5,8 +5,9 @@
 #include <fmt/format.h>
 
 #include "core/errors.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 class GelationError : public NumericsError {
  public:
@@ -21,4 +22,4 @@ class GelationError : public NumericsError {
   double time_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

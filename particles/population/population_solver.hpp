@@ -11,9 +11,10 @@
 #include <utility>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "particles/population/model/population_model.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 struct PopulationCounters {
   std::uint64_t coagulations = 0, fictitious = 0;  // fictitious jumps of every process
@@ -83,4 +84,4 @@ class PopulationSolver {
   std::function<void()> watch_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -10,9 +10,10 @@
 #include <cmath>
 
 #include "core/constants.hpp"
+#include "core/rooms.hpp"
 #include "particles/population/model/particle_type.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 class SootAggregate {
  public:
@@ -78,4 +79,4 @@ class SootAggregate {
 
 static_assert(ParticleType<SootAggregate>);
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -10,7 +10,7 @@
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 void SootMoved::add(double weight, const SootMoved& other) {
   for (const auto part : {&SootMoved::dimers, &SootMoved::growth, &SootMoved::oxidationO2, &SootMoved::oxidationOH,
@@ -133,4 +133,4 @@ bool SootMedium::grow(const SootAggregate& type, const SootFluxes& fluxes, doubl
   return true;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -2,13 +2,14 @@
 // condensation of dimers, surface growth, oxidation (Wang 2025, sections 7.2.2, 9.2.2).
 #pragma once
 
-#include "particles/collision_physics.hpp"
-#include "particles/dimer.hpp"
+#include "core/rooms.hpp"
+#include "particles/collisions/collision_physics.hpp"
+#include "particles/gas/soot_gas.hpp"
+#include "particles/soot/dimer.hpp"
 #include "particles/soot/soot_aggregate.hpp"
-#include "particles/soot_gas.hpp"
-#include "particles/surface_chemistry.hpp"
+#include "particles/soot/surface_chemistry.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 // Soot mass (kg) that processes moved; in a population per m3. Oxidation is positive here.
 struct SootMoved {
@@ -83,4 +84,4 @@ class SootMedium {
   bool condensing_ = false, surfaceActive_ = false;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

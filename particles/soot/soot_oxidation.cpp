@@ -4,7 +4,7 @@
 
 #include "core/constants.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 namespace {
 
 constexpr double gramOfCarbon = 12.011;  // g/mol
@@ -49,4 +49,4 @@ double netOxidation(double oxidised, double gained) {
   return (net > 0 ? positive(net) : width * width / positive(-net)) / positive(1);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

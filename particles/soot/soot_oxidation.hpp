@@ -2,7 +2,9 @@
 // what of oxidation takes whole particles, for all models that do not know the sizes.
 #pragma once
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::particles {
 
 // Carbon lost to oxygen, mol/m2/s, at a temperature (K) and a concentration of O2 (mol/m3).
 // Lee, Thring, Beer 1962: 1.085e4 p T^(-1/2) exp(-39300 / RT) g/cm2/s with p in atm and R in cal/mol/K.
@@ -18,4 +20,4 @@ namespace lampblack {
 // equality is rounded over some 0.05 of the ratio.
 [[nodiscard]] double netOxidation(double oxidised, double gained);
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

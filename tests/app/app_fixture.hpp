@@ -11,13 +11,14 @@
 #include <utility>
 #include <vector>
 
-#include "app/flow_case.hpp"
+#include "app/flow/flow_case.hpp"
 #include "coupling/carried_particles.hpp"
 #include "flow/carried_operator.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/gas_properties.hpp"
 #include "flow/state.hpp"
-#include "particles/soot/dimer_soot.hpp"
+#include "particles/models/two_equation/dimer_soot.hpp"
+#include "tests/every_room.hpp"
 #include "tests/source_folder.hpp"
 
 namespace lampblack::test {

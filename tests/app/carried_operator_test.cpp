@@ -5,15 +5,16 @@
 #include <cstring>
 #include <memory>
 
+#include "app/deck/soot_deck.hpp"
 #include "core/constants.hpp"
+#include "core/rooms.hpp"
 #include "coupling/carried_particles.hpp"
 #include "flow/budget.hpp"
-#include "particles/collision_physics.hpp"
-#include "particles/soot/dimer_soot.hpp"
-#include "particles/soot/make_soot_model.hpp"
+#include "particles/collisions/collision_physics.hpp"
+#include "particles/models/two_equation/dimer_soot.hpp"
 #include "tests/app/app_fixture.hpp"
 
-namespace lampblack {
+namespace lampblack::app {
 namespace {
 
 using test::Flame;
@@ -52,6 +53,12 @@ Contents contentsOf(const Flame& flame, int cell, double temperature) {
   }
   for (std::size_t s = 0; s < n; ++s) contents.enthalpy += carried[s] * h[s];
   return contents;
+}
+
+std::vector<std::string> modelNames() {
+  std::vector<std::string> names;
+  for (const SootModelEntry& model : sootModels()) names.push_back(model.name);
+  return names;
 }
 
 class EveryModel : public testing::TestWithParam<std::string> {
@@ -128,7 +135,7 @@ TEST_P(EveryModel, DoesNotDependOnWhichRankAdvancesACell) {
   EXPECT_EQ(states[0].Y, states[1].Y);
 }
 
-INSTANTIATE_TEST_SUITE_P(CarriedOperator, EveryModel, testing::ValuesIn(sootModelNames()),
+INSTANTIATE_TEST_SUITE_P(CarriedOperator, EveryModel, testing::ValuesIn(modelNames()),
                          [](const auto& given) { return given.param; });
 
 // Mole fractions times p / RT, of the species that are asked for.
@@ -227,48 +234,5 @@ TEST(CarriedOperator, TellsItsPeakAndRefusesTooFewSections) {
   EXPECT_THROW(strict.historyValues(flame.state), NumericsError);
 }
 
-// A new model is its own file and nothing else: dust that falls apart at a rate of 100 1/s into the hydrogen it is made
-// of.
-class Dust final : public ParticleModel {
- public:
-  [[nodiscard]] std::string material() const override { return "dust"; }
-  [[nodiscard]] const std::vector<std::string>& gasSpecies() const override { return species_; }
-  [[nodiscard]] std::vector<std::size_t> precursors() const override { return {}; }
-  [[nodiscard]] const std::vector<ParticleScalar>& scalars() const override { return scalars_; }
-  void sources(const ParticleGas&, std::span<const double> densities, std::span<double> rates,
-               std::span<double> exchange) const override {
-    rates[0] = -100 * densities[0];
-    exchange[0] = 100 * densities[0] / 2.01588e-3;
-  }
-  void diffusivities(const ParticleGas&, std::span<const double>, std::span<double> D) const override { D[0] = 1e-6; }
-  void enthalpies(double, std::span<double> h, std::span<double> slope) const override { h[0] = slope[0] = 0; }
-  [[nodiscard]] double absorption(double, double) const override { return 0; }
-  [[nodiscard]] ParticleProperties properties(const ParticleGas&, std::span<const double> densities) const override {
-    ParticleProperties p;
-    p.volumeFraction = densities[0] / 1000;
-    return p;
-  }
-  [[nodiscard]] ParticleProcesses processes(const ParticleGas&, std::span<const double>) const override { return {}; }
-
- private:
-  std::vector<std::string> species_{"H2"};
-  std::vector<ParticleScalar> scalars_{{"mass", "kg/m^3", "dust", 1e-3, {{"H", 1}}}};
-};
-
-TEST(CarriedOperator, ANewModelNeedsNoOtherFile) {
-  Flame flame(MPI_COMM_WORLD, test::sootingGas);
-  CarriedParticles dust(*flame.flowCase.mechanism, std::make_unique<Dust>());
-  flame.state = State(flame.mesh, flame.flowCase.mechanism->numSpecies(), CarriedOperator::scalarsOf(dust));
-  Flame gas(MPI_COMM_WORLD, test::sootingGas);
-  for (auto field : {&State::temperature, &State::density, &State::enthalpy, &State::Y, &State::velocity})
-    flame.state.*field = gas.state.*field;
-  std::fill(flame.state.carried.begin(), flame.state.carried.end(), 2e-3);
-  CarriedOperator particles(flame.context, dust, 0, {});
-  particles.advance(flame.state, 0.0, 5e-3);
-  for (int c = 0; c < flame.mesh.owned; ++c)
-    EXPECT_NEAR(particles.densities(flame.state, c)[0] / (2e-3 * std::exp(-0.5)), 1, 1e-3);
-  EXPECT_EQ(flame.state.scalars[0].name, "dust_mass");
-}
-
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::app

@@ -1,11 +1,12 @@
 // A stiff solve that fails in one cell of one rank ends the run on all ranks, with one message that says where and
 // what.
 #include "core/errors.hpp"
+#include "core/rooms.hpp"
 #include "flow/reaction_operator.hpp"
 #include "tests/app/app_fixture.hpp"
 #include "tests/core/mpi_support.hpp"
 
-namespace lampblack {
+namespace lampblack::app {
 namespace {
 
 using testing::AllOf;
@@ -47,4 +48,4 @@ TEST_P(ChemistryFailure, IsToldAlikeOnAllRanks) {
 INSTANTIATE_TEST_SUITE_P(WorkSharing, ChemistryFailure, testing::Bool());
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::app

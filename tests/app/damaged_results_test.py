@@ -38,7 +38,7 @@ def make_results(program, folder):
                                        "  - {key: inlet.equivalence_ratio, values: [1, 1.1]}\n", encoding="utf-8")
     (folder / "profile.csv").write_text("z_m,T_K\n0,300\n0.01,1500\n0.02,300\n", encoding="utf-8")
     profile = str(folder / "profile.csv")
-    ignition = running.SOURCE / "cases/reactor_ignition_hydrogen/deck.yaml"
+    ignition = running.SOURCE / "cases/reactor/ignition_hydrogen/deck.yaml"
     tasks = {
         "flow": (("run", running.small_case(folder), *running.settings("time.end=2 us")),
                  [("plot",), ("compare_centreline", profile)]),

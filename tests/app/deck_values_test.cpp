@@ -2,12 +2,13 @@
 #include <string>
 #include <vector>
 
-#include "app/flame_case.hpp"
-#include "app/reactor_case.hpp"
+#include "app/flame1d/flame_case.hpp"
+#include "app/reactor/reactor_case.hpp"
 #include "chemistry/thermo/thermo.hpp"
+#include "core/rooms.hpp"
 #include "tests/app/app_fixture.hpp"
 
-namespace lampblack {
+namespace lampblack::app {
 namespace {
 
 using testing::ElementsAre;
@@ -209,4 +210,4 @@ continuation: {first_step: 20, largest_step: 300, highest_load: 9, turning_point
 }
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::app

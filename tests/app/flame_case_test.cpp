@@ -1,18 +1,19 @@
 // What flame decks become: streams in SI, configurations, an earlier flame; and what is refused.
-#include "app/flame_case.hpp"
+#include "app/flame1d/flame_case.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "app/problem.hpp"
+#include "app/run/problem.hpp"
 #include "chemistry/thermo/thermo.hpp"
 #include "core/errors.hpp"
+#include "tests/every_room.hpp"
 #include "tests/messages.hpp"
 #include "tests/source_folder.hpp"
 
-namespace lampblack {
+namespace lampblack::app {
 namespace {
 
 using ::testing::HasSubstr;
@@ -228,4 +229,4 @@ TEST(FlameCase, StreamsThatCannotBurnAreProblemsToo) {
 }
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::app

@@ -1,5 +1,5 @@
 // A flame in a results file: what was written is read to the last bit; what is no flame is refused.
-#include "app/flame_file.hpp"
+#include "app/flame1d/flame_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,10 +9,11 @@
 #include <limits>
 
 #include "core/errors.hpp"
+#include "tests/every_room.hpp"
 #include "tests/messages.hpp"
 #include "tests/shared_scratch.hpp"
 
-namespace lampblack {
+namespace lampblack::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -80,4 +81,4 @@ TEST_F(FlameFile, ResultsOfSomethingElseAreRefused) {
 }
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::app

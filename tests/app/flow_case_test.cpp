@@ -2,15 +2,17 @@
 #include <algorithm>
 #include <fstream>
 
+#include "core/rooms.hpp"
 #include "tests/app/app_fixture.hpp"
 
-namespace lampblack {
+namespace lampblack::app {
 namespace {
 
 using testing::ElementsAre;
 
 FlowCase withTransport(const std::vector<std::string>& overrides) {
-  return readFlowCase(Deck::load(test::sourceFolder / "cases/counterflow_ethylene/deck.yaml", overrides, flowSchema()));
+  return readFlowCase(
+      Deck::load(test::sourceFolder / "cases/flow/counterflow_ethylene/deck.yaml", overrides, flowSchema()));
 }
 
 TEST(FlowCase, ReadsTheTransportModel) {
@@ -31,7 +33,7 @@ TEST(FlowCase, ReadsTheTransportModel) {
 }
 
 TEST(FlowCase, ReadsTheShippedDeck) {
-  const Deck deck = Deck::load(test::sourceFolder / "cases/counterflow_ethylene/deck.yaml", {}, flowSchema());
+  const Deck deck = Deck::load(test::sourceFolder / "cases/flow/counterflow_ethylene/deck.yaml", {}, flowSchema());
   const FlowCase flowCase = readFlowCase(deck);
   EXPECT_EQ(flowCase.mechanism->numSpecies(), 47U);
   EXPECT_DOUBLE_EQ(flowCase.pressure, 101325.0);
@@ -135,4 +137,4 @@ TEST(FlowSchema, BothReferencesListEveryKey) {
 }
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::app

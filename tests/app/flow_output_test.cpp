@@ -1,13 +1,14 @@
 // The mesh as the results file gets it, and the history's rows and columns.
-#include "app/flow_output.hpp"
+#include "app/flow/flow_output.hpp"
 
 #include <algorithm>
 #include <map>
 
+#include "core/rooms.hpp"
 #include "tests/app/app_fixture.hpp"
 #include "tests/core/mpi_support.hpp"
 
-namespace lampblack {
+namespace lampblack::app {
 namespace {
 
 using test::at;
@@ -96,4 +97,4 @@ TEST(History, HasAValueForEveryColumnOfEveryOperator) {
 }
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::app

@@ -116,18 +116,18 @@ def main(executable: str, *mpiexec: str) -> int:
         for text, run in ((COUNTERFLOW, "counterflow"), (SOOT, "soot"), (POPULATION, "population")):
             (folder / f"{run}.yaml").write_text(text, encoding="utf-8")
             runs[run] = (folder / f"{run}.yaml",)
-        runs["ignition"] = (CASES / "reactor_ignition_hydrogen/deck.yaml",)
-        runs["fractions"] = (CASES / "reactor_ignition_hydrogen/deck.yaml", *running.settings(
+        runs["ignition"] = (CASES / "reactor/ignition_hydrogen/deck.yaml",)
+        runs["fractions"] = (CASES / "reactor/ignition_hydrogen/deck.yaml", *running.settings(
             "output.species=[OH]", "output.fractions=mass", "sensitivity.reactions=['1']"))
-        runs["plug_flow"] = (CASES / "reactor_plug_flow_ethylene/deck.yaml",)
-        runs["stirred"] = (CASES / "reactor_stirred_methane/deck.yaml",)
+        runs["plug_flow"] = (CASES / "reactor/plug_flow_ethylene/deck.yaml",)
+        runs["stirred"] = (CASES / "reactor/stirred_methane/deck.yaml",)
         runs["stirred_mass"] = (*runs["stirred"], *running.settings("output.fractions=mass"))
-        runs["stirred_in_time"] = (CASES / "reactor_stirred_methane/deck.yaml", *running.settings("time.end=0.1 ms"))
+        runs["stirred_in_time"] = (CASES / "reactor/stirred_methane/deck.yaml", *running.settings("time.end=0.1 ms"))
 
         sections = ("soot.model=sectional", "soot.sectional.overflow=1", "output.species=[A2]")
-        runs["closed_soot"] = (CASES / "reactor_closed_soot/deck.yaml", *running.settings("time.end=0.1 ms", *sections))
-        runs["stirred_soot"] = (CASES / "reactor_stirred_soot/deck.yaml", *running.settings(*sections))
-        runs["ensemble"] = (CASES / "reactor_plug_flow_soot/deck.yaml", *running.settings(
+        runs["closed_soot"] = (CASES / "reactor/closed_soot/deck.yaml", *running.settings("time.end=0.1 ms", *sections))
+        runs["stirred_soot"] = (CASES / "reactor/stirred_soot/deck.yaml", *running.settings(*sections))
+        runs["ensemble"] = (CASES / "reactor/plug_flow_soot/deck.yaml", *running.settings(
             "reactor.length=5 mm", "output.spacing=5 mm", "soot.model=none", "stochastic.repeats=2", "stochastic.particles=50",
             "stochastic.bins=5"))
 

@@ -1,4 +1,4 @@
-#include "app/gas_report.hpp"
+#include "app/tools/gas_report.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,11 +9,13 @@
 #include <vector>
 
 #include "core/errors.hpp"
+#include "tests/every_room.hpp"
 #include "tests/source_folder.hpp"
 
 namespace {
 
 using namespace lampblack;
+using namespace lampblack::app;
 using ::testing::HasSubstr;
 
 std::vector<std::string> shippedMechanisms() {

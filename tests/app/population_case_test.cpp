@@ -1,5 +1,5 @@
 // What population balance decks become: every choice of every key, and which of them have an exact solution.
-#include "app/population_case.hpp"
+#include "app/population_balance/population_case.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -7,9 +7,10 @@
 #include <filesystem>
 
 #include "core/errors.hpp"
+#include "core/rooms.hpp"
 #include "tests/source_folder.hpp"
 
-namespace lampblack {
+namespace lampblack::app {
 namespace {
 
 const std::string kMonodisperse = "{distribution: monodisperse, number: 1 1/m^3, volume: 1 m^3}";
@@ -175,4 +176,4 @@ TEST(PopulationCase, ShippedDecksAreValid) {
 }
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::app

@@ -4,9 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "app/population_accumulator.hpp"
+#include "app/population_balance/population_accumulator.hpp"
+#include "tests/every_room.hpp"
 
-namespace lampblack {
+namespace lampblack::app {
 namespace {
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
@@ -172,4 +173,4 @@ TEST(PopulationTimes, RowsAreLinearOrLogarithmicAndEndExactly) {
 }
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::app

@@ -1,13 +1,14 @@
 // The problems as a table: what holds for the decks of all of them.
-#include "app/problem.hpp"
+#include "app/run/problem.hpp"
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "tests/app/app_fixture.hpp"
 
-namespace lampblack {
+namespace lampblack::app {
 namespace {
 
 using testing::HasSubstr;
@@ -33,7 +34,7 @@ TEST(Problems, TheDeckOfARunCanBeReadAgain) {
 
 // What a run starts from is made before there is a folder, and what is wrong with it stands at its place in the deck.
 TEST(Problems, AFlameThatCannotBurnIsRefusedWhereItIsPrepared) {
-  const auto path = test::sourceFolder / "cases/flame_free_hydrogen/deck.yaml";
+  const auto path = test::sourceFolder / "cases/flame1d/free_hydrogen/deck.yaml";
   const auto prepare = [&](const std::vector<std::string>& overrides) {
     const Deck deck = Deck::load(path, overrides, deckKinds(), MPI_COMM_SELF);
     return problemOf(deck).prepare(MPI_COMM_SELF, deck)->summary();
@@ -92,4 +93,4 @@ TEST(FlowCase, InletsAreSlowerThanMachThreeTenths) {
 }
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::app

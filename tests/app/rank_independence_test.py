@@ -18,7 +18,7 @@ h5py = running.package("h5py")
 meshio = running.package("meshio")
 np = running.package("numpy")
 
-DECK = running.SOURCE / "cases/counterflow_ethylene/deck.yaml"
+DECK = running.SOURCE / "cases/flow/counterflow_ethylene/deck.yaml"
 ABSOLUTE = 1e-15  # of the chemistry, in mass fraction
 SETTINGS = ("mesh.refinement=0.25", "time.end=0.1 ms", "output.interval=0.05 ms", "output.species=[all]",
             "chemistry.relative_tolerance=1e-9", f"chemistry.absolute_tolerance={ABSOLUTE}",

@@ -1,5 +1,5 @@
 // What reactor decks become: mixtures, flows in balance, the shipped cases.
-#include "app/reactor_case.hpp"
+#include "app/reactor/reactor_case.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -8,15 +8,16 @@
 #include <utility>
 #include <vector>
 
-#include "app/gas_input.hpp"
-#include "app/problem.hpp"
-#include "app/temperature_input.hpp"
+#include "app/deck/temperature_input.hpp"
+#include "app/run/problem.hpp"
+#include "app/tools/gas_input.hpp"
 #include "chemistry/thermo/thermo.hpp"
 #include "core/errors.hpp"
+#include "core/rooms.hpp"
 #include "tests/app/app_fixture.hpp"
 #include "tests/scratch.hpp"
 
-namespace lampblack {
+namespace lampblack::app {
 namespace {
 
 ReactorCase shipped(const std::string& name) {
@@ -24,15 +25,14 @@ ReactorCase shipped(const std::string& name) {
 }
 
 TEST(ReactorCase, ShippedDecksAreValid) {
-  for (const auto& entry : std::filesystem::directory_iterator(test::sourceFolder / "cases")) {
-    const std::string name = entry.path().filename().string();
-    if (!name.starts_with("reactor_")) continue;
+  for (const auto& entry : std::filesystem::directory_iterator(test::sourceFolder / "cases/reactor")) {
+    const std::string name = "reactor/" + entry.path().filename().string();
     EXPECT_NO_THROW(shipped(name)) << name;
   }
 }
 
 TEST(ReactorCase, AnEquivalenceRatioIsThatOfTheAtoms) {
-  const ReactorCase methane = shipped("reactor_ignition_methane");
+  const ReactorCase methane = shipped("reactor/ignition_methane");
   const Mechanism& mechanism = *methane.mechanism;
   std::vector<double> Y(mechanism.numSpecies());
   Thermo(mechanism).moleToMass(parseComposition(mechanism, "CH4: 1, O2: 2, N2: 7.52"), Y);
@@ -48,7 +48,7 @@ TEST(ReactorCase, AnEquivalenceRatioIsThatOfTheAtoms) {
 
 // 50 g/s come in and 30 % go round once more: F = 50 + 0.3 F.
 TEST(ReactorCase, FlowsOfANetworkAreInBalance) {
-  const ReactorNetwork network = shipped("reactor_network_combustor").network;
+  const ReactorNetwork network = shipped("reactor/network_combustor").network;
   ASSERT_EQ(network.reactors.size(), 6U);
   EXPECT_NEAR(network.throughflow(0), 0.05 / 0.7, 1e-15);
   EXPECT_NEAR(network.throughflow(1), 0.3 * 0.05 / 0.7, 1e-15);
@@ -98,7 +98,7 @@ TEST(ReactorCase, AProfileFileLosesNoLine) {
 }
 
 TEST(ReactorCase, ReactionsAreNamedByNumberOrEquation) {
-  const auto path = test::sourceFolder / "cases/reactor_ignition_hydrogen/deck.yaml";
+  const auto path = test::sourceFolder / "cases/reactor/ignition_hydrogen/deck.yaml";
   const auto read = [&](const std::string& reactions) {
     return readReactorCase(Deck::load(path, {"sensitivity.reactions=" + reactions}, reactorSchema())).sensitivities;
   };
@@ -108,12 +108,12 @@ TEST(ReactorCase, ReactionsAreNamedByNumberOrEquation) {
 }
 
 TEST(Problems, ADeckChoosesItsProblem) {
-  const auto deck = test::sourceFolder / "cases/reactor_ignition_hydrogen/deck.yaml";
+  const auto deck = test::sourceFolder / "cases/reactor/ignition_hydrogen/deck.yaml";
   EXPECT_EQ(problemOf(Deck::load(deck, {}, deckKinds(), MPI_COMM_SELF)).name, "reactor");
-  const auto flow = test::sourceFolder / "cases/counterflow_ethylene/deck.yaml";
+  const auto flow = test::sourceFolder / "cases/flow/counterflow_ethylene/deck.yaml";
   EXPECT_EQ(problemOf(Deck::load(flow, {}, deckKinds(), MPI_COMM_SELF)).name, "flow");
   EXPECT_THROW(Deck::load(flow, {"problem=fluid"}, deckKinds(), MPI_COMM_SELF), InputError);
 }
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::app

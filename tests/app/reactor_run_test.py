@@ -23,7 +23,7 @@ CASES = running.SOURCE / "cases"
 
 
 def run(program, name, folder, *pairs):
-    out = folder / name
+    out = folder / pathlib.Path(name).name
     result = program("run", CASES / name / "deck.yaml", "--out", out, *running.settings(*pairs), timeout=200)
     assert result.code == 0, result.err
     record = json.loads((out / "run.json").read_text(encoding="utf-8"))
@@ -39,7 +39,7 @@ def rows_of(path):
 
 def ignition(program, folder):
     """Delays as Cantera 3.2 has them (tests/chemistry/ignition_test.cpp), the same in all files."""
-    out, results, text = run(program, "reactor_ignition_hydrogen", folder)
+    out, results, text = run(program, "reactor/ignition_hydrogen", folder)
     delay = results["ignition_delays_s"]["max_dTdt"]
     assert abs(delay / 4.533140061e-5 - 1) < 2e-6, delay
     assert f"{delay:.6e} s" in text, text
@@ -65,7 +65,7 @@ def ignition(program, folder):
 
 def regular_output(program, folder):
     """Rows at a regular interval, the end included, and mass fractions of the chosen species."""
-    out, _, _ = run(program, "reactor_ignition_hydrogen", folder, "output.interval=30 us", "time.end=100 us",
+    out, _, _ = run(program, "reactor/ignition_hydrogen", folder, "output.interval=30 us", "time.end=100 us",
                     "output.species=[OH, H2O]", "output.fractions=mass")
     head, rows = rows_of(out / "history.csv")
     assert head[-2:] == ["Y_OH [1]", "Y_H2O [1]"], head
@@ -73,7 +73,7 @@ def regular_output(program, folder):
 
 
 def network(program, folder):
-    out, results, _ = run(program, "reactor_network_combustor", folder)
+    out, results, _ = run(program, "reactor/network_combustor", folder)
     head, rows = rows_of(out / "reactors.csv")
     assert [row[0] for row in rows] == list(results["reactors"])
     with h5py.File(out / "results.h5", "r") as file:
@@ -90,8 +90,8 @@ def network(program, folder):
 
 def transient(program, folder):
     """A lit stirred reactor comes to rest at its steady state."""
-    _, steady, _ = run(program, "reactor_stirred_methane", folder / "steady")
-    _, after, _ = run(program, "reactor_stirred_methane", folder, "time.end=60 ms", "output.interval=10 ms")
+    _, steady, _ = run(program, "reactor/stirred_methane", folder / "steady")
+    _, after, _ = run(program, "reactor/stirred_methane", folder, "time.end=60 ms", "output.interval=10 ms")
     difference = after["final_temperature_K"] - steady["reactors"]["reactor"]["temperature_K"]
     assert abs(difference) < 1e-3, difference
 
@@ -101,7 +101,7 @@ def species_with_comma(program, folder):
     text = (CASES / "mechanisms/hydrogen_h2o2_10.yaml").read_text(encoding="utf-8")
     (folder / "mechanism.yaml").write_text(re.sub(r"\bH2O2\b", "H2O2(1,3)", text).replace("[H2, H, O, O2, OH, H2O, HO2, H2O2(1,3)", "[H2, H, O, O2, OH, H2O, HO2, 'H2O2(1,3)'"), encoding="utf-8")
     mechanism = f"mechanism={folder}/mechanism.yaml"
-    out, _, _ = run(program, "reactor_ignition_hydrogen", folder, mechanism, "time.end=0.1 ms",
+    out, _, _ = run(program, "reactor/ignition_hydrogen", folder, mechanism, "time.end=0.1 ms",
                     "ignition.species=['H2O2(1,3)']", "sensitivity.reactions=['1']")
     head, rows = rows_of(out / "history.csv")
     assert "X_H2O2(1,3) [1]" in head and all(len(row) == len(head) for row in rows), head
@@ -117,7 +117,7 @@ def species_with_comma(program, folder):
     assert all(np.array_equal(read[name][1], written[name]) for name in written)
     head, rows = rows_of(out / "sensitivities.csv")
     assert "max_Y_H2O2(1,3) [1]" in head and len(rows[0]) == len(head), head
-    out, _, _ = run(program, "reactor_stirred_methane", folder)
+    out, _, _ = run(program, "reactor/stirred_methane", folder)
     head, rows = rows_of(out / "reactors.csv")
     assert len(head) == len(rows[0])
 
@@ -128,7 +128,7 @@ def soot(program, folder):
     short = {"closed": ("time.end=0.5 ms",), "plug_flow": ("reactor.length=1 cm",), "stirred": ()}
     for kind, settings in short.items():
         for model in models:
-            out, results, text = run(program, f"reactor_{kind}_soot", folder, f"soot.model={model}", *settings, "output.species=[A2]")
+            out, results, text = run(program, f"reactor/{kind}_soot", folder, f"soot.model={model}", *settings, "output.species=[A2]")
             results = results["reactors"]["reactor"] if kind == "stirred" else results
             assert results["element_imbalance"] < 1e-13 and abs(results["energy_imbalance"]) < 1e-9, (kind, model, results)
             fraction = results["soot_volume_fraction" if kind == "stirred" else "final_soot_volume_fraction"]
@@ -142,7 +142,7 @@ def soot(program, folder):
             shutil.rmtree(out)
         ensemble = ("soot.model=none", "stochastic.repeats=2", "stochastic.particles=50", "integrator.relative_tolerance=1e-6",
                     "stochastic.coupling_change=0.3", *settings, *(("time.end=0.2 ms",) if kind == "stirred" else ()))
-        out, results, text = run(program, f"reactor_{kind}_soot", folder, *ensemble)
+        out, results, text = run(program, f"reactor/{kind}_soot", folder, *ensemble)
         with h5py.File(out / "results.h5", "r") as file:
             history = file["history"]
             assert results["repeats"] == 2 and history["soot_volume_fraction"][-1] == results["final_soot_volume_fraction"]
@@ -156,7 +156,7 @@ def soot(program, folder):
 
 def too_few_sections(program, folder):
     """Soot that outgrows its sections: one message, exit code 3."""
-    result = program("run", CASES / "reactor_closed_soot/deck.yaml", "--out", folder / "out",
+    result = program("run", CASES / "reactor/closed_soot/deck.yaml", "--out", folder / "out",
                      *running.settings("soot.model=sectional", "soot.sectional.sections=6"))
     assert result.code == 3 and "stands in the largest particles" in result.err and "soot.sectional.sections" in result.err, result.err
 

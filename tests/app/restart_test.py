@@ -178,7 +178,7 @@ def check_absent(program, folder, deck, base, whole):
     refusal(program, before, folder, ["is missing"], deck, *base, "--out", whole, "--restart", folder / "none.h5")
     refusal(program, before, folder, ["of another pressure"], deck, *base, *running.settings("pressure=2 atm"), "--out", whole,
             "--restart")
-    refusal(program, before, folder, ["write no checkpoints"], running.SOURCE / "cases/reactor_ignition_hydrogen/deck.yaml",
+    refusal(program, before, folder, ["write no checkpoints"], running.SOURCE / "cases/reactor/ignition_hydrogen/deck.yaml",
             "--out", whole, "--restart")
 
 

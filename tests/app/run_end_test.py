@@ -44,7 +44,7 @@ class Cases:
     def __init__(self, folder):
         self.folder = folder
         flow = running.small_case(folder)
-        reactor = running.SOURCE / "cases/reactor_ignition_hydrogen/deck.yaml"
+        reactor = running.SOURCE / "cases/reactor/ignition_hydrogen/deck.yaml"
         population = self.put("population.yaml", small_decks.population(METHODS, repeats=4, outputs=200, bins=200,
                                                                         times=[2, 4, 6, 8, 10]))
         flame = self.put("flame.yaml", small_decks.free_flame("hydrogen_h2o2_10.yaml", "H2", slope=0.4, curve=0.6))

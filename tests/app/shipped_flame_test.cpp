@@ -4,21 +4,22 @@
 #include <cmath>
 #include <string>
 
-#include "app/flame_case.hpp"
-#include "app/problem.hpp"
+#include "app/flame1d/flame_case.hpp"
+#include "app/run/problem.hpp"
+#include "core/rooms.hpp"
 #include "flow/flame/flame_fields.hpp"
 #include "flow/flame/flame_solver.hpp"
 #include "flow/flame/flame_state.hpp"
 #include "flow/flame/initial_flame.hpp"
 #include "tests/source_folder.hpp"
 
-namespace lampblack {
+namespace lampblack::app {
 namespace {
 
 // Of the series over the strain in chapter 7 of Wang (2025) the flame of the fastest streams, 34.9 cm/s. In
 // the study it starts from its neighbour.
 TEST(ShippedFlame, TheMostStrainedSootingFlameConvergesFromItsStreams) {
-  const std::string path = test::sourcePath("cases/flame_counterflow_ethylene_soot/deck.yaml");
+  const std::string path = test::sourcePath("cases/flame1d/counterflow_ethylene_soot/deck.yaml");
   FlameCase flame = readFlameCase(
       Deck::load(path, {"left.velocity=34.9 cm/s", "right.velocity=34.9 cm/s"}, deckKinds(), MPI_COMM_WORLD));
   ASSERT_NE(flame.soot, nullptr);
@@ -40,7 +41,7 @@ TEST(ShippedFlame, TheMostStrainedSootingFlameConvergesFromItsStreams) {
 // Methane against air at global strain rates near extinction, where Newton's method finds solutions between the turning
 // points (1760.5 and 1763.9 K).
 TEST(ShippedFlame, StrainedMethaneEndsOnTheStableBranch) {
-  const std::string path = test::sourcePath("cases/flame_counterflow_methane/deck.yaml");
+  const std::string path = test::sourcePath("cases/flame1d/counterflow_methane/deck.yaml");
   for (const auto& [strain, peak] : {std::pair{530.0, 1815.6}, {532.0, 1812.4}}) {
     const std::string left = std::to_string(0.3352566974612946 * strain / 50), right = std::to_string(strain / 200);
     const FlameCase flame = readFlameCase(Deck::load(
@@ -53,4 +54,4 @@ TEST(ShippedFlame, StrainedMethaneEndsOnTheStableBranch) {
 }
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::app

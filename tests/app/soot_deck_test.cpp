@@ -1,4 +1,4 @@
-#include "app/soot_deck.hpp"
+#include "app/deck/soot_deck.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,16 +8,18 @@
 
 #include "core/constants.hpp"
 #include "core/errors.hpp"
+#include "core/rooms.hpp"
 #include "coupling/carried_particles.hpp"
-#include "particles/collision_physics.hpp"
-#include "particles/soot/dimer_soot.hpp"
-#include "particles/soot/hmom.hpp"
-#include "particles/soot/make_soot_model.hpp"
-#include "particles/soot/momic_soot.hpp"
+#include "particles/collisions/collision_physics.hpp"
+#include "particles/models/moments/hmom.hpp"
+#include "particles/models/moments/momic_soot.hpp"
+#include "particles/models/sectional/sectional_soot.hpp"
+#include "particles/models/semi_empirical/semi_empirical_soot.hpp"
+#include "particles/models/two_equation/dimer_soot.hpp"
 #include "tests/flow/flame/streams.hpp"
 #include "tests/messages.hpp"
 
-namespace lampblack {
+namespace lampblack::app {
 namespace {
 
 Mechanism mechanismOf(const std::string& name) {
@@ -85,7 +87,8 @@ TEST(SootDeck, EverythingCanBeSet) {
 }
 
 TEST(SootDeck, EveryModelOfTheListCanBeMade) {
-  for (const std::string& name : sootModelNames()) {
+  for (const SootModelEntry& entry : sootModels()) {
+    const std::string& name = entry.name;
     const auto model = readSootModel(deckOf("soot: {pah: [A2, A3, A4], model: " + name + "}"), abf());
     ASSERT_NE(model, nullptr) << name;
     const CarriedParticles soot(abf(), readSootModel(deckOf("soot: {model: " + name + "}"), abf()));
@@ -203,4 +206,4 @@ TEST(SootDeck, MomentModels) {
 }
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::app

@@ -40,7 +40,7 @@ def spoiled(folder, name, path, factor):
 
 def main(executable, *mpiexec):
     program = running.Program(executable, list(mpiexec), 1)
-    deck = running.SOURCE / "cases/flame_counterflow_ethylene_soot/deck.yaml"
+    deck = running.SOURCE / "cases/flame1d/counterflow_ethylene_soot/deck.yaml"
     with tempfile.TemporaryDirectory() as name:
         folders = [pathlib.Path(name) / part for part in ("published", "variant")]
         for folder, settings in zip(folders, ((), VARIANT)):

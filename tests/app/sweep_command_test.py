@@ -11,7 +11,7 @@ import tempfile
 
 import running
 
-REACTOR = running.SOURCE / "cases/reactor_ignition_hydrogen/deck.yaml"
+REACTOR = running.SOURCE / "cases/reactor/ignition_hydrogen/deck.yaml"
 POPULATION = running.SOURCE / "cases/population_balance/chapter5_03_coagulation_exponential.yaml"
 STUDY = f"""study: delays
 deck: {REACTOR}

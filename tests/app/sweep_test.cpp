@@ -4,11 +4,12 @@
 
 #include <cmath>
 
-#include "app/convergence_study.hpp"
-#include "app/sweep_study.hpp"
-#include "app/sweep_table.hpp"
+#include "app/population_balance/convergence_study.hpp"
+#include "app/study/sweep_study.hpp"
+#include "app/study/sweep_table.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::app {
 namespace {
 
 using testing::ElementsAre;
@@ -116,4 +117,4 @@ TEST(Convergence, ErrorsAreMeansOverTheTimesRelativeToTheReference) {
 }
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::app

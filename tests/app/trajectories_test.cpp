@@ -1,16 +1,17 @@
 // Ensembles along streamlines do not depend on which rank marches them: the same bits on any number of ranks.
-#include "app/trajectories.hpp"
+#include "app/flow/trajectories.hpp"
 
 #include <hdf5.h>
 
 #include <map>
 
-#include "app/flow_output.hpp"
+#include "app/flow/flow_output.hpp"
+#include "core/rooms.hpp"
 #include "tests/app/app_fixture.hpp"
 #include "tests/core/mpi_support.hpp"
 #include "tests/shared_scratch.hpp"
 
-namespace lampblack {
+namespace lampblack::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -100,4 +101,4 @@ TEST(Trajectories, AreTheSameBitsOnAnyNumberOfRanks) {
 }
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::app

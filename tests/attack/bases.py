@@ -16,8 +16,8 @@ SHORTER = {
     "counterflow_ethylene": ["mesh.refinement=0.25", "time.end=0.05 ms", "output.interval=0.02 ms",
                              "trajectories.duration=1 ms", "trajectories.particles=64"],
     "population_balance": ["repeats=2"],
-    "flame1d_isf_premixed": ["grid.slope=0.5", "grid.curve=0.7"],
-    "flame_counterflow_ethylene_soot": ["grid.slope=0.5", "grid.curve=0.7"],
+    "isf_premixed": ["grid.slope=0.5", "grid.curve=0.7"],
+    "counterflow_ethylene_soot": ["grid.slope=0.5", "grid.curve=0.7"],
 }
 FILES = ("mechanism", "initial", "file")
 
@@ -73,4 +73,4 @@ def shipped() -> list:
 
 
 def by_name(name: str) -> Base:
-    return next(base for base in shipped() if base.name in (name, f"population_balance/{name}", f"flame1d_isf_premixed/{name}"))
+    return next(base for base in shipped() if base.name in (name, f"population_balance/{name}", f"isf_premixed/{name}"))

@@ -17,8 +17,8 @@ from execution import Limits, Program, run
 
 CORPUS = bases.SOURCE / "tests/fuzz/corpus"
 PLOT = bases.SOURCE / "scripts/plot"
-DRAWN = {"flow": "app/flame", "flame1d": "flame_free_hydrogen", "branch": "flame_extinction_hydrogen",
-         "reactor": "reactor_ignition_hydrogen", "population_balance": "soot_growth"}
+DRAWN = {"flow": "app/flame", "flame1d": "free_hydrogen", "branch": "extinction_hydrogen",
+         "reactor": "ignition_hydrogen", "population_balance": "soot_growth"}
 STUDY = "study: flames\ndeck: deck.yaml\nvary:\n  - {key: inlet.equivalence_ratio, values: [1, 1.2]}\ncollect: {results: [points]}\n"
 STUDY_FILES = ("study.csv", "study.json")
 ROWS = b"# z, T\nz,T\n0,298\n0.001,1000\n0.01,1600\n0.03,1500\n"
@@ -42,7 +42,7 @@ class Damaged:
             if (folder / "out").exists():
                 return folder / "out"
             if name == "study":
-                self.write_deck(folder, bases.by_name("flame_free_hydrogen").tree)
+                self.write_deck(folder, bases.by_name("free_hydrogen").tree)
                 (folder / "study.yaml").write_text(STUDY, encoding="utf-8")
                 self.must(0, folder, "sweep", folder / "study.yaml", "--out", folder / "out")
             elif name == "replay":
@@ -94,7 +94,7 @@ class Damaged:
         file = folder / "mechanism.yaml"
         shutil.copyfile(bases.MECHANISMS / "hydrogen_h2o2_10.yaml", file)
         what, refused = damage(file, chance)
-        tree = deck_text.changed(bases.by_name("reactor_ignition_hydrogen").tree, {"mechanism": "mechanism.yaml", "sensitivity": REMOVE})
+        tree = deck_text.changed(bases.by_name("ignition_hydrogen").tree, {"mechanism": "mechanism.yaml", "sensitivity": REMOVE})
         return what, self.ran(tree, folder, refused, chance)
 
     def chemkin(self, folder: pathlib.Path, chance: random.Random) -> tuple:
@@ -122,11 +122,11 @@ class Damaged:
     def initial(self, folder: pathlib.Path, chance: random.Random) -> tuple:
         shutil.copyfile(self.original("flame1d") / "results.h5", folder / "earlier.h5")
         what, refused = damage(folder / "earlier.h5", chance)
-        tree = deck_text.changed(bases.by_name("flame_free_hydrogen").tree, {"initial": "earlier.h5"})
+        tree = deck_text.changed(bases.by_name("free_hydrogen").tree, {"initial": "earlier.h5"})
         return what, self.ran(tree, folder, refused, chance)
 
     def study(self, folder: pathlib.Path, chance: random.Random) -> tuple:
-        self.write_deck(folder, bases.by_name("flame_free_hydrogen").tree)
+        self.write_deck(folder, bases.by_name("free_hydrogen").tree)
         (folder / "study.yaml").write_text(STUDY, encoding="utf-8")
         chosen = chance.choice(["study.yaml", "study.yaml", "deck.yaml"])
         what, refused = damage(folder / chosen, chance)

@@ -62,7 +62,7 @@ class Scenarios:
     def text(self, name: str, make, expected: str) -> tuple:
         """A deck as text: `make` spoils that of a reactor."""
         def work(folder: pathlib.Path, ranks: int) -> judging.Verdict:
-            text = make(deck_text.write(bases.by_name("reactor_stirred_methane").tree))
+            text = make(deck_text.write(bases.by_name("stirred_methane").tree))
             return check_and_run(self.program, text, folder, ranks, self.quick, expected)
 
         return "text of a deck", name, work
@@ -70,7 +70,7 @@ class Scenarios:
     def command(self, name: str, words: list, expected: str) -> tuple:
         """A command line; the words name a deck and places by DECK, STUDY, CASES and FOLDER."""
         def work(folder: pathlib.Path, ranks: int) -> judging.Verdict:
-            (folder / "deck.yaml").write_text(deck_text.write(bases.by_name("reactor_ignition_hydrogen").tree), encoding="utf-8")
+            (folder / "deck.yaml").write_text(deck_text.write(bases.by_name("ignition_hydrogen").tree), encoding="utf-8")
             scenarios_command.prepare(folder)
             line = self.program.command(ranks, *[placed(word, folder) for word in words])
             ended = run(line, folder, self.quick)

@@ -54,7 +54,7 @@ SCENARIOS = [
     ("a deck that is a loop", ["check", "FOLDER/loop"], "refused"),
     ("a deck that never ends", ["check", "/dev/zero"], "refused"),
     ("a deck as a study", ["sweep", "DECK", "--out", "FOLDER/out"], "refused"),
-    ("a study as a deck", ["run", "CASES/flame_free_hydrogen/study.yaml", "--out", "FOLDER/out"], "refused"),
+    ("a study as a deck", ["run", "CASES/flame1d/free_hydrogen/study.yaml", "--out", "FOLDER/out"], "refused"),
     ("a mechanism as a deck", ["run", "CASES/mechanisms/hydrogen_h2o2_10.yaml", "--out", "FOLDER/out"], "refused"),
     ("replay of a folder", ["replay", "."], "refused"), ("replay of a deck", ["replay", "DECK"], "refused"),
     ("replay of what never ends", ["replay", "/dev/zero"], "refused"), ("replay of a pipe", ["replay", "FOLDER/pipe"], "refused"),

@@ -2,7 +2,7 @@
 
 from deck_text import REMOVE, Raw
 
-FREE, FAR, WALL, SOOT = "flame_free_hydrogen", "flame_extinction_hydrogen", "flame_wall_hydrogen", "two_equation_dimer"
+FREE, FAR, WALL, SOOT = "free_hydrogen", "extinction_hydrogen", "wall_hydrogen", "two_equation_dimer"
 STEADY = {"continuation": REMOVE}
 PROFILE = {"temperature_profile": {"file": "profile.csv"}}
 ROWS = b"0,298\n0.001,1000\n0.01,1600\n0.03,1500\n"
@@ -48,10 +48,10 @@ SCENARIOS = [
     ("potential flow", FAR, {**STEADY, "flame.nozzles": "potential", "flame.strain_rate": "100 1/s", "left.velocity": REMOVE,
                              "right.velocity": REMOVE}, "accepted"),
     ("step tolerance of 1e300", FAR, {**STEADY, "solver.step_tolerance": Raw("1e300")}, "refused"),
-    ("unsteady end of 1e-300 s", "flame_unsteady_hydrogen", {"unsteady.end": "1e-300 s"}, ""),
-    ("unsteady outputs of 1e-15 s", "flame_unsteady_hydrogen", {"unsteady.output_interval": "1e-15 s"}, "refused"),
-    ("unsteady amplitude of 5", "flame_unsteady_hydrogen", {"unsteady.amplitude": Raw("5")}, "refused"),
-    ("unsteady and continuation", "flame_unsteady_hydrogen", {"continuation": {"turning_points": Raw("1")}}, "refused"),
+    ("unsteady end of 1e-300 s", "unsteady_hydrogen", {"unsteady.end": "1e-300 s"}, ""),
+    ("unsteady outputs of 1e-15 s", "unsteady_hydrogen", {"unsteady.output_interval": "1e-15 s"}, "refused"),
+    ("unsteady amplitude of 5", "unsteady_hydrogen", {"unsteady.amplitude": Raw("5")}, "refused"),
+    ("unsteady and continuation", "unsteady_hydrogen", {"continuation": {"turning_points": Raw("1")}}, "refused"),
     ("1e12 points", FREE, {"grid.initial_points": Raw("1000000000000")}, "refused"),
     ("4294967297 points", FREE, {"grid.initial_points": Raw("4294967297")}, "refused"),
     ("a slope of 1e-300", FREE, {"grid.slope": Raw("1e-300")}, "refused numerics"),
@@ -67,7 +67,7 @@ SCENARIOS = [
     ("semi-empirical keys of another model", SOOT, {"soot.semi_empirical": {"oxidation_factor": Raw("1")}}, "refused"),
     ("PAH of Leung, as studies of models have it", "leung", {"soot.pah": ["A2"]}, "accepted"),
     ("sites of Moss and Brookes", "moss_brookes", {"soot.site_density": "1e19 1/m^2"}, "refused"),
-    ("PAH that are not there", "flame_counterflow_methane", {"soot": {"model": "hmom", "pah": ["A2"]}}, "refused"),
+    ("PAH that are not there", "counterflow_methane", {"soot": {"model": "hmom", "pah": ["A2"]}}, "refused"),
     ("8 sections of factor 2", "sectional", {"soot.sectional": {"sections": Raw("8"), "factor": Raw("2")}}, "refused numerics"),
     ("17 sections of factor 2", "sectional", {"soot.sectional": {"sections": Raw("17"), "factor": Raw("2")}}, "refused numerics"),
     ("sections of factor 1e300", "sectional", {"soot.sectional.factor": Raw("1e300")}, "refused numerics"),

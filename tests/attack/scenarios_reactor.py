@@ -2,8 +2,8 @@
 
 from deck_text import REMOVE, Raw
 
-IGNITION, STIRRED, PLUG, NETWORK = ("reactor_ignition_hydrogen", "reactor_stirred_methane", "reactor_plug_flow_ethylene",
-                                    "reactor_network_combustor")
+IGNITION, STIRRED, PLUG, NETWORK = ("ignition_hydrogen", "stirred_methane", "plug_flow_ethylene",
+                                    "network_combustor")
 
 SCENARIOS = [
     ("ignition species twice", IGNITION, {"ignition.species": ["OH", "OH"]}, "refused"),

@@ -1,6 +1,6 @@
 """Studies: more runs than there can be, methods and keys that are not there, decks that contain themselves."""
 
-FREE = "CASES/flame_free_hydrogen/deck.yaml"
+FREE = "CASES/flame1d/free_hydrogen/deck.yaml"
 POPULATION = "CASES/population_balance/chapter5_03_coagulation_exponential.yaml"
 CONVERGENCE = f"study: c\nconvergence: {{deck: {POPULATION}, set: [time.end=0.1 s, 'distribution.times=[0 s]'], METHODS particles: [16, 32], product: 64}}\n"
 VARY = "- {key: inlet.equivalence_ratio, values: [" + ", ".join(str(1 + i / 1000) for i in range(1000)) + "]}"
@@ -16,7 +16,7 @@ SCENARIOS = [
     ("a run that fails in check", f"study: s\ndeck: {FREE}\nvary:\n- {{key: inlet.temperature, values: [300 K, 50 K]}}\n", "refused"),
     ("no decks", "study: s\n", "refused"),
     ("no values", f"study: s\ndeck: {FREE}\nvary:\n- {{key: grid.slope, values: []}}\n", "refused"),
-    ("a deck that is a study", "study: s\ndeck: CASES/flame_free_hydrogen/study.yaml\n", "refused"),
+    ("a deck that is a study", "study: s\ndeck: CASES/flame1d/free_hydrogen/study.yaml\n", "refused"),
     ("a deck that is itself", "study: s\ndeck: deck.yaml\n", "refused"),
     ("a deck that is not there", "study: s\ndeck: nowhere.yaml\n", "refused"),
     ("a deck that never ends", "study: s\ndeck: /dev/urandom\n", "refused"),

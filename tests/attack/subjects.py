@@ -17,11 +17,11 @@ vary:
 # Name, base, changes for a run of a second or two.
 DECKS = {
     "flow": ("app/flame", {"time.end": "40 us", "time.maximum_step": "1 us", "output.interval": "4 us", "trajectories.duration": "1 ms"}),
-    "flame1d": ("flame_counterflow_ethylene_abf", {"grid": {"slope": "0.2", "curve": "0.3"}}),
-    "flame1d in time": ("flame_unsteady_hydrogen", {"unsteady.output_interval": "0.05 ms", "unsteady.end": "5 ms"}),
-    "reactor": ("reactor_ignition_methane", {"sensitivity": {"of": "ignition_delay", "reactions": ["all"]}}),
+    "flame1d": ("counterflow_ethylene_abf", {"grid": {"slope": "0.2", "curve": "0.3"}}),
+    "flame1d in time": ("unsteady_hydrogen", {"unsteady.output_interval": "0.05 ms", "unsteady.end": "5 ms"}),
+    "reactor": ("ignition_methane", {"sensitivity": {"of": "ignition_delay", "reactions": ["all"]}}),
     "population_balance": ("soot_families", {"repeats": "20", "methods.dsmc.particles": "2000"}),
-    "study": ("flame_free_hydrogen", {}),
+    "study": ("free_hydrogen", {}),
 }
 
 

@@ -12,10 +12,12 @@
 #include <vector>
 
 #include "flow/flame/block_tridiagonal.hpp"
+#include "tests/every_room.hpp"
 
 namespace {
 
 using namespace lampblack;
+using namespace lampblack::app;
 
 constexpr std::size_t points = 200, border = 1;
 

@@ -19,10 +19,12 @@
 #include "chemistry/thermo/thermo.hpp"
 #include "core/constants.hpp"
 #include "tests/bench/timing.hpp"
+#include "tests/every_room.hpp"
 
 namespace {
 
 using namespace lampblack;
+using namespace lampblack::app;
 using bench::FlameGas;
 using bench::FlameState;
 

@@ -11,6 +11,7 @@
 #include "chemistry/numerics/sundials_handles.hpp"
 #include "chemistry/reactor/reactor_system.hpp"
 #include "tests/bench/reactor_states.hpp"
+#include "tests/every_room.hpp"
 
 namespace lampblack::bench {
 

@@ -9,11 +9,13 @@
 #include "chemistry/thermo/equilibrium.hpp"
 #include "chemistry/thermo/thermo.hpp"
 #include "core/constants.hpp"
+#include "tests/every_room.hpp"
 #include "tests/source_folder.hpp"
 
 namespace {
 
 using namespace lampblack;
+using namespace lampblack::app;
 
 void adiabaticFlame(benchmark::State& state, const char* file, const char* composition, double T) {
   const auto mechanism = Mechanism::fromFile(test::sourcePath(std::string("cases/mechanisms/") + file));

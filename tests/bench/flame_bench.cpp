@@ -16,11 +16,13 @@
 #include "chemistry/thermo/thermo.hpp"
 #include "flow/flame/flame_solver.hpp"
 #include "flow/flame/initial_flame.hpp"
+#include "tests/every_room.hpp"
 #include "tests/flow/flame/streams.hpp"
 
 namespace {
 
 using namespace lampblack;
+using namespace lampblack::app;
 using MechanismPointer = std::shared_ptr<const Mechanism>;
 
 double secondsSince(std::clock_t start) {

@@ -13,7 +13,7 @@ namespace {
 void load(benchmark::State& state, const std::string& name) {
   const auto path = lampblack::test::sourcePath("cases/mechanisms/" + name);
   for (auto _ : state) {
-    const auto mechanism = lampblack::Mechanism::fromFile(path);
+    const auto mechanism = lampblack::chemistry::Mechanism::fromFile(path);
     state.counters["species"] = static_cast<double>(mechanism.numSpecies());
     state.counters["reactions"] = static_cast<double>(mechanism.numReactions());
   }

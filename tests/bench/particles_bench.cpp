@@ -4,12 +4,14 @@
 #include <cmath>
 #include <vector>
 
-#include "particles/soot/stochastic_soot.hpp"
-#include "particles/two_equation.hpp"
+#include "particles/ensemble/ensemble.hpp"
+#include "particles/models/two_equation/two_equation.hpp"
+#include "tests/every_room.hpp"
 
 namespace {
 
 using namespace lampblack;
+using namespace lampblack::app;
 
 // At one atmosphere, with naphthalene.
 struct Flame {
@@ -63,16 +65,16 @@ BENCHMARK(twoEquationSources);
 // Coagulation alone from equal spheres, until an eighth of the number is left: real events a second.
 void coagulation(benchmark::State& state, CollisionKernelType kernel) {
   const Flame flame(0);
-  StochasticSootOptions options;
+  EnsembleOptions options;
   options.particles = static_cast<std::size_t>(state.range(0));
   options.kernel.type = kernel;
   options.soot = naphthalene();
   options.soot.surfaceGrowth = options.soot.oxidation = false;
-  const std::vector<SootParticleGiven> spheres(options.particles,
-                                               {0.96e-23, 0.04e-23, 1, 1e18 / static_cast<double>(options.particles)});
+  const std::vector<GivenParticle> spheres(options.particles,
+                                           {0.96e-23, 0.04e-23, 1, 1e18 / static_cast<double>(options.particles)});
   double events = 0;
   for (auto _ : state) {
-    const auto soot = makeStochasticSoot(options);
+    const auto soot = makeEnsemble(options);
     soot->initialise(spheres);
     soot->advance(flame.gas, 0, 3e-3);
     events += static_cast<double>(soot->counters().coagulations);
@@ -83,23 +85,23 @@ BENCHMARK_CAPTURE(coagulation, freeMolecular, CollisionKernelType::freeMolecular
 BENCHMARK_CAPTURE(coagulation, transition, CollisionKernelType::transition)->Arg(1000)->Arg(10000)->Arg(100000);
 
 // Everything on, from nothing, over 2 ms of a sooting gas: jumps (real, fictitious and inceptions) a second.
-void sootingGas(benchmark::State& state, StochasticSootMethod method) {
+void sootingGas(benchmark::State& state, EnsembleMethod method) {
   const Flame flame(2e-5);
-  StochasticSootOptions options;
+  EnsembleOptions options;
   options.method = method;
   options.particles = static_cast<std::size_t>(state.range(0));
   options.soot = naphthalene();
   double jumps = 0;
   for (auto _ : state) {
-    const auto soot = makeStochasticSoot(options);
+    const auto soot = makeEnsemble(options);
     soot->advance(flame.gas, 0, 2e-3);
     const auto& c = soot->counters();
     jumps += static_cast<double>(c.coagulations + c.fictitious + c.nucleations);
   }
   state.counters["jumps/s"] = benchmark::Counter(jumps, benchmark::Counter::kIsRate);
 }
-BENCHMARK_CAPTURE(sootingGas, dsmc, StochasticSootMethod::dsmc)->Arg(1000)->Arg(10000);
-BENCHMARK_CAPTURE(sootingGas, sammc, StochasticSootMethod::sammc)->Arg(1000)->Arg(10000);
+BENCHMARK_CAPTURE(sootingGas, dsmc, EnsembleMethod::dsmc)->Arg(1000)->Arg(10000);
+BENCHMARK_CAPTURE(sootingGas, sammc, EnsembleMethod::sammc)->Arg(1000)->Arg(10000);
 
 // Accuracy, not time: relative error of number and carbon after two steps of 0.1 ms, at a tolerance of range(0) 1e-5.
 void twoEquationAccuracy(benchmark::State& state) {
@@ -124,7 +126,7 @@ BENCHMARK(twoEquationAccuracy)->Arg(100)->Arg(400)->Arg(2000);
 // Accuracy: mean and standard error over 400 repeats of the sooting gas at a splitting tolerance of range(0) 1e-4.
 void splittingAccuracy(benchmark::State& state) {
   const Flame flame(2e-5);
-  StochasticSootOptions options;
+  EnsembleOptions options;
   options.particles = 1024;
   options.soot = naphthalene();
   options.splitTolerance = 1e-4 * static_cast<double>(state.range(0));
@@ -133,7 +135,7 @@ void splittingAccuracy(benchmark::State& state) {
   for (auto _ : state) {
     for (int repeat = 0; repeat < repeats; ++repeat) {
       options.owner = static_cast<std::uint64_t>(repeat);
-      const auto soot = makeStochasticSoot(options);
+      const auto soot = makeEnsemble(options);
       soot->advance(flame.gas, 0, 2e-3);
       number += soot->totals().number / repeats;
       squares += std::pow(soot->totals().number, 2) / repeats;

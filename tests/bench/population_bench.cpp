@@ -3,10 +3,12 @@
 #include <benchmark/benchmark.h>
 
 #include "particles/population/monte_carlo/monte_carlo_options.hpp"
+#include "tests/every_room.hpp"
 
 namespace {
 
 using namespace lampblack;
+using namespace lampblack::app;
 using Distribution = InitialPopulation::Distribution;
 
 PopulationModel soot() {

@@ -12,10 +12,12 @@
 #include <vector>
 
 #include "particles/population/monte_carlo/monte_carlo_options.hpp"
+#include "tests/every_room.hpp"
 
 namespace {
 
 using namespace lampblack;
+using namespace lampblack::app;
 // CPU time, as in the tables of Wang (2025): a busy machine does not disturb it much.
 double cpuSeconds() {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;

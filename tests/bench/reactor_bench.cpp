@@ -15,10 +15,12 @@
 
 #include "tests/bench/difference_quotient_reactor.hpp"
 #include "tests/bench/reactor_states.hpp"
+#include "tests/every_room.hpp"
 
 namespace {
 
 using namespace lampblack;
+using namespace lampblack::app;
 using bench::GasState;
 
 constexpr double kRelativeTolerance = 1e-6, kAbsoluteTolerance = 1e-12;

@@ -1,11 +1,13 @@
 // Cost of the sectional soot model at one point: sources, analytic Jacobian, diffusivities.
 #include <benchmark/benchmark.h>
 
-#include "tests/particles/soot/sectional_soot_fixtures.hpp"
+#include "tests/every_room.hpp"
+#include "tests/particles/models/sectional/sectional_soot_fixtures.hpp"
 
 namespace {
 
 using namespace lampblack;
+using namespace lampblack::app;
 
 struct Point {
   SectionalSoot model;

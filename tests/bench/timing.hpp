@@ -14,6 +14,7 @@
 #include "core/constants.hpp"
 #include "tests/bench/reactor_states.hpp"
 #include "tests/chemistry/table.hpp"
+#include "tests/every_room.hpp"
 
 namespace lampblack::bench {
 

@@ -9,10 +9,12 @@
 #include "chemistry/transport/multicomponent_transport.hpp"
 #include "chemistry/transport/transport.hpp"
 #include "tests/chemistry/table.hpp"
+#include "tests/every_room.hpp"
 
 namespace {
 
 using namespace lampblack;
+using namespace lampblack::app;
 
 Mechanism mechanismOf(const char* file) {
   return Mechanism::fromFile(test::sourcePath(std::string("cases/mechanisms/") + file));

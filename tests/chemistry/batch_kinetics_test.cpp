@@ -13,10 +13,12 @@
 #include "tests/chemistry/kinetics_rate_types.hpp"
 #include "tests/chemistry/measured.hpp"
 #include "tests/chemistry/table.hpp"
+#include "tests/every_room.hpp"
 
 namespace {
 
 using namespace lampblack;
+using namespace lampblack::chemistry;
 using Instructions = BatchKinetics::Instructions;
 using lampblack::test::measured;
 using lampblack::test::raise;

@@ -8,10 +8,12 @@
 #include "chemistry/transport/transport.hpp"
 #include "core/errors.hpp"
 #include "tests/chemistry/mechanism_text.hpp"
+#include "tests/every_room.hpp"
 
 namespace {
 
 using namespace lampblack;
+using namespace lampblack::chemistry;
 using lampblack::test::readText;
 using ::testing::AllOf;
 using ::testing::HasSubstr;

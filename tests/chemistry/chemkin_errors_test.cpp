@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "tests/chemistry/chemkin_support.hpp"
+#include "tests/every_room.hpp"
 
 namespace {
 
 using namespace lampblack;
+using namespace lampblack::chemistry;
 using lampblack::test::chemkinHead;
 using lampblack::test::chemkinThermo;
 using lampblack::test::inputMessage;

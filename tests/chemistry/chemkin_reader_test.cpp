@@ -6,10 +6,12 @@
 #include "chemistry/mechanism/elements.hpp"
 #include "core/constants.hpp"
 #include "tests/chemistry/chemkin_support.hpp"
+#include "tests/every_room.hpp"
 
 namespace {
 
 using namespace lampblack;
+using namespace lampblack::chemistry;
 using lampblack::test::chemkinThermo;
 using lampblack::test::readChemkinText;
 using lampblack::test::thermoCards;

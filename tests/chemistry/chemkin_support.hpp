@@ -8,6 +8,7 @@
 
 #include "chemistry/chemkin/chemkin_reader.hpp"
 #include "core/errors.hpp"
+#include "tests/every_room.hpp"
 
 namespace lampblack::test {
 

@@ -7,10 +7,12 @@
 
 #include "chemistry/transport/monchick_mason_tables.hpp"
 #include "tests/chemistry/measured.hpp"
+#include "tests/every_room.hpp"
 
 namespace {
 
 using namespace lampblack;
+using namespace lampblack::chemistry;
 using lampblack::test::measured;
 using lampblack::test::raise;
 using monchickMason::dipoles;

@@ -3,10 +3,12 @@
 
 #include "core/errors.hpp"
 #include "tests/chemistry/table.hpp"
+#include "tests/every_room.hpp"
 
 namespace {
 
 using namespace lampblack;
+using namespace lampblack::chemistry;
 using ::testing::HasSubstr;
 
 std::string messageOf(const std::string& text) {

@@ -7,9 +7,12 @@
 #include <random>
 #include <vector>
 
+#include "core/rooms.hpp"
+
 namespace {
 
 using namespace lampblack;
+using namespace lampblack::chemistry;
 
 std::vector<DenseBlocks> onAllInstructionSets() {
   std::vector<DenseBlocks> all{DenseBlocks(blockTilesGeneric())};

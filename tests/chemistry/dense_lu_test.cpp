@@ -7,7 +7,7 @@
 
 namespace {
 
-using lampblack::DenseLu;
+using lampblack::chemistry::DenseLu;
 
 // Backward stable: the residual of the solution is of the order of round-off times the size of the numbers.
 TEST(DenseLu, SolvesRandomSystemsOfEverySize) {

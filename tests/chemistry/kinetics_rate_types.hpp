@@ -7,6 +7,7 @@
 
 #include "chemistry/mechanism/mechanism.hpp"
 #include "tests/chemistry/table.hpp"
+#include "tests/every_room.hpp"
 
 namespace lampblack::test {
 

@@ -8,6 +8,7 @@
 
 #include "chemistry/mechanism/mechanism.hpp"
 #include "core/constants.hpp"
+#include "tests/every_room.hpp"
 
 namespace lampblack::test {
 

@@ -7,10 +7,12 @@
 #include "chemistry/thermo/species_thermo.hpp"
 #include "core/constants.hpp"
 #include "tests/chemistry/table.hpp"
+#include "tests/every_room.hpp"
 
 namespace {
 
 using namespace lampblack;
+using namespace lampblack::chemistry;
 using lampblack::test::ethylene;
 using lampblack::test::hydrogen;
 

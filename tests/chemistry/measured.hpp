@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <string>
 
+#include "tests/every_room.hpp"
+
 namespace lampblack::test {
 
 inline void measured(const std::string& what, double value) {

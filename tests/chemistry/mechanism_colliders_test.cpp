@@ -7,10 +7,12 @@
 #include "chemistry/kinetics/kinetics.hpp"
 #include "core/constants.hpp"
 #include "tests/chemistry/mechanism_text.hpp"
+#include "tests/every_room.hpp"
 
 namespace {
 
 using namespace lampblack;
+using namespace lampblack::chemistry;
 using lampblack::test::readFileText;
 using lampblack::test::readText;
 

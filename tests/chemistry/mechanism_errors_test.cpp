@@ -5,10 +5,12 @@
 #include "core/errors.hpp"
 #include "tests/chemistry/mechanism_text.hpp"
 #include "tests/chemistry/table.hpp"
+#include "tests/every_room.hpp"
 
 namespace {
 
 using namespace lampblack;
+using namespace lampblack::chemistry;
 using lampblack::test::mechanismText;
 using lampblack::test::readFileText;
 using ::testing::AllOf;

@@ -4,10 +4,12 @@
 
 #include "core/errors.hpp"
 #include "tests/chemistry/mechanism_text.hpp"
+#include "tests/every_room.hpp"
 
 namespace {
 
 using namespace lampblack;
+using namespace lampblack::chemistry;
 using lampblack::test::readFileText;
 using ::testing::AllOf;
 using ::testing::HasSubstr;

@@ -7,10 +7,12 @@
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 #include "tests/chemistry/mechanism_text.hpp"
+#include "tests/every_room.hpp"
 
 namespace {
 
 using namespace lampblack;
+using namespace lampblack::chemistry;
 using lampblack::test::readText;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;

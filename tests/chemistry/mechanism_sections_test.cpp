@@ -7,12 +7,14 @@
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 #include "tests/chemistry/mechanism_text.hpp"
+#include "tests/every_room.hpp"
 #include "tests/messages.hpp"
 #include "tests/scratch.hpp"
 
 namespace {
 
 using namespace lampblack;
+using namespace lampblack::chemistry;
 using lampblack::test::readFileText;
 using ::testing::AllOf;
 using ::testing::ElementsAre;

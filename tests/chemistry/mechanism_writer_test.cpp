@@ -18,10 +18,12 @@
 #include "tests/chemistry/kinetics_rate_types.hpp"
 #include "tests/chemistry/mechanism_text.hpp"
 #include "tests/chemistry/table.hpp"
+#include "tests/every_room.hpp"
 
 namespace {
 
 using namespace lampblack;
+using namespace lampblack::chemistry;
 using lampblack::test::inputMessage;
 using lampblack::test::readFileText;
 

@@ -8,10 +8,12 @@
 #include "chemistry/thermo/thermo.hpp"
 #include "core/constants.hpp"
 #include "tests/chemistry/mechanism_text.hpp"
+#include "tests/every_room.hpp"
 
 namespace {
 
 using namespace lampblack;
+using namespace lampblack::chemistry;
 using lampblack::test::readText;
 
 // Nitrogen of McBride, Zehe, Gordon (2002), NASA/TP-2002-211556.

@@ -8,10 +8,12 @@
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 #include "tests/chemistry/table.hpp"
+#include "tests/every_room.hpp"
 
 namespace {
 
 using namespace lampblack;
+using namespace lampblack::chemistry;
 using lampblack::test::hydrogen;
 using ::testing::AllOf;
 using ::testing::HasSubstr;

@@ -15,10 +15,12 @@
 #include "tests/chemistry/measured.hpp"
 #include "tests/chemistry/mechanism_text.hpp"
 #include "tests/chemistry/table.hpp"
+#include "tests/every_room.hpp"
 
 namespace {
 
 using namespace lampblack;
+using namespace lampblack::chemistry;
 using lampblack::test::hydrogen;
 using lampblack::test::measured;
 using lampblack::test::raise;

@@ -8,11 +8,13 @@
 #include "chemistry/thermo/thermo.hpp"
 #include "core/constants.hpp"
 #include "tests/chemistry/table.hpp"
+#include "tests/every_room.hpp"
 #include "tests/scratch.hpp"
 
 namespace {
 
 using namespace lampblack;
+using namespace lampblack::chemistry;
 using lampblack::test::hydrogen;
 using ::testing::AllOf;
 using ::testing::HasSubstr;

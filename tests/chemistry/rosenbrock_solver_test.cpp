@@ -6,7 +6,9 @@
 #include <cmath>
 #include <vector>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::chemistry {
 namespace {
 
 constexpr std::array<double, 3> unity{1, 1, 1};
@@ -91,4 +93,4 @@ TEST(RosenbrockSolver, SaysWhereItCannotGoOn) {
 }
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -8,10 +8,12 @@
 #include "core/constants.hpp"
 #include "tests/chemistry/measured.hpp"
 #include "tests/chemistry/table.hpp"
+#include "tests/every_room.hpp"
 
 namespace {
 
 using namespace lampblack;
+using namespace lampblack::chemistry;
 using lampblack::test::measured;
 using lampblack::test::raise;
 using lampblack::test::sourcePath;

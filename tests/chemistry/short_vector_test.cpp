@@ -7,7 +7,7 @@
 
 namespace {
 
-using namespace lampblack::sundials;
+using namespace lampblack::chemistry::sundials;
 
 // Every operation against SUNDIALS' own vector, also with the result stored in an argument.
 class ShortVector : public ::testing::TestWithParam<std::size_t> {

@@ -8,8 +8,8 @@
 
 namespace {
 
-using lampblack::AlignedVector;
-using lampblack::SparseLu;
+using lampblack::chemistry::AlignedVector;
+using lampblack::chemistry::SparseLu;
 
 struct Matrix {
   std::size_t n;

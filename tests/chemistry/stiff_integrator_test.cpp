@@ -9,8 +9,9 @@
 #include <numbers>
 
 #include "core/errors.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 namespace {
 
 // y0' = -y0, y1' = y0: y0 falls by decades, their sum stays.
@@ -101,4 +102,4 @@ TEST(StiffIntegrator, EndsWhereStepsMoveTheTimeNoLonger) {
 }
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -11,11 +11,12 @@
 #include "chemistry/transport/pure_gas.hpp"
 #include "chemistry/transport/transport.hpp"
 #include "chemistry/transport/transport_room.hpp"
+#include "core/rooms.hpp"
 #include "tests/chemistry/measured.hpp"
 #include "tests/chemistry/mechanism_text.hpp"
 #include "tests/chemistry/table.hpp"
 
-namespace lampblack {
+namespace lampblack::chemistry {
 namespace {
 
 // Two species whose polynomials reach from low to high, and from 1000 K to 1500 K.
@@ -85,4 +86,4 @@ TEST(TransportRoom, PolynomialsAreGoodALittleBeyondTheirRange) {
 }
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::chemistry

@@ -6,10 +6,12 @@
 #include "chemistry/thermo/species_thermo.hpp"
 #include "core/constants.hpp"
 #include "tests/chemistry/mechanism_text.hpp"
+#include "tests/every_room.hpp"
 
 namespace {
 
 using namespace lampblack;
+using namespace lampblack::chemistry;
 using lampblack::test::readText;
 
 constexpr double R = constants::gasConstant;

@@ -6,9 +6,12 @@
 #include <cmath>
 #include <vector>
 
+#include "core/rooms.hpp"
+
 namespace {
 
 using namespace lampblack;
+using namespace lampblack::chemistry;
 
 // A few units in the last place; the argument's own rounding times |x| is part of the exponential's condition.
 TEST(VectorMath, ExponentialAgreesWithTheLibrary) {

@@ -10,6 +10,7 @@
 
 #include "core/grading.hpp"
 #include "core/mesh.hpp"
+#include "tests/every_room.hpp"
 #include "tests/messages.hpp"
 #include "tests/world.hpp"
 

@@ -6,11 +6,12 @@
 #include "chemistry/reactor/network_solver.hpp"
 #include "chemistry/reactor/plug_flow.hpp"
 #include "coupling/reactor_balance.hpp"
-#include "particles/soot/make_soot_model.hpp"
 #include "tests/chemistry/mechanism_text.hpp"
 #include "tests/coupling/toy_particles.hpp"
+#include "tests/every_room.hpp"
+#include "tests/particles/models/published_models.hpp"
 
-namespace lampblack {
+namespace lampblack::coupling {
 namespace {
 
 using test::ethylene;
@@ -119,21 +120,18 @@ TEST(ReactorParticles, StirredReactorsInARowHaveTheClosedSolution) {
   }
 }
 
-SootModelChoice choiceOf(const std::string& name) {
-  SootModelChoice choice = publishedSootModel(name);
+std::unique_ptr<SootModel> modelOf(const std::string& name) {
   const auto weight = [](const char* element) { return ethylene().atomicWeight(ethylene().elementIndex(element)); };
-  if (SootModelOptions* shared = sharedOptions(choice)) {
-    shared->pah = {{"A2", 10, 8, 2e-3}};
-    shared->carbonWeight = weight("C");
-    shared->hydrogenWeight = weight("H");
-  }
-  if (auto* semiEmpirical = std::get_if<SemiEmpiricalOptions>(&choice)) semiEmpirical->carbonWeight = weight("C");
-  return choice;
+  SootModelOptions shared;
+  shared.pah = {{"A2", 10, 8, 2e-3}};
+  shared.carbonWeight = weight("C");
+  shared.hydrogenWeight = weight("H");
+  return test::publishedModel(name, shared);
 }
 
 class EveryModel : public ::testing::TestWithParam<std::string> {
  protected:
-  CarriedParticles soot{ethylene(), makeSootModel(choiceOf(GetParam()))};
+  CarriedParticles soot{ethylene(), modelOf(GetParam())};
   ReactorParticles particles{ethylene(), soot};
   ReactorBalance balance{ethylene(), particles, particles.unitElements()};
   std::size_t n = ethylene().numSpecies();
@@ -184,4 +182,4 @@ INSTANTIATE_TEST_SUITE_P(Models, EveryModel,
                                            "sectional"));
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::coupling

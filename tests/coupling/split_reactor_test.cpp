@@ -7,11 +7,12 @@
 #include "chemistry/reactor/reactor_network.hpp"
 #include "coupling/reactor_balance.hpp"
 #include "coupling/reactor_ensemble.hpp"
-#include "particles/soot/make_soot_model.hpp"
+#include "particles/models/sectional/sectional_soot.hpp"
 #include "tests/chemistry/measured.hpp"
 #include "tests/coupling/toy_particles.hpp"
+#include "tests/every_room.hpp"
 
-namespace lampblack {
+namespace lampblack::coupling {
 namespace {
 
 using test::ethylene;
@@ -147,7 +148,7 @@ TEST_F(SplitToy, AStirredReactorIsOfSecondOrder) {
 
 // The same soot by sections in the equations of the reactor and by ensembles in turn with the gas: spheres of dimers,
 // in a closed reactor. Beside the noise of the repeats, 0.5 % for 60 sections and the steps of the splitting (0.3 %).
-class EnsembleInAReactor : public ::testing::TestWithParam<StochasticSootMethod> {
+class EnsembleInAReactor : public ::testing::TestWithParam<EnsembleMethod> {
  protected:
   static SootModelOptions sootOptions() {
     SootModelOptions options;
@@ -170,7 +171,7 @@ TEST_P(EnsembleInAReactor, AgreesWithSections) {
   options.nucleation = SectionalSootOptions::Nucleation::dimer;
   options.aggregation = SectionalSootOptions::Aggregation::spheres;
   options.growthScheme = SectionalSootOptions::GrowthScheme::limited;
-  CarriedParticles sections(ethylene(), makeSootModel(options));
+  CarriedParticles sections(ethylene(), std::make_unique<SectionalSoot>(options));
   ReactorParticles particles(ethylene(), sections);
   ClosedReactor whole(ethylene(), gas, Held::Pressure, std::nullopt, &particles);
   const auto y = integrated(whole, whole.initialState(), end, 1e-8);
@@ -190,7 +191,7 @@ TEST_P(EnsembleInAReactor, AgreesWithSections) {
     own.density = [&](const double* at) { return reactor.density(at); };
     own.pressure = [&](const double*) { return gas.pressure; };
     own.timePerUnit = [](const double*) { return 1.0; };
-    StochasticSootOptions stochastic;
+    EnsembleOptions stochastic;
     stochastic.method = GetParam();
     stochastic.particles = 300;
     stochastic.owner = r;
@@ -228,8 +229,7 @@ TEST_P(EnsembleInAReactor, AgreesWithSections) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, EnsembleInAReactor,
-                         ::testing::Values(StochasticSootMethod::dsmc, StochasticSootMethod::sammc,
-                                           StochasticSootMethod::swa));
+                         ::testing::Values(EnsembleMethod::dsmc, EnsembleMethod::sammc, EnsembleMethod::swa));
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::coupling

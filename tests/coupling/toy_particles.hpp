@@ -13,7 +13,8 @@
 #include "chemistry/reactor/closed_reactor.hpp"
 #include "chemistry/reactor/stiff_integrator.hpp"
 #include "coupling/split_reactor.hpp"
-#include "particles/soot/soot_model.hpp"
+#include "particles/models/soot_model.hpp"
+#include "tests/every_room.hpp"
 #include "tests/source_folder.hpp"
 
 namespace lampblack::test {

@@ -17,6 +17,7 @@
 #include "core/grading.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/state.hpp"
+#include "tests/every_room.hpp"
 #include "tests/source_folder.hpp"
 
 namespace lampblack::test {

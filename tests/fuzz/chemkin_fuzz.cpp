@@ -16,11 +16,11 @@ namespace {
 // An input holds up to three files: mechanism, thermodynamic data, transport data, with this line between them.
 constexpr std::string_view separator = "\n!====\n";
 
-std::optional<lampblack::ChemkinText> takeFile(std::string_view& rest, const char* name, bool& more) {
+std::optional<lampblack::chemistry::ChemkinText> takeFile(std::string_view& rest, const char* name, bool& more) {
   if (!more) return std::nullopt;
   const auto end = rest.find(separator);
   more = end != std::string_view::npos;
-  lampblack::ChemkinText file{name, std::string(rest.substr(0, end))};
+  lampblack::chemistry::ChemkinText file{name, std::string(rest.substr(0, end))};
   if (more) rest.remove_prefix(end + separator.size());
   return file;
 }
@@ -35,12 +35,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto transport = takeFile(rest, "tran.dat", more);
   std::string text;
   try {
-    text = lampblack::mechanismYaml(lampblack::parseChemkin(*mechanism, thermo, transport));
+    text = lampblack::chemistry::mechanismYaml(lampblack::chemistry::parseChemkin(*mechanism, thermo, transport));
   } catch (const lampblack::InputError&) {
     return 0;
   }
   const lampblack::test::ScratchFolder folder;
-  if (lampblack::mechanismYaml(lampblack::Mechanism::fromFile(folder.file("mechanism.yaml", text))) != text)
+  if (lampblack::chemistry::mechanismYaml(
+          lampblack::chemistry::Mechanism::fromFile(folder.file("mechanism.yaml", text))) != text)
     throw std::runtime_error("the YAML reads back as another mechanism");
   return 0;
 }

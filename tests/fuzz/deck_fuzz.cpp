@@ -5,10 +5,12 @@
 #include <stdexcept>
 
 #include "io/deck.hpp"
+#include "tests/every_room.hpp"
 #include "tests/io/sample_schema.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace lampblack;
+  using namespace lampblack::app;
   static const DeckSchema schema = test::sampleSchema();
   std::string text(reinterpret_cast<const char*>(data), size);
   std::vector<std::string> overrides;

@@ -9,11 +9,13 @@
 
 #include "chemistry/mechanism/mechanism.hpp"
 #include "core/errors.hpp"
+#include "tests/every_room.hpp"
 #include "tests/scratch.hpp"
 
 namespace {
 
 using namespace lampblack;
+using namespace lampblack::app;
 
 void requireFinite(std::span<const double> values) {
   if (!std::ranges::all_of(values, [](double v) { return std::isfinite(v); }))

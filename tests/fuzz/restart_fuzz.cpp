@@ -14,8 +14,9 @@
 #include <string>
 #include <vector>
 
-#include "app/flame_file.hpp"
+#include "app/flame1d/flame_file.hpp"
 #include "core/errors.hpp"
+#include "tests/every_room.hpp"
 #include "tests/scratch.hpp"
 
 namespace {
@@ -113,6 +114,7 @@ void writeEntry(hid_t group, Bytes& bytes) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace lampblack;
+  using namespace lampblack::app;
   const test::ScratchFolder folder;
   const std::string path = (folder.path() / "results.h5").string();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);

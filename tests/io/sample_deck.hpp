@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/deck.hpp"
+#include "tests/every_room.hpp"
 #include "tests/io/sample_schema.hpp"
 
 namespace lampblack::test {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "io/results_writer.hpp"
+#include "tests/every_room.hpp"
 
 namespace lampblack::test {
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "io/deck_schema.hpp"
+#include "tests/every_room.hpp"
 
 namespace lampblack::test {
 

@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "core/constants.hpp"
-#include "particles/soot/stochastic_soot.hpp"
-#include "particles/soot_gas.hpp"
+#include "particles/ensemble/ensemble.hpp"
+#include "particles/gas/soot_gas.hpp"
+#include "tests/every_room.hpp"
 
 namespace lampblack::test {
 
@@ -51,9 +52,8 @@ inline SootModelOptions threePah() {
 }
 
 // `count` spheres of one mass (kg), together at `number` (1/m3).
-inline std::vector<SootParticleGiven> equalSpheres(std::size_t count, double mass, double hydrogenFraction,
-                                                   double number) {
-  return std::vector<SootParticleGiven>(
+inline std::vector<GivenParticle> equalSpheres(std::size_t count, double mass, double hydrogenFraction, double number) {
+  return std::vector<GivenParticle>(
       count, {(1 - hydrogenFraction) * mass, hydrogenFraction * mass, 1, number / static_cast<double>(count)});
 }
 

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "tests/every_room.hpp"
+
 namespace lampblack::test {
 
 inline constexpr double zLimit = 3.3;  // two-sided 99.9 %

@@ -17,7 +17,7 @@ SOURCE = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(SOURCE / "tests/app"))
 import running  # noqa: E402
 
-CASE = SOURCE / "cases/counterflow_ethylene"
+CASE = SOURCE / "cases/flow/counterflow_ethylene"
 # Quantity: largest relative deviation of the peak, and of its place in m (None: not asked).
 BOUNDS = {"T, K": (40 / 2303, 0.2e-3), "X C2H2": (0.10, None), "X A1": (0.30, None), "X A2": (0.30, None)}
 

@@ -4,6 +4,7 @@
 
 #include "../flow/flow_fixture.hpp"
 #include "flow/transport_operator.hpp"
+#include "tests/every_room.hpp"
 
 namespace lampblack::test {
 namespace {

@@ -6,6 +6,7 @@
 #include "../flow/flow_fixture.hpp"
 #include "flow/time_step.hpp"
 #include "flow/transport_operator.hpp"
+#include "tests/every_room.hpp"
 
 namespace lampblack::test {
 namespace {

@@ -8,9 +8,10 @@
 #include <cstdio>
 #include <vector>
 
-#include "particles/soot/stochastic_soot.hpp"
+#include "particles/ensemble/ensemble.hpp"
+#include "tests/every_room.hpp"
 
-namespace lampblack {
+namespace lampblack::app {
 namespace {
 
 constexpr double rho = 1850;
@@ -26,16 +27,15 @@ CarrierGas gasAt(double pressure) {
 }
 
 // Equal spheres of one mass (kg), at n0 (1/m3), after coagulation by `kernel` alone for a time.
-std::unique_ptr<StochasticSoot> coagulated(const CollisionKernelOptions& kernel, const CarrierGas& gas,
-                                           std::uint64_t owner, std::size_t particles, double mass, double n0,
-                                           double time) {
-  StochasticSootOptions options;
+std::unique_ptr<Ensemble> coagulated(const CollisionKernelOptions& kernel, const CarrierGas& gas, std::uint64_t owner,
+                                     std::size_t particles, double mass, double n0, double time) {
+  EnsembleOptions options;
   options.particles = particles;
   options.owner = owner;
   options.kernel = kernel;
   options.soot.surfaceGrowth = options.soot.oxidation = false;
-  auto soot = makeStochasticSoot(options);
-  soot->initialise(std::vector<SootParticleGiven>(particles, {mass, 0, 1, n0 / static_cast<double>(particles)}));
+  auto soot = makeEnsemble(options);
+  soot->initialise(std::vector<GivenParticle>(particles, {mass, 0, 1, n0 / static_cast<double>(particles)}));
   const std::vector<double> none(SootSpecies::fixed);
   soot->advance({gas, none}, 0, time);
   return soot;
@@ -193,4 +193,4 @@ TEST(ParticlesVerification, ConstantKernelGivesTheExactClusterSizes) {
 }
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::app

@@ -13,7 +13,7 @@
 #include "particles/population/exact_solutions/quadrature.hpp"
 #include "particles/population/exact_solutions/solutions.hpp"
 
-namespace lampblack::exact {
+namespace lampblack::particles::exact {
 namespace {
 
 using Distribution = InitialPopulation::Distribution;
@@ -145,4 +145,4 @@ std::unique_ptr<ExactSolution> breakage(const BreakageOptions& options, const In
   return std::make_unique<UniformBreakage>(options, initial);
 }
 
-}  // namespace lampblack::exact
+}  // namespace lampblack::particles::exact

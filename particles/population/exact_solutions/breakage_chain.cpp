@@ -5,7 +5,7 @@
 
 #include "core/errors.hpp"
 
-namespace lampblack::exact {
+namespace lampblack::particles::exact {
 
 std::vector<double> breakageChain(int pieces, double exponent, double tau) {
   if (!(tau > 0)) return {1.0};
@@ -59,4 +59,4 @@ std::vector<double> breakageChain(int pieces, double exponent, double tau) {
   return result;
 }
 
-}  // namespace lampblack::exact
+}  // namespace lampblack::particles::exact

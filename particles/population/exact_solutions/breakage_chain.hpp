@@ -9,10 +9,12 @@
 
 #include <vector>
 
-namespace lampblack::exact {
+#include "core/rooms.hpp"
+
+namespace lampblack::particles::exact {
 
 // N_k, up to where nothing is left that would count in the number. `exponent` p >= 0. Throws InputError where tau, the
 // time in units of 1/B_0, is so large that the sum would take more than about a minute.
 [[nodiscard]] std::vector<double> breakageChain(int pieces, double exponent, double tau);
 
-}  // namespace lampblack::exact
+}  // namespace lampblack::particles::exact

@@ -15,7 +15,7 @@
 #include "particles/population/exact_solutions/solutions.hpp"
 #include "particles/population/model/nucleation_schedule.hpp"
 
-namespace lampblack::exact {
+namespace lampblack::particles::exact {
 namespace {
 
 class ClosedMoments final : public ExactSolution {
@@ -178,4 +178,4 @@ std::unique_ptr<ExactSolution> closedMoments(const PopulationModel& model, const
   return std::make_unique<ClosedMoments>(model, initial, known, false);
 }
 
-}  // namespace lampblack::exact
+}  // namespace lampblack::particles::exact

@@ -7,7 +7,7 @@
 #include "particles/population/exact_solutions/quadrature.hpp"
 #include "particles/population/exact_solutions/series.hpp"
 
-namespace lampblack::exact {
+namespace lampblack::particles::exact {
 namespace {
 
 // The first k of a bin; an edge that misses k by a rounding still is k.
@@ -60,4 +60,4 @@ double borelClusters(const Borel& law, double lower, double upper) {
   return sum;
 }
 
-}  // namespace lampblack::exact
+}  // namespace lampblack::particles::exact

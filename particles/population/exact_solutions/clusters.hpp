@@ -1,7 +1,9 @@
 // Numbers of clusters of k equal particles, and their sums over a range of k.
 #pragma once
 
-namespace lampblack::exact {
+#include "core/rooms.hpp"
+
+namespace lampblack::particles::exact {
 
 // Sum over lower <= k < upper of (tau/2)^(k-1) / (1 + tau/2)^(k+1).
 [[nodiscard]] double geometricClusters(double tau, double lower, double upper);
@@ -13,4 +15,4 @@ struct Borel {
 };
 [[nodiscard]] double borelClusters(const Borel& law, double lower, double upper);
 
-}  // namespace lampblack::exact
+}  // namespace lampblack::particles::exact

@@ -10,7 +10,7 @@
 #include "particles/population/exact_solutions/series.hpp"
 #include "particles/population/exact_solutions/solutions.hpp"
 
-namespace lampblack::exact {
+namespace lampblack::particles::exact {
 namespace {
 
 using Distribution = InitialPopulation::Distribution;
@@ -134,4 +134,4 @@ std::unique_ptr<ExactSolution> coagulation(CollisionKernelType kernel, double ra
   return std::make_unique<Coagulation>(kernel, rate, initial);
 }
 
-}  // namespace lampblack::exact
+}  // namespace lampblack::particles::exact

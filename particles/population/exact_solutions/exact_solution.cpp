@@ -2,7 +2,7 @@
 
 #include "particles/population/exact_solutions/solutions.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 namespace {
 
 using Distribution = InitialPopulation::Distribution;
@@ -74,4 +74,4 @@ std::unique_ptr<ExactSolution> exactSolution(const PopulationModel& given, const
   return exact::closedMoments(model, initial);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -9,9 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "particles/population/model/population_model.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 class ExactSolution {
  public:
@@ -34,4 +35,4 @@ class ExactSolution {
 [[nodiscard]] std::unique_ptr<ExactSolution> exactSolution(const PopulationModel& model,
                                                            const InitialPopulation& initial);
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

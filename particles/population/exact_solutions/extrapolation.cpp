@@ -7,7 +7,7 @@
 
 #include "core/errors.hpp"
 
-namespace lampblack::exact {
+namespace lampblack::particles::exact {
 namespace {
 
 constexpr std::size_t columns = 8;
@@ -69,4 +69,4 @@ FourMoments extrapolated(const MomentRates& rates, double start, double end, Fou
   return y;
 }
 
-}  // namespace lampblack::exact
+}  // namespace lampblack::particles::exact

@@ -5,7 +5,9 @@
 #include <array>
 #include <functional>
 
-namespace lampblack::exact {
+#include "core/rooms.hpp"
+
+namespace lampblack::particles::exact {
 
 using FourMoments = std::array<double, 4>;
 using MomentRates = std::function<FourMoments(double time, const FourMoments& y)>;
@@ -14,4 +16,4 @@ using MomentRates = std::function<FourMoments(double time, const FourMoments& y)
 // vanishes, with the time reached.
 [[nodiscard]] FourMoments extrapolated(const MomentRates& rates, double start, double end, FourMoments y);
 
-}  // namespace lampblack::exact
+}  // namespace lampblack::particles::exact

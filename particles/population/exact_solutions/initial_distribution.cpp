@@ -8,7 +8,7 @@
 #include "core/errors.hpp"
 #include "particles/population/exact_solutions/quadrature.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 namespace {
 
 using Distribution = InitialPopulation::Distribution;
@@ -77,4 +77,4 @@ double initialIntegral(const InitialPopulation& initial, double lower, double up
                   breakpoints);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

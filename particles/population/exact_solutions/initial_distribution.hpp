@@ -3,9 +3,10 @@
 
 #include <functional>
 
+#include "core/rooms.hpp"
 #include "particles/population/model/population_model.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 // Sum of v^order (m^(3 order - 3)); an exponential distribution has those above -1 only (InputError).
 [[nodiscard]] double initialMoment(const InitialPopulation& initial, double order);
@@ -17,4 +18,4 @@ namespace lampblack {
 [[nodiscard]] double initialIntegral(const InitialPopulation& initial, double lower, double upper,
                                      const std::function<double(double)>& f);
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -7,7 +7,7 @@
 
 #include "core/constants.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 namespace {
 
 constexpr int points = 16;
@@ -76,4 +76,4 @@ double integralOverSizes(const std::function<double(double)>& f, double a, doubl
   return integral(f, a, end, edges);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

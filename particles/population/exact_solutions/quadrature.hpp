@@ -4,7 +4,9 @@
 #include <functional>
 #include <span>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::particles {
 
 // Integral of f over [a, b]. Breakpoints are kinks of f, and lengths on which it varies, in any order; those outside
 // are ignored.
@@ -15,4 +17,4 @@ namespace lampblack {
 // nothing left beyond `largest`: panels from one power of two to the next.
 [[nodiscard]] double integralOverSizes(const std::function<double(double)>& f, double a, double b, double largest);
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

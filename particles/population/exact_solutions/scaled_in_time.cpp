@@ -6,7 +6,7 @@
 
 #include "particles/population/exact_solutions/solutions.hpp"
 
-namespace lampblack::exact {
+namespace lampblack::particles::exact {
 namespace {
 
 class ScaledInTime final : public ExactSolution {
@@ -60,4 +60,4 @@ std::unique_ptr<ExactSolution> scaledInTime(std::unique_ptr<ExactSolution> alone
   return std::make_unique<ScaledInTime>(std::move(alone), clock, loss, condensation);
 }
 
-}  // namespace lampblack::exact
+}  // namespace lampblack::particles::exact

@@ -6,7 +6,7 @@
 
 #include "core/constants.hpp"
 
-namespace lampblack::exact {
+namespace lampblack::particles::exact {
 
 double scaledBesselI1(double z) {
   if (z <= 30) {
@@ -55,4 +55,4 @@ double multiplicativeDensity(double tau, double x) {
   return std::exp(largest) * sum;
 }
 
-}  // namespace lampblack::exact
+}  // namespace lampblack::particles::exact

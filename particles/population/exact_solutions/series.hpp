@@ -1,7 +1,9 @@
 // Series behind the size distributions, each arranged so that it neither overflows nor loses digits.
 #pragma once
 
-namespace lampblack::exact {
+#include "core/rooms.hpp"
+
+namespace lampblack::particles::exact {
 
 // exp(-z) I1(z), z >= 0: modified Bessel function of the first kind, scaled.
 [[nodiscard]] double scaledBesselI1(double z);
@@ -16,4 +18,4 @@ namespace lampblack::exact {
 // distribution.
 [[nodiscard]] double multiplicativeDensity(double tau, double x);
 
-}  // namespace lampblack::exact
+}  // namespace lampblack::particles::exact

@@ -4,9 +4,10 @@
 
 #include <memory>
 
+#include "core/rooms.hpp"
 #include "particles/population/exact_solutions/exact_solution.hpp"
 
-namespace lampblack::exact {
+namespace lampblack::particles::exact {
 
 // Coagulation alone with one of the three kernels of closed form; `rate` is its A.
 std::unique_ptr<ExactSolution> coagulation(CollisionKernelType kernel, double rate, const InitialPopulation& initial);
@@ -29,4 +30,4 @@ std::unique_ptr<ExactSolution> transported(const PopulationModel& model, const I
 // Everything whose equations of the moments close. Null where they do not.
 std::unique_ptr<ExactSolution> closedMoments(const PopulationModel& model, const InitialPopulation& initial);
 
-}  // namespace lampblack::exact
+}  // namespace lampblack::particles::exact

@@ -10,7 +10,7 @@
 #include "particles/population/exact_solutions/solutions.hpp"
 #include "particles/population/model/nucleation_schedule.hpp"
 
-namespace lampblack::exact {
+namespace lampblack::particles::exact {
 namespace {
 
 double diameterOf(double volume) {
@@ -160,4 +160,4 @@ std::unique_ptr<ExactSolution> transported(const PopulationModel& model, const I
   return std::make_unique<Transported>(model, initial);
 }
 
-}  // namespace lampblack::exact
+}  // namespace lampblack::particles::exact

@@ -4,7 +4,7 @@
 
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 namespace {
 
 using Type = CollisionKernelType;
@@ -118,4 +118,4 @@ void CollisionKernel::mix(double freeMolecularShare) {
   continuumScale_ = options_.efficiency * continuum_ * rest * rest;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

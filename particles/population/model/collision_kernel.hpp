@@ -14,9 +14,9 @@
 #include <cstddef>
 #include <string_view>
 
-#include "particles/collision_physics.hpp"
+#include "particles/collisions/collision_physics.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 enum class CollisionKernelType {
   constant,         // A
@@ -119,6 +119,7 @@ class CollisionKernel {
   double scale_ = 0, freeMolecularScale_ = 0, continuumScale_ = 0;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::particles
 
+#include "core/rooms.hpp"
 #include "particles/population/model/collision_terms.hpp"

@@ -1,9 +1,10 @@
 // Values and majorants of CollisionKernel, inline as they are in the innermost loops. Included by collision_kernel.hpp.
 #pragma once
 
+#include "core/rooms.hpp"
 #include "particles/population/model/collision_kernel.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 inline double CollisionKernel::collisionRate(const Properties& i, const Properties& j) const {
   const double sum = i.diameter + j.diameter;
@@ -105,4 +106,4 @@ void CollisionKernel::tune(ForEach&& forEach) {
   mix(free > 0.02 * continuum ? continuum / (free + continuum) : 1);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

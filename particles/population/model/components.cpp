@@ -6,7 +6,7 @@
 
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 Components::Components(std::span<const double> densities, std::span<const double> nucleus,
                        std::span<const double> condensing)
@@ -42,4 +42,4 @@ Components::Components(std::span<const double> densities, std::span<const double
   condensing_ = perVolume(condensing, "condensing material");
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -7,10 +7,11 @@
 #include <cstddef>
 #include <span>
 
+#include "core/rooms.hpp"
 #include "particles/population/model/particle_type.hpp"
 #include "particles/population/model/sphere.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 class Components {
  public:
@@ -79,4 +80,4 @@ class Components {
 
 static_assert(ParticleType<Components>);
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -4,7 +4,7 @@
 
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 FractalAggregate::FractalAggregate(double density, double primaryDiameter, double fractalDimension)
     : sphere_(density),
@@ -38,4 +38,4 @@ FractalAggregate::Particle FractalAggregate::grown(const Particle& p, double con
   return {primaryVolume_ * std::exp(rate * (dt - reached))};
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -6,10 +6,11 @@
 #include <cmath>
 
 #include "core/constants.hpp"
+#include "core/rooms.hpp"
 #include "particles/population/model/particle_type.hpp"
 #include "particles/population/model/sphere.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 class FractalAggregate {
  public:
@@ -45,4 +46,4 @@ class FractalAggregate {
 
 static_assert(ParticleType<FractalAggregate>);
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

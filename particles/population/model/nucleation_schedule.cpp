@@ -6,7 +6,7 @@
 
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -81,4 +81,4 @@ double NucleationSchedule::timeOf(double number) const {
   return options_.times[k - 1] + (rest > 0 ? x : 0.0);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -2,9 +2,10 @@
 // waiting time to the next nucleus is exact however fast J changes.
 #pragma once
 
+#include "core/rooms.hpp"
 #include "particles/population/model/population_model.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 class NucleationSchedule {
  public:
@@ -20,4 +21,4 @@ class NucleationSchedule {
   std::vector<double> integral_;  // of a table, at its points
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -5,9 +5,10 @@
 
 #include <concepts>
 
+#include "core/rooms.hpp"
 #include "particles/population/model/collision_kernel.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 template <class Type>
 concept ParticleType = std::copyable<typename Type::Particle> &&
@@ -127,4 +128,4 @@ template <class Type>
   }
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

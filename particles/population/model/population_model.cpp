@@ -8,7 +8,7 @@
 #include "core/errors.hpp"
 #include "particles/population/model/nucleation_schedule.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 namespace {
 
 [[noreturn]] void fail(std::string_view name, std::string_view expected, double value) {
@@ -96,4 +96,4 @@ void check(const PopulationModel& model, const InitialPopulation& initial) {
   check(initial);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -6,9 +6,10 @@
 #include <optional>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "particles/population/model/collision_kernel.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 // New particles of one volume. The rate J(t), in particles per m3 and s, is constant, follows a precursor that decays
 // by a first-order reaction (Wang 2025, eq. 5-22: J = K C0 exp(-K t)), or is linear between the points of a table.
@@ -84,4 +85,4 @@ struct InitialPopulation {
 // two, tables that do not increase, a kernel that lacks its gas, growth by jumps without a monomer.
 void check(const PopulationModel& model, const InitialPopulation& initial);
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

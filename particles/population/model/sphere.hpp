@@ -4,8 +4,9 @@
 #include <cmath>
 
 #include "core/constants.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 class Sphere {
  public:
@@ -42,4 +43,4 @@ class Sphere {
   double density_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -4,7 +4,7 @@
 
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 SurfaceVolume::SurfaceVolume(double density, double fractalDimension, double sinteringTime)
     : density_(density), inverseDimension_(1 / fractalDimension), sinteringTime_(sinteringTime) {
@@ -33,4 +33,4 @@ SurfaceVolume::Particle SurfaceVolume::grown(const Particle& p, double condensat
   return sintered(x);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -14,9 +14,10 @@
 #include <limits>
 
 #include "core/constants.hpp"
+#include "core/rooms.hpp"
 #include "particles/population/model/particle_type.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 class SurfaceVolume {
  public:
@@ -79,4 +80,4 @@ class SurfaceVolume {
 
 static_assert(ParticleType<SurfaceVolume>);
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

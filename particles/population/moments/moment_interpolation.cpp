@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace lampblack {
+namespace lampblack::particles {
 
 std::vector<double> lagrangeWeights(std::size_t count, double x) {
   std::vector<double> weights(count, 1.0);
@@ -63,4 +63,4 @@ void MomentInterpolation::interpolateWithin(std::span<const double> L, double lo
   }
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

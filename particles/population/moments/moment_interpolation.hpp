@@ -7,7 +7,9 @@
 #include <span>
 #include <vector>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::particles {
 
 // Lagrange's weights of the points 0 ... count-1 at x.
 [[nodiscard]] std::vector<double> lagrangeWeights(std::size_t count, double x);
@@ -46,4 +48,4 @@ class MomentInterpolation {
   std::vector<std::array<double, mostMoments>> weights_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

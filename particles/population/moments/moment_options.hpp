@@ -15,9 +15,10 @@
 #include <cstddef>
 #include <memory>
 
+#include "core/rooms.hpp"
 #include "particles/population/population_solver.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 enum class MomentMethod { qmom, momic };
 enum class QuadratureInversion { wheeler, productDifference };
@@ -43,4 +44,4 @@ struct MomentOptions {
                                                             const InitialPopulation& initial,
                                                             const MomentOptions& options);
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

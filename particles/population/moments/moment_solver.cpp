@@ -9,7 +9,7 @@
 #include "particles/population/moments/moment_options.hpp"
 #include "particles/population/moments/moment_system.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 namespace {
 
 class MomentSolver final : public PopulationSolver {
@@ -161,4 +161,4 @@ std::unique_ptr<PopulationSolver> makeMoments(const PopulationModel& model, cons
   return std::make_unique<MomentSolver>(makeMomicSystem(model, initial, options), initial, options.relativeTolerance);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -10,7 +10,7 @@
 #include "core/errors.hpp"
 #include "particles/population/exact_solutions/initial_distribution.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 double binomial(std::size_t n, std::size_t k) {
   double result = 1;
@@ -114,4 +114,4 @@ std::string MomentSystem::describe(double t, const double* y) const {
   return text;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -8,11 +8,12 @@
 #include <vector>
 
 #include "chemistry/reactor/ode_system.hpp"
+#include "core/rooms.hpp"
 #include "particles/population/model/nucleation_schedule.hpp"
 #include "particles/population/model/population_model.hpp"
 #include "particles/population/moments/moment_options.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 class MomentSystem : public OdeSystem {
  public:
@@ -72,4 +73,4 @@ std::unique_ptr<MomentSystem> makeMomicSystem(const PopulationModel& model, cons
 // Binomial coefficients up to n = 8.
 [[nodiscard]] double binomial(std::size_t n, std::size_t k);
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -9,7 +9,7 @@
 #include "core/errors.hpp"
 #include "particles/population/moments/moment_system.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 MomicCoagulation::MomicCoagulation(const CollisionKernelOptions& kernel, std::size_t count, double unit, double density)
     : type_(kernel.type), count_(count) {
@@ -137,4 +137,4 @@ void MomicCoagulation::addRates(const BrokenMoments& moments, double* f) const {
   }
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -3,10 +3,11 @@
 
 #include <array>
 
+#include "core/rooms.hpp"
 #include "particles/population/model/collision_kernel.hpp"
 #include "particles/population/moments/moment_interpolation.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 class MomicCoagulation {
  public:
@@ -50,4 +51,4 @@ class MomicCoagulation {
   std::array<std::array<double, 4>, 4> halfWeights_{};  // Lagrange's weights at 1/2 of the points 0 ... l
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

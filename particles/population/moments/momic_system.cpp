@@ -9,7 +9,7 @@
 #include "particles/population/moments/moment_system.hpp"
 #include "particles/population/moments/momic_coagulation.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 namespace {
 
 class MomicSystem final : public MomentSystem {
@@ -87,4 +87,4 @@ std::unique_ptr<MomentSystem> makeMomicSystem(const PopulationModel& model, cons
   return std::make_unique<MomicSystem>(model, initial, options);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -8,7 +8,7 @@
 #include "particles/population/moments/moment_system.hpp"
 #include "particles/population/moments/quadrature_inversion.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 namespace {
 
 class QmomSystem final : public MomentSystem {
@@ -121,4 +121,4 @@ std::unique_ptr<MomentSystem> makeQmomSystem(const PopulationModel& model, const
   return std::make_unique<QmomSystem>(model, initial, options);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

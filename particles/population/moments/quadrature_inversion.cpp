@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace lampblack {
+namespace lampblack::particles {
 namespace {
 
 constexpr std::size_t most = MomentQuadrature::most;
@@ -151,4 +151,4 @@ MomentQuadrature momentQuadrature(std::span<const double> moments, QuadratureInv
   return result;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

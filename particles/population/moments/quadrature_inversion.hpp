@@ -5,9 +5,10 @@
 #include <cstddef>
 #include <span>
 
+#include "core/rooms.hpp"
 #include "particles/population/moments/moment_options.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 struct MomentQuadrature {
   static constexpr std::size_t most = 4;
@@ -19,4 +20,4 @@ struct MomentQuadrature {
 // sizes, to round-off, or of none with that many positive sizes. No nodes where m_0 or m_1 is not above zero.
 [[nodiscard]] MomentQuadrature momentQuadrature(std::span<const double> moments, QuadratureInversion inversion);
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -10,7 +10,9 @@
 #include <limits>
 #include <vector>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::particles {
 
 class ChunkDirectory {
  public:
@@ -144,4 +146,4 @@ class ChunkDirectory {
   std::vector<std::uint32_t> blockOf_;  // of a chunk
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -10,7 +10,9 @@
 #include <span>
 #include <vector>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::particles {
 
 namespace chunk_tree {
 inline constexpr std::size_t fan = 8;
@@ -165,4 +167,4 @@ class LeastOfChunks {
   std::vector<std::vector<Node>> levels_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

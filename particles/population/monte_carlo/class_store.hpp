@@ -16,10 +16,11 @@
 #include <utility>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "particles/population/monte_carlo/store.hpp"
 #include "particles/population/monte_carlo/sum_tree.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 template <EntryRates Rates>
 class ClassStore {
@@ -345,4 +346,4 @@ class ClassStore {
   SumTree sums_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

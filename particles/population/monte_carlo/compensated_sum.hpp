@@ -3,7 +3,9 @@
 
 #include <cmath>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::particles {
 
 class CompensatedSum {
  public:
@@ -19,4 +21,4 @@ class CompensatedSum {
   double sum_, rest_ = 0;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

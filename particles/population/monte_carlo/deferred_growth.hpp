@@ -18,11 +18,12 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "core/rooms.hpp"
 #include "particles/population/model/particle_type.hpp"
 #include "particles/population/model/population_model.hpp"
 #include "particles/population/monte_carlo/monte_carlo_options.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 // The time at which the particles of one population are looked at, and the end of the step, s.
 struct GrowthClock {
@@ -67,7 +68,7 @@ class Deferred {
     return p.orderVolume > growth_.smallestVolume || volume(p) > growth_.smallestVolume;
   }
 
-  [[nodiscard]] double fractalDimension() const { return lampblack::fractalDimension(type_); }
+  [[nodiscard]] double fractalDimension() const { return particles::fractalDimension(type_); }
 
   // Until the end of the step.
   [[nodiscard]] double orderVolume(const Particle& p) const { return p.orderVolume; }
@@ -173,4 +174,4 @@ using DeferredWhereChanging = std::conditional_t<isDeferred<Type>, DeferredMetho
   return deferred;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -5,13 +5,14 @@
 
 #include <optional>
 
+#include "core/rooms.hpp"
 #include "particles/population/model/particle_type.hpp"
 #include "particles/population/model/population_model.hpp"
 #include "particles/population/monte_carlo/growth_jump.hpp"
 #include "particles/population/monte_carlo/power_law.hpp"
 #include "particles/population/monte_carlo/store.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 template <ParticleType Type>
 class EqualRates {
@@ -106,4 +107,4 @@ class EqualRates {
   GrowthJump<Type> jump_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

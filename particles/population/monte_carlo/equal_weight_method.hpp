@@ -11,13 +11,14 @@
 #include <vector>
 
 #include "core/packed_doubles.hpp"
+#include "core/rooms.hpp"
 #include "particles/population/monte_carlo/equal_rates.hpp"
 #include "particles/population/monte_carlo/equal_weight_sample.hpp"
 #include "particles/population/monte_carlo/growth_step.hpp"
 #include "particles/population/monte_carlo/jump_process.hpp"
 #include "particles/population/monte_carlo/sample_statistics.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 template <ParticleType Type, class Store>
 class EqualWeightMethod {
@@ -244,7 +245,7 @@ class EqualWeightMethod {
       sample_.store().forEach([&](const Entry& entry) { pace.population += rateOf(entry.particle) / n; });
       pace.jumpsOfEach = (2 * coagulationRate() + breakageRate() + depositionRate()) / n;
     }
-    growthStep_ = lampblack::growthStep(growth_, growthPart, pace);
+    growthStep_ = particles::growthStep(growth_, growthPart, pace);
   }
 
   Type type_;
@@ -259,4 +260,4 @@ class EqualWeightMethod {
   PopulationCounters counters_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -21,11 +21,12 @@
 #include <utility>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "particles/population/monte_carlo/compensated_sum.hpp"
 #include "particles/population/monte_carlo/initial_sample.hpp"
 #include "particles/population/monte_carlo/store_operations.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 // The numbers of particles that a method leaves as they are.
 struct SampleRange {
@@ -196,4 +197,4 @@ class EqualWeightSample {
   mutable double largest_ = 0;  // m3, at least that of the largest particle
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

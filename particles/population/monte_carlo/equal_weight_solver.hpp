@@ -3,13 +3,14 @@
 
 #include <memory>
 
+#include "core/rooms.hpp"
 #include "particles/population/monte_carlo/class_store.hpp"
 #include "particles/population/monte_carlo/deferred_growth.hpp"
 #include "particles/population/monte_carlo/equal_weight_method.hpp"
 #include "particles/population/monte_carlo/exact_store.hpp"
 #include "particles/population/monte_carlo/make_monte_carlo.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 template <ParticleType Type, class Store>
 std::unique_ptr<PopulationSolver> makeEqualWeightIn(const Type& type, const PopulationModel& model,
@@ -35,4 +36,4 @@ std::unique_ptr<PopulationSolver> makeEqualWeight(const Type& type, const Popula
   return makeEqualWeightIn<Type, ClassStore<EqualRates<Type>>>(type, model, initial, options);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

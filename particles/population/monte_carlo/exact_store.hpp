@@ -16,9 +16,10 @@
 #include <utility>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "particles/population/monte_carlo/store.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 template <EntryRates Rates>
 class ExactStore {
@@ -238,4 +239,4 @@ class ExactStore {
   mutable std::size_t changes_ = 0;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

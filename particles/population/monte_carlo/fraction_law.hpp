@@ -7,9 +7,10 @@
 #include <cmath>
 
 #include "core/errors.hpp"
+#include "core/rooms.hpp"
 #include "particles/population/monte_carlo/monte_carlo_options.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 class FractionLaw {
  public:
@@ -66,4 +67,4 @@ class FractionLaw {
   double constant_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

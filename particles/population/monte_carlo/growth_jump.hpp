@@ -5,10 +5,11 @@
 #include <cmath>
 #include <optional>
 
+#include "core/rooms.hpp"
 #include "particles/population/model/particle_type.hpp"
 #include "particles/population/model/population_model.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 template <ParticleType Type>
 class GrowthJump {
@@ -38,4 +39,4 @@ class GrowthJump {
   GrowthOptions growth_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/rooms.hpp"
 #include "particles/population/model/population_model.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 // How fast growth changes volumes relative to themselves, |dv/dt| / v, and how often jumps happen, 1/s.
 struct GrowthPace {
@@ -28,4 +29,4 @@ inline double growthStep(const GrowthOptions& growth, double part, const GrowthP
   return rate > 0 ? part / rate : std::numeric_limits<double>::infinity();
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

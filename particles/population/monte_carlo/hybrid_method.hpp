@@ -20,10 +20,11 @@
 #include <utility>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "particles/population/monte_carlo/hybrid_population.hpp"
 #include "particles/population/population_solver.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 template <ParticleType Type>
 class HybridMethod {
@@ -212,4 +213,4 @@ class HybridMethod {
   PopulationCounters counters_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -7,10 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "particles/population/monte_carlo/store.hpp"
 #include "particles/population/monte_carlo/sum_tree.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 template <EntryRates Rates>
 class HybridNumbers {
@@ -77,4 +78,4 @@ class HybridNumbers {
   std::vector<Bounds> bounds_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

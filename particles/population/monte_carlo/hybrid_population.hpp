@@ -8,11 +8,12 @@
 #include <cstdint>
 #include <utility>
 
+#include "core/rooms.hpp"
 #include "particles/population/monte_carlo/class_store.hpp"
 #include "particles/population/monte_carlo/equal_rates.hpp"
 #include "particles/population/monte_carlo/hybrid_numbers.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 template <ParticleType Type>
 class HybridPopulation {
@@ -188,4 +189,4 @@ class HybridPopulation {
   HybridNumbers<Rates> numbers_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace lampblack::hybrid {
+namespace lampblack::particles::hybrid {
 
 Unit unitOf(const PopulationModel& model, const InitialPopulation& initial) {
   const bool grows = model.growth.active();
@@ -33,4 +33,4 @@ Unit unitOf(const PopulationModel& model, const InitialPopulation& initial) {
   return {model.growth.monomer, whole};
 }
 
-}  // namespace lampblack::hybrid
+}  // namespace lampblack::particles::hybrid

@@ -5,12 +5,13 @@
 
 #include <fmt/format.h>
 
+#include "core/rooms.hpp"
 #include "particles/population/monte_carlo/hybrid_method.hpp"
 #include "particles/population/monte_carlo/initial_sample.hpp"
 #include "particles/population/monte_carlo/jump_process.hpp"
 #include "particles/population/monte_carlo/make_monte_carlo.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 namespace hybrid {
 
@@ -48,4 +49,4 @@ std::unique_ptr<PopulationSolver> makeHybrid(const Type& type, const PopulationM
   return std::make_unique<Process>(std::move(method), model, options, random);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

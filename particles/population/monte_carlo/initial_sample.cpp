@@ -6,7 +6,7 @@
 
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 namespace {
 
 // sum of c[k] x^k
@@ -115,4 +115,4 @@ double initialWeight(const InitialPopulation& initial, const MonteCarloOptions& 
   return number / static_cast<double>(options.particles);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

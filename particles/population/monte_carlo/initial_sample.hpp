@@ -5,9 +5,10 @@
 #include <vector>
 
 #include "core/random.hpp"
+#include "core/rooms.hpp"
 #include "particles/population/monte_carlo/monte_carlo_options.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 // Volumes (m3) of `count` particles of equal weight, in increasing order; empty where there are
 // none. The quantile
@@ -30,4 +31,4 @@ namespace lampblack {
 // Quantile of the standard normal distribution, to 1e-15 (Wichura 1988, algorithm AS 241); probability in (0, 1).
 [[nodiscard]] double normalQuantile(double probability);
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

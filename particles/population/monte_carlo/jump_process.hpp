@@ -16,11 +16,12 @@
 
 #include "core/errors.hpp"
 #include "core/random.hpp"
+#include "core/rooms.hpp"
 #include "particles/population/gelation_error.hpp"
 #include "particles/population/model/nucleation_schedule.hpp"
 #include "particles/population/monte_carlo/monte_carlo_options.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 // Rates are of the sample, in 1/s, and bounds from above; an attempt says whether the event took place. All events keep
 // the counters.
@@ -188,4 +189,4 @@ class JumpProcess final : public PopulationSolver {
   double nucleusTime_ = infinity;                                 // s
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -1,11 +1,11 @@
 #include "particles/population/monte_carlo/population_of.hpp"
 #include "particles/population/monte_carlo/shipped_types.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 std::unique_ptr<PopulationSolver> makeMonteCarlo(const Components& type, const PopulationModel& model,
                                                  const InitialPopulation& initial, const MonteCarloOptions& options) {
   return populationOf(type, model, initial, options);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -1,7 +1,7 @@
 #include "particles/population/monte_carlo/population_of.hpp"
 #include "particles/population/monte_carlo/shipped_types.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 std::unique_ptr<PopulationSolver> makeMonteCarlo(const Sphere& type, const PopulationModel& model,
                                                  const InitialPopulation& initial, const MonteCarloOptions& options) {
@@ -13,4 +13,4 @@ std::unique_ptr<PopulationSolver> makeMonteCarlo(const PopulationModel& model, c
   return makeMonteCarlo(Sphere(model.density), model, initial, options);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

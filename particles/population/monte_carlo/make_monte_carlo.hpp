@@ -2,10 +2,11 @@
 // library has the shipped types compiled in.
 #pragma once
 
+#include "core/rooms.hpp"
 #include "particles/population/model/particle_type.hpp"
 #include "particles/population/monte_carlo/monte_carlo_options.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 // One for each family of methods, defined in equal_weight_solver.hpp, weighted_solver.hpp and hybrid_solver.hpp.
 template <ParticleType Type>
@@ -18,4 +19,4 @@ template <ParticleType Type>
 std::unique_ptr<PopulationSolver> makeHybrid(const Type&, const PopulationModel&, const InitialPopulation&,
                                              const MonteCarloOptions&);
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -5,9 +5,10 @@
 #include <cstdint>
 #include <memory>
 
+#include "core/rooms.hpp"
 #include "particles/population/population_solver.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 enum class MonteCarloMethod {
   // Equal weights.
@@ -58,4 +59,4 @@ struct MonteCarloOptions {
                                                                const InitialPopulation& initial,
                                                                const MonteCarloOptions& options);
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

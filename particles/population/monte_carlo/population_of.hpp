@@ -2,11 +2,12 @@
 // for the type; the shipped ones are compiled in the library, see shipped_types.hpp.
 #pragma once
 
+#include "core/rooms.hpp"
 #include "particles/population/monte_carlo/equal_weight_solver.hpp"
 #include "particles/population/monte_carlo/hybrid_solver.hpp"
 #include "particles/population/monte_carlo/weighted_solver.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 // Throws InputError.
 template <ParticleType Type>
@@ -31,4 +32,4 @@ std::unique_ptr<PopulationSolver> populationOf(const Type& type, const Populatio
   throw InputError("there is no such method");
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

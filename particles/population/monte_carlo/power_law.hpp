@@ -3,7 +3,9 @@
 
 #include <cmath>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::particles {
 
 class PowerLaw {
  public:
@@ -20,4 +22,4 @@ class PowerLaw {
   double rate_ = 0, exponent_ = 0;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

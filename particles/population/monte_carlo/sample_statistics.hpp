@@ -8,9 +8,10 @@
 #include <span>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "particles/population/monte_carlo/store_operations.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 // M_0 to M_3 of a sample.
 template <class Store>
@@ -76,4 +77,4 @@ template <class Store, class Diameter>
   return std::exp(std::sqrt(squares / count));
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -1,13 +1,14 @@
 // The Monte Carlo solvers of the particle types that come with Lampblack. Throw InputError.
 #pragma once
 
+#include "core/rooms.hpp"
 #include "particles/population/model/components.hpp"
 #include "particles/population/model/fractal_aggregate.hpp"
 #include "particles/population/model/sphere.hpp"
 #include "particles/population/model/surface_volume.hpp"
 #include "particles/population/monte_carlo/monte_carlo_options.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 [[nodiscard]] std::unique_ptr<PopulationSolver> makeMonteCarlo(const Sphere& type, const PopulationModel& model,
                                                                const InitialPopulation& initial,
@@ -23,4 +24,4 @@ namespace lampblack {
                                                                const InitialPopulation& initial,
                                                                const MonteCarloOptions& options);
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -9,10 +9,11 @@
 #include <limits>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "particles/population/monte_carlo/chunk_trees.hpp"
 #include "particles/population/monte_carlo/store.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 // `bare`: the particle is nothing but its volume, and is not stored a second time.
 //
@@ -274,4 +275,4 @@ struct SortedChunk {
   alignas(64) Column weights_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

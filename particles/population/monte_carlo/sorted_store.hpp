@@ -20,7 +20,7 @@
 #include "particles/population/monte_carlo/sorted_chunk.hpp"
 #include "particles/population/monte_carlo/store.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 // The rates say in addition how neighbours are compared, which extremes are needed, what is known of the terms, and
 // decide an attempt: accepts(i, j, m, u) is pair(i, j) > u * weightFactor * (w_i + w_j) * m.
@@ -159,8 +159,9 @@ class SortedStore {
   LeastOfChunks least_, heaviest_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::particles
 
+#include "core/rooms.hpp"
 #include "particles/population/monte_carlo/sorted_store_chunks.hpp"
 #include "particles/population/monte_carlo/sorted_store_draws.hpp"
 #include "particles/population/monte_carlo/sorted_store_sums.hpp"

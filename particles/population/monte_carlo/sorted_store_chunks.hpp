@@ -1,9 +1,10 @@
 // SortedStore: chunks that fill, split, run empty and are joined. Included by sorted_store.hpp.
 #pragma once
 
+#include "core/rooms.hpp"
 #include "particles/population/monte_carlo/sorted_store.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 template <SortedRates Rates>
 SortedStore<Rates>::SortedStore(Rates rates) : rates_(std::move(rates)), rank_(rates_.rank()), sums_(0) {
@@ -279,4 +280,4 @@ void SortedStore<Rates>::changeRates(F&& change) {
   }
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

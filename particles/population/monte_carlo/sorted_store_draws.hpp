@@ -1,9 +1,10 @@
 // SortedStore: how entries are drawn and taken out. Included by sorted_store.hpp.
 #pragma once
 
+#include "core/rooms.hpp"
 #include "particles/population/monte_carlo/sorted_store.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 template <SortedRates Rates>
 inline typename SortedStore<Rates>::Slot SortedStore<Rates>::locate(double volume, double weight) const {
@@ -174,4 +175,4 @@ typename Rates::Entry SortedStore<Rates>::takeHeaviest() {
   return take({slot, at});
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -1,9 +1,10 @@
 // SortedStore: bounds of chunks and the sums over them. Included by sorted_store.hpp.
 #pragma once
 
+#include "core/rooms.hpp"
 #include "particles/population/monte_carlo/sorted_store.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 // The sums are renewed when a chunk has more entries or weight than its bounds, or far less.
 template <SortedRates Rates>
@@ -113,4 +114,4 @@ inline void SortedStore<Rates>::refreshPairRate() {
   pairRate_ = sum * rates_.weightFactor();
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -9,9 +9,10 @@
 #include <cstddef>
 
 #include "core/random.hpp"
+#include "core/rooms.hpp"
 #include "particles/population/model/collision_kernel.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 // Processes that concern one particle.
 enum class SingleProcess : std::size_t { breakage, deposition, condensation };
@@ -67,4 +68,4 @@ inline void checkBound(double rate, double bound) {
     boundExceeded(rate, bound);  // 1e-9: rounding
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

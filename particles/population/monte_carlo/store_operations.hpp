@@ -5,9 +5,10 @@
 #include <span>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "particles/population/monte_carlo/store.hpp"
 
-namespace lampblack::store_operations {
+namespace lampblack::particles::store_operations {
 
 // Inline, so that the entry need not go through memory.
 template <class Store>
@@ -65,4 +66,4 @@ void forEachRun(const Store& store, F f) {
   }
 }
 
-}  // namespace lampblack::store_operations
+}  // namespace lampblack::particles::store_operations

@@ -8,7 +8,9 @@
 #include <span>
 #include <vector>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::particles {
 
 class SumTree {
  public:
@@ -84,4 +86,4 @@ class SumTree {
       nodes_;  // of leaves_ - 1 inner nodes from the second on, the first being the root, then the leaves
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -3,7 +3,9 @@
 
 #include <cmath>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::particles {
 
 class WeightedDeviation {
  public:
@@ -20,4 +22,4 @@ class WeightedDeviation {
   double weight_ = 0, mean_ = 0, square_ = 0;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

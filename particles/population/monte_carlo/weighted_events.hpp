@@ -3,9 +3,10 @@
 
 #include <utility>
 
+#include "core/rooms.hpp"
 #include "particles/population/monte_carlo/weighted_method.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 template <ParticleType Type, class Store>
 bool WeightedMethod<Type, Store>::coagulate(RandomStream& random) {
@@ -349,7 +350,7 @@ void WeightedMethod<Type, Store>::measureGrowth() {
     pace.population = sum / number;
     pace.jumpsOfEach = (2 * coagulationRate() + breakageRate() + depositionRate()) / static_cast<double>(store_.size());
   }
-  growthStep_ = lampblack::growthStep(growth_, growthPart, pace);
+  growthStep_ = particles::growthStep(growth_, growthPart, pace);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -41,7 +41,7 @@
 #include "particles/population/monte_carlo/weighted_rates.hpp"
 #include "particles/population/monte_carlo/weighted_statistics.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 template <ParticleType Type, class Store>
 class WeightedMethod {
@@ -187,6 +187,7 @@ class WeightedMethod {
   PopulationCounters counters_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::particles
 
+#include "core/rooms.hpp"
 #include "particles/population/monte_carlo/weighted_events.hpp"

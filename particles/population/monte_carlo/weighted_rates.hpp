@@ -5,6 +5,7 @@
 #include <optional>
 #include <type_traits>
 
+#include "core/rooms.hpp"
 #include "particles/population/model/particle_type.hpp"
 #include "particles/population/model/population_model.hpp"
 #include "particles/population/model/sphere.hpp"
@@ -13,7 +14,7 @@
 #include "particles/population/monte_carlo/power_law.hpp"
 #include "particles/population/monte_carlo/store.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 template <ParticleType Type>
 class WeightedRates {
@@ -114,4 +115,4 @@ class WeightedRates {
   bool swa_, relative_, merges_ = false, keepsHeaviest_ = false, monotone_ = false;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace lampblack {
+namespace lampblack::particles {
 
 void checkWeighted(const PopulationModel& model, const MonteCarloOptions& options) {
   const bool fractions = options.method == MonteCarloMethod::wfmc || options.method == MonteCarloMethod::samwfmc;
@@ -20,4 +20,4 @@ void checkWeighted(const PopulationModel& model, const MonteCarloOptions& option
   }
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

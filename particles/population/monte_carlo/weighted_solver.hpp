@@ -4,12 +4,13 @@
 #include <memory>
 
 #include "core/errors.hpp"
+#include "core/rooms.hpp"
 #include "particles/population/monte_carlo/exact_store.hpp"
 #include "particles/population/monte_carlo/make_monte_carlo.hpp"
 #include "particles/population/monte_carlo/sorted_store.hpp"
 #include "particles/population/monte_carlo/weighted_method.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 // Throws InputError for what the method of `options` cannot do.
 void checkWeighted(const PopulationModel& model, const MonteCarloOptions& options);
@@ -37,4 +38,4 @@ std::unique_ptr<PopulationSolver> makeWeighted(const Type& type, const Populatio
   return makeWeightedWith<Method>(type, model, initial, options);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -8,10 +8,11 @@
 #include <span>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "particles/population/monte_carlo/compensated_sum.hpp"
 #include "particles/population/monte_carlo/weighted_deviation.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 // M_0 to M_3, sums of w v^k (m^(3k-3)). The sums do not lose to rounding: M_1 has to stay put over a long run.
 template <class Type, class Store>
@@ -49,4 +50,4 @@ template <class Type, class Store>
   return deviation.geometric();
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

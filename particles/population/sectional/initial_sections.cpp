@@ -9,7 +9,7 @@
 
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 namespace {
 
 struct Part {
@@ -90,4 +90,4 @@ std::vector<double> initialSections(const SectionGrid& grid, const InitialPopula
   return y;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

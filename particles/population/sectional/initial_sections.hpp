@@ -4,13 +4,14 @@
 
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "particles/population/sectional/section_grid.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 // All unknowns of the grid's layout. Throws InputError where the population does not fit the grid: all of one volume
 // outside of it, or more than options.overflow of the volume beyond its end.
 [[nodiscard]] std::vector<double> initialSections(const SectionGrid& grid, const InitialPopulation& initial,
                                                   double overflow);
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

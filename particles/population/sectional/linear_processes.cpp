@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace lampblack {
+namespace lampblack::particles {
 namespace {
 
 double rateOf(const SectionGrid& grid, std::size_t k, double rate, double exponent) {
@@ -62,4 +62,4 @@ void LinearProcesses::addJacobian(double* J, std::size_t ld) const {
   }
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -5,9 +5,10 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "particles/population/sectional/section_grid.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 class LinearProcesses {
  public:
@@ -28,4 +29,4 @@ class LinearProcesses {
   std::vector<double> entries_;  // upper triangle by columns: nothing here makes particles larger
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

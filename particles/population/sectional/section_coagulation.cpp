@@ -6,7 +6,7 @@
 #include "particles/population/model/particle_type.hpp"
 #include "particles/population/model/sphere.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 SectionCoagulation::SectionCoagulation(const SectionGrid& grid, const CollisionKernel& kernel, double density)
     : layout_(grid.layout()) {
@@ -131,4 +131,4 @@ std::size_t SectionCoagulation::bytes() const {
   return sizeof(double) * (rate_.size() + upper_.size() + withZero_.size() + 5 * events_.size());
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -5,10 +5,11 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "particles/population/model/collision_kernel.hpp"
 #include "particles/population/sectional/section_grid.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 class SectionCoagulation {
  public:
@@ -37,4 +38,4 @@ class SectionCoagulation {
   std::vector<double> events_, smaller_, larger_, made_, flux_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -7,7 +7,7 @@
 
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 SectionGrid::SectionGrid(const SectionalOptions& options) : spacing_(options.spacing) {
   const std::size_t n = options.sections;
@@ -43,4 +43,4 @@ double SectionGrid::lowerBoundary(std::size_t k) const {
   return k <= last() ? scale * volumes_[k] : scale * spacing_ * volumes_[k - 1];
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -8,9 +8,10 @@
 #include <span>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "particles/population/sectional/sectional_options.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 // Where the unknowns of the sectional method are: number densities of the sections (1/m3), then what has left them.
 struct SectionLayout {
@@ -49,4 +50,4 @@ class SectionGrid {
   std::vector<double> volumes_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -7,7 +7,7 @@
 #include "core/errors.hpp"
 #include "particles/population/model/sphere.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 SectionGrowth::SectionGrowth(const SectionGrid& grid, const GrowthOptions& options, SectionGrowthScheme scheme)
     : pivots_(grid.last()), layout_(grid.layout()), scheme_(scheme), overflow_(grid.spacing()) {
@@ -100,4 +100,4 @@ void SectionGrowth::addJacobian(const double* y, double* J, std::size_t ld) cons
   }
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

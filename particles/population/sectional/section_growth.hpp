@@ -16,9 +16,10 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "particles/population/sectional/section_grid.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 class SectionGrowth {
  public:
@@ -56,4 +57,4 @@ class SectionGrowth {
   Direction up_, down_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

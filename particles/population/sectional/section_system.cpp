@@ -7,7 +7,7 @@
 
 #include "core/errors.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 SectionSystem::SectionSystem(const SectionGrid& grid, const PopulationModel& model, const SectionalOptions& options)
     : grid_(grid), layout_(grid.layout()), linear_(grid, model), growth_(grid, model.growth, options.growth) {
@@ -84,4 +84,4 @@ std::size_t SectionSystem::bytes() const {
   return linear_.bytes() + (coagulation_ ? coagulation_->bytes() : 0);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

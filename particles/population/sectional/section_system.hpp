@@ -6,13 +6,14 @@
 #include <vector>
 
 #include "chemistry/reactor/ode_system.hpp"
+#include "core/rooms.hpp"
 #include "particles/population/model/nucleation_schedule.hpp"
 #include "particles/population/sectional/linear_processes.hpp"
 #include "particles/population/sectional/section_coagulation.hpp"
 #include "particles/population/sectional/section_grid.hpp"
 #include "particles/population/sectional/section_growth.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 class SectionSystem final : public OdeSystem {
  public:
@@ -48,4 +49,4 @@ class SectionSystem final : public OdeSystem {
   bool nucleating_ = false;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -6,9 +6,10 @@
 #include <cstddef>
 #include <memory>
 
+#include "core/rooms.hpp"
 #include "particles/population/population_solver.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 // How continuous growth and shrinkage move number between pivots. Both conserve number and give exactly dv/dt of mass.
 enum class SectionGrowthScheme {
@@ -33,4 +34,4 @@ struct SectionalOptions {
                                                               const InitialPopulation& initial,
                                                               const SectionalOptions& options);
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

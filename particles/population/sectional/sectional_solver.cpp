@@ -12,7 +12,7 @@
 #include "particles/population/sectional/initial_sections.hpp"
 #include "particles/population/sectional/section_system.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 struct SectionalSolver::Impl {
   Impl(const PopulationModel& modelIn, const InitialPopulation& initial, const SectionalOptions& optionsIn)
@@ -192,4 +192,4 @@ std::unique_ptr<PopulationSolver> makeSectional(const PopulationModel& model, co
   return std::make_unique<SectionalSolver>(model, initial, options);
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -4,9 +4,10 @@
 #include <memory>
 #include <span>
 
+#include "core/rooms.hpp"
 #include "particles/population/sectional/sectional_options.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 // Counters: splitSteps are the steps of the integrator; there are no events.
 class SectionalSolver final : public PopulationSolver {
@@ -42,4 +43,4 @@ class SectionalSolver final : public PopulationSolver {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

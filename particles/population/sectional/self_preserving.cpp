@@ -7,7 +7,7 @@
 #include "particles/population/model/sphere.hpp"
 #include "particles/population/sectional/sectional_solver.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 std::vector<double> reducedDistribution(const PopulationSolver& solver, std::span<const double> edges) {
   const auto moments = solver.moments();
@@ -62,4 +62,4 @@ SelfPreservingDistribution selfPreserving(const CollisionKernelOptions& kernel, 
   return result;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -6,10 +6,11 @@
 #include <span>
 #include <vector>
 
+#include "core/rooms.hpp"
 #include "particles/population/population_solver.hpp"
 #include "particles/population/sectional/sectional_options.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 
 // psi = n M_1 / M_0^2 as the mean over each bin of eta = v M_0 / M_1 between the increasing `edges`. Of any solver with
 // a distribution, so that Monte Carlo and sections can be laid over each other. The integrals of psi and eta psi are 1.
@@ -32,4 +33,4 @@ struct SelfPreservingDistribution {
 // Gas in which Brownian particles are in the continuum whatever their size: a mean free path of zero in all but name.
 [[nodiscard]] CarrierGas continuumLimit(CarrierGas gas);
 
-}  // namespace lampblack
+}  // namespace lampblack::particles

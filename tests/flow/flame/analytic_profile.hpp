@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "flow/flame/flame_profile.hpp"
+#include "tests/every_room.hpp"
 
 namespace lampblack::test {
 

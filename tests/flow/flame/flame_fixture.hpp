@@ -7,11 +7,12 @@
 
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/thermo/thermo.hpp"
+#include "core/rooms.hpp"
 #include "flow/flame/flame_problem.hpp"
 #include "flow/flame/flame_profile.hpp"
 #include "tests/flow/flame/streams.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 inline std::shared_ptr<const Mechanism> hydrogenMechanism() {
   static const auto mechanism = std::make_shared<const Mechanism>(shippedMechanism("hydrogen_h2o2_10.yaml"));
@@ -70,4 +71,4 @@ inline FlameProfile roughFlame(const FlameProblem& problem, std::size_t points, 
   return p;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "flow/flame/loaded_system.hpp"
+#include "tests/every_room.hpp"
 
 namespace lampblack::test {
 

@@ -3,11 +3,12 @@
 
 #include <mpi.h>
 
+#include "core/rooms.hpp"
 #include "flow/flame/flame_solver.hpp"
 #include "flow/flame/initial_flame.hpp"
 #include "tests/flow/flame/flame_fixture.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 inline GridOptions coarseGrid() {
   GridOptions grid;
@@ -23,4 +24,4 @@ inline FlameProfile steadyHydrogen(const FlameProblem& problem, const GridOption
   return solver.solve(initialFlame(*hydrogenMechanism(), problem, 0)).profile;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -6,10 +6,11 @@
 
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/thermo/thermo.hpp"
+#include "core/rooms.hpp"
 #include "flow/flame/flame_problem.hpp"
 #include "tests/source_folder.hpp"
 
-namespace lampblack {
+namespace lampblack::flow {
 
 inline Mechanism shippedMechanism(const std::string& file) {
   return Mechanism::fromFile(test::sourcePath("cases/mechanisms/" + file));
@@ -30,4 +31,4 @@ inline FlameStream streamAt(const Mechanism& mechanism, std::string_view moles, 
   return stream;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::flow

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "particles/population/exact_solutions/exact_solution.hpp"
+#include "tests/every_room.hpp"
 
 namespace lampblack::test {
 

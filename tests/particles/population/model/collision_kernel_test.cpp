@@ -4,9 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.hpp"
+#include "core/rooms.hpp"
 #include "kernel_fixtures.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 namespace {
 
 using Type = CollisionKernelType;
@@ -184,4 +185,4 @@ TEST(CollisionKernel, MissingGasIsNamed) {
 }
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::particles

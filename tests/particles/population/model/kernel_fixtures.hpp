@@ -5,6 +5,7 @@
 
 #include "core/random.hpp"
 #include "particles/population/model/collision_kernel.hpp"
+#include "tests/every_room.hpp"
 
 namespace lampblack::test {
 

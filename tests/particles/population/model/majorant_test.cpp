@@ -1,8 +1,9 @@
 #include <gtest/gtest.h>
 
+#include "core/rooms.hpp"
 #include "kernel_fixtures.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 namespace {
 
 using Properties = CollisionKernel::Properties;
@@ -130,4 +131,4 @@ TEST(Majorants, OfTunedTransitionKernelsAcceptMoreThanHalf) {
 }
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -6,8 +6,9 @@
 
 #include "core/errors.hpp"
 #include "core/random.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 namespace {
 
 using Source = NucleationOptions::Source;
@@ -98,4 +99,4 @@ TEST(NucleationSchedule, ATableHasToIncrease) {
 }
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::particles

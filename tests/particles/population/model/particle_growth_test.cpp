@@ -1,9 +1,10 @@
 // Growth in closed form against the numerical integration of its differential equations.
 #include <gtest/gtest.h>
 
+#include "core/rooms.hpp"
 #include "type_fixtures.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 namespace {
 
 using test::ball;
@@ -121,4 +122,4 @@ TEST(ParticleGrowth, SinteringIsSplitFromGrowthInSecondOrder) {
 }
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::particles

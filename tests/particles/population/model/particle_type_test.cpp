@@ -1,9 +1,10 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.hpp"
+#include "core/rooms.hpp"
 #include "type_fixtures.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 namespace {
 
 using test::ball;
@@ -152,4 +153,4 @@ TEST(ParticleTypes, RefuseWhatHasNoMeaning) {
 }
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -7,8 +7,9 @@
 #include <limits>
 
 #include "core/errors.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 namespace {
 
 // Everything on, and nothing wrong.
@@ -90,4 +91,4 @@ TEST(PopulationModelCheck, LooksAtNoInitialPopulationWhereThereIsNone) {
 }
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <vector>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::particles {
 namespace {
 
 constexpr auto wheeler = QuadratureInversion::wheeler;
@@ -100,4 +102,4 @@ TEST(QuadratureInversion, ImpossibleMomentsGiveWhatIsPossible) {
 }
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -6,9 +6,10 @@
 #include <cmath>
 #include <map>
 
+#include "core/rooms.hpp"
 #include "test_rates.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 namespace {
 
 using test::TestRates;
@@ -255,4 +256,4 @@ TEST(ClassStore, MemoryFollowsTheNumberOfEntries) {
 }
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -6,10 +6,11 @@
 #include <functional>
 
 #include "../../statistics.hpp"
+#include "core/rooms.hpp"
 #include "particles/population/gelation_error.hpp"
 #include "particles/population/monte_carlo/monte_carlo_options.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 namespace {
 
 using Distribution = InitialPopulation::Distribution;
@@ -287,4 +288,4 @@ TEST(EqualWeightGelation, KernelsThatDoNotGelNeverStop) {
 }
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::particles

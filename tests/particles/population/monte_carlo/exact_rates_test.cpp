@@ -6,10 +6,11 @@
 #include <string>
 #include <tuple>
 
+#include "core/rooms.hpp"
 #include "particles/population/monte_carlo/monte_carlo_options.hpp"
 #include "same_law.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 namespace {
 
 using Method = MonteCarloMethod;
@@ -113,4 +114,4 @@ TEST(ExactRates, WaitAsLongAsTheEnumeratedRateSays) {
 }
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::particles

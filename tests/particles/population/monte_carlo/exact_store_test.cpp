@@ -6,7 +6,9 @@
 #include <map>
 #include <vector>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::particles {
 namespace {
 
 // A kernel without any symmetry to speak of, and weights: pair rates span orders of magnitude.
@@ -161,4 +163,4 @@ TEST(ExactStore, HasNoPairInAPopulationOfOne) {
 }
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -7,10 +7,11 @@
 
 #include "core/constants.hpp"
 #include "core/errors.hpp"
+#include "core/rooms.hpp"
 #include "particles/population/monte_carlo/monte_carlo_options.hpp"
 #include "same_law.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 namespace {
 
 using Treatment = GrowthOptions::Treatment;
@@ -196,4 +197,4 @@ TEST(Growth, DeferredNeedsBoundsThatHold) {
 }
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -5,12 +5,13 @@
 
 #include "../../statistics.hpp"
 #include "core/errors.hpp"
+#include "core/rooms.hpp"
 #include "particles/population/gelation_error.hpp"
 #include "particles/population/model/sphere.hpp"
 #include "particles/population/monte_carlo/hybrid_solver.hpp"
 #include "same_law.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 namespace {
 
 using test::Sample;
@@ -322,4 +323,4 @@ TEST(Hybrid, WrongInputIsAClearError) {
 }
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::particles

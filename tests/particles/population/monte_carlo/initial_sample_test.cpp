@@ -5,8 +5,9 @@
 #include <cmath>
 
 #include "core/errors.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 namespace {
 
 using Distribution = InitialPopulation::Distribution;
@@ -70,4 +71,4 @@ TEST(InitialSample, AnEmptyStartNeedsAnExpectedNumber) {
 }
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::particles

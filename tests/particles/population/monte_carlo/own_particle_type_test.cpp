@@ -10,11 +10,12 @@
 #include "../../statistics.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
+#include "core/rooms.hpp"
 #include "particles/population/monte_carlo/equal_weight_solver.hpp"
 #include "particles/population/monte_carlo/hybrid_solver.hpp"
 #include "particles/population/monte_carlo/weighted_solver.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 namespace {
 
 using test::Sample;
@@ -258,4 +259,4 @@ TEST(OwnParticleType, GrowthOfItsTreesCanBeDeferred) {
 }
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -10,6 +10,7 @@
 
 #include "../../statistics.hpp"
 #include "particles/population/population_solver.hpp"
+#include "tests/every_room.hpp"
 
 namespace lampblack::test {
 

@@ -10,8 +10,9 @@
 #include "../../statistics.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
+#include "core/rooms.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 namespace {
 
 using Moments = std::array<double, 4>;
@@ -111,4 +112,4 @@ TEST(ShippedTypes, TheHybridRefusesParticlesThatAreMoreThanTheirVolume) {
 }
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "particles/population/monte_carlo/store.hpp"
+#include "tests/every_room.hpp"
 
 namespace lampblack::test {
 

@@ -7,12 +7,13 @@
 #include <limits>
 #include <numeric>
 
+#include "core/rooms.hpp"
 #include "particles/population/sectional/linear_processes.hpp"
 #include "particles/population/sectional/section_coagulation.hpp"
 #include "particles/population/sectional/section_growth.hpp"
 #include "tests/particles/population/sectional/sectional_fixtures.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 namespace {
 
 constexpr double roundOff = 1e-14;
@@ -267,4 +268,4 @@ TEST(SectionGrowthSchemes, DifferInTheSecondMoment) {
 }
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::particles

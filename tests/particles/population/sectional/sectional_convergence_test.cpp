@@ -6,11 +6,12 @@
 #include <cstdio>
 #include <string>
 
+#include "core/rooms.hpp"
 #include "particles/population/exact_solutions/exact_solution.hpp"
 #include "particles/population/sectional/sectional_solver.hpp"
 #include "tests/particles/population/sectional/sectional_fixtures.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 namespace {
 
 using Distribution = InitialPopulation::Distribution;
@@ -204,4 +205,4 @@ TEST(SectionalBreakage, IsExactWherePivotsAreTheSizesOfTheChain) {
 }
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -7,6 +7,7 @@
 
 #include "core/random.hpp"
 #include "particles/population/sectional/section_grid.hpp"
+#include "tests/every_room.hpp"
 
 namespace lampblack::test {
 

@@ -10,12 +10,13 @@
 #include <string>
 
 #include "core/errors.hpp"
+#include "core/rooms.hpp"
 #include "particles/population/gelation_error.hpp"
 #include "particles/population/model/nucleation_schedule.hpp"
 #include "particles/population/sectional/initial_sections.hpp"
 #include "tests/particles/population/sectional/sectional_fixtures.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 namespace {
 
 using Distribution = InitialPopulation::Distribution;
@@ -274,4 +275,4 @@ TEST(SectionalSpread, IsTheOneOfTheLognormal) {
 }
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::particles

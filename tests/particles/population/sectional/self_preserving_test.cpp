@@ -8,12 +8,13 @@
 #include <cstdio>
 
 #include "core/errors.hpp"
+#include "core/rooms.hpp"
 #include "particles/population/monte_carlo/monte_carlo_options.hpp"
 #include "particles/population/sectional/sectional_solver.hpp"
 #include "tests/particles/population/sectional/sectional_fixtures.hpp"
 #include "tests/particles/statistics.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 namespace {
 
 using Distribution = InitialPopulation::Distribution;
@@ -189,4 +190,4 @@ TEST(ReducedDistribution, HasNumberAndVolumeOne) {
 }
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -4,7 +4,9 @@
 
 #include <cmath>
 
-namespace lampblack {
+#include "core/rooms.hpp"
+
+namespace lampblack::particles {
 namespace {
 
 // Wang (2025), eqs. 4-11 to 4-14 by hand, the other pair of arguments being of no influence.
@@ -54,4 +56,4 @@ TEST(FractionLaw, AConstantOutsideItsRangeIsAnError) {
 }
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::particles

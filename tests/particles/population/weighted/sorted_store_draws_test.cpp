@@ -5,6 +5,7 @@
 #include <map>
 #include <vector>
 
+#include "tests/every_room.hpp"
 #include "tests/particles/population/weighted/weighted_test_rates.hpp"
 
 namespace lampblack::test {

@@ -4,6 +4,7 @@
 #include <tuple>
 #include <vector>
 
+#include "tests/every_room.hpp"
 #include "tests/particles/population/weighted/weighted_test_rates.hpp"
 
 namespace lampblack::test {

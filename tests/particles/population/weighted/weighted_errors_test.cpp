@@ -3,10 +3,11 @@
 #include <cmath>
 
 #include "core/errors.hpp"
+#include "core/rooms.hpp"
 #include "particles/population/gelation_error.hpp"
 #include "particles/population/monte_carlo/monte_carlo_options.hpp"
 
-namespace lampblack {
+namespace lampblack::particles {
 namespace {
 
 PopulationModel coagulating(CollisionKernelType type = CollisionKernelType::constant) {
@@ -84,4 +85,4 @@ TEST(WeightedErrors, GelationIsReportedWithItsTime) {
 }
 
 }  // namespace
-}  // namespace lampblack
+}  // namespace lampblack::particles

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "particles/population/monte_carlo/monte_carlo_options.hpp"
+#include "tests/every_room.hpp"
 #include "tests/particles/statistics.hpp"
 
 namespace lampblack::test {

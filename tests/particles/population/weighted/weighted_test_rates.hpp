@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "particles/population/monte_carlo/sorted_store.hpp"
+#include "tests/every_room.hpp"
 
 namespace lampblack::test {
 

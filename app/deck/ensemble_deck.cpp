@@ -1,0 +1,90 @@
+#include "app/deck/ensemble_deck.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+
+#include "io/request_limits.hpp"
+
+namespace lampblack::app {
+
+void addEnsembleKeys(DeckSchema& schema, const std::string& description) {
+  schema.section("stochastic", Presence::optional, description)
+      .add(choiceKey("stochastic.method", {"dsmc", "sammc", "swa"},
+                     "Monte Carlo method. dsmc: particles of equal weight, doubled when few, reduced when many; sammc: "
+                     "particles of different weight, the nearest neighbours in size are merged; swa: stochastic "
+                     "weighted algorithm, weights that conserve mass.")
+               .byDefault("sammc"))
+      .add(integerKey("stochastic.particles",
+                      "Number of numerical particles of a repeat: more have less noise and cost more.")
+               .byDefault("2000")
+               .atLeast(8))
+      .add(integerKey("stochastic.repeats",
+                      "Number of independent repeats of every ensemble, from which mean and confidence follow.")
+               .byDefault("8")
+               .atLeast(2)
+               .atMost(100000))
+      .add(integerKey("stochastic.seed",
+                      "Start of the random numbers: another seed gives another sample, the same seed the same result.")
+               .byDefault("1")
+               .atLeast(0))
+      .add(choiceKey(
+               "stochastic.shape", {"spheres", "aggregates"},
+               "spheres: particles coalesce when they coagulate; aggregates: their primary particles stay and touch.")
+               .byDefault("spheres"))
+      .add(choiceKey("stochastic.active_sites", {"particle", "primary"},
+                     "The mean size in the fraction alpha of active sites (Appel, Bockhorn, Frenklach 2000): carbon "
+                     "atoms of the mean particle or of the mean primary particle.")
+               .byDefault("particle"))
+      .add(booleanKey("stochastic.keep_hydrogen",
+                      "true: soot keeps the hydrogen of PAH; false: it returns to the gas as H2 when PAH become soot.")
+               .byDefault("true"))
+      .add(numberKey(
+               "stochastic.split_tolerance",
+               "Largest relative change of the population in a splitting step: smaller is more accurate and slower.")
+               .byDefault("0.01")
+               .above(0)
+               .atMost(1))
+      .add(integerKey("stochastic.bins", "Number of bins of the size distribution.")
+               .byDefault("60")
+               .atLeast(2)
+               .atMost(10000))
+      .add(quantityKey("stochastic.smallest", units::length,
+                       "Smallest diameter of the size distribution, the lower end of its bins.")
+               .byDefault("0.5 nm")
+               .above(0))
+      .add(quantityKey("stochastic.largest", units::length,
+                       "Largest diameter of the size distribution, the upper end of its bins.")
+               .byDefault("500 nm")
+               .above(0));
+}
+
+EnsembleRequest readEnsemble(const Deck& deck, const SootModelOptions& soot) {
+  EnsembleRequest request;
+  request.repeats = deck.integer<std::size_t>("stochastic.repeats");
+  EnsembleOptions& options = request.soot;
+  const std::string method = deck.choice("stochastic.method");
+  options.method = method == "dsmc"    ? EnsembleMethod::dsmc
+                   : method == "sammc" ? EnsembleMethod::sammc
+                                       : EnsembleMethod::swa;
+  options.particles = deck.integer<std::size_t>("stochastic.particles");
+  requireMemory(deck, "stochastic.particles", fmt::format("a sample of {} particles", options.particles),
+                40 * static_cast<double>(options.particles));
+  options.seed = deck.integer<std::uint64_t>("stochastic.seed");
+  options.soot = soot;
+  options.coalescing = deck.choice("stochastic.shape") == "spheres";
+  options.alphaOfPrimaries = deck.choice("stochastic.active_sites") == "primary";
+  options.keepsHydrogen = deck.boolean("stochastic.keep_hydrogen");
+  options.splitTolerance = deck.number("stochastic.split_tolerance");
+  request.bins = {std::log10(deck.quantity("stochastic.smallest")),
+                  std::log10(deck.quantity("stochastic.largest")),
+                  deck.integer<std::size_t>("stochastic.bins"),
+                  {}};
+  if (!(request.bins.logDiameterMax > request.bins.logDiameterMin))
+    throw deck.error("stochastic.largest", "expected more than 'smallest'");
+  if (soot.pah.empty()) throw deck.error("stochastic", "ensembles need PAH that dimerise: name them in soot.pah");
+  return request;
+}
+
+}  // namespace lampblack::app

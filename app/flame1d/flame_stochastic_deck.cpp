@@ -1,0 +1,83 @@
+#include "app/flame1d/flame_stochastic_deck.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+
+#include "app/deck/ensemble_deck.hpp"
+
+namespace lampblack::app {
+
+void addStochasticKeys(DeckSchema& schema) {
+  addEnsembleKeys(schema,
+                  "Ensembles of soot particles along the flame, by repeats of independent random numbers; needs the "
+                  "section soot, whose PAH, surface and switches are theirs.");
+  schema
+      .add(choiceKey("stochastic.coupled", {"decoupled", "two_way"},
+                     "decoupled: the flame as solved with soot.model, whose exchange with the gas stands for the "
+                     "ensemble's; two_way: iterated until the gas sees what the ensemble exchanges.")
+               .byDefault("decoupled"))
+      .add(quantityKey("stochastic.start", units::length,
+                       "Distance at which paths start, from the end of the domain that particles come from; absent: at "
+                       "that end.")
+               .optional()
+               .atLeast(0))
+      .add(quantityKey("stochastic.slowest", units::velocity,
+                       "A path ends where the particles are slower than this, near the stagnation plane.")
+               .byDefault("1 mm/s")
+               .above(0))
+      .add(quantityKey("stochastic.heights", units::length, "Positions at which size distributions are written.")
+               .list()
+               .optional())
+      .add(integerKey("stochastic.iterations", "Largest number of iterations between gas and ensemble.")
+               .byDefault("10")
+               .atLeast(1)
+               .onlyWith("stochastic.coupled", {"two_way"}))
+      .add(numberKey("stochastic.relaxation",
+                     "Weight of the new exchange between gas and ensemble in an iteration, the rest being the old one: "
+                     "smaller is steadier and slower.")
+               .byDefault("0.7")
+               .above(0)
+               .atMost(1)
+               .onlyWith("stochastic.coupled", {"two_way"}))
+      .add(numberKey("stochastic.tolerance",
+                     "The iteration has converged where volume fraction, temperature and acetylene change relatively "
+                     "by less than this.")
+               .byDefault("0.01")
+               .above(0)
+               .onlyWith("stochastic.coupled", {"two_way"}));
+}
+
+std::optional<StochasticRequest> readStochastic(const Deck& deck, const SootModelOptions& soot, double length,
+                                                bool bothSides) {
+  if (!deck.has("stochastic")) return std::nullopt;
+  StochasticRequest request;
+  request.twoWay = deck.choice("stochastic.coupled") == "two_way";
+  FlameCouplingOptions& coupling = request.coupling;
+  coupling.iterations = deck.integer<std::size_t>("stochastic.iterations");
+  coupling.relaxation = deck.number("stochastic.relaxation");
+  coupling.tolerance = deck.number("stochastic.tolerance");
+  FlameEnsembleOptions& ensemble = coupling.ensemble;
+  const EnsembleRequest given = readEnsemble(deck, soot);
+  ensemble.soot = given.soot;
+  ensemble.repeats = given.repeats;
+  ensemble.march = given.bins;
+  FlamePathOptions path;
+  path.slowest = deck.quantity("stochastic.slowest");
+  path.start = deck.optionalQuantity("stochastic.start");
+  if (path.start && *path.start >= length)
+    throw deck.error("stochastic.start", fmt::format("expected less than the flame's length of {:g} m", length));
+  ensemble.paths.push_back(path);
+  if (bothSides) {
+    path.fromRight = true;
+    if (path.start) path.start = length - *path.start;
+    ensemble.paths.push_back(path);
+  }
+  if (deck.has("stochastic.heights")) request.heights = deck.quantities("stochastic.heights");
+  for (const double z : request.heights)
+    if (z < 0 || z > length)
+      throw deck.error("stochastic.heights", fmt::format("{:g} m is outside the flame, 0 to {:g} m", z, length));
+  return request;
+}
+
+}  // namespace lampblack::app

@@ -1,0 +1,197 @@
+#include "app/flow/flow_case.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "app/deck/soot_deck.hpp"
+#include "app/deck/temperature_input.hpp"
+#include "app/flow/flow_case_parts.hpp"
+#include "app/flow/flow_limits.hpp"
+#include "app/tools/gas_input.hpp"
+#include "core/errors.hpp"
+#include "core/grading.hpp"
+#include "coupling/carried_particles.hpp"
+
+namespace lampblack::app {
+
+using namespace flowcase;
+
+namespace {
+
+MeshSpec readMesh(const Deck& deck, std::size_t species) {
+  MeshSpec spec;
+  spec.geometry = deck.choice("mesh.geometry") == "axisymmetric" ? Geometry::Axisymmetric : Geometry::Planar;
+  const AxisNames names = axisNames(spec.geometry);
+  const AxisNames others =
+      axisNames(spec.geometry == Geometry::Axisymmetric ? Geometry::Planar : Geometry::Axisymmetric);
+  for (const std::string& other : others)
+    if (deck.has("mesh." + other))
+      throw deck.error("mesh." + other, fmt::format("a {} mesh has the axes {} and {}", deck.choice("mesh.geometry"),
+                                                    names[0], names[1]));
+  const double refinement = deck.number("mesh.refinement");
+  std::array<std::vector<AxisSegment>, 2> segments;
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const std::string list = "mesh." + names[axis];
+    for (std::size_t i = 0; i < deck.size(list); ++i) {
+      const std::string item = fmt::format("{}[{}].", list, i);
+      segments[axis].push_back(
+          {deck.quantity(item + "to"), deck.integer<int>(item + "cells"), deck.number(item + "ratio")});
+    }
+    if (segments[axis].empty())
+      throw deck.error("mesh", fmt::format("the mesh has no cells along {}: expected a list '{}' of segments",
+                                           names[axis], names[axis]));
+  }
+  requireCells(deck, gradedCells(segments[0], refinement) * gradedCells(segments[1], refinement), species);
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    try {
+      spec.vertices[axis] = gradedAxis(0.0, segments[axis], refinement);
+    } catch (const InputError& error) {
+      throw deck.error("mesh." + names[axis], error.what());
+    }
+  }
+  return spec;
+}
+
+Stream streamOf(const Deck& deck, const std::string& key, const FlowCase& flowCase) {
+  const std::string name = deck.string(key);
+  for (const BoundaryCondition& boundary : flowCase.boundaries)
+    if (boundary.name == name && boundary.kind == BoundaryKind::Inlet) return {boundary.temperature, boundary.Y};
+  std::string inlets;
+  for (const BoundaryCondition& boundary : flowCase.boundaries)
+    if (boundary.kind == BoundaryKind::Inlet) inlets += (inlets.empty() ? "" : ", ") + boundary.name;
+  throw deck.error(key, fmt::format("'{}' is not an inlet; the inlets are: {}", name, inlets));
+}
+
+void readInitial(const Deck& deck, FlowCase& flowCase) {
+  MixingLayer& layer = flowCase.initial;
+  layer.low = streamOf(deck, "initial.low", flowCase);
+  layer.high = streamOf(deck, "initial.high", flowCase);
+  layer.position = deck.quantity("initial.position");
+  layer.width = deck.quantity("initial.width");
+  layer.temperature = readTemperature(deck, "initial.temperature", *flowCase.mechanism, TemperatureUse::transport);
+  layer.burnt = deck.choice("initial.layer") == "burnt";
+  const double end = flowCase.mesh.vertices[static_cast<std::size_t>(layer.axis)].back();
+  const auto requireInside = [&](const char* key, double place) {
+    if (place < 0 || place > end)
+      throw deck.error(key, fmt::format("expected a place in the domain, from 0 to {:g} m, found {:g} m", end, place));
+  };
+  requireInside("initial.position", layer.position);
+  if (layer.burnt) return;
+  layer.hotPosition = neededQuantity(deck, "initial", "hot_position", "a hot layer");
+  layer.hotWidth = neededQuantity(deck, "initial", "hot_width", "a hot layer");
+  requireInside("initial.hot_position", layer.hotPosition);
+}
+
+void readOutput(const Deck& deck, FlowCase& flowCase) {
+  OutputControl& output = flowCase.output;
+  output.interval = deck.optionalQuantity("output.interval").value_or(flowCase.time.end);
+  output.historySteps = deck.integer<int>("output.history_steps");
+  output.species = readSpeciesList(deck, "output.species", *flowCase.mechanism);
+  flowCase.checkpoint = {deck.optionalInteger<std::int64_t>("checkpoint.steps"), deck.quantity("checkpoint.wall_time"),
+                         deck.boolean("checkpoint.at_end")};
+}
+
+void readSoot(const Deck& deck, FlowCase& flowCase) {
+  auto model = readSootModel(deck, *flowCase.mechanism);
+  if (!model) {
+    if (deck.has("soot") && deck.has("trajectories"))
+      flowCase.notes.push_back("soot.model is none: the trajectories of the deck are left out");
+    return;
+  }
+  flowCase.carried =
+      std::make_shared<CarriedParticles>(*flowCase.mechanism, std::move(model), deck.boolean("soot.diffusion"));
+  flowCase.carriedOptions = {flowCase.chemistry.shareWork, deck.number("soot.sectional.overflow"), tooFewSections};
+}
+
+void readTransport(const Deck& deck, FlowCase& flowCase) {
+  const Mechanism& mechanism = *flowCase.mechanism;
+  auto& options = flowCase.transport;
+  options.integrals = readCollisionIntegrals(deck, mechanism);
+  const auto model = deck.choice("transport.model");
+  if (model == "unity_lewis") options.diffusion = DiffusionModel::UnityLewis;
+  if (model == "constant_lewis") options.diffusion = DiffusionModel::ConstantLewis;
+  options.lewisNumbers = readLewisNumbers(deck, mechanism);
+}
+
+// The outlet that a point lies on, or nullptr.
+const std::string* outletAt(const FlowCase& flowCase, const std::array<double, 2>& point) {
+  for (std::size_t b = 0; b < flowCase.boundaries.size(); ++b) {
+    const BoundaryPatch& patch = flowCase.mesh.patches[b];
+    const auto axis = static_cast<std::size_t>(patch.axis);
+    const auto& vertices = flowCase.mesh.vertices[axis];
+    const double along = point[1 - axis];
+    if (flowCase.boundaries[b].kind == BoundaryKind::Outlet &&
+        point[axis] == (patch.atMax ? vertices.back() : vertices.front()) && along >= patch.from && along <= patch.to)
+      return &flowCase.boundaries[b].name;
+  }
+  return nullptr;
+}
+
+void readTrajectories(const Deck& deck, FlowCase& flowCase) {
+  if (!deck.has("trajectories")) return;
+  if (deck.has("soot") && deck.choice("soot.model") == "none") return;
+  if (!flowCase.carried)
+    throw deck.error("trajectories", "trajectories need a 'soot' section: it names the particle model");
+  TrajectoryRequest options;
+  options.soot = readSootModelOptions(deck, *flowCase.mechanism);
+  for (const std::string& species : sootSpecies(options.soot))
+    if (!flowCase.mechanism->findSpecies(species))
+      throw deck.error("trajectories", fmt::format("ensembles need the species '{}', but the mechanism has no species "
+                                                   "of this name; choose another mechanism",
+                                                   species));
+  options.duration = deck.quantity("trajectories.duration");
+  options.timeStep = deck.quantity("trajectories.time_step");
+  options.particles = deck.integer<int>("trajectories.particles");
+  options.bins = deck.integer<int>("trajectories.bins");
+  options.smallest = deck.quantity("trajectories.smallest");
+  options.largest = deck.quantity("trajectories.largest");
+  if (options.largest <= options.smallest) throw deck.error("trajectories.largest", "expected more than 'smallest'");
+  if (options.timeStep > options.duration)
+    throw deck.error("trajectories.time_step", "expected no more than 'duration'");
+  for (std::size_t i = 0; i < deck.size("trajectories.start"); ++i) {
+    const std::string item = fmt::format("trajectories.start[{}]", i);
+    const TrajectoryStart start{deck.quantity(item + ".r"), deck.quantity(item + ".z")};
+    const auto& v = flowCase.mesh.vertices;
+    if (start.r > v[0].back() || start.z > v[1].back())
+      throw deck.error(item, "the start lies outside the mesh; expected a place inside it");
+    if (const std::string* outlet = outletAt(flowCase, {start.r, start.z}))
+      throw deck.error(
+          item,
+          fmt::format(
+              "the start lies on the outlet '{}', where the path would leave at once; expected a place inside the mesh",
+              *outlet));
+    options.starts.push_back(start);
+  }
+  flowCase.trajectories = options;
+}
+
+}  // namespace
+
+FlowCase readFlowCase(const Deck& deck) {
+  FlowCase flowCase;
+  flowCase.title = deck.string("title");
+  flowCase.pressure = deck.quantity("pressure");
+  flowCase.seed = deck.integer<std::uint64_t>("seed");
+  flowCase.mechanism = readMechanism(deck);
+  flowCase.mesh = readMesh(deck, flowCase.mechanism->numSpecies());
+  readTransport(deck, flowCase);
+  readBoundaries(deck, flowCase);
+  readInitial(deck, flowCase);
+  flowCase.time = {deck.quantity("time.end"), deck.quantity("time.first_step"), deck.quantity("time.maximum_step"),
+                   deck.number("time.growth")};
+  flowCase.flow.courant = deck.number("time.courant");
+  if (flowCase.time.firstStep > flowCase.time.maximumStep)
+    throw deck.error("time.first_step", "expected no more than 'maximum_step'");
+  flowCase.chemistry.deferred = deck.choice("chemistry.coupling") == "deferred";
+  flowCase.chemistry.shareWork = deck.boolean("chemistry.share_work");
+  flowCase.chemistry.reactor.relativeTolerance = deck.number("chemistry.relative_tolerance");
+  flowCase.chemistry.reactor.absoluteTolerance = deck.number("chemistry.absolute_tolerance");
+  readOutput(deck, flowCase);
+  readSoot(deck, flowCase);
+  readTrajectories(deck, flowCase);
+  refuseExcess(deck, flowCase);
+  return flowCase;
+}
+
+}  // namespace lampblack::app

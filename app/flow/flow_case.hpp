@@ -1,0 +1,84 @@
+// What a deck with `problem: flow` asks for, checked and in SI: the bridge from the words of the deck to the operators.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "chemistry/mechanism/mechanism.hpp"
+#include "chemistry/transport/transport.hpp"
+#include "core/mesh.hpp"
+#include "core/rooms.hpp"
+#include "flow/boundary.hpp"
+#include "flow/carried_model.hpp"
+#include "flow/carried_operator.hpp"
+#include "flow/mixing_layer.hpp"
+#include "flow/reaction_operator.hpp"
+#include "flow/transport_operator.hpp"
+#include "io/deck.hpp"
+#include "particles/gas/soot_gas.hpp"
+
+namespace lampblack::app {
+
+struct TimeControl {
+  double end = 0.0;          // s
+  double firstStep = 1e-6;   // s
+  double maximumStep = 1.0;  // s
+  double growth = 1.2;       // of the step from one to the next, at most
+};
+
+struct OutputControl {
+  double interval = 0.0;             // s between field outputs
+  int historySteps = 1;              // steps between rows of the history
+  std::vector<std::size_t> species;  // mole fractions written
+};
+
+// When checkpoints are written besides when they are asked for.
+struct CheckpointControl {
+  std::optional<std::int64_t> steps;  // between two
+  double wallTime = 0.0;              // s, between two
+  bool atEnd = false;
+};
+
+struct TrajectoryStart {
+  double r = 0.0, z = 0.0;  // m; x and y in planar geometry
+};
+
+struct TrajectoryRequest {
+  std::vector<TrajectoryStart> starts;
+  double duration = 0.0;                 // s, at most
+  double timeStep = 0.0;                 // s, between samples of the gas
+  int particles = 0;                     // capacity of each ensemble
+  int bins = 0;                          // of the size distribution
+  double smallest = 0.0, largest = 0.0;  // m, diameter range of the bins
+  SootModelOptions soot;
+};
+
+struct FlowCase {
+  std::string title;
+  std::shared_ptr<const Mechanism> mechanism;
+  double pressure = 0.0;  // Pa
+  std::uint64_t seed = 0;
+  MeshSpec mesh;
+  std::vector<BoundaryCondition> boundaries;  // in the order of mesh.patches
+  MixingLayer initial;
+  TimeControl time;
+  OutputControl output;
+  CheckpointControl checkpoint;
+  TransportOptions transport;
+  ReactionOperator::Options chemistry;
+  TransportOperator::Options flow;
+  std::shared_ptr<CarriedModel> carried;  // null: nothing
+  CarriedOperator::Options carriedOptions;
+  std::optional<TrajectoryRequest> trajectories;
+  std::vector<std::string> notes;  // what the user should be told before the run
+};
+
+// All keys a flow deck may have.
+DeckSchema flowSchema();
+
+// Reads the mechanism and checks what the schema cannot: names of species, patches, sides. InputError otherwise.
+FlowCase readFlowCase(const Deck& deck);
+
+}  // namespace lampblack::app

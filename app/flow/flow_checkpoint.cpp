@@ -1,0 +1,136 @@
+#include "app/flow/flow_checkpoint.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "chemistry/mechanism/mechanism_writer.hpp"
+#include "core/errors.hpp"
+#include "core/stop_request.hpp"
+
+namespace lampblack::app {
+namespace {
+
+// FNV-1a of 64 bits (Fowler, Noll, Vo 1991).
+std::uint64_t hash(const std::string& text) {
+  std::uint64_t value = 0xcbf29ce484222325ULL;
+  for (const char c : text) value = (value ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
+  return value;
+}
+
+std::string hashed(const std::string& words, const std::string& text) {
+  return fmt::format("{}, {:016x}", words, hash(text));
+}
+
+std::string kindName(BoundaryKind kind) {
+  switch (kind) {
+    case BoundaryKind::Inlet:
+      return "inlet";
+    case BoundaryKind::Outlet:
+      return "outlet";
+    case BoundaryKind::Wall:
+      return "wall";
+    case BoundaryKind::Symmetry:
+      return "symmetry";
+  }
+  return "unknown";
+}
+
+}  // namespace
+
+StateNumbers stateNumbers(const Mesh& mesh) {
+  return {{mesh.naturalCell.begin(), mesh.naturalCell.begin() + mesh.owned},
+          mesh.naturalFaces(),
+          mesh.totalCells,
+          mesh.totalFaces()};
+}
+
+Fingerprint flowFingerprint(const FlowCase& flowCase, const std::vector<CarriedScalar>& scalars) {
+  const auto& vertices = flowCase.mesh.vertices;
+  std::string places;
+  for (const auto& axis : vertices)
+    for (const double x : axis) places += fmt::format("{} ", x);
+  std::string boundaries;
+  std::string extents;
+  for (std::size_t i = 0; i < flowCase.boundaries.size(); ++i) {
+    const BoundaryPatch& patch = flowCase.mesh.patches[i];
+    boundaries += fmt::format("{}{}: {}", i > 0 ? ", " : "", patch.name, kindName(flowCase.boundaries[i].kind));
+    extents += fmt::format("{} {} {} {};", patch.axis, patch.atMax, patch.from, patch.to);
+  }
+  std::string carried;
+  for (const CarriedScalar& scalar : scalars)
+    carried += fmt::format("{} {} {} {};", scalar.name, scalar.unit, scalar.description, scalar.thermophoresis);
+  const Mechanism& mechanism = *flowCase.mechanism;
+  return {
+      {"mesh", hashed(fmt::format("{}, {} x {} cells",
+                                  flowCase.mesh.geometry == Geometry::Axisymmetric ? "axisymmetric" : "planar",
+                                  vertices[0].size() - 1, vertices[1].size() - 1),
+                      places)},
+      {"boundaries", hashed(boundaries, extents)},
+      {"mechanism", hashed(fmt::format("{} species, {} reactions", mechanism.numSpecies(), mechanism.numReactions()),
+                           mechanismYaml(mechanism))},
+      {"pressure", fmt::format("{} Pa", flowCase.pressure)},
+      {"coupling", flowCase.chemistry.deferred ? "deferred" : "strang"},
+      {"particle model", scalars.empty() ? "no scalars" : hashed(fmt::format("{} scalars", scalars.size()), carried)}};
+}
+
+FlowCheckpoints::FlowCheckpoints(const Mesh& mesh, CheckpointControl control, Fingerprint fingerprint,
+                                 const std::filesystem::path& runFolder)
+    : mesh_(mesh), control_(control), fingerprint_(std::move(fingerprint)), folder_(runFolder), since_(MPI_Wtime()) {
+  watchForCheckpointSignal();
+}
+
+void FlowCheckpoints::startedFrom(const WholeCheckpoint& checkpoint, std::int64_t step) {
+  current_ = checkpoint;
+  step_ = step;
+}
+
+bool FlowCheckpoints::due(std::int64_t step) {
+  int wanted = takeCheckpointSignal() ? 1 : 0;
+  if (mesh_.rank == 0) {
+    std::error_code error;
+    if (control_.steps && step != step_ && step % *control_.steps == 0) wanted = 1;
+    if (step != step_ && MPI_Wtime() - since_ >= control_.wallTime) wanted = 1;
+    if (std::filesystem::exists(folder_.request(), error)) wanted = 1;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &wanted, 1, MPI_INT, MPI_MAX, mesh_.comm);
+  return wanted != 0;
+}
+
+void FlowCheckpoints::write(std::int64_t step, const ResultsWriter& results, const Save& save) {
+  since_ = MPI_Wtime();
+  collectively(mesh_.comm, [&] {
+    if (mesh_.rank != 0) return;
+    std::error_code ignored;
+    std::filesystem::remove(folder_.request(), ignored);
+    folder_.make();
+  });
+  WholeCheckpoint next{folder_.checkpoint(step), {}, {}};
+  // What an earlier run saved is not told apart from what this one has not: the first checkpoint saves all.
+  if (ownOutputs_) next.outputs = current_.outputs;
+  if (results.stepCount() > savedOutputs_) {
+    next.outputs.push_back(folder_.outputs(step));
+    results.saveSteps(next.outputs.back(), savedOutputs_);
+  }
+  CheckpointWriter writer(mesh_.comm, next.file, stateNumbers(mesh_), fingerprint_);
+  save(writer);
+  std::vector<std::string> outputs;
+  for (const auto& file : next.outputs) outputs.push_back(file.filename().string());
+  writer.texts("outputs", outputs);
+  writer.finish();
+
+  if (current_.file != next.file) former_ = std::move(current_);
+  current_ = std::move(next);
+  step_ = step;
+  savedOutputs_ = results.stepCount();
+  ownOutputs_ = true;
+  collectively(mesh_.comm, [&] {
+    if (mesh_.rank != 0) return;
+    std::vector<std::filesystem::path> kept{current_.file, former_.file};
+    for (const WholeCheckpoint* one : {&current_, &former_})
+      kept.insert(kept.end(), one->outputs.begin(), one->outputs.end());
+    folder_.removeAllBut(kept);
+  });
+}
+
+}  // namespace lampblack::app

@@ -1,0 +1,54 @@
+// Checkpoints of a flow: when they are written, what of the run they must have in common, which of them are kept.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/flow/flow_case.hpp"
+#include "core/mesh.hpp"
+#include "core/rooms.hpp"
+#include "flow/state.hpp"
+#include "io/checkpoint_file.hpp"
+#include "io/checkpoint_folder.hpp"
+#include "io/results_writer.hpp"
+
+namespace lampblack::app {
+
+// Global numbers of the cells and faces of a mesh.
+StateNumbers stateNumbers(const Mesh& mesh);
+
+// What decides what the numbers of a checkpoint mean: mesh, boundaries and their kinds, mechanism, pressure, coupling
+// of the chemistry, carried scalars.
+Fingerprint flowFingerprint(const FlowCase& flowCase, const std::vector<CarriedScalar>& scalars);
+
+class FlowCheckpoints {
+ public:
+  using Save = std::function<void(StateArchive&)>;
+
+  FlowCheckpoints(const Mesh& mesh, CheckpointControl control, Fingerprint fingerprint,
+                  const std::filesystem::path& runFolder);
+
+  // The run went on from this one at this step.
+  void startedFrom(const WholeCheckpoint& checkpoint, std::int64_t step);
+
+  // Collective: whether one is to be written after this step: by the deck, a signal, or the file that asks for it.
+  [[nodiscard]] bool due(std::int64_t step);
+  // Collective. Where the disk is full a SystemError; the former checkpoints stay.
+  void write(std::int64_t step, const ResultsWriter& results, const Save& save);
+  // The last that was written, or gone on from; may be empty.
+  [[nodiscard]] const std::filesystem::path& last() const { return current_.file; }
+
+ private:
+  const Mesh& mesh_;
+  CheckpointControl control_;
+  Fingerprint fingerprint_;
+  CheckpointFolder folder_;
+  WholeCheckpoint current_, former_;
+  std::int64_t step_ = 0;         // of the current one
+  std::size_t savedOutputs_ = 0;  // steps of the results that current_.outputs hold
+  bool ownOutputs_ = false;       // whether current_.outputs were saved by this run
+  double since_;                  // wall time of the last attempt, s
+};
+
+}  // namespace lampblack::app

@@ -1,0 +1,32 @@
+// What a flow run writes: the mesh and fields for pictures, the history, the trajectories.
+#pragma once
+
+#include "app/flow/flow_case.hpp"
+#include "core/rooms.hpp"
+#include "flow/budget.hpp"
+#include "flow/flow_context.hpp"
+#include "flow/operator.hpp"
+#include "flow/state.hpp"
+#include "io/history.hpp"
+#include "io/results_writer.hpp"
+
+namespace lampblack::app {
+
+MeshOutput meshOutput(const Mesh& mesh);
+
+// Writes one step: the gas, then what the operators have.
+void writeFields(ResultsWriter& results, const FlowContext& context, const FlowCase& flowCase, const State& state,
+                 const std::vector<Operator*>& operators, std::int64_t step, double time);
+
+// One row of the history.
+struct HistoryRow {
+  std::int64_t step = 0;
+  double time = 0.0, dt = 0.0;
+  StateExtremes extremes;
+  std::vector<double> operators;  // the values of each, one behind the other
+  std::vector<Budget::Line> budget;
+};
+std::vector<Quantity> historyColumns(const std::vector<Operator*>& operators, const std::vector<Budget::Line>& budget);
+std::vector<double> historyValues(const HistoryRow& row);
+
+}  // namespace lampblack::app

@@ -1,0 +1,194 @@
+#include "app/deck/soot_deck.hpp"
+#include "app/deck/temperature_input.hpp"
+#include "app/flow/flow_case.hpp"
+#include "app/tools/gas_input.hpp"
+
+namespace lampblack::app {
+namespace {
+
+void addMesh(DeckSchema& schema) {
+  schema
+      .add(choiceKey("mesh.geometry", {"axisymmetric", "planar"},
+                     "Symmetry of the domain: axisymmetric, with axes r and z, or planar, with x and y.")
+               .byDefault("axisymmetric"))
+      .add(numberKey("mesh.refinement", "Multiplies the cell count of every segment.").byDefault("1").above(0));
+  for (const std::string axis : {"r", "z", "x", "y"}) {
+    const std::string list = "mesh." + axis;
+    schema.section(list, Presence::optional, "Segments of the " + axis + " axis, one after the other from zero.")
+        .add(quantityKey(list + "[].to", units::length, "Coordinate at which the segment ends.").above(0))
+        .add(integerKey(list + "[].cells", "Number of cells of the segment.").atLeast(1))
+        .add(
+            numberKey(list + "[].ratio", "Last cell size over first; above 1 the cells grow.").byDefault("1").above(0));
+  }
+}
+
+void addBoundaries(DeckSchema& schema) {
+  schema.section("boundaries", Presence::required, "Named parts of the surface and what happens there.")
+      .add(choiceKey(
+          "boundaries.*.type", {"inlet", "outlet", "wall", "symmetry"},
+          "Kind of boundary: a stream that comes in, an opening, a solid wall or an axis or plane of symmetry."))
+      .add(choiceKey("boundaries.*.side", {"r-min", "r-max", "z-min", "z-max", "x-min", "x-max", "y-min", "y-max"},
+                     "Side of the box that the boundary lies on."))
+      .add(quantityKey("boundaries.*.from", units::length,
+                       "Coordinate along the side where the boundary starts; absent: the lower end of the side.")
+               .optional())
+      .add(quantityKey("boundaries.*.to", units::length,
+                       "Coordinate along the side where the boundary ends; absent: the upper end of the side.")
+               .optional())
+      .add(quantityKey("boundaries.*.velocity", units::velocity, "Normal velocity into the domain.")
+               .optional()
+               .atLeast(0)
+               .onlyWith("boundaries.*.type", {"inlet"}))
+      .add(temperatureKey("boundaries.*.temperature",
+                          "inlet: of the stream; outlet: of entrained gas; wall: isothermal at this temperature.")
+               .optional()
+               .onlyWith("boundaries.*.type", {"inlet", "outlet", "wall"}))
+      .add(stringKey("boundaries.*.composition",
+                     "Mole fractions of the stream (inlet) or of gas that is entrained (outlet), 'C2H4: 1, N2: 3'.")
+               .optional()
+               .onlyWith("boundaries.*.type", {"inlet", "outlet"}))
+      .add(choiceKey("boundaries.*.species", {"flux", "fixed"},
+                     "Fix the total species flux (no diffusive loss into the nozzle) or the mass fractions.")
+               .byDefault("flux")
+               .onlyWith("boundaries.*.type", {"inlet"}))
+      .add(booleanKey("boundaries.*.slip",
+                      "true: the gas slides along the wall without friction; false: it sticks to the wall.")
+               .byDefault("false")
+               .onlyWith("boundaries.*.type", {"wall"}));
+}
+
+void addInitial(DeckSchema& schema) {
+  schema.section("initial", Presence::required, "The start: two streams that mix across a burnt or hot layer.")
+      .add(choiceKey("initial.layer", {"burnt", "hot"},
+                     "burnt: complete combustion where the streams meet (without CO2 in the mechanism: equilibrium); "
+                     "hot: cold mixture with a hot layer that ignites it.")
+               .byDefault("burnt"))
+      .add(stringKey("initial.low", "Boundary whose stream fills the low end of the axis."))
+      .add(stringKey("initial.high", "Boundary whose stream fills the high end."))
+      .add(quantityKey("initial.position", units::length,
+                       "Coordinate on the axis where half of the mixture is of either stream."))
+      .add(quantityKey("initial.width", units::length, "Width of the mixing layer.").above(0))
+      .add(temperatureKey("initial.temperature", "burnt: upper limit of the temperature; hot: peak of the hot layer.")
+               .byDefault("2200 K"))
+      .add(quantityKey("initial.hot_position", units::length, "Centre of the hot layer.")
+               .optional()
+               .onlyWith("initial.layer", {"hot"}))
+      .add(quantityKey("initial.hot_width", units::length, "Half width of the hot layer.")
+               .optional()
+               .above(0)
+               .onlyWith("initial.layer", {"hot"}));
+}
+
+void addTimeAndOutput(DeckSchema& schema) {
+  schema.add(quantityKey("time.end", units::time, "Time at which the run ends, from zero.").above(0))
+      .add(quantityKey("time.first_step", units::time, "First time step.").byDefault("1 us").above(0))
+      .add(quantityKey("time.maximum_step", units::time, "Largest time step.").byDefault("1 ms").above(0))
+      .add(numberKey("time.courant", "Share of a cell's volume that may flow out in a step.")
+               .byDefault("0.5")
+               .above(0)
+               .atMost(1))
+      .add(numberKey("time.growth", "Largest ratio of a time step to the one before.").byDefault("1.2").above(1))
+      .add(quantityKey("output.interval", units::time, "Time between field outputs; the last state is always written.")
+               .optional()
+               .above(0))
+      .add(integerKey("output.history_steps", "Number of time steps between two rows of the history.")
+               .byDefault("1")
+               .atLeast(1))
+      .add(stringKey("output.species", "Species whose mole fractions are written; 'all' writes every one.")
+               .list()
+               .byDefault("[all]"))
+      .add(integerKey(
+               "checkpoint.steps",
+               "Time steps between two checkpoints, from which `lampblack run --restart` continues a run that was "
+               "interrupted; absent: checkpoints by wall time and on request only.")
+               .optional()
+               .atLeast(1))
+      .add(quantityKey("checkpoint.wall_time", units::time, "Wall time between two checkpoints.")
+               .byDefault("30 min")
+               .above(0))
+      .add(booleanKey("checkpoint.at_end",
+                      "Write a checkpoint at the end of the run too, from which it can be continued to a later end.")
+               .byDefault("false"));
+}
+
+void addParticles(DeckSchema& schema) {
+  addSootModelKeys(schema);
+  schema
+      .section("trajectories", Presence::optional,
+               "Stochastic ensembles that ride along streamlines of the final flow; needs the soot section.")
+      .add(quantityKey("trajectories.duration", units::time,
+                       "Longest time that an ensemble is followed along its streamline.")
+               .byDefault("50 ms")
+               .above(0))
+      .add(quantityKey("trajectories.time_step", units::time,
+                       "Time between two points of a streamline at which the state of the gas is taken.")
+               .byDefault("50 us")
+               .above(0))
+      .add(integerKey("trajectories.particles",
+                      "Largest number of numerical particles of an ensemble: more have less noise and cost more.")
+               .byDefault("4096")
+               .atLeast(16))
+      .add(integerKey("trajectories.bins", "Number of bins of the size distribution.").byDefault("60").atLeast(2))
+      .add(quantityKey("trajectories.smallest", units::length,
+                       "Smallest diameter of the size distribution, the lower end of its bins.")
+               .byDefault("0.5 nm")
+               .above(0))
+      .add(quantityKey("trajectories.largest", units::length,
+                       "Largest diameter of the size distribution, the upper end of its bins.")
+               .byDefault("200 nm")
+               .above(0))
+      .section("trajectories.start", Presence::required, "Where the ensembles start.")
+      .add(quantityKey("trajectories.start[].r", units::length, "Where a streamline starts: radius (planar: x).")
+               .atLeast(0))
+      .add(
+          quantityKey("trajectories.start[].z", units::length, "Where a streamline starts: axial position (planar: y).")
+              .atLeast(0));
+}
+
+}  // namespace
+
+DeckSchema flowSchema() {
+  DeckSchema schema;
+  schema.add(choiceKey("problem", {"flow"}, "What is solved."))
+      .add(stringKey("title", "One line for reports and pictures.").byDefault("''"));
+  addMechanismKeys(schema);
+  schema
+      .add(quantityKey("pressure", units::pressure, "Thermodynamic pressure p0 of the gas, the same everywhere.")
+               .byDefault("1 atm")
+               .above(0))
+      .add(integerKey("seed",
+                      "Start of all random numbers: another seed gives another sample, the same seed the same result.")
+               .byDefault("1")
+               .atLeast(0));
+  addMesh(schema);
+  addBoundaries(schema);
+  addInitial(schema);
+  addTimeAndOutput(schema);
+  schema
+      .add(choiceKey(
+               "chemistry.coupling", {"deferred", "strang"},
+               "deferred: reactions see the transport as a constant source, so that a steady flame does not depend "
+               "on the time step; strang: Strang splitting.")
+               .byDefault("deferred"))
+      .add(booleanKey("chemistry.share_work", "Whether cells with costly chemistry are sent to less busy ranks.")
+               .byDefault("true"))
+      .add(numberKey("chemistry.relative_tolerance",
+                     "Relative tolerance of the stiff solver of the chemistry: smaller is more accurate and slower.")
+               .byDefault("1e-6")
+               .above(0)
+               .below(1))
+      .add(numberKey("chemistry.absolute_tolerance",
+                     "Absolute tolerance of the stiff solver of the chemistry, in mass fraction: smaller is more "
+                     "accurate and slower.")
+               .byDefault("1e-12")
+               .above(0)
+               .below(1));
+  addTransportKeys(
+      schema, {"mixture_averaged", "unity_lewis", "constant_lewis"},
+      "How species diffuse: by mixture-averaged coefficients, as fast as heat, or as fast as heat over each "
+      "species' Lewis number.");
+  addParticles(schema);
+  return schema;
+}
+
+}  // namespace lampblack::app

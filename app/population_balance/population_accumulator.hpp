@@ -1,0 +1,50 @@
+// Adds up the repeats of one method, in their order.
+#pragma once
+
+#include "app/population_balance/population_repeat.hpp"
+#include "app/population_balance/population_statistics.hpp"
+#include "core/rooms.hpp"
+
+namespace lampblack::app {
+
+// Mean and scatter of numbers that come one by one (Welford 1962).
+class RunningMean {
+ public:
+  void add(double value) {
+    ++count_;
+    const double away = value - mean_;
+    mean_ += away / static_cast<double>(count_);
+    squares_ += away * (value - mean_);
+  }
+  [[nodiscard]] double mean() const;           // NaN of nothing
+  [[nodiscard]] double standardError() const;  // NaN of fewer than two
+
+ private:
+  std::size_t count_ = 0;
+  double mean_ = 0, squares_ = 0;
+};
+
+class MethodAccumulator {
+ public:
+  MethodAccumulator(const PopulationCase& populationCase, const PopulationMethod& method,
+                    const PopulationStatistics& frame, const RepeatRecord::Shape& shape);
+
+  void add(const RepeatRecord& record);
+  [[nodiscard]] MethodStatistics finish() const;
+
+ private:
+  const PopulationCase& case_;
+  const PopulationMethod& method_;
+  const PopulationStatistics& frame_;
+  RepeatRecord::Shape shape_;
+  std::size_t reachedRows_, reachedTimes_;
+  std::vector<std::array<RunningMean, 6>> rows_;  // moments, geometric deviation, particles
+  std::vector<Moments> sigma_;                    // sums
+  std::vector<std::vector<RunningMean>> number_;
+  MethodStatistics made_;
+};
+
+// What the deviations say of the claims of a method; sets `bias` and `verdict`.
+void judge(const PopulationCase& populationCase, const PopulationMethod& method, MethodStatistics& statistics);
+
+}  // namespace lampblack::app

@@ -1,0 +1,120 @@
+// Ignition criteria and sensitivities of a reactor deck.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "app/reactor/reactor_case_parts.hpp"
+#include "app/tools/gas_input.hpp"
+#include "chemistry/thermo/equilibrium.hpp"
+#include "chemistry/thermo/thermo.hpp"
+#include "core/errors.hpp"
+#include "core/nearest_name.hpp"
+
+namespace lampblack::app::reactorcase {
+namespace {
+
+// The temperature of equilibrium in an adiabatic reactor; none where it cannot be computed.
+std::optional<double> burntTemperature(const ReactorCase& reactorCase) {
+  const double T = reactorCase.initial.temperature, p = reactorCase.initial.pressure;
+  const std::vector<double>& start = reactorCase.initial.Y;
+  const Thermo thermo(*reactorCase.mechanism);
+  std::vector<double> Y = start;
+  try {
+    Equilibrium equilibrium(*reactorCase.mechanism);
+    if (reactorCase.type == ReactorType::ConstantPressure)
+      return equilibrium.atEnthalpyAndPressure(thermo.enthalpyMass(T, Y), p, Y);
+    return equilibrium.atEnergyAndDensity(thermo.internalEnergyMass(T, start), thermo.density(T, p, start), Y);
+  } catch (const NumericsError&) {
+    return std::nullopt;
+  }
+}
+
+// A gas that does not become hotter does not ignite.
+void requireIgnition(const Deck& deck, const std::string& key, const ReactorCase& reactorCase) {
+  const auto burnt = burntTemperature(reactorCase);
+  if (burnt && *burnt < reactorCase.initial.temperature + 1)
+    throw deck.error(key, fmt::format("this gas does not ignite: its equilibrium from {:g} K is at {:.6g} K",
+                                      reactorCase.initial.temperature, *burnt));
+}
+
+}  // namespace
+
+void readIgnition(const Deck& deck, ReactorCase& reactorCase) {
+  using Kind = IgnitionCriterion::Kind;
+  const Mechanism& mechanism = *reactorCase.mechanism;
+  const bool adiabatic = !reactorCase.profile;
+  auto& criteria = reactorCase.ignition;
+  if (adiabatic && deck.boolean("ignition.temperature_rate"))
+    criteria.push_back({Kind::TemperatureRate, 0, 0.0, "max_dTdt"});
+  if (!deck.isGiven("ignition.species") && !mechanism.findSpecies("OH")) {
+    // The default is for mechanisms that have it.
+  } else {
+    for (const std::size_t k : readSpeciesList(deck, "ignition.species", mechanism)) {
+      criteria.push_back({Kind::MoleFraction, k, 0.0, "max_X_" + mechanism.speciesName(k)});
+      criteria.push_back({Kind::MassFraction, k, 0.0, "max_Y_" + mechanism.speciesName(k)});
+    }
+  }
+  if (const auto rise = deck.optionalQuantity("ignition.temperature_rise")) {
+    requireIgnition(deck, "ignition.temperature_rise", reactorCase);
+    criteria.push_back({Kind::TemperatureRise, 0, *rise, fmt::format("rise_{:g}K", *rise)});
+  }
+}
+
+namespace {
+
+// An equation without blanks, for comparisons.
+std::string bare(std::string text) {
+  std::erase_if(text, [](char c) { return c == ' ' || c == '\t'; });
+  return text;
+}
+
+std::vector<std::size_t> reactionsNamed(const Mechanism& mechanism, const std::string& text) {
+  std::size_t number = 0;
+  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (status == std::errc{} && end == text.data() + text.size()) {
+    if (number < 1 || number > mechanism.numReactions())
+      throw InputError(fmt::format("there is no reaction {}; expected 1 to {}", number, mechanism.numReactions()));
+    return {number - 1};
+  }
+  std::vector<std::size_t> found;
+  std::vector<std::string> known;
+  for (std::size_t r = 0; r < mechanism.numReactions(); ++r) {
+    known.push_back(mechanism.reaction(r).equation);
+    if (bare(known.back()) == bare(text)) found.push_back(r);
+  }
+  if (found.empty())
+    throw InputError(fmt::format("no reaction '{}' in the mechanism{}", text, didYouMean(text, known)));
+  return found;
+}
+
+}  // namespace
+
+void readSensitivity(const Deck& deck, ReactorCase& reactorCase) {
+  if (!deck.has("sensitivity")) return;
+  const Mechanism& mechanism = *reactorCase.mechanism;
+  auto& reactions = reactorCase.sensitivities;
+  if (reactorCase.ignition.empty())
+    throw deck.error(
+        "sensitivity",
+        "there is no ignition delay to compute sensitivities of; give a criterion in the section 'ignition'");
+  if (!reactorCase.profile) requireIgnition(deck, "sensitivity", reactorCase);
+  for (const std::string& text : deck.strings("sensitivity.reactions")) {
+    if (text == "all") {
+      reactions.clear();
+      for (std::size_t r = 0; r < mechanism.numReactions(); ++r) reactions.push_back(r);
+      return;
+    }
+    try {
+      const auto found = reactionsNamed(mechanism, text);
+      if (std::find(reactions.begin(), reactions.end(), found.front()) != reactions.end())
+        throw InputError(fmt::format("the reaction '{}' is named twice", text));
+      reactions.insert(reactions.end(), found.begin(), found.end());
+    } catch (const InputError& error) {
+      throw deck.error("sensitivity.reactions", error.what());
+    }
+  }
+  if (reactions.empty()) throw deck.error("sensitivity.reactions", "expected at least one reaction, or 'all'");
+}
+
+}  // namespace lampblack::app::reactorcase

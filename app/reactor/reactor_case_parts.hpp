@@ -1,0 +1,17 @@
+// The parts of reading a reactor deck; used by readReactorCase alone.
+#pragma once
+
+#include "app/reactor/reactor_case.hpp"
+#include "core/rooms.hpp"
+
+namespace lampblack::app::reactorcase {
+
+// ignition and sensitivity of closed reactors.
+void readIgnition(const Deck& deck, ReactorCase& reactorCase);
+void readSensitivity(const Deck& deck, ReactorCase& reactorCase);
+
+// A stirred reactor (the sections reactor and inlet) and a network (the section network).
+void readStirred(const Deck& deck, ReactorCase& reactorCase);
+void readNetwork(const Deck& deck, ReactorCase& reactorCase);
+
+}  // namespace lampblack::app::reactorcase

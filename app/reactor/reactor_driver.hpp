@@ -1,0 +1,43 @@
+// One kind of reactor run. Rank 0 computes; then all ranks write together, and rank 0 says what came out.
+#pragma once
+
+#include <mpi.h>
+
+#include <memory>
+
+#include "app/reactor/reactor_case.hpp"
+#include "core/rooms.hpp"
+#include "io/json.hpp"
+#include "io/results_writer.hpp"
+#include "io/run_folder.hpp"
+
+namespace lampblack::app {
+
+class ReactorDriver {
+ public:
+  virtual ~ReactorDriver() = default;
+
+  // On rank 0 alone: solves and writes the files of text. NumericsError.
+  virtual void compute(const RunFolder& folder) = 0;
+  // Collective: the tables of the results file.
+  virtual void write(ResultsWriter& results) const = 0;
+  // On rank 0: fields of the record's object "results", and the summary on the console.
+  virtual void record(JsonWriter& json) const = 0;
+  virtual void print() const = 0;
+  virtual long steps() const = 0;
+  virtual double simulatedTime() const = 0;  // s
+
+ protected:
+  ReactorDriver() = default;
+  ReactorDriver(const ReactorDriver&) = default;
+  ReactorDriver& operator=(const ReactorDriver&) = default;
+};
+
+// The drivers refer to the case, which has to live as long.
+std::unique_ptr<ReactorDriver> closedReactorDriver(const ReactorCase& reactorCase);
+std::unique_ptr<ReactorDriver> plugFlowDriver(const ReactorCase& reactorCase);
+std::unique_ptr<ReactorDriver> stirredTransientDriver(const ReactorCase& reactorCase);
+std::unique_ptr<ReactorDriver> steadyNetworkDriver(const ReactorCase& reactorCase);
+std::unique_ptr<ReactorDriver> ensembleReactorDriver(const ReactorCase& reactorCase);
+
+}  // namespace lampblack::app

@@ -1,0 +1,92 @@
+#include "app/reactor/reactor_run.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "app/reactor/reactor_case.hpp"
+#include "app/reactor/reactor_driver.hpp"
+#include "core/errors.hpp"
+#include "core/stop_request.hpp"
+
+namespace lampblack::app {
+namespace {
+
+std::unique_ptr<ReactorDriver> driverOf(const ReactorCase& reactorCase) {
+  if (reactorCase.ensemble) return ensembleReactorDriver(reactorCase);
+  switch (reactorCase.type) {
+    case ReactorType::ConstantPressure:
+    case ReactorType::ConstantVolume:
+      return closedReactorDriver(reactorCase);
+    case ReactorType::PlugFlow:
+      return plugFlowDriver(reactorCase);
+    case ReactorType::Stirred:
+      return reactorCase.end > 0 ? stirredTransientDriver(reactorCase) : steadyNetworkDriver(reactorCase);
+    case ReactorType::Network:
+      return steadyNetworkDriver(reactorCase);
+  }
+  return nullptr;
+}
+
+class PreparedReactor : public PreparedRun {
+ public:
+  PreparedReactor(MPI_Comm comm, const Deck& deck) : comm_(comm), deck_(deck) {
+    collectively(comm, [&] {
+      case_ = readReactorCase(deck);
+      driver_ = driverOf(case_);
+    });
+  }
+
+  [[nodiscard]] std::string summary() const override {
+    std::string text = deck_.choice("reactor.type");
+    if (case_.type == ReactorType::Network) text += fmt::format(" of {}", case_.network.reactors.size());
+    return fmt::format("{}, {} species, {} reactions", text, case_.mechanism->numSpecies(),
+                       case_.mechanism->numReactions());
+  }
+
+  void run(const RunOptions& options) override {
+    int rank = 0;
+    MPI_Comm_rank(comm_, &rank);
+    recordedRun(comm_, deck_, options, 0, [&](const RunFolder& folder, const RunInfo& info, RunRecord& record) {
+      const double begin = MPI_Wtime();
+      collectively(comm_, [&] {
+        if (rank != 0) return;
+        driver_->compute(folder);
+        JsonWriter json;
+        json.beginObject();
+        driver_->record(json);
+        json.endObject();
+        record.resultsJson = json.text();
+        record.steps = driver_->steps();
+        record.simulatedTime = driver_->simulatedTime();
+        const double seconds = MPI_Wtime() - begin;
+        record.stages = {{"integration", seconds, seconds, seconds}};
+      });
+      ResultsWriter results(comm_, folder.results(), info);
+      driver_->write(results);
+      record.peakMemoryPerRank = peakMemory(comm_);
+      if (const int signal = agreedStopRequest(comm_); signal != 0) {
+        results.closePartial();
+        raiseStopped(comm_, signal,
+                     fmt::format("at t = {:.6g} s: the rows until then are in {} and {}", driver_->simulatedTime(),
+                                 folder.history().string(), folder.partialResults().string()));
+      }
+      results.close();
+      if (rank == 0) driver_->print();
+    });
+  }
+
+ private:
+  MPI_Comm comm_;
+  const Deck& deck_;
+  ReactorCase case_;
+  std::unique_ptr<ReactorDriver> driver_;
+};
+
+}  // namespace
+
+std::unique_ptr<PreparedRun> prepareReactor(MPI_Comm comm, const Deck& deck) {
+  return std::make_unique<PreparedReactor>(comm, deck);
+}
+
+}  // namespace lampblack::app

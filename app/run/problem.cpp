@@ -1,0 +1,45 @@
+#include "app/run/problem.hpp"
+
+#include <stdexcept>
+
+#include "app/flame1d/flame_case.hpp"
+#include "app/flame1d/flame_run.hpp"
+#include "app/flow/flow_case.hpp"
+#include "app/flow/flow_run.hpp"
+#include "app/population_balance/population_case.hpp"
+#include "app/population_balance/population_run.hpp"
+#include "app/reactor/reactor_case.hpp"
+#include "app/reactor/reactor_run.hpp"
+
+namespace lampblack::app {
+
+const std::vector<Problem>& problems() {
+  static const std::vector<Problem> table{
+      {"flow", "A reacting flow on a mesh, with or without soot.", flowSchema, prepareFlow, true},
+      {"flame1d", "One-dimensional flames: free, burner-stabilised, against a wall, counterflow; with or without soot.",
+       flameSchema, prepareFlame},
+      {"reactor",
+       "Reactors without space: closed at constant pressure or volume, perfectly stirred, plug flow, networks.",
+       reactorSchema, prepareReactor},
+      {"population_balance",
+       "A population of particles in a well-stirred volume of gas: Monte Carlo, sectional and moment methods, "
+       "compared.",
+       populationSchema, preparePopulation},
+  };
+  return table;
+}
+
+DeckKinds deckKinds(const std::vector<Problem>& table) {
+  DeckKinds kinds{"problem", {}};
+  for (const Problem& problem : table) kinds.kinds.push_back({problem.name, problem.doc, problem.schema()});
+  return kinds;
+}
+
+const Problem& problemOf(const Deck& deck, const std::vector<Problem>& table) {
+  const std::string name = deck.choice("problem");
+  for (const Problem& problem : table)
+    if (problem.name == name) return problem;
+  throw std::logic_error("a deck was read with another list of problems");
+}
+
+}  // namespace lampblack::app

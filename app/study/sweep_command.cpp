@@ -1,0 +1,167 @@
+#include "app/study/sweep_command.hpp"
+
+#include <fmt/format.h>
+#include <petscsys.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+
+#include "app/population_balance/convergence_study.hpp"
+#include "app/study/sweep_run.hpp"
+#include "app/study/sweep_study.hpp"
+#include "app/study/sweep_table.hpp"
+#include "core/errors.hpp"
+#include "core/stop_request.hpp"
+#include "core/system_error.hpp"
+#include "io/run_folder.hpp"
+
+namespace lampblack::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SweepArguments {
+  std::string study;
+  std::vector<std::string> overrides, settings;
+  std::string folder;
+  bool force = false, check = false;
+};
+
+int rankOf(MPI_Comm comm) {
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  return rank;
+}
+
+// The folder of the study: nobody else's, and not that of a single run either.
+RunFolder prepareFolder(MPI_Comm comm, const fs::path& folder, bool force) {
+  const fs::path last = folder / "study.json";
+  collectively(comm, [&] {
+    std::error_code error;
+    if (rankOf(comm) == 0 && !force && fs::exists(last, error))
+      throw InputError(
+          fmt::format("{}: this folder holds a study already. Choose another with --out DIR, or replace it "
+                      "with --force",
+                      folder.string()));
+  });
+  RunFolder prepared = RunFolder::prepare(folder, force, comm);
+  std::error_code error;
+  if (rankOf(comm) == 0) fs::remove(last, error);
+  return prepared;
+}
+
+std::string withoutUnit(const std::string& column) {
+  return column.substr(0, column.find(" ["));
+}
+
+// The columns that were asked for, in that order and without units; at most as many as a console holds.
+TextTable shownColumns(const TextTable& table, const std::vector<std::string>& names) {
+  constexpr std::size_t mostColumns = 16;
+  std::vector<std::size_t> places;
+  const bool all = std::find(names.begin(), names.end(), "all") != names.end();
+  for (std::size_t i = 0; all && i < table.columns.size(); ++i) places.push_back(i);
+  for (const std::string& name : names)
+    for (std::size_t i = 0; !all && i < table.columns.size(); ++i)
+      if (withoutUnit(table.columns[i]) == name) places.push_back(i);
+  places.resize(std::min(places.size(), mostColumns));
+  TextTable shown;
+  for (const std::size_t i : places) shown.columns.push_back(withoutUnit(table.columns[i]));
+  for (const auto& row : table.rows) {
+    shown.rows.emplace_back();
+    for (const std::size_t i : places) shown.rows.back().push_back(row[i]);
+  }
+  return shown;
+}
+
+// "table.csv" of the runs becomes "study_table.csv".
+void writeTables(const SweepStudy& study, const std::vector<RunOutcome>& outcomes, const fs::path& folder) {
+  const TextTable table = studyTable(study, outcomes, folder);
+  writeFileAtomically(folder / "study.csv", csvText(table));
+  fmt::print("\n{}\n\n", study.name);
+  for (const std::string& name : study.tables) {
+    const TextTable stacked = stackedTable(study, name, folder);
+    if (stacked.rows.empty()) continue;
+    writeFileAtomically(folder / ("study_" + name), csvText(stacked));
+    std::vector<std::string> names = study.columns;
+    names.insert(names.begin(), "run");
+    fmt::print("{}\n", alignedText(shownColumns(stacked, names)));
+  }
+  // The messages go below the table, where there is room for them.
+  std::vector<std::string> names = table.columns;
+  std::erase(names, "message");
+  for (std::string& name : names) name = withoutUnit(name);
+  fmt::print("{}", alignedText(shownColumns(table, names)));
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    if (outcomes[i].failure != RunFailure::none) fmt::print("{}: {}\n", study.runs[i].name, outcomes[i].message);
+  }
+  writeFileAtomically(folder / "study.json", studyJson(study, outcomes, table));
+  fmt::print("study in {}\n", folder.string());
+}
+
+// The worst failure decides how the command ends. Where the runs were cut short, its message is the first of that kind.
+void raiseFailures(MPI_Comm comm, const std::vector<RunOutcome>& outcomes, const fs::path& folder) {
+  RunFailure worst = RunFailure::none;
+  std::size_t failed = 0;
+  for (const RunOutcome& outcome : outcomes) {
+    worst = std::max(worst, outcome.failure);
+    failed += outcome.failure != RunFailure::none ? 1 : 0;
+  }
+  if (worst == RunFailure::stopped)
+    raiseStopped(comm, agreedStopRequest(comm),
+                 fmt::format("after {} of {} runs: they are in the tables in {}", outcomes.size() - failed,
+                             outcomes.size(), folder.string()));
+  std::string message = fmt::format("{} of {} runs failed; the table says which and why", failed, outcomes.size());
+  if (worst == RunFailure::system)
+    message = std::find_if(outcomes.begin(), outcomes.end(), [](const RunOutcome& outcome) {
+                return outcome.failure == RunFailure::system;
+              })->message;
+  collectively(comm, [&] {
+    if (worst == RunFailure::input) throw InputError(message);
+    if (worst == RunFailure::numerics) throw NumericsError(message);
+    if (worst == RunFailure::system) throw SystemError(message);
+    if (worst == RunFailure::bug) throw std::runtime_error(message);
+  });
+}
+
+void sweep(const SweepArguments& arguments) {
+  const MPI_Comm comm = PETSC_COMM_WORLD;
+  const Deck deck = Deck::load(arguments.study, arguments.overrides, studySchema(), comm);
+  SweepStudy study;
+  collectively(comm, [&] { study = readStudy(deck, arguments.settings); });
+  checkDecks(comm, study);
+  if (study.convergence) checkConvergence(comm, deck, *study.convergence);
+  if (arguments.check) {
+    if (rankOf(comm) != 0) return;
+    for (const SweepRun& run : study.runs) fmt::print("{}\n", run.name);
+    fmt::print("{} is a valid study: {} runs{}.\n", arguments.study, study.runs.size(),
+               study.convergence ? " and a convergence study" : "");
+    return;
+  }
+  const fs::path folder = arguments.folder;
+  const RunFolder locked = prepareFolder(comm, folder, arguments.force);
+  const std::vector<RunOutcome> outcomes = runStudy(comm, study, folder, arguments.force);
+  collectively(comm, [&] {
+    if (rankOf(comm) == 0) writeTables(study, outcomes, folder);
+  });
+  if (study.convergence && agreedStopRequest(comm) == 0) runConvergence(comm, *study.convergence, folder);
+  raiseFailures(comm, outcomes, folder);
+}
+
+}  // namespace
+
+void addSweepCommand(CLI::App& app, std::function<void()>& command) {
+  const auto arguments = std::make_shared<SweepArguments>();
+  CLI::App* subcommand = app.add_subcommand("sweep", "Run a study: many decks, or many variants of one, and a table.");
+  subcommand->add_option("study", arguments->study, "Study (YAML).")->required();
+  subcommand->add_option("--set", arguments->settings, "Override a key of every deck: a.b=c.")->allow_extra_args(false);
+  subcommand->add_option("--study-set", arguments->overrides, "Override a key of the study: ranks_per_run=1.")
+      ->allow_extra_args(false);
+  subcommand->add_option("--out", arguments->folder, "Folder for the study; each run gets a folder in it.")
+      ->default_val("results/study");
+  subcommand->add_flag("--force", arguments->force, "Replace an earlier study in that folder.");
+  subcommand->add_flag("--check", arguments->check, "Read the study and its decks, name the runs, and run nothing.");
+  subcommand->callback([arguments, &command] { command = [arguments] { sweep(*arguments); }; });
+}
+
+}  // namespace lampblack::app

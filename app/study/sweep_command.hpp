@@ -1,0 +1,18 @@
+// `lampblack sweep`: many decks, or many variants of one, run one after another or side by side, and a table at the
+// end.
+#pragma once
+
+#include <functional>
+
+#include "core/rooms.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace lampblack::app {
+
+// Adds the subcommand to the command line; when it is chosen, parsing sets `command` to what has to run.
+void addSweepCommand(CLI::App& app, std::function<void()>& command);
+
+}  // namespace lampblack::app

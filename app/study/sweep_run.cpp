@@ -1,0 +1,186 @@
+#include "app/study/sweep_run.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <new>
+
+#include "app/run/problem.hpp"
+#include "core/errors.hpp"
+#include "core/stop_request.hpp"
+#include "core/system_error.hpp"
+#include "io/json.hpp"
+
+namespace lampblack::app {
+namespace {
+
+struct Group {
+  MPI_Comm comm = MPI_COMM_NULL;
+  int size = 1;   // ranks in a group
+  int count = 1;  // groups
+  int index = 0;  // this rank's group
+  std::size_t chain = 1;
+
+  Group(MPI_Comm all, const SweepStudy& study) : chain(study.chain) {
+    int ranks = 1, rank = 0;
+    MPI_Comm_size(all, &ranks);
+    MPI_Comm_rank(all, &rank);
+    size = study.ranksPerRun.value_or(ranks);
+    collectively(all, [&] {
+      if (size > ranks || ranks % size != 0)
+        throw InputError(fmt::format("ranks_per_run: {} ranks cannot be shared out in groups of {}", ranks, size));
+    });
+    count = ranks / size;
+    index = rank / size;
+    MPI_Comm_split(all, index, rank, &comm);
+  }
+  ~Group() { MPI_Comm_free(&comm); }
+  Group(const Group&) = delete;
+  Group& operator=(const Group&) = delete;
+
+  // Chains stay on the same ranks.
+  [[nodiscard]] int groupOf(std::size_t run) const { return static_cast<int>(run / chain) % count; }
+  [[nodiscard]] int leaderOf(std::size_t run) const { return groupOf(run) * size; }
+};
+
+// An error that only some ranks of the group know of leaves the others waiting for them: nothing can go on.
+void refuseLoneError(const Group& group, const std::exception& error) {
+  if (group.size > 1 && !isCollective(error)) throw;
+}
+
+// `before`: the run in front of this one in its chain, if it ended well.
+RunOutcome runOne(const Group& group, const SweepRun& run, const SweepRun* before, const std::filesystem::path& folder,
+                  bool force) {
+  RunOutcome outcome;
+  const double start = MPI_Wtime();
+  try {
+    std::vector<std::string> overrides = run.overrides;
+    Deck deck = Deck::load(run.deck, overrides, deckKinds(), group.comm);
+    if (before != nullptr && !deck.has("initial")) {
+      const auto results = std::filesystem::absolute(folder / before->name / "results.h5");
+      overrides.push_back("initial=" + jsonString(results.string()));
+      deck = Deck::load(run.deck, overrides, deckKinds(), group.comm);
+    }
+    problemOf(deck).prepare(group.comm, deck)->run({folder / run.name, force, overrides});
+  } catch (const InputError& error) {
+    refuseLoneError(group, error);
+    outcome.failure = RunFailure::input;
+    outcome.message = error.what();
+  } catch (const NumericsError& error) {
+    refuseLoneError(group, error);
+    outcome.failure = RunFailure::numerics;
+    outcome.message = error.what();
+  } catch (const SystemError& error) {
+    refuseLoneError(group, error);
+    outcome.failure = RunFailure::system;
+    outcome.message = error.what();
+  } catch (const std::bad_alloc& error) {
+    refuseLoneError(group, error);
+    outcome.failure = RunFailure::system;
+    outcome.message = outOfMemory().what();
+  } catch (const Stopped& error) {
+    outcome.failure = RunFailure::stopped;
+    outcome.message = error.what();
+  } catch (const std::exception& error) {
+    refuseLoneError(group, error);
+    outcome.failure = RunFailure::bug;
+    outcome.message = error.what();
+  }
+  outcome.seconds = MPI_Wtime() - start;
+  return outcome;
+}
+
+void share(MPI_Comm comm, int from, RunOutcome& outcome) {
+  int failure = static_cast<int>(outcome.failure);
+  int length = static_cast<int>(outcome.message.size());
+  MPI_Bcast(&failure, 1, MPI_INT, from, comm);
+  MPI_Bcast(&length, 1, MPI_INT, from, comm);
+  MPI_Bcast(&outcome.seconds, 1, MPI_DOUBLE, from, comm);
+  outcome.failure = static_cast<RunFailure>(failure);
+  outcome.message.resize(static_cast<std::size_t>(length));
+  MPI_Bcast(outcome.message.data(), length, MPI_CHAR, from, comm);
+}
+
+// What is wrong with a run before its first step; empty where it can begin.
+std::string whyItCannotBegin(const SweepRun& run) {
+  try {
+    const Deck deck = Deck::load(run.deck, run.overrides, deckKinds(), MPI_COMM_SELF);
+    static_cast<void>(problemOf(deck).prepare(MPI_COMM_SELF, deck));
+  } catch (const InputError& error) {
+    return error.what();
+  } catch (const NumericsError&) {
+    return {};  // is told in its row of the table
+  }
+  return {};
+}
+
+// Rank 0. InputError where not one run can begin: what is wrong is in the deck then, not in a value of the study. Where
+// none of the first twenty of many can, the runs themselves tell, so that a large study is not kept waiting.
+void requireThatOneCanBegin(const SweepStudy& study) {
+  constexpr std::size_t mostAsked = 20;
+  std::string first;
+  std::size_t asked = 0;
+  for (const SweepRun& run : study.runs) {
+    if (asked++ == mostAsked) return;
+    const std::string why = whyItCannotBegin(run);
+    if (why.empty()) return;
+    if (first.empty()) first = why;
+  }
+  if (!study.runs.empty()) throw InputError(first);  // a convergence study may stand alone
+}
+
+}  // namespace
+
+void checkDecks(MPI_Comm comm, const SweepStudy& study) {
+  for (const SweepRun& run : study.runs) {
+    const Deck deck = Deck::load(run.deck, run.overrides, deckKinds(), comm);
+    if (const std::string name = deck.choice("problem"); study.chain > 1 && name != "flame1d")
+      collectively(comm, [&] {
+        throw InputError(
+            fmt::format("{}: only runs of problem flame1d can start from each other (chain: {}); this one is "
+                        "of problem {}",
+                        run.deck.string(), study.chain, name));
+      });
+  }
+  collectively(comm, [&] {
+    int rank = 0;
+    MPI_Comm_rank(comm, &rank);
+    if (rank == 0) requireThatOneCanBegin(study);
+  });
+}
+
+std::vector<RunOutcome> runStudy(MPI_Comm comm, const SweepStudy& study, const std::filesystem::path& folder,
+                                 bool force) {
+  const Group group(comm, study);
+  int groupRank = 0;
+  MPI_Comm_rank(group.comm, &groupRank);
+  std::vector<RunOutcome> outcomes(study.runs.size());
+  RunFailure ended = RunFailure::none;  // what keeps this group from going on
+  for (std::size_t i = 0; i < study.runs.size(); ++i) {
+    if (group.groupOf(i) != group.index) continue;
+    const SweepRun& run = study.runs[i];
+    if (ended == RunFailure::none && agreedStopRequest(group.comm) != 0) ended = RunFailure::stopped;
+    if (ended != RunFailure::none) {
+      outcomes[i].failure = ended;
+      outcomes[i].message = "not begun";
+      continue;
+    }
+    if (groupRank == 0) {
+      fmt::print("\n--- run {} of {}: {}\n", i + 1, study.runs.size(), run.name);
+      std::fflush(stdout);
+    }
+    const bool follows = i % study.chain > 0 && outcomes[i - 1].failure == RunFailure::none;
+    outcomes[i] = runOne(group, run, follows ? &study.runs[i - 1] : nullptr, folder, force);
+    if (outcomes[i].failure == RunFailure::system || outcomes[i].failure == RunFailure::stopped)
+      ended = outcomes[i].failure;
+    if (groupRank == 0 && outcomes[i].failure != RunFailure::none) {
+      fmt::print("{} failed: {}\n", run.name, outcomes[i].message);
+      std::fflush(stdout);
+    }
+  }
+  for (std::size_t i = 0; i < outcomes.size(); ++i) share(comm, group.leaderOf(i), outcomes[i]);
+  return outcomes;
+}
+
+}  // namespace lampblack::app

@@ -1,0 +1,33 @@
+// Carries out the runs of a study, one after another on all ranks or side by side on groups of them.
+#pragma once
+
+#include <mpi.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/study/sweep_study.hpp"
+#include "core/rooms.hpp"
+
+namespace lampblack::app {
+
+enum class RunFailure { none, input, numerics, system, bug, stopped };  // from harmless to severe
+
+struct RunOutcome {
+  RunFailure failure = RunFailure::none;
+  std::string message;   // why it failed
+  double seconds = 0.0;  // wall time
+};
+
+// Collective. Reads every deck of the study, so that a mistake in the last one is known before the first is run, and
+// makes all that is there before the first step of the first run that can begin. InputError, also where none can.
+void checkDecks(MPI_Comm comm, const SweepStudy& study);
+
+// Collective. Runs all of them, each in a folder of its name below `folder`; a run that fails does not keep the others
+// from going on, but a full disk and a signal do: what would have followed has their outcome. Same outcomes on every
+// rank. InputError where ranks_per_run does not divide the ranks.
+std::vector<RunOutcome> runStudy(MPI_Comm comm, const SweepStudy& study, const std::filesystem::path& folder,
+                                 bool force);
+
+}  // namespace lampblack::app

@@ -1,0 +1,56 @@
+// How decks name a gas: the keys of a mixture in a section of the deck, and reading them. The same words for every
+// problem that has mixtures.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "chemistry/mechanism/mechanism.hpp"
+#include "chemistry/thermo/thermo.hpp"
+#include "chemistry/transport/collision_integrals.hpp"
+#include "core/rooms.hpp"
+#include "io/deck.hpp"
+
+namespace lampblack::app {
+
+// Adds `composition`, `mass_fractions`, and `fuel`, `oxidizer`, `equivalence_ratio` below `section` ("initial").
+void addMixtureKeys(DeckSchema& schema, const std::string& section);
+
+// The mass fractions a section names, in one of the three ways. InputError where it names none or several.
+std::vector<double> readMixture(const Deck& deck, const std::string& section, const Mechanism& mechanism);
+
+// Mole fractions of fuel and oxidizer (mole fractions each) mixed at an equivalence ratio: the fuel's need of oxygen
+// atoms (2 C + H/2 + 2 S + 2 Si - O) over what the oxidizer has to give. InputError where there is no such ratio.
+std::vector<double> mixByEquivalenceRatio(const Mechanism& mechanism, const std::vector<double>& fuel,
+                                          const std::vector<double>& oxidizer, double ratio);
+
+// Adds `mechanism` and `phase`.
+void addMechanismKeys(DeckSchema& schema);
+
+// The mechanism a deck names by these keys; rank 0 prints its warnings. InputError at `mechanism`.
+std::shared_ptr<const Mechanism> readMechanism(const Deck& deck);
+
+// Adds `transport.model` with these choices, `transport.lewis_numbers` and `transport.collision_integrals`.
+void addTransportKeys(DeckSchema& schema, std::vector<std::string> models, const std::string& modelDoc);
+
+// The collision integrals a deck asks for. InputError where the mechanism lacks transport data.
+CollisionIntegrals readCollisionIntegrals(const Deck& deck, const Mechanism& mechanism);
+
+// Lewis numbers of every species where the model is constant_lewis, else none. InputError where the deck has the one
+// without the other.
+std::vector<double> readLewisNumbers(const Deck& deck, const Mechanism& mechanism);
+
+// A quantity that is optional in the schema and needed here: "<why> needs the key '<name>'".
+double neededQuantity(const Deck& deck, const std::string& section, const std::string& name, const std::string& why);
+
+// InputError at that key where a stream of this speed (m/s) is too fast for equations of constant pressure: their error
+// goes with the square of the Mach number, some per cent at 0.3.
+void requireLowMach(const Deck& deck, const std::string& key, const Thermo& thermo, double speed, double temperature,
+                    const std::vector<double>& Y);
+
+// Numbers of the species a key lists by name; all of them for "all". InputError at that key, also for a name said
+// twice.
+std::vector<std::size_t> readSpeciesList(const Deck& deck, const std::string& key, const Mechanism& mechanism);
+
+}  // namespace lampblack::app

@@ -1,0 +1,59 @@
+#include "particles/ensemble/ensemble.hpp"
+
+#include "particles/ensemble/stochastic_process.hpp"
+#include "particles/population/monte_carlo/class_store.hpp"
+#include "particles/population/monte_carlo/equal_weight_method.hpp"
+#include "particles/population/monte_carlo/sorted_store.hpp"
+#include "particles/population/monte_carlo/weighted_method.hpp"
+
+namespace lampblack::particles {
+namespace {
+
+constexpr std::uint32_t streamPurpose = 0x53535354;  // stochastic soot
+
+template <class Method>
+std::unique_ptr<Ensemble> make(EnsembleOptions options, const PopulationModel& model,
+                               const MonteCarloOptions& monteCarlo) {
+  RandomStream random(options.seed, options.owner, streamPurpose);
+  const SootAggregate type(options.soot.sootDensity, options.coalescing);
+  Method method(type, model, InitialPopulation{}, monteCarlo, random);
+  return std::make_unique<StochasticProcess<Method>>(std::move(options), type, std::move(method), random);
+}
+
+}  // namespace
+
+std::unique_ptr<Ensemble> makeEnsemble(EnsembleOptions options) {
+  if (options.particles < 8) throw InputError("stochastic soot: at least 8 numerical particles are needed");
+  if (!(options.startNumberDensity > 0) || !(options.splitTolerance > 0) || !(options.splitTolerance <= 1)) {
+    throw InputError("stochastic soot: the start number density and the split tolerance need to be positive");
+  }
+  PopulationModel model;
+  if (options.soot.coagulation) {
+    // Of some gas, until there is the right one.
+    CollisionKernelOptions kernel = options.kernel;
+    kernel.gas = {1500, constants::oneAtmosphere, 0.2, 5e-5, 0.028};
+    kernel.enhancement = options.soot.vanDerWaals;
+    model.coagulation = kernel;
+  }
+  model.growth.oxidation = 1;  // particles may vanish
+  MonteCarloOptions monteCarlo;
+  monteCarlo.particles = options.particles;
+  monteCarlo.expectedNumber = options.startNumberDensity;
+  monteCarlo.nucleusWeight = 1;
+  switch (options.method) {
+    case EnsembleMethod::dsmc:
+      monteCarlo.method = MonteCarloMethod::dsmc;
+      return make<EqualWeightMethod<SootAggregate, ClassStore<EqualRates<SootAggregate>>>>(std::move(options), model,
+                                                                                           monteCarlo);
+    case EnsembleMethod::sammc:
+      monteCarlo.method = MonteCarloMethod::sammc;
+      break;
+    case EnsembleMethod::swa:
+      monteCarlo.method = MonteCarloMethod::swa;
+      break;
+  }
+  return make<WeightedMethod<SootAggregate, SortedStore<WeightedRates<SootAggregate>>>>(std::move(options), model,
+                                                                                        monteCarlo);
+}
+
+}  // namespace lampblack::particles

@@ -1,0 +1,113 @@
+// StochasticProcess: its population as given and as seen from outside. Included by stochastic_process.hpp.
+#pragma once
+
+#include "core/packed_doubles.hpp"
+#include "core/rooms.hpp"
+#include "particles/ensemble/stochastic_process.hpp"
+#include "particles/population/monte_carlo/weighted_deviation.hpp"
+
+namespace lampblack::particles {
+
+template <class Method>
+void StochasticProcess<Method>::initialise(std::span<const GivenParticle> population) {
+  if (population.empty() || population.size() > options_.particles) {
+    throw InputError(
+        fmt::format("stochastic soot: {} particles, there is room for 1 to {}", population.size(), options_.particles));
+  }
+  for (const GivenParticle& p : population) {
+    if (!(p.carbon > 0) || !(p.hydrogen >= 0) || !(p.primaries >= 1) || !(p.number > 0))
+      throw InputError("stochastic soot: a particle needs carbon, a number and at least one primary");
+    if (!weighted && p.number != population[0].number)
+      throw InputError("stochastic soot: particles of equal weight that stand for different numbers");
+  }
+  if constexpr (weighted) {
+    std::vector<typename Method::Entry> entries;
+    for (const GivenParticle& p : population)
+      entries.push_back({type_.make(p.carbon, p.hydrogen, p.primaries), p.number});
+    method_.replace(std::move(entries));
+  } else {
+    std::vector<Particle> particles;
+    for (const GivenParticle& p : population) particles.push_back(type_.make(p.carbon, p.hydrogen, p.primaries));
+    method_.replace(particles, population[0].number, random_);
+  }
+  exchange_ = {};
+  reached_ = 0;
+  planned_ = false;
+  cost_ = 0;
+}
+
+// Which layout of a packed state this is; another one is refused.
+inline constexpr double packedVersion = 2;
+
+template <class Method>
+std::vector<double> StochasticProcess<Method>::pack() const {
+  std::vector<double> state;
+  packDoubles(
+      state, std::array{packedVersion, static_cast<double>(options_.method), static_cast<double>(options_.particles),
+                        static_cast<double>(random_.position()), reached_, nucleusAfter_, planned_ ? 1.0 : 0.0, cost_});
+  packDoubles(state, exchange_);
+  for (const PopulationCounter& counter : populationCounters)
+    state.push_back(static_cast<double>(counters().*counter.value));  // below 2^53
+  method_.pack(state);
+  return state;
+}
+
+template <class Method>
+void StochasticProcess<Method>::unpack(std::span<const double> values) {
+  PackedDoubles state(values);
+  if (state.next() != packedVersion || state.next() != static_cast<double>(options_.method) ||
+      state.next() != static_cast<double>(options_.particles))
+    throw InputError("stochastic soot: the saved state is of a population with another method or number of particles");
+  random_.seek(static_cast<std::uint64_t>(state.next()));
+  reached_ = state.next();
+  nucleusAfter_ = state.next();
+  planned_ = state.next() != 0;
+  cost_ = state.next();
+  exchange_ = state.next<EnsembleExchange>();
+  for (const PopulationCounter& counter : populationCounters)
+    method_.counters().*counter.value = static_cast<std::uint64_t>(state.next());
+  method_.unpack(state);
+  if (state.left() != 0) throw InputError("stochastic soot: the saved state is longer than its population");
+}
+
+template <class Method>
+Ensemble::Totals StochasticProcess<Method>::totals() const {
+  Totals t;
+  method_.forEachParticle([&](const Particle& p, double w) {
+    const double d = type_.primaryDiameter(p);
+    t.number += w;
+    t.carbon += w * p.carbon;
+    t.hydrogen += w * p.hydrogen;
+    t.primaries += w * p.primaries;
+    t.surface += w * p.primaries * constants::pi * d * d;
+    t.diameters += w * d * SootAggregate::mobilityFactor(p.primaries);
+  });
+  return t;
+}
+
+template <class Method>
+double StochasticProcess<Method>::moment(double order) const {
+  double sum = 0;
+  method_.forEachParticle([&](const Particle& p, double w) { sum += w * std::pow(type_.volume(p), order); });
+  return sum;
+}
+
+template <class Method>
+std::vector<double> StochasticProcess<Method>::sizeDistribution(double logMin, double logMax, std::size_t bins) const {
+  std::vector<double> density(bins, 0);
+  const double width = (logMax - logMin) / static_cast<double>(bins);
+  method_.forEachParticle([&](const Particle& p, double w) {
+    const double x = (std::log10(type_.mobilityDiameter(p)) - logMin) / width;
+    if (x >= 0 && x < static_cast<double>(bins)) density[static_cast<std::size_t>(x)] += w / width;
+  });
+  return density;
+}
+
+template <class Method>
+double StochasticProcess<Method>::geometricDeviation() const {
+  WeightedDeviation deviation;
+  method_.forEachParticle([&](const Particle& p, double w) { deviation.add(std::log(type_.mobilityDiameter(p)), w); });
+  return deviation.geometric();
+}
+
+}  // namespace lampblack::particles

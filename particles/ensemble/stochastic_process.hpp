@@ -1,0 +1,326 @@
+// Inside of makeEnsemble(): the processes of soot in a population of any Monte Carlo method. Not for other rooms.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/errors.hpp"
+#include "core/random.hpp"
+#include "particles/ensemble/ensemble.hpp"
+#include "particles/ensemble/newborn_step.hpp"
+#include "particles/soot/soot_medium.hpp"
+
+namespace lampblack::particles {
+
+// `Method` is an EqualWeightMethod or WeightedMethod of SootAggregate.
+template <class Method>
+class StochasticProcess final : public Ensemble {
+ public:
+  using Particle = SootAggregate::Particle;
+
+  StochasticProcess(EnsembleOptions options, const SootAggregate& type, Method method, RandomStream random)
+      : options_(std::move(options)),
+        type_(type),
+        dimers_(options_.soot),
+        method_(std::move(method)),
+        random_(random) {}
+
+  void initialise(std::span<const GivenParticle> population) override;
+  void advance(const ParticleGas& gas, double dilution, double dt) override;
+  void dilute(double factor) override;
+  [[nodiscard]] EnsembleExchange takeExchange() override { return std::exchange(exchange_, {}); }
+
+  [[nodiscard]] double cost() const override { return cost_; }
+  [[nodiscard]] std::vector<double> pack() const override;
+  void unpack(std::span<const double> state) override;
+
+  [[nodiscard]] std::size_t size() const override { return method_.size(); }
+  [[nodiscard]] Totals totals() const override;
+  [[nodiscard]] double moment(double order) const override;
+  [[nodiscard]] std::vector<double> sizeDistribution(double logMin, double logMax, std::size_t bins) const override;
+  [[nodiscard]] double geometricDeviation() const override;
+  [[nodiscard]] const PopulationCounters& counters() const override { return const_cast<Method&>(method_).counters(); }
+  [[nodiscard]] const EnsembleOptions& options() const override { return options_; }
+
+ private:
+  // Of the whole population, per m3.
+  struct Sums {
+    double number = 0, carbon = 0, hydrogen = 0, primaries = 0, area = 0, diameters = 0;
+    double collisions = 0, slopes = 0;  // with dimers, 1/s, and their change with the logarithm of all diameters
+  };
+  [[nodiscard]] Sums sums(const SootMedium& medium) const;
+  struct Atoms {
+    double carbon = 0, hydrogen = 0;  // kg/m3
+  };
+  [[nodiscard]] Atoms atoms() const;
+  // Change of the sum of collisions with dimers by coagulation, 1/s2, as for a population of equal particles.
+  [[nodiscard]] double coagulating(const SootMedium& medium, const Sums& sums) const;
+  [[nodiscard]] double step(const SootMedium& medium, const Sums& sums, double dilution, double remaining) const;
+  // `start`: of the population as it is.
+  void jump(const SootMedium& medium, const Sums& start, double dt, double stepLength);
+  void grow(const SootMedium& medium, double dt);
+  void planNucleus(double weight) { nucleusAfter_ = weight * random_.uniform(); }
+  void recordUptakeOfDimers(const SootMedium& medium, double dimers);
+
+  static constexpr bool weighted = requires(Method method, const Particle& p) { method.setNucleus(p, 1.0); };
+
+  EnsembleOptions options_;
+  SootAggregate type_;
+  DimerModel dimers_;
+  Method method_;
+  RandomStream random_;
+  EnsembleExchange exchange_;
+  // Of the interval of the integral of inception that the next nucleus stands for (NucleationSampling::even): how much
+  // has passed (negative: it has not begun), and where in it the nucleus is due, 1/m3.
+  double reached_ = 0, nucleusAfter_ = 0;
+  bool planned_ = false;
+  double cost_ = 0;
+  mutable std::optional<CollisionKernel> kernel_;  // for equal particles
+};
+
+template <class Method>
+typename StochasticProcess<Method>::Sums StochasticProcess<Method>::sums(const SootMedium& medium) const {
+  Sums s;
+  method_.forEachParticle([&](const Particle& p, double w) {
+    const double d = type_.primaryDiameter(p);
+    s.number += w;
+    s.carbon += w * p.carbon;
+    s.hydrogen += w * p.hydrogen;
+    s.primaries += w * p.primaries;
+    s.area += w * p.primaries * constants::pi * d * d;
+    s.diameters += w * p.diameter;
+    if (!medium.condensing()) return;
+    const double rate = medium.collision(p);
+    s.collisions += w * rate;
+    s.slopes += w * medium.collisionSlope(p, rate);
+  });
+  return s;
+}
+
+template <class Method>
+typename StochasticProcess<Method>::Atoms StochasticProcess<Method>::atoms() const {
+  Atoms all;
+  method_.forEachParticle([&](const Particle& p, double w) {
+    all.carbon += w * p.carbon;
+    all.hydrogen += w * p.hydrogen;
+  });
+  return all;
+}
+
+template <class Method>
+double StochasticProcess<Method>::coagulating(const SootMedium& medium, const Sums& s) const {
+  if (!kernel_ || !(s.number > 0)) return 0;
+  const double mass = (s.carbon + s.hydrogen) / s.number, d = s.diameters / s.number;
+  const CollisionKernel::Properties mean{mass / options_.soot.sootDensity, mass, d};
+  const double rate = 0.5 * kernel_->value(mean, mean) * s.number * s.number;
+  const Particle one{mass, 0, 1, d};
+  const Particle two{2 * mass, 0, 2, d * (options_.coalescing ? std::cbrt(2.0) : SootAggregate::collisionFactor(2))};
+  return rate * (medium.collision(two) - 2 * medium.collision(one));
+}
+
+// The step over which nothing changes by more than the tolerance: the share of dimers that condense, by inception; the
+// diameters, by growth; the number, by coagulation.
+template <class Method>
+double StochasticProcess<Method>::step(const SootMedium& medium, const Sums& s, double dilution,
+                                       double remaining) const {
+  double fastest = std::abs(dilution);
+  const double dimers = medium.dimers(s.collisions);
+  if (medium.incepting() && medium.condensing()) {
+    const Particle nucleus = type_.make(2 * medium.dimerCarbon(), 2 * medium.dimerHydrogen(), 1);
+    const double rate = medium.inception(s.collisions);
+    const double scale = s.collisions + 2 * std::sqrt(medium.dimer().rate * medium.dimer().selfCollision);
+    fastest = std::max(fastest, rate * medium.collision(nucleus) / scale);
+  }
+  if (s.number > 0) {
+    const SootFluxes flux = medium.fluxes();
+    const double most = (flux.growth + flux.O2 + flux.OH) * s.area + s.collisions * dimers * medium.dimer().mass;
+    fastest = std::max(fastest, most / (3 * (s.carbon + s.hydrogen)));
+    // By itself coagulation needs no steps.
+    if (kernel_ && (medium.condensing() || medium.surfaceActive())) {
+      const double mass = (s.carbon + s.hydrogen) / s.number;
+      const CollisionKernel::Properties mean{mass / options_.soot.sootDensity, mass, s.diameters / s.number};
+      fastest = std::max(fastest, 0.5 * kernel_->value(mean, mean) * s.number);
+    }
+  }
+  double longest = std::numeric_limits<double>::infinity();
+  if (medium.incepting()) {
+    const Particle nucleus = type_.make(2 * medium.dimerCarbon(), 2 * medium.dimerHydrogen(), 1);
+    const SootFluxes flux = medium.fluxes();
+    const double d = nucleus.diameter, mass = SootAggregate::mass(nucleus);
+    const double gain = (flux.growth + flux.O2 + flux.OH) * constants::pi * d * d +
+                        (medium.condensing() ? medium.collision(nucleus) * dimers * medium.dimer().mass : 0);
+    const CollisionKernel::Properties one{mass / options_.soot.sootDensity, mass, d};
+    longest = newbornStep(options_.splitTolerance, medium.inception(s.collisions), s.number, gain / (3 * mass),
+                          kernel_ ? kernel_->value(one, one) : 0);
+  }
+  return std::min({remaining, fastest > 0 ? options_.splitTolerance / fastest : remaining, longest});
+}
+
+template <class Method>
+void StochasticProcess<Method>::advance(const ParticleGas& gas, double dilution, double dt) {
+  if (!(dt > 0)) return;
+  const SootMedium medium(options_.soot, dimers_, gas, options_.keepsHydrogen);
+  if (options_.soot.coagulation) {
+    CollisionKernelOptions kernel = options_.kernel;
+    kernel.gas = medium.gas();
+    kernel.enhancement = options_.soot.vanDerWaals;
+    kernel_.emplace(kernel);
+    method_.setKernel(kernel);
+  } else {
+    method_.rebuild();
+  }
+  cost_ = 0;
+  const auto eventsBefore = counters().events() + counters().fictitious;
+  double remaining = dt;
+  while (remaining > 0 && (size() > 0 || medium.incepting())) {
+    cost_ += static_cast<double>(size()) + 1;
+    const Sums before = sums(medium);
+    const double length = step(medium, before, dilution, remaining);
+    if (dilution != 0) dilute(std::exp(-0.5 * dilution * length));
+    jump(medium, dilution != 0 ? sums(medium) : before, 0.5 * length, length);
+    grow(medium, length);
+    jump(medium, sums(medium), 0.5 * length, length);
+    if (dilution != 0) dilute(std::exp(-0.5 * dilution * length));
+    ++method_.counters().splitSteps;
+    remaining = length < remaining ? remaining - length : 0;
+  }
+  cost_ += static_cast<double>(counters().events() + counters().fictitious - eventsBefore);
+  if (random_.position() >> 33 != 0) throw NumericsError("stochastic soot: the random stream is used up");
+}
+
+template <class Method>
+void StochasticProcess<Method>::dilute(double factor) {
+  const Atoms before = atoms();
+  method_.dilute(factor);
+  for (double* number : {&reached_, &nucleusAfter_}) *number *= factor;
+  exchange_.dilutedCarbon += before.carbon * (1 - factor);
+  exchange_.dilutedHydrogen += before.hydrogen * (1 - factor);
+}
+
+template <class Method>
+void StochasticProcess<Method>::jump(const SootMedium& medium, const Sums& start, double dt, double stepLength) {
+  const double nucleusCarbon = 2 * medium.dimerCarbon(), nucleusHydrogen = 2 * medium.dimerHydrogen();
+  double inception = 0;  // 1/m3/s, of the middle of this step
+  if (medium.incepting()) {
+    const Particle nucleus = type_.make(nucleusCarbon, nucleusHydrogen, 1);
+    const double first = medium.inception(start.collisions);
+    const double change = first * medium.collision(nucleus) + coagulating(medium, start);
+    inception = medium.inception(std::max(0.0, start.collisions + 0.5 * dt * change));
+    if constexpr (weighted) {
+      // A new particle for each numerical one as the number of real ones renews itself, and not too many a step.
+      const double n = static_cast<double>(options_.particles);
+      method_.setNucleus(nucleus, std::max(start.number / n, 20 * inception * stepLength / n));
+    } else {
+      method_.setNucleus(nucleus);
+    }
+    if (!planned_ && inception > 0) {
+      planNucleus(method_.nucleusWeight());
+      planned_ = true;
+    }
+  }
+  double nucleatedCarbon = 0, nucleatedHydrogen = 0, nucleated = 0;
+  double time = 0;
+  while (true) {
+    const double coagulation = kernel_ ? method_.coagulationRate() : 0;
+    const double next =
+        coagulation > 0 ? time + random_.exponential(coagulation) : std::numeric_limits<double>::infinity();
+    const double end = std::min(next, dt);
+    if (inception > 0) {
+      const double due = time + std::max(0.0, nucleusAfter_ - reached_) / inception;
+      if (due < end) {
+        reached_ = nucleusAfter_;
+        time = due;
+        const double weight = method_.nucleusWeight();
+        method_.nucleate(random_);
+        nucleated += weight;
+        nucleatedCarbon += weight * nucleusCarbon;
+        nucleatedHydrogen += weight * nucleusHydrogen;
+        // The next interval begins where this one, as long as what was put in, ends.
+        reached_ -= weight;
+        planNucleus(method_.nucleusWeight());
+        continue;
+      }
+      reached_ += (end - time) * inception;
+    }
+    if (next >= dt) break;
+    time = next;
+    if (!method_.coagulate(random_)) ++method_.counters().fictitious;
+  }
+  const Atoms after = atoms();
+  exchange_.resampledCarbon += after.carbon - start.carbon - nucleatedCarbon;
+  exchange_.resampledHydrogen += after.hydrogen - start.hydrogen - nucleatedHydrogen;
+  if (nucleated > 0) {
+    recordUptakeOfDimers(medium, 2 * nucleated);
+    exchange_.nucleatedNumber += nucleated;
+    exchange_.nucleated += nucleatedCarbon + nucleatedHydrogen;
+  }
+}
+
+// Dimers that became soot.
+template <class Method>
+void StochasticProcess<Method>::recordUptakeOfDimers(const SootMedium& medium, double dimers) {
+  for (std::size_t i = 0; i < dimers_.size(); ++i)
+    exchange_.gas[SootSpecies::fixed + i] -= dimers * medium.pahOfDimer()[i] / constants::avogadro;
+  exchange_.gas[SootSpecies::H2] += 0.5 * dimers * medium.freedHydrogen() / options_.soot.hydrogenWeight;
+  exchange_.carbon += dimers * medium.dimerCarbon();
+  exchange_.hydrogen += dimers * medium.dimerHydrogen();
+}
+
+template <class Method>
+void StochasticProcess<Method>::grow(const SootMedium& medium, double dt) {
+  if (size() == 0 || !(medium.condensing() || medium.surfaceActive())) return;
+  const SootModelOptions& soot = options_.soot;
+  const Sums s = sums(medium);
+  SootFluxes flux = medium.fluxes();
+  const double counted = options_.alphaOfPrimaries ? s.primaries : s.number;
+  const auto alpha = [&](double carbon) {
+    const double atoms = carbon / counted * constants::avogadro / soot.carbonWeight;
+    return medium.alpha(std::max({atoms, dimers_.smallestNucleus(), 2.0}));
+  };
+  // Both at the middle of the step, to first order: makes the whole second order.
+  const auto surface = [&](double a) { return a * (flux.growth - flux.O2) - flux.OH; };
+  const double half = 0.5 * dt, first = alpha(s.carbon), dimersFirst = medium.dimers(s.collisions);
+  const double condensing = s.collisions * dimersFirst * medium.dimer().mass;
+  const double mass = s.carbon + s.hydrogen, gain = half * (surface(first) * s.area + condensing);
+  flux.alpha = alpha(std::max(0.5 * s.carbon, s.carbon + gain * s.carbon / mass));
+  if (medium.condensing()) {
+    const double stretch = std::clamp(gain / (3 * mass), -0.3, 0.3);  // of the diameters
+    flux.condensation =
+        medium.condensation(medium.dimers(std::max(0.5 * s.collisions, s.collisions + stretch * s.slopes)));
+  }
+  SootMoved all;
+  method_.changeParticles([&](Particle& p, double w) {
+    SootMoved moved;
+    const bool left = medium.grow(type_, flux, dt, p, moved);
+    all.add(w, moved);
+    return left;
+  });
+  recordUptakeOfDimers(medium, all.dimers);
+  exchange_.condensed += all.dimers * (medium.dimerCarbon() + medium.dimerHydrogen());
+  exchange_.grown += all.growth;
+  exchange_.oxidisedO2 += all.oxidationO2 + all.hydrogenO2;
+  exchange_.oxidisedOH += all.oxidationOH + all.hydrogenOH;
+  exchange_.oxidisedNumber += all.lost;
+  exchange_.carbon += all.growth - all.oxidationO2 - all.oxidationOH;
+  exchange_.hydrogen -= all.hydrogenO2 + all.hydrogenOH;
+  // See surface_chemistry.hpp for what an event moves.
+  using S = SootSpecies;
+  const double perCarbon = 1 / soot.carbonWeight, perH2 = 0.5 / soot.hydrogenWeight;
+  exchange_.gas[S::C2H2] -= 0.5 * all.growth * perCarbon;
+  exchange_.gas[S::O2] -= 0.5 * all.oxidationO2 * perCarbon;
+  exchange_.gas[S::OH] -= all.oxidationOH * perCarbon;
+  exchange_.gas[S::CO] += (all.oxidationO2 + all.oxidationOH) * perCarbon;
+  exchange_.gas[S::H] += all.oxidationOH * perCarbon;
+  exchange_.gas[S::H2] += 0.5 * all.growth * perCarbon + (all.hydrogenO2 + all.hydrogenOH) * perH2;
+}
+
+}  // namespace lampblack::particles
+
+#include "core/rooms.hpp"
+#include "particles/ensemble/stochastic_population.hpp"

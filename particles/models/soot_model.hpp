@@ -1,0 +1,28 @@
+// What all models of soot have in common beside ParticleModel: made of carbon and hydrogen, black, as warm as the gas.
+#pragma once
+
+#include <utility>
+
+#include "core/rooms.hpp"
+#include "particles/models/particle_model.hpp"
+
+namespace lampblack::particles {
+
+class SootModel : public ParticleModel {
+ public:
+  [[nodiscard]] std::string material() const override { return "soot"; }
+  // The PAH, which stand behind the species of SootSpecies.
+  [[nodiscard]] std::vector<std::size_t> precursors() const override;
+  // Carbon has the enthalpy of graphite, hydrogen that of H2.
+  void enthalpies(double temperature, std::span<double> h, std::span<double> slope) const override;
+  [[nodiscard]] double absorption(double temperature, double volumeFraction) const override;
+};
+
+// 700 f_v T, 1/m (Wang 2025, section 7.2.4).
+[[nodiscard]] double sootAbsorption(double temperature, double volumeFraction);
+// Enthalpy of soot carbon (graphite) and hydrogen (as in H2), J/kg, and slopes, J/kg/K (NASA polynomials of Gurvich's
+// data; Burcat and Ruscic 2005).
+[[nodiscard]] std::pair<double, double> sootCarbonEnthalpy(double temperature);
+[[nodiscard]] std::pair<double, double> sootHydrogenEnthalpy(double temperature);
+
+}  // namespace lampblack::particles

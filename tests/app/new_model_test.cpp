@@ -1,0 +1,86 @@
+// A new model of particles is a file with its class, its keys and how they are read, and one row of the table of
+// models.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "app/deck/soot_deck.hpp"
+#include "coupling/carried_particles.hpp"
+#include "flow/carried_operator.hpp"
+#include "tests/app/app_fixture.hpp"
+
+namespace lampblack::app {
+namespace {
+
+using test::Flame;
+
+// Hydrogen as dust, which vanishes into the gas.
+class Dust final : public ParticleModel {
+ public:
+  explicit Dust(double rate) : rate_(rate) {}
+  [[nodiscard]] std::string material() const override { return "dust"; }
+  [[nodiscard]] const std::vector<std::string>& gasSpecies() const override { return species_; }
+  [[nodiscard]] std::vector<std::size_t> precursors() const override { return {}; }
+  [[nodiscard]] const std::vector<ParticleScalar>& scalars() const override { return scalars_; }
+  void sources(const ParticleGas&, std::span<const double> densities, std::span<double> rates,
+               std::span<double> exchange) const override {
+    rates[0] = -rate_ * densities[0];
+    exchange[0] = rate_ * densities[0] / 2.01588e-3;
+  }
+  void diffusivities(const ParticleGas&, std::span<const double>, std::span<double> D) const override { D[0] = 1e-6; }
+  void enthalpies(double, std::span<double> h, std::span<double> slope) const override { h[0] = slope[0] = 0; }
+  [[nodiscard]] double absorption(double, double) const override { return 0; }
+  [[nodiscard]] ParticleProperties properties(const ParticleGas&, std::span<const double> densities) const override {
+    ParticleProperties p;
+    p.volumeFraction = densities[0] / 1000;
+    return p;
+  }
+  [[nodiscard]] ParticleProcesses processes(const ParticleGas&, std::span<const double>) const override { return {}; }
+
+ private:
+  double rate_;  // 1/s
+  std::vector<std::string> species_{"H2"};
+  std::vector<ParticleScalar> scalars_{{"mass", "kg/m^3", "dust", 1e-3, {{"H", 1}}}};
+};
+
+void addDustKeys(DeckSchema& schema) {
+  schema.section("soot.dust", Presence::defaulted, "The model dust.", {{"soot.model", {"dust"}}})
+      .add(quantityKey("soot.dust.rate", units::frequency, "How fast it vanishes.").byDefault("10 1/s").above(0));
+}
+
+SootModelOptions dustDefaults() {
+  return {};
+}
+
+std::unique_ptr<ParticleModel> readDust(const Deck& deck, const Mechanism&) {
+  return std::make_unique<Dust>(deck.quantity("soot.dust.rate"));
+}
+
+std::vector<SootModelEntry> modelsAndDust() {
+  std::vector<SootModelEntry> models = sootModels();
+  models.push_back({"dust", "nobody", addDustKeys, dustDefaults, readDust});
+  return models;
+}
+
+TEST(NewModel, IsARowOfTheTableAndGoesIntoAFlow) {
+  DeckSchema schema;
+  addSootModelKeys(schema, modelsAndDust());
+  const Deck deck = Deck::parse("soot: {model: dust, dust: {rate: 100 1/s}}", "deck.yaml", {}, schema);
+  Flame flame(MPI_COMM_WORLD, test::sootingGas);
+  const Mechanism& mechanism = *flame.flowCase.mechanism;
+  CarriedParticles dust(mechanism, readSootModel(deck, mechanism, modelsAndDust()));
+  flame.state = State(flame.mesh, mechanism.numSpecies(), CarriedOperator::scalarsOf(dust));
+  Flame gas(MPI_COMM_WORLD, test::sootingGas);
+  for (auto field : {&State::temperature, &State::density, &State::enthalpy, &State::Y, &State::velocity})
+    flame.state.*field = gas.state.*field;
+  std::fill(flame.state.carried.begin(), flame.state.carried.end(), 2e-3);
+  CarriedOperator particles(flame.context, dust, 0, {});
+  particles.advance(flame.state, 0.0, 5e-3);
+  for (int c = 0; c < flame.mesh.owned; ++c)
+    EXPECT_NEAR(particles.densities(flame.state, c)[0] / (2e-3 * std::exp(-0.5)), 1, 1e-3);
+  EXPECT_EQ(flame.state.scalars[0].name, "dust_mass");
+}
+
+}  // namespace
+}  // namespace lampblack::app

@@ -1,0 +1,95 @@
+// How cells are spread over the ranks: measured costs are balanced, and the smallest meshes work.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/errors.hpp"
+#include "core/halo_exchange.hpp"
+#include "mpi_support.hpp"
+#include "tests/every_room.hpp"
+
+namespace lampblack::test {
+namespace {
+
+TEST(MeshPartition, MeasuredCostIsBalanced) {
+  // A flame: a band of rows costs 20 times the rest, in seconds.
+  const int columns = 40;
+  const int rows = 36;
+  std::vector<double> cost(at(columns * rows), 1e-4);
+  for (int j = 10; j < 16; ++j)
+    for (int i = 0; i < columns; ++i) cost[at(i + j * columns)] = 20e-4;
+  const Mesh mesh(MPI_COMM_WORLD, unitBox(columns, rows), cost);
+  double own = 0.0;
+  for (int c = 0; c < mesh.owned; ++c) own += cost[static_cast<std::size_t>(mesh.naturalCell[at(c)])];
+  const double mean = std::accumulate(cost.begin(), cost.end(), 0.0) / mesh.ranks;
+  // METIS allows 0.1 % a bisection, a bisection cannot split a cell, and whole weights are rounded by up to 0.1 %.
+  const int bisections = mesh.ranks - 1;
+  EXPECT_LE(maxOverRanks(own) / mean, 1.0 + bisections * (0.001 + 20e-4 / mean) + 0.001);
+}
+
+TEST(MeshPartition, WeightsChangeWhoOwnsACellButNotWhatItIs) {
+  std::vector<double> cost(20 * 20, 1.0);
+  std::fill_n(cost.begin(), 100, 10.0);
+  const Mesh weighted(MPI_COMM_WORLD, unitBox(20, 20), cost);
+  const Mesh whole(MPI_COMM_SELF, unitBox(20, 20));
+  EXPECT_EQ(sumOverRanks(weighted.owned), 400.0);
+  for (int c = 0; c < weighted.cells; ++c)
+    EXPECT_EQ(weighted.centre[at(c)], whole.centre[at(whole.findOwned(weighted.naturalCell[at(c)]))]);
+}
+
+TEST(MeshPartition, CostsNotYetMeasuredCountAsEqual) {
+  const Mesh unknown(MPI_COMM_WORLD, unitBox(12, 12), std::vector<double>(144, 0.0));
+  const Mesh equal(MPI_COMM_WORLD, unitBox(12, 12));
+  EXPECT_EQ(unknown.naturalCell, equal.naturalCell);
+}
+
+// Whether the mesh owns every cell once, leaves no rank without, and can exchange a halo.
+void expectWorkingMesh(const Mesh& mesh) {
+  EXPECT_GE(mesh.owned, 1);
+  auto all = gatherAll(std::vector<std::int64_t>(mesh.naturalCell.begin(), mesh.naturalCell.begin() + mesh.owned));
+  std::sort(all.begin(), all.end());
+  ASSERT_EQ(static_cast<std::int64_t>(all.size()), mesh.totalCells);
+  for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(all[i], static_cast<std::int64_t>(i));
+  const double surface = 2.0 * (mesh.cellsAlong[0] + mesh.cellsAlong[1]);
+  EXPECT_EQ(sumOverRanks(mesh.boundaryFaces()), surface);
+  for (int c = 0; c < mesh.owned; ++c) EXPECT_EQ(mesh.faceStart[at(c) + 1] - mesh.faceStart[at(c)], 4);
+
+  HaloExchange halo(mesh);
+  std::vector<double> values(at(mesh.cells), -1.0);
+  for (int c = 0; c < mesh.owned; ++c) values[at(c)] = static_cast<double>(mesh.naturalCell[at(c)]);
+  halo.update(values, 1);
+  for (int c = 0; c < mesh.cells; ++c) EXPECT_EQ(values[at(c)], static_cast<double>(mesh.naturalCell[at(c)]));
+}
+
+TEST(MeshPartition, TinyMeshesWorkAndTooSmallOnesAreInputErrors) {
+  for (int columns = 1; columns <= 5; ++columns) {
+    for (int rows = 1; rows <= 4; ++rows) {
+      SCOPED_TRACE(std::to_string(columns) + " x " + std::to_string(rows));
+      if (columns * rows >= worldSize()) {
+        expectWorkingMesh(Mesh(MPI_COMM_WORLD, unitBox(columns, rows)));
+        continue;
+      }
+      const auto message = messageOf<InputError>([&] { Mesh(MPI_COMM_WORLD, unitBox(columns, rows)); });
+      EXPECT_THAT(message, testing::MatchesRegex("the mesh has . cells, fewer than the . ranks .*"));
+      EXPECT_TRUE(sameOnAllRanks(message));
+    }
+  }
+}
+
+TEST(MeshPartition, OneCellThatOutweighsAllOthersLeavesNoRankWithoutCells) {
+  for (const int columns : {2, 4, 9}) {
+    std::vector<double> cost(at(columns * 4), 1.0);
+    cost[5] = 1e6;
+    expectWorkingMesh(Mesh(MPI_COMM_WORLD, unitBox(columns, 4), cost));
+  }
+}
+
+TEST(MeshPartition, StripOneCellWideWorksAlongEitherAxis) {
+  expectWorkingMesh(Mesh(MPI_COMM_WORLD, unitBox(50, 1)));
+  expectWorkingMesh(Mesh(MPI_COMM_WORLD, unitBox(1, 50)));
+}
+
+}  // namespace
+}  // namespace lampblack::test

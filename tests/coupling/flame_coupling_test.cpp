@@ -1,0 +1,141 @@
+// What ensembles exchange with the gas of a flame, and where their paths start.
+#include "coupling/flame_coupling.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "core/rooms.hpp"
+#include "particles/models/soot_model.hpp"
+#include "tests/flow/flame/streams.hpp"
+
+namespace lampblack::coupling {
+namespace {
+
+const Mechanism& abf() {
+  static const Mechanism mechanism = shippedMechanism("ethylene_abf2000_101.yaml");
+  return mechanism;
+}
+
+// From the left along all points, from the right to a place between two of them.
+std::vector<FlameEnsemblePath> twoPaths(const std::vector<double>& z) {
+  std::vector<FlameEnsemblePath> paths(2);
+  double time = 0;
+  for (const double at : z) {
+    GasSample point;
+    point.time = time;
+    paths[0].path.path.points.push_back(point);
+    paths[0].path.z.push_back(at);
+    time += 1e-3 * (1 + 100 * at);
+  }
+  paths[1].options.fromRight = true;
+  time = 0;
+  for (const double at : {z.back(), z[z.size() - 2], 0.3 * z[z.size() - 2] + 0.7 * z[z.size() - 3]}) {
+    GasSample point;
+    point.time = time;
+    paths[1].path.path.points.push_back(point);
+    paths[1].path.z.push_back(at);
+    time += 2e-3;
+  }
+  double value = 1;
+  for (FlameEnsemblePath& path : paths) {
+    const std::size_t points = path.path.path.points.size();
+    for (std::size_t k = 0; k < points; ++k) path.volumeFraction.mean.push_back(1e-8 * (value += 0.3));
+    for (std::size_t k = 0; k + 1 < points; ++k) {
+      EnsembleExchange x;
+      x.gas[SootSpecies::C2H2] = -1e-3 * (value += 0.7);
+      x.gas[SootSpecies::OH] = -2e-5 * value;
+      x.gas[SootSpecies::fixed] = -3e-5 * value;
+      x.carbon = 2e-5 * (value += 0.1);
+      x.hydrogen = 1e-6 * value;
+      path.exchange.push_back(x);
+    }
+  }
+  return paths;
+}
+
+// Each interval's exchange, over its time, times its length: what particles take on their way per area of the flame.
+TEST(FlameCoupling, TheGasOfAFlameGivesWhatParticlesTakeAlongTheirPaths) {
+  FlameProfile profile{{abf().numSpecies(), 0}, {0, 1e-3, 1.5e-3, 3e-3, 7e-3, 8e-3}, {}};
+  profile.x.assign(profile.size(), 0.0);
+  for (std::size_t i = 0; i < profile.points(); ++i)
+    profile.at(i, FlameLayout::temperature) = 1000 + 100 * static_cast<double>(i);
+  const auto paths = twoPaths(profile.z);
+  SootModelOptions soot;
+  soot.pah = {{"A2", 10, 8, 2e-3}};
+  const FlameExchange exchange = exchangeOf(abf(), soot, profile, paths);
+
+  double carbon = 0, hydrogen = 0, acetylene = 0, hydroxyl = 0, naphthalene = 0;
+  for (const FlameEnsemblePath& path : paths)
+    for (std::size_t k = 0; k < path.exchange.size(); ++k) {
+      const auto &from = path.path.path.points[k], &to = path.path.path.points[k + 1];
+      const double part = std::abs(path.path.z[k + 1] - path.path.z[k]) / (to.time - from.time);
+      carbon += part * path.exchange[k].carbon;
+      hydrogen += part * path.exchange[k].hydrogen;
+      acetylene +=
+          part * path.exchange[k].gas[SootSpecies::C2H2] * abf().molecularWeights()[abf().speciesIndex("C2H2")];
+      hydroxyl += part * path.exchange[k].gas[SootSpecies::OH] * abf().molecularWeights()[abf().speciesIndex("OH")];
+      naphthalene +=
+          part * path.exchange[k].gas[SootSpecies::fixed] * abf().molecularWeights()[abf().speciesIndex("A2")];
+    }
+  // As the flame's control volumes see it: each point has half of the intervals on both sides.
+  const auto integral = [&](auto&& value) {
+    double sum = 0;
+    for (std::size_t i = 0; i + 1 < profile.points(); ++i)
+      sum += 0.5 * (profile.z[i + 1] - profile.z[i]) * (value(i) + value(i + 1));
+    return sum;
+  };
+  const auto ofSpecies = [&](const char* name) {
+    return integral(
+        [&, k = abf().speciesIndex(name)](std::size_t i) { return exchange.species[i * abf().numSpecies() + k]; });
+  };
+  EXPECT_NEAR(integral([&](std::size_t i) { return exchange.carbon[i]; }) / carbon, 1, 1e-12);
+  EXPECT_NEAR(integral([&](std::size_t i) { return exchange.hydrogen[i]; }) / hydrogen, 1, 1e-12);
+  EXPECT_NEAR(ofSpecies("C2H2") / acetylene, 1, 1e-12);
+  EXPECT_NEAR(ofSpecies("OH") / hydroxyl, 1, 1e-12);
+  EXPECT_NEAR(ofSpecies("A2") / naphthalene, 1, 1e-12);
+
+  // Absorption is 700 f_v T (1/m): of both populations where both are.
+  const auto fractionAt = [&](std::size_t path, std::size_t k) { return paths[path].volumeFraction.mean[k]; };
+  EXPECT_NEAR(exchange.absorption[1] / (700 * fractionAt(0, 1) * 1100), 1, 1e-12);
+  EXPECT_NEAR(exchange.absorption[5] / (700 * (fractionAt(0, 5) + fractionAt(1, 0)) * 1500), 1, 1e-12);
+}
+
+// A third of what is asked for anew, two thirds of what there was; half-way between its points the old is their mean.
+TEST(FlameCoupling, TheGasIsGivenThePopulationLessTheTransferModel) {
+  const std::size_t n = abf().numSpecies(), k = abf().speciesIndex("C2H2");
+  FlameProfile profile{{n, 0}, {0, 1e-3, 2e-3}, {}};
+  profile.x.assign(profile.size(), 0.0);
+  for (std::size_t i = 0; i < 3; ++i) profile.at(i, FlameLayout::temperature) = 1500;
+  GivenExchange old;
+  old.z = {0, 2e-3};
+  old.species.assign(2 * n, 0.0);
+  old.species[k] = 6;
+  old.species[n + k] = 12;
+  old.absorption = {3, 9};
+  old.enthalpy = {300, 600};
+  FlameExchange population(profile.z, n), transfer(profile.z, n);
+  for (std::size_t i = 0; i < 3; ++i) {
+    population.species[i * n + k] = 5;
+    transfer.species[i * n + k] = 2;
+    population.absorption[i] = 7;
+    transfer.absorption[i] = 1;
+    population.carbon[i] = 4e-3;
+    transfer.carbon[i] = 1e-3;
+    population.hydrogen[i] = 5e-4;
+    transfer.hydrogen[i] = 3e-4;
+  }
+  const GivenExchange given = relaxed(old, profile, population, transfer, 1.0 / 3);
+  EXPECT_EQ(given.z, profile.z);
+  ASSERT_EQ(given.species.size(), 3 * n);
+  EXPECT_NEAR(given.species[n + k], 2.0 / 3 * 9 + 1, 1e-12);
+  EXPECT_EQ(given.species[n + k + 1], 0);
+  EXPECT_NEAR(given.absorption[1], 2.0 / 3 * 6 + 2, 1e-12);
+  const double toSoot = 3e-3 * sootCarbonEnthalpy(1500).first + 2e-4 * sootHydrogenEnthalpy(1500).first;
+  ASSERT_GT(2e-4 * sootHydrogenEnthalpy(1500).first, 100);
+  EXPECT_NEAR(given.enthalpy[1], 2.0 / 3 * 450 - toSoot / 3, 1e-9);
+}
+
+}  // namespace
+}  // namespace lampblack::coupling

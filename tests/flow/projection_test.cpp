@@ -1,0 +1,83 @@
+// Pressure projection: the divergence asked for, on every cell, whatever the density.
+#include "flow/projection.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/errors.hpp"
+#include "flow_fixture.hpp"
+#include "tests/every_room.hpp"
+
+namespace lampblack::test {
+namespace {
+
+std::vector<Side> sides(BoundaryKind top) {
+  const auto air = Gas::hydrogen().massFractions("O2: 0.21, N2: 0.79");
+  return {side(BoundaryKind::Symmetry, 0, false), side(BoundaryKind::Wall, 0, true),
+          opening(BoundaryKind::Inlet, 1, false, 0.3, 300.0, air), opening(top, 1, true, 0.0, 300.0, air)};
+}
+
+std::array<std::vector<double>, 2> graded() {
+  return {gradedAxis(0.0, {{0.01, 14, 3.0}}), gradedAxis(0.0, {{0.03, 18, 0.4}})};
+}
+
+class ProjectionOn : public testing::TestWithParam<Geometry> {};
+
+TEST_P(ProjectionOn, GivesTheDivergenceAskedForWithVariableDensity) {
+  Box box(GetParam(), graded(), sides(BoundaryKind::Outlet));
+  const Mesh& m = box.mesh;
+  const double tolerance = 1e-9;
+  Projection projection(box.context, tolerance);
+  std::vector<double> divergence(at(m.owned));
+  std::vector<double> pressure(at(m.cells), 0.0);
+  std::vector<double> velocity(at(m.faces), 0.0);
+  std::vector<double> inverseDensity(at(m.faces));
+  const std::vector<double> outside(at(m.boundaryFaces()), -0.05);  // Pa beyond the outlet
+  double smallest = 1e300;
+  for (int c = 0; c < m.owned; ++c) {
+    divergence[at(c)] = 50.0 * std::sin(300.0 * m.centre[at(c)][0] + 100.0 * m.centre[at(c)][1]);
+    smallest = std::min(smallest, m.volume[at(c)]);
+  }
+  double flowScale = 0.0;
+  for (int face = 0; face < m.faces; ++face) {
+    const auto& x = m.faceCentre[at(face)];
+    inverseDensity[at(face)] = x[1] > 0.015 ? 8.0 : 1.0;
+    if (m.high[at(face)] >= 0) velocity[at(face)] = std::sin(1000.0 * x[0]) + std::cos(700.0 * x[1]);
+    if (m.high[at(face)] < 0 && box.context.boundaryOf(face).kind == BoundaryKind::Inlet) velocity[at(face)] = -0.3;
+    flowScale = std::max(flowScale, std::abs(m.area[at(face)] * velocity[at(face)]));
+  }
+  const std::vector<double> before = velocity;
+  const auto result = projection.solve(1e-4, inverseDensity, divergence, outside, velocity, pressure);
+  // The solver's criterion is the 2-norm of all cells' flow errors, which bounds that of any cell.
+  const double bound = 1.01 * tolerance * maxOverRanks(flowScale) / minOverRanks(smallest);
+  EXPECT_LE(result.continuityError, bound);
+  EXPECT_GT(result.iterations, 0);
+
+  std::vector<double> net(at(m.owned), 0.0);
+  for (int face = 0; face < m.faces; ++face) {
+    const double flow = m.area[at(face)] * velocity[at(face)];
+    if (m.low[at(face)] < m.owned) net[at(m.low[at(face)])] += flow;
+    if (m.high[at(face)] >= 0 && m.high[at(face)] < m.owned) net[at(m.high[at(face)])] -= flow;
+    // What is prescribed stays.
+    if (m.high[at(face)] < 0 && box.context.boundaryOf(face).kind != BoundaryKind::Outlet) {
+      EXPECT_EQ(velocity[at(face)], before[at(face)]);
+    }
+  }
+  EXPECT_LE(largest(m, [&](int c) { return std::abs(net[at(c)] / m.volume[at(c)] - divergence[at(c)]); }), bound);
+
+  // What has the divergence already is left alone.
+  const std::vector<double> once = velocity;
+  std::fill(pressure.begin(), pressure.end(), 0.0);
+  const std::vector<double> none(outside.size(), 0.0);
+  EXPECT_EQ(projection.solve(1e-4, inverseDensity, divergence, none, velocity, pressure).iterations, 0);
+  EXPECT_EQ(velocity, once);
+}
+
+INSTANTIATE_TEST_SUITE_P(Geometries, ProjectionOn, testing::Values(Geometry::Planar, Geometry::Axisymmetric));
+
+TEST(Projection, ClosedDomainIsAnInputError) {
+  Box box(Geometry::Planar, graded(), sides(BoundaryKind::Wall));
+  EXPECT_THROW(Projection{box.context}, InputError);
+}
+
+}  // namespace
+}  // namespace lampblack::test

@@ -1,0 +1,183 @@
+// Chemistry in the cells of a flow: what it conserves, that sharing changes nothing, how it fails.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/errors.hpp"
+#include "flow/budget.hpp"
+#include "flow/reaction_operator.hpp"
+#include "flow/time_step.hpp"
+#include "flow/transport_operator.hpp"
+#include "flow_fixture.hpp"
+#include "tests/every_room.hpp"
+
+namespace lampblack::test {
+namespace {
+
+class Reacting : public testing::Test {
+ protected:
+  Gas& gas = Gas::hydrogen();
+  std::vector<double> air = gas.massFractions("O2: 0.21, N2: 0.79");
+  std::vector<double> premixed = gas.massFractions("H2: 0.3, O2: 0.15, N2: 0.55, OH: 0.002, H: 0.001");
+  // Igniting gas in the right half, cold air in the left one.
+  Box::Local halfHot(const std::array<double, 2>& x) const {
+    return x[0] > 0.004 ? Box::Local{{0.0, 0.4}, 1000.0 + 2e4 * x[1], premixed} : Box::Local{{0.0, 0.4}, 300.0, air};
+  }
+  std::vector<Side> sides() const {
+    Side right = opening(BoundaryKind::Inlet, 1, false, 0.4, 1100.0, premixed);
+    right.patch.name = right.condition.name = "right";
+    right.patch.from = 0.004;
+    return {side(BoundaryKind::Symmetry, 0, false), side(BoundaryKind::Symmetry, 0, true), right,
+            opening(BoundaryKind::Inlet, 1, false, 0.4, 300.0, air),
+            opening(BoundaryKind::Outlet, 1, true, 0.0, 300.0, air)};
+  }
+  Box box{Geometry::Planar, {uniformAxis(0.008, 8), uniformAxis(0.006, 6)}, sides()};
+
+  static ReactionOperator::Options options(bool deferred, bool share) {
+    ReactionOperator::Options o;
+    o.deferred = deferred;
+    o.shareWork = share;
+    return o;
+  }
+  // mol of an element in a kg of a cell's gas.
+  double elementIn(const State& state, int cell, std::size_t element) const {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < gas.mechanism.numSpecies(); ++k)
+      sum += state.Y[at(cell) * gas.mechanism.numSpecies() + k] * gas.mechanism.atoms(k, element) /
+             gas.mechanism.molecularWeights()[k];
+    return sum;
+  }
+};
+
+TEST_F(Reacting, ElementsAndEnthalpyOfEveryCellAreConserved) {
+  for (const bool deferred : {false, true}) {
+    State state = box.state([&](const auto& x) { return halfHot(x); });
+    const State start = state;
+    ReactionOperator chemistry(box.context, options(deferred, true));
+    chemistry.advance(state, 0.0, 1e-4);
+    double hottest = 0.0;
+    for (int c = 0; c < box.mesh.owned; ++c) {
+      for (std::size_t e = 0; e < gas.mechanism.numElements(); ++e)
+        // The linear invariants of BDF and Newton's iteration with an exact null space: round-off of some 1e3 internal
+        // operations a step, 100 steps, as a random walk: 1e-13.
+        EXPECT_NEAR(elementIn(state, c, e), elementIn(start, c, e), 1e-12 * (elementIn(start, c, e) + 1.0));
+      const std::span<const double> Y(&state.Y[at(c) * gas.mechanism.numSpecies()], gas.mechanism.numSpecies());
+      // One round-off of the largest contribution to h (formation of H, 2e8 J/kg at Y = 1e-2) and of cp T.
+      EXPECT_NEAR(gas.thermo.enthalpyMass(state.temperature[at(c)], Y), start.enthalpy[at(c)], 64.0 * epsilon * 3e6);
+      EXPECT_EQ(state.enthalpy[at(c)], start.enthalpy[at(c)]);
+      hottest = std::max(hottest, state.temperature[at(c)]);
+    }
+    EXPECT_GT(maxOverRanks(hottest), 1500.0);  // it did burn
+  }
+}
+
+TEST_F(Reacting, ColdCellsAreSkipped) {
+  State state = box.state([&](const auto& x) { return halfHot(x); });
+  const State start = state;
+  ReactionOperator chemistry(box.context, options(false, true));
+  chemistry.advance(state, 0.0, 1e-4);
+  const auto diagnostics = chemistry.takeDiagnostics();
+  EXPECT_EQ(diagnostics.skippedCells, 24.0);
+  EXPECT_EQ(diagnostics.integratedCells, 24.0);
+  EXPECT_GT(diagnostics.solverSteps, 24.0);
+  EXPECT_EQ(chemistry.takeDiagnostics().stages, 0);
+  for (int c = 0; c < box.mesh.owned; ++c)
+    if (box.mesh.centre[at(c)][0] < 0.004) {
+      EXPECT_NEAR(state.temperature[at(c)], 300.0, 1e-6);
+    }
+}
+
+// The same bits with and without sharing and, by comparison with one reactor that advances each cell alone, on any
+// number of ranks.
+TEST_F(Reacting, SharingWorkChangesNoBit) {
+  State shared = box.state([&](const auto& x) { return halfHot(x); });
+  State own = shared;
+  const State start = shared;
+  ReactionOperator withSharing(box.context, options(false, true));
+  ReactionOperator without(box.context, options(false, false));
+  const double dt = 2e-5;
+  for (int i = 0; i < 3; ++i) {
+    withSharing.advance(shared, i * dt, dt);
+    without.advance(own, i * dt, dt);
+  }
+  EXPECT_EQ(shared.Y, own.Y);
+  EXPECT_EQ(shared.temperature, own.temperature);
+
+  State once = start;
+  ReactionOperator(box.context, options(false, true)).advance(once, 0.0, dt);
+  const std::size_t n = gas.mechanism.numSpecies();
+  for (int c = 0; c < box.mesh.owned; ++c) {
+    ConstantPressureReactor reactor(gas.mechanism);
+    std::vector<double> Y(start.Y.begin() + static_cast<std::ptrdiff_t>(at(c) * n),
+                          start.Y.begin() + static_cast<std::ptrdiff_t>(at(c + 1) * n));
+    const double T = gas.thermo.temperatureFromEnthalpy(start.enthalpy[at(c)], Y, start.temperature[at(c)]);
+    ConstantPressureReactor::Cell cell{T, start.thermodynamicPressure, Y, {}, 0.0};
+    reactor.advance(cell, dt);
+    EXPECT_EQ(once.temperature[at(c)], cell.temperature);
+    EXPECT_TRUE(std::equal(Y.begin(), Y.end(), &once.Y[at(c) * n]));
+  }
+}
+
+TEST_F(Reacting, BudgetsCloseWithTransportInBothCouplings) {
+  for (const bool deferred : {false, true}) {
+    State state = box.state([&](const auto& x) { return halfHot(x); });
+    TransportOperator transport(box.context, state);
+    ReactionOperator chemistry(box.context, options(deferred, true));
+    transport.initialise(state, 1e-5);
+    Budget budget(box.context, massAndElements(gas.mechanism, {}), state);
+    const double h0 = integral(box.mesh, [&](int c) { return state.density[at(c)] * state.enthalpy[at(c)]; });
+    double heat = 0.0;
+    double gross = 0.0;
+    const int steps = 300;
+    for (int i = 0; i < steps; ++i) {
+      const double dt = std::min(2e-5, convectiveTimeStep(box.mesh, state, 0.4));
+      if (!deferred) chemistry.advance(state, 0.0, 0.5 * dt);
+      transport.advance(state, 0.0, dt);
+      chemistry.advance(state, 0.0, deferred ? dt : 0.5 * dt);
+      chemistry.endStep(state);
+      budget.addStep(transport.boundaryAmounts());
+      heat += sumOverRanks(transport.boundaryAmounts().enthalpyIn - transport.boundaryAmounts().enthalpyOut);
+      gross += sumOverRanks(transport.boundaryAmounts().enthalpyIn + transport.boundaryAmounts().enthalpyOut);
+      double net = 0.0;
+      double scale = 0.0;
+      for (int c = 0; c < box.mesh.owned; ++c) {
+        double sum = 0.0;
+        for (int k = 0; k < state.species; ++k) {
+          sum += state.balance[at(c * state.species + k)];
+          scale = std::max(scale, std::abs(state.balance[at(c * state.species + k)]));
+        }
+        net = std::max(net, std::abs(sum));
+      }
+      // The rate is a difference of mass fractions over the step, a round-off of epsilon rho/dt a species; its net mass
+      // may not add up over the steps.
+      EXPECT_LE(net, 10.0 * epsilon * 1.2 / dt);
+      // Strang splitting leaves the balance alone.
+      EXPECT_EQ(maxOverRanks(scale) > 0.0, deferred);
+    }
+    // As in the element test, 1e-12 of the mass for each of up to two chemistry stages a step.
+    for (const auto& line : budget.lines(state)) EXPECT_LE(line.error, 2e-12 * steps) << line.name;
+    const double h1 = integral(box.mesh, [&](int c) { return state.density[at(c)] * state.enthalpy[at(c)]; });
+    const double scale =
+        integral(box.mesh, [&](int c) { return state.density[at(c)] * std::abs(state.enthalpy[at(c)]); });
+    EXPECT_NEAR(h1 - h0, heat, 5.0 * steps * epsilon * (2.0 * scale + gross));
+    EXPECT_GT(largest(box.mesh, [&](int c) { return state.temperature[at(c)]; }), 1500.0);
+  }
+}
+
+TEST_F(Reacting, FailureNamesTheCellOnAllRanks) {
+  State state = box.state([&](const auto& x) { return halfHot(x); });
+  auto tight = options(false, true);
+  tight.reactor.maxSteps = 1;
+  ReactionOperator chemistry(box.context, tight);
+  std::string message;
+  try {
+    chemistry.advance(state, 0.125, 1e-3);
+    ADD_FAILURE() << "one step should not suffice";
+  } catch (const NumericsError& error) {
+    message = error.what();
+  }
+  for (const char* part : {"at (0.00", ") m", "at time 0.125 s", "T = 1", "p = 101325 Pa", "H2: 0.", "N2: 0."})
+    EXPECT_THAT(message, testing::HasSubstr(part));
+}
+
+}  // namespace
+}  // namespace lampblack::test

@@ -1,0 +1,118 @@
+// The complete state of a stochastic population as it travels and is saved: who unpacks it goes on to the same bits.
+#include <gtest/gtest.h>
+
+#include "core/errors.hpp"
+#include "core/rooms.hpp"
+#include "tests/particles/soot_fixtures.hpp"
+
+namespace lampblack::particles {
+namespace {
+
+const test::FlameGas& flame() {
+  static const test::FlameGas gas(1700, 1e-3, 0.03, 1e-4, 0.08, 1e-4, 0.03, {2e-5, 3e-6, 2e-6});
+  return gas;
+}
+
+struct Choice {
+  EnsembleMethod method;
+  bool coalescing, coagulation;
+};
+
+class PackedSoot : public testing::TestWithParam<Choice> {
+ protected:
+  [[nodiscard]] EnsembleOptions options(std::uint64_t owner) const {
+    EnsembleOptions o;
+    o.method = GetParam().method;
+    o.coalescing = GetParam().coalescing;
+    o.particles = 300;
+    o.seed = 42;
+    o.owner = owner;
+    o.soot = test::threePah();
+    o.soot.coagulation = GetParam().coagulation;
+    o.splitTolerance = 0.05;
+    return o;
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(
+    Methods, PackedSoot,
+    testing::Values(Choice{EnsembleMethod::dsmc, true, true}, Choice{EnsembleMethod::dsmc, false, true},
+                    Choice{EnsembleMethod::dsmc, true, false}, Choice{EnsembleMethod::sammc, true, true},
+                    Choice{EnsembleMethod::sammc, false, true}, Choice{EnsembleMethod::sammc, true, false},
+                    Choice{EnsembleMethod::swa, true, true}, Choice{EnsembleMethod::swa, false, true}));
+
+TEST_P(PackedSoot, GoesOnToTheSameBits) {
+  const auto one = makeEnsemble(options(7));
+  for (int k = 0; k < 3; ++k) one->advance(flame().state, 0, 3e-4);  // fills up and is full
+  const std::vector<double> state = one->pack();
+  const auto other = makeEnsemble(options(7));
+  other->unpack(state);
+  EXPECT_EQ(other->pack(), state);
+  for (int k = 0; k < 3; ++k) {
+    one->advance(flame().state, 2, 3e-4);
+    other->advance(flame().state, 2, 3e-4);
+    // One of them travels once more.
+    if (k == 1) {
+      const std::vector<double> again = other->pack();
+      other->unpack(again);
+    }
+  }
+  if (GetParam().coagulation) {
+    EXPECT_GT(one->counters().coagulations, 100U);
+  }
+  EXPECT_EQ(one->pack(), other->pack());
+  EXPECT_EQ(one->takeExchange().carbon, other->takeExchange().carbon);
+}
+
+// What particles that burn away leave room for depends on whether the sample was full once.
+TEST_P(PackedSoot, GoesOnToTheSameBitsWhileItBurnsAway) {
+  const test::FlameGas burning(1800, 0, 0, 5e-3, 0.1, 0, 0, {0, 0, 0});
+  for (std::uint64_t owner = 0; owner < 4; ++owner) {
+    const auto one = makeEnsemble(options(owner)), other = makeEnsemble(options(owner));
+    one->advance(flame().state, 0, 1e-3);
+    other->unpack(one->pack());
+    for (const auto* soot : {&one, &other}) (*soot)->advance(burning.state, 0, 1e-4);
+    EXPECT_GT(one->counters().vanished, 2U);
+    EXPECT_GT(one->size(), 20U);
+    EXPECT_EQ(one->pack(), other->pack());
+  }
+}
+
+TEST_P(PackedSoot, DependsOnOwnerAndSeedOnlyNotOnTheOrderOfProcessing) {
+  std::vector<std::vector<double>> alone;
+  for (std::uint64_t owner = 0; owner < 3; ++owner) {
+    const auto soot = makeEnsemble(options(owner));
+    for (int k = 0; k < 3; ++k) soot->advance(flame().state, 5, 2e-4);
+    alone.push_back(soot->pack());
+  }
+  std::vector<std::unique_ptr<Ensemble>> mixed;
+  for (const std::uint64_t owner : {2U, 0U, 1U}) mixed.push_back(makeEnsemble(options(owner)));
+  for (int k = 0; k < 3; ++k) {
+    for (const auto& soot : mixed) soot->advance(flame().state, 5, 2e-4);
+  }
+  EXPECT_EQ(mixed[0]->pack(), alone[2]);
+  EXPECT_EQ(mixed[1]->pack(), alone[0]);
+  EXPECT_EQ(mixed[2]->pack(), alone[1]);
+  EXPECT_NE(alone[0], alone[1]);
+}
+
+TEST_P(PackedSoot, RefusesTheStateOfAnother) {
+  const auto soot = makeEnsemble(options(7));
+  soot->advance(flame().state, 0, 3e-4);
+  std::vector<double> state = soot->pack();
+  EnsembleOptions smaller = options(7);
+  smaller.particles = 100;
+  EXPECT_THROW(makeEnsemble(smaller)->unpack(state), InputError);
+  EXPECT_THROW(makeEnsemble(options(7))->unpack({}), InputError);
+  std::vector<double> cut(state.begin(), state.end() - 1), longer = state;
+  longer.push_back(1);
+  EXPECT_THROW(makeEnsemble(options(7))->unpack(cut), InputError);
+  EXPECT_THROW(makeEnsemble(options(7))->unpack(longer), InputError);
+  // A number of particles beyond what is there to read, or beyond the room.
+  for (std::size_t k = 0; k < state.size(); ++k)
+    if (state[k] == static_cast<double>(soot->size())) state[k] = 1e15;
+  EXPECT_THROW(makeEnsemble(options(7))->unpack(state), InputError);
+}
+
+}  // namespace
+}  // namespace lampblack::particles

@@ -1,0 +1,101 @@
+// What holds for every soot model, with its published constants.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/errors.hpp"
+#include "core/rooms.hpp"
+#include "soot_model_checks.hpp"
+#include "tests/particles/models/published_models.hpp"
+#include "tests/particles/soot_fixtures.hpp"
+
+namespace lampblack::particles {
+namespace {
+
+std::unique_ptr<SootModel> published(const std::string& name) {
+  return test::publishedModel(name, test::threePah());
+}
+
+class EverySootModel : public testing::TestWithParam<std::string> {};
+
+// Sums of up to 70 rounded terms in the models of many scalars.
+TEST_P(EverySootModel, ConservesCarbonHydrogenAndOxygenToRoundOff) {
+  const auto model = published(GetParam());
+  test::expectConserved(*model, 100, 1e-15 * std::max<double>(10, static_cast<double>(model->scalars().size())));
+}
+
+TEST_P(EverySootModel, ExchangesWhatItsProcessesSay) {
+  const auto model = published(GetParam());
+  test::RandomStates states(200);
+  std::vector<double> rates(model->scalars().size()), exchange(model->gasSpecies().size());
+  for (int i = 0; i < 20; ++i) {
+    test::ModelState s = states.next(*model);
+    s.connect();
+    model->sources(s.gas, s.densities, rates, exchange);
+    double mass = 0;
+    for (std::size_t k = 0; k < rates.size(); ++k)
+      mass += rates[k] * (model->scalars()[k].massOf("C") + model->scalars()[k].massOf("H"));
+    const ParticleProcesses p = model->processes(s.gas, s.densities);
+    const double parts[] = {p.nucleation, p.condensation, p.growth, p.oxidationO2, p.oxidationOH, p.carbonisation};
+    double sum = 0, moved = 0;
+    for (double part : parts) {
+      sum += part;
+      moved += std::abs(part);
+    }
+    EXPECT_NEAR(mass, sum, 1e-12 * moved) << i;
+  }
+}
+
+// Models that see soot as spheres: Stokes, Einstein and Cunningham for the mobility diameter (Wang 2025, eqs. 7-30 to
+// 7-33).
+TEST_P(EverySootModel, SpheresDiffuseByTheirMobility) {
+  if (GetParam() == "sectional" || GetParam() == "hmom") GTEST_SKIP() << "several sizes diffuse, each by its own";
+  const auto model = published(GetParam());
+  test::RandomStates states(400);
+  std::vector<double> D(model->scalars().size());
+  for (int i = 0; i < 20; ++i) {
+    test::ModelState s = states.next(*model);
+    s.connect();
+    model->diffusivities(s.gas, s.densities, D);
+    const double d = model->properties(s.gas, s.densities).mobilityDiameter, T = s.gas.temperature;
+    const double path = s.gas.viscosity / s.gas.pressure *
+                        std::sqrt(constants::pi * constants::gasConstant * T / (2 * s.gas.meanMolecularWeight));
+    const double knudsen = 2 * path / d, slip = 1 + knudsen * (1.257 + 0.4 * std::exp(-1.1 / knudsen));
+    const double expected = constants::boltzmann * T * slip / (3 * constants::pi * s.gas.viscosity * d);
+    for (const double value : D) EXPECT_NEAR(value / expected, 1, 1e-12) << i;
+  }
+}
+
+TEST_P(EverySootModel, DensitiesOfGasAloneMakeSootOnlyByNucleation) {
+  const auto model = published(GetParam());
+  test::RandomStates states(300);
+  test::ModelState s = states.next(*model);
+  s.connect();
+  s.gas.temperature = 1600;
+  std::fill(s.densities.begin(), s.densities.end(), 0.0);
+  const ParticleProcesses p = model->processes(s.gas, s.densities);
+  EXPECT_GT(p.nucleation, 0);
+  EXPECT_GT(p.nucleationNumber, 0);
+  for (double other : {p.condensation, p.growth, p.oxidationO2, p.oxidationOH, p.coagulationNumber})
+    EXPECT_EQ(other, 0);
+  EXPECT_EQ(model->volumeFraction(s.densities), 0);
+}
+
+// Tables of distributions have a row for every place, with and without soot.
+TEST_P(EverySootModel, SizeDistributionsHaveTheSameDiametersForAllDensities) {
+  const auto model = published(GetParam());
+  test::RandomStates states(500);
+  const test::ModelState s = states.next(*model);
+  const std::vector<double> none(s.densities.size(), 0.0);
+  const SizeDistribution some = model->sizeDistribution(s.densities), empty = model->sizeDistribution(none);
+  EXPECT_EQ(some.diameter, empty.diameter);
+  EXPECT_EQ(some.density.size(), some.diameter.size());
+  EXPECT_EQ(empty.density, std::vector<double>(some.diameter.size(), 0.0));
+}
+
+INSTANTIATE_TEST_SUITE_P(Published, EverySootModel, testing::ValuesIn(test::publishedModels),
+                         [](const auto& parameter) { return parameter.param; });
+
+}  // namespace
+}  // namespace lampblack::particles
