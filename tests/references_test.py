@@ -12,10 +12,10 @@ import tempfile
 import unicodedata
 from pathlib import Path
 
-PLACES = ["docs/theory/**/*.md", "docs/verification.md", "README.md", "cases/**/*.md", "cases/**/deck.yaml",
-          "cases/population_balance/*.yaml", "app/**/*.[ch]pp", "chemistry/**/*.[ch]pp", "core/**/*.[ch]pp",
-          "coupling/**/*.[ch]pp", "flow/**/*.[ch]pp", "io/**/*.[ch]pp", "particles/**/*.[ch]pp", "tests/**/*.[ch]pp",
-          "scripts/**/*"]
+ROOMS = "app chemistry core coupling flow io particles tests"
+# Not the mechanisms: their heads are full references, which go where the file goes.
+PLACES = ["docs/theory/**/*.md", "docs/verification.md", "README.md", "cases/**/*.md", "cases/[!m]*/**/*.yaml",
+          "scripts/**/*", *(f"{room}/**/*.[ch]pp" for room in ROOMS.split())]
 ENTRY = re.compile(r"^- \[([A-Za-z]+?)(\d{4})([a-z]?)\] (.+)$", re.M)
 NAME = r"(?:(?:von|van|Van|Le|de) )?[A-Z][a-zé-íóöøüß]+(?:[A-Z][a-z]+)?(?:-[A-Z][a-z]+)?"
 CITATION = re.compile(rf"({NAME}(?:(?:, and |, | and |,? & ){NAME})*)(?: et al\.| with others)?(?:'s?|,)? "
@@ -67,11 +67,17 @@ def faults_of_page(page):
     return wrong
 
 
+def files(root):
+    """What is read, without tables and what Python compiled."""
+    found = {f for place in PLACES for f in root.glob(place) if f.is_file()}
+    return sorted(f for f in found if f.suffix not in (".csv", ".pyc"))
+
+
 def unknown(root):
     page = (root / "docs/references.md").read_text()
     known = entries(page)
     wrong = faults_of_page(page)
-    for file in sorted({f for place in PLACES for f in root.glob(place) if f.is_file() and f.suffix != ".csv"}):
+    for file in files(root):
         seen = set()
         for authors, year in citations(text_of(file)):
             texts = known.get((key_name(authors[0]), year), [])
