@@ -128,7 +128,8 @@ void addTransportKeys(DeckSchema& schema, std::vector<std::string> models, const
       .add(choiceKey("transport.collision_integrals", {"monchick_mason", "wang_fits"},
                      "Collision integrals of viscosity and diffusion: monchick_mason: the tables of Monchick and Mason "
                      "(1961); wang_fits: the fits of Wang (2025, eqs. 6-36 and 6-37), within 2.5 % of them.")
-               .byDefault("monchick_mason"));
+               .byDefault("monchick_mason")
+               .formerly("thesis_fits", "wang_fits"));
 }
 
 CollisionIntegrals readCollisionIntegrals(const Deck& deck, const Mechanism& mechanism) {
