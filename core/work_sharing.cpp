@@ -197,10 +197,8 @@ WorkSharing::Statistics WorkSharing::run(const Items& items) {
     const double start = MPI_Wtime();
     for (MessageReader message(received); !message.done();) {
       const auto values = message.next();
-      if (values && advance(*values))
-        append(results, output);
-      else
-        results.push_back(noValues);
+      // Nobody reads results where any item failed.
+      if (values && advance(*values)) append(results, output);
     }
     busy += MPI_Wtime() - start;
     send(results, transfer.from, resultsTag, comm_, requests);
