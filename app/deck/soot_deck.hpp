@@ -25,8 +25,7 @@ void addSootModelKeys(DeckSchema& schema, const std::vector<SootModelEntry>& mod
 // What to do where soot outgrows the sections of its model (`soot.sectional.overflow`).
 inline constexpr const char* tooFewSections =
     "More sections ('soot.sectional.sections') or a larger 'soot.sectional.factor' help; 'soot.sectional.overflow: 1' "
-    "only "
-    "counts it";
+    "only counts it";
 
 // `soot.pah`, with the sticking coefficients of `soot.sticking` where that key exists and is given, else the published
 // ones (Blanquart and Pitsch 2009) or those of the law behind them. InputError for what is not a hydrocarbon.
