@@ -23,7 +23,6 @@ struct ParticleGas : CarrierGas {
 // What advancing particles over a time took.
 struct ParticleAdvance {
   int steps = 0, rejected = 0;
-  int limitedOxidations = 0;  // steps in which oxidation would have used more of an oxidiser than there was
 };
 
 }  // namespace lampblack

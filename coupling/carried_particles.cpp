@@ -29,8 +29,8 @@ void CarriedParticles::jacobian(const ParticleGas& gas, std::span<const double> 
 }
 
 ParticleAdvance CarriedParticles::advance(const CarrierGas& gas, double dt, std::span<double> densities,
-                                          std::span<double> concentrations) {
-  return model_->advance(gas, dt, densities, concentrations);
+                                          std::span<double> concentrations, std::span<const double> supply) {
+  return model_->advance(gas, dt, densities, concentrations, supply);
 }
 
 bool CarriedParticles::idle(const ParticleGas& gas, std::span<const double> densities) const {

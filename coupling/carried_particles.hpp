@@ -29,7 +29,7 @@ class CarriedParticles final : public CarriedModel {
                std::span<double> exchange) override;
   void jacobian(const ParticleGas& gas, std::span<const double> densities, const CarriedJacobian& out) override;
   ParticleAdvance advance(const CarrierGas& gas, double dt, std::span<double> densities,
-                          std::span<double> concentrations) override;
+                          std::span<double> concentrations, std::span<const double> supply) override;
   [[nodiscard]] bool idle(const ParticleGas& gas, std::span<const double> densities) const override;
   void diffusivities(const ParticleGas& gas, std::span<const double> densities, std::span<double> D) override;
   void enthalpies(double temperature, std::span<double> h, std::span<double> slope) override;

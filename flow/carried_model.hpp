@@ -47,9 +47,10 @@ class CarriedModel {
   virtual void sources(const ParticleGas& gas, std::span<const double> densities, std::span<double> rates,
                        std::span<double> exchange) = 0;
   virtual void jacobian(const ParticleGas& gas, std::span<const double> densities, const CarriedJacobian& out) = 0;
-  // Densities and concentrations over `dt`, at what `gas` has beside its concentrations. Throws NumericsError.
+  // Densities and concentrations over `dt`, at what `gas` has beside its concentrations. `supply`: what else brings
+  // them, per m3 and s, of the scalars, then of the species; empty: nothing does. Throws NumericsError.
   virtual ParticleAdvance advance(const CarrierGas& gas, double dt, std::span<double> densities,
-                                  std::span<double> concentrations) = 0;
+                                  std::span<double> concentrations, std::span<const double> supply) = 0;
   // Nothing is there, and nothing can come of this gas.
   [[nodiscard]] virtual bool idle(const ParticleGas&, std::span<const double>) const { return false; }
   virtual void diffusivities(const ParticleGas& gas, std::span<const double> densities,

@@ -10,11 +10,16 @@
 namespace lampblack::flow {
 namespace {
 
-// How a cell is packed for the trip to another rank and back. In: place, number, gas, densities, concentrations; out:
-// seconds, steps, limited oxidations, densities, concentrations.
-constexpr std::size_t inHeader = 8, outHeader = 3;
+// How a cell is packed for the trip to another rank and back. In: place, number, gas, densities, concentrations, and
+// where the coupling is deferred what brings them; out: seconds, steps, densities, concentrations.
+constexpr std::size_t inHeader = 8, outHeader = 2;
 
 constexpr double firstCost = 1e-5;  // s, before a cell was ever advanced
+
+// Where a cell's values begin, `width` of them a cell.
+std::size_t at(int cell, std::size_t width) {
+  return static_cast<std::size_t>(cell) * width;
+}
 
 }  // namespace
 
@@ -47,17 +52,20 @@ CarriedOperator::CarriedOperator(const FlowContext& context, CarriedModel& model
       options_(std::move(options)),
       sharing_(context.mesh.comm, options_.shareWork),
       cost_(context.mesh.owned, firstCost),
-      speciesEnthalpy_(context.mechanism.numSpecies()),
+      before_(cost_.size() * (scalars_ + model.exchanged().size())),
+      rate_(before_.size()),
+      heat_(cost_.size()),
       partialDensity_(context.mechanism.numSpecies()),
+      values_(scalars_ + model.exchanged().size()),
       enthalpy_(scalars_),
       slope_(scalars_) {}
 
 std::span<double> CarriedOperator::densities(State& state, int cell) const {
-  return {&state.carried[static_cast<std::size_t>(cell) * state.scalars.size() + first_], scalars_};
+  return {&state.carried[at(cell, state.scalars.size()) + first_], scalars_};
 }
 
 std::span<const double> CarriedOperator::densities(const State& state, int cell) const {
-  return {&state.carried[static_cast<std::size_t>(cell) * state.scalars.size() + first_], scalars_};
+  return {&state.carried[at(cell, state.scalars.size()) + first_], scalars_};
 }
 
 double CarriedOperator::viscosityOf(const State& state, int cell) const {
@@ -72,12 +80,12 @@ double CarriedOperator::viscosityOf(const State& state, int cell) const {
 void CarriedOperator::solve(double time, double dt, std::span<const double> in, std::span<double> out) const {
   const double start = MPI_Wtime();
   const std::span<double> values = out.subspan(outHeader);
-  std::ranges::copy(in.subspan(inHeader), values.begin());
+  const std::span<const double> supply = in.subspan(inHeader + values.size());
+  std::ranges::copy(in.subspan(inHeader, values.size()), values.begin());
   try {
-    const ParticleAdvance done =
-        model_.advance({in[3], in[4], in[5], in[6], in[7]}, dt, values.first(scalars_), values.subspan(scalars_));
+    const ParticleAdvance done = model_.advance({in[3], in[4], in[5], in[6], in[7]}, dt, values.first(scalars_),
+                                                values.subspan(scalars_), supply);
     out[1] = done.steps + done.rejected;
-    out[2] = done.limitedOxidations;
   } catch (const NumericsError& error) {
     throw NumericsError(fmt::format("{} failed in cell {:.0f} at ({:.6g}, {:.6g}) m at time {:.6g} s: {}",
                                     model_.material(), in[2], in[0], in[1], time, error.what()));
@@ -85,28 +93,73 @@ void CarriedOperator::solve(double time, double dt, std::span<const double> in, 
   out[0] = MPI_Wtime() - start;
 }
 
-void CarriedOperator::unpack(State& state, int cell, std::span<const double> in, std::span<const double> out) {
+void CarriedOperator::valuesOf(const State& state, int cell, std::span<double> values) const {
+  std::ranges::copy(densities(state, cell), values.begin());
+  const std::vector<std::size_t>& species = model_.exchanged();
+  const auto W = context_.mechanism.molecularWeights();
+  for (std::size_t i = 0; i < species.size(); ++i)
+    values[scalars_ + i] = state.density[cell] * state.Y[at(cell, state.species) + species[i]] / W[species[i]];
+}
+
+void CarriedOperator::pack(const State& state, const BusyCell& busy, double dt, std::vector<double>& in) const {
+  const Mesh& m = context_.mesh;
+  const int c = busy.cell;
+  in = {m.centre[c][0],
+        m.centre[c][1],
+        static_cast<double>(m.naturalCell[c]),
+        state.temperature[c],
+        state.thermodynamicPressure,
+        state.density[c],
+        busy.viscosity,
+        busy.meanMolecularWeight};
+  const std::size_t n = values_.size();
+  in.resize(inHeader + (options_.deferred ? 2 : 1) * n);
+  const std::span<double> start = std::span(in).subspan(inHeader, n);
+  valuesOf(state, c, start);
+  if (!options_.deferred) return;
+  // Since the end of the last step, without what these particles did in it: at a constant rate.
+  for (std::size_t i = 0; i < n; ++i) {
+    const double before = before_[at(c, n) + i];
+    in[inHeader + n + i] = (start[i] - before) / dt - rate_[at(c, n) + i];
+    start[i] = before;
+  }
+}
+
+void CarriedOperator::unpack(State& state, int cell, double dt, std::span<const double> out) {
   // A smoothed cost: one solve's time is noisy on a shared machine.
   cost_[cell] = 0.5 * (cost_[cell] + out[0]);
   steps_ += static_cast<long>(out[1]);
-  limitedOxidations_ += static_cast<long>(out[2]);
+  take(state, cell, dt, out.subspan(outHeader));
+}
 
+void CarriedOperator::take(State& state, int cell, double dt, std::span<const double> after) {
   const std::vector<std::size_t>& species = model_.exchanged();
-  const std::span<const double> before = in.subspan(inHeader), after = out.subspan(outHeader);
-  const std::span<double> scalars = densities(state, cell);
-  std::copy_n(after.begin(), scalars_, scalars.begin());
-  const auto isSame = [&](std::size_t i) { return before[scalars_ + i] == after[scalars_ + i]; };
+  valuesOf(state, cell, values_);
+  double* rate = &rate_[at(cell, values_.size())];
+  const double temperature = state.temperature[cell];
+  model_.enthalpies(temperature, enthalpy_, slope_);
+  double given = 0.0;  // J/m3, of the gas to the particles, by what the balance does not hold already
+  for (std::size_t s = 0; s < scalars_; ++s) given += (after[s] - values_[s]) * enthalpy_[s];
+  if (options_.deferred) {
+    double power = 0.0;
+    for (std::size_t i = 0; i < values_.size(); ++i) rate[i] += (after[i] - values_[i]) / dt;
+    for (std::size_t s = 0; s < scalars_; ++s) power += rate[s] * enthalpy_[s];
+    given = dt * (power + heat_[cell]);
+    heat_[cell] = -power;
+  }
+  std::copy_n(after.begin(), scalars_, densities(state, cell).begin());
 
   // Back to the gas's partial densities; what did not change keeps its bits.
   const auto n = static_cast<std::size_t>(state.species);
-  double* Y = &state.Y[static_cast<std::size_t>(cell) * n];
+  double* Y = &state.Y[at(cell, n)];
   const auto W = context_.mechanism.molecularWeights();
   const double rho = state.density[cell];
   bool isChanged = false;
   for (std::size_t k = 0; k < n; ++k) partialDensity_[k] = rho * Y[k];
   for (std::size_t i = 0; i < species.size(); ++i) {
-    if (isSame(i)) continue;
-    partialDensity_[species[i]] += (after[scalars_ + i] - before[scalars_ + i]) * W[species[i]];
+    const double change = after[scalars_ + i] - values_[scalars_ + i];
+    if (change == 0.0) continue;
+    partialDensity_[species[i]] += change * W[species[i]];
     isChanged = true;
   }
   if (!isChanged) return;
@@ -114,57 +167,53 @@ void CarriedOperator::unpack(State& state, int cell, std::span<const double> in,
   double mass = 0.0;
   for (std::size_t k = 0; k < n; ++k) mass += partialDensity_[k];
   for (std::size_t k = 0; k < n; ++k) Y[k] = partialDensity_[k] / mass;
-  const double temperature = state.temperature[cell];
-  model_.enthalpies(temperature, enthalpy_, slope_);
-  double given = 0.0;
-  for (std::size_t s = 0; s < scalars_; ++s) given += (after[s] - before[s]) * enthalpy_[s];
   state.enthalpy[cell] = (rho * state.enthalpy[cell] - given) / mass;
   state.density[cell] = mass;
   state.temperature[cell] = context_.thermo.temperatureFromEnthalpy(state.enthalpy[cell], {Y, n}, temperature);
 }
 
 void CarriedOperator::setDiffusivities(State& state, int cell, double viscosity) {
-  const std::span<double> D{&state.carriedDiffusivity[static_cast<std::size_t>(cell) * state.scalars.size() + first_],
-                            scalars_};
+  const std::span<double> D{&state.carriedDiffusivity[at(cell, state.scalars.size()) + first_], scalars_};
   model_.diffusivities(gasOfCell(context_, state, cell, viscosity, model_.exchanged(), concentrations_),
                        densities(state, cell), D);
 }
 
+// A cell without particles, and without anything they could come of, is left alone: it gives back what the balance held
+// of them.
+void CarriedOperator::rest(State& state, int cell, double dt) {
+  std::fill_n(&state.carriedDiffusivity[at(cell, state.scalars.size()) + first_], scalars_, 0.0);
+  const std::span<double> rate{&rate_[at(cell, values_.size())], values_.size()};
+  if (std::ranges::all_of(rate, [](double r) { return r == 0.0; })) return;
+  std::vector<double> after(values_.size());
+  valuesOf(state, cell, after);
+  for (std::size_t i = 0; i < after.size(); ++i) after[i] -= dt * rate[i];
+  take(state, cell, dt, after);
+  std::ranges::fill(rate, 0.0);
+  heat_[cell] = 0.0;
+}
+
 void CarriedOperator::advance(State& state, double time, double dt) {
   const Mesh& m = context_.mesh;
-  struct Busy {
-    int cell;
-    double viscosity;
-    std::vector<double> packed;
-  };
-  std::vector<Busy> busy;
+  std::vector<BusyCell> busy;
   WorkSharing::Items items;
   collectively(m.comm, [&] {
     for (int c = 0; c < m.owned; ++c) {
       const ParticleGas still = gasOfCell(context_, state, c, 0.0, model_.exchanged(), concentrations_);
       if (model_.idle(still, densities(state, c))) {
-        std::fill_n(&state.carriedDiffusivity[static_cast<std::size_t>(c) * state.scalars.size() + first_], scalars_,
-                    0.0);
+        rest(state, c, dt);
         continue;
       }
-      const double viscosity = viscosityOf(state, c);
-      std::vector<double> packed{m.centre[c][0],    m.centre[c][1],           static_cast<double>(m.naturalCell[c]),
-                                 still.temperature, still.pressure,           still.density,
-                                 viscosity,         still.meanMolecularWeight};
-      const std::span<const double> carried = densities(state, c);
-      packed.insert(packed.end(), carried.begin(), carried.end());
-      packed.insert(packed.end(), concentrations_.begin(), concentrations_.end());
-      busy.push_back({c, viscosity, std::move(packed)});
+      busy.push_back({c, viscosityOf(state, c), still.meanMolecularWeight});
       items.cost.push_back(cost_[c]);
     }
   });
-  items.pack = [&](std::size_t i, std::vector<double>& in) { in = busy[i].packed; };
+  items.pack = [&](std::size_t i, std::vector<double>& in) { pack(state, busy[i], dt, in); };
   items.advance = [&](std::span<const double> in, std::vector<double>& out) {
-    out.resize(outHeader + scalars_ + model_.exchanged().size());
+    out.resize(outHeader + values_.size());
     solve(time, dt, in, out);
   };
   items.unpack = [&](std::size_t i, std::span<const double> out) {
-    unpack(state, busy[i].cell, busy[i].packed, out);
+    unpack(state, busy[i].cell, dt, out);
     setDiffusivities(state, busy[i].cell, busy[i].viscosity);
   };
   const WorkSharing::Statistics statistics = sharing_.run(items);
@@ -174,12 +223,31 @@ void CarriedOperator::advance(State& state, double time, double dt) {
   state.updateHalo(context_.halo);
 }
 
+void CarriedOperator::endStep(State& state) {
+  if (!options_.deferred) return;
+  const std::vector<std::size_t>& species = model_.exchanged();
+  const auto W = context_.mechanism.molecularWeights();
+  const std::size_t n = values_.size();
+  for (int c = 0; c < context_.mesh.owned; ++c) {
+    valuesOf(state, c, {&before_[at(c, n)], n});
+    const double* rate = &rate_[at(c, n)];
+    for (std::size_t s = 0; s < scalars_; ++s)
+      state.balance.carried[at(c, state.scalars.size()) + first_ + s] += rate[s];
+    for (std::size_t i = 0; i < species.size(); ++i)
+      state.balance.species[at(c, state.species) + species[i]] += rate[scalars_ + i] * W[species[i]];
+    state.balance.enthalpy[c] += heat_[c];
+  }
+}
+
 void CarriedOperator::saveOrLoad(StateArchive& archive) {
   archive.cells("carried_cost", cost_, 1);
-  std::array<double, 2> counted{static_cast<double>(steps_), static_cast<double>(limitedOxidations_)};
+  if (options_.deferred) {
+    archive.cells("carried_rate", rate_, static_cast<int>(values_.size()));
+    archive.cells("carried_heat", heat_, 1);
+  }
+  std::array<double, 1> counted{static_cast<double>(steps_)};
   archive.sums("carried_counts", counted);
   steps_ = static_cast<long>(counted[0]);
-  limitedOxidations_ = static_cast<long>(counted[1]);
   std::vector<double> stages{imbalances_.before, imbalances_.after, static_cast<double>(stages_)};
   archive.shared("carried_stages", stages);
   imbalances_ = {stages.at(0), stages.at(1)};
@@ -193,12 +261,10 @@ std::optional<Operator::Imbalance> CarriedOperator::imbalance() const {
 
 std::vector<Quantity> CarriedOperator::historyColumns() const {
   const std::string material = model_.material();
-  return {
-      {"peak_" + material + "_volume_fraction", "1", "largest volume fraction of " + material},
-      {material + "_at_limit", "1",
-       "largest volume fraction in particles that cannot grow any more, over the largest of all"},
-      {material + "_solver_steps", "1", "internal steps of its stiff solver over all cells since the start"},
-      {"limited_oxidations", "1", "steps of it since the start in which oxidation was limited by the oxidiser left"}};
+  return {{"peak_" + material + "_volume_fraction", "1", "largest volume fraction of " + material},
+          {material + "_at_limit", "1",
+           "largest volume fraction in particles that cannot grow any more, over the largest of all"},
+          {material + "_solver_steps", "1", "internal steps of its stiff solver over all cells since the start"}};
 }
 
 std::vector<double> CarriedOperator::historyValues(const State& state) {
@@ -218,17 +284,16 @@ std::vector<double> CarriedOperator::historyValues(const State& state) {
   MPI_Allreduce(MPI_IN_PLACE, &best, 1, MPI_DOUBLE_INT, MPI_MAXLOC, m.comm);
   MPI_Bcast(place_.data(), 2, MPI_DOUBLE, best.rank, m.comm);
   MPI_Allreduce(MPI_IN_PLACE, &atLimit, 1, MPI_DOUBLE, MPI_MAX, m.comm);
-  double counts[2] = {static_cast<double>(steps_), static_cast<double>(limitedOxidations_)};
-  MPI_Allreduce(MPI_IN_PLACE, counts, 2, MPI_DOUBLE, MPI_SUM, m.comm);
+  auto steps = static_cast<double>(steps_);
+  MPI_Allreduce(MPI_IN_PLACE, &steps, 1, MPI_DOUBLE, MPI_SUM, m.comm);
   peak_ = best.value;
-  limited_ = counts[1];
   const double part = peak_ > 0.0 ? atLimit / peak_ : 0.0;
   if (part > options_.allowedAtLimit)
     throw NumericsError(fmt::format(
         "a part {:.2g} of the largest volume fraction of {} stands in the largest particles that the model can have; "
         "allowed is {:.2g}. {}",
         part, model_.material(), options_.allowedAtLimit, options_.advice));
-  return {peak_, part, counts[0], limited_};
+  return {peak_, part, steps};
 }
 
 std::string CarriedOperator::status() const {
@@ -236,12 +301,8 @@ std::string CarriedOperator::status() const {
 }
 
 std::vector<std::string> CarriedOperator::closingLines() const {
-  std::vector<std::string> lines{fmt::format("peak {} volume fraction {:.4g} ppm at ({:.3f}, {:.3f}) mm",
-                                             model_.material(), 1e6 * peak_, 1e3 * place_[0], 1e3 * place_[1])};
-  if (limited_ > 0)
-    lines.push_back(
-        fmt::format("{} oxidation was limited by the oxidiser left in {:.0f} steps", model_.material(), limited_));
-  return lines;
+  return {fmt::format("peak {} volume fraction {:.4g} ppm at ({:.3f}, {:.3f}) mm", model_.material(), 1e6 * peak_,
+                      1e3 * place_[0], 1e3 * place_[1])};
 }
 
 void CarriedOperator::fields(const State& state, const FieldSink& sink) const {

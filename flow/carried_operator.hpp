@@ -2,6 +2,10 @@
 // what the model takes from or gives to the gas changes the gas's species, mass and enthalpy. Cells are shared between
 // the ranks as those of the chemistry are.
 //
+// Deferred coupling, as that of the chemistry (ReactionOperator): particles and what they exchange are integrated from
+// the end of the last step with the changes by transport and chemistry since then as a constant source, while
+// State::balance holds the particles' own rates of the last step. A steady state does then not depend on the step.
+//
 // Energy: gas and scalars together keep their enthalpy over a step, what was exchanged being as warm as the gas. The
 // scalars' own sensible heat is not followed along their path.
 #pragma once
@@ -26,6 +30,7 @@ namespace lampblack::flow {
 class CarriedOperator : public Operator {
  public:
   struct Options {
+    bool deferred = true;  // otherwise in turn with transport and chemistry, for Strang splitting
     bool shareWork = true;
     // Largest volume fraction in particles that cannot grow over the largest of all; more is a NumericsError, when a
     // row of the history is due, which ends with `advice`.
@@ -41,6 +46,7 @@ class CarriedOperator : public Operator {
 
   [[nodiscard]] const char* name() const override { return "particles"; }
   void advance(State& state, double time, double dt) override;
+  void endStep(State& state) override;
   void saveOrLoad(StateArchive& archive) override;
 
   [[nodiscard]] std::vector<Quantity> historyColumns() const override;
@@ -56,8 +62,18 @@ class CarriedOperator : public Operator {
 
  private:
   [[nodiscard]] double viscosityOf(const State& state, int cell) const;
+  struct BusyCell {
+    int cell;
+    double viscosity, meanMolecularWeight;
+  };
+  // Densities of the scalars (per m3), then concentrations of the exchanged species (mol/m3).
+  void valuesOf(const State& state, int cell, std::span<double> values) const;
+  void pack(const State& state, const BusyCell& busy, double dt, std::vector<double>& in) const;
   void solve(double time, double dt, std::span<const double> in, std::span<double> out) const;
-  void unpack(State& state, int cell, std::span<const double> in, std::span<const double> out);
+  void unpack(State& state, int cell, double dt, std::span<const double> out);
+  // Gives the cell the values `after` in place of those it has.
+  void take(State& state, int cell, double dt, std::span<const double> after);
+  void rest(State& state, int cell, double dt);
   void setDiffusivities(State& state, int cell, double viscosity);
 
   const FlowContext& context_;
@@ -66,14 +82,16 @@ class CarriedOperator : public Operator {
   Options options_;
   WorkSharing sharing_;
   std::vector<double> cost_;  // s, of each owned cell's last advance
-  // Since the start, on this rank.
-  long steps_ = 0, limitedOxidations_ = 0;
+  // Deferred, of each owned cell: its values at the end of the last step; their mean rates by the particles in it, and
+  // the power that these gave to the gas, W/m3.
+  std::vector<double> before_, rate_, heat_;
+  long steps_ = 0;                  // since the start, on this rank
   Imbalance imbalances_{0.0, 0.0};  // sums over the stages
   int stages_ = 0;
   // Of the last row.
-  double peak_ = 0.0, limited_ = 0.0;
+  double peak_ = 0.0;
   std::array<double, 2> place_{};
-  std::vector<double> speciesEnthalpy_, partialDensity_, concentrations_, enthalpy_, slope_;
+  std::vector<double> partialDensity_, values_, concentrations_, enthalpy_, slope_;
 };
 
 }  // namespace lampblack::flow

@@ -36,7 +36,8 @@ void CarriedTransport::advance(State& state, const GasProperties& properties, co
   }
   std::vector<double> content(static_cast<std::size_t>(m.owned) * n);
   for (int c = 0; c < m.owned; ++c)
-    for (int s = 0; s < n; ++s) content[c * n + s] = m.volume[c] * state.carried[c * n + s];
+    for (int s = 0; s < n; ++s)
+      content[c * n + s] = m.volume[c] * (state.carried[c * n + s] + dt * state.balance.carried[c * n + s]);
   addFaceFluxes(m, flux_, n, dt, content);
   diffuse(state, faces, newMass, dt, content);
   for (int c = 0; c < m.owned; ++c)

@@ -29,7 +29,8 @@ class Operator {
   [[nodiscard]] virtual const char* name() const = 0;
 
   virtual void advance(State& state, double time, double dt) = 0;  // collective
-  // Called once when all operators have advanced by a whole step.
+  // Called once when all operators have advanced by a whole step, of the transport first, which clears State::balance;
+  // and before the first step, and after loading.
   virtual void endStep(State&) {}
   // What the operator keeps from step to step besides the state: with both, the next step is the same to the last bit.
   // Between two steps. Collective.

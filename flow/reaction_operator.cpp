@@ -23,7 +23,8 @@ ReactionOperator::ReactionOperator(const FlowContext& context, Options options)
       reactor_(context.mechanism, options.reactor),
       sharing_(context.mesh.comm, options.shareWork),
       cost_(context.mesh.owned, 1e-4),
-      initialStep_(context.mesh.owned, 0.0) {}
+      initialStep_(context.mesh.owned, 0.0),
+      rate_(options.deferred ? cost_.size() * context.mechanism.numSpecies() : 0) {}
 
 void ReactionOperator::pack(const State& state, std::size_t cell, double dt, std::span<double> in) const {
   const auto n = static_cast<std::size_t>(state.species);
@@ -41,7 +42,7 @@ void ReactionOperator::pack(const State& state, std::size_t cell, double dt, std
   std::copy_n(before, n, start.begin());
   // Deferred: what transport alone has changed since then, at a constant rate.
   for (std::size_t k = 0; k < n; ++k)
-    source[k] = options_.deferred ? (Y[k] - before[k]) / dt - state.balance[cell * n + k] / state.density[cell] : 0.0;
+    source[k] = options_.deferred ? (Y[k] - before[k]) / dt - rate_[cell * n + k] / state.density[cell] : 0.0;
 }
 
 void ReactionOperator::solve(double time, double dt, std::span<const double> in, std::span<double> out) {
@@ -77,14 +78,14 @@ void ReactionOperator::unpack(State& state, std::size_t cell, double dt, std::sp
   for (std::size_t k = 0; k < n; ++k) {
     double& Y = state.Y[cell * n + k];
     const double reacted = out[Layout::outHeader + k];
-    if (options_.deferred) state.balance[cell * n + k] += state.density[cell] * (reacted - Y) / dt;
+    if (options_.deferred) rate_[cell * n + k] += state.density[cell] * (reacted - Y) / dt;
     Y = reacted;
   }
   if (options_.deferred) {
-    // No net mass: the reactor keeps the sum of Y, so that round-off in the balance would feed on itself.
+    // No net mass: the reactor keeps the sum of Y, so that round-off in the rate would feed on itself.
     double net = 0.0;
-    for (std::size_t k = 0; k < n; ++k) net += state.balance[cell * n + k];
-    for (std::size_t k = 0; k < n; ++k) state.balance[cell * n + k] -= net * state.Y[cell * n + k];
+    for (std::size_t k = 0; k < n; ++k) net += rate_[cell * n + k];
+    for (std::size_t k = 0; k < n; ++k) rate_[cell * n + k] -= net * state.Y[cell * n + k];
   }
   state.temperature[cell] = out[0];
   initialStep_[cell] = out[1];
@@ -121,13 +122,15 @@ void ReactionOperator::advance(State& state, double time, double dt) {
 
 void ReactionOperator::endStep(State& state) {
   if (!options_.deferred) return;
-  before_.assign(state.Y.begin(), state.Y.begin() + static_cast<std::ptrdiff_t>(cost_.size()) * state.species);
+  before_.assign(state.Y.begin(), state.Y.begin() + static_cast<std::ptrdiff_t>(rate_.size()));
+  for (std::size_t i = 0; i < rate_.size(); ++i) state.balance.species[i] += rate_[i];
 }
 
 // The mass fractions of the last step's end are the state's: endStep() takes them from there after loading.
 void ReactionOperator::saveOrLoad(StateArchive& archive) {
   archive.cells("chemistry_cost", cost_, 1);
   archive.cells("chemistry_first_step", initialStep_, 1);
+  if (options_.deferred) archive.cells("chemistry_rate", rate_, static_cast<int>(context_.mechanism.numSpecies()));
   std::array<double, 4> counted{diagnostics_.solverSteps, diagnostics_.integratedCells, diagnostics_.skippedCells,
                                 diagnostics_.retries};
   archive.sums("chemistry_counts", counted);

@@ -2,7 +2,7 @@
 //
 // Coupling with transport. Strang splitting integrates the reactions alone. Deferred coupling integrates them from the
 // state before the transport stage with the transport as a constant source, while the transport stage was given the
-// last step's mean reaction rate (State::balance): one sweep of spectral deferred corrections (Nonaka, Bell, Day,
+// last step's mean reaction rate (by State::balance): one sweep of spectral deferred corrections (Nonaka, Bell, Day,
 // Gilet, Almgren, Minion 2012). It is first order in time, but a steady flame is a steady state of it whatever the
 // step, and the stiff solver, which then starts in equilibrium with the transport, needs few steps.
 #pragma once
@@ -62,7 +62,8 @@ class ReactionOperator : public Operator {
   WorkSharing sharing_;
   std::vector<double> cost_;         // s, of each owned cell's last solve
   std::vector<double> initialStep_;  // s, first internal step of the next solve
-  std::vector<double> before_;       // mass fractions at the end of the last step, species a owned cell; deferred only
+  // Deferred only, species a owned cell: mass fractions at the end of the last step, and its mean rate (kg/m3/s).
+  std::vector<double> before_, rate_;
   Diagnostics diagnostics_;
   Imbalance imbalances_{0.0, 0.0};  // sums over all stages
   int stages_ = 0;

@@ -1,5 +1,6 @@
 #include "flow/state.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace lampblack::flow {
@@ -15,8 +16,14 @@ State::State(const Mesh& mesh, std::size_t speciesCount, std::vector<CarriedScal
   Y.assign(cells * speciesCount, 0.0);
   carried.assign(cells * scalars.size(), 0.0);
   carriedDiffusivity.assign(cells * scalars.size(), 0.0);
-  balance.assign(cells * speciesCount, 0.0);
+  const auto owned = static_cast<std::size_t>(mesh.owned);
+  balance = {std::vector<double>(owned * speciesCount), std::vector<double>(owned),
+             std::vector<double>(owned * scalars.size())};
   massFlux.assign(static_cast<std::size_t>(mesh.faces), 0.0);
+}
+
+void State::Balance::clear() {
+  for (std::vector<double>* rates : {&species, &enthalpy, &carried}) std::fill(rates->begin(), rates->end(), 0.0);
 }
 
 void State::updateHalo(HaloExchange& halo) {
@@ -36,7 +43,6 @@ void State::saveOrLoad(StateArchive& archive) {
   archive.cells("density", density, 1);
   archive.cells("enthalpy", enthalpy, 1);
   archive.cells("Y", Y, species);
-  archive.cells("balance", balance, species);
   if (!scalars.empty()) {
     archive.cells("carried", carried, carriedCount());
     archive.cells("carried_diffusivity", carriedDiffusivity, carriedCount());

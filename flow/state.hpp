@@ -39,9 +39,15 @@ struct State {
   std::vector<double> carried;              // per m^3, carriedCount() a cell
   std::vector<double> carriedDiffusivity;   // m^2/s, carriedCount() a cell; set by the model that owns the scalar
 
-  // The mean reaction rate of the last step (kg/m^3/s, `species` a cell), which the transport stage takes as a source
-  // where the reactions are coupled to it (ReactionOperator); zero in Strang splitting.
-  std::vector<double> balance;
+  // What operators that are coupled to the transport stage did in the last step, as mean rates of the owned cells: the
+  // transport stage takes them as sources, and they take its changes as theirs (deferred coupling; ReactionOperator).
+  // Each adds its part in Operator::endStep(). Zero in Strang splitting.
+  struct Balance {
+    std::vector<double> species;   // kg/m^3/s, `species` a cell; their sum is mass that the gas gains
+    std::vector<double> enthalpy;  // W/m^3, of the gas
+    std::vector<double> carried;   // per m^3 and s, carriedCount() a cell
+    void clear();
+  } balance;
 
   // kg/s (per metre depth or radian) through each face, positive from low to high or outwards.
   std::vector<double> massFlux;

@@ -46,17 +46,19 @@ void TransportOperator::initialise(State& state, double dt) {
   updateFluxes(state);
 }
 
-// Content of the owned cells after convection and the balance term alone.
+// Content of the owned cells after convection and the balance alone.
 void TransportOperator::addConvection(const State& state, double dt) {
   const Mesh& m = context_.mesh;
   const int n = state.species;
   for (int c = 0; c < m.owned; ++c) {
+    double gained = 0.0;
     for (int k = 0; k < n; ++k) {
       const std::size_t i = static_cast<std::size_t>(c) * n + k;
-      content_[i] = m.volume[c] * (state.density[c] * state.Y[i] + dt * state.balance[i]);
+      content_[i] = m.volume[c] * (state.density[c] * state.Y[i] + dt * state.balance.species[i]);
+      gained += state.balance.species[i];
     }
-    heatContent_[c] = m.volume[c] * state.density[c] * state.enthalpy[c];
-    newMass_[c] = m.volume[c] * state.density[c];
+    heatContent_[c] = m.volume[c] * (state.density[c] * state.enthalpy[c] + dt * state.balance.enthalpy[c]);
+    newMass_[c] = m.volume[c] * (state.density[c] + dt * gained);
   }
   for (int face = 0; face < m.faces; ++face) {
     const double amount = dt * state.massFlux[face];
@@ -136,14 +138,16 @@ void TransportOperator::computeDivergence(const State& state, double dt) {
   const Mesh& m = context_.mesh;
   const int n = state.species;
   const auto molecularWeights = context_.mechanism.molecularWeights();
-  // Mass and enthalpy that diffusion and the balance term bring in, kg/s and W.
+  // Mass and enthalpy that diffusion and the balance bring in, kg/s and W.
   std::vector<double> species(static_cast<std::size_t>(m.owned) * n);
-  std::vector<double> heat(m.owned, 0.0);
-  for (int c = 0; c < m.owned; ++c)
+  std::vector<double> heat(m.owned);
+  for (int c = 0; c < m.owned; ++c) {
+    heat[c] = m.volume[c] * state.balance.enthalpy[c];
     for (int k = 0; k < n; ++k) {
       const std::size_t i = static_cast<std::size_t>(c) * n + k;
-      species[i] = m.volume[c] * state.balance[i];
+      species[i] = m.volume[c] * state.balance.species[i];
     }
+  }
   addFaceFluxes(m, speciesFlux_, n, 1.0, species);
   addFaceFluxes(m, enthalpyFlux_, 1, 1.0, heat);
   addFaceFluxes(m, heatFlux_, 1, 1.0, heat);

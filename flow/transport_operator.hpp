@@ -3,7 +3,7 @@
 // Densities (rho Y_k, rho h, carried scalars) are advanced in conservative form by one face mass flux. The flux comes
 // from velocities projected onto the divergence that the equation of state demands (Day and Bell 2000),
 //   div u = (1/(rho cp T)) (E - sum_k h_k M_k) + sum_k (W/W_k) M_k / rho + (p_eos/p0 - 1)/max(dt, driftTime),
-// with E and M_k the enthalpy and mass that diffusion and the balance term bring into a cell - evaluated from the very
+// with E and M_k the enthalpy and mass that diffusion and State::balance bring into a cell - evaluated from the very
 // fluxes, implicit ones included, that the scalars are then advanced with. The last term takes away what remains of
 // p_eos - p0 after a step (volume discrepancy; Nonaka et al. 2012).
 //
@@ -52,6 +52,7 @@ class TransportOperator : public Operator {
   TransportOperator(const FlowContext& context, const State& state) : TransportOperator(context, state, Options{}) {}
 
   void advance(State& state, double time, double dt) override;
+  void endStep(State& state) override { state.balance.clear(); }
   void saveOrLoad(StateArchive& archive) override;
   [[nodiscard]] const char* name() const override { return "transport"; }
   [[nodiscard]] double largestStep(const State& state) override;

@@ -101,7 +101,8 @@ void readSoot(const Deck& deck, FlowCase& flowCase) {
   }
   flowCase.carried =
       std::make_shared<CarriedParticles>(*flowCase.mechanism, std::move(model), deck.boolean("soot.diffusion"));
-  flowCase.carriedOptions = {flowCase.chemistry.shareWork, deck.number("soot.sectional.overflow"), tooFewSections};
+  flowCase.carriedOptions = {flowCase.chemistry.deferred, flowCase.chemistry.shareWork,
+                             deck.number("soot.sectional.overflow"), tooFewSections};
 }
 
 void readTransport(const Deck& deck, FlowCase& flowCase) {

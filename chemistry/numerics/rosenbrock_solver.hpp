@@ -25,23 +25,25 @@ class RosenbrockSolver {
   struct Tolerance {
     double relative = 1e-4;
     std::span<const double> smallest;
+    int maximumSteps = 20000;
   };
   struct Result {
     int steps = 0, rejected = 0;
+    bool isStopped = false;
   };
 
   // rates(y, f) fills f; jacobian(y, J) fills all rows of all columns of J. `y` is advanced over `dt`. Throws
   // NumericsError where steps become too small or too many, or values are not finite; `y` is then that of the last good
-  // step.
-  template <typename Rates, typename Jacobian>
+  // step. goesOn(y) is asked after every step; where it says no, that is the end.
+  template <typename Rates, typename Jacobian, typename Guard>
   Result integrate(const Rates& rates, const Jacobian& jacobian, double dt, std::span<double> y,
-                   const Tolerance& tolerance) {
+                   const Tolerance& tolerance, const Guard& goesOn) {
     resize(y.size());
     Result result;
     double t = 0, h = dt;
     bool isRejected = false;
     while (t < dt) {
-      if (result.steps + result.rejected >= maximumSteps)
+      if (result.steps + result.rejected >= tolerance.maximumSteps)
         throw NumericsError("the stiff integrator needs too many steps");
       if (h < smallestStep * dt) throw NumericsError("the stiff integrator's step has become too small");
       const bool isLast = t + h >= dt * (1 - roundOff);
@@ -57,15 +59,20 @@ class RosenbrockSolver {
       }
       ++result.steps;
       std::copy(end_.begin(), end_.end(), y.begin());
-      if (isLast) break;
+      result.isStopped = !goesOn(y);
+      if (isLast || result.isStopped) break;
       t += h;
       h *= factor;
     }
     return result;
   }
+  template <typename Rates, typename Jacobian>
+  Result integrate(const Rates& rates, const Jacobian& jacobian, double dt, std::span<double> y,
+                   const Tolerance& tolerance) {
+    return integrate(rates, jacobian, dt, y, tolerance, [](std::span<const double>) { return true; });
+  }
 
  private:
-  static constexpr int maximumSteps = 20000;
   static constexpr double smallestStep = 1e-13;  // over dt
   static constexpr double roundOff = 1e-12;
   static constexpr double gamma = 0.5;

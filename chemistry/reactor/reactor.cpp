@@ -48,7 +48,8 @@ struct ConstantPressureReactor::Impl {
   ReactorSystem system;
   ReactorIntegrator integrator;
   std::vector<double> start, predicted, chemical, chemicalEnd;
-  double startSum = 0, enthalpy = 0;
+  double endSum = 0;  // of the mass fractions
+  double enthalpy = 0;
   std::string reason;
 };
 
@@ -144,11 +145,11 @@ bool ConstantPressureReactor::Impl::integrate(const Cell& cell, double dt, const
 bool ConstantPressureReactor::Impl::accept(Cell& cell, double* out) {
   double sum = 0;
   for (std::size_t k = 0; k < n; ++k) sum += out[k];
-  if (!(std::abs(sum - startSum) < kSumTolerance)) {
-    reason = fmt::format("the sum of mass fractions moved by {:.3g}", sum - startSum);
+  if (!(std::abs(sum - endSum) < kSumTolerance)) {
+    reason = fmt::format("the sum of mass fractions moved by {:.3g}", sum - endSum);
     return false;
   }
-  const double scale = startSum / sum;
+  const double scale = endSum / sum;
   for (std::size_t k = 0; k < n; ++k) out[k] *= scale;
   double T = 0;
   try {
@@ -191,8 +192,9 @@ ConstantPressureReactor::Result ConstantPressureReactor::advance(Cell& cell, dou
   self.checkInput(cell, dt);
   std::copy(cell.Y.begin(), cell.Y.end(), self.start.begin());
   self.start[self.n] = cell.temperature;
-  self.startSum = 0;
-  for (const double value : cell.Y) self.startSum += value;
+  self.endSum = 0;
+  for (const double value : cell.Y) self.endSum += value;
+  for (const double value : cell.source) self.endSum += dt * value;
   self.enthalpy = self.system.thermo().enthalpyMass(cell.temperature, cell.Y);
   const auto finish = [&] {
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -30,8 +30,9 @@ class ConstantPressureReactor {
     double pressure = 0;     // Pa
     std::span<double>
         Y;  // mass fractions, in and out; small negative values (of the order of the tolerance) may come back
-    std::span<const double> source;  // dY_k/dt added to the chemistry, 1/s, sums to zero; may be empty
-    double initialStep = 0;          // s, hint; 0 lets the solver choose. Returns the last internal step
+    std::span<const double>
+        source;              // dY_k/dt added to the chemistry, 1/s, sums to zero but for round-off; may be empty
+    double initialStep = 0;  // s, hint; 0 lets the solver choose. Returns the last internal step
   };
 
   struct Result {

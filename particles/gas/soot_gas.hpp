@@ -68,7 +68,6 @@ struct SootModelOptions {
   bool condensation = true;  // off: dimers only nucleate
   bool surfaceGrowth = true;
   bool oxidation = true;
-  double relativeTolerance = 4e-3;  // of the local error of a sub-step of TwoEquationSoot::advance
 };
 
 // Names of the species, as mechanisms call them.

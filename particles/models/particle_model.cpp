@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "chemistry/numerics/rosenbrock_solver.hpp"
 #include "core/constants.hpp"
 #include "particles/collisions/collision_physics.hpp"
 
@@ -12,10 +11,6 @@ namespace {
 // Steps of the differences: a relative 1e-7, where half the digits are left in the quotient; of a value far below its
 // typical size, that of the smallest value that matters.
 constexpr double relativeStep = 1e-7;
-constexpr double smallestShare = 1e-5;
-
-// Of concentrations in `advance`.
-constexpr double smallestMoleFraction = 1e-10;
 
 // Below these there are no particles, and none can be born.
 constexpr double negligibleVolumeFraction = 1e-21;
@@ -62,39 +57,6 @@ void ParticleModel::jacobian(const ParticleGas& gas, std::span<const double> den
   }
   at.temperature = gas.temperature * (1 + relativeStep);
   column(rows, at.temperature - gas.temperature);
-}
-
-ParticleAdvance ParticleModel::advance(const CarrierGas& gas, double dt, std::span<double> densities,
-                                       std::span<double> concentrations) const {
-  const std::size_t n = scalars().size(), m = gasSpecies().size(), size = n + m;
-  thread_local RosenbrockSolver solver;
-  thread_local std::vector<double> state, smallest, values;
-  state.resize(size);
-  smallest.resize(size);
-  values.resize(size * (size + 1));
-  for (std::size_t i = 0; i < n; ++i) {
-    state[i] = densities[i];
-    smallest[i] = smallestShare * scalars()[i].scale * gas.density;
-  }
-  for (std::size_t i = 0; i < m; ++i) {
-    state[n + i] = concentrations[i];
-    smallest[n + i] = smallestMoleFraction * totalConcentration(gas);
-  }
-  ParticleGas at{gas, {}};
-  const auto rates = [&](std::span<const double> y, std::span<double> f) {
-    at.concentrations = y.subspan(n);
-    sources(at, y.first(n), f.first(n), f.subspan(n));
-  };
-  const auto derivatives = [&](std::span<const double> y, DenseLu& J) {
-    at.concentrations = y.subspan(n);
-    jacobian(at, y.first(n), values);
-    for (std::size_t j = 0; j < size; ++j)
-      for (std::size_t i = 0; i < size; ++i) J.column(j)[i] = values[i * (size + 1) + j];
-  };
-  const auto result = solver.integrate(rates, derivatives, dt, state, {advanceTolerance_, smallest});
-  std::copy_n(state.begin(), n, densities.begin());
-  std::copy_n(state.begin() + static_cast<std::ptrdiff_t>(n), m, concentrations.begin());
-  return {result.steps, result.rejected, 0};
 }
 
 bool ParticleModel::isNegligible(std::span<const double> densities) const {

@@ -96,6 +96,9 @@ struct SizeDistribution {
 
 class ParticleModel {
  public:
+  // Of a scalar's typical amount (ParticleScalar::scale): less than this does not matter.
+  static constexpr double smallestShare = 1e-5;
+
   virtual ~ParticleModel() = default;
 
   // What the particles are of, "soot": results files put it before the names of scalars and properties.
@@ -123,11 +126,11 @@ class ParticleModel {
   virtual void jacobian(const ParticleGas& gas, std::span<const double> densities, std::span<double> values) const;
 
   // Advances the scalars' densities and the concentrations (mol/m3, in the order of gasSpecies; they come from the gas
-  // and return to it) together over `dt` (s), at the temperature, pressure and viscosity of `gas`, whose own
-  // concentrations are not looked at. The default integrates `sources` with `jacobian` by RosenbrockSolver. Throws
-  // NumericsError without convergence.
+  // and return to it) together over `dt` (s), at the temperature, pressure and viscosity of `gas`. `supply` is what
+  // else brings them, per m3 and s: of the scalars, then of the species; empty: nothing does. The default integrates
+  // `sources` with `jacobian` by RosenbrockSolver. Throws NumericsError without convergence.
   virtual ParticleAdvance advance(const CarrierGas& gas, double dt, std::span<double> densities,
-                                  std::span<double> concentrations) const;
+                                  std::span<double> concentrations, std::span<const double> supply = {}) const;
   // Relative error allowed in a step of the default `advance`. At 1e-3 the volume fraction of a counterflow flame is
   // within 0.002 % (sections) to 0.13 % (MOMIC) of that at 1e-6 (docs/verification.md).
   void setAdvanceTolerance(double relative) { advanceTolerance_ = relative; }

@@ -95,7 +95,10 @@ class Inert final : public CarriedModel {
   void sources(const ParticleGas& gas, std::span<const double>, std::span<double> rates, std::span<double>) override {
     rates[0] = rate(gas.temperature);
   }
-  ParticleAdvance advance(const CarrierGas&, double, std::span<double>, std::span<double>) override { return {}; }
+  ParticleAdvance advance(const CarrierGas&, double, std::span<double>, std::span<double>,
+                          std::span<const double>) override {
+    return {};
+  }
   void jacobian(const ParticleGas& gas, std::span<const double>, const CarriedJacobian& out) override {
     out(0, 0) = 0;
     out(0, 1) = -2 * (gas.temperature - 600) / 3600 * rate(gas.temperature);

@@ -65,6 +65,46 @@ TEST_P(Carried, ScalarsAreConservedAndStayNonNegative) {
   }
 }
 
+// Sources of species, enthalpy and scalars that the balance holds come into the cells as they are, mass included, and
+// make room for themselves: the pressure stays.
+TEST_P(Carried, TheBalanceIsASource) {
+  Box b = box(0.5);
+  State state = b.state([&](const auto&) { return Box::Local{{0.0, 0.5}, 400.0, air}; }, {{"dust", "1/m3", "", 0.0}});
+  TransportOperator transport(b.context, state);
+  const double dt = 1e-4;
+  transport.initialise(state, dt);
+  const auto n = at(state.species), hydrogen = gas.mechanism.speciesIndex("H2");
+  const auto where = [&](int c) { return std::exp(-std::pow((b.mesh.centre[at(c)][1] - 0.006) / 0.002, 2)); };
+  const auto held = [&] {
+    const auto sum = [&](const auto& value) { return integral(b.mesh, value); };
+    return std::array<double, 3>{sum([&](int c) { return state.density[at(c)] * state.Y[at(c) * n + hydrogen]; }),
+                                 sum([&](int c) { return state.density[at(c)] * state.enthalpy[at(c)]; }),
+                                 sum([&](int c) { return state.carried[at(c)]; })};
+  };
+  const std::array<double, 3> rate{2.0, 5e5, 7.0}, start = held();
+  std::array<double, 3> left{};
+  const int steps = 20;
+  for (int i = 0; i < steps; ++i) {
+    for (int c = 0; c < b.mesh.owned; ++c) {
+      state.balance.species[at(c) * n + hydrogen] = rate[0] * where(c);
+      state.balance.enthalpy[at(c)] = rate[1] * where(c);
+      state.balance.carried[at(c)] = rate[2] * where(c);
+    }
+    transport.advance(state, i * dt, dt);
+    const auto& amounts = transport.boundaryAmounts();
+    left[0] += sumOverRanks(amounts.speciesOut[hydrogen] - amounts.speciesIn[hydrogen]);
+    left[1] += sumOverRanks(amounts.enthalpyOut - amounts.enthalpyIn);
+    left[2] += sumOverRanks(amounts.carriedOut[0] - amounts.carriedIn[0]);
+  }
+  const double volume = integral(b.mesh, where);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR((held()[i] - start[i] + left[i]) / (steps * dt * rate[i] * volume), 1.0, 1e-9) << i;
+  // Two parts in a thousand of the cell's moles come in a step.
+  EXPECT_LT(transport.diagnostics().pressureDrift, 2e-3);
+  transport.endStep(state);
+  EXPECT_EQ(largest(b.mesh, [&](int c) { return std::abs(state.balance.carried[at(c)]); }), 0.0);
+}
+
 // What carried scalars weigh stands in the budgets, also when it has left.
 TEST_P(Carried, StaysInTheBudgetsWhenItLeaves) {
   Box b = box(0.5);

@@ -65,16 +65,6 @@ void DimerSoot::sources(const ParticleGas& gas, std::span<const double> densitie
   std::copy_n(s.gas.begin(), species_.size(), exchange.begin());
 }
 
-ParticleAdvance DimerSoot::advance(const CarrierGas& gas, double dt, std::span<double> densities,
-                                   std::span<double> concentrations) const {
-  TwoEquationSoot::Population population{densities[number], densities[carbon], densities[hydrogen]};
-  const TwoEquationSoot::Report report = model_.advance(gas, dt, population, concentrations);
-  densities[number] = population.number;
-  densities[carbon] = population.carbon;
-  densities[hydrogen] = population.hydrogen;
-  return {report.subSteps, report.rejected, report.limitedOxidation};
-}
-
 void DimerSoot::diffusivities(const ParticleGas& gas, std::span<const double> densities, std::span<double> D) const {
   std::fill(D.begin(), D.end(), model_.diffusivity(gas, populationOf(densities)));
 }

@@ -20,9 +20,6 @@ class DimerSoot final : public SootModel {
   [[nodiscard]] const std::vector<ParticleScalar>& scalars() const override { return scalars_; }
   void sources(const ParticleGas& gas, std::span<const double> densities, std::span<double> rates,
                std::span<double> exchange) const override;
-  // By the exponential rule of TwoEquationSoot, whose events move whole atoms and leave nothing negative.
-  ParticleAdvance advance(const CarrierGas& gas, double dt, std::span<double> densities,
-                          std::span<double> concentrations) const override;
   void diffusivities(const ParticleGas& gas, std::span<const double> densities, std::span<double> D) const override;
   [[nodiscard]] ParticleProperties properties(const ParticleGas& gas, std::span<const double> densities) const override;
   [[nodiscard]] ParticleProcesses processes(const ParticleGas& gas, std::span<const double> densities) const override;

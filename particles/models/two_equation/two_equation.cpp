@@ -9,7 +9,6 @@
 
 #include "core/errors.hpp"
 #include "particles/collisions/sphere.hpp"
-#include "particles/models/two_equation/two_equation_state.hpp"
 
 namespace lampblack::particles {
 
@@ -32,32 +31,34 @@ double TwoEquationSoot::diffusivity(const CarrierGas& gas, const Population& pop
   return brownianDiffusivity(gas, std::max(meanDiameter(population), nucleusDiameter_));
 }
 
-TwoEquationSoot::Frozen TwoEquationSoot::freeze(const CarrierGas& gas) const {
-  requirePhysical(gas, "soot");
-  return {SurfaceChemistry(options_, gas.temperature), gas.temperature,
-          freeMolecularPrefactor(gas.temperature, options_.vanDerWaals),
-          continuumPrefactor(gas.temperature, gas.viscosity), 2 * meanFreePath(gas)};
-}
+// Coefficients at one state of the soot: all zero without soot.
+struct TwoEquationSoot::Rates {
+  double growth = 0;                      // 1/s, of C2H2
+  double oxidationO2 = 0;                 // 1/s, of O2
+  double oxidationOH = 0;                 // 1/s, of OH
+  double coagulation = 0;                 // m3/s, dN/dt = -coagulation N^2
+  double particleMass = 0, diameter = 0;  // kg, m
+};
 
-TwoEquationSoot::Rates TwoEquationSoot::rates(const Frozen& frozen, const State& state) const {
+TwoEquationSoot::Rates TwoEquationSoot::rates(const CarrierGas& gas, const SootSpeciesArray& concentrations,
+                                              const Population& soot) const {
   Rates r;
-  dimers_.lossRates(frozen.temperature, state.pah(dimers_.size()), r.pahLoss);
-  r.number = state.number;
-  r.carbon = state.carbon;
-  const double mass = state.carbon * options_.carbonWeight + state.hydrogen * options_.hydrogenWeight;
-  if (!(state.number > 0) || !(mass > 0)) return r;
-  r.particleMass = mass / state.number;
+  if (!(soot.number > 0) || !(soot.mass() > 0)) return r;
+  r.particleMass = soot.mass() / soot.number;
   r.diameter = sphereDiameter(r.particleMass / options_.sootDensity);
-  const double d = r.diameter, area = constants::pi * d * d * state.number;
-  const double meanCarbon = std::max(state.carbon / state.number, nucleusCarbon_) * constants::avogadro;
-  const SurfaceRates surface = frozen.surface.rates(state.gas, frozen.surface.alpha(std::max(meanCarbon, 2.0)));
+  const double d = r.diameter, area = constants::pi * d * d * soot.number;
+  const double meanCarbon =
+      std::max(soot.carbon / options_.carbonWeight / soot.number, nucleusCarbon_) * constants::avogadro;
+  const SurfaceChemistry chemistry(options_, gas.temperature);
+  const SurfaceRates surface = chemistry.rates(concentrations, chemistry.alpha(std::max(meanCarbon, 2.0)));
   r.growth = surface.growth * area;
   r.oxidationO2 = surface.oxidationO2 * area;
   r.oxidationOH = surface.oxidationOH * area;
   if (options_.coagulation) {
-    const double slip = slipCorrection(frozen.twiceMeanFreePath / d);
-    const double fm = freeMolecularKernel(frozen.freeMolecular, r.particleMass, d, r.particleMass, d);
-    r.coagulation = 0.5 * harmonicMean(fm, 4 * frozen.continuum * slip);
+    const double slip = slipCorrection(2 * meanFreePath(gas) / d);
+    const double fm = freeMolecularKernel(freeMolecularPrefactor(gas.temperature, options_.vanDerWaals), r.particleMass,
+                                          d, r.particleMass, d);
+    r.coagulation = 0.5 * harmonicMean(fm, 4 * continuumPrefactor(gas.temperature, gas.viscosity) * slip);
   }
   return r;
 }
@@ -67,23 +68,25 @@ TwoEquationSoot::Sources TwoEquationSoot::sources(const ParticleGas& gas, const 
   const std::size_t n = dimers_.size();
   if (gas.concentrations.size() != S::fixed + n)
     throw std::invalid_argument("soot: the gas has other species than the model");
-  const Frozen frozen = freeze(gas);
-  State state;
-  state.number = std::max(population.number, 0.0);
-  state.carbon = std::max(population.carbon, 0.0) / options_.carbonWeight;
-  state.hydrogen = std::max(population.hydrogen, 0.0) / options_.hydrogenWeight;
-  for (std::size_t k = 0; k < S::fixed + n; ++k) state.gas[k] = std::max(gas.concentrations[k], 0.0);
-  const std::span<const double> pah = state.pah(n);
-  const Rates r = rates(frozen, state);
+  requirePhysical(gas, "soot");
+  const Population soot{std::max(population.number, 0.0), std::max(population.carbon, 0.0),
+                        std::max(population.hydrogen, 0.0)};
+  SootSpeciesArray concentrations{};
+  for (std::size_t k = 0; k < S::fixed + n; ++k) concentrations[k] = std::max(gas.concentrations[k], 0.0);
+  const std::span<const double> pah{&concentrations[S::fixed], n};
+  const Rates r = rates(gas, concentrations, soot);
 
   Sources s;
   PahArray consumption{};
-  for (std::size_t i = 0; i < n; ++i) consumption[i] = r.pahLoss[i] * pah[i];
-  const DimerProduction dimer = dimers_.production(frozen.temperature, {consumption.data(), n});
+  dimers_.lossRates(gas.temperature, pah, consumption);
+  for (std::size_t i = 0; i < n; ++i) consumption[i] *= pah[i];
+  const DimerProduction dimer = dimers_.production(gas.temperature, {consumption.data(), n});
   const double self = options_.inception ? dimer.selfCollision : 0;
   const double withParticles =
       options_.condensation && r.diameter > 0 && dimer.rate > 0
-          ? state.number * DimerModel::particleCollision(dimer, frozen.freeMolecular, r.particleMass, r.diameter)
+          ? soot.number * DimerModel::particleCollision(dimer,
+                                                        freeMolecularPrefactor(gas.temperature, options_.vanDerWaals),
+                                                        r.particleMass, r.diameter)
           : 0;
   double carbon = 0, hydrogen = 0;  // mol/m3/s into soot
   if (self + withParticles > 0) {
@@ -99,9 +102,10 @@ TwoEquationSoot::Sources TwoEquationSoot::sources(const ParticleGas& gas, const 
     s.nucleation = mass - s.condensation;
     s.nucleationNumber = 0.5 * self * s.dimerNumber * s.dimerNumber;
   }
-  const double growth = r.growth * state.gas[S::C2H2], byO2 = r.oxidationO2 * state.gas[S::O2],
-               byOH = r.oxidationOH * state.gas[S::OH];
-  const double x = state.carbon > 0 ? state.hydrogen / state.carbon : 0;
+  const double growth = r.growth * concentrations[S::C2H2], byO2 = r.oxidationO2 * concentrations[S::O2],
+               byOH = r.oxidationOH * concentrations[S::OH];
+  const double molCarbon = soot.carbon / options_.carbonWeight;  // mol/m3
+  const double x = molCarbon > 0 ? soot.hydrogen / options_.hydrogenWeight / molCarbon : 0;
   const double perCarbon = options_.carbonWeight + x * options_.hydrogenWeight;
   carbon += 2 * growth - 2 * byO2 - byOH;
   hydrogen -= x * (2 * byO2 + byOH);
@@ -116,10 +120,10 @@ TwoEquationSoot::Sources TwoEquationSoot::sources(const ParticleGas& gas, const 
   s.gas[S::H2] = growth + x * byO2 + 0.5 * x * byOH;
   s.carbon = carbon * options_.carbonWeight;
   s.hydrogen = hydrogen * options_.hydrogenWeight;
-  s.coagulationNumber = -r.coagulation * state.number * state.number;
+  s.coagulationNumber = -r.coagulation * soot.number * soot.number;
   s.number = s.nucleationNumber + s.coagulationNumber;
   // A mean particle that is no more than a nucleus cannot shrink: it goes (see the theory page).
-  if (state.number > 0 && state.carbon <= state.number * nucleusCarbon_ * (1 + 1e-9)) {
+  if (soot.number > 0 && molCarbon <= soot.number * nucleusCarbon_ * (1 + 1e-9)) {
     s.oxidationNumber = std::min(0.0, carbon / nucleusCarbon_ - s.number);
     s.number += s.oxidationNumber;
   }

@@ -42,7 +42,10 @@ class Failing final : public CarriedModel {
     --failures;
     throw NumericsError(message);
   }
-  ParticleAdvance advance(const CarrierGas&, double, std::span<double>, std::span<double>) override { return {}; }
+  ParticleAdvance advance(const CarrierGas&, double, std::span<double>, std::span<double>,
+                          std::span<const double>) override {
+    return {};
+  }
   void jacobian(const ParticleGas&, std::span<const double>, const CarriedJacobian& out) override {
     std::ranges::fill(out.values, 0.0);
   }

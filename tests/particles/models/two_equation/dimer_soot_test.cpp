@@ -129,5 +129,38 @@ TEST(DimerSoot, StaysBoundedInStatesThatNoSootIsIn) {
   }
 }
 
+TEST(DimerSoot, FreeMolecularCoagulationOfEqualSpheresIsExact) {
+  DimerSoot model(test::naphthalene());
+  model.setAdvanceTolerance(1e-8);
+  test::FlameGas gas(1600, 0, 0, 0, 0, 0, 0, {0});
+  gas.state.pressure = 1e-6;  // Knudsen number so large that the continuum branch is 1e-9 of the resistance
+  const double number = 1e18, mass = number * 1850 * constants::pi / 6 * std::pow(3e-9, 3), t = 1e-3;
+  std::vector<double> soot{number, mass, 0}, cell = gas.concentrations;
+  model.advance(gas.state, t, soot, cell);
+  const double K =
+      2.2 * std::sqrt(24 * constants::boltzmann * 1600 / 1850) * std::pow(6 * mass / (constants::pi * 1850), 1.0 / 6);
+  const double exact = std::pow(std::pow(number, -5.0 / 6) + 5.0 / 6 * K * t, -6.0 / 5);
+  EXPECT_LT(exact / number, 0.5);
+  EXPECT_NEAR(soot[0] / exact, 1, 1e-6);
+  EXPECT_NEAR(soot[1] / mass, 1, 1e-15);
+}
+
+TEST(DimerSoot, NaphthaleneAloneDecaysByItsSecondOrderLaw) {
+  SootModelOptions options = test::naphthalene();
+  options.surfaceGrowth = options.oxidation = false;
+  DimerSoot model(options);
+  model.setAdvanceTolerance(1e-8);
+  const test::FlameGas gas(1500, 0, 0, 0, 0, 0, 0, {1e-4});
+  PahArray loss{};
+  model.twoEquation().dimers().lossRates(1500, gas.pah(), loss);
+  std::vector<double> soot(3), cell = gas.concentrations;
+  const double dt = 0.05;
+  model.advance(gas.state, dt, soot, cell);
+  ASSERT_GT(loss[0] * dt, 0.1);
+  EXPECT_NEAR(cell[SootSpecies::fixed] / (gas.pah()[0] / (1 + loss[0] * dt)), 1, 1e-6);
+  const double taken = (gas.pah()[0] - cell[SootSpecies::fixed]) * (10 * 12.011e-3 + 8 * 1.008e-3);
+  EXPECT_NEAR((soot[1] + soot[2]) / taken, 1, 1e-9);
+}
+
 }  // namespace
 }  // namespace lampblack::particles
