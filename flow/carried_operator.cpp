@@ -194,6 +194,7 @@ void CarriedOperator::rest(State& state, int cell, double dt) {
 
 void CarriedOperator::advance(State& state, double time, double dt) {
   const Mesh& m = context_.mesh;
+  lastStep_ = dt;
   std::vector<BusyCell> busy;
   WorkSharing::Items items;
   collectively(m.comm, [&] {
@@ -223,6 +224,15 @@ void CarriedOperator::advance(State& state, double time, double dt) {
   state.updateHalo(context_.halo);
 }
 
+// Of the last step's rates, that transport is told: no more than would take half of what there is of each scalar in such
+// a step, as the flow may carry away the other half. Where particles burn faster than that, transport knows it in part.
+double CarriedOperator::shareForTransport(std::span<const double> present, const double* rate) const {
+  double share = 1.0;
+  for (std::size_t s = 0; s < scalars_; ++s)
+    if (rate[s] < 0.0) share = std::min(share, std::max(present[s], 0.0) / (-2.0 * lastStep_ * rate[s]));
+  return share;
+}
+
 void CarriedOperator::endStep(State& state) {
   if (!options_.deferred) return;
   const std::vector<std::size_t>& species = model_.exchanged();
@@ -230,7 +240,10 @@ void CarriedOperator::endStep(State& state) {
   const std::size_t n = values_.size();
   for (int c = 0; c < context_.mesh.owned; ++c) {
     valuesOf(state, c, {&before_[at(c, n)], n});
-    const double* rate = &rate_[at(c, n)];
+    double* rate = &rate_[at(c, n)];
+    const double share = shareForTransport({&before_[at(c, n)], scalars_}, rate);
+    for (std::size_t i = 0; i < n; ++i) rate[i] *= share;
+    heat_[c] *= share;
     for (std::size_t s = 0; s < scalars_; ++s)
       state.balance.carried[at(c, state.scalars.size()) + first_ + s] += rate[s];
     for (std::size_t i = 0; i < species.size(); ++i)
