@@ -162,7 +162,7 @@ void CarriedOperator::take(State& state, int cell, double dt, std::span<const do
     partialDensity_[species[i]] += change * W[species[i]];
     isChanged = true;
   }
-  if (!isChanged) return;
+  if (!isChanged && given == 0.0) return;
 
   double mass = 0.0;
   for (std::size_t k = 0; k < n; ++k) mass += partialDensity_[k];
@@ -224,8 +224,9 @@ void CarriedOperator::advance(State& state, double time, double dt) {
   state.updateHalo(context_.halo);
 }
 
-// Of the last step's rates, that transport is told: no more than would take half of what there is of each scalar in such
-// a step, as the flow may carry away the other half. Where particles burn faster than that, transport knows it in part.
+// Of the last step's rates, that transport is told: no more than would take half of what there is of each scalar in
+// such a step, as the flow may carry away the other half. Where particles burn faster than that, transport knows it in
+// part.
 double CarriedOperator::shareForTransport(std::span<const double> present, const double* rate) const {
   double share = 1.0;
   for (std::size_t s = 0; s < scalars_; ++s)

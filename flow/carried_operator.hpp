@@ -86,7 +86,7 @@ class CarriedOperator : public Operator {
   // Deferred, of each owned cell: its values at the end of the last step; their mean rates by the particles in it, and
   // the power that these gave to the gas, W/m3.
   std::vector<double> before_, rate_, heat_;
-  double lastStep_ = 0.0;  // s
+  double lastStep_ = 0.0;           // s
   long steps_ = 0;                  // since the start, on this rank
   Imbalance imbalances_{0.0, 0.0};  // sums over the stages
   int stages_ = 0;
