@@ -1,0 +1,138 @@
+#include "app/flow/flow_loop.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+#include "app/flow/trajectories.hpp"
+#include "app/run/warnings.hpp"
+#include "core/errors.hpp"
+#include "core/stop_request.hpp"
+#include "io/progress.hpp"
+
+namespace lampblack::app {
+
+FlowLoop::FlowLoop(MPI_Comm comm, FlowCase flowCase)
+    : comm_(comm),
+      case_(std::move(flowCase)),
+      mesh_(comm, case_.mesh),
+      halo_(mesh_),
+      thermo_(*case_.mechanism),
+      transport_(*case_.mechanism, case_.transport),
+      context_{mesh_, halo_, *case_.mechanism, thermo_, transport_, case_.boundaries},
+      state_(mesh_, case_.mechanism->numSpecies(),
+             case_.carried ? CarriedOperator::scalarsOf(*case_.carried) : std::vector<CarriedScalar>{}),
+      flow_(context_, state_, case_.flow),
+      chemistry_(context_, keepingFailedCells(case_.chemistry)) {
+  state_.thermodynamicPressure = case_.pressure;
+  if (case_.carried) carried_ = std::make_unique<CarriedOperator>(context_, *case_.carried, 0, case_.carriedOptions);
+  collectively(comm_, [&] { setMixingLayer(context_, case_.initial, state_); });
+  flow_.initialise(state_, case_.time.firstStep);
+  planStep();
+  for (Operator* op : operators_) op->endStep(state_);
+  std::vector<std::vector<double>> carriedMass;
+  if (case_.carried)
+    for (const CarriedModel::Scalar& scalar : case_.carried->scalars()) carriedMass.push_back(scalar.elements);
+  budget_ = std::make_unique<Budget>(context_, massAndElements(*case_.mechanism, carriedMass), state_);
+  flow_.watchBoundary([this](const TransportOperator::BoundaryAmounts& amounts) { budget_->addStep(amounts); });
+  dt_ = case_.time.firstStep;
+  nextOutput_ = case_.output.interval;
+}
+
+void FlowLoop::load(const WholeCheckpoint& checkpoint) {
+  CheckpointReader reader(comm_, checkpoint.file, stateNumbers(mesh_), flowFingerprint(case_, state_.scalars));
+  saveOrLoad(reader, earlierRows_);
+  state_.updateHalo(halo_);
+  for (Operator* op : operators_) op->endStep(state_);
+  restart_ = checkpoint;
+}
+
+void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
+  folder_ = folder;
+  ResultsWriter results(comm_, folder.results(), info, meshOutput(mesh_));
+  HistoryWriter history(comm_, folder.history(), historyColumns(operators_, budget_->lines(state_)));
+  Progress progress(comm_, time_, case_.time.end);
+  FlowCheckpoints checkpoints(mesh_, case_.checkpoint, flowFingerprint(case_, state_.scalars), folder.path());
+  if (restart_) {
+    restore(results, history);
+    checkpoints.startedFrom(*restart_, steps_);
+  } else {
+    output(results);
+  }
+  while (time_ < case_.time.end * (1.0 - 1e-12)) {
+    if (const int signal = agreedStopRequest(comm_); signal != 0) stop(signal, folder, checkpoints, results, history);
+    if (checkpoints.due(steps_)) {
+      progress.finish();
+      const std::string problem = writeCheckpoint(checkpoints, results, history);
+      if (!problem.empty()) printWarnings({problem});
+    }
+    dt_ = chooseStep(dt_, std::min(nextOutput_, case_.time.end));
+    step(dt_);
+    const bool due = time_ >= nextOutput_ * (1.0 - 1e-12) || time_ >= case_.time.end * (1.0 - 1e-12);
+    if (due || steps_ % case_.output.historySteps == 0) {
+      const HistoryRow row = observe();
+      history.row(historyValues(row));
+      progress.update(steps_, time_, dt_, status(row));
+    }
+    if (due) {
+      output(results);
+      nextOutput_ += case_.output.interval;
+    }
+  }
+  progress.finish();
+  if (case_.checkpoint.atEnd) {
+    const std::string problem = writeCheckpoint(checkpoints, results, history);
+    if (!problem.empty()) printWarnings({problem});
+  }
+  if (last_.step != steps_) observe();  // a restart at the very end
+  // A trajectory that fails takes nothing from the flow: its results are closed first.
+  std::exception_ptr failure;
+  if (case_.trajectories) {
+    const Timers::Scope scope(timers_, "trajectories");
+    try {
+      runTrajectories(context_, case_, state_, flow_.properties(), results);
+    } catch (const NumericsError&) {
+      failure = std::current_exception();
+    }
+  }
+  const Timers::Scope scope(timers_, "output");
+  history.writeTo(results);
+  results.close();
+  if (failure) std::rethrow_exception(failure);
+}
+
+void FlowLoop::planStep() {
+  operators_ = {&flow_, &chemistry_};
+  if (carried_) operators_.push_back(carried_.get());
+  if (case_.chemistry.deferred) {
+    for (Operator* op : operators_) stages_.push_back({op, 1.0});
+    return;
+  }
+  // Strang splitting around the chemistry, which costs most and so is solved once a step.
+  for (Operator* op : operators_)
+    if (op != &chemistry_) stages_.push_back({op, 0.5});
+  stages_.push_back({&chemistry_, 1.0});
+  for (std::size_t i = stages_.size() - 1; i-- > 0;) stages_.push_back(stages_[i]);
+}
+
+double FlowLoop::chooseStep(double previous, double until) {
+  double dt = std::min(case_.time.maximumStep, previous * case_.time.growth);
+  for (Operator* op : operators_) dt = std::min(dt, op->largestStep(state_) / shareOf(op));
+  if (steps_ == 0) dt = std::min(dt, case_.time.firstStep);
+  // Land on the output without a sliver of a step before it.
+  const double left = until - time_;
+  if (dt >= left) return left;
+  return left < 2.0 * dt ? 0.5 * left : dt;
+}
+
+void FlowLoop::step(double dt) {
+  for (const Stage& stage : stages_) {
+    const Timers::Scope scope(timers_, stage.op->name());
+    stage.op->advance(state_, time_, stage.share * dt);
+  }
+  for (Operator* op : operators_) op->endStep(state_);
+  time_ += dt;
+  ++steps_;
+}
+
+}  // namespace lampblack::app

@@ -1,0 +1,169 @@
+// What a flow's run keeps and tells: rows of the history, fields, checkpoints, the closing report.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "app/flow/flow_loop.hpp"
+#include "app/run/failed_cell.hpp"
+#include "app/run/recorded_run.hpp"
+#include "core/errors.hpp"
+#include "core/stop_request.hpp"
+#include "core/system_error.hpp"
+#include "io/report.hpp"
+
+namespace lampblack::app {
+
+HistoryRow FlowLoop::observe() {
+  const Timers::Scope scope(timers_, "monitoring");
+  HistoryRow row;
+  row.step = steps_;
+  row.time = time_;
+  row.dt = dt_;
+  row.extremes = extremesOf(context_, state_);
+  for (Operator* op : operators_) {
+    const std::vector<double> values = op->historyValues(state_);
+    row.operators.insert(row.operators.end(), values.begin(), values.end());
+  }
+  row.budget = budget_->lines(state_);
+  peakTemperature_ = peakOf([&](int c) { return state_.temperature[c]; });
+  last_ = row;
+  return row;
+}
+
+FlowLoop::Peak FlowLoop::peakOf(const std::function<double(int)>& value) const {
+  struct {
+    double value;
+    int rank;
+  } best{-1.0, mesh_.rank};
+  Peak peak;
+  for (int c = 0; c < mesh_.owned; ++c) {
+    const double v = value(c);
+    if (v > best.value) {
+      best.value = v;
+      peak.place = mesh_.centre[c];
+    }
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &best, 1, MPI_DOUBLE_INT, MPI_MAXLOC, comm_);
+  MPI_Bcast(peak.place.data(), 2, MPI_DOUBLE, best.rank, comm_);
+  peak.value = best.value;
+  return peak;
+}
+
+std::string FlowLoop::status(const HistoryRow& row) const {
+  std::string text = fmt::format("Tmax {:.0f} K", row.extremes.maximumTemperature);
+  for (const Operator* op : operators_)
+    if (const std::string more = op->status(); !more.empty()) text += "  " + more;
+  return text;
+}
+
+void FlowLoop::report(double wallTime, RunRecord& record) {
+  ClosingReport closing;
+  closing.ranks = mesh_.ranks;
+  closing.cells = mesh_.totalCells;
+  closing.steps = steps_;
+  closing.wallTime = wallTime;
+  closing.peakMemoryPerRank = peakMemory(comm_);
+  for (const auto& stage : timers_.gather(comm_))
+    closing.stages.push_back({stage.name, stage.least, stage.mean, stage.most});
+  for (const Operator* op : operators_)
+    if (const auto imbalance = op->imbalance())
+      closing.imbalances.push_back({op->name(), imbalance->before, imbalance->after});
+  record.stages = closing.stages;
+  record.peakMemoryPerRank = closing.peakMemoryPerRank;
+  record.steps = steps_;
+  record.cells = mesh_.totalCells;
+  record.simulatedTime = time_;
+  if (mesh_.rank != 0) return;
+  std::cout << formatReport(closing);
+  fmt::print("peak temperature {:.1f} K at {} = ({:.3f}, {:.3f}) mm\n", last_.extremes.maximumTemperature,
+             mesh_.axisymmetric() ? "(r, z)" : "(x, y)", 1e3 * peakTemperature_.place[0],
+             1e3 * peakTemperature_.place[1]);
+  for (const Operator* op : operators_)
+    for (const std::string& line : op->closingLines()) fmt::print("{}\n", line);
+  for (const Budget::Line& line : last_.budget)
+    fmt::print("budget of {:<5} closed to {:.2e} of the inflow\n", line.name, line.error);
+  fmt::print("sum of mass fractions 1 to {:.1e}; most negative mass fraction {:.1e} (nothing is clipped)\n",
+             last_.extremes.massFractionSumError, last_.extremes.minimumMassFraction);
+}
+
+void FlowLoop::saveOrLoad(StateArchive& archive, std::vector<double>& history) {
+  state_.saveOrLoad(archive);
+  for (Operator* op : operators_) op->saveOrLoad(archive);
+  budget_->saveOrLoad(archive);
+  const double interval = case_.output.interval;
+  std::vector<double> clock{time_,
+                            static_cast<double>(steps_),
+                            dt_,
+                            nextOutput_,
+                            interval,
+                            static_cast<double>(written_),
+                            static_cast<double>(historyColumns(operators_, budget_->lines(state_)).size())};
+  const double columns = clock.back();
+  archive.shared("clock", clock);
+  archive.shared("history", history);
+  if (!archive.loading()) return;
+  collectively(comm_, [&] {
+    if (clock.size() != 7 || clock[6] != columns)
+      throw InputError("the checkpoint was written by another version of Lampblack, with another history");
+  });
+  time_ = clock[0];
+  steps_ = static_cast<std::int64_t>(clock[1]);
+  dt_ = clock[2];
+  // Another interval counts from the start.
+  nextOutput_ = clock[4] == interval ? clock[3] : interval * (std::floor(time_ / interval * (1.0 + 1e-12)) + 1.0);
+  written_ = static_cast<std::int64_t>(clock[5]);
+}
+
+void FlowLoop::restore(ResultsWriter& results, HistoryWriter& history) {
+  for (const auto& file : restart_->outputs) results.loadSteps(file);
+  const std::size_t width = history.columnCount();
+  for (std::size_t i = 0; i + width <= earlierRows_.size(); i += width)
+    history.row(std::span<const double>(earlierRows_).subspan(i, width));
+  earlierRows_.clear();
+}
+
+std::string FlowLoop::writeCheckpoint(FlowCheckpoints& checkpoints, const ResultsWriter& results,
+                                      const HistoryWriter& history) {
+  const Timers::Scope scope(timers_, "checkpoints");
+  try {
+    checkpoints.write(steps_, results, [&](StateArchive& archive) {
+      std::vector<double> rows = history.rows();
+      saveOrLoad(archive, rows);
+    });
+  } catch (const SystemError& error) {
+    return fmt::format("no checkpoint at step {}: {}", steps_, error.what());
+  }
+  return "";
+}
+
+void FlowLoop::stop(int signal, const RunFolder& folder, FlowCheckpoints& checkpoints, ResultsWriter& results,
+                    HistoryWriter& history) {
+  std::string checkpoint = writeCheckpoint(checkpoints, results, history);
+  if (checkpoint.empty()) checkpoint = fmt::format("--restart goes on from {}", checkpoints.last().string());
+  if (written_ != steps_) {
+    history.row(historyValues(observe()));
+    output(results);
+  }
+  history.writeTo(results);
+  results.closePartial();
+  const std::string kept = folder.partialResults().string();
+  raiseStopped(
+      comm_, signal,
+      fmt::format("at t = {:.6g} s, step {}: the fields until then are in {}; {}", time_, steps_, kept, checkpoint));
+}
+
+void FlowLoop::output(ResultsWriter& results) {
+  const Timers::Scope scope(timers_, "output");
+  written_ = steps_;
+  writeFields(results, context_, case_, state_, operators_, steps_, time_);
+}
+
+ReactionOperator::Options FlowLoop::keepingFailedCells(ReactionOperator::Options options) {
+  options.keepFailed = [this](std::int64_t cell, const FailedCell& failed) {
+    return keepFailedCell(folder_.value(), *case_.mechanism, cell, failed);
+  };
+  return options;
+}
+
+}  // namespace lampblack::app
