@@ -7,6 +7,7 @@
 
 #include "core/constants.hpp"
 #include "core/errors.hpp"
+#include "core/packed_doubles.hpp"
 
 namespace lampblack::coupling {
 namespace {
@@ -38,6 +39,19 @@ SplitParticles::Exchange ReactorEnsemble::advance(const ParticleGas& gas, double
 
 void ReactorEnsemble::dilute(double factor) {
   if (factor != 1) population_->dilute(factor);
+}
+
+std::vector<double> ReactorEnsemble::content() const {
+  std::vector<double> content;
+  for (const GivenParticle& p : population_->particles()) packDoubles(content, p);
+  return content;
+}
+
+void ReactorEnsemble::join(std::span<const double> content, double share) {
+  PackedDoubles packed(content);
+  std::vector<GivenParticle> particles;
+  while (packed.left() > 0) particles.push_back(packed.next<GivenParticle>());
+  population_->join(particles, share);
 }
 
 bool ReactorEnsemble::idle(const ParticleGas& gas) const {

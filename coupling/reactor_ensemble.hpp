@@ -21,6 +21,8 @@ class ReactorEnsemble final : public SplitParticles {
   [[nodiscard]] const std::vector<std::size_t>& species() const override { return species_; }
   Exchange advance(const ParticleGas& gas, double dt) override;
   void dilute(double factor) override;
+  [[nodiscard]] std::vector<double> content() const override;
+  void join(std::span<const double> content, double share) override;
   [[nodiscard]] bool idle(const ParticleGas& gas) const override;
   [[nodiscard]] std::vector<double> save() const override { return population_->pack(); }
   void restore(std::span<const double> state) override { population_->unpack(state); }

@@ -35,23 +35,25 @@ void ParticlesAtRest::jacobian(double, double, std::span<const double>, std::spa
 void ParticlesAtRest::enthalpies(double T, std::span<double> h, std::span<double> slope) {
   std::tie(h[carbon], slope[carbon]) = sootCarbonEnthalpy(T);
   std::tie(h[hydrogen], slope[hydrogen]) = sootHydrogenEnthalpy(T);
-  h[mark] = slope[mark] = 0;
+  for (std::size_t s = mark; s < size(); ++s) h[s] = slope[s] = 0;
 }
 
-std::vector<std::vector<double>> ParticlesAtRest::unitElements(const Mechanism& mechanism) {
-  std::vector<std::vector<double>> elements(count, std::vector<double>(mechanism.numElements(), 0.0));
+std::vector<std::vector<double>> ParticlesAtRest::unitElements(const Mechanism& mechanism, std::size_t reactors) {
+  std::vector<std::vector<double>> elements(mark + reactors, std::vector<double>(mechanism.numElements(), 0.0));
   elements[carbon][mechanism.elementIndex("C")] = elements[hydrogen][mechanism.elementIndex("H")] = 1;
   return elements;
 }
 
-SplitReactor::SplitReactor(const Mechanism& mechanism, Gas gas, SplitParticles& particles, const Options& options)
+SplitReactor::SplitReactor(const Mechanism& mechanism, Gas gas, std::vector<SplitParticles*> particles,
+                           const Options& options)
     : mechanism_(mechanism),
       gas_(std::move(gas)),
-      particles_(particles),
+      particles_(std::move(particles)),
+      block_(gas_.system->size() / particles_.size()),
       options_(options),
       integrator_(*gas_.system, options.integrator),
       thermo_(mechanism),
-      seen_(mechanism, particles.species()) {}
+      seen_(mechanism, particles_.front()->species()) {}
 
 void SplitReactor::start(double x, std::span<const double> y) {
   x_ = x;
@@ -61,98 +63,137 @@ void SplitReactor::start(double x, std::span<const double> y) {
   work_ = {};
 }
 
-const ParticleGas& SplitReactor::gas() {
+const ParticleGas& SplitReactor::gas(std::size_t reactor) {
   const std::size_t n = mechanism_.numSpecies();
-  return seen_.atComposition(y_[n], gas_.pressure(y_.data()), {y_.data(), n});
+  const double* block = y_.data() + reactor * block_;
+  return seen_.atComposition(block[n], gas_.pressure(block), {block, n});
 }
 
 // The gas over h, and with it what it carries.
 void SplitReactor::react(double h) {
   const std::size_t mark = mechanism_.numSpecies() + 1 + ParticlesAtRest::mark;
-  y_[mark] = 1;
-  const double before = gas_.density(y_.data()), end = x_ + h;
+  std::vector<double> before;
+  for (std::size_t r = 0; r < particles_.size(); ++r) {
+    double* block = y_.data() + r * block_;
+    for (std::size_t s = 0; s < particles_.size(); ++s) block[mark + s] = r == s ? 1 : 0;
+    before.push_back(gas_.density(block));
+  }
+  const double end = x_ + h;
   integrator_.start(x_, y_, end);
   while (integrator_.time() < end) integrator_.step();
   work_.gasSteps += integrator_.statistics().steps;
   y_.assign(integrator_.state().begin(), integrator_.state().end());
-  particles_.dilute(gas_.density(y_.data()) * y_[mark] / before);
+  carryParticles(before);
   x_ = end;
 }
 
-// J/kg of gas and particles
-double SplitReactor::energy(double T) {
-  const std::size_t n = mechanism_.numSpecies();
-  const double* amounts = y_.data() + n + 1;
-  double h[ParticlesAtRest::count], slope[ParticlesAtRest::count];
-  atRest_.enthalpies(T, h, slope);
-  const double gas = gas_.kept == Gas::Kept::enthalpy ? thermo_.enthalpyMass(T, {y_.data(), n})
-                                                      : thermo_.internalEnergyMass(T, {y_.data(), n});
-  return gas + amounts[0] * h[0] + amounts[1] * h[1];
+void SplitReactor::carryParticles(const std::vector<double>& before) {
+  const std::size_t count = particles_.size(), mark = mechanism_.numSpecies() + 1 + ParticlesAtRest::mark;
+  const auto moved = [&](std::size_t from, std::size_t to) { return y_[to * block_ + mark + from]; };
+  // All as they were before any others joined them.
+  std::vector<std::vector<double>> content(count);
+  for (std::size_t from = 0; from < count; ++from)
+    for (std::size_t to = 0; to < count && content[from].empty(); ++to)
+      if (to != from && moved(from, to) > 0) content[from] = particles_[from]->content();
+  for (std::size_t to = 0; to < count; ++to) {
+    const double density = gas_.density(y_.data() + to * block_);
+    particles_[to]->dilute(density * moved(to, to) / before[to]);
+    for (std::size_t from = 0; from < count; ++from) {
+      // Below zero by the solver's error where nothing flows yet.
+      if (from != to && moved(from, to) > 0)
+        particles_[to]->join(content[from], density * moved(from, to) / before[from]);
+    }
+  }
 }
 
-double SplitReactor::heatCapacity(double T) {
+// J/kg of gas and particles
+double SplitReactor::energy(Gas::Kept kept, const double* block, double T) {
   const std::size_t n = mechanism_.numSpecies();
-  const double* amounts = y_.data() + n + 1;
+  const double* amounts = block + n + 1;
   double h[ParticlesAtRest::count], slope[ParticlesAtRest::count];
   atRest_.enthalpies(T, h, slope);
   const double gas =
-      gas_.kept == Gas::Kept::enthalpy ? thermo_.cpMass(T, {y_.data(), n}) : thermo_.cvMass(T, {y_.data(), n});
+      kept == Gas::Kept::enthalpy ? thermo_.enthalpyMass(T, {block, n}) : thermo_.internalEnergyMass(T, {block, n});
+  return gas + amounts[0] * h[0] + amounts[1] * h[1];
+}
+
+double SplitReactor::heatCapacity(Gas::Kept kept, const double* block, double T) {
+  const std::size_t n = mechanism_.numSpecies();
+  const double* amounts = block + n + 1;
+  double h[ParticlesAtRest::count], slope[ParticlesAtRest::count];
+  atRest_.enthalpies(T, h, slope);
+  const double gas = kept == Gas::Kept::enthalpy ? thermo_.cpMass(T, {block, n}) : thermo_.cvMass(T, {block, n});
   return gas + amounts[0] * slope[0] + amounts[1] * slope[1];
 }
 
-double SplitReactor::exchange(double h) {
+double SplitReactor::exchange(std::size_t reactor, double h) {
   const std::size_t n = mechanism_.numSpecies();
-  const auto& species = particles_.species();
-  const std::vector<double> before = y_;
-  const double density = gas_.density(y_.data());
-  for (std::size_t i = 0; i <= n + ParticlesAtRest::hydrogen + 1; ++i) y_[i] += 0.5 * h * exchanged_[i];
-  for (const std::size_t k : species) y_[k] = std::max(y_[k], 0.5 * before[k]);
-  const double middle = gas_.density(y_.data()), volume = 1 / middle;
-  particles_.dilute(middle / density);
-  const ParticleGas& seen = gas();
+  SplitParticles& particles = *particles_[reactor];
+  const auto& species = particles.species();
+  double* y = y_.data() + reactor * block_;
+  double* exchanged = exchanged_.data() + reactor * block_;
+  const std::vector<double> before(y, y + block_);
+  const double density = gas_.density(y);
+  for (std::size_t i = 0; i <= n + ParticlesAtRest::hydrogen + 1; ++i) y[i] += 0.5 * h * exchanged[i];
+  for (const std::size_t k : species) y[k] = std::max(y[k], 0.5 * before[k]);
+  const double middle = gas_.density(y), volume = 1 / middle;
+  particles.dilute(middle / density);
+  const ParticleGas& seen = gas(reactor);
   const double negligible = smallestCountedMoleFraction * seen.pressure / (constants::gasConstant * seen.temperature);
-  const auto taken = particles_.advance(seen, h * gas_.timePerUnit(y_.data()));
+  const auto taken = particles.advance(seen, h * gas_.timePerUnit(y));
   double change = 0;
   for (std::size_t i = 0; i < species.size(); ++i)
     change = std::max(change, std::abs(taken.gas[i]) / (std::abs(seen.concentrations[i]) + negligible));
 
-  y_ = before;
-  double& T = y_[n];
-  const bool energyIsKept = gas_.kept != Gas::Kept::temperature;
-  const double kept = energyIsKept ? energy(T) : 0;
+  std::copy(before.begin(), before.end(), y);
+  double& T = y[n];
+  const Gas::Kept held = gas_.kept[reactor];
+  const bool energyIsKept = held != Gas::Kept::temperature;
+  const double kept = energyIsKept ? energy(held, y, T) : 0;
   for (std::size_t i = 0; i < species.size(); ++i)
-    y_[species[i]] += taken.gas[i] * mechanism_.molecularWeights()[species[i]] * volume;
-  y_[n + 1 + ParticlesAtRest::carbon] += taken.carbon * volume;
-  y_[n + 1 + ParticlesAtRest::hydrogen] += taken.hydrogen * volume;
+    y[species[i]] += taken.gas[i] * mechanism_.molecularWeights()[species[i]] * volume;
+  y[n + 1 + ParticlesAtRest::carbon] += taken.carbon * volume;
+  y[n + 1 + ParticlesAtRest::hydrogen] += taken.hydrogen * volume;
   // Nearly linear over the few kelvin of a step.
   for (int iteration = 0; energyIsKept && iteration < 20; ++iteration) {
-    const double difference = (kept - energy(T)) / heatCapacity(T);
+    const double difference = (kept - energy(held, y, T)) / heatCapacity(held, y, T);
     T += difference;
     if (std::abs(difference) <= 1e-13 * T) break;
   }
-  particles_.dilute(gas_.density(y_.data()) / middle);
-  for (std::size_t i = 0; i < y_.size(); ++i) exchanged_[i] = (y_[i] - before[i]) / h;
+  particles.dilute(gas_.density(y) / middle);
+  for (std::size_t i = 0; i < block_; ++i) exchanged[i] = (y[i] - before[i]) / h;
   return change;
 }
 
 // One step from x_; the largest change in it.
 double SplitReactor::step(double h) {
-  const std::size_t n = mechanism_.numSpecies();
-  const auto& species = particles_.species();
-  const double T = y_[n];
-  const std::vector<double> first(gas().concentrations.begin(), gas().concentrations.end());
-  const bool idle = particles_.idle(gas());
+  const std::size_t n = mechanism_.numSpecies(), count = particles_.size();
+  const auto& species = particles_.front()->species();
+  std::vector<double> T, changes;
+  std::vector<std::vector<double>> first;
+  std::vector<bool> idle;
+  for (std::size_t r = 0; r < count; ++r) {
+    T.push_back(y_[r * block_ + n]);
+    const ParticleGas& seen = gas(r);
+    first.emplace_back(seen.concentrations.begin(), seen.concentrations.end());
+    idle.push_back(particles_[r]->idle(seen));
+  }
   react(0.5 * h);
-  double change = exchange(h);
+  for (std::size_t r = 0; r < count; ++r) changes.push_back(exchange(r, h));
   react(0.5 * h);
-  const ParticleGas& last = gas();
-  const double negligible = smallestCountedMoleFraction * last.pressure / (constants::gasConstant * last.temperature);
-  if (idle && particles_.idle(last)) return 0;
-  change = std::max(change, std::abs(y_[n] - T) / temperatureScale);
-  for (std::size_t i = 0; i < species.size(); ++i)
-    change = std::max(change, std::abs(last.concentrations[i] - first[i]) /
-                                  (std::max(last.concentrations[i], first[i]) + negligible));
-  return change;
+  double all = 0;
+  for (std::size_t r = 0; r < count; ++r) {
+    const ParticleGas& last = gas(r);
+    const double negligible = smallestCountedMoleFraction * last.pressure / (constants::gasConstant * last.temperature);
+    if (idle[r] && particles_[r]->idle(last)) continue;
+    double change = std::max(changes[r], std::abs(y_[r * block_ + n] - T[r]) / temperatureScale);
+    for (std::size_t i = 0; i < species.size(); ++i)
+      change = std::max(change, std::abs(last.concentrations[i] - first[r][i]) /
+                                    (std::max(last.concentrations[i], first[r][i]) + negligible));
+    if (!std::isfinite(change)) return change;
+    all = std::max(all, change);
+  }
+  return all;
 }
 
 void SplitReactor::advance(double end) {
@@ -164,7 +205,9 @@ void SplitReactor::advance(double end) {
     if (options_.largestStep > 0) h_ = std::min(h_, options_.largestStep);
     // The last two steps to a stop are alike.
     const double h = h_ >= left * (1 - 1e-12) ? left : h_ > 0.5 * left && !options_.fixedStep ? 0.5 * left : h_;
-    const std::vector<double> state = y_, exchanged = exchanged_, particles = particles_.save();
+    const std::vector<double> state = y_, exchanged = exchanged_;
+    std::vector<std::vector<double>> saved;
+    for (const SplitParticles* particles : particles_) saved.push_back(particles->save());
     const double change = step(h);
     if (!std::isfinite(change))
       throw NumericsError(fmt::format("the step that began at {:.6g} gave values that are not finite", begin));
@@ -178,7 +221,7 @@ void SplitReactor::advance(double end) {
       x_ = begin;
       y_ = state;
       exchanged_ = exchanged;
-      particles_.restore(particles);
+      for (std::size_t r = 0; r < saved.size(); ++r) particles_[r]->restore(saved[r]);
     } else {
       ++work_.steps;
       x_ = h == left ? stop : begin + h;

@@ -6,12 +6,17 @@
 // round-off in that part, to the tolerance of the stiff solver in the other. While the gas reacts, particles take part
 // with their heat, expand with it, and leave with what flows out.
 //
+// The equations may be those of a network of reactors, each with particles of its own. Each reactor's gas carries a
+// mark for every reactor: after a part of a step they say what part of its mass was where at the beginning, and so how
+// many of which particles are there now. Those that went from one reactor to another join the particles there.
+//
 // The step follows from what changes in it; a step in which more changes than twice the aim is taken back.
 #pragma once
 
 #include <functional>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "chemistry/mechanism/mechanism.hpp"
@@ -36,6 +41,10 @@ class SplitParticles {
   virtual Exchange advance(const ParticleGas& gas, double dt) = 0;
   // Multiplies all amounts per volume.
   virtual void dilute(double factor) = 0;
+  // What there is, as join() of others of the same kind takes it.
+  [[nodiscard]] virtual std::vector<double> content() const = 0;
+  // Particles of another reactor come in: `share` times its amounts per volume.
+  virtual void join(std::span<const double> content, double share) = 0;
   // There are none, and none can be born of this gas.
   [[nodiscard]] virtual bool idle(const ParticleGas& gas) const = 0;
   [[nodiscard]] virtual std::vector<double> save() const = 0;
@@ -47,12 +56,13 @@ class SplitParticles {
   SplitParticles& operator=(const SplitParticles&) = default;
 };
 
-// What the gas carries while it reacts: carbon and hydrogen of the particles (kg/kg), and a mark, one at the beginning
-// of each part of a step, that says what part of it has flown out.
+// What the gas carries while it reacts: carbon and hydrogen of the particles (kg/kg), and a mark for each reactor, one
+// in it and zero elsewhere at the beginning of each part of a step, that says where this gas has gone.
 class ParticlesAtRest final : public CarriedPhase {
  public:
-  enum Amount : std::size_t { carbon, hydrogen, mark, count };
-  [[nodiscard]] std::size_t size() const override { return count; }
+  enum Amount : std::size_t { carbon, hydrogen, mark, count };  // of a reactor alone
+  explicit ParticlesAtRest(std::size_t reactors = 1) : reactors_(reactors) {}
+  [[nodiscard]] std::size_t size() const override { return mark + reactors_; }
   [[nodiscard]] const std::vector<std::size_t>& exchanged() const override { return none_; }
   void sources(double T, double p, std::span<const double> concentrations, std::span<const double> densities,
                std::span<double> rates, std::span<double> exchange) override;
@@ -60,21 +70,24 @@ class ParticlesAtRest final : public CarriedPhase {
                 std::span<double> values) override;
   void enthalpies(double T, std::span<double> h, std::span<double> slope) override;
   // kg of each element of the mechanism in a unit of each amount.
-  [[nodiscard]] static std::vector<std::vector<double>> unitElements(const Mechanism& mechanism);
+  [[nodiscard]] static std::vector<std::vector<double>> unitElements(const Mechanism& mechanism,
+                                                                     std::size_t reactors = 1);
 
  private:
+  std::size_t reactors_;
   std::vector<std::size_t> none_;
 };
 
 class SplitReactor {
  public:
-  // The gas's equations, which carry ParticlesAtRest, in the unknowns (Y, T, carbon, hydrogen, mark, ...) over time or
-  // place; and what is held.
+  // The gas's equations, which carry ParticlesAtRest, in the unknowns (Y, T, carbon, hydrogen, marks, ...) of each
+  // reactor over time or place; functions of these of one reactor; and what is held, a value a reactor.
   struct Gas {
     OdeSystem* system = nullptr;
     std::function<double(const double*y)> density, pressure;  // kg/m3 of gas and particles, Pa
     std::function<double(const double* y)> timePerUnit;       // s, of the independent variable
-    enum class Kept { temperature, enthalpy, internalEnergy } kept = Kept::enthalpy;
+    enum class Kept { temperature, enthalpy, internalEnergy };
+    std::vector<Kept> kept{Kept::enthalpy};
     std::function<double(double x)> nextStop;  // a kink of the equations behind x; may be empty
   };
   struct Options {
@@ -89,8 +102,10 @@ class SplitReactor {
     long steps = 0, rejected = 0, gasSteps = 0;
   };
 
-  // All have to live as long.
-  SplitReactor(const Mechanism& mechanism, Gas gas, SplitParticles& particles, const Options& options);
+  // The particles of each reactor, of one kind. All have to live as long.
+  SplitReactor(const Mechanism& mechanism, Gas gas, std::vector<SplitParticles*> particles, const Options& options);
+  SplitReactor(const Mechanism& mechanism, Gas gas, SplitParticles& particles, const Options& options)
+      : SplitReactor(mechanism, std::move(gas), std::vector{&particles}, options) {}
 
   void start(double x, std::span<const double> y);
   // To x, exactly. NumericsError.
@@ -98,21 +113,28 @@ class SplitReactor {
 
   [[nodiscard]] double position() const { return x_; }
   [[nodiscard]] std::span<const double> state() const { return y_; }
+  [[nodiscard]] std::span<const double> state(std::size_t reactor) const {
+    return std::span(y_).subspan(reactor * block_, block_);
+  }
   [[nodiscard]] const Work& work() const { return work_; }
-  // The gas as the particles see it.
-  [[nodiscard]] const ParticleGas& gas();
 
  private:
+  // The gas of a reactor as its particles see it.
+  [[nodiscard]] const ParticleGas& gas(std::size_t reactor);
   double step(double h);
   void react(double h);
-  // The particles over h; the largest part of a concentration that they take or give.
-  double exchange(double h);
-  [[nodiscard]] double energy(double T);
-  [[nodiscard]] double heatCapacity(double T);
+  // The particles to where the marks say that their gas is. Densities (kg/m3) at the beginning of the part.
+  void carryParticles(const std::vector<double>& before);
+  // The particles of a reactor over h; the largest part of a concentration that they take or give.
+  double exchange(std::size_t reactor, double h);
+  // Of gas and particles with the unknowns `block`.
+  [[nodiscard]] double energy(Gas::Kept kept, const double* block, double T);
+  [[nodiscard]] double heatCapacity(Gas::Kept kept, const double* block, double T);
 
   const Mechanism& mechanism_;
   Gas gas_;
-  SplitParticles& particles_;
+  std::vector<SplitParticles*> particles_;
+  std::size_t block_;  // unknowns of a reactor
   Options options_;
   StiffIntegrator integrator_;
   ParticlesAtRest atRest_;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/temperature_input.hpp"
 #include "app/reactor/reactor_case_parts.hpp"
@@ -105,6 +107,7 @@ void refuseRows(const Deck& deck, const std::string& key, const ReactorCase& rea
   if (!reactorCase.output.interval) return;
   const double rows = range / *reactorCase.output.interval;
   std::size_t columns = 6 + reactorCase.output.species.size();
+  if (reactorCase.ensemble) columns = 2 * (columns + 9) * std::max<std::size_t>(reactorCase.network.reactors.size(), 1);
   if (reactorCase.soot) columns += particleColumns(*reactorCase.soot).size();
   const double bytes = sizeof(double) * static_cast<double>(columns);
   requireOutputs(deck, key, "rows of the history", rows, bytes);
@@ -121,12 +124,14 @@ void readReactorEnsemble(const Deck& deck, ReactorCase& reactorCase) {
     throw deck.error(deck.has("sensitivity") ? "sensitivity" : "ignition",
                      "ignition delays of a gas with an ensemble are not computed; leave this section out");
   reactorCase.ignition.clear();
-  if (reactorCase.type == ReactorType::Network)
-    throw deck.error("stochastic", "ensembles are in single reactors; the models of 'soot.model' are in networks, too");
-  if (reactorCase.type == ReactorType::Stirred && reactorCase.end == 0)
+  if ((reactorCase.type == ReactorType::Stirred || reactorCase.type == ReactorType::Network) && reactorCase.end == 0)
     throw deck.error("stochastic",
                      "the steady state of an ensemble is a mean over time: give time.end, of many residence times; the "
                      "second half is averaged");
+  for (const StirredReactor& reactor : reactorCase.network.reactors)
+    if (reactor.name.find('/') != std::string::npos)
+      throw deck.error("network.reactors." + reactor.name,
+                       "results of ensembles bear the name of the reactor, which may have no '/'");
   reactorCase.ensemble = readEnsemble(deck, readSootModelOptions(deck, *reactorCase.mechanism));
   reactorCase.couplingChange = deck.number("stochastic.coupling_change");
   try {
@@ -184,6 +189,16 @@ ReactorCase readReactorCase(const Deck& deck) {
   } else {
     reactorCase.type = ReactorType::Network;
     reactorcase::readNetwork(deck, reactorCase);
+    reactorCase.end = deck.optionalQuantity("time.end").value_or(0.0);
+    if (reactorCase.end == 0)
+      refuseTimes(deck);
+    else if (!deck.has("stochastic"))
+      throw deck.error(
+          "time.end",
+          "the steady state of a network is computed; only with ensembles, the section 'stochastic', is it "
+          "followed in time");
+    else
+      checkInterval(deck, "output.interval", reactorCase, reactorCase.end, "time.end");
   }
   readParticles(deck, reactorCase);
   const bool plugFlow = reactorCase.type == ReactorType::PlugFlow;

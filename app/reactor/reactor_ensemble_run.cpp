@@ -1,22 +1,22 @@
-// Ensembles of soot particles in a closed reactor, a stirred one over time, or a plug flow: repeats that each are a
-// reactor of their own, and their means with the standard errors of these.
+// Ensembles of soot particles in a closed reactor, in stirred ones over time, or in a plug flow: repeats that each are
+// a reactor, or a network, of their own.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <optional>
+#include <memory>
+#include <utility>
 
 #include "app/reactor/reactor_driver.hpp"
+#include "app/reactor/reactor_ensemble_gas.hpp"
+#include "app/reactor/reactor_ensemble_summary.hpp"
 #include "app/reactor/reactor_history.hpp"
 #include "app/reactor/reactor_output.hpp"
-#include "chemistry/reactor/plug_flow.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 #include "core/stop_request.hpp"
 #include "coupling/reactor_balance.hpp"
 #include "coupling/reactor_ensemble.hpp"
-#include "coupling/split_reactor.hpp"
 #include "io/progress.hpp"
 #include "io/report.hpp"
 
@@ -27,71 +27,36 @@ using Kept = SplitReactor::Gas::Kept;
 
 constexpr std::size_t defaultRows = 100;
 
-// The equations of the gas of a case, for one repeat.
-class EnsembleGas {
- public:
-  explicit EnsembleGas(const ReactorCase& reactorCase) : case_(reactorCase) {
-    const Mechanism& mechanism = *case_.mechanism;
-    const std::size_t atRest = ParticlesAtRest::count;
-    gas_.timePerUnit = [](const double*) { return 1.0; };
-    gas_.pressure = [p = pressureHeld()](const double*) { return p; };
-    if (case_.type == ReactorType::PlugFlow) {
-      plugFlow_.emplace(mechanism, case_.inlet, case_.massFlux, case_.length, case_.profile, &particles_);
-      start_ = plugFlow_->initialState();
-      gas_.system = &*plugFlow_;
-      gas_.density = [this](const double* y) { return plugFlow_->density(y); };
-      gas_.timePerUnit = [this](const double* y) { return 1 / plugFlow_->velocity(y); };
-    } else if (case_.type == ReactorType::Stirred) {
-      network_.emplace(mechanism, case_.network, &particles_);
-      start_ = startUnknowns(mechanism, case_.network, case_.start, atRest);
-      gas_.system = &*network_;
-      gas_.density = [this](const double* y) { return network_->density(y); };
-      gas_.kept = case_.network.reactors[0].temperature ? Kept::temperature : Kept::enthalpy;
-    } else {
-      const bool pressure = case_.type == ReactorType::ConstantPressure;
-      closed_.emplace(mechanism, case_.initial, pressure ? ReactorSystem::Held::Pressure : ReactorSystem::Held::Density,
-                      case_.profile, &particles_);
-      start_ = closed_->initialState();
-      gas_.system = &*closed_;
-      gas_.density = [this](const double* y) { return closed_->density(y); };
-      gas_.pressure = [this](const double* y) { return closed_->pressure(y); };
-      if (!pressure) gas_.kept = Kept::internalEnergy;
-    }
-    if (!case_.profile) return;
-    gas_.kept = Kept::temperature;
-    gas_.nextStop = [this](double x) { return case_.profile->nextKink(x).value_or(INFINITY); };
-  }
-  EnsembleGas(const EnsembleGas&) = delete;
-  EnsembleGas& operator=(const EnsembleGas&) = delete;
+bool isOpen(const ReactorCase& reactorCase) {
+  return reactorCase.type == ReactorType::Stirred || reactorCase.type == ReactorType::Network;
+}
 
-  [[nodiscard]] const SplitReactor::Gas& gas() const { return gas_; }
-  [[nodiscard]] const std::vector<double>& start() const { return start_; }
-  ParticlesAtRest& particles() { return particles_; }
-  // s
-  [[nodiscard]] double time(double x, std::span<const double> y) const {
-    return plugFlow_ ? plugFlow_->residenceTime(y.data()) : x;
-  }
-
- private:
-  [[nodiscard]] double pressureHeld() const {
-    return case_.type == ReactorType::PlugFlow  ? case_.inlet.pressure
-           : case_.type == ReactorType::Stirred ? case_.network.pressure
-                                                : case_.initial.pressure;
-  }
-
-  const ReactorCase& case_;
-  ParticlesAtRest particles_;
-  std::optional<ClosedReactor> closed_;
-  std::optional<PlugFlow> plugFlow_;
-  std::optional<NetworkSystem> network_;
-  SplitReactor::Gas gas_;
-  std::vector<double> start_;
-};
+// Elements (kg/kg) of what stands in an open reactor as long as all that flows in has the same, and so has the start;
+// empty where they differ.
+std::vector<double> elementsOfInflow(const ReactorCase& reactorCase, const ReactorBalance& balance) {
+  const std::vector<double> none(ParticlesAtRest::mark + numReactors(reactorCase), 0.0);
+  constexpr double same = 1e-14;
+  std::vector<double> first;
+  const auto agrees = [&](const std::vector<double>& Y) {
+    const std::vector<double> elements = balance.elements(Y, none);
+    if (first.empty()) first = elements;
+    for (std::size_t e = 0; e < elements.size(); ++e)
+      if (std::abs(elements[e] - first[e]) > same) return false;
+    return true;
+  };
+  for (const InflowStream& stream : reactorCase.network.inflows)
+    if (!agrees(stream.Y)) return {};
+  if (reactorCase.start.given && !agrees(reactorCase.start.given->Y)) return {};
+  return first;
+}
 
 class EnsembleReactorDriver : public ReactorDriver {
  public:
   explicit EnsembleReactorDriver(const ReactorCase& reactorCase)
-      : case_(reactorCase), columns_(columnsOf(reactorCase)), history_(withErrors(columns_)) {}
+      : case_(reactorCase),
+        hasElements_(!isOpen(reactorCase) || !startElements(reactorCase).empty()),
+        summary_(columnsOf(reactorCase, hasElements_)),
+        history_(summary_.columnsWithErrors()) {}
 
   void compute(const RunFolder& folder) override {
     const double begin = MPI_Wtime();
@@ -99,9 +64,9 @@ class EnsembleReactorDriver : public ReactorDriver {
     Progress progress(MPI_COMM_SELF, 0, static_cast<double>(case_.ensemble->repeats), Progress::logInterval);
     for (std::size_t r = 0; r < case_.ensemble->repeats && stopRequest() == 0; ++r) runRepeat(r, progress);
     progress.finish();
-    summarise();
+    summary_.summarise(isOpen(case_) ? shown() : std::vector<std::size_t>{});
     history_.open(folder.history());
-    for (const auto& row : rows_) history_.row(row);
+    for (const auto& row : summary_.rows()) history_.row(row);
     seconds_ = MPI_Wtime() - begin;
   }
 
@@ -111,103 +76,116 @@ class EnsembleReactorDriver : public ReactorDriver {
     std::vector<double> diameter;
     for (std::size_t b = 0; b + 1 < edges.size(); ++b) diameter.push_back(std::sqrt(edges[b] * edges[b + 1]));
     const auto bins = static_cast<std::int64_t>(diameter.size());
-    const auto rows = static_cast<std::int64_t>(distribution_.size()) / bins;
     results.dataset("/particles/diameter", {bins}, diameter, "m", "middles of the bins of the size distribution");
-    results.dataset("/particles/size_distribution", {rows, bins}, distribution_, "1/m^3",
-                    "dN/dlog10 d of each row of the table, mean of the repeats");
-    results.dataset("/particles/size_distribution_error", {rows, bins}, distributionError_, "1/m^3",
-                    "standard error of that mean");
+    for (std::size_t r = 0; r < numReactors(case_); ++r) {
+      // Rank 0 alone has rows.
+      const auto part = [&](const std::vector<std::vector<double>>& all) {
+        std::vector<double> values;
+        for (const auto& row : all)
+          values.insert(values.end(), row.begin() + static_cast<std::ptrdiff_t>(r) * bins,
+                        row.begin() + static_cast<std::ptrdiff_t>(r + 1) * bins);
+        return values;
+      };
+      const std::string path = "/particles/" + prefix(case_, r) + "size_distribution";
+      const auto rows = static_cast<std::int64_t>(summary_.distributions().size());
+      results.dataset(path, {rows, bins}, part(summary_.distributions()), "1/m^3",
+                      "dN/dlog10 d of each row of the table, mean of the repeats");
+      results.dataset(path + "_error", {rows, bins}, part(summary_.distributionErrors()), "1/m^3",
+                      "standard error of that mean");
+    }
   }
 
   void record(JsonWriter& json) const override {
-    json.field("repeats", static_cast<std::int64_t>(repeats_.size()));
+    json.field("repeats", static_cast<std::int64_t>(summary_.repeats()));
     json.field("coupling_steps", static_cast<std::int64_t>(work_.steps));
     json.field("coupling_steps_rejected", static_cast<std::int64_t>(work_.rejected));
-    if (rows_.empty()) return;
-    const std::size_t n = columns_.size();
-    for (std::size_t c = 1; c < n; ++c) {
-      if (columns_[c].name.starts_with("X_") || columns_[c].name.starts_with("Y_")) continue;
-      json.field("final_" + columns_[c].name, rows_.back()[c]);
-      json.field("final_" + columns_[c].name + "_error", rows_.back()[n - 1 + c]);
-    }
-    for (const Late& late : late_)
-      json.field("late_mean_" + late.name, late.mean)
-          .field("late_mean_" + late.name + "_error", late.error)
-          .field("late_drift_" + late.name, late.drift);
+    std::vector<std::size_t> recorded;
+    const std::size_t fractions = case_.output.species.size(), places = columnsOfPlace(case_).size();
+    const std::size_t width = (summary_.columns().size() - places) / numReactors(case_);
+    for (std::size_t c = 1; c < summary_.columns().size(); ++c)
+      if (c < places || (c - places) % width + fractions < width) recorded.push_back(c);
+    summary_.record(json, recorded);
   }
 
   void print() const override {
-    if (rows_.empty()) return;
-    for (const char* name : {"temperature", "soot_volume_fraction", "soot_number_density", "soot_mean_diameter"}) {
-      const std::size_t c = column(name);
-      fmt::print("{:<24} {:.6g} +- {:.2g} {}\n", name, rows_.back()[c], rows_.back()[columns_.size() - 1 + c],
-                 columns_[c].unit);
-    }
-    for (const Late& late : late_)
-      fmt::print("second half: {:<24} {:.6g} +- {:.2g}, its last quarter less the one before {:.2g}\n", late.name,
-                 late.mean, late.error, late.drift);
+    summary_.print(shown());
     fmt::print("{} repeats, {} steps of gas and particles in turn, {} taken back, {} of the gas's integrator in {}\n",
-               repeats_.size(), work_.steps, work_.rejected, work_.gasSteps, formatDuration(seconds_));
+               summary_.repeats(), work_.steps, work_.rejected, work_.gasSteps, formatDuration(seconds_));
   }
 
   long steps() const override { return work_.steps; }
   double simulatedTime() const override { return time_; }
 
  private:
-  // A repeat: its rows, and their size distributions.
-  struct Repeat {
-    std::vector<std::vector<double>> rows, distributions;
-  };
-  // The mean over the second half of the time of a stirred reactor.
-  struct Late {
-    std::string name;
-    double mean = 0, error = 0, drift = 0;
+  // Elements and energy, as they were in the first row or have to be.
+  struct Balances {
+    Balances(const Mechanism& mechanism, ParticlesAtRest& particles, std::size_t reactors)
+        : balance(mechanism, particles, ParticlesAtRest::unitElements(mechanism, reactors)), thermo(mechanism) {}
+    ReactorBalance balance;
+    Thermo thermo;
+    std::vector<double> elements;
+    double energy = 0;
+    bool hasEnergy = false;
   };
 
-  static bool isKept(const ReactorCase& reactorCase) { return reactorCase.type != ReactorType::Stirred; }
+  static std::vector<double> startElements(const ReactorCase& reactorCase) {
+    ParticlesAtRest particles(numReactors(reactorCase));
+    return elementsOfInflow(reactorCase, Balances(*reactorCase.mechanism, particles, numReactors(reactorCase)).balance);
+  }
 
-  static std::vector<Quantity> columnsOf(const ReactorCase& reactorCase) {
-    std::vector<Quantity> columns{{"time", "s", "time"}};
-    if (reactorCase.type == ReactorType::PlugFlow)
-      columns = {{"position", "m", "distance from the inlet"},
-                 {"time", "s", "residence time since the inlet"},
-                 {"velocity", "m/s", "velocity of gas and particles"}};
-    for (const Quantity& more :
-         {Quantity{"temperature", "K", "gas temperature"}, Quantity{"pressure", "Pa", "pressure"},
-          Quantity{"density", "kg/m^3", "density of gas and particles"},
-          Quantity{"soot_volume_fraction", "1", "particle volume per volume of gas"},
-          Quantity{"soot_number_density", "1/m^3", "particles"},
-          Quantity{"soot_mean_diameter", "m", "of the sphere of mean volume"},
-          Quantity{"soot_mobility_diameter", "m", "mean mobility diameter"},
-          Quantity{"soot_geometric_deviation", "1", "of the diameter of mobility, by number"},
-          Quantity{"soot_surface_area", "m^2/m^3", "surface of all particles"},
-          Quantity{"soot_carbon", "kg/m^3", "carbon in particles"},
-          Quantity{"soot_hydrogen", "kg/m^3", "hydrogen in particles"},
-          Quantity{"soot_mass_exchanged", "kg/m^3",
-                   "mass of particles by what they exchanged with the gas; differs from carbon and "
-                   "hydrogen by numerical particles that come and go, zero in the mean"}})
-      columns.push_back(more);
-    if (isKept(reactorCase)) {
-      columns.push_back({"element_imbalance", "1", "largest relative change of an element in gas and particles"});
-      if (!reactorCase.profile)
-        columns.push_back({"energy_imbalance", "1", "change of the energy of gas and particles over cp T"});
-    }
+  static std::vector<Quantity> columnsOfPlace(const ReactorCase& reactorCase) {
+    if (reactorCase.type != ReactorType::PlugFlow) return {{"time", "s", "time"}};
+    return {{"position", "m", "distance from the inlet"},
+            {"time", "s", "residence time since the inlet"},
+            {"velocity", "m/s", "velocity of gas and particles"}};
+  }
+
+  // Of the names of a reactor's columns: a network has several of each.
+  static std::string prefix(const ReactorCase& reactorCase, std::size_t reactor) {
+    return reactorCase.type == ReactorType::Network ? reactorCase.network.reactors[reactor].name + "_" : "";
+  }
+
+  static std::vector<Quantity> columnsOf(const ReactorCase& reactorCase, bool hasElements) {
+    std::vector<Quantity> ofReactor{{"temperature", "K", "gas temperature"},
+                                    {"pressure", "Pa", "pressure"},
+                                    {"density", "kg/m^3", "density of gas and particles"},
+                                    {"soot_volume_fraction", "1", "particle volume per volume of gas"},
+                                    {"soot_number_density", "1/m^3", "particles"},
+                                    {"soot_mean_diameter", "m", "of the sphere of mean volume"},
+                                    {"soot_mobility_diameter", "m", "mean mobility diameter"},
+                                    {"soot_geometric_deviation", "1", "of the diameter of mobility, by number"},
+                                    {"soot_surface_area", "m^2/m^3", "surface of all particles"},
+                                    {"soot_carbon", "kg/m^3", "carbon in particles"},
+                                    {"soot_hydrogen", "kg/m^3", "hydrogen in particles"},
+                                    {"soot_mass_exchanged", "kg/m^3",
+                                     "mass of particles by what they exchanged with the gas; differs from carbon and "
+                                     "hydrogen by numerical particles that come and go, zero in the mean"}};
+    if (hasElements)
+      ofReactor.push_back({"element_imbalance", "1",
+                           isOpen(reactorCase) ? "largest relative difference of an element in gas and particles from "
+                                                 "what flows in"
+                                               : "largest relative change of an element in gas and particles"});
+    if (!isOpen(reactorCase) && !reactorCase.profile)
+      ofReactor.push_back({"energy_imbalance", "1", "change of the energy of gas and particles over cp T"});
     for (auto& column : speciesColumns(*reactorCase.mechanism, reactorCase.output))
-      columns.push_back(std::move(column));
+      ofReactor.push_back(std::move(column));
+    std::vector<Quantity> columns = columnsOfPlace(reactorCase);
+    for (std::size_t r = 0; r < numReactors(reactorCase); ++r)
+      for (const Quantity& column : ofReactor)
+        columns.push_back({prefix(reactorCase, r) + column.name, column.unit, column.description});
     return columns;
   }
 
-  static std::vector<Quantity> withErrors(const std::vector<Quantity>& columns) {
-    std::vector<Quantity> all = columns;
-    for (std::size_t c = 1; c < columns.size(); ++c)
-      all.push_back({columns[c].name + "_error", columns[c].unit, "standard error of the mean of the repeats"});
-    return all;
-  }
-
-  [[nodiscard]] std::size_t column(const std::string& name) const {
-    return static_cast<std::size_t>(
-        std::find_if(columns_.begin(), columns_.end(), [&](const Quantity& c) { return c.name == name; }) -
-        columns_.begin());
+  // Columns for the summary on the console, of each reactor.
+  [[nodiscard]] std::vector<std::size_t> shown() const {
+    std::vector<std::size_t> columns;
+    const auto& all = summary_.columns();
+    for (std::size_t r = 0; r < numReactors(case_); ++r)
+      for (const char* name : {"temperature", "soot_volume_fraction", "soot_number_density", "soot_mean_diameter"})
+        columns.push_back(static_cast<std::size_t>(
+            std::find_if(all.begin(), all.end(), [&](const Quantity& c) { return c.name == prefix(case_, r) + name; }) -
+            all.begin()));
+    return columns;
   }
 
   [[nodiscard]] double end() const { return case_.type == ReactorType::PlugFlow ? case_.length : case_.end; }
@@ -222,131 +200,89 @@ class EnsembleReactorDriver : public ReactorDriver {
   }
 
   void runRepeat(std::size_t index, Progress& progress) {
+    const std::size_t reactors = numReactors(case_);
     EnsembleGas gas(case_);
-    EnsembleOptions options = case_.ensemble->soot;
-    options.owner = index;
-    ReactorEnsemble ensemble(*case_.mechanism, options);
+    std::vector<std::unique_ptr<ReactorEnsemble>> ensembles;
+    std::vector<SplitParticles*> particles;
+    for (std::size_t r = 0; r < reactors; ++r) {
+      EnsembleOptions options = case_.ensemble->soot;
+      options.owner = index * reactors + r;
+      ensembles.push_back(std::make_unique<ReactorEnsemble>(*case_.mechanism, options));
+      particles.push_back(ensembles.back().get());
+    }
     SplitReactor::Options split;
     split.integrator = case_.integrator;
     split.change = case_.couplingChange;
-    SplitReactor reactor(*case_.mechanism, gas.gas(), ensemble, split);
+    SplitReactor reactor(*case_.mechanism, gas.gas(), particles, split);
     reactor.start(0, gas.start());
-    Balances balances(*case_.mechanism, gas);
-    Repeat repeat;
+    Balances balances(*case_.mechanism, gas.particles(), reactors);
+    if (isOpen(case_)) balances.elements = elementsOfInflow(case_, balances.balance);
+    EnsembleSummary::Repeat repeat;
     for (const double x : positions_) {
       try {
         reactor.advance(x);
       } catch (const NumericsError& error) {
         throw NumericsError(fmt::format("ensemble, repeat {}: {}", index + 1, error.what()));
       }
-      repeat.rows.push_back(row(reactor, gas, ensemble, balances));
-      const EnsemblePathOptions& bins = case_.ensemble->bins;
-      repeat.distributions.push_back(
-          ensemble.population().sizeDistribution(bins.logDiameterMin, bins.logDiameterMax, bins.bins));
+      std::vector<double> row{reactor.position()};
+      if (case_.type == ReactorType::PlugFlow)
+        row.insert(row.end(),
+                   {gas.time(reactor.position(), reactor.state()), 1 / gas.gas().timePerUnit(reactor.state().data())});
+      repeat.distributions.emplace_back();
+      for (std::size_t r = 0; r < reactors; ++r) {
+        const Ensemble& population = ensembles[r]->population();
+        append(row, reactor.state(r), gas.gas(), r, population, balances);
+        const EnsemblePathOptions& bins = case_.ensemble->bins;
+        const auto sizes = population.sizeDistribution(bins.logDiameterMin, bins.logDiameterMax, bins.bins);
+        repeat.distributions.back().insert(repeat.distributions.back().end(), sizes.begin(), sizes.end());
+      }
+      repeat.rows.push_back(std::move(row));
       if (stopRequest() != 0) return;
-      progress.say(fmt::format("repeat {} of {}, {} {:.4g} {}", index + 1, case_.ensemble->repeats, columns_[0].name, x,
-                               columns_[0].unit),
-                   static_cast<double>(index) + x / end());
+      const Quantity& place = summary_.columns()[0];
+      progress.say(
+          fmt::format("repeat {} of {}, {} {:.4g} {}", index + 1, case_.ensemble->repeats, place.name, x, place.unit),
+          static_cast<double>(index) + x / end());
     }
     time_ = gas.time(positions_.back(), reactor.state());
     work_.steps += reactor.work().steps;
     work_.rejected += reactor.work().rejected;
     work_.gasSteps += reactor.work().gasSteps;
-    repeats_.push_back(std::move(repeat));
+    summary_.add(std::move(repeat));
   }
 
-  struct Balances {
-    Balances(const Mechanism& mechanism, EnsembleGas& gas)
-        : balance(mechanism, gas.particles(), ParticlesAtRest::unitElements(mechanism)), thermo(mechanism) {}
-    ReactorBalance balance;
-    Thermo thermo;
-    std::vector<double> elements;
-    double energy = 0;
-  };
-
-  std::vector<double> row(SplitReactor& reactor, const EnsembleGas& gas, const ReactorEnsemble& ensemble,
-                          Balances& kept) const {
-    const std::span<const double> y = reactor.state();
+  // What the row has of a reactor with the unknowns y.
+  void append(std::vector<double>& row, std::span<const double> y, const SplitReactor::Gas& gas, std::size_t reactor,
+              const Ensemble& population, Balances& kept) const {
     const std::size_t n = case_.mechanism->numSpecies();
-    const std::span<const double> Y = y.first(n), amounts = y.subspan(n + 1, ParticlesAtRest::count);
-    const double T = y[n], density = gas.gas().density(y.data());
-    const Ensemble::Totals totals = ensemble.population().totals();
-    const double fraction = ensemble.population().volumeFraction();
-    std::vector<double> row{reactor.position()};
-    if (case_.type == ReactorType::PlugFlow)
-      row.insert(row.end(), {gas.time(reactor.position(), y), 1 / gas.gas().timePerUnit(y.data())});
+    const std::span<const double> Y = y.first(n),
+                                  amounts = y.subspan(n + 1, ParticlesAtRest::mark + numReactors(case_));
+    const double T = y[n], density = gas.density(y.data());
+    const Ensemble::Totals totals = population.totals();
+    const double fraction = population.volumeFraction();
     row.insert(row.end(),
-               {T, gas.gas().pressure(y.data()), density, fraction, totals.number,
+               {T, gas.pressure(y.data()), density, fraction, totals.number,
                 totals.number > 0 ? std::cbrt(6 / constants::pi * fraction / totals.number) : 0.0,
-                totals.meanDiameter(), ensemble.population().geometricDeviation(), totals.surface, totals.carbon,
-                totals.hydrogen, density * (amounts[ParticlesAtRest::carbon] + amounts[ParticlesAtRest::hydrogen])});
-    if (isKept(case_)) {
+                totals.meanDiameter(), population.geometricDeviation(), totals.surface, totals.carbon, totals.hydrogen,
+                density * (amounts[ParticlesAtRest::carbon] + amounts[ParticlesAtRest::hydrogen])});
+    if (hasElements_) {
       const std::vector<double> elements = kept.balance.elements(Y, amounts);
-      const bool isFirst = kept.elements.empty();
-      if (isFirst) kept.elements = elements;
+      if (kept.elements.empty()) kept.elements = elements;
       row.push_back(largestImbalance(kept.elements, elements));
-      if (!case_.profile) {
-        const double energy = gas.gas().kept == Kept::enthalpy ? kept.balance.enthalpy(T, Y, amounts)
-                                                               : kept.balance.internalEnergy(T, Y, amounts);
-        if (isFirst) kept.energy = energy;
-        row.push_back((energy - kept.energy) / (kept.thermo.cpMass(T, Y) * T));
-      }
+    }
+    if (!isOpen(case_) && !case_.profile) {
+      const double energy = gas.kept[reactor] == Kept::enthalpy ? kept.balance.enthalpy(T, Y, amounts)
+                                                                : kept.balance.internalEnergy(T, Y, amounts);
+      if (!std::exchange(kept.hasEnergy, true)) kept.energy = energy;
+      row.push_back((energy - kept.energy) / (kept.thermo.cpMass(T, Y) * T));
     }
     appendSpecies(*case_.mechanism, case_.output, Y, row);
-    return row;
-  }
-
-  // Mean of the repeats and its standard error.
-  template <typename Value>
-  std::pair<double, double> meanAndError(const Value& value) const {
-    const auto count = static_cast<double>(repeats_.size());
-    double mean = 0, sum = 0;
-    for (const Repeat& repeat : repeats_) mean += value(repeat) / count;
-    for (const Repeat& repeat : repeats_) sum += std::pow(value(repeat) - mean, 2);
-    return {mean, std::sqrt(sum / (count * (count - 1)))};
-  }
-
-  void summarise() {
-    if (repeats_.size() < 2) return;  // stopped
-    for (std::size_t i = 0; i < positions_.size(); ++i) {
-      std::vector<double> means, errors;
-      for (std::size_t c = 0; c < columns_.size(); ++c) {
-        const auto [mean, error] = meanAndError([&](const Repeat& r) { return r.rows[i][c]; });
-        means.push_back(mean);
-        if (c > 0) errors.push_back(error);
-      }
-      means.insert(means.end(), errors.begin(), errors.end());
-      rows_.push_back(std::move(means));
-      for (std::size_t b = 0; b < case_.ensemble->bins.bins; ++b) {
-        const auto [mean, error] = meanAndError([&](const Repeat& r) { return r.distributions[i][b]; });
-        distribution_.push_back(mean);
-        distributionError_.push_back(error);
-      }
-    }
-    if (case_.type != ReactorType::Stirred) return;
-    const std::size_t half = positions_.size() / 2, quarter = positions_.size() - half / 2;
-    for (const char* name : {"temperature", "soot_volume_fraction", "soot_number_density", "soot_mean_diameter"}) {
-      const std::size_t c = column(name);
-      const auto over = [&](std::size_t first, std::size_t last) {
-        return meanAndError([&](const Repeat& r) {
-          double sum = 0;
-          for (std::size_t i = first; i < last; ++i) sum += r.rows[i][c];
-          return sum / static_cast<double>(last - first);
-        });
-      };
-      const auto [mean, error] = over(half, positions_.size());
-      late_.push_back({name, mean, error, over(quarter, positions_.size()).first - over(half, quarter).first});
-    }
   }
 
   const ReactorCase& case_;
-  std::vector<Quantity> columns_;
+  bool hasElements_;
+  EnsembleSummary summary_;
   ReactorHistory history_;
   std::vector<double> positions_;
-  std::vector<Repeat> repeats_;
-  std::vector<std::vector<double>> rows_;
-  std::vector<double> distribution_, distributionError_;
-  std::vector<Late> late_;
   SplitReactor::Work work_;
   double time_ = 0, seconds_ = 0;
 };

@@ -9,8 +9,8 @@ namespace {
 
 const std::string typeKey = "reactor.type";
 const std::vector<std::string> closed{"constant_pressure", "constant_volume"};
-const std::vector<std::string> inTime{"constant_pressure", "constant_volume", "stirred"};
-const std::vector<std::string> integrated{"constant_pressure", "constant_volume", "stirred", "plug_flow"};
+const std::vector<std::string> inTime{"constant_pressure", "constant_volume", "stirred", "network"};
+const std::vector<std::string> startsFromGas{"constant_pressure", "constant_volume", "stirred"};
 
 // What a stirred reactor has, alone or in a network.
 void addVesselKeys(DeckSchema& schema, const std::string& section, const std::string& type) {
@@ -159,7 +159,7 @@ void addEnsembles(DeckSchema& schema) {
   addEnsembleKeys(
       schema,
       "Ensembles of soot particles in place of soot.model, coupled with the gas both ways: every repeat is a "
-      "reactor of its own. Needs the section soot, whose PAH, surface and switches are theirs.");
+      "reactor, or a network, of its own. Needs the section soot, whose PAH, surface and switches are theirs.");
   schema.add(numberKey("stochastic.coupling_change",
                        "Steps in which gas and particles change in turn are so long that a concentration which the "
                        "particles see changes by about this part of itself, or the temperature by this part of 200 K.")
@@ -181,7 +181,7 @@ DeckSchema reactorSchema() {
   addReactor(schema);
   schema
       .section("initial", Presence::optional, "The gas at the start; a stirred reactor may do without.",
-               {{typeKey, inTime}})
+               {{typeKey, startsFromGas}})
       .add(temperatureKey("initial.temperature", "Temperature of the gas."));
   addMixtureKeys(schema, "initial");
   addProfile(schema);
@@ -189,7 +189,7 @@ DeckSchema reactorSchema() {
   schema
       .add(quantityKey("time.end", units::time,
                        "Simulated time of a closed reactor. A stirred reactor with it is a transient, without it the "
-                       "steady state is searched.")
+                       "steady state is searched; a network has it with ensembles, where it is needed.")
                .optional()
                .above(0)
                .onlyWith(typeKey, inTime))
@@ -200,9 +200,7 @@ DeckSchema reactorSchema() {
   addIgnition(schema);
   addSootModelKeys(schema);
   addEnsembles(schema);
-  schema
-      .section("integrator", Presence::defaulted, "The stiff solver of everything but steady states.",
-               {{typeKey, integrated}})
+  schema.section("integrator", Presence::defaulted, "The stiff solver of everything but steady states.")
       .add(numberKey("integrator.relative_tolerance",
                      "Relative tolerance of the stiff solver of the chemistry: smaller is more accurate and slower.")
                .byDefault("1e-9")

@@ -54,6 +54,7 @@ struct EnsembleExchange {
   // By dilution; and by numerical particles that come and go, which is zero in the mean. sammc: always; swa: carbon and
   // hydrogen together always. kg/m3.
   double dilutedCarbon = 0, dilutedHydrogen = 0, resampledCarbon = 0, resampledHydrogen = 0;
+  double joinedCarbon = 0, joinedHydrogen = 0;  // by join(), in the mean: kg/m3
 };
 
 // One particle of a given population: kg, number per m3.
@@ -74,6 +75,13 @@ class Ensemble {
   virtual void advance(const ParticleGas& gas, double dilution, double dt) = 0;
   // Multiplies all numbers per volume: the gas grew by 1/factor.
   virtual void dilute(double factor) = 0;
+  // All particles, by size.
+  [[nodiscard]] virtual std::vector<GivenParticle> particles() const = 0;
+  // Particles of another population come in: of each `share` times its number per m3 in the mean. Equal weights: as
+  // many copies of the sample's own weight; otherwise `share` of the numerical particles with the numbers they have, so
+  // that one leaves and joins for what flows. Who joins is drawn by this population's random numbers; numbers of more
+  // than there is room for are contracted or merged as the method does.
+  virtual void join(std::span<const GivenParticle> particles, double share) = 0;
   // Since it was asked for last.
   [[nodiscard]] virtual EnsembleExchange takeExchange() = 0;
   // Of the last advance(): particles looked at in its splitting steps, and events. What the next one of that length

@@ -1,9 +1,13 @@
 // StochasticProcess: its population as given and as seen from outside. Included by stochastic_process.hpp.
 #pragma once
 
+#include <algorithm>
+#include <tuple>
+
 #include "core/packed_doubles.hpp"
 #include "core/rooms.hpp"
 #include "particles/ensemble/stochastic_process.hpp"
+#include "particles/population/monte_carlo/systematic_sample.hpp"
 #include "particles/population/monte_carlo/weighted_deviation.hpp"
 
 namespace lampblack::particles {
@@ -36,8 +40,45 @@ void StochasticProcess<Method>::initialise(std::span<const GivenParticle> popula
   cost_ = 0;
 }
 
+template <class Method>
+std::vector<GivenParticle> StochasticProcess<Method>::particles() const {
+  std::vector<GivenParticle> all;
+  all.reserve(size());
+  method_.forEachParticle([&](const Particle& p, double w) { all.push_back({p.carbon, p.hydrogen, p.primaries, w}); });
+  // Whatever order the store has.
+  std::sort(all.begin(), all.end(), [](const GivenParticle& a, const GivenParticle& b) {
+    return std::tuple(a.carbon + a.hydrogen, a.carbon, a.primaries, a.number) <
+           std::tuple(b.carbon + b.hydrogen, b.carbon, b.primaries, b.number);
+  });
+  return all;
+}
+
+template <class Method>
+void StochasticProcess<Method>::join(std::span<const GivenParticle> particles, double share) {
+  if (particles.empty() || !(share > 0)) return;
+  const Atoms before = atoms();
+  Atoms mean;
+  std::vector<WeightedParticle<Particle>> coming;
+  coming.reserve(particles.size());
+  for (const GivenParticle& p : particles) {
+    const double number = share * p.number;
+    coming.push_back({type_.make(p.carbon, p.hydrogen, p.primaries), number});
+    mean.carbon += number * p.carbon;
+    mean.hydrogen += number * p.hydrogen;
+  }
+  if constexpr (weighted)
+    method_.join(coming, std::min(share, 1.0), random_);
+  else
+    method_.join(coming, random_);
+  const Atoms after = atoms();
+  exchange_.joinedCarbon += mean.carbon;
+  exchange_.joinedHydrogen += mean.hydrogen;
+  exchange_.resampledCarbon += after.carbon - before.carbon - mean.carbon;
+  exchange_.resampledHydrogen += after.hydrogen - before.hydrogen - mean.hydrogen;
+}
+
 // Which layout of a packed state this is; another one is refused.
-inline constexpr double packedVersion = 2;
+inline constexpr double packedVersion = 3;
 
 template <class Method>
 std::vector<double> StochasticProcess<Method>::pack() const {

@@ -34,6 +34,8 @@ class StochasticProcess final : public Ensemble {
   void initialise(std::span<const GivenParticle> population) override;
   void advance(const ParticleGas& gas, double dilution, double dt) override;
   void dilute(double factor) override;
+  [[nodiscard]] std::vector<GivenParticle> particles() const override;
+  void join(std::span<const GivenParticle> particles, double share) override;
   [[nodiscard]] EnsembleExchange takeExchange() override { return std::exchange(exchange_, {}); }
 
   [[nodiscard]] double cost() const override { return cost_; }

@@ -154,6 +154,38 @@ def soot(program, folder):
         shutil.rmtree(out)
 
 
+def ensembles_in_networks(program, folder):
+    """A network of one reactor is the stirred reactor, to the last bit; two with a recycle have soot in both, elements balance."""
+    deck = (CASES / "reactor/stirred_soot/deck.yaml").read_text(encoding="utf-8").replace("../..", str(CASES))
+    inlet = deck[deck.index("inlet:"):deck.index("soot:")]
+    feed = "".join(f"    {line}\n" for line in inlet.split("\n")[1:] if line)
+    settings = ("soot.model=none", "stochastic.repeats=2", "stochastic.particles=50", "integrator.relative_tolerance=1e-6",
+                "stochastic.coupling_change=0.3", "time.end=0.2 ms")
+
+    def history(name, reactors, connections):
+        network = deck.replace(inlet, "").replace("type: stirred\n  residence_time: 5 ms", "type: network")
+        network += f"\nnetwork:\n  reactors: {{{reactors}}}\n  inlets:\n    feed:\n      to: one\n      mass_flow: 1 kg/s\n{feed}"
+        (folder / f"{name}.yaml").write_text(network + connections, encoding="utf-8")
+        return history_of(folder / f"{name}.yaml", name)
+
+    def history_of(path, name):
+        out = folder / name
+        result = program("run", path, "--out", out, *running.settings(*settings))
+        assert result.code == 0, result.err
+        with h5py.File(out / "results.h5", "r") as file:
+            return {key: file["history"][key][()] for key in file["history"]}
+
+    stirred = history_of(CASES / "reactor/stirred_soot/deck.yaml", "stirred")
+    alone = history("alone", "one: {residence_time: 5 ms}", "")
+    assert stirred["soot_volume_fraction"][-1] > 0 and np.max(stirred["element_imbalance"]) < 1e-12
+    for name, values in stirred.items():
+        assert np.array_equal(values, alone[name if name == "time" else f"one_{name}"], equal_nan=True), name
+    two = history("two", "one: {residence_time: 5 ms}, two: {residence_time: 1 ms}",
+                  "  connections: [{from: one, to: two}, {from: two, to: one, fraction: 0.5}]\n")
+    for name in ("one", "two"):
+        assert two[f"{name}_soot_volume_fraction"][-1] > 0 and np.max(two[f"{name}_element_imbalance"]) < 1e-12, name
+
+
 def too_few_sections(program, folder):
     """Soot that outgrows its sections: one message, exit code 3."""
     result = program("run", CASES / "reactor/closed_soot/deck.yaml", "--out", folder / "out",
@@ -163,7 +195,7 @@ def too_few_sections(program, folder):
 
 def main(executable, ranks, *mpiexec):
     program = running.Program(executable, list(mpiexec), int(ranks))
-    for test in (ignition, regular_output, network, transient, species_with_comma, soot, too_few_sections):
+    for test in (ignition, regular_output, network, transient, species_with_comma, soot, ensembles_in_networks, too_few_sections):
         with tempfile.TemporaryDirectory() as folder:
             test(program, pathlib.Path(folder))
         print(f"ok  {test.__name__}")

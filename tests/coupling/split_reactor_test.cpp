@@ -63,15 +63,15 @@ class SplitToy : public ::testing::Test {
     ReactorBalance balance(ethylene(), atRest, ParticlesAtRest::unitElements(ethylene()));
     const std::span<const double> first(start);
     const auto count0 = ParticlesAtRest::count;
-    if (own.kept == Kept::temperature) return {y[n], y[toy.acetylene], y[n + 1]};
+    if (own.kept[0] == Kept::temperature) return {y[n], y[toy.acetylene], y[n + 1]};
     if (!isOpen) {
       EXPECT_LT(largestImbalance(balance.elements(first.first(n), first.subspan(n + 1, count0)),
                                  balance.elements(y.first(n), y.subspan(n + 1, count0))),
                 1e-13);
       const auto energy = [&](std::span<const double> at) {
         const auto amounts = at.subspan(n + 1, count0);
-        return own.kept == Kept::enthalpy ? balance.enthalpy(at[n], at.first(n), amounts)
-                                          : balance.internalEnergy(at[n], at.first(n), amounts);
+        return own.kept[0] == Kept::enthalpy ? balance.enthalpy(at[n], at.first(n), amounts)
+                                             : balance.internalEnergy(at[n], at.first(n), amounts);
       };
       EXPECT_NEAR(energy(y), energy(first), 1e-9 * 2e6);  // cp T is about 2e6 J/kg
     }
@@ -111,7 +111,7 @@ TEST_F(SplitToy, ClosedReactorsAreOfSecondOrder) {
     own.density = [&](const double* y) { return reactor.density(y); };
     own.pressure = [&](const double* y) { return reactor.pressure(y); };
     own.timePerUnit = [](const double*) { return 1.0; };
-    own.kept = held == Held::Pressure ? Kept::enthalpy : Kept::internalEnergy;
+    own.kept = {held == Held::Pressure ? Kept::enthalpy : Kept::internalEnergy};
     expectSecondOrder(reactor, own, reactor.initialState(), 2e-4, reference(whole, whole.initialState(), 2e-4));
   }
 }

@@ -83,6 +83,8 @@ class ToySplit final : public SplitParticles {
     return {{-moles}, gained, 2 * toy_.hydrogenWeight * moles};
   }
   void dilute(double factor) override { carbon *= factor; }
+  [[nodiscard]] std::vector<double> content() const override { return save(); }
+  void join(std::span<const double> content, double share) override { carbon += share * content[0]; }
   [[nodiscard]] bool idle(const ParticleGas&) const override { return false; }
   [[nodiscard]] std::vector<double> save() const override { return {carbon}; }
   void restore(std::span<const double> state) override { carbon = state[0]; }

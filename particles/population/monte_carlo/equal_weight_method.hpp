@@ -17,6 +17,7 @@
 #include "particles/population/monte_carlo/growth_step.hpp"
 #include "particles/population/monte_carlo/jump_process.hpp"
 #include "particles/population/monte_carlo/sample_statistics.hpp"
+#include "particles/population/monte_carlo/systematic_sample.hpp"
 
 namespace lampblack::particles {
 
@@ -173,6 +174,20 @@ class EqualWeightMethod {
     retune();
     sample_.bringNumberIntoRange(random, counters_);
   }
+  // Takes in particles that stand for `number` (1/m3) real ones each: copies of the weight that all have, as many in
+  // the mean. Where these were more than twice as many as there is room for, the sample shrinks first.
+  void join(const std::vector<WeightedParticle<typename Type::Particle>>& coming, RandomStream& random) {
+    double number = static_cast<double>(size()) * sample_.weight();
+    for (const auto& one : coming) number += one.number;
+    const double room = static_cast<double>(sample_.capacity());
+    if (number > 2 * room * sample_.weight()) thin(number / room, random);
+    const auto copies = systematicCopies(
+        coming.size(), [&](std::size_t k) { return coming[k].number / sample_.weight(); }, random);
+    for (std::size_t k = 0; k < coming.size(); ++k)
+      if (copies[k] > 0) sample_.put(rates().entry(coming[k].particle), copies[k]);
+    sample_.massChanged();
+    sample_.bringNumberIntoRange(random, counters_);
+  }
   // What a population in a gas has to keep so that it goes on as it would have: counters apart.
   void pack(std::vector<double>& state) const {
     packDoubles(state, std::array{sample_.weight(), sample_.filled() ? 1.0 : 0.0, static_cast<double>(size())});
@@ -213,6 +228,21 @@ class EqualWeightMethod {
   static constexpr double growthPart = EqualRates<Type>::changing ? 0.3 : 0.05;
 
   [[nodiscard]] const auto& rates() const { return sample_.store().rates(); }
+
+  // To a larger weight.
+  void thin(double weight, RandomStream& random) {
+    std::vector<typename Type::Particle> kept;
+    sample_.store().forEach([&](const Entry& entry) { kept.push_back(entry.particle); });
+    const double part = sample_.weight() / weight;
+    const auto copies = systematicCopies(
+        kept.size(), [&](std::size_t) { return part; }, random);
+    std::size_t left = 0;
+    for (std::size_t k = 0; k < kept.size(); ++k)
+      if (copies[k] > 0) kept[left++] = kept[k];
+    counters_.removals += kept.size() - left;
+    sample_.replace(weight, sample_.filled(), left, [&](std::size_t k) { return rates().entry(kept[k]); });
+    retune();
+  }
 
   void lose(const Entry& gone, RandomStream& random) {
     sample_.taken(gone);

@@ -61,6 +61,7 @@ class EqualWeightSample {
   [[nodiscard]] const Store& store() const { return store_; }
   [[nodiscard]] double weight() const { return weight_; }
   [[nodiscard]] std::size_t size() const { return store_.size(); }
+  [[nodiscard]] std::size_t capacity() const { return capacity_; }
 
   // Bookkeeping of what an event takes out and puts in.
   [[gnu::always_inline]] void put(const Entry& entry, std::size_t copies = 1) {

@@ -282,6 +282,15 @@ void WeightedMethod<Type, Store>::replace(std::vector<Entry> entries) {
 }
 
 template <ParticleType Type, class Store>
+void WeightedMethod<Type, Store>::join(const std::vector<WeightedParticle<Particle>>& coming, double chance,
+                                       RandomStream& random) {
+  const auto copies = systematicCopies(
+      coming.size(), [&](std::size_t) { return chance; }, random);
+  for (std::size_t k = 0; k < coming.size(); ++k)
+    if (copies[k] > 0) add(coming[k].particle, coming[k].number / chance, copies[k]);
+}
+
+template <ParticleType Type, class Store>
 void WeightedMethod<Type, Store>::pack(std::vector<double>& state) const {
   packDoubles(state, std::array{nucleusWeight_, filled_ ? 1.0 : 0.0, static_cast<double>(size())});
   store_.forEach([&](const Entry& entry) { packDoubles(state, entry); });

@@ -38,6 +38,7 @@
 #include "particles/population/monte_carlo/growth_step.hpp"
 #include "particles/population/monte_carlo/initial_sample.hpp"
 #include "particles/population/monte_carlo/jump_process.hpp"
+#include "particles/population/monte_carlo/systematic_sample.hpp"
 #include "particles/population/monte_carlo/weighted_rates.hpp"
 #include "particles/population/monte_carlo/weighted_statistics.hpp"
 
@@ -110,6 +111,9 @@ class WeightedMethod {
   }
   // Replaces all particles.
   void replace(std::vector<Entry> entries);
+  // Takes in the part `chance` of particles that stand for `number` (1/m3) real ones each, with numbers that make up
+  // for the others.
+  void join(const std::vector<WeightedParticle<Particle>>& coming, double chance, RandomStream& random);
   // What a population in a gas has to keep so that it goes on as it would have: counters apart.
   void pack(std::vector<double>& state) const;
   void unpack(PackedDoubles& state);

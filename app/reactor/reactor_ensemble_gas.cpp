@@ -1,0 +1,56 @@
+#include "app/reactor/reactor_ensemble_gas.hpp"
+
+#include <cmath>
+
+namespace lampblack::app {
+
+std::size_t numReactors(const ReactorCase& reactorCase) {
+  return reactorCase.type == ReactorType::Network ? reactorCase.network.reactors.size() : 1;
+}
+
+EnsembleGas::EnsembleGas(const ReactorCase& reactorCase) : case_(reactorCase), particles_(numReactors(reactorCase)) {
+  gas_.timePerUnit = [](const double*) { return 1.0; };
+  if (case_.type == ReactorType::PlugFlow)
+    carryByPlugFlow();
+  else if (case_.type == ReactorType::Stirred || case_.type == ReactorType::Network)
+    carryByNetwork();
+  else
+    carryByClosedReactor();
+  if (!case_.profile) return;
+  gas_.kept = {SplitReactor::Gas::Kept::temperature};
+  gas_.nextStop = [this](double x) { return case_.profile->nextKink(x).value_or(INFINITY); };
+}
+
+void EnsembleGas::carryByPlugFlow() {
+  plugFlow_.emplace(*case_.mechanism, case_.inlet, case_.massFlux, case_.length, case_.profile, &particles_);
+  start_ = plugFlow_->initialState();
+  gas_.system = &*plugFlow_;
+  gas_.pressure = [p = case_.inlet.pressure](const double*) { return p; };
+  gas_.density = [this](const double* y) { return plugFlow_->density(y); };
+  gas_.timePerUnit = [this](const double* y) { return 1 / plugFlow_->velocity(y); };
+}
+
+void EnsembleGas::carryByNetwork() {
+  network_.emplace(*case_.mechanism, case_.network, &particles_);
+  start_ = startUnknowns(*case_.mechanism, case_.network, case_.start, particles_.size());
+  gas_.system = &*network_;
+  gas_.pressure = [p = case_.network.pressure](const double*) { return p; };
+  gas_.density = [this](const double* block) { return network_->density(block); };
+  gas_.kept.clear();
+  using Kept = SplitReactor::Gas::Kept;
+  for (const StirredReactor& reactor : case_.network.reactors)
+    gas_.kept.push_back(reactor.temperature ? Kept::temperature : Kept::enthalpy);
+}
+
+void EnsembleGas::carryByClosedReactor() {
+  const bool pressure = case_.type == ReactorType::ConstantPressure;
+  closed_.emplace(*case_.mechanism, case_.initial,
+                  pressure ? ReactorSystem::Held::Pressure : ReactorSystem::Held::Density, case_.profile, &particles_);
+  start_ = closed_->initialState();
+  gas_.system = &*closed_;
+  gas_.pressure = [this](const double* y) { return closed_->pressure(y); };
+  gas_.density = [this](const double* y) { return closed_->density(y); };
+  if (!pressure) gas_.kept = {SplitReactor::Gas::Kept::internalEnergy};
+}
+
+}  // namespace lampblack::app

@@ -1,0 +1,48 @@
+// The equations of the gas of a case whose particles are ensembles, for one repeat: a closed reactor, a plug flow, or
+// stirred reactors, one or a network.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "app/reactor/reactor_case.hpp"
+#include "chemistry/reactor/plug_flow.hpp"
+#include "core/rooms.hpp"
+#include "coupling/split_reactor.hpp"
+
+namespace lampblack::app {
+
+// One, but for a network.
+[[nodiscard]] std::size_t numReactors(const ReactorCase& reactorCase);
+
+class EnsembleGas {
+ public:
+  // The case has to live as long.
+  explicit EnsembleGas(const ReactorCase& reactorCase);
+  EnsembleGas(const EnsembleGas&) = delete;
+  EnsembleGas& operator=(const EnsembleGas&) = delete;
+
+  [[nodiscard]] const SplitReactor::Gas& gas() const { return gas_; }
+  [[nodiscard]] const std::vector<double>& start() const { return start_; }
+  [[nodiscard]] ParticlesAtRest& particles() { return particles_; }
+  // s, where the unknowns are y at x
+  [[nodiscard]] double time(double x, std::span<const double> y) const {
+    return plugFlow_ ? plugFlow_->residenceTime(y.data()) : x;
+  }
+
+ private:
+  void carryByPlugFlow();
+  void carryByNetwork();
+  void carryByClosedReactor();
+
+  const ReactorCase& case_;
+  ParticlesAtRest particles_;
+  std::optional<ClosedReactor> closed_;
+  std::optional<PlugFlow> plugFlow_;
+  std::optional<NetworkSystem> network_;
+  SplitReactor::Gas gas_;
+  std::vector<double> start_;
+};
+
+}  // namespace lampblack::app

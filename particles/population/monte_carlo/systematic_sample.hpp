@@ -1,0 +1,38 @@
+// Systematic sampling: whole numbers of copies whose means are given. One random number serves all: element k gets as
+// many copies as there are points of a comb with teeth at one another's distance of one in its part of the sum. So the
+// number of all copies is within one of its mean, and so is that of any run of neighbours: sorted by size, all sizes
+// are met.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "core/random.hpp"
+#include "core/rooms.hpp"
+
+namespace lampblack::particles {
+
+// A particle that stands for `number` (1/m3) real ones.
+template <class Particle>
+struct WeightedParticle {
+  Particle particle;
+  double number = 0;
+};
+
+// expected(k) >= 0 is the mean number of copies of element k.
+template <class Expected>
+[[nodiscard]] std::vector<std::size_t> systematicCopies(std::size_t count, const Expected& expected,
+                                                        RandomStream& random) {
+  std::vector<std::size_t> copies(count);
+  double sum = random.uniform(), teeth = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    sum += expected(k);
+    const double passed = std::floor(sum);
+    copies[k] = static_cast<std::size_t>(passed - teeth);
+    teeth = passed;
+  }
+  return copies;
+}
+
+}  // namespace lampblack::particles
