@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "flow/flame/flame_scalars.hpp"
 #include "flow/flame/flame_solver_data.hpp"
@@ -110,15 +111,37 @@ void FlameSolver::Data::gasAlone(const FlameProblem& flame, NewtonSolver& solver
   solution.profile = withLayout(solution.profile, full);
 }
 
+// Of all points: mass of what is carried over that of the gas.
+double FlameSolver::Data::largestLoad() const {
+  double largest = 0;
+  for (std::size_t i = 0; i < solution.profile.points(); ++i) {
+    double load = 0;
+    for (std::size_t s = 0; s < solution.profile.layout.scalars; ++s) {
+      const CarriedModel::Scalar& scalar = carried->scalars()[s];
+      const double unit = std::accumulate(scalar.elements.begin(), scalar.elements.end(), 0.0);
+      load += unit * scalar.scale * solution.profile.scalars(i)[s];
+    }
+    largest = std::max(largest, load);
+  }
+  return largest;
+}
+
+// In a gas that they do not use up, particles may grow to more than the gas ever had: no start for the two together.
 void FlameSolver::Data::scalarsAlone(FlameEquations& equations, NewtonSolver& solver) {
   const double start = MPI_Wtime();
+  constexpr double mostLoad = 0.5;
   FlameStage stage;
   stage.name = "scalars in the gas";
   setGridAndAnchor(equations);
   FlameScalars scalars(equations, solution.profile);
   std::vector<double> x = scalars.start();
   stage.newton = solver.steady(scalars, x);
+  const std::vector<double> without = solution.profile.x;
   scalars.put(x, solution.profile);
+  if (largestLoad() > mostLoad) {
+    solution.profile.x = without;
+    stage.name = "scalars in the gas: too many to start from";
+  }
   finish(stage, start);
 }
 

@@ -48,6 +48,7 @@ struct FlameSolver::Data {
   void anchorIn(const FlameProfile& profile);
   void gasAlone(const FlameProblem& flame, NewtonSolver& solver, const std::string& name);
   void scalarsAlone(FlameEquations& equations, NewtonSolver& solver);
+  [[nodiscard]] double largestLoad() const;
   void addCounters(const FlameEquations& equations);
   [[nodiscard]] bool withoutScalars() const {
     for (std::size_t i = 0; i < solution.profile.points(); ++i)

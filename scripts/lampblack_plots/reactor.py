@@ -1,4 +1,4 @@
-"""Pictures of a reactor run: temperature and main species over time or place, the ignition, what it depends on."""
+"""Pictures of a reactor run, of each reactor of a network with ensembles: temperature and main species over time or place, the ignition, what it depends on."""
 
 import csv
 
@@ -26,6 +26,12 @@ def plot_reactor(results, pictures):
             _plot_history(columns, columns["time"] * factor, f"time, {unit}", delays, pictures)
             _plot_particles(columns, columns["time"] * factor, f"time, {unit}", pictures)
             _plot_ignition(columns, columns["time"] * factor, f"time, {unit}", delays, pictures)
+    elif "time" in columns:
+        factor, unit = _unit(np.max(columns["time"]), (("s", 1.0), ("ms", 1e3), ("us", 1e6), ("ns", 1e9)))
+        for reactor in [name.removesuffix("_temperature") for name in columns if name.endswith("_temperature")]:
+            own = {name.removeprefix(f"{reactor}_"): values for name, values in columns.items() if name.startswith(f"{reactor}_")}
+            _plot_history(own, columns["time"] * factor, f"time, {unit}", {}, pictures, f"reactor_{reactor}")
+            _plot_particles(own, columns["time"] * factor, f"time, {unit}", pictures, f"particles_{reactor}")
     _plot_reactors(results, pictures)
     _plot_sensitivities(results, pictures)
 
@@ -42,7 +48,7 @@ def _main_species(columns):
     return sorted(moving or names, key=lambda name: -np.max(columns[name]))[:MOST_SPECIES]
 
 
-def _plot_history(columns, axis, label, delays, pictures):
+def _plot_history(columns, axis, label, delays, pictures, picture="reactor"):
     figure, (above, below) = plt.subplots(2, 1, figsize=(6.4, 6.4), sharex=True)
     above.plot(axis, columns["temperature"], color="tab:red")
     above.set_ylabel("temperature, K")
@@ -57,10 +63,10 @@ def _plot_history(columns, axis, label, delays, pictures):
         below.axvline(value, color="0.6", lw=0.6, ls=":")
     if delays:
         above.set_xlim(0, min(axis[-1], 2.5 * max(delays.values())))
-    pictures.save(figure, "reactor")
+    pictures.save(figure, picture)
 
 
-def _plot_particles(columns, axis, label, pictures):
+def _plot_particles(columns, axis, label, pictures, picture="particles"):
     """Volume fraction, number and mean diameter; of ensembles with the standard error of the repeats."""
     shown = [name for name in columns if name.endswith(("_volume_fraction", "_number_density", "_mean_diameter"))]
     if not shown:
@@ -75,7 +81,7 @@ def _plot_particles(columns, axis, label, pictures):
             panel.fill_between(axis, factor * columns[name] - spread, factor * columns[name] + spread, color="0.8")
         panel.set_ylabel(title)
     panels[-1].set_xlabel(label)
-    pictures.save(figure, "particles")
+    pictures.save(figure, picture)
 
 
 def _plot_ignition(columns, axis, label, delays, pictures):

@@ -182,7 +182,10 @@ def ensembles_in_networks(program, folder):
         assert np.array_equal(values, alone[name if name == "time" else f"one_{name}"], equal_nan=True), name
     two = history("two", "one: {residence_time: 5 ms}, two: {residence_time: 1 ms}",
                   "  connections: [{from: one, to: two}, {from: two, to: one, fraction: 0.5}]\n")
+    done = subprocess.run([sys.executable, running.SOURCE / "scripts/plot", folder / "two"], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
     for name in ("one", "two"):
+        assert all((folder / f"two/pictures/{what}_{name}.png").stat().st_size > 5000 for what in ("reactor", "particles")), done.stdout
         assert two[f"{name}_soot_volume_fraction"][-1] > 0 and np.max(two[f"{name}_element_imbalance"]) < 1e-12, name
 
 
