@@ -81,12 +81,12 @@ TEST(SootModelDefaults, DifferencesHoldFromZeroToDense) {
       std::vector<double> J(6);
       model.jacobian(gas, x, J);
       const double n = std::max(N, 0.0), a = std::max(concentration, 0.0), k = std::exp(-1e4 / 1600.0);
-      // One-sided steps of 1e-7 of the value or of 1e-5 of a typical one (N: 2e15, c: 7.6): half the second derivative
+      // One-sided steps of 1e-6 of the value or of 1e-5 of a typical one (N: 2e15, c: 7.6): half the second derivative
       // times the step, and the rounding of the value over the step.
       const auto tolerance = [](double second, double value, double step) {
         return 0.5 * second * step + 4 * 2.3e-16 * value / step;
       };
-      const double hN = 1e-7 * std::max(n, 2e10), hc = 1e-7 * std::max(a, 7.6e-5), hT = 1.6e-4;
+      const double hN = 1e-6 * std::max(n, 2e10), hc = 1e-6 * std::max(a, 7.6e-5), hT = 1.6e-4;
       const double rate = std::abs(3 * a * a) + 2e-16 * n * n + 5 * n, taken = k * n * a;
       EXPECT_NEAR(J[0], 5 - 4e-16 * n, tolerance(4e-16, rate, hN) + 1e-12 * (5 + 4e-16 * n));
       EXPECT_NEAR(J[1], 6 * a, tolerance(6, rate, hc) + 1e-12);
