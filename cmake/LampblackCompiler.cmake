@@ -19,7 +19,7 @@ if(LAMPBLACK_WERROR)
 endif()
 if(LAMPBLACK_SANITIZE)
   # Without a test of every pointer for zero and of its alignment, a sixth of the time of compiling: AddressSanitizer reports
-  # the first when it happens, and the second does no harm on the processors that this runs on.
+  # the first where memory is read or written by it, and the second does no harm on the processors that this runs on.
   target_compile_options(lampblack_options INTERFACE -fsanitize=address,undefined -fno-sanitize=null,alignment
                                                      -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
   target_link_options(lampblack_options INTERFACE -fsanitize=address,undefined)
