@@ -13,8 +13,8 @@ namespace lampblack::flow {
 struct ReactionOperator::Layout {
   // in: centre (2), enthalpy, guess of the temperature, pressure, first step, natural number, Y, constant source
   static constexpr std::size_t inHeader = 7;
-  // out: temperature, next first step, seconds, solver steps, retries, skipped, Y
-  static constexpr std::size_t outHeader = 6;
+  // out: temperature, next first step, seconds, solver steps, retries, skipped, handed over, Y
+  static constexpr std::size_t outHeader = 7;
 };
 
 ReactionOperator::ReactionOperator(const FlowContext& context, Options options)
@@ -63,6 +63,7 @@ void ReactionOperator::solve(double time, double dt, std::span<const double> in,
     out[3] = result.steps;
     out[4] = result.retries;
     out[5] = result.skipped ? 1.0 : 0.0;
+    out[6] = result.handedOver ? 1.0 : 0.0;
   } catch (const ReactorFailure& error) {
     const auto kept =
         options_.keepFailed ? options_.keepFailed(static_cast<std::int64_t>(in[6]), error.cell()) : std::string();
@@ -95,6 +96,7 @@ void ReactionOperator::unpack(State& state, std::size_t cell, double dt, std::sp
   diagnostics_.retries += out[4];
   diagnostics_.skippedCells += out[5];
   diagnostics_.integratedCells += 1.0 - out[5];
+  diagnostics_.handedOverCells += out[6];
 }
 
 void ReactionOperator::advance(State& state, double time, double dt) {
@@ -131,27 +133,28 @@ void ReactionOperator::saveOrLoad(StateArchive& archive) {
   archive.cells("chemistry_cost", cost_, 1);
   archive.cells("chemistry_first_step", initialStep_, 1);
   if (options_.deferred) archive.cells("chemistry_rate", rate_, static_cast<int>(context_.mechanism.numSpecies()));
-  std::array<double, 4> counted{diagnostics_.solverSteps, diagnostics_.integratedCells, diagnostics_.skippedCells,
-                                diagnostics_.retries};
+  std::array<double, 5> counted{diagnostics_.solverSteps, diagnostics_.integratedCells, diagnostics_.skippedCells,
+                                diagnostics_.handedOverCells, diagnostics_.retries};
   archive.sums("chemistry_counts", counted);
   std::vector<double> stages{
       diagnostics_.imbalanceBefore, diagnostics_.imbalanceAfter, static_cast<double>(diagnostics_.stages),
       imbalances_.before,           imbalances_.after,           static_cast<double>(stages_)};
   archive.shared("chemistry_stages", stages);
-  diagnostics_ = {
-      counted[0], counted[1], counted[2], counted[3], stages.at(0), stages.at(1), static_cast<int>(stages.at(2))};
+  diagnostics_ = {counted[0],   counted[1],   counted[2],   counted[3],
+                  counted[4],   stages.at(0), stages.at(1), static_cast<int>(stages.at(2))};
   imbalances_ = {stages.at(3), stages.at(4)};
   stages_ = static_cast<int>(stages.at(5));
 }
 
 ReactionOperator::Diagnostics ReactionOperator::takeDiagnostics() {
   Diagnostics all = diagnostics_;
-  double sums[4] = {all.solverSteps, all.integratedCells, all.skippedCells, all.retries};
-  MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, context_.mesh.comm);
+  double sums[5] = {all.solverSteps, all.integratedCells, all.skippedCells, all.handedOverCells, all.retries};
+  MPI_Allreduce(MPI_IN_PLACE, sums, 5, MPI_DOUBLE, MPI_SUM, context_.mesh.comm);
   all.solverSteps = sums[0];
   all.integratedCells = sums[1];
   all.skippedCells = sums[2];
-  all.retries = sums[3];
+  all.handedOverCells = sums[3];
+  all.retries = sums[4];
   if (all.stages > 0) {
     all.imbalanceBefore /= all.stages;
     all.imbalanceAfter /= all.stages;
@@ -164,6 +167,7 @@ std::vector<Quantity> ReactionOperator::historyColumns() const {
   return {{"stiff_solver_steps", "1", "internal steps of the stiff solver over all cells since the last row"},
           {"reacting_cells", "1", "cells integrated since the last row, over all stages"},
           {"skipped_cells", "1", "cells skipped for negligible rates since the last row, over all stages"},
+          {"cells_by_cvode", "1", "cells for which the Rosenbrock method's few steps did not do, over all stages"},
           {"stiff_solver_retries", "1", "repeated stiff solves since the last row"},
           {"imbalance_before", "1", "busiest rank's chemistry cost over the mean, as partitioned"},
           {"imbalance_after", "1", "the same as measured, with work sharing"}};
@@ -171,7 +175,7 @@ std::vector<Quantity> ReactionOperator::historyColumns() const {
 
 std::vector<double> ReactionOperator::historyValues(const State&) {
   const Diagnostics d = takeDiagnostics();
-  return {d.solverSteps, d.integratedCells, d.skippedCells, d.retries, d.imbalanceBefore, d.imbalanceAfter};
+  return {d.solverSteps, d.integratedCells, d.skippedCells, d.handedOverCells, d.retries, d.imbalanceBefore, d.imbalanceAfter};
 }
 
 std::optional<Operator::Imbalance> ReactionOperator::imbalance() const {

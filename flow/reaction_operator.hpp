@@ -34,7 +34,7 @@ class ReactionOperator : public Operator {
   };
   struct Diagnostics {  // of all ranks and all stages since the last call of takeDiagnostics()
     double solverSteps = 0.0;
-    double integratedCells = 0.0, skippedCells = 0.0, retries = 0.0;
+    double integratedCells = 0.0, skippedCells = 0.0, handedOverCells = 0.0, retries = 0.0;
     double imbalanceBefore = 0.0, imbalanceAfter = 0.0;  // means over stages
     int stages = 0;
   };
@@ -61,7 +61,7 @@ class ReactionOperator : public Operator {
   ConstantPressureReactor reactor_;
   WorkSharing sharing_;
   std::vector<double> cost_;         // s, of each owned cell's last solve
-  std::vector<double> initialStep_;  // s, first internal step of the next solve
+  std::vector<double> initialStep_;  // s, ConstantPressureReactor::Cell::initialStep of the next solve
   // Deferred only, species a owned cell: mass fractions at the end of the last step, and its mean rate (kg/m3/s).
   std::vector<double> before_, rate_;
   Diagnostics diagnostics_;

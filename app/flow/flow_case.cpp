@@ -187,6 +187,7 @@ FlowCase readFlowCase(const Deck& deck) {
   flowCase.chemistry.deferred = deck.choice("chemistry.coupling") == "deferred";
   flowCase.chemistry.shareWork = deck.boolean("chemistry.share_work");
   flowCase.chemistry.reactor.relativeTolerance = deck.number("chemistry.relative_tolerance");
+  flowCase.chemistry.reactor.rosenbrockSteps = deck.integer<int>("chemistry.rosenbrock_steps");
   flowCase.chemistry.reactor.absoluteTolerance = deck.number("chemistry.absolute_tolerance");
   readOutput(deck, flowCase);
   readSoot(deck, flowCase);

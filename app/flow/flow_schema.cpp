@@ -176,6 +176,12 @@ DeckSchema flowSchema() {
                .byDefault("1e-6")
                .above(0)
                .below(1))
+      .add(integerKey("chemistry.rosenbrock_steps",
+                      "Steps of a Rosenbrock method in which the chemistry of a cell has to be done; a cell that needs "
+                      "more is integrated by CVODE. 0: CVODE for all cells.")
+               .byDefault("6")
+               .atLeast(0)
+               .atMost(1000))
       .add(numberKey("chemistry.absolute_tolerance",
                      "Absolute tolerance of the stiff solver of the chemistry, in mass fraction: smaller is more "
                      "accurate and slower.")

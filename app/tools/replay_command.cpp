@@ -19,10 +19,11 @@ void printEvent(const Event& event) {
   switch (event.kind) {
     case Event::Kind::Attempt:
       fmt::print(
-          "attempt {}: relative tolerance {:g}, absolute tolerance {:g}, first step {}, at most {} steps in each of {} "
+          "attempt {} by {}: relative tolerance {:g}, absolute tolerance {:g}, first step {}, at most {} steps in each of {} "
           "part(s)\n{:>24} {:>12} {:>6} {:>14}\n",
-          event.attempt, event.relativeTolerance, event.absoluteTolerance,
-          event.firstStep > 0 ? fmt::format("{:g} s", event.firstStep) : "of the solver's choice", event.maxSteps,
+          event.attempt, event.method == ConstantPressureReactor::Method::Bdf ? "CVODE" : "the Rosenbrock method",
+          event.relativeTolerance, event.absoluteTolerance,
+          event.firstStep > 0 ? fmt::format("{:g} s", event.firstStep) : "of the method's choice", event.maxSteps,
           event.parts, "time, s", "step, s", "order", "T, K");
       break;
     case Event::Kind::Step:

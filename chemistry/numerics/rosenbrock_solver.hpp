@@ -1,4 +1,4 @@
-// Small stiff systems y' = f(y) over short times, where a multistep method would spend its time on starting: RODAS3
+// Stiff systems y' = f(y) over short times, where a multistep method would spend its time on starting: RODAS3
 // (Sandu, Verwer, Blom, Spee, Carmichael, Potra 1997), a Rosenbrock method of order 3 with an embedded one of order 2,
 // L-stable and stiffly accurate. A step costs one Jacobian, one factorisation, three evaluations and four solutions,
 // whatever the stiffness; where accuracy allows, the whole time is one step. Linear invariants of f, as elements, are
@@ -7,8 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
-#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -19,57 +19,129 @@
 
 namespace lampblack::chemistry {
 
+// What the method needs of a system. False: the state has no rates, or the matrix no factors.
+template <typename System>
+concept RosenbrockSystem = requires(System& system, std::span<const double> y, std::span<double> f, double gamma) {
+  { system.rates(y, f) } -> std::convertible_to<bool>;      // f(y)
+  { system.linearise(y, f) } -> std::convertible_to<bool>;  // f(y), and keeps the Jacobian J at y
+  { system.factorise(gamma) } -> std::convertible_to<bool>;  // I - gamma J
+  system.solve(f);                                           // overwrites the right-hand side with the solution
+};
+
+struct DenseRosenbrockMatrices {
+  explicit DenseRosenbrockMatrices(std::size_t n) : derivatives(n), factors(n) {}
+  DenseLu derivatives, factors;
+};
+
+// A system with a full matrix: rates(y, f) fills f; jacobian(y, J) fills all rows of all columns of J.
+template <typename Rates, typename Jacobian>
+class DenseRosenbrockSystem {
+ public:
+  DenseRosenbrockSystem(const Rates& rates, const Jacobian& jacobian, DenseRosenbrockMatrices& matrices)
+      : rates_(rates), jacobian_(jacobian), matrices_(matrices) {}
+
+  bool rates(std::span<const double> y, std::span<double> f) {
+    rates_(y, f);
+    return true;
+  }
+  bool linearise(std::span<const double> y, std::span<double> f) {
+    jacobian_(y, matrices_.derivatives);
+    return rates(y, f);
+  }
+  bool factorise(double gamma) {
+    const std::size_t n = matrices_.factors.size();
+    for (std::size_t j = 0; j < n; ++j) {
+      const double* derivatives = matrices_.derivatives.column(j);
+      double* column = matrices_.factors.column(j);
+      for (std::size_t i = 0; i < n; ++i) column[i] = -gamma * derivatives[i];
+      column[j] += 1;
+    }
+    return matrices_.factors.factorise();
+  }
+  void solve(std::span<double> b) { matrices_.factors.solve(b.data()); }
+
+ private:
+  const Rates& rates_;
+  const Jacobian& jacobian_;
+  DenseRosenbrockMatrices& matrices_;
+};
+
 class RosenbrockSolver {
  public:
   // The error of a step is kept below `relative` times (|y| + smallest), in the root mean square over the unknowns.
   struct Tolerance {
     double relative = 1e-4;
     std::span<const double> smallest;
-    int maximumSteps = 20000;
+    int maximumSteps = 20000;  // those rejected among them
   };
   struct Result {
     int steps = 0, rejected = 0;
     bool isStopped = false;
+    // What the error of the last step, taken or rejected, asks of the next: longer than all of the time, if it may be.
+    double nextStep = 0;
   };
 
-  // rates(y, f) fills f; jacobian(y, J) fills all rows of all columns of J. `y` is advanced over `dt`. Throws
-  // NumericsError where steps become too small or too many, or values are not finite; `y` is then that of the last good
-  // step. goesOn(y) is asked after every step; where it says no, that is the end.
-  template <typename Rates, typename Jacobian, typename Guard>
-  Result integrate(const Rates& rates, const Jacobian& jacobian, double dt, std::span<double> y,
-                   const Tolerance& tolerance, const Guard& goesOn) {
-    resize(y.size());
+  // `y` is advanced over `dt`, at first by a step of `firstStep` (0: all of it). goesOn(y, h) is asked
+  // after every step, of size h; where it says no, that is the end. Throws NumericsError where steps become too small or too many, or values are not
+  // finite; `y` is then that of the last good step.
+  template <RosenbrockSystem System, typename Guard>
+  Result integrate(System& system, double dt, double firstStep, std::span<double> y, const Tolerance& tolerance,
+                   const Guard& goesOn) {
     Result result;
-    double t = 0, h = dt;
+    if (!tryToIntegrate(system, dt, firstStep, y, tolerance, goesOn, result))
+      throw NumericsError(result.steps + result.rejected >= tolerance.maximumSteps
+                              ? "the stiff integrator needs too many steps"
+                              : "the stiff integrator cannot go on, however small its steps");
+    return result;
+  }
+
+  // The same for whoever has another way: false where the other throws. `result` is told in any case.
+  template <RosenbrockSystem System, typename Guard>
+  bool tryToIntegrate(System& system, double dt, double firstStep, std::span<double> y, const Tolerance& tolerance,
+                      const Guard& goesOn, Result& result) {
+    for (std::vector<double>* v : {&f_, &start_, &k1_, &k2_, &k3_, &k4_, &end_}) v->resize(y.size());
+    result = {};
+    double t = 0, h = firstStep > 0 ? std::min(firstStep, dt) : dt;
     bool isRejected = false;
     while (t < dt) {
-      if (result.steps + result.rejected >= tolerance.maximumSteps)
-        throw NumericsError("the stiff integrator needs too many steps");
-      if (h < smallestStep * dt) throw NumericsError("the stiff integrator's step has become too small");
+      result.nextStep = h;
+      if (result.steps + result.rejected >= tolerance.maximumSteps || h < smallestStep * dt) return false;
       const bool isLast = t + h >= dt * (1 - roundOff);
       if (isLast) h = dt - t;
-      const std::optional<double> error = step(rates, jacobian, h, y, tolerance);
+      if (!isRejected && !system.linearise(y, start_)) return false;  // else those of the step rejected
+      const std::optional<double> error = step(system, h, y, tolerance);
       const double factor =
           error ? std::clamp(0.9 / std::cbrt(std::max(*error, 1e-10)), 0.1, isRejected ? 1.0 : 5.0) : 0.1;
       isRejected = !error || *error > 1;
+      result.nextStep = h * (isRejected ? std::min(factor, 0.9) : factor);
       if (isRejected) {
         ++result.rejected;
-        h *= std::min(factor, 0.9);
+        h = result.nextStep;
         continue;
       }
       ++result.steps;
       std::copy(end_.begin(), end_.end(), y.begin());
-      result.isStopped = !goesOn(y);
+      result.isStopped = !goesOn(y, h);
       if (isLast || result.isStopped) break;
       t += h;
-      h *= factor;
+      h = result.nextStep;
     }
-    return result;
+    return true;
+  }
+
+  template <typename Rates, typename Jacobian, typename Guard>
+    requires(!RosenbrockSystem<Rates>)
+  Result integrate(const Rates& rates, const Jacobian& jacobian, double dt, std::span<double> y,
+                   const Tolerance& tolerance, const Guard& goesOn) {
+    if (!dense_ || dense_->factors.size() != y.size()) dense_.emplace(y.size());
+    DenseRosenbrockSystem system(rates, jacobian, *dense_);
+    return integrate(system, dt, 0, y, tolerance, goesOn);
   }
   template <typename Rates, typename Jacobian>
+    requires(!RosenbrockSystem<Rates>)
   Result integrate(const Rates& rates, const Jacobian& jacobian, double dt, std::span<double> y,
                    const Tolerance& tolerance) {
-    return integrate(rates, jacobian, dt, y, tolerance, [](std::span<const double>) { return true; });
+    return integrate(rates, jacobian, dt, y, tolerance, [](std::span<const double>, double) { return true; });
   }
 
  private:
@@ -77,38 +149,25 @@ class RosenbrockSolver {
   static constexpr double roundOff = 1e-12;
   static constexpr double gamma = 0.5;
 
-  void resize(std::size_t n) {
-    if (matrix_ && matrix_->size() == n) return;
-    matrix_.emplace(n);
-    for (std::vector<double>* v : {&f_, &k1_, &k2_, &k3_, &k4_, &end_}) v->resize(n);
-  }
-
   // end_ = y after h; the scaled error, or nothing where the step cannot be taken.
-  template <typename Rates, typename Jacobian>
-  std::optional<double> step(const Rates& rates, const Jacobian& jacobian, double h, std::span<const double> y,
-                             const Tolerance& tolerance) {
+  template <RosenbrockSystem System>
+  std::optional<double> step(System& system, double h, std::span<const double> y, const Tolerance& tolerance) {
     const std::size_t n = y.size();
-    jacobian(y, *matrix_);
-    for (std::size_t j = 0; j < n; ++j) {
-      double* column = matrix_->column(j);
-      for (std::size_t i = 0; i < n; ++i) column[i] = -column[i];
-      column[j] += 1 / (h * gamma);
-    }
-    if (!matrix_->factorise()) return {};
-    // Coefficients in the form without products by the Jacobian (Hairer and Wanner, IV.7).
-    rates(y, f_);
-    for (std::size_t i = 0; i < n; ++i) k1_[i] = f_[i];
-    matrix_->solve(k1_.data());
-    for (std::size_t i = 0; i < n; ++i) k2_[i] = f_[i] + 4 / h * k1_[i];
-    matrix_->solve(k2_.data());
+    const double scale = gamma * h;
+    if (!system.factorise(scale)) return {};
+    // Coefficients in the form without products by the Jacobian (Hairer and Wanner, IV.7), times gamma h.
+    for (std::size_t i = 0; i < n; ++i) k1_[i] = scale * start_[i];
+    system.solve(k1_);
+    for (std::size_t i = 0; i < n; ++i) k2_[i] = scale * start_[i] + 2 * k1_[i];
+    system.solve(k2_);
     for (std::size_t i = 0; i < n; ++i) end_[i] = y[i] + 2 * k1_[i];
-    rates(end_, f_);
-    for (std::size_t i = 0; i < n; ++i) k3_[i] = f_[i] + (k1_[i] - k2_[i]) / h;
-    matrix_->solve(k3_.data());
+    if (!system.rates(end_, f_)) return {};
+    for (std::size_t i = 0; i < n; ++i) k3_[i] = scale * f_[i] + (k1_[i] - k2_[i]) / 2;
+    system.solve(k3_);
     for (std::size_t i = 0; i < n; ++i) end_[i] = y[i] + 2 * k1_[i] + k3_[i];
-    rates(end_, f_);
-    for (std::size_t i = 0; i < n; ++i) k4_[i] = f_[i] + (k1_[i] - k2_[i] - 8.0 / 3.0 * k3_[i]) / h;
-    matrix_->solve(k4_.data());
+    if (!system.rates(end_, f_)) return {};
+    for (std::size_t i = 0; i < n; ++i) k4_[i] = scale * f_[i] + (k1_[i] - k2_[i] - 8.0 / 3.0 * k3_[i]) / 2;
+    system.solve(k4_);
     double sum = 0;
     for (std::size_t i = 0; i < n; ++i) {
       end_[i] += k4_[i];
@@ -120,8 +179,8 @@ class RosenbrockSolver {
     return std::sqrt(sum / static_cast<double>(n));
   }
 
-  std::optional<DenseLu> matrix_;
-  std::vector<double> f_, k1_, k2_, k3_, k4_, end_;
+  std::optional<DenseRosenbrockMatrices> dense_;
+  std::vector<double> f_, start_, k1_, k2_, k3_, k4_, end_;
 };
 
 }  // namespace lampblack::chemistry

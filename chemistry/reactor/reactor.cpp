@@ -11,17 +11,21 @@
 
 #include "chemistry/reactor/reactor_failure.hpp"
 #include "chemistry/reactor/reactor_integrator.hpp"
+#include "chemistry/reactor/reactor_rosenbrock.hpp"
 #include "chemistry/reactor/reactor_system.hpp"
 
 namespace lampblack::chemistry {
 
 namespace {
 
-// How an integration is tried; the later attempts are for cells where the first one fails.
+using Method = ConstantPressureReactor::Method;
+
+// How an integration is tried.
 struct Attempt {
-  double firstStep;  // s; 0: the solver's choice
+  Method method;
+  double firstStep;  // s; 0: the method's choice
   double toleranceFactor;
-  int stepsFactor;
+  int maxSteps;
   int parts;
 };
 
@@ -37,16 +41,18 @@ struct ConstantPressureReactor::Impl {
 
   void checkInput(const Cell& cell, double dt) const;
   bool skip(Cell& cell, double dt, Result& result);
+  bool attempt(Cell& cell, double dt, const Attempt& attempt, int number, const Observer& observer, Result& result);
   bool integrate(const Cell& cell, double dt, const Attempt& attempt, Event event, const Observer& observer,
                  Result& result);
-  bool accept(Cell& cell, double* out);
+  bool accept(Cell& cell, std::span<double> out);
   [[noreturn]] void giveUp(const Cell& cell, double dt) const;
 
   const Mechanism& mechanism;
   Options options;
   std::size_t n;  // species
   ReactorSystem system;
-  ReactorIntegrator integrator;
+  ReactorRosenbrock rosenbrock;
+  ReactorIntegrator bdf;
   std::vector<double> start, predicted, chemical, chemicalEnd;
   double endSum = 0;  // of the mass fractions
   double enthalpy = 0;
@@ -54,7 +60,7 @@ struct ConstantPressureReactor::Impl {
 };
 
 ConstantPressureReactor::Impl::Impl(const Mechanism& mechanismIn, const Options& optionsIn)
-    : mechanism(mechanismIn), options(optionsIn), n(mechanismIn.numSpecies()), system(mechanismIn), integrator(system) {
+    : mechanism(mechanismIn), options(optionsIn), n(mechanismIn.numSpecies()), system(mechanismIn), rosenbrock(system), bdf(system) {
   for (auto* work : {&start, &predicted, &chemical, &chemicalEnd}) work->assign(n + 1, 0.0);
 }
 
@@ -96,17 +102,17 @@ bool ConstantPressureReactor::Impl::skip(Cell& cell, double dt, Result& result) 
     if (!(0.5 * dt * std::abs(chemicalEnd[k] - chemical[k]) < options.absoluteTolerance)) return false;
   }
   for (std::size_t k = 0; k < n; ++k) predicted[k] += 0.5 * dt * (chemicalEnd[k] - chemical[k]);
-  return accept(cell, predicted.data());
+  return accept(cell, predicted);
 }
 
-// Leaves the end in the integrator's state.
+// Leaves the end in `predicted`.
 bool ConstantPressureReactor::Impl::integrate(const Cell& cell, double dt, const Attempt& attempt, Event event,
                                               const Observer& observer, Result& result) {
   system.setConditions(cell.pressure, cell.source);
-  std::copy(start.begin(), start.end(), integrator.state());
+  std::copy(start.begin(), start.end(), predicted.begin());
   const ReactorIntegrator::Interval part{
       dt / attempt.parts, attempt.firstStep, options.relativeTolerance * attempt.toleranceFactor,
-      options.absoluteTolerance * attempt.toleranceFactor, options.maxSteps * attempt.stepsFactor};
+      options.absoluteTolerance * attempt.toleranceFactor, attempt.maxSteps};
   double begin = 0;
   ReactorIntegrator::Watcher watcher;
   if (observer) {
@@ -131,18 +137,38 @@ bool ConstantPressureReactor::Impl::integrate(const Cell& cell, double dt, const
   bool arrived = true;
   for (int i = 0; arrived && i < attempt.parts; ++i) {
     begin = i * part.duration;
-    arrived = integrator.advance(part, work, watcher);
+    if (attempt.method == Method::Rosenbrock) {
+      arrived = rosenbrock.advance(part, predicted, work, watcher);
+    } else {
+      std::copy(predicted.begin(), predicted.end(), bdf.state());
+      arrived = bdf.advance(part, work, watcher);
+      std::copy_n(bdf.state(), n + 1, predicted.begin());
+    }
   }
   result.steps += work.steps;
   result.rhsEvaluations += work.rhsEvaluations;
   result.jacobianEvaluations += work.jacobianEvaluations;
-  reason = integrator.reason();
+  if (!arrived) reason = attempt.method == Method::Bdf ? bdf.reason() : "more steps than the method may take";
   return arrived;
+}
+
+bool ConstantPressureReactor::Impl::attempt(Cell& cell, double dt, const Attempt& attempt, int number,
+                                            const Observer& observer, Result& result) {
+  Event event;
+  event.attempt = number;
+  event.method = attempt.method;
+  const bool done = integrate(cell, dt, attempt, event, observer, result) && accept(cell, predicted);
+  if (!observer) return done;
+  event.kind = done ? Event::Kind::Done : Event::Kind::Failed;
+  event.temperature = done ? cell.temperature : predicted[n];
+  event.reason = done ? "" : reason;
+  observer(event);
+  return done;
 }
 
 // Takes the state in `out` over into the cell: removes the round-off of the sum, recovers the temperature from the
 // constant enthalpy.
-bool ConstantPressureReactor::Impl::accept(Cell& cell, double* out) {
+bool ConstantPressureReactor::Impl::accept(Cell& cell, std::span<double> out) {
   double sum = 0;
   for (std::size_t k = 0; k < n; ++k) sum += out[k];
   if (!(std::abs(sum - endSum) < kSumTolerance)) {
@@ -153,12 +179,12 @@ bool ConstantPressureReactor::Impl::accept(Cell& cell, double* out) {
   for (std::size_t k = 0; k < n; ++k) out[k] *= scale;
   double T = 0;
   try {
-    T = system.thermo().temperatureFromEnthalpy(enthalpy, {out, n}, out[n]);
+    T = system.thermo().temperatureFromEnthalpy(enthalpy, out.first(n), out[n]);
   } catch (const NumericsError& error) {
     reason = error.what();
     return false;
   }
-  std::copy_n(out, n, cell.Y.begin());
+  std::copy_n(out.begin(), n, cell.Y.begin());
   cell.temperature = T;
   return true;
 }
@@ -205,26 +231,29 @@ ConstantPressureReactor::Result ConstantPressureReactor::advance(Cell& cell, dou
     result.skipped = true;
     return finish();
   }
-  const Attempt attempts[] = {{cell.initialStep, 1.0, 1, 1}, {1e-9 * dt, 0.1, 2, 1}, {1e-9 * dt, 0.01, 2, 16}};
-  std::string firstReason;
-  for (const auto& attempt : attempts) {
-    Event event;
-    event.attempt = result.retries + 1;
+  const double firstStep = cell.initialStep;
+  const int quickSteps = self.options.rosenbrockSteps;
+  int number = 0;
+  if (quickSteps > 0 && (firstStep <= 0 || firstStep * quickSteps >= dt)) {
     const bool done =
-        self.integrate(cell, dt, attempt, event, observer, result) && self.accept(cell, self.integrator.state());
-    if (observer) {
-      event.kind = done ? Event::Kind::Done : Event::Kind::Failed;
-      event.temperature = done ? cell.temperature : self.integrator.state()[self.n];
-      event.reason = done ? "" : self.reason;
-      observer(event);
-    }
-    if (done) {
-      cell.initialStep = self.integrator.lastStep();
-      return finish();
-    }
+        self.attempt(cell, dt, {Method::Rosenbrock, firstStep, 1.0, quickSteps, 1}, ++number, observer, result);
+    cell.initialStep = self.rosenbrock.nextStep();
+    if (done) return finish();
+  } else {
+    cell.initialStep = 2 * firstStep;  // it is tried again when that would do
+  }
+  result.handedOver = true;
+  const int maxSteps = self.options.maxSteps;
+  const Attempt attempts[] = {{Method::Bdf, 0.0, 1.0, maxSteps, 1},
+                              {Method::Bdf, 1e-9 * dt, 0.1, 2 * maxSteps, 1},
+                              {Method::Bdf, 1e-9 * dt, 0.01, 2 * maxSteps, 16}};
+  std::string firstReason;
+  for (const Attempt& attempt : attempts) {
+    if (self.attempt(cell, dt, attempt, ++number, observer, result)) return finish();
     if (firstReason.empty()) firstReason = self.reason;
     ++result.retries;
   }
+  cell.initialStep = firstStep;
   self.reason = fmt::format("{} (first attempt: {})", self.reason, firstReason);
   self.giveUp(cell, dt);
 }

@@ -1,6 +1,7 @@
 // One stiff integration a cell: a constant-pressure adiabatic reactor with detailed kinetics and an optional constant
-// source of species, advanced by CVODE's BDF method (SUNDIALS) with an analytic Jacobian. The result depends on the
-// inputs alone, bit for bit, never on what the object did before; one object per thread or rank.
+// source of species, advanced by a few steps of a Rosenbrock method or, where those do not do, by CVODE's BDF method
+// (SUNDIALS), both with the analytic Jacobian. The result depends on the inputs alone, bit for bit, never on what the
+// object did before; one object per thread or rank.
 #pragma once
 
 #include <functional>
@@ -18,11 +19,14 @@ class ConstantPressureReactor {
   struct Options {
     double relativeTolerance = 1e-6;
     double absoluteTolerance = 1e-12;  // of a mass fraction
-    int maxSteps = 20000;
+    int maxSteps = 20000;  // of CVODE
     // A cell is skipped, i.e. advanced by one explicit trapezoid, if its chemistry changes no mass fraction by more
     // than this over the interval, at the rates of its start and of its end, and those differ so little that the error
     // of the trapezoid is below absoluteTolerance. Zero never skips.
     double negligibleChange = 1e-10;
+    // Steps, rejected ones among them, in which the Rosenbrock method has to arrive; cells that need more go to CVODE.
+    // Zero: CVODE alone.
+    int rosenbrockSteps = 6;
   };
 
   struct Cell {
@@ -32,23 +36,29 @@ class ConstantPressureReactor {
         Y;  // mass fractions, in and out; small negative values (of the order of the tolerance) may come back
     std::span<const double>
         source;              // dY_k/dt added to the chemistry, 1/s, sums to zero but for round-off; may be empty
-    double initialStep = 0;  // s, hint; 0 lets the solver choose. Returns the last internal step
+    // s, first step of the Rosenbrock method, 0 for the whole interval; returns what it asks of the next interval. CVODE
+    // is used at once where it is too short.
+    double initialStep = 0;
   };
 
   struct Result {
     int steps = 0;
     int rhsEvaluations = 0;
     int jacobianEvaluations = 0;
-    int retries = 0;
-    bool skipped = false;
+    int retries = 0;        // of CVODE
+    bool skipped = false;   // advanced by an explicit step
+    bool handedOver = false;  // to CVODE
     double seconds = 0;  // wall clock of the call
   };
+
+  enum class Method { Rosenbrock, Bdf };
 
   // What an observer is told: that an attempt begins, of each of its steps, how it ended.
   struct Event {
     enum class Kind { Attempt, Step, Failed, Done };
     Kind kind = Kind::Attempt;
     int attempt = 0;  // from 1
+    Method method = Method::Bdf;
     // Of an attempt.
     double relativeTolerance = 0, absoluteTolerance = 0, firstStep = 0;
     int maxSteps = 0, parts = 0;

@@ -49,7 +49,8 @@ class Reader {
  public:
   explicit Reader(const std::string& path) : yaml_(path), file_(yaml_, load(path), "a replay file") {
     file_.allowOnly({"mechanism", "temperature", "pressure", "duration", "first_step", "relative_tolerance",
-                     "absolute_tolerance", "max_steps", "negligible_change", "mass_fractions", "source", "reason"});
+                     "absolute_tolerance", "max_steps", "rosenbrock_steps", "negligible_change", "mass_fractions", "source",
+                     "reason"});
   }
 
   std::string mechanism() const {
@@ -68,10 +69,9 @@ class Reader {
     cell.options.relativeTolerance = positive("relative_tolerance");
     cell.options.absoluteTolerance = positive("absolute_tolerance");
     cell.options.negligibleChange = value("negligible_change");
-    const double steps = positive("max_steps");
-    if (steps != std::floor(steps) || steps > 1e9)
-      yaml_.fail(file_.at("max_steps"), "max_steps: expected a whole number");
-    cell.options.maxSteps = static_cast<int>(steps);
+    positive("max_steps");
+    cell.options.maxSteps = whole("max_steps");
+    cell.options.rosenbrockSteps = whole("rosenbrock_steps");
     cell.Y = bySpecies(mechanism, "mass_fractions");
     if (file_.has("source")) cell.source = bySpecies(mechanism, "source");
     cell.reason = yaml_.text(file_.at("reason"), "reason");
@@ -87,6 +87,13 @@ class Reader {
     return result;
   }
   double value(const char* key) const { return number(file_.at(key), key); }
+
+  int whole(const char* key) const {
+    const double result = value(key);
+    if (!(result >= 0) || result != std::floor(result) || result > 1e9)
+      yaml_.fail(file_.at(key), fmt::format("{}: expected a whole number", key));
+    return static_cast<int>(result);
+  }
 
   double positive(const char* key) const {
     const double result = value(key);
@@ -129,10 +136,11 @@ std::string replayText(const Mechanism& mechanism, const FailedCell& cell) {
   add("temperature", exact(cell.temperature), "  # K");
   add("pressure", exact(cell.pressure), "  # Pa");
   add("duration", exact(cell.duration), "  # s");
-  add("first_step", exact(cell.firstStep), "  # s; 0: the solver's choice");
+  add("first_step", exact(cell.firstStep), "  # s, of the Rosenbrock method; 0: the whole duration");
   add("relative_tolerance", exact(cell.options.relativeTolerance), "");
   add("absolute_tolerance", exact(cell.options.absoluteTolerance), "  # of a mass fraction");
-  add("max_steps", fmt::format("{}", cell.options.maxSteps), "");
+  add("max_steps", fmt::format("{}", cell.options.maxSteps), "  # of CVODE");
+  add("rosenbrock_steps", fmt::format("{}", cell.options.rosenbrockSteps), "  # before CVODE takes over");
   add("negligible_change", exact(cell.options.negligibleChange), "");
   text += "mass_fractions:\n" + bySpecies(mechanism, cell.Y);
   if (!cell.source.empty()) text += "source:  # 1/s\n" + bySpecies(mechanism, cell.source);

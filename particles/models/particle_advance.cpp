@@ -39,7 +39,8 @@ class Integration {
 
   // Particles alone. NumericsError.
   ParticleAdvance advance(double dt, std::span<double> state) {
-    return integrate(dt, state, {}, {relative_, smallest_}, [](std::span<const double>) { return true; });
+    return integrate(dt, state, {}, {relative_, smallest_},
+                     [](std::span<const double>, double) { return true; });
   }
 
   // With a constant supply. False where more would become missing of something than was at the start, and than the
@@ -52,7 +53,8 @@ class Integration {
       return std::equal(y.begin(), y.end(), lowest_.begin(), std::greater_equal<>());
     };
     try {
-      done = integrate(dt, state, supply, {relative_, smallest_, stepsWithSupply}, isAbove);
+      done = integrate(dt, state, supply, {relative_, smallest_, stepsWithSupply},
+                       [&](std::span<const double> y, double) { return isAbove(y); });
       return isAbove(state);
     } catch (const NumericsError&) {
       done.rejected = stepsWithSupply;
