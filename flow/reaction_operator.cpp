@@ -140,8 +140,8 @@ void ReactionOperator::saveOrLoad(StateArchive& archive) {
       diagnostics_.imbalanceBefore, diagnostics_.imbalanceAfter, static_cast<double>(diagnostics_.stages),
       imbalances_.before,           imbalances_.after,           static_cast<double>(stages_)};
   archive.shared("chemistry_stages", stages);
-  diagnostics_ = {counted[0],   counted[1],   counted[2],   counted[3],
-                  counted[4],   stages.at(0), stages.at(1), static_cast<int>(stages.at(2))};
+  diagnostics_ = {counted[0], counted[1],   counted[2],   counted[3],
+                  counted[4], stages.at(0), stages.at(1), static_cast<int>(stages.at(2))};
   imbalances_ = {stages.at(3), stages.at(4)};
   stages_ = static_cast<int>(stages.at(5));
 }
@@ -175,7 +175,8 @@ std::vector<Quantity> ReactionOperator::historyColumns() const {
 
 std::vector<double> ReactionOperator::historyValues(const State&) {
   const Diagnostics d = takeDiagnostics();
-  return {d.solverSteps, d.integratedCells, d.skippedCells, d.handedOverCells, d.retries, d.imbalanceBefore, d.imbalanceAfter};
+  return {d.solverSteps, d.integratedCells, d.skippedCells,  d.handedOverCells,
+          d.retries,     d.imbalanceBefore, d.imbalanceAfter};
 }
 
 std::optional<Operator::Imbalance> ReactionOperator::imbalance() const {

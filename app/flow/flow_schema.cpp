@@ -179,7 +179,7 @@ DeckSchema flowSchema() {
       .add(integerKey("chemistry.rosenbrock_steps",
                       "Steps of a Rosenbrock method in which the chemistry of a cell has to be done; a cell that needs "
                       "more is integrated by CVODE. 0: CVODE for all cells.")
-               .byDefault("6")
+               .byDefault("10")
                .atLeast(0)
                .atMost(1000))
       .add(numberKey("chemistry.absolute_tolerance",

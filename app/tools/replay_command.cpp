@@ -19,7 +19,8 @@ void printEvent(const Event& event) {
   switch (event.kind) {
     case Event::Kind::Attempt:
       fmt::print(
-          "attempt {} by {}: relative tolerance {:g}, absolute tolerance {:g}, first step {}, at most {} steps in each of {} "
+          "attempt {} by {}: relative tolerance {:g}, absolute tolerance {:g}, first step {}, at most {} steps in each "
+          "of {} "
           "part(s)\n{:>24} {:>12} {:>6} {:>14}\n",
           event.attempt, event.method == ConstantPressureReactor::Method::Bdf ? "CVODE" : "the Rosenbrock method",
           event.relativeTolerance, event.absoluteTolerance,

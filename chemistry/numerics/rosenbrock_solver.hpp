@@ -22,8 +22,8 @@ namespace lampblack::chemistry {
 // What the method needs of a system. False: the state has no rates, or the matrix no factors.
 template <typename System>
 concept RosenbrockSystem = requires(System& system, std::span<const double> y, std::span<double> f, double gamma) {
-  { system.rates(y, f) } -> std::convertible_to<bool>;      // f(y)
-  { system.linearise(y, f) } -> std::convertible_to<bool>;  // f(y), and keeps the Jacobian J at y
+  { system.rates(y, f) } -> std::convertible_to<bool>;       // f(y)
+  { system.linearise(y, f) } -> std::convertible_to<bool>;   // f(y), and keeps the Jacobian J at y
   { system.factorise(gamma) } -> std::convertible_to<bool>;  // I - gamma J
   system.solve(f);                                           // overwrites the right-hand side with the solution
 };
@@ -82,8 +82,8 @@ class RosenbrockSolver {
   };
 
   // `y` is advanced over `dt`, at first by a step of `firstStep` (0: all of it). goesOn(y, h) is asked
-  // after every step, of size h; where it says no, that is the end. Throws NumericsError where steps become too small or too many, or values are not
-  // finite; `y` is then that of the last good step.
+  // after every step, of size h; where it says no, that is the end. Throws NumericsError where steps become too small
+  // or too many, or values are not finite; `y` is then that of the last good step.
   template <RosenbrockSystem System, typename Guard>
   Result integrate(System& system, double dt, double firstStep, std::span<double> y, const Tolerance& tolerance,
                    const Guard& goesOn) {
@@ -130,17 +130,16 @@ class RosenbrockSolver {
   }
 
   template <typename Rates, typename Jacobian, typename Guard>
-    requires(!RosenbrockSystem<Rates>)
-  Result integrate(const Rates& rates, const Jacobian& jacobian, double dt, std::span<double> y,
-                   const Tolerance& tolerance, const Guard& goesOn) {
+  requires(!RosenbrockSystem<Rates>) Result
+      integrate(const Rates& rates, const Jacobian& jacobian, double dt, std::span<double> y,
+                const Tolerance& tolerance, const Guard& goesOn) {
     if (!dense_ || dense_->factors.size() != y.size()) dense_.emplace(y.size());
     DenseRosenbrockSystem system(rates, jacobian, *dense_);
     return integrate(system, dt, 0, y, tolerance, goesOn);
   }
   template <typename Rates, typename Jacobian>
-    requires(!RosenbrockSystem<Rates>)
-  Result integrate(const Rates& rates, const Jacobian& jacobian, double dt, std::span<double> y,
-                   const Tolerance& tolerance) {
+  requires(!RosenbrockSystem<Rates>) Result integrate(const Rates& rates, const Jacobian& jacobian, double dt,
+                                                      std::span<double> y, const Tolerance& tolerance) {
     return integrate(rates, jacobian, dt, y, tolerance, [](std::span<const double>, double) { return true; });
   }
 

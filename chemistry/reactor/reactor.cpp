@@ -60,7 +60,12 @@ struct ConstantPressureReactor::Impl {
 };
 
 ConstantPressureReactor::Impl::Impl(const Mechanism& mechanismIn, const Options& optionsIn)
-    : mechanism(mechanismIn), options(optionsIn), n(mechanismIn.numSpecies()), system(mechanismIn), rosenbrock(system), bdf(system) {
+    : mechanism(mechanismIn),
+      options(optionsIn),
+      n(mechanismIn.numSpecies()),
+      system(mechanismIn),
+      rosenbrock(system),
+      bdf(system) {
   for (auto* work : {&start, &predicted, &chemical, &chemicalEnd}) work->assign(n + 1, 0.0);
 }
 
@@ -110,9 +115,9 @@ bool ConstantPressureReactor::Impl::integrate(const Cell& cell, double dt, const
                                               const Observer& observer, Result& result) {
   system.setConditions(cell.pressure, cell.source);
   std::copy(start.begin(), start.end(), predicted.begin());
-  const ReactorIntegrator::Interval part{
-      dt / attempt.parts, attempt.firstStep, options.relativeTolerance * attempt.toleranceFactor,
-      options.absoluteTolerance * attempt.toleranceFactor, attempt.maxSteps};
+  const ReactorIntegrator::Interval part{dt / attempt.parts, attempt.firstStep,
+                                         options.relativeTolerance * attempt.toleranceFactor,
+                                         options.absoluteTolerance * attempt.toleranceFactor, attempt.maxSteps};
   double begin = 0;
   ReactorIntegrator::Watcher watcher;
   if (observer) {

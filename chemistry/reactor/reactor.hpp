@@ -19,14 +19,14 @@ class ConstantPressureReactor {
   struct Options {
     double relativeTolerance = 1e-6;
     double absoluteTolerance = 1e-12;  // of a mass fraction
-    int maxSteps = 20000;  // of CVODE
+    int maxSteps = 20000;              // of CVODE
     // A cell is skipped, i.e. advanced by one explicit trapezoid, if its chemistry changes no mass fraction by more
     // than this over the interval, at the rates of its start and of its end, and those differ so little that the error
     // of the trapezoid is below absoluteTolerance. Zero never skips.
     double negligibleChange = 1e-10;
     // Steps, rejected ones among them, in which the Rosenbrock method has to arrive; cells that need more go to CVODE.
     // Zero: CVODE alone.
-    int rosenbrockSteps = 6;
+    int rosenbrockSteps = 10;
   };
 
   struct Cell {
@@ -35,9 +35,9 @@ class ConstantPressureReactor {
     std::span<double>
         Y;  // mass fractions, in and out; small negative values (of the order of the tolerance) may come back
     std::span<const double>
-        source;              // dY_k/dt added to the chemistry, 1/s, sums to zero but for round-off; may be empty
-    // s, first step of the Rosenbrock method, 0 for the whole interval; returns what it asks of the next interval. CVODE
-    // is used at once where it is too short.
+        source;  // dY_k/dt added to the chemistry, 1/s, sums to zero but for round-off; may be empty
+    // s, first step of the Rosenbrock method, 0 for the whole interval; returns what it asks of the next interval.
+    // CVODE is used at once where it is too short.
     double initialStep = 0;
   };
 
@@ -45,10 +45,10 @@ class ConstantPressureReactor {
     int steps = 0;
     int rhsEvaluations = 0;
     int jacobianEvaluations = 0;
-    int retries = 0;        // of CVODE
-    bool skipped = false;   // advanced by an explicit step
+    int retries = 0;          // of CVODE
+    bool skipped = false;     // advanced by an explicit step
     bool handedOver = false;  // to CVODE
-    double seconds = 0;  // wall clock of the call
+    double seconds = 0;       // wall clock of the call
   };
 
   enum class Method { Rosenbrock, Bdf };

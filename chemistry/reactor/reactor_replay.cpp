@@ -49,8 +49,8 @@ class Reader {
  public:
   explicit Reader(const std::string& path) : yaml_(path), file_(yaml_, load(path), "a replay file") {
     file_.allowOnly({"mechanism", "temperature", "pressure", "duration", "first_step", "relative_tolerance",
-                     "absolute_tolerance", "max_steps", "rosenbrock_steps", "negligible_change", "mass_fractions", "source",
-                     "reason"});
+                     "absolute_tolerance", "max_steps", "rosenbrock_steps", "negligible_change", "mass_fractions",
+                     "source", "reason"});
   }
 
   std::string mechanism() const {

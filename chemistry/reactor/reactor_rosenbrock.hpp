@@ -1,6 +1,7 @@
-// A Rosenbrock method on the equations of a reactor (RosenbrockSolver), with the matrix and factors that CVODE has, too.
-// In the cells of a flow, which transport keeps close to equilibrium with their reactions, one step does for most; CVODE,
-// which starts at order one each time, takes several and as many iterations. The result depends on the arguments alone.
+// A Rosenbrock method on the equations of a reactor (RosenbrockSolver), with the matrix and factors that CVODE has,
+// too. In the cells of a flow, which transport keeps close to equilibrium with their reactions, one step does for most;
+// CVODE, which starts at order one each time, takes several and as many iterations. The result depends on the arguments
+// alone.
 #pragma once
 
 #include <span>
@@ -19,7 +20,8 @@ class ReactorRosenbrock {
   explicit ReactorRosenbrock(ReactorSystem& system);
 
   // Advances the unknowns (Y, T) under the system's conditions, at first by interval.firstStep (0: all of it at once).
-  // False where that takes more than interval.maxSteps, steps rejected among them; `state` is then the last one reached.
+  // False where that takes more than interval.maxSteps, steps rejected among them; `state` is then the last one
+  // reached.
   bool advance(const ReactorIntegrator::Interval& interval, std::span<double> state, ReactorIntegrator::Work& work,
                const ReactorIntegrator::Watcher& watcher = {});
 

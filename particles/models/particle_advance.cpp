@@ -39,8 +39,7 @@ class Integration {
 
   // Particles alone. NumericsError.
   ParticleAdvance advance(double dt, std::span<double> state) {
-    return integrate(dt, state, {}, {relative_, smallest_},
-                     [](std::span<const double>, double) { return true; });
+    return integrate(dt, state, {}, {relative_, smallest_}, [](std::span<const double>, double) { return true; });
   }
 
   // With a constant supply. False where more would become missing of something than was at the start, and than the
