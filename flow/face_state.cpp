@@ -8,22 +8,29 @@
 namespace lampblack::flow {
 namespace {
 
-// The two cells of an interior face as an upwind scheme sees them.
-struct Upwind {
-  int up, down;
-  double fraction;   // distance up -> face over up -> down
-  double direction;  // signed distance up -> down along the face's axis
-};
-
-Upwind upwindOf(const Mesh& m, int face, double flux) {
-  if (flux >= 0.0) return {m.low[face], m.high[face], 1.0 - m.lowWeight[face], m.distance[face]};
-  return {m.high[face], m.low[face], m.lowWeight[face], -m.distance[face]};
+// Gas that is drawn in through an outlet is known, gas that leaves is not.
+std::vector<BoundaryData> knownData(const FlowContext& context, bool isOfTemperature) {
+  std::vector<BoundaryData> known;
+  for (int face = context.mesh.interiorFaces; face < context.mesh.faces; ++face) {
+    const BoundaryCondition& boundary = context.boundaryOf(face);
+    const bool isWall = boundary.kind == BoundaryKind::Wall || boundary.kind == BoundaryKind::Symmetry;
+    const bool isGiven = !isWall || (isOfTemperature && boundary.kind == BoundaryKind::Wall && boundary.isothermal);
+    known.push_back(isGiven ? BoundaryData::Value : BoundaryData::ZeroSlope);
+  }
+  return known;
 }
 
 }  // namespace
 
 FaceState::FaceState(const FlowContext& context, int species, int carried)
-    : context_(context), species_(species), carried_(carried), gradient_(context.mesh) {
+    : context_(context),
+      species_(species),
+      carried_(carried),
+      gradient_(context.mesh),
+      temperatureKnown_(knownData(context, true)),
+      YKnown_(knownData(context, false)),
+      temperatureUpwind_(context, temperatureKnown_),
+      YUpwind_(context, YKnown_) {
   const Mesh& m = context.mesh;
   const auto faces = static_cast<std::size_t>(m.faces);
   const auto boundary = static_cast<std::size_t>(m.boundaryFaces());
@@ -41,26 +48,33 @@ FaceState::FaceState(const FlowContext& context, int species, int carried)
   carriedGradient_.resize(cells * carried * 2);
 }
 
-void FaceState::prepare(const State& state) {
+void FaceState::setBoundaries(const State& state) {
   const Mesh& m = context_.mesh;
-  for (int c = 0; c < m.cells; ++c)
-    for (int s = 0; s < carried_; ++s) perMass_[c * carried_ + s] = state.carried[c * carried_ + s] / state.density[c];
   for (int face = m.interiorFaces; face < m.faces; ++face) {
     const BoundaryCondition& boundary = context_.boundaryOf(face);
     const int b = face - m.interiorFaces;
     const int c = m.low[face];
-    const bool inlet = boundary.kind == BoundaryKind::Inlet;
-    const bool given = inlet || (boundary.kind == BoundaryKind::Wall && boundary.isothermal);
-    boundaryTemperature_[b] = given ? boundary.temperature : state.temperature[c];
-    const double* values = inlet && boundary.fixedComposition ? boundary.Y.data() : &state.Y[c * species_];
-    std::copy_n(values, species_, &boundaryY_[b * species_]);
-    for (int s = 0; s < carried_; ++s) boundaryCarried_[b * carried_ + s] = perMass_[c * carried_ + s];
+    if (boundary.kind == BoundaryKind::Outlet)
+      temperatureKnown_[b] = YKnown_[b] = state.massFlux[face] < 0.0 ? BoundaryData::Value : BoundaryData::Nothing;
+    const bool isTemperatureGiven = temperatureKnown_[b] == BoundaryData::Value;
+    const bool isYGiven = YKnown_[b] == BoundaryData::Value;
+    boundaryTemperature_[b] = isTemperatureGiven ? boundary.temperature : state.temperature[c];
+    std::copy_n(isYGiven ? boundary.Y.data() : &state.Y[c * species_], species_, &boundaryY_[b * species_]);
+    // No particles come in.
+    for (int s = 0; s < carried_; ++s) boundaryCarried_[b * carried_ + s] = isYGiven ? 0.0 : perMass_[c * carried_ + s];
   }
-  gradient_.compute(state.temperature, boundaryTemperature_, 1, temperatureGradient_);
-  gradient_.compute(state.Y, boundaryY_, species_, YGradient_);
+}
+
+void FaceState::prepare(const State& state) {
+  const Mesh& m = context_.mesh;
+  for (int c = 0; c < m.cells; ++c)
+    for (int s = 0; s < carried_; ++s) perMass_[c * carried_ + s] = state.carried[c * carried_ + s] / state.density[c];
+  setBoundaries(state);
+  gradient_.compute(state.temperature, boundaryTemperature_, 1, temperatureGradient_, temperatureKnown_);
+  gradient_.compute(state.Y, boundaryY_, species_, YGradient_, YKnown_);
   std::vector<FieldView> gradients{{temperatureGradient_, 2}, {YGradient_, 2 * species_}};
   if (carried_ > 0) {
-    gradient_.compute(perMass_, boundaryCarried_, carried_, carriedGradient_);
+    gradient_.compute(perMass_, boundaryCarried_, carried_, carriedGradient_, YKnown_);
     gradients.push_back({carriedGradient_, 2 * carried_});
   }
   context_.halo.update(gradients);
@@ -72,16 +86,16 @@ void FaceState::interpolate(const State& state, std::span<const double> directio
   for (int face = 0; face < m.faces; ++face) {
     double* y = &Y[static_cast<std::size_t>(face) * n];
     if (m.high[face] >= 0) {
-      const Upwind u = upwindOf(m, face, direction[face]);
       const int axis = m.normalAxis[face];
-      temperature[face] = limitedFaceValue(state.temperature[u.up], state.temperature[u.down],
-                                           temperatureGradient_[2 * u.up + axis] * u.direction, u.fraction);
+      const Upwind t = temperatureUpwind_.of(face, direction[face]);
+      temperature[face] = limitedFaceValue(state.temperature[t.up], state.temperature[t.down],
+                                           temperatureGradient_[2 * t.up + axis] * t.sign, t);
+      const Upwind u = YUpwind_.of(face, direction[face]);
       const double* up = &state.Y[static_cast<std::size_t>(u.up) * n];
       const double* down = &state.Y[static_cast<std::size_t>(u.down) * n];
       const double* slope = &YGradient_[static_cast<std::size_t>(u.up) * n * 2];
       double sum = 0.0;
-      for (int k = 0; k < n; ++k)
-        sum += y[k] = limitedFaceValue(up[k], down[k], slope[2 * k + axis] * u.direction, u.fraction);
+      for (int k = 0; k < n; ++k) sum += y[k] = limitedFaceValue(up[k], down[k], slope[2 * k + axis] * u.sign, u);
       for (int k = 0; k < n; ++k) y[k] /= sum;
     } else {
       const BoundaryCondition& boundary = context_.boundaryOf(face);
@@ -98,9 +112,9 @@ void FaceState::interpolate(const State& state, std::span<const double> directio
 }
 
 double FaceState::carriedPerMass(int face, int scalar, double direction) const {
-  const Upwind u = upwindOf(context_.mesh, face, direction);
-  const double slope = carriedGradient_[(u.up * carried_ + scalar) * 2 + context_.mesh.normalAxis[face]] * u.direction;
-  return limitedFaceValue(perMass_[u.up * carried_ + scalar], perMass_[u.down * carried_ + scalar], slope, u.fraction);
+  const Upwind u = YUpwind_.of(face, direction);
+  const double slope = carriedGradient_[(u.up * carried_ + scalar) * 2 + context_.mesh.normalAxis[face]] * u.sign;
+  return limitedFaceValue(perMass_[u.up * carried_ + scalar], perMass_[u.down * carried_ + scalar], slope, u);
 }
 
 }  // namespace lampblack::flow

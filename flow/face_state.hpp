@@ -10,6 +10,7 @@
 #include "flow/flow_context.hpp"
 #include "flow/gradient.hpp"
 #include "flow/state.hpp"
+#include "flow/upwind.hpp"
 
 namespace lampblack::flow {
 
@@ -35,9 +36,13 @@ class FaceState {
   [[nodiscard]] std::span<const double> boundaryTemperature() const { return boundaryTemperature_; }
 
  private:
+  void setBoundaries(const State& state);
+
   const FlowContext& context_;
   int species_, carried_;
   Gradient gradient_;
+  std::vector<BoundaryData> temperatureKnown_, YKnown_;  // of carried scalars as of Y
+  UpwindGeometry temperatureUpwind_, YUpwind_;
   std::vector<double> boundaryTemperature_, boundaryY_, boundaryCarried_;
   std::vector<double> perMass_;
   std::vector<double> temperatureGradient_, YGradient_, carriedGradient_;

@@ -9,15 +9,28 @@
 
 namespace lampblack::flow {
 
+// What is known of a field at a boundary face.
+enum class BoundaryData : char {
+  Value,      // its value there
+  ZeroSlope,  // that it has no gradient normal to the face: an axis, a plane of symmetry, an adiabatic wall
+  Nothing,    // the slope towards the face is that on the cell's other side
+};
+
 class Gradient {
  public:
   explicit Gradient(const Mesh& mesh);
 
   // Gradient of `components` values a cell (halo filled) in the owned cells: gradient[(cell * components + k) * 2 +
-  // axis]. `boundary` holds the value at each boundary face (components a face); boundary faces in `skip` (empty: none;
-  // else one flag a boundary face) are left out, which makes the slope there one-sided.
+  // axis]. `boundary` holds the value at each boundary face (components a face), read where `known` says Value. `known`
+  // has a flag a boundary face, or a flag a component of each, or none for Value everywhere.
   void compute(std::span<const double> values, std::span<const double> boundary, int components,
-               std::span<double> gradient, std::span<const char> skip = {}) const;
+               std::span<double> gradient, std::span<const BoundaryData> known = {}) const;
+
+  // Distance at which a boundary's value counts that lies `distance` from the cell's centre: a field without slope has
+  // the cell's own value at the mirrored place. Zero: it does not count.
+  static double reach(double distance, BoundaryData data) {
+    return data == BoundaryData::Value ? distance : data == BoundaryData::ZeroSlope ? 2.0 * distance : 0.0;
+  }
 
  private:
   const Mesh& mesh_;

@@ -1,22 +1,27 @@
 // Limited second-order upwind interpolation to a face.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/rooms.hpp"
+#include "flow/upwind.hpp"
 
 namespace lampblack::flow {
 
-// Face value between the upwind value `up` and the downwind value `down`. `slope` is the upwind cell's gradient along
-// the direction up -> down times their distance; `fraction` the distance up -> face over the distance up -> down.
-// van Leer's limiter (1974) on the ratio of successive differences (Darwish and Moukalled 2003 for general meshes).
-inline double limitedFaceValue(double up, double down, double slope, double fraction) {
-  const double step = down - up;
-  const double previous = 2.0 * slope - step;  // difference up - upup of an equivalent uniform mesh
-  const double product = previous * step;
-  // step * psi(r) = step * 2r/(1+r) for r = previous/step > 0, written without division by zero.
-  const double limited = product > 0.0 ? 2.0 * product / (previous + step) : 0.0;
-  return up + fraction * limited;
+// Face value between the upwind value `up` and the downwind value `down`. `gradient` is that of the upwind cell along
+// the direction up -> down, by the parabola of Gradient. Between the values of both sides' neighbours whatever the
+// distances are, so that steps of half a cell's volume make no new extrema.
+//
+// van Leer's limiter (1974), the harmonic mean of the slopes ahead and behind, on a graded mesh with the weights by
+// which the arithmetic mean is the parabola's slope (as Fritsch and Butland 1984 have them for interpolation).
+inline double limitedFaceValue(double up, double down, double gradient, const Upwind& at) {
+  const double ahead = (down - up) / at.ahead;
+  const double behind = gradient + (gradient - ahead) * at.behind / at.ahead;
+  if (!(ahead * behind > 0.0)) return up;
+  const double slope = (at.ahead + at.behind) * ahead * behind / (at.ahead * ahead + at.behind * behind);
+  const double largest = std::min(std::abs(down - up), std::abs(behind) * at.behind);
+  return up + std::copysign(std::min(std::abs(slope) * at.toFace, largest), slope);
 }
 
 }  // namespace lampblack::flow

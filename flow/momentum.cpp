@@ -32,8 +32,20 @@ Momentum::Momentum(const FlowContext& context)
   boundaryPressure_.assign(m.boundaryFaces(), 0.0);
   velocityGradient_.resize(static_cast<std::size_t>(m.cells) * 4);
   pressureGradient_.resize(static_cast<std::size_t>(m.cells) * 2);
-  for (int face = m.interiorFaces; face < m.faces; ++face)
-    skipPressure_.push_back(context.boundaryOf(face).kind != BoundaryKind::Outlet);
+  for (int face = m.interiorFaces; face < m.faces; ++face) {
+    const BoundaryCondition& boundary = context.boundaryOf(face);
+    const bool isOutlet = boundary.kind == BoundaryKind::Outlet;
+    pressureKnown_.push_back(isOutlet ? BoundaryData::Value : BoundaryData::Nothing);
+    for (int i = 0; i < 2; ++i)
+      velocityKnown_.push_back(isGiven(boundary, i == m.normalAxis[face]) ? BoundaryData::Value
+                               : isOutlet                                 ? BoundaryData::Nothing
+                                                                          : BoundaryData::ZeroSlope);
+  }
+  for (int i = 0; i < 2; ++i) {
+    std::vector<BoundaryData> known;
+    for (int b = 0; b < m.boundaryFaces(); ++b) known.push_back(velocityKnown_[2 * b + i]);
+    upwind_.emplace_back(context, known);
+  }
 }
 
 void Momentum::boundaryVelocities(const State& state) {
@@ -67,7 +79,7 @@ void Momentum::outletPressures(const State& state) {
 }
 
 void Momentum::pressureGradient(std::span<const double> pressure) {
-  gradient_.compute(pressure, boundaryPressure_, 1, pressureGradient_, skipPressure_);
+  gradient_.compute(pressure, boundaryPressure_, 1, pressureGradient_, pressureKnown_);
 }
 
 void Momentum::explicitStress(const State& state, const GasProperties& properties) {
@@ -105,7 +117,7 @@ void Momentum::predict(State& state, const GasProperties& properties, std::span<
   const Mesh& m = context_.mesh;
   boundaryVelocities(state);
   outletPressures(state);
-  gradient_.compute(state.velocity, boundaryVelocity_, 2, velocityGradient_);
+  gradient_.compute(state.velocity, boundaryVelocity_, 2, velocityGradient_, velocityKnown_);
   context_.halo.update(velocityGradient_, 4);
   pressureGradient(state.pressure);
 
@@ -127,17 +139,12 @@ void Momentum::predict(State& state, const GasProperties& properties, std::span<
     const int axis = m.normalAxis[face];
     const double flux = state.massFlux[face];
     if (high >= 0) {
-      const bool fromLow = flux >= 0.0;
-      const int up = fromLow ? low : high;
-      const int down = fromLow ? high : low;
-      const double fraction = fromLow ? 1.0 - m.lowWeight[face] : m.lowWeight[face];
-      const double direction = fromLow ? m.distance[face] : -m.distance[face];
       const double mu =
           m.lowWeight[face] * properties.viscosity[low] + (1.0 - m.lowWeight[face]) * properties.viscosity[high];
       for (int i = 0; i < 2; ++i) {
-        const double slope = velocityGradient_[4 * up + 2 * i + axis] * direction;
-        const double value =
-            limitedFaceValue(state.velocity[2 * up + i], state.velocity[2 * down + i], slope, fraction);
+        const Upwind u = upwind_[i].of(face, flux);
+        const double value = limitedFaceValue(state.velocity[2 * u.up + i], state.velocity[2 * u.down + i],
+                                              velocityGradient_[4 * u.up + 2 * i + axis] * u.sign, u);
         // Advective form: convection of the difference to the cell's own velocity.
         if (low < m.owned) source_[2 * low + i] -= flux * (value - state.velocity[2 * low + i]);
         if (high < m.owned) source_[2 * high + i] += flux * (value - state.velocity[2 * high + i]);

@@ -12,6 +12,7 @@
 #include "flow/implicit_diffusion.hpp"
 #include "flow/projection.hpp"
 #include "flow/state.hpp"
+#include "flow/upwind.hpp"
 
 namespace lampblack::flow {
 
@@ -38,7 +39,8 @@ class Momentum {
   Gradient gradient_;
   ImplicitDiffusion diffusion_;
   Projection projection_;
-  std::vector<char> skipPressure_;  // boundary faces without a given pressure
+  std::vector<BoundaryData> velocityKnown_, pressureKnown_;  // two a boundary face; one
+  std::vector<UpwindGeometry> upwind_;                       // of each component
   std::vector<double> boundaryVelocity_, boundaryPressure_;
   std::vector<double> velocityGradient_, pressureGradient_;
   std::vector<double> diagonal_, conductance_, source_, predicted_;

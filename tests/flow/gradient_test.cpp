@@ -38,8 +38,9 @@ double gradientError(Box& box, const Function& f, const Function& dx, const Func
     const auto& x = m.faceCentre[at(m.interiorFaces + b)];
     boundary[at(b)] = skip ? std::numeric_limits<double>::quiet_NaN() : f(x[0], x[1]);
   }
-  const std::vector<char> flags(at(m.boundaryFaces()), 1);
-  Gradient(m).compute(values, boundary, 1, gradient, skip ? std::span<const char>(flags) : std::span<const char>{});
+  std::vector<BoundaryData> known(at(m.boundaryFaces()), BoundaryData::Nothing);
+  if (!skip) known.clear();
+  Gradient(m).compute(values, boundary, 1, gradient, known);
   return largest(m, [&](int c) {
     const auto& x = m.centre[at(c)];
     return std::max(std::abs(gradient[at(2 * c)] - dx(x[0], x[1])), std::abs(gradient[at(2 * c + 1)] - dy(x[0], x[1])));
@@ -65,6 +66,32 @@ TEST(Gradient, ParabolaIsExactOnGradedMesh) {
             1000.0 * epsilon);
 }
 
+// Fields without a slope at a side have the parabola's slope in the cells there, whatever stands in the boundary's
+// values; components may differ in what is known of them.
+TEST(Gradient, ParabolaWithoutSlopeAtASideIsExact) {
+  Box box = gradedBox(1);
+  const Mesh& m = box.mesh;
+  std::vector<double> values(at(2 * m.cells)), boundary(at(2 * m.boundaryFaces())), gradient(at(4 * m.cells));
+  const auto first = [](double x) { return 2.0 * x * x; };  // no slope at x = 0
+  const auto second = [](double x) { return 1.0 + x; };
+  for (int c = 0; c < m.cells; ++c) {
+    values[at(2 * c)] = first(m.centre[at(c)][0]);
+    values[at(2 * c + 1)] = second(m.centre[at(c)][0]);
+  }
+  std::vector<BoundaryData> known;
+  for (int b = 0; b < m.boundaryFaces(); ++b) {
+    const auto& x = m.faceCentre[at(m.interiorFaces + b)];
+    const bool isLeft = m.normalAxis[at(m.interiorFaces + b)] == 0 && x[0] < 0.5;
+    known.push_back(isLeft ? BoundaryData::ZeroSlope : BoundaryData::Value);
+    known.push_back(BoundaryData::Value);
+    boundary[at(2 * b)] = isLeft ? std::numeric_limits<double>::quiet_NaN() : first(x[0]);
+    boundary[at(2 * b + 1)] = second(x[0]);
+  }
+  Gradient(m).compute(values, boundary, 2, gradient, known);
+  EXPECT_LT(largest(m, [&](int c) { return gradient[at(4 * c)] - 4.0 * m.centre[at(c)][0]; }), 1000.0 * epsilon);
+  EXPECT_LT(largest(m, [&](int c) { return gradient[at(4 * c + 2)] - 1.0; }), 1000.0 * epsilon);
+}
+
 TEST(Gradient, SmoothFieldConvergesAtSecondOrder) {
   double error[3];
   for (int i = 0; i < 3; ++i) {
@@ -79,34 +106,92 @@ TEST(Gradient, SmoothFieldConvergesAtSecondOrder) {
   EXPECT_GT(error[1] / error[2], 3.4);
 }
 
+// Three places on a line: values behind, at and ahead of the upwind cell.
+struct Line {
+  double behind, up, down;
+  Upwind at;
+  [[nodiscard]] double gradient() const {
+    return ((up - behind) / at.behind * at.ahead + (down - up) / at.ahead * at.behind) / (at.ahead + at.behind);
+  }
+  [[nodiscard]] double faceValue() const { return limitedFaceValue(up, down, gradient(), at); }
+};
+
 TEST(LimitedFaceValue, LinearDataIsExact) {
-  for (double slope : {-3.0, 0.0, 0.7})
-    for (double fraction : {0.2, 0.5, 0.8})
-      EXPECT_NEAR(limitedFaceValue(1.0, 1.0 + slope, slope, fraction), 1.0 + slope * fraction, 8.0 * epsilon);
+  for (const double slope : {-3.0, 0.0, 0.7})
+    for (const double toFace : {0.2, 0.5, 0.8})
+      for (const double behind : {0.8, 1.0, 2.5})  // a cell reaches to its faces
+        EXPECT_NEAR((Line{1.0 - slope * behind, 1.0, 1.0 + slope, {0, 1, 1.0, 1.0, behind, toFace}}.faceValue()),
+                    1.0 + slope * toFace, 8.0 * epsilon);
 }
 
-TEST(LimitedFaceValue, LiesBetweenTheNeighboursForAnyData) {
+// On smooth data and any grading the error is that of a parabola, a quarter with half the distances.
+TEST(LimitedFaceValue, IsOfSecondOrderOnGradedData) {
+  for (const double ratio : {0.5, 0.8, 1.0, 1.3}) {
+    double error[2];
+    for (int i = 0; i < 2; ++i) {
+      const double h = 0.02 / (1 << i);
+      const Upwind at{0, 1, 1.0, 0.5 * h * (1.0 + ratio), 0.5 * h * (1.0 + 1.0 / ratio), 0.5 * h};
+      const Line line{std::exp(-at.behind), 1.0, std::exp(at.ahead), at};
+      error[i] = line.faceValue() - std::exp(at.toFace);
+    }
+    EXPECT_NEAR(error[0] / error[1], 4.0, 0.2) << ratio;
+  }
+}
+
+TEST(LimitedFaceValue, LiesBetweenTheNeighboursForAnyDataAndDistances) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> value(-1.0, 1.0);
-  std::uniform_real_distribution<double> fraction(0.0, 0.5);
+  std::uniform_real_distribution<double> share(0.02, 0.98), ratio(-3.0, 3.0);
   int sloped = 0;
   for (int i = 0; i < 100000; ++i) {
-    const double up = value(random);
-    const double down = value(random);
-    const double slope = 3.0 * value(random);
-    const double face = limitedFaceValue(up, down, slope, fraction(random));
-    ASSERT_GE(face, std::min(up, down) - epsilon) << up << ' ' << down << ' ' << slope;
-    ASSERT_LE(face, std::max(up, down) + epsilon) << up << ' ' << down << ' ' << slope;
-    sloped += face != up;
+    const Line line{
+        value(random), value(random), value(random), {0, 1, 1.0, 1.0, std::exp(ratio(random)), share(random)}};
+    const double face = line.faceValue();
+    ASSERT_GE(face, std::min(line.up, line.down) - epsilon);
+    ASSERT_LE(face, std::max(line.up, line.down) + epsilon);
+    // What leaves is no further from the cell's value than what may come in.
+    ASSERT_LE(std::abs(face - line.up), std::abs(line.up - line.behind) + 1e-12);
+    sloped += face != line.up;
   }
   EXPECT_GT(sloped, 10000);  // it is not the upwind scheme
 }
 
+// A pulse carried along a line whose cells grow or shrink: nothing above one or below zero, whatever the grading.
+TEST(LimitedFaceValue, KeepsAPulseBoundedOnAnyGrading) {
+  for (const double ratio : {0.5, 0.8, 1.25, 2.0}) {
+    constexpr int n = 24;
+    std::vector<double> width(n), value(n, 0.0);
+    for (int i = 0; i < n; ++i) width[at(i)] = std::pow(ratio, ratio > 1.0 ? i - n : i);
+    for (int i = 2; i < 9; ++i) value[at(i)] = 1.0;
+    const double dt = 0.5 * *std::min_element(width.begin(), width.end());
+    const auto distance = [&](int i) { return 0.5 * (width[at(i)] + width[at(i + 1)]); };
+    double lowest = 0.0, highest = 1.0;
+    for (int step = 0; step < 400; ++step) {
+      std::vector<double> flux(n + 1, 0.0);
+      flux[n] = value[n - 1];
+      for (int i = 1; i + 1 < n; ++i)
+        flux[at(i + 1)] = Line{value[at(i - 1)],
+                               value[at(i)],
+                               value[at(i + 1)],
+                               {0, 1, 1.0, distance(i), distance(i - 1), 0.5 * width[at(i)]}}
+                              .faceValue();
+      flux[1] = value[0];
+      for (int i = 0; i < n; ++i) value[at(i)] += dt / width[at(i)] * (flux[at(i)] - flux[at(i + 1)]);
+      for (const double v : value) {
+        lowest = std::min(lowest, v);
+        highest = std::max(highest, v);
+      }
+    }
+    EXPECT_GT(lowest, -1e-12) << ratio;
+    EXPECT_LT(highest, 1.0 + 1e-12) << ratio;
+  }
+}
+
 TEST(LimitedFaceValue, IsUpwindAtExtrema) {
-  // Uniform mesh, upup = 2 up - ... : the central slope (down - upup)/2 of a peak and of a trough at `up`.
-  EXPECT_EQ(limitedFaceValue(1.0, 0.4, 0.5 * (0.4 - 0.2), 0.5), 1.0);
-  EXPECT_EQ(limitedFaceValue(-1.0, 0.4, 0.5 * (0.4 - 0.2), 0.5), -1.0);
-  EXPECT_EQ(limitedFaceValue(1.0, 1.0, 0.3, 0.5), 1.0);
+  const Upwind uniform{0, 1, 1.0, 1.0, 1.0, 0.5};
+  EXPECT_EQ((Line{0.2, 1.0, 0.4, uniform}.faceValue()), 1.0);
+  EXPECT_EQ((Line{0.2, -1.0, 0.4, uniform}.faceValue()), -1.0);
+  EXPECT_EQ((Line{0.4, 1.0, 1.0, uniform}.faceValue()), 1.0);
 }
 
 }  // namespace

@@ -1,0 +1,42 @@
+// What an upwind scheme sees of an interior face: the cell upwind of it, the one downwind, and the distances between
+// them and to what lies behind.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/rooms.hpp"
+#include "flow/flow_context.hpp"
+#include "flow/gradient.hpp"
+
+namespace lampblack::flow {
+
+struct Upwind {
+  int up = 0, down = 0;  // cells
+  double sign = 1.0;     // of the direction up -> down along the face's axis
+  double ahead = 0.0;    // m, up -> down
+  double behind = 0.0;   // m, from the place behind `up` to it: its neighbour on the other side, or the boundary
+  double toFace = 0.0;   // m, up -> face
+};
+
+// The same for all faces of a mesh and a field whose boundaries are known as Gradient is told.
+class UpwindGeometry {
+ public:
+  // Collective. `known`: a flag a boundary face, or none for Value everywhere.
+  UpwindGeometry(const FlowContext& context, std::span<const BoundaryData> known);
+
+  // Upwind of `flux`, of any quantity with the sign of the direction low to high.
+  [[nodiscard]] Upwind of(int face, double flux) const {
+    const Mesh& m = mesh_;
+    const double w = m.lowWeight[face];
+    const double distance = m.distance[face];
+    if (flux >= 0.0) return {m.low[face], m.high[face], 1.0, distance, behind_[2 * face], (1.0 - w) * distance};
+    return {m.high[face], m.low[face], -1.0, distance, behind_[2 * face + 1], w * distance};
+  }
+
+ private:
+  const Mesh& mesh_;
+  std::vector<double> behind_;  // m, of each interior face's low and high cell
+};
+
+}  // namespace lampblack::flow
