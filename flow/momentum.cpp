@@ -26,12 +26,19 @@ bool isGiven(const BoundaryCondition& boundary, bool normalComponent) {
 }  // namespace
 
 Momentum::Momentum(const FlowContext& context)
-    : context_(context), gradient_(context.mesh), diffusion_(context.mesh, context.halo), projection_(context) {
+    : context_(context),
+      gradient_(context.mesh),
+      diffusion_(context.mesh, context.halo),
+      projection_(context),
+      faceVelocity_(context) {
   const Mesh& m = context.mesh;
   boundaryVelocity_.resize(2 * m.boundaryFaces());
   boundaryPressure_.assign(m.boundaryFaces(), 0.0);
   velocityGradient_.resize(static_cast<std::size_t>(m.cells) * 4);
   pressureGradient_.resize(static_cast<std::size_t>(m.cells) * 2);
+  acceleration_.resize(pressureGradient_.size());
+  relaxation_.resize(static_cast<std::size_t>(m.cells));
+  inverseDensity_.resize(static_cast<std::size_t>(m.faces));
   for (int face = m.interiorFaces; face < m.faces; ++face) {
     const BoundaryCondition& boundary = context.boundaryOf(face);
     const bool isOutlet = boundary.kind == BoundaryKind::Outlet;
@@ -78,10 +85,6 @@ void Momentum::outletPressures(const State& state) {
   }
 }
 
-void Momentum::pressureGradient(std::span<const double> pressure) {
-  gradient_.compute(pressure, boundaryPressure_, 1, pressureGradient_, pressureKnown_);
-}
-
 void Momentum::explicitStress(const State& state, const GasProperties& properties) {
   // The part of the stress that the component-wise Laplacian leaves out: mu (grad u)^T - 2/3 mu (div u) I, and the hoop
   // stress's dilatation part.
@@ -119,8 +122,9 @@ void Momentum::predict(State& state, const GasProperties& properties, std::span<
   outletPressures(state);
   gradient_.compute(state.velocity, boundaryVelocity_, 2, velocityGradient_, velocityKnown_);
   context_.halo.update(velocityGradient_, 4);
-  pressureGradient(state.pressure);
+  gradient_.compute(state.pressure, boundaryPressure_, 1, pressureGradient_, pressureKnown_);
 
+  std::fill(relaxation_.begin(), relaxation_.end(), 0.0);
   diagonal_.assign(2 * m.owned, 0.0);
   source_.assign(2 * m.owned, 0.0);
   conductance_.assign(static_cast<std::size_t>(m.interiorFaces) * 2, 0.0);
@@ -150,55 +154,70 @@ void Momentum::predict(State& state, const GasProperties& properties, std::span<
         if (high < m.owned) source_[2 * high + i] += flux * (value - state.velocity[2 * high + i]);
         conductance_[2 * face + i] = mu * m.area[face] / m.distance[face];
       }
+      for (const int cell : {low, high})
+        if (cell < m.owned) relaxation_[cell] += conductance_[2 * face] + 0.5 * std::abs(flux);
       continue;
     }
     const BoundaryCondition& boundary = context_.boundaryOf(face);
+    relaxation_[low] += 0.5 * std::abs(flux);
     for (int i = 0; i < 2; ++i) {
       if (!isGiven(boundary, i == axis)) continue;
       const double value = boundaryVelocity_[2 * (face - m.interiorFaces) + i];
       const double conductance = properties.viscosity[low] * m.area[face] / m.distance[face];
       diagonal_[2 * low + i] += conductance;
+      relaxation_[low] += 0.5 * conductance;
       source_[2 * low + i] += conductance * value - flux * (value - state.velocity[2 * low + i]);
     }
   }
+  for (int c = 0; c < m.owned; ++c) relaxation_[c] /= newDensity[c] * m.volume[c];
   explicitStress(state, properties);
+  outletStress(state, properties);
   predicted_.assign(state.velocity.begin(), state.velocity.end());
   diffusion_.solve(2, diagonal_, conductance_, source_, predicted_);
+}
+
+// At outlets the Laplacian part of the stress is that of the cell's own slope, and the gas that leaves has the velocity
+// along it.
+void Momentum::outletStress(const State& state, const GasProperties& properties) {
+  const Mesh& m = context_.mesh;
+  for (int face = m.interiorFaces; face < m.faces; ++face) {
+    if (context_.boundaryOf(face).kind != BoundaryKind::Outlet) continue;
+    const int c = m.low[face];
+    for (int i = 0; i < 2; ++i) {
+      const double slope = m.normalSign[face] * velocityGradient_[4 * c + 2 * i + m.normalAxis[face]];
+      source_[2 * c + i] += properties.viscosity[c] * m.area[face] * slope -
+                            std::max(state.massFlux[face], 0.0) * m.distance[face] * slope;
+    }
+  }
 }
 
 Projection::Result Momentum::advance(State& state, const GasProperties& properties, std::span<const double> newDensity,
                                      std::span<const double> divergence, double dt, std::span<double> faceVelocity) {
   const Mesh& m = context_.mesh;
   predict(state, properties, newDensity, dt);
-  // Take the old pressure gradient back, so that the projection finds the whole pressure.
   for (int c = 0; c < m.owned; ++c)
-    for (int i = 0; i < 2; ++i) predicted_[2 * c + i] += dt / newDensity[c] * pressureGradient_[2 * c + i];
-  context_.halo.update(predicted_, 2);
-
-  std::vector<double> inverseDensity(m.faces);
+    for (int i = 0; i < 2; ++i) acceleration_[2 * c + i] = pressureGradient_[2 * c + i] / newDensity[c];
+  gradient_.compute(predicted_, boundaryVelocity_, 2, velocityGradient_, velocityKnown_);
+  const FieldView known[] = {{predicted_, 2}, {acceleration_, 2}, {relaxation_, 1}};
+  context_.halo.update(known);
   for (int face = 0; face < m.faces; ++face) {
-    const int low = m.low[face];
-    const int axis = m.normalAxis[face];
-    if (m.high[face] >= 0) {
-      const double w = m.lowWeight[face];
-      const int high = m.high[face];
-      inverseDensity[face] = 1.0 / (w * newDensity[low] + (1.0 - w) * newDensity[high]);
-      faceVelocity[face] = w * predicted_[2 * low + axis] + (1.0 - w) * predicted_[2 * high + axis];
-      continue;
-    }
-    inverseDensity[face] = 1.0 / newDensity[low];
-    const BoundaryCondition& boundary = context_.boundaryOf(face);
-    faceVelocity[face] = boundary.kind == BoundaryKind::Outlet  ? m.normalSign[face] * predicted_[2 * low + axis]
-                         : boundary.kind == BoundaryKind::Inlet ? -boundary.speed
-                                                                : 0.0;
+    const double w = m.high[face] >= 0 ? m.lowWeight[face] : 1.0;
+    const double beyond = m.high[face] >= 0 ? newDensity[m.high[face]] : 0.0;
+    inverseDensity_[face] = 1.0 / (w * newDensity[m.low[face]] + (1.0 - w) * beyond);
   }
-  const Projection::Result result =
-      projection_.solve(dt, inverseDensity, divergence, boundaryPressure_, faceVelocity, state.pressure);
-  pressureGradient(state.pressure);
+  faceVelocity_.predict({predicted_, acceleration_, relaxation_, state.pressure, velocityGradient_}, inverseDensity_,
+                        dt, faceVelocity);
+
+  pressureChange_.assign(static_cast<std::size_t>(m.cells), 0.0);
+  const Projection::Result result = projection_.solve(dt, inverseDensity_, divergence, faceVelocity, pressureChange_);
+  const std::vector<double> unchanged(boundaryPressure_.size(), 0.0);
+  gradient_.compute(pressureChange_, unchanged, 1, pressureGradient_, pressureKnown_);
   for (int c = 0; c < m.owned; ++c)
     for (int i = 0; i < 2; ++i)
       state.velocity[2 * c + i] = predicted_[2 * c + i] - dt / newDensity[c] * pressureGradient_[2 * c + i];
+  for (int c = 0; c < m.cells; ++c) state.pressure[c] += pressureChange_[c];
   context_.halo.update(state.velocity, 2);
+  faceVelocity_.keep(state.velocity, faceVelocity);
   return result;
 }
 

@@ -87,8 +87,8 @@ void Projection::saveOrLoad(StateArchive& archive) {
 }
 
 Projection::Result Projection::solve(double dt, std::span<const double> inverseDensity,
-                                     std::span<const double> divergence, std::span<const double> boundaryPressure,
-                                     std::span<double> faceVelocity, std::span<double> pressure) {
+                                     std::span<const double> divergence, std::span<double> faceVelocity,
+                                     std::span<double> change) {
   const Mesh& m = context_.mesh;
   conductances(dt, inverseDensity);
   assemble();
@@ -102,7 +102,6 @@ Projection::Result Projection::solve(double dt, std::span<const double> inverseD
     if (m.low[face] < m.owned) excess[m.low[face]] += flow;
     if (m.high[face] >= 0 && m.high[face] < m.owned) excess[m.high[face]] -= flow;
     flowScale = std::max(flowScale, std::abs(flow));
-    if (m.high[face] < 0) excess[m.low[face]] -= conductance_[face] * boundaryPressure[face - m.interiorFaces];
   }
   MPI_Allreduce(MPI_IN_PLACE, &flowScale, 1, MPI_DOUBLE, MPI_MAX, m.comm);
   double* right = nullptr;
@@ -111,7 +110,7 @@ Projection::Result Projection::solve(double dt, std::span<const double> inverseD
   checkPetsc(VecGetArray(solution_.get(), &guess));
   for (int c = 0; c < m.owned; ++c) {
     right[c] = -excess[c];
-    guess[c] = pressure[c];
+    guess[c] = change[c];
   }
   checkPetsc(VecRestoreArray(rightSide_.get(), &right));
   checkPetsc(VecRestoreArray(solution_.get(), &guess));
@@ -136,14 +135,14 @@ Projection::Result Projection::solve(double dt, std::span<const double> inverseD
 
   const double* solved = nullptr;
   checkPetsc(VecGetArrayRead(solution_.get(), &solved));
-  std::copy_n(solved, m.owned, pressure.begin());
+  std::copy_n(solved, m.owned, change.begin());
   checkPetsc(VecRestoreArrayRead(solution_.get(), &solved));
-  context_.halo.update(pressure, 1);
+  context_.halo.update(change, 1);
 
   for (int face = 0; face < m.faces; ++face) {
     if (m.area[face] <= 0.0) continue;
-    const double beyond = m.high[face] >= 0 ? pressure[m.high[face]] : boundaryPressure[face - m.interiorFaces];
-    faceVelocity[face] -= conductance_[face] / m.area[face] * (beyond - pressure[m.low[face]]);
+    const double beyond = m.high[face] >= 0 ? change[m.high[face]] : 0.0;
+    faceVelocity[face] -= conductance_[face] / m.area[face] * (beyond - change[m.low[face]]);
   }
   Result result{static_cast<int>(iterations), 0.0};
   std::vector<double> net(m.owned, 0.0);

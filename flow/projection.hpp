@@ -1,5 +1,5 @@
-// Pressure projection on face fluxes: finds the hydrodynamic pressure p for which the face velocities
-//   u_f = uhat_f - (dt / rho_f) dp/dn
+// Pressure projection on face fluxes: finds the change q of the hydrodynamic pressure for which the face velocities
+//   u_f = uhat_f - (dt / rho_f) dq/dn
 // have the given divergence in every cell, with a compact stencil so that pressure cannot decouple (Rhie and Chow
 // 1983). Conjugate gradients with BoomerAMG; the preconditioner is kept until the iterations grow.
 #pragma once
@@ -25,10 +25,10 @@ class Projection {
   };
 
   // Collective. `faceVelocity` (m/s, normal, every face; prescribed on all boundary faces but outlets) is corrected in
-  // place; `pressure` (cells) is the initial guess and the solution, halo filled. `inverseDensity`: 1/rho at each face;
-  // `divergence`: target in each owned cell (1/s); `boundaryPressure` (Pa): at each boundary face, read at outlets.
+  // place; `change` (Pa, cells, zero at outlets) is the initial guess and the solution, halo filled. `inverseDensity`:
+  // 1/rho at each face; `divergence`: target in each owned cell (1/s).
   Result solve(double dt, std::span<const double> inverseDensity, std::span<const double> divergence,
-               std::span<const double> boundaryPressure, std::span<double> faceVelocity, std::span<double> pressure);
+               std::span<double> faceVelocity, std::span<double> change);
 
   // The preconditioner is kept as the conductances of the matrix it was made from, and made from them again.
   void saveOrLoad(StateArchive& archive);

@@ -42,6 +42,7 @@ void TransportOperator::initialise(State& state, double dt) {
   std::copy(state.density.begin(), state.density.end(), newDensity_.begin());
   std::fill(divergence_.begin(), divergence_.end(), 0.0);
   momentum_.advance(state, properties_, newDensity_, divergence_, dt, faceVelocity_);
+  std::fill(state.pressure.begin(), state.pressure.end(), 0.0);  // what it found was the blow that changed the velocity
   faces_.prepare(state);
   updateFluxes(state);
 }

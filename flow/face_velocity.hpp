@@ -1,0 +1,47 @@
+// Velocities normal to the faces, between the cells' velocities and the projection.
+//
+// A face's velocity is that of the cells around it, interpolated, plus a deviation d that couples pressures of
+// neighbouring cells (Rhie and Chow 1983). The deviation has an equation of its own,
+//   dd/dt = r - d/tau,    r = (grad p)/rho of the cells, interpolated, - (1/rho) dp/dn across the face,
+// with tau the time in which convection and viscosity renew a cell's momentum: a steady flow has d = tau r, of third
+// order in the mesh's width and whatever the time step (Choi 1999 on why the plain interpolation does depend on it).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/rooms.hpp"
+#include "core/state_archive.hpp"
+#include "flow/flow_context.hpp"
+
+namespace lampblack::flow {
+
+class FaceVelocity {
+ public:
+  explicit FaceVelocity(const FlowContext& context)
+      : context_(context), deviation_(static_cast<std::size_t>(context.mesh.faces), 0.0) {}
+
+  // What the cells know at the end of the momentum's prediction; halo filled.
+  struct Cells {
+    std::span<const double> velocity;          // m/s, two a cell
+    std::span<const double> acceleration;      // m/s2, (grad p)/rho, two a cell
+    std::span<const double> relaxation;        // 1/s, 1/tau
+    std::span<const double> pressure;          // Pa
+    std::span<const double> velocityGradient;  // 1/s, four a cell, of `velocity`, read in the cells next to outlets
+  };
+  // Normal velocity (m/s) of every face after dt under the old pressure. `inverseDensity`: 1/rho at each face.
+  void predict(const Cells& cells, std::span<const double> inverseDensity, double dt, std::span<double> faceVelocity);
+
+  // After the projection: keeps what faces deviate by from the cells' new velocities (two a cell, halo filled).
+  void keep(std::span<const double> velocity, std::span<const double> faceVelocity);
+
+  void saveOrLoad(StateArchive& archive) { archive.faces("face_velocity_deviation", deviation_, 1); }
+
+ private:
+  [[nodiscard]] double mean(int face, std::span<const double> values, int components, int component) const;
+
+  const FlowContext& context_;
+  std::vector<double> deviation_;  // m/s; zero on the boundary
+};
+
+}  // namespace lampblack::flow
