@@ -4,12 +4,13 @@
 #include <cmath>
 
 #include "core/constants.hpp"
+#include "core/cube_root.hpp"
 #include "core/rooms.hpp"
 
 namespace lampblack::particles {
 
 [[nodiscard]] inline double sphereDiameter(double volume) {  // m
-  return std::cbrt(6 * volume / constants::pi);
+  return cubeRoot(6 * volume / constants::pi);
 }
 
 [[nodiscard]] inline double sphereSurface(double volume) {  // m2

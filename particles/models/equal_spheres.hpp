@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/constants.hpp"
+#include "core/cube_root.hpp"
 #include "core/rooms.hpp"
 #include "particles/collisions/collision_physics.hpp"
 #include "particles/models/soot_model.hpp"
@@ -30,7 +31,7 @@ class EqualSpheres {
 
   // Of the mean sphere, m; zero without soot.
   [[nodiscard]] double diameter(double number, double mass) const {
-    return mass > 0 && number > 0 ? std::cbrt(6 * mass / (constants::pi * density_ * number)) : 0;
+    return mass > 0 && number > 0 ? cubeRoot(6 * mass / (constants::pi * density_ * number)) : 0;
   }
   // m2/m3
   [[nodiscard]] double surface(double number, double mass) const {

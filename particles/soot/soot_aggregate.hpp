@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "core/constants.hpp"
+#include "core/cube_root.hpp"
 #include "core/rooms.hpp"
 #include "particles/population/model/particle_type.hpp"
 
@@ -38,7 +39,7 @@ class SootAggregate {
   [[nodiscard]] double volume(const Particle& p) const { return mass(p) / density_; }
   [[nodiscard]] double collisionDiameter(const Particle& p) const { return p.diameter; }
   [[nodiscard]] double primaryDiameter(const Particle& p) const {
-    return std::cbrt(6 / constants::pi * volume(p) / p.primaries);
+    return cubeRoot(6 / constants::pi * volume(p) / p.primaries);
   }
   [[nodiscard]] double surface(const Particle& p) const {
     const double d = primaryDiameter(p);

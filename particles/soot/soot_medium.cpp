@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/constants.hpp"
+#include "core/cube_root.hpp"
 #include "core/errors.hpp"
 
 namespace lampblack::particles {
@@ -84,7 +85,7 @@ bool SootMedium::grow(const SootAggregate& type, const SootFluxes& fluxes, doubl
   double rest = dt;
   while (rest > 0) {
     const double mass = p.carbon + p.hydrogen, fraction = p.hydrogen / mass;
-    const double d = std::cbrt(6 / constants::pi * mass / (rho * n));
+    const double d = cubeRoot(6 / constants::pi * mass / (rho * n));
     // kg/s at a diameter of the primaries: what condenses, and the area.
     const auto condensing = [&](double x, double m) {
       return fluxes.condensation > 0

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/constants.hpp"
+#include "core/cube_root.hpp"
 #include "core/rooms.hpp"
 
 namespace lampblack::particles {
@@ -18,7 +19,7 @@ class Sphere {
 
   [[nodiscard]] double volume(const Particle& p) const { return p.volume; }
   [[nodiscard]] double mass(const Particle& p) const { return density_ * p.volume; }
-  [[nodiscard]] double collisionDiameter(const Particle& p) const { return std::cbrt(6 / constants::pi * p.volume); }
+  [[nodiscard]] double collisionDiameter(const Particle& p) const { return cubeRoot(6 / constants::pi * p.volume); }
   [[nodiscard]] double surface(const Particle& p) const {
     const double d = collisionDiameter(p);
     return constants::pi * d * d;

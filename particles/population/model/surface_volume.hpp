@@ -14,6 +14,7 @@
 #include <limits>
 
 #include "core/constants.hpp"
+#include "core/cube_root.hpp"
 #include "core/rooms.hpp"
 #include "particles/population/model/particle_type.hpp"
 
@@ -45,7 +46,7 @@ class SurfaceVolume {
   [[nodiscard]] double collisionDiameter(const Particle& p) const {
     const double number = primaries(p);
     return number > 1 ? primaryDiameter(p) * std::pow(number, inverseDimension_)
-                      : std::cbrt(6 / constants::pi * p.volume);
+                      : cubeRoot(6 / constants::pi * p.volume);
   }
 
   [[nodiscard]] Particle make(double volume) const { return {volume, sphereSurface(volume)}; }
@@ -62,7 +63,7 @@ class SurfaceVolume {
     return {volume, std::max(fraction * p.surface, sphereSurface(volume))};
   }
   [[nodiscard]] Particle enlarged(const Particle& p, double change) const {  // with the primaries there are
-    const double ratio = std::cbrt((p.volume + change) / p.volume);
+    const double ratio = cubeRoot((p.volume + change) / p.volume);
     return {p.volume + change, p.surface * ratio * ratio};
   }
   // The diameter of the primaries obeys dd/dt = condensation d / 3 + 2 surface; sintering is split off, half of it
@@ -71,7 +72,7 @@ class SurfaceVolume {
 
  private:
   [[nodiscard]] static double sphereSurface(double volume) {
-    const double d = std::cbrt(6 / constants::pi * volume);
+    const double d = cubeRoot(6 / constants::pi * volume);
     return constants::pi * d * d;
   }
 
