@@ -1,5 +1,5 @@
-// The cube root of volumes, which particles ask for at every event: faster than the C library's, to four units in the last
-// place (tests/core/cube_root_test.cpp).
+// The cube root of volumes, which particles ask for at every event: faster than the C library's, to four units in the
+// last place (tests/core/cube_root_test.cpp).
 #pragma once
 
 #include <bit>

@@ -57,7 +57,7 @@ void CarriedTransport::diffuse(const State& state, const FaceState& faces, std::
     for (int s = 0; s < n; ++s) {
       diagonal[c * n + s] = newMass[c] / dt;
       source[c * n + s] = content[c * n + s] / dt;
-      perMass[c * n + s] = content[c * n + s] / newMass[c];
+      perMass[c * n + s] = state.carried[c * n + s] / state.density[c];
     }
   for (int face = 0; face < m.interiorFaces; ++face) {
     const double w = m.lowWeight[face];
@@ -66,7 +66,8 @@ void CarriedTransport::diffuse(const State& state, const FaceState& faces, std::
       conductance[face * n + s] = metric * (w * state.carriedDiffusivity[m.low[face] * n + s] +
                                             (1.0 - w) * state.carriedDiffusivity[m.high[face] * n + s]);
   }
-  diffusion_.solve(n, diagonal, conductance, source, perMass);
+  // Particles see how much there is of them where there is next to nothing.
+  diffusion_.solve(n, diagonal, conductance, source, perMass, 1e-8);
   std::vector<double> flux(flux_.size(), 0.0);
   for (int face = 0; face < m.interiorFaces; ++face)
     for (int s = 0; s < n; ++s)

@@ -109,7 +109,6 @@ void TransportOperator::computeHeatFlux(const State& state, double dt) {
                                                                state.temperature[c]);
       diagonal[c] = newMass_[c] * properties_.heatCapacity[c] / dt;
       source[c] = diagonal[c] * T;
-      temperature_[c] = T;
     }
   });
   for (int face = 0; face < m.faces; ++face) {
@@ -128,6 +127,7 @@ void TransportOperator::computeHeatFlux(const State& state, double dt) {
     diagonal[low] += conductance[face];
     source[low] += conductance[face] * boundary.temperature;
   }
+  temperature_ = state.temperature;
   heatDiffusion_.solve(1, diagonal, conductance, source, temperature_);
   for (int face = 0; face < m.faces; ++face) {
     const double beyond = m.high[face] >= 0 ? temperature_[m.high[face]] : context_.boundaryOf(face).temperature;

@@ -14,7 +14,8 @@ TEST(CubeRoot, IsThatOfTheLibraryToFourUnitsInTheLastPlace) {
   std::uniform_real_distribution<double> exponent(-289.0, 289.0), mantissa(1.0, 8.0);
   double worst = 0.0;
   for (int i = 0; i < 200000; ++i) {
-    const double x = (i % 2 == 0 ? 1.0 : -1.0) * mantissa(random) * (i % 3 == 0 ? 1.0 : std::pow(10.0, exponent(random)));
+    const double x =
+        (i % 2 == 0 ? 1.0 : -1.0) * mantissa(random) * (i % 3 == 0 ? 1.0 : std::pow(10.0, exponent(random)));
     worst = std::max(worst, std::abs(cubeRoot(x) / std::cbrt(x) - 1.0));
   }
   EXPECT_LE(worst, 4.0 * std::numeric_limits<double>::epsilon());

@@ -184,14 +184,14 @@ TEST_P(Carried, HugeDiffusivityIsStableConservedAndBounded) {
   transport.initialise(state, 1e-3);
   const double start = integral(b.mesh, [&](int c) { return state.carried[at(c)]; });
   const double volume = integral(b.mesh, [](int) { return 1.0; });
-  // Each solve ends at a residual of 1e-9 of its source (2-norm over the cells, volumes of equal order).
+  // Each solve ends at a residual of 1e-7 of its source at most (2-norm over the cells, volumes of equal order).
   double norm = 0.0;
   double smallest = 1e300;
   for (int c = 0; c < b.mesh.owned; ++c) {
     norm += std::pow(b.mesh.volume[at(c)] * state.carried[at(c)], 2);
     smallest = std::min(smallest, b.mesh.volume[at(c)]);
   }
-  const double slack = 1e-9 * std::sqrt(sumOverRanks(norm)) / minOverRanks(smallest);
+  const double slack = 1e-7 * std::sqrt(sumOverRanks(norm)) / minOverRanks(smallest);
   int step = 0;
   for (const double dt : {1e-3, 1.0, 1.0}) {
     transport.advance(state, 0.0, dt);

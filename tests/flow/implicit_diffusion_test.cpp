@@ -42,7 +42,7 @@ class Diffusion : public testing::Test {
       }
     for (int face = 0; face < m.interiorFaces; ++face)
       for (int k = 0; k < fields; ++k) conductance.push_back(conductanceOf(face, k));
-    std::vector<double> x(at(fields * m.cells), 0.1);
+    std::vector<double> x(at(fields * m.cells), 0.0);
     ImplicitDiffusion solver(m, box.halo);
     result = solver.solve(fields, diagonal, conductance, source, x, tolerance);
     return x;
