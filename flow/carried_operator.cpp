@@ -11,7 +11,7 @@ namespace lampblack::flow {
 namespace {
 
 // How a cell is packed for the trip to another rank and back. In: place, number, gas, densities, concentrations, and
-// where the coupling is deferred what brings them; out: seconds, steps, densities, concentrations.
+// what brings them; out: seconds, steps, densities, concentrations.
 constexpr std::size_t inHeader = 8, outHeader = 2;
 
 constexpr double firstCost = 1e-5;  // s, before a cell was ever advanced
@@ -113,10 +113,9 @@ void CarriedOperator::pack(const State& state, const BusyCell& busy, double dt, 
         busy.viscosity,
         busy.meanMolecularWeight};
   const std::size_t n = values_.size();
-  in.resize(inHeader + (options_.deferred ? 2 : 1) * n);
+  in.resize(inHeader + 2 * n);
   const std::span<double> start = std::span(in).subspan(inHeader, n);
   valuesOf(state, c, start);
-  if (!options_.deferred) return;
   // Since the end of the last step, without what these particles did in it: at a constant rate.
   for (std::size_t i = 0; i < n; ++i) {
     const double before = before_[at(c, n) + i];
@@ -138,15 +137,11 @@ void CarriedOperator::take(State& state, int cell, double dt, std::span<const do
   double* rate = &rate_[at(cell, values_.size())];
   const double temperature = state.temperature[cell];
   model_.enthalpies(temperature, enthalpy_, slope_);
-  double given = 0.0;  // J/m3, of the gas to the particles, by what the balance does not hold already
-  for (std::size_t s = 0; s < scalars_; ++s) given += (after[s] - values_[s]) * enthalpy_[s];
-  if (options_.deferred) {
-    double power = 0.0;
-    for (std::size_t i = 0; i < values_.size(); ++i) rate[i] += (after[i] - values_[i]) / dt;
-    for (std::size_t s = 0; s < scalars_; ++s) power += rate[s] * enthalpy_[s];
-    given = dt * (power + heat_[cell]);
-    heat_[cell] = -power;
-  }
+  double power = 0.0;  // W/m3, of the gas to the particles
+  for (std::size_t i = 0; i < values_.size(); ++i) rate[i] += (after[i] - values_[i]) / dt;
+  for (std::size_t s = 0; s < scalars_; ++s) power += rate[s] * enthalpy_[s];
+  const double given = dt * (power + heat_[cell]);  // J/m3, what the balance does not hold already
+  heat_[cell] = -power;
   std::copy_n(after.begin(), scalars_, densities(state, cell).begin());
 
   // Back to the gas's partial densities; what did not change keeps its bits.
@@ -235,7 +230,6 @@ double CarriedOperator::shareForTransport(std::span<const double> present, const
 }
 
 void CarriedOperator::endStep(State& state) {
-  if (!options_.deferred) return;
   const std::vector<std::size_t>& species = model_.exchanged();
   const auto W = context_.mechanism.molecularWeights();
   const std::size_t n = values_.size();
@@ -255,10 +249,8 @@ void CarriedOperator::endStep(State& state) {
 
 void CarriedOperator::saveOrLoad(StateArchive& archive) {
   archive.cells("carried_cost", cost_, 1);
-  if (options_.deferred) {
-    archive.cells("carried_rate", rate_, static_cast<int>(values_.size()));
-    archive.cells("carried_heat", heat_, 1);
-  }
+  archive.cells("carried_rate", rate_, static_cast<int>(values_.size()));
+  archive.cells("carried_heat", heat_, 1);
   std::array<double, 1> counted{static_cast<double>(steps_)};
   archive.sums("carried_counts", counted);
   steps_ = static_cast<long>(counted[0]);

@@ -30,7 +30,6 @@ namespace lampblack::flow {
 class CarriedOperator : public Operator {
  public:
   struct Options {
-    bool deferred = true;  // otherwise in turn with transport and chemistry, for Strang splitting
     bool shareWork = true;
     // Largest volume fraction in particles that cannot grow over the largest of all; more is a NumericsError, when a
     // row of the history is due, which ends with `advice`.
@@ -83,7 +82,7 @@ class CarriedOperator : public Operator {
   Options options_;
   WorkSharing sharing_;
   std::vector<double> cost_;  // s, of each owned cell's last advance
-  // Deferred, of each owned cell: its values at the end of the last step; their mean rates by the particles in it, and
+  // Of each owned cell: its values at the end of the last step; their mean rates by the particles in it, and
   // the power that these gave to the gas, W/m3.
   std::vector<double> before_, rate_, heat_;
   double lastStep_ = 0.0;           // s

@@ -24,7 +24,7 @@ ReactionOperator::ReactionOperator(const FlowContext& context, Options options)
       sharing_(context.mesh.comm, options.shareWork),
       cost_(context.mesh.owned, 1e-4),
       initialStep_(context.mesh.owned, 0.0),
-      rate_(options.deferred ? cost_.size() * context.mechanism.numSpecies() : 0) {}
+      rate_(cost_.size() * context.mechanism.numSpecies()) {}
 
 void ReactionOperator::pack(const State& state, std::size_t cell, double dt, std::span<double> in) const {
   const auto n = static_cast<std::size_t>(state.species);
@@ -40,9 +40,8 @@ void ReactionOperator::pack(const State& state, std::size_t cell, double dt, std
   const std::span<double> start = in.subspan(Layout::inHeader, n);
   const std::span<double> source = in.subspan(Layout::inHeader + n, n);
   std::copy_n(before, n, start.begin());
-  // Deferred: what transport alone has changed since then, at a constant rate.
-  for (std::size_t k = 0; k < n; ++k)
-    source[k] = options_.deferred ? (Y[k] - before[k]) / dt - rate_[cell * n + k] / state.density[cell] : 0.0;
+  // What transport alone has changed since then, at a constant rate.
+  for (std::size_t k = 0; k < n; ++k) source[k] = (Y[k] - before[k]) / dt - rate_[cell * n + k] / state.density[cell];
 }
 
 void ReactionOperator::solve(double time, double dt, std::span<const double> in, std::span<double> out) {
@@ -56,7 +55,7 @@ void ReactionOperator::solve(double time, double dt, std::span<const double> in,
   };
   try {
     ConstantPressureReactor::Cell cell{context_.thermo.temperatureFromEnthalpy(in[2], Y, in[3]), in[4], Y, {}, in[5]};
-    if (options_.deferred) cell.source = in.subspan(Layout::inHeader + n);
+    cell.source = in.subspan(Layout::inHeader + n);
     const auto result = reactor_.advance(cell, dt);
     out[0] = cell.temperature;
     out[1] = cell.initialStep;
@@ -79,15 +78,13 @@ void ReactionOperator::unpack(State& state, std::size_t cell, double dt, std::sp
   for (std::size_t k = 0; k < n; ++k) {
     double& Y = state.Y[cell * n + k];
     const double reacted = out[Layout::outHeader + k];
-    if (options_.deferred) rate_[cell * n + k] += state.density[cell] * (reacted - Y) / dt;
+    rate_[cell * n + k] += state.density[cell] * (reacted - Y) / dt;
     Y = reacted;
   }
-  if (options_.deferred) {
-    // No net mass: the reactor keeps the sum of Y, so that round-off in the rate would feed on itself.
-    double net = 0.0;
-    for (std::size_t k = 0; k < n; ++k) net += rate_[cell * n + k];
-    for (std::size_t k = 0; k < n; ++k) rate_[cell * n + k] -= net * state.Y[cell * n + k];
-  }
+  // No net mass: the reactor keeps the sum of Y, so that round-off in the rate would feed on itself.
+  double net = 0.0;
+  for (std::size_t k = 0; k < n; ++k) net += rate_[cell * n + k];
+  for (std::size_t k = 0; k < n; ++k) rate_[cell * n + k] -= net * state.Y[cell * n + k];
   state.temperature[cell] = out[0];
   initialStep_[cell] = out[1];
   // A smoothed cost: one solve's time is noisy on a shared machine.
@@ -123,7 +120,6 @@ void ReactionOperator::advance(State& state, double time, double dt) {
 }
 
 void ReactionOperator::endStep(State& state) {
-  if (!options_.deferred) return;
   before_.assign(state.Y.begin(), state.Y.begin() + static_cast<std::ptrdiff_t>(rate_.size()));
   for (std::size_t i = 0; i < rate_.size(); ++i) state.balance.species[i] += rate_[i];
 }
@@ -132,7 +128,7 @@ void ReactionOperator::endStep(State& state) {
 void ReactionOperator::saveOrLoad(StateArchive& archive) {
   archive.cells("chemistry_cost", cost_, 1);
   archive.cells("chemistry_first_step", initialStep_, 1);
-  if (options_.deferred) archive.cells("chemistry_rate", rate_, static_cast<int>(context_.mechanism.numSpecies()));
+  archive.cells("chemistry_rate", rate_, static_cast<int>(context_.mechanism.numSpecies()));
   std::array<double, 5> counted{diagnostics_.solverSteps, diagnostics_.integratedCells, diagnostics_.skippedCells,
                                 diagnostics_.handedOverCells, diagnostics_.retries};
   archive.sums("chemistry_counts", counted);

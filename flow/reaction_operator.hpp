@@ -1,7 +1,7 @@
 // Chemistry in every cell: one stiff solve at constant pressure and enthalpy, shared between the ranks.
 //
-// Coupling with transport. Strang splitting integrates the reactions alone. Deferred coupling integrates them from the
-// state before the transport stage with the transport as a constant source, while the transport stage was given the
+// Coupling with transport. The reactions are integrated from the state
+// before the transport stage with the transport as a constant source, while the transport stage was given the
 // last step's mean reaction rate (by State::balance): one sweep of spectral deferred corrections (Nonaka, Bell, Day,
 // Gilet, Almgren, Minion 2012). It is first order in time, but a steady flame is a steady state of it whatever the
 // step, and the stiff solver, which then starts in equilibrium with the transport, needs few steps.
@@ -25,7 +25,6 @@ namespace lampblack::flow {
 class ReactionOperator : public Operator {
  public:
   struct Options {
-    bool deferred = true;  // otherwise Strang splitting
     bool shareWork = true;
     ConstantPressureReactor::Options reactor;
     // Keeps a cell that cannot be advanced, on the rank that tried; what it returns is added to the message. Called at
@@ -62,7 +61,7 @@ class ReactionOperator : public Operator {
   WorkSharing sharing_;
   std::vector<double> cost_;         // s, of each owned cell's last solve
   std::vector<double> initialStep_;  // s, ConstantPressureReactor::Cell::initialStep of the next solve
-  // Deferred only, species a owned cell: mass fractions at the end of the last step, and its mean rate (kg/m3/s).
+  // Species a owned cell: mass fractions at the end of the last step, and its mean rate (kg/m3/s).
   std::vector<double> before_, rate_;
   Diagnostics diagnostics_;
   Imbalance imbalances_{0.0, 0.0};  // sums over all stages

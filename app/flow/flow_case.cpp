@@ -101,8 +101,7 @@ void readSoot(const Deck& deck, FlowCase& flowCase) {
   }
   flowCase.carried =
       std::make_shared<CarriedParticles>(*flowCase.mechanism, std::move(model), deck.boolean("soot.diffusion"));
-  flowCase.carriedOptions = {flowCase.chemistry.deferred, flowCase.chemistry.shareWork,
-                             deck.number("soot.sectional.overflow"), tooFewSections};
+  flowCase.carriedOptions = {flowCase.chemistry.shareWork, deck.number("soot.sectional.overflow"), tooFewSections};
 }
 
 void readTransport(const Deck& deck, FlowCase& flowCase) {
@@ -184,7 +183,6 @@ FlowCase readFlowCase(const Deck& deck) {
   flowCase.flow.courant = deck.number("time.courant");
   if (flowCase.time.firstStep > flowCase.time.maximumStep)
     throw deck.error("time.first_step", "expected no more than 'maximum_step'");
-  flowCase.chemistry.deferred = deck.choice("chemistry.coupling") == "deferred";
   flowCase.chemistry.shareWork = deck.boolean("chemistry.share_work");
   flowCase.chemistry.reactor.relativeTolerance = deck.number("chemistry.relative_tolerance");
   flowCase.chemistry.reactor.rosenbrockSteps = deck.integer<int>("chemistry.rosenbrock_steps");

@@ -70,7 +70,6 @@ Fingerprint flowFingerprint(const FlowCase& flowCase, const std::vector<CarriedS
       {"mechanism", hashed(fmt::format("{} species, {} reactions", mechanism.numSpecies(), mechanism.numReactions()),
                            mechanismYaml(mechanism))},
       {"pressure", fmt::format("{} Pa", flowCase.pressure)},
-      {"coupling", flowCase.chemistry.deferred ? "deferred" : "strang"},
       {"particle model", scalars.empty() ? "no scalars" : hashed(fmt::format("{} scalars", scalars.size()), carried)}};
 }
 

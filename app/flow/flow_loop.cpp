@@ -28,7 +28,8 @@ FlowLoop::FlowLoop(MPI_Comm comm, FlowCase flowCase)
   if (case_.carried) carried_ = std::make_unique<CarriedOperator>(context_, *case_.carried, 0, case_.carriedOptions);
   collectively(comm_, [&] { setMixingLayer(context_, case_.initial, state_); });
   flow_.initialise(state_, case_.time.firstStep);
-  planStep();
+  operators_ = {&flow_, &chemistry_};
+  if (carried_) operators_.push_back(carried_.get());
   for (Operator* op : operators_) op->endStep(state_);
   std::vector<std::vector<double>> carriedMass;
   if (case_.carried)
@@ -101,23 +102,9 @@ void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
   if (failure) std::rethrow_exception(failure);
 }
 
-void FlowLoop::planStep() {
-  operators_ = {&flow_, &chemistry_};
-  if (carried_) operators_.push_back(carried_.get());
-  if (case_.chemistry.deferred) {
-    for (Operator* op : operators_) stages_.push_back({op, 1.0});
-    return;
-  }
-  // Strang splitting around the chemistry, which costs most and so is solved once a step.
-  for (Operator* op : operators_)
-    if (op != &chemistry_) stages_.push_back({op, 0.5});
-  stages_.push_back({&chemistry_, 1.0});
-  for (std::size_t i = stages_.size() - 1; i-- > 0;) stages_.push_back(stages_[i]);
-}
-
 double FlowLoop::chooseStep(double previous, double until) {
   double dt = std::min(case_.time.maximumStep, previous * case_.time.growth);
-  for (Operator* op : operators_) dt = std::min(dt, op->largestStep(state_) / shareOf(op));
+  for (Operator* op : operators_) dt = std::min(dt, op->largestStep(state_));
   if (steps_ == 0) dt = std::min(dt, case_.time.firstStep);
   // Land on the output without a sliver of a step before it.
   const double left = until - time_;
@@ -126,9 +113,9 @@ double FlowLoop::chooseStep(double previous, double until) {
 }
 
 void FlowLoop::step(double dt) {
-  for (const Stage& stage : stages_) {
-    const Timers::Scope scope(timers_, stage.op->name());
-    stage.op->advance(state_, time_, stage.share * dt);
+  for (Operator* op : operators_) {
+    const Timers::Scope scope(timers_, op->name());
+    op->advance(state_, time_, dt);
   }
   for (Operator* op : operators_) op->endStep(state_);
   time_ += dt;

@@ -41,22 +41,12 @@ class FlowLoop {
  private:
   ReactionOperator::Options keepingFailedCells(ReactionOperator::Options options);
 
-  // A step is a sequence of operators, each over its share of the step.
-  struct Stage {
-    Operator* op;
-    double share;
-  };
-  void planStep();
-
   struct Peak {
     double value = 0.0;
     std::array<double, 2> place{};
   };
 
   double chooseStep(double previous, double until);
-
-  // Of a step, that one stage of it advances.
-  double shareOf(const Operator* op) const { return std::ranges::find(stages_, op, &Stage::op)->share; }
 
   void step(double dt);
 
@@ -93,8 +83,7 @@ class FlowLoop {
   TransportOperator flow_;
   ReactionOperator chemistry_;
   std::unique_ptr<CarriedOperator> carried_;
-  std::vector<Operator*> operators_;
-  std::vector<Stage> stages_;
+  std::vector<Operator*> operators_;  // each advances over the step, one after the other
   std::unique_ptr<Budget> budget_;
   Timers timers_;
   std::optional<WholeCheckpoint> restart_;  // what the run goes on from

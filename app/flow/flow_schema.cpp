@@ -165,10 +165,6 @@ DeckSchema flowSchema() {
   addInitial(schema);
   addTimeAndOutput(schema);
   schema
-      .add(choiceKey("chemistry.coupling", {"deferred", "strang"},
-                     "deferred: reactions and particles see the transport as a constant source, so that a steady flame "
-                     "does not depend on the time step; strang: Strang splitting.")
-               .byDefault("deferred"))
       .add(booleanKey("chemistry.share_work", "Whether cells with costly chemistry are sent to less busy ranks.")
                .byDefault("true"))
       .add(numberKey("chemistry.relative_tolerance",

@@ -43,7 +43,7 @@ bool ReactorRosenbrock::advance(const ReactorIntegrator::Interval& interval, std
   RosenbrockSolver::Result result;
   const bool arrived = solver_.tryToIntegrate(system, interval.duration, interval.firstStep, state,
                                               {interval.relativeTolerance, smallest_, interval.maxSteps}, tell, result);
-  work.steps += result.steps + result.rejected;
+  work.steps += result.steps;
   nextStep_ = result.nextStep;
   return arrived;
 }

@@ -25,7 +25,7 @@ TEST(DeckValues, OfAFlow) {
        "hot_position: 4 mm, hot_width: 0.5 mm}",
        "time={end: 3 us, first_step: 0.2 us, maximum_step: 0.4 us, courant: 0.3, growth: 1.5}",
        "output={interval: 2 us, history_steps: 3, species: [OH, C2H2]}",
-       "chemistry={coupling: strang, share_work: false, relative_tolerance: 1e-5, absolute_tolerance: 1e-11}",
+       "chemistry={share_work: false, relative_tolerance: 1e-5, absolute_tolerance: 1e-11}",
        "soot={pah: [A2], density: 1700 kg/m^3, alpha: 0.4, oh_efficiency: 0.1, van_der_waals: 1.5}",
        "trajectories={duration: 2 ms, time_step: 20 us, particles: 128, bins: 30, smallest: 1 nm, "
        "largest: 100 nm, start: [{r: 1 mm, z: 4 mm}]}"}));
@@ -61,7 +61,6 @@ TEST(DeckValues, OfAFlow) {
   EXPECT_EQ(flow.output.historySteps, 3);
   EXPECT_THAT(flow.output.species,
               ElementsAre(flow.mechanism->speciesIndex("OH"), flow.mechanism->speciesIndex("C2H2")));
-  EXPECT_FALSE(flow.chemistry.deferred);
   EXPECT_FALSE(flow.chemistry.shareWork);
   EXPECT_EQ(flow.chemistry.reactor.relativeTolerance, 1e-5);
   EXPECT_EQ(flow.chemistry.reactor.absoluteTolerance, 1e-11);

@@ -91,7 +91,6 @@ TEST(FlowCase, FillsInDefaultsInSi) {
   EXPECT_DOUBLE_EQ(flowCase.time.firstStep, 1e-6);
   EXPECT_DOUBLE_EQ(flowCase.output.interval, flowCase.time.end);
   EXPECT_EQ(flowCase.output.species.size(), flowCase.mechanism->numSpecies());
-  EXPECT_TRUE(flowCase.chemistry.deferred);
   EXPECT_DOUBLE_EQ(flowCase.chemistry.reactor.relativeTolerance, 1e-6);
   EXPECT_DOUBLE_EQ(test::dimerOptions(flowCase).sootDensity, 1850.0);
   EXPECT_FALSE(test::dimerOptions(flowCase).alpha);

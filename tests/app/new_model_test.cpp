@@ -80,9 +80,8 @@ TEST(NewModel, IsARowOfTheTableAndGoesIntoAFlow) {
   for (auto field : {&State::temperature, &State::density, &State::enthalpy, &State::Y, &State::velocity})
     flame.state.*field = gas.state.*field;
   std::fill(flame.state.carried.begin(), flame.state.carried.end(), 2e-3);
-  CarriedOperator::Options alone;
-  alone.deferred = false;
-  CarriedOperator particles(flame.context, dust, 0, alone);
+  CarriedOperator particles(flame.context, dust, 0, {});
+  particles.endStep(flame.state);
   particles.advance(flame.state, 0.0, 5e-3);
   for (int c = 0; c < flame.mesh.owned; ++c)
     EXPECT_NEAR(particles.densities(flame.state, c)[0] / (2e-3 * std::exp(-0.5)), 1, 1e-3);

@@ -72,13 +72,13 @@ def run(program, *arguments):
     return result
 
 
-def check_middle(program, folder, deck, coupling):
+def check_middle(program, folder, deck):
     """N steps against N/2, a restart, N/2."""
-    options = running.settings(*SETTINGS, f"checkpoint.steps={MIDDLE}", f"chemistry.coupling={coupling}")
-    whole = folder / f"whole_{coupling}"
+    options = running.settings(*SETTINGS, f"checkpoint.steps={MIDDLE}")
+    whole = folder / "whole"
     run(program, deck, *options, "--out", whole)
     assert [file.name for file in sorted((whole / "checkpoint").glob("step_*"))] == [f"step_{MIDDLE:06}.h5"]
-    rest = folder / f"rest_{coupling}"
+    rest = folder / "rest"
     run(program, deck, *options, *running.settings(*OTHER_START), "--out", rest, "--restart", whole / f"checkpoint/step_{MIDDLE:06}.h5")
     assert_equal(rest, whole)
     return whole
@@ -193,12 +193,12 @@ def check_wrong(program, folder, deck, whole):
     before = running.snapshot(folder)
     others = {"mesh": ["mesh.refinement=2"], "boundaries": ["boundaries.oxidiser_flange.type=symmetry"], "pressure": ["pressure=2 atm"],
               "mechanism": ["mechanism=../mechanisms/other.yaml"],
-              "coupling": ["chemistry.coupling=strang"], "particle model": ["soot.model=none"]}
+              "particle model": ["soot.model=none"]}
     for name, values in others.items():
         wrong = [*base, *running.settings(*values)]
         refusal(program, before, folder, [f"of another {name} (its own: "], deck, *wrong, "--out", whole, "--restart")
     file = whole / f"checkpoint/step_{MIDDLE:06}.h5"
-    refusal(program, before, folder, ["already", "--force"], deck, *base, "--out", folder / "rest_deferred", "--restart", file)
+    refusal(program, before, folder, ["already", "--force"], deck, *base, "--out", folder / "rest", "--restart", file)
     outputs = next((whole / "checkpoint").glob("outputs_*.h5"))
     for victim in (file, outputs):
         check_damage(program, folder, deck, base, whole, victim)
@@ -257,8 +257,7 @@ def main(executable, ranks, *mpiexec):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         deck = running.small_case(folder)
-        whole = check_middle(program, folder, deck, "deferred")
-        check_middle(program, folder, deck, "strang")
+        whole = check_middle(program, folder, deck)
         check_requests(program, folder, deck)
         if program.ranks == 1:
             check_other_ranks(executable, list(mpiexec), folder, deck, whole, 1, [3])

