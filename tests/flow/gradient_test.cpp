@@ -124,17 +124,19 @@ TEST(LimitedFaceValue, LinearDataIsExact) {
                     1.0 + slope * toFace, 8.0 * epsilon);
 }
 
-// On smooth data and any grading the error is that of a parabola, a quarter with half the distances.
+// On smooth data and any grading: of the face's value, and of the slope it comes from, which takes the right weights.
 TEST(LimitedFaceValue, IsOfSecondOrderOnGradedData) {
   for (const double ratio : {0.5, 0.8, 1.0, 1.3}) {
-    double error[2];
+    double error[2], slopeError[2];
     for (int i = 0; i < 2; ++i) {
       const double h = 0.02 / (1 << i);
       const Upwind at{0, 1, 1.0, 0.5 * h * (1.0 + ratio), 0.5 * h * (1.0 + 1.0 / ratio), 0.5 * h};
       const Line line{std::exp(-at.behind), 1.0, std::exp(at.ahead), at};
       error[i] = line.faceValue() - std::exp(at.toFace);
+      slopeError[i] = (line.faceValue() - 1.0) / at.toFace - 1.0;
     }
     EXPECT_NEAR(error[0] / error[1], 4.0, 0.2) << ratio;
+    EXPECT_NEAR(slopeError[0] / slopeError[1], 4.0, 0.4) << ratio;
   }
 }
 

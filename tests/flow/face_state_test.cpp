@@ -1,0 +1,90 @@
+// Face values as convection takes them, whichever way it goes.
+#include "flow/face_state.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "flow_fixture.hpp"
+#include "tests/every_room.hpp"
+
+namespace lampblack::test {
+namespace {
+
+constexpr double width = 0.01;  // m
+
+// Cells that grow along both axes, and the same seen in a mirror.
+std::vector<double> axis(int refinement, bool isMirrored) {
+  std::vector<double> vertices = gradedAxis(0.0, {{width, 12, 4.0}}, refinement);
+  if (!isMirrored) return vertices;
+  std::reverse(vertices.begin(), vertices.end());
+  for (double& x : vertices) x = width - x;
+  return vertices;
+}
+
+double mirrored(double x, bool isMirrored) {
+  return isMirrored ? width - x : x;
+}
+
+double temperatureAt(double x, double y) {
+  return 900.0 + 300.0 * std::sin(150.0 * x) + 200.0 * std::cos(180.0 * y);
+}
+
+struct Faces {
+  double sum = 0.0;    // of temperatures and mass fractions, each with a weight of its place
+  double error = 0.0;  // K, mean over the faces inside, of a smooth field
+};
+
+// Carried to growing coordinates, or in the mirror to falling ones.
+Faces facesOf(int refinement, bool isMirrored) {
+  Gas& gas = Gas::hydrogen();
+  const auto low = gas.massFractions("O2: 0.21, N2: 0.79"), high = gas.massFractions("H2: 0.3, N2: 0.7");
+  Box box(Geometry::Planar, {axis(refinement, isMirrored), axis(refinement, isMirrored)},
+          {side(BoundaryKind::Wall, 0, false), side(BoundaryKind::Wall, 0, true), side(BoundaryKind::Wall, 1, false),
+           side(BoundaryKind::Wall, 1, true)});
+  const Mesh& m = box.mesh;
+  State state = box.state([&](const auto& place) {
+    const double x = mirrored(place[0], isMirrored), y = mirrored(place[1], isMirrored);
+    const double share = 0.5 + 0.4 * std::sin(200.0 * (x + 0.5 * y));
+    std::vector<double> Y(low.size());
+    for (std::size_t k = 0; k < Y.size(); ++k) Y[k] = share * low[k] + (1.0 - share) * high[k];
+    return Box::Local{{0.0, 0.0}, temperatureAt(x, y), Y};
+  });
+  state.updateHalo(box.halo);
+  FaceState faces(box.context, state.species, 0);
+  faces.prepare(state);
+  faces.interpolate(state, std::vector<double>(at(m.faces), isMirrored ? -1.0 : 1.0));
+  Faces result;
+  double count = 0.0;
+  for (int face = 0; face < m.interiorFaces; ++face) {
+    if (m.low[at(face)] >= m.owned) continue;  // counted by the neighbour
+    const double x = mirrored(m.faceCentre[at(face)][0], isMirrored),
+                 y = mirrored(m.faceCentre[at(face)][1], isMirrored);
+    const double weight = std::exp(100.0 * x - 70.0 * y) * (1.0 + m.normalAxis[at(face)]);
+    result.sum +=
+        weight * faces.temperature[at(face)] * faces.Y[at(face) * low.size() + gas.mechanism.speciesIndex("H2")];
+    if (std::min(x, y) < 0.1 * width || std::max(x, y) > 0.9 * width) continue;
+    result.error += std::abs(faces.temperature[at(face)] - temperatureAt(x, y));
+    ++count;
+  }
+  result.sum = sumOverRanks(result.sum);
+  result.error = sumOverRanks(result.error) / sumOverRanks(count);
+  return result;
+}
+
+TEST(FaceState, IsTheSameInAMirror) {
+  const Faces straight = facesOf(1, false), reversed = facesOf(1, true);
+  EXPECT_NEAR(reversed.sum / straight.sum, 1.0, 1e-11);
+}
+
+// At crests and troughs the limiter is of first order, in ever fewer of the faces.
+TEST(FaceState, IsOfSecondOrderOnGradedMeshesEitherWay) {
+  for (const bool isMirrored : {false, true}) {
+    const double coarse = facesOf(2, isMirrored).error, fine = facesOf(4, isMirrored).error;
+    EXPECT_GT(std::log2(coarse / fine), 1.7) << isMirrored;
+  }
+}
+
+}  // namespace
+}  // namespace lampblack::test
