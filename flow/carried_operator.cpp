@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "core/errors.hpp"
 
@@ -230,13 +231,16 @@ double CarriedOperator::shareForTransport(std::span<const double> present, const
 }
 
 void CarriedOperator::endStep(State& state) {
+  for (int c = 0; c < context_.mesh.owned; ++c) valuesOf(state, c, {&before_[at(c, values_.size())], values_.size()});
+}
+
+void CarriedOperator::endSweep(State& state) {
   const std::vector<std::size_t>& species = model_.exchanged();
   const auto W = context_.mechanism.molecularWeights();
   const std::size_t n = values_.size();
   for (int c = 0; c < context_.mesh.owned; ++c) {
-    valuesOf(state, c, {&before_[at(c, n)], n});
     double* rate = &rate_[at(c, n)];
-    const double share = shareForTransport({&before_[at(c, n)], scalars_}, rate);
+    const double share = shareForTransport(densities(std::as_const(state), c), rate);
     for (std::size_t i = 0; i < n; ++i) rate[i] *= share;
     heat_[c] *= share;
     for (std::size_t s = 0; s < scalars_; ++s)

@@ -6,12 +6,10 @@
 
 namespace lampblack::flow {
 
-void CarriedTransport::advance(State& state, const GasProperties& properties, const FaceState& faces,
-                               std::span<const double> faceVelocity, std::span<const double> newMass, double dt) {
+void CarriedTransport::convectiveFlux(const State& state, const Gas& gas) {
   const Mesh& m = context_.mesh;
   const int n = state.carriedCount();
-  if (n == 0) return;
-  const auto temperatureGradient = faces.temperatureGradient();
+  const auto temperatureGradient = gas.faces.temperatureGradient();
   for (int face = 0; face < m.faces; ++face) {
     double* flux = &flux_[static_cast<std::size_t>(face) * n];
     std::fill_n(flux, n, 0.0);
@@ -21,54 +19,78 @@ void CarriedTransport::advance(State& state, const GasProperties& properties, co
     if (high < 0) {
       // Particles leave with the gas; nothing enters with it, and walls take none.
       if (state.massFlux[face] > 0.0)
-        for (int s = 0; s < n; ++s) flux[s] = state.massFlux[face] * state.carried[low * n + s] / state.density[low];
+        for (int s = 0; s < n; ++s)
+          flux[s] = state.massFlux[face] * gas.mean.carried[low * n + s] / gas.mean.density[low];
       continue;
     }
     const double w = m.lowWeight[face];
     const int axis = m.normalAxis[face];
-    const auto mean = [&](const std::vector<double>& field) { return w * field[low] + (1.0 - w) * field[high]; };
+    const auto mean = [&](std::span<const double> field) { return w * field[low] + (1.0 - w) * field[high]; };
     const double slope = w * temperatureGradient[2 * low + axis] + (1.0 - w) * temperatureGradient[2 * high + axis];
-    const double drift = -mean(properties.viscosity) / mean(state.density) * slope / mean(state.temperature);
+    const double drift = -mean(gas.viscosity) / mean(gas.mean.density) * slope / mean(gas.mean.temperature);
     for (int s = 0; s < n; ++s) {
-      const double velocity = faceVelocity[face] + state.scalars[s].thermophoresis * drift;
-      flux[s] = faces.density[face] * m.area[face] * velocity * faces.carriedPerMass(face, s, velocity);
+      const double velocity = gas.faceVelocity[face] + state.scalars[s].thermophoresis * drift;
+      flux[s] = gas.faces.density[face] * m.area[face] * velocity * gas.faces.carriedPerMass(face, s, velocity);
     }
   }
+}
+
+void CarriedTransport::advance(State& state, const Gas& gas, double dt) {
+  const Mesh& m = context_.mesh;
+  const int n = state.carriedCount();
+  if (n == 0) return;
+  convectiveFlux(state, gas);
   std::vector<double> content(static_cast<std::size_t>(m.owned) * n);
   for (int c = 0; c < m.owned; ++c)
     for (int s = 0; s < n; ++s)
-      content[c * n + s] = m.volume[c] * (state.carried[c * n + s] + dt * state.balance.carried[c * n + s]);
+      content[c * n + s] = m.volume[c] * (gas.start.carried[c * n + s] + dt * state.balance.carried[c * n + s]);
   addFaceFluxes(m, flux_, n, dt, content);
-  diffuse(state, faces, newMass, dt, content);
+  diffuse(state, gas, dt, content);
   for (int c = 0; c < m.owned; ++c)
     for (int s = 0; s < n; ++s) state.carried[c * n + s] = content[c * n + s] / m.volume[c];
 }
 
-// Implicit: particles of a nucleus's size diffuse almost like molecules.
-void CarriedTransport::diffuse(const State& state, const FaceState& faces, std::span<const double> newMass, double dt,
-                               std::span<double> content) {
+void CarriedTransport::presentFlux(const State& state, const FaceState& faces, std::span<double> conductance,
+                                   std::span<double> flux) const {
   const Mesh& m = context_.mesh;
   const int n = state.carriedCount();
-  std::vector<double> diagonal(content.size());
+  for (int face = 0; face < m.interiorFaces; ++face) {
+    const int low = m.low[face], high = m.high[face];
+    const double w = m.lowWeight[face];
+    const double metric = faces.density[face] * m.area[face] / m.distance[face];
+    for (int s = 0; s < n; ++s) {
+      double& g = conductance[face * n + s];
+      g = metric * (w * state.carriedDiffusivity[low * n + s] + (1.0 - w) * state.carriedDiffusivity[high * n + s]);
+      flux[face * n + s] =
+          g * (state.carried[low * n + s] / state.density[low] - state.carried[high * n + s] / state.density[high]);
+    }
+  }
+}
+
+// Implicit: particles of a nucleus's size diffuse almost like molecules. From the second sweep on corrected so that it
+// becomes the mean of the diffusion at both ends of the step.
+void CarriedTransport::diffuse(const State& state, const Gas& gas, double dt, std::span<double> content) {
+  const Mesh& m = context_.mesh;
+  const int n = state.carriedCount();
   std::vector<double> conductance(static_cast<std::size_t>(m.interiorFaces) * n);
+  std::vector<double> flux(flux_.size(), 0.0), startFlux(flux_.size(), 0.0);
+  if (&gas.start != &state) presentFlux(gas.start, gas.faces, conductance, startFlux);
+  presentFlux(state, gas.faces, conductance, flux);
+  if (&gas.start != &state) {
+    for (std::size_t i = 0; i < flux.size(); ++i) flux[i] = 0.5 * (startFlux[i] - flux[i]);
+    addFaceFluxes(m, flux, n, dt, content);
+  }
+  std::vector<double> diagonal(content.size());
   std::vector<double> perMass(static_cast<std::size_t>(m.cells) * n);
   std::vector<double> source(content.size());
   for (int c = 0; c < m.owned; ++c)
     for (int s = 0; s < n; ++s) {
-      diagonal[c * n + s] = newMass[c] / dt;
+      diagonal[c * n + s] = gas.newMass[c] / dt;
       source[c * n + s] = content[c * n + s] / dt;
       perMass[c * n + s] = state.carried[c * n + s] / state.density[c];
     }
-  for (int face = 0; face < m.interiorFaces; ++face) {
-    const double w = m.lowWeight[face];
-    const double metric = faces.density[face] * m.area[face] / m.distance[face];
-    for (int s = 0; s < n; ++s)
-      conductance[face * n + s] = metric * (w * state.carriedDiffusivity[m.low[face] * n + s] +
-                                            (1.0 - w) * state.carriedDiffusivity[m.high[face] * n + s]);
-  }
   // Particles see how much there is of them where there is next to nothing.
   diffusion_.solve(n, diagonal, conductance, source, perMass, 1e-8);
-  std::vector<double> flux(flux_.size(), 0.0);
   for (int face = 0; face < m.interiorFaces; ++face)
     for (int s = 0; s < n; ++s)
       flux[face * n + s] = conductance[face * n + s] * (perMass[m.low[face] * n + s] - perMass[m.high[face] * n + s]);

@@ -1,5 +1,5 @@
 // Scalars that the flow carries for a model (State::carried): convection with the gas and thermophoresis by the limited
-// scheme, explicit, then implicit diffusion.
+// scheme, explicit, then implicit diffusion; in several sweeps as the gas (TransportOperator).
 #pragma once
 
 #include <span>
@@ -8,7 +8,6 @@
 #include "core/rooms.hpp"
 #include "flow/face_state.hpp"
 #include "flow/flow_context.hpp"
-#include "flow/gas_properties.hpp"
 #include "flow/implicit_diffusion.hpp"
 #include "flow/state.hpp"
 
@@ -21,18 +20,29 @@ class CarriedTransport {
         diffusion_(context.mesh, context.halo),
         flux_(static_cast<std::size_t>(context.mesh.faces) * static_cast<std::size_t>(scalars), 0.0) {}
 
-  // Collective. `faceVelocity` (m/s, every face) and `newMass` (kg, of the gas in each owned cell after the step) are
-  // those the gas is advanced with; `faces` holds its face values.
-  void advance(State& state, const GasProperties& properties, const FaceState& faces,
-               std::span<const double> faceVelocity, std::span<const double> newMass, double dt);
+  // The gas of a sweep: the step's start, and its mean with what the last sweep found (both the state itself in the
+  // first sweep), viscosity (Pa s, cells) and values at faces of that mean, and what the gas is advanced with.
+  struct Gas {
+    const State& start;
+    const State& mean;
+    std::span<const double> viscosity;
+    const FaceState& faces;
+    std::span<const double> faceVelocity;  // m/s, every face
+    std::span<const double> newMass;       // kg, of the gas in each owned cell after the step
+  };
+  // Collective.
+  void advance(State& state, const Gas& gas, double dt);
 
   // Convective flux of the last step, per s, scalars a face, positive from low to high or outwards; what crosses the
   // boundary is in here, as diffusion does not cross it.
   [[nodiscard]] std::span<const double> flux() const { return flux_; }
 
  private:
-  void diffuse(const State& state, const FaceState& faces, std::span<const double> newMass, double dt,
-               std::span<double> content);
+  void convectiveFlux(const State& state, const Gas& gas);
+  void diffuse(const State& state, const Gas& gas, double dt, std::span<double> content);
+  // Flux of the state by its own diffusivities, and the conductances (per s) it has through the interior faces.
+  void presentFlux(const State& state, const FaceState& faces, std::span<double> conductance,
+                   std::span<double> flux) const;
 
   const FlowContext& context_;
   ImplicitDiffusion diffusion_;

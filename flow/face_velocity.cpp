@@ -1,5 +1,7 @@
 #include "flow/face_velocity.hpp"
 
+#include <cmath>
+
 namespace lampblack::flow {
 
 double FaceVelocity::mean(int face, std::span<const double> values, int components, int component) const {
@@ -15,8 +17,10 @@ void FaceVelocity::predict(const Cells& cells, std::span<const double> inverseDe
     const int axis = m.normalAxis[face];
     const double slope = (cells.pressure[m.high[face]] - cells.pressure[m.low[face]]) / m.distance[face];
     const double excess = mean(face, cells.acceleration, 2, axis) - inverseDensity[face] * slope;
-    // The deviation's equation, implicit in its decay.
-    const double deviation = (deviation_[face] + dt * excess) / (1.0 + dt * mean(face, cells.relaxation, 1, 0));
+    // The deviation's equation with constant coefficients, exactly.
+    const double decayed = dt * mean(face, cells.relaxation, 1, 0);
+    const double lost = -std::expm1(-decayed);
+    const double deviation = (1.0 - lost) * deviation_[face] + dt * excess * (decayed > 0.0 ? lost / decayed : 1.0);
     faceVelocity[face] = mean(face, cells.velocity, 2, axis) + deviation;
   }
   for (int face = m.interiorFaces; face < m.faces; ++face) {
@@ -32,10 +36,10 @@ void FaceVelocity::predict(const Cells& cells, std::span<const double> inverseDe
   }
 }
 
-void FaceVelocity::keep(std::span<const double> velocity, std::span<const double> faceVelocity) {
+void FaceVelocity::take(std::span<const double> velocity, std::span<const double> faceVelocity) {
   const Mesh& m = context_.mesh;
   for (int face = 0; face < m.interiorFaces; ++face)
-    deviation_[face] = faceVelocity[face] - mean(face, velocity, 2, m.normalAxis[face]);
+    found_[face] = faceVelocity[face] - mean(face, velocity, 2, m.normalAxis[face]);
 }
 
 }  // namespace lampblack::flow

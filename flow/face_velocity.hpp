@@ -19,7 +19,7 @@ namespace lampblack::flow {
 class FaceVelocity {
  public:
   explicit FaceVelocity(const FlowContext& context)
-      : context_(context), deviation_(static_cast<std::size_t>(context.mesh.faces), 0.0) {}
+      : context_(context), deviation_(static_cast<std::size_t>(context.mesh.faces), 0.0), found_(deviation_) {}
 
   // What the cells know at the end of the momentum's prediction; halo filled.
   struct Cells {
@@ -32,8 +32,11 @@ class FaceVelocity {
   // Normal velocity (m/s) of every face after dt under the old pressure. `inverseDensity`: 1/rho at each face.
   void predict(const Cells& cells, std::span<const double> inverseDensity, double dt, std::span<double> faceVelocity);
 
-  // After the projection: keeps what faces deviate by from the cells' new velocities (two a cell, halo filled).
-  void keep(std::span<const double> velocity, std::span<const double> faceVelocity);
+  // After the projection: takes what faces deviate by from the cells' new velocities (two a cell, halo filled). With
+  // the end of the step it is what the next one begins with.
+  void take(std::span<const double> velocity, std::span<const double> faceVelocity);
+
+  void endStep() { deviation_ = found_; }
 
   void saveOrLoad(StateArchive& archive) { archive.faces("face_velocity_deviation", deviation_, 1); }
 
@@ -41,7 +44,8 @@ class FaceVelocity {
   [[nodiscard]] double mean(int face, std::span<const double> values, int components, int component) const;
 
   const FlowContext& context_;
-  std::vector<double> deviation_;  // m/s; zero on the boundary
+  std::vector<double> deviation_;  // m/s, before the step; zero on the boundary
+  std::vector<double> found_;      // m/s, by the last sweep
 };
 
 }  // namespace lampblack::flow

@@ -85,20 +85,21 @@ void Momentum::outletPressures(const State& state) {
   }
 }
 
-void Momentum::explicitStress(const State& state, const GasProperties& properties) {
+void Momentum::explicitStress(const Sweep& sweep) {
   // The part of the stress that the component-wise Laplacian leaves out: mu (grad u)^T - 2/3 mu (div u) I, and the hoop
   // stress's dilatation part.
   const Mesh& m = context_.mesh;
+  const std::span<const double> viscosity = sweep.viscosity;
   const bool axisymmetric = m.axisymmetric();
   const auto dilatation = [&](int cell) {
     const double* g = &velocityGradient_[4 * cell];
-    return g[0] + g[3] + (axisymmetric ? state.velocity[2 * cell] / m.centre[cell][0] : 0.0);
+    return g[0] + g[3] + (axisymmetric ? sweep.mean.velocity[2 * cell] / m.centre[cell][0] : 0.0);
   };
   for (int face = 0; face < m.faces; ++face) {
     const int low = m.low[face];
     const int high = m.high[face] >= 0 ? m.high[face] : low;
     const double w = m.high[face] >= 0 ? m.lowWeight[face] : 1.0;
-    const double mu = w * properties.viscosity[low] + (1.0 - w) * properties.viscosity[high];
+    const double mu = w * viscosity[low] + (1.0 - w) * viscosity[high];
     const int axis = m.normalAxis[face];
     const double divergence = w * dilatation(low) + (1.0 - w) * dilatation(high);
     for (int i = 0; i < 2; ++i) {
@@ -112,15 +113,17 @@ void Momentum::explicitStress(const State& state, const GasProperties& propertie
     }
   }
   if (!axisymmetric) return;
-  for (int c = 0; c < m.owned; ++c)
-    source_[2 * c] += 2.0 / 3.0 * properties.viscosity[c] * dilatation(c) * m.planarArea[c];
+  for (int c = 0; c < m.owned; ++c) source_[2 * c] += 2.0 / 3.0 * viscosity[c] * dilatation(c) * m.planarArea[c];
 }
 
-void Momentum::predict(State& state, const GasProperties& properties, std::span<const double> newDensity, double dt) {
+void Momentum::predict(const State& state, const Sweep& sweep) {
   const Mesh& m = context_.mesh;
-  boundaryVelocities(state);
-  outletPressures(state);
-  gradient_.compute(state.velocity, boundaryVelocity_, 2, velocityGradient_, velocityKnown_);
+  const std::vector<double>& density = sweep.start.density;
+  const std::vector<double>& velocity = sweep.mean.velocity;
+  const std::span<const double> viscosity = sweep.viscosity;
+  boundaryVelocities(sweep.mean);
+  outletPressures(sweep.mean);
+  gradient_.compute(velocity, boundaryVelocity_, 2, velocityGradient_, velocityKnown_);
   context_.halo.update(velocityGradient_, 4);
   gradient_.compute(state.pressure, boundaryPressure_, 1, pressureGradient_, pressureKnown_);
 
@@ -129,29 +132,28 @@ void Momentum::predict(State& state, const GasProperties& properties, std::span<
   source_.assign(2 * m.owned, 0.0);
   conductance_.assign(static_cast<std::size_t>(m.interiorFaces) * 2, 0.0);
   for (int c = 0; c < m.owned; ++c) {
-    const double inertia = newDensity[c] * m.volume[c] / dt;
+    const double inertia = density[c] * m.volume[c] / sweep.dt;
     for (int i = 0; i < 2; ++i) {
       diagonal_[2 * c + i] = inertia;
-      source_[2 * c + i] = inertia * state.velocity[2 * c + i] - m.volume[c] * pressureGradient_[2 * c + i];
+      source_[2 * c + i] = inertia * sweep.start.velocity[2 * c + i] - m.volume[c] * pressureGradient_[2 * c + i];
     }
     // Hoop stress 2 mu v_r / r^2 (its dilatation part is explicit).
-    if (m.axisymmetric()) diagonal_[2 * c] += 2.0 * properties.viscosity[c] * m.planarArea[c] / m.centre[c][0];
+    if (m.axisymmetric()) diagonal_[2 * c] += 2.0 * viscosity[c] * m.planarArea[c] / m.centre[c][0];
   }
   for (int face = 0; face < m.faces; ++face) {
     const int low = m.low[face];
     const int high = m.high[face];
     const int axis = m.normalAxis[face];
-    const double flux = state.massFlux[face];
+    const double flux = sweep.mean.massFlux[face];
     if (high >= 0) {
-      const double mu =
-          m.lowWeight[face] * properties.viscosity[low] + (1.0 - m.lowWeight[face]) * properties.viscosity[high];
+      const double mu = m.lowWeight[face] * viscosity[low] + (1.0 - m.lowWeight[face]) * viscosity[high];
       for (int i = 0; i < 2; ++i) {
         const Upwind u = upwind_[i].of(face, flux);
-        const double value = limitedFaceValue(state.velocity[2 * u.up + i], state.velocity[2 * u.down + i],
+        const double value = limitedFaceValue(velocity[2 * u.up + i], velocity[2 * u.down + i],
                                               velocityGradient_[4 * u.up + 2 * i + axis] * u.sign, u);
         // Advective form: convection of the difference to the cell's own velocity.
-        if (low < m.owned) source_[2 * low + i] -= flux * (value - state.velocity[2 * low + i]);
-        if (high < m.owned) source_[2 * high + i] += flux * (value - state.velocity[2 * high + i]);
+        if (low < m.owned) source_[2 * low + i] -= flux * (value - velocity[2 * low + i]);
+        if (high < m.owned) source_[2 * high + i] += flux * (value - velocity[2 * high + i]);
         conductance_[2 * face + i] = mu * m.area[face] / m.distance[face];
       }
       for (const int cell : {low, high})
@@ -163,61 +165,81 @@ void Momentum::predict(State& state, const GasProperties& properties, std::span<
     for (int i = 0; i < 2; ++i) {
       if (!isGiven(boundary, i == axis)) continue;
       const double value = boundaryVelocity_[2 * (face - m.interiorFaces) + i];
-      const double conductance = properties.viscosity[low] * m.area[face] / m.distance[face];
+      const double conductance = viscosity[low] * m.area[face] / m.distance[face];
       diagonal_[2 * low + i] += conductance;
       relaxation_[low] += 0.5 * conductance;
-      source_[2 * low + i] += conductance * value - flux * (value - state.velocity[2 * low + i]);
+      source_[2 * low + i] += conductance * value - flux * (value - velocity[2 * low + i]);
     }
   }
-  for (int c = 0; c < m.owned; ++c) relaxation_[c] /= newDensity[c] * m.volume[c];
-  explicitStress(state, properties);
-  outletStress(state, properties);
+  for (int c = 0; c < m.owned; ++c) relaxation_[c] /= density[c] * m.volume[c];
+  addLastSweepsViscosity(state, sweep);
+  explicitStress(sweep);
+  outletStress(sweep);
   predicted_.assign(state.velocity.begin(), state.velocity.end());
   diffusion_.solve(2, diagonal_, conductance_, source_, predicted_);
 }
 
+// What the implicit viscosity is corrected by, that the step's is the mean of its start and its end: half of the
+// difference between the start and what the last sweep found as the end, none in the first sweep.
+void Momentum::addLastSweepsViscosity(const State& state, const Sweep& sweep) {
+  const Mesh& m = context_.mesh;
+  const auto excess = [&](int cell, int i) {
+    return 0.5 * (sweep.start.velocity[2 * cell + i] - state.velocity[2 * cell + i]);
+  };
+  for (int c = 0; c < m.owned; ++c)
+    for (int i = 0; i < 2; ++i)
+      source_[2 * c + i] -= (diagonal_[2 * c + i] - sweep.start.density[c] * m.volume[c] / sweep.dt) * excess(c, i);
+  for (int face = 0; face < m.interiorFaces; ++face)
+    for (int i = 0; i < 2; ++i) {
+      const double traction = conductance_[2 * face + i] * (excess(m.high[face], i) - excess(m.low[face], i));
+      if (m.low[face] < m.owned) source_[2 * m.low[face] + i] += traction;
+      if (m.high[face] < m.owned) source_[2 * m.high[face] + i] -= traction;
+    }
+}
+
 // At outlets the Laplacian part of the stress is that of the cell's own slope, and the gas that leaves has the velocity
 // along it.
-void Momentum::outletStress(const State& state, const GasProperties& properties) {
+void Momentum::outletStress(const Sweep& sweep) {
   const Mesh& m = context_.mesh;
   for (int face = m.interiorFaces; face < m.faces; ++face) {
     if (context_.boundaryOf(face).kind != BoundaryKind::Outlet) continue;
     const int c = m.low[face];
     for (int i = 0; i < 2; ++i) {
       const double slope = m.normalSign[face] * velocityGradient_[4 * c + 2 * i + m.normalAxis[face]];
-      source_[2 * c + i] += properties.viscosity[c] * m.area[face] * slope -
-                            std::max(state.massFlux[face], 0.0) * m.distance[face] * slope;
+      source_[2 * c + i] += sweep.viscosity[c] * m.area[face] * slope -
+                            std::max(sweep.mean.massFlux[face], 0.0) * m.distance[face] * slope;
     }
   }
 }
 
-Projection::Result Momentum::advance(State& state, const GasProperties& properties, std::span<const double> newDensity,
-                                     std::span<const double> divergence, double dt, std::span<double> faceVelocity) {
+Projection::Result Momentum::advance(State& state, const Sweep& sweep, std::span<double> faceVelocity) {
   const Mesh& m = context_.mesh;
-  predict(state, properties, newDensity, dt);
+  const std::vector<double>& density = sweep.start.density;
+  predict(state, sweep);
   for (int c = 0; c < m.owned; ++c)
-    for (int i = 0; i < 2; ++i) acceleration_[2 * c + i] = pressureGradient_[2 * c + i] / newDensity[c];
+    for (int i = 0; i < 2; ++i) acceleration_[2 * c + i] = pressureGradient_[2 * c + i] / density[c];
   gradient_.compute(predicted_, boundaryVelocity_, 2, velocityGradient_, velocityKnown_);
   const FieldView known[] = {{predicted_, 2}, {acceleration_, 2}, {relaxation_, 1}};
   context_.halo.update(known);
   for (int face = 0; face < m.faces; ++face) {
     const double w = m.high[face] >= 0 ? m.lowWeight[face] : 1.0;
-    const double beyond = m.high[face] >= 0 ? newDensity[m.high[face]] : 0.0;
-    inverseDensity_[face] = 1.0 / (w * newDensity[m.low[face]] + (1.0 - w) * beyond);
+    const double beyond = m.high[face] >= 0 ? density[m.high[face]] : 0.0;
+    inverseDensity_[face] = 1.0 / (w * density[m.low[face]] + (1.0 - w) * beyond);
   }
   faceVelocity_.predict({predicted_, acceleration_, relaxation_, state.pressure, velocityGradient_}, inverseDensity_,
-                        dt, faceVelocity);
+                        sweep.dt, faceVelocity);
 
   pressureChange_.assign(static_cast<std::size_t>(m.cells), 0.0);
-  const Projection::Result result = projection_.solve(dt, inverseDensity_, divergence, faceVelocity, pressureChange_);
+  const Projection::Result result =
+      projection_.solve(sweep.dt, inverseDensity_, sweep.divergence, faceVelocity, pressureChange_);
   const std::vector<double> unchanged(boundaryPressure_.size(), 0.0);
   gradient_.compute(pressureChange_, unchanged, 1, pressureGradient_, pressureKnown_);
   for (int c = 0; c < m.owned; ++c)
     for (int i = 0; i < 2; ++i)
-      state.velocity[2 * c + i] = predicted_[2 * c + i] - dt / newDensity[c] * pressureGradient_[2 * c + i];
+      state.velocity[2 * c + i] = predicted_[2 * c + i] - sweep.dt / density[c] * pressureGradient_[2 * c + i];
   for (int c = 0; c < m.cells; ++c) state.pressure[c] += pressureChange_[c];
   context_.halo.update(state.velocity, 2);
-  faceVelocity_.keep(state.velocity, faceVelocity);
+  faceVelocity_.take(state.velocity, faceVelocity);
   return result;
 }
 

@@ -10,7 +10,6 @@
 #include "core/rooms.hpp"
 #include "flow/face_velocity.hpp"
 #include "flow/flow_context.hpp"
-#include "flow/gas_properties.hpp"
 #include "flow/gradient.hpp"
 #include "flow/implicit_diffusion.hpp"
 #include "flow/projection.hpp"
@@ -23,11 +22,21 @@ class Momentum {
  public:
   explicit Momentum(const FlowContext& context);
 
-  // Collective. Advances velocity and pressure over dt so that the face velocities have the given divergence (1/s,
-  // owned cells). `newDensity` (cells, halo filled) is the density at the end of the step.
+  // One sweep of a step. Velocities stand at the middles of the gas's steps (Pierce and Moin 2004), so that what moves
+  // them - density, viscosity, pressure - is that of the time between two of them.
+  struct Sweep {
+    const State& start;                  // density; velocity before the step
+    const State& mean;                   // velocity and mass flux: means of `start` and of what the last sweep found
+    std::span<const double> viscosity;   // Pa s, cells, of `start`
+    std::span<const double> divergence;  // 1/s, owned cells: what the face velocities are to have
+    double dt = 0.0;                     // s, from one velocity to the next
+  };
+  // Collective. Advances `state`, which has velocity and pressure of the last sweep or of the start; halos are filled.
   // `faceVelocity` (m/s, every face) receives the projected normal velocities.
-  Projection::Result advance(State& state, const GasProperties& properties, std::span<const double> newDensity,
-                             std::span<const double> divergence, double dt, std::span<double> faceVelocity);
+  Projection::Result advance(State& state, const Sweep& sweep, std::span<double> faceVelocity);
+
+  // The step's last sweep is done.
+  void endStep() { faceVelocity_.endStep(); }
 
   void saveOrLoad(StateArchive& archive) {
     projection_.saveOrLoad(archive);
@@ -37,9 +46,10 @@ class Momentum {
  private:
   void boundaryVelocities(const State& state);
   void outletPressures(const State& state);
-  void predict(State& state, const GasProperties& properties, std::span<const double> newDensity, double dt);
-  void explicitStress(const State& state, const GasProperties& properties);
-  void outletStress(const State& state, const GasProperties& properties);
+  void predict(const State& state, const Sweep& sweep);
+  void addLastSweepsViscosity(const State& state, const Sweep& sweep);
+  void explicitStress(const Sweep& sweep);
+  void outletStress(const Sweep& sweep);
 
   const FlowContext& context_;
   Gradient gradient_;

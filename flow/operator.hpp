@@ -28,9 +28,14 @@ class Operator {
   virtual ~Operator() = default;
   [[nodiscard]] virtual const char* name() const = 0;
 
-  virtual void advance(State& state, double time, double dt) = 0;  // collective
-  // Called once when all operators have advanced by a whole step, of the transport first, which clears State::balance;
-  // and before the first step, and after loading.
+  // A step is one sweep or several of deferred correction: in each, all operators advance from the beginning of the
+  // step to its end. Collective.
+  virtual void advance(State& state, double time, double dt) = 0;
+  // Called when all operators have made a sweep, of the transport first, which clears State::balance: adds the mean
+  // rates that the next sweep's transport takes as its sources. Also before the first step, and after loading.
+  virtual void endSweep(State&) {}
+  // Called when the step's last sweep has ended, before the first step, and after loading: the state is what the next
+  // step begins with.
   virtual void endStep(State&) {}
   // What the operator keeps from step to step besides the state: with both, the next step is the same to the last bit.
   // Between two steps. Collective.

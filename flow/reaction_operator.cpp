@@ -11,8 +11,9 @@ namespace lampblack::flow {
 
 // How a cell is packed for the trip to another rank and back.
 struct ReactionOperator::Layout {
-  // in: centre (2), enthalpy, guess of the temperature, pressure, first step, natural number, Y, constant source
-  static constexpr std::size_t inHeader = 7;
+  // in: centre (2), enthalpy, its constant source, guess of the temperature, pressure, first step, natural number, Y,
+  // their constant sources
+  static constexpr std::size_t inHeader = 8;
   // out: temperature, next first step, seconds, solver steps, retries, skipped, handed over, Y
   static constexpr std::size_t outHeader = 7;
 };
@@ -26,22 +27,30 @@ ReactionOperator::ReactionOperator(const FlowContext& context, Options options)
       initialStep_(context.mesh.owned, 0.0),
       rate_(cost_.size() * context.mechanism.numSpecies()) {}
 
+// Of the step's start and end: reactions per mass and per volume are of second order to each other with it.
+double ReactionOperator::meanDensity(const State& state, std::size_t cell) const {
+  return before_.Y.empty() ? state.density[cell] : 0.5 * (before_.density[cell] + state.density[cell]);
+}
+
 void ReactionOperator::pack(const State& state, std::size_t cell, double dt, std::span<double> in) const {
   const auto n = static_cast<std::size_t>(state.species);
   const double* Y = &state.Y[cell * n];
-  const double* before = before_.empty() ? Y : &before_[cell * n];
+  const double* before = before_.Y.empty() ? Y : &before_.Y[cell * n];
+  const double enthalpy = before_.Y.empty() ? state.enthalpy[cell] : before_.enthalpy[cell];
   in[0] = context_.mesh.centre[cell][0];
   in[1] = context_.mesh.centre[cell][1];
-  in[2] = state.enthalpy[cell];
-  in[3] = state.temperature[cell];
-  in[4] = state.thermodynamicPressure;
-  in[5] = initialStep_[cell];
-  in[6] = static_cast<double>(context_.mesh.naturalCell[cell]);
+  in[2] = enthalpy;
+  in[3] = (state.enthalpy[cell] - enthalpy) / dt;
+  in[4] = state.temperature[cell];
+  in[5] = state.thermodynamicPressure;
+  in[6] = initialStep_[cell];
+  in[7] = static_cast<double>(context_.mesh.naturalCell[cell]);
   const std::span<double> start = in.subspan(Layout::inHeader, n);
   const std::span<double> source = in.subspan(Layout::inHeader + n, n);
   std::copy_n(before, n, start.begin());
   // What transport alone has changed since then, at a constant rate.
-  for (std::size_t k = 0; k < n; ++k) source[k] = (Y[k] - before[k]) / dt - rate_[cell * n + k] / state.density[cell];
+  const double density = meanDensity(state, cell);
+  for (std::size_t k = 0; k < n; ++k) source[k] = (Y[k] - before[k]) / dt - rate_[cell * n + k] / density;
 }
 
 void ReactionOperator::solve(double time, double dt, std::span<const double> in, std::span<double> out) {
@@ -51,11 +60,12 @@ void ReactionOperator::solve(double time, double dt, std::span<const double> in,
   std::ranges::copy(in.subspan(Layout::inHeader, n), Y.begin());
   const auto failure = [&](const std::string& reason) {
     return NumericsError(fmt::format("chemistry failed in cell {:.0f} at ({:.6g}, {:.6g}) m at time {:.6g} s: {}",
-                                     in[6], in[0], in[1], time, reason));
+                                     in[7], in[0], in[1], time, reason));
   };
   try {
-    ConstantPressureReactor::Cell cell{context_.thermo.temperatureFromEnthalpy(in[2], Y, in[3]), in[4], Y, {}, in[5]};
+    ConstantPressureReactor::Cell cell{context_.thermo.temperatureFromEnthalpy(in[2], Y, in[4]), in[5], Y, {}, in[6]};
     cell.source = in.subspan(Layout::inHeader + n);
+    cell.heating = in[3];
     const auto result = reactor_.advance(cell, dt);
     out[0] = cell.temperature;
     out[1] = cell.initialStep;
@@ -65,7 +75,7 @@ void ReactionOperator::solve(double time, double dt, std::span<const double> in,
     out[6] = result.handedOver ? 1.0 : 0.0;
   } catch (const ReactorFailure& error) {
     const auto kept =
-        options_.keepFailed ? options_.keepFailed(static_cast<std::int64_t>(in[6]), error.cell()) : std::string();
+        options_.keepFailed ? options_.keepFailed(static_cast<std::int64_t>(in[7]), error.cell()) : std::string();
     throw failure(error.what() + kept);
   } catch (const NumericsError& error) {
     throw failure(error.what());
@@ -75,10 +85,11 @@ void ReactionOperator::solve(double time, double dt, std::span<const double> in,
 
 void ReactionOperator::unpack(State& state, std::size_t cell, double dt, std::span<const double> out) {
   const auto n = static_cast<std::size_t>(state.species);
+  const double density = meanDensity(state, cell);
   for (std::size_t k = 0; k < n; ++k) {
     double& Y = state.Y[cell * n + k];
     const double reacted = out[Layout::outHeader + k];
-    rate_[cell * n + k] += state.density[cell] * (reacted - Y) / dt;
+    rate_[cell * n + k] += density * (reacted - Y) / dt;
     Y = reacted;
   }
   // No net mass: the reactor keeps the sum of Y, so that round-off in the rate would feed on itself.
@@ -119,12 +130,18 @@ void ReactionOperator::advance(State& state, double time, double dt) {
   state.updateHalo(context_.halo);
 }
 
-void ReactionOperator::endStep(State& state) {
-  before_.assign(state.Y.begin(), state.Y.begin() + static_cast<std::ptrdiff_t>(rate_.size()));
+void ReactionOperator::endSweep(State& state) {
   for (std::size_t i = 0; i < rate_.size(); ++i) state.balance.species[i] += rate_[i];
 }
 
-// The mass fractions of the last step's end are the state's: endStep() takes them from there after loading.
+void ReactionOperator::endStep(State& state) {
+  const auto owned = static_cast<std::ptrdiff_t>(cost_.size());
+  before_.Y.assign(state.Y.begin(), state.Y.begin() + static_cast<std::ptrdiff_t>(rate_.size()));
+  before_.density.assign(state.density.begin(), state.density.begin() + owned);
+  before_.enthalpy.assign(state.enthalpy.begin(), state.enthalpy.begin() + owned);
+}
+
+// What a step begins with is the state: endStep() takes it from there after loading.
 void ReactionOperator::saveOrLoad(StateArchive& archive) {
   archive.cells("chemistry_cost", cost_, 1);
   archive.cells("chemistry_first_step", initialStep_, 1);

@@ -41,6 +41,7 @@ class ReactionOperator : public Operator {
   ReactionOperator(const FlowContext& context, Options options);
 
   void advance(State& state, double time, double dt) override;
+  void endSweep(State& state) override;
   void endStep(State& state) override;
   void saveOrLoad(StateArchive& archive) override;
   [[nodiscard]] const char* name() const override { return "chemistry"; }
@@ -51,6 +52,7 @@ class ReactionOperator : public Operator {
 
  private:
   struct Layout;
+  [[nodiscard]] double meanDensity(const State& state, std::size_t cell) const;
   void pack(const State& state, std::size_t cell, double dt, std::span<double> in) const;
   void solve(double time, double dt, std::span<const double> in, std::span<double> out);
   void unpack(State& state, std::size_t cell, double dt, std::span<const double> out);
@@ -61,8 +63,13 @@ class ReactionOperator : public Operator {
   WorkSharing sharing_;
   std::vector<double> cost_;         // s, of each owned cell's last solve
   std::vector<double> initialStep_;  // s, ConstantPressureReactor::Cell::initialStep of the next solve
-  // Species a owned cell: mass fractions at the end of the last step, and its mean rate (kg/m3/s).
-  std::vector<double> before_, rate_;
+  // Of each owned cell at the beginning of the step; empty before the first endStep(), as if nothing but reactions
+  // changed a cell.
+  struct {
+    std::vector<double> Y;  // species a cell
+    std::vector<double> density, enthalpy;
+  } before_;
+  std::vector<double> rate_;  // kg/m3/s, mean reaction rate of the last sweep, species a owned cell
   Diagnostics diagnostics_;
   Imbalance imbalances_{0.0, 0.0};  // sums over all stages
   int stages_ = 0;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flow/face_fluxes.hpp"
+
 namespace lampblack::flow {
 
 void SpeciesDiffusion::faceFlux(int face, bool gradientTerm, const double* low, const double* high, double lowWeight,
@@ -24,15 +26,61 @@ void SpeciesDiffusion::faceFlux(int face, bool gradientTerm, const double* low, 
   for (int k = 0; k < n; ++k) flux[k] += (lowWeight * low[k] + (1.0 - lowWeight) * high[k]) * correction;
 }
 
-ImplicitDiffusion::Result SpeciesDiffusion::computeFlux(const State& state, const GasProperties& properties,
-                                                        std::span<const double> content,
-                                                        std::span<const double> newMass, double dt,
-                                                        std::span<double> flux) {
+// Whether the mass fractions at this boundary face are given.
+bool SpeciesDiffusion::isGiven(int face) const {
+  const BoundaryCondition& boundary = context_.boundaryOf(face);
+  return boundary.kind == BoundaryKind::Inlet && boundary.fixedComposition;
+}
+
+void SpeciesDiffusion::prepare(const State& state, const GasProperties& properties) {
   const Mesh& m = context_.mesh;
   const int n = state.species;
   const auto at = [n](int i) { return static_cast<std::size_t>(i) * n; };
   conductance_.assign(at(m.faces), 0.0);
   weightSlope_.assign(m.faces, 0.0);
+  for (int face = 0; face < m.faces; ++face) {
+    const int low = m.low[face];
+    const int high = m.high[face];
+    const double metric = m.area[face] / m.distance[face];
+    double* g = &conductance_[at(face)];
+    if (high >= 0) {
+      const double w = m.lowWeight[face];
+      for (int k = 0; k < n; ++k)
+        g[k] = metric *
+               (w * properties.massDiffusivity[at(low) + k] + (1.0 - w) * properties.massDiffusivity[at(high) + k]);
+      weightSlope_[face] = std::log(properties.molecularWeight[high] / properties.molecularWeight[low]);
+    } else if (isGiven(face)) {
+      for (int k = 0; k < n; ++k) g[k] = metric * properties.massDiffusivity[at(low) + k];
+      weightSlope_[face] =
+          std::log(context_.thermo.meanMolecularWeight(context_.boundaryOf(face).Y) / properties.molecularWeight[low]);
+    }
+  }
+}
+
+void SpeciesDiffusion::evaluate(std::span<const double> Y, bool gradientTerm, std::span<double> flux) const {
+  const Mesh& m = context_.mesh;
+  const auto n = static_cast<std::size_t>(context_.mechanism.numSpecies());
+  for (int face = 0; face < m.faces; ++face) {
+    double* f = &flux[face * n];
+    if (m.high[face] >= 0)
+      faceFlux(face, gradientTerm, &Y[m.low[face] * n], &Y[m.high[face] * n], m.lowWeight[face], f);
+    else if (isGiven(face))
+      faceFlux(face, gradientTerm, &Y[m.low[face] * n], context_.boundaryOf(face).Y.data(), 0.0, f);
+    else
+      std::fill_n(f, n, 0.0);
+  }
+}
+
+void SpeciesDiffusion::presentFlux(const State& state, std::span<double> flux) const {
+  evaluate(state.Y, true, flux);
+}
+
+ImplicitDiffusion::Result SpeciesDiffusion::implicitFlux(const State& guess, std::span<const double> content,
+                                                         std::span<const double> newMass, double dt,
+                                                         std::span<double> flux) {
+  const Mesh& m = context_.mesh;
+  const int n = guess.species;
+  const auto at = [n](int i) { return static_cast<std::size_t>(i) * n; };
   diagonal_.resize(at(m.owned));
   source_.resize(at(m.owned));
   for (int c = 0; c < m.owned; ++c)
@@ -40,51 +88,20 @@ ImplicitDiffusion::Result SpeciesDiffusion::computeFlux(const State& state, cons
       diagonal_[at(c) + k] = newMass[c] / dt;
       source_[at(c) + k] = content[at(c) + k] / dt;
     }
-
-  const auto dirichlet = [&](int face) {
-    const BoundaryCondition& boundary = context_.boundaryOf(face);
-    return boundary.kind == BoundaryKind::Inlet && boundary.fixedComposition;
-  };
-  for (int face = 0; face < m.faces; ++face) {
-    const int low = m.low[face];
-    const int high = m.high[face];
-    const double metric = m.area[face] / m.distance[face];
-    double* g = &conductance_[at(face)];
-    double* explicitFlux = &flux[at(face)];
-    std::fill_n(explicitFlux, n, 0.0);
-    if (high >= 0) {
-      const double w = m.lowWeight[face];
-      for (int k = 0; k < n; ++k)
-        g[k] = metric *
-               (w * properties.massDiffusivity[at(low) + k] + (1.0 - w) * properties.massDiffusivity[at(high) + k]);
-      weightSlope_[face] = std::log(properties.molecularWeight[high] / properties.molecularWeight[low]);
-      faceFlux(face, false, &state.Y[at(low)], &state.Y[at(high)], w, explicitFlux);
-    } else if (dirichlet(face)) {
-      const std::vector<double>& given = context_.boundaryOf(face).Y;
-      for (int k = 0; k < n; ++k) g[k] = metric * properties.massDiffusivity[at(low) + k];
-      weightSlope_[face] = std::log(context_.thermo.meanMolecularWeight(given) / properties.molecularWeight[low]);
-      faceFlux(face, false, &state.Y[at(low)], given.data(), 0.0, explicitFlux);
-      for (int k = 0; k < n; ++k) {
-        diagonal_[at(low) + k] += g[k];
-        source_[at(low) + k] += g[k] * given[k];
-      }
-    }
+  evaluate(guess.Y, false, flux);
+  addFaceFluxes(m, flux, n, 1.0, source_);
+  for (int face = m.interiorFaces; face < m.faces; ++face) {
+    if (!isGiven(face)) continue;
+    const std::vector<double>& given = context_.boundaryOf(face).Y;
     for (int k = 0; k < n; ++k) {
-      if (low < m.owned) source_[at(low) + k] -= explicitFlux[k];
-      if (high >= 0 && high < m.owned) source_[at(high) + k] += explicitFlux[k];
+      const double g = conductance_[at(face) + k];
+      diagonal_[at(m.low[face]) + k] += g;
+      source_[at(m.low[face]) + k] += g * given[k];
     }
   }
-  solution_.assign(state.Y.begin(), state.Y.end());
+  solution_.assign(guess.Y.begin(), guess.Y.end());
   const auto result = diffusion_.solve(n, diagonal_, conductance_, source_, solution_);
-
-  for (int face = 0; face < m.faces; ++face) {
-    const int low = m.low[face];
-    const int high = m.high[face];
-    if (high >= 0)
-      faceFlux(face, true, &solution_[at(low)], &solution_[at(high)], m.lowWeight[face], &flux[at(face)]);
-    else if (dirichlet(face))
-      faceFlux(face, true, &solution_[at(low)], context_.boundaryOf(face).Y.data(), 0.0, &flux[at(face)]);
-  }
+  evaluate(solution_, true, flux);
   return result;
 }
 

@@ -19,17 +19,24 @@ class SpeciesDiffusion {
  public:
   explicit SpeciesDiffusion(const FlowContext& context) : context_(context), diffusion_(context.mesh, context.halo) {}
 
-  // Collective. `content` (kg, species a owned cell): rho Y V at the end of the step without diffusion;
-  // `newMass` (kg, a owned cell): the gas's mass then. Fills `flux` (kg/s, species a face, low to high or outwards).
-  ImplicitDiffusion::Result computeFlux(const State& state, const GasProperties& properties,
-                                        std::span<const double> content, std::span<const double> newMass, double dt,
-                                        std::span<double> flux);
+  // Fluxes here: kg/s, species a face, low to high or outwards.
+
+  // Takes the coefficients of the state, which everything below goes by.
+  void prepare(const State& state, const GasProperties& properties);
+  // Fluxes of that state.
+  void presentFlux(const State& state, std::span<double> flux) const;
+  // Collective. Fluxes at the end of a step, of which the state is the guess. `content` (kg, species a owned cell): rho
+  // Y V there without them; `newMass` (kg, a owned cell): the gas's mass.
+  ImplicitDiffusion::Result implicitFlux(const State& guess, std::span<const double> content,
+                                         std::span<const double> newMass, double dt, std::span<double> flux);
 
  private:
   const FlowContext& context_;
   ImplicitDiffusion diffusion_;
   std::vector<double> conductance_, weightSlope_, diagonal_, source_, solution_;
 
+  [[nodiscard]] bool isGiven(int face) const;
+  void evaluate(std::span<const double> Y, bool gradientTerm, std::span<double> flux) const;
   // Flux of the implicit gradient (0 or 1 times) and explicit terms through a face, from mass fractions of both sides.
   void faceFlux(int face, bool gradientTerm, const double* low, const double* high, double lowWeight,
                 double* flux) const;

@@ -39,9 +39,9 @@ struct State {
   std::vector<double> carried;              // per m^3, carriedCount() a cell
   std::vector<double> carriedDiffusivity;   // m^2/s, carriedCount() a cell; set by the model that owns the scalar
 
-  // What operators that are coupled to the transport stage did in the last step, as mean rates of the owned cells: the
+  // What operators that are coupled to the transport stage did in the last sweep, as mean rates of the owned cells: the
   // transport stage takes them as sources, and they take its changes as theirs (ReactionOperator). Each adds
-  // its part in Operator::endStep().
+  // its part in Operator::endSweep().
   struct Balance {
     std::vector<double> species;   // kg/m^3/s, `species` a cell; their sum is mass that the gas gains
     std::vector<double> enthalpy;  // W/m^3, of the gas

@@ -181,6 +181,7 @@ FlowCase readFlowCase(const Deck& deck) {
   flowCase.time = {deck.quantity("time.end"), deck.quantity("time.first_step"), deck.quantity("time.maximum_step"),
                    deck.number("time.growth")};
   flowCase.flow.courant = deck.number("time.courant");
+  flowCase.flow.sweeps = deck.integer<int>("time.sweeps");
   if (flowCase.time.firstStep > flowCase.time.maximumStep)
     throw deck.error("time.first_step", "expected no more than 'maximum_step'");
   flowCase.chemistry.shareWork = deck.boolean("chemistry.share_work");

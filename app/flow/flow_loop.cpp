@@ -30,7 +30,7 @@ FlowLoop::FlowLoop(MPI_Comm comm, FlowCase flowCase)
   flow_.initialise(state_, case_.time.firstStep);
   operators_ = {&flow_, &chemistry_};
   if (carried_) operators_.push_back(carried_.get());
-  for (Operator* op : operators_) op->endStep(state_);
+  beginNext();
   std::vector<std::vector<double>> carriedMass;
   if (case_.carried)
     for (const CarriedModel::Scalar& scalar : case_.carried->scalars()) carriedMass.push_back(scalar.elements);
@@ -44,7 +44,7 @@ void FlowLoop::load(const WholeCheckpoint& checkpoint) {
   CheckpointReader reader(comm_, checkpoint.file, stateNumbers(mesh_), flowFingerprint(case_, state_.scalars));
   saveOrLoad(reader, earlierRows_);
   state_.updateHalo(halo_);
-  for (Operator* op : operators_) op->endStep(state_);
+  beginNext();
   restart_ = checkpoint;
 }
 
@@ -112,12 +112,22 @@ double FlowLoop::chooseStep(double previous, double until) {
   return left < 2.0 * dt ? 0.5 * left : dt;
 }
 
-void FlowLoop::step(double dt) {
-  for (Operator* op : operators_) {
-    const Timers::Scope scope(timers_, op->name());
-    op->advance(state_, time_, dt);
-  }
+// What the operators tell of the state: the rates of the last sweep, and that a step begins here.
+void FlowLoop::beginNext() {
+  for (Operator* op : operators_) op->endSweep(state_);
   for (Operator* op : operators_) op->endStep(state_);
+}
+
+void FlowLoop::step(double dt) {
+  for (int sweep = 0; sweep < case_.flow.sweeps; ++sweep) {
+    for (Operator* op : operators_) {
+      const Timers::Scope scope(timers_, op->name());
+      op->advance(state_, time_, dt);
+    }
+    if (sweep + 1 < case_.flow.sweeps)
+      for (Operator* op : operators_) op->endSweep(state_);
+  }
+  beginNext();
   time_ += dt;
   ++steps_;
 }

@@ -48,6 +48,8 @@ class FlowLoop {
 
   double chooseStep(double previous, double until);
 
+  void beginNext();
+
   void step(double dt);
 
   Peak peakOf(const std::function<double(int)>& value) const;

@@ -87,6 +87,13 @@ void addTimeAndOutput(DeckSchema& schema) {
                .byDefault("0.5")
                .above(0)
                .atMost(1))
+      .add(integerKey(
+               "time.sweeps",
+               "Sweeps of deferred correction in a time step. 1: first order in time, for flames that become steady, "
+               "whose steady state is the same; 2: second order, at twice the cost; more: smaller errors.")
+               .byDefault("1")
+               .atLeast(1)
+               .atMost(10))
       .add(numberKey("time.growth", "Largest ratio of a time step to the one before.").byDefault("1.2").above(1))
       .add(quantityKey("output.interval", units::time, "Time between field outputs; the last state is always written.")
                .optional()

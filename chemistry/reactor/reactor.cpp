@@ -54,8 +54,8 @@ struct ConstantPressureReactor::Impl {
   ReactorRosenbrock rosenbrock;
   ReactorIntegrator bdf;
   std::vector<double> start, predicted, chemical, chemicalEnd;
-  double endSum = 0;  // of the mass fractions
-  double enthalpy = 0;
+  double endSum = 0;       // of the mass fractions
+  double endEnthalpy = 0;  // J/kg
   std::string reason;
 };
 
@@ -77,6 +77,7 @@ void ConstantPressureReactor::Impl::checkInput(const Cell& cell, double dt) cons
   double sum = 0;
   for (const double value : cell.Y) sum += value;
   for (const double value : cell.source) good = good && std::isfinite(value);
+  good = good && std::isfinite(cell.heating);
   good = good && std::abs(sum - 1) < 1e-3;
   if (!good) giveUp(cell, dt);
 }
@@ -84,7 +85,7 @@ void ConstantPressureReactor::Impl::checkInput(const Cell& cell, double dt) cons
 // Explicit trapezoid where the chemistry is negligible at both ends; see Options::negligibleChange.
 bool ConstantPressureReactor::Impl::skip(Cell& cell, double dt, Result& result) {
   if (options.negligibleChange <= 0) return false;
-  system.setConditions(cell.pressure, cell.source);
+  system.setConditions(cell.pressure, cell.source, cell.heating);
   ++result.rhsEvaluations;
   if (!system.chemicalRates(start.data(), chemical.data())) return false;
   double largest = 0;
@@ -93,9 +94,9 @@ bool ConstantPressureReactor::Impl::skip(Cell& cell, double dt, Result& result) 
   for (std::size_t k = 0; k < n; ++k)
     predicted[k] = start[k] + dt * (chemical[k] + (cell.source.empty() ? 0.0 : cell.source[k]));
   predicted[n] = start[n];
-  if (!cell.source.empty()) {
+  if (!cell.source.empty() || cell.heating != 0) {
     try {
-      predicted[n] = system.thermo().temperatureFromEnthalpy(enthalpy, {predicted.data(), n}, start[n]);
+      predicted[n] = system.thermo().temperatureFromEnthalpy(endEnthalpy, {predicted.data(), n}, start[n]);
     } catch (const NumericsError&) {
       return false;  // too far for one step; the integrator will tell
     }
@@ -113,7 +114,7 @@ bool ConstantPressureReactor::Impl::skip(Cell& cell, double dt, Result& result) 
 // Leaves the end in `predicted`.
 bool ConstantPressureReactor::Impl::integrate(const Cell& cell, double dt, const Attempt& attempt, Event event,
                                               const Observer& observer, Result& result) {
-  system.setConditions(cell.pressure, cell.source);
+  system.setConditions(cell.pressure, cell.source, cell.heating);
   std::copy(start.begin(), start.end(), predicted.begin());
   const ReactorIntegrator::Interval part{dt / attempt.parts, attempt.firstStep,
                                          options.relativeTolerance * attempt.toleranceFactor,
@@ -172,7 +173,7 @@ bool ConstantPressureReactor::Impl::attempt(Cell& cell, double dt, const Attempt
 }
 
 // Takes the state in `out` over into the cell: removes the round-off of the sum, recovers the temperature from the
-// constant enthalpy.
+// enthalpy.
 bool ConstantPressureReactor::Impl::accept(Cell& cell, std::span<double> out) {
   double sum = 0;
   for (std::size_t k = 0; k < n; ++k) sum += out[k];
@@ -184,7 +185,7 @@ bool ConstantPressureReactor::Impl::accept(Cell& cell, std::span<double> out) {
   for (std::size_t k = 0; k < n; ++k) out[k] *= scale;
   double T = 0;
   try {
-    T = system.thermo().temperatureFromEnthalpy(enthalpy, out.first(n), out[n]);
+    T = system.thermo().temperatureFromEnthalpy(endEnthalpy, out.first(n), out[n]);
   } catch (const NumericsError& error) {
     reason = error.what();
     return false;
@@ -204,9 +205,10 @@ void ConstantPressureReactor::Impl::giveUp(const Cell& cell, double dt) const {
       "the chemistry of a cell could not be advanced: T = {:.6g} K, p = {:.6g} Pa, "
       "dt = {:.6g} s, mass fractions {{{}}}; {}",
       cell.temperature, cell.pressure, dt, composition, why);
-  throw ReactorFailure(message, {cell.temperature, cell.pressure, dt, cell.initialStep,
-                                 std::vector<double>(cell.Y.begin(), cell.Y.end()),
-                                 std::vector<double>(cell.source.begin(), cell.source.end()), options, why});
+  throw ReactorFailure(
+      message,
+      {cell.temperature, cell.pressure, dt, cell.initialStep, std::vector<double>(cell.Y.begin(), cell.Y.end()),
+       std::vector<double>(cell.source.begin(), cell.source.end()), cell.heating, options, why});
 }
 
 ConstantPressureReactor::ConstantPressureReactor(const Mechanism& mechanism, const Options& options)
@@ -226,7 +228,7 @@ ConstantPressureReactor::Result ConstantPressureReactor::advance(Cell& cell, dou
   self.endSum = 0;
   for (const double value : cell.Y) self.endSum += value;
   for (const double value : cell.source) self.endSum += dt * value;
-  self.enthalpy = self.system.thermo().enthalpyMass(cell.temperature, cell.Y);
+  self.endEnthalpy = self.system.thermo().enthalpyMass(cell.temperature, cell.Y) + dt * cell.heating;
   const auto finish = [&] {
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return result;

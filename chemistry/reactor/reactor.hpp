@@ -39,6 +39,7 @@ class ConstantPressureReactor {
     // s, first step of the Rosenbrock method, 0 for the whole interval; returns what it asks of the next interval.
     // CVODE is used at once where it is too short.
     double initialStep = 0;
+    double heating = 0;  // W/kg, at which the mixture's enthalpy rises
   };
 
   struct Result {
@@ -75,12 +76,12 @@ class ConstantPressureReactor {
   ConstantPressureReactor(ConstantPressureReactor&&) noexcept;
   ConstantPressureReactor& operator=(ConstantPressureReactor&&) noexcept;
 
-  // Advances the cell by dt seconds. The mixture's enthalpy (J/kg, with formation) is constant: the source carries the
-  // enthalpy that keeps it so. On return the temperature belongs to that enthalpy to round-off and the sum of Y is that
-  // of the start to about 1e-15. Throws ReactorFailure (reactor_failure.hpp), with the cell unchanged, if the input is
-  // not a gas or the integration fails also with a small first step, tighter tolerances, more steps and a divided
-  // interval; the message has T, p, dt, the composition and the solver's reason. An observer changes nothing but the
-  // time it takes.
+  // Advances the cell by dt seconds. The mixture's enthalpy (J/kg, with formation) changes by the heating alone: the
+  // source carries the enthalpy that keeps it. On return the temperature belongs to that enthalpy to round-off and the
+  // sum of Y is that of the start to about 1e-15. Throws ReactorFailure (reactor_failure.hpp), with the cell unchanged,
+  // if the input is not a gas or the integration fails also with a small first step, tighter tolerances, more steps and
+  // a divided interval; the message has T, p, dt, the composition and the solver's reason. An observer changes nothing
+  // but the time it takes.
   Result advance(Cell& cell, double dt, const Observer& observer = {});
 
  private:

@@ -18,6 +18,7 @@ struct FailedCell {
   double firstStep = 0;        // s, Cell::initialStep
   std::vector<double> Y;       // mass fractions
   std::vector<double> source;  // 1/s; empty where there was none
+  double heating = 0;          // W/kg
   ConstantPressureReactor::Options options;
   std::string reason;
 };

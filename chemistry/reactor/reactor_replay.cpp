@@ -50,7 +50,7 @@ class Reader {
   explicit Reader(const std::string& path) : yaml_(path), file_(yaml_, load(path), "a replay file") {
     file_.allowOnly({"mechanism", "temperature", "pressure", "duration", "first_step", "relative_tolerance",
                      "absolute_tolerance", "max_steps", "rosenbrock_steps", "negligible_change", "mass_fractions",
-                     "source", "reason"});
+                     "source", "heating", "reason"});
   }
 
   std::string mechanism() const {
@@ -74,6 +74,7 @@ class Reader {
     cell.options.rosenbrockSteps = whole("rosenbrock_steps");
     cell.Y = bySpecies(mechanism, "mass_fractions");
     if (file_.has("source")) cell.source = bySpecies(mechanism, "source");
+    cell.heating = value("heating");
     cell.reason = yaml_.text(file_.at("reason"), "reason");
     return cell;
   }
@@ -144,6 +145,7 @@ std::string replayText(const Mechanism& mechanism, const FailedCell& cell) {
   add("negligible_change", exact(cell.options.negligibleChange), "");
   text += "mass_fractions:\n" + bySpecies(mechanism, cell.Y);
   if (!cell.source.empty()) text += "source:  # 1/s\n" + bySpecies(mechanism, cell.source);
+  add("heating", exact(cell.heating), "  # W/kg");
   add("reason", quoted(cell.reason), "");
   return text;
 }

@@ -47,10 +47,11 @@ void ReactorSystem::setConditions(const Conditions& conditions) {
   conditions_.source = conditions_.carriedSource = {};
 }
 
-void ReactorSystem::setConditions(double pressure, std::span<const double> source) {
+void ReactorSystem::setConditions(double pressure, std::span<const double> source, double heating) {
   Conditions conditions;
   conditions.value = pressure;
   conditions.source = source;
+  conditions.heating = heating;
   setConditions(conditions);
 }
 

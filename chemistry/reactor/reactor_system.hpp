@@ -64,8 +64,8 @@ class ReactorSystem {
 
   // What holds for the evaluations that follow.
   void setConditions(const Conditions& conditions);
-  // Constant pressure (Pa), energy conserved, and a source (1/s, may be empty).
-  void setConditions(double pressure, std::span<const double> source);
+  // Constant pressure (Pa), energy conserved, a source (1/s, may be empty) and a heating (J/kg/s).
+  void setConditions(double pressure, std::span<const double> source, double heating = 0);
 
   // f = dy/dt. Rates follow mass action through zero: negative mass fractions are negative concentrations. False, with
   // f undefined, if the state is outside the range of the data (Thermo::minTemperature..maxTemperature) or not finite.

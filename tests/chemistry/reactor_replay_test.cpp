@@ -22,7 +22,7 @@ using Event = ConstantPressureReactor::Event;
 
 // A mixture that burns, and a reactor that may take too few steps for it.
 FailedCell failedCell() {
-  FailedCell cell{1300.0 + 1.0 / 3, constants::oneAtmosphere, 1e-3, 0.0, {}, {}, {1e-6, 1e-12, 3, 0.0, 2},
+  FailedCell cell{1300.0 + 1.0 / 3, constants::oneAtmosphere, 1e-3, 0.0, {}, {}, 2e5, {1e-6, 1e-12, 3, 0.0, 2},
                   "a \"test\""};
   cell.Y.resize(hydrogen().numSpecies());
   Thermo(hydrogen()).moleToMass(parseComposition(hydrogen(), "H2: 2, O2: 1, N2: 3.76"), cell.Y);
@@ -33,7 +33,7 @@ FailedCell failedCell() {
 }
 
 ConstantPressureReactor::Cell cellOf(FailedCell& failed) {
-  return {failed.temperature, failed.pressure, failed.Y, failed.source, failed.firstStep};
+  return {failed.temperature, failed.pressure, failed.Y, failed.source, failed.firstStep, failed.heating};
 }
 
 class ReactorReplay : public ::testing::Test {

@@ -102,6 +102,7 @@ TEST_F(Reacting, SharingWorkChangesNoBit) {
     for (const auto& [chemistry, state] : {std::pair{&withSharing, &shared}, {&without, &own}}) {
       addBalance(*state);
       chemistry->advance(*state, i * dt, dt);
+      chemistry->endSweep(*state);
       chemistry->endStep(*state);
     }
   }
@@ -137,7 +138,8 @@ TEST_F(Reacting, BudgetsCloseWithTransport) {
     const double dt = std::min(2e-5, convectiveTimeStep(box.mesh, state, 0.4));
     transport.advance(state, 0.0, dt);
     chemistry.advance(state, 0.0, dt);
-    transport.endStep(state);
+    transport.endSweep(state);
+    chemistry.endSweep(state);
     chemistry.endStep(state);
     budget.addStep(transport.boundaryAmounts());
     heat += sumOverRanks(transport.boundaryAmounts().enthalpyIn - transport.boundaryAmounts().enthalpyOut);

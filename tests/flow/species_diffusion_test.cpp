@@ -29,7 +29,9 @@ std::vector<double> fluxesOf(Box& box, const State& state, double dt) {
     for (std::size_t k = 0; k < n; ++k) content[c * n + k] = mass[c] * state.Y[c * n + k];
   }
   std::vector<double> flux(at(m.faces) * n);
-  SpeciesDiffusion(box.context).computeFlux(state, properties, content, mass, dt, flux);
+  SpeciesDiffusion diffusion(box.context);
+  diffusion.prepare(state, properties);
+  diffusion.implicitFlux(state, content, mass, dt, flux);
   return flux;
 }
 

@@ -1,0 +1,117 @@
+#include "flow/expansion.hpp"
+
+#include <algorithm>
+
+#include "core/constants.hpp"
+#include "flow/face_fluxes.hpp"
+
+namespace lampblack::flow {
+namespace {
+
+// Of what a step has missed, that the correction takes up: the whole would make the pressure swing where the chemistry
+// changes fast.
+constexpr double share = 0.1;
+
+}  // namespace
+
+Expansion::Expansion(const FlowContext& context)
+    : context_(context),
+      divergence_(static_cast<std::size_t>(context.mesh.owned), 0.0),
+      correction_(divergence_),
+      first_(divergence_),
+      balance_(divergence_),
+      gained_(divergence_),
+      drift_(divergence_),
+      heat_(divergence_),
+      enthalpies_(context.mechanism.numSpecies()) {}
+
+void Expansion::bringBalance(const State& state) {
+  const Mesh& m = context_.mesh;
+  const auto n = static_cast<std::size_t>(state.species);
+  species_.resize(static_cast<std::size_t>(m.owned) * n);
+  for (int c = 0; c < m.owned; ++c) {
+    heat_[c] = m.volume[c] * state.balance.enthalpy[c];
+    for (std::size_t k = 0; k < n; ++k) species_[c * n + k] = m.volume[c] * state.balance.species[c * n + k];
+  }
+}
+
+void Expansion::bringDiffusion(const DiffusiveFluxes& fluxes, int species) {
+  const Mesh& m = context_.mesh;
+  species_.assign(static_cast<std::size_t>(m.owned) * static_cast<std::size_t>(species), 0.0);
+  std::ranges::fill(heat_, 0.0);
+  addFaceFluxes(m, fluxes.species, species, 1.0, species_);
+  addFaceFluxes(m, fluxes.enthalpy, 1, 1.0, heat_);
+  addFaceFluxes(m, fluxes.heat, 1, 1.0, heat_);
+}
+
+void Expansion::add(const State& state, const GasProperties& properties, double sign, std::span<double> divergence) {
+  const Mesh& m = context_.mesh;
+  const auto n = static_cast<std::size_t>(state.species);
+  const auto molecularWeights = context_.mechanism.molecularWeights();
+  for (int c = 0; c < m.owned; ++c) {
+    context_.thermo.speciesEnthalpies(state.temperature[c], enthalpies_);
+    double sensible = heat_[c];
+    double moles = 0.0;
+    for (std::size_t k = 0; k < n; ++k) {
+      sensible -= enthalpies_[k] * species_[c * n + k];
+      moles += species_[c * n + k] / molecularWeights[k];
+    }
+    const double mass = state.density[c] * m.volume[c];
+    const double warming = sensible / (mass * properties.heatCapacity[c] * state.temperature[c]);
+    divergence[c] += sign * (warming + properties.molecularWeight[c] * moles / mass);
+  }
+}
+
+void Expansion::begin(const State& state, const GasProperties& properties, const DiffusiveFluxes& last,
+                      bool isFirstSweep, double dt, double lastStep) {
+  pressureDrift(state);
+  if (!isFirstSweep) {
+    bringDiffusion(last, state.species);
+    add(state, properties, -1.0, divergence_);
+    for (std::size_t c = 0; c < divergence_.size(); ++c) divergence_[c] += drift_[c] / dt;
+    return;
+  }
+  std::ranges::fill(balance_, 0.0);
+  bringBalance(state);
+  add(state, properties, 1.0, balance_);
+  for (std::size_t c = 0; c < divergence_.size(); ++c) {
+    if (lastStep > 0.0) correction_[c] += share * ((gained_[c] - balance_[c]) * lastStep + drift_[c]);
+    divergence_[c] = balance_[c] + (correction_[c] + drift_[c]) / dt;
+  }
+}
+
+std::span<const double> Expansion::complete(const State& state, const GasProperties& properties,
+                                            const DiffusiveFluxes& fluxes, bool isFirstSweep) {
+  bringDiffusion(fluxes, state.species);
+  add(state, properties, 1.0, divergence_);
+  if (isFirstSweep) first_ = divergence_;
+  for (std::size_t c = 0; c < divergence_.size(); ++c) gained_[c] = divergence_[c] - first_[c] + balance_[c];
+  return divergence_;
+}
+
+std::span<const double> Expansion::initial(const State& state, const GasProperties& properties,
+                                           const DiffusiveFluxes& fluxes) {
+  std::ranges::fill(divergence_, 0.0);
+  bringBalance(state);
+  add(state, properties, 1.0, divergence_);
+  bringDiffusion(fluxes, state.species);
+  add(state, properties, 1.0, divergence_);
+  return divergence_;
+}
+
+void Expansion::saveOrLoad(StateArchive& archive) {
+  archive.cells("expansion_correction", correction_, 1);
+  archive.cells("expansion_gained", gained_, 1);
+}
+
+std::span<const double> Expansion::pressureDrift(const State& state) {
+  const auto n = static_cast<std::size_t>(state.species);
+  for (int c = 0; c < context_.mesh.owned; ++c) {
+    const double W = context_.thermo.meanMolecularWeight({&state.Y[c * n], n});
+    const double equationOfState = state.density[c] * constants::gasConstant * state.temperature[c] / W;
+    drift_[c] = equationOfState / state.thermodynamicPressure - 1.0;
+  }
+  return drift_;
+}
+
+}  // namespace lampblack::flow

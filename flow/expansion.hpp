@@ -1,0 +1,66 @@
+// The divergence of the velocity that the equation of state demands, so that p_eos = rho R T / W stays p0.
+//
+// In a step's first sweep it is
+//   (1/(rho cp T)) (E - sum_k h_k M_k) + sum_k (W/W_k) M_k / rho   (Day and Bell 2000)
+// with E and M_k the enthalpy and mass that diffusion and State::balance bring into a cell, and what takes away the
+// p_eos - p0 that the last step has left (volume discrepancy; Nonaka et al. 2012). A correction is added that takes up,
+// a tenth each step, what this has missed, but for what State::balance has got to know since: nothing of p_eos - p0 is
+// left in a steady state. Each further sweep adds what takes away the p_eos - p0 that the last sweep has left (Pazner
+// et al. 2016).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/rooms.hpp"
+#include "core/state_archive.hpp"
+#include "flow/flow_context.hpp"
+#include "flow/gas_properties.hpp"
+#include "flow/state.hpp"
+
+namespace lampblack::flow {
+
+// What diffusion carries through the faces, from low to high or outwards.
+struct DiffusiveFluxes {
+  std::vector<double> species;   // kg/s, species a face
+  std::vector<double> enthalpy;  // W, of the diffusing species
+  std::vector<double> heat;      // W, conduction
+};
+
+class Expansion {
+ public:
+  explicit Expansion(const FlowContext& context);
+
+  // Begins a sweep over dt: with p_eos - p0 of the state, and without the last sweep's diffusion, which the new one's
+  // is to take the place of. `lastStep` (s): that before this one, 0 if there is none.
+  void begin(const State& state, const GasProperties& properties, const DiffusiveFluxes& last, bool isFirstSweep,
+             double dt, double lastStep);
+  // The sweep's divergence (1/s, owned cells), with this diffusion.
+  std::span<const double> complete(const State& state, const GasProperties& properties, const DiffusiveFluxes& fluxes,
+                                   bool isFirstSweep);
+  // Of the diffusion and State::balance alone.
+  std::span<const double> initial(const State& state, const GasProperties& properties, const DiffusiveFluxes& fluxes);
+
+  // p_eos / p0 - 1 of each owned cell.
+  std::span<const double> pressureDrift(const State& state);
+
+  void saveOrLoad(StateArchive& archive);
+
+ private:
+  // Sets species_ and heat_ to what comes into the cells.
+  void bringBalance(const State& state);
+  void bringDiffusion(const DiffusiveFluxes& fluxes, int species);
+  // Adds `sign` times the divergence by what they are.
+  void add(const State& state, const GasProperties& properties, double sign, std::span<double> divergence);
+
+  const FlowContext& context_;
+  std::vector<double> divergence_;  // 1/s, of the sweep
+  std::vector<double> correction_;  // of a step
+  std::vector<double> first_;       // 1/s, divergence of the step's first sweep
+  std::vector<double> balance_;     // 1/s, of that by State::balance
+  std::vector<double> gained_;      // 1/s, divergence_ - first_ + balance_: what stands against the next step's balance
+  std::vector<double> drift_;       // p_eos/p0 - 1
+  std::vector<double> species_, heat_, enthalpies_;  // kg/s and W that come into each owned cell; J/kg
+};
+
+}  // namespace lampblack::flow

@@ -1,0 +1,59 @@
+#include "flow/heat_conduction.hpp"
+
+#include "core/errors.hpp"
+
+namespace lampblack::flow {
+
+void HeatConduction::prepare(const GasProperties& properties) {
+  const Mesh& m = context_.mesh;
+  conductance_.assign(static_cast<std::size_t>(m.faces), 0.0);
+  for (int face = 0; face < m.faces; ++face) {
+    const int low = m.low[face];
+    const double metric = m.area[face] / m.distance[face];
+    if (m.high[face] >= 0) {
+      const double w = m.lowWeight[face];
+      conductance_[face] =
+          metric * (w * properties.conductivity[low] + (1.0 - w) * properties.conductivity[m.high[face]]);
+      continue;
+    }
+    const BoundaryCondition& boundary = context_.boundaryOf(face);
+    const bool given =
+        boundary.kind == BoundaryKind::Inlet || (boundary.kind == BoundaryKind::Wall && boundary.isothermal);
+    if (given) conductance_[face] = metric * properties.conductivity[low];
+  }
+}
+
+void HeatConduction::evaluate(std::span<const double> temperature, std::span<double> flux) const {
+  const Mesh& m = context_.mesh;
+  for (int face = 0; face < m.faces; ++face) {
+    const double beyond = m.high[face] >= 0 ? temperature[m.high[face]] : context_.boundaryOf(face).temperature;
+    flux[face] = conductance_[face] * (temperature[m.low[face]] - beyond);
+  }
+}
+
+void HeatConduction::implicitFlux(const State& guess, const GasProperties& properties, const Contents& contents,
+                                  double dt, std::span<double> flux) {
+  const Mesh& m = context_.mesh;
+  const auto n = static_cast<std::size_t>(guess.species);
+  diagonal_.resize(static_cast<std::size_t>(m.owned));
+  source_.resize(diagonal_.size());
+  Y_.resize(n);
+  collectively(m.comm, [&] {
+    for (int c = 0; c < m.owned; ++c) {
+      for (std::size_t k = 0; k < n; ++k) Y_[k] = contents.species[c * n + k] / contents.mass[c];
+      const double T =
+          context_.thermo.temperatureFromEnthalpy(contents.enthalpy[c] / contents.mass[c], Y_, guess.temperature[c]);
+      diagonal_[c] = contents.mass[c] * properties.heatCapacity[c] / dt;
+      source_[c] = diagonal_[c] * T;
+    }
+  });
+  for (int face = m.interiorFaces; face < m.faces; ++face) {
+    diagonal_[m.low[face]] += conductance_[face];
+    source_[m.low[face]] += conductance_[face] * context_.boundaryOf(face).temperature;
+  }
+  temperature_ = guess.temperature;
+  diffusion_.solve(1, diagonal_, conductance_, source_, temperature_);
+  evaluate(temperature_, flux);
+}
+
+}  // namespace lampblack::flow

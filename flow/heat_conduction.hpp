@@ -1,0 +1,44 @@
+// Conduction of heat in the gas, implicit in the temperature. As of the species, the fluxes are evaluated from the
+// implicit solution, so that what leaves one cell enters the next whatever the linear solver's tolerance.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/rooms.hpp"
+#include "flow/flow_context.hpp"
+#include "flow/gas_properties.hpp"
+#include "flow/implicit_diffusion.hpp"
+#include "flow/state.hpp"
+
+namespace lampblack::flow {
+
+class HeatConduction {
+ public:
+  explicit HeatConduction(const FlowContext& context) : context_(context), diffusion_(context.mesh, context.halo) {}
+
+  // Fluxes here: W a face, from low to high or outwards.
+
+  // Takes the coefficients of the state, which everything below goes by.
+  void prepare(const GasProperties& properties);
+  // Fluxes of that state.
+  void presentFlux(const State& state, std::span<double> flux) const { evaluate(state.temperature, flux); }
+
+  // A gas without the fluxes that are sought: mass (kg), species (kg, species a cell) and enthalpy (J) of owned cells.
+  struct Contents {
+    std::span<const double> mass, species, enthalpy;
+  };
+  // Collective. Fluxes at the end of a step, of which the state is the guess.
+  void implicitFlux(const State& guess, const GasProperties& properties, const Contents& contents, double dt,
+                    std::span<double> flux);
+
+ private:
+  void evaluate(std::span<const double> temperature, std::span<double> flux) const;
+
+  const FlowContext& context_;
+  ImplicitDiffusion diffusion_;
+  std::vector<double> conductance_;  // W/K, a face; zero where no heat passes
+  std::vector<double> diagonal_, source_, temperature_, Y_;
+};
+
+}  // namespace lampblack::flow
