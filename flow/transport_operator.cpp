@@ -66,14 +66,14 @@ void TransportOperator::keepStart(const State& state) {
 }
 
 void TransportOperator::average(const State& state) {
-  const auto mean = [&](std::vector<double> State::*field) {
-    const std::vector<double>&start = (*start_).*field, &latest = state.*field;
-    std::vector<double>& result = (*mean_).*field;
+  const auto mean = [](std::span<const double> start, std::span<const double> latest, std::span<double> result) {
     for (std::size_t i = 0; i < result.size(); ++i) result[i] = 0.5 * (start[i] + latest[i]);
   };
   for (const auto field :
        {&State::velocity, &State::temperature, &State::density, &State::Y, &State::carried, &State::massFlux})
-    mean(field);
+    mean((*start_).*field, state.*field, (*mean_).*field);
+  meanViscosity_.resize(startViscosity_.size());
+  mean(startViscosity_, properties_.viscosity, meanViscosity_);
 }
 
 // Content of the owned cells at the step's end after convection and the balance alone.
@@ -237,15 +237,16 @@ void TransportOperator::advance(State& state, double, double dt) {
 
   // Velocity, pressure and mass flux for exactly this diffusion.
   const auto divergence = expansion_.complete(state, properties_, diffusion_, first);
-  const std::vector<double>& viscosity = several ? startViscosity_ : properties_.viscosity;
+  const std::vector<double>& startViscosity = several ? startViscosity_ : properties_.viscosity;
   const auto projected =
-      momentum_.advance(state, {start, mean, viscosity, divergence, 0.5 * (lastStep_ + dt)}, faceVelocity_);
+      momentum_.advance(state, {start, mean, startViscosity, divergence, 0.5 * (lastStep_ + dt)}, faceVelocity_);
   diagnostics_.continuityError = projected.continuityError;
   diagnostics_.pressureIterations = projected.iterations;
   updateFluxes(state, mean);
 
   addConvection(start, state, dt);
-  carried_.advance(state, {start, mean, viscosity, faces_, faceVelocity_, newMass_}, dt);
+  const std::vector<double>& meanViscosity = several ? meanViscosity_ : properties_.viscosity;
+  carried_.advance(state, {start, mean, meanViscosity, faces_, faceVelocity_, newMass_}, dt);
   collectively(m.comm, [&] { finish(state, dt); });
   state.updateHalo(context_.halo);
   if (sweep_ < options_.sweeps) return;

@@ -104,7 +104,7 @@ class TransportOperator : public Operator {
   // Only of steps of several sweeps: the start; the mean of it and of what the last sweep found; fluxes of the start.
   std::optional<State> start_, mean_;
   std::vector<double> startSpeciesFlux_, startHeatFlux_;
-  std::vector<double> startViscosity_;  // Pa s, cells
+  std::vector<double> startViscosity_, meanViscosity_;  // Pa s, cells
 
   std::vector<double> content_;       // kg, rho Y V of the owned cells as it is being advanced
   std::vector<double> heatContent_;   // J, rho h V

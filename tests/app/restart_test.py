@@ -72,9 +72,11 @@ def run(program, *arguments):
     return result
 
 
-def check_middle(program, folder, deck):
+def check_middle(program, folder, deck, sweeps=1):
     """N steps against N/2, a restart, N/2."""
-    options = running.settings(*SETTINGS, f"checkpoint.steps={MIDDLE}")
+    options = running.settings(*SETTINGS, f"checkpoint.steps={MIDDLE}", f"time.sweeps={sweeps}")
+    folder = folder / f"sweeps_{sweeps}"
+    folder.mkdir()
     whole = folder / "whole"
     run(program, deck, *options, "--out", whole)
     assert [file.name for file in sorted((whole / "checkpoint").glob("step_*"))] == [f"step_{MIDDLE:06}.h5"]
@@ -198,7 +200,7 @@ def check_wrong(program, folder, deck, whole):
         wrong = [*base, *running.settings(*values)]
         refusal(program, before, folder, [f"of another {name} (its own: "], deck, *wrong, "--out", whole, "--restart")
     file = whole / f"checkpoint/step_{MIDDLE:06}.h5"
-    refusal(program, before, folder, ["already", "--force"], deck, *base, "--out", folder / "rest", "--restart", file)
+    refusal(program, before, folder, ["already", "--force"], deck, *base, "--out", whole.parent / "rest", "--restart", file)
     outputs = next((whole / "checkpoint").glob("outputs_*.h5"))
     for victim in (file, outputs):
         check_damage(program, folder, deck, base, whole, victim)
@@ -258,6 +260,7 @@ def main(executable, ranks, *mpiexec):
         folder = pathlib.Path(name)
         deck = running.small_case(folder)
         whole = check_middle(program, folder, deck)
+        check_middle(program, folder, deck, sweeps=2)
         check_requests(program, folder, deck)
         if program.ranks == 1:
             check_other_ranks(executable, list(mpiexec), folder, deck, whole, 1, [3])

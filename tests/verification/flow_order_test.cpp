@@ -23,7 +23,7 @@ void report(const std::string& line) {
 }
 
 struct Quantities {
-  std::vector<double> velocity, temperature, Y, pressure;
+  std::vector<double> velocity, temperature, Y, pressure, carried;
 };
 
 struct Problem {
@@ -35,6 +35,17 @@ struct Problem {
   std::string species;
   bool reacts = false;
   double prelude = 0.0;  // s, after which the measured runs start from one state
+  // Particles per m3 that the gas carries, with thermophoresis, and their diffusivity.
+  std::function<double(const std::array<double, 2>&)> particles = {};
+  double diffusivity = 0.0;
+
+  State stateAtStart() {
+    if (!particles) return box.state(start);
+    State state = box.state(start, {{"particles", "1/m^3", "test", 0.55}});
+    for (int c = 0; c < box.mesh.cells; ++c) state.carried[at(c)] = particles(box.mesh.centre[at(c)]);
+    std::ranges::fill(state.carriedDiffusivity, diffusivity);
+    return state;
+  }
 };
 
 Quantities advance(Problem& problem, State& state, int sweeps, int steps, double duration) {
@@ -69,7 +80,7 @@ Quantities advance(Problem& problem, State& state, int sweeps, int steps, double
   // Velocities stand half a step before the gas, pressures a step.
   for (std::size_t i = 0; i < velocity.size(); ++i) velocity[i] += 1.5 * (state.velocity[i] - velocity[i]);
   for (std::size_t i = 0; i < pressure.size(); ++i) pressure[i] += 2.0 * (state.pressure[i] - pressure[i]);
-  return {velocity, state.temperature, state.Y, pressure};
+  return {velocity, state.temperature, state.Y, pressure, state.carried};
 }
 
 // Mean of |a - b| over the owned cells, of component k of n.
@@ -82,13 +93,13 @@ double distance(const Box& box, const std::vector<double>& a, const std::vector<
 
 // Orders between the last two of three differences of runs whose steps are halved.
 struct Orders {
-  double u = 0.0, T = 0.0, Y = 0.0, p = 0.0;
+  double u = 0.0, T = 0.0, Y = 0.0, p = 0.0, carried = 0.0;
 };
 
 Orders measure(Problem& problem, int sweeps) {
   const std::size_t n = problem.box.gas.mechanism.numSpecies();
   const std::size_t species = problem.box.gas.mechanism.speciesIndex(problem.species);
-  State start = problem.box.state(problem.start);
+  State start = problem.stateAtStart();
   if (problem.prelude > 0.0) advance(problem, start, 2, 2 * problem.steps, problem.prelude);
   std::vector<Quantities> found;
   for (int level = 0; level < 4; ++level) {
@@ -106,7 +117,8 @@ Orders measure(Problem& problem, int sweeps) {
     return last;
   };
   return {order("u", &Quantities::velocity, 2, 0), order("T", &Quantities::temperature, 1, 0),
-          order("Y", &Quantities::Y, n, species), order("p", &Quantities::pressure, 1, 0)};
+          order("Y", &Quantities::Y, n, species), order("p", &Quantities::pressure, 1, 0),
+          problem.particles ? order("particles", &Quantities::carried, 1, 0) : 0.0};
 }
 
 // 2400 K in a stream of 300 K. Its pressure is not looked at: it feels the moments at which a cell's limiter sets in.
@@ -127,12 +139,17 @@ TEST(FlowOrder, HotSpotInAStream) {
                   4e-4,
                   16,
                   "O2"};
+  problem.particles = [&](const std::array<double, 2>& x) {
+    return 1e15 * (1.0 + 0.5 * std::cos(std::numbers::pi * x[0] / size) * std::cos(std::numbers::pi * x[1] / size));
+  };
+  problem.diffusivity = 3e-5;
   const Orders one = measure(problem, 1), two = measure(problem, 2), four = measure(problem, 4);
   EXPECT_NEAR(one.u, 1.0, 0.1);
   EXPECT_NEAR(one.T, 1.0, 0.1);
   EXPECT_GT(two.T, 1.8);
   EXPECT_GT(four.u, 1.9);
   EXPECT_GT(four.T, 1.9);
+  EXPECT_GT(four.carried, 1.9);
 }
 
 // From 95 % of hydrogen to none: ln W changes as much as the mass fractions.
@@ -161,14 +178,14 @@ TEST(FlowOrder, LayerRichInHydrogen) {
 }
 
 // A wave of 95 % of hydrogen over two of its diffusion times in 16 steps: what is left of it, against 512 steps.
-// Implicit steps in which all diffusion is implicit would leave 12.5 % too much.
+// Steps of first order in which all of the diffusion is implicit would leave 12.5 % too much.
 TEST(FlowOrder, WaveOfHydrogenDecays) {
   Gas& gas = Gas::hydrogen();
   const double size = 4e-3;
-  const auto nitrogen = gas.massFractions("N2: 1");
-  const std::vector<Side> sides{side(BoundaryKind::Symmetry, 0, false), side(BoundaryKind::Symmetry, 0, true),
-                                side(BoundaryKind::Symmetry, 1, false),
-                                opening(BoundaryKind::Outlet, 1, true, 0.0, 300.0, nitrogen)};
+  const auto mixture = gas.massFractions("H2: 0.95, N2: 0.05");
+  const std::vector<Side> sides{side(BoundaryKind::Symmetry, 0, false),
+                                opening(BoundaryKind::Outlet, 0, true, 0.0, 300.0, mixture),
+                                side(BoundaryKind::Symmetry, 1, false), side(BoundaryKind::Symmetry, 1, true)};
   Problem problem{"wave",
                   Box(Geometry::Planar, {uniformAxis(size, 32), uniformAxis(1e-3, 1)}, sides),
                   [&](const std::array<double, 2>& x) {
@@ -179,10 +196,11 @@ TEST(FlowOrder, WaveOfHydrogenDecays) {
                   16,
                   "H2"};
   std::vector<double> X(gas.mechanism.numSpecies()), D(X.size());
-  gas.thermo.massToMole(gas.massFractions("H2: 0.95, N2: 0.05"), X);
+  gas.thermo.massToMole(mixture, X);
   const std::size_t hydrogen = gas.mechanism.speciesIndex("H2"), other = gas.mechanism.speciesIndex("N2");
   gas.transport.mixture(300.0, constants::oneAtmosphere, X, D);
-  problem.duration = 2.0 * size * size / (std::numbers::pi * std::numbers::pi * D[other]);
+  const double diffusivity = D[other] * X[hydrogen] / (1.0 - mixture[other]);  // of the pair
+  problem.duration = 2.0 * size * size / (std::numbers::pi * std::numbers::pi * diffusivity);
   const auto left = [&](int sweeps, int steps) {
     State state = problem.box.state(problem.start);
     const Quantities end = advance(problem, state, sweeps, steps, problem.duration);
@@ -193,7 +211,7 @@ TEST(FlowOrder, WaveOfHydrogenDecays) {
            });
   };
   const double exact = left(3, 512);
-  for (const auto& [sweeps, allowed] : {std::pair{1, 1.0}, {2, 0.05}, {3, 0.02}}) {
+  for (const auto& [sweeps, allowed] : {std::pair{1, 1.0}, {2, 0.125}, {3, 0.03}}) {
     const double error = left(sweeps, 16) / exact - 1.0;
     report(fmt::format("wave of hydrogen, {} sweeps: {:+.2e} of what is left of it ({:.3f} of its start)", sweeps,
                        error, exact / 0.01));
