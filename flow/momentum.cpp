@@ -42,7 +42,7 @@ Momentum::Momentum(const FlowContext& context)
   for (int face = m.interiorFaces; face < m.faces; ++face) {
     const BoundaryCondition& boundary = context.boundaryOf(face);
     const bool isOutlet = boundary.kind == BoundaryKind::Outlet;
-    pressureKnown_.push_back(isOutlet                                        ? BoundaryData::Value
+    pressureKnown_.push_back(isOutlet                                  ? BoundaryData::Value
                              : boundary.kind == BoundaryKind::Symmetry ? BoundaryData::ZeroSlope
                                                                        : BoundaryData::Nothing);
     for (int i = 0; i < 2; ++i)
