@@ -19,6 +19,7 @@ struct BoundaryCondition {
   std::string name;
   BoundaryKind kind = BoundaryKind::Wall;
   double speed = 0.0;        // m/s, Inlet: normal velocity into the domain
+  double tangential = 0.0;   // m/s, Inlet, Wall without slip: velocity along the boundary, along its axis
   double temperature = 0.0;  // K, Inlet, Outlet (entrained gas), isothermal Wall
   std::vector<double> Y;     // mass fractions, Inlet and Outlet (entrained gas)
   // Inlet: true fixes the mass fractions at the face; false fixes the total species flux, convection and diffusion

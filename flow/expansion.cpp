@@ -1,6 +1,7 @@
 #include "flow/expansion.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "core/constants.hpp"
 #include "flow/face_fluxes.hpp"
@@ -23,7 +24,12 @@ Expansion::Expansion(const FlowContext& context)
       gained_(divergence_),
       drift_(divergence_),
       heat_(divergence_),
-      enthalpies_(context.mechanism.numSpecies()) {}
+      enthalpies_(context.mechanism.numSpecies()) {
+  const Mesh& m = context.mesh;
+  for (int face = m.interiorFaces; face < m.faces; ++face)
+    if (const BoundaryCondition& boundary = context.boundaryOf(face); boundary.kind == BoundaryKind::Inlet)
+      inflow_ += boundary.speed * m.area[face];
+}
 
 void Expansion::bringBalance(const State& state) {
   const Mesh& m = context_.mesh;
@@ -65,12 +71,14 @@ void Expansion::add(const State& state, const GasProperties& properties, double 
 void Expansion::begin(const State& state, const GasProperties& properties, const DiffusiveFluxes& last,
                       bool isFirstSweep, double dt, double lastStep) {
   pressureDrift(state);
+  dt_ = dt;
   if (!isFirstSweep) {
     bringDiffusion(last, state.species);
     add(state, properties, -1.0, divergence_);
     for (std::size_t c = 0; c < divergence_.size(); ++c) divergence_[c] += drift_[c] / dt;
     return;
   }
+  pressureRise_ = 0.0;
   std::ranges::fill(balance_, 0.0);
   bringBalance(state);
   add(state, properties, 1.0, balance_);
@@ -80,10 +88,28 @@ void Expansion::begin(const State& state, const GasProperties& properties, const
   }
 }
 
+void Expansion::compress(const State& state, const GasProperties& properties) {
+  const Mesh& m = context_.mesh;
+  const auto compressibility = [&](int c) {  // 1/Pa
+    const double R = constants::gasConstant / properties.molecularWeight[c];
+    return (1.0 - R / properties.heatCapacity[c]) / state.thermodynamicPressure;
+  };
+  std::array<double, 3> sums{0.0, 0.0, inflow_};
+  for (int c = 0; c < m.owned; ++c) {
+    sums[0] += m.volume[c] * divergence_[c];
+    sums[1] += m.volume[c] * compressibility(c);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), 3, MPI_DOUBLE, MPI_SUM, m.comm);
+  const double rate = (sums[0] + sums[2]) / sums[1];  // Pa/s
+  for (int c = 0; c < m.owned; ++c) divergence_[c] -= rate * compressibility(c);
+  pressureRise_ += dt_ * rate;
+}
+
 std::span<const double> Expansion::complete(const State& state, const GasProperties& properties,
                                             const DiffusiveFluxes& fluxes, bool isFirstSweep) {
   bringDiffusion(fluxes, state.species);
   add(state, properties, 1.0, divergence_);
+  if (context_.isClosed()) compress(state, properties);
   if (isFirstSweep) first_ = divergence_;
   for (std::size_t c = 0; c < divergence_.size(); ++c) gained_[c] = divergence_[c] - first_[c] + balance_[c];
   return divergence_;
@@ -96,6 +122,7 @@ std::span<const double> Expansion::initial(const State& state, const GasProperti
   add(state, properties, 1.0, divergence_);
   bringDiffusion(fluxes, state.species);
   add(state, properties, 1.0, divergence_);
+  if (context_.isClosed()) compress(state, properties);
   return divergence_;
 }
 

@@ -38,6 +38,9 @@ class Expansion {
   // The sweep's divergence (1/s, owned cells), with this diffusion.
   std::span<const double> complete(const State& state, const GasProperties& properties, const DiffusiveFluxes& fluxes,
                                    bool isFirstSweep);
+  // Rise of the thermodynamic pressure in the step, Pa: in a closed vessel what its gas needs to keep its volume,
+  //   div u = ... - (1/(gamma p0)) dp0/dt,    integral of div u = what flows in.
+  [[nodiscard]] double pressureRise() const { return pressureRise_; }
   // Of the diffusion and State::balance alone.
   std::span<const double> initial(const State& state, const GasProperties& properties, const DiffusiveFluxes& fluxes);
 
@@ -52,6 +55,8 @@ class Expansion {
   void bringDiffusion(const DiffusiveFluxes& fluxes, int species);
   // Adds `sign` times the divergence by what they are.
   void add(const State& state, const GasProperties& properties, double sign, std::span<double> divergence);
+  // Makes the divergence of a closed vessel that of what flows in, by a rise of p0.
+  void compress(const State& state, const GasProperties& properties);
 
   const FlowContext& context_;
   std::vector<double> divergence_;  // 1/s, of the sweep
@@ -60,6 +65,9 @@ class Expansion {
   std::vector<double> balance_;     // 1/s, of that by State::balance
   std::vector<double> gained_;      // 1/s, divergence_ - first_ + balance_: what stands against the next step's balance
   std::vector<double> drift_;       // p_eos/p0 - 1
+  double inflow_ = 0.0;             // m^3/s, into a closed vessel
+  double dt_ = 0.0;                 // s, the step
+  double pressureRise_ = 0.0;       // Pa
   std::vector<double> species_, heat_, enthalpies_;  // kg/s and W that come into each owned cell; J/kg
 };
 

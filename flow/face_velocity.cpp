@@ -15,7 +15,8 @@ void FaceVelocity::predict(const Cells& cells, std::span<const double> inverseDe
   const Mesh& m = context_.mesh;
   for (int face = 0; face < m.interiorFaces; ++face) {
     const int axis = m.normalAxis[face];
-    const double slope = (cells.pressure[m.high[face]] - cells.pressure[m.low[face]]) / m.distance[face];
+    const double slope = (cells.pressure[m.high[face]] - cells.pressure[m.low[face]]) / m.distance[face] -
+                         context_.bodyForce(1.0 / inverseDensity[face], axis);
     const double excess = mean(face, cells.acceleration, 2, axis) - inverseDensity[face] * slope;
     // The deviation's equation with constant coefficients, exactly.
     const double decayed = dt * mean(face, cells.relaxation, 1, 0);

@@ -3,6 +3,7 @@
 // A face's velocity is that of the cells around it, interpolated, plus a deviation d that couples pressures of
 // neighbouring cells (Rhie and Chow 1983). The deviation has an equation of its own,
 //   dd/dt = r - d/tau,    r = (grad p)/rho of the cells, interpolated, - (1/rho) dp/dn across the face,
+// gravity's force taken off both gradients,
 // with tau the time in which convection and viscosity renew a cell's momentum: a steady flow has d = tau r, of third
 // order in the mesh's width and whatever the time step (Choi 1999 on why the plain interpolation does depend on it).
 #pragma once
@@ -24,7 +25,7 @@ class FaceVelocity {
   // What the cells know at the end of the momentum's prediction; halo filled.
   struct Cells {
     std::span<const double> velocity;          // m/s, two a cell
-    std::span<const double> acceleration;      // m/s2, (grad p)/rho, two a cell
+    std::span<const double> acceleration;      // m/s2, (grad p - f)/rho with gravity's force f, two a cell
     std::span<const double> relaxation;        // 1/s, 1/tau
     std::span<const double> pressure;          // Pa
     std::span<const double> velocityGradient;  // 1/s, four a cell, of `velocity`, read in the cells next to outlets

@@ -64,7 +64,7 @@ void Momentum::boundaryVelocities(const State& state) {
     for (int i = 0; i < 2; ++i) {
       const bool normal = i == m.normalAxis[face];
       double value = state.velocity[2 * m.low[face] + i];
-      if (isGiven(boundary, normal)) value = normal ? -m.normalSign[face] * boundary.speed : 0.0;
+      if (isGiven(boundary, normal)) value = normal ? -m.normalSign[face] * boundary.speed : boundary.tangential;
       boundaryVelocity_[2 * (face - m.interiorFaces) + i] = value;
     }
   }
@@ -137,7 +137,8 @@ void Momentum::predict(const State& state, const Sweep& sweep) {
     const double inertia = density[c] * m.volume[c] / sweep.dt;
     for (int i = 0; i < 2; ++i) {
       diagonal_[2 * c + i] = inertia;
-      source_[2 * c + i] = inertia * sweep.start.velocity[2 * c + i] - m.volume[c] * pressureGradient_[2 * c + i];
+      source_[2 * c + i] = inertia * sweep.start.velocity[2 * c + i] +
+                           m.volume[c] * (context_.bodyForce(density[c], i) - pressureGradient_[2 * c + i]);
     }
     // Hoop stress 2 mu v_r / r^2 (its dilatation part is explicit).
     if (m.axisymmetric()) diagonal_[2 * c] += 2.0 * viscosity[c] * m.planarArea[c] / m.centre[c][0];
@@ -214,20 +215,40 @@ void Momentum::outletStress(const Sweep& sweep) {
   }
 }
 
-Projection::Result Momentum::advance(State& state, const Sweep& sweep, std::span<double> faceVelocity) {
+void Momentum::setInverseDensity(std::span<const double> density) {
   const Mesh& m = context_.mesh;
-  const std::vector<double>& density = sweep.start.density;
-  predict(state, sweep);
-  for (int c = 0; c < m.owned; ++c)
-    for (int i = 0; i < 2; ++i) acceleration_[2 * c + i] = pressureGradient_[2 * c + i] / density[c];
-  gradient_.compute(predicted_, boundaryVelocity_, 2, velocityGradient_, velocityKnown_);
-  const FieldView known[] = {{predicted_, 2}, {acceleration_, 2}, {relaxation_, 1}};
-  context_.halo.update(known);
   for (int face = 0; face < m.faces; ++face) {
     const double w = m.high[face] >= 0 ? m.lowWeight[face] : 1.0;
     const double beyond = m.high[face] >= 0 ? density[m.high[face]] : 0.0;
     inverseDensity_[face] = 1.0 / (w * density[m.low[face]] + (1.0 - w) * beyond);
   }
+}
+
+void Momentum::balanceGravity(State& state) {
+  const Mesh& m = context_.mesh;
+  setInverseDensity(state.density);
+  // Velocities after falling for a second, which the pressure has to stop.
+  std::vector<double> fall(static_cast<std::size_t>(m.faces), 0.0);
+  for (int face = 0; face < m.faces; ++face)
+    if (m.high[face] >= 0 || context_.boundaryOf(face).kind == BoundaryKind::Outlet)
+      fall[face] = (m.high[face] >= 0 ? 1.0 : m.normalSign[face]) * inverseDensity_[face] *
+                   context_.bodyForce(1.0 / inverseDensity_[face], m.normalAxis[face]);
+  const std::vector<double> divergence(static_cast<std::size_t>(m.owned), 0.0);
+  std::ranges::fill(state.pressure, 0.0);
+  projection_.solve(1.0, inverseDensity_, divergence, fall, state.pressure);
+}
+
+Projection::Result Momentum::advance(State& state, const Sweep& sweep, std::span<double> faceVelocity) {
+  const Mesh& m = context_.mesh;
+  const std::vector<double>& density = sweep.start.density;
+  predict(state, sweep);
+  for (int c = 0; c < m.owned; ++c)
+    for (int i = 0; i < 2; ++i)
+      acceleration_[2 * c + i] = (pressureGradient_[2 * c + i] - context_.bodyForce(density[c], i)) / density[c];
+  gradient_.compute(predicted_, boundaryVelocity_, 2, velocityGradient_, velocityKnown_);
+  const FieldView known[] = {{predicted_, 2}, {acceleration_, 2}, {relaxation_, 1}};
+  context_.halo.update(known);
+  setInverseDensity(density);
   faceVelocity_.predict({predicted_, acceleration_, relaxation_, state.pressure, velocityGradient_}, inverseDensity_,
                         sweep.dt, faceVelocity);
 

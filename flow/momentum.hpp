@@ -35,6 +35,9 @@ class Momentum {
   // `faceVelocity` (m/s, every face) receives the projected normal velocities.
   Projection::Result advance(State& state, const Sweep& sweep, std::span<double> faceVelocity);
 
+  // Collective. Gives a gas at rest the pressure that carries its weight.
+  void balanceGravity(State& state);
+
   // The step's last sweep is done.
   void endStep() { faceVelocity_.endStep(); }
 
@@ -44,6 +47,7 @@ class Momentum {
   }
 
  private:
+  void setInverseDensity(std::span<const double> density);
   void boundaryVelocities(const State& state);
   void outletPressures(const State& state);
   void predict(const State& state, const Sweep& sweep);
@@ -60,7 +64,7 @@ class Momentum {
   std::vector<UpwindGeometry> upwind_;                       // of each component
   std::vector<double> boundaryVelocity_, boundaryPressure_;
   std::vector<double> velocityGradient_, pressureGradient_;
-  std::vector<double> acceleration_;  // m/s2, (grad p)/rho, two a cell
+  std::vector<double> acceleration_;  // m/s2, (grad p - f)/rho with gravity's force f, two a cell
   std::vector<double> relaxation_;    // 1/s, rate at which convection and viscosity renew a cell's momentum
   std::vector<double> diagonal_, conductance_, source_, predicted_, inverseDensity_, pressureChange_;
 };

@@ -11,10 +11,6 @@ namespace lampblack::flow {
 
 Projection::Projection(const FlowContext& context, double tolerance) : context_(context), tolerance_(tolerance) {
   const Mesh& m = context.mesh;
-  if (std::none_of(context.boundaries.begin(), context.boundaries.end(),
-                   [](const BoundaryCondition& b) { return b.kind == BoundaryKind::Outlet; }))
-    throw InputError("no boundary is an outlet; a closed domain is not supported yet");
-
   PetscInt first = 0;
   const PetscInt owned = m.owned;
   MPI_Exscan(&owned, &first, 1, MPIU_INT, MPI_SUM, m.comm);
@@ -26,6 +22,12 @@ Projection::Projection(const FlowContext& context, double tolerance) : context_(
   checkPetsc(
       MatCreateAIJ(m.comm, owned, owned, PETSC_DETERMINE, PETSC_DETERMINE, 5, nullptr, 4, nullptr, matrix_.put()));
   checkPetsc(MatCreateVecs(matrix_.get(), solution_.put(), rightSide_.put()));
+  if (context.isClosed()) {
+    MatNullSpace constants = nullptr;
+    checkPetsc(MatNullSpaceCreate(m.comm, PETSC_TRUE, 0, nullptr, &constants));
+    checkPetsc(MatSetNullSpace(matrix_.get(), constants));
+    checkPetsc(MatNullSpaceDestroy(&constants));
+  }
   checkPetsc(KSPCreate(m.comm, solver_.put()));
   checkPetsc(KSPSetType(solver_.get(), KSPCG));
   PC preconditioner = nullptr;
@@ -35,7 +37,11 @@ Projection::Projection(const FlowContext& context, double tolerance) : context_(
   checkPetsc(KSPSetNormType(solver_.get(), KSP_NORM_UNPRECONDITIONED));
   checkPetsc(KSPSetInitialGuessNonzero(solver_.get(), PETSC_TRUE));
   checkPetsc(KSPSetOptionsPrefix(solver_.get(), "pressure_"));
+  // The coarsest matrix of a closed vessel is singular: no elimination there.
+  constexpr const char* coarsest = "-pressure_pc_hypre_boomeramg_relax_type_coarse";
+  if (context.isClosed()) checkPetsc(PetscOptionsSetValue(nullptr, coarsest, "Jacobi"));
   checkPetsc(KSPSetFromOptions(solver_.get()));
+  checkPetsc(PetscOptionsClearValue(nullptr, coarsest));
 }
 
 void Projection::conductances(double dt, std::span<const double> inverseDensity) {
@@ -114,6 +120,10 @@ Projection::Result Projection::solve(double dt, std::span<const double> inverseD
   }
   checkPetsc(VecRestoreArray(rightSide_.get(), &right));
   checkPetsc(VecRestoreArray(solution_.get(), &guess));
+  if (MatNullSpace constants = nullptr; context_.isClosed()) {
+    checkPetsc(MatGetNullSpace(matrix_.get(), &constants));
+    checkPetsc(MatNullSpaceRemove(constants, rightSide_.get()));  // round-off
+  }
 
   // The tolerance is absolute: a fraction of the largest face flow, so that continuity holds alike in every step.
   checkPetsc(KSPSetTolerances(solver_.get(), 1e-14, tolerance_ * std::max(flowScale, 1e-300), PETSC_DEFAULT, 500));

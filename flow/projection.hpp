@@ -16,7 +16,7 @@ namespace lampblack::flow {
 
 class Projection {
  public:
-  // Collective. InputError when no boundary is an Outlet: the pressure level would be free.
+  // Collective. Without an outlet the changes of pressure have the mean zero.
   Projection(const FlowContext& context, double tolerance = 1e-9);
 
   struct Result {

@@ -42,7 +42,7 @@ void ReactionOperator::pack(const State& state, std::size_t cell, double dt, std
   in[2] = enthalpy;
   in[3] = (state.enthalpy[cell] - enthalpy) / dt;
   in[4] = state.temperature[cell];
-  in[5] = state.thermodynamicPressure;
+  in[5] = before_.Y.empty() ? state.thermodynamicPressure : 0.5 * (before_.pressure + state.thermodynamicPressure);
   in[6] = initialStep_[cell];
   in[7] = static_cast<double>(context_.mesh.naturalCell[cell]);
   const std::span<double> start = in.subspan(Layout::inHeader, n);
@@ -139,6 +139,7 @@ void ReactionOperator::endStep(State& state) {
   before_.Y.assign(state.Y.begin(), state.Y.begin() + static_cast<std::ptrdiff_t>(rate_.size()));
   before_.density.assign(state.density.begin(), state.density.begin() + owned);
   before_.enthalpy.assign(state.enthalpy.begin(), state.enthalpy.begin() + owned);
+  before_.pressure = state.thermodynamicPressure;
 }
 
 // What a step begins with is the state: endStep() takes it from there after loading.

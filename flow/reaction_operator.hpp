@@ -68,6 +68,7 @@ class ReactionOperator : public Operator {
   struct {
     std::vector<double> Y;  // species a cell
     std::vector<double> density, enthalpy;
+    double pressure = 0.0;  // Pa, thermodynamic
   } before_;
   std::vector<double> rate_;  // kg/m3/s, mean reaction rate of the last sweep, species a owned cell
   Diagnostics diagnostics_;

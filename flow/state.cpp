@@ -37,6 +37,7 @@ void State::updateHalo(HaloExchange& halo) {
 }
 
 void State::saveOrLoad(StateArchive& archive) {
+  archive.shared("thermodynamic_pressure", thermodynamicPressure);
   archive.cells("velocity", velocity, 2);
   archive.cells("pressure", pressure, 1);
   archive.cells("temperature", temperature, 1);

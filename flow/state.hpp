@@ -55,7 +55,7 @@ struct State {
   // Fills the halo of everything a neighbour needs.
   void updateHalo(HaloExchange& halo);
 
-  // Everything above but the pressure p0, which is the deck's. The halo of a loaded state has to be updated.
+  // Everything above. The halo of a loaded state has to be updated.
   void saveOrLoad(StateArchive& archive);
 };
 

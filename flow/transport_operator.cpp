@@ -49,9 +49,11 @@ void TransportOperator::initialise(State& state, double dt) {
   heatConduction_.prepare(properties_);
   heatConduction_.presentFlux(state, diffusion_.heat);
   const auto divergence = expansion_.initial(state, properties_, diffusion_);
+  momentum_.balanceGravity(state);
+  const std::vector<double> weight = state.pressure;
   momentum_.advance(state, {state, state, properties_.viscosity, divergence, dt}, faceVelocity_);
   momentum_.endStep();
-  std::fill(state.pressure.begin(), state.pressure.end(), 0.0);  // what it found was the blow that changed the velocity
+  state.pressure = weight;  // without that of the blow that has changed the velocity
   updateFluxes(state, state);
 }
 
@@ -72,6 +74,7 @@ void TransportOperator::average(const State& state) {
   for (const auto field :
        {&State::velocity, &State::temperature, &State::density, &State::Y, &State::carried, &State::massFlux})
     mean((*start_).*field, state.*field, (*mean_).*field);
+  mean_->thermodynamicPressure = 0.5 * (start_->thermodynamicPressure + state.thermodynamicPressure);
   meanViscosity_.resize(startViscosity_.size());
   mean(startViscosity_, properties_.viscosity, meanViscosity_);
 }
@@ -104,6 +107,12 @@ void TransportOperator::addConvection(const State& start, const State& state, do
     give(m.low[face], -1.0);
     give(m.high[face], 1.0);
   }
+}
+
+// Work of the rising thermodynamic pressure on the gas of a closed vessel.
+void TransportOperator::addCompression() {
+  for (std::size_t c = 0; c < heatContent_.size(); ++c)
+    heatContent_[c] += context_.mesh.volume[c] * expansion_.pressureRise();
 }
 
 // Of the species that diffuse.
@@ -224,6 +233,7 @@ void TransportOperator::advance(State& state, double, double dt) {
   expansion_.begin(state, properties_, diffusion_, first, dt, lastStep_);
   speciesDiffusion_.prepare(state, properties_);
   heatConduction_.prepare(properties_);
+  if (first) startPressure_ = state.thermodynamicPressure;
   if (several && first) keepStart(state);
   if (several) average(state);
   const State& start = several ? *start_ : state;
@@ -233,6 +243,7 @@ void TransportOperator::advance(State& state, double, double dt) {
 
   // Diffusion with the mass flux of the last sweep or step.
   addConvection(start, state, dt);
+  if (!first) addCompression();
   computeDiffusion(mean, state, dt);
 
   // Velocity, pressure and mass flux for exactly this diffusion.
@@ -245,9 +256,11 @@ void TransportOperator::advance(State& state, double, double dt) {
   updateFluxes(state, mean);
 
   addConvection(start, state, dt);
+  addCompression();
   const std::vector<double>& meanViscosity = several ? meanViscosity_ : properties_.viscosity;
   carried_.advance(state, {start, mean, meanViscosity, faces_, faceVelocity_, newMass_}, dt);
   collectively(m.comm, [&] { finish(state, dt); });
+  state.thermodynamicPressure = startPressure_ + expansion_.pressureRise();
   state.updateHalo(context_.halo);
   if (sweep_ < options_.sweeps) return;
   sweep_ = 0;
@@ -270,14 +283,15 @@ double TransportOperator::largestStep(const State& state) {
 
 std::vector<Quantity> TransportOperator::historyColumns() const {
   return {{"pressure_drift", "1", "largest |p_eos - p0| / p0 at the end of the step, reactions and particles included"},
+          {"thermodynamic_pressure", "Pa", "uniform part of the pressure, which changes in a closed vessel"},
           {"continuity_error", "1/s", "largest error of the projected velocity's divergence"},
           {"pressure_iterations", "1", "of the pressure solve"},
           {"species_iterations", "1", "of the implicit species diffusion"}};
 }
 
 std::vector<double> TransportOperator::historyValues(const State& state) {
-  return {pressureDrift(state), diagnostics_.continuityError, static_cast<double>(diagnostics_.pressureIterations),
-          static_cast<double>(diagnostics_.speciesIterations)};
+  return {pressureDrift(state), state.thermodynamicPressure, diagnostics_.continuityError,
+          static_cast<double>(diagnostics_.pressureIterations), static_cast<double>(diagnostics_.speciesIterations)};
 }
 
 void TransportOperator::fields(const State&, const FieldSink& sink) const {

@@ -79,6 +79,7 @@ class TransportOperator : public Operator {
  private:
   void addConvection(const State& start, const State& state, double dt);
   void computeDiffusion(const State& mean, const State& state, double dt);
+  void addCompression();
   void computeEnthalpyFlux(const State& mean);
   void updateFluxes(State& state, const State& mean);
   void finish(State& state, double dt);
@@ -99,8 +100,9 @@ class TransportOperator : public Operator {
   BoundaryAmounts boundary_;
   std::vector<std::function<void(const BoundaryAmounts&)>> watchers_;
 
-  int sweep_ = 0;          // of the present step
-  double lastStep_ = 0.0;  // s
+  int sweep_ = 0;               // of the present step
+  double startPressure_ = 0.0;  // Pa, thermodynamic pressure at the step's start
+  double lastStep_ = 0.0;       // s
   // Only of steps of several sweeps: the start; the mean of it and of what the last sweep found; fluxes of the start.
   std::optional<State> start_, mean_;
   std::vector<double> startSpeciesFlux_, startHeatFlux_;

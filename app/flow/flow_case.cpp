@@ -65,11 +65,22 @@ Stream streamOf(const Deck& deck, const std::string& key, const FlowCase& flowCa
 
 void readInitial(const Deck& deck, FlowCase& flowCase) {
   MixingLayer& layer = flowCase.initial;
+  layer.temperature = readTemperature(deck, "initial.temperature", *flowCase.mechanism, TemperatureUse::transport);
+  if (deck.choice("initial.layer") == "none") {
+    if (!deck.has("initial.composition"))
+      throw deck.error("initial", "a start without a layer needs the key 'composition'");
+    layer.low = layer.high = {layer.temperature, readComposition(deck, "initial.composition", *flowCase.mechanism)};
+    layer.burnt = false;
+    layer.hotWidth = 1.0;
+    return;
+  }
+  for (const char* key : {"low", "high"})
+    if (!deck.has(std::string("initial.") + key))
+      throw deck.error("initial", fmt::format("a layer needs the key '{}'", key));
   layer.low = streamOf(deck, "initial.low", flowCase);
   layer.high = streamOf(deck, "initial.high", flowCase);
-  layer.position = deck.quantity("initial.position");
-  layer.width = deck.quantity("initial.width");
-  layer.temperature = readTemperature(deck, "initial.temperature", *flowCase.mechanism, TemperatureUse::transport);
+  layer.position = neededQuantity(deck, "initial", "position", "a layer");
+  layer.width = neededQuantity(deck, "initial", "width", "a layer");
   layer.burnt = deck.choice("initial.layer") == "burnt";
   const double end = flowCase.mesh.vertices[static_cast<std::size_t>(layer.axis)].back();
   const auto requireInside = [&](const char* key, double place) {
@@ -81,6 +92,30 @@ void readInitial(const Deck& deck, FlowCase& flowCase) {
   layer.hotPosition = neededQuantity(deck, "initial", "hot_position", "a hot layer");
   layer.hotWidth = neededQuantity(deck, "initial", "hot_width", "a hot layer");
   requireInside("initial.hot_position", layer.hotPosition);
+}
+
+// Gravity, which an axis or a plane of symmetry allows along it only.
+void readGravity(const Deck& deck, FlowCase& flowCase) {
+  const AxisNames names = axisNames(flowCase.mesh.geometry);
+  for (const char* name : {"r", "x", "y", "z"}) {
+    const std::string key = std::string("gravity.") + name;
+    if (!deck.has(key)) continue;
+    const auto axis = std::ranges::find(names, name);
+    if (axis == names.end())
+      throw deck.error(key, fmt::format("the axes of this mesh are {} and {}", names[0], names[1]));
+    const auto i = static_cast<std::size_t>(axis - names.begin());
+    flowCase.gravity[i] = deck.quantity(key);
+    for (std::size_t b = 0; b < flowCase.boundaries.size(); ++b)
+      if (flowCase.boundaries[b].kind == BoundaryKind::Symmetry && flowCase.mesh.patches[b].axis == static_cast<int>(i))
+        throw deck.error(key, fmt::format("gravity would point through '{}', where the flow is symmetric",
+                                          flowCase.boundaries[b].name));
+  }
+  flowCase.referenceDensity =
+      Thermo(*flowCase.mechanism).density(flowCase.initial.low.temperature, flowCase.pressure, flowCase.initial.low.Y);
+  for (const BoundaryCondition& boundary : flowCase.boundaries)
+    if (boundary.kind == BoundaryKind::Outlet)
+      flowCase.referenceDensity =
+          Thermo(*flowCase.mechanism).density(boundary.temperature, flowCase.pressure, boundary.Y);
 }
 
 void readOutput(const Deck& deck, FlowCase& flowCase) {
@@ -178,6 +213,7 @@ FlowCase readFlowCase(const Deck& deck) {
   readTransport(deck, flowCase);
   readBoundaries(deck, flowCase);
   readInitial(deck, flowCase);
+  readGravity(deck, flowCase);
   flowCase.time = {deck.quantity("time.end"), deck.quantity("time.first_step"), deck.quantity("time.maximum_step"),
                    deck.number("time.growth")};
   flowCase.flow.courant = deck.number("time.courant");

@@ -11,9 +11,7 @@
 #include "core/errors.hpp"
 
 namespace lampblack::app::flowcase {
-namespace {
 
-// Species names of a composition, as mass fractions; `key` is where the deck says it.
 std::vector<double> readComposition(const Deck& deck, const std::string& key, const Mechanism& mechanism) {
   try {
     const std::vector<double> X = parseComposition(mechanism, deck.string(key));
@@ -24,6 +22,8 @@ std::vector<double> readComposition(const Deck& deck, const std::string& key, co
     throw deck.error(key, error.what());
   }
 }
+
+namespace {
 
 BoundaryPatch readPatch(const Deck& deck, const std::string& name, Geometry geometry) {
   const AxisNames names = axisNames(geometry);
@@ -48,6 +48,10 @@ BoundaryCondition readCondition(const Deck& deck, const std::string& name, const
   BoundaryCondition boundary;
   boundary.name = name;
   boundary.slip = deck.boolean(section + ".slip");
+  boundary.tangential = deck.quantity(section + ".tangential_velocity");
+  if (boundary.slip && boundary.tangential != 0)
+    throw deck.error(section + ".tangential_velocity",
+                     "a wall that the gas slides along does not move it; expected slip: false");
   boundary.fixedComposition = deck.choice(section + ".species") == "fixed";
   if (type == "inlet" || type == "outlet") {
     boundary.kind = type == "inlet" ? BoundaryKind::Inlet : BoundaryKind::Outlet;
@@ -141,9 +145,6 @@ void readBoundaries(const Deck& deck, FlowCase& flowCase) {
     flowCase.mesh.patches.push_back(readPatch(deck, name, mesh.geometry));
     flowCase.boundaries.push_back(readCondition(deck, name, *flowCase.mechanism));
   }
-  if (std::none_of(flowCase.boundaries.begin(), flowCase.boundaries.end(),
-                   [](const BoundaryCondition& b) { return b.kind == BoundaryKind::Outlet; }))
-    throw deck.error("boundaries", "one boundary has to be an outlet; closed domains are not supported yet");
   for (const BoundaryPatch& patch : mesh.patches) checkExtent(deck, flowCase, patch);
   for (int axis = 0; axis < 2; ++axis)
     for (const bool atMax : {false, true}) {

@@ -19,7 +19,8 @@ FlowLoop::FlowLoop(MPI_Comm comm, FlowCase flowCase)
       halo_(mesh_),
       thermo_(*case_.mechanism),
       transport_(*case_.mechanism, case_.transport),
-      context_{mesh_, halo_, *case_.mechanism, thermo_, transport_, case_.boundaries},
+      context_{
+          mesh_, halo_, *case_.mechanism, thermo_, transport_, case_.boundaries, case_.gravity, case_.referenceDensity},
       state_(mesh_, case_.mechanism->numSpecies(),
              case_.carried ? CarriedOperator::scalarsOf(*case_.carried) : std::vector<CarriedScalar>{}),
       flow_(context_, state_, case_.flow),

@@ -39,6 +39,12 @@ void addBoundaries(DeckSchema& schema) {
                .optional()
                .atLeast(0)
                .onlyWith("boundaries.*.type", {"inlet"}))
+      .add(quantityKey(
+               "boundaries.*.tangential_velocity", units::velocity,
+               "Velocity along the boundary, in the direction of its axis: of a moving wall, or of a stream that comes "
+               "in at an angle.")
+               .byDefault("0 m/s")
+               .onlyWith("boundaries.*.type", {"inlet", "wall"}))
       .add(temperatureKey("boundaries.*.temperature",
                           "inlet: of the stream; outlet: of entrained gas; wall: isothermal at this temperature.")
                .optional()
@@ -57,18 +63,42 @@ void addBoundaries(DeckSchema& schema) {
                .onlyWith("boundaries.*.type", {"wall"}));
 }
 
+void addGravity(DeckSchema& schema) {
+  schema.section("gravity", Presence::optional,
+                 "Acceleration of gravity; absent: none. Along an outlet the gas outside is at rest.");
+  for (const std::string axis : {"r", "z", "x", "y"})
+    schema.add(
+        quantityKey("gravity." + axis, units::acceleration, "Component along the " + axis + " axis, '-9.81 m/s^2'.")
+            .optional());
+}
+
 void addInitial(DeckSchema& schema) {
-  schema.section("initial", Presence::required, "The start: two streams that mix across a burnt or hot layer.")
-      .add(choiceKey("initial.layer", {"burnt", "hot"},
+  schema
+      .section("initial", Presence::required,
+               "The start: two streams that mix across a burnt or hot layer, or one gas everywhere.")
+      .add(choiceKey("initial.layer", {"burnt", "hot", "none"},
                      "burnt: complete combustion where the streams meet (without CO2 in the mechanism: equilibrium); "
-                     "hot: cold mixture with a hot layer that ignites it.")
+                     "hot: cold mixture with a hot layer that ignites it; none: one gas everywhere.")
                .byDefault("burnt"))
-      .add(stringKey("initial.low", "Boundary whose stream fills the low end of the axis."))
-      .add(stringKey("initial.high", "Boundary whose stream fills the high end."))
+      .add(stringKey("initial.low", "Boundary whose stream fills the low end of the axis. A layer needs it.")
+               .optional()
+               .onlyWith("initial.layer", {"burnt", "hot"}))
+      .add(stringKey("initial.high", "Boundary whose stream fills the high end. A layer needs it.")
+               .optional()
+               .onlyWith("initial.layer", {"burnt", "hot"}))
       .add(quantityKey("initial.position", units::length,
-                       "Coordinate on the axis where half of the mixture is of either stream."))
-      .add(quantityKey("initial.width", units::length, "Width of the mixing layer.").above(0))
-      .add(temperatureKey("initial.temperature", "burnt: upper limit of the temperature; hot: peak of the hot layer.")
+                       "Coordinate on the axis where half of the mixture is of either stream. A layer needs it.")
+               .optional()
+               .onlyWith("initial.layer", {"burnt", "hot"}))
+      .add(quantityKey("initial.width", units::length, "Width of the mixing layer, which a layer needs.")
+               .optional()
+               .above(0)
+               .onlyWith("initial.layer", {"burnt", "hot"}))
+      .add(stringKey("initial.composition", "Mole fractions of the gas, 'O2: 0.21, N2: 0.79', where there is no layer.")
+               .optional()
+               .onlyWith("initial.layer", {"none"}))
+      .add(temperatureKey("initial.temperature",
+                          "burnt: upper limit of the temperature; hot: peak of the hot layer; none: of the gas.")
                .byDefault("2200 K"))
       .add(quantityKey("initial.hot_position", units::length, "Centre of the hot layer.")
                .optional()
@@ -170,6 +200,7 @@ DeckSchema flowSchema() {
   addMesh(schema);
   addBoundaries(schema);
   addInitial(schema);
+  addGravity(schema);
   addTimeAndOutput(schema);
   schema
       .add(booleanKey("chemistry.share_work", "Whether cells with costly chemistry are sent to less busy ranks.")

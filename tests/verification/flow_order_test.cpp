@@ -250,5 +250,40 @@ TEST(FlowOrder, PremixedFlame) {
   }
 }
 
+// An even mixture in an open box ignites as in a reactor of constant pressure while most of it leaves.
+TEST(FlowOrder, EvenMixtureIgnitesAsAReactor) {
+  Gas& gas = Gas::hydrogen();
+  const double size = 1e-3, T0 = 1200.0, duration = 4e-5;
+  const auto mixture = gas.massFractions("H2: 2, O2: 1, N2: 3.76, H: 0.01");
+  const std::vector<Side> sides{side(BoundaryKind::Symmetry, 0, false),
+                                opening(BoundaryKind::Outlet, 0, true, 0.0, T0, mixture),
+                                side(BoundaryKind::Symmetry, 1, false), side(BoundaryKind::Symmetry, 1, true)};
+  Problem problem{"ignition",
+                  Box(Geometry::Planar, {uniformAxis(size, 4), uniformAxis(size, 1)}, sides),
+                  [&](const std::array<double, 2>&) {
+                    return Box::Local{{0.0, 0.0}, T0, mixture};
+                  },
+                  duration,
+                  0,
+                  "H2",
+                  true};
+  std::vector<double> Y = mixture;
+  ConstantPressureReactor reactor(gas.mechanism, {1e-10, 1e-16});
+  ConstantPressureReactor::Cell cell{T0, constants::oneAtmosphere, Y, {}, 0.0};
+  reactor.advance(cell, duration);
+  ASSERT_GT(cell.temperature, T0 + 300.0);
+  std::array<double, 3> error{};
+  for (std::size_t level = 0; level < error.size(); ++level) {
+    State state = problem.stateAtStart();
+    const Quantities end = advance(problem, state, 2, 40 << level, duration);
+    error[level] =
+        largest(problem.box.mesh, [&](int c) { return std::abs(end.temperature[at(c)] - cell.temperature); });
+  }
+  report(fmt::format("ignition, 2 sweeps, T against {:.1f} K: {:.2e} {:.2e} {:.2e}, orders {:.2f} {:.2f}",
+                     cell.temperature, error[0], error[1], error[2], std::log2(error[0] / error[1]),
+                     std::log2(error[1] / error[2])));
+  EXPECT_GT(std::log2(error[1] / error[2]), 1.8);
+}
+
 }  // namespace
 }  // namespace lampblack::test
