@@ -71,8 +71,11 @@ MISTAKES = [
     Wrong("segments backwards", "{to: 14 mm", "{to: 9 mm", "  r:", "mesh.r"),
     Wrong("boundary faces without a patch", "    to: 10 mm", "    to: 5 mm", "boundaries:",
           "boundaries", ("the side z-min belongs to no boundary from 0.005 to 0.01 m",)),
-    Wrong("no outlet", "{type: outlet, side: r-max, temperature: 298 K, composition: \"N2: 1\"}",
-          "{type: wall, side: r-max}", "boundaries:", "boundaries", ("one boundary has to be an outlet",)),
+    Wrong("gravity through the axis", "initial:\n", "gravity: {r: 1 m/s^2}\ninitial:\n", "r: 1 m/s^2", "gravity.r",
+          ("gravity would point through 'axis', where the flow is symmetric",)),
+    Wrong("gravity along an axis of another mesh", "initial:\n", "gravity: {x: 1 m/s^2}\ninitial:\n", "x: 1 m/s^2", "gravity.x",
+          ("the axes of this mesh are r and z",)),
+    Wrong("layer without a stream", "  low: fuel\n", "", "initial:", "initial", ("a layer needs the key 'low'",)),
     Wrong("composition on a wall", "{type: outlet, side: r-max, temperature: 298 K,", "{type: wall, side: r-max,",
           "{type: wall, side: r-max,", "boundaries.outflow.composition",
           ("'boundaries.outflow.type: wall' does not have this; leave it out, or choose: inlet, outlet",)),
@@ -161,7 +164,7 @@ MISTAKES = [
 
 # Found where ranks differ: in files that one of them reads, in cells and faces that one of them has.
 OF_RANKS = ("unknown key", "missing mechanism", "garbage mechanism", "unknown PAH", "boundary faces without a patch",
-            "no outlet", "trajectory outside", "unknown key in --set", "not YAML")
+            "gravity through the axis", "trajectory outside", "unknown key in --set", "not YAML")
 
 USAGE = [
     ("unknown option", ("run", "DECK", "--frobnicate"), "--frobnicate"),
