@@ -1,11 +1,11 @@
-"""Pictures of a field over the r-z plane, mirrored about the axis so that they look like the flame."""
+"""Pictures of a field over the plane; what is axisymmetric is mirrored about the axis, so that it looks like the flame."""
 
 import numpy as np
 from matplotlib import tri
 from matplotlib.collections import PolyCollection
 
 from .results import unit_of
-from .style import plt, scaled_fraction
+from .style import plt, scaled_fraction, shown_time
 
 # Name of the picture, field, title, colour map, whether it is a small fraction.
 PLANES = [
@@ -28,8 +28,9 @@ def _draw(axes, results, values, colours, limits):
         axes.add_collection(drawn)
     axes.autoscale_view()
     axes.set_aspect("equal")
-    axes.set_xlabel("r, mm")
-    axes.set_ylabel("z, mm")
+    across, along = results.axis_names()
+    axes.set_xlabel(f"{across}, mm")
+    axes.set_ylabel(f"{along}, mm")
     return drawn
 
 
@@ -74,7 +75,7 @@ def _plot_flame(results, pictures):
     axes.set_aspect("equal")
     axes.set_xlabel("r, mm")
     axes.set_ylabel("z, mm")
-    axes.set_title(f"{results.time(results.steps[-1]) * 1e3:.3g} ms")
+    axes.set_title(shown_time(results.time(results.steps[-1])))
     pictures.save(figure, "flame")
 
 
@@ -108,5 +109,5 @@ def plot_planes(results, pictures):
         if velocity is not None and results.centres.shape[0] > 3:
             _streamlines(axes, results, velocity)
         figure.colorbar(drawn, ax=axes, label=f"{title}, {unit}" if unit not in ("", "1") else title)
-        axes.set_title(f"{title} at t = {results.time(step) * 1e3:.3g} ms, largest {high:.4g} {unit}".rstrip())
+        axes.set_title(f"{title} at t = {shown_time(results.time(step))}, largest {high:.4g} {unit}".rstrip())
         pictures.save(figure, name)

@@ -1,7 +1,7 @@
 """Profiles along the centreline, with reference profiles over them."""
 
 from .reference import read_reference
-from .style import plt
+from .style import plt, shown_time
 
 # Field, column of the reference, label, factor to the unit shown, logarithmic.
 PROFILES = [
@@ -37,6 +37,7 @@ def plot_profiles(results, pictures, references):
         present.append((label, reference_column, values * factor, factor))
     if not present:
         return
+    along = results.axis_names()[1]
     columns = 2
     rows = (len(present) + columns - 1) // columns
     figure, panels = plt.subplots(rows, columns, figsize=(9.0, 2.3 * rows), sharex=True, squeeze=False)
@@ -50,7 +51,8 @@ def plot_profiles(results, pictures, references):
     for axes in list(panels.flat)[len(present) :]:
         axes.set_axis_off()
     for axes in panels[-1]:
-        axes.set_xlabel("z, mm")
+        axes.set_xlabel(f"{along}, mm")
     panels[0][0].legend(fontsize=7)
-    figure.suptitle(f"Centreline at t = {results.time(results.steps[-1]) * 1e3:.3g} ms")
+    line = "Centreline" if along == "z" else f"Along y at x = {results.centres[column[0], 0] * 1e3:.3g} mm"
+    figure.suptitle(f"{line} at t = {shown_time(results.time(results.steps[-1]))}")
     pictures.save(figure, "centreline")

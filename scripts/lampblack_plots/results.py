@@ -99,10 +99,11 @@ class Results:
         return None
 
     def centreline(self):
-        """Cells of the column nearest the axis, sorted by z; and their z in m."""
+        """Cells of the column nearest the axis, of a planar mesh nearest its middle, sorted along it; and their places in m."""
         r = self.centres[:, 0]
-        near = r.min() + 1e-6 * max(np.ptp(r), 1e-300)
-        column = np.flatnonzero(r <= near)
+        away = np.abs(r - (0.5 * (self.vertices[:, 0].min() + self.vertices[:, 0].max()) if self._is_planar() else r.min()))
+        nearest = r[np.argmin(away)]
+        column = np.flatnonzero(np.abs(r - nearest) <= 1e-6 * max(np.ptp(r), 1e-300))
         column = column[np.argsort(self.centres[column, 1])]
         return column, self.centres[column, 1]
 
@@ -110,6 +111,10 @@ class Results:
         """Whether the mesh is the right half of something mirrored about r = 0."""
         r = self.vertices[:, 0]
         return bool(r.min() > -1e-12 and r.min() < 1e-9 + 1e-6 * np.ptp(r)) and not self._is_planar()
+
+    def axis_names(self):
+        """Of the two axes of the plane."""
+        return ("x", "y") if self._is_planar() else ("r", "z")
 
     def _is_planar(self):
         mesh = self.record().get("deck") or {}

@@ -41,6 +41,13 @@ class Pictures:
         self.skipped.append(f"{what}: {why}")
 
 
+def shown_time(seconds):
+    """A time with the unit that suits it."""
+    if seconds >= 1.0:
+        return f"{seconds:.3g} s"
+    return f"{seconds * 1e3:.3g} ms"
+
+
 def scaled_fraction(values):
     """Values of a small fraction in the unit that suits its largest, and that unit's name."""
     largest = max(float(values.max()), 0.0)
