@@ -2,9 +2,10 @@
 // what the model takes from or gives to the gas changes the gas's species, mass and enthalpy. Cells are shared between
 // the ranks as those of the chemistry are.
 //
-// Deferred coupling, as that of the chemistry (ReactionOperator): particles and what they exchange are integrated from
-// the end of the last step with the changes by transport and chemistry since then as a constant source, while
-// State::balance holds the particles' own rates of the last step. A steady state does then not depend on the step.
+// Coupled as the chemistry is (ReactionOperator): particles and what they exchange are integrated from the step's start
+// with the changes by transport and chemistry as a constant source, while State::balance held the particles' own rates
+// of the last sweep. A steady state does then not depend on the step. Temperature and density of the gas are those of
+// the step's end, of first order in time.
 //
 // Energy: gas and scalars together keep their enthalpy over a step, what was exchanged being as warm as the gas. The
 // scalars' own sensible heat is not followed along their path.

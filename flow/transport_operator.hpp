@@ -1,17 +1,14 @@
-// One step of convection and diffusion of a low-Mach gas in an open domain at constant thermodynamic pressure p0.
+// One step of convection and diffusion of a low-Mach gas, in an open domain or a closed vessel.
 //
 // Densities (rho Y_k, rho h, carried scalars) are advanced in conservative form by one face mass flux. The flux comes
-// from velocities projected onto the divergence that the equation of state demands (Day and Bell 2000),
-//   div u = (1/(rho cp T)) (E - sum_k h_k M_k) + sum_k (W/W_k) M_k / rho + (p_eos/p0 - 1)/dt,
-// with E and M_k the enthalpy and mass that diffusion and State::balance bring into a cell - evaluated from the very
-// fluxes, implicit ones included, that the scalars are then advanced with. The last term takes away what remains of
-// p_eos - p0 after a step (volume discrepancy; Nonaka et al. 2012).
+// from velocities projected onto the divergence that the equation of state demands (Expansion) of the very fluxes,
+// implicit ones included, that the scalars are then advanced with.
 //
 // A step is `sweeps` sweeps of deferred correction (Pazner et al. 2016). With one it is of first order in time:
 // convection explicit, diffusion implicit. In each further sweep convection is that of the mean of the step's start and
 // of what the last sweep found as its end, diffusion the mean of both, and the divergence is corrected by the p_eos -
-// p0 that the last sweep, reactions included, has left: two sweeps are of second order. Velocities stand half a step
-// before the gas (Momentum). Second order in space. Mass, species and enthalpy are conserved to round-off.
+// p0 that the last sweep, reactions included, has left: two sweeps and more are of second order. Velocities stand half
+// a step before the gas (Momentum). Second order in space. Mass, species and enthalpy are conserved to round-off.
 #pragma once
 
 #include <functional>
