@@ -1,10 +1,10 @@
 // Chemistry in every cell: one stiff solve at constant pressure and enthalpy, shared between the ranks.
 //
-// Coupling with transport. The reactions are integrated from the step's start with the transport of species and enthalpy
-// as a constant source, while transport was given the last sweep's mean reaction rate (by State::balance): spectral
-// deferred corrections (Nonaka, Bell, Day, Gilet, Almgren, Minion 2012), of second order with two sweeps and more. A
-// steady flame is a steady state whatever the step, and the stiff solver, which then starts in equilibrium with the
-// transport, needs few steps.
+// Coupling with transport. The reactions are integrated from the step's start with the transport of species and
+// enthalpy as a constant source, while transport was given the last sweep's mean reaction rate (by State::balance):
+// spectral deferred corrections (Nonaka, Bell, Day, Gilet, Almgren, Minion 2012), of second order with two sweeps and
+// more. A steady flame is a steady state whatever the step, and the stiff solver, which then starts in equilibrium with
+// the transport, needs few steps.
 #pragma once
 
 #include <cstdint>

@@ -8,6 +8,7 @@
 #include <string>
 #include <system_error>
 
+#include "app/deck/radiation_deck.hpp"
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/temperature_input.hpp"
 #include "app/flame1d/flame_file.hpp"
@@ -128,8 +129,7 @@ void readTransport(const Deck& deck, FlameCase& flame) {
     throw deck.error("transport.soret", fmt::format("the transport model {} has no thermal diffusion; set soret to "
                                                     "false, or choose mixture_averaged or multicomponent",
                                                     model));
-  flame.problem.radiation = {deck.choice("radiation.model") == "optically_thin",
-                             deck.quantity("radiation.surroundings")};
+  flame.problem.radiation = readRadiation(deck);
 }
 
 void readSolver(const Deck& deck, FlameCase& flame) {

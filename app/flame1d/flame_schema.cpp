@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "app/deck/radiation_deck.hpp"
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/temperature_input.hpp"
 #include "app/flame1d/flame_case.hpp"
@@ -91,19 +92,10 @@ void addPhysics(DeckSchema& schema) {
   addTransportKeys(schema, {"mixture_averaged", "multicomponent", "unity_lewis", "constant_lewis"},
                    "How species diffuse: by mixture-averaged coefficients, by the full multicomponent ones (and its "
                    "conductivity), as fast as heat, or as fast as heat over each species' Lewis number.");
-  schema
-      .add(booleanKey("transport.soret",
-                      "Whether species diffuse along gradients of temperature too (thermal diffusion, Soret effect).")
-               .byDefault("false"))
-      .add(choiceKey("radiation.model", {"none", "optically_thin"},
-                     "optically_thin: H2O, CO2, CO, CH4 and soot lose heat to the surroundings and take none back from "
-                     "each other.")
-               .byDefault("none"))
-      .add(quantityKey("radiation.surroundings", units::temperature,
-                       "Temperature of the surroundings that heat is lost to.")
-               .atLeast(0)
-               .byDefault("298 K")
-               .onlyWith("radiation.model", {"optically_thin"}));
+  schema.add(booleanKey("transport.soret",
+                        "Whether species diffuse along gradients of temperature too (thermal diffusion, Soret effect).")
+                 .byDefault("false"));
+  addRadiationKeys(schema);
 }
 
 void addGrid(DeckSchema& schema) {

@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "app/deck/radiation_deck.hpp"
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/temperature_input.hpp"
 #include "app/flow/flow_case_parts.hpp"
@@ -214,6 +215,7 @@ FlowCase readFlowCase(const Deck& deck) {
   readBoundaries(deck, flowCase);
   readInitial(deck, flowCase);
   readGravity(deck, flowCase);
+  flowCase.radiation = readRadiation(deck);
   flowCase.time = {deck.quantity("time.end"), deck.quantity("time.first_step"), deck.quantity("time.maximum_step"),
                    deck.number("time.growth")};
   flowCase.flow.courant = deck.number("time.courant");

@@ -14,6 +14,7 @@
 #include "flow/carried_model.hpp"
 #include "flow/carried_operator.hpp"
 #include "flow/mixing_layer.hpp"
+#include "flow/radiation.hpp"
 #include "flow/reaction_operator.hpp"
 #include "flow/transport_operator.hpp"
 #include "io/deck.hpp"
@@ -71,6 +72,7 @@ struct FlowCase {
   TransportOptions transport;
   ReactionOperator::Options chemistry;
   TransportOperator::Options flow;
+  RadiationOptions radiation;
   std::shared_ptr<CarriedModel> carried;  // null: nothing
   CarriedOperator::Options carriedOptions;
   std::optional<TrajectoryRequest> trajectories;

@@ -31,6 +31,10 @@ FlowLoop::FlowLoop(MPI_Comm comm, FlowCase flowCase)
   flow_.initialise(state_, case_.time.firstStep);
   operators_ = {&flow_, &chemistry_};
   if (carried_) operators_.push_back(carried_.get());
+  if (case_.radiation.on) {
+    radiation_ = std::make_unique<RadiationOperator>(context_, case_.radiation.surroundings, case_.carried.get());
+    operators_.push_back(radiation_.get());
+  }
   beginNext();
   std::vector<std::vector<double>> carriedMass;
   if (case_.carried)
@@ -115,8 +119,8 @@ double FlowLoop::chooseStep(double previous, double until) {
 
 // What the operators tell of the state: the rates of the last sweep, and that a step begins here.
 void FlowLoop::beginNext() {
-  for (Operator* op : operators_) op->endSweep(state_);
   for (Operator* op : operators_) op->endStep(state_);
+  for (Operator* op : operators_) op->endSweep(state_);
 }
 
 void FlowLoop::step(double dt) {

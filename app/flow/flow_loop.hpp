@@ -17,6 +17,7 @@
 #include "core/rooms.hpp"
 #include "core/timers.hpp"
 #include "flow/carried_operator.hpp"
+#include "flow/radiation_operator.hpp"
 #include "flow/transport_operator.hpp"
 #include "io/run_folder.hpp"
 #include "io/run_record.hpp"
@@ -85,6 +86,7 @@ class FlowLoop {
   TransportOperator flow_;
   ReactionOperator chemistry_;
   std::unique_ptr<CarriedOperator> carried_;
+  std::unique_ptr<RadiationOperator> radiation_;
   std::vector<Operator*> operators_;  // each advances over the step, one after the other
   std::unique_ptr<Budget> budget_;
   Timers timers_;

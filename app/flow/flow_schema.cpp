@@ -1,3 +1,4 @@
+#include "app/deck/radiation_deck.hpp"
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/temperature_input.hpp"
 #include "app/flow/flow_case.hpp"
@@ -201,6 +202,7 @@ DeckSchema flowSchema() {
   addBoundaries(schema);
   addInitial(schema);
   addGravity(schema);
+  addRadiationKeys(schema);
   addTimeAndOutput(schema);
   schema
       .add(booleanKey("chemistry.share_work", "Whether cells with costly chemistry are sent to less busy ranks.")

@@ -16,7 +16,7 @@
 #include "flow/flame/flame_equations.hpp"
 #include "flow/flame/flame_problem.hpp"
 #include "flow/flame/flame_profile.hpp"
-#include "flow/flame/radiation.hpp"
+#include "flow/radiation.hpp"
 
 namespace lampblack::flow {
 

@@ -14,6 +14,7 @@
 
 #include "chemistry/transport/transport.hpp"
 #include "core/rooms.hpp"
+#include "flow/radiation.hpp"
 
 namespace lampblack::flow {
 
@@ -43,11 +44,6 @@ struct FlameTransport {
   CollisionIntegrals integrals = CollisionIntegrals::MonchickMason;
 };
 
-struct FlameRadiation {
-  bool on = false;
-  double surroundings = 298;  // K
-};
-
 // A temperature given by points, straight lines between them and constant beyond.
 struct GivenTemperature {
   std::vector<double> z, T;  // m (rising), K
@@ -66,7 +62,7 @@ struct FlameProblem {
   double stagnationPlane = 0;             // m, Potential
   std::optional<GivenTemperature> given;  // where the energy equation is not solved (burner)
   FlameTransport transport;
-  FlameRadiation radiation;
+  RadiationOptions radiation;
 };
 
 }  // namespace lampblack::flow

@@ -1,4 +1,4 @@
-#include "flow/flame/radiation.hpp"
+#include "flow/radiation.hpp"
 
 #include <algorithm>
 #include <array>

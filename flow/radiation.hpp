@@ -11,6 +11,11 @@
 
 namespace lampblack::flow {
 
+struct RadiationOptions {
+  bool on = false;
+  double surroundings = 298;  // K
+};
+
 class ThinRadiation {
  public:
   // Species the mechanism does not have do not radiate. `surroundings`: K.

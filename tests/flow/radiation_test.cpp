@@ -1,5 +1,5 @@
 // Optically thin radiation: the workshop's polynomials at temperatures where they can be added up by hand.
-#include "flow/flame/radiation.hpp"
+#include "flow/radiation.hpp"
 
 #include <gtest/gtest.h>
 
