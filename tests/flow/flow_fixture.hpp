@@ -2,6 +2,7 @@
 // start from, and reductions over the ranks.
 #pragma once
 
+#include <fmt/format.h>
 #include <mpi.h>
 
 #include <algorithm>
@@ -45,6 +46,13 @@ struct Gas {
   Thermo thermo;
   Transport transport;
 };
+
+// A measured number, for whoever reads a test's output: a line, of the first rank.
+inline void report(const std::string& line) {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (rank == 0) fmt::print("{}\n", line);
+}
 
 inline double sumOverRanks(double value) {
   MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);

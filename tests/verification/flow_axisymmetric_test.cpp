@@ -9,12 +9,6 @@
 namespace lampblack::test {
 namespace {
 
-void report(const std::string& line) {
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  if (rank == 0) fmt::print("{}\n", line);
-}
-
 // Advances until no velocity changes by more than `steady` in a step; returns the last change.
 double settle(Box& box, State& state, double dt, int steps, double steady) {
   TransportOperator transport(box.context, state);

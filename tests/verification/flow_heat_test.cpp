@@ -11,12 +11,6 @@
 namespace lampblack::test {
 namespace {
 
-void report(const std::string& line) {
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  if (rank == 0) fmt::print("{}\n", line);
-}
-
 class FlowHeat : public testing::Test {
  protected:
   Gas& gas = Gas::hydrogen();

@@ -16,12 +16,6 @@
 namespace lampblack::test {
 namespace {
 
-void report(const std::string& line) {
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  if (rank == 0) fmt::print("{}\n", line);
-}
-
 struct Quantities {
   std::vector<double> velocity, temperature, Y, pressure, carried;
 };

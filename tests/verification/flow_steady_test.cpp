@@ -13,12 +13,6 @@ namespace {
 
 constexpr double speed = 0.2;  // m/s
 
-void report(const std::string& line) {
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  if (rank == 0) fmt::print("{}\n", line);
-}
-
 // Air from below and from above that meets in the middle and leaves to the side, cold.
 Box stagnation(Geometry geometry, int cells) {
   const auto air = Gas::hydrogen().massFractions("O2: 0.21, N2: 0.79");
