@@ -132,6 +132,12 @@ void Transport::averagedDiffusion(double T, double p, const Basis& at, std::span
   resistance_.multiply<1>(at.powers, {x_.data()}, {sum0_.data()});
   const double scale = T * at.rootT / (p * meanWeight_);
   for (std::size_t k = 0; k < n_; ++k) D[k] = scale * (meanWeight_ - x_[k] * weights_[k]) / sum0_[k];
+  restAlone(D);
+}
+
+// A gas of one species has nothing to diffuse in.
+void Transport::restAlone(std::span<double> D) const {
+  if (n_ == 1) D[0] = 0.0;
 }
 
 void Transport::molarDiffusion(double T, double p, std::span<const double> X, std::span<double> D) {
@@ -140,6 +146,7 @@ void Transport::molarDiffusion(double T, double p, std::span<const double> X, st
   resistance_.multiply<1>(at.powers, {x_.data()}, {sum0_.data()});
   const double scale = T * at.rootT / p;
   for (std::size_t k = 0; k < n_; ++k) D[k] = scale * (1.0 - x_[k]) / sum0_[k];
+  restAlone(D);
 }
 
 void Transport::massDiffusion(double T, double p, std::span<const double> X, std::span<double> D) {
@@ -149,6 +156,7 @@ void Transport::massDiffusion(double T, double p, std::span<const double> X, std
   resistance_.multiply<2>(at.powers, {x_.data(), a_.data()}, {sum0_.data(), sum1_.data()});
   const double scale = T * at.rootT / p;
   for (std::size_t k = 0; k < n_; ++k) D[k] = scale / (sum0_[k] + x_[k] / (meanWeight_ - a_[k]) * sum1_[k]);
+  restAlone(D);
 }
 
 // DT_k = W_k W D_k sum_j (6/5 C*_kj - 1)/((W_k + W_j) D_kj) (Y_k a_j - Y_j a_k), then the sum's share Y_k taken off,

@@ -90,6 +90,7 @@ class Transport {
   void setMoleFractions(std::span<const double> X);
   void wilkeSums(const Basis& at);
   Mixture viscosityAndConductivity(double T, const Basis& at);
+  void restAlone(std::span<double> D) const;
   void averagedDiffusion(double T, double p, const Basis& at, std::span<double> D);
   double pairResistance(const Basis& at, std::size_t j, std::size_t k) const;
 

@@ -136,6 +136,24 @@ TEST(Transport, PolynomialsFollowKineticTheory) {
 }
 
 // A gas alone has its own viscosity and conductivity, and every other gas diffuses into it with the binary coefficient.
+TEST(Transport, AGasOfOneSpeciesDoesNotDiffuse) {
+  const Mechanism mechanism = test::readText(
+      "species: [N2], transport: mixture-averaged",
+      "\n- {name: N2, composition: {N: 2}, thermo: *t, transport: {model: gas, geometry: linear, diameter: 3.621, "
+      "well-depth: 97.53}}",
+      "[]");
+  Transport transport(mechanism);
+  const std::vector<double> X{1.0};
+  std::vector<double> D{-1.0};
+  EXPECT_NEAR(transport.mixture(300.0, 101325.0, X, D).viscosity / transport.speciesViscosity(300.0, 0), 1.0, 1e-12);
+  EXPECT_EQ(D[0], 0.0);
+  D[0] = -1.0;
+  transport.molarDiffusion(300.0, 101325.0, X, D);
+  EXPECT_EQ(D[0], 0.0);
+  transport.massDiffusion(300.0, 101325.0, X, D);
+  EXPECT_EQ(D[0], 0.0);
+}
+
 TEST(Transport, APureGasIsTheLimitOfAMixture) {
   const auto& mechanism = ethylene();
   Transport transport(mechanism);
