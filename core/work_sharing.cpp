@@ -92,6 +92,36 @@ class FirstFailure {
   std::exception_ptr error_;
 };
 
+// Items that are advanced together.
+class Group {
+ public:
+  explicit Group(const WorkSharing::Items& items)
+      : items_(items), capacity_(items.advanceGroup ? std::max<std::size_t>(items.groupSize, 1) : 1), outputs_(capacity_) {
+    copies_.resize(capacity_);
+  }
+  void add(std::span<const double> input) { inputs_.push_back(input); }
+  void addCopy(std::span<const double> input) {
+    auto& copy = copies_[inputs_.size()];
+    copy.assign(input.begin(), input.end());
+    inputs_.emplace_back(copy);
+  }
+  void clear() { inputs_.clear(); }
+  [[nodiscard]] bool isFull() const { return inputs_.size() == capacity_; }
+  void advance() {
+    for (auto& output : outputs()) output.clear();
+    if (inputs_.empty()) return;
+    if (items_.advanceGroup) return items_.advanceGroup(inputs_, outputs());
+    items_.advance(inputs_.front(), outputs_.front());
+  }
+  [[nodiscard]] std::span<std::vector<double>> outputs() { return {outputs_.data(), inputs_.size()}; }
+
+ private:
+  const WorkSharing::Items& items_;
+  std::size_t capacity_;
+  std::vector<std::span<const double>> inputs_;
+  std::vector<std::vector<double>> copies_, outputs_;
+};
+
 // This rank's total cost; not a number when its items are not valid, which every rank then notices.
 double totalCost(const WorkSharing::Items& items) {
   const auto& cost = items.cost;
@@ -163,15 +193,12 @@ WorkSharing::Statistics WorkSharing::run(const Items& items) {
   if (!enabled_) plan.transfers.clear();
 
   FirstFailure guard;
-  std::vector<double> input, output;
+  std::vector<double> input;
   const auto pack = [&](std::size_t item) {
     input.clear();
     return guard.unlessFailed([&] { items.pack(item, input); });
   };
-  const auto advance = [&](std::span<const double> values) {
-    output.clear();
-    return guard.unlessFailed([&] { items.advance(values, output); });
-  };
+  Group group(items);
 
   std::vector<char> away(items.cost.size(), 0);
   std::vector<Parcel> sent = chooseParcels(plan, rank, items.cost, away);
@@ -195,23 +222,40 @@ WorkSharing::Statistics WorkSharing::run(const Items& items) {
     const std::vector<double> received = receive(transfer.from, itemsTag, comm_);
     std::vector<double>& results = returned.emplace_back();
     const double start = MPI_Wtime();
-    for (MessageReader message(received); !message.done();) {
-      const auto values = message.next();
+    const auto advance = [&] {
       // Nobody reads results where any item failed.
-      if (values && advance(*values)) append(results, output);
+      if (guard.unlessFailed([&] { group.advance(); }))
+        for (const auto& output : group.outputs()) append(results, output);
+      group.clear();
+    };
+    for (MessageReader message(received); !message.done();) {
+      if (const auto values = message.next()) group.add(*values);
+      if (group.isFull()) advance();
     }
+    advance();
     busy += MPI_Wtime() - start;
     send(results, transfer.from, resultsTag, comm_, requests);
   }
 
   int allArrived = requests.empty() ? 1 : 0;
   const double start = MPI_Wtime();
-  for (std::size_t item = 0; item < items.cost.size(); ++item) {
-    if (away[item]) continue;
-    if (pack(item) && advance(input)) guard.unlessFailed([&] { items.unpack(item, output); });
+  std::vector<std::size_t> own;  // in the group
+  const auto advanceOwn = [&] {
+    if (guard.unlessFailed([&] { group.advance(); }))
+      for (std::size_t i = 0; i < own.size(); ++i)
+        guard.unlessFailed([&] { items.unpack(own[i], group.outputs()[i]); });
+    group.clear();
+    own.clear();
     // MPI moves large parcels only while it is called: without this, the receivers would wait for this loop's end.
     if (!allArrived) MPI_Testall(static_cast<int>(requests.size()), requests.data(), &allArrived, MPI_STATUSES_IGNORE);
+  };
+  for (std::size_t item = 0; item < items.cost.size(); ++item) {
+    if (away[item] || !pack(item)) continue;
+    group.addCopy(input);
+    own.push_back(item);
+    if (group.isFull()) advanceOwn();
   }
+  advanceOwn();
   busy += MPI_Wtime() - start;
   for (Parcel& parcel : sent) parcel.results = receive(parcel.peer, resultsTag, comm_);
   MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);

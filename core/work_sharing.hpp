@@ -33,17 +33,22 @@ class WorkSharing {
     std::function<void(std::size_t item, std::vector<double>& input)> pack;
     // Advances one item and appends to `output`, which comes empty; runs on any rank.
     std::function<void(std::span<const double> input, std::vector<double>& output)> advance;
+    // Where it is set, it is called instead of `advance`, with up to groupSize items at a time: an input and an output each.
+    // Which items share a group must not show in what they compute.
+    std::size_t groupSize = 1;
+    std::function<void(std::span<const std::span<const double>> inputs, std::span<std::vector<double>> outputs)>
+        advanceGroup;
     std::function<void(std::size_t item, std::span<const double> output)> unpack;
   };
   struct Statistics {
     double imbalanceBefore = 1.0;  // of the estimated cost
-    double imbalanceAfter = 1.0;   // of the measured time spent in `advance`
+    double imbalanceAfter = 1.0;   // of the measured time spent on advancing
     std::size_t itemsSent = 0;
   };
 
   explicit WorkSharing(MPI_Comm comm, bool enabled = true) : comm_(comm), enabled_(enabled) {}
 
-  // Collective. Advances all items of all ranks. A failing item (in any of its three functions) stops every rank with
+  // Collective. Advances all items of all ranks. A failing item (in any of its functions) stops every rank with
   // its message, after the communication has been completed; some items have been unpacked by then, others not.
   // std::invalid_argument on all ranks when a cost is negative or not finite.
   Statistics run(const Items& items);

@@ -18,6 +18,14 @@ struct ReactionOperator::Layout {
   static constexpr std::size_t outHeader = 7;
 };
 
+namespace {
+
+// Cells that are handed to the reactor at once: many more than it has lanes, so that few lanes wait for the last ones, and
+// few enough for their states to stay in the processor's cache.
+constexpr std::size_t cellsTogether = 256;
+
+}  // namespace
+
 ReactionOperator::ReactionOperator(const FlowContext& context, Options options)
     : context_(context),
       options_(options),
@@ -53,34 +61,48 @@ void ReactionOperator::pack(const State& state, std::size_t cell, double dt, std
   for (std::size_t k = 0; k < n; ++k) source[k] = (Y[k] - before[k]) / dt - rate_[cell * n + k] / density;
 }
 
-void ReactionOperator::solve(double time, double dt, std::span<const double> in, std::span<double> out) {
+void ReactionOperator::solve(double time, double dt, std::span<const std::span<const double>> in,
+                             std::span<std::vector<double>> out) {
   const double start = MPI_Wtime();
-  const std::size_t n = context_.mechanism.numSpecies();
-  const std::span<double> Y = out.subspan(Layout::outHeader);
-  std::ranges::copy(in.subspan(Layout::inHeader, n), Y.begin());
-  const auto failure = [&](const std::string& reason) {
+  const std::size_t n = context_.mechanism.numSpecies(), count = in.size();
+  const auto failure = [&](std::size_t i, const std::string& reason) {
     return NumericsError(fmt::format("chemistry failed in cell {:.0f} at ({:.6g}, {:.6g}) m at time {:.6g} s: {}",
-                                     in[7], in[0], in[1], time, reason));
+                                     in[i][7], in[i][0], in[i][1], time, reason));
   };
-  try {
-    ConstantPressureReactor::Cell cell{context_.thermo.temperatureFromEnthalpy(in[2], Y, in[4]), in[5], Y, {}, in[6]};
-    cell.source = in.subspan(Layout::inHeader + n);
-    cell.heating = in[3];
-    const auto result = reactor_.advance(cell, dt);
-    out[0] = cell.temperature;
-    out[1] = cell.initialStep;
-    out[3] = result.steps;
-    out[4] = result.retries;
-    out[5] = result.skipped ? 1.0 : 0.0;
-    out[6] = result.handedOver ? 1.0 : 0.0;
-  } catch (const ReactorFailure& error) {
-    const auto kept =
-        options_.keepFailed ? options_.keepFailed(static_cast<std::int64_t>(in[7]), error.cell()) : std::string();
-    throw failure(error.what() + kept);
-  } catch (const NumericsError& error) {
-    throw failure(error.what());
+  cells_.resize(count);
+  results_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    out[i].resize(Layout::outHeader + n);
+    const std::span<double> Y = std::span(out[i]).subspan(Layout::outHeader);
+    std::ranges::copy(in[i].subspan(Layout::inHeader, n), Y.begin());
+    try {
+      cells_[i] = {context_.thermo.temperatureFromEnthalpy(in[i][2], Y, in[i][4]), in[i][5], Y,
+                   in[i].subspan(Layout::inHeader + n), in[i][6], in[i][3]};
+    } catch (const NumericsError& error) {
+      throw failure(i, error.what());
+    }
   }
-  out[2] = MPI_Wtime() - start;
+  try {
+    reactor_.advance(cells_, dt, results_);
+  } catch (const ReactorFailure& error) {
+    const std::size_t i = error.place();
+    const auto kept =
+        options_.keepFailed ? options_.keepFailed(static_cast<std::int64_t>(in[i][7]), error.cell()) : std::string();
+    throw failure(i, error.what() + kept);
+  }
+  // What is not of one cell is spread over all.
+  double rest = MPI_Wtime() - start;
+  for (const auto& result : results_) rest -= result.seconds;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto& result = results_[i];
+    out[i][0] = cells_[i].temperature;
+    out[i][1] = cells_[i].initialStep;
+    out[i][2] = result.seconds + std::max(rest, 0.0) / static_cast<double>(count);
+    out[i][3] = result.steps;
+    out[i][4] = result.retries;
+    out[i][5] = result.skipped ? 1.0 : 0.0;
+    out[i][6] = result.handedOver ? 1.0 : 0.0;
+  }
 }
 
 void ReactionOperator::unpack(State& state, std::size_t cell, double dt, std::span<const double> out) {
@@ -115,8 +137,8 @@ void ReactionOperator::advance(State& state, double time, double dt) {
     in.resize(Layout::inHeader + 2 * n);
     pack(state, cell, dt, in);
   };
-  items.advance = [&](std::span<const double> in, std::vector<double>& out) {
-    out.resize(Layout::outHeader + n);
+  items.groupSize = cellsTogether;
+  items.advanceGroup = [&](std::span<const std::span<const double>> in, std::span<std::vector<double>> out) {
     solve(time, dt, in, out);
   };
   items.unpack = [&](std::size_t cell, std::span<const double> out) { unpack(state, cell, dt, out); };

@@ -1,4 +1,4 @@
-// Chemistry in every cell: one stiff solve at constant pressure and enthalpy, shared between the ranks.
+// Chemistry in every cell: a stiff solve at constant pressure and enthalpy, many cells at once, shared between the ranks.
 //
 // Coupling with transport. The reactions are integrated from the step's start with the transport of species and
 // enthalpy as a constant source, while transport was given the last sweep's mean reaction rate (by State::balance):
@@ -54,12 +54,14 @@ class ReactionOperator : public Operator {
   struct Layout;
   [[nodiscard]] double meanDensity(const State& state, std::size_t cell) const;
   void pack(const State& state, std::size_t cell, double dt, std::span<double> in) const;
-  void solve(double time, double dt, std::span<const double> in, std::span<double> out);
+  void solve(double time, double dt, std::span<const std::span<const double>> in, std::span<std::vector<double>> out);
   void unpack(State& state, std::size_t cell, double dt, std::span<const double> out);
 
   const FlowContext& context_;
   Options options_;
   ConstantPressureReactor reactor_;
+  std::vector<ConstantPressureReactor::Cell> cells_;  // of solve()
+  std::vector<ConstantPressureReactor::Result> results_;
   WorkSharing sharing_;
   std::vector<double> cost_;         // s, of each owned cell's last solve
   std::vector<double> initialStep_;  // s, ConstantPressureReactor::Cell::initialStep of the next solve

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <utility>
 #include <vector>
 
 #include "chemistry/kinetics/batch_kinetics_tables.hpp"
 #include "chemistry/kinetics/batch_kinetics_targets.hpp"
+#include "chemistry/kinetics/batch_workspace.hpp"
 #include "chemistry/kinetics/kinetics_enthalpy.hpp"
 #include "chemistry/kinetics/kinetics_linear_burke.hpp"
 #include "chemistry/kinetics/kinetics_pressure.hpp"
@@ -18,45 +18,14 @@
 
 namespace lampblack::chemistry {
 
-namespace {
-
-struct alignas(64) Row {
-  double values[batchLanes] = {};
-};
-
-}  // namespace
-
 static_assert(BatchKinetics::blockSize == batchLanes);
 
 struct BatchKinetics::State {
   explicit State(const Mechanism& mechanism)
-      : tables(mechanism), batchTables(mechanism, tables), view(batchTables.view()) {
-    const std::size_t species = batchTables.numSpecies(), bodies = view.thirdBodies.size,
-                      entries = batchTables.numEntries();
-    const std::pair<double**, std::size_t> parts[] = {{&work.c, species},
-                                                      {&work.g, species},
-                                                      {&work.s, species},
-                                                      {&work.z, species},
-                                                      {&work.wdot, species + 1},
-                                                      {&work.wdotByLogs, species + 1},
-                                                      {&work.M, bodies},
-                                                      {&work.logM, bodies},
-                                                      {&work.E, entries},
-                                                      {&work.factors, view.factorExponentials.size},
-                                                      {&work.X, entries},
-                                                      {&work.centre, view.broadened.size},
-                                                      {&work.given, view.given.size},
-                                                      {&work.F, entries}};
-    std::size_t rows = 0;
-    for (const auto& [start, count] : parts) rows += count;
-    memory.resize(rows);
-    double* next = memory.data()->values;
-    for (const auto& [start, count] : parts) {
-      *start = next;
-      next += count * batchLanes;
-    }
-    std::fill_n(work.F, entries * batchLanes, 1.0);
-    std::fill_n(work.E + view.exponentials.size * batchLanes, batchLanes, 1.0);  // the entry that is always one
+      : tables(mechanism),
+        batchTables(mechanism, tables),
+        view(batchTables.view()),
+        workspace(view, batchTables.numEntries()) {
     if (std::any_of(tables.pressureLog.sign.begin(), tables.pressureLog.sign.end(), [](double s) { return s < 0; }))
       sums.emplace(tables);
     if (view.given.size > 0) given.emplace(mechanism, tables);
@@ -105,8 +74,7 @@ struct BatchKinetics::State {
   KineticsTables tables;
   BatchTables batchTables;
   BatchView view;
-  BatchWork work{};
-  std::vector<Row> memory;
+  BatchWorkspace workspace;
   std::optional<Given> given;
   std::optional<PressureRates> sums;  // refuses temperatures at which rate constants add up to nothing positive
 };
@@ -148,10 +116,14 @@ const char* BatchKinetics::name(Instructions instructions) {
   return "generic";
 }
 
-BatchKinetics::BatchKinetics(const Mechanism& mechanism, Instructions instructions) : instructions_(instructions) {
+void BatchKinetics::demand(Instructions instructions) {
   if (!available(instructions))
     throw InputError(
         fmt::format("this processor has no {} instructions; the best it has are {}", name(instructions), name(best())));
+}
+
+BatchKinetics::BatchKinetics(const Mechanism& mechanism, Instructions instructions) : instructions_(instructions) {
+  demand(instructions);
   state_ = std::make_unique<State>(mechanism);
 }
 
@@ -179,9 +151,9 @@ void BatchKinetics::netProductionRates(std::span<const double> T, std::span<cons
   switch (instructions_) {
 #if defined(__x86_64__)
     case Instructions::Avx512:
-      return batchRatesAvx512(state_->view, state_->work, states);
+      return batchRatesAvx512(state_->view, state_->workspace.work(), states);
     case Instructions::Avx2:
-      return batchRatesAvx2(state_->view, state_->work, states);
+      return batchRatesAvx2(state_->view, state_->workspace.work(), states);
 #else
     case Instructions::Avx512:
     case Instructions::Avx2:
@@ -189,7 +161,7 @@ void BatchKinetics::netProductionRates(std::span<const double> T, std::span<cons
     case Instructions::Generic:
       break;
   }
-  batchRatesGeneric(state_->view, state_->work, states);
+  batchRatesGeneric(state_->view, state_->workspace.work(), states);
 }
 
 }  // namespace lampblack::chemistry

@@ -30,6 +30,8 @@ class BatchKinetics {
   static bool available(Instructions instructions);
   static Instructions best();
   static const char* name(Instructions instructions);
+  // InputError where they are not available.
+  static void demand(Instructions instructions);
 
   // Throws InputError for a reaction whose rate cannot be computed, or for instructions that are not available.
   explicit BatchKinetics(const Mechanism& mechanism, Instructions instructions = best());

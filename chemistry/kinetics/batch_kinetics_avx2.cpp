@@ -1,26 +1,10 @@
 // BatchKinetics for processors with AVX2 and FMA: four states at a time. Compiled for these instructions whatever the
 // rest is compiled for; see batch_kinetics_simd.hpp.
-#include <immintrin.h>
-
 #include "chemistry/kinetics/batch_kinetics_kernel.hpp"
 #include "chemistry/kinetics/batch_kinetics_targets.hpp"
+#include "chemistry/kinetics/batch_vector_avx2.hpp"
 
 namespace lampblack::chemistry {
-
-namespace {
-
-struct Avx2Vector : PortableVector<32> {
-  static D all(double x) { return _mm256_set1_pd(x); }
-  static D multiplyAdd(D a, D b, D c) { return _mm256_fmadd_pd(a, b, c); }
-  static D smaller(D limit, D x) { return _mm256_min_pd(limit, x); }
-  static D larger(D limit, D x) { return _mm256_max_pd(limit, x); }
-  static bool none(Mask mask) { return _mm256_movemask_pd(reinterpret_cast<D>(mask)) == 0; }
-  static bool every(Mask mask) { return _mm256_movemask_pd(reinterpret_cast<D>(mask)) == 15; }
-  static D select(Mask mask, D yes, D no) { return _mm256_blendv_pd(no, yes, reinterpret_cast<D>(mask)); }
-  static D withinExponents(D x) { return smaller(all(1022.0), larger(all(-1020.0), x)); }
-};
-
-}  // namespace
 
 void batchRatesAvx2(const BatchView& view, const BatchWork& work, const BatchStates& states) {
   BatchKernel<Doubled<Avx2Vector>>::run(view, work, states);

@@ -16,10 +16,11 @@ class BatchConstants {
   static_assert(lanes == batchLanes);
   static constexpr double log10Of2 = 0.30102999566398119521;
   static constexpr double lnOf2 = 0.69314718055994530942;
-  static constexpr double tiny = 0x1p-996;  // keeps logarithms of vanishing pressures and broadenings finite
   static constexpr double huge = 0x1p+900;  // of Pr, so that its square by a broadening stays finite
 
  public:
+  static constexpr double tiny = 0x1p-996;  // keeps logarithms of vanishing pressures and broadenings finite
+
   struct Temperature {
     D T, inverse, log, oneMinusLn;  // log to base 2
     D logPressure;                  // of Pa, if any reaction asks
@@ -37,7 +38,7 @@ class BatchConstants {
     return t;
   }
 
-  // g, s and z of all species.
+  // g, s, 1/s and z of all species.
   static void standardStates(const BatchView& view, const BatchWork& work, const Temperature& t) {
     const D shift = t.log - V::all(view.logStandard);
     for (std::size_t k = 0; k < view.nasa7.size; ++k) {
@@ -63,6 +64,7 @@ class BatchConstants {
       D power, inverse;
       exp2Both<V>(V::load(work.g + row), power, inverse);
       V::store(work.s + row, inverse);
+      V::store(work.inverseS + row, power);
       V::store(work.z + row, V::load(work.c + row) * power);
     }
   }
@@ -134,6 +136,17 @@ class BatchConstants {
     }
   }
 
+  static D reducedPressure(const BatchFalloff& r, const BatchWork& work) {
+    const D Pr = V::load(work.factors + r.first) * V::load(work.M + r.set);
+    return V::smaller(V::all(huge), V::larger(V::all(tiny), Pr));
+  }
+
+  // u of BatchFalloff
+  static D broadeningDistance(const BatchFalloff& r, const BatchWork& work, D logCentre, const Temperature& t) {
+    const D logPr = V::all(log10Of2) * (exponent(r.ratio, t) + V::load(work.logM + r.set));
+    return V::multiplyAdd(V::all(r.shift1), logCentre, V::all(r.shift0) + logPr);
+  }
+
  private:
   static D gibbs(const double* c, const Temperature& t, D shift) {
     D g = V::multiplyAdd(V::all(c[4]), t.T, V::all(c[3]));
@@ -175,17 +188,11 @@ class BatchConstants {
     return V::multiplyAdd(V::all(e.b), t.log, V::multiplyAdd(V::all(e.Ta), t.inverse, V::all(e.logA)));
   }
 
-  static D reducedPressure(const BatchFalloff& r, const BatchWork& work) {
-    const D Pr = V::load(work.factors + r.first) * V::load(work.M + r.set);
-    return V::smaller(V::all(huge), V::larger(V::all(tiny), Pr));
-  }
-
   // Leaves log2 F in its row of work.centre, and F's companion in work.F.
   static void broadening(const BatchFalloff& r, const BatchWork& work, const Temperature& t, std::size_t row) {
     const D logCentre = V::load(work.centre + row);
     const D Pr = reducedPressure(r, work);
-    const D logPr = V::all(log10Of2) * (exponent(r.ratio, t) + V::load(work.logM + r.set));
-    const D u = V::multiplyAdd(V::all(r.shift1), logCentre, V::all(r.shift0) + logPr);
+    const D u = broadeningDistance(r, work, logCentre, t);
     const D v = V::multiplyAdd(V::all(r.width1), logCentre, V::all(r.width0)) - V::all(r.slope) * u;
     // 1/(1 + (u/v)^2) and Pr/(1 + Pr) by one division.
     const D v2 = v * v, both = V::multiplyAdd(u, u, v2), one = V::all(1.0) + Pr;

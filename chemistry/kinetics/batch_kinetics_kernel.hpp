@@ -43,7 +43,50 @@ class BatchKernel {
     if (first < states.n) runRest(view, work, states, first);
   }
 
+  // From the rows of concentrations to the rows that are returned.
+  static const double* block(const BatchView& view, const BatchWork& work, D T, D total) {
+    const Temperature t = constants(view, work, T, total);
+    const auto byProducts =
+        V::both(V::notAbove(V::all(view.minProductTemperature), T), V::notAbove(T, V::all(view.maxProductTemperature)));
+    if (!V::every(byProducts)) {
+      rates<false>(view, work, t, work.wdotByLogs);
+      if (V::none(byProducts)) return work.wdotByLogs;
+    }
+    rates<true>(view, work, t, work.wdot);
+    if (!V::every(byProducts))
+      for (std::size_t k = 0; k < view.numSpecies; ++k) {
+        const std::size_t row = k * lanes;
+        V::store(work.wdot + row, V::select(byProducts, V::load(work.wdot + row), V::load(work.wdotByLogs + row)));
+      }
+    return work.wdot;
+  }
+
+  // The same, where the temperatures are known to allow products.
+  static const double* byProducts(const BatchView& view, const BatchWork& work, D T, D total) {
+    rates<true>(view, work, constants(view, work, T, total), work.wdot);
+    return work.wdot;
+  }
+
+  // What rate constants and rates are made of.
+  static Temperature constants(const BatchView& view, const BatchWork& work, D T, D total) {
+    const Temperature t = Constants::temperature(view, T, total);
+    Constants::standardStates(view, work, t);
+    Constants::thirdBodies(view, work, total);
+    Constants::falloff(view, work, t);
+    return t;
+  }
+
  private:
+  template <bool ByProducts>
+  static void rates(const BatchView& view, const BatchWork& work, const Temperature& t, double* wdot) {
+    Constants::template all<ByProducts>(view, work, t);
+    // Of a temperature that is no number there are no rates.
+    const D start = ByProducts ? D{} : t.T - t.T;
+    for (std::size_t k = 0; k <= view.numSpecies; ++k) V::store(wdot + k * lanes, start);
+    for (std::size_t i = 0; i < view.groups.size; ++i) group<ByProducts>(view.groups.data[i], work, wdot);
+    for (std::size_t i = 0; i < view.general.size; ++i) general<ByProducts>(view, view.general.data[i], work, wdot);
+  }
+
   // Fewer states than lanes: the others are empty gas.
   static void runRest(const BatchView& view, const BatchWork& work, const BatchStates& states, std::size_t first) {
     const std::size_t count = states.n - first;
@@ -61,37 +104,6 @@ class BatchKernel {
     const double* rates = block(view, work, V::load(T), total);
     for (std::size_t k = 0; k < view.numSpecies; ++k)
       for (std::size_t i = 0; i < count; ++i) states.wdot[k * states.wdotStride + first + i] = rates[k * lanes + i];
-  }
-
-  // From the rows of concentrations to the rows that are returned.
-  static const double* block(const BatchView& view, const BatchWork& work, D T, D total) {
-    const Temperature t = Constants::temperature(view, T, total);
-    Constants::standardStates(view, work, t);
-    Constants::thirdBodies(view, work, total);
-    Constants::falloff(view, work, t);
-    const auto byProducts =
-        V::both(V::notAbove(V::all(view.minProductTemperature), T), V::notAbove(T, V::all(view.maxProductTemperature)));
-    if (!V::every(byProducts)) {
-      rates<false>(view, work, t, work.wdotByLogs);
-      if (V::none(byProducts)) return work.wdotByLogs;
-    }
-    rates<true>(view, work, t, work.wdot);
-    if (!V::every(byProducts))
-      for (std::size_t k = 0; k < view.numSpecies; ++k) {
-        const std::size_t row = k * lanes;
-        V::store(work.wdot + row, V::select(byProducts, V::load(work.wdot + row), V::load(work.wdotByLogs + row)));
-      }
-    return work.wdot;
-  }
-
-  template <bool ByProducts>
-  static void rates(const BatchView& view, const BatchWork& work, const Temperature& t, double* wdot) {
-    Constants::template all<ByProducts>(view, work, t);
-    // Of a temperature that is no number there are no rates.
-    const D start = ByProducts ? D{} : t.T - t.T;
-    for (std::size_t k = 0; k <= view.numSpecies; ++k) V::store(wdot + k * lanes, start);
-    for (std::size_t i = 0; i < view.groups.size; ++i) group<ByProducts>(view.groups.data[i], work, wdot);
-    for (std::size_t i = 0; i < view.general.size; ++i) general<ByProducts>(view, view.general.data[i], work, wdot);
   }
 
   template <bool ByProducts>

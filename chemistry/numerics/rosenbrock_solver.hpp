@@ -81,6 +81,21 @@ class RosenbrockSolver {
     double nextStep = 0;
   };
 
+  static constexpr double smallestStep = 1e-13;  // over dt
+  static constexpr double roundOff = 1e-12;      // of dt, that may be left at the end
+
+  // What follows on a step of size h: whether it is rejected, and the size of the next.
+  struct StepSize {
+    double size;
+    bool isRejected;
+  };
+  static StepSize nextStep(double h, std::optional<double> error, bool wasRejected) {
+    const double factor =
+        error ? std::clamp(0.9 / std::cbrt(std::max(*error, 1e-10)), 0.1, wasRejected ? 1.0 : 5.0) : 0.1;
+    const bool isRejected = !error || *error > 1;
+    return {h * (isRejected ? std::min(factor, 0.9) : factor), isRejected};
+  }
+
   // `y` is advanced over `dt`, at first by a step of `firstStep` (0: all of it). goesOn(y, h) is asked
   // after every step, of size h; where it says no, that is the end. Throws NumericsError where steps become too small
   // or too many, or values are not finite; `y` is then that of the last good step.
@@ -110,10 +125,9 @@ class RosenbrockSolver {
       if (isLast) h = dt - t;
       if (!isRejected && !system.linearise(y, start_)) return false;  // else those of the step rejected
       const std::optional<double> error = step(system, h, y, tolerance);
-      const double factor =
-          error ? std::clamp(0.9 / std::cbrt(std::max(*error, 1e-10)), 0.1, isRejected ? 1.0 : 5.0) : 0.1;
-      isRejected = !error || *error > 1;
-      result.nextStep = h * (isRejected ? std::min(factor, 0.9) : factor);
+      const StepSize next = nextStep(h, error, isRejected);
+      isRejected = next.isRejected;
+      result.nextStep = next.size;
       if (isRejected) {
         ++result.rejected;
         h = result.nextStep;
@@ -144,8 +158,6 @@ class RosenbrockSolver {
   }
 
  private:
-  static constexpr double smallestStep = 1e-13;  // over dt
-  static constexpr double roundOff = 1e-12;
   static constexpr double gamma = 0.5;
 
   // end_ = y after h; the scaled error, or nothing where the step cannot be taken.

@@ -35,18 +35,17 @@ void updateAny(double* matrix, const double* l, const std::uint32_t* blocks, std
 
 }  // namespace
 
-SparseLu::SparseLu(std::size_t n, std::span<const Entry> entries, std::size_t border)
-    : n_(n), ld_(wholeBlocks(n)), inner_(n - border) {
-  Pattern pattern(n, std::vector<char>(n, 0));
-  for (std::size_t i = 0; i < n; ++i) pattern[i][i] = 1;
-  for (const auto& entry : entries) pattern[entry.row][entry.column] = 1;
-  const Pattern original = pattern;
-  eliminate(pattern);
-  setLists(pattern);
+SparseLu::SparseLu(const Elimination& elimination)
+    : n_(elimination.unknown.size()),
+      ld_(wholeBlocks(n_)),
+      inner_(elimination.inner),
+      unknown_(elimination.unknown),
+      place_(elimination.place) {
+  setLists(elimination.factors);
   inPattern_.assign(storageSize(), 0);
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j < n; ++j)
-      if (original[i][j] != 0) inPattern_[place_[i] + ld_ * place_[j]] = 1;
+  for (std::size_t i = 0; i < n_; ++i)
+    for (std::size_t j = 0; j < n_; ++j)
+      if (elimination.matrix[i][j] != 0) inPattern_[place_[i] + ld_ * place_[j]] = 1;
   matrix_.assign(storageSize(), 0.0);
   l_.assign(lower_.size() * kBlockWidth, 0.0);
   diagonalUpper_.assign(ld_ * kBlockWidth, 0.0);
@@ -57,38 +56,7 @@ SparseLu::SparseLu(std::size_t n, std::span<const Entry> entries, std::size_t bo
   x_.assign(ld_, 0.0);
 }
 
-// The order of elimination, and the pattern with its fill.
-void SparseLu::eliminate(Pattern& pattern) {
-  std::vector<char> done(n_, 0);
-  place_.assign(n_, 0);
-  std::vector<std::size_t> rows, columns;
-  for (std::size_t step = 0; step < n_; ++step) {
-    std::size_t pivot = step, least = SIZE_MAX;  // the border in its own order
-    for (std::size_t k = 0; step < inner_ && k < inner_; ++k) {
-      if (done[k] != 0) continue;
-      std::size_t inRow = 0, inColumn = 0;
-      for (std::size_t i = 0; i < n_; ++i) {
-        if (done[i] != 0 || i == k) continue;
-        inRow += pattern[k][i] != 0;
-        inColumn += pattern[i][k] != 0;
-      }
-      if (inRow * inColumn < least) {
-        least = inRow * inColumn;
-        pivot = k;
-      }
-    }
-    done[pivot] = 1;
-    place_[pivot] = step;
-    unknown_.push_back(pivot);
-    for (std::size_t i = 0; i < n_; ++i) {
-      if (done[i] != 0 || pattern[i][pivot] == 0) continue;
-      for (std::size_t j = 0; j < n_; ++j)
-        if (done[j] == 0 && pattern[pivot][j] != 0) pattern[i][j] = 1;
-    }
-  }
-}
-
-void SparseLu::setLists(const Pattern& pattern) {
+void SparseLu::setLists(const Elimination::Pattern& pattern) {
   const auto has = [&](std::size_t i, std::size_t j) { return pattern[unknown_[i]][unknown_[j]] != 0; };
   const auto end = [](const auto& list) { return static_cast<std::uint32_t>(list.size()); };
   for (std::size_t k = 0; k < n_; ++k) {

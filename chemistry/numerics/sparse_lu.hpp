@@ -9,20 +9,18 @@
 #include <vector>
 
 #include "chemistry/numerics/aligned_vector.hpp"
+#include "chemistry/numerics/elimination.hpp"
 #include "core/rooms.hpp"
 
 namespace lampblack::chemistry {
 
 class SparseLu {
  public:
-  struct Entry {
-    std::size_t row = 0, column = 0;
-  };
+  using Entry = MatrixEntry;
 
-  // A matrix of n unknowns whose entries may differ from zero at `entries` (in any order, repeated or not) and on the
-  // diagonal. The order of elimination keeps the fill low (Markowitz 1957, pivots on the diagonal); the last `border`
-  // unknowns, which may have full rows and columns, come at the end and in their own order.
-  SparseLu(std::size_t n, std::span<const Entry> entries, std::size_t border = 0);
+  explicit SparseLu(const Elimination& elimination);
+  SparseLu(std::size_t n, std::span<const Entry> entries, std::size_t border = 0)
+      : SparseLu(Elimination(n, entries, border)) {}
 
   std::size_t size() const { return n_; }
   // The values of a matrix are kept in a vector of this length, in an order of our own, zero where there is no entry.
@@ -43,10 +41,7 @@ class SparseLu {
   std::size_t blockUpdates() const;
 
  private:
-  using Pattern = std::vector<std::vector<char>>;  // [row][column]
-
-  void eliminate(Pattern& pattern);
-  void setLists(const Pattern& pattern);
+  void setLists(const Elimination::Pattern& pattern);
   void load(const AlignedVector& values, double factor, std::span<const double> diagonal);
   void finishColumn(std::size_t k);
   void updateColumns(std::size_t k);

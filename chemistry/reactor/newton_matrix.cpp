@@ -9,26 +9,25 @@ namespace {
 
 constexpr double kTemperatureUnit = 1e3;  // K, of the unknown of the full matrix
 
+}  // namespace
+
 // Species, then the border: temperature and the product's unknown.
-SparseLu borderedLu(const ReactorSystem& system) {
-  const std::size_t n = system.numSpecies(), T = n, s = n + 1;
-  const auto& pattern = system.pattern();
-  std::vector<SparseLu::Entry> entries{{T, s}};
+Elimination borderedElimination(const SparsePattern& pattern) {
+  const std::size_t n = pattern.size, T = n, s = n + 1;
+  std::vector<MatrixEntry> entries{{T, s}};
   for (std::size_t j = 0; j < n; ++j) {
     for (auto e = pattern.columnStart[j]; e < pattern.columnStart[j + 1]; ++e)
       entries.push_back({static_cast<std::size_t>(pattern.row[e]), j});
-    for (const SparseLu::Entry entry : {SparseLu::Entry{T, j}, {j, T}, {s, j}, {j, s}}) entries.push_back(entry);
+    for (const MatrixEntry entry : {MatrixEntry{T, j}, {j, T}, {s, j}, {j, s}}) entries.push_back(entry);
   }
   return {n + 2, entries, 2};
 }
-
-}  // namespace
 
 NewtonMatrix::NewtonMatrix(const ReactorSystem& system)
     : size_(system.size()),
       pattern_(system.pattern()),
       inverseWeights_(system.inverseWeights().begin(), system.inverseWeights().end()),
-      sparse_(borderedLu(system)),
+      sparse_(borderedElimination(pattern_)),
       values_(sparse_.storageSize(), 0.0),
       diagonal_(size_ + 1, 1.0),
       rightHandSide_(size_ + 1),

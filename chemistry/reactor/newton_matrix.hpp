@@ -14,6 +14,9 @@
 
 namespace lampblack::chemistry {
 
+// The order of elimination of that bordered matrix: species, temperature, s.
+Elimination borderedElimination(const SparsePattern& species);
+
 class NewtonMatrix {
  public:
   explicit NewtonMatrix(const ReactorSystem& system);

@@ -3,61 +3,24 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "chemistry/reactor/reactor_failure.hpp"
-#include "chemistry/reactor/reactor_integrator.hpp"
-#include "chemistry/reactor/reactor_rosenbrock.hpp"
-#include "chemistry/reactor/reactor_system.hpp"
+#include "chemistry/reactor/reactor_impl.hpp"
 
 namespace lampblack::chemistry {
 
 namespace {
 
 using Method = ConstantPressureReactor::Method;
-
-// How an integration is tried.
-struct Attempt {
-  Method method;
-  double firstStep;  // s; 0: the method's choice
-  double toleranceFactor;
-  int maxSteps;
-  int parts;
-};
+using Event = ConstantPressureReactor::Event;
 
 // Largest deviation of the sum of mass fractions that may be put down to round-off and removed by rescaling.
 constexpr double kSumTolerance = 1e-9;
 
-using Event = ConstantPressureReactor::Event;
-
 }  // namespace
-
-struct ConstantPressureReactor::Impl {
-  Impl(const Mechanism& mechanismIn, const Options& optionsIn);
-
-  void checkInput(const Cell& cell, double dt) const;
-  bool skip(Cell& cell, double dt, Result& result);
-  bool attempt(Cell& cell, double dt, const Attempt& attempt, int number, const Observer& observer, Result& result);
-  bool integrate(const Cell& cell, double dt, const Attempt& attempt, Event event, const Observer& observer,
-                 Result& result);
-  bool accept(Cell& cell, std::span<double> out);
-  [[noreturn]] void giveUp(const Cell& cell, double dt) const;
-
-  const Mechanism& mechanism;
-  Options options;
-  std::size_t n;  // species
-  ReactorSystem system;
-  ReactorRosenbrock rosenbrock;
-  ReactorIntegrator bdf;
-  std::vector<double> start, predicted, chemical, chemicalEnd;
-  double endSum = 0;       // of the mass fractions
-  double endEnthalpy = 0;  // J/kg
-  std::string reason;
-};
 
 ConstantPressureReactor::Impl::Impl(const Mechanism& mechanismIn, const Options& optionsIn)
     : mechanism(mechanismIn),
@@ -67,6 +30,7 @@ ConstantPressureReactor::Impl::Impl(const Mechanism& mechanismIn, const Options&
       rosenbrock(system),
       bdf(system) {
   for (auto* work : {&start, &predicted, &chemical, &chemicalEnd}) work->assign(n + 1, 0.0);
+  if (options.rosenbrockSteps > 0 && ReactorLanes::covers(mechanism)) lanes.emplace(mechanism);
 }
 
 void ConstantPressureReactor::Impl::checkInput(const Cell& cell, double dt) const {
@@ -96,7 +60,7 @@ bool ConstantPressureReactor::Impl::skip(Cell& cell, double dt, Result& result) 
   predicted[n] = start[n];
   if (!cell.source.empty() || cell.heating != 0) {
     try {
-      predicted[n] = system.thermo().temperatureFromEnthalpy(endEnthalpy, {predicted.data(), n}, start[n]);
+      predicted[n] = system.thermo().temperatureFromEnthalpy(end.enthalpy, {predicted.data(), n}, start[n]);
     } catch (const NumericsError&) {
       return false;  // too far for one step; the integrator will tell
     }
@@ -177,15 +141,15 @@ bool ConstantPressureReactor::Impl::attempt(Cell& cell, double dt, const Attempt
 bool ConstantPressureReactor::Impl::accept(Cell& cell, std::span<double> out) {
   double sum = 0;
   for (std::size_t k = 0; k < n; ++k) sum += out[k];
-  if (!(std::abs(sum - endSum) < kSumTolerance)) {
-    reason = fmt::format("the sum of mass fractions moved by {:.3g}", sum - endSum);
+  if (!(std::abs(sum - end.sum) < kSumTolerance)) {
+    reason = fmt::format("the sum of mass fractions moved by {:.3g}", sum - end.sum);
     return false;
   }
-  const double scale = endSum / sum;
+  const double scale = end.sum / sum;
   for (std::size_t k = 0; k < n; ++k) out[k] *= scale;
   double T = 0;
   try {
-    T = system.thermo().temperatureFromEnthalpy(endEnthalpy, out.first(n), out[n]);
+    T = system.thermo().temperatureFromEnthalpy(end.enthalpy, out.first(n), out[n]);
   } catch (const NumericsError& error) {
     reason = error.what();
     return false;
@@ -208,7 +172,8 @@ void ConstantPressureReactor::Impl::giveUp(const Cell& cell, double dt) const {
   throw ReactorFailure(
       message,
       {cell.temperature, cell.pressure, dt, cell.initialStep, std::vector<double>(cell.Y.begin(), cell.Y.end()),
-       std::vector<double>(cell.source.begin(), cell.source.end()), cell.heating, options, why});
+       std::vector<double>(cell.source.begin(), cell.source.end()), cell.heating, options, why},
+      place);
 }
 
 ConstantPressureReactor::ConstantPressureReactor(const Mechanism& mechanism, const Options& options)
@@ -219,50 +184,62 @@ ConstantPressureReactor& ConstantPressureReactor::operator=(ConstantPressureReac
 
 ConstantPressureReactor::Result ConstantPressureReactor::advance(Cell& cell, double dt, const Observer& observer) {
   auto& self = *impl_;
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
+  self.place = 0;
   Result result;
-  self.reason.clear();
-  self.checkInput(cell, dt);
-  std::copy(cell.Y.begin(), cell.Y.end(), self.start.begin());
-  self.start[self.n] = cell.temperature;
-  self.endSum = 0;
-  for (const double value : cell.Y) self.endSum += value;
-  for (const double value : cell.source) self.endSum += dt * value;
-  self.endEnthalpy = self.system.thermo().enthalpyMass(cell.temperature, cell.Y) + dt * cell.heating;
-  const auto finish = [&] {
-    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    return result;
-  };
-  if (dt == 0) return finish();
-  if (self.skip(cell, dt, result)) {
+  self.begin(cell, dt);
+  if (dt > 0) self.advance(cell, dt, observer, result);
+  result.seconds = watch.seconds();
+  return result;
+}
+
+// Checks the cell and sets where it starts and what it keeps.
+void ConstantPressureReactor::Impl::begin(const Cell& cell, double dt) {
+  reason.clear();
+  checkInput(cell, dt);
+  std::copy(cell.Y.begin(), cell.Y.end(), start.begin());
+  start[n] = cell.temperature;
+  end.sum = 0;
+  for (const double value : cell.Y) end.sum += value;
+  for (const double value : cell.source) end.sum += dt * value;
+  end.enthalpy = system.thermo().enthalpyMass(cell.temperature, cell.Y) + dt * cell.heating;
+}
+
+void ConstantPressureReactor::Impl::advance(Cell& cell, double dt, const Observer& observer, Result& result) {
+  if (skip(cell, dt, result)) {
     result.skipped = true;
-    return finish();
+    return;
   }
   const double firstStep = cell.initialStep;
-  const int quickSteps = self.options.rosenbrockSteps;
   int number = 0;
-  if (quickSteps > 0 && (firstStep <= 0 || firstStep * quickSteps >= dt)) {
-    const bool done =
-        self.attempt(cell, dt, {Method::Rosenbrock, firstStep, 1.0, quickSteps, 1}, ++number, observer, result);
-    cell.initialStep = self.rosenbrock.nextStep();
-    if (done) return finish();
+  if (isForRosenbrock(firstStep, dt)) {
+    const bool done = attempt(cell, dt, {Method::Rosenbrock, firstStep, 1.0, options.rosenbrockSteps, 1}, ++number,
+                              observer, result);
+    cell.initialStep = rosenbrock.nextStep();
+    if (done) return;
   } else {
     cell.initialStep = 2 * firstStep;  // it is tried again when that would do
   }
+  advanceByBdf(cell, dt, firstStep, number, observer, result);
+}
+
+// Attempts after `number` others. firstStep: the cell's own, which it keeps where they fail.
+void ConstantPressureReactor::Impl::advanceByBdf(Cell& cell, double dt, double firstStep, int number,
+                                                 const Observer& observer, Result& result) {
   result.handedOver = true;
-  const int maxSteps = self.options.maxSteps;
+  const int maxSteps = options.maxSteps;
   const Attempt attempts[] = {{Method::Bdf, 0.0, 1.0, maxSteps, 1},
                               {Method::Bdf, 1e-9 * dt, 0.1, 2 * maxSteps, 1},
                               {Method::Bdf, 1e-9 * dt, 0.01, 2 * maxSteps, 16}};
   std::string firstReason;
-  for (const Attempt& attempt : attempts) {
-    if (self.attempt(cell, dt, attempt, ++number, observer, result)) return finish();
-    if (firstReason.empty()) firstReason = self.reason;
+  for (const Attempt& one : attempts) {
+    if (attempt(cell, dt, one, ++number, observer, result)) return;
+    if (firstReason.empty()) firstReason = reason;
     ++result.retries;
   }
   cell.initialStep = firstStep;
-  self.reason = fmt::format("{} (first attempt: {})", self.reason, firstReason);
-  self.giveUp(cell, dt);
+  reason = fmt::format("{} (first attempt: {})", reason, firstReason);
+  giveUp(cell, dt);
 }
 
 }  // namespace lampblack::chemistry

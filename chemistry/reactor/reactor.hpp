@@ -1,7 +1,7 @@
 // One stiff integration a cell: a constant-pressure adiabatic reactor with detailed kinetics and an optional constant
 // source of species, advanced by a few steps of a Rosenbrock method or, where those do not do, by CVODE's BDF method
-// (SUNDIALS), both with the analytic Jacobian. The result depends on the inputs alone, bit for bit, never on what the
-// object did before; one object per thread or rank.
+// (SUNDIALS), both with the analytic Jacobian; one cell, or many at once. The result depends on the inputs alone, bit for bit,
+// never on what the object did before; one object per thread or rank.
 #pragma once
 
 #include <functional>
@@ -83,6 +83,11 @@ class ConstantPressureReactor {
   // a divided interval; the message has T, p, dt, the composition and the solver's reason. An observer changes nothing
   // but the time it takes.
   Result advance(Cell& cell, double dt, const Observer& observer = {});
+
+  // The same for many cells, several times faster: most go through vector lanes (ReactorLanes). A cell's result, its seconds
+  // excepted, depends on that cell alone, to the last bit, and agrees with the other advance()'s to round-off. Of several
+  // cells that fail, the first is reported, with its place (ReactorFailure); cells before it may have been advanced.
+  void advance(std::span<Cell> cells, double dt, std::span<Result> results);
 
  private:
   struct Impl;

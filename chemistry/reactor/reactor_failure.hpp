@@ -1,6 +1,7 @@
 // A cell whose chemistry could not be advanced, with all that is needed to try again.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,11 +26,14 @@ struct FailedCell {
 
 class ReactorFailure : public NumericsError {
  public:
-  ReactorFailure(const std::string& message, FailedCell cell) : NumericsError(message), cell_(std::move(cell)) {}
+  ReactorFailure(const std::string& message, FailedCell cell, std::size_t place)
+      : NumericsError(message), cell_(std::move(cell)), place_(place) {}
   const FailedCell& cell() const { return cell_; }
+  std::size_t place() const { return place_; }  // among the cells that were advanced together
 
  private:
   FailedCell cell_;
+  std::size_t place_;
 };
 
 }  // namespace lampblack::chemistry

@@ -1,0 +1,182 @@
+#include "chemistry/reactor/reactor_lanes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "chemistry/numerics/rosenbrock_solver.hpp"
+#include "chemistry/reactor/reactor_lanes_tables.hpp"
+#include "chemistry/thermo/thermo.hpp"
+
+namespace lampblack::chemistry {
+
+namespace {
+
+constexpr std::size_t kLanes = batchLanes;
+
+ReactorLanesTarget targetOf(BatchKinetics::Instructions instructions) {
+  switch (instructions) {
+#if defined(__x86_64__)
+    case BatchKinetics::Instructions::Avx512:
+      return reactorLanesAvx512();
+    case BatchKinetics::Instructions::Avx2:
+      return reactorLanesAvx2();
+#else
+    case BatchKinetics::Instructions::Avx512:
+    case BatchKinetics::Instructions::Avx2:
+#endif
+    case BatchKinetics::Instructions::Generic:
+      break;
+  }
+  return reactorLanesGeneric();
+}
+
+// One value of every row.
+void put(std::span<const double> values, double* rows, std::size_t lane) {
+  for (std::size_t i = 0; i < values.size(); ++i) rows[i * kLanes + lane] = values[i];
+}
+
+void take(const double* rows, std::size_t lane, std::span<double> values) {
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = rows[i * kLanes + lane];
+}
+
+}  // namespace
+
+struct ReactorLanes::Impl {
+  Impl(const Mechanism& mechanism, BatchKinetics::Instructions instructions)
+      : tables(mechanism), target(targetOf(instructions)) {}
+
+  // A reactor on its way in a lane.
+  struct Traveller {
+    Reactor* reactor = nullptr;
+    double reached = 0, stepSize = 0;
+    bool isRejected = false, isLast = false;
+  };
+
+  void load(const Reactor& reactor, std::size_t lane) const;
+  bool prepareStep(Traveller& traveller, std::size_t lane, const Tolerance& tolerance) const;
+  bool finishStep(Traveller& traveller, std::size_t lane) const;
+
+  ReactorLanesTables tables;
+  ReactorLanesTarget target;
+  std::array<Traveller, kLanes> travellers;
+};
+
+void ReactorLanes::Impl::load(const Reactor& reactor, std::size_t lane) const {
+  const ReactorLanesWork& work = tables.work();
+  work.pressure[lane] = reactor.pressure;
+  work.heating[lane] = reactor.heating;
+  put(reactor.state, work.y, lane);
+  if (!reactor.source.empty()) return put(reactor.source, work.source, lane);
+  for (std::size_t k = 0; k < tables.view().numSpecies; ++k) work.source[k * kLanes + lane] = 0;
+}
+
+// As RosenbrockSolver: false where no more steps may be taken.
+bool ReactorLanes::Impl::prepareStep(Traveller& traveller, std::size_t lane, const Tolerance& tolerance) const {
+  Reactor& reactor = *traveller.reactor;
+  const double dt = reactor.duration;
+  reactor.nextStep = traveller.stepSize;
+  if (reactor.steps + reactor.rejected >= tolerance.maximumSteps ||
+      traveller.stepSize < RosenbrockSolver::smallestStep * dt) {
+    reactor.outcome = Reactor::Outcome::TooManySteps;
+    return false;
+  }
+  traveller.isLast = traveller.reached + traveller.stepSize >= dt * (1 - RosenbrockSolver::roundOff);
+  if (traveller.isLast) traveller.stepSize = dt - traveller.reached;
+  tables.work().stepSize[lane] = traveller.stepSize;
+  return true;
+}
+
+// False where the reactor leaves the lane.
+bool ReactorLanes::Impl::finishStep(Traveller& traveller, std::size_t lane) const {
+  const ReactorLanesWork& work = tables.work();
+  Reactor& reactor = *traveller.reactor;
+  const double sum = work.errorSum[lane];
+  if (work.isGood[lane] != 1 || !std::isfinite(sum)) {
+    reactor.outcome = Reactor::Outcome::Left;
+    return false;
+  }
+  const auto unknowns = static_cast<double>(reactor.state.size());
+  const auto next = RosenbrockSolver::nextStep(traveller.stepSize, std::sqrt(sum / unknowns), traveller.isRejected);
+  traveller.isRejected = next.isRejected;
+  reactor.nextStep = next.size;
+  if (next.isRejected) {
+    ++reactor.rejected;
+  } else {
+    ++reactor.steps;
+    if (traveller.isLast) {
+      take(work.end, lane, reactor.state);
+      reactor.outcome = Reactor::Outcome::Arrived;
+      return false;
+    }
+    traveller.reached += traveller.stepSize;
+    for (std::size_t i = lane; i < reactor.state.size() * kLanes; i += kLanes) work.y[i] = work.end[i];
+  }
+  traveller.stepSize = next.size;
+  return true;
+}
+
+bool ReactorLanes::covers(const Mechanism& mechanism) {
+  return ReactorLanesTables::covers(mechanism);
+}
+
+ReactorLanes::ReactorLanes(const Mechanism& mechanism, BatchKinetics::Instructions instructions) {
+  BatchKinetics::demand(instructions);
+  impl_ = std::make_unique<Impl>(mechanism, instructions);
+}
+ReactorLanes::~ReactorLanes() = default;
+ReactorLanes::ReactorLanes(ReactorLanes&&) noexcept = default;
+ReactorLanes& ReactorLanes::operator=(ReactorLanes&&) noexcept = default;
+
+void ReactorLanes::largestChemicalRates(std::span<const Reactor> reactors, std::span<double> largest) {
+  auto& self = *impl_;
+  const ReactorLanesWork& work = self.tables.work();
+  const std::size_t n = self.tables.view().numSpecies;
+  for (std::size_t first = 0; first < reactors.size(); first += kLanes) {
+    const std::size_t count = std::min(kLanes, reactors.size() - first);
+    for (std::size_t lane = 0; lane < count; ++lane) self.load(reactors[first + lane], lane);
+    self.target.chemicalRates(self.tables.view(), work);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      double most = work.isGood[lane] == 1 ? 0 : std::numeric_limits<double>::quiet_NaN();
+      for (std::size_t k = 0; k < n; ++k) {
+        const double size = std::abs(work.f[k * kLanes + lane]);
+        most = size <= most ? most : size;  // not a number if one of them is none
+      }
+      largest[first + lane] = work.isGood[lane] == 1 ? most : std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+}
+
+void ReactorLanes::advance(std::span<Reactor> reactors, const Tolerance& tolerance) {
+  auto& self = *impl_;
+  const double smallest = tolerance.absolute / tolerance.relative;
+  std::size_t next = 0;
+  const auto enter = [&](Impl::Traveller& traveller, std::size_t lane) {
+    traveller = {};
+    if (next == reactors.size()) return;
+    traveller.reactor = &reactors[next++];
+    Reactor& reactor = *traveller.reactor;
+    reactor.steps = reactor.rejected = 0;
+    traveller.stepSize = reactor.firstStep > 0 ? std::min(reactor.firstStep, reactor.duration) : reactor.duration;
+    self.load(reactor, lane);
+  };
+  for (std::size_t lane = 0; lane < kLanes; ++lane) enter(self.travellers[lane], lane);
+  for (;;) {
+    bool anyone = false;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      auto& traveller = self.travellers[lane];
+      while (traveller.reactor != nullptr && !self.prepareStep(traveller, lane, tolerance)) enter(traveller, lane);
+      anyone = anyone || traveller.reactor != nullptr;
+    }
+    if (!anyone) return;
+    self.target.step(self.tables.view(), self.tables.work(), {tolerance.relative, smallest, 1.0});
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      auto& traveller = self.travellers[lane];
+      if (traveller.reactor != nullptr && !self.finishStep(traveller, lane)) enter(traveller, lane);
+    }
+  }
+}
+
+}  // namespace lampblack::chemistry
