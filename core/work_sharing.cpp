@@ -96,7 +96,9 @@ class FirstFailure {
 class Group {
  public:
   explicit Group(const WorkSharing::Items& items)
-      : items_(items), capacity_(items.advanceGroup ? std::max<std::size_t>(items.groupSize, 1) : 1), outputs_(capacity_) {
+      : items_(items),
+        capacity_(items.advanceGroup ? std::max<std::size_t>(items.groupSize, 1) : 1),
+        outputs_(capacity_) {
     copies_.resize(capacity_);
   }
   void add(std::span<const double> input) { inputs_.push_back(input); }

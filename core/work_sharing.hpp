@@ -33,8 +33,8 @@ class WorkSharing {
     std::function<void(std::size_t item, std::vector<double>& input)> pack;
     // Advances one item and appends to `output`, which comes empty; runs on any rank.
     std::function<void(std::span<const double> input, std::vector<double>& output)> advance;
-    // Where it is set, it is called instead of `advance`, with up to groupSize items at a time: an input and an output each.
-    // Which items share a group must not show in what they compute.
+    // Where it is set, it is called instead of `advance`, with up to groupSize items at a time: an input and an output
+    // each. Which items share a group must not show in what they compute.
     std::size_t groupSize = 1;
     std::function<void(std::span<const std::span<const double>> inputs, std::span<std::vector<double>> outputs)>
         advanceGroup;

@@ -20,8 +20,8 @@ struct ReactionOperator::Layout {
 
 namespace {
 
-// Cells that are handed to the reactor at once: many more than it has lanes, so that few lanes wait for the last ones, and
-// few enough for their states to stay in the processor's cache.
+// Cells that are handed to the reactor at once: many more than it has lanes, so that few lanes wait for the last ones,
+// and few enough for their states to stay in the processor's cache.
 constexpr std::size_t cellsTogether = 256;
 
 }  // namespace
@@ -76,8 +76,12 @@ void ReactionOperator::solve(double time, double dt, std::span<const std::span<c
     const std::span<double> Y = std::span(out[i]).subspan(Layout::outHeader);
     std::ranges::copy(in[i].subspan(Layout::inHeader, n), Y.begin());
     try {
-      cells_[i] = {context_.thermo.temperatureFromEnthalpy(in[i][2], Y, in[i][4]), in[i][5], Y,
-                   in[i].subspan(Layout::inHeader + n), in[i][6], in[i][3]};
+      cells_[i] = {context_.thermo.temperatureFromEnthalpy(in[i][2], Y, in[i][4]),
+                   in[i][5],
+                   Y,
+                   in[i].subspan(Layout::inHeader + n),
+                   in[i][6],
+                   in[i][3]};
     } catch (const NumericsError& error) {
       throw failure(i, error.what());
     }

@@ -1,4 +1,5 @@
-// Chemistry in every cell: a stiff solve at constant pressure and enthalpy, many cells at once, shared between the ranks.
+// Chemistry in every cell: a stiff solve at constant pressure and enthalpy, many cells at once, shared between the
+// ranks.
 //
 // Coupling with transport. The reactions are integrated from the step's start with the transport of species and
 // enthalpy as a constant source, while transport was given the last sweep's mean reaction rate (by State::balance):

@@ -212,9 +212,10 @@ DeckSchema flowSchema() {
                .byDefault("1e-6")
                .above(0)
                .below(1))
-      .add(integerKey("chemistry.rosenbrock_steps",
-                      "Steps of a Rosenbrock method in which the chemistry of a cell has to be done; a cell that needs "
-                      "more is integrated by CVODE. 0: CVODE for all cells.")
+      .add(integerKey(
+               "chemistry.rosenbrock_steps",
+               "Steps of a Rosenbrock method in which the chemistry of a cell has to be done, four times as many in "
+               "vector lanes; a cell that needs more is integrated by CVODE. 0: CVODE for all cells.")
                .byDefault("10")
                .atLeast(0)
                .atMost(1000))

@@ -1,5 +1,5 @@
-// Derivatives of fall-off constants in lanes, by [M] and by temperature: part of the kernel of batch_jacobian_kernel.hpp.
-// The chain rule of FalloffFactors::evaluateSlopes, with logarithms to base 2.
+// Derivatives of fall-off constants in lanes, by [M] and by temperature: part of the kernel of
+// batch_jacobian_kernel.hpp. The chain rule of FalloffFactors::evaluateSlopes, with logarithms to base 2.
 #pragma once
 
 #include "chemistry/kinetics/batch_jacobian_view.hpp"

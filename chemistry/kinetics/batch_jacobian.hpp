@@ -1,8 +1,8 @@
 // Derivatives of the production rates of several states at once, one a vector lane: the tables of the kernel
 // (batch_jacobian_kernel.hpp), from those of Kinetics and BatchKinetics. As there, d wdot_k/d c_j = S_kj + common_k.
 //
-// Left to Kinetics are mechanisms with rates that are rarer in flames: functions of pressure, of the enthalpy of reaction or
-// of the mixture's colliders, orders that are no whole numbers, NASA-9 polynomials.
+// Left to Kinetics are mechanisms with rates that are rarer in flames: functions of pressure, of the enthalpy of
+// reaction or of the mixture's colliders, orders that are no whole numbers, NASA-9 polynomials.
 #pragma once
 
 #include <cstddef>

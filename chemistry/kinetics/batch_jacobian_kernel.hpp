@@ -44,8 +44,8 @@ class BatchJacobianKernel {
     for (std::size_t i = 0; i < view.sets.size; ++i) set(view, view.sets.data[i], work);
   }
 
-  // h/R and cp/R of all species; WithSlope: d(cp/R)/dT as well. From log2(e) g/RT = c0 (1 - ln T) + c1 T + c2 T^2 + ...:
-  // h/RT = -T d(g/RT)/dT.
+  // h/R and cp/R of all species; WithSlope: d(cp/R)/dT as well. From log2(e) g/RT = c0 (1 - ln T) + c1 T + c2 T^2 +
+  // ...: h/RT = -T d(g/RT)/dT.
   template <bool WithSlope>
   static void thermo(const BatchView& view, const BatchJacobianWork& work, D T) {
     for (std::size_t k = 0; k < view.nasa7.size; ++k) {
@@ -218,8 +218,7 @@ class BatchJacobianKernel {
     const BatchJacobianWork& work = block.work;
     const BatchTerm *net = view.terms + r.net, *netEnd = view.terms + r.netEnd;
     const auto toTerms = [&](double* rows, D x) {
-      for (const BatchTerm* term = net; term != netEnd; ++term)
-        add(rows + term->row, V::all(term->coefficient) * x);
+      for (const BatchTerm* term = net; term != netEnd; ++term) add(rows + term->row, V::all(term->coefficient) * x);
     };
     D gibbs = D{}, h = D{};
     double moles = 0;

@@ -21,8 +21,8 @@ struct BatchJacobianGroup {
   const double* A;
 };
 
-// A reaction of more species or of any whole coefficients: ranges of a list of rows, a molecule each, of terms of the net
-// coefficients, and of places by reactant, product, term.
+// A reaction of more species or of any whole coefficients: ranges of a list of rows, a molecule each, of terms of the
+// net coefficients, and of places by reactant, product, term.
 struct BatchJacobianGeneral {
   std::uint32_t entry, column;
   double A;
@@ -32,8 +32,8 @@ struct BatchJacobianGeneral {
   std::uint32_t places;
 };
 
-// A set of efficiencies: what it adds by the rows that its reactions change, in all columns and in those of the colliders
-// named. `places` by collider, row.
+// A set of efficiencies: what it adds by the rows that its reactions change, in all columns and in those of the
+// colliders named. `places` by collider, row.
 struct BatchJacobianSet {
   double base;
   std::uint32_t column;
@@ -58,12 +58,12 @@ struct BatchJacobianView {
 
 // Rows of a block.
 struct BatchJacobianWork {
-  double *slope, *byM;        // of each entry: d ln E/dT, and dE/d[M] where it has a set
-  double* columns;            // d wdot/d[M] of each set, one row more than species
-  double *h, *cp, *cpSlope;   // of each species: enthalpy and heat capacity over R, K, 1, 1/K
-  double *wdot, *byT;         // one row more than species: production rates and their derivatives by T
-  double* common;             // of each species: the part of d wdot/dc that all columns have
-  double* values;             // the rest, at the places given, where one more is written without being used
+  double *slope, *byM;       // of each entry: d ln E/dT, and dE/d[M] where it has a set
+  double* columns;           // d wdot/d[M] of each set, one row more than species
+  double *h, *cp, *cpSlope;  // of each species: enthalpy and heat capacity over R, K, 1, 1/K
+  double *wdot, *byT;        // one row more than species: production rates and their derivatives by T
+  double* common;            // of each species: the part of d wdot/dc that all columns have
+  double* values;            // the rest, at the places given, where one more is written without being used
 };
 
 }  // namespace lampblack::chemistry

@@ -146,9 +146,9 @@ struct BatchView {
 
 // Rows of a block, aligned to 64 bytes.
 struct BatchWork {
-  double* c;        // concentrations
-  double* g;        // log2 (RT/p0 exp(g/RT))
-  double* s;        // 2^-g: p0/RT exp(-g/RT)
+  double* c;  // concentrations
+  double* g;  // log2 (RT/p0 exp(g/RT))
+  double* s;  // 2^-g: p0/RT exp(-g/RT)
   double* inverseS;
   double* z;        // c/s
   double* given;    // factors of the entries `given`

@@ -1,5 +1,5 @@
-// Four doubles in a register of AVX2 (and FMA), for the kernels of states in lanes (batch_kinetics_simd.hpp). Only for files
-// compiled for these instructions.
+// Four doubles in a register of AVX2 (and FMA), for the kernels of states in lanes (batch_kinetics_simd.hpp). Only for
+// files compiled for these instructions.
 #pragma once
 
 #include <immintrin.h>

@@ -1,5 +1,5 @@
-// Eight doubles in a register of AVX-512 (F, DQ, VL), for the kernels of states in lanes (batch_kinetics_simd.hpp). Only for
-// files compiled for these instructions.
+// Eight doubles in a register of AVX-512 (F, DQ, VL), for the kernels of states in lanes (batch_kinetics_simd.hpp).
+// Only for files compiled for these instructions.
 #pragma once
 
 #include <immintrin.h>

@@ -1,5 +1,6 @@
-// Factorisation and solution of matrices in lanes (lane_lu.hpp), for vectors V of batch_kinetics_simd.hpp, which also says
-// what kernels have to mind. Every lane is computed by itself: what it holds, finite or not, does not reach the others.
+// Factorisation and solution of matrices in lanes (lane_lu.hpp), for vectors V of batch_kinetics_simd.hpp, which also
+// says what kernels have to mind. Every lane is computed by itself: what it holds, finite or not, does not reach the
+// others.
 #pragma once
 
 #include "chemistry/numerics/lane_lu_view.hpp"

@@ -212,9 +212,9 @@ void ConstantPressureReactor::Impl::advance(Cell& cell, double dt, const Observe
   }
   const double firstStep = cell.initialStep;
   int number = 0;
-  if (isForRosenbrock(firstStep, dt)) {
-    const bool done = attempt(cell, dt, {Method::Rosenbrock, firstStep, 1.0, options.rosenbrockSteps, 1}, ++number,
-                              observer, result);
+  if (isForRosenbrock(firstStep, dt, options.rosenbrockSteps)) {
+    const bool done =
+        attempt(cell, dt, {Method::Rosenbrock, firstStep, 1.0, options.rosenbrockSteps, 1}, ++number, observer, result);
     cell.initialStep = rosenbrock.nextStep();
     if (done) return;
   } else {

@@ -1,7 +1,7 @@
 // One stiff integration a cell: a constant-pressure adiabatic reactor with detailed kinetics and an optional constant
 // source of species, advanced by a few steps of a Rosenbrock method or, where those do not do, by CVODE's BDF method
-// (SUNDIALS), both with the analytic Jacobian; one cell, or many at once. The result depends on the inputs alone, bit for bit,
-// never on what the object did before; one object per thread or rank.
+// (SUNDIALS), both with the analytic Jacobian; one cell, or many at once. The result depends on the inputs alone, bit
+// for bit, never on what the object did before; one object per thread or rank.
 #pragma once
 
 #include <functional>
@@ -25,8 +25,9 @@ class ConstantPressureReactor {
     // of the trapezoid is below absoluteTolerance. Zero never skips.
     double negligibleChange = 1e-10;
     // Steps, rejected ones among them, in which the Rosenbrock method has to arrive; cells that need more go to CVODE.
-    // Zero: CVODE alone.
+    // Zero: CVODE alone. In lanes, where a step costs a fifth, laneSteps times as many.
     int rosenbrockSteps = 10;
+    static constexpr int laneSteps = 4;
   };
 
   struct Cell {
@@ -84,9 +85,10 @@ class ConstantPressureReactor {
   // but the time it takes.
   Result advance(Cell& cell, double dt, const Observer& observer = {});
 
-  // The same for many cells, several times faster: most go through vector lanes (ReactorLanes). A cell's result, its seconds
-  // excepted, depends on that cell alone, to the last bit, and agrees with the other advance()'s to round-off. Of several
-  // cells that fail, the first is reported, with its place (ReactorFailure); cells before it may have been advanced.
+  // The same for many cells, several times faster: most go through vector lanes (ReactorLanes). A cell's result, its
+  // seconds excepted, depends on that cell alone, to the last bit, and agrees with the other advance()'s to round-off.
+  // Of several cells that fail, the first is reported, with its place (ReactorFailure); cells before it may have been
+  // advanced.
   void advance(std::span<Cell> cells, double dt, std::span<Result> results);
 
  private:

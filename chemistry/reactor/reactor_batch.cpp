@@ -1,5 +1,5 @@
-// Many cells at once: steps of the Rosenbrock method in vector lanes, what those cannot do one cell after the other. Which way
-// a cell goes depends on the cell alone.
+// Many cells at once: steps of the Rosenbrock method in vector lanes, what those cannot do one cell after the other.
+// Which way a cell goes depends on the cell alone.
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -46,13 +46,14 @@ void ConstantPressureReactor::Impl::beginAll(std::span<const Cell> cells, double
 void ConstantPressureReactor::Impl::advanceInLanes(double dt, std::span<Result> results) {
   const Stopwatch watch;
   const std::size_t count = reactors.size();
+  const int maxSteps = Options::laneSteps * options.rosenbrockSteps;
   // Where the chemistry may be negligible, or has no rates, skip() decides.
   largestRates.assign(count, options.negligibleChange);
   if (options.negligibleChange > 0) lanes->largestChemicalRates(reactors, largestRates);
   const double forRates = watch.seconds() / static_cast<double>(count);
   cellInLane.clear();
   for (std::size_t i = 0; i < count; ++i)
-    if (largestRates[i] * dt >= options.negligibleChange && isForRosenbrock(reactors[i].firstStep, dt))
+    if (largestRates[i] * dt >= options.negligibleChange && isForRosenbrock(reactors[i].firstStep, dt, maxSteps))
       cellInLane.push_back(i);
   // Those with the most steps first, so that lanes are empty at the end for a short time only.
   const auto expected = [this](std::size_t i) { return reactors[i].firstStep > 0 ? reactors[i].firstStep : HUGE_VAL; };
@@ -60,7 +61,7 @@ void ConstantPressureReactor::Impl::advanceInLanes(double dt, std::span<Result> 
   inLanes.clear();
   for (const std::size_t i : cellInLane) inLanes.push_back(reactors[i]);
   const Stopwatch ofSteps;
-  lanes->advance(inLanes, {options.relativeTolerance, options.absoluteTolerance, options.rosenbrockSteps});
+  lanes->advance(inLanes, {options.relativeTolerance, options.absoluteTolerance, maxSteps});
   const double seconds = ofSteps.seconds();
   int attempts = 0;
   for (const auto& reactor : inLanes) attempts += reactor.steps + reactor.rejected;

@@ -1,4 +1,5 @@
-// The inside of ConstantPressureReactor, shared by its files alone: one cell (reactor.cpp), many at once (reactor_batch.cpp).
+// The inside of ConstantPressureReactor, shared by its files alone: one cell (reactor.cpp), many at once
+// (reactor_batch.cpp).
 #pragma once
 
 #include <chrono>
@@ -46,8 +47,7 @@ struct ConstantPressureReactor::Impl {
   void checkInput(const Cell& cell, double dt) const;
   void begin(const Cell& cell, double dt);
   void advance(Cell& cell, double dt, const Observer& observer, Result& result);
-  bool isForRosenbrock(double firstStep, double dt) const {
-    const int steps = options.rosenbrockSteps;
+  static bool isForRosenbrock(double firstStep, double dt, int steps) {
     return steps > 0 && (firstStep <= 0 || firstStep * steps >= dt);
   }
   bool skip(Cell& cell, double dt, Result& result);

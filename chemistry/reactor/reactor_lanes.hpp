@@ -1,10 +1,11 @@
-// Many adiabatic reactors of constant pressure at once, one a vector lane: rates, Jacobian, factors of one sparse pattern and
-// steps of RODAS3 with the vector instructions of BatchKinetics. A lane that has arrived takes the next reactor, so that
-// reactors of few and of many steps share lanes without waiting for one another. A reactor's result depends on its own input
-// alone, to the last bit, not on its place nor on the others; it agrees with ReactorRosenbrock's to round-off.
+// Many adiabatic reactors of constant pressure at once, one a vector lane: rates, Jacobian, factors of one sparse
+// pattern and steps of RODAS3 with the vector instructions of BatchKinetics. A lane that has arrived takes the next
+// reactor, so that reactors of few and of many steps share lanes without waiting for one another. A reactor's result
+// depends on its own input alone, to the last bit, not on its place nor on the others; it agrees with
+// ReactorRosenbrock's to round-off.
 //
-// What lanes cannot do is left to the scalar method: a matrix that wants pivoting, a state on the way that has no rates, a
-// temperature at which rates cannot be formed from products (batch_kinetics_kernel.hpp).
+// What lanes cannot do is left to the scalar method: a matrix that wants pivoting, a state on the way that has no
+// rates, a temperature at which rates cannot be formed from products (batch_kinetics_kernel.hpp).
 #pragma once
 
 #include <cstddef>
@@ -39,8 +40,7 @@ class ReactorLanes {
   static bool covers(const Mechanism& mechanism);
 
   // std::logic_error for a mechanism that is not covered; InputError for instructions that are not available.
-  explicit ReactorLanes(const Mechanism& mechanism,
-                        BatchKinetics::Instructions instructions = BatchKinetics::best());
+  explicit ReactorLanes(const Mechanism& mechanism, BatchKinetics::Instructions instructions = BatchKinetics::best());
   ~ReactorLanes();
   ReactorLanes(ReactorLanes&&) noexcept;
   ReactorLanes& operator=(ReactorLanes&&) noexcept;

@@ -1,5 +1,5 @@
-// Adiabatic reactors of constant pressure, one a lane: ReactorSystem's rates and Jacobian, NewtonMatrix's factors, a step of
-// RosenbrockSolver. Their headers have the equations. For the linkage see batch_kinetics_simd.hpp.
+// Adiabatic reactors of constant pressure, one a lane: ReactorSystem's rates and Jacobian, NewtonMatrix's factors, a
+// step of RosenbrockSolver. Their headers have the equations. For the linkage see batch_kinetics_simd.hpp.
 //
 // Every lane is computed by itself: neither what other lanes hold nor its place changes a bit of it.
 #pragma once
@@ -112,7 +112,8 @@ class ReactorLanesKernel {
     D heat = D{}, capacity = D{};
     for (std::size_t k = 0; k < view.numSpecies; ++k) {
       const std::size_t row = k * lanes;
-      const D rate = V::multiplyAdd(V::load(wdot + row), V::all(view.weights[k]) * gas.volume, V::load(work.source + row));
+      const D rate =
+          V::multiplyAdd(V::load(wdot + row), V::all(view.weights[k]) * gas.volume, V::load(work.source + row));
       const D R = V::all(view.gasConstants[k]);
       heat = V::multiplyAdd(R * V::load(work.jacobian.h + row), rate, heat);
       capacity = V::multiplyAdd(R * V::load(work.jacobian.cp + row), V::load(y + row), capacity);

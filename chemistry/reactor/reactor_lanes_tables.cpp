@@ -65,7 +65,8 @@ ReactorLanesTables::ReactorLanesTables(const Mechanism& mechanism)
   setEntries();
   setView();
   // What never changes: the product's vector v, and the diagonal but for its own unknown.
-  for (std::size_t j = 0; j < n_; ++j) std::fill_n(work_.lu.matrix + lu_.position(n_ + 1, j), batchLanes, inverseWeights_[j]);
+  for (std::size_t j = 0; j < n_; ++j)
+    std::fill_n(work_.lu.matrix + lu_.position(n_ + 1, j), batchLanes, inverseWeights_[j]);
   std::fill_n(work_.diagonal, (n_ + 2) * batchLanes, 1.0);
 }
 

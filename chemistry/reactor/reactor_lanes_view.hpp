@@ -1,5 +1,5 @@
-// What the kernel of reactors in lanes works on (reactor_lanes.hpp): plain arrays, as it is compiled for several instruction
-// sets. Rows are arrays of one double a lane; those of the unknowns (Y_1..Y_N, T) stand in that order.
+// What the kernel of reactors in lanes works on (reactor_lanes.hpp): plain arrays, as it is compiled for several
+// instruction sets. Rows are arrays of one double a lane; those of the unknowns (Y_1..Y_N, T) stand in that order.
 #pragma once
 
 #include <cstddef>
@@ -24,9 +24,9 @@ struct ReactorLanesView {
   BatchJacobianView jacobian;
   LaneLuView lu;
   std::size_t numSpecies;
-  double minTemperature, maxTemperature;                // K, of the data
-  double minStepTemperature, maxStepTemperature;        // K, at which steps can be taken
-  double gasConstant;                                   // J/mol/K
+  double minTemperature, maxTemperature;                  // K, of the data
+  double minStepTemperature, maxStepTemperature;          // K, at which steps can be taken
+  double gasConstant;                                     // J/mol/K
   const double *weights, *inverseWeights, *gasConstants;  // kg/mol, mol/kg, R/W in J/kg/K
   const LaneEntry* entries;
   const std::uint32_t* entriesBegin;  // of each row, and the end
@@ -43,9 +43,9 @@ struct ReactorLanesWork {
   // In: a row each, the unknowns, the source of the species.
   double *pressure, *heating, *stepSize;
   double *y, *source;
-  double *diagonal;  // of the matrix; its last row is set by the kernel, the others are one
-  // Out: the state after the step, the sum of the squares of its errors over their tolerances, one where the step could be
-  // taken and zero elsewhere.
+  double* diagonal;  // of the matrix; its last row is set by the kernel, the others are one
+  // Out: the state after the step, the sum of the squares of its errors over their tolerances, one where the step could
+  // be taken and zero elsewhere.
   double *end, *errorSum, *isGood;
   double *start, *f;          // dy/dt
   double *k1, *k2, *k3, *k4;  // one row more than unknowns

@@ -23,6 +23,33 @@ TEST(WorkSharingTest, ResultsAreTheSameBitsWithAndWithoutSharing) {
   }
 }
 
+// Groups of any size, the last one of what is left: as one by one.
+TEST(WorkSharingTest, ItemsInGroupsAreAsItemsOneByOne) {
+  Bag alone(skewed(), 5);
+  WorkSharing(MPI_COMM_WORLD).run(alone.items);
+  for (const std::size_t size : {std::size_t{1}, std::size_t{7}, std::size_t{1000}}) {
+    for (const bool shared : {true, false}) {
+      Bag bag(skewed(), 5);
+      std::size_t largest = 0;
+      bag.items.groupSize = size;
+      bag.items.advanceGroup = [&](auto inputs, auto outputs) {
+        ASSERT_EQ(inputs.size(), outputs.size());
+        largest = std::max(largest, inputs.size());
+        for (std::size_t i = inputs.size(); i-- > 0;) {
+          EXPECT_TRUE(outputs[i].empty());
+          bag.items.advance(inputs[i], outputs[i]);
+        }
+      };
+      WorkSharing(MPI_COMM_WORLD, shared).run(bag.items);
+      EXPECT_EQ(bag.results, alone.results);
+      EXPECT_EQ(bag.unpacked, alone.unpacked);
+      EXPECT_LE(largest, size);
+      EXPECT_GT(largest, std::min<std::size_t>(size, 4) - 1);  // rank 2 has eight items of its own
+      EXPECT_EQ(sumOverRanks(bag.advanced), static_cast<double>(total(skewed())));
+    }
+  }
+}
+
 TEST(WorkSharingTest, EveryItemIsAdvancedAndUnpackedOnce) {
   for (const int spread : {1, 7}) {
     Bag bag(skewed(), spread);
