@@ -25,10 +25,15 @@ Expansion::Expansion(const FlowContext& context)
       drift_(divergence_),
       heat_(divergence_),
       enthalpies_(context.mechanism.numSpecies()) {
-  const Mesh& m = context.mesh;
+}
+
+// Volume that comes in, m^3/s.
+double Expansion::inflow() const {
+  const Mesh& m = context_.mesh;
+  double sum = 0.0;
   for (int face = m.interiorFaces; face < m.faces; ++face)
-    if (const BoundaryCondition& boundary = context.boundaryOf(face); boundary.kind == BoundaryKind::Inlet)
-      inflow_ += boundary.speed * m.area[face];
+    if (context_.boundaryOf(face).kind == BoundaryKind::Inlet) sum += context_.boundarySpeed(face) * m.area[face];
+  return sum;
 }
 
 void Expansion::bringBalance(const State& state) {
@@ -94,7 +99,7 @@ void Expansion::compress(const State& state, const GasProperties& properties) {
     const double R = constants::gasConstant / properties.molecularWeight[c];
     return (1.0 - R / properties.heatCapacity[c]) / state.thermodynamicPressure;
   };
-  std::array<double, 3> sums{0.0, 0.0, inflow_};
+  std::array<double, 3> sums{0.0, 0.0, inflow()};
   for (int c = 0; c < m.owned; ++c) {
     sums[0] += m.volume[c] * divergence_[c];
     sums[1] += m.volume[c] * compressibility(c);

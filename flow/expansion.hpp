@@ -56,6 +56,7 @@ class Expansion {
   // Adds `sign` times the divergence by what they are.
   void add(const State& state, const GasProperties& properties, double sign, std::span<double> divergence);
   // Makes the divergence of a closed vessel that of what flows in, by a rise of p0.
+  [[nodiscard]] double inflow() const;
   void compress(const State& state, const GasProperties& properties);
 
   const FlowContext& context_;
@@ -65,7 +66,6 @@ class Expansion {
   std::vector<double> balance_;     // 1/s, of that by State::balance
   std::vector<double> gained_;      // 1/s, divergence_ - first_ + balance_: what stands against the next step's balance
   std::vector<double> drift_;       // p_eos/p0 - 1
-  double inflow_ = 0.0;             // m^3/s, into a closed vessel
   double dt_ = 0.0;                 // s, the step
   double pressureRise_ = 0.0;       // Pa
   std::vector<double> species_, heat_, enthalpies_;  // kg/s and W that come into each owned cell; J/kg

@@ -15,7 +15,10 @@ std::vector<BoundaryData> knownData(const FlowContext& context, bool isOfTempera
     const BoundaryCondition& boundary = context.boundaryOf(face);
     const bool isWall = boundary.kind == BoundaryKind::Wall || boundary.kind == BoundaryKind::Symmetry;
     const bool isGiven = !isWall || (isOfTemperature && boundary.kind == BoundaryKind::Wall && boundary.isothermal);
-    known.push_back(isGiven ? BoundaryData::Value : BoundaryData::ZeroSlope);
+    const bool hasFlux = isOfTemperature && (boundary.heatFlux != 0.0 || boundary.varies.heatFlux);
+    known.push_back(isGiven   ? BoundaryData::Value
+                    : hasFlux ? BoundaryData::Nothing
+                              : BoundaryData::ZeroSlope);
   }
   return known;
 }
@@ -56,10 +59,12 @@ void FaceState::setBoundaries(const State& state) {
     const int c = m.low[face];
     if (boundary.kind == BoundaryKind::Outlet)
       temperatureKnown_[b] = YKnown_[b] = state.massFlux[face] < 0.0 ? BoundaryData::Value : BoundaryData::Nothing;
+    if (boundary.kind == BoundaryKind::Inlet)
+      temperatureKnown_[b] = YKnown_[b] = context_.isSuction(face) ? BoundaryData::Nothing : BoundaryData::Value;
     const bool isTemperatureGiven = temperatureKnown_[b] == BoundaryData::Value;
     const bool isYGiven = YKnown_[b] == BoundaryData::Value;
-    boundaryTemperature_[b] = isTemperatureGiven ? boundary.temperature : state.temperature[c];
-    std::copy_n(isYGiven ? boundary.Y.data() : &state.Y[c * species_], species_, &boundaryY_[b * species_]);
+    boundaryTemperature_[b] = isTemperatureGiven ? context_.boundaryTemperature(face) : state.temperature[c];
+    std::copy_n(isYGiven ? context_.boundaryY(face).data() : &state.Y[c * species_], species_, &boundaryY_[b * species_]);
     // No particles come in.
     for (int s = 0; s < carried_; ++s) boundaryCarried_[b * carried_ + s] = isYGiven ? 0.0 : perMass_[c * carried_ + s];
   }
@@ -99,11 +104,12 @@ void FaceState::interpolate(const State& state, std::span<const double> directio
       for (int k = 0; k < n; ++k) y[k] /= sum;
     } else {
       const BoundaryCondition& boundary = context_.boundaryOf(face);
-      const bool enters =
-          boundary.kind == BoundaryKind::Inlet || (boundary.kind == BoundaryKind::Outlet && direction[face] < 0.0);
+      const bool enters = boundary.kind == BoundaryKind::Inlet
+                              ? !context_.isSuction(face)
+                              : boundary.kind == BoundaryKind::Outlet && direction[face] < 0.0;
       const int c = m.low[face];
-      temperature[face] = enters ? boundary.temperature : state.temperature[c];
-      std::copy_n(enters ? boundary.Y.data() : &state.Y[static_cast<std::size_t>(c) * n], n, y);
+      temperature[face] = enters ? context_.boundaryTemperature(face) : state.temperature[c];
+      std::copy_n(enters ? context_.boundaryY(face).data() : &state.Y[static_cast<std::size_t>(c) * n], n, y);
     }
     const std::span<const double> mixture{y, static_cast<std::size_t>(n)};
     density[face] = context_.thermo.density(temperature[face], state.thermodynamicPressure, mixture);

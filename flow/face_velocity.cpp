@@ -32,7 +32,7 @@ void FaceVelocity::predict(const Cells& cells, std::span<const double> inverseDe
     const double outward = m.normalSign[face] * cells.velocity[2 * low + axis] +
                            m.distance[face] * cells.velocityGradient[4 * low + 3 * axis];
     faceVelocity[face] = boundary.kind == BoundaryKind::Outlet  ? outward
-                         : boundary.kind == BoundaryKind::Inlet ? -boundary.speed
+                         : boundary.kind == BoundaryKind::Inlet ? -context_.boundarySpeed(face)
                                                                 : 0.0;
   }
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "chemistry/mechanism/mechanism.hpp"
@@ -12,6 +13,7 @@
 #include "core/mesh.hpp"
 #include "core/rooms.hpp"
 #include "flow/boundary.hpp"
+#include "flow/boundary_values.hpp"
 
 namespace lampblack::flow {
 
@@ -26,13 +28,46 @@ struct FlowContext {
   // kg/m^3, whose weight the hydrodynamic pressure leaves out: that of the gas around the outlets, so that the pressure
   // there is zero at any height; in a closed vessel any will do.
   double referenceDensity = 0.0;
+  std::shared_ptr<BoundaryValues> varying = nullptr;  // null where no boundary varies over place or time
 
   [[nodiscard]] const BoundaryCondition& boundaryOf(int face) const {
     return boundaries[mesh.patch[face - mesh.interiorFaces]];
   }
+  // What a boundary face has, now where it varies.
+  [[nodiscard]] double boundarySpeed(int face) const {  // m/s, into the domain
+    const BoundaryValues::Face* values = varyingAt(face);
+    return values ? values->speed : boundaryOf(face).speed;
+  }
+  [[nodiscard]] double boundaryTemperature(int face) const {  // K
+    const BoundaryValues::Face* values = varyingAt(face);
+    return values ? values->temperature : boundaryOf(face).temperature;
+  }
+  [[nodiscard]] const std::vector<double>& boundaryY(int face) const {
+    const BoundaryValues::Face* values = varyingAt(face);
+    return values ? values->Y : boundaryOf(face).Y;
+  }
+  [[nodiscard]] double boundaryHeatFlux(int face) const {  // W/m^2, into the gas
+    const BoundaryValues::Face* values = varyingAt(face);
+    return values ? values->heatFlux : boundaryOf(face).heatFlux;
+  }
+  // An inlet of negative velocity whose temperature and composition are not held: the gas leaves as it is.
+  [[nodiscard]] bool isSuction(int face) const {
+    const BoundaryCondition& boundary = boundaryOf(face);
+    return boundary.kind == BoundaryKind::Inlet && !boundary.fixedComposition && boundarySpeed(face) < 0.0;
+  }
+  // m/s, what the momentum meets: into the domain, and along the boundary's axis.
+  [[nodiscard]] std::array<double, 2> boundaryVelocity(int face) const {
+    const BoundaryValues::Face* values = varyingAt(face);
+    const BoundaryCondition& boundary = boundaryOf(face);
+    return values ? std::array{values->speedOfMomentum, values->tangential}
+                  : std::array{boundary.speed, boundary.tangential};
+  }
   // N/m^3, weight less buoyancy of gas of that density, along an axis.
   [[nodiscard]] double bodyForce(double density, int axis) const {
     return (density - referenceDensity) * gravity[static_cast<std::size_t>(axis)];
+  }
+  [[nodiscard]] const BoundaryValues::Face* varyingAt(int face) const {
+    return varying ? varying->at(face - mesh.interiorFaces) : nullptr;
   }
   // No outlet: the thermodynamic pressure changes with what comes in, of gas and of heat.
   [[nodiscard]] bool isClosed() const {

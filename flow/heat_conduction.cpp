@@ -18,16 +18,25 @@ void HeatConduction::prepare(const GasProperties& properties) {
     }
     const BoundaryCondition& boundary = context_.boundaryOf(face);
     const bool given =
-        boundary.kind == BoundaryKind::Inlet || (boundary.kind == BoundaryKind::Wall && boundary.isothermal);
+        (boundary.kind == BoundaryKind::Inlet && !context_.isSuction(face)) || (boundary.kind == BoundaryKind::Wall && boundary.isothermal);
     if (given) conductance_[face] = metric * properties.conductivity[low];
   }
+}
+
+// W, through a wall into the gas.
+double HeatConduction::givenFlux(int face) const {
+  const BoundaryCondition& boundary = context_.boundaryOf(face);
+  const bool isGiven = boundary.kind == BoundaryKind::Wall && !boundary.isothermal;
+  return isGiven ? context_.boundaryHeatFlux(face) * context_.mesh.area[face] : 0.0;
 }
 
 void HeatConduction::evaluate(std::span<const double> temperature, std::span<double> flux) const {
   const Mesh& m = context_.mesh;
   for (int face = 0; face < m.faces; ++face) {
-    const double beyond = m.high[face] >= 0 ? temperature[m.high[face]] : context_.boundaryOf(face).temperature;
+    const bool isInterior = m.high[face] >= 0;
+    const double beyond = isInterior ? temperature[m.high[face]] : context_.boundaryTemperature(face);
     flux[face] = conductance_[face] * (temperature[m.low[face]] - beyond);
+    if (!isInterior) flux[face] -= givenFlux(face);
   }
 }
 
@@ -49,7 +58,7 @@ void HeatConduction::implicitFlux(const State& guess, const GasProperties& prope
   });
   for (int face = m.interiorFaces; face < m.faces; ++face) {
     diagonal_[m.low[face]] += conductance_[face];
-    source_[m.low[face]] += conductance_[face] * context_.boundaryOf(face).temperature;
+    source_[m.low[face]] += conductance_[face] * context_.boundaryTemperature(face) + givenFlux(face);
   }
   temperature_ = guess.temperature;
   diffusion_.solve(1, diagonal_, conductance_, source_, temperature_);

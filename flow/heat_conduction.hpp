@@ -33,6 +33,7 @@ class HeatConduction {
                     std::span<double> flux);
 
  private:
+  [[nodiscard]] double givenFlux(int face) const;
   void evaluate(std::span<const double> temperature, std::span<double> flux) const;
 
   const FlowContext& context_;

@@ -1,6 +1,7 @@
 #include "flow/momentum.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "flow/limiter.hpp"
@@ -61,10 +62,11 @@ void Momentum::boundaryVelocities(const State& state) {
   const Mesh& m = context_.mesh;
   for (int face = m.interiorFaces; face < m.faces; ++face) {
     const BoundaryCondition& boundary = context_.boundaryOf(face);
+    const std::array<double, 2> given = context_.boundaryVelocity(face);
     for (int i = 0; i < 2; ++i) {
       const bool normal = i == m.normalAxis[face];
       double value = state.velocity[2 * m.low[face] + i];
-      if (isGiven(boundary, normal)) value = normal ? -m.normalSign[face] * boundary.speed : boundary.tangential;
+      if (isGiven(boundary, normal)) value = normal ? -m.normalSign[face] * given[0] : given[1];
       boundaryVelocity_[2 * (face - m.interiorFaces) + i] = value;
     }
   }
@@ -79,7 +81,8 @@ void Momentum::outletPressures(const State& state) {
     if (boundary.kind != BoundaryKind::Outlet) continue;
     double pressure = 0.0;
     if (state.massFlux[face] < 0.0) {
-      const double rho = context_.thermo.density(boundary.temperature, state.thermodynamicPressure, boundary.Y);
+      const double rho = context_.thermo.density(context_.boundaryTemperature(face), state.thermodynamicPressure,
+                                                 context_.boundaryY(face));
       const double velocity = state.massFlux[face] / (rho * m.area[face]);
       pressure = -0.5 * rho * velocity * velocity;
     }
@@ -104,7 +107,11 @@ void Momentum::explicitStress(const Sweep& sweep) {
     const double mu = w * viscosity[low] + (1.0 - w) * viscosity[high];
     const int axis = m.normalAxis[face];
     const double divergence = w * dilatation(low) + (1.0 - w) * dilatation(high);
+    // Along walls and symmetries the normal velocity stays zero.
+    const bool isTight = m.high[face] < 0 && (context_.boundaryOf(face).kind == BoundaryKind::Wall ||
+                                              context_.boundaryOf(face).kind == BoundaryKind::Symmetry);
     for (int i = 0; i < 2; ++i) {
+      if (isTight && i != axis) continue;
       // velocityGradient_[4 c + 2 j + i] is du_j/dx_i; the transposed part needs du_normal/dx_i.
       const double transposed =
           w * velocityGradient_[4 * low + 2 * axis + i] + (1.0 - w) * velocityGradient_[4 * high + 2 * axis + i];

@@ -52,7 +52,7 @@ void SpeciesDiffusion::prepare(const State& state, const GasProperties& properti
     } else if (isGiven(face)) {
       for (int k = 0; k < n; ++k) g[k] = metric * properties.massDiffusivity[at(low) + k];
       weightSlope_[face] =
-          std::log(context_.thermo.meanMolecularWeight(context_.boundaryOf(face).Y) / properties.molecularWeight[low]);
+          std::log(context_.thermo.meanMolecularWeight(context_.boundaryY(face)) / properties.molecularWeight[low]);
     }
   }
 }
@@ -65,7 +65,7 @@ void SpeciesDiffusion::evaluate(std::span<const double> Y, bool gradientTerm, st
     if (m.high[face] >= 0)
       faceFlux(face, gradientTerm, &Y[m.low[face] * n], &Y[m.high[face] * n], m.lowWeight[face], f);
     else if (isGiven(face))
-      faceFlux(face, gradientTerm, &Y[m.low[face] * n], context_.boundaryOf(face).Y.data(), 0.0, f);
+      faceFlux(face, gradientTerm, &Y[m.low[face] * n], context_.boundaryY(face).data(), 0.0, f);
     else
       std::fill_n(f, n, 0.0);
   }
@@ -92,7 +92,7 @@ ImplicitDiffusion::Result SpeciesDiffusion::implicitFlux(const State& guess, std
   addFaceFluxes(m, flux, n, 1.0, source_);
   for (int face = m.interiorFaces; face < m.faces; ++face) {
     if (!isGiven(face)) continue;
-    const std::vector<double>& given = context_.boundaryOf(face).Y;
+    const std::vector<double>& given = context_.boundaryY(face);
     for (int k = 0; k < n; ++k) {
       const double g = conductance_[at(face) + k];
       diagonal_[at(m.low[face]) + k] += g;

@@ -39,6 +39,7 @@ TransportOperator::TransportOperator(const FlowContext& context, const State& st
 
 void TransportOperator::initialise(State& state, double dt) {
   const Mesh& m = context_.mesh;
+  if (context_.varying) context_.varying->set(0.0, 0.0);
   state.updateHalo(context_.halo);
   collectively(m.comm, [&] { properties_.update(context_, state); });
   std::fill(state.massFlux.begin(), state.massFlux.end(), 0.0);
@@ -51,9 +52,10 @@ void TransportOperator::initialise(State& state, double dt) {
   const auto divergence = expansion_.initial(state, properties_, diffusion_);
   momentum_.balanceGravity(state);
   const std::vector<double> weight = state.pressure;
-  momentum_.advance(state, {state, state, properties_.viscosity, divergence, dt}, faceVelocity_);
+  // So short that nothing but the pressure changes the velocity; that of the blow is not kept.
+  momentum_.advance(state, {state, state, properties_.viscosity, divergence, 1e-6 * dt}, faceVelocity_);
   momentum_.endStep();
-  state.pressure = weight;  // without that of the blow that has changed the velocity
+  state.pressure = weight;
   updateFluxes(state, state);
 }
 
@@ -223,11 +225,13 @@ void TransportOperator::saveOrLoad(StateArchive& archive) {
   expansion_.saveOrLoad(archive);
 }
 
-void TransportOperator::advance(State& state, double, double dt) {
+void TransportOperator::advance(State& state, double time, double dt) {
   const FlushDenormals flush;
   const Mesh& m = context_.mesh;
   const bool first = ++sweep_ == 1;
   const bool several = options_.sweeps > 1;
+  // The gas's boundaries at the middle of its step, those of the velocities at the middle of theirs.
+  if (first && context_.varying) context_.varying->set(time + 0.5 * dt, time + 0.25 * (dt - lastStep_));
   // A temperature out of range on one rank must stop all of them.
   collectively(m.comm, [&] { properties_.update(context_, state); });
   expansion_.begin(state, properties_, diffusion_, first, dt, lastStep_);

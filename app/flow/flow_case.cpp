@@ -9,6 +9,8 @@
 #include "app/deck/temperature_input.hpp"
 #include "app/flow/flow_case_parts.hpp"
 #include "app/flow/flow_limits.hpp"
+#include "app/flow/given_fields.hpp"
+#include "app/flow/initial_flame1d.hpp"
 #include "app/tools/gas_input.hpp"
 #include "core/errors.hpp"
 #include "core/grading.hpp"
@@ -64,15 +66,50 @@ Stream streamOf(const Deck& deck, const std::string& key, const FlowCase& flowCa
   throw deck.error(key, fmt::format("'{}' is not an inlet; the inlets are: {}", name, inlets));
 }
 
+// What is given over place, on whatever the start is otherwise.
+void readInitialFields(const Deck& deck, FlowCase& flowCase) {
+  const AxisNames axes = axisNames(flowCase.mesh.geometry);
+  const std::array<std::string, 2> velocities{"velocity_" + axes[0], "velocity_" + axes[1]};
+  const GivenFields given(
+      deck, "initial", axes,
+      {{"temperature", units::temperature}, {velocities[0], units::velocity}, {velocities[1], units::velocity}},
+      *flowCase.mechanism);
+  InitialFields& fields = flowCase.initialFields;
+  fields = {given.gas(), {given.find(velocities[0]), given.find(velocities[1])}};
+  if (!deck.has("initial.flame1d")) return;
+  if (!fields.isEmpty() || deck.choice("initial.layer") != "none")
+    throw deck.error("initial.flame1d", "a flame fills all of the mesh; expected 'layer: none' and no formulas or table");
+  fields = readInitialFlame(deck, flowCase);
+}
+
+// One gas everywhere, under the fields that are given.
+void readEvenStart(const Deck& deck, FlowCase& flowCase) {
+  MixingLayer& layer = flowCase.initial;
+  const GasVariation& gas = flowCase.initialFields.gas;
+  if (!deck.has("initial.composition") && gas.moleFractions.empty())
+    throw deck.error("initial", "a start without a layer needs the key 'composition'");
+  std::vector<double> Y(flowCase.mechanism->numSpecies(), 0.0);
+  if (deck.has("initial.composition")) {
+    Y = readComposition(deck, "initial.composition", *flowCase.mechanism);
+  } else {
+    double T = layer.temperature;
+    try {
+      gas.apply({0.0, 0.0}, 0.0, Thermo(*flowCase.mechanism), T, Y);
+    } catch (const InputError& error) {
+      throw deck.error("initial", error.what());
+    }
+  }
+  layer.low = layer.high = {layer.temperature, Y};
+  layer.burnt = false;
+  layer.hotWidth = 1.0;
+}
+
 void readInitial(const Deck& deck, FlowCase& flowCase) {
   MixingLayer& layer = flowCase.initial;
   layer.temperature = readTemperature(deck, "initial.temperature", *flowCase.mechanism, TemperatureUse::transport);
+  readInitialFields(deck, flowCase);
   if (deck.choice("initial.layer") == "none") {
-    if (!deck.has("initial.composition"))
-      throw deck.error("initial", "a start without a layer needs the key 'composition'");
-    layer.low = layer.high = {layer.temperature, readComposition(deck, "initial.composition", *flowCase.mechanism)};
-    layer.burnt = false;
-    layer.hotWidth = 1.0;
+    readEvenStart(deck, flowCase);
     return;
   }
   for (const char* key : {"low", "high"})

@@ -13,6 +13,7 @@
 #include "flow/boundary.hpp"
 #include "flow/carried_model.hpp"
 #include "flow/carried_operator.hpp"
+#include "flow/initial_fields.hpp"
 #include "flow/mixing_layer.hpp"
 #include "flow/radiation.hpp"
 #include "flow/reaction_operator.hpp"
@@ -66,6 +67,7 @@ struct FlowCase {
   std::array<double, 2> gravity{0.0, 0.0};    // m/s^2
   double referenceDensity = 0.0;              // kg/m^3, FlowContext
   MixingLayer initial;
+  InitialFields initialFields;  // over the layer
   TimeControl time;
   OutputControl output;
   CheckpointControl checkpoint;

@@ -2,11 +2,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
 #include "app/deck/temperature_input.hpp"
 #include "app/flow/flow_case_parts.hpp"
+#include "app/flow/given_fields.hpp"
 #include "app/tools/gas_input.hpp"
 #include "core/errors.hpp"
 
@@ -40,38 +42,121 @@ BoundaryPatch readPatch(const Deck& deck, const std::string& name, Geometry geom
   return patch;
 }
 
-BoundaryCondition readCondition(const Deck& deck, const std::string& name, const Mechanism& mechanism) {
-  const std::string section = "boundaries." + name, type = deck.choice(section + ".type");
-  const auto temperature = [&] {
-    return readTemperature(deck, section + ".temperature", mechanism, TemperatureUse::transport);
-  };
-  BoundaryCondition boundary;
-  boundary.name = name;
-  boundary.slip = deck.boolean(section + ".slip");
-  boundary.tangential = deck.quantity(section + ".tangential_velocity");
-  if (boundary.slip && boundary.tangential != 0)
-    throw deck.error(section + ".tangential_velocity",
-                     "a wall that the gas slides along does not move it; expected slip: false");
-  boundary.fixedComposition = deck.choice(section + ".species") == "fixed";
-  if (type == "inlet" || type == "outlet") {
-    boundary.kind = type == "inlet" ? BoundaryKind::Inlet : BoundaryKind::Outlet;
-    const std::string what = type == "inlet" ? "an inlet" : "an outlet (for the gas it may entrain)";
-    for (const char* key : {"temperature", "composition"})
-      if (!deck.has(section + "." + key)) throw deck.error(section, fmt::format("{} needs the key '{}'", what, key));
-    boundary.temperature = temperature();
-    boundary.Y = readComposition(deck, section + ".composition", mechanism);
-  }
-  if (type == "inlet") {
-    boundary.speed = neededQuantity(deck, section, "velocity", "an inlet");
-    requireLowMach(deck, section + ".velocity", Thermo(mechanism), boundary.speed, boundary.temperature, boundary.Y);
-  }
-  if (type == "symmetry") boundary.kind = BoundaryKind::Symmetry;
-  if (type == "wall" && deck.has(section + ".temperature")) {
-    boundary.isothermal = true;
-    boundary.temperature = temperature();
-  }
-  return boundary;
+// A place on a boundary, its middle.
+std::array<double, 2> middleOf(const BoundaryPatch& patch, const MeshSpec& mesh) {
+  const auto normal = static_cast<std::size_t>(patch.axis);
+  const std::vector<double>& along = mesh.vertices[1 - normal];
+  std::array<double, 2> place{};
+  place[normal] = patch.atMax ? mesh.vertices[normal].back() : mesh.vertices[normal].front();
+  place[1 - normal] = 0.5 * (std::max(patch.from, along.front()) + std::min(patch.to, along.back()));
+  return place;
 }
+
+// What may vary over a boundary of a type.
+GivenFields::Names variableNames(const std::string& type) {
+  if (type == "inlet")
+    return {{"velocity", units::velocity}, {"tangential_velocity", units::velocity}, {"temperature", units::temperature}};
+  if (type == "outlet") return {{"temperature", units::temperature}};
+  return {{"tangential_velocity", units::velocity}, {"temperature", units::temperature}, {"heat_flux", units::heatFlux}};
+}
+
+class ConditionReader {
+ public:
+  ConditionReader(const Deck& deck, const BoundaryPatch& patch, const MeshSpec& mesh, const Mechanism& mechanism)
+      : deck_(deck),
+        section_("boundaries." + patch.name),
+        type_(deck.choice(section_ + ".type")),
+        middle_(middleOf(patch, mesh)),
+        mechanism_(mechanism),
+        fields_(deck, section_, axisNames(mesh.geometry), variableNames(type_), mechanism) {
+    boundary_.name = patch.name;
+    boundary_.varies = {fields_.find("velocity"), fields_.find("tangential_velocity"), fields_.find("heat_flux"),
+                        fields_.gas()};
+  }
+
+  BoundaryCondition read() {
+    if (type_ == "symmetry") {
+      boundary_.kind = BoundaryKind::Symmetry;
+      if (!boundary_.varies.isEmpty()) throw deck_.error(section_, "there is nothing to give along a symmetry");
+      return boundary_;
+    }
+    boundary_.tangential = valueOf("tangential_velocity");
+    if (type_ == "wall")
+      readWall();
+    else
+      readGas();
+    if (type_ == "inlet") readInlet();
+    return boundary_;
+  }
+
+ private:
+  [[nodiscard]] std::string keyOf(const std::string& name) const { return section_ + "." + name; }
+
+  // By key, or by formula or table in the middle of the boundary at the start; 0 where it is not given.
+  [[nodiscard]] double valueOf(const std::string& name) const {
+    if (fields_.has(name) && deck_.isGiven(keyOf(name)))
+      throw deck_.error(keyOf(name), fmt::format("'{}' is given by a formula or a table, too", name));
+    if (fields_.has(name)) return fields_.find(name)(middle_, 0.0);
+    return deck_.optionalQuantity(keyOf(name)).value_or(0.0);
+  }
+  [[nodiscard]] bool isGiven(const std::string& name) const { return deck_.has(keyOf(name)) || fields_.has(name); }
+
+  void readTemperature() {
+    boundary_.temperature = valueOf("temperature");
+    requireTemperature(deck_, fields_.has("temperature") ? fields_.keyOf("temperature") : keyOf("temperature"),
+                       boundary_.temperature, mechanism_, TemperatureUse::transport);
+  }
+
+  void readWall() {
+    boundary_.slip = deck_.boolean(keyOf("slip"));
+    if (boundary_.slip && isGiven("tangential_velocity") && (boundary_.tangential != 0 || boundary_.varies.tangential))
+      throw deck_.error(keyOf("tangential_velocity"),
+                        "a wall that the gas slides along does not move it; expected slip: false");
+    boundary_.isothermal = isGiven("temperature");
+    if (boundary_.isothermal && isGiven("heat_flux"))
+      throw deck_.error(section_, "a wall has either a 'temperature' or a 'heat_flux'; expected one of them");
+    if (boundary_.isothermal) readTemperature();
+    boundary_.heatFlux = valueOf("heat_flux");
+    if (!fields_.gas().moleFractions.empty())
+      throw deck_.error(section_, "no gas comes through a wall; expected no mole fractions");
+  }
+
+  // Of an inlet, and of what an outlet may draw in.
+  void readGas() {
+    boundary_.kind = type_ == "inlet" ? BoundaryKind::Inlet : BoundaryKind::Outlet;
+    const std::string what = type_ == "inlet" ? "an inlet" : "an outlet (for the gas it may entrain)";
+    const GasVariation gas = fields_.gas();
+    if (!isGiven("temperature")) throw deck_.error(section_, fmt::format("{} needs the key 'temperature'", what));
+    if (!deck_.has(keyOf("composition")) && gas.moleFractions.empty())
+      throw deck_.error(section_, fmt::format("{} needs the key 'composition'", what));
+    readTemperature();
+    boundary_.Y = deck_.has(keyOf("composition")) ? readComposition(deck_, keyOf("composition"), mechanism_)
+                                                  : std::vector<double>(mechanism_.numSpecies(), 0.0);
+    given_ = {boundary_.temperature, boundary_.Y};
+    try {
+      gas.apply(middle_, 0.0, Thermo(mechanism_), given_.temperature, given_.Y);
+    } catch (const InputError& error) {
+      throw deck_.error(section_, error.what());
+    }
+    if (!deck_.has(keyOf("composition"))) boundary_.Y = given_.Y;
+  }
+
+  void readInlet() {
+    boundary_.fixedComposition = deck_.choice(keyOf("species")) == "fixed";
+    if (!isGiven("velocity")) throw deck_.error(section_, "an inlet needs the key 'velocity'");
+    boundary_.speed = valueOf("velocity");
+    requireLowMach(deck_, fields_.has("velocity") ? fields_.keyOf("velocity") : keyOf("velocity"), Thermo(mechanism_),
+                   std::abs(boundary_.speed), given_.temperature, given_.Y);
+  }
+
+  const Deck& deck_;
+  std::string section_, type_;
+  std::array<double, 2> middle_;
+  const Mechanism& mechanism_;
+  GivenFields fields_;
+  BoundaryCondition boundary_;
+  Stream given_;  // in the middle, at the start
+};
 
 // One side of the box and the mesh along it.
 struct Side {
@@ -143,7 +228,7 @@ void readBoundaries(const Deck& deck, FlowCase& flowCase) {
   const MeshSpec& mesh = flowCase.mesh;
   for (const std::string& name : deck.children("boundaries")) {
     flowCase.mesh.patches.push_back(readPatch(deck, name, mesh.geometry));
-    flowCase.boundaries.push_back(readCondition(deck, name, *flowCase.mechanism));
+    flowCase.boundaries.push_back(ConditionReader(deck, mesh.patches.back(), mesh, *flowCase.mechanism).read());
   }
   for (const BoundaryPatch& patch : mesh.patches) checkExtent(deck, flowCase, patch);
   for (int axis = 0; axis < 2; ++axis)

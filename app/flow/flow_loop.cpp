@@ -20,14 +20,20 @@ FlowLoop::FlowLoop(MPI_Comm comm, FlowCase flowCase)
       thermo_(*case_.mechanism),
       transport_(*case_.mechanism, case_.transport),
       context_{
-          mesh_, halo_, *case_.mechanism, thermo_, transport_, case_.boundaries, case_.gravity, case_.referenceDensity},
+          mesh_, halo_, *case_.mechanism, thermo_, transport_, case_.boundaries, case_.gravity, case_.referenceDensity,
+          std::ranges::any_of(case_.boundaries, [](const BoundaryCondition& b) { return !b.varies.isEmpty(); })
+              ? std::make_shared<BoundaryValues>(mesh_, case_.boundaries, thermo_)
+              : nullptr},
       state_(mesh_, case_.mechanism->numSpecies(),
              case_.carried ? CarriedOperator::scalarsOf(*case_.carried) : std::vector<CarriedScalar>{}),
       flow_(context_, state_, case_.flow),
       chemistry_(context_, keepingFailedCells(case_.chemistry)) {
   state_.thermodynamicPressure = case_.pressure;
   if (case_.carried) carried_ = std::make_unique<CarriedOperator>(context_, *case_.carried, 0, case_.carriedOptions);
-  collectively(comm_, [&] { setMixingLayer(context_, case_.initial, state_); });
+  collectively(comm_, [&] {
+    setMixingLayer(context_, case_.initial, state_);
+    setInitialFields(context_, case_.initialFields, state_);
+  });
   flow_.initialise(state_, case_.time.firstStep);
   operators_ = {&flow_, &chemistry_};
   if (carried_) operators_.push_back(carried_.get());

@@ -2,6 +2,8 @@
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/temperature_input.hpp"
 #include "app/flow/flow_case.hpp"
+#include "app/flow/given_fields.hpp"
+#include "app/flow/initial_flame1d.hpp"
 #include "app/tools/gas_input.hpp"
 
 namespace lampblack::app {
@@ -43,8 +45,8 @@ void addBoundaries(DeckSchema& schema) {
       .add(quantityKey(
                "boundaries.*.tangential_velocity", units::velocity,
                "Velocity along the boundary, in the direction of its axis: of a moving wall, or of a stream that comes "
-               "in at an angle.")
-               .byDefault("0 m/s")
+               "in at an angle; absent: zero.")
+               .optional()
                .onlyWith("boundaries.*.type", {"inlet", "wall"}))
       .add(temperatureKey("boundaries.*.temperature",
                           "inlet: of the stream; outlet: of entrained gas; wall: isothermal at this temperature.")
@@ -55,13 +57,22 @@ void addBoundaries(DeckSchema& schema) {
                .optional()
                .onlyWith("boundaries.*.type", {"inlet", "outlet"}))
       .add(choiceKey("boundaries.*.species", {"flux", "fixed"},
-                     "Fix the total species flux (no diffusive loss into the nozzle) or the mass fractions.")
+                     "flux: what the stream carries comes in, and nothing is lost by diffusion into the nozzle; fixed: the "
+                     "mass fractions at the inlet are held.")
                .byDefault("flux")
                .onlyWith("boundaries.*.type", {"inlet"}))
+      .add(quantityKey("boundaries.*.heat_flux", units::heatFlux,
+                       "Heat that comes through the wall into the gas; absent, and without a temperature: adiabatic.")
+               .optional()
+               .onlyWith("boundaries.*.type", {"wall"}))
       .add(booleanKey("boundaries.*.slip",
                       "true: the gas slides along the wall without friction; false: it sticks to the wall.")
                .byDefault("false")
                .onlyWith("boundaries.*.type", {"wall"}));
+  flowcase::addGivenFieldKeys(schema, "boundaries.*",
+                              "velocity (below zero: the gas that is there leaves), tangential_velocity, temperature, "
+                              "heat_flux and, of a stream, X_<species>, its mole fraction (the species that are not "
+                              "named share what is left of one in the proportions of 'composition')");
 }
 
 void addGravity(DeckSchema& schema) {
@@ -76,7 +87,8 @@ void addGravity(DeckSchema& schema) {
 void addInitial(DeckSchema& schema) {
   schema
       .section("initial", Presence::required,
-               "The start: two streams that mix across a burnt or hot layer, or one gas everywhere.")
+               "The start: two streams that mix across a burnt or hot layer, or one gas everywhere; over either "
+               "what formulas, a table or a one-dimensional flame give.")
       .add(choiceKey("initial.layer", {"burnt", "hot", "none"},
                      "burnt: complete combustion where the streams meet (without CO2 in the mechanism: equilibrium); "
                      "hot: cold mixture with a hot layer that ignites it; none: one gas everywhere.")
@@ -108,6 +120,10 @@ void addInitial(DeckSchema& schema) {
                .optional()
                .above(0)
                .onlyWith("initial.layer", {"hot"}));
+  flowcase::addGivenFieldKeys(schema, "initial",
+                              "temperature, velocity_<axis> and X_<species>, the mole fraction (the species that are "
+                              "not named keep their proportions)");
+  flowcase::addInitialFlameKeys(schema);
 }
 
 void addTimeAndOutput(DeckSchema& schema) {

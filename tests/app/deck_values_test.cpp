@@ -7,6 +7,7 @@
 #include "chemistry/thermo/thermo.hpp"
 #include "core/rooms.hpp"
 #include "tests/app/app_fixture.hpp"
+#include "tests/scratch.hpp"
 
 namespace lampblack::app {
 namespace {
@@ -77,6 +78,59 @@ TEST(DeckValues, OfAFlow) {
   EXPECT_EQ(paths.bins, 30);
   EXPECT_DOUBLE_EQ(paths.smallest, 1e-9);
   EXPECT_DOUBLE_EQ(paths.largest, 100e-9);
+}
+
+TEST(DeckValues, OverPlaceAndTime) {
+  const test::ScratchFolder scratch;
+  const std::string table = scratch.file("inlet.csv", "t [ms],temperature [degC],X_O2\n0,26.85,0.25\n2,126.85,0.35\n");
+  const FlowCase flow = readFlowCase(test::flameDeck(
+      {"boundaries.fuel={type: inlet, side: z-min, to: 10 mm, composition: 'C2H4: 1', temperature: 310 K, "
+       "formula: {velocity: 0.3*(1 - (r/0.01)^2), tangential_velocity: 0.1*z + t}}",
+       "boundaries.oxidiser={type: inlet, side: z-max, to: 10 mm, composition: 'O2: 0.2, N2: 0.8', velocity: 0.2, table: " +
+           table + "}",
+       "boundaries.fuel_flange={type: wall, side: z-min, from: 10 mm, heat_flux: 3 kW/m^2}",
+       "boundaries.oxidiser_flange={type: wall, side: z-max, from: 10 mm, formula: {heat_flux: 5*t}}",
+       "initial.formula={temperature: 300 + 1e5*r, velocity_z: 2*z, X_N2: 0.5}"}));
+  const auto& b = flow.boundaries;
+  const std::size_t O2 = flow.mechanism->speciesIndex("O2"), N2 = flow.mechanism->speciesIndex("N2");
+  ASSERT_TRUE(b[0].varies.speed && b[0].varies.tangential);
+  EXPECT_FALSE(b[0].varies.gas.temperature);
+  EXPECT_DOUBLE_EQ(b[0].varies.speed({5e-3, 0.0}, 0.0), 0.225);
+  EXPECT_DOUBLE_EQ(b[0].varies.tangential({0.0, 2.0}, 3.0), 3.2);
+  EXPECT_DOUBLE_EQ(b[0].speed, 0.225) << "in its middle";
+  EXPECT_EQ(b[0].temperature, 310.0);
+  EXPECT_DOUBLE_EQ(b[1].varies.gas.temperature({1.0, 1.0}, 1e-3), 350.0);
+  EXPECT_DOUBLE_EQ(b[1].temperature, 300.0);
+  double T = 0.0;
+  std::vector<double> Y = b[1].Y, X(Y.size());
+  b[1].varies.gas.apply({0.0, 0.0}, 5e-4, Thermo(*flow.mechanism), T, Y);
+  Thermo(*flow.mechanism).massToMole(Y, X);
+  EXPECT_DOUBLE_EQ(T, 325.0);
+  EXPECT_NEAR(X[O2], 0.275, 1e-14);
+  EXPECT_NEAR(X[N2], 0.725, 1e-14);
+  EXPECT_EQ(b[2].heatFlux, 3000.0);
+  EXPECT_FALSE(b[2].isothermal);
+  EXPECT_DOUBLE_EQ(b[3].varies.heatFlux({0.0, 0.0}, 3.0), 15.0);
+  const InitialFields& start = flow.initialFields;
+  EXPECT_DOUBLE_EQ(start.gas.temperature({1e-3, 0.0}, 0.0), 400.0);
+  EXPECT_FALSE(start.velocity[0]);
+  EXPECT_DOUBLE_EQ(start.velocity[1]({0.0, 3.0}, 0.0), 6.0);
+  ASSERT_EQ(start.gas.moleFractions.size(), 1U);
+  EXPECT_EQ(start.gas.moleFractions[0].first, N2);
+}
+
+TEST(DeckValues, AFlameLaidOverTheMesh) {
+  const test::ScratchFolder scratch;
+  const std::string profile = scratch.file(
+      "profile.csv", "z [m],temperature [K],velocity [m/s],spread [1/s],heat_release [W/m^3],X_O2 [1],X_N2 [1]\n"
+                     "0,300,0.2,10,7,0.2,0.8\n0.004,700,0.4,20,7,0.4,0.6\n");
+  const FlowCase flow = readFlowCase(
+      test::flameDeck({"initial={layer: none, flame1d: {file: " + profile + ", axis: z, origin: 1 mm}}"}));
+  const InitialFields& start = flow.initialFields;
+  EXPECT_DOUBLE_EQ(start.gas.temperature({9.0, 3e-3}, 0.0), 500.0);
+  EXPECT_DOUBLE_EQ(start.velocity[1]({9.0, 2e-3}, 0.0), 0.25);
+  EXPECT_DOUBLE_EQ(start.velocity[0]({2e-3, 3e-3}, 0.0), 15.0 * 2e-3);
+  EXPECT_EQ(start.gas.moleFractions.size(), 2U);
 }
 
 ReactorCase reactor(const std::string& text) {

@@ -1,0 +1,31 @@
+// A gas that depends on place and time: at a boundary, or at the start.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "chemistry/thermo/thermo.hpp"
+#include "core/rooms.hpp"
+
+namespace lampblack::flow {
+
+// A quantity over place and time, SI. Place: both coordinates of the mesh, m.
+using FieldFunction = std::function<double(const std::array<double, 2>& place, double time)>;
+
+struct GasVariation {
+  FieldFunction temperature;  // K; empty: does not vary
+  // Of some species, by number; the others keep their proportions and share what is left of one.
+  std::vector<std::pair<std::size_t, FieldFunction>> moleFractions;
+
+  [[nodiscard]] bool isEmpty() const { return !temperature && moleFractions.empty(); }
+
+  // Changes what varies. InputError where a temperature is out of the range of transport properties or mole fractions
+  // are below zero or do not sum to one.
+  void apply(const std::array<double, 2>& place, double time, const Thermo& thermo, double& T,
+             std::vector<double>& Y) const;
+};
+
+}  // namespace lampblack::flow

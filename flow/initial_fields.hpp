@@ -1,0 +1,24 @@
+// A start that is given over place, in place of a mixing layer or beside one.
+#pragma once
+
+#include <array>
+
+#include "core/rooms.hpp"
+#include "flow/flow_context.hpp"
+#include "flow/gas_variation.hpp"
+#include "flow/state.hpp"
+
+namespace lampblack::flow {
+
+struct InitialFields {
+  GasVariation gas;
+  std::array<FieldFunction, 2> velocity;  // m/s, along the mesh's axes; empty: at rest
+
+  [[nodiscard]] bool isEmpty() const { return gas.isEmpty() && !velocity[0] && !velocity[1]; }
+};
+
+// Changes what is given, at time zero; the rest of the state is that of before (halo included). InputError with the
+// place where a value cannot be.
+void setInitialFields(const FlowContext& context, const InitialFields& fields, State& state);
+
+}  // namespace lampblack::flow

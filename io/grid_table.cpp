@@ -1,0 +1,151 @@
+#include "io/grid_table.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "core/errors.hpp"
+#include "core/text_file.hpp"
+#include "io/csv.hpp"
+
+namespace lampblack::io {
+namespace {
+
+// "velocity [cm/s]": the name and the unit.
+std::pair<std::string, std::string> nameAndUnit(const std::string& header) {
+  const std::size_t open = header.rfind(" [");
+  if (open == std::string::npos || !header.ends_with(']')) return {header, ""};
+  return {header.substr(0, open), header.substr(open + 2, header.size() - open - 3)};
+}
+
+// Reads a column's fields into SI.
+class Column {
+ public:
+  Column(const std::string& name, const std::string& unit, const units::Dimension& dimension) : name_(name) {
+    if (unit.empty() || unit == "1") return;
+    unit_ = units::parseUnit(unit);
+    if (unit_.dimension != dimension)
+      throw InputError(fmt::format("the column '{}' is in {}; expected {}", name, unit, units::describe(dimension)));
+  }
+  [[nodiscard]] double read(const std::string& field, std::size_t row) const {
+    try {
+      return unit_.factor * units::parseNumber(field) + unit_.offset;
+    } catch (const InputError&) {
+      throw InputError(fmt::format("row {}: expected a number as '{}', found '{}'", row + 1, name_, field));
+    }
+  }
+
+ private:
+  std::string name_;
+  units::Unit unit_;
+};
+
+}  // namespace
+
+GridTable::GridTable(const std::filesystem::path& file, std::vector<Coordinate> coordinates,
+                     const DimensionOf& dimensionOf)
+    : coordinates_(std::move(coordinates)) {
+  if (coordinates_.size() > maxCoordinates) throw std::logic_error("GridTable: too many coordinates");
+  const TextTable table = readCsv(readTextFile(file, "a table"));
+  const auto fail = [&](const std::string& why) { return InputError(fmt::format("{}: {}", file.string(), why)); };
+  std::vector<std::vector<double>> places(coordinates_.size()), columns;
+  try {
+    for (std::size_t column = 0; column < table.columns.size(); ++column) {
+      const auto [name, unit] = nameAndUnit(table.columns[column]);
+      const auto coordinate =
+          std::ranges::find_if(coordinates_, [&](const Coordinate& known) { return known.name == name; });
+      const bool isCoordinate = coordinate != coordinates_.end();
+      const auto dimension = isCoordinate ? coordinate->dimension : dimensionOf(name);
+      if (!dimension) continue;
+      const Column reader(name, unit, *dimension);
+      std::vector<double> values;
+      for (std::size_t row = 0; row < table.rows.size(); ++row)
+        values.push_back(reader.read(table.rows[row][column], row));
+      if (isCoordinate) {
+        places[static_cast<std::size_t>(coordinate - coordinates_.begin())] = std::move(values);
+      } else {
+        names_.push_back(name);
+        columns.push_back(std::move(values));
+      }
+    }
+  } catch (const InputError& error) {
+    throw fail(error.what());
+  }
+  if (table.rows.empty()) throw fail("the table has no rows");
+  if (names_.empty()) throw fail("no column has a name that counts here");
+
+  std::size_t points = 1;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (places[i].empty()) continue;
+    Axis axis{i, places[i]};
+    std::ranges::sort(axis.points);
+    axis.points.erase(std::unique(axis.points.begin(), axis.points.end()), axis.points.end());
+    points *= axis.points.size();
+    axes_.push_back(std::move(axis));
+  }
+  if (axes_.empty()) {
+    std::vector<std::string> known;
+    for (const Coordinate& coordinate : coordinates_) known.push_back(coordinate.name);
+    throw fail(fmt::format("expected a column of one of: {}", fmt::join(known, ", ")));
+  }
+  if (points != table.rows.size())
+    throw fail(fmt::format("its coordinates span a grid of {} points, but there are {} rows; expected a row for each",
+                           points, table.rows.size()));
+  values_.assign(names_.size(), std::vector<double>(points, NAN));
+  for (std::size_t row = 0; row < points; ++row) {
+    std::size_t at = 0;
+    for (const Axis& axis : axes_) {
+      const auto found = std::ranges::lower_bound(axis.points, places[axis.coordinate][row]);
+      at = at * axis.points.size() + static_cast<std::size_t>(found - axis.points.begin());
+    }
+    if (!std::isnan(values_[0][at])) throw fail(fmt::format("row {} has the place of another row", row + 1));
+    for (std::size_t column = 0; column < names_.size(); ++column) values_[column][at] = columns[column][row];
+  }
+}
+
+bool GridTable::has(const std::string& name) const {
+  return std::ranges::find(names_, name) != names_.end();
+}
+
+bool GridTable::dependsOn(const std::string& coordinate) const {
+  return std::ranges::any_of(axes_, [&](const Axis& axis) { return coordinates_[axis.coordinate].name == coordinate; });
+}
+
+std::pair<double, double> GridTable::range(const std::string& coordinate) const {
+  for (const Axis& axis : axes_)
+    if (coordinates_[axis.coordinate].name == coordinate) return {axis.points.front(), axis.points.back()};
+  return {0.0, 0.0};
+}
+
+double GridTable::value(std::size_t column, std::span<const double> place) const {
+  // Of each axis the point before the place and the share of the one after it.
+  std::array<std::pair<std::size_t, double>, maxCoordinates> cell;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    const Axis& axis = axes_[i];
+    const std::vector<double>& points = axis.points;
+    const double x = std::clamp(place[axis.coordinate], points.front(), points.back());
+    const auto after = std::ranges::upper_bound(points, x);
+    const auto last = static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - points.begin() - 1, 0));
+    const std::size_t before = std::min(last, points.size() < 2 ? 0 : points.size() - 2);
+    const double share = points.size() < 2 ? 0.0 : (x - points[before]) / (points[before + 1] - points[before]);
+    cell[i] = {before, share};
+  }
+  double sum = 0.0;
+  for (std::size_t corner = 0; corner < (std::size_t{1} << axes_.size()); ++corner) {
+    double weight = 1.0;
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+      const bool isAfter = (corner >> i) & 1U;
+      weight *= isAfter ? cell[i].second : 1.0 - cell[i].second;
+      at = at * axes_[i].points.size() + cell[i].first + (isAfter && weight > 0.0 ? 1 : 0);
+    }
+    if (weight > 0.0) sum += weight * values_[column][at];
+  }
+  return sum;
+}
+
+}  // namespace lampblack::io

@@ -1,0 +1,69 @@
+// Tables over place and time.
+#include "io/grid_table.hpp"
+
+#include <gmock/gmock.h>
+
+#include <array>
+
+#include "core/errors.hpp"
+#include "tests/every_room.hpp"
+#include "tests/messages.hpp"
+#include "tests/scratch.hpp"
+
+namespace lampblack::test {
+namespace {
+
+using testing::HasSubstr;
+
+class Tables : public testing::Test {
+ protected:
+  ScratchFolder folder;
+  GridTable read(const std::string& text) const {
+    return {folder.file("table.csv", text), {{"r", units::length}, {"z", units::length}, {"t", units::time}},
+            [](const std::string& name) -> std::optional<units::Dimension> {
+              if (name == "velocity") return units::velocity;
+              if (name == "temperature") return units::temperature;
+              return std::nullopt;
+            }};
+  }
+  std::string problem(const std::string& text) const {
+    return messageOf<InputError>([&] { (void)read(text); });
+  }
+};
+
+TEST_F(Tables, AreLinearBetweenPointsAndConstantBeyond) {
+  const GridTable table = read("z [mm],velocity [cm/s],note\n0,10,a\n2,30,b\n1,40,c\n");
+  EXPECT_THAT(table.names(), testing::ElementsAre("velocity"));
+  EXPECT_TRUE(table.dependsOn("z"));
+  EXPECT_FALSE(table.dependsOn("t"));
+  EXPECT_EQ(table.range("z"), (std::pair{0.0, 2e-3}));
+  const auto at = [&](double z) { return table.value(0, std::array{9.0, z, 9.0}); };
+  EXPECT_NEAR(at(0.5e-3), 0.25, 1e-15);
+  EXPECT_NEAR(at(1e-3), 0.40, 1e-15);
+  EXPECT_NEAR(at(1.75e-3), 0.325, 1e-15);
+  EXPECT_NEAR(at(-1.0), 0.10, 1e-15);
+  EXPECT_NEAR(at(1.0), 0.30, 1e-15);
+}
+
+TEST_F(Tables, SpanAGridInAnyOrder) {
+  // 1 + r + 10 t, 300 + r t: bilinear, so exact.
+  const GridTable table = read("t,velocity,r,temperature [degC]\n2,21,0,26.85\n0,4,3,26.85\n2,24,3,32.85\n0,1,0,26.85\n");
+  for (const double r : {0.0, 1.2, 3.0})
+    for (const double t : {0.0, 0.5, 2.0}) {
+      EXPECT_NEAR(table.value(0, std::array{r, 7.0, t}), 1.0 + r + 10.0 * t, 1e-12);
+      EXPECT_NEAR(table.value(1, std::array{r, 7.0, t}), 300.0 + r * t, 1e-10);
+    }
+}
+
+TEST_F(Tables, SayWhatIsWrong) {
+  EXPECT_THAT(problem("velocity\n1\n"), HasSubstr("expected a column of one of: r, z, t"));
+  EXPECT_THAT(problem("r,speed\n1,2\n"), HasSubstr("no column has a name that counts here"));
+  EXPECT_THAT(problem("r,velocity\n"), HasSubstr("no rows"));
+  EXPECT_THAT(problem("r,velocity\n1,fast\n"), HasSubstr("row 1: expected a number as 'velocity', found 'fast'"));
+  EXPECT_THAT(problem("r,velocity [K]\n1,2\n"), HasSubstr("'velocity' is in K; expected a velocity"));
+  EXPECT_THAT(problem("r,t,velocity\n0,0,1\n1,0,1\n0,1,1\n"), HasSubstr("a grid of 4 points, but there are 3 rows"));
+  EXPECT_THAT(problem("r,t,velocity\n0,0,1\n1,0,1\n0,1,1\n0,1,1\n"), HasSubstr("row 4 has the place of another row"));
+}
+
+}  // namespace
+}  // namespace lampblack::test
