@@ -166,7 +166,7 @@ MISTAKES = [
     Wrong("a wall with two heats", "{type: wall, side: z-min, from: 10 mm}",
           "{type: wall, side: z-min, from: 10 mm, temperature: 300 K, heat_flux: 1 W/m^2}", "  fuel_flange:",
           "boundaries.fuel_flange", ("either a 'temperature' or a 'heat_flux'",)),
-    Wrong("a flame under a layer", "  layer: burnt", "  layer: burnt\n  flame1d: {file: nowhere.csv, axis: z}", "  flame1d:",
+    Wrong("a flame under a layer", "  low: fuel", "  low: fuel\n  flame1d: {file: nowhere.csv, axis: z}", "  flame1d:",
           "initial.flame1d", ("expected 'layer: none'",)),
     Wrong("trajectory that starts on the outlet", "{r: 2 mm, z: 4.5 mm}", "{r: 14 mm, z: 4.5 mm}", "r: 14 mm",
           "trajectories.start[1]", ("lies on the outlet 'outflow'",)),
