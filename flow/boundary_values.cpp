@@ -8,8 +8,7 @@
 
 namespace lampblack::flow {
 
-BoundaryValues::BoundaryValues(const Mesh& mesh, const std::vector<BoundaryCondition>& boundaries,
-                               const Thermo& thermo)
+BoundaryValues::BoundaryValues(const Mesh& mesh, const std::vector<BoundaryCondition>& boundaries, const Thermo& thermo)
     : mesh_(mesh), boundaries_(boundaries), thermo_(thermo) {
   for (int face = mesh.interiorFaces; face < mesh.faces; ++face) {
     const bool varies =

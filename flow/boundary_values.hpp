@@ -16,16 +16,16 @@ class BoundaryValues {
 
   [[nodiscard]] bool isEmpty() const { return faces_.empty(); }
 
-  // Collective. The gas's boundaries at the time `gas`, what velocities meet at the time `velocity` (s). InputError with
-  // the place where a temperature or a composition is none.
+  // Collective. The gas's boundaries at the time `gas`, what velocities meet at the time `velocity` (s). InputError
+  // with the place where a temperature or a composition is none.
   void set(double gas, double velocity);
 
   struct Face {
-    double speed = 0.0;             // m/s, at the time of the gas
-    double speedOfMomentum = 0.0;   // m/s, at that of the velocities
-    double tangential = 0.0;        // m/s, at that of the velocities
-    double temperature = 0.0;       // K
-    double heatFlux = 0.0;          // W/m^2
+    double speed = 0.0;            // m/s, at the time of the gas
+    double speedOfMomentum = 0.0;  // m/s, at that of the velocities
+    double tangential = 0.0;       // m/s, at that of the velocities
+    double temperature = 0.0;      // K
+    double heatFlux = 0.0;         // W/m^2
     std::vector<double> Y;
   };
   // Null where nothing varies.

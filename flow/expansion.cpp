@@ -24,8 +24,7 @@ Expansion::Expansion(const FlowContext& context)
       gained_(divergence_),
       drift_(divergence_),
       heat_(divergence_),
-      enthalpies_(context.mechanism.numSpecies()) {
-}
+      enthalpies_(context.mechanism.numSpecies()) {}
 
 // Volume that comes in, m^3/s.
 double Expansion::inflow() const {

@@ -16,9 +16,7 @@ std::vector<BoundaryData> knownData(const FlowContext& context, bool isOfTempera
     const bool isWall = boundary.kind == BoundaryKind::Wall || boundary.kind == BoundaryKind::Symmetry;
     const bool isGiven = !isWall || (isOfTemperature && boundary.kind == BoundaryKind::Wall && boundary.isothermal);
     const bool hasFlux = isOfTemperature && (boundary.heatFlux != 0.0 || boundary.varies.heatFlux);
-    known.push_back(isGiven   ? BoundaryData::Value
-                    : hasFlux ? BoundaryData::Nothing
-                              : BoundaryData::ZeroSlope);
+    known.push_back(isGiven ? BoundaryData::Value : hasFlux ? BoundaryData::Nothing : BoundaryData::ZeroSlope);
   }
   return known;
 }
@@ -64,7 +62,8 @@ void FaceState::setBoundaries(const State& state) {
     const bool isTemperatureGiven = temperatureKnown_[b] == BoundaryData::Value;
     const bool isYGiven = YKnown_[b] == BoundaryData::Value;
     boundaryTemperature_[b] = isTemperatureGiven ? context_.boundaryTemperature(face) : state.temperature[c];
-    std::copy_n(isYGiven ? context_.boundaryY(face).data() : &state.Y[c * species_], species_, &boundaryY_[b * species_]);
+    std::copy_n(isYGiven ? context_.boundaryY(face).data() : &state.Y[c * species_], species_,
+                &boundaryY_[b * species_]);
     // No particles come in.
     for (int s = 0; s < carried_; ++s) boundaryCarried_[b * carried_ + s] = isYGiven ? 0.0 : perMass_[c * carried_ + s];
   }

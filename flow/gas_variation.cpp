@@ -12,7 +12,7 @@
 namespace lampblack::flow {
 namespace {
 
-constexpr double roundOff = 1e-9;      // of a sum of mole fractions
+constexpr double roundOff = 1e-9;       // of a sum of mole fractions
 constexpr double writtenDigits = 1e-3;  // the same where all are given, as in a table
 
 // Mole fractions of which some are given: the others keep their proportions and fill what is left of one.

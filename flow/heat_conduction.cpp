@@ -17,8 +17,8 @@ void HeatConduction::prepare(const GasProperties& properties) {
       continue;
     }
     const BoundaryCondition& boundary = context_.boundaryOf(face);
-    const bool given =
-        (boundary.kind == BoundaryKind::Inlet && !context_.isSuction(face)) || (boundary.kind == BoundaryKind::Wall && boundary.isothermal);
+    const bool given = (boundary.kind == BoundaryKind::Inlet && !context_.isSuction(face)) ||
+                       (boundary.kind == BoundaryKind::Wall && boundary.isothermal);
     if (given) conductance_[face] = metric * properties.conductivity[low];
   }
 }

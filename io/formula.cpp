@@ -24,8 +24,7 @@ Formula::Formula(const std::string& text, const std::vector<std::string>& variab
   parser_->values.assign(variables.size(), 1.0);
   try {
     parser_->expression.DefineConst("pi", std::numbers::pi);
-    for (std::size_t i = 0; i < variables.size(); ++i)
-      parser_->expression.DefineVar(variables[i], &parser_->values[i]);
+    for (std::size_t i = 0; i < variables.size(); ++i) parser_->expression.DefineVar(variables[i], &parser_->values[i]);
     parser_->expression.SetExpr(text);
     parser_->expression.Eval();
     if (parser_->expression.GetNumResults() != 1) throw InputError("it has several results; expected one expression");

@@ -78,7 +78,8 @@ void readInitialFields(const Deck& deck, FlowCase& flowCase) {
   fields = {given.gas(), {given.find(velocities[0]), given.find(velocities[1])}};
   if (!deck.has("initial.flame1d")) return;
   if (!fields.isEmpty() || deck.choice("initial.layer") != "none")
-    throw deck.error("initial.flame1d", "a flame fills all of the mesh; expected 'layer: none' and no formulas or table");
+    throw deck.error("initial.flame1d",
+                     "a flame fills all of the mesh; expected 'layer: none' and no formulas or table");
   fields = readInitialFlame(deck, flowCase);
 }
 

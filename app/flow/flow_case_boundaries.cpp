@@ -55,9 +55,11 @@ std::array<double, 2> middleOf(const BoundaryPatch& patch, const MeshSpec& mesh)
 // What may vary over a boundary of a type.
 GivenFields::Names variableNames(const std::string& type) {
   if (type == "inlet")
-    return {{"velocity", units::velocity}, {"tangential_velocity", units::velocity}, {"temperature", units::temperature}};
+    return {
+        {"velocity", units::velocity}, {"tangential_velocity", units::velocity}, {"temperature", units::temperature}};
   if (type == "outlet") return {{"temperature", units::temperature}};
-  return {{"tangential_velocity", units::velocity}, {"temperature", units::temperature}, {"heat_flux", units::heatFlux}};
+  return {
+      {"tangential_velocity", units::velocity}, {"temperature", units::temperature}, {"heat_flux", units::heatFlux}};
 }
 
 class ConditionReader {

@@ -19,11 +19,17 @@ FlowLoop::FlowLoop(MPI_Comm comm, FlowCase flowCase)
       halo_(mesh_),
       thermo_(*case_.mechanism),
       transport_(*case_.mechanism, case_.transport),
-      context_{
-          mesh_, halo_, *case_.mechanism, thermo_, transport_, case_.boundaries, case_.gravity, case_.referenceDensity,
-          std::ranges::any_of(case_.boundaries, [](const BoundaryCondition& b) { return !b.varies.isEmpty(); })
-              ? std::make_shared<BoundaryValues>(mesh_, case_.boundaries, thermo_)
-              : nullptr},
+      context_{mesh_,
+               halo_,
+               *case_.mechanism,
+               thermo_,
+               transport_,
+               case_.boundaries,
+               case_.gravity,
+               case_.referenceDensity,
+               std::ranges::any_of(case_.boundaries, [](const BoundaryCondition& b) { return !b.varies.isEmpty(); })
+                   ? std::make_shared<BoundaryValues>(mesh_, case_.boundaries, thermo_)
+                   : nullptr},
       state_(mesh_, case_.mechanism->numSpecies(),
              case_.carried ? CarriedOperator::scalarsOf(*case_.carried) : std::vector<CarriedScalar>{}),
       flow_(context_, state_, case_.flow),

@@ -56,9 +56,10 @@ void addBoundaries(DeckSchema& schema) {
                      "Mole fractions of the stream (inlet) or of gas that is entrained (outlet), 'C2H4: 1, N2: 3'.")
                .optional()
                .onlyWith("boundaries.*.type", {"inlet", "outlet"}))
-      .add(choiceKey("boundaries.*.species", {"flux", "fixed"},
-                     "flux: what the stream carries comes in, and nothing is lost by diffusion into the nozzle; fixed: the "
-                     "mass fractions at the inlet are held.")
+      .add(choiceKey(
+               "boundaries.*.species", {"flux", "fixed"},
+               "flux: what the stream carries comes in, and nothing is lost by diffusion into the nozzle; fixed: the "
+               "mass fractions at the inlet are held.")
                .byDefault("flux")
                .onlyWith("boundaries.*.type", {"inlet"}))
       .add(quantityKey("boundaries.*.heat_flux", units::heatFlux,

@@ -25,10 +25,11 @@ std::vector<std::string> namesOf(const GivenFields::Names& names) {
 
 void addGivenFieldKeys(DeckSchema& schema, const std::string& section, const std::string& names) {
   schema
-      .add(stringKey(section + ".formula.*",
-                     "A quantity over place and time, '0.2*(1 - (r/0.005)^2)': a formula in SI of the mesh's axes (r and "
-                     "z, or x and y) and t. Its name is one of: " +
-                         names + ".")
+      .add(stringKey(
+               section + ".formula.*",
+               "A quantity over place and time, '0.2*(1 - (r/0.005)^2)': a formula in SI of the mesh's axes (r and "
+               "z, or x and y) and t. Its name is one of: " +
+                   names + ".")
                .optional())
       .add(stringKey(section + ".table",
                      "CSV file, relative to the deck, with columns that have the name of an axis or t, and of the same "

@@ -86,7 +86,8 @@ TEST(DeckValues, OverPlaceAndTime) {
   const FlowCase flow = readFlowCase(test::flameDeck(
       {"boundaries.fuel={type: inlet, side: z-min, to: 10 mm, composition: 'C2H4: 1', temperature: 310 K, "
        "formula: {velocity: 0.3*(1 - (r/0.01)^2), tangential_velocity: 0.1*z + t}}",
-       "boundaries.oxidiser={type: inlet, side: z-max, to: 10 mm, composition: 'O2: 0.2, N2: 0.8', velocity: 0.2, table: " +
+       "boundaries.oxidiser={type: inlet, side: z-max, to: 10 mm, composition: 'O2: 0.2, N2: 0.8', velocity: 0.2, "
+       "table: " +
            table + "}",
        "boundaries.fuel_flange={type: wall, side: z-min, from: 10 mm, heat_flux: 3 kW/m^2}",
        "boundaries.oxidiser_flange={type: wall, side: z-max, from: 10 mm, formula: {heat_flux: 5*t}}",
@@ -121,11 +122,12 @@ TEST(DeckValues, OverPlaceAndTime) {
 
 TEST(DeckValues, AFlameLaidOverTheMesh) {
   const test::ScratchFolder scratch;
-  const std::string profile = scratch.file(
-      "profile.csv", "z [m],temperature [K],velocity [m/s],spread [1/s],heat_release [W/m^3],X_O2 [1],X_N2 [1]\n"
-                     "0,300,0.2,10,7,0.2,0.8\n0.004,700,0.4,20,7,0.4,0.6\n");
-  const FlowCase flow = readFlowCase(
-      test::flameDeck({"initial={layer: none, flame1d: {file: " + profile + ", axis: z, origin: 1 mm}}"}));
+  const std::string profile =
+      scratch.file("profile.csv",
+                   "z [m],temperature [K],velocity [m/s],spread [1/s],heat_release [W/m^3],X_O2 [1],X_N2 [1]\n"
+                   "0,300,0.2,10,7,0.2,0.8\n0.004,700,0.4,20,7,0.4,0.6\n");
+  const FlowCase flow =
+      readFlowCase(test::flameDeck({"initial={layer: none, flame1d: {file: " + profile + ", axis: z, origin: 1 mm}}"}));
   const InitialFields& start = flow.initialFields;
   EXPECT_DOUBLE_EQ(start.gas.temperature({9.0, 3e-3}, 0.0), 500.0);
   EXPECT_DOUBLE_EQ(start.velocity[1]({9.0, 2e-3}, 0.0), 0.25);

@@ -73,7 +73,8 @@ TEST_F(VaryingBoundaries, SayWhereAValueCannotBe) {
               testing::HasSubstr("sum to one, found 1.2"));
 }
 
-// What comes in through an inlet that swells, of a gas that changes, is what the domain gains; the flow is faster at the top.
+// What comes in through an inlet that swells, of a gas that changes, is what the domain gains; the flow is faster at
+// the top.
 TEST_F(VaryingBoundaries, FeedTheFlow) {
   Side in = inlet();
   in.condition.varies.speed = [](const Place& x, double t) { return (0.1 + x[1] / size) * (1.0 + 50.0 * t); };
@@ -97,8 +98,8 @@ TEST_F(VaryingBoundaries, FeedTheFlow) {
   EXPECT_NEAR(sumOverRanks(fed) / expected, 1.0, 1e-12);
 }
 
-// A wall takes gas away where its velocity into the domain is below zero: the domain loses what is there, not what the inlet
-// would feed.
+// A wall takes gas away where its velocity into the domain is below zero: the domain loses what is there, not what the
+// inlet would feed.
 TEST_F(VaryingBoundaries, AnInletBelowZeroLetsTheGasOut) {
   Side in = inlet(), end = outlet();
   end.condition.temperature = 400.0;
@@ -114,8 +115,8 @@ TEST_F(VaryingBoundaries, AnInletBelowZeroLetsTheGasOut) {
   EXPECT_NEAR(largest(b.mesh, [&](int c) { return state.temperature[at(c)]; }), 400.0, 1.0);
 }
 
-// Between a wall that heats and one of 300 K: the heat that comes in leaves, and the integral of the conductivity over the
-// temperature is heat flux times distance.
+// Between a wall that heats and one of 300 K: the heat that comes in leaves, and the integral of the conductivity over
+// the temperature is heat flux times distance.
 TEST_F(VaryingBoundaries, AWallOfGivenHeatFlux) {
   Side hot = side(BoundaryKind::Wall, 0, false), cold = side(BoundaryKind::Wall, 0, true);
   hot.condition.slip = cold.condition.slip = false;

@@ -26,13 +26,17 @@ TEST(Formula, HasItsVariablesInTheirOrder) {
 }
 
 TEST(Formula, SaysWhatIsWrong) {
-  EXPECT_THAT(messageOf<InputError>([] { Formula("2*radius", {"r", "t"}); }),
+  EXPECT_THAT(messageOf<InputError>([] {
+                Formula("2*radius", {"r", "t"});
+              }),
               testing::AllOf(HasSubstr("2*radius"), HasSubstr("radius"), HasSubstr("its variables are r, t")));
   EXPECT_THAT(messageOf<InputError>([] { Formula("(1 + r", {"r"}); }), HasSubstr("cannot be read"));
   EXPECT_THAT(messageOf<InputError>([] { Formula("", {"r"}); }), HasSubstr("cannot be read"));
   EXPECT_THAT(messageOf<InputError>([] { Formula("r, 2", {"r"}); }), HasSubstr("one expression"));
   const Formula pole("1/r", {"r", "t"});
-  EXPECT_THAT(messageOf<InputError>([&] { pole(std::array{0.0, 3.0}); }),
+  EXPECT_THAT(messageOf<InputError>([&] {
+                pole(std::array{0.0, 3.0});
+              }),
               HasSubstr("no finite number at r = 0, t = 3"));
 }
 

@@ -19,7 +19,8 @@ class Tables : public testing::Test {
  protected:
   ScratchFolder folder;
   GridTable read(const std::string& text) const {
-    return {folder.file("table.csv", text), {{"r", units::length}, {"z", units::length}, {"t", units::time}},
+    return {folder.file("table.csv", text),
+            {{"r", units::length}, {"z", units::length}, {"t", units::time}},
             [](const std::string& name) -> std::optional<units::Dimension> {
               if (name == "velocity") return units::velocity;
               if (name == "temperature") return units::temperature;
@@ -47,7 +48,8 @@ TEST_F(Tables, AreLinearBetweenPointsAndConstantBeyond) {
 
 TEST_F(Tables, SpanAGridInAnyOrder) {
   // 1 + r + 10 t, 300 + r t: bilinear, so exact.
-  const GridTable table = read("t,velocity,r,temperature [degC]\n2,21,0,26.85\n0,4,3,26.85\n2,24,3,32.85\n0,1,0,26.85\n");
+  const GridTable table =
+      read("t,velocity,r,temperature [degC]\n2,21,0,26.85\n0,4,3,26.85\n2,24,3,32.85\n0,1,0,26.85\n");
   for (const double r : {0.0, 1.2, 3.0})
     for (const double t : {0.0, 0.5, 2.0}) {
       EXPECT_NEAR(table.value(0, std::array{r, 7.0, t}), 1.0 + r + 10.0 * t, 1e-12);

@@ -123,14 +123,13 @@ TEST_F(FlowExact, TaylorGreen) {
       for (int sweep = 0; sweep < 2; ++sweep) transport.advance(state, i * dt, dt);
     // Velocities stand half a step before the gas, pressures are those in the middle of what moves them.
     const double time = duration - 0.5 * dt, timeOfPressure = duration - dt;
-    velocity[level] = meanError(box, [&](int c) {
-                        return state.velocity[at(2 * c)] - u(box.mesh.centre[at(c)], time);
-                      }) / speed;
+    velocity[level] =
+        meanError(box, [&](int c) { return state.velocity[at(2 * c)] - u(box.mesh.centre[at(c)], time); }) / speed;
     const double mean = integral(box.mesh, [&](int c) { return state.pressure[at(c)]; }) / (length * length);
-    pressure[level] = meanError(box, [&](int c) {
-                        return state.pressure[at(c)] - mean - p(box.mesh.centre[at(c)], timeOfPressure);
-                      }) /
-                      (density * speed * speed);
+    pressure[level] =
+        meanError(box,
+                  [&](int c) { return state.pressure[at(c)] - mean - p(box.mesh.centre[at(c)], timeOfPressure); }) /
+        (density * speed * speed);
   }
   expectOrders("Taylor-Green, 16, 32, 64 cells a vortex, u", velocity, 1.7);
   expectOrders("Taylor-Green, p", pressure, 1.9);
@@ -172,10 +171,12 @@ TEST_F(FlowExact, Womersley) {
     for (int step = 0; step < 2 * steps; ++step) {
       for (int sweep = 0; sweep < 2; ++sweep) transport.advance(state, step * dt, dt);
       if (step < steps) continue;
-      sum += meanError(box, [&](int c) {
-               const Place& x = box.mesh.centre[at(c)];
-               return x[1] < 0.75 * length ? state.velocity[at(2 * c + 1)] - v(x, (step + 0.5) * dt) : 0.0;
-             }) / speed;
+      sum += meanError(box,
+                       [&](int c) {
+                         const Place& x = box.mesh.centre[at(c)];
+                         return x[1] < 0.75 * length ? state.velocity[at(2 * c + 1)] - v(x, (step + 0.5) * dt) : 0.0;
+                       }) /
+             speed;
     }
     error[level] = sum / steps;
   }

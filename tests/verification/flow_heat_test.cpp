@@ -106,10 +106,9 @@ TEST_F(FlowHeat, ConvectionAgainstConductionIsSecondOrder) {
     const int cells = 10 << level;
     Side held = opening(BoundaryKind::Inlet, 0, true, -speed, T1, air);
     held.condition.fixedComposition = true;
-    Box box(
-        Geometry::Planar, {uniformAxis(length, cells), uniformAxis(1e-3, 1)},
-        {opening(BoundaryKind::Outlet, 0, false, 0.0, T0, air), held,
-         side(BoundaryKind::Symmetry, 1, false), side(BoundaryKind::Symmetry, 1, true)});
+    Box box(Geometry::Planar, {uniformAxis(length, cells), uniformAxis(1e-3, 1)},
+            {opening(BoundaryKind::Outlet, 0, false, 0.0, T0, air), held, side(BoundaryKind::Symmetry, 1, false),
+             side(BoundaryKind::Symmetry, 1, true)});
     const double guess = m * 1010.0 / 0.032;  // 1/m
     State state = box.state([&](const std::array<double, 2>& x) {
       return Box::Local{{0.6 * speed, 0.0}, T0 + (T1 - T0) * std::exp(guess * (x[0] - length)), air};
