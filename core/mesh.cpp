@@ -34,6 +34,12 @@ void checkInput(const MeshSpec& spec, const std::vector<double>& cellWeight) {
     if (!std::isfinite(v.front()) || !std::isfinite(v.back()))
       throw InputError(fmt::format("the vertices of mesh axis {} are not finite", axis));
   }
+  for (int axis = 0; axis < 2; ++axis)
+    if (spec.periodic[at(axis)] && spec.vertices[at(axis)].size() < 4)
+      throw InputError(fmt::format("the periodic mesh axis {} has {} cells; at least 3 are needed", axis,
+                                   spec.vertices[at(axis)].size() - 1));
+  if (spec.geometry == Geometry::Axisymmetric && spec.periodic[0])
+    throw InputError("the radius of an axisymmetric mesh cannot be periodic");
   if (spec.geometry == Geometry::Axisymmetric && spec.vertices[0].front() < 0.0)
     throw InputError("an axisymmetric mesh needs radii of zero or more");
   const std::size_t cells = (spec.vertices[0].size() - 1) * (spec.vertices[1].size() - 1);
@@ -94,8 +100,11 @@ std::vector<FaceLink> orderFaces(Mesh& mesh, const LocalBox& box, const std::vec
     int high = localOf[at(face.b)];
     if (low >= mesh.owned && high >= mesh.owned) continue;
     if (mesh.naturalCell[at(low)] > mesh.naturalCell[at(high)]) std::swap(low, high);
+    const auto before = indexOf(mesh, mesh.naturalCell[at(low)]), after = indexOf(mesh, mesh.naturalCell[at(high)]);
+    const int axis = before[0] != after[0] ? 0 : 1;
+    const bool isAroundTheEnds = after[at(axis)] - before[at(axis)] > 1;
+    if (isAroundTheEnds) std::swap(low, high);
     const std::int64_t natural = mesh.naturalCell[at(low)];
-    const int axis = indexOf(mesh, natural)[0] != indexOf(mesh, mesh.naturalCell[at(high)])[0] ? 0 : 1;
     interior.push_back({low, high, axis, 1.0, natural * 2 + axis});
   }
   std::vector<FaceLink> boundary;
@@ -133,7 +142,11 @@ void measureFaces(Mesh& mesh, const std::vector<FaceLink>& links) {
     mesh.planarLength.push_back(x[along][i + 1] - x[along][i]);
     mesh.area.push_back(mesh.axisymmetric() ? mesh.planarLength.back() * middle[0] : mesh.planarLength.back());
     const double toLow = std::abs(middle[normal] - mesh.centre[at(face.low)][normal]);
-    const double toHigh = face.high >= 0 ? std::abs(mesh.centre[at(face.high)][normal] - middle[normal]) : 0.0;
+    double toHigh = 0.0;
+    if (face.high >= 0) {
+      const double centre = mesh.centre[at(face.high)][normal];
+      toHigh = centre > middle[normal] ? centre - middle[normal] : centre - x[normal].front();  // around the ends
+    }
     mesh.distance.push_back(toLow + toHigh);
     mesh.lowWeight.push_back(toHigh / (toLow + toHigh));
   }
@@ -191,7 +204,7 @@ Mesh::Mesh(MPI_Comm communicator, MeshSpec meshSpec, const std::vector<double>& 
   cellsAlong = {static_cast<int>(spec.vertices[0].size()) - 1, static_cast<int>(spec.vertices[1].size()) - 1};
   totalCells = static_cast<std::int64_t>(cellsAlong[0]) * cellsAlong[1];
 
-  const LocalBox box = distributeBox(comm, cellsAlong, cellWeight);
+  const LocalBox box = distributeBox(comm, cellsAlong, spec.periodic, cellWeight);
   const std::vector<int> localOf = orderCells(*this, box);
   measureCells(*this);
   measureFaces(*this, orderFaces(*this, box, localOf));

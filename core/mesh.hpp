@@ -30,6 +30,8 @@ struct MeshSpec {
   Geometry geometry = Geometry::Planar;
   std::array<std::vector<double>, 2> vertices;  // m, increasing along each axis
   std::vector<BoundaryPatch> patches;           // first match wins; a face without a patch is an InputError
+  // Along an axis: what leaves at one end comes in at the other. Such an axis has three cells or more and no patches.
+  std::array<bool, 2> periodic{false, false};
 };
 
 class Mesh {
@@ -56,8 +58,9 @@ class Mesh {
   std::vector<double> planarArea;             // m^2
 
   // Faces: [0, interiorFaces) lie between two local cells, of which at least one is owned; the rest are boundary faces
-  // of owned cells. The unit normal points from `low` to `high`, or out of the domain; `low` has the smaller natural
-  // index, so that two ranks compute a shared face's flux in the same order, to the last bit.
+  // of owned cells. The unit normal points from `low` to `high`, or out of the domain; `low` is before `high` on the
+  // axis (of a periodic pair the cell at the upper end), so that two ranks compute a shared face's flux in the same
+  // order, to the last bit.
   int interiorFaces = 0;
   int faces = 0;
   std::vector<int> low;

@@ -16,12 +16,14 @@ namespace {
 
 // A box whose vertices have whole-number coordinates, so that a point's natural index can be read off its position on
 // any rank after distribution. All of it is on rank 0.
-PetscDm createIndexBox(MPI_Comm comm, const std::array<int, 2>& cellsAlong) {
+PetscDm createIndexBox(MPI_Comm comm, const std::array<int, 2>& cellsAlong, const std::array<bool, 2>& periodic) {
   const PetscInt faces[2] = {cellsAlong[0], cellsAlong[1]};
   const PetscReal lower[2] = {0.0, 0.0};
   const PetscReal upper[2] = {static_cast<PetscReal>(cellsAlong[0]), static_cast<PetscReal>(cellsAlong[1])};
+  const DMBoundaryType ends[2] = {periodic[0] ? DM_BOUNDARY_PERIODIC : DM_BOUNDARY_NONE,
+                                  periodic[1] ? DM_BOUNDARY_PERIODIC : DM_BOUNDARY_NONE};
   PetscDm dm;
-  checkPetsc(DMPlexCreateBoxMesh(comm, 2, PETSC_FALSE, faces, lower, upper, nullptr, PETSC_TRUE, dm.put()));
+  checkPetsc(DMPlexCreateBoxMesh(comm, 2, PETSC_FALSE, faces, lower, upper, ends, PETSC_TRUE, dm.put()));
   checkPetsc(DMSetBasicAdjacency(dm.get(), PETSC_TRUE, PETSC_FALSE));
   return dm;
 }
@@ -126,10 +128,11 @@ LocalBox::BoundaryFace describeBoundaryFace(DM dm, PetscInt face, int cell, cons
 
 }  // namespace
 
-LocalBox distributeBox(MPI_Comm comm, const std::array<int, 2>& cellsAlong, const std::vector<double>& cellWeight) {
+LocalBox distributeBox(MPI_Comm comm, const std::array<int, 2>& cellsAlong, const std::array<bool, 2>& periodic,
+                       const std::vector<double>& cellWeight) {
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
-  const PetscDm dm = distribute(comm, createIndexBox(comm, cellsAlong), cellsAlong, cellWeight);
+  const PetscDm dm = distribute(comm, createIndexBox(comm, cellsAlong, periodic), cellsAlong, cellWeight);
   PetscInt cellStart = 0;
   PetscInt cellEnd = 0;
   PetscInt faceStart = 0;

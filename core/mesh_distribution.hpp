@@ -30,6 +30,7 @@ struct LocalBox {
 
 // Collective. Every rank owns at least one cell. `cellWeight` is in natural order, or empty for equal weights; rank 0's
 // counts. InputError, on all ranks, when there are fewer cells than ranks.
-LocalBox distributeBox(MPI_Comm comm, const std::array<int, 2>& cellsAlong, const std::vector<double>& cellWeight);
+LocalBox distributeBox(MPI_Comm comm, const std::array<int, 2>& cellsAlong, const std::array<bool, 2>& periodic,
+                       const std::vector<double>& cellWeight);
 
 }  // namespace lampblack

@@ -207,6 +207,8 @@ void readTrajectories(const Deck& deck, FlowCase& flowCase) {
   if (deck.has("soot") && deck.choice("soot.model") == "none") return;
   if (!flowCase.carried)
     throw deck.error("trajectories", "trajectories need a 'soot' section: it names the particle model");
+  if (flowCase.mesh.periodic[0] || flowCase.mesh.periodic[1])
+    throw deck.error("trajectories", "paths cannot go through a periodic boundary yet; leave the section out");
   TrajectoryRequest options;
   options.soot = readSootModelOptions(deck, *flowCase.mechanism);
   for (const std::string& species : sootSpecies(options.soot))

@@ -33,7 +33,9 @@ BoundaryPatch readPatch(const Deck& deck, const std::string& name, Geometry geom
   const auto axis = std::find(names.begin(), names.end(), side.substr(0, 1));
   if (axis == names.end())
     throw deck.error(section + ".side", fmt::format("the axes of this mesh are {} and {}", names[0], names[1]));
-  if (const std::string type = deck.choice(section + ".type"); side == "r-min" && type != "symmetry")
+  if (const std::string type = deck.choice(section + ".type"); type == "periodic" && side == "r-max")
+    throw deck.error(section + ".type", "the radius has no partner to be periodic with; expected another type");
+  else if (side == "r-min" && type != "symmetry")
     throw deck.error(section + ".type",
                      fmt::format("r-min is the axis, which has no area; expected symmetry, found {}", type));
   BoundaryPatch patch{name, static_cast<int>(axis - names.begin()), side.ends_with("max")};
@@ -224,17 +226,52 @@ void checkCoverage(const Deck& deck, const Side& side, std::vector<BoundaryPatch
   requireNoGap(side.end());
 }
 
+// The two boundaries of an axis whose ends are one, each a whole side.
+void readPeriodic(const Deck& deck, FlowCase& flowCase) {
+  MeshSpec& mesh = flowCase.mesh;
+  std::array<std::array<std::string, 2>, 2> names;  // of each axis: low end, high end
+  for (const std::string& name : deck.children("boundaries")) {
+    const std::string section = "boundaries." + name;
+    if (deck.choice(section + ".type") != "periodic") continue;
+    const BoundaryPatch patch = readPatch(deck, name, mesh.geometry);
+    if (deck.has(section + ".from") || deck.has(section + ".to"))
+      throw deck.error(section, "a periodic boundary is a whole side; expected no 'from' and 'to'");
+    std::string& entry = names[static_cast<std::size_t>(patch.axis)][patch.atMax ? 1 : 0];
+    if (!entry.empty()) throw deck.error(section, fmt::format("the side is that of the boundary '{}', too", entry));
+    entry = name;
+    mesh.periodic[static_cast<std::size_t>(patch.axis)] = true;
+  }
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    if (!mesh.periodic[axis]) continue;
+    const std::string& given = names[axis][0].empty() ? names[axis][1] : names[axis][0];
+    if (names[axis][0].empty() || names[axis][1].empty())
+      throw deck.error("boundaries." + given,
+                       "a periodic boundary has a partner; expected 'type: periodic' on the "
+                       "opposite side, too");
+    if (mesh.vertices[axis].size() < 4)
+      throw deck.error("boundaries." + given,
+                       fmt::format("a periodic axis needs 3 cells or more, found {}", mesh.vertices[axis].size() - 1));
+  }
+}
+
 }  // namespace
 
 void readBoundaries(const Deck& deck, FlowCase& flowCase) {
   const MeshSpec& mesh = flowCase.mesh;
+  readPeriodic(deck, flowCase);
   for (const std::string& name : deck.children("boundaries")) {
+    if (deck.choice("boundaries." + name + ".type") == "periodic") continue;
     flowCase.mesh.patches.push_back(readPatch(deck, name, mesh.geometry));
     flowCase.boundaries.push_back(ConditionReader(deck, mesh.patches.back(), mesh, *flowCase.mechanism).read());
   }
   for (const BoundaryPatch& patch : mesh.patches) checkExtent(deck, flowCase, patch);
   for (int axis = 0; axis < 2; ++axis)
     for (const bool atMax : {false, true}) {
+      if (mesh.periodic[static_cast<std::size_t>(axis)]) {
+        for (const BoundaryPatch& patch : mesh.patches)
+          if (patch.axis == axis) throw deck.error("boundaries." + patch.name, "this side is periodic, too");
+        continue;
+      }
       std::vector<BoundaryPatch> patches;
       for (const BoundaryPatch& patch : mesh.patches)
         if (patch.axis == axis && patch.atMax == atMax) patches.push_back(patch);

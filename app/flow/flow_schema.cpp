@@ -28,8 +28,9 @@ void addMesh(DeckSchema& schema) {
 void addBoundaries(DeckSchema& schema) {
   schema.section("boundaries", Presence::required, "Named parts of the surface and what happens there.")
       .add(choiceKey(
-          "boundaries.*.type", {"inlet", "outlet", "wall", "symmetry"},
-          "Kind of boundary: a stream that comes in, an opening, a solid wall or an axis or plane of symmetry."))
+          "boundaries.*.type", {"inlet", "outlet", "wall", "symmetry", "periodic"},
+          "Kind of boundary: a stream that comes in, an opening, a solid wall, an axis or plane of symmetry, or one of "
+          "two opposite sides of which what leaves by one comes in by the other."))
       .add(choiceKey("boundaries.*.side", {"r-min", "r-max", "z-min", "z-max", "x-min", "x-max", "y-min", "y-max"},
                      "Side of the box that the boundary lies on."))
       .add(quantityKey("boundaries.*.from", units::length,
