@@ -257,9 +257,12 @@ FlowCase readFlowCase(const Deck& deck) {
   readGravity(deck, flowCase);
   flowCase.radiation = readRadiation(deck);
   flowCase.time = {deck.quantity("time.end"), deck.quantity("time.first_step"), deck.quantity("time.maximum_step"),
-                   deck.number("time.growth")};
+                   deck.number("time.growth"), deck.optionalNumber("time.tolerance")};
   flowCase.flow.courant = deck.number("time.courant");
   flowCase.flow.sweeps = deck.integer<int>("time.sweeps");
+  if (flowCase.time.tolerance && flowCase.flow.sweeps < 2)
+    throw deck.error("time.tolerance",
+                     "the error of a step is what its last sweep corrects; expected 'sweeps: 2' or more");
   if (flowCase.time.firstStep > flowCase.time.maximumStep)
     throw deck.error("time.first_step", "expected no more than 'maximum_step'");
   flowCase.chemistry.shareWork = deck.boolean("chemistry.share_work");

@@ -24,10 +24,11 @@
 namespace lampblack::app {
 
 struct TimeControl {
-  double end = 0.0;          // s
-  double firstStep = 1e-6;   // s
-  double maximumStep = 1.0;  // s
-  double growth = 1.2;       // of the step from one to the next, at most
+  double end = 0.0;                 // s
+  double firstStep = 1e-6;          // s
+  double maximumStep = 1.0;         // s
+  double growth = 1.2;              // of the step from one to the next, at most
+  std::optional<double> tolerance;  // of a step; nothing: steps do not look at their errors
 };
 
 struct OutputControl {

@@ -47,6 +47,10 @@ FlowLoop::FlowLoop(MPI_Comm comm, FlowCase flowCase)
     radiation_ = std::make_unique<RadiationOperator>(context_, case_.radiation.surroundings, case_.carried.get());
     operators_.push_back(radiation_.get());
   }
+  if (case_.time.tolerance) {
+    stepControl_ = std::make_unique<StepControl>(context_, *case_.time.tolerance, case_.flow.sweeps);
+    operators_.push_back(stepControl_.get());
+  }
   beginNext();
   std::vector<std::vector<double>> carriedMass;
   if (case_.carried)

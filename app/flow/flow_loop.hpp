@@ -18,6 +18,7 @@
 #include "core/timers.hpp"
 #include "flow/carried_operator.hpp"
 #include "flow/radiation_operator.hpp"
+#include "flow/step_control.hpp"
 #include "flow/transport_operator.hpp"
 #include "io/run_folder.hpp"
 #include "io/run_record.hpp"
@@ -87,6 +88,7 @@ class FlowLoop {
   ReactionOperator chemistry_;
   std::unique_ptr<CarriedOperator> carried_;
   std::unique_ptr<RadiationOperator> radiation_;
+  std::unique_ptr<StepControl> stepControl_;
   std::vector<Operator*> operators_;  // each advances over the step, one after the other
   std::unique_ptr<Budget> budget_;
   Timers timers_;

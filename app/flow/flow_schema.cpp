@@ -143,6 +143,13 @@ void addTimeAndOutput(DeckSchema& schema) {
                .byDefault("1")
                .atLeast(1)
                .atMost(10))
+      .add(numberKey("time.tolerance",
+                     "Largest change by the last sweep that a time step may have in any cell, of the temperature "
+                     "(relative) and of a mass fraction; steps become as short as that needs, and no longer than the "
+                     "Courant number allows. Needs two sweeps; absent: the Courant number alone.")
+               .optional()
+               .above(0)
+               .below(1))
       .add(numberKey("time.growth", "Largest ratio of a time step to the one before.").byDefault("1.2").above(1))
       .add(quantityKey("output.interval", units::time, "Time between field outputs; the last state is always written.")
                .optional()
