@@ -30,6 +30,18 @@ void combine(double T, const std::vector<double>& mid, const std::array<std::vec
   }
 }
 
+// Sum of weights times the coefficients that hold at T.
+double dotOfChosen(double T, const double* __restrict mid, const double* __restrict low, const double* __restrict high,
+                   const double* __restrict weights, std::size_t n) {
+  constexpr std::size_t width = 8;
+  double sums[width] = {};
+  std::size_t k = 0;
+  for (; k + width <= n; k += width)
+    for (std::size_t l = 0; l < width; ++l) sums[l] += weights[k + l] * (T <= mid[k + l] ? low[k + l] : high[k + l]);
+  for (std::size_t l = 0; k < n; ++k, ++l) sums[l] += weights[k] * (T <= mid[k] ? low[k] : high[k]);
+  return ((sums[0] + sums[4]) + (sums[2] + sums[6])) + ((sums[1] + sums[5]) + (sums[3] + sums[7]));
+}
+
 const std::array<double, 7>& range(const Nasa7& data, double T) {
   return T <= data.midTemperature ? data.low : data.high;
 }
@@ -102,6 +114,19 @@ void SpeciesThermo::gibbsOverRT(double T, double lnT, double* g) const {
     const auto& a = range(s.data, T);
     g[s.index] = chemistry::enthalpyOverRT(a, T, lnT) - chemistry::entropyOverR(a, T, lnT);
   }
+}
+
+MixturePolynomial SpeciesThermo::mixture(double T, const double* weights) const {
+  MixturePolynomial result;
+  result.above = -HUGE_VAL;
+  result.upTo = HUGE_VAL;
+  for (const double mid : mid_) {
+    if (mid < T) result.above = std::max(result.above, mid);
+    if (!(mid < T)) result.upTo = std::min(result.upTo, mid);
+  }
+  for (std::size_t n = 0; n < result.c.size(); ++n)
+    result.c[n] = dotOfChosen(T, mid_.data(), low_[n].data(), high_[n].data(), weights, mid_.size());
+  return result;
 }
 
 }  // namespace lampblack::chemistry

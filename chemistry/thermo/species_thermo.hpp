@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -11,6 +12,18 @@
 #include "core/rooms.hpp"
 
 namespace lampblack::chemistry {
+
+// h/R and cp/R of a mixture of NASA-7 species as one polynomial, between the temperatures at which any of them changes.
+struct MixturePolynomial {
+  std::array<double, 6> c{};                  // sums of a_1..a_6
+  double above = HUGE_VAL, upTo = -HUGE_VAL;  // K, where it holds
+
+  bool holds(double T) const { return T > above && T <= upTo; }
+  double enthalpy(double T) const {  // K per unit of the weights
+    return c[5] + T * (c[0] + T * (c[1] / 2 + T * (c[2] / 3 + T * (c[3] / 4 + T * (c[4] / 5)))));
+  }
+  double heatCapacity(double T) const { return c[0] + T * (c[1] + T * (c[2] + T * (c[3] + T * c[4]))); }
+};
 
 class SpeciesThermo {
  public:
@@ -25,6 +38,10 @@ class SpeciesThermo {
   void enthalpyOverRT(double T, double* h) const;
   void entropyOverR(double T, double lnT, double* s) const;
   void gibbsOverRT(double T, double lnT, double* g) const;  // h/RT - s/R at the standard pressure
+
+  // Of a mixture with these weights of the species, around T. Where all species are of NASA-7 (hasMixtures) only.
+  bool hasMixtures() const { return nasa9_.empty(); }
+  MixturePolynomial mixture(double T, const double* weights) const;
 
  private:
   struct Nasa9Species {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "chemistry/numerics/dot.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 
@@ -20,9 +21,7 @@ Thermo::Thermo(const Mechanism& mechanism)
 }
 
 double Thermo::meanMolecularWeight(std::span<const double> Y) const {
-  double moles = 0;
-  for (std::size_t k = 0; k < weights_.size(); ++k) moles += Y[k] * inverseWeights_[k];
-  return 1.0 / moles;
+  return 1.0 / dot(Y.data(), inverseWeights_.data(), weights_.size());
 }
 
 double Thermo::density(double T, double p, std::span<const double> Y) const {
@@ -61,16 +60,12 @@ void Thermo::speciesCpSlope(double T, std::span<double> slope) const {
 
 double Thermo::cpMass(double T, std::span<const double> Y) const {
   speciesCp(T, work_);
-  double cp = 0;
-  for (std::size_t k = 0; k < weights_.size(); ++k) cp += Y[k] * work_[k];
-  return cp;
+  return dot(Y.data(), work_.data(), weights_.size());
 }
 
 double Thermo::enthalpyMass(double T, std::span<const double> Y) const {
   speciesEnthalpies(T, work_);
-  double h = 0;
-  for (std::size_t k = 0; k < weights_.size(); ++k) h += Y[k] * work_[k];
-  return h;
+  return dot(Y.data(), work_.data(), weights_.size());
 }
 
 double Thermo::cvMass(double T, std::span<const double> Y) const {
@@ -128,6 +123,18 @@ double Thermo::invert(const Value& value, const Slope& slope, double target, dou
 }
 
 double Thermo::temperatureFromEnthalpy(double h, std::span<const double> Y, double guess) const {
+  if (table_.hasMixtures()) {
+    for (std::size_t k = 0; k < weights_.size(); ++k) work_[k] = Y[k] * gasConstants_[k];
+    MixturePolynomial mixture;
+    const auto around = [&](double T) -> const MixturePolynomial& {
+      if (!mixture.holds(T)) mixture = table_.mixture(T, work_.data());
+      return mixture;
+    };
+    const double T = invert([&](double at) { return around(at).enthalpy(at); },
+                            [&](double at) { return around(at).heatCapacity(at); }, h, guess, "enthalpy");
+    // Where polynomials jump, on the side that was found to have this enthalpy, whatever round-off adds.
+    return T > mixture.upTo && T - mixture.upTo <= 1e-12 * T ? mixture.upTo : T;
+  }
   return invert([&](double T) { return enthalpyMass(T, Y); }, [&](double T) { return cpMass(T, Y); }, h, guess,
                 "enthalpy");
 }
