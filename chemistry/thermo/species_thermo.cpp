@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "chemistry/mechanism/nasa_polynomials.hpp"
+#include "chemistry/numerics/block.hpp"
 
 namespace lampblack::chemistry {
 
@@ -28,18 +29,6 @@ void combine(double T, const std::vector<double>& mid, const std::array<std::vec
     }
     out[k] = T <= m[k] ? below : above;
   }
-}
-
-// Sum of weights times the coefficients that hold at T.
-double dotOfChosen(double T, const double* __restrict mid, const double* __restrict low, const double* __restrict high,
-                   const double* __restrict weights, std::size_t n) {
-  constexpr std::size_t width = 8;
-  double sums[width] = {};
-  std::size_t k = 0;
-  for (; k + width <= n; k += width)
-    for (std::size_t l = 0; l < width; ++l) sums[l] += weights[k + l] * (T <= mid[k + l] ? low[k + l] : high[k + l]);
-  for (std::size_t l = 0; k < n; ++k, ++l) sums[l] += weights[k] * (T <= mid[k] ? low[k] : high[k]);
-  return ((sums[0] + sums[4]) + (sums[2] + sums[6])) + ((sums[1] + sums[5]) + (sums[3] + sums[7]));
 }
 
 const std::array<double, 7>& range(const Nasa7& data, double T) {
@@ -81,8 +70,15 @@ SpeciesThermo::SpeciesThermo(std::span<const Species> species) {
       low_[n].push_back(s.thermo.low[n]);
       high_[n].push_back(s.thermo.high[n]);
     }
+    for (std::size_t n = 0; n < kBlockWidth; ++n) {
+      lowBlock_.push_back(n < 7 ? s.thermo.low[n] : 0.0);
+      highBlock_.push_back(n < 7 ? s.thermo.high[n] : 0.0);
+    }
     if (s.nasa9) nasa9_.push_back({k, *s.nasa9});
   }
+  changes_ = mid_;
+  std::ranges::sort(changes_);
+  changes_.erase(std::unique(changes_.begin(), changes_.end()), changes_.end());
 }
 
 void SpeciesThermo::cpOverR(double T, double* cp) const {
@@ -118,14 +114,22 @@ void SpeciesThermo::gibbsOverRT(double T, double lnT, double* g) const {
 
 MixturePolynomial SpeciesThermo::mixture(double T, const double* weights) const {
   MixturePolynomial result;
-  result.above = -HUGE_VAL;
-  result.upTo = HUGE_VAL;
-  for (const double mid : mid_) {
-    if (mid < T) result.above = std::max(result.above, mid);
-    if (!(mid < T)) result.upTo = std::min(result.upTo, mid);
+  const auto next = std::ranges::lower_bound(changes_, T);
+  result.above = next == changes_.begin() ? -HUGE_VAL : *(next - 1);
+  result.upTo = next == changes_.end() ? HUGE_VAL : *next;
+  const auto coefficients = [&](std::size_t k) {
+    return (T <= mid_[k] ? lowBlock_ : highBlock_).data() + k * kBlockWidth;
+  };
+  // In two sums, as one would wait for itself.
+  Block even{}, odd{};
+  const std::size_t n = mid_.size();
+  for (std::size_t k = 0; k + 1 < n; k += 2) {
+    even += weights[k] * blockAt(coefficients(k));
+    odd += weights[k + 1] * blockAt(coefficients(k + 1));
   }
-  for (std::size_t n = 0; n < result.c.size(); ++n)
-    result.c[n] = dotOfChosen(T, mid_.data(), low_[n].data(), high_[n].data(), weights, mid_.size());
+  if (n % 2 == 1) even += weights[n - 1] * blockAt(coefficients(n - 1));
+  const Block sum = even + odd;
+  for (std::size_t i = 0; i < result.c.size(); ++i) result.c[i] = sum[i];
   return result;
 }
 

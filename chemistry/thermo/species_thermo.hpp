@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "chemistry/mechanism/species.hpp"
+#include "chemistry/numerics/aligned_vector.hpp"
 #include "core/rooms.hpp"
 
 namespace lampblack::chemistry {
@@ -50,6 +51,8 @@ class SpeciesThermo {
   };
 
   std::vector<double> mid_;
+  std::vector<double> changes_;         // the different temperatures among them, rising
+  AlignedVector lowBlock_, highBlock_;  // the coefficients of a species side by side, a block each
   std::array<std::vector<double>, 7> low_;
   std::array<std::vector<double>, 7> high_;
   std::vector<Nasa9Species> nasa9_;
