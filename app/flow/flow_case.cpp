@@ -219,6 +219,7 @@ void readTrajectories(const Deck& deck, FlowCase& flowCase) {
   options.duration = deck.quantity("trajectories.duration");
   options.timeStep = deck.quantity("trajectories.time_step");
   options.particles = deck.integer<int>("trajectories.particles");
+  options.splitTolerance = deck.number("trajectories.split_tolerance");
   options.bins = deck.integer<int>("trajectories.bins");
   options.smallest = deck.quantity("trajectories.smallest");
   options.largest = deck.quantity("trajectories.largest");

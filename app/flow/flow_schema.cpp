@@ -191,6 +191,11 @@ void addParticles(DeckSchema& schema) {
                       "Largest number of numerical particles of an ensemble: more have less noise and cost more.")
                .byDefault("4096")
                .atLeast(16))
+      .add(numberKey("trajectories.split_tolerance",
+                     "Largest relative change of an ensemble in a splitting step: smaller is more accurate and slower.")
+               .byDefault("0.01")
+               .above(0)
+               .atMost(1))
       .add(integerKey("trajectories.bins", "Number of bins of the size distribution.").byDefault("60").atLeast(2))
       .add(quantityKey("trajectories.smallest", units::length,
                        "Smallest diameter of the size distribution, the lower end of its bins.")

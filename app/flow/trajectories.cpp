@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
 
 #include "app/run/warnings.hpp"
 #include "core/errors.hpp"
@@ -89,14 +92,26 @@ void writeTrajectory(ResultsWriter& results, std::size_t id, int owner, const Tr
   results.dataset(group + "size_distribution", {rows, bins}, distribution, "1/m^3", "dN/dlog10(d)", owner);
 }
 
-// Collective. A path of one point ends where it starts.
-void warnOfShortPaths(const Mesh& m, const TrajectoryRequest& request, const std::vector<Trajectory>& trajectories) {
-  std::vector<std::int64_t> points;
-  for (const Trajectory& one : trajectories) points.push_back(static_cast<std::int64_t>(one.places.size()));
-  MPI_Allreduce(MPI_IN_PLACE, points.data(), static_cast<int>(points.size()), MPI_INT64_T, MPI_SUM, m.comm);
+// The rank of each path, the longest first, each to the rank with the least to do (Graham 1969).
+std::vector<int> shareOut(const std::vector<double>& costs, int ranks) {
+  std::vector<std::size_t> order(costs.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t id) { return costs[id]; });
+  std::vector<double> load(static_cast<std::size_t>(ranks), 0.0);
+  std::vector<int> owners(costs.size());
+  for (const std::size_t id : order) {
+    const auto least = std::ranges::min_element(load);
+    *least += costs[id];
+    owners[id] = static_cast<int>(least - load.begin());
+  }
+  return owners;
+}
+
+// A path of one point ends where it starts.
+void warnOfShortPaths(const TrajectoryRequest& request, const std::vector<Trajectory>& trajectories) {
   std::vector<std::string> warnings;
-  for (std::size_t id = 0; id < points.size(); ++id)
-    if (points[id] < 2)
+  for (std::size_t id = 0; id < trajectories.size(); ++id)
+    if (trajectories[id].places.size() < 2)
       warnings.push_back(fmt::format(
           "trajectory {} from ({:.6g}, {:.6g}) m leaves the domain in its first time step of {:g} s: it has one row, "
           "without particles",
@@ -119,16 +134,25 @@ void runTrajectories(const FlowContext& context, const FlowCase& flowCase, const
   march.bins = static_cast<std::size_t>(request.bins);
   EnsembleOptions options;
   options.particles = static_cast<std::size_t>(request.particles);
+  options.splitTolerance = request.splitTolerance;
   options.seed = flowCase.seed;
   options.soot = request.soot;
 
   std::vector<Trajectory> trajectories(request.starts.size());
-  const auto ranks = static_cast<std::size_t>(m.ranks);
+  std::vector<double> costs;
   collectively(m.comm, [&] {
-    for (auto id = static_cast<std::size_t>(m.rank); id < trajectories.size(); id += ranks) {
+    for (std::size_t id = 0; id < trajectories.size(); ++id) {
+      const TrajectoryStart& start = request.starts[id];
+      trajectories[id].places = streamlines.trace({start.r, start.z}, request.timeStep, request.duration);
+      costs.push_back(static_cast<double>(trajectories[id].places.size()));
+    }
+  });
+  const std::vector<int> owners = shareOut(costs, m.ranks);
+  collectively(m.comm, [&] {
+    for (std::size_t id = 0; id < trajectories.size(); ++id) {
+      if (owners[id] != m.rank) continue;
       const TrajectoryStart& start = request.starts[id];
       Trajectory& one = trajectories[id];
-      one.places = streamlines.trace({start.r, start.z}, request.timeStep, request.duration);
       for (const PathPoint& place : one.places) one.path.points.push_back(gas.at(place));
       for (std::size_t k = 0; k + 1 < one.places.size(); ++k)
         one.path.divergence.push_back({one.places[k].divergence, one.places[k + 1].divergence});
@@ -141,9 +165,9 @@ void runTrajectories(const FlowContext& context, const FlowCase& flowCase, const
       }
     }
   });
-  warnOfShortPaths(m, request, trajectories);
+  warnOfShortPaths(request, trajectories);
   for (std::size_t id = 0; id < trajectories.size(); ++id)
-    writeTrajectory(results, id, static_cast<int>(id % ranks), trajectories[id], march);
+    writeTrajectory(results, id, owners[id], trajectories[id], march);
 }
 
 }  // namespace lampblack::app

@@ -64,9 +64,10 @@ class StochasticProcess final : public Ensemble {
   // Change of the sum of collisions with dimers by coagulation, 1/s2, as for a population of equal particles.
   [[nodiscard]] double coagulating(const SootMedium& medium, const Sums& sums) const;
   [[nodiscard]] double step(const SootMedium& medium, const Sums& sums, double dilution, double remaining) const;
-  // `start`: of the population as it is.
-  void jump(const SootMedium& medium, const Sums& start, double dt, double stepLength);
-  void grow(const SootMedium& medium, double dt);
+  // Each takes the sums of the population as it is and leaves those of what it has become.
+  void thin(double factor, Sums& now);
+  void jump(const SootMedium& medium, double dt, double stepLength, Sums& now);
+  void grow(const SootMedium& medium, double dt, Sums& now);
   void planNucleus(double weight) { nucleusAfter_ = weight * random_.uniform(); }
   void recordUptakeOfDimers(const SootMedium& medium, double dimers);
 
@@ -180,15 +181,15 @@ void StochasticProcess<Method>::advance(const ParticleGas& gas, double dilution,
   cost_ = 0;
   const auto eventsBefore = counters().events() + counters().fictitious;
   double remaining = dt;
+  Sums now = sums(medium);
   while (remaining > 0 && (size() > 0 || medium.incepting())) {
     cost_ += static_cast<double>(size()) + 1;
-    const Sums before = sums(medium);
-    const double length = step(medium, before, dilution, remaining);
-    if (dilution != 0) dilute(std::exp(-0.5 * dilution * length));
-    jump(medium, dilution != 0 ? sums(medium) : before, 0.5 * length, length);
-    grow(medium, length);
-    jump(medium, sums(medium), 0.5 * length, length);
-    if (dilution != 0) dilute(std::exp(-0.5 * dilution * length));
+    const double length = step(medium, now, dilution, remaining);
+    if (dilution != 0) thin(std::exp(-0.5 * dilution * length), now);
+    jump(medium, 0.5 * length, length, now);
+    grow(medium, length, now);
+    jump(medium, 0.5 * length, length, now);
+    if (dilution != 0) thin(std::exp(-0.5 * dilution * length), now);
     ++method_.counters().splitSteps;
     remaining = length < remaining ? remaining - length : 0;
   }
@@ -205,8 +206,22 @@ void StochasticProcess<Method>::dilute(double factor) {
   exchange_.dilutedHydrogen += before.hydrogen * (1 - factor);
 }
 
+// dilute() for who knows the sums.
 template <class Method>
-void StochasticProcess<Method>::jump(const SootMedium& medium, const Sums& start, double dt, double stepLength) {
+void StochasticProcess<Method>::thin(double factor, Sums& now) {
+  method_.dilute(factor);
+  for (double* number : {&reached_, &nucleusAfter_}) *number *= factor;
+  exchange_.dilutedCarbon += now.carbon * (1 - factor);
+  exchange_.dilutedHydrogen += now.hydrogen * (1 - factor);
+  for (const auto sum : {&Sums::number, &Sums::carbon, &Sums::hydrogen, &Sums::primaries, &Sums::area, &Sums::diameters,
+                         &Sums::collisions, &Sums::slopes})
+    now.*sum *= factor;
+}
+
+template <class Method>
+void StochasticProcess<Method>::jump(const SootMedium& medium, double dt, double stepLength, Sums& now) {
+  const Sums start = now;
+  bool isChanged = false;
   const double nucleusCarbon = 2 * medium.dimerCarbon(), nucleusHydrogen = 2 * medium.dimerHydrogen();
   double inception = 0;  // 1/m3/s, of the middle of this step
   if (medium.incepting()) {
@@ -240,6 +255,7 @@ void StochasticProcess<Method>::jump(const SootMedium& medium, const Sums& start
         time = due;
         const double weight = method_.nucleusWeight();
         method_.nucleate(random_);
+        isChanged = true;
         nucleated += weight;
         nucleatedCarbon += weight * nucleusCarbon;
         nucleatedHydrogen += weight * nucleusHydrogen;
@@ -252,11 +268,14 @@ void StochasticProcess<Method>::jump(const SootMedium& medium, const Sums& start
     }
     if (next >= dt) break;
     time = next;
-    if (!method_.coagulate(random_)) ++method_.counters().fictitious;
+    if (method_.coagulate(random_))
+      isChanged = true;
+    else
+      ++method_.counters().fictitious;
   }
-  const Atoms after = atoms();
-  exchange_.resampledCarbon += after.carbon - start.carbon - nucleatedCarbon;
-  exchange_.resampledHydrogen += after.hydrogen - start.hydrogen - nucleatedHydrogen;
+  if (isChanged) now = sums(medium);
+  exchange_.resampledCarbon += now.carbon - start.carbon - nucleatedCarbon;
+  exchange_.resampledHydrogen += now.hydrogen - start.hydrogen - nucleatedHydrogen;
   if (nucleated > 0) {
     recordUptakeOfDimers(medium, 2 * nucleated);
     exchange_.nucleatedNumber += nucleated;
@@ -275,10 +294,10 @@ void StochasticProcess<Method>::recordUptakeOfDimers(const SootMedium& medium, d
 }
 
 template <class Method>
-void StochasticProcess<Method>::grow(const SootMedium& medium, double dt) {
+void StochasticProcess<Method>::grow(const SootMedium& medium, double dt, Sums& now) {
   if (size() == 0 || !(medium.condensing() || medium.surfaceActive())) return;
   const SootModelOptions& soot = options_.soot;
-  const Sums s = sums(medium);
+  const Sums s = now;
   SootFluxes flux = medium.fluxes();
   const double counted = options_.alphaOfPrimaries ? s.primaries : s.number;
   const auto alpha = [&](double carbon) {
@@ -303,6 +322,7 @@ void StochasticProcess<Method>::grow(const SootMedium& medium, double dt) {
     all.add(w, moved);
     return left;
   });
+  now = sums(medium);
   recordUptakeOfDimers(medium, all.dimers);
   exchange_.condensed += all.dimers * (medium.dimerCarbon() + medium.dimerHydrogen());
   exchange_.grown += all.growth;
