@@ -18,7 +18,7 @@ class LaneLuKernel {
   // What became of the pivots.
   struct Quality {
     D largestMultiplier;  // in rows outside the border
-    D finite;             // zero, where all multipliers and pivots are finite
+    D finite;             // zero, where all pivots are finite and none is zero
   };
 
   // diag(diagonal) - factor * matrix, row by row; `diagonal` is in the order of elimination.
@@ -33,7 +33,6 @@ class LaneLuKernel {
         const D l = V::load(work.row + k) * V::load(work.inversePivot + k);
         V::store(work.lower + e * lanes, l);
         largest = V::larger(V::larger(l, D{} - l), largest);
-        quality.finite += D{} * l;
         subtractRow(view, work, k / lanes, l);
       }
       if (i < view.inner) quality.largestMultiplier = V::larger(largest, quality.largestMultiplier);

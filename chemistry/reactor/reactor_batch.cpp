@@ -84,12 +84,12 @@ void ConstantPressureReactor::Impl::finish(Cell& cell, double dt, Result& result
   using Outcome = ReactorLanes::Reactor::Outcome;
   const auto& reactor = reactors[place];
   end = ends[place];
-  std::ranges::copy(reactor.state, start.begin());
+  std::ranges::copy(cell.Y, start.begin());
+  start[n] = cell.temperature;
   reason.clear();
   if (reactor.outcome == Outcome::Left) return advance(cell, dt, {}, result);
   cell.initialStep = reactor.nextStep;
   if (reactor.outcome == Outcome::Arrived && accept(cell, reactor.state)) return;
-  begin(cell, dt);
   advanceByBdf(cell, dt, reactor.firstStep, 1, {}, result);
 }
 

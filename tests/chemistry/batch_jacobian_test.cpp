@@ -23,7 +23,7 @@ using namespace lampblack;
 using namespace lampblack::chemistry;
 using lampblack::test::measured;
 using lampblack::test::RateTypes;
-using Vector = PortableVector<64>;
+using Vector = Doubled<Doubled<PortableVector<16>>>;  // that of any processor
 using Kernel = BatchJacobianKernel<Vector>;
 
 constexpr std::size_t kLanes = batchLanes;

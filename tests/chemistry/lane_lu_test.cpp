@@ -20,7 +20,8 @@ using lampblack::chemistry::LaneLu;
 using lampblack::chemistry::LaneLuWork;
 using lampblack::chemistry::MatrixEntry;
 using lampblack::chemistry::SparseLu;
-using Vector = lampblack::chemistry::PortableVector<64>;
+using Vector = lampblack::chemistry::Doubled<
+    lampblack::chemistry::Doubled<lampblack::chemistry::PortableVector<16>>>;  // that of any processor
 using Kernel = lampblack::chemistry::LaneLuKernel<Vector>;
 
 constexpr std::size_t kLanes = Vector::lanes;
@@ -63,9 +64,11 @@ Solved inLanes(const Systems& systems, double factor) {
   const auto quality = Kernel::factorise(lu.view(), work, Vector::all(factor), diagonal.data());
   Kernel::solve(lu.view(), work, b.data());
   Solved solved{{b.begin(), b.end()}, {}};
+  AlignedVector largest(kLanes), finite(kLanes);
+  Vector::store(largest.data(), quality.largestMultiplier);
+  Vector::store(finite.data(), quality.finite);
   for (std::size_t lane = 0; lane < kLanes; ++lane)
-    solved.isGood.push_back(quality.largestMultiplier[lane] <= SparseLu::largestMultiplier &&
-                            quality.finite[lane] == 0);
+    solved.isGood.push_back(largest[lane] <= SparseLu::largestMultiplier && finite[lane] == 0);
   return solved;
 }
 

@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "core/constants.hpp"
 #include "core/errors.hpp"
@@ -37,6 +39,23 @@ TEST(Thermo, TemperatureComesBackFromEnthalpyWhateverTheGuess) {
     }
   }
   measured("temperature from enthalpy, K", worst);
+}
+
+// Species whose polynomials change at different temperatures, 200 to 3500 K, from guesses on the other side of some of
+// them. Off the changes themselves, where enthalpies jump by what their data leave.
+TEST(Thermo, TemperatureComesBackWhereverPolynomialsChange) {
+  const auto mechanism = Mechanism::fromFile(test::sourcePath("cases/mechanisms/methane_gri30_53.yaml"));
+  const Thermo thermo(mechanism);
+  std::set<double> changes;
+  for (const auto& species : mechanism.allSpecies()) changes.insert(species.thermo.midTemperature);
+  ASSERT_GT(changes.size(), 3u);
+  std::vector<double> Y(mechanism.numSpecies(), 1.0 / static_cast<double>(mechanism.numSpecies()));
+  for (double T = 200; T < 3500; T += 6.5) {
+    if (std::ranges::any_of(changes, [&](double change) { return std::abs(T - change) < 0.5; })) continue;
+    const double h = thermo.enthalpyMass(T, Y);
+    for (const double guess : {T + 400, T - 150})
+      EXPECT_NEAR(thermo.temperatureFromEnthalpy(h, Y, guess), T, 1e-9) << T;
+  }
 }
 
 TEST(Thermo, TemperatureComesBackFromInternalEnergyWhateverTheGuess) {
