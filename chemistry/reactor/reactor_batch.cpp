@@ -67,7 +67,7 @@ void ConstantPressureReactor::Impl::advanceInLanes(double dt, std::span<Result> 
   for (const auto& reactor : inLanes) attempts += reactor.steps + reactor.rejected;
   for (std::size_t i = 0; i < count; ++i) {
     results[i].seconds = forRates;
-    results[i].rhsEvaluations = 1;
+    results[i].rhsEvaluations = options.negligibleChange > 0 ? 1 : 0;
   }
   for (std::size_t i = 0; i < inLanes.size(); ++i) {
     const int own = inLanes[i].steps + inLanes[i].rejected;

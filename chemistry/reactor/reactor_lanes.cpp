@@ -1,9 +1,9 @@
 #include "chemistry/reactor/reactor_lanes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <vector>
 
 #include "chemistry/numerics/rosenbrock_solver.hpp"
@@ -139,7 +139,7 @@ void ReactorLanes::largestChemicalRates(std::span<const Reactor> reactors, std::
     for (std::size_t lane = 0; lane < count; ++lane) self.load(reactors[first + lane], lane);
     self.target.chemicalRates(self.tables.view(), work);
     for (std::size_t lane = 0; lane < count; ++lane) {
-      double most = work.isGood[lane] == 1 ? 0 : std::numeric_limits<double>::quiet_NaN();
+      double most = 0;
       for (std::size_t k = 0; k < n; ++k) {
         const double size = std::abs(work.f[k * kLanes + lane]);
         most = size <= most ? most : size;  // not a number if one of them is none
