@@ -183,5 +183,46 @@ TEST_F(FlowExact, Womersley) {
   expectOrders("Womersley, 8, 16, 32 cells over the radius", error, 1.9);
 }
 
+// A wall that moves to and fro along itself under a gas at rest (Stokes 1851): u = U exp(-ky) cos(wt - ky), on a
+// periodic axis.
+TEST_F(FlowExact, WallThatOscillates) {
+  const double depth = 1e-3, k = 6.0 / depth, speed = 0.1;
+  const double w = 2.0 * viscosity() * k * k, period = 2.0 * pi / w;
+  const auto u = [&](const Place& x, double t) { return speed * std::exp(-k * x[1]) * std::cos(w * t - k * x[1]); };
+  Side wall = side(BoundaryKind::Wall, 1, false), top = side(BoundaryKind::Wall, 1, true);
+  wall.condition.slip = top.condition.slip = false;
+  wall.condition.varies.tangential = u;
+  top.condition.varies.tangential = u;
+  std::array<double, 3> error{};
+  for (std::size_t level = 0; level < 3; ++level) {
+    MeshSpec spec;
+    spec.vertices = {uniformAxis(depth, 3), uniformAxis(depth, 16 << level)};
+    spec.periodic = {true, false};
+    spec.patches = {wall.patch, top.patch};
+    const Mesh mesh(MPI_COMM_WORLD, spec);
+    HaloExchange halo(mesh);
+    FlowContext context{mesh, halo, gas.mechanism, gas.thermo, gas.transport, {wall.condition, top.condition}};
+    context.varying = std::make_shared<BoundaryValues>(mesh, context.boundaries, gas.thermo);
+    State state(mesh, n2.size(), {});
+    for (int c = 0; c < mesh.cells; ++c) {
+      state.velocity[at(2 * c)] = u(mesh.centre[at(c)], 0.0);
+      state.temperature[at(c)] = 300.0;
+      state.density[at(c)] = density;
+      state.enthalpy[at(c)] = gas.thermo.enthalpyMass(300.0, n2);
+      std::copy(n2.begin(), n2.end(), state.Y.begin() + c * static_cast<std::ptrdiff_t>(n2.size()));
+    }
+    const int steps = 20 << level;
+    const double dt = period / steps;
+    TransportOperator transport(context, state, {0.5, 2});
+    transport.initialise(state, dt);
+    for (int step = 0; step < steps; ++step)
+      for (int sweep = 0; sweep < 2; ++sweep) transport.advance(state, step * dt, dt);
+    const double time = period - 0.5 * dt;
+    error[level] =
+        largest(mesh, [&](int c) { return std::abs(state.velocity[at(2 * c)] - u(mesh.centre[at(c)], time)); }) / speed;
+  }
+  expectOrders("oscillating wall, 16, 32, 64 cells", error, 1.8);
+}
+
 }  // namespace
 }  // namespace lampblack::test
