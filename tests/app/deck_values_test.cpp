@@ -120,6 +120,17 @@ TEST(DeckValues, OverPlaceAndTime) {
   EXPECT_EQ(start.gas.moleFractions[0].first, N2);
 }
 
+TEST(DeckValues, AStreamOfGivenMoleFractionsNeedsNoComposition) {
+  const FlowCase flow = readFlowCase(
+      test::flameDeck({"boundaries.fuel={type: inlet, side: z-min, to: 10 mm, velocity: 0.2, temperature: 310 K, "
+                       "formula: {X_C2H4: r/0.01, X_N2: 1 - r/0.01}}"}));
+  const BoundaryCondition& fuel = flow.boundaries[0];
+  std::vector<double> X(fuel.Y.size());
+  Thermo(*flow.mechanism).massToMole(fuel.Y, X);
+  EXPECT_NEAR(X[flow.mechanism->speciesIndex("C2H4")], 0.5, 1e-12) << "in its middle";
+  EXPECT_NEAR(X[flow.mechanism->speciesIndex("N2")], 0.5, 1e-12);
+}
+
 TEST(DeckValues, AFlameLaidOverTheMesh) {
   const test::ScratchFolder scratch;
   const std::string profile =

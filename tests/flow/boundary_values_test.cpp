@@ -115,6 +115,26 @@ TEST_F(VaryingBoundaries, AnInletBelowZeroLetsTheGasOut) {
   EXPECT_NEAR(largest(b.mesh, [&](int c) { return state.temperature[at(c)]; }), 400.0, 1.0);
 }
 
+// A composition that is held at a face through which nothing flows: in the end the gas has it everywhere.
+TEST_F(VaryingBoundaries, AHeldCompositionFillsTheDomain) {
+  Side in = inlet();
+  in.condition.speed = 0.0;
+  in.condition.fixedComposition = true;
+  in.condition.varies.gas.moleFractions = {
+      {gas.mechanism.speciesIndex("H2"), [](const Place&, double) { return 0.1; }}};
+  Box b = box(in, outlet());
+  State state = b.state([&](const auto&) { return Box::Local{{0.0, 0.0}, 300.0, air}; });
+  TransportOperator transport(b.context, state);
+  const double dt = 5e-3;
+  transport.initialise(state, dt);
+  for (int i = 0; i < 400; ++i) transport.advance(state, i * dt, dt);
+  std::vector<double> X(n2.size());
+  for (int c = 0; c < b.mesh.owned; ++c) {
+    gas.thermo.massToMole({&state.Y[at(c) * n2.size()], n2.size()}, X);
+    EXPECT_NEAR(X[gas.mechanism.speciesIndex("H2")], 0.1, 5e-3);
+  }
+}
+
 // Between a wall that heats and one of 300 K: the heat that comes in leaves, and the integral of the conductivity over
 // the temperature is heat flux times distance.
 TEST_F(VaryingBoundaries, AWallOfGivenHeatFlux) {

@@ -49,6 +49,8 @@ TEST_F(StepControls, TheLastCorrectionIsTheError) {
   }
   EXPECT_NEAR(control.historyValues(state).at(0), 0.5, 1e-12);
   EXPECT_DOUBLE_EQ(control.largestStep(state), 0.2e-5) << "not less than a fifth at once";
+  for (int sweep = 0; sweep < 3; ++sweep) control.advance(state, 0.0, 1e-5);
+  EXPECT_EQ(control.historyValues(state).at(0), 0.0) << "of the last step alone";
 }
 
 TEST_F(StepControls, NeedsTwoSweeps) {
