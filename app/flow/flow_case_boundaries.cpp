@@ -100,7 +100,11 @@ class ConditionReader {
   [[nodiscard]] double valueOf(const std::string& name) const {
     if (fields_.has(name) && deck_.isGiven(keyOf(name)))
       throw deck_.error(keyOf(name), fmt::format("'{}' is given by a formula or a table, too", name));
-    if (fields_.has(name)) return fields_.find(name)(middle_, 0.0);
+    if (fields_.has(name)) try {
+        return fields_.find(name)(middle_, 0.0);
+      } catch (const InputError& error) {
+        throw deck_.error(fields_.keyOf(name), error.what());
+      }
     return deck_.optionalQuantity(keyOf(name)).value_or(0.0);
   }
   [[nodiscard]] bool isGiven(const std::string& name) const { return deck_.has(keyOf(name)) || fields_.has(name); }

@@ -7,6 +7,8 @@ from matplotlib.collections import PolyCollection
 from .results import unit_of
 from .style import plt, scaled_fraction, shown_time
 
+STRIP = 20  # longer over wider: drawn without equal axes
+
 # Name of the picture, field, title, colour map, whether it is a small fraction.
 PLANES = [
     ("temperature", "temperature", "Temperature", "inferno", False),
@@ -27,7 +29,9 @@ def _draw(axes, results, values, colours, limits):
         drawn.set_clim(*limits)
         axes.add_collection(drawn)
     axes.autoscale_view()
-    axes.set_aspect("equal")
+    # A strip would be a line: it is drawn as wide as it is long.
+    width, height = axes.get_xlim()[1] - axes.get_xlim()[0], axes.get_ylim()[1] - axes.get_ylim()[0]
+    axes.set_aspect("equal" if 1 / STRIP < width / height < STRIP else "auto")
     across, along = results.axis_names()
     axes.set_xlabel(f"{across}, mm")
     axes.set_ylabel(f"{along}, mm")
@@ -42,8 +46,10 @@ def _figure_size(results):
 
 
 def _streamlines(axes, results, velocity):
-    """Streamlines on a regular grid between the cells."""
+    """Streamlines on a regular grid between the cells; none where all cells stand in one row."""
     x, y = results.centres[:, 0] * 1e3, results.centres[:, 1] * 1e3
+    if np.ptp(x) == 0 or np.ptp(y) == 0:
+        return
     grid_x, grid_y = np.linspace(x.min(), x.max(), 90), np.linspace(y.min(), y.max(), 120)
     mesh = tri.Triangulation(x, y)
     at = np.meshgrid(grid_x, grid_y)

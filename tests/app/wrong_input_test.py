@@ -161,6 +161,8 @@ MISTAKES = [
           "X_C2H44", "boundaries.fuel.formula.X_C2H44", ("the mechanism has no species 'C2H44'",)),
     Wrong("formula that is too hot", "    temperature: 299 K", "    formula: {temperature: 9000 + r}", "9000 + r",
           "boundaries.fuel.formula.temperature", ("from 200 to 4000 K", "9000")),
+    Wrong("formula without a value at the start", "    velocity: 20 cm/s", "    formula: {velocity: 0.2/t}", "0.2/t",
+          "boundaries.fuel.formula.velocity", ("gives no finite number at", "t = 0")),
     Wrong("a table that is not there", "    velocity: 20 cm/s", "    table: nowhere.csv", "nowhere.csv",
           "boundaries.fuel.table", ("nowhere.csv",)),
     Wrong("a wall with two heats", "{type: wall, side: z-min, from: 10 mm}",
