@@ -34,8 +34,8 @@ class Operator {
   // Called when all operators have made a sweep, of the transport first, which clears State::balance: adds the mean
   // rates that the next sweep's transport takes as its sources. Also before the first step, and after loading.
   virtual void endSweep(State&) {}
-  // Called when the step's last sweep has ended, before the first step, and after loading: the state is what the next
-  // step begins with.
+  // Called when the step's last sweep has ended, before endSweep(), before the first step, and after loading: the state
+  // is what the next step begins with.
   virtual void endStep(State&) {}
   // What the operator keeps from step to step besides the state: with both, the next step is the same to the last bit.
   // Between two steps. Collective.

@@ -33,7 +33,14 @@ ReactionOperator::ReactionOperator(const FlowContext& context, Options options)
       sharing_(context.mesh.comm, options.shareWork),
       cost_(context.mesh.owned, 1e-4),
       initialStep_(context.mesh.owned, 0.0),
-      rate_(cost_.size() * context.mechanism.numSpecies()) {}
+      rate_(cost_.size() * context.mechanism.numSpecies()),
+      isLimited_(cost_.size()),
+      heatRelease_(cost_.size()) {}
+
+// Of the gas in which transport counts the rate as one per mass.
+double ReactionOperator::densityOfRate(const State& state, std::size_t cell) const {
+  return isLimited_[cell] != 0.0 ? state.density[cell] : meanDensity(state, cell);
+}
 
 // Of the step's start and end: reactions per mass and per volume are of second order to each other with it.
 double ReactionOperator::meanDensity(const State& state, std::size_t cell) const {
@@ -57,7 +64,7 @@ void ReactionOperator::pack(const State& state, std::size_t cell, double dt, std
   const std::span<double> source = in.subspan(Layout::inHeader + n, n);
   std::copy_n(before, n, start.begin());
   // What transport alone has changed since then, at a constant rate.
-  const double density = meanDensity(state, cell);
+  const double density = densityOfRate(state, cell);
   for (std::size_t k = 0; k < n; ++k) source[k] = (Y[k] - before[k]) / dt - rate_[cell * n + k] / density;
 }
 
@@ -111,17 +118,17 @@ void ReactionOperator::solve(double time, double dt, std::span<const std::span<c
 
 void ReactionOperator::unpack(State& state, std::size_t cell, double dt, std::span<const double> out) {
   const auto n = static_cast<std::size_t>(state.species);
-  const double density = meanDensity(state, cell);
+  const double density = meanDensity(state, cell), densityOfLast = densityOfRate(state, cell);
   for (std::size_t k = 0; k < n; ++k) {
     double& Y = state.Y[cell * n + k];
+    double& rate = rate_[cell * n + k];
     const double reacted = out[Layout::outHeader + k];
-    rate_[cell * n + k] += density * (reacted - Y) / dt;
+    rate = density * ((reacted - Y) / dt + rate / densityOfLast);
     Y = reacted;
   }
-  // No net mass: the reactor keeps the sum of Y, so that round-off in the rate would feed on itself.
-  double net = 0.0;
-  for (std::size_t k = 0; k < n; ++k) net += rate_[cell * n + k];
-  for (std::size_t k = 0; k < n; ++k) rate_[cell * n + k] -= net * state.Y[cell * n + k];
+  isLimited_[cell] = 0.0;
+  // The reactor keeps the sum of Y, so that round-off in the rate would feed on itself.
+  removeNetMass(state, cell);
   state.temperature[cell] = out[0];
   initialStep_[cell] = out[1];
   // A smoothed cost: one solve's time is noisy on a shared machine.
@@ -133,7 +140,44 @@ void ReactionOperator::unpack(State& state, std::size_t cell, double dt, std::sp
   diagnostics_.handedOverCells += out[6];
 }
 
+void ReactionOperator::removeNetMass(const State& state, std::size_t cell) {
+  const auto n = static_cast<std::size_t>(state.species);
+  double net = 0.0;
+  for (std::size_t k = 0; k < n; ++k) net += rate_[cell * n + k];
+  for (std::size_t k = 0; k < n; ++k) rate_[cell * n + k] -= net * state.Y[cell * n + k];
+}
+
+// The rates are what the next step's transport takes for its own. If a species goes on changing as it has, they may
+// use up what there is of it, or add a half: one that has reacted away within a step would else be far below zero
+// there, and one that has begun to form far too much, and what diffuses from such a cell be wrong by as much. A steady
+// state never comes here. What is left of the rates does not conserve elements: it has to be taken out again with the
+// density it was put in with (densityOfRate), though that is of first order in time only.
+void ReactionOperator::limitRates(const State& state, std::size_t cell) {
+  const auto n = static_cast<std::size_t>(state.species);
+  const double* Y = &state.Y[cell * n];
+  const double* before = &before_.Y[cell * n];
+  double* rate = &rate_[cell * n];
+  const auto excess = [](double Y, double change, double rate) {
+    const double available = std::max(Y, 0.0);
+    return rate > 0.0 ? std::max(change - 0.5 * available, 0.0) : std::min(change + available, 0.0);
+  };
+  double largest = 0.0;
+  for (std::size_t k = 0; k < n; ++k)
+    largest = std::max(largest, std::abs(rate[k] * excess(Y[k], Y[k] - before[k], rate[k])));
+  if (largest == 0.0) return;
+  heatRelease_[cell] = heatRelease(state, cell);
+  const double perStep = meanDensity(state, cell) / step_;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double tooMuch = perStep * excess(Y[k], Y[k] - before[k], rate[k]);
+    rate[k] = rate[k] > 0.0 ? std::max(rate[k] - tooMuch, 0.0) : std::min(rate[k] - tooMuch, 0.0);
+  }
+  removeNetMass(state, cell);
+  isLimited_[cell] = 1.0;
+  diagnostics_.limitedCells += 1.0;
+}
+
 void ReactionOperator::advance(State& state, double time, double dt) {
+  step_ = dt;
   const auto n = static_cast<std::size_t>(state.species);
   WorkSharing::Items items;
   items.cost = cost_;
@@ -160,12 +204,25 @@ void ReactionOperator::endSweep(State& state) {
   for (std::size_t i = 0; i < rate_.size(); ++i) state.balance.species[i] += rate_[i];
 }
 
+// Of the rates, W/m3.
+double ReactionOperator::heatRelease(const State& state, std::size_t cell) const {
+  const auto n = static_cast<std::size_t>(state.species);
+  std::vector<double> enthalpies(n);
+  context_.thermo.speciesEnthalpies(state.temperature[cell], enthalpies);
+  double heat = 0.0;
+  for (std::size_t k = 0; k < n; ++k) heat -= enthalpies[k] * rate_[cell * n + k];
+  return heat;
+}
+
 void ReactionOperator::endStep(State& state) {
+  if (step_ > 0.0 && !before_.Y.empty())  // else the state is a new one
+    for (std::size_t cell = 0; cell < cost_.size(); ++cell) limitRates(state, cell);
   const auto owned = static_cast<std::ptrdiff_t>(cost_.size());
   before_.Y.assign(state.Y.begin(), state.Y.begin() + static_cast<std::ptrdiff_t>(rate_.size()));
   before_.density.assign(state.density.begin(), state.density.begin() + owned);
   before_.enthalpy.assign(state.enthalpy.begin(), state.enthalpy.begin() + owned);
   before_.pressure = state.thermodynamicPressure;
+  step_ = 0.0;
 }
 
 // What a step begins with is the state: endStep() takes it from there after loading.
@@ -173,28 +230,33 @@ void ReactionOperator::saveOrLoad(StateArchive& archive) {
   archive.cells("chemistry_cost", cost_, 1);
   archive.cells("chemistry_first_step", initialStep_, 1);
   archive.cells("chemistry_rate", rate_, static_cast<int>(context_.mechanism.numSpecies()));
-  std::array<double, 5> counted{diagnostics_.solverSteps, diagnostics_.integratedCells, diagnostics_.skippedCells,
-                                diagnostics_.handedOverCells, diagnostics_.retries};
+  archive.cells("chemistry_rate_is_limited", isLimited_, 1);
+  archive.cells("heat_release", heatRelease_, 1);
+  std::array<double, 6> counted{diagnostics_.solverSteps,     diagnostics_.integratedCells, diagnostics_.skippedCells,
+                                diagnostics_.handedOverCells, diagnostics_.retries,         diagnostics_.limitedCells};
   archive.sums("chemistry_counts", counted);
   std::vector<double> stages{
       diagnostics_.imbalanceBefore, diagnostics_.imbalanceAfter, static_cast<double>(diagnostics_.stages),
       imbalances_.before,           imbalances_.after,           static_cast<double>(stages_)};
   archive.shared("chemistry_stages", stages);
-  diagnostics_ = {counted[0], counted[1],   counted[2],   counted[3],
-                  counted[4], stages.at(0), stages.at(1), static_cast<int>(stages.at(2))};
+  diagnostics_ = {counted[0],   counted[1],   counted[2],
+                  counted[3],   counted[4],   counted[5],
+                  stages.at(0), stages.at(1), static_cast<int>(stages.at(2))};
   imbalances_ = {stages.at(3), stages.at(4)};
   stages_ = static_cast<int>(stages.at(5));
 }
 
 ReactionOperator::Diagnostics ReactionOperator::takeDiagnostics() {
   Diagnostics all = diagnostics_;
-  double sums[5] = {all.solverSteps, all.integratedCells, all.skippedCells, all.handedOverCells, all.retries};
-  MPI_Allreduce(MPI_IN_PLACE, sums, 5, MPI_DOUBLE, MPI_SUM, context_.mesh.comm);
+  double sums[6] = {all.solverSteps,     all.integratedCells, all.skippedCells,
+                    all.handedOverCells, all.retries,         all.limitedCells};
+  MPI_Allreduce(MPI_IN_PLACE, sums, 6, MPI_DOUBLE, MPI_SUM, context_.mesh.comm);
   all.solverSteps = sums[0];
   all.integratedCells = sums[1];
   all.skippedCells = sums[2];
   all.handedOverCells = sums[3];
   all.retries = sums[4];
+  all.limitedCells = sums[5];
   if (all.stages > 0) {
     all.imbalanceBefore /= all.stages;
     all.imbalanceAfter /= all.stages;
@@ -209,14 +271,23 @@ std::vector<Quantity> ReactionOperator::historyColumns() const {
           {"skipped_cells", "1", "cells skipped for negligible rates since the last row, over all stages"},
           {"cells_by_cvode", "1", "cells for which the Rosenbrock method's few steps did not do, over all stages"},
           {"stiff_solver_retries", "1", "repeated stiff solves since the last row"},
+          {"limited_rate_cells", "1",
+           "cells that reacted so fast that the next step's transport took less of it, over all steps"},
           {"imbalance_before", "1", "busiest rank's chemistry cost over the mean, as partitioned"},
           {"imbalance_after", "1", "the same as measured, with work sharing"}};
 }
 
 std::vector<double> ReactionOperator::historyValues(const State&) {
   const Diagnostics d = takeDiagnostics();
-  return {d.solverSteps, d.integratedCells, d.skippedCells,  d.handedOverCells,
-          d.retries,     d.imbalanceBefore, d.imbalanceAfter};
+  return {d.solverSteps, d.integratedCells, d.skippedCells,    d.handedOverCells,
+          d.retries,     d.limitedCells,    d.imbalanceBefore, d.imbalanceAfter};
+}
+
+void ReactionOperator::fields(const State& state, const FieldSink& sink) const {
+  std::vector<double> heat = heatRelease_;
+  for (std::size_t cell = 0; cell < heat.size(); ++cell)
+    if (isLimited_[cell] == 0.0) heat[cell] = heatRelease(state, cell);
+  sink({"heat_release", "W/m^3", "heat set free by the gas reactions, mean of the last step"}, heat);
 }
 
 std::optional<Operator::Imbalance> ReactionOperator::imbalance() const {

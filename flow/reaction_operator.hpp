@@ -35,6 +35,7 @@ class ReactionOperator : public Operator {
   struct Diagnostics {  // of all ranks and all stages since the last call of takeDiagnostics()
     double solverSteps = 0.0;
     double integratedCells = 0.0, skippedCells = 0.0, handedOverCells = 0.0, retries = 0.0;
+    double limitedCells = 0.0;                           // whose rates the next transport takes only in part
     double imbalanceBefore = 0.0, imbalanceAfter = 0.0;  // means over stages
     int stages = 0;
   };
@@ -49,14 +50,19 @@ class ReactionOperator : public Operator {
   [[nodiscard]] std::vector<Quantity> historyColumns() const override;
   [[nodiscard]] std::vector<double> historyValues(const State& state) override;
   [[nodiscard]] std::optional<Imbalance> imbalance() const override;
+  void fields(const State& state, const FieldSink& sink) const override;
   Diagnostics takeDiagnostics();  // collective
 
  private:
   struct Layout;
   [[nodiscard]] double meanDensity(const State& state, std::size_t cell) const;
+  [[nodiscard]] double densityOfRate(const State& state, std::size_t cell) const;
   void pack(const State& state, std::size_t cell, double dt, std::span<double> in) const;
   void solve(double time, double dt, std::span<const std::span<const double>> in, std::span<std::vector<double>> out);
   void unpack(State& state, std::size_t cell, double dt, std::span<const double> out);
+  void removeNetMass(const State& state, std::size_t cell);
+  void limitRates(const State& state, std::size_t cell);
+  [[nodiscard]] double heatRelease(const State& state, std::size_t cell) const;
 
   const FlowContext& context_;
   Options options_;
@@ -73,7 +79,10 @@ class ReactionOperator : public Operator {
     std::vector<double> density, enthalpy;
     double pressure = 0.0;  // Pa, thermodynamic
   } before_;
-  std::vector<double> rate_;  // kg/m3/s, mean reaction rate of the last sweep, species a owned cell
+  double step_ = 0.0;                // s, the present; zero between steps
+  std::vector<double> rate_;         // kg/m3/s, mean reaction rate of the last sweep, species a owned cell
+  std::vector<double> isLimited_;    // 1 or 0, owned cells: whether rate_ is less than it was found (limitRates)
+  std::vector<double> heatRelease_;  // W/m3, of the last step, where rates are limited
   Diagnostics diagnostics_;
   Imbalance imbalances_{0.0, 0.0};  // sums over all stages
   int stages_ = 0;

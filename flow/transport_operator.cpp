@@ -216,6 +216,7 @@ void TransportOperator::recordBoundary(const State& state, double dt) {
 void TransportOperator::saveOrLoad(StateArchive& archive) {
   // What others look at between two steps; the rest of the properties is evaluated where a step begins.
   archive.cells("viscosity", properties_.viscosity, 1);
+  archive.cells("conductivity", properties_.conductivity, 1);
   std::vector<double> seen{diagnostics_.continuityError, static_cast<double>(diagnostics_.pressureIterations),
                            static_cast<double>(diagnostics_.speciesIterations), lastStep_};
   archive.shared("transport_diagnostics", seen);
@@ -299,8 +300,9 @@ std::vector<double> TransportOperator::historyValues(const State& state) {
 }
 
 void TransportOperator::fields(const State&, const FieldSink& sink) const {
-  sink({"viscosity", "Pa s", "dynamic viscosity"},
-       {properties_.viscosity.data(), static_cast<std::size_t>(context_.mesh.owned)});
+  const auto owned = static_cast<std::size_t>(context_.mesh.owned);
+  sink({"viscosity", "Pa s", "dynamic viscosity"}, {properties_.viscosity.data(), owned});
+  sink({"conductivity", "W/m/K", "thermal conductivity"}, {properties_.conductivity.data(), owned});
 }
 
 }  // namespace lampblack::flow

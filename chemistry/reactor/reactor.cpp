@@ -20,17 +20,22 @@ using Event = ConstantPressureReactor::Event;
 // Largest deviation of the sum of mass fractions that may be put down to round-off and removed by rescaling.
 constexpr double kSumTolerance = 1e-9;
 
+// Errors of the tolerance's size stay in the range where rates are smooth.
+double leastFraction(const ConstantPressureReactor::Options& options) {
+  return -100 * options.absoluteTolerance;
+}
+
 }  // namespace
 
 ConstantPressureReactor::Impl::Impl(const Mechanism& mechanismIn, const Options& optionsIn)
     : mechanism(mechanismIn),
       options(optionsIn),
       n(mechanismIn.numSpecies()),
-      system(mechanismIn),
+      system(mechanismIn, nullptr, leastFraction(optionsIn)),
       rosenbrock(system),
       bdf(system) {
   for (auto* work : {&start, &predicted, &chemical, &chemicalEnd}) work->assign(n + 1, 0.0);
-  if (options.rosenbrockSteps > 0 && ReactorLanes::covers(mechanism)) lanes.emplace(mechanism);
+  if (options.rosenbrockSteps > 0 && ReactorLanes::covers(mechanism)) lanes.emplace(mechanism, leastFraction(options));
 }
 
 void ConstantPressureReactor::Impl::checkInput(const Cell& cell, double dt) const {

@@ -18,8 +18,9 @@ class ConstantPressureReactor {
  public:
   struct Options {
     double relativeTolerance = 1e-6;
-    double absoluteTolerance = 1e-12;  // of a mass fraction
-    int maxSteps = 20000;              // of CVODE
+    // Of a mass fraction; one below -100 times this counts as that in the rates (ReactorSystem).
+    double absoluteTolerance = 1e-12;
+    int maxSteps = 20000;  // of CVODE
     // A cell is skipped, i.e. advanced by one explicit trapezoid, if its chemistry changes no mass fraction by more
     // than this over the interval, at the rates of its start and of its end, and those differ so little that the error
     // of the trapezoid is below absoluteTolerance. Zero never skips.

@@ -45,8 +45,8 @@ void take(const double* rows, std::size_t lane, std::span<double> values) {
 }  // namespace
 
 struct ReactorLanes::Impl {
-  Impl(const Mechanism& mechanism, BatchKinetics::Instructions instructions)
-      : tables(mechanism), target(targetOf(instructions)) {}
+  Impl(const Mechanism& mechanism, double leastFraction, BatchKinetics::Instructions instructions)
+      : tables(mechanism, leastFraction), target(targetOf(instructions)) {}
 
   // A reactor on its way in a lane.
   struct Traveller {
@@ -122,9 +122,9 @@ bool ReactorLanes::covers(const Mechanism& mechanism) {
   return ReactorLanesTables::covers(mechanism);
 }
 
-ReactorLanes::ReactorLanes(const Mechanism& mechanism, BatchKinetics::Instructions instructions) {
+ReactorLanes::ReactorLanes(const Mechanism& mechanism, double leastFraction, BatchKinetics::Instructions instructions) {
   BatchKinetics::demand(instructions);
-  impl_ = std::make_unique<Impl>(mechanism, instructions);
+  impl_ = std::make_unique<Impl>(mechanism, leastFraction, instructions);
 }
 ReactorLanes::~ReactorLanes() = default;
 ReactorLanes::ReactorLanes(ReactorLanes&&) noexcept = default;

@@ -40,7 +40,9 @@ class ReactorLanes {
   static bool covers(const Mechanism& mechanism);
 
   // std::logic_error for a mechanism that is not covered; InputError for instructions that are not available.
-  explicit ReactorLanes(const Mechanism& mechanism, BatchKinetics::Instructions instructions = BatchKinetics::best());
+  // `leastFraction` as of ReactorSystem.
+  ReactorLanes(const Mechanism& mechanism, double leastFraction,
+               BatchKinetics::Instructions instructions = BatchKinetics::best());
   ~ReactorLanes();
   ReactorLanes(ReactorLanes&&) noexcept;
   ReactorLanes& operator=(ReactorLanes&&) noexcept;

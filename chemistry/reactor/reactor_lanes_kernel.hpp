@@ -97,7 +97,8 @@ class ReactorLanesKernel {
     gas.volume = V::all(1.0) / density;
     gas.total = D{};
     for (std::size_t k = 0; k < view.numSpecies; ++k) {
-      const D c = V::load(y + k * lanes) * (density * V::all(view.inverseWeights[k]));
+      const D c =
+          V::larger(V::load(y + k * lanes), V::all(view.leastFraction)) * (density * V::all(view.inverseWeights[k]));
       V::store(work.rates.c + k * lanes, c);
       gas.total += c;
     }

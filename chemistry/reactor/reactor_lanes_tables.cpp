@@ -14,7 +14,7 @@ bool ReactorLanesTables::covers(const Mechanism& mechanism) {
   return BatchJacobianTables::covers(tables, BatchTables(mechanism, tables).view());
 }
 
-ReactorLanesTables::ReactorLanesTables(const Mechanism& mechanism)
+ReactorLanesTables::ReactorLanesTables(const Mechanism& mechanism, double leastFraction)
     : n_(mechanism.numSpecies()),
       tables_(mechanism),
       batch_(mechanism, tables_),
@@ -63,6 +63,7 @@ ReactorLanesTables::ReactorLanesTables(const Mechanism& mechanism)
   work_.rates = ratesWork_.work();
   work_.jacobian.values = work_.lu.matrix;
   setEntries();
+  view_.leastFraction = leastFraction;
   setView();
   // What never changes: the product's vector v, and the diagonal but for its own unknown.
   for (std::size_t j = 0; j < n_; ++j)

@@ -20,7 +20,7 @@ class ReactorLanesTables {
  public:
   static bool covers(const Mechanism& mechanism);
 
-  explicit ReactorLanesTables(const Mechanism& mechanism);
+  ReactorLanesTables(const Mechanism& mechanism, double leastFraction);
   ReactorLanesTables(const ReactorLanesTables&) = delete;
   ReactorLanesTables& operator=(const ReactorLanesTables&) = delete;
 

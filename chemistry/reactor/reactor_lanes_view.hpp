@@ -26,6 +26,7 @@ struct ReactorLanesView {
   std::size_t numSpecies;
   double minTemperature, maxTemperature;                  // K, of the data
   double minStepTemperature, maxStepTemperature;          // K, at which steps can be taken
+  double leastFraction;                                   // as of ReactorSystem
   double gasConstant;                                     // J/mol/K
   const double *weights, *inverseWeights, *gasConstants;  // kg/mol, mol/kg, R/W in J/kg/K
   const LaneEntry* entries;

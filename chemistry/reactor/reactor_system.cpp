@@ -12,9 +12,10 @@
 
 namespace lampblack::chemistry {
 
-ReactorSystem::ReactorSystem(const Mechanism& mechanism, CarriedPhase* carried)
+ReactorSystem::ReactorSystem(const Mechanism& mechanism, CarriedPhase* carried, double leastFraction)
     : thermo_(mechanism),
       kinetics_(mechanism),
+      leastFraction_(leastFraction),
       weights_(mechanism.molecularWeights().begin(), mechanism.molecularWeights().end()),
       carried_(carried) {
   for (const double W : weights_) {
@@ -82,10 +83,10 @@ bool ReactorSystem::prepare(const double* y) {
   const bool pressureHeld = conditions_.held == Held::Pressure;
   density_ = pressureHeld ? conditions_.value * massPerPressure : conditions_.value;
   pressure_ = pressureHeld ? conditions_.value : conditions_.value / massPerPressure;
-  const double rho = density_;
+  const double rho = density_, least = leastFraction_;
   const double* __restrict inverse = inverseWeights_.data();
   double* __restrict c = c_.data();
-  for (std::size_t k = 0; k < n; ++k) c[k] = y[k] * rho * inverse[k];
+  for (std::size_t k = 0; k < n; ++k) c[k] = std::max(y[k], least) * rho * inverse[k];
   return true;
 }
 

@@ -15,6 +15,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -52,8 +53,11 @@ class ReactorSystem {
     std::vector<double> product;            // u_i, a value an unknown
   };
 
-  // The carried phase, if any, has to live as long.
-  explicit ReactorSystem(const Mechanism& mechanism, CarriedPhase* carried = nullptr);
+  // The carried phase, if any, has to live as long. Rates follow mass action through zero, which drives single species
+  // back, down to `leastFraction`: a mass fraction below it counts as that. Where transport leaves all radicals of a
+  // gas below zero, chain branching multiplies what is negative as it does what is positive; from there on it does not.
+  explicit ReactorSystem(const Mechanism& mechanism, CarriedPhase* carried = nullptr,
+                         double leastFraction = std::numeric_limits<double>::lowest());
 
   std::size_t numSpecies() const { return weights_.size(); }
   std::size_t numCarried() const { return carriedSource_.size(); }
@@ -67,8 +71,8 @@ class ReactorSystem {
   // Constant pressure (Pa), energy conserved, a source (1/s, may be empty) and a heating (J/kg/s).
   void setConditions(double pressure, std::span<const double> source, double heating = 0);
 
-  // f = dy/dt. Rates follow mass action through zero: negative mass fractions are negative concentrations. False, with
-  // f undefined, if the state is outside the range of the data (Thermo::minTemperature..maxTemperature) or not finite.
+  // f = dy/dt. False, with f undefined, if the state is outside the range of the data
+  // (Thermo::minTemperature..maxTemperature) or not finite.
   bool rates(const double* y, double* f);
   // The chemical part of dY_k/dt alone.
   bool chemicalRates(const double* y, double* f);
@@ -104,6 +108,7 @@ class ReactorSystem {
 
   Thermo thermo_;
   Kinetics kinetics_;
+  double leastFraction_;
   std::vector<double> weights_, inverseWeights_;
   Conditions conditions_;
   std::vector<double> source_;

@@ -23,8 +23,8 @@ using test::Flame;
 // At the beginning of a step without transport.
 CarriedOperator operatorOf(Flame& flame) {
   CarriedOperator particles(flame.context, *flame.flowCase.carried, 0, flame.flowCase.carriedOptions);
-  particles.endSweep(flame.state);
   particles.endStep(flame.state);
+  particles.endSweep(flame.state);
   return particles;
 }
 
@@ -137,8 +137,8 @@ TEST_P(EveryModel, DoesNotDependOnWhichRankAdvancesACell) {
     for (int step = 0; step < 3; ++step) {
       particles.advance(flame.state, 0.0, 5e-5);
       flame.state.balance.clear();
-      particles.endSweep(flame.state);
       particles.endStep(flame.state);
+      particles.endSweep(flame.state);
     }
     states.push_back(flame.state);
   }
@@ -153,8 +153,8 @@ TEST_P(EveryModel, KeepsTheBudgetsWithTransportWhichSeesItsRates) {
   CarriedOperator particles(flame.context, *flame.flowCase.carried, 0, flame.flowCase.carriedOptions);
   TransportOperator transport(flame.context, flame.state);
   transport.initialise(flame.state, 1e-5);
-  particles.endSweep(flame.state);
   particles.endStep(flame.state);
+  particles.endSweep(flame.state);
   std::vector<std::vector<double>> elements;
   for (const CarriedModel::Scalar& scalar : flame.flowCase.carried->scalars()) elements.push_back(scalar.elements);
   Budget budget(flame.context, massAndElements(*flame.flowCase.mechanism, elements), flame.state);
@@ -163,10 +163,10 @@ TEST_P(EveryModel, KeepsTheBudgetsWithTransportWhichSeesItsRates) {
   for (int step = 0; step < 10; ++step) {
     transport.advance(flame.state, step * 1e-5, 1e-5);
     particles.advance(flame.state, step * 1e-5, 1e-5);
-    transport.endSweep(flame.state);
     transport.endStep(flame.state);
-    particles.endSweep(flame.state);
+    transport.endSweep(flame.state);
     particles.endStep(flame.state);
+    particles.endSweep(flame.state);
     for (const double rate : flame.state.balance.carried) source = std::max(source, std::abs(rate));
   }
   EXPECT_GT(source, 0.0);

@@ -27,8 +27,8 @@ TEST_P(ChemistryFailure, IsToldAlikeOnAllRanks) {
   options.reactor.relativeTolerance = 1e-18;
   options.reactor.absoluteTolerance = 1e-40;
   ReactionOperator chemistry(flame.context, options);
-  chemistry.endSweep(flame.state);
   chemistry.endStep(flame.state);
+  chemistry.endSweep(flame.state);
   bool collective = false;
   const std::string message = test::messageOf<NumericsError>([&] {
     try {

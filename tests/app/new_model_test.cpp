@@ -81,8 +81,8 @@ TEST(NewModel, IsARowOfTheTableAndGoesIntoAFlow) {
     flame.state.*field = gas.state.*field;
   std::fill(flame.state.carried.begin(), flame.state.carried.end(), 2e-3);
   CarriedOperator particles(flame.context, dust, 0, {});
-  particles.endSweep(flame.state);
   particles.endStep(flame.state);
+  particles.endSweep(flame.state);
   particles.advance(flame.state, 0.0, 5e-3);
   for (int c = 0; c < flame.mesh.owned; ++c)
     EXPECT_NEAR(particles.densities(flame.state, c)[0] / (2e-3 * std::exp(-0.5)), 1, 1e-3);
@@ -104,8 +104,8 @@ TEST(NewModel, ASteadyStateDoesNotDependOnTheStep) {
     state.thermodynamicPressure = gas.thermodynamicPressure;
     std::fill(state.carried.begin(), state.carried.end(), 2e-3);
     CarriedOperator particles(flame.context, dust, 0, {});
-    particles.endSweep(state);
     particles.endStep(state);
+    particles.endSweep(state);
     // In place of a flow: dust comes, the hydrogen that it gives goes, and what the balance says happens.
     const auto flow = [&] {
       for (int c = 0; c < flame.mesh.owned; ++c) {
@@ -126,8 +126,8 @@ TEST(NewModel, ASteadyStateDoesNotDependOnTheStep) {
     for (; steps * dt < 0.3; ++steps) {
       flow();
       particles.advance(state, steps * dt, dt);
-      particles.endSweep(state);
       particles.endStep(state);
+      particles.endSweep(state);
     }
     for (int c = 0; c < flame.mesh.owned; ++c) {
       const auto cell = static_cast<std::size_t>(c);
@@ -161,12 +161,12 @@ TEST(NewModel, TransportIsToldNoMoreThanThereIs) {
   state.thermodynamicPressure = flame.state.thermodynamicPressure;
   CarriedOperator particles(flame.context, dust, 0, {});
   std::fill(state.carried.begin(), state.carried.end(), 2e-3);
-  particles.endSweep(state);
   particles.endStep(state);
+  particles.endSweep(state);
   const double dt = 2e-3;
   particles.advance(state, 0.0, dt);
-  particles.endSweep(state);
   particles.endStep(state);
+  particles.endSweep(state);
   const State before = state;
   for (int c = 0; c < flame.mesh.owned; ++c) {
     const auto cell = static_cast<std::size_t>(c);

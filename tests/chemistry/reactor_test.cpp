@@ -63,6 +63,31 @@ Options tight() {
   return {1e-11, 1e-18, 100000, 0.0, 0};
 }
 
+// A hot mixture whose radicals transport has left below zero: by mass action through zero, chain branching would let
+// them grow downwards as fast as upwards. They count as next to none, and the mixture ignites as it does without any.
+TEST(Reactor, RadicalsBelowZeroDoNotBranch) {
+  State without{1400, std::vector<double>(hydrogen().numSpecies())};
+  Thermo(hydrogen()).moleToMass(parseComposition(hydrogen(), "H2: 2, O2: 1, N2: 3.76"), without.Y);
+  const std::size_t H = hydrogen().speciesIndex("H");
+  State below = without;
+  for (const char* name : {"H", "O", "OH"}) {
+    below.Y[hydrogen().speciesIndex(name)] -= 1e-6;
+    below.Y[hydrogen().speciesIndex("N2")] += 1e-6;
+  }
+  for (const int rosenbrockSteps : {0, 200}) {
+    ConstantPressureReactor reactor(hydrogen(), {1e-9, 1e-15, 20000, 0.0, rosenbrockSteps});
+    State early = below, late = below, reference = without;
+    advance(reactor, early, 5e-6);
+    for (const double Y : early.Y) EXPECT_GT(Y, -1e-6 - 1e-9) << rosenbrockSteps;
+    advance(reactor, late, 1e-3);
+    advance(reactor, reference, 1e-3);
+    EXPECT_GT(late.T, 2500) << rosenbrockSteps;
+    // 1e-6 of the mass is 2e8 J/kg short, the enthalpy of H.
+    EXPECT_NEAR(late.T, reference.T, 1.0) << rosenbrockSteps;
+    EXPECT_GT(late.Y[H], 0) << rosenbrockSteps;
+  }
+}
+
 // Default tolerances against rtol 1e-11. Local errors of 1e-6 add up over about a hundred steps, with some of them
 // correlated: within 1e-4 of a mass fraction, and 1e-8 where there is nearly nothing.
 TEST(Reactor, DefaultTolerancesFollowATightRun) {

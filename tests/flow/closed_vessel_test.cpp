@@ -110,16 +110,16 @@ TEST_F(ClosedVessel, ReactsAsAReactorOfConstantVolume) {
     options.reactor.absoluteTolerance = 1e-14;
     ReactionOperator chemistry(b.context, options);
     transport.initialise(state, dt);
-    chemistry.endSweep(state);
     chemistry.endStep(state);
+    chemistry.endSweep(state);
     for (int i = 0; i < steps; ++i) {
       for (int sweep = 0; sweep < sweeps; ++sweep) {
         transport.advance(state, i * dt, dt);
         chemistry.advance(state, i * dt, dt);
+        if (sweep + 1 == sweeps) chemistry.endStep(state);
         transport.endSweep(state);
         chemistry.endSweep(state);
       }
-      chemistry.endStep(state);
     }
     // Burnt: its temperature does not depend on when it ignited.
     const double R0 = constants::gasConstant / gas.thermo.meanMolecularWeight(mixture);

@@ -59,17 +59,17 @@ Quantities advance(Problem& problem, State& state, int sweeps, int steps, double
   const auto endStep = [&] {
     for (Operator* op : operators) op->endStep(state);
   };
-  endSweep();
   endStep();
+  endSweep();
   std::vector<double> velocity, pressure;
   for (int i = 0; i < steps; ++i) {
     velocity = state.velocity;
     pressure = state.pressure;
     for (int sweep = 0; sweep < sweeps; ++sweep) {
       for (Operator* op : operators) op->advance(state, i * dt, dt);
+      if (sweep + 1 == sweeps) endStep();
       endSweep();
     }
-    endStep();
   }
   // Velocities stand half a step before the gas, pressures a step.
   for (std::size_t i = 0; i < velocity.size(); ++i) velocity[i] += 1.5 * (state.velocity[i] - velocity[i]);
