@@ -14,6 +14,7 @@
 #include "core/rooms.hpp"
 #include "flow/boundary.hpp"
 #include "flow/boundary_values.hpp"
+#include "flow/transport_model.hpp"
 
 namespace lampblack::flow {
 
@@ -29,6 +30,7 @@ struct FlowContext {
   // there is zero at any height; in a closed vessel any will do.
   double referenceDensity = 0.0;
   std::shared_ptr<BoundaryValues> varying = nullptr;  // null where no boundary varies over place or time
+  TransportModel transportModel{};                    // `transport` has its averaged() options
 
   [[nodiscard]] const BoundaryCondition& boundaryOf(int face) const {
     return boundaries[mesh.patch[face - mesh.interiorFaces]];
@@ -49,6 +51,11 @@ struct FlowContext {
   [[nodiscard]] double boundaryHeatFlux(int face) const {  // W/m^2, into the gas
     const BoundaryValues::Face* values = varyingAt(face);
     return values ? values->heatFlux : boundaryOf(face).heatFlux;
+  }
+  // Whether the mass fractions at this boundary face are given.
+  [[nodiscard]] bool isCompositionGiven(int face) const {
+    const BoundaryCondition& boundary = boundaryOf(face);
+    return boundary.kind == BoundaryKind::Inlet && boundary.fixedComposition;
   }
   // An inlet of negative velocity whose temperature and composition are not held: the gas leaves as it is.
   [[nodiscard]] bool isSuction(int face) const {

@@ -13,6 +13,10 @@ void GasProperties::update(const FlowContext& context, const State& state) {
   molecularWeight.resize(cells);
   massDiffusivity.resize(static_cast<std::size_t>(cells) * n);
   X_.resize(n);
+  DT_.resize(n);
+  const TransportModel& model = context.transportModel;
+  if (model.isMulticomponent() && !multicomponent_) multicomponent_.emplace(context.mechanism, model.integrals);
+  if (model.soret) thermalDiffusion.resize(massDiffusivity.size());
   const auto molecularWeights = context.mechanism.molecularWeights();
   for (int cell = 0; cell < cells; ++cell) {
     const std::span<const double> Y{state.Y.data() + static_cast<std::ptrdiff_t>(cell) * n,
@@ -27,6 +31,11 @@ void GasProperties::update(const FlowContext& context, const State& state) {
     for (double& d : D) d *= state.density[cell];
     viscosity[cell] = mixture.viscosity;
     conductivity[cell] = mixture.conductivity;
+    if (multicomponent_)
+      conductivity[cell] = multicomponent_->mixture(T, state.thermodynamicPressure, X_, DT_).conductivity;
+    else if (model.soret)
+      context.transport.thermalDiffusion(T, state.thermodynamicPressure, X_, DT_);
+    if (model.soret) std::ranges::copy(DT_, &thermalDiffusion[static_cast<std::size_t>(cell) * n]);
     heatCapacity[cell] = context.thermo.cpMass(T, Y);
     molecularWeight[cell] = context.thermo.meanMolecularWeight(Y);
   }

@@ -157,18 +157,17 @@ void ReactionOperator::limitRates(const State& state, std::size_t cell) {
   const double* Y = &state.Y[cell * n];
   const double* before = &before_.Y[cell * n];
   double* rate = &rate_[cell * n];
-  const auto excess = [](double Y, double change, double rate) {
-    const double available = std::max(Y, 0.0);
-    return rate > 0.0 ? std::max(change - 0.5 * available, 0.0) : std::min(change + available, 0.0);
+  const auto excess = [&](std::size_t k) {
+    const double available = std::max(Y[k], 0.0), change = Y[k] - before[k];
+    return rate[k] > 0.0 ? std::max(change - 0.5 * available, 0.0) : std::min(change + available, 0.0);
   };
   double largest = 0.0;
-  for (std::size_t k = 0; k < n; ++k)
-    largest = std::max(largest, std::abs(rate[k] * excess(Y[k], Y[k] - before[k], rate[k])));
+  for (std::size_t k = 0; k < n; ++k) largest = std::max(largest, std::abs(rate[k] * excess(k)));
   if (largest == 0.0) return;
   heatRelease_[cell] = heatRelease(state, cell);
   const double perStep = meanDensity(state, cell) / step_;
   for (std::size_t k = 0; k < n; ++k) {
-    const double tooMuch = perStep * excess(Y[k], Y[k] - before[k], rate[k]);
+    const double tooMuch = perStep * excess(k);
     rate[k] = rate[k] > 0.0 ? std::max(rate[k] - tooMuch, 0.0) : std::min(rate[k] - tooMuch, 0.0);
   }
   removeNetMass(state, cell);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "flow/face_fluxes.hpp"
 
@@ -26,18 +27,13 @@ void SpeciesDiffusion::faceFlux(int face, bool gradientTerm, const double* low, 
   for (int k = 0; k < n; ++k) flux[k] += (lowWeight * low[k] + (1.0 - lowWeight) * high[k]) * correction;
 }
 
-// Whether the mass fractions at this boundary face are given.
-bool SpeciesDiffusion::isGiven(int face) const {
-  const BoundaryCondition& boundary = context_.boundaryOf(face);
-  return boundary.kind == BoundaryKind::Inlet && boundary.fixedComposition;
-}
-
 void SpeciesDiffusion::prepare(const State& state, const GasProperties& properties) {
   const Mesh& m = context_.mesh;
   const int n = state.species;
   const auto at = [n](int i) { return static_cast<std::size_t>(i) * n; };
   conductance_.assign(at(m.faces), 0.0);
   weightSlope_.assign(m.faces, 0.0);
+  const bool alongMassFractions = context_.transportModel.hasLewisNumbers();
   for (int face = 0; face < m.faces; ++face) {
     const int low = m.low[face];
     const int high = m.high[face];
@@ -48,13 +44,24 @@ void SpeciesDiffusion::prepare(const State& state, const GasProperties& properti
       for (int k = 0; k < n; ++k)
         g[k] = metric *
                (w * properties.massDiffusivity[at(low) + k] + (1.0 - w) * properties.massDiffusivity[at(high) + k]);
-      weightSlope_[face] = std::log(properties.molecularWeight[high] / properties.molecularWeight[low]);
-    } else if (isGiven(face)) {
+      if (!alongMassFractions)
+        weightSlope_[face] = std::log(properties.molecularWeight[high] / properties.molecularWeight[low]);
+    } else if (context_.isCompositionGiven(face)) {
       for (int k = 0; k < n; ++k) g[k] = metric * properties.massDiffusivity[at(low) + k];
-      weightSlope_[face] =
-          std::log(context_.thermo.meanMolecularWeight(context_.boundaryY(face)) / properties.molecularWeight[low]);
+      if (!alongMassFractions)
+        weightSlope_[face] =
+            std::log(context_.thermo.meanMolecularWeight(context_.boundaryY(face)) / properties.molecularWeight[low]);
     }
   }
+  if (!detailed_) return;
+  explicit_.clear();
+  std::vector<double> flux(conductance_.size(), 0.0);
+  if (context_.transportModel.isMulticomponent()) {
+    evaluate(state.Y, true, flux);
+    for (double& f : flux) f = -f;
+  }
+  detailed_->addFlux(state, properties, flux);
+  explicit_ = std::move(flux);
 }
 
 void SpeciesDiffusion::evaluate(std::span<const double> Y, bool gradientTerm, std::span<double> flux) const {
@@ -64,11 +71,12 @@ void SpeciesDiffusion::evaluate(std::span<const double> Y, bool gradientTerm, st
     double* f = &flux[face * n];
     if (m.high[face] >= 0)
       faceFlux(face, gradientTerm, &Y[m.low[face] * n], &Y[m.high[face] * n], m.lowWeight[face], f);
-    else if (isGiven(face))
+    else if (context_.isCompositionGiven(face))
       faceFlux(face, gradientTerm, &Y[m.low[face] * n], context_.boundaryY(face).data(), 0.0, f);
     else
       std::fill_n(f, n, 0.0);
   }
+  for (std::size_t i = 0; i < explicit_.size(); ++i) flux[i] += explicit_[i];
 }
 
 void SpeciesDiffusion::presentFlux(const State& state, std::span<double> flux) const {
@@ -91,7 +99,7 @@ ImplicitDiffusion::Result SpeciesDiffusion::implicitFlux(const State& guess, std
   evaluate(guess.Y, false, flux);
   addFaceFluxes(m, flux, n, 1.0, source_);
   for (int face = m.interiorFaces; face < m.faces; ++face) {
-    if (!isGiven(face)) continue;
+    if (!context_.isCompositionGiven(face)) continue;
     const std::vector<double>& given = context_.boundaryY(face);
     for (int k = 0; k < n; ++k) {
       const double g = conductance_[at(face) + k];

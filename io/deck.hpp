@@ -92,6 +92,15 @@ class Deck {
 
   // An InputError about this key or section, pointing at where it stands in the deck (or the section it should be in).
   [[nodiscard]] InputError error(std::string_view key, const std::string& message) const;
+  // What `read` returns; an InputError of it points at this key or section.
+  template <typename Read>
+  auto at(std::string_view key, Read read) const {
+    try {
+      return read();
+    } catch (const InputError& wrong) {
+      throw error(key, wrong.what());
+    }
+  }
 
   // Everything the run was told, defaults included, in SI: a deck that can be read again.
   [[nodiscard]] std::string resolved() const;

@@ -11,6 +11,7 @@
 #include "app/deck/radiation_deck.hpp"
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/temperature_input.hpp"
+#include "app/deck/transport_deck.hpp"
 #include "app/flame1d/flame_file.hpp"
 #include "app/tools/gas_input.hpp"
 #include "chemistry/thermo/thermo.hpp"
@@ -112,24 +113,6 @@ void readConfiguration(const Deck& deck, FlameCase& flame) {
   if (problem.type == FlameType::Free)
     if (const std::string reason = whyItCannotBurn(*flame.mechanism, problem); !reason.empty())
       throw deck.error("inlet", reason + "; a free flame has to burn");
-}
-
-void readTransport(const Deck& deck, FlameCase& flame) {
-  FlameTransport& transport = flame.problem.transport;
-  transport.integrals = readCollisionIntegrals(deck, *flame.mechanism);
-  transport.lewisNumbers = readLewisNumbers(deck, *flame.mechanism);
-  transport.soret = deck.boolean("transport.soret");
-  const std::string model = deck.choice("transport.model");
-  using Model = FlameTransport::Model;
-  transport.model = model == "multicomponent"   ? Model::Multicomponent
-                    : model == "unity_lewis"    ? Model::UnityLewis
-                    : model == "constant_lewis" ? Model::ConstantLewis
-                                                : Model::MixtureAveraged;
-  if (transport.soret && (transport.model == Model::UnityLewis || transport.model == Model::ConstantLewis))
-    throw deck.error("transport.soret", fmt::format("the transport model {} has no thermal diffusion; set soret to "
-                                                    "false, or choose mixture_averaged or multicomponent",
-                                                    model));
-  flame.problem.radiation = readRadiation(deck);
 }
 
 void readSolver(const Deck& deck, FlameCase& flame) {
@@ -276,7 +259,8 @@ FlameCase readFlameCase(const Deck& deck) {
   flame.title = deck.string("title");
   flame.mechanism = readMechanism(deck);
   readConfiguration(deck, flame);
-  readTransport(deck, flame);
+  flame.problem.transport = readTransport(deck, *flame.mechanism);
+  flame.problem.radiation = readRadiation(deck);
   readSolver(deck, flame);
   readContinuation(deck, flame);
   readUnsteady(deck, flame);

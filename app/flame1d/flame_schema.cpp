@@ -3,6 +3,7 @@
 #include "app/deck/radiation_deck.hpp"
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/temperature_input.hpp"
+#include "app/deck/transport_deck.hpp"
 #include "app/flame1d/flame_case.hpp"
 #include "app/tools/gas_input.hpp"
 
@@ -89,12 +90,7 @@ void addFlame(DeckSchema& schema) {
 }
 
 void addPhysics(DeckSchema& schema) {
-  addTransportKeys(schema, {"mixture_averaged", "multicomponent", "unity_lewis", "constant_lewis"},
-                   "How species diffuse: by mixture-averaged coefficients, by the full multicomponent ones (and its "
-                   "conductivity), as fast as heat, or as fast as heat over each species' Lewis number.");
-  schema.add(booleanKey("transport.soret",
-                        "Whether species diffuse along gradients of temperature too (thermal diffusion, Soret effect).")
-                 .byDefault("false"));
+  addTransportKeys(schema);
   addRadiationKeys(schema);
 }
 

@@ -7,6 +7,7 @@
 #include "app/deck/radiation_deck.hpp"
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/temperature_input.hpp"
+#include "app/deck/transport_deck.hpp"
 #include "app/flow/flow_case_parts.hpp"
 #include "app/flow/flow_limits.hpp"
 #include "app/flow/given_fields.hpp"
@@ -178,16 +179,6 @@ void readSoot(const Deck& deck, FlowCase& flowCase) {
   flowCase.carriedOptions = {flowCase.chemistry.shareWork, deck.number("soot.sectional.overflow"), tooFewSections};
 }
 
-void readTransport(const Deck& deck, FlowCase& flowCase) {
-  const Mechanism& mechanism = *flowCase.mechanism;
-  auto& options = flowCase.transport;
-  options.integrals = readCollisionIntegrals(deck, mechanism);
-  const auto model = deck.choice("transport.model");
-  if (model == "unity_lewis") options.diffusion = DiffusionModel::UnityLewis;
-  if (model == "constant_lewis") options.diffusion = DiffusionModel::ConstantLewis;
-  options.lewisNumbers = readLewisNumbers(deck, mechanism);
-}
-
 // The outlet that a point lies on, or nullptr.
 const std::string* outletAt(const FlowCase& flowCase, const std::array<double, 2>& point) {
   for (std::size_t b = 0; b < flowCase.boundaries.size(); ++b) {
@@ -252,7 +243,7 @@ FlowCase readFlowCase(const Deck& deck) {
   flowCase.seed = deck.integer<std::uint64_t>("seed");
   flowCase.mechanism = readMechanism(deck);
   flowCase.mesh = readMesh(deck, flowCase.mechanism->numSpecies());
-  readTransport(deck, flowCase);
+  flowCase.transport = readTransport(deck, *flowCase.mechanism);
   readBoundaries(deck, flowCase);
   readInitial(deck, flowCase);
   readGravity(deck, flowCase);

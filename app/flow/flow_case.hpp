@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "chemistry/mechanism/mechanism.hpp"
-#include "chemistry/transport/transport.hpp"
 #include "core/mesh.hpp"
 #include "core/rooms.hpp"
 #include "flow/boundary.hpp"
@@ -17,6 +16,7 @@
 #include "flow/mixing_layer.hpp"
 #include "flow/radiation.hpp"
 #include "flow/reaction_operator.hpp"
+#include "flow/transport_model.hpp"
 #include "flow/transport_operator.hpp"
 #include "io/deck.hpp"
 #include "particles/gas/soot_gas.hpp"
@@ -73,7 +73,7 @@ struct FlowCase {
   TimeControl time;
   OutputControl output;
   CheckpointControl checkpoint;
-  TransportOptions transport;
+  TransportModel transport;
   ReactionOperator::Options chemistry;
   TransportOperator::Options flow;
   RadiationOptions radiation;

@@ -15,14 +15,12 @@
 namespace lampblack::app::flowcase {
 
 std::vector<double> readComposition(const Deck& deck, const std::string& key, const Mechanism& mechanism) {
-  try {
+  return deck.at(key, [&] {
     const std::vector<double> X = parseComposition(mechanism, deck.string(key));
     std::vector<double> Y(X.size());
     Thermo(mechanism).moleToMass(X, Y);
     return Y;
-  } catch (const InputError& error) {
-    throw deck.error(key, error.what());
-  }
+  });
 }
 
 namespace {

@@ -18,7 +18,7 @@ FlowLoop::FlowLoop(MPI_Comm comm, FlowCase flowCase)
       mesh_(comm, case_.mesh),
       halo_(mesh_),
       thermo_(*case_.mechanism),
-      transport_(*case_.mechanism, case_.transport),
+      transport_(*case_.mechanism, case_.transport.averaged()),
       context_{mesh_,
                halo_,
                *case_.mechanism,
@@ -29,7 +29,8 @@ FlowLoop::FlowLoop(MPI_Comm comm, FlowCase flowCase)
                case_.referenceDensity,
                std::ranges::any_of(case_.boundaries, [](const BoundaryCondition& b) { return !b.varies.isEmpty(); })
                    ? std::make_shared<BoundaryValues>(mesh_, case_.boundaries, thermo_)
-                   : nullptr},
+                   : nullptr,
+               case_.transport},
       state_(mesh_, case_.mechanism->numSpecies(),
              case_.carried ? CarriedOperator::scalarsOf(*case_.carried) : std::vector<CarriedScalar>{}),
       flow_(context_, state_, case_.flow),

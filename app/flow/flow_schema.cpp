@@ -1,6 +1,7 @@
 #include "app/deck/radiation_deck.hpp"
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/temperature_input.hpp"
+#include "app/deck/transport_deck.hpp"
 #include "app/flow/flow_case.hpp"
 #include "app/flow/given_fields.hpp"
 #include "app/flow/initial_flame1d.hpp"
@@ -255,10 +256,7 @@ DeckSchema flowSchema() {
                .byDefault("1e-12")
                .above(0)
                .below(1));
-  addTransportKeys(
-      schema, {"mixture_averaged", "unity_lewis", "constant_lewis"},
-      "How species diffuse: by mixture-averaged coefficients, as fast as heat, or as fast as heat over each "
-      "species' Lewis number.");
+  addTransportKeys(schema);
   addParticles(schema);
   return schema;
 }

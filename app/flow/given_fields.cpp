@@ -48,15 +48,13 @@ GivenFields::GivenFields(const Deck& deck, const std::string& section, const Axi
 void GivenFields::readFormulas(const Deck& deck, const std::string& section, const AxisNames& axes) {
   for (const std::string& name : deck.children(section + ".formula")) {
     const std::string key = section + ".formula." + name;
-    try {
+    deck.at(key, [&] {
       const Formula formula(deck.string(key), {axes[0], axes[1], "t"});
       fields_[name] = {[formula](const std::array<double, 2>& place, double time) {
                          return formula(std::array{place[0], place[1], time});
                        },
                        key};
-    } catch (const InputError& error) {
-      throw deck.error(key, error.what());
-    }
+    });
   }
 }
 
@@ -67,7 +65,7 @@ void GivenFields::readTable(const Deck& deck, const std::string& section, const 
     const auto known = names.find(name);
     return known == names.end() ? units::dimensionless : known->second;
   };
-  try {
+  deck.at(key, [&] {
     const auto table = std::make_shared<GridTable>(
         deck.resolvePath(deck.string(key)),
         std::vector<GridTable::Coordinate>{{axes[0], units::length}, {axes[1], units::length}, {"t", units::time}},
@@ -80,9 +78,7 @@ void GivenFields::readTable(const Deck& deck, const std::string& section, const 
                        },
                        key};
     }
-  } catch (const InputError& error) {
-    throw deck.error(key, error.what());
-  }
+  });
 }
 
 void GivenFields::sortOut(const Deck& deck, const Names& names, const Mechanism& mechanism) {

@@ -13,16 +13,6 @@
 namespace lampblack::app {
 namespace {
 
-// Runs `read` and lets what is wrong point at a key of the deck.
-template <typename Read>
-auto at(const Deck& deck, const std::string& key, Read read) {
-  try {
-    return read();
-  } catch (const InputError& error) {
-    throw deck.error(key, error.what());
-  }
-}
-
 // Oxygen atoms a mole of this mixture needs to burn completely; negative where it has some to give.
 double oxygenNeed(const Mechanism& mechanism, const std::vector<double>& X) {
   double need = 0;
@@ -83,7 +73,7 @@ std::vector<double> readMixture(const Deck& deck, const std::string& section, co
                                           ways == 0 ? "the mixture is missing" : "the mixture is given twice"));
   const auto read = [&](const char* name) {
     const std::string key = section + "." + name;
-    return at(deck, key, [&] { return parseComposition(mechanism, deck.string(key)); });
+    return deck.at(key, [&] { return parseComposition(mechanism, deck.string(key)); });
   };
   if (has("mass_fractions")) return read("mass_fractions");
   std::vector<double> X;
@@ -96,7 +86,7 @@ std::vector<double> readMixture(const Deck& deck, const std::string& section, co
                                               "missing",
                                               name));
     const auto fuel = read("fuel"), oxidizer = read("oxidizer");
-    X = at(deck, section, [&] {
+    X = deck.at(section, [&] {
       return mixByEquivalenceRatio(mechanism, fuel, oxidizer, deck.number(section + ".equivalence_ratio"));
     });
   }
@@ -111,47 +101,11 @@ void addMechanismKeys(DeckSchema& schema) {
 }
 
 std::shared_ptr<const Mechanism> readMechanism(const Deck& deck) {
-  return at(deck, "mechanism", [&] {
+  return deck.at("mechanism", [&] {
     auto mechanism = std::make_shared<const Mechanism>(Mechanism::fromFile(
         deck.resolvePath(deck.string("mechanism")).string(), deck.optionalString("phase").value_or("")));
     printWarnings(mechanism->warnings());
     return mechanism;
-  });
-}
-
-void addTransportKeys(DeckSchema& schema, std::vector<std::string> models, const std::string& modelDoc) {
-  schema.add(choiceKey("transport.model", std::move(models), modelDoc).byDefault("mixture_averaged"))
-      .add(stringKey("transport.lewis_numbers",
-                     "Lewis numbers, 'H2: 0.3, CH4: 0.97'; species that are not named have 1.")
-               .optional()
-               .onlyWith("transport.model", {"constant_lewis"}))
-      .add(choiceKey("transport.collision_integrals", {"monchick_mason", "wang_fits"},
-                     "Collision integrals of viscosity and diffusion: monchick_mason: the tables of Monchick and Mason "
-                     "(1961); wang_fits: the fits of Wang (2025, eqs. 6-36 and 6-37), within 2.5 % of them.")
-               .byDefault("monchick_mason")
-               .formerly("thesis_fits", "wang_fits"));
-}
-
-CollisionIntegrals readCollisionIntegrals(const Deck& deck, const Mechanism& mechanism) {
-  const auto integrals = deck.choice("transport.collision_integrals") == "wang_fits"
-                             ? CollisionIntegrals::WangFits
-                             : CollisionIntegrals::MonchickMason;
-  at(deck, "mechanism", [&] { static_cast<void>(PureGas(mechanism, integrals)); });
-  return integrals;
-}
-
-std::vector<double> readLewisNumbers(const Deck& deck, const Mechanism& mechanism) {
-  const bool constant = deck.choice("transport.model") == "constant_lewis";
-  const auto text = deck.optionalString("transport.lewis_numbers");
-  if (constant && !text) throw deck.error("transport.model", "the model constant_lewis needs the key 'lewis_numbers'");
-  if (!text) return {};
-  return at(deck, "transport.lewis_numbers", [&] {
-    auto numbers = parseAmounts(mechanism, *text, "Lewis numbers", 1.0);
-    for (std::size_t k = 0; k < numbers.size(); ++k)
-      if (numbers[k] == 0)
-        throw InputError(
-            fmt::format("the Lewis number of '{}' is 0; expected a positive number", mechanism.speciesName(k)));
-    return numbers;
   });
 }
 
@@ -181,7 +135,7 @@ std::vector<std::size_t> readSpeciesList(const Deck& deck, const std::string& ke
   }
   for (const std::string& name : names) {
     if (name == "all") throw deck.error(key, "'all' stands alone: it takes every species");
-    const std::size_t k = at(deck, key, [&] { return mechanism.speciesIndex(name); });
+    const std::size_t k = deck.at(key, [&] { return mechanism.speciesIndex(name); });
     if (std::find(species.begin(), species.end(), k) != species.end())
       throw deck.error(key, fmt::format("'{}' is named twice", name));
     species.push_back(k);

@@ -8,7 +8,6 @@
 
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/thermo/thermo.hpp"
-#include "chemistry/transport/collision_integrals.hpp"
 #include "core/rooms.hpp"
 #include "io/deck.hpp"
 
@@ -30,16 +29,6 @@ void addMechanismKeys(DeckSchema& schema);
 
 // The mechanism a deck names by these keys; rank 0 prints its warnings. InputError at `mechanism`.
 std::shared_ptr<const Mechanism> readMechanism(const Deck& deck);
-
-// Adds `transport.model` with these choices, `transport.lewis_numbers` and `transport.collision_integrals`.
-void addTransportKeys(DeckSchema& schema, std::vector<std::string> models, const std::string& modelDoc);
-
-// The collision integrals a deck asks for. InputError where the mechanism lacks transport data.
-CollisionIntegrals readCollisionIntegrals(const Deck& deck, const Mechanism& mechanism);
-
-// Lewis numbers of every species where the model is constant_lewis, else none. InputError where the deck has the one
-// without the other.
-std::vector<double> readLewisNumbers(const Deck& deck, const Mechanism& mechanism);
 
 // A quantity that is optional in the schema and needed here: "<why> needs the key '<name>'".
 double neededQuantity(const Deck& deck, const std::string& section, const std::string& name, const std::string& why);

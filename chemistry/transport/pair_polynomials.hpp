@@ -64,6 +64,22 @@ class PairPolynomials {
         storeLanes(products[r] + k, loadLanes(products[r] + k) + sumsOfLanes(&transposed_[r * ld_ + k]));
   }
 
+  // All of M, symmetric, a column a species with its rows rounded up to whole lanes, zero behind the last: `M` is
+  // sized.
+  void values(const double* powers, std::vector<double>& M) const {
+    std::array<Lanes, Terms> s;
+    for (std::size_t m = 0; m < Terms; ++m) s[m] = Lanes{} + powers[m];
+    M.resize(ld_ * ld_);
+    const Lanes* a = a_.data();
+    for (std::size_t begin = 0; begin < ld_; begin += laneCount)
+      for (std::size_t k = 0; k < begin + laneCount; ++k, a += Terms) {
+        const Lanes entries = evaluate(a, s);
+        storeLanes(&M[k * ld_ + begin], entries);
+        if (k < begin)
+          for (std::size_t row = 0; row < laneCount; ++row) M[(begin + row) * ld_ + k] = entries[row];
+      }
+  }
+
  private:
   // Where a block of rows starts; it has a column for every species up to its last.
   static std::size_t start(std::size_t block) { return Terms * laneCount * block * (block + 1) / 2; }

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "chemistry/numerics/dot.hpp"
+#include "chemistry/transport/fit_points.hpp"
 #include "chemistry/transport/lanes.hpp"
 #include "chemistry/transport/transport_room.hpp"
 #include "core/constants.hpp"
@@ -42,11 +43,6 @@ void multiplyBlocks(const double* M, std::size_t n, std::size_t ld, const std::a
 
 }  // namespace
 
-double Transport::fitVariable(double T) {
-  static const double atColdest = std::cbrt(1.0 / minTemperature), atHottest = std::cbrt(1.0 / maxTemperature);
-  return (2.0 * std::cbrt(1.0 / T) - atColdest - atHottest) / (atColdest - atHottest);
-}
-
 void Transport::requireInRange(double T) {
   if (!(T >= transportroom::coldest && T <= transportroom::hottest))
     throw NumericsError(
@@ -57,12 +53,7 @@ void Transport::requireInRange(double T) {
 
 Transport::Basis Transport::basis(double T) const {
   requireInRange(T);
-  Basis result{};
-  const double s = fitVariable(T);
-  result.powers[0] = 1.0;
-  for (std::size_t m = 1; m < kMostTerms; ++m) result.powers[m] = result.powers[m - 1] * s;
-  result.rootT = std::sqrt(T);
-  return result;
+  return {fitPowers<kMostTerms>(T), std::sqrt(T)};
 }
 
 void Transport::setMoleFractions(std::span<const double> X) {
@@ -77,7 +68,7 @@ void Transport::setMoleFractions(std::span<const double> X) {
 // sum_j X_j Phi_kj = sum_j S_kj X_j W_j^(1/2) (1 + 2 u_k/u_j + u_k^2/u_j^2).
 void Transport::wilkeSums(const Basis& at) {
   for (std::size_t j = 0; j < ld_; j += laneCount) {
-    const Lanes root = evaluate<kPureTerms>(&viscosity_[j], at.powers, ld_);
+    const Lanes root = evaluate<kPureTerms>(&viscosity_[j], at.powers.data(), ld_);
     const Lanes u = root * loadLanes(&quarterRoots_[j]);
     const Lanes a = loadLanes(&x_[j]) * loadLanes(&roots_[j]);
     const Lanes b = a / u;
@@ -101,8 +92,8 @@ Transport::Mixture Transport::viscosityAndConductivity(double T, const Basis& at
   thermo_.cpOverR(T, cp_.data());
   for (std::size_t k = 0; k < ld_; k += laneCount) {
     const Lanes root = loadLanes(&root_[k]), wilke = loadLanes(&wilkeSum_[k]);
-    const Lanes rigid = evaluate<kPureTerms>(&rigid_[k], at.powers, ld_);
-    const Lanes vibrating = evaluate<kPureTerms>(&vibrating_[k], at.powers, ld_);
+    const Lanes rigid = evaluate<kPureTerms>(&rigid_[k], at.powers.data(), ld_);
+    const Lanes vibrating = evaluate<kPureTerms>(&vibrating_[k], at.powers.data(), ld_);
     const Lanes viscosity = root * root;
     const Lanes lambda = viscosity * loadLanes(&gasConstants_[k]) * (rigid + vibrating * loadLanes(&cp_[k]));
     const Lanes inverse = 1.0 / (wilke * lambda);
@@ -129,7 +120,7 @@ Transport::Mixture Transport::mixture(double T, double p, std::span<const double
 }
 
 void Transport::averagedDiffusion(double T, double p, const Basis& at, std::span<double> D) {
-  resistance_.multiply<1>(at.powers, {x_.data()}, {sum0_.data()});
+  resistance_.multiply<1>(at.powers.data(), {x_.data()}, {sum0_.data()});
   const double scale = T * at.rootT / (p * meanWeight_);
   for (std::size_t k = 0; k < n_; ++k) D[k] = scale * (meanWeight_ - x_[k] * weights_[k]) / sum0_[k];
   restAlone(D);
@@ -143,7 +134,7 @@ void Transport::restAlone(std::span<double> D) const {
 void Transport::molarDiffusion(double T, double p, std::span<const double> X, std::span<double> D) {
   const auto at = basis(T);
   setMoleFractions(X);
-  resistance_.multiply<1>(at.powers, {x_.data()}, {sum0_.data()});
+  resistance_.multiply<1>(at.powers.data(), {x_.data()}, {sum0_.data()});
   const double scale = T * at.rootT / p;
   for (std::size_t k = 0; k < n_; ++k) D[k] = scale * (1.0 - x_[k]) / sum0_[k];
   restAlone(D);
@@ -153,7 +144,7 @@ void Transport::massDiffusion(double T, double p, std::span<const double> X, std
   const auto at = basis(T);
   setMoleFractions(X);
   for (std::size_t k = 0; k < n_; ++k) a_[k] = x_[k] * weights_[k];
-  resistance_.multiply<2>(at.powers, {x_.data(), a_.data()}, {sum0_.data(), sum1_.data()});
+  resistance_.multiply<2>(at.powers.data(), {x_.data(), a_.data()}, {sum0_.data(), sum1_.data()});
   const double scale = T * at.rootT / p;
   for (std::size_t k = 0; k < n_; ++k) D[k] = scale / (sum0_[k] + x_[k] / (meanWeight_ - a_[k]) * sum1_[k]);
   restAlone(D);
@@ -172,7 +163,7 @@ void Transport::thermalDiffusion(double T, double p, std::span<const double> X, 
     a_[k] = 3.75 * viscosity / weights_[k] * x_[k] / (x_[k] + 1.065 * (wilkeSum_[k] - x_[k]));
     b_[k] = x_[k] * weights_[k] / meanWeight_;
   }
-  thermal_.multiply<2>(at.powers, {a_.data(), b_.data()}, {sum0_.data(), sum1_.data()});
+  thermal_.multiply<2>(at.powers.data(), {a_.data(), b_.data()}, {sum0_.data(), sum1_.data()});
   const double scale = p / (T * at.rootT);  // turns resistances to 1/D
   double total = 0;
   for (std::size_t k = 0; k < n_; ++k) {
@@ -188,7 +179,7 @@ double Transport::binaryDiffusion(double T, double p, std::size_t j, std::size_t
 }
 
 double Transport::pairResistance(const Basis& at, std::size_t j, std::size_t k) const {
-  if (j != k) return resistance_.value(j, k, at.powers);
+  if (j != k) return resistance_.value(j, k, at.powers.data());
   double sum = 0;
   for (std::size_t m = 0; m < kPairTerms; ++m) sum += at.powers[m] * ownResistance_[m * ld_ + k];
   return sum;

@@ -3,6 +3,7 @@
 // mixture is a handful of matrix-vector products. An object holds its workspace, so use one per thread.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -79,13 +80,12 @@ class Transport {
   static constexpr std::size_t kThermalTerms = 8;
   static constexpr std::size_t kMostTerms = 8;
   struct Basis {
-    double powers[kMostTerms];
+    std::array<double, kMostTerms> powers;
     double rootT;
   };
 
   void fitPure(const PureGas& gas);
   void fitPairs(const PureGas& gas);
-  static double fitVariable(double T);
   Basis basis(double T) const;
   void setMoleFractions(std::span<const double> X);
   void wilkeSums(const Basis& at);

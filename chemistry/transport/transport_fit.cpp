@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "chemistry/transport/fit_points.hpp"
 #include "chemistry/transport/lanes.hpp"
 #include "chemistry/transport/polynomial_fit.hpp"
 #include "chemistry/transport/pure_gas.hpp"
@@ -15,21 +16,6 @@
 namespace lampblack::chemistry {
 
 namespace {
-
-// Chebyshev points of T^(-1/3) scaled to [-1, 1], and there the temperatures.
-struct FitPoints {
-  static constexpr std::size_t count = 32;
-  std::array<double, count> s, T;
-
-  FitPoints() {
-    const double atColdest = std::cbrt(1.0 / Transport::minTemperature);
-    const double atHottest = std::cbrt(1.0 / Transport::maxTemperature);
-    for (std::size_t i = 0; i < count; ++i) {
-      s[i] = -std::cos((static_cast<double>(i) + 0.5) / count * constants::pi);
-      T[i] = std::pow(0.5 * (atColdest + atHottest) + 0.5 * (atColdest - atHottest) * s[i], -3.0);
-    }
-  }
-};
 
 std::vector<double> inverseLewisNumbers(const Mechanism& mechanism, const TransportOptions& options) {
   std::vector<double> result(mechanism.numSpecies(), 1.0);

@@ -36,8 +36,7 @@ FlameFields flameFields(const Mechanism& mechanism, const FlameProblem& problem,
   Kinetics kinetics(mechanism);
   Transport transport(mechanism, {problem.transport.integrals, DiffusionModel::MixtureAveraged, {}});
   std::optional<MulticomponentTransport> multicomponent;
-  if (problem.transport.model == FlameTransport::Model::Multicomponent)
-    multicomponent.emplace(mechanism, problem.transport.integrals);
+  if (problem.transport.isMulticomponent()) multicomponent.emplace(mechanism, problem.transport.integrals);
   std::vector<double> c(n), wdot(n), h(n), D(n);
   for (std::size_t i = 0; i < points; ++i) {
     const double T = f.temperature[i] = profile.temperature(i);

@@ -6,21 +6,6 @@
 #include "core/constants.hpp"
 
 namespace lampblack::flow {
-namespace {
-
-TransportOptions transportOptions(const FlameTransport& flame) {
-  TransportOptions options;
-  options.integrals = flame.integrals;
-  if (flame.model == FlameTransport::Model::UnityLewis) options.diffusion = DiffusionModel::UnityLewis;
-  if (flame.model == FlameTransport::Model::ConstantLewis) {
-    options.diffusion = DiffusionModel::ConstantLewis;
-    options.lewisNumbers = flame.lewisNumbers;
-  }
-  return options;
-}
-
-}  // namespace
-
 FlameGas::FlameGas(const Mechanism& mechanism, const FlameProblem& problem, CarriedModel* carried)
     : weights(mechanism.molecularWeights().begin(), mechanism.molecularWeights().end()),
       n_(mechanism.numSpecies()),
@@ -28,12 +13,10 @@ FlameGas::FlameGas(const Mechanism& mechanism, const FlameProblem& problem, Carr
       options_(problem.transport),
       carried_(carried),
       thermo_(mechanism.allSpecies()),
-      transport_(mechanism, transportOptions(problem.transport)),
+      transport_(mechanism, problem.transport.averaged()),
       kinetics_(mechanism) {
-  if (problem.transport.model == FlameTransport::Model::Multicomponent)
-    multicomponent_.emplace(mechanism, problem.transport.integrals);
-  massBasis_ = problem.transport.model == FlameTransport::Model::UnityLewis ||
-               problem.transport.model == FlameTransport::Model::ConstantLewis;
+  if (problem.transport.isMulticomponent()) multicomponent_.emplace(mechanism, problem.transport.integrals);
+  massBasis_ = problem.transport.hasLewisNumbers();
   if (problem.radiation.on) radiation_.emplace(mechanism, problem.radiation.surroundings);
   if (carried_ != nullptr) {
     for (const auto& scalar : carried_->scalars()) {

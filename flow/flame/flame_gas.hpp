@@ -114,7 +114,7 @@ class FlameGas {
 
   std::size_t n_;
   double pressure_;
-  FlameTransport options_;
+  TransportModel options_;
   CarriedModel* carried_;
   SpeciesThermo thermo_;
   Transport transport_;

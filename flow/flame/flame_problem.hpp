@@ -12,9 +12,9 @@
 #include <optional>
 #include <vector>
 
-#include "chemistry/transport/transport.hpp"
 #include "core/rooms.hpp"
 #include "flow/radiation.hpp"
+#include "flow/transport_model.hpp"
 
 namespace lampblack::flow {
 
@@ -36,14 +36,6 @@ struct FlameStream {
   double massFlux = 0;  // kg/m2/s, into the domain, positive; free: a first guess; potential flow: not used
 };
 
-struct FlameTransport {
-  enum class Model { MixtureAveraged, Multicomponent, UnityLewis, ConstantLewis };
-  Model model = Model::MixtureAveraged;
-  bool soret = false;                // thermal diffusion
-  std::vector<double> lewisNumbers;  // ConstantLewis: of every species
-  CollisionIntegrals integrals = CollisionIntegrals::MonchickMason;
-};
-
 // A temperature given by points, straight lines between them and constant beyond.
 struct GivenTemperature {
   std::vector<double> z, T;  // m (rising), K
@@ -61,7 +53,7 @@ struct FlameProblem {
   double strainRate = 0;                  // 1/s, Potential: of the stream at the right end
   double stagnationPlane = 0;             // m, Potential
   std::optional<GivenTemperature> given;  // where the energy equation is not solved (burner)
-  FlameTransport transport;
+  TransportModel transport;
   RadiationOptions radiation;
 };
 

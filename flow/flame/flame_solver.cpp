@@ -248,11 +248,11 @@ void FlameSolver::Data::solve() {
     throw std::logic_error("the start of a flame has other unknowns than its problem");
   anchorIn(solution.profile);
 
-  const bool multicomponent = problem.transport.model == FlameTransport::Model::Multicomponent;
+  const bool multicomponent = problem.transport.isMulticomponent();
   if (multicomponent) {
     // Most of the way with coefficients that cost a hundredth.
     FlameProblem averaged = problem;
-    averaged.transport.model = FlameTransport::Model::MixtureAveraged;
+    averaged.transport.diffusion = TransportModel::Diffusion::MixtureAveraged;
     gasAlone(averaged, solver, "mixture-averaged gas");
   }
   if (layout.scalars > 0 && withoutScalars()) {

@@ -12,23 +12,37 @@ class ProfileError(ResultsError):
     """The file is not a reference profile."""
 
 
-def read_reference(path):
-    """The columns of a reference profile as {name: values}."""
+def _table(path):
+    """The names in the header of a CSV file and its numbers; lines of comments left out."""
     path = pathlib.Path(path)
     try:
         with reading(path).open(newline="", encoding="utf-8") as file:
             rows = [row for row in csv.reader(file) if row and not row[0].lstrip().startswith("#")]
     except OSError as error:
         raise ProfileError(f"{path}: {error.strerror}") from error
-    if len(rows) < 2 or "z_m" not in rows[0]:
-        raise ProfileError(f"{path}: not a profile; a column 'z_m' and rows are expected")
+    if len(rows) < 2:
+        raise ProfileError(f"{path}: not a profile; a header and rows of numbers are expected")
     try:
         table = np.array([[float(x) for x in row] for row in rows[1:]])
     except ValueError as error:
         raise ProfileError(f"{path}: {error}") from error
     if table.ndim != 2 or table.shape[1] != len(rows[0]):
         raise ProfileError(f"{path}: its rows are not all as long as its header")
-    return dict(zip(rows[0], table.T))
+    return rows[0], table.T
+
+
+def read_reference(path):
+    """The columns of a reference profile as {name: values}."""
+    names, columns = _table(path)
+    if "z_m" not in names:
+        raise ProfileError(f"{path}: not a profile; a column 'z_m' and rows are expected")
+    return dict(zip(names, columns))
+
+
+def read_profile(path):
+    """The columns of a flame1d's profile.csv as {name without unit: values}, None where it is another file."""
+    names, columns = _table(path)
+    return dict(zip((name.split(" [")[0] for name in names), columns)) if names[0] == "z [m]" else None
 
 
 def find_references(results):

@@ -100,7 +100,7 @@ TEST(FlameCase, PhysicsAndSolverComeFromTheDeck) {
       read(freeFlame, {"transport.model=multicomponent", "transport.soret=true", "radiation.model=optically_thin",
                        "radiation.surroundings=350 K", "grid.slope=0.1", "grid.curve=0.2", "grid.ratio=2",
                        "grid.prune=0.05", "grid.initial_points=20", "solver.anchor_temperature=500 K"});
-  EXPECT_EQ(flame.problem.transport.model, FlameTransport::Model::Multicomponent);
+  EXPECT_EQ(flame.problem.transport.diffusion, TransportModel::Diffusion::Multicomponent);
   EXPECT_TRUE(flame.problem.transport.soret);
   EXPECT_TRUE(flame.problem.radiation.on);
   EXPECT_EQ(flame.problem.radiation.surroundings, 350);

@@ -16,14 +16,14 @@ FlowCase withTransport(const std::vector<std::string>& overrides) {
 }
 
 TEST(FlowCase, ReadsTheTransportModel) {
-  EXPECT_EQ(withTransport({}).transport.diffusion, DiffusionModel::MixtureAveraged);
+  EXPECT_EQ(withTransport({}).transport.diffusion, TransportModel::Diffusion::MixtureAveraged);
   EXPECT_EQ(withTransport({}).transport.integrals, CollisionIntegrals::MonchickMason);
   EXPECT_EQ(withTransport({"transport.collision_integrals=wang_fits"}).transport.integrals,
             CollisionIntegrals::WangFits);
-  EXPECT_EQ(withTransport({"transport.model=unity_lewis"}).transport.diffusion, DiffusionModel::UnityLewis);
+  EXPECT_EQ(withTransport({"transport.model=unity_lewis"}).transport.diffusion, TransportModel::Diffusion::UnityLewis);
   const auto constant =
       withTransport({"transport.model=constant_lewis", "transport.lewis_numbers='H2: 0.3, C2H4: 1.2'"});
-  EXPECT_EQ(constant.transport.diffusion, DiffusionModel::ConstantLewis);
+  EXPECT_EQ(constant.transport.diffusion, TransportModel::Diffusion::ConstantLewis);
   EXPECT_EQ(constant.transport.lewisNumbers[constant.mechanism->speciesIndex("H2")], 0.3);
   EXPECT_EQ(constant.transport.lewisNumbers[constant.mechanism->speciesIndex("N2")], 1.0);
   EXPECT_THROW(withTransport({"transport.model=constant_lewis"}), InputError);

@@ -36,7 +36,7 @@ struct Case {
   const char *left, *right;  // mole fractions
   double leftVelocity, rightVelocity, temperature;
   GridOptions grid;
-  FlameTransport transport;
+  TransportModel transport;
 };
 
 // Those of the peers' timings: the free flame at ratio 3, slope 0.06, curve 0.12; others at slope 0.08.
@@ -52,7 +52,7 @@ const std::vector<Case> cases{
      0,
      300,
      {},
-     {.model = FlameTransport::Model::Multicomponent, .soret = true, .lewisNumbers = {}}},
+     {.diffusion = TransportModel::Diffusion::Multicomponent, .soret = true, .lewisNumbers = {}}},
     {"methane",
      "methane_gri30_53",
      FlameType::Counterflow,

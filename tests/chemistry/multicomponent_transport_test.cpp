@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "chemistry/numerics/dense_blocks.hpp"
+#include "chemistry/transport/multicomponent_pairs.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 #include "tests/chemistry/measured.hpp"
@@ -22,6 +24,18 @@ using lampblack::test::hydrogen;
 using lampblack::test::measured;
 using lampblack::test::raise;
 using lampblack::test::Table;
+
+// What the polynomials of pairs give, and a place in their matrices.
+struct Pairs {
+  Pairs(const Mechanism& mechanism, double T) : rows((mechanism.numSpecies() + 7) / 8 * 8) {
+    MulticomponentPairs(PureGas(mechanism), mechanism.molecularWeights()).fill(T, of);
+  }
+  double at(const std::vector<double>& matrix, std::size_t i, std::size_t j) const { return matrix[j * rows + i]; }
+  double conductance(std::size_t i, std::size_t j) const { return at(of.conductance, i, j); }  // 1/(p D_ij)
+
+  std::size_t rows;
+  MulticomponentPairs::Matrices of;
+};
 
 struct Reference {
   const char* tables;
@@ -90,11 +104,10 @@ INSTANTIATE_TEST_SUITE_P(Cantera, MulticomponentReference,
 TEST(MulticomponentTransport, TwoGasesHaveTheBinaryCoefficient) {
   const auto& mechanism = hydrogen();
   MulticomponentTransport transport(mechanism);
-  const PureGas gas(mechanism);
   const std::size_t n = mechanism.numSpecies(), H2 = mechanism.speciesIndex("H2"), N2 = mechanism.speciesIndex("N2");
   std::vector<double> D(n * n);
   transport.diffusion(600, 3e5, parseComposition(mechanism, "H2: 0.2, N2: 0.8"), D);
-  const double binary = gas.diffusionTimesPressure(H2, N2, 600) / 3e5;
+  const double binary = 1 / (3e5 * Pairs(mechanism, 600).conductance(H2, N2));
   EXPECT_NEAR(D[H2 * n + N2] / binary, 1, 1e-12);
   EXPECT_NEAR(D[N2 * n + H2] / binary, 1, 1e-12);
   EXPECT_EQ(D[H2 * n + H2], 0);
@@ -105,9 +118,9 @@ TEST(MulticomponentTransport, TwoGasesHaveTheBinaryCoefficient) {
 TEST(MulticomponentTransport, FluxesSolveTheStefanMaxwellEquations) {
   const auto& mechanism = ethylene();
   MulticomponentTransport transport(mechanism);
-  const PureGas gas(mechanism);
   const std::size_t n = mechanism.numSpecies();
   const double T = 1400, p = 1e5;
+  const Pairs pairs(mechanism, T);
   const auto W = mechanism.molecularWeights();
   std::vector<double> X(n), gradient(n), D(n * n), velocity(n);
   double total = 0, mean = 0, slope = 0;
@@ -132,8 +145,7 @@ TEST(MulticomponentTransport, FluxesSolveTheStefanMaxwellEquations) {
   double worst = 0;
   for (std::size_t i = 0; i < n; ++i) {
     double sum = 0;
-    for (std::size_t j = 0; j < n; ++j)
-      sum += X[i] * X[j] * p / gas.diffusionTimesPressure(i, j, T) * (velocity[j] - velocity[i]);
+    for (std::size_t j = 0; j < n; ++j) sum += X[i] * X[j] * p * pairs.conductance(i, j) * (velocity[j] - velocity[i]);
     raise(worst, sum - gradient[i]);  // gradients are of order one
   }
   measured("Stefan-Maxwell", worst);
@@ -188,8 +200,9 @@ TEST(MulticomponentTransport, ArgonAloneConductsAsKineticTheorySays) {
   std::vector<double> DT(mechanism.numSpecies());
   const auto result = transport.mixture(500, 1e5, parseComposition(mechanism, "AR: 1"), DT);
   const double viscosity = PureGas(mechanism).viscosity(AR, 500);
+  // The error of the polynomials of pairs.
   EXPECT_NEAR(result.conductivity / (3.75 * constants::gasConstant / mechanism.molecularWeights()[AR] * viscosity), 1,
-              1e-12);
+              5e-4);
   for (std::size_t k = 0; k < DT.size(); ++k) EXPECT_NEAR(DT[k], 0, 1e-14 * viscosity) << mechanism.speciesName(k);
 }
 
@@ -212,9 +225,196 @@ TEST(MulticomponentTransport, AtomsConductByTranslationAlone) {
     // 15/4 R mu/W (Hirschfelder, Curtiss, Bird 1954, eq. 8.2-33).
     const double expected = 3.75 * constants::gasConstant / W * gas.viscosity(0, T);
     EXPECT_NEAR(gas.conductivity(0, T, 2.634), expected, 1e-12 * expected);
-    EXPECT_NEAR(averaged.mixture(T, 1e5, X, D).conductivity, expected, 1e-3 * expected);  // its fits' error
-    EXPECT_NEAR(multicomponent.mixture(T, 1e5, X, DT).conductivity, expected, 1e-12 * expected);
+    EXPECT_NEAR(averaged.mixture(T, 1e5, X, D).conductivity, expected, 1e-3 * expected);         // its fits' error
+    EXPECT_NEAR(multicomponent.mixture(T, 1e5, X, DT).conductivity, expected, 5e-4 * expected);  // the same
   }
+}
+
+// Of every pair the polynomials follow kinetic theory.
+TEST(MulticomponentTransport, PairsFollowKineticTheory) {
+  const auto& mechanism = ethylene();
+  const PureGas gas(mechanism);
+  const auto W = mechanism.molecularWeights();
+  double conductance = 0, thermal = 0, exchange = 0, energy = 0;
+  for (const double T : {200.0, 290.0, 430.0, 800.0, 1300.0, 2100.0, 4000.0}) {
+    const Pairs pairs(mechanism, T);
+    for (std::size_t i = 0; i < W.size(); ++i)
+      for (std::size_t j = 0; j < W.size(); ++j) {
+        const double c = 1 / gas.diffusionTimesPressure(i, j, T), m = W[i] + W[j];
+        raise(exchange, pairs.at(pairs.of.exchange, i, j) / (gas.ratioA(i, j, T) * c / m) - 1);
+        raise(energy, pairs.at(pairs.of.energy, i, j) / ((13.75 - 3 * gas.ratioB(i, j, T)) * c / (m * m)) - 1);
+        if (i == j) {
+          raise(conductance, pairs.of.own[i] / c - 1);
+          EXPECT_EQ(pairs.conductance(i, i), 0);
+          EXPECT_EQ(pairs.at(pairs.of.thermal, i, i), 0);
+          continue;
+        }
+        raise(conductance, pairs.conductance(i, j) / c - 1);
+        // 6/5 C* - 1, about 0.1, goes through zero in the cold.
+        raise(thermal, (pairs.at(pairs.of.thermal, i, j) * m / c) - (1.2 * gas.ratioC(i, j, T) - 1));
+      }
+  }
+  measured("conductance", conductance);
+  measured("thermal", thermal);
+  measured("exchange", exchange);
+  measured("energy", energy);
+  EXPECT_LT(conductance, 5e-4);
+  EXPECT_LT(thermal, 5e-4);
+  EXPECT_LT(exchange, 1e-3);
+  EXPECT_LT(energy, 1e-3);
+}
+
+// States of a flame, and such as iterations and divisions by mole fractions would trip over.
+std::vector<std::vector<double>> difficultStates(const Mechanism& mechanism) {
+  const std::size_t n = mechanism.numSpecies();
+  std::vector<std::vector<double>> states;
+  for (const char* composition : {"N2: 1", "H2: 1", "H2: 0.5, N2: 0.5", "C2H4: 1, O2: 1e-15, H: 1e-20",
+                                  "C2H4: 0.3, O2: 0.2, N2: 0.5, H: 1e-8", "A2: 0.5, H2: 0.5, OH: 1e-300"})
+    states.push_back(parseComposition(mechanism, composition));
+  std::vector<double> all(n);
+  for (std::size_t k = 0; k < n; ++k) all[k] = std::pow(10.0, -8.0 * std::abs(std::sin(static_cast<double>(3 * k))));
+  const double total = std::accumulate(all.begin(), all.end(), 0.0);
+  for (double& x : all) x /= total;
+  states.push_back(all);
+  return states;
+}
+
+// Fluxes by iteration are those of the factorised matrix, each species' on the scale of the terms of its sum, and solve
+// the Stefan-Maxwell equations, each on the scale of its terms.
+TEST(MulticomponentTransport, FluxesByIterationAreThoseOfTheMatrix) {
+  for (const Mechanism* mechanism : {&ethylene(), &hydrogen()}) {
+    const std::size_t n = mechanism->numSpecies();
+    const auto W = mechanism->molecularWeights();
+    MulticomponentTransport transport(*mechanism);
+    std::vector<double> M(n * n), j(n), expected(n), gradient(n), scale(n);
+    double ofEquations = 0, ofOwn = 0;
+    const auto states = mechanism == &ethylene()
+                            ? difficultStates(*mechanism)
+                            : std::vector{parseComposition(*mechanism, "H2: 0.9, O2: 0.1"), std::vector(n, 1.0 / 10)};
+    for (const auto& X : states)
+      for (const double T : {300.0, 1500.0}) {
+        double sum = 0;
+        for (std::size_t k = 0; k < n; ++k) sum += gradient[k] = (X[k] + 1e-6) * std::cos(static_cast<double>(5 * k));
+        for (double& g : gradient) g -= sum / static_cast<double>(n);
+        transport.fluxMatrix(T, 1e5, X, M);
+        transport.diffusionFluxes(T, 1e5, X, gradient, j);
+        double net = 0, gross = 0;
+        for (std::size_t k = 0; k < n; ++k) {
+          expected[k] = scale[k] = 0;
+          for (std::size_t l = 0; l < n; ++l) {
+            const double part = W[k] / (constants::gasConstant * T) * M[k * n + l] * gradient[l];
+            expected[k] += part;
+            scale[k] += std::abs(part);
+          }
+          net += j[k];
+          gross += std::abs(j[k]);
+        }
+        const Pairs pairs(*mechanism, T);
+        for (std::size_t k = 0; k < n; ++k) {
+          double rest = -gradient[k], size = std::abs(gradient[k]);
+          for (std::size_t l = 0; l < n; ++l) {
+            const double c = constants::gasConstant * T * pairs.conductance(k, l);
+            rest += c * (X[k] * j[l] / W[l] - X[l] * j[k] / W[k]);
+            size += c * (X[k] * std::abs(j[l]) / W[l] + X[l] * std::abs(j[k]) / W[k]);
+          }
+          raise(ofEquations, rest / size);
+        }
+        EXPECT_LT(std::abs(net), 1e-14 * gross);
+        for (std::size_t k = 0; k < n; ++k) raise(ofOwn, (j[k] - expected[k]) / scale[k]);
+      }
+    measured("fluxes by iteration in the equations", ofEquations);
+    measured("fluxes by iteration, of their own scale", ofOwn);
+    EXPECT_LT(ofEquations, 1e-8);
+    EXPECT_LT(ofOwn, 1e-8);
+  }
+}
+
+// Conductivity and thermal diffusion against elimination of the whole system of Kee et al. eqs 12.117 to 12.127 in its
+// own, unsymmetric form.
+TEST(MulticomponentTransport, HeatByIterationIsThatOfElimination) {
+  const auto& mechanism = ethylene();
+  const std::size_t n = mechanism.numSpecies(), rows = 3 * n;
+  const auto W = mechanism.molecularWeights();
+  const PureGas gas(mechanism);
+  MulticomponentTransport transport(mechanism);
+  const double pi = constants::pi;
+  double conductivity = 0, thermal = 0;
+  for (const auto& fractions : difficultStates(mechanism))
+    for (const double T : {300.0, 1500.0}) {
+      const Pairs pairs(mechanism, T);
+      std::vector<double> X = fractions, L(rows * rows, 0.0), a(rows, 0.0), DT(n);
+      for (double& x : X) x = std::max(x, 1e-12);  // the elimination needs some of everything
+      const double raised = std::accumulate(X.begin(), X.end(), 0.0);
+      for (double& x : X) x /= raised;
+      std::vector<double> internal(n), rotation(n);
+      for (std::size_t i = 0; i < n; ++i) {
+        internal[i] = gas.rotationalHeatCapacity(i) > 0 ? cpOverR(mechanism.species(i), T) - 2.5 : 0.0;
+        rotation[i] = gas.rotationalHeatCapacity(i) / gas.rotationalRelaxation(i, T, 1.0);
+      }
+      const auto at = [&](std::size_t row, std::size_t column) -> double& { return L[column * rows + row]; };
+      for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t j = 0; j < n; ++j) {
+          const double m = W[i] + W[j], c = i == j ? pairs.of.own[i] : pairs.conductance(i, j);
+          const double A = pairs.at(pairs.of.exchange, i, j) * m / c;
+          const double B = (13.75 - pairs.at(pairs.of.energy, i, j) * m * m / c) / 3;
+          const double C = i == j ? 0 : pairs.at(pairs.of.thermal, i, j) * m / c;  // 6/5 C* - 1
+          const double inelastic = 4 * A * (1 + 5 / (3 * pi) * (rotation[i] + rotation[j]));
+          for (std::size_t k = 0; k < n; ++k)
+            if (k != i) {
+              const double ck = pairs.conductance(i, k);
+              at(i, j) += 16 * T / 25 * X[k] * ck / W[i] *
+                          (W[j] * X[j] - W[i] * X[i] * ((i == j ? 1.0 : 0.0) - (j == k ? 1.0 : 0.0)));
+            }
+          if (i != j) {
+            at(i, n + j) -= 1.6 * T * X[i] * X[j] * W[i] * C * c / m;
+            at(i, n + i) += 1.6 * T * X[i] * X[j] * W[j] * C * c / m;
+            at(n + j, i) -= 1.6 * T * X[i] * X[j] * W[i] * C * c / m;
+            at(n + i, i) += 1.6 * T * X[i] * X[j] * W[j] * C * c / m;
+          }
+          const double scale = 16 * T / 25 * X[i] * X[j] * c / (m * m);
+          at(n + i, n + j) += scale * W[i] * W[j] * (13.75 - 3 * B - inelastic);
+          at(n + i, n + i) -= scale * (7.5 * W[i] * W[i] + W[j] * W[j] * (6.25 - 3 * B) + W[i] * W[j] * inelastic);
+          if (internal[i] <= 1e-3) continue;
+          const double part = 32 * T / (5 * pi) * W[i] * rotation[i] / internal[i] * A * c / m * X[i] * X[j];
+          at(n + j, 2 * n + i) += part;
+          at(n + i, 2 * n + i) += part;
+          at(2 * n + i, n + j) += part;
+          at(2 * n + i, n + i) += part;
+          at(2 * n + i, 2 * n + i) -= 4 * T * X[i] * X[j] * c / internal[i];
+          if (i != j)
+            at(2 * n + i, 2 * n + i) -=
+                4 * T / (internal[i] * internal[i]) * X[i] * X[j] * c * 12 / (5 * pi) * W[i] / W[j] * A * rotation[i];
+        }
+        if (internal[i] > 1e-3)
+          at(2 * n + i, 2 * n + i) -= 8 / pi * W[i] * X[i] * X[i] / (internal[i] * internal[i]) * rotation[i] /
+                                      (constants::gasConstant * gas.viscosity(i, T));
+        else
+          at(2 * n + i, 2 * n + i) = 1;
+        a[n + i] = X[i];
+        a[2 * n + i] = internal[i] > 1e-3 ? X[i] : 0.0;
+      }
+      // Rows and columns over the root of their mole fraction, for pivots to compare.
+      std::vector<int> pivots(rows);
+      for (std::size_t i = 0; i < rows; ++i) {
+        for (std::size_t j = 0; j < rows; ++j) at(i, j) /= std::sqrt(X[i % n] * X[j % n]);
+        a[i] /= std::sqrt(X[i % n]);
+      }
+      DenseBlocks dense;
+      ASSERT_TRUE(dense.factorise(rows, L.data(), pivots.data()));
+      dense.solve(rows, L.data(), pivots.data(), 1, a.data());
+      double sum = 0, largest = 1e-6 * gas.viscosity(0, T);  // below that of a gas alone is round-off
+      for (std::size_t i = 0; i < n; ++i) {
+        sum -= 4 * std::sqrt(X[i]) * (a[n + i] + (internal[i] > 1e-3 ? a[2 * n + i] : 0.0));
+        largest = std::max(largest, std::abs(1.6 / constants::gasConstant * W[i] * std::sqrt(X[i]) * a[i]));
+      }
+      raise(conductivity, transport.mixture(T, 1e5, X, DT).conductivity / sum - 1);
+      for (std::size_t i = 0; i < n; ++i)
+        raise(thermal, (DT[i] - 1.6 / constants::gasConstant * W[i] * std::sqrt(X[i]) * a[i]) / largest);
+    }
+  measured("conductivity by iteration", conductivity);
+  measured("thermal diffusion by iteration, of the largest", thermal);
+  EXPECT_LT(conductivity, 1e-7);
+  EXPECT_LT(thermal, 1e-6);
 }
 
 TEST(MulticomponentTransport, IsFiniteAtTheEdges) {

@@ -207,7 +207,9 @@ TEST_F(Reacting, WhatVanishesInAStepLeavesNoHole) {
       });
     chemistry.endStep(state);
     chemistry.fields(state, [&](const Quantity& field, std::span<const double> values) {
-      if (step == 0 && field.name == "heat_release") EXPECT_EQ(*std::ranges::max_element(values), heat);
+      if (step == 0 && field.name == "heat_release") {
+        EXPECT_EQ(*std::ranges::max_element(values), heat);
+      }
     });
     transport.endSweep(state);
     chemistry.endSweep(state);

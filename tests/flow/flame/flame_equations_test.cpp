@@ -100,11 +100,11 @@ TEST(FlameEquations, NewtonMatrixMatchesDifferencesOfTheResidual) {
 }
 
 TEST(FlameEquations, NewtonMatrixIsExactForEveryModelOfTransport) {
-  for (const auto model : {FlameTransport::Model::MixtureAveraged, FlameTransport::Model::Multicomponent,
-                           FlameTransport::Model::UnityLewis, FlameTransport::Model::ConstantLewis}) {
+  for (const auto model : {TransportModel::Diffusion::MixtureAveraged, TransportModel::Diffusion::Multicomponent,
+                           TransportModel::Diffusion::UnityLewis, TransportModel::Diffusion::ConstantLewis}) {
     FlameProblem problem = hydrogenProblem(FlameType::Burner);
-    problem.transport.model = model;
-    problem.transport.soret = model != FlameTransport::Model::UnityLewis;
+    problem.transport.diffusion = model;
+    problem.transport.soret = model != TransportModel::Diffusion::UnityLewis;
     problem.transport.lewisNumbers.assign(hydrogenMechanism()->numSpecies(), 0.8);
     expectExactMatrix(problem, "transport " + std::to_string(static_cast<int>(model)));
   }

@@ -57,7 +57,7 @@ TEST(FlameSolver, SpeedOfHydrogenInAirIsThatOfAnIndependentSolver) {
   EXPECT_NEAR(speedOf(problem, averaged), 2.3310, 0.005 * 2.3310);
   expectClosedBudgets(averaged);
 
-  problem.transport.model = FlameTransport::Model::Multicomponent;
+  problem.transport.diffusion = TransportModel::Diffusion::Multicomponent;
   EXPECT_NEAR(speedOf(problem, solved(problem)), 2.2881, 0.005 * 2.2881);
   problem.transport.soret = true;
   EXPECT_NEAR(speedOf(problem, solved(problem)), 2.118, 0.005 * 2.118);
