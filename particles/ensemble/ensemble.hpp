@@ -36,11 +36,12 @@ struct EnsembleOptions {
   // Of coagulation; the gas gives its gas, and soot.vanDerWaals its enhancement. The kernels with exact solutions are
   // there for verification.
   CollisionKernelOptions kernel{.type = CollisionKernelType::transition};
-  bool coalescing = true;           // spheres; otherwise aggregates of primaries
-  bool alphaOfPrimaries = false;    // mu_1 in alpha(T, mu_1) is of the mean primary (Wang 2025, eq. 9-37), not particle
-  bool keepsHydrogen = true;        // false: that of PAH returns to the gas as H2 when they are taken up
-  double splitTolerance = 0.01;     // relative change of the population in a splitting step
-  double startNumberDensity = 1e6;  // 1/m3: dsmc, at which an empty sample is full at first; contraction does the rest
+  bool coalescing = true;         // spheres; otherwise aggregates of primaries
+  bool alphaOfPrimaries = false;  // mu_1 in alpha(T, mu_1) is of the mean primary (Wang 2025, eq. 9-37), not particle
+  bool keepsHydrogen = true;      // false: that of PAH returns to the gas as H2 when they are taken up
+  double splitTolerance = 0.01;   // relative change of the population in a splitting step
+  // 1/m3: dsmc, at which a sample that is or becomes empty is full at least; more where more are born at once.
+  double startNumberDensity = 1e6;
 };
 
 // What a population took from (negative) and gave to the gas and what happened to its own mass, summed over the steps

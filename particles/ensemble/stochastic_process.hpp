@@ -14,7 +14,7 @@
 #include "core/random.hpp"
 #include "particles/ensemble/ensemble.hpp"
 #include "particles/ensemble/newborn_step.hpp"
-#include "particles/soot/soot_medium.hpp"
+#include "particles/soot/soot_columns.hpp"
 
 namespace lampblack::particles {
 
@@ -51,11 +51,8 @@ class StochasticProcess final : public Ensemble {
   [[nodiscard]] const EnsembleOptions& options() const override { return options_; }
 
  private:
-  // Of the whole population, per m3.
-  struct Sums {
-    double number = 0, carbon = 0, hydrogen = 0, primaries = 0, area = 0, diameters = 0;
-    double collisions = 0, slopes = 0;  // with dimers, 1/s, and their change with the logarithm of all diameters
-  };
+  using Sums = SootSums;
+  void gather() const;  // all particles to columns_
   [[nodiscard]] Sums sums(const SootMedium& medium) const;
   struct Atoms {
     double carbon = 0, hydrogen = 0;  // kg/m3
@@ -85,25 +82,20 @@ class StochasticProcess final : public Ensemble {
   bool planned_ = false;
   double cost_ = 0;
   mutable std::optional<CollisionKernel> kernel_;  // for equal particles
+  mutable SootColumns columns_;                    // room for them
 };
 
 template <class Method>
-typename StochasticProcess<Method>::Sums StochasticProcess<Method>::sums(const SootMedium& medium) const {
-  Sums s;
-  method_.forEachParticle([&](const Particle& p, double w) {
-    const double d = type_.primaryDiameter(p);
-    s.number += w;
-    s.carbon += w * p.carbon;
-    s.hydrogen += w * p.hydrogen;
-    s.primaries += w * p.primaries;
-    s.area += w * p.primaries * constants::pi * d * d;
-    s.diameters += w * p.diameter;
-    if (!medium.condensing()) return;
-    const double rate = medium.collision(p);
-    s.collisions += w * rate;
-    s.slopes += w * medium.collisionSlope(p, rate);
-  });
-  return s;
+void StochasticProcess<Method>::gather() const {
+  columns_.resize(size());
+  std::size_t k = 0;
+  method_.forEachParticle([&](const Particle& p, double w) { columns_.set(k++, p, w); });
+}
+
+template <class Method>
+SootSums StochasticProcess<Method>::sums(const SootMedium& medium) const {
+  gather();
+  return sumsOf(columns_, type_, medium);
 }
 
 template <class Method>
@@ -235,6 +227,14 @@ void StochasticProcess<Method>::jump(const SootMedium& medium, double dt, double
       method_.setNucleus(nucleus, std::max(start.number / n, 20 * inception * stepLength / n));
     } else {
       method_.setNucleus(nucleus);
+      if (size() == 0 && inception > 0) {
+        // Without particles any number will do for a numerical one to stand for: that at which those born now fill half
+        // of the sample. What there was of the interval goes with its particles.
+        const double n = static_cast<double>(options_.particles);
+        method_.startAfresh(std::max(options_.startNumberDensity, 2 * inception * dt) / n);
+        reached_ = 0;
+        planned_ = false;
+      }
     }
     if (!planned_ && inception > 0) {
       planNucleus(method_.nucleusWeight());
@@ -315,12 +315,12 @@ void StochasticProcess<Method>::grow(const SootMedium& medium, double dt, Sums& 
     flux.condensation =
         medium.condensation(medium.dimers(std::max(0.5 * s.collisions, s.collisions + stretch * s.slopes)));
   }
-  SootMoved all;
-  method_.changeParticles([&](Particle& p, double w) {
-    SootMoved moved;
-    const bool left = medium.grow(type_, flux, dt, p, moved);
-    all.add(w, moved);
-    return left;
+  gather();
+  const SootMoved all = growAll(columns_, type_, medium, flux, dt);
+  std::size_t k = 0;
+  method_.changeParticles([&](Particle& p, double) {
+    p = columns_.particle(k++);
+    return p.carbon > 0;
   });
   now = sums(medium);
   recordUptakeOfDimers(medium, all.dimers);

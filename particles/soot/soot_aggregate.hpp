@@ -35,6 +35,9 @@ class SootAggregate {
     return p;
   }
 
+  [[nodiscard]] bool coalescing() const { return coalescing_; }
+  // The cube of the diameter of the primaries is this times the mass over their number, m3/kg.
+  [[nodiscard]] double perVolume() const { return 6 / constants::pi / density_; }
   [[nodiscard]] static double mass(const Particle& p) { return p.carbon + p.hydrogen; }
   [[nodiscard]] double volume(const Particle& p) const { return mass(p) / density_; }
   [[nodiscard]] double collisionDiameter(const Particle& p) const { return p.diameter; }

@@ -76,52 +76,22 @@ SootFluxes SootMedium::fluxes() const {
 
 bool SootMedium::grow(const SootAggregate& type, const SootFluxes& fluxes, double dt, SootAggregate::Particle& p,
                       SootMoved& moved) const {
-  const double rho = options_.sootDensity, n = p.primaries, before = p.carbon;
-  const double shape = SootAggregate::collisionFactor(n);
-  const double gainFlux = fluxes.alpha * fluxes.growth, lossO2 = fluxes.alpha * fluxes.O2, lossOH = fluxes.OH;
-  const double loss = lossO2 + lossOH;
-  const double dimerMass = dimerCarbon_ + dimerHydrogen_;
-  const double dimerFraction = dimerMass > 0 ? dimerHydrogen_ / dimerMass : 0;
+  const SootGrowth law = growth(fluxes);
+  const double shape = SootAggregate::collisionFactor(p.primaries), before = p.carbon;
   double rest = dt;
   while (rest > 0) {
-    const double mass = p.carbon + p.hydrogen, fraction = p.hydrogen / mass;
-    const double d = cubeRoot(6 / constants::pi * mass / (rho * n));
-    // kg/s at a diameter of the primaries: what condenses, and the area.
-    const auto condensing = [&](double x, double m) {
-      return fluxes.condensation > 0
-                 ? dimerMass * freeMolecularKernel(fluxes.condensation, dimer_.mass, dimer_.diameter, m, shape * x)
-                 : 0.0;
-    };
-    const auto area = [&](double x) { return n * constants::pi * x * x; };
-    // Hydrogen leaves with its carbon.
-    const auto net = [&](double x, double m, double h) {
-      return condensing(x, m) + (gainFlux - loss / (1 - h)) * area(x);
-    };
-    const double v0 = 2 / rho * net(d, mass, fraction) / area(d);
-    double step = rest;
-    if (std::abs(v0) * step > 0.5 * d) step = 0.5 * d / std::abs(v0);
-    const double middle = d + 0.5 * step * v0, massThere = rho * n * constants::pi / 6 * middle * middle * middle;
-    const double taken = condensing(d, mass);
-    const double half = 0.5 * step * (taken * (dimerFraction - fraction) - gainFlux * area(d) * fraction) / mass;
-    const double h = std::clamp(fraction + half, 0.0, std::max(fraction, dimerFraction));
-    const double condensed = condensing(middle, massThere), surface = area(middle);
-    const double change = step * 2 / rho * net(middle, massThere, h) / surface, centre = d + 0.5 * change;
-    // The mass goes with the cube of the diameter, which makes this of the rates at the middle.
-    const double amount = step * (3 * centre * centre + 0.25 * change * change) / (3 * middle * middle);
-    const double dimers = dimerMass > 0 ? amount * condensed / dimerMass : 0;
-    const double grown = amount * gainFlux * surface;
-    const double byO2 = amount * lossO2 * surface, byOH = amount * lossOH * surface, withCarbon = h / (1 - h);
-    p.carbon += dimers * dimerCarbon_ + grown - byO2 - byOH;
-    p.hydrogen += dimers * dimerHydrogen_ - (byO2 + byOH) * withCarbon;
-    moved.dimers += dimers;
-    moved.growth += grown;
-    moved.oxidationO2 += byO2;
-    moved.oxidationOH += byOH;
-    moved.hydrogenO2 += byO2 * withCarbon;
-    moved.hydrogenOH += byOH * withCarbon;
-    rest = step < rest ? rest - step : 0;
+    const SootGrowth::Step s = law.step(p.carbon, p.hydrogen, p.primaries, shape, type.primaryDiameter(p), rest);
+    p.carbon = s.carbon;
+    p.hydrogen = s.hydrogen;
+    moved.dimers += s.dimers;
+    moved.growth += s.growth;
+    moved.oxidationO2 += s.oxidationO2;
+    moved.oxidationOH += s.oxidationOH;
+    moved.hydrogenO2 += s.hydrogenO2;
+    moved.hydrogenOH += s.hydrogenOH;
+    rest = s.length < rest ? rest - s.length : 0;
     if (p.carbon < before && p.carbon < leastCarbon_) {
-      const double share = lossO2 / loss;
+      const double share = law.shareO2();
       moved.oxidationO2 += share * p.carbon;
       moved.oxidationOH += (1 - share) * p.carbon;
       moved.hydrogenO2 += share * p.hydrogen;

@@ -7,6 +7,7 @@
 #include "particles/gas/soot_gas.hpp"
 #include "particles/soot/dimer.hpp"
 #include "particles/soot/soot_aggregate.hpp"
+#include "particles/soot/soot_growth.hpp"
 #include "particles/soot/surface_chemistry.hpp"
 
 namespace lampblack::particles {
@@ -19,14 +20,6 @@ struct SootMoved {
   double hydrogenO2 = 0, hydrogenOH = 0;    // hydrogen that left with it
   double lost = 0;                          // particles that were oxidised away
   void add(double weight, const SootMoved& other);
-};
-
-// Of every particle alike: what a step of growth starts from.
-struct SootFluxes {
-  double condensation = 0;    // dimers per volume times the prefactor of their collisions
-  double growth = 0, O2 = 0;  // kg carbon/m2/s with all sites active (alpha = 1)
-  double OH = 0;              // kg carbon/m2/s
-  double alpha = 0;           // fraction of active sites
 };
 
 class SootMedium {
@@ -49,7 +42,10 @@ class SootMedium {
   // Collision rate of a dimer with a particle, m3/s, and its derivative by the logarithm of the particle's diameter
   // with the mass going with its cube.
   [[nodiscard]] double collision(const SootAggregate::Particle& p) const {
-    return condensing_ ? DimerModel::particleCollision(dimer_, freeMolecular_, SootAggregate::mass(p), p.diameter) : 0;
+    return condensing_ ? condensingCollision(p) : 0;
+  }
+  [[nodiscard]] double condensingCollision(const SootAggregate::Particle& p) const {  // where condensing()
+    return DimerModel::particleCollision(dimer_, freeMolecular_, SootAggregate::mass(p), p.diameter);
   }
   [[nodiscard]] double collisionSlope(const SootAggregate::Particle& p, double collision) const {
     const double share = dimer_.mass / (SootAggregate::mass(p) + dimer_.mass);
@@ -66,6 +62,9 @@ class SootMedium {
   [[nodiscard]] double condensation(double dimers) const { return dimers * freeMolecular_; }
   [[nodiscard]] double alpha(double meanCarbonAtoms) const { return surface_.alpha(meanCarbonAtoms); }
 
+  [[nodiscard]] SootGrowth growth(const SootFluxes& fluxes) const {
+    return {fluxes, options_.sootDensity, dimer_, dimerCarbon_, dimerHydrogen_, leastCarbon_};
+  }
   // Grows one particle over dt (s) by midpoint steps of the diameter of its primaries; false when it falls below the
   // carbon of the smallest nucleus, all of it then being oxidised. `moved` gets what it took and lost, to round-off.
   bool grow(const SootAggregate& type, const SootFluxes& fluxes, double dt, SootAggregate::Particle& p,

@@ -202,6 +202,10 @@ class EqualWeightMethod {
     retune();
   }
   void dilute(double factor) { sample_.dilute(factor); }
+  // Without particles: those to come stand for `weight` (1/m3) each, and fill the sample before they are doubled.
+  void startAfresh(double weight) {
+    sample_.replace(weight, false, 0, [&](std::size_t) -> Entry { return *nucleus_; });
+  }
   void beginStep(double, double) {}
   void atTime(double) {}
   void endStep() {}

@@ -1,0 +1,135 @@
+#include "particles/soot/soot_columns.hpp"
+
+#include <algorithm>
+
+#include "chemistry/transport/lanes.hpp"
+
+namespace lampblack::particles {
+namespace {
+
+// Particles at a time: what a loop leaves for the next one stays in the fastest cache.
+constexpr std::size_t block = 128;
+using Block = double[block];
+
+// Calls f(first, count) for all blocks of n.
+template <class F>
+void forEachBlock(std::size_t n, F f) {
+  for (std::size_t first = 0; first < n; first += block) f(first, std::min(block, n - first));
+}
+
+// Diameters of the primaries, d^3 = perVolume * mass / primaries.
+template <bool Spheres>
+void primaryDiameters(const double* carbon, const double* hydrogen, const double* primaries, double perVolume,
+                      std::size_t n, double* d) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const double volume = perVolume * (carbon[i] + hydrogen[i]);
+    d[i] = normalCubeRoot(Spheres ? volume : volume / primaries[i]);
+  }
+}
+
+template <bool Spheres>
+SootSums sums(const SootColumns& all, const SootAggregate& type, const SootMedium& medium) {
+  SootSums s;
+  const bool condensing = medium.condensing();
+  forEachBlock(all.size(), [&](std::size_t first, std::size_t n) {
+    const double *c = &all.carbon[first], *h = &all.hydrogen[first], *primaries = &all.primaries[first];
+    const double *diameter = &all.diameter[first], *w = &all.weight[first];
+    Block carbon, hydrogen, count, area, diameters, rates, slopes, d;
+    if (!Spheres) primaryDiameters<Spheres>(c, h, primaries, type.perVolume(), n, d);
+    for (std::size_t i = 0; i < n; ++i) {
+      const double primary = Spheres ? diameter[i] : d[i];
+      carbon[i] = w[i] * c[i];
+      hydrogen[i] = w[i] * h[i];
+      count[i] = w[i] * primaries[i];
+      area[i] = count[i] * constants::pi * primary * primary;
+      diameters[i] = w[i] * diameter[i];
+    }
+    s.number += chemistry::sumOf(w, n);
+    s.carbon += chemistry::sumOf(carbon, n);
+    s.hydrogen += chemistry::sumOf(hydrogen, n);
+    s.primaries += chemistry::sumOf(count, n);
+    s.area += chemistry::sumOf(area, n);
+    s.diameters += chemistry::sumOf(diameters, n);
+    if (!condensing) return;
+    for (std::size_t i = 0; i < n; ++i) {
+      const SootAggregate::Particle p{c[i], h[i], primaries[i], diameter[i]};
+      const double rate = medium.condensingCollision(p);
+      rates[i] = w[i] * rate;
+      slopes[i] = w[i] * medium.collisionSlope(p, rate);
+    }
+    s.collisions += chemistry::sumOf(rates, n);
+    s.slopes += chemistry::sumOf(slopes, n);
+  });
+  return s;
+}
+
+template <bool Spheres>
+SootMoved grow(SootColumns& all, const SootAggregate& type, const SootMedium& medium, const SootFluxes& fluxes,
+               double dt) {
+  const SootGrowth law = medium.growth(fluxes);
+  const double perVolume = type.perVolume(), least = law.leastCarbon(), share = law.shareO2();
+  SootMoved sum;
+  forEachBlock(all.size(), [&](std::size_t first, std::size_t n) {
+    double *c = &all.carbon[first], *h = &all.hydrogen[first], *diameter = &all.diameter[first];
+    const double *primaries = &all.primaries[first], *w = &all.weight[first];
+    Block carbon, hydrogen, d, shape, rest, lost, moved[6];
+    if (!Spheres) {
+      primaryDiameters<Spheres>(c, h, primaries, perVolume, n, d);
+      for (std::size_t i = 0; i < n; ++i) shape[i] = SootAggregate::collisionFactor(primaries[i]);
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      const double before = Spheres ? diameter[i] : d[i];
+      const SootGrowth::Step s = law.step(c[i], h[i], primaries[i], Spheres ? 1 : shape[i], before, dt);
+      // What is too small to go on burning goes as a whole.
+      const bool gone = s.carbon < c[i] && s.carbon < least;
+      const double C = gone ? s.carbon : 0, H = gone ? s.hydrogen : 0;
+      rest[i] = s.length < dt ? 1 : 0;
+      lost[i] = gone ? w[i] : 0;
+      carbon[i] = s.carbon - C;
+      hydrogen[i] = s.hydrogen - H;
+      moved[0][i] = w[i] * s.dimers;
+      moved[1][i] = w[i] * s.growth;
+      moved[2][i] = w[i] * (s.oxidationO2 + share * C);
+      moved[3][i] = w[i] * (s.oxidationOH + (1 - share) * C);
+      moved[4][i] = w[i] * (s.hydrogenO2 + share * H);
+      moved[5][i] = w[i] * (s.hydrogenOH + (1 - share) * H);
+    }
+    constexpr double SootMoved::*parts[6] = {&SootMoved::dimers,      &SootMoved::growth,     &SootMoved::oxidationO2,
+                                             &SootMoved::oxidationOH, &SootMoved::hydrogenO2, &SootMoved::hydrogenOH};
+    if (chemistry::sumOf(rest, n) > 0) {
+      // More than one step: one by one.
+      for (std::size_t i = 0; i < n; ++i) {
+        if (rest[i] == 0) continue;
+        SootAggregate::Particle p{c[i], h[i], primaries[i], diameter[i]};
+        SootMoved one;
+        const bool left = medium.grow(type, fluxes, dt, p, one);
+        carbon[i] = left ? p.carbon : 0;
+        hydrogen[i] = left ? p.hydrogen : 0;
+        lost[i] = w[i] * one.lost;
+        for (std::size_t k = 0; k < 6; ++k) moved[k][i] = w[i] * (one.*parts[k]);
+      }
+    }
+    for (std::size_t k = 0; k < 6; ++k) sum.*parts[k] += chemistry::sumOf(moved[k], n);
+    sum.lost += chemistry::sumOf(lost, n);
+    primaryDiameters<Spheres>(carbon, hydrogen, primaries, perVolume, n, d);
+    for (std::size_t i = 0; i < n; ++i) {
+      c[i] = carbon[i];
+      h[i] = hydrogen[i];
+      diameter[i] = Spheres ? d[i] : shape[i] * d[i];
+    }
+  });
+  return sum;
+}
+
+}  // namespace
+
+SootSums sumsOf(const SootColumns& all, const SootAggregate& type, const SootMedium& medium) {
+  return type.coalescing() ? sums<true>(all, type, medium) : sums<false>(all, type, medium);
+}
+
+SootMoved growAll(SootColumns& all, const SootAggregate& type, const SootMedium& medium, const SootFluxes& fluxes,
+                  double dt) {
+  return type.coalescing() ? grow<true>(all, type, medium, fluxes, dt) : grow<false>(all, type, medium, fluxes, dt);
+}
+
+}  // namespace lampblack::particles

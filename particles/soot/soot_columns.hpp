@@ -1,0 +1,47 @@
+// Many soot particles at once, in flat arrays: sums over them and their growth, in loops that are compiled to vector
+// instructions. SootMedium does the same one by one.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/rooms.hpp"
+#include "particles/soot/soot_medium.hpp"
+
+namespace lampblack::particles {
+
+struct SootColumns {
+  std::vector<double> carbon, hydrogen;  // kg
+  std::vector<double> primaries;
+  std::vector<double> diameter;  // m, of collision
+  std::vector<double> weight;    // 1/m3
+
+  [[nodiscard]] std::size_t size() const { return carbon.size(); }
+  void resize(std::size_t n) {
+    for (auto* column : {&carbon, &hydrogen, &primaries, &diameter, &weight}) column->resize(n);
+  }
+  void set(std::size_t k, const SootAggregate::Particle& p, double w) {
+    carbon[k] = p.carbon;
+    hydrogen[k] = p.hydrogen;
+    primaries[k] = p.primaries;
+    diameter[k] = p.diameter;
+    weight[k] = w;
+  }
+  [[nodiscard]] SootAggregate::Particle particle(std::size_t k) const {
+    return {carbon[k], hydrogen[k], primaries[k], diameter[k]};
+  }
+};
+
+// Of a whole population, per m3.
+struct SootSums {
+  double number = 0, carbon = 0, hydrogen = 0, primaries = 0, area = 0, diameters = 0;
+  double collisions = 0, slopes = 0;  // with dimers, 1/s, and their change with the logarithm of all diameters
+};
+
+[[nodiscard]] SootSums sumsOf(const SootColumns& all, const SootAggregate& type, const SootMedium& medium);
+
+// Grows all over dt (s), as SootMedium::grow does one of them; those that are oxidised away are left without carbon.
+[[nodiscard]] SootMoved growAll(SootColumns& all, const SootAggregate& type, const SootMedium& medium,
+                                const SootFluxes& fluxes, double dt);
+
+}  // namespace lampblack::particles
