@@ -30,6 +30,33 @@ def write_flame(path, z, p, kind):
             flame["X/" + name] = p[name]
 
 
+def write_flow(path, z, p):
+    """Two columns of cells, the flame in the one nearer to the axis, something else in the other."""
+    edges = np.concatenate([[0], 0.5 * (z[1:] + z[:-1]), [2 * z[-1] - 0.5 * (z[-1] + z[-2])]])
+    centres = np.array([[r, a, 0] for a in z for r in (0.5e-3, 1.5e-3)])
+    vertices = np.array([[r, a, 0] for a in edges for r in (0, 1e-3, 2e-3)])
+    cells = np.array([[3 * j + i, 3 * j + i + 1, 3 * j + i + 4, 3 * j + i + 3] for j in range(len(z)) for i in (0, 1)])
+    with h5py.File(path, "w") as file:
+        file["mesh/cellCentre"], file["mesh/vertices"], file["mesh/cells"] = centres, vertices, cells
+        step = file.create_group("steps/000007")
+        both = lambda values, other=0.0: np.stack([values, other + 0 * values], axis=1).ravel()
+        step["temperature"] = both(p["T"], 300.0)
+        step["velocity"] = np.stack([both(40 * 0.5e-3 + 0 * z), both(p["u"]), both(0 * z)], axis=1)
+        step["density"] = both(340 / p["T"])
+        step["heat_release"] = both(1e8 * p["OH"])
+        for name in ("H2O", "N2", "OH"):
+            step["X_" + name] = both(p[name])
+
+
+def write_profile(path, z, p):
+    """As flame1d's profile.csv."""
+    columns = {"z [m]": z, "temperature [K]": p["T"], "velocity [m/s]": p["u"], "spread [1/s]": 40 + 0 * z,
+               "density [kg/m^3]": 340 / p["T"], "heat_release [W/m^3]": 1e8 * p["OH"], "cp [J/kg/K]": 0 * z,
+               **{f"X_{name} [1]": p[name] for name in ("H2O", "N2", "OH")}}
+    rows = [",".join(columns)] + [",".join(f"{v[i]:.9g}" for v in columns.values()) for i in range(len(z))]
+    path.write_text("\n".join(rows) + "\n", encoding="utf-8")
+
+
 def write_reference(path, z, p):
     names = ["H2O", "OH", "N2", "C3H8", "AR"]
     p = {**p, "AR": 0 * z}
@@ -79,6 +106,21 @@ def main():
         assert code == 0 and abs(json.loads(out)["shift_m"] + 0.7e-3) < 1e-6, out
         write_flame(results, fine, profiles(fine, 0.0093), "counterflow")
         assert compare(folder)[0] == 1
+
+        # The centreline of a flow against a profile of one dimension, and against its results.
+        flow, profile = folder / "flow", folder / "profile.csv"
+        flow.mkdir()
+        write_flow(flow / "results.h5", 0.5 * (fine[1:] + fine[:-1]), profiles(0.5 * (fine[1:] + fine[:-1]), 0.01))
+        write_profile(profile, coarse, profiles(coarse, 0.01, oh=1.02))
+        run = subprocess.run([SCRIPT, flow, profile, "--json"], capture_output=True, text=True, check=False)
+        assert run.returncode == 0, run.stderr
+        rows = {row["quantity"]: row["difference"] for row in json.loads(run.stdout)["rows"]}
+        assert set(rows) == {"T_K", "u_m_s", "V_1_s", "rho_kg_m3", "q_W_m3", "X_H2O", "X_N2", "X_OH"}, rows
+        assert all(abs(rows.pop(name) - 0.02 / 1.02) < 1e-3 for name in ("X_OH", "q_W_m3")), run.stdout
+        assert all(value < 1e-3 for value in rows.values()), rows
+        write_flame(results, fine, profiles(fine, 0.01), "counterflow")
+        run = subprocess.run([SCRIPT, flow, results], capture_output=True, text=True, check=False)
+        assert run.returncode == 0 and "X_OH" in run.stdout, run.stderr
 
         # No results, no flame, no reference.
         code, _, err = compare(folder / "nothing")
