@@ -172,7 +172,6 @@ void ReactionOperator::limitRates(const State& state, std::size_t cell) {
   }
   removeNetMass(state, cell);
   isLimited_[cell] = 1.0;
-  diagnostics_.limitedCells += 1.0;
 }
 
 void ReactionOperator::advance(State& state, double time, double dt) {
@@ -215,7 +214,10 @@ double ReactionOperator::heatRelease(const State& state, std::size_t cell) const
 
 void ReactionOperator::endStep(State& state) {
   if (step_ > 0.0 && !before_.Y.empty())  // else the state is a new one
-    for (std::size_t cell = 0; cell < cost_.size(); ++cell) limitRates(state, cell);
+    for (std::size_t cell = 0; cell < cost_.size(); ++cell) {
+      limitRates(state, cell);
+      diagnostics_.limitedCells += isLimited_[cell];
+    }
   const auto owned = static_cast<std::ptrdiff_t>(cost_.size());
   before_.Y.assign(state.Y.begin(), state.Y.begin() + static_cast<std::ptrdiff_t>(rate_.size()));
   before_.density.assign(state.density.begin(), state.density.begin() + owned);

@@ -177,6 +177,25 @@ TEST_P(ReactingSweeps, BudgetsCloseWithTransport) {
   EXPECT_GT(largest(box.mesh, [&](int c) { return state.temperature[at(c)]; }), 1500.0);
 }
 
+// Only what changes by much within a step is limited, and only in that step.
+TEST_F(Reacting, RatesOfASlowGasAreTakenAsTheyAre) {
+  const auto mixture = gas.massFractions("H2: 0.1, N2: 0.899, OH: 0.001");
+  State state = box.state([&](const auto&) { return Box::Local{{0.0, 0.0}, 1000.0, mixture}; });
+  ReactionOperator chemistry(box.context, options(true));
+  chemistry.endStep(state);
+  const auto limitedInAStepOf = [&](double dt) {
+    for (std::size_t i = 0; i < state.balance.species.size(); ++i)  // in place of transport
+      state.Y[i] += dt * state.balance.species[i] / state.density[i / at(state.species)];
+    state.balance.clear();
+    chemistry.advance(state, 0.0, dt);
+    chemistry.endStep(state);
+    chemistry.endSweep(state);
+    return chemistry.takeDiagnostics().limitedCells;
+  };
+  EXPECT_EQ(limitedInAStepOf(3e-6), 48.0);  // hydroxyl has gone
+  for (int step = 0; step < 3; ++step) EXPECT_EQ(limitedInAStepOf(1e-10), 0.0);
+}
+
 // Hydroxyl is everywhere, hot hydrogen on the left, where it is gone within a step. The next step's transport, which
 // takes the last one's rates for its own, would find it as far below zero there as it was above, and let that diffuse.
 TEST_F(Reacting, WhatVanishesInAStepLeavesNoHole) {
