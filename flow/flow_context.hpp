@@ -57,6 +57,12 @@ struct FlowContext {
     const BoundaryCondition& boundary = boundaryOf(face);
     return boundary.kind == BoundaryKind::Inlet && boundary.fixedComposition;
   }
+  // Whether the gas at this boundary face has a temperature of its own, to which heat is conducted.
+  [[nodiscard]] bool isTemperatureGiven(int face) const {
+    const BoundaryCondition& boundary = boundaryOf(face);
+    return (boundary.kind == BoundaryKind::Inlet && !isSuction(face)) ||
+           (boundary.kind == BoundaryKind::Wall && boundary.isothermal);
+  }
   // An inlet of negative velocity whose temperature and composition are not held: the gas leaves as it is.
   [[nodiscard]] bool isSuction(int face) const {
     const BoundaryCondition& boundary = boundaryOf(face);

@@ -1,7 +1,8 @@
-// Transport and thermodynamic properties of the gas in every local cell, halo included.
+// Transport and thermodynamic properties of the gas in every local cell, halo included, and beside the boundaries.
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "chemistry/transport/multicomponent_transport.hpp"
@@ -20,13 +21,25 @@ struct GasProperties {
 
   std::vector<double> thermalDiffusion;  // kg/m/s, species a cell; empty without the Soret effect
 
+  // Between each boundary face and its cell: the mean of both where the face has a temperature of its own, else the
+  // cell's. With the cell's alone half a cell of cold gas would conduct as if it were warm.
+  std::vector<double> boundaryViscosity;     // Pa s
+  std::vector<double> boundaryConductivity;  // W/m/K
+
   // Evaluates all of it from the state's T, Y and density. Mass fractions below zero, which advection may leave at the
   // size of its error, count as zero here.
   void update(const FlowContext& context, const State& state);
 
  private:
+  struct Coefficients {
+    double viscosity = 0.0, conductivity = 0.0;
+  };
+  // Of X_, which it finds from the mass fractions; D and DT_ receive the coefficients of diffusion.
+  Coefficients evaluate(const FlowContext& context, double T, double p, std::span<const double> Y, std::span<double> D);
+  void updateBoundary(const FlowContext& context, const State& state);
+
   std::optional<MulticomponentTransport> multicomponent_;
-  std::vector<double> X_, DT_;
+  std::vector<double> X_, D_, DT_;
 };
 
 }  // namespace lampblack::flow

@@ -16,10 +16,8 @@ void HeatConduction::prepare(const GasProperties& properties) {
           metric * (w * properties.conductivity[low] + (1.0 - w) * properties.conductivity[m.high[face]]);
       continue;
     }
-    const BoundaryCondition& boundary = context_.boundaryOf(face);
-    const bool given = (boundary.kind == BoundaryKind::Inlet && !context_.isSuction(face)) ||
-                       (boundary.kind == BoundaryKind::Wall && boundary.isothermal);
-    if (given) conductance_[face] = metric * properties.conductivity[low];
+    if (context_.isTemperatureGiven(face))
+      conductance_[face] = metric * properties.boundaryConductivity[face - m.interiorFaces];
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "core/rooms.hpp"
 #include "flow/flow_context.hpp"
@@ -13,8 +14,9 @@ namespace lampblack::flow {
 struct InitialFields {
   GasVariation gas;
   std::array<FieldFunction, 2> velocity;  // m/s, along the mesh's axes; empty: at rest
+  std::vector<FieldFunction> carried;     // per m3, of each carried scalar; empty: none
 
-  [[nodiscard]] bool isEmpty() const { return gas.isEmpty() && !velocity[0] && !velocity[1]; }
+  [[nodiscard]] bool isEmpty() const { return gas.isEmpty() && !velocity[0] && !velocity[1] && carried.empty(); }
 };
 
 // Changes what is given, at time zero; the rest of the state is that of before (halo included). InputError with the

@@ -104,7 +104,8 @@ void Momentum::explicitStress(const Sweep& sweep) {
     const int low = m.low[face];
     const int high = m.high[face] >= 0 ? m.high[face] : low;
     const double w = m.high[face] >= 0 ? m.lowWeight[face] : 1.0;
-    const double mu = w * viscosity[low] + (1.0 - w) * viscosity[high];
+    const double mu = m.high[face] >= 0 ? w * viscosity[low] + (1.0 - w) * viscosity[high]
+                                        : sweep.boundaryViscosity[face - m.interiorFaces];
     const int axis = m.normalAxis[face];
     const double divergence = w * dilatation(low) + (1.0 - w) * dilatation(high);
     // Along walls and symmetries the normal velocity stays zero.
@@ -175,7 +176,7 @@ void Momentum::predict(const State& state, const Sweep& sweep) {
     for (int i = 0; i < 2; ++i) {
       if (!isGiven(boundary, i == axis)) continue;
       const double value = boundaryVelocity_[2 * (face - m.interiorFaces) + i];
-      const double conductance = viscosity[low] * m.area[face] / m.distance[face];
+      const double conductance = sweep.boundaryViscosity[face - m.interiorFaces] * m.area[face] / m.distance[face];
       diagonal_[2 * low + i] += conductance;
       relaxation_[low] += 0.5 * conductance;
       source_[2 * low + i] += conductance * value - flux * (value - velocity[2 * low + i]);

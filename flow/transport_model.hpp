@@ -1,6 +1,7 @@
 // How species diffuse in a flame of one dimension or a flow, as a deck says it.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "chemistry/transport/transport.hpp"
@@ -15,6 +16,7 @@ struct TransportModel {
   bool soret = false;                // thermal diffusion; not with Lewis numbers
   std::vector<double> lewisNumbers;  // ConstantLewis: of every species
   CollisionIntegrals integrals = CollisionIntegrals::MonchickMason;
+  std::optional<SutherlandLaw> sutherland{};  // with Lewis numbers only
 
   [[nodiscard]] bool isMulticomponent() const { return diffusion == Diffusion::Multicomponent; }
   // Fluxes go along gradients of mass fractions instead of mole fractions.
@@ -25,6 +27,7 @@ struct TransportModel {
   [[nodiscard]] TransportOptions averaged() const {
     TransportOptions options;
     options.integrals = integrals;
+    options.sutherland = sutherland;
     if (diffusion == Diffusion::UnityLewis) options.diffusion = DiffusionModel::UnityLewis;
     if (diffusion == Diffusion::ConstantLewis) {
       options.diffusion = DiffusionModel::ConstantLewis;

@@ -53,7 +53,8 @@ void TransportOperator::initialise(State& state, double dt) {
   momentum_.balanceGravity(state);
   const std::vector<double> weight = state.pressure;
   // So short that nothing but the pressure changes the velocity; that of the blow is not kept.
-  momentum_.advance(state, {state, state, properties_.viscosity, divergence, 1e-6 * dt}, faceVelocity_);
+  momentum_.advance(state, {state, state, properties_.viscosity, properties_.boundaryViscosity, divergence, 1e-6 * dt},
+                    faceVelocity_);
   momentum_.endStep();
   state.pressure = weight;
   updateFluxes(state, state);
@@ -63,6 +64,7 @@ void TransportOperator::keepStart(const State& state) {
   start_ = state;
   mean_ = state;
   startViscosity_ = properties_.viscosity;
+  startBoundaryViscosity_ = properties_.boundaryViscosity;
   startSpeciesFlux_.resize(diffusion_.species.size());
   startHeatFlux_.resize(diffusion_.heat.size());
   speciesDiffusion_.presentFlux(state, startSpeciesFlux_);
@@ -254,8 +256,9 @@ void TransportOperator::advance(State& state, double time, double dt) {
   // Velocity, pressure and mass flux for exactly this diffusion.
   const auto divergence = expansion_.complete(state, properties_, diffusion_, first);
   const std::vector<double>& startViscosity = several ? startViscosity_ : properties_.viscosity;
-  const auto projected =
-      momentum_.advance(state, {start, mean, startViscosity, divergence, 0.5 * (lastStep_ + dt)}, faceVelocity_);
+  const std::vector<double>& boundaryViscosity = several ? startBoundaryViscosity_ : properties_.boundaryViscosity;
+  const auto projected = momentum_.advance(
+      state, {start, mean, startViscosity, boundaryViscosity, divergence, 0.5 * (lastStep_ + dt)}, faceVelocity_);
   diagnostics_.continuityError = projected.continuityError;
   diagnostics_.pressureIterations = projected.iterations;
   updateFluxes(state, mean);

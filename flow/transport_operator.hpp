@@ -104,6 +104,7 @@ class TransportOperator : public Operator {
   std::optional<State> start_, mean_;
   std::vector<double> startSpeciesFlux_, startHeatFlux_;
   std::vector<double> startViscosity_, meanViscosity_;  // Pa s, cells
+  std::vector<double> startBoundaryViscosity_;          // Pa s, boundary faces
 
   std::vector<double> content_;       // kg, rho Y V of the owned cells as it is being advanced
   std::vector<double> heatContent_;   // J, rho h V

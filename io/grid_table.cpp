@@ -49,10 +49,9 @@ class Column {
 GridTable::GridTable(const std::filesystem::path& file, std::vector<Coordinate> coordinates,
                      const DimensionOf& dimensionOf)
     : coordinates_(std::move(coordinates)) {
-  if (coordinates_.size() > maxCoordinates) throw std::logic_error("GridTable: too many coordinates");
   const TextTable table = readCsv(readTextFile(file, "a table"));
-  const auto fail = [&](const std::string& why) { return InputError(fmt::format("{}: {}", file.string(), why)); };
-  std::vector<std::vector<double>> places(coordinates_.size()), columns;
+  Numbers numbers;
+  numbers.places.resize(coordinates_.size());
   try {
     for (std::size_t column = 0; column < table.columns.size(); ++column) {
       const auto [name, unit] = nameAndUnit(table.columns[column]);
@@ -66,22 +65,34 @@ GridTable::GridTable(const std::filesystem::path& file, std::vector<Coordinate> 
       for (std::size_t row = 0; row < table.rows.size(); ++row)
         values.push_back(reader.read(table.rows[row][column], row));
       if (isCoordinate) {
-        places[static_cast<std::size_t>(coordinate - coordinates_.begin())] = std::move(values);
+        numbers.places[static_cast<std::size_t>(coordinate - coordinates_.begin())] = std::move(values);
       } else {
-        names_.push_back(name);
-        columns.push_back(std::move(values));
+        numbers.names.push_back(name);
+        numbers.columns.push_back(std::move(values));
       }
     }
+    build(numbers);
   } catch (const InputError& error) {
-    throw fail(error.what());
+    throw InputError(fmt::format("{}: {}", file.string(), error.what()));
   }
-  if (table.rows.empty()) throw fail("the table has no rows");
-  if (names_.empty()) throw fail("no column has a name that counts here");
+}
+
+GridTable::GridTable(std::vector<Coordinate> coordinates, const Numbers& numbers)
+    : coordinates_(std::move(coordinates)) {
+  build(numbers);
+}
+
+void GridTable::build(const Numbers& numbers) {
+  if (coordinates_.size() > maxCoordinates) throw std::logic_error("GridTable: too many coordinates");
+  names_ = numbers.names;
+  if (names_.empty()) throw InputError("no column has a name that counts here");
+  const std::size_t rows = numbers.columns[0].size();
+  if (rows == 0) throw InputError("the table has no rows");
 
   std::size_t points = 1;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    if (places[i].empty()) continue;
-    Axis axis{i, places[i]};
+  for (std::size_t i = 0; i < numbers.places.size(); ++i) {
+    if (numbers.places[i].empty()) continue;
+    Axis axis{i, numbers.places[i]};
     std::ranges::sort(axis.points);
     axis.points.erase(std::unique(axis.points.begin(), axis.points.end()), axis.points.end());
     points *= axis.points.size();
@@ -90,20 +101,20 @@ GridTable::GridTable(const std::filesystem::path& file, std::vector<Coordinate> 
   if (axes_.empty()) {
     std::vector<std::string> known;
     for (const Coordinate& coordinate : coordinates_) known.push_back(coordinate.name);
-    throw fail(fmt::format("expected a column of one of: {}", fmt::join(known, ", ")));
+    throw InputError(fmt::format("expected a column of one of: {}", fmt::join(known, ", ")));
   }
-  if (points != table.rows.size())
-    throw fail(fmt::format("its coordinates span a grid of {} points, but there are {} rows; expected a row for each",
-                           points, table.rows.size()));
+  if (points != rows)
+    throw InputError(fmt::format(
+        "its coordinates span a grid of {} points, but there are {} rows; expected a row for each", points, rows));
   values_.assign(names_.size(), std::vector<double>(points, NAN));
   for (std::size_t row = 0; row < points; ++row) {
     std::size_t at = 0;
     for (const Axis& axis : axes_) {
-      const auto found = std::ranges::lower_bound(axis.points, places[axis.coordinate][row]);
+      const auto found = std::ranges::lower_bound(axis.points, numbers.places[axis.coordinate][row]);
       at = at * axis.points.size() + static_cast<std::size_t>(found - axis.points.begin());
     }
-    if (!std::isnan(values_[0][at])) throw fail(fmt::format("row {} has the place of another row", row + 1));
-    for (std::size_t column = 0; column < names_.size(); ++column) values_[column][at] = columns[column][row];
+    if (!std::isnan(values_[0][at])) throw InputError(fmt::format("row {} has the place of another row", row + 1));
+    for (std::size_t column = 0; column < names_.size(); ++column) values_[column][at] = numbers.columns[column][row];
   }
 }
 

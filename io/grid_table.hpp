@@ -29,6 +29,14 @@ class GridTable {
   using DimensionOf = std::function<std::optional<units::Dimension>(const std::string& name)>;
   GridTable(const std::filesystem::path& file, std::vector<Coordinate> coordinates, const DimensionOf& dimensionOf);
 
+  // The same of numbers in SI that are read already.
+  struct Numbers {
+    std::vector<std::vector<double>> places;  // of each coordinate a value for every row; empty: does not depend on it
+    std::vector<std::string> names;
+    std::vector<std::vector<double>> columns;  // a value for every row
+  };
+  GridTable(std::vector<Coordinate> coordinates, const Numbers& numbers);
+
   // Names of the columns of values.
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
   [[nodiscard]] bool has(const std::string& name) const;
@@ -44,6 +52,8 @@ class GridTable {
     std::size_t coordinate;  // its place among the coordinates
     std::vector<double> points;
   };
+  void build(const Numbers& numbers);
+
   std::vector<Coordinate> coordinates_;
   std::vector<Axis> axes_;
   std::vector<std::string> names_;

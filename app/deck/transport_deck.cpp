@@ -37,6 +37,13 @@ std::vector<double> readLewisNumbers(const Deck& deck, const Mechanism& mechanis
   });
 }
 
+std::optional<SutherlandLaw> readSutherland(const Deck& deck) {
+  if (!deck.has("transport.sutherland")) return std::nullopt;
+  return SutherlandLaw{
+      deck.quantity("transport.sutherland.viscosity"), deck.quantity("transport.sutherland.temperature"),
+      deck.quantity("transport.sutherland.constant"), deck.number("transport.sutherland.prandtl_number")};
+}
+
 Diffusion diffusionOf(const std::string& word) {
   if (word == "multicomponent") return Diffusion::Multicomponent;
   if (word == "unity_lewis") return Diffusion::UnityLewis;
@@ -63,7 +70,20 @@ void addTransportKeys(DeckSchema& schema) {
                      "Collision integrals of viscosity and diffusion: monchick_mason: the tables of Monchick and Mason "
                      "(1961); wang_fits: the fits of Wang (2025, eqs. 6-36 and 6-37), within 2.5 % of them.")
                .byDefault("monchick_mason")
-               .formerly("thesis_fits", "wang_fits"));
+               .formerly("thesis_fits", "wang_fits"))
+      .section(
+          "transport.sutherland", Presence::optional,
+          "Viscosity of the whole gas by Sutherland's law, viscosity * (T/temperature)^1.5 * (temperature + constant) "
+          "/ (T + constant), and its conductivity by a Prandtl number, instead of kinetic theory.",
+          {{"transport.model", {"unity_lewis", "constant_lewis"}}})
+      .add(quantityKey("transport.sutherland.viscosity", units::viscosity, "Viscosity at 'temperature'.").above(0))
+      .add(quantityKey("transport.sutherland.temperature", units::temperature, "Temperature that has 'viscosity'.")
+               .above(0))
+      .add(quantityKey("transport.sutherland.constant", units::temperature, "Sutherland's constant, 110.5 K for air.")
+               .above(0))
+      .add(numberKey("transport.sutherland.prandtl_number",
+                     "Viscosity times heat capacity per mass over conductivity, 0.71 for air.")
+               .above(0));
 }
 
 TransportModel readTransport(const Deck& deck, const Mechanism& mechanism) {
@@ -73,6 +93,7 @@ TransportModel readTransport(const Deck& deck, const Mechanism& mechanism) {
   transport.soret = deck.boolean("transport.soret");
   const std::string model = deck.choice("transport.model");
   transport.diffusion = diffusionOf(model);
+  transport.sutherland = readSutherland(deck);
   if (transport.soret && transport.hasLewisNumbers())
     throw deck.error("transport.soret", fmt::format("the transport model {} has no thermal diffusion; set soret to "
                                                     "false, or choose mixture_averaged or multicomponent",

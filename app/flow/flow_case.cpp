@@ -12,10 +12,12 @@
 #include "app/flow/flow_limits.hpp"
 #include "app/flow/given_fields.hpp"
 #include "app/flow/initial_flame1d.hpp"
+#include "app/flow/initial_flow.hpp"
 #include "app/tools/gas_input.hpp"
 #include "core/errors.hpp"
 #include "core/grading.hpp"
 #include "coupling/carried_particles.hpp"
+#include "flow/carried_operator.hpp"
 
 namespace lampblack::app {
 
@@ -68,6 +70,13 @@ Stream streamOf(const Deck& deck, const std::string& key, const FlowCase& flowCa
 }
 
 // What is given over place, on whatever the start is otherwise.
+std::vector<std::string> carriedNames(const FlowCase& flowCase) {
+  std::vector<std::string> names;
+  if (flowCase.carried)
+    for (const CarriedScalar& scalar : CarriedOperator::scalarsOf(*flowCase.carried)) names.push_back(scalar.name);
+  return names;
+}
+
 void readInitialFields(const Deck& deck, FlowCase& flowCase) {
   const AxisNames axes = axisNames(flowCase.mesh.geometry);
   const std::array<std::string, 2> velocities{"velocity_" + axes[0], "velocity_" + axes[1]};
@@ -77,11 +86,15 @@ void readInitialFields(const Deck& deck, FlowCase& flowCase) {
       *flowCase.mechanism);
   InitialFields& fields = flowCase.initialFields;
   fields = {given.gas(), {given.find(velocities[0]), given.find(velocities[1])}};
-  if (!deck.has("initial.flame1d")) return;
-  if (!fields.isEmpty() || deck.choice("initial.layer") != "none")
-    throw deck.error("initial.flame1d",
-                     "a flame fills all of the mesh; expected 'layer: none' and no formulas or table");
-  fields = readInitialFlame(deck, flowCase);
+  for (const char* whole : {"initial.flame1d", "initial.flow"}) {
+    if (!deck.has(whole)) continue;
+    if (!fields.isEmpty() || deck.choice("initial.layer") != "none")
+      throw deck.error(whole,
+                       "it fills all of the mesh; expected 'layer: none' and nothing else that gives the start: no "
+                       "formulas, no table, one of 'flame1d' and 'flow'");
+    fields = std::string_view(whole) == "initial.flow" ? readInitialFlow(deck, flowCase, carriedNames(flowCase))
+                                                       : readInitialFlame(deck, flowCase);
+  }
 }
 
 // One gas everywhere, under the fields that are given.
@@ -245,6 +258,8 @@ FlowCase readFlowCase(const Deck& deck) {
   flowCase.mesh = readMesh(deck, flowCase.mechanism->numSpecies());
   flowCase.transport = readTransport(deck, *flowCase.mechanism);
   readBoundaries(deck, flowCase);
+  flowCase.chemistry.shareWork = deck.boolean("chemistry.share_work");
+  readSoot(deck, flowCase);
   readInitial(deck, flowCase);
   readGravity(deck, flowCase);
   flowCase.radiation = readRadiation(deck);
@@ -257,12 +272,10 @@ FlowCase readFlowCase(const Deck& deck) {
                      "the error of a step is what its last sweep corrects; expected 'sweeps: 2' or more");
   if (flowCase.time.firstStep > flowCase.time.maximumStep)
     throw deck.error("time.first_step", "expected no more than 'maximum_step'");
-  flowCase.chemistry.shareWork = deck.boolean("chemistry.share_work");
   flowCase.chemistry.reactor.relativeTolerance = deck.number("chemistry.relative_tolerance");
   flowCase.chemistry.reactor.rosenbrockSteps = deck.integer<int>("chemistry.rosenbrock_steps");
   flowCase.chemistry.reactor.absoluteTolerance = deck.number("chemistry.absolute_tolerance");
   readOutput(deck, flowCase);
-  readSoot(deck, flowCase);
   readTrajectories(deck, flowCase);
   refuseExcess(deck, flowCase);
   return flowCase;

@@ -5,6 +5,7 @@
 #include "app/flow/flow_case.hpp"
 #include "app/flow/given_fields.hpp"
 #include "app/flow/initial_flame1d.hpp"
+#include "app/flow/initial_flow.hpp"
 #include "app/tools/gas_input.hpp"
 
 namespace lampblack::app {
@@ -91,7 +92,7 @@ void addInitial(DeckSchema& schema) {
   schema
       .section("initial", Presence::required,
                "The start: two streams that mix across a burnt or hot layer, or one gas everywhere; over either "
-               "what formulas, a table or a one-dimensional flame give.")
+               "what formulas, a table, a one-dimensional flame or an earlier run give.")
       .add(choiceKey("initial.layer", {"burnt", "hot", "none"},
                      "burnt: complete combustion where the streams meet (without CO2 in the mechanism: equilibrium); "
                      "hot: cold mixture with a hot layer that ignites it; none: one gas everywhere.")
@@ -127,6 +128,7 @@ void addInitial(DeckSchema& schema) {
                               "temperature, velocity_<axis> and X_<species>, the mole fraction (the species that are "
                               "not named keep their proportions)");
   flowcase::addInitialFlameKeys(schema);
+  flowcase::addInitialFlowKeys(schema);
 }
 
 void addTimeAndOutput(DeckSchema& schema) {

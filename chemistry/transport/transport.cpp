@@ -105,10 +105,17 @@ Transport::Mixture Transport::viscosityAndConductivity(double T, const Basis& at
   return {at.rootT * dot(x_.data(), a_.data(), n_), 0.5 * at.rootT * (arithmetic + harmonic)};
 }
 
+Transport::Mixture Transport::bySutherland(double T) {
+  thermo_.cpOverR(T, cp_.data());
+  const double cp = constants::gasConstant * dot(x_.data(), cp_.data(), n_) / meanWeight_;
+  const double viscosity = sutherland_->viscosityAt(T);
+  return {viscosity, viscosity * cp / sutherland_->prandtl};
+}
+
 Transport::Mixture Transport::mixture(double T, double p, std::span<const double> X, std::span<double> D) {
   const auto at = basis(T);
   setMoleFractions(X);
-  const auto result = viscosityAndConductivity(T, at);
+  const auto result = sutherland_ ? bySutherland(T) : viscosityAndConductivity(T, at);
   if (model_ == DiffusionModel::MixtureAveraged) {
     averagedDiffusion(T, p, at, D);
   } else {

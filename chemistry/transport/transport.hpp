@@ -4,7 +4,9 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,10 +27,26 @@ enum class DiffusionModel {
   ConstantLewis,    // species k with lambda/(rho cp Le_k)
 };
 
+// Viscosity of the whole mixture by the law of Sutherland (Phil. Mag. 36 (1893) 507-531), whatever its composition:
+// mu = mu_0 (T/T_0)^(3/2) (T_0 + S)/(T + S); its conductivity by a constant Prandtl number, lambda = mu cp/Pr.
+struct SutherlandLaw {
+  double viscosity = 0;    // Pa s, mu_0
+  double temperature = 0;  // K, T_0
+  double constant = 0;     // K, S
+  double prandtl = 0;      // Pr
+
+  [[nodiscard]] double viscosityAt(double T) const {
+    const double ratio = T / temperature;
+    return viscosity * ratio * std::sqrt(ratio) * (temperature + constant) / (T + constant);
+  }
+};
+
 struct TransportOptions {
   CollisionIntegrals integrals = CollisionIntegrals::MonchickMason;
   DiffusionModel diffusion = DiffusionModel::MixtureAveraged;
   std::vector<double> lewisNumbers;  // of every species, positive; read by ConstantLewis alone
+  // Instead of kinetic theory; not with mixture-averaged diffusion.
+  std::optional<SutherlandLaw> sutherland{};
 };
 
 class Transport {
@@ -39,7 +57,8 @@ class Transport {
 
   static void requireInRange(double T);
 
-  // InputError if a species has no transport data or, for constant Lewis numbers, no positive Lewis number.
+  // InputError if a species has no transport data or, for constant Lewis numbers, no positive Lewis number, and for
+  // Sutherland's law with mixture-averaged diffusion or values that are not positive.
   explicit Transport(const Mechanism& mechanism, const TransportOptions& options = {});
 
   struct Mixture {
@@ -90,6 +109,7 @@ class Transport {
   void setMoleFractions(std::span<const double> X);
   void wilkeSums(const Basis& at);
   Mixture viscosityAndConductivity(double T, const Basis& at);
+  Mixture bySutherland(double T);
   void restAlone(std::span<double> D) const;
   void averagedDiffusion(double T, double p, const Basis& at, std::span<double> D);
   double pairResistance(const Basis& at, std::size_t j, std::size_t k) const;
@@ -97,6 +117,7 @@ class Transport {
   std::size_t n_ = 0, ld_ = 0;  // species; the same, padded
   DiffusionModel model_;
   std::vector<double> inverseLewis_;
+  std::optional<SutherlandLaw> sutherland_;
   SpeciesThermo thermo_;
   std::vector<double> weights_;               // kg/mol
   std::vector<double> roots_, quarterRoots_;  // W^(1/2), W^(-1/4)

@@ -32,6 +32,20 @@ std::vector<double> inverseLewisNumbers(const Mechanism& mechanism, const Transp
   return result;
 }
 
+std::optional<SutherlandLaw> checkedSutherland(const TransportOptions& options) {
+  if (!options.sutherland) return std::nullopt;
+  const SutherlandLaw& law = *options.sutherland;
+  if (options.diffusion == DiffusionModel::MixtureAveraged)
+    throw InputError("Sutherland's law knows no mixture-averaged diffusion; expected Lewis numbers");
+  for (const auto& [name, value] : {std::pair{"viscosity", law.viscosity},
+                                    {"temperature", law.temperature},
+                                    {"constant", law.constant},
+                                    {"Prandtl number", law.prandtl}})
+    if (!(value > 0 && std::isfinite(value)))
+      throw InputError(fmt::format("the {} of Sutherland's law is {}; expected a positive number", name, value));
+  return options.sutherland;
+}
+
 }  // namespace
 
 Transport::Transport(const Mechanism& mechanism, const TransportOptions& options)
@@ -39,6 +53,7 @@ Transport::Transport(const Mechanism& mechanism, const TransportOptions& options
       ld_(paddedToLanes(n_)),
       model_(options.diffusion),
       inverseLewis_(inverseLewisNumbers(mechanism, options)),
+      sutherland_(checkedSutherland(options)),
       thermo_(mechanism.allSpecies()),
       weights_(mechanism.molecularWeights().begin(), mechanism.molecularWeights().end()),
       resistance_(n_),

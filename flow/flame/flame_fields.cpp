@@ -34,7 +34,7 @@ FlameFields flameFields(const Mechanism& mechanism, const FlameProblem& problem,
   f.Y.resize(points * n);
   const Thermo thermo(mechanism);
   Kinetics kinetics(mechanism);
-  Transport transport(mechanism, {problem.transport.integrals, DiffusionModel::MixtureAveraged, {}});
+  Transport transport(mechanism, problem.transport.averaged());
   std::optional<MulticomponentTransport> multicomponent;
   if (problem.transport.isMulticomponent()) multicomponent.emplace(mechanism, problem.transport.integrals);
   std::vector<double> c(n), wdot(n), h(n), D(n);

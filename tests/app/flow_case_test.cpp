@@ -32,6 +32,19 @@ TEST(FlowCase, ReadsTheTransportModel) {
   EXPECT_THROW(withTransport({"transport.model=constant_lewis", "transport.lewis_numbers='HH: 1'"}), InputError);
 }
 
+TEST(FlowCase, ReadsSutherlandsLaw) {
+  const std::string law =
+      "transport.sutherland={viscosity: 1.68e-5 Pa s, temperature: 273 K, constant: 110.5 K, "
+      "prandtl_number: 0.71}";
+  const auto read = withTransport({"transport.model=unity_lewis", law}).transport.sutherland;
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->viscosity, 1.68e-5);
+  EXPECT_EQ(read->temperature, 273);
+  EXPECT_EQ(read->constant, 110.5);
+  EXPECT_EQ(read->prandtl, 0.71);
+  EXPECT_THROW(withTransport({law}), InputError);
+}
+
 TEST(FlowCase, ReadsTheShippedDeck) {
   const Deck deck = Deck::load(test::sourceFolder / "cases/flow/counterflow_ethylene/deck.yaml", {}, flowSchema());
   const FlowCase flowCase = readFlowCase(deck);

@@ -264,6 +264,30 @@ TEST(Transport, LewisNumbersGiveTheDiffusivityOfHeat) {
   EXPECT_THROW(Transport(mechanism, options), InputError);
 }
 
+// Air: 1.8462e-5 Pa s at 300 K with Sutherland's constants of Le Quere and others (2005).
+TEST(Transport, SutherlandsLawStandsForTheWholeMixture) {
+  const auto& mechanism = hydrogen();
+  const auto X = parseComposition(mechanism, "O2: 0.21, N2: 0.79");
+  TransportOptions options;
+  options.diffusion = DiffusionModel::ConstantLewis;
+  options.lewisNumbers.assign(mechanism.numSpecies(), 1.25);
+  options.sutherland = SutherlandLaw{1.68e-5, 273, 110.5, 0.71};
+  Transport transport(mechanism, options);
+  std::vector<double> D(X.size()), Y(X.size());
+  const auto mixture = transport.mixture(300, 1e5, X, D);
+  EXPECT_NEAR(mixture.viscosity, 1.68e-5 * std::pow(300.0 / 273, 1.5) * 383.5 / 410.5, 1e-18);
+  const Thermo thermo(mechanism);
+  thermo.moleToMass(X, Y);
+  const double cp = thermo.cpMass(300, Y);
+  EXPECT_NEAR(mixture.conductivity / (mixture.viscosity * cp / 0.71), 1, 1e-9);
+  for (const double d : D) EXPECT_NEAR(d * 1.25 * thermo.density(300, 1e5, Y) * cp / mixture.conductivity, 1, 1e-9);
+  options.sutherland->constant = 0;
+  EXPECT_THROW(Transport(mechanism, options), InputError);
+  options.sutherland->constant = 110.5;
+  options.diffusion = DiffusionModel::MixtureAveraged;
+  EXPECT_THROW(Transport(mechanism, options), InputError);
+}
+
 // From 200 to 4000 K, from a millionth to a hundred bar, with gases alone: finite and positive everywhere.
 TEST(Transport, IsFiniteAtTheEdges) {
   const auto& mechanism = ethylene();

@@ -1,0 +1,132 @@
+#include "app/flow/initial_flow.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "app/flow/flow_case.hpp"
+#include "core/errors.hpp"
+#include "io/grid_table.hpp"
+#include "io/hdf5_reader.hpp"
+
+namespace lampblack::app::flowcase {
+namespace {
+
+const std::string section = "initial.flow";
+
+// The step that the deck asks for: the last, or that at the time next to `time`.
+std::string stepOf(const Hdf5Reader& results, std::optional<double> time) {
+  const std::vector<std::string> steps = results.names("/steps");
+  if (steps.empty()) throw InputError(fmt::format("{} holds no fields of a flow", results.name()));
+  const auto distance = [&](const std::string& step) {
+    return std::abs(results.numberAttribute("/steps/" + step, "time") - *time);
+  };
+  return "/steps/" + (time ? *std::ranges::min_element(steps, {}, distance) : steps.back());
+}
+
+// Values of all cells of one component of a vector with `components`.
+std::vector<double> component(const std::vector<double>& values, std::size_t components, std::size_t which) {
+  std::vector<double> of;
+  for (std::size_t i = which; i < values.size(); i += components) of.push_back(values[i]);
+  return of;
+}
+
+void requireSameGeometry(const Hdf5Reader& results, Geometry geometry) {
+  const Deck earlier = Deck::parse(results.textAttribute("/", "deck"), results.name(), {}, flowSchema());
+  const bool wasAxisymmetric = earlier.choice("mesh.geometry") == "axisymmetric";
+  if (wasAxisymmetric != (geometry == Geometry::Axisymmetric))
+    throw InputError(fmt::format("{} is of {} geometry; expected that of this mesh", results.name(),
+                                 wasAxisymmetric ? "axisymmetric" : "planar"));
+}
+
+// Rounding of a length apart.
+void requireCover(const Hdf5Reader& results, const MeshSpec& mesh) {
+  const std::vector<double> vertices = results.numbers("/mesh/vertices");
+  const AxisNames names = axisNames(mesh.geometry);
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const std::vector<double> of = component(vertices, 3, axis);
+    const auto [first, last] = std::ranges::minmax(of);
+    const double slack = 1e-9 * (last - first);
+    if (mesh.vertices[axis].front() < first - slack || mesh.vertices[axis].back() > last + slack)
+      throw InputError(fmt::format("{} reaches from {} = {:g} to {:g} m; this mesh goes from {:g} to {:g} m",
+                                   results.name(), names[axis], first, last, mesh.vertices[axis].front(),
+                                   mesh.vertices[axis].back()));
+  }
+}
+
+// The names of the fields that a start is made of, with those that have to be there.
+std::vector<std::string> fieldNames(const Hdf5Reader& results, const std::string& step, const Mechanism& mechanism,
+                                    const std::vector<std::string>& scalars) {
+  std::vector<std::string> names{"temperature"};
+  for (std::size_t k = 0; k < mechanism.numSpecies(); ++k) names.push_back("X_" + mechanism.speciesName(k));
+  names.insert(names.end(), scalars.begin(), scalars.end());
+  for (const std::string& name : names)
+    if (!results.has(step + "/" + name))
+      throw InputError(fmt::format(
+          "{} has no '{}'; expected a run with the same mechanism and model of soot, and 'output: {{species: [all]}}'",
+          results.name(), name));
+  for (const std::string& name : results.names(step))
+    if (name.starts_with("X_") && !mechanism.findSpecies(name.substr(2)))
+      throw InputError(fmt::format("the mechanism has no species '{}' of {}", name.substr(2), results.name()));
+  return names;
+}
+
+}  // namespace
+
+void addInitialFlowKeys(DeckSchema& schema) {
+  schema
+      .section(section, Presence::optional,
+               "An earlier run of problem flow to start from, on a mesh of its own: gas, velocity, and soot where "
+               "there is a "
+               "model of it; 'layer' is none. Linear between the earlier run's cells.",
+               {{"initial.layer", {"none"}}})
+      .add(stringKey(section + ".results",
+                     "The earlier run's folder, or its results.h5, relative to the deck. It holds all species of the "
+                     "mechanism ('output: {species: [all]}')."))
+      .add(quantityKey(section + ".time", units::time,
+                       "Time of the earlier run; the output next to it is taken. Absent: the last output.")
+               .optional());
+}
+
+InitialFields readInitialFlow(const Deck& deck, const FlowCase& flowCase, const std::vector<std::string>& scalars) {
+  return deck.at(section + ".results", [&] {
+    std::filesystem::path file = deck.resolvePath(deck.string(section + ".results"));
+    if (std::filesystem::is_directory(file)) file /= "results.h5";
+    const Hdf5Reader results(file);
+    requireSameGeometry(results, flowCase.mesh.geometry);
+    requireCover(results, flowCase.mesh);
+    const std::string step = stepOf(results, deck.optionalQuantity(section + ".time"));
+    GridTable::Numbers numbers;
+    numbers.names = fieldNames(results, step, *flowCase.mechanism, scalars);
+    for (const std::string& name : numbers.names) numbers.columns.push_back(results.numbers(step + "/" + name));
+    const std::vector<double> velocity = results.numbers(step + "/velocity");
+    const std::vector<double> centres = results.numbers("/mesh/cellCentre");
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      numbers.names.push_back("velocity");
+      numbers.columns.push_back(component(velocity, 3, axis));
+      numbers.places.push_back(component(centres, 3, axis));
+    }
+    const auto table = std::make_shared<GridTable>(
+        std::vector<GridTable::Coordinate>{{"first", units::length}, {"second", units::length}}, numbers);
+    std::size_t column = 0;
+    const auto next = [&]() -> FieldFunction {
+      return [table, at = column++](const std::array<double, 2>& place, double) { return table->value(at, place); };
+    };
+    InitialFields fields;
+    fields.gas.temperature = next();
+    for (std::size_t k = 0; k < flowCase.mechanism->numSpecies(); ++k)
+      // Advection leaves some slightly below zero.
+      fields.gas.moleFractions.emplace_back(k, [value = next()](const std::array<double, 2>& place, double time) {
+        return std::max(value(place, time), 0.0);
+      });
+    for (std::size_t s = 0; s < scalars.size(); ++s) fields.carried.push_back(next());
+    for (FieldFunction& velocityAlong : fields.velocity) velocityAlong = next();
+    return fields;
+  });
+}
+
+}  // namespace lampblack::app::flowcase

@@ -1,0 +1,22 @@
+// The results of an earlier run of a flow, laid over the mesh of another.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/flow/flow_case_parts.hpp"
+#include "core/rooms.hpp"
+#include "flow/initial_fields.hpp"
+#include "io/deck.hpp"
+
+namespace lampblack::app::flowcase {
+
+// Keys `initial.flow.*`.
+void addInitialFlowKeys(DeckSchema& schema);
+
+// Its gas, velocity and the scalars it carried, between its cells linearly. `scalars`: names of those that this run
+// carries. InputError where the file holds no such results, or those of another geometry, a smaller domain, other
+// species or other scalars.
+InitialFields readInitialFlow(const Deck& deck, const FlowCase& flowCase, const std::vector<std::string>& scalars);
+
+}  // namespace lampblack::app::flowcase

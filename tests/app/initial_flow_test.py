@@ -1,0 +1,108 @@
+"""A flow that starts from the results of another: the same fields on the same mesh, those between on a finer one, and what is told
+where the results do not fit.
+
+Usage: initial_flow_test.py EXECUTABLE MPIEXEC...
+"""
+
+import pathlib
+import sys
+import tempfile
+
+import running
+
+h5py = running.package("h5py")
+np = running.package("numpy")
+
+START = "initial={layer: none, flow: {results: ../earlier}}"
+
+
+def fields(folder, which):
+    """Cell centres and fields of the first or last output."""
+    with h5py.File(folder / "results.h5", "r") as file:
+        step = file["steps"][which(file["steps"])]
+        return file["mesh/cellCentre"][()], {name: step[name][()] for name in step}
+
+
+def same_mesh(program, deck, folder):
+    """The start is the earlier run's end: gas and soot as they were; the velocity meets the divergence of its own gas."""
+    out = folder / "same"
+    result = program("run", deck, "--out", out, *running.settings(START, "time.end=2 us"))
+    assert result.code == 0, result.err
+    _, before = fields(folder / "earlier", max)
+    _, after = fields(out, min)
+    assert before["soot_number"].max() > 0
+    for name in before:
+        if name in ("temperature", "soot_number", "soot_carbon") or name.startswith("X_"):
+            error = np.abs(after[name] - np.maximum(before[name], 0)).max() / max(np.abs(before[name]).max(), 1e-12)
+            assert error < 1e-9, (name, error)
+    assert np.abs(after["velocity"]).max() > 0
+
+
+def of_an_earlier_time(program, deck, folder):
+    """The output next to the time that is given."""
+    out = folder / "early"
+    start = "initial={layer: none, flow: {results: ../earlier/results.h5, time: 1 us}}"
+    result = program("run", deck, "--out", out, *running.settings(start, "time.end=2 us"))
+    assert result.code == 0, result.err
+    _, before = fields(folder / "earlier", min)
+    _, after = fields(out, min)
+    assert np.abs(after["temperature"] - before["temperature"]).max() < 1e-6
+
+
+def finer_mesh(program, deck, folder):
+    """Linear between the cells: nowhere beyond what was there, and nowhere far from the cell it lies in."""
+    out = folder / "finer"
+    result = program("run", deck, "--out", out, *running.settings(START, "time.end=2 us", "mesh.refinement=2"))
+    assert result.code == 0, result.err
+    coarse, before = fields(folder / "earlier", max)
+    fine, after = fields(out, min)
+    assert len(fine) == 4 * len(coarse)
+    assert after["temperature"].max() <= before["temperature"].max() * (1 + 1e-9)
+    assert after["temperature"].min() >= before["temperature"].min() * (1 - 1e-9)
+    places = [np.unique(coarse[:, axis]) for axis in (0, 1)]
+    order = np.lexsort((coarse[:, 1], coarse[:, 0]))
+    grid = before["temperature"][order].reshape(len(places[0]), len(places[1]))
+    for at in range(0, len(fine), 7):
+        lines = [np.interp(fine[at, 1], places[1], grid[i]) for i in range(len(places[0]))]
+        expected = np.interp(fine[at, 0], places[0], lines)
+        assert abs(after["temperature"][at] - expected) < 1e-6 * expected, (fine[at], after["temperature"][at], expected)
+
+
+MISFITS = [
+    ("initial={layer: none, flow: {results: ../nowhere}}", "nowhere"),
+    ("initial={low: fuel, high: oxidiser, position: 4 mm, width: 2 mm, flow: {results: ../earlier}}", "initial.layer"),
+    ("initial={layer: none, formula: {temperature: 300}, flow: {results: ../earlier}}", "nothing else that gives the start"),
+    ("initial={layer: none, flow: {results: ../short}}", "has no 'X_"),
+    ("initial={layer: none, flow: {results: ../sootless}}", "has no 'soot_"),
+]
+
+
+def misfits(program, deck, folder):
+    """Results that do not fit are refused in one message, and with them the deck by `check`."""
+    for start, told in MISFITS:
+        result = program("run", deck, "--out", folder / "never", *running.settings(start))
+        assert result.code == 2 and told in result.err, (start, result.code, result.err)
+        problems = running.differs_from_check(program, result, deck, *running.settings(start))
+        assert not problems, problems
+    wide = [START, "mesh.r=[{to: 30 mm, cells: 12}]"]
+    result = program("run", deck, "--out", folder / "never", *running.settings(*wide))
+    assert result.code == 2 and "this mesh goes from 0 to 0.03 m" in result.err, result.err
+
+
+def main(executable, *mpiexec):
+    one, two = (running.Program(executable, list(mpiexec), ranks) for ranks in (1, 2))
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        deck = running.small_case(folder)
+        for out, setting in (("earlier", "seed=1"), ("short", "output.species=[O2]"), ("sootless", "soot.model=none")):
+            result = two("run", deck, "--out", folder / out, *running.settings(setting))
+            assert result.code == 0, result.err
+        same_mesh(one, deck, folder)
+        of_an_earlier_time(one, deck, folder)
+        finer_mesh(two, deck, folder)
+        misfits(one, deck, folder)
+    print("passed")
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
