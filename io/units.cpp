@@ -266,7 +266,7 @@ std::optional<std::pair<double, std::size_t>> leadingNumber(std::string_view tex
   if (status == std::errc::result_out_of_range || !std::isfinite(value)) {
     throw InputError(fmt::format("'{}' is not a finite number", text.substr(0, used)));
   }
-  return std::pair{value, used};
+  return std::pair{value + 0.0, used};  // zero has no sign: a written -0 reads back as it was read
 }
 
 std::string expected(const Dimension& dimension) {

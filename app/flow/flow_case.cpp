@@ -85,7 +85,7 @@ void readInitialFields(const Deck& deck, FlowCase& flowCase) {
       {{"temperature", units::temperature}, {velocities[0], units::velocity}, {velocities[1], units::velocity}},
       *flowCase.mechanism);
   InitialFields& fields = flowCase.initialFields;
-  fields = {given.gas(), {given.find(velocities[0]), given.find(velocities[1])}};
+  fields = {.gas = given.gas(), .velocity = {given.find(velocities[0]), given.find(velocities[1])}, .carried = {}};
   for (const char* whole : {"initial.flame1d", "initial.flow"}) {
     if (!deck.has(whole)) continue;
     if (!fields.isEmpty() || deck.choice("initial.layer") != "none")

@@ -80,6 +80,11 @@ TEST(Deck, ResolvedIsADeckThatReadsBackTheSame) {
   EXPECT_THAT(resolved, testing::HasSubstr("pressure: 101325 Pa\n"));
 }
 
+TEST(Deck, AZeroWithASignReadsBackTheSame) {
+  const std::string resolved = sampleDeck({"gravity=[-0, -0 m/s^2, 1 m/s^2]"}).resolved();
+  EXPECT_EQ(sampleDeck({}, resolved).resolved(), resolved);
+}
+
 TEST(Deck, ResolvedKeepsSectionsThatAreThereAndEmpty) {
   const Deck deck = sampleDeck({"mesh={z: []}", "boundaries.fuel.composition={}"});
   const Deck again = sampleDeck({}, deck.resolved());
