@@ -18,10 +18,10 @@ enum class BoundaryKind {
 
 // What of a boundary depends on place or time; an empty function: nothing of that kind.
 struct BoundaryVariation {
-  FieldFunction speed, tangential, heatFlux;
+  FieldFunction speed, tangential, swirl, heatFlux;
   GasVariation gas;
 
-  [[nodiscard]] bool isEmpty() const { return !speed && !tangential && !heatFlux && gas.isEmpty(); }
+  [[nodiscard]] bool isEmpty() const { return !speed && !tangential && !swirl && !heatFlux && gas.isEmpty(); }
 };
 
 struct BoundaryCondition {
@@ -29,6 +29,7 @@ struct BoundaryCondition {
   BoundaryKind kind = BoundaryKind::Wall;
   double speed = 0.0;        // m/s, Inlet: normal velocity into the domain; below zero: out of it
   double tangential = 0.0;   // m/s, Inlet, Wall without slip: velocity along the boundary, along its axis
+  double swirl = 0.0;        // m/s, Inlet, Wall without slip: velocity about the axis
   double temperature = 0.0;  // K, Inlet, Outlet (entrained gas), isothermal Wall
   std::vector<double> Y;     // mass fractions, Inlet and Outlet (entrained gas)
   // Inlet: true fixes the mass fractions at the face; false fixes the total species flux, convection and diffusion

@@ -28,6 +28,7 @@ void BoundaryValues::evaluate(int face, double gas, double velocity, Face& value
   values.speed = varies.speed ? varies.speed(place, gas) : boundary.speed;
   values.speedOfMomentum = varies.speed ? varies.speed(place, velocity) : boundary.speed;
   values.tangential = varies.tangential ? varies.tangential(place, velocity) : boundary.tangential;
+  values.swirl = varies.swirl ? varies.swirl(place, velocity) : boundary.swirl;
   values.heatFlux = varies.heatFlux ? varies.heatFlux(place, gas) : boundary.heatFlux;
   values.temperature = boundary.temperature;
   values.Y = boundary.Y;

@@ -24,6 +24,7 @@ class BoundaryValues {
     double speed = 0.0;            // m/s, at the time of the gas
     double speedOfMomentum = 0.0;  // m/s, at that of the velocities
     double tangential = 0.0;       // m/s, at that of the velocities
+    double swirl = 0.0;            // m/s, at that of the velocities
     double temperature = 0.0;      // K
     double heatFlux = 0.0;         // W/m^2
     std::vector<double> Y;

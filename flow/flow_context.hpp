@@ -75,6 +75,10 @@ struct FlowContext {
     return values ? std::array{values->speedOfMomentum, values->tangential}
                   : std::array{boundary.speed, boundary.tangential};
   }
+  [[nodiscard]] double boundarySwirl(int face) const {  // m/s, what the swirl meets
+    const BoundaryValues::Face* values = varyingAt(face);
+    return values ? values->swirl : boundaryOf(face).swirl;
+  }
   // N/m^3, weight less buoyancy of gas of that density, along an axis.
   [[nodiscard]] double bodyForce(double density, int axis) const {
     return (density - referenceDensity) * gravity[static_cast<std::size_t>(axis)];

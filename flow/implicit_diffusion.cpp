@@ -55,6 +55,18 @@ void ImplicitDiffusion::apply(const Active& active, std::span<const double> x, s
   }
 }
 
+void ImplicitDiffusion::subtract(int fields, std::span<const double> diagonal, std::span<const double> conductance,
+                                 std::span<const double> x, std::span<double> source) {
+  Active active;
+  active.field.resize(static_cast<std::size_t>(fields));
+  active.diagonal = diagonal;
+  active.conductance = conductance;
+  const std::size_t values = static_cast<std::size_t>(mesh_.owned) * static_cast<std::size_t>(fields);
+  product_.resize(values);
+  apply(active, x, product_);
+  for (std::size_t i = 0; i < values; ++i) source[i] -= product_[i];
+}
+
 void ImplicitDiffusion::products(const Active& active) {
   const auto n = static_cast<std::size_t>(active.count());
   const auto owned = static_cast<std::size_t>(mesh_.owned);

@@ -30,6 +30,10 @@ class ImplicitDiffusion {
   Result solve(int fields, std::span<const double> diagonal, std::span<const double> conductance,
                std::span<const double> source, std::span<double> x, double tolerance = 1e-4, int maxIterations = 2000);
 
+  // source -= the left side above of `x` (fields a cell, halo filled), in the owned cells.
+  void subtract(int fields, std::span<const double> diagonal, std::span<const double> conductance,
+                std::span<const double> x, std::span<double> source);
+
  private:
   // The fields that are still being solved: their places among all, and their systems.
   struct Active {

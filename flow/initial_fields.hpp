@@ -14,9 +14,12 @@ namespace lampblack::flow {
 struct InitialFields {
   GasVariation gas;
   std::array<FieldFunction, 2> velocity;  // m/s, along the mesh's axes; empty: at rest
+  FieldFunction swirl;                    // m/s, about the axis; empty: none, or at rest
   std::vector<FieldFunction> carried;     // per m3, of each carried scalar; empty: none
 
-  [[nodiscard]] bool isEmpty() const { return gas.isEmpty() && !velocity[0] && !velocity[1] && carried.empty(); }
+  [[nodiscard]] bool isEmpty() const {
+    return gas.isEmpty() && !velocity[0] && !velocity[1] && !swirl && carried.empty();
+  }
 };
 
 // Changes what is given, at time zero; the rest of the state is that of before (halo included). InputError with the

@@ -26,12 +26,13 @@ bool isGiven(const BoundaryCondition& boundary, bool normalComponent) {
 
 }  // namespace
 
-Momentum::Momentum(const FlowContext& context)
+Momentum::Momentum(const FlowContext& context, bool swirls)
     : context_(context),
       gradient_(context.mesh),
       diffusion_(context.mesh, context.halo),
       projection_(context),
       faceVelocity_(context) {
+  if (swirls) swirl_.emplace(context);
   const Mesh& m = context.mesh;
   boundaryVelocity_.resize(2 * m.boundaryFaces());
   boundaryPressure_.assign(m.boundaryFaces(), 0.0);
@@ -90,7 +91,7 @@ void Momentum::outletPressures(const State& state) {
   }
 }
 
-void Momentum::explicitStress(const Sweep& sweep) {
+void Momentum::explicitStress(const MomentumSweep& sweep) {
   // The part of the stress that the component-wise Laplacian leaves out: mu (grad u)^T - 2/3 mu (div u) I, and the hoop
   // stress's dilatation part.
   const Mesh& m = context_.mesh;
@@ -126,7 +127,7 @@ void Momentum::explicitStress(const Sweep& sweep) {
   for (int c = 0; c < m.owned; ++c) source_[2 * c] += 2.0 / 3.0 * viscosity[c] * dilatation(c) * m.planarArea[c];
 }
 
-void Momentum::predict(const State& state, const Sweep& sweep) {
+void Momentum::predict(const State& state, const MomentumSweep& sweep) {
   const Mesh& m = context_.mesh;
   const std::vector<double>& density = sweep.start.density;
   const std::vector<double>& velocity = sweep.mean.velocity;
@@ -142,12 +143,11 @@ void Momentum::predict(const State& state, const Sweep& sweep) {
   source_.assign(2 * m.owned, 0.0);
   conductance_.assign(static_cast<std::size_t>(m.interiorFaces) * 2, 0.0);
   for (int c = 0; c < m.owned; ++c) {
-    const double inertia = density[c] * m.volume[c] / sweep.dt;
-    for (int i = 0; i < 2; ++i) {
-      diagonal_[2 * c + i] = inertia;
-      source_[2 * c + i] = inertia * sweep.start.velocity[2 * c + i] +
-                           m.volume[c] * (context_.bodyForce(density[c], i) - pressureGradient_[2 * c + i]);
-    }
+    for (int i = 0; i < 2; ++i)
+      source_[2 * c + i] = m.volume[c] * (context_.bodyForce(density[c], i) - pressureGradient_[2 * c + i]);
+    if (swirl_)  // in the middle of the step
+      source_[2 * c] +=
+          m.volume[c] * density[c] * swirl_->centrifugal(c, 0.5 * (sweep.start.swirl[c] + state.swirl[c]));
     // Hoop stress 2 mu v_r / r^2 (its dilatation part is explicit).
     if (m.axisymmetric()) diagonal_[2 * c] += 2.0 * viscosity[c] * m.planarArea[c] / m.centre[c][0];
   }
@@ -186,31 +186,28 @@ void Momentum::predict(const State& state, const Sweep& sweep) {
   addLastSweepsViscosity(state, sweep);
   explicitStress(sweep);
   outletStress(sweep);
+  for (int c = 0; c < m.owned; ++c) {
+    const double inertia = density[c] * m.volume[c] / sweep.dt;
+    for (int i = 0; i < 2; ++i) {
+      diagonal_[2 * c + i] += inertia;
+      source_[2 * c + i] += inertia * sweep.start.velocity[2 * c + i];
+    }
+  }
   predicted_.assign(state.velocity.begin(), state.velocity.end());
   diffusion_.solve(2, diagonal_, conductance_, source_, predicted_);
 }
 
 // What the implicit viscosity is corrected by, that the step's is the mean of its start and its end: half of the
 // difference between the start and what the last sweep found as the end, none in the first sweep.
-void Momentum::addLastSweepsViscosity(const State& state, const Sweep& sweep) {
-  const Mesh& m = context_.mesh;
-  const auto excess = [&](int cell, int i) {
-    return 0.5 * (sweep.start.velocity[2 * cell + i] - state.velocity[2 * cell + i]);
-  };
-  for (int c = 0; c < m.owned; ++c)
-    for (int i = 0; i < 2; ++i)
-      source_[2 * c + i] -= (diagonal_[2 * c + i] - sweep.start.density[c] * m.volume[c] / sweep.dt) * excess(c, i);
-  for (int face = 0; face < m.interiorFaces; ++face)
-    for (int i = 0; i < 2; ++i) {
-      const double traction = conductance_[2 * face + i] * (excess(m.high[face], i) - excess(m.low[face], i));
-      if (m.low[face] < m.owned) source_[2 * m.low[face] + i] += traction;
-      if (m.high[face] < m.owned) source_[2 * m.high[face] + i] -= traction;
-    }
+void Momentum::addLastSweepsViscosity(const State& state, const MomentumSweep& sweep) {
+  excess_.resize(state.velocity.size());
+  for (std::size_t i = 0; i < excess_.size(); ++i) excess_[i] = 0.5 * (sweep.start.velocity[i] - state.velocity[i]);
+  diffusion_.subtract(2, diagonal_, conductance_, excess_, source_);
 }
 
 // At outlets the Laplacian part of the stress is that of the cell's own slope, and the gas that leaves has the velocity
 // along it.
-void Momentum::outletStress(const Sweep& sweep) {
+void Momentum::outletStress(const MomentumSweep& sweep) {
   const Mesh& m = context_.mesh;
   for (int face = m.interiorFaces; face < m.faces; ++face) {
     if (context_.boundaryOf(face).kind != BoundaryKind::Outlet) continue;
@@ -232,7 +229,7 @@ void Momentum::setInverseDensity(std::span<const double> density) {
   }
 }
 
-void Momentum::balanceGravity(State& state) {
+void Momentum::balanceForces(State& state) {
   const Mesh& m = context_.mesh;
   setInverseDensity(state.density);
   // Velocities after falling for a second, which the pressure has to stop.
@@ -241,14 +238,19 @@ void Momentum::balanceGravity(State& state) {
     if (m.high[face] >= 0 || context_.boundaryOf(face).kind == BoundaryKind::Outlet)
       fall[face] = (m.high[face] >= 0 ? 1.0 : m.normalSign[face]) * inverseDensity_[face] *
                    context_.bodyForce(1.0 / inverseDensity_[face], m.normalAxis[face]);
+  for (int face = 0; swirl_ && face < m.interiorFaces; ++face)
+    if (m.normalAxis[face] == 0)
+      fall[face] += m.lowWeight[face] * swirl_->centrifugal(m.low[face], state.swirl[m.low[face]]) +
+                    (1.0 - m.lowWeight[face]) * swirl_->centrifugal(m.high[face], state.swirl[m.high[face]]);
   const std::vector<double> divergence(static_cast<std::size_t>(m.owned), 0.0);
   std::ranges::fill(state.pressure, 0.0);
   projection_.solve(1.0, inverseDensity_, divergence, fall, state.pressure);
 }
 
-Projection::Result Momentum::advance(State& state, const Sweep& sweep, std::span<double> faceVelocity) {
+Projection::Result Momentum::advance(State& state, const MomentumSweep& sweep, std::span<double> faceVelocity) {
   const Mesh& m = context_.mesh;
   const std::vector<double>& density = sweep.start.density;
+  if (swirl_) swirl_->advance(state, sweep);
   predict(state, sweep);
   for (int c = 0; c < m.owned; ++c)
     for (int i = 0; i < 2; ++i)

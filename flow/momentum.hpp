@@ -4,6 +4,7 @@
 // step.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,32 +13,25 @@
 #include "flow/flow_context.hpp"
 #include "flow/gradient.hpp"
 #include "flow/implicit_diffusion.hpp"
+#include "flow/momentum_sweep.hpp"
 #include "flow/projection.hpp"
 #include "flow/state.hpp"
+#include "flow/swirl.hpp"
 #include "flow/upwind.hpp"
 
 namespace lampblack::flow {
 
 class Momentum {
  public:
-  explicit Momentum(const FlowContext& context);
+  Momentum(const FlowContext& context, bool swirls);
 
-  // One sweep of a step. Velocities stand at the middles of the gas's steps (Pierce and Moin 2004), so that what moves
-  // them - density, viscosity, pressure - is that of the time between two of them.
-  struct Sweep {
-    const State& start;  // density; velocity before the step
-    const State& mean;   // velocity and mass flux: means of `start` and of what the last sweep found
-    // Pa s, of `start`: of the cells, and of the gas between each boundary face and its cell.
-    std::span<const double> viscosity, boundaryViscosity;
-    std::span<const double> divergence;  // 1/s, owned cells: what the face velocities are to have
-    double dt = 0.0;                     // s, from one velocity to the next
-  };
-  // Collective. Advances `state`, which has velocity and pressure of the last sweep or of the start; halos are filled.
+  // Collective. Advances `state`, which has velocity, swirl and pressure of the last sweep or of the start; halos are
+  // filled.
   // `faceVelocity` (m/s, every face) receives the projected normal velocities.
-  Projection::Result advance(State& state, const Sweep& sweep, std::span<double> faceVelocity);
+  Projection::Result advance(State& state, const MomentumSweep& sweep, std::span<double> faceVelocity);
 
-  // Collective. Gives a gas at rest the pressure that carries its weight.
-  void balanceGravity(State& state);
+  // Collective. Gives a gas at rest the pressure that carries its weight, and that keeps it on its circles.
+  void balanceForces(State& state);
 
   // The step's last sweep is done.
   void endStep() { faceVelocity_.endStep(); }
@@ -51,22 +45,24 @@ class Momentum {
   void setInverseDensity(std::span<const double> density);
   void boundaryVelocities(const State& state);
   void outletPressures(const State& state);
-  void predict(const State& state, const Sweep& sweep);
-  void addLastSweepsViscosity(const State& state, const Sweep& sweep);
-  void explicitStress(const Sweep& sweep);
-  void outletStress(const Sweep& sweep);
+  void predict(const State& state, const MomentumSweep& sweep);
+  void addLastSweepsViscosity(const State& state, const MomentumSweep& sweep);
+  void explicitStress(const MomentumSweep& sweep);
+  void outletStress(const MomentumSweep& sweep);
 
   const FlowContext& context_;
   Gradient gradient_;
   ImplicitDiffusion diffusion_;
   Projection projection_;
   FaceVelocity faceVelocity_;
+  std::optional<Swirl> swirl_;
   std::vector<BoundaryData> velocityKnown_, pressureKnown_;  // two a boundary face; one
   std::vector<UpwindGeometry> upwind_;                       // of each component
   std::vector<double> boundaryVelocity_, boundaryPressure_;
   std::vector<double> velocityGradient_, pressureGradient_;
   std::vector<double> acceleration_;  // m/s2, (grad p - f)/rho with gravity's force f, two a cell
   std::vector<double> relaxation_;    // 1/s, rate at which convection and viscosity renew a cell's momentum
+  std::vector<double> excess_;        // m/s, two a cell: half of what the last sweep changed, with the other sign
   std::vector<double> diagonal_, conductance_, source_, predicted_, inverseDensity_, pressureChange_;
 };
 

@@ -5,10 +5,11 @@
 
 namespace lampblack::flow {
 
-State::State(const Mesh& mesh, std::size_t speciesCount, std::vector<CarriedScalar> carriedScalars)
-    : species(static_cast<int>(speciesCount)), scalars(std::move(carriedScalars)) {
+State::State(const Mesh& mesh, std::size_t speciesCount, std::vector<CarriedScalar> carriedScalars, bool turns)
+    : species(static_cast<int>(speciesCount)), swirls(turns), scalars(std::move(carriedScalars)) {
   const auto cells = static_cast<std::size_t>(mesh.cells);
   velocity.assign(2 * cells, 0.0);
+  if (swirls) swirl.assign(cells, 0.0);
   pressure.assign(cells, 0.0);
   temperature.assign(cells, 0.0);
   density.assign(cells, 0.0);
@@ -29,6 +30,7 @@ void State::Balance::clear() {
 void State::updateHalo(HaloExchange& halo) {
   std::vector<FieldView> fields{{velocity, 2}, {pressure, 1}, {temperature, 1},
                                 {density, 1},  {enthalpy, 1}, {Y, species}};
+  if (swirls) fields.push_back({swirl, 1});
   if (!scalars.empty()) {
     fields.push_back({carried, carriedCount()});
     fields.push_back({carriedDiffusivity, carriedCount()});
@@ -39,6 +41,7 @@ void State::updateHalo(HaloExchange& halo) {
 void State::saveOrLoad(StateArchive& archive) {
   archive.shared("thermodynamic_pressure", thermodynamicPressure);
   archive.cells("velocity", velocity, 2);
+  if (swirls) archive.cells("swirl", swirl, 1);
   archive.cells("pressure", pressure, 1);
   archive.cells("temperature", temperature, 1);
   archive.cells("density", density, 1);

@@ -15,6 +15,7 @@ double convectiveTimeStep(const Mesh& m, const State& state, double courant) {
   }
   double rate = 0.0;  // 1/s
   for (int c = 0; c < m.owned; ++c) rate = std::max(rate, outflow[c] / m.volume[c]);
+  for (int c = 0; state.swirls && c < m.owned; ++c) rate = std::max(rate, std::abs(state.swirl[c]) / m.centre[c][0]);
   MPI_Allreduce(MPI_IN_PLACE, &rate, 1, MPI_DOUBLE, MPI_MAX, m.comm);
   return rate > 0.0 ? courant / rate : std::numeric_limits<double>::infinity();
 }

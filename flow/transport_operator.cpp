@@ -25,7 +25,7 @@ TransportOperator::TransportOperator(const FlowContext& context, const State& st
       speciesDiffusion_(context),
       heatConduction_(context),
       expansion_(context),
-      momentum_(context),
+      momentum_(context, state.swirls),
       carried_(context, state.carriedCount()) {
   const auto faces = static_cast<std::size_t>(context.mesh.faces);
   const auto owned = static_cast<std::size_t>(context.mesh.owned);
@@ -50,7 +50,7 @@ void TransportOperator::initialise(State& state, double dt) {
   heatConduction_.prepare(properties_);
   heatConduction_.presentFlux(state, diffusion_.heat);
   const auto divergence = expansion_.initial(state, properties_, diffusion_);
-  momentum_.balanceGravity(state);
+  momentum_.balanceForces(state);
   const std::vector<double> weight = state.pressure;
   // So short that nothing but the pressure changes the velocity; that of the blow is not kept.
   momentum_.advance(state, {state, state, properties_.viscosity, properties_.boundaryViscosity, divergence, 1e-6 * dt},
@@ -75,8 +75,8 @@ void TransportOperator::average(const State& state) {
   const auto mean = [](std::span<const double> start, std::span<const double> latest, std::span<double> result) {
     for (std::size_t i = 0; i < result.size(); ++i) result[i] = 0.5 * (start[i] + latest[i]);
   };
-  for (const auto field :
-       {&State::velocity, &State::temperature, &State::density, &State::Y, &State::carried, &State::massFlux})
+  for (const auto field : {&State::velocity, &State::swirl, &State::temperature, &State::density, &State::Y,
+                           &State::carried, &State::massFlux})
     mean((*start_).*field, state.*field, (*mean_).*field);
   mean_->thermodynamicPressure = 0.5 * (start_->thermodynamicPressure + state.thermodynamicPressure);
   meanViscosity_.resize(startViscosity_.size());
@@ -302,10 +302,11 @@ std::vector<double> TransportOperator::historyValues(const State& state) {
           static_cast<double>(diagnostics_.pressureIterations), static_cast<double>(diagnostics_.speciesIterations)};
 }
 
-void TransportOperator::fields(const State&, const FieldSink& sink) const {
+void TransportOperator::fields(const State& state, const FieldSink& sink) const {
   const auto owned = static_cast<std::size_t>(context_.mesh.owned);
   sink({"viscosity", "Pa s", "dynamic viscosity"}, {properties_.viscosity.data(), owned});
   sink({"conductivity", "W/m/K", "thermal conductivity"}, {properties_.conductivity.data(), owned});
+  if (state.swirls) sink({"swirl_velocity", "m/s", "gas velocity about the axis"}, {state.swirl.data(), owned});
 }
 
 }  // namespace lampblack::flow

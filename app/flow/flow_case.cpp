@@ -80,12 +80,15 @@ std::vector<std::string> carriedNames(const FlowCase& flowCase) {
 void readInitialFields(const Deck& deck, FlowCase& flowCase) {
   const AxisNames axes = axisNames(flowCase.mesh.geometry);
   const std::array<std::string, 2> velocities{"velocity_" + axes[0], "velocity_" + axes[1]};
-  const GivenFields given(
-      deck, "initial", axes,
-      {{"temperature", units::temperature}, {velocities[0], units::velocity}, {velocities[1], units::velocity}},
-      *flowCase.mechanism);
+  GivenFields::Names names{
+      {"temperature", units::temperature}, {velocities[0], units::velocity}, {velocities[1], units::velocity}};
+  if (flowCase.mesh.geometry == Geometry::Axisymmetric) names["swirl_velocity"] = units::velocity;
+  const GivenFields given(deck, "initial", axes, names, *flowCase.mechanism);
   InitialFields& fields = flowCase.initialFields;
-  fields = {.gas = given.gas(), .velocity = {given.find(velocities[0]), given.find(velocities[1])}, .carried = {}};
+  fields = {.gas = given.gas(),
+            .velocity = {given.find(velocities[0]), given.find(velocities[1])},
+            .swirl = given.find("swirl_velocity"),
+            .carried = {}};
   for (const char* whole : {"initial.flame1d", "initial.flow"}) {
     if (!deck.has(whole)) continue;
     if (!fields.isEmpty() || deck.choice("initial.layer") != "none")
@@ -95,6 +98,9 @@ void readInitialFields(const Deck& deck, FlowCase& flowCase) {
     fields = std::string_view(whole) == "initial.flow" ? readInitialFlow(deck, flowCase, carriedNames(flowCase))
                                                        : readInitialFlame(deck, flowCase);
   }
+  flowCase.swirls = fields.swirl || std::ranges::any_of(flowCase.boundaries, [](const BoundaryCondition& boundary) {
+                      return boundary.swirl != 0.0 || boundary.varies.swirl;
+                    });
 }
 
 // One gas everywhere, under the fields that are given.

@@ -70,6 +70,7 @@ struct FlowCase {
   double referenceDensity = 0.0;              // kg/m^3, FlowContext
   MixingLayer initial;
   InitialFields initialFields;  // over the layer
+  bool swirls = false;          // axisymmetric, and something turns about the axis
   TimeControl time;
   OutputControl output;
   CheckpointControl checkpoint;

@@ -54,12 +54,14 @@ std::array<double, 2> middleOf(const BoundaryPatch& patch, const MeshSpec& mesh)
 
 // What may vary over a boundary of a type.
 GivenFields::Names variableNames(const std::string& type) {
+  GivenFields::Names names{{"temperature", units::temperature}};
+  if (type == "outlet") return names;
+  names["tangential_velocity"] = names["swirl_velocity"] = units::velocity;
   if (type == "inlet")
-    return {
-        {"velocity", units::velocity}, {"tangential_velocity", units::velocity}, {"temperature", units::temperature}};
-  if (type == "outlet") return {{"temperature", units::temperature}};
-  return {
-      {"tangential_velocity", units::velocity}, {"temperature", units::temperature}, {"heat_flux", units::heatFlux}};
+    names["velocity"] = units::velocity;
+  else
+    names["heat_flux"] = units::heatFlux;
+  return names;
 }
 
 class ConditionReader {
@@ -68,12 +70,13 @@ class ConditionReader {
       : deck_(deck),
         section_("boundaries." + patch.name),
         type_(deck.choice(section_ + ".type")),
+        isAxisymmetric_(mesh.geometry == Geometry::Axisymmetric),
         middle_(middleOf(patch, mesh)),
         mechanism_(mechanism),
         fields_(deck, section_, axisNames(mesh.geometry), variableNames(type_), mechanism) {
     boundary_.name = patch.name;
-    boundary_.varies = {fields_.find("velocity"), fields_.find("tangential_velocity"), fields_.find("heat_flux"),
-                        fields_.gas()};
+    boundary_.varies = {fields_.find("velocity"), fields_.find("tangential_velocity"), fields_.find("swirl_velocity"),
+                        fields_.find("heat_flux"), fields_.gas()};
   }
 
   BoundaryCondition read() {
@@ -83,6 +86,9 @@ class ConditionReader {
       return boundary_;
     }
     boundary_.tangential = valueOf("tangential_velocity");
+    boundary_.swirl = valueOf("swirl_velocity");
+    if (isGiven("swirl_velocity") && !isAxisymmetric_)
+      throw deck_.error(section_, "there is no axis to swirl about; expected 'mesh: {geometry: axisymmetric}'");
     if (type_ == "wall")
       readWall();
     else
@@ -115,9 +121,10 @@ class ConditionReader {
 
   void readWall() {
     boundary_.slip = deck_.boolean(keyOf("slip"));
-    if (boundary_.slip && isGiven("tangential_velocity") && (boundary_.tangential != 0 || boundary_.varies.tangential))
-      throw deck_.error(keyOf("tangential_velocity"),
-                        "a wall that the gas slides along does not move it; expected slip: false");
+    for (const char* name : {"tangential_velocity", "swirl_velocity"})
+      if (boundary_.slip && (valueOf(name) != 0 || fields_.has(name)))
+        throw deck_.error(fields_.has(name) ? fields_.keyOf(name) : keyOf(name),
+                          "a wall that the gas slides along does not move it; expected slip: false");
     boundary_.isothermal = isGiven("temperature");
     if (boundary_.isothermal && isGiven("heat_flux"))
       throw deck_.error(section_, "a wall has either a 'temperature' or a 'heat_flux'; expected one of them");
@@ -152,11 +159,12 @@ class ConditionReader {
     if (!isGiven("velocity")) throw deck_.error(section_, "an inlet needs the key 'velocity'");
     boundary_.speed = valueOf("velocity");
     requireLowMach(deck_, fields_.has("velocity") ? fields_.keyOf("velocity") : keyOf("velocity"), Thermo(mechanism_),
-                   std::abs(boundary_.speed), given_.temperature, given_.Y);
+                   std::hypot(boundary_.speed, boundary_.swirl), given_.temperature, given_.Y);
   }
 
   const Deck& deck_;
   std::string section_, type_;
+  bool isAxisymmetric_;
   std::array<double, 2> middle_;
   const Mechanism& mechanism_;
   GivenFields fields_;

@@ -32,7 +32,7 @@ FlowLoop::FlowLoop(MPI_Comm comm, FlowCase flowCase)
                    : nullptr,
                case_.transport},
       state_(mesh_, case_.mechanism->numSpecies(),
-             case_.carried ? CarriedOperator::scalarsOf(*case_.carried) : std::vector<CarriedScalar>{}),
+             case_.carried ? CarriedOperator::scalarsOf(*case_.carried) : std::vector<CarriedScalar>{}, case_.swirls),
       flow_(context_, state_, case_.flow),
       chemistry_(context_, keepingFailedCells(case_.chemistry)) {
   state_.thermodynamicPressure = case_.pressure;

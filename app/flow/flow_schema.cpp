@@ -51,6 +51,11 @@ void addBoundaries(DeckSchema& schema) {
                "in at an angle; absent: zero.")
                .optional()
                .onlyWith("boundaries.*.type", {"inlet", "wall"}))
+      .add(quantityKey("boundaries.*.swirl_velocity", units::velocity,
+                       "Velocity about the axis of an axisymmetric flow: of a stream that swirls, or of a wall that "
+                       "turns (formula: {swirl_velocity: '50*r'} for 50 rad/s); absent: zero.")
+               .optional()
+               .onlyWith("boundaries.*.type", {"inlet", "wall"}))
       .add(temperatureKey("boundaries.*.temperature",
                           "inlet: of the stream; outlet: of entrained gas; wall: isothermal at this temperature.")
                .optional()
@@ -73,10 +78,11 @@ void addBoundaries(DeckSchema& schema) {
                       "true: the gas slides along the wall without friction; false: it sticks to the wall.")
                .byDefault("false")
                .onlyWith("boundaries.*.type", {"wall"}));
-  flowcase::addGivenFieldKeys(schema, "boundaries.*",
-                              "velocity (below zero: the gas that is there leaves), tangential_velocity, temperature, "
-                              "heat_flux and, of a stream, X_<species>, its mole fraction (the species that are not "
-                              "named share what is left of one in the proportions of 'composition')");
+  flowcase::addGivenFieldKeys(
+      schema, "boundaries.*",
+      "velocity (below zero: the gas that is there leaves), tangential_velocity, swirl_velocity, temperature, "
+      "heat_flux and, of a stream, X_<species>, its mole fraction (the species that are not "
+      "named share what is left of one in the proportions of 'composition')");
 }
 
 void addGravity(DeckSchema& schema) {
@@ -125,7 +131,8 @@ void addInitial(DeckSchema& schema) {
                .above(0)
                .onlyWith("initial.layer", {"hot"}));
   flowcase::addGivenFieldKeys(schema, "initial",
-                              "temperature, velocity_<axis> and X_<species>, the mole fraction (the species that are "
+                              "temperature, velocity_<axis>, swirl_velocity (about the axis) and X_<species>, the mole "
+                              "fraction (the species that are "
                               "not named keep their proportions)");
   flowcase::addInitialFlameKeys(schema);
   flowcase::addInitialFlowKeys(schema);

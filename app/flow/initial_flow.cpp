@@ -16,7 +16,7 @@
 namespace lampblack::app::flowcase {
 namespace {
 
-const std::string section = "initial.flow";
+const std::string section = "initial.flow", swirl = "swirl_velocity";
 
 // The step that the deck asks for: the last, or that at the time next to `time`.
 std::string stepOf(const Hdf5Reader& results, std::optional<double> time) {
@@ -69,6 +69,7 @@ std::vector<std::string> fieldNames(const Hdf5Reader& results, const std::string
       throw InputError(fmt::format(
           "{} has no '{}'; expected a run with the same mechanism and model of soot, and 'output: {{species: [all]}}'",
           results.name(), name));
+  if (results.has(step + "/" + swirl)) names.push_back(swirl);
   for (const std::string& name : results.names(step))
     if (name.starts_with("X_") && !mechanism.findSpecies(name.substr(2)))
       throw InputError(fmt::format("the mechanism has no species '{}' of {}", name.substr(2), results.name()));
@@ -124,6 +125,7 @@ InitialFields readInitialFlow(const Deck& deck, const FlowCase& flowCase, const 
         return std::max(value(place, time), 0.0);
       });
     for (std::size_t s = 0; s < scalars.size(); ++s) fields.carried.push_back(next());
+    if (std::ranges::find(numbers.names, swirl) != numbers.names.end()) fields.swirl = next();
     for (FieldFunction& velocityAlong : fields.velocity) velocityAlong = next();
     return fields;
   });

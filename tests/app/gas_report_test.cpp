@@ -37,7 +37,7 @@ TEST_P(GasReports, AreNumbersInStatesAtTheEdge) {
   const Mechanism mechanism = Mechanism::fromFile(GetParam());
   const std::size_t n = mechanism.numSpecies();
   std::vector<double> pure(n), all(n, 1.0 / static_cast<double>(n));
-  pure[mechanism.speciesIndex("H2")] = 1;
+  pure[mechanism.findSpecies("H2").value_or(0)] = 1;
   for (const auto& X : {pure, all})
     for (const double T : {200.0, 4000.0})
       for (const double p : {0.1, 1e7}) {

@@ -36,6 +36,7 @@ TEST_F(VaryingBoundaries, HaveTheirValuesAtTheirFacesAndTimes) {
   Side in = inlet();
   in.condition.varies = {[](const Place& x, double t) { return x[1] + t; },
                          [](const Place& x, double t) { return 2.0 * x[1] - t; },
+                         [](const Place& x, double t) { return 3.0 * x[1] + t; },
                          {},
                          {[](const Place&, double t) { return 300.0 + t; },
                           {{gas.mechanism.speciesIndex("H2"), [](const Place& x, double) { return x[1] / size; }}}}};
@@ -52,6 +53,7 @@ TEST_F(VaryingBoundaries, HaveTheirValuesAtTheirFacesAndTimes) {
     EXPECT_DOUBLE_EQ(b.context.boundarySpeed(face), y + 4.0);
     EXPECT_DOUBLE_EQ(b.context.boundaryVelocity(face)[0], y + 3.0);
     EXPECT_DOUBLE_EQ(b.context.boundaryVelocity(face)[1], 2.0 * y - 3.0);
+    EXPECT_DOUBLE_EQ(b.context.boundarySwirl(face), 3.0 * y + 3.0);
     EXPECT_EQ(b.context.boundaryTemperature(face), 304.0);
     std::vector<double> X(n2.size());
     gas.thermo.massToMole(b.context.boundaryY(face), X);

@@ -106,9 +106,10 @@ struct Box {
     double temperature = 300.0;
     std::vector<double> Y;
   };
-  State state(const std::function<Local(const std::array<double, 2>&)>& set, std::vector<CarriedScalar> carried = {}) {
+  State state(const std::function<Local(const std::array<double, 2>&)>& set, std::vector<CarriedScalar> carried = {},
+              bool swirls = false) {
     const std::size_t n = gas.mechanism.numSpecies();
-    State s(mesh, n, std::move(carried));
+    State s(mesh, n, std::move(carried), swirls);
     for (int c = 0; c < mesh.cells; ++c) {
       const Local local = set(mesh.centre[at(c)]);
       for (int i = 0; i < 2; ++i) s.velocity[at(2 * c + i)] = local.velocity[at(i)];

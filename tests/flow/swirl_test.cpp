@@ -1,0 +1,101 @@
+// Gas that turns about the axis: what it keeps, what it loses to walls, and the pressure that holds it.
+#include "flow/swirl.hpp"
+
+#include <gtest/gtest.h>
+
+#include "flow/transport_operator.hpp"
+#include "flow_fixture.hpp"
+#include "tests/every_room.hpp"
+
+namespace lampblack::test {
+namespace {
+
+class SwirlInAVessel : public testing::Test {
+ protected:
+  static constexpr double radius = 0.01, turning = 50.0, dt = 1e-3;
+  Gas& gas = Gas::hydrogen();
+  std::vector<double> n2 = gas.massFractions("N2: 1");
+  double density = gas.thermo.density(300.0, 101325.0, n2);
+
+  // A can of 1 cm radius and height, all of its walls alike.
+  static std::vector<Side> can(bool slip, double angularVelocity) {
+    std::vector<Side> sides{side(BoundaryKind::Symmetry, 0, false), side(BoundaryKind::Wall, 0, true),
+                            side(BoundaryKind::Wall, 1, false), side(BoundaryKind::Wall, 1, true)};
+    for (std::size_t i : {1, 2, 3}) {
+      sides[i].condition.slip = slip;
+      sides[i].condition.varies.swirl = [=](const auto& x, double) { return angularVelocity * x[0]; };
+    }
+    return sides;
+  }
+  static Box boxOf(int cells, const std::vector<Side>& sides) {
+    return {Geometry::Axisymmetric, {uniformAxis(radius, cells), uniformAxis(radius, cells)}, sides};
+  }
+  static void makeTurn(Box& box) {
+    box.context.varying = std::make_shared<BoundaryValues>(box.mesh, box.context.boundaries, box.gas.thermo);
+  }
+  State turningAs(Box& box, const std::function<double(const std::array<double, 2>&)>& swirl) {
+    State state = box.state([&](const auto&) { return Box::Local{{0.0, 0.0}, 300.0, n2}; }, {}, true);
+    for (int c = 0; c < box.mesh.cells; ++c) state.swirl[at(c)] = swirl(box.mesh.centre[at(c)]);
+    return state;
+  }
+};
+
+TEST_F(SwirlInAVessel, TurnsWithItsWallsAsASolidBody) {
+  std::array<double, 2> pressureError{};
+  for (std::size_t level = 0; level < 2; ++level) {
+    Box box = boxOf(8 << level, can(false, turning));
+    makeTurn(box);
+    State state = turningAs(box, [](const auto& x) { return turning * x[0]; });
+    TransportOperator transport(box.context, state);
+    transport.initialise(state, dt);
+    for (int i = 0; i < 20; ++i) transport.advance(state, 0.0, dt);
+    double turned = 0, moved = 0, low = 1e300, high = -1e300;
+    for (int c = 0; c < box.mesh.owned; ++c) {
+      const double r = box.mesh.centre[at(c)][0];
+      turned = std::max(turned, std::abs(state.swirl[at(c)] - turning * r));
+      for (int i = 0; i < 2; ++i) moved = std::max(moved, std::abs(state.velocity[at(2 * c + i)]));
+      const double excess = state.pressure[at(c)] - 0.5 * density * turning * turning * r * r;
+      low = std::min(low, excess);
+      high = std::max(high, excess);
+    }
+    pressureError[level] =
+        (maxOverRanks(high) - minOverRanks(low)) / (0.5 * density * turning * turning * radius * radius);
+    report(fmt::format("{} cells: swirl off by {:.1e}, flow {:.1e} of the wall's velocity, pressure {:.1e}", 8 << level,
+                       maxOverRanks(turned) / (turning * radius), maxOverRanks(moved) / (turning * radius),
+                       pressureError[level]));
+    EXPECT_LT(maxOverRanks(turned), 1e-6 * turning * radius);
+    EXPECT_LT(maxOverRanks(moved), 1e-3 * turning * radius);
+  }
+  EXPECT_LT(pressureError[0], 0.02);
+  EXPECT_GT(std::log2(pressureError[0] / pressureError[1]), 1.7);
+}
+
+// Free of friction at its walls, and stirred in the mesh's plane by its own uneven turning.
+TEST_F(SwirlInAVessel, KeepsItsAngularMomentum) {
+  Box box = boxOf(12, can(true, 0.0));
+  State state = turningAs(box, [](const auto& x) { return turning * x[0] * (1.0 + x[1] / radius); });
+  TransportOperator transport(box.context, state, {0.5, 2});
+  transport.initialise(state, dt);
+  const auto momentum = [&] {
+    return integral(box.mesh,
+                    [&](int c) { return state.density[at(c)] * box.mesh.centre[at(c)][0] * state.swirl[at(c)]; });
+  };
+  const double before = momentum();
+  double fastest = 0;
+  for (int i = 0; i < 2 * 20; ++i) transport.advance(state, 0.0, dt);
+  for (double u : state.velocity) fastest = std::max(fastest, std::abs(u));
+  report(fmt::format("angular momentum changed by {:.1e}, flow of {:.3f} m/s", momentum() / before - 1.0,
+                     maxOverRanks(fastest)));
+  EXPECT_GT(maxOverRanks(fastest), 0.02);
+  EXPECT_NEAR(momentum() / before, 1.0, 1e-5);
+}
+
+TEST_F(SwirlInAVessel, TurnsByLittleInAStep) {
+  Box box = boxOf(8, can(false, turning));
+  State state = turningAs(box, [](const auto& x) { return turning * x[0]; });
+  TransportOperator transport(box.context, state, {0.25, 1});
+  EXPECT_NEAR(transport.largestStep(state), 0.25 / turning, 1e-12);
+}
+
+}  // namespace
+}  // namespace lampblack::test
