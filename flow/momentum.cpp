@@ -32,7 +32,6 @@ Momentum::Momentum(const FlowContext& context, bool swirls)
       diffusion_(context.mesh, context.halo),
       projection_(context),
       faceVelocity_(context) {
-  if (swirls) swirl_.emplace(context);
   const Mesh& m = context.mesh;
   boundaryVelocity_.resize(2 * m.boundaryFaces());
   boundaryPressure_.assign(m.boundaryFaces(), 0.0);
@@ -56,6 +55,29 @@ Momentum::Momentum(const FlowContext& context, bool swirls)
     std::vector<BoundaryData> known;
     for (int b = 0; b < m.boundaryFaces(); ++b) known.push_back(velocityKnown_[2 * b + i]);
     upwind_.emplace_back(context, known);
+  }
+  if (!swirls) return;
+  swirl_.emplace(context);
+  centrifugal_.resize(static_cast<std::size_t>(m.cells));
+  std::vector<char> isOuter(static_cast<std::size_t>(m.cells), 0);
+  for (int face = m.interiorFaces; face < m.faces; ++face)
+    if (m.normalAxis[face] == 0 && pressureKnown_[face - m.interiorFaces] == BoundaryData::Nothing)
+      isOuter[m.low[face]] = 1;
+  for (int face = 0; face < m.interiorFaces; ++face)
+    if (m.normalAxis[face] == 0 && m.high[face] < m.owned && isOuter[m.high[face]] != 0)
+      outermost_.push_back({m.high[face], face});
+}
+
+// Adds what swirl needs of pressure to where the pressure's slope comes from the cell's other side, so that a gas that
+// turns as a solid body stays on its circles.
+void Momentum::holdOnCircles(const State& state, const MomentumSweep& sweep) {
+  const Mesh& m = context_.mesh;
+  for (int c = 0; c < m.cells; ++c)
+    centrifugal_[c] = swirl_->centrifugal(c, 0.5 * (sweep.start.swirl[c] + state.swirl[c]));
+  const auto force = [&](int cell) { return sweep.start.density[cell] * centrifugal_[cell]; };
+  for (const auto& [cell, face] : outermost_) {
+    const double w = m.lowWeight[face];
+    pressureGradient_[2 * cell] += force(cell) - (w * force(m.low[face]) + (1.0 - w) * force(m.high[face]));
   }
 }
 
@@ -137,6 +159,7 @@ void Momentum::predict(const State& state, const MomentumSweep& sweep) {
   gradient_.compute(velocity, boundaryVelocity_, 2, velocityGradient_, velocityKnown_);
   context_.halo.update(velocityGradient_, 4);
   gradient_.compute(state.pressure, boundaryPressure_, 1, pressureGradient_, pressureKnown_);
+  if (swirl_) holdOnCircles(state, sweep);
 
   std::fill(relaxation_.begin(), relaxation_.end(), 0.0);
   diagonal_.assign(2 * m.owned, 0.0);
@@ -145,9 +168,7 @@ void Momentum::predict(const State& state, const MomentumSweep& sweep) {
   for (int c = 0; c < m.owned; ++c) {
     for (int i = 0; i < 2; ++i)
       source_[2 * c + i] = m.volume[c] * (context_.bodyForce(density[c], i) - pressureGradient_[2 * c + i]);
-    if (swirl_)  // in the middle of the step
-      source_[2 * c] +=
-          m.volume[c] * density[c] * swirl_->centrifugal(c, 0.5 * (sweep.start.swirl[c] + state.swirl[c]));
+    if (swirl_) source_[2 * c] += m.volume[c] * density[c] * centrifugal_[c];
     // Hoop stress 2 mu v_r / r^2 (its dilatation part is explicit).
     if (m.axisymmetric()) diagonal_[2 * c] += 2.0 * viscosity[c] * m.planarArea[c] / m.centre[c][0];
   }
@@ -263,8 +284,12 @@ Projection::Result Momentum::advance(State& state, const MomentumSweep& sweep, s
                         sweep.dt, faceVelocity);
 
   pressureChange_.assign(static_cast<std::size_t>(m.cells), 0.0);
+  // A millionth of the velocity with which viscosity crosses a cell.
+  double slowFlow = 0.0;
+  for (int face = 0; face < m.interiorFaces; ++face)
+    slowFlow = std::max(slowFlow, 1e-6 * conductance_[2 * face] * inverseDensity_[face]);
   const Projection::Result result =
-      projection_.solve(sweep.dt, inverseDensity_, sweep.divergence, faceVelocity, pressureChange_);
+      projection_.solve(sweep.dt, inverseDensity_, sweep.divergence, faceVelocity, pressureChange_, slowFlow);
   const std::vector<double> unchanged(boundaryPressure_.size(), 0.0);
   gradient_.compute(pressureChange_, unchanged, 1, pressureGradient_, pressureKnown_);
   for (int c = 0; c < m.owned; ++c)

@@ -94,7 +94,7 @@ void Projection::saveOrLoad(StateArchive& archive) {
 
 Projection::Result Projection::solve(double dt, std::span<const double> inverseDensity,
                                      std::span<const double> divergence, std::span<double> faceVelocity,
-                                     std::span<double> change) {
+                                     std::span<double> change, double slowFlow) {
   const Mesh& m = context_.mesh;
   conductances(dt, inverseDensity);
   assemble();
@@ -102,14 +102,12 @@ Projection::Result Projection::solve(double dt, std::span<const double> inverseD
   // Net outflow of the uncorrected velocities beyond the wanted one; the pressure has to take it away.
   std::vector<double> excess(m.owned);
   for (int c = 0; c < m.owned; ++c) excess[c] = -divergence[c] * m.volume[c];
-  // In a gas at rest the flows are round-off of the divergence and no scale of their own.
-  constexpr double slowest = 1e-6;  // cells a step
-  double flowScale = 0.0;
+  double flowScale = std::max(slowFlow, 1e-300);
   for (int face = 0; face < m.faces; ++face) {
     const double flow = m.area[face] * faceVelocity[face];
     if (m.low[face] < m.owned) excess[m.low[face]] += flow;
     if (m.high[face] >= 0 && m.high[face] < m.owned) excess[m.high[face]] -= flow;
-    flowScale = std::max({flowScale, std::abs(flow), slowest * m.area[face] * m.distance[face] / dt});
+    flowScale = std::max(flowScale, std::abs(flow));
   }
   MPI_Allreduce(MPI_IN_PLACE, &flowScale, 1, MPI_DOUBLE, MPI_MAX, m.comm);
   double* right = nullptr;

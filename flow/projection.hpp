@@ -26,9 +26,10 @@ class Projection {
 
   // Collective. `faceVelocity` (m/s, normal, every face; prescribed on all boundary faces but outlets) is corrected in
   // place; `change` (Pa, cells, zero at outlets) is the initial guess and the solution, halo filled. `inverseDensity`:
-  // 1/rho at each face; `divergence`: target in each owned cell (1/s).
+  // 1/rho at each face; `divergence`: target in each owned cell (1/s). `slowFlow` (m3/s, of this rank): what flows
+  // through a face of a gas that is as good as at rest, where the flows are no scale of their own.
   Result solve(double dt, std::span<const double> inverseDensity, std::span<const double> divergence,
-               std::span<double> faceVelocity, std::span<double> change);
+               std::span<double> faceVelocity, std::span<double> change, double slowFlow = 0.0);
 
   // The preconditioner is kept as the conductances of the matrix it was made from, and made from them again.
   void saveOrLoad(StateArchive& archive);

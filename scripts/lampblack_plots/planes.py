@@ -16,6 +16,7 @@ PLANES = [
     ("A2", "X_A2", "Naphthalene (A2) mole fraction", "viridis", True),
     ("soot_volume_fraction", "soot_volume_fraction", "Soot volume fraction", "magma", True),
     ("velocity", "velocity", "Velocity", "cividis", False),
+    ("swirl", "swirl_velocity", "Velocity about the axis", "cividis", False),
 ]
 
 

@@ -90,8 +90,9 @@ TEST(DeckValues, OverPlaceAndTime) {
        "table: " +
            table + "}",
        "boundaries.fuel_flange={type: wall, side: z-min, from: 10 mm, heat_flux: 3 kW/m^2}",
-       "boundaries.oxidiser_flange={type: wall, side: z-max, from: 10 mm, formula: {heat_flux: 5*t}}",
-       "initial.formula={temperature: 300 + 1e5*r, velocity_z: 2*z, X_N2: 0.5}"}));
+       "boundaries.oxidiser_flange={type: wall, side: z-max, from: 10 mm, formula: {heat_flux: 5*t, swirl_velocity: "
+       "6*r}}",
+       "initial.formula={temperature: 300 + 1e5*r, velocity_z: 2*z, swirl_velocity: 7*r, X_N2: 0.5}"}));
   const auto& b = flow.boundaries;
   const std::size_t O2 = flow.mechanism->speciesIndex("O2"), N2 = flow.mechanism->speciesIndex("N2");
   ASSERT_TRUE(b[0].varies.speed && b[0].varies.tangential);
@@ -112,12 +113,29 @@ TEST(DeckValues, OverPlaceAndTime) {
   EXPECT_EQ(b[2].heatFlux, 3000.0);
   EXPECT_FALSE(b[2].isothermal);
   EXPECT_DOUBLE_EQ(b[3].varies.heatFlux({0.0, 0.0}, 3.0), 15.0);
+  EXPECT_DOUBLE_EQ(b[3].varies.swirl({2.0, 0.0}, 3.0), 12.0);
+  EXPECT_TRUE(flow.swirls);
   const InitialFields& start = flow.initialFields;
   EXPECT_DOUBLE_EQ(start.gas.temperature({1e-3, 0.0}, 0.0), 400.0);
   EXPECT_FALSE(start.velocity[0]);
   EXPECT_DOUBLE_EQ(start.velocity[1]({0.0, 3.0}, 0.0), 6.0);
+  EXPECT_DOUBLE_EQ(start.swirl({2.0, 0.0}, 0.0), 14.0);
   ASSERT_EQ(start.gas.moleFractions.size(), 1U);
   EXPECT_EQ(start.gas.moleFractions[0].first, N2);
+}
+
+TEST(DeckValues, SwirlsWhereAStreamOrAWallDoes) {
+  EXPECT_FALSE(readFlowCase(test::flameDeck()).swirls);
+  const FlowCase flow = readFlowCase(test::flameDeck({"boundaries.fuel.swirl_velocity=10 cm/s"}));
+  EXPECT_TRUE(flow.swirls);
+  EXPECT_DOUBLE_EQ(flow.boundaries[0].swirl, 0.1);
+}
+
+TEST(DeckValues, HaveNoSwirlWithoutAnAxis) {
+  const Deck deck = Deck::load(test::sourcePath("cases/flow/heated_cavity/deck.yaml"),
+                               {"boundaries.warm.swirl_velocity=1 m/s"}, flowSchema());
+  EXPECT_THAT([&] { (void)readFlowCase(deck); },
+              testing::ThrowsMessage<InputError>(testing::HasSubstr("there is no axis to swirl about")));
 }
 
 TEST(DeckValues, AStreamOfGivenMoleFractionsNeedsNoComposition) {

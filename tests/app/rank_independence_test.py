@@ -21,6 +21,7 @@ np = running.package("numpy")
 DECK = running.SOURCE / "cases/flow/counterflow_ethylene/deck.yaml"
 ABSOLUTE = 1e-15  # of the chemistry, in mass fraction
 SETTINGS = ("mesh.refinement=0.25", "time.end=0.1 ms", "output.interval=0.05 ms", "output.species=[all]",
+            "boundaries.fuel.swirl_velocity=10 cm/s",
             "chemistry.relative_tolerance=1e-9", f"chemistry.absolute_tolerance={ABSOLUTE}",
             "trajectories.duration=2 ms", "trajectories.particles=64")
 BOUND = 1e-7

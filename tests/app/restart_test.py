@@ -22,7 +22,8 @@ h5py = running.package("h5py")
 numpy = running.package("numpy")
 
 # No row of the history in the middle: what it counts since the last one is saved.
-SETTINGS = ("time.end=28 us", "time.maximum_step=2 us", "output.interval=7 us", "output.history_steps=4")
+SETTINGS = ("time.end=28 us", "time.maximum_step=2 us", "output.interval=7 us", "output.history_steps=4",
+            "boundaries.fuel.swirl_velocity=10 cm/s")
 # The start of a run that goes on is that of its checkpoint, whatever the deck says.
 OTHER_START = ("initial.position=5 mm", "initial.temperature=1500 K", "time.first_step=0.7 us")
 MIDDLE = 10  # of some 17 steps
