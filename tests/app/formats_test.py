@@ -113,7 +113,7 @@ def main(executable: str, *mpiexec: str) -> int:
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         runs = {"flow": (running.small_case(folder), *running.settings(
-            "radiation.model=optically_thin", "boundaries.fuel.swirl_velocity=1 m/s", "time.sweeps=2", "time.tolerance=1"))}
+            "radiation.model=optically_thin", "boundaries.fuel.swirl_velocity=1 m/s", "time.sweeps=2", "time.tolerance=0.1"))}
         for text, run in ((COUNTERFLOW, "counterflow"), (SOOT, "soot"), (POPULATION, "population")):
             (folder / f"{run}.yaml").write_text(text, encoding="utf-8")
             runs[run] = (folder / f"{run}.yaml",)
