@@ -56,29 +56,7 @@ Momentum::Momentum(const FlowContext& context, bool swirls)
     for (int b = 0; b < m.boundaryFaces(); ++b) known.push_back(velocityKnown_[2 * b + i]);
     upwind_.emplace_back(context, known);
   }
-  if (!swirls) return;
-  swirl_.emplace(context);
-  centrifugal_.resize(static_cast<std::size_t>(m.cells));
-  std::vector<char> isOuter(static_cast<std::size_t>(m.cells), 0);
-  for (int face = m.interiorFaces; face < m.faces; ++face)
-    if (m.normalAxis[face] == 0 && pressureKnown_[face - m.interiorFaces] == BoundaryData::Nothing)
-      isOuter[m.low[face]] = 1;
-  for (int face = 0; face < m.interiorFaces; ++face)
-    if (m.normalAxis[face] == 0 && m.high[face] < m.owned && isOuter[m.high[face]] != 0)
-      outermost_.push_back({m.high[face], face});
-}
-
-// Adds what swirl needs of pressure to where the pressure's slope comes from the cell's other side, so that a gas that
-// turns as a solid body stays on its circles.
-void Momentum::holdOnCircles(const State& state, const MomentumSweep& sweep) {
-  const Mesh& m = context_.mesh;
-  for (int c = 0; c < m.cells; ++c)
-    centrifugal_[c] = swirl_->centrifugal(c, 0.5 * (sweep.start.swirl[c] + state.swirl[c]));
-  const auto force = [&](int cell) { return sweep.start.density[cell] * centrifugal_[cell]; };
-  for (const auto& [cell, face] : outermost_) {
-    const double w = m.lowWeight[face];
-    pressureGradient_[2 * cell] += force(cell) - (w * force(m.low[face]) + (1.0 - w) * force(m.high[face]));
-  }
+  if (swirls) swirl_.emplace(context, pressureKnown_);
 }
 
 void Momentum::boundaryVelocities(const State& state) {
@@ -159,7 +137,7 @@ void Momentum::predict(const State& state, const MomentumSweep& sweep) {
   gradient_.compute(velocity, boundaryVelocity_, 2, velocityGradient_, velocityKnown_);
   context_.halo.update(velocityGradient_, 4);
   gradient_.compute(state.pressure, boundaryPressure_, 1, pressureGradient_, pressureKnown_);
-  if (swirl_) holdOnCircles(state, sweep);
+  if (swirl_) swirl_->completeOuterSlopes(density, pressureGradient_);
 
   std::fill(relaxation_.begin(), relaxation_.end(), 0.0);
   diagonal_.assign(2 * m.owned, 0.0);
@@ -168,7 +146,7 @@ void Momentum::predict(const State& state, const MomentumSweep& sweep) {
   for (int c = 0; c < m.owned; ++c) {
     for (int i = 0; i < 2; ++i)
       source_[2 * c + i] = m.volume[c] * (context_.bodyForce(density[c], i) - pressureGradient_[2 * c + i]);
-    if (swirl_) source_[2 * c] += m.volume[c] * density[c] * centrifugal_[c];
+    if (swirl_) source_[2 * c] += m.volume[c] * density[c] * swirl_->centrifugal(c);
     // Hoop stress 2 mu v_r / r^2 (its dilatation part is explicit).
     if (m.axisymmetric()) diagonal_[2 * c] += 2.0 * viscosity[c] * m.planarArea[c] / m.centre[c][0];
   }
@@ -259,10 +237,13 @@ void Momentum::balanceForces(State& state) {
     if (m.high[face] >= 0 || context_.boundaryOf(face).kind == BoundaryKind::Outlet)
       fall[face] = (m.high[face] >= 0 ? 1.0 : m.normalSign[face]) * inverseDensity_[face] *
                    context_.bodyForce(1.0 / inverseDensity_[face], m.normalAxis[face]);
-  for (int face = 0; swirl_ && face < m.interiorFaces; ++face)
-    if (m.normalAxis[face] == 0)
-      fall[face] += m.lowWeight[face] * swirl_->centrifugal(m.low[face], state.swirl[m.low[face]]) +
-                    (1.0 - m.lowWeight[face]) * swirl_->centrifugal(m.high[face], state.swirl[m.high[face]]);
+  if (swirl_) {
+    swirl_->setCentrifugal(state, state);
+    for (int face = 0; face < m.interiorFaces; ++face)
+      if (m.normalAxis[face] == 0)
+        fall[face] += m.lowWeight[face] * swirl_->centrifugal(m.low[face]) +
+                      (1.0 - m.lowWeight[face]) * swirl_->centrifugal(m.high[face]);
+  }
   const std::vector<double> divergence(static_cast<std::size_t>(m.owned), 0.0);
   std::ranges::fill(state.pressure, 0.0);
   projection_.solve(1.0, inverseDensity_, divergence, fall, state.pressure);

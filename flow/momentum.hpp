@@ -46,7 +46,6 @@ class Momentum {
   void boundaryVelocities(const State& state);
   void outletPressures(const State& state);
   void predict(const State& state, const MomentumSweep& sweep);
-  void holdOnCircles(const State& state, const MomentumSweep& sweep);
   void addLastSweepsViscosity(const State& state, const MomentumSweep& sweep);
   void explicitStress(const MomentumSweep& sweep);
   void outletStress(const MomentumSweep& sweep);
@@ -57,13 +56,6 @@ class Momentum {
   Projection projection_;
   FaceVelocity faceVelocity_;
   std::optional<Swirl> swirl_;
-  // Of a flow that swirls: cells at its outer boundary whose pressure slope there is that on their other side, and the
-  // face between them and that side.
-  struct Outermost {
-    int cell, face;
-  };
-  std::vector<Outermost> outermost_;
-  std::vector<double> centrifugal_;                          // m/s2, of each cell in the middle of the step
   std::vector<BoundaryData> velocityKnown_, pressureKnown_;  // two a boundary face; one
   std::vector<UpwindGeometry> upwind_;                       // of each component
   std::vector<double> boundaryVelocity_, boundaryPressure_;

@@ -25,7 +25,7 @@ std::vector<BoundaryData> knownData(const FlowContext& context) {
 
 }  // namespace
 
-Swirl::Swirl(const FlowContext& context)
+Swirl::Swirl(const FlowContext& context, std::span<const BoundaryData> pressureKnown)
     : context_(context),
       gradient_(context.mesh),
       diffusion_(context.mesh, context.halo),
@@ -36,6 +36,31 @@ Swirl::Swirl(const FlowContext& context)
   angularMomentum_.resize(static_cast<std::size_t>(m.cells));
   slope_.resize(static_cast<std::size_t>(m.cells) * 2);
   excess_.resize(static_cast<std::size_t>(m.cells));
+  turning_.resize(static_cast<std::size_t>(m.cells));
+  centrifugal_.resize(static_cast<std::size_t>(m.cells));
+  std::vector<char> isOuter(static_cast<std::size_t>(m.cells), 0);
+  for (int face = m.interiorFaces; face < m.faces; ++face)
+    if (m.normalAxis[face] == 0 && pressureKnown[face - m.interiorFaces] == BoundaryData::Nothing)
+      isOuter[m.low[face]] = 1;
+  for (int face = 0; face < m.interiorFaces; ++face)
+    if (m.normalAxis[face] == 0 && m.high[face] < m.owned && isOuter[m.high[face]] != 0)
+      outermost_.push_back({m.high[face], face});
+}
+
+void Swirl::setCentrifugal(const State& a, const State& b) {
+  for (int c = 0; c < context_.mesh.cells; ++c) {
+    const double w = 0.5 * (a.swirl[c] + b.swirl[c]);
+    centrifugal_[c] = w * w / context_.mesh.centre[c][0];
+  }
+}
+
+void Swirl::completeOuterSlopes(std::span<const double> density, std::span<double> gradient) const {
+  const Mesh& m = context_.mesh;
+  const auto force = [&](int cell) { return density[cell] * centrifugal_[cell]; };
+  for (const auto& [cell, face] : outermost_) {
+    const double w = m.lowWeight[face];
+    gradient[2 * cell] += force(cell) - (w * force(m.low[face]) + (1.0 - w) * force(m.high[face]));
+  }
 }
 
 // Whether a boundary holds the gas beside it at a velocity of its own.
@@ -116,7 +141,6 @@ void Swirl::advance(State& state, const MomentumSweep& sweep) {
   addBoundaries(sweep);
   for (int c = 0; c < m.cells; ++c) excess_[c] = 0.5 * (sweep.start.swirl[c] - state.swirl[c]) / m.centre[c][0];
   diffusion_.subtract(1, diagonal_, conductance_, excess_, source_);
-  turning_.resize(static_cast<std::size_t>(m.cells));
   for (int c = 0; c < m.cells; ++c) turning_[c] = state.swirl[c] / m.centre[c][0];
   for (int c = 0; c < m.owned; ++c) {
     const double r = m.centre[c][0];
@@ -126,6 +150,7 @@ void Swirl::advance(State& state, const MomentumSweep& sweep) {
   }
   diffusion_.solve(1, diagonal_, conductance_, source_, turning_);
   for (int c = 0; c < m.cells; ++c) state.swirl[c] = m.centre[c][0] * turning_[c];
+  setCentrifugal(sweep.start, state);
 }
 
 }  // namespace lampblack::flow
