@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "flow/face_fluxes.hpp"
-
 namespace lampblack::flow {
 
 void SpeciesDiffusion::faceFlux(int face, bool gradientTerm, const double* low, const double* high, double lowWeight,
@@ -83,32 +81,58 @@ void SpeciesDiffusion::presentFlux(const State& state, std::span<double> flux) c
   evaluate(state.Y, true, flux);
 }
 
+void SpeciesDiffusion::setUpBlock(int first, int count, std::span<const double> content,
+                                  std::span<const double> newMass, double dt, std::span<const double> flux) {
+  const Mesh& m = context_.mesh;
+  const auto n = static_cast<std::ptrdiff_t>(context_.mechanism.numSpecies());
+  const auto width = static_cast<std::size_t>(count);
+  blockDiagonal_.resize(m.owned * width);
+  blockSource_.resize(m.owned * width);
+  blockConductance_.resize(m.interiorFaces * width);
+  blockSolution_.resize(m.cells * width);
+  for (int c = 0; c < m.cells; ++c) std::copy_n(&solution_[c * n + first], count, &blockSolution_[c * width]);
+  for (int c = 0; c < m.owned; ++c) {
+    std::fill_n(&blockDiagonal_[c * width], count, newMass[c] / dt);
+    for (std::size_t k = 0; k < width; ++k) blockSource_[c * width + k] = content[c * n + first + k] / dt;
+  }
+  for (int face = 0; face < m.faces; ++face) {
+    const int low = m.low[face];
+    const int high = m.high[face];
+    const double* f = &flux[face * n + first];
+    const double* g = &conductance_[face * n + first];
+    if (low < m.owned)
+      for (std::size_t k = 0; k < width; ++k) blockSource_[low * width + k] -= f[k];
+    if (high >= 0) {
+      std::copy_n(g, count, &blockConductance_[face * width]);
+      if (high < m.owned)
+        for (std::size_t k = 0; k < width; ++k) blockSource_[high * width + k] += f[k];
+    } else if (context_.isCompositionGiven(face)) {
+      const double* given = &context_.boundaryY(face)[static_cast<std::size_t>(first)];
+      for (std::size_t k = 0; k < width; ++k) {
+        blockDiagonal_[low * width + k] += g[k];
+        blockSource_[low * width + k] += g[k] * given[k];
+      }
+    }
+  }
+}
+
 ImplicitDiffusion::Result SpeciesDiffusion::implicitFlux(const State& guess, std::span<const double> content,
                                                          std::span<const double> newMass, double dt,
                                                          std::span<double> flux) {
-  const Mesh& m = context_.mesh;
   const int n = guess.species;
-  const auto at = [n](int i) { return static_cast<std::size_t>(i) * n; };
-  diagonal_.resize(at(m.owned));
-  source_.resize(at(m.owned));
-  for (int c = 0; c < m.owned; ++c)
-    for (int k = 0; k < n; ++k) {
-      diagonal_[at(c) + k] = newMass[c] / dt;
-      source_[at(c) + k] = content[at(c) + k] / dt;
-    }
   evaluate(guess.Y, false, flux);
-  addFaceFluxes(m, flux, n, 1.0, source_);
-  for (int face = m.interiorFaces; face < m.faces; ++face) {
-    if (!context_.isCompositionGiven(face)) continue;
-    const std::vector<double>& given = context_.boundaryY(face);
-    for (int k = 0; k < n; ++k) {
-      const double g = conductance_[at(face) + k];
-      diagonal_[at(m.low[face]) + k] += g;
-      source_[at(m.low[face]) + k] += g * given[k];
-    }
-  }
   solution_.assign(guess.Y.begin(), guess.Y.end());
-  const auto result = diffusion_.solve(n, diagonal_, conductance_, source_, solution_);
+  ImplicitDiffusion::Result result;
+  for (int first = 0; first < n; first += block) {
+    const int count = std::min(block, n - first);
+    setUpBlock(first, count, content, newMass, dt, flux);
+    const auto solved = diffusion_.solve(count, blockDiagonal_, blockConductance_, blockSource_, blockSolution_);
+    result.iterations = std::max(result.iterations, solved.iterations);
+    result.worstResidual = std::max(result.worstResidual, solved.worstResidual);
+    for (int c = 0; c < context_.mesh.cells; ++c)
+      std::copy_n(&blockSolution_[static_cast<std::size_t>(c) * count], count,
+                  &solution_[static_cast<std::size_t>(c) * n + first]);
+  }
   evaluate(solution_, true, flux);
   return result;
 }

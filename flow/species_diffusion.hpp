@@ -37,12 +37,19 @@ class SpeciesDiffusion {
                                          std::span<const double> newMass, double dt, std::span<double> flux);
 
  private:
+  // Implicit systems are set up and solved for so many species at a time: the solver's fields are most of its memory.
+  static constexpr int block = 16;
+
   const FlowContext& context_;
   ImplicitDiffusion diffusion_;
-  std::vector<double> conductance_, weightSlope_, diagonal_, source_, solution_;
+  std::vector<double> conductance_, weightSlope_, solution_;
+  std::vector<double> blockDiagonal_, blockConductance_, blockSource_, blockSolution_;
   std::optional<DetailedDiffusion> detailed_;
   std::vector<double> explicit_;  // kg/s, species a face, what the detailed model adds; empty without one
 
+  // Species [first, first + count) of the systems: from those of all, and to the solution of all.
+  void setUpBlock(int first, int count, std::span<const double> content, std::span<const double> newMass, double dt,
+                  std::span<const double> flux);
   void evaluate(std::span<const double> Y, bool gradientTerm, std::span<double> flux) const;
   // Flux of the implicit gradient (0 or 1 times) and explicit terms through a face, from mass fractions of both sides.
   void faceFlux(int face, bool gradientTerm, const double* low, const double* high, double lowWeight,
