@@ -12,6 +12,7 @@ void setInitialFields(const FlowContext& context, const InitialFields& fields, S
   const Mesh& m = context.mesh;
   const auto n = static_cast<std::size_t>(state.species);
   std::vector<double> Y(n);
+  if (fields.thermodynamicPressure) state.thermodynamicPressure = *fields.thermodynamicPressure;
   for (std::size_t c = 0; c < static_cast<std::size_t>(m.cells); ++c) try {
       for (std::size_t i = 0; i < 2; ++i)
         if (fields.velocity[i]) state.velocity[2 * c + i] = fields.velocity[i](m.centre[c], 0.0);

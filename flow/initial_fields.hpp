@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "core/rooms.hpp"
@@ -13,9 +14,10 @@ namespace lampblack::flow {
 
 struct InitialFields {
   GasVariation gas;
-  std::array<FieldFunction, 2> velocity;  // m/s, along the mesh's axes; empty: at rest
-  FieldFunction swirl;                    // m/s, about the axis; empty: none, or at rest
-  std::vector<FieldFunction> carried;     // per m3, of each carried scalar; empty: none
+  std::array<FieldFunction, 2> velocity;        // m/s, along the mesh's axes; empty: at rest
+  FieldFunction swirl;                          // m/s, about the axis; empty: none, or at rest
+  std::optional<double> thermodynamicPressure;  // Pa, of a closed vessel; none: that of before
+  std::vector<FieldFunction> carried;           // per m3, of each carried scalar; empty: none
 
   [[nodiscard]] bool isEmpty() const {
     return gas.isEmpty() && !velocity[0] && !velocity[1] && !swirl && carried.empty();

@@ -88,6 +88,7 @@ void readInitialFields(const Deck& deck, FlowCase& flowCase) {
   fields = {.gas = given.gas(),
             .velocity = {given.find(velocities[0]), given.find(velocities[1])},
             .swirl = given.find("swirl_velocity"),
+            .thermodynamicPressure = {},
             .carried = {}};
   for (const char* whole : {"initial.flame1d", "initial.flow"}) {
     if (!deck.has(whole)) continue;

@@ -76,15 +76,34 @@ std::vector<std::string> fieldNames(const Hdf5Reader& results, const std::string
   return names;
 }
 
+bool isClosed(const FlowCase& flowCase) {
+  return std::ranges::none_of(flowCase.boundaries, [](const auto& b) { return b.kind == BoundaryKind::Outlet; });
+}
+
+// Pa, by the history of the earlier run at the time of the step.
+double thermodynamicPressure(const Hdf5Reader& results, const std::string& step) {
+  if (!results.has("/history/thermodynamic_pressure"))
+    throw InputError(
+        fmt::format("{} has no '/history', which tells the pressure of a closed vessel; expected a run that "
+                    "went to its end",
+                    results.name()));
+  const std::vector<double> times = results.numbers("/history/time");
+  const double time = results.numberAttribute(step, "time");
+  const auto row = std::ranges::min_element(times, {}, [&](double t) { return std::abs(t - time); });
+  return results.numbers("/history/thermodynamic_pressure").at(static_cast<std::size_t>(row - times.begin()));
+}
+
 }  // namespace
 
 void addInitialFlowKeys(DeckSchema& schema) {
   schema
-      .section(section, Presence::optional,
-               "An earlier run of problem flow to start from, on a mesh of its own: gas, velocity, and soot where "
-               "there is a "
-               "model of it; 'layer' is none. Linear between the earlier run's cells.",
-               {{"initial.layer", {"none"}}})
+      .section(
+          section, Presence::optional,
+          "An earlier run of problem flow to start from, on a mesh of its own: gas, velocity, and soot where "
+          "there is a "
+          "model of it; 'layer' is none. Linear between the earlier run's cells. A closed vessel takes the earlier "
+          "run's thermodynamic pressure in place of 'pressure'.",
+          {{"initial.layer", {"none"}}})
       .add(stringKey(section + ".results",
                      "The earlier run's folder, or its results.h5, relative to the deck. It holds all species of the "
                      "mechanism ('output: {species: [all]}')."))
@@ -118,6 +137,7 @@ InitialFields readInitialFlow(const Deck& deck, const FlowCase& flowCase, const 
       return [table, at = column++](const std::array<double, 2>& place, double) { return table->value(at, place); };
     };
     InitialFields fields;
+    if (isClosed(flowCase)) fields.thermodynamicPressure = thermodynamicPressure(results, step);
     fields.gas.temperature = next();
     for (std::size_t k = 0; k < flowCase.mechanism->numSpecies(); ++k)
       // Advection leaves some slightly below zero.

@@ -89,6 +89,23 @@ def misfits(program, deck, folder):
     assert result.code == 2 and "this mesh goes from 0 to 0.03 m" in result.err, result.err
 
 
+def closed_vessel(program, folder):
+    """Goes on with the pressure that it had, and so with its mass."""
+    deck = running.SOURCE / "cases/flow/heated_cavity_lowmach/deck.yaml"
+    coarse = ("mesh.refinement=0.5", "output.interval=0.1 s")
+    result = program("run", deck, "--out", folder / "warmed", *running.settings(*coarse, "time.end=0.2 s"))
+    assert result.code == 0, result.err
+    start = f"initial={{layer: none, flow: {{results: {folder / 'warmed'}}}}}"
+    result = program("run", deck, "--out", folder / "on", *running.settings(*coarse, start, "time.end=1 ms"))
+    assert result.code == 0, result.err
+    with h5py.File(folder / "warmed/results.h5") as before, h5py.File(folder / "on/results.h5") as after:
+        pressures = [file["history/thermodynamic_pressure"][()] for file in (before, after)]
+        masses = [file["history/mass_content"][()] for file in (before, after)]
+    assert abs(pressures[0][-1] / pressures[0][0] - 1) > 1e-3, pressures[0]
+    assert abs(pressures[1][0] / pressures[0][-1] - 1) < 1e-3, pressures[1]
+    assert abs(masses[1][0] / masses[0][-1] - 1) < 1e-6, masses
+
+
 def main(executable, *mpiexec):
     one, two = (running.Program(executable, list(mpiexec), ranks) for ranks in (1, 2))
     with tempfile.TemporaryDirectory() as name:
@@ -101,6 +118,7 @@ def main(executable, *mpiexec):
         of_an_earlier_time(one, deck, folder)
         finer_mesh(two, deck, folder)
         misfits(one, deck, folder)
+        closed_vessel(one, folder)
     print("passed")
 
 
