@@ -118,11 +118,15 @@ void Swirl::addBoundaries(const MomentumSweep& sweep) {
     } else if (flux < 0.0) {
       source_[c] -= flux * (boundary_[b] - angularMomentum_[c]);
     } else if (known_[b] == BoundaryData::Nothing && flux > 0.0) {
-      // What leaves goes along the cell's own slope, with the stress of that slope.
-      const double r = m.centre[c][0];
+      // What leaves goes along the cell's own slope. The torque across the outlet is that on the cell's other side:
+      // with the stress at the outlet alone, a vortex that leaves outwards would lose its angular momentum.
+      const double outwards = m.normalSign[face] * m.distance[face];
       const double slope = slope_[2 * c + axis];
-      const double turning = (slope - (axis == 0 ? 2.0 * angularMomentum_[c] / r : 0.0)) / (r * r);
-      source_[c] += m.normalSign[face] * (viscous * turning - flux * m.distance[face] * slope);
+      const double opposite = radius - 2.0 * outwards;
+      const double torque = axis == 1 ? slope : opposite * slope - 2.0 * (angularMomentum_[c] - outwards * slope);
+      const double perRadius = axis == 1 ? 1.0 : 1.0 / radius;
+      source_[c] +=
+          m.normalSign[face] * sweep.boundaryViscosity[b] * m.area[face] * perRadius * torque - flux * outwards * slope;
     }
   }
 }

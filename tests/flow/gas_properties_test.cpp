@@ -45,20 +45,21 @@ TEST_F(Properties, BesideABoundaryAreMeansOfBothSidesWhereItHasATemperature) {
   }
 }
 
-// Air at rest between walls of 300 and 600 K, the hot one moving along itself: heat and shear pass evenly,
+// Air at rest between a wall of 300 K and a hotter one, the hot one moving along itself: heat and shear pass evenly,
 // q y = int lambda dT and u = (tau/q) int lambda/mu dT from the cold wall on.
 class BetweenWalls : public Properties {
  protected:
-  static constexpr double size = 0.01, cold = 300.0, hot = 600.0, speed = 0.01;
+  static constexpr double size = 0.01, cold = 300.0, speed = 0.01;
   static constexpr int pieces = 2000;
-  static constexpr double piece = (hot - cold) / pieces;
 
   // Both integrals, from the cold wall up to every temperature of a table.
-  void integrate() {
+  void heatTo(double temperature) {
+    hot_ = temperature;
+    piece_ = (hot_ - cold) / pieces;
     heat_ = shear_ = {0.0};
     Transport::Mixture before = coefficients(cold, air);
     for (int i = 1; i <= pieces; ++i) {
-      const Transport::Mixture next = coefficients(cold + i * piece, air);
+      const Transport::Mixture next = coefficients(cold + i * piece_, air);
       heat_.push_back(heat_.back() + 0.5 * (before.conductivity + next.conductivity));
       shear_.push_back(shear_.back() +
                        0.5 * (before.conductivity / before.viscosity + next.conductivity / next.viscosity));
@@ -73,7 +74,7 @@ class BetweenWalls : public Properties {
     for (std::size_t i : {2, 3}) {
       sides[i].condition.slip = false;
       sides[i].condition.isothermal = true;
-      sides[i].condition.temperature = i == 2 ? cold : hot;
+      sides[i].condition.temperature = i == 2 ? cold : hot_;
     }
     sides[3].condition.tangential = speed;
     // Periodic along the walls, so that the shear does not end.
@@ -86,7 +87,7 @@ class BetweenWalls : public Properties {
     FlowContext context{mesh, halo, gas.mechanism, gas.thermo, gas.transport, {sides[2].condition, sides[3].condition}};
     State state(mesh, air.size(), {});
     for (int c = 0; c < mesh.cells; ++c) {
-      const double T = state.temperature[at(c)] = cold + (hot - cold) * mesh.centre[at(c)][1] / size;
+      const double T = state.temperature[at(c)] = cold + (hot_ - cold) * mesh.centre[at(c)][1] / size;
       std::ranges::copy(air, &state.Y[at(c) * air.size()]);
       state.density[at(c)] = gas.thermo.density(T, state.thermodynamicPressure, air);
       state.enthalpy[at(c)] = gas.thermo.enthalpyMass(T, air);
@@ -100,19 +101,20 @@ class BetweenWalls : public Properties {
       const auto above = std::ranges::upper_bound(heat_, share * heat_.back());
       const std::size_t i = at(above - heat_.begin()) - 1;
       const double part = (share * heat_.back() - heat_[i]) / (heat_[i + 1] - heat_[i]);
-      const double T = cold + piece * (static_cast<double>(i) + part);
+      const double T = cold + piece_ * (static_cast<double>(i) + part);
       const double u = (shear_[i] + part * (shear_[i + 1] - shear_[i])) / shear_.back();
-      temperature = std::max(temperature, std::abs(state.temperature[at(c)] - T) / (hot - cold));
+      temperature = std::max(temperature, std::abs(state.temperature[at(c)] - T) / (hot_ - cold));
       velocity = std::max(velocity, std::abs(state.velocity[at(2 * c)] / speed - u));
     }
     return {maxOverRanks(temperature), maxOverRanks(velocity)};
   }
 
+  double hot_ = cold, piece_ = 0.0;  // K
   std::vector<double> heat_, shear_;
 };
 
 TEST_F(BetweenWalls, HeatAndShearPassEvenly) {
-  integrate();
+  heatTo(600.0);
   const auto coarse = errors(8), fine = errors(16);
   for (std::size_t i = 0; i < 2; ++i) {
     const double order = std::log2(coarse[i] / fine[i]);
@@ -121,7 +123,12 @@ TEST_F(BetweenWalls, HeatAndShearPassEvenly) {
     EXPECT_LT(coarse[i], 1e-4);  // 2e-3 with the cell's coefficients alone
     EXPECT_GT(order, 1.7);
   }
-  EXPECT_LT(errors(64)[0], fine[0]);  // thin cells of a gas at rest: the pressure finds nothing but round-off to solve
+}
+
+// The pressure of a gas at rest in thin cells has nothing but round-off to solve for.
+TEST_F(BetweenWalls, AGasAtRestIsSolvedForInThinCells) {
+  heatTo(1500.0);
+  EXPECT_LT(errors(64)[0], 1e-4);
 }
 
 }  // namespace

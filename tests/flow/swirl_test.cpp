@@ -89,5 +89,22 @@ TEST_F(SwirlInAVessel, TurnsByLittleInAStep) {
   EXPECT_NEAR(transport.largestStep(state), 0.25 / turning, 1e-12);
 }
 
+// A pipe whose gas is sucked away at one end and comes in at the other, through an outlet, stops turning.
+TEST_F(SwirlInAVessel, GasDrawnInThroughAnOutletComesFromRest) {
+  const double speed = 1.0;
+  Box box(Geometry::Axisymmetric, {uniformAxis(radius, 3), uniformAxis(radius, 12)},
+          {side(BoundaryKind::Symmetry, 0, false), side(BoundaryKind::Wall, 0, true),
+           opening(BoundaryKind::Inlet, 1, false, -speed, 300.0, n2),
+           opening(BoundaryKind::Outlet, 1, true, 0.0, 300.0, n2)});
+  State state = box.state([&](const auto&) { return Box::Local{{0.0, -speed}, 300.0, n2}; }, {}, true);
+  for (int c = 0; c < box.mesh.cells; ++c) state.swirl[at(c)] = turning * box.mesh.centre[at(c)][0];
+  TransportOperator transport(box.context, state);
+  const double step = 0.4 * radius / 12 / speed;
+  transport.initialise(state, step);
+  for (int i = 0; i < 150; ++i) transport.advance(state, 0.0, step);
+  EXPECT_LT(largest(box.mesh, [&](int c) { return std::abs(state.swirl[at(c)]); }), 1e-3 * turning * radius);
+  EXPECT_GT(largest(box.mesh, [&](int c) { return -state.velocity[at(2 * c + 1)]; }), 0.9 * speed);
+}
+
 }  // namespace
 }  // namespace lampblack::test
