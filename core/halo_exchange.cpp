@@ -33,10 +33,10 @@ HaloExchange::HaloExchange(const Mesh& mesh) : comm_(mesh.comm) {
   }
 }
 
-void HaloExchange::update(std::span<const FieldView> fields) {
+void HaloExchange::exchange(int components, const std::function<void(int, double*)>& make,
+                            const std::function<void(int, const double*)>& take) {
   if (neighbours_.empty()) return;
-  std::size_t valuesPerCell = 0;
-  for (const FieldView& field : fields) valuesPerCell += static_cast<std::size_t>(field.components);
+  const auto valuesPerCell = static_cast<std::size_t>(components);
   constexpr int tag = 11;
   requests_.clear();
   for (Neighbour& n : neighbours_) {
@@ -48,21 +48,34 @@ void HaloExchange::update(std::span<const FieldView> fields) {
   for (Neighbour& n : neighbours_) {
     n.sendBuffer.resize(valuesPerCell * n.send.size());
     double* out = n.sendBuffer.data();
-    for (const FieldView& field : fields)
-      for (int cell : n.send) out = std::copy_n(field.values.data() + cell * field.components, field.components, out);
+    for (const int cell : n.send) {
+      make(cell, out);
+      out += components;
+    }
     requests_.emplace_back();
     MPI_Isend(n.sendBuffer.data(), static_cast<int>(n.sendBuffer.size()), MPI_DOUBLE, n.rank, tag, comm_,
               &requests_.back());
   }
   MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
-  for (Neighbour& n : neighbours_) {
-    const double* in = n.receiveBuffer.data();
-    for (const FieldView& field : fields) {
-      const int count = n.halo * field.components;
-      std::copy_n(in, count, field.values.data() + n.firstHalo * field.components);
-      in += count;
-    }
-  }
+  for (Neighbour& n : neighbours_)
+    for (int i = 0; i < n.halo; ++i) take(n.firstHalo + i, n.receiveBuffer.data() + i * components);
+}
+
+void HaloExchange::update(std::span<const FieldView> fields) {
+  int components = 0;
+  for (const FieldView& field : fields) components += field.components;
+  exchange(
+      components,
+      [&](int cell, double* out) {
+        for (const FieldView& field : fields)
+          out = std::copy_n(field.values.data() + cell * field.components, field.components, out);
+      },
+      [&](int cell, const double* in) {
+        for (const FieldView& field : fields) {
+          std::copy_n(in, field.components, field.values.data() + cell * field.components);
+          in += field.components;
+        }
+      });
 }
 
 void HaloExchange::update(std::span<double> values, int components) {

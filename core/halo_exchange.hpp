@@ -4,6 +4,7 @@
 
 #include <mpi.h>
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -24,6 +25,10 @@ class HaloExchange {
   // Collective. Fills the halo part of every field.
   void update(std::span<const FieldView> fields);
   void update(std::span<double> values, int components);
+  // The same for values that stand nowhere: `make` writes those of an owned cell that a neighbour sees, `components`
+  // of them, and `take` gets those of a halo cell.
+  void exchange(int components, const std::function<void(int cell, double* values)>& make,
+                const std::function<void(int cell, const double* values)>& take);
 
  private:
   struct Neighbour {

@@ -74,23 +74,30 @@ void CarriedTransport::diffuse(const State& state, const Gas& gas, double dt, st
   const int n = state.carriedCount();
   std::vector<double> conductance(static_cast<std::size_t>(m.interiorFaces) * n);
   std::vector<double> flux(flux_.size(), 0.0), startFlux(flux_.size(), 0.0);
-  if (&gas.start != &state) presentFlux(gas.start, gas.faces, conductance, startFlux);
-  presentFlux(state, gas.faces, conductance, flux);
   if (&gas.start != &state) {
+    presentFlux(gas.start, gas.faces, conductance, startFlux);
+    presentFlux(state, gas.faces, conductance, flux);
     for (std::size_t i = 0; i < flux.size(); ++i) flux[i] = 0.5 * (startFlux[i] - flux[i]);
     addFaceFluxes(m, flux, n, dt, content);
   }
-  std::vector<double> diagonal(content.size());
+  presentFlux(state, gas.faces, conductance, flux);
+  // At what rate the contents change by everything else and by the guess's diffusion.
+  std::vector<double> inertia(static_cast<std::size_t>(m.owned));
   std::vector<double> perMass(static_cast<std::size_t>(m.cells) * n);
-  std::vector<double> source(content.size());
-  for (int c = 0; c < m.owned; ++c)
-    for (int s = 0; s < n; ++s) {
-      diagonal[c * n + s] = gas.newMass[c] / dt;
-      source[c * n + s] = content[c * n + s] / dt;
-      perMass[c * n + s] = state.carried[c * n + s] / state.density[c];
-    }
+  for (int c = 0; c < m.owned; ++c) {
+    inertia[c] = gas.newMass[c] / dt;
+    for (int s = 0; s < n; ++s)
+      perMass[c * n + s] = content[c * n + s] / dt - inertia[c] * state.carried[c * n + s] / state.density[c];
+  }
+  addFaceFluxes(m, flux, n, 1.0, perMass);
+  const auto through = [&](int face, std::span<const int> scalars, double* g) {
+    for (std::size_t i = 0; i < scalars.size(); ++i)
+      g[i] = face < m.interiorFaces ? conductance[face * n + scalars[i]] : 0.0;
+  };
   // Particles see how much there is of them where there is next to nothing.
-  diffusion_.solve(n, diagonal, conductance, source, perMass, 1e-8);
+  diffusion_.changes(n, inertia, through, perMass, 1e-8);
+  for (int c = 0; c < m.cells; ++c)
+    for (int s = 0; s < n; ++s) perMass[c * n + s] += state.carried[c * n + s] / state.density[c];
   for (int face = 0; face < m.interiorFaces; ++face)
     for (int s = 0; s < n; ++s)
       flux[face * n + s] = conductance[face * n + s] * (perMass[m.low[face] * n + s] - perMass[m.high[face] * n + s]);

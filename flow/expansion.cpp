@@ -35,61 +35,71 @@ double Expansion::inflow() const {
   return sum;
 }
 
-void Expansion::bringBalance(const State& state) {
-  const Mesh& m = context_.mesh;
-  const auto n = static_cast<std::size_t>(state.species);
-  species_.resize(static_cast<std::size_t>(m.owned) * n);
-  for (int c = 0; c < m.owned; ++c) {
-    heat_[c] = m.volume[c] * state.balance.enthalpy[c];
-    for (std::size_t k = 0; k < n; ++k) species_[c * n + k] = m.volume[c] * state.balance.species[c * n + k];
-  }
-}
-
-void Expansion::bringDiffusion(const DiffusiveFluxes& fluxes, int species) {
-  const Mesh& m = context_.mesh;
-  species_.assign(static_cast<std::size_t>(m.owned) * static_cast<std::size_t>(species), 0.0);
-  std::ranges::fill(heat_, 0.0);
-  addFaceFluxes(m, fluxes.species, species, 1.0, species_);
-  addFaceFluxes(m, fluxes.enthalpy, 1, 1.0, heat_);
-  addFaceFluxes(m, fluxes.heat, 1, 1.0, heat_);
-}
-
-void Expansion::add(const State& state, const GasProperties& properties, double sign, std::span<double> divergence) {
-  const Mesh& m = context_.mesh;
-  const auto n = static_cast<std::size_t>(state.species);
+double Expansion::ofSpecies(const State& state, const GasProperties& properties, int cell,
+                            const double* species) const {
+  context_.thermo.speciesEnthalpies(state.temperature[cell], enthalpies_);
   const auto molecularWeights = context_.mechanism.molecularWeights();
-  for (int c = 0; c < m.owned; ++c) {
-    context_.thermo.speciesEnthalpies(state.temperature[c], enthalpies_);
-    double sensible = heat_[c];
-    double moles = 0.0;
-    for (std::size_t k = 0; k < n; ++k) {
-      sensible -= enthalpies_[k] * species_[c * n + k];
-      moles += species_[c * n + k] / molecularWeights[k];
-    }
-    const double mass = state.density[c] * m.volume[c];
-    const double warming = sensible / (mass * properties.heatCapacity[c] * state.temperature[c]);
-    divergence[c] += sign * (warming + properties.molecularWeight[c] * moles / mass);
+  double sensible = 0.0, moles = 0.0;
+  for (std::size_t k = 0; k < enthalpies_.size(); ++k) {
+    sensible -= enthalpies_[k] * species[k];
+    moles += species[k] / molecularWeights[k];
   }
+  const double mass = state.density[cell] * context_.mesh.volume[cell];
+  return ofHeat(state, properties, cell, sensible) + properties.molecularWeight[cell] * moles / mass;
 }
 
-void Expansion::begin(const State& state, const GasProperties& properties, const DiffusiveFluxes& last,
-                      bool isFirstSweep, double dt, double lastStep) {
+double Expansion::ofHeat(const State& state, const GasProperties& properties, int cell, double heat) const {
+  const double mass = state.density[cell] * context_.mesh.volume[cell];
+  return heat / (mass * properties.heatCapacity[cell] * state.temperature[cell]);
+}
+
+void Expansion::addBalance(const State& state, const GasProperties& properties, std::span<double> divergence) const {
+  const auto n = static_cast<std::size_t>(state.species);
+  for (int c = 0; c < context_.mesh.owned; ++c)
+    divergence[c] += context_.mesh.volume[c] * (ofSpecies(state, properties, c, &state.balance.species[c * n]) +
+                                                ofHeat(state, properties, c, state.balance.enthalpy[c]));
+}
+
+void Expansion::addHeat(const State& state, const GasProperties& properties, const HeatFluxes& fluxes, double sign) {
+  std::ranges::fill(heat_, 0.0);
+  addFaceFluxes(context_.mesh, fluxes.enthalpy, 1, 1.0, heat_);
+  addFaceFluxes(context_.mesh, fluxes.heat, 1, 1.0, heat_);
+  for (int c = 0; c < context_.mesh.owned; ++c) divergence_[c] += sign * ofHeat(state, properties, c, heat_[c]);
+}
+
+void Expansion::addContents(const State& state, const GasProperties& properties, std::span<const double> contents,
+                            double factor) {
+  const auto n = static_cast<std::size_t>(state.species);
+  for (int c = 0; c < context_.mesh.owned; ++c)
+    divergence_[c] += factor * ofSpecies(state, properties, c, &contents[c * n]);
+}
+
+void Expansion::begin(const State& state, const GasProperties& properties, bool isFirstSweep, double dt,
+                      double lastStep) {
   pressureDrift(state);
   dt_ = dt;
   if (!isFirstSweep) {
-    bringDiffusion(last, state.species);
-    add(state, properties, -1.0, divergence_);
     for (std::size_t c = 0; c < divergence_.size(); ++c) divergence_[c] += drift_[c] / dt;
     return;
   }
   pressureRise_ = 0.0;
   std::ranges::fill(balance_, 0.0);
-  bringBalance(state);
-  add(state, properties, 1.0, balance_);
+  addBalance(state, properties, balance_);
   for (std::size_t c = 0; c < divergence_.size(); ++c) {
     if (lastStep > 0.0) correction_[c] += share * ((gained_[c] - balance_[c]) * lastStep + drift_[c]);
     divergence_[c] = balance_[c] + (correction_[c] + drift_[c]) / dt;
   }
+}
+
+void Expansion::withdraw(const State& state, const GasProperties& properties, std::span<const double> species,
+                         const HeatFluxes& fluxes) {
+  addContents(state, properties, species, -1.0);
+  addHeat(state, properties, fluxes, -1.0);
+}
+
+void Expansion::beforeDiffusion(const State& state, const GasProperties& properties,
+                                std::span<const double> contents) {
+  addContents(state, properties, contents, -1.0 / dt_);
 }
 
 void Expansion::compress(const State& state, const GasProperties& properties) {
@@ -110,9 +120,10 @@ void Expansion::compress(const State& state, const GasProperties& properties) {
 }
 
 std::span<const double> Expansion::complete(const State& state, const GasProperties& properties,
-                                            const DiffusiveFluxes& fluxes, bool isFirstSweep) {
-  bringDiffusion(fluxes, state.species);
-  add(state, properties, 1.0, divergence_);
+                                            std::span<const double> contents, const HeatFluxes& fluxes,
+                                            bool isFirstSweep) {
+  addContents(state, properties, contents, 1.0 / dt_);
+  addHeat(state, properties, fluxes, 1.0);
   if (context_.isClosed()) compress(state, properties);
   if (isFirstSweep) first_ = divergence_;
   for (std::size_t c = 0; c < divergence_.size(); ++c) gained_[c] = divergence_[c] - first_[c] + balance_[c];
@@ -120,12 +131,11 @@ std::span<const double> Expansion::complete(const State& state, const GasPropert
 }
 
 std::span<const double> Expansion::initial(const State& state, const GasProperties& properties,
-                                           const DiffusiveFluxes& fluxes) {
+                                           std::span<const double> species, const HeatFluxes& fluxes) {
   std::ranges::fill(divergence_, 0.0);
-  bringBalance(state);
-  add(state, properties, 1.0, divergence_);
-  bringDiffusion(fluxes, state.species);
-  add(state, properties, 1.0, divergence_);
+  addBalance(state, properties, divergence_);
+  addContents(state, properties, species, 1.0);
+  addHeat(state, properties, fluxes, 1.0);
   if (context_.isClosed()) compress(state, properties);
   return divergence_;
 }

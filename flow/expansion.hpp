@@ -21,8 +21,7 @@
 namespace lampblack::flow {
 
 // What diffusion carries through the faces, from low to high or outwards.
-struct DiffusiveFluxes {
-  std::vector<double> species;   // kg/s, species a face
+struct HeatFluxes {
   std::vector<double> enthalpy;  // W, of the diffusing species
   std::vector<double> heat;      // W, conduction
 };
@@ -31,18 +30,22 @@ class Expansion {
  public:
   explicit Expansion(const FlowContext& context);
 
-  // Begins a sweep over dt: with p_eos - p0 of the state, and without the last sweep's diffusion, which the new one's
-  // is to take the place of. `lastStep` (s): that before this one, 0 if there is none.
-  void begin(const State& state, const GasProperties& properties, const DiffusiveFluxes& last, bool isFirstSweep,
-             double dt, double lastStep);
+  // Begins a sweep over dt: with p_eos - p0 of the state. `lastStep` (s): that before this one, 0 if there is none.
+  void begin(const State& state, const GasProperties& properties, bool isFirstSweep, double dt, double lastStep);
+  // Diffusion takes the contents (kg, species a owned cell) from `before` to those that complete() is given.
+  void beforeDiffusion(const State& state, const GasProperties& properties, std::span<const double> contents);
   // The sweep's divergence (1/s, owned cells), with this diffusion.
-  std::span<const double> complete(const State& state, const GasProperties& properties, const DiffusiveFluxes& fluxes,
-                                   bool isFirstSweep);
+  std::span<const double> complete(const State& state, const GasProperties& properties,
+                                   std::span<const double> contents, const HeatFluxes& fluxes, bool isFirstSweep);
   // Rise of the thermodynamic pressure in the step, Pa: in a closed vessel what its gas needs to keep its volume,
   //   div u = ... - (1/(gamma p0)) dp0/dt,    integral of div u = what flows in.
   [[nodiscard]] double pressureRise() const { return pressureRise_; }
-  // Of the diffusion and State::balance alone.
-  std::span<const double> initial(const State& state, const GasProperties& properties, const DiffusiveFluxes& fluxes);
+  // Of a diffusion and State::balance alone: it brings `species` (kg/s, species a owned cell) and what the fluxes say.
+  std::span<const double> initial(const State& state, const GasProperties& properties, std::span<const double> species,
+                                  const HeatFluxes& fluxes);
+  // Takes the last sweep's diffusion out, before a new one's is brought in.
+  void withdraw(const State& state, const GasProperties& properties, std::span<const double> species,
+                const HeatFluxes& fluxes);
 
   // p_eos / p0 - 1 of each owned cell.
   std::span<const double> pressureDrift(const State& state);
@@ -50,11 +53,15 @@ class Expansion {
   void saveOrLoad(StateArchive& archive);
 
  private:
-  // Sets species_ and heat_ to what comes into the cells.
-  void bringBalance(const State& state);
-  void bringDiffusion(const DiffusiveFluxes& fluxes, int species);
-  // Adds `sign` times the divergence by what they are.
-  void add(const State& state, const GasProperties& properties, double sign, std::span<double> divergence);
+  // Adds to the divergence of a cell what mass (kg/s, of each species) and enthalpy (W) that come into it expand it by,
+  // as a sum of both.
+  [[nodiscard]] double ofSpecies(const State& state, const GasProperties& properties, int cell,
+                                 const double* species) const;
+  [[nodiscard]] double ofHeat(const State& state, const GasProperties& properties, int cell, double heat) const;
+  void addBalance(const State& state, const GasProperties& properties, std::span<double> divergence) const;
+  void addHeat(const State& state, const GasProperties& properties, const HeatFluxes& fluxes, double sign);
+  void addContents(const State& state, const GasProperties& properties, std::span<const double> contents,
+                   double factor);
   // Makes the divergence of a closed vessel that of what flows in, by a rise of p0.
   [[nodiscard]] double inflow() const;
   void compress(const State& state, const GasProperties& properties);
@@ -68,7 +75,8 @@ class Expansion {
   std::vector<double> drift_;       // p_eos/p0 - 1
   double dt_ = 0.0;                 // s, the step
   double pressureRise_ = 0.0;       // Pa
-  std::vector<double> species_, heat_, enthalpies_;  // kg/s and W that come into each owned cell; J/kg
+  std::vector<double> heat_;        // W, that comes into each owned cell
+  mutable std::vector<double> enthalpies_;  // J/kg
 };
 
 }  // namespace lampblack::flow

@@ -39,13 +39,13 @@ FaceState::FaceState(const FlowContext& context, int species, int carried)
   temperature.resize(faces);
   density.resize(faces);
   enthalpy.resize(faces);
-  Y.resize(faces * species);
+  slope_.resize(static_cast<std::size_t>(species));
+  haloSlope_.resize(static_cast<std::size_t>(m.cells - m.owned) * 2 * species);
   boundaryTemperature_.resize(boundary);
   boundaryY_.resize(boundary * species);
   boundaryCarried_.resize(boundary * carried);
   perMass_.resize(cells * carried);
   temperatureGradient_.resize(cells * 2);
-  YGradient_.resize(cells * species * 2);
   carriedGradient_.resize(cells * carried * 2);
 }
 
@@ -75,45 +75,66 @@ void FaceState::prepare(const State& state) {
     for (int s = 0; s < carried_; ++s) perMass_[c * carried_ + s] = state.carried[c * carried_ + s] / state.density[c];
   setBoundaries(state);
   gradient_.compute(state.temperature, boundaryTemperature_, 1, temperatureGradient_, temperatureKnown_);
-  gradient_.compute(state.Y, boundaryY_, species_, YGradient_, YKnown_);
-  std::vector<FieldView> gradients{{temperatureGradient_, 2}, {YGradient_, 2 * species_}};
+  std::vector<FieldView> gradients{{temperatureGradient_, 2}};
   if (carried_ > 0) {
     gradient_.compute(perMass_, boundaryCarried_, carried_, carriedGradient_, YKnown_);
     gradients.push_back({carriedGradient_, 2 * carried_});
   }
   context_.halo.update(gradients);
+  const auto n = static_cast<std::size_t>(species_);
+  context_.halo.exchange(
+      2 * species_,
+      [&](int cell, double* out) {
+        for (int axis = 0; axis < 2; ++axis)
+          gradient_.along(axis, cell, state.Y, boundaryY_, species_, {out + axis * n, n}, YKnown_);
+      },
+      [&](int cell, const double* in) { std::copy_n(in, 2 * n, &haloSlope_[(cell - m.owned) * 2 * n]); });
 }
 
-void FaceState::interpolate(const State& state, std::span<const double> direction) {
+bool FaceState::enters(int face, double direction) const {
+  const BoundaryCondition& boundary = context_.boundaryOf(face);
+  return boundary.kind == BoundaryKind::Inlet ? !context_.isSuction(face)
+                                              : boundary.kind == BoundaryKind::Outlet && direction < 0.0;
+}
+
+void FaceState::massFractions(const State& state, int face, double direction, std::span<double> Y) const {
   const Mesh& m = context_.mesh;
   const int n = species_;
-  for (int face = 0; face < m.faces; ++face) {
-    double* y = &Y[static_cast<std::size_t>(face) * n];
-    if (m.high[face] >= 0) {
-      const int axis = m.normalAxis[face];
-      const Upwind t = temperatureUpwind_.of(face, direction[face]);
-      temperature[face] = limitedFaceValue(state.temperature[t.up], state.temperature[t.down],
-                                           temperatureGradient_[2 * t.up + axis] * t.sign, t);
-      const Upwind u = YUpwind_.of(face, direction[face]);
-      const double* up = &state.Y[static_cast<std::size_t>(u.up) * n];
-      const double* down = &state.Y[static_cast<std::size_t>(u.down) * n];
-      const double* slope = &YGradient_[static_cast<std::size_t>(u.up) * n * 2];
-      double sum = 0.0;
-      for (int k = 0; k < n; ++k) sum += y[k] = limitedFaceValue(up[k], down[k], slope[2 * k + axis] * u.sign, u);
-      for (int k = 0; k < n; ++k) y[k] /= sum;
-    } else {
-      const BoundaryCondition& boundary = context_.boundaryOf(face);
-      const bool enters = boundary.kind == BoundaryKind::Inlet
-                              ? !context_.isSuction(face)
-                              : boundary.kind == BoundaryKind::Outlet && direction[face] < 0.0;
-      const int c = m.low[face];
-      temperature[face] = enters ? context_.boundaryTemperature(face) : state.temperature[c];
-      std::copy_n(enters ? context_.boundaryY(face).data() : &state.Y[static_cast<std::size_t>(c) * n], n, y);
-    }
-    const std::span<const double> mixture{y, static_cast<std::size_t>(n)};
-    density[face] = context_.thermo.density(temperature[face], state.thermodynamicPressure, mixture);
-    enthalpy[face] = context_.thermo.enthalpyMass(temperature[face], mixture);
+  if (m.high[face] < 0) {
+    std::copy_n(enters(face, direction) ? context_.boundaryY(face).data()
+                                        : &state.Y[static_cast<std::size_t>(m.low[face]) * n],
+                n, Y.begin());
+    return;
   }
+  const int axis = m.normalAxis[face];
+  const Upwind u = YUpwind_.of(face, direction);
+  const double* slope = slope_.data();
+  if (u.up < m.owned)
+    gradient_.along(axis, u.up, state.Y, boundaryY_, n, slope_, YKnown_);
+  else
+    slope = &haloSlope_[static_cast<std::size_t>(2 * (u.up - m.owned) + axis) * n];
+  const double* up = &state.Y[static_cast<std::size_t>(u.up) * n];
+  const double* down = &state.Y[static_cast<std::size_t>(u.down) * n];
+  for (int k = 0; k < n; ++k) Y[k] = limitedFaceValue(up[k], down[k], slope[k] * u.sign, u);
+  double sum = 0.0;
+  for (int k = 0; k < n; ++k) sum += Y[k];
+  const double scale = 1.0 / sum;
+  for (int k = 0; k < n; ++k) Y[k] *= scale;
+}
+
+void FaceState::interpolate(const State& state, int face, double direction, std::span<double> Y) {
+  const Mesh& m = context_.mesh;
+  massFractions(state, face, direction, Y);
+  if (m.high[face] >= 0) {
+    const Upwind t = temperatureUpwind_.of(face, direction);
+    temperature[face] = limitedFaceValue(state.temperature[t.up], state.temperature[t.down],
+                                         temperatureGradient_[2 * t.up + m.normalAxis[face]] * t.sign, t);
+  } else {
+    temperature[face] =
+        enters(face, direction) ? context_.boundaryTemperature(face) : state.temperature[m.low[face]];
+  }
+  density[face] = context_.thermo.density(temperature[face], state.thermodynamicPressure, Y);
+  enthalpy[face] = context_.thermo.enthalpyMass(temperature[face], Y);
 }
 
 double FaceState::carriedPerMass(int face, int scalar, double direction) const {

@@ -21,13 +21,15 @@ class FaceState {
   // Collective. Gradients and boundary values of the state's scalars.
   void prepare(const State& state);
 
-  // Face values upwind of `direction` (any quantity with the sign of the flux, low to high or outwards).
-  void interpolate(const State& state, std::span<const double> direction);
+  // Temperature, density and enthalpy of a face, upwind of `direction` (any quantity with the sign of the flux, low to
+  // high or outwards), and to Y its mass fractions, `species` of them. `state`: the prepared.
+  void interpolate(const State& state, int face, double direction, std::span<double> Y);
+  // The mass fractions alone.
+  void massFractions(const State& state, int face, double direction, std::span<double> Y) const;
 
   std::vector<double> temperature;  // K, a face
   std::vector<double> density;      // kg/m^3
   std::vector<double> enthalpy;     // J/kg
-  std::vector<double> Y;            // species a face
 
   // Limited value of a carried scalar per mass of gas at an interior face, upwind of `direction`.
   [[nodiscard]] double carriedPerMass(int face, int scalar, double direction) const;
@@ -37,6 +39,8 @@ class FaceState {
 
  private:
   void setBoundaries(const State& state);
+  // Whether gas comes in from beyond the boundary at a face.
+  [[nodiscard]] bool enters(int face, double direction) const;
 
   const FlowContext& context_;
   int species_, carried_;
@@ -45,8 +49,11 @@ class FaceState {
   UpwindGeometry temperatureUpwind_, YUpwind_;
   std::vector<double> boundaryTemperature_, boundaryY_, boundaryCarried_;
   std::vector<double> perMass_;
-  std::vector<double> temperatureGradient_, YGradient_, carriedGradient_;
-  std::vector<double> speciesEnthalpy_;
+  std::vector<double> temperatureGradient_, carriedGradient_;
+  // Slopes of the mass fractions in the halo cells, along one axis and then the other; elsewhere they are made where
+  // they are asked for, which costs no more and keeps no memory.
+  std::vector<double> haloSlope_;
+  mutable std::vector<double> slope_;
 };
 
 }  // namespace lampblack::flow

@@ -26,6 +26,10 @@ class Gradient {
   void compute(std::span<const double> values, std::span<const double> boundary, int components,
                std::span<double> gradient, std::span<const BoundaryData> known = {}) const;
 
+  // The same along one axis in one owned cell: slope[k]; `known` has a flag a boundary face.
+  void along(int axis, int cell, std::span<const double> values, std::span<const double> boundary, int components,
+             std::span<double> slope, std::span<const BoundaryData> known = {}) const;
+
   // Distance at which a boundary's value counts that lies `distance` from the cell's centre: a field without slope has
   // the cell's own value at the mirrored place. Zero: it does not count.
   static double reach(double distance, BoundaryData data) {
@@ -33,6 +37,13 @@ class Gradient {
   }
 
  private:
+  struct Field {
+    std::span<const double> values, boundary;
+    int components;
+    std::span<const BoundaryData> known;
+  };
+  void addAlong(int axis, int cell, const Field& field, int first, int count, double* out, int stride) const;
+
   const Mesh& mesh_;
 };
 

@@ -1,6 +1,7 @@
 #include "flow/heat_conduction.hpp"
 
 #include "core/errors.hpp"
+#include "flow/face_fluxes.hpp"
 
 namespace lampblack::flow {
 
@@ -38,28 +39,28 @@ void HeatConduction::evaluate(std::span<const double> temperature, std::span<dou
   }
 }
 
-void HeatConduction::implicitFlux(const State& guess, const GasProperties& properties, const Contents& contents,
-                                  double dt, std::span<double> flux) {
+void HeatConduction::implicitFlux(const State& guess, const GasProperties& properties, const Contents& contents, double dt,
+                              std::span<double> flux) {
   const Mesh& m = context_.mesh;
   const auto n = static_cast<std::size_t>(guess.species);
-  diagonal_.resize(static_cast<std::size_t>(m.owned));
-  source_.resize(diagonal_.size());
+  inertia_.resize(static_cast<std::size_t>(m.owned));
+  temperature_.resize(static_cast<std::size_t>(m.cells));
   Y_.resize(n);
+  // At what rate heat comes in by everything else and by the guess's conduction.
   collectively(m.comm, [&] {
     for (int c = 0; c < m.owned; ++c) {
       for (std::size_t k = 0; k < n; ++k) Y_[k] = contents.species[c * n + k] / contents.mass[c];
       const double T =
           context_.thermo.temperatureFromEnthalpy(contents.enthalpy[c] / contents.mass[c], Y_, guess.temperature[c]);
-      diagonal_[c] = contents.mass[c] * properties.heatCapacity[c] / dt;
-      source_[c] = diagonal_[c] * T;
+      inertia_[c] = contents.mass[c] * properties.heatCapacity[c] / dt;
+      temperature_[c] = inertia_[c] * (T - guess.temperature[c]);
     }
   });
-  for (int face = m.interiorFaces; face < m.faces; ++face) {
-    diagonal_[m.low[face]] += conductance_[face];
-    source_[m.low[face]] += conductance_[face] * context_.boundaryTemperature(face) + givenFlux(face);
-  }
-  temperature_ = guess.temperature;
-  diffusion_.solve(1, diagonal_, conductance_, source_, temperature_);
+  evaluate(guess.temperature, flux);
+  addFaceFluxes(m, flux, 1, 1.0, temperature_);
+  diffusion_.changes(1, inertia_, [this](int face, std::span<const int>, double* g) { *g = conductance_[face]; },
+                   temperature_);
+  for (int c = 0; c < m.cells; ++c) temperature_[c] += guess.temperature[c];
   evaluate(temperature_, flux);
 }
 

@@ -1,5 +1,5 @@
 // Conduction of heat in the gas, implicit in the temperature. As of the species, the fluxes are evaluated from the
-// implicit solution, so that what leaves one cell enters the next whatever the linear solver's tolerance.
+// implicit solution, so that what leaves one cell enters the next whatever the solver's tolerance.
 #pragma once
 
 #include <span>
@@ -39,7 +39,7 @@ class HeatConduction {
   const FlowContext& context_;
   ImplicitDiffusion diffusion_;
   std::vector<double> conductance_;  // W/K, a face; zero where no heat passes
-  std::vector<double> diagonal_, source_, temperature_, Y_;
+  std::vector<double> inertia_, temperature_, Y_;
 };
 
 }  // namespace lampblack::flow

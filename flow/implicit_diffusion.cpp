@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "core/errors.hpp"
 
@@ -16,189 +18,228 @@ namespace {
 // fast that the guess is no solution by far.
 constexpr double roundOff = 1e-14, largestShare = 1e-7;
 
-// Square of the residual (norm) that is good enough.
-double targetOf(double startSquares, double sourceSquares, double tolerance) {
-  const double wanted = std::min(tolerance * tolerance * startSquares, largestShare * largestShare * sourceSquares);
-  return std::max({wanted, roundOff * roundOff * sourceSquares, std::numeric_limits<double>::min()});
-}
+// How far a field's iteration is: eigenvalues lie between 1 - radius and 1 + radius.
+class Chebyshev {
+ public:
+  explicit Chebyshev(double radius) : radius_(radius), ratio_(radius) {}
+  // Shares of the last change and of the residual in the next.
+  double old = 0.0, fresh = 1.0;
+  void next() {
+    if (radius_ == 0.0) return;
+    const double ratio = 1.0 / (2.0 / radius_ - ratio_);
+    old = ratio * ratio_;
+    fresh = 2.0 * ratio / radius_;
+    ratio_ = ratio;
+  }
 
-// Columns `kept` of `rows` rows of `width` values each. `to` may be where they come from.
-void keepColumns(std::span<const double> from, std::size_t rows, std::size_t width, std::span<const std::size_t> kept,
-                 std::vector<double>& to) {
-  if (to.size() < rows * kept.size()) to.resize(rows * kept.size());
-  std::size_t at = 0;
-  for (std::size_t row = 0; row < rows; ++row)
-    for (const std::size_t column : kept) to[at++] = from[row * width + column];
+ private:
+  double radius_, ratio_;
+};
+
+// The residual falls by Chebyshev's polynomial of that degree, which is one over the radius outside its interval.
+int iterationsFor(double radius, double reduction, int most) {
+  if (reduction >= 1.0) return 0;
+  const double needed = radius > 0.0 ? std::ceil(std::acosh(1.0 / reduction) / std::acosh(1.0 / radius)) : 1.0;
+  if (!(needed <= most))
+    throw NumericsError(fmt::format("implicit diffusion would not converge in {} iterations: it moves {:g} times what "
+                                    "a cell holds in a step; take a shorter step or larger cells",
+                                    most, 1.0 / (1.0 - radius)));
+  return static_cast<int>(needed);
 }
 
 }  // namespace
 
-void ImplicitDiffusion::apply(const Active& active, std::span<const double> x, std::span<double> result) const {
-  const Mesh& m = mesh_;
-  const int fields = active.count();
-  for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(m.owned) * fields; ++i)
-    result[i] = active.diagonal[i] * x[i];
-  for (int face = 0; face < m.interiorFaces; ++face) {
-    const int low = m.low[face];
-    const int high = m.high[face];
-    const double* g = active.conductance.data() + static_cast<std::ptrdiff_t>(face) * fields;
-    const double* xl = x.data() + static_cast<std::ptrdiff_t>(low) * fields;
-    const double* xh = x.data() + static_cast<std::ptrdiff_t>(high) * fields;
-    if (low < m.owned) {
-      double* r = result.data() + static_cast<std::ptrdiff_t>(low) * fields;
-      for (int k = 0; k < fields; ++k) r[k] += g[k] * (xl[k] - xh[k]);
-    }
-    if (high < m.owned) {
-      double* r = result.data() + static_cast<std::ptrdiff_t>(high) * fields;
-      for (int k = 0; k < fields; ++k) r[k] += g[k] * (xh[k] - xl[k]);
-    }
-  }
-}
-
 void ImplicitDiffusion::subtract(int fields, std::span<const double> diagonal, std::span<const double> conductance,
-                                 std::span<const double> x, std::span<double> source) {
-  Active active;
-  active.field.resize(static_cast<std::size_t>(fields));
-  active.diagonal = diagonal;
-  active.conductance = conductance;
-  const std::size_t values = static_cast<std::size_t>(mesh_.owned) * static_cast<std::size_t>(fields);
-  product_.resize(values);
-  apply(active, x, product_);
-  for (std::size_t i = 0; i < values; ++i) source[i] -= product_[i];
-}
-
-void ImplicitDiffusion::products(const Active& active) {
-  const auto n = static_cast<std::size_t>(active.count());
-  const auto owned = static_cast<std::size_t>(mesh_.owned);
-  for (std::size_t i = 0; i < owned * n; ++i) preconditioned_[i] = inverse_[i] * residual_[i];
-  halo_.update({preconditioned_.data(), static_cast<std::size_t>(mesh_.cells) * n}, active.count());
-  apply(active, preconditioned_, product_);
-  sums_.assign(3 * n, 0.0);
-  for (std::size_t cell = 0; cell < owned; ++cell)
-    for (std::size_t k = 0; k < n; ++k) {
-      const std::size_t i = cell * n + k;
-      sums_[k] += residual_[i] * preconditioned_[i];
-      sums_[n + k] += preconditioned_[i] * product_[i];
-      sums_[2 * n + k] += residual_[i] * residual_[i];
+                                 std::span<const double> x, std::span<double> source) const {
+  const Mesh& m = mesh_;
+  for (int c = 0; c < m.owned; ++c) {
+    const double* own = &x[c * fields];
+    double* left = &source[c * fields];
+    for (int k = 0; k < fields; ++k) left[k] -= diagonal[c * fields + k] * own[k];
+    for (int i = m.faceStart[c]; i < m.faceStart[c + 1]; ++i) {
+      const int face = m.faceOfCell[i];
+      if (m.high[face] < 0) continue;
+      const double* other = &x[(m.low[face] == c ? m.high[face] : m.low[face]) * fields];
+      const double* g = &conductance[face * fields];
+      for (int k = 0; k < fields; ++k) left[k] -= g[k] * (own[k] - other[k]);
     }
+  }
 }
 
-// Fields that have converged go; what is known of the others moves together.
-void ImplicitDiffusion::leave(Active& active, std::span<double> x) {
-  const auto n = static_cast<std::size_t>(active.count());
-  const auto cells = static_cast<std::size_t>(mesh_.cells), owned = static_cast<std::size_t>(mesh_.owned);
-  std::vector<std::size_t> kept;
-  for (std::size_t k = 0; k < n; ++k)
-    if (active.rr[k] > active.target[k]) kept.push_back(k);
-  if (active.x.data() != x.data()) {
-    const std::size_t fields = x.size() / cells;
-    for (std::size_t cell = 0; cell < owned; ++cell)
-      for (std::size_t k = 0; k < n; ++k)
-        x[cell * fields + static_cast<std::size_t>(active.field[k])] = active.x[cell * n + k];
+ImplicitDiffusion::Targets ImplicitDiffusion::targets(int fields, std::span<const double> source,
+                                                      double tolerance) const {
+  const auto n = static_cast<std::size_t>(fields);
+  // Largest of all cells: share of the neighbours in the diagonal; what preconditioned residual and source come to.
+  std::vector<double> largest(3 * n, 0.0);
+  for (int c = 0; c < mesh_.owned; ++c)
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::size_t i = c * n + k;
+      largest[k] = std::max(largest[k], neighbours_[i] * inverse_[i]);
+      largest[n + k] = std::max(largest[n + k], std::abs(residual_[i] * inverse_[i]));
+      largest[2 * n + k] = std::max(largest[2 * n + k], std::abs(source[i] * inverse_[i]));
+    }
+  MPI_Allreduce(MPI_IN_PLACE, largest.data(), static_cast<int>(largest.size()), MPI_DOUBLE, MPI_MAX, mesh_.comm);
+  Targets result{{largest.begin(), largest.begin() + fields}, std::vector<double>(n, 1.0)};
+  for (std::size_t k = 0; k < n; ++k) {
+    const double residual = largest[n + k], size = largest[2 * n + k];
+    if (residual <= std::max(roundOff * size, std::numeric_limits<double>::min())) continue;
+    result.reduction[k] = std::max(std::min(tolerance, largestShare * size / residual), roundOff * size / residual);
   }
-  for (std::vector<double>* values :
-       {&residual_, &preconditioned_, &product_, &direction_, &directionProduct_, &inverse_})
-    keepColumns(*values, owned, n, kept, *values);
-  keepColumns(active.diagonal, owned, n, kept, activeDiagonal_);
-  keepColumns(active.conductance, static_cast<std::size_t>(mesh_.interiorFaces), n, kept, activeConductance_);
-  keepColumns(active.x, cells, n, kept, activeX_);
-  for (std::vector<double>* values : {&active.rz, &active.rr, &active.target, &active.step})
-    keepColumns(*values, 1, n, kept, *values), values->resize(kept.size());
-  for (std::size_t k = 0; k < kept.size(); ++k) active.field[k] = active.field[kept[k]];
-  active.field.resize(kept.size());
-  active.diagonal = activeDiagonal_;
-  active.conductance = activeConductance_;
-  active.x = activeX_;
+  return result;
 }
 
 ImplicitDiffusion::Result ImplicitDiffusion::solve(int fields, std::span<const double> diagonal,
                                                    std::span<const double> conductance, std::span<const double> source,
                                                    std::span<double> x, double tolerance, int maxIterations) {
   const Mesh& m = mesh_;
-  const auto owned = static_cast<std::size_t>(m.owned);
-  auto n = static_cast<std::size_t>(fields);
-  Active active;
-  active.field.resize(n);
-  std::iota(active.field.begin(), active.field.end(), 0);
-  active.diagonal = diagonal;
-  active.conductance = conductance;
-  active.x = x;
-  for (std::vector<double>* values : {&residual_, &product_, &direction_, &directionProduct_, &inverse_})
-    values->assign(owned * n, 0.0);
-  preconditioned_.resize(static_cast<std::size_t>(m.cells) * n);
-
-  std::copy_n(diagonal.begin(), owned * n, inverse_.begin());
-  for (int face = 0; face < m.interiorFaces; ++face) {
-    for (const int cell : {m.low[face], m.high[face]}) {
-      if (cell >= m.owned) continue;
-      for (std::size_t k = 0; k < n; ++k) inverse_[cell * n + k] += conductance[face * n + k];
+  const auto n = static_cast<std::size_t>(fields);
+  const std::size_t values = static_cast<std::size_t>(m.owned) * n;
+  neighbours_.assign(values, 0.0);
+  for (int c = 0; c < m.owned; ++c)
+    for (int i = m.faceStart[c]; i < m.faceStart[c + 1]; ++i) {
+      const int face = m.faceOfCell[i];
+      if (m.high[face] < 0) continue;
+      for (std::size_t k = 0; k < n; ++k) neighbours_[c * n + k] += conductance[face * n + k];
     }
-  }
-  for (double& value : inverse_) value = 1.0 / value;
-
+  inverse_.resize(values);
+  for (std::size_t i = 0; i < values; ++i) inverse_[i] = 1.0 / (diagonal[i] + neighbours_[i]);
   halo_.update(x, fields);
-  apply(active, x, residual_);
-  std::vector<double> sourceSquares(n, 0.0);
-  for (std::size_t cell = 0; cell < owned; ++cell)
-    for (std::size_t k = 0; k < n; ++k) {
-      const std::size_t i = cell * n + k;
-      residual_[i] = source[i] - residual_[i];
-      sourceSquares[k] += source[i] * source[i];
-    }
-  products(active);
-  sums_.insert(sums_.end(), sourceSquares.begin(), sourceSquares.end());
-  const auto reduce = [&] {
-    MPI_Allreduce(MPI_IN_PLACE, sums_.data(), static_cast<int>(sums_.size()), MPI_DOUBLE, MPI_SUM, m.comm);
-  };
-  reduce();
-  active.rz.assign(sums_.begin(), sums_.begin() + fields);
-  active.rr.assign(sums_.begin() + 2 * fields, sums_.begin() + 3 * fields);
-  const std::vector<double> start = active.rr;
-  std::vector<double> end = active.rr;
-  for (std::size_t k = 0; k < n; ++k) {
-    active.target.push_back(targetOf(start[k], sums_[3 * n + k], tolerance));
-    active.step.push_back(sums_[n + k] > 0.0 ? sums_[k] / sums_[n + k] : 0.0);
-  }
-  std::vector<double> turn(n, 0.0);  // share of the last direction in the new one
+  residual_.assign(source.begin(), source.begin() + static_cast<std::ptrdiff_t>(values));
+  subtract(fields, diagonal, conductance, x, residual_);
 
+  const Targets wanted = targets(fields, source, tolerance);
   Result result;
-  while (true) {
-    std::size_t remaining = 0;
-    for (std::size_t k = 0; k < n; ++k) remaining += active.rr[k] > active.target[k] ? 1 : 0;
-    if (4 * remaining <= 3 * n) {
-      std::vector<std::size_t> kept;
-      for (std::size_t k = 0; k < n; ++k)
-        if (active.rr[k] > active.target[k]) kept.push_back(k);
-      keepColumns(turn, 1, n, kept, turn);
-      leave(active, x);
-      n = remaining;
-    }
-    if (remaining == 0) break;
-    if (result.iterations == maxIterations)
-      throw NumericsError(fmt::format("implicit diffusion did not converge in {} iterations", maxIterations));
-    for (std::size_t cell = 0; cell < owned; ++cell)
+  std::vector<Chebyshev> of;
+  for (std::size_t k = 0; k < n; ++k) {
+    of.emplace_back(wanted.radius[k]);
+    result.iterations =
+        std::max(result.iterations, iterationsFor(wanted.radius[k], wanted.reduction[k], maxIterations));
+  }
+  change_.assign(static_cast<std::size_t>(m.cells) * n, 0.0);
+  for (int iteration = 1; iteration <= result.iterations; ++iteration) {
+    for (int c = 0; c < m.owned; ++c)
       for (std::size_t k = 0; k < n; ++k) {
-        const std::size_t i = cell * n + k;
-        direction_[i] = preconditioned_[i] + turn[k] * direction_[i];
-        directionProduct_[i] = product_[i] + turn[k] * directionProduct_[i];
-        active.x[i] += active.step[k] * direction_[i];
-        residual_[i] -= active.step[k] * directionProduct_[i];
+        const std::size_t i = c * n + k;
+        change_[i] = of[k].old * change_[i] + of[k].fresh * inverse_[i] * residual_[i];
+        x[i] += change_[i];
       }
-    products(active);
-    reduce();
-    for (std::size_t k = 0; k < n; ++k) {
-      turn[k] = active.rz[k] > 0.0 ? sums_[k] / active.rz[k] : 0.0;
-      const double curvature = active.step[k] != 0.0 ? sums_[n + k] - turn[k] * sums_[k] / active.step[k] : 0.0;
-      active.rz[k] = sums_[k];
-      active.rr[k] = end[static_cast<std::size_t>(active.field[k])] = sums_[2 * n + k];
-      // A field that waits for others to leave with it stands still.
-      active.step[k] = active.rr[k] > active.target[k] && curvature > 0.0 ? active.rz[k] / curvature : 0.0;
-    }
-    ++result.iterations;
+    if (iteration == result.iterations) break;
+    for (Chebyshev& one : of) one.next();
+    halo_.update(change_, fields);
+    subtract(fields, diagonal, conductance, change_, residual_);
   }
   halo_.update(x, fields);
-  for (std::size_t k = 0; k < start.size(); ++k)
-    if (start[k] > 0.0) result.worstResidual = std::max(result.worstResidual, std::sqrt(end[k] / start[k]));
+  return result;
+}
+
+std::vector<double> ImplicitDiffusion::radii(int fields, std::span<const double> inertia,
+                                             const Conductance& conductance) {
+  const Mesh& m = mesh_;
+  std::vector<double> largest(static_cast<std::size_t>(fields), 0.0);
+  std::array<int, width> group{};
+  for (int first = 0; first < fields; first += width) {
+    const int count = std::min(width, fields - first);
+    std::iota(group.begin(), group.begin() + count, first);
+    // Of the neighbours, and of all that takes part: boundaries hold the change as the inertia does.
+    std::vector<double>&inside = change_, &beyond = otherChange_;
+    std::ranges::fill(inside, 0.0);
+    std::ranges::fill(beyond, 0.0);
+    std::array<double, width> g{};
+    for (int face = 0; face < m.faces; ++face) {
+      conductance(face, {group.data(), static_cast<std::size_t>(count)}, g.data());
+      const int low = m.low[face], high = m.high[face];
+      double* of = high >= 0 ? &inside[low * width] : &beyond[low * width];
+      for (int k = 0; k < width; ++k) of[k] += g[k];
+      if (high < 0) continue;
+      for (int k = 0; k < width; ++k) inside[high * width + k] += g[k];
+    }
+    for (int c = 0; c < m.owned; ++c)
+      for (int k = 0; k < count; ++k) {
+        const double neighbours = inside[c * width + k];
+        largest[first + k] =
+            std::max(largest[first + k], neighbours / (inertia[c] + beyond[c * width + k] + neighbours));
+      }
+  }
+  MPI_Allreduce(MPI_IN_PLACE, largest.data(), fields, MPI_DOUBLE, MPI_MAX, m.comm);
+  return largest;
+}
+
+struct ImplicitDiffusion::Weights {
+  std::array<double, width> old{}, fresh{};
+};
+
+void ImplicitDiffusion::iterate(const Weights& weights, std::span<const double> inertia, std::span<const double> last,
+                                std::span<double> next) {
+  const Mesh& m = mesh_;
+  for (int c = 0; c < m.owned; ++c) {
+    const double* own = &last[c * width];
+    std::array<double, width> taken, diagonal;
+    for (int k = 0; k < width; ++k) taken[k] = inertia[c] * own[k];
+    diagonal.fill(inertia[c]);
+    for (int i = m.faceStart[c]; i < m.faceStart[c + 1]; ++i) {
+      const int face = m.faceOfCell[i];
+      const double* g = &conductance_[face * width];
+      for (int k = 0; k < width; ++k) diagonal[k] += g[k];
+      if (m.high[face] < 0) {
+        for (int k = 0; k < width; ++k) taken[k] += g[k] * own[k];
+        continue;
+      }
+      const double* other = &last[(m.low[face] == c ? m.high[face] : m.low[face]) * width];
+      for (int k = 0; k < width; ++k) taken[k] += g[k] * (own[k] - other[k]);
+    }
+    double* residual = &residual_[c * width];
+    double* changed = &next[c * width];
+    double* x = &solution_[c * width];
+    for (int k = 0; k < width; ++k) {
+      residual[k] -= taken[k];
+      changed[k] = weights.old[k] * own[k] + weights.fresh[k] * residual[k] / diagonal[k];
+      x[k] += changed[k];
+    }
+  }
+}
+
+ImplicitDiffusion::Result ImplicitDiffusion::changes(int fields, std::span<const double> inertia,
+                                                     const Conductance& conductance, std::span<double> change,
+                                                     double tolerance, int maxIterations) {
+  const Mesh& m = mesh_;
+  for (std::vector<double>* values : {&change_, &otherChange_})
+    values->resize(static_cast<std::size_t>(m.cells) * width);
+  for (std::vector<double>* values : {&residual_, &solution_})
+    values->resize(static_cast<std::size_t>(m.owned) * width);
+  conductance_.resize(static_cast<std::size_t>(m.faces) * width);
+  const std::vector<double> radius = radii(fields, inertia, conductance);
+  std::vector<int> order(static_cast<std::size_t>(fields));
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, [&](int a, int b) { return radius[a] > radius[b]; });
+  Result result;
+  for (std::size_t first = 0; first < order.size(); first += width) {
+    const std::span<const int> group{order.data() + first, std::min<std::size_t>(width, order.size() - first)};
+    const int iterations = iterationsFor(radius[group.front()], tolerance, maxIterations);
+    result.iterations = std::max(result.iterations, iterations);
+    std::vector<Chebyshev> of;
+    for (const int field : group) of.emplace_back(radius[field]);
+
+    std::ranges::fill(conductance_, 0.0);
+    for (int face = 0; face < m.faces; ++face) conductance(face, group, &conductance_[face * width]);
+    // Its first iteration is that of no change yet.
+    std::ranges::fill(residual_, 0.0);
+    std::ranges::fill(solution_, 0.0);
+    std::ranges::fill(change_, 0.0);
+    for (int c = 0; c < m.owned; ++c)
+      for (std::size_t k = 0; k < group.size(); ++k) residual_[c * width + k] = change[c * fields + group[k]];
+    for (int iteration = 1; iteration <= iterations; ++iteration) {
+      Weights weights;
+      for (std::size_t k = 0; k < group.size(); ++k) weights.old[k] = of[k].old, weights.fresh[k] = of[k].fresh;
+      iterate(weights, inertia, change_, otherChange_);
+      std::swap(change_, otherChange_);
+      if (iteration == iterations) break;
+      for (Chebyshev& one : of) one.next();
+      halo_.update(change_, width);
+    }
+    for (int c = 0; c < m.owned; ++c)
+      for (std::size_t k = 0; k < group.size(); ++k) change[c * fields + group[k]] = solution_[c * width + k];
+  }
+  halo_.update(change, fields);
   return result;
 }
 

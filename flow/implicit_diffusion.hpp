@@ -1,9 +1,9 @@
-// Implicit diffusion of many fields at once: for each field k the symmetric positive definite system
-//   diagonal_k(P) x_k(P) + sum over interior faces of conductance_k(f) (x_k(P) - x_k(N)) = source_k(P),
-// solved by conjugate gradients with Jacobi preconditioning, all fields in the same sweeps, one halo message and one
-// reduction an iteration (Chronopoulos and Gear 1989). Fields that have converged leave the sweeps.
+// Implicit diffusion of many fields at once by Chebyshev's iteration with Jacobi preconditioning (Saad 2003, algorithm
+// 12.1). Gershgorin's circles bound the eigenvalues and with them the number of iterations, so that one reduction does
+// for all of them. The sums of a cell do not depend on the ranks.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -18,41 +18,51 @@ class ImplicitDiffusion {
   ImplicitDiffusion(const Mesh& mesh, HaloExchange& halo) : mesh_(mesh), halo_(halo) {}
 
   struct Result {
-    int iterations = 0;
-    double worstResidual = 0.0;  // largest of any field, over that of the initial guess
+    int iterations = 0;  // of the field that takes most
   };
 
+  // For each field k the symmetric positive definite system
+  //   diagonal_k(P) x_k(P) + sum over interior faces of conductance_k(f) (x_k(P) - x_k(N)) = source_k(P).
   // Collective. `diagonal`, `source`: fields a owned cell; `conductance`: fields an interior face; `x`: fields a cell,
-  // the initial guess in, the solution out (halo filled). A field is converged when its residual has fallen to
-  // `tolerance` of that of the initial guess and to 1e-7 of its source, or to round-off. With the last step's field as
-  // the guess, the error is that share of what the step changes, and a steady state has none. NumericsError when that
-  // takes more than `maxIterations`.
+  // the initial guess in, the solution out (halo filled). The residual of each field falls, in the norm of the
+  // preconditioner, to `tolerance` of that of the initial guess, and about to 1e-7 of the source, or to round-off. With
+  // the last step's field as the guess, the error is that share of what the step changes, and a steady state has none.
+  // NumericsError on all ranks when that takes more than `maxIterations`.
   Result solve(int fields, std::span<const double> diagonal, std::span<const double> conductance,
-               std::span<const double> source, std::span<double> x, double tolerance = 1e-4, int maxIterations = 2000);
+               std::span<const double> source, std::span<double> x, double tolerance = 1e-4, int maxIterations = 100000);
 
   // source -= the left side above of `x` (fields a cell, halo filled), in the owned cells.
   void subtract(int fields, std::span<const double> diagonal, std::span<const double> conductance,
-                std::span<const double> x, std::span<double> source);
+                std::span<const double> x, std::span<double> source) const;
+
+  // Writes the conductances of some fields, by number, through a face; zero where nothing passes.
+  using Conductance = std::function<void(int face, std::span<const int> fields, double* conductance)>;
+
+  // Changes d_k of many fields in a step,
+  //   inertia(P) d_k(P) + sum over all faces of conductance_k(f) (d_k(P) - d_k(N)) = rate_k(P),
+  // beyond boundary faces no change. Fields that take alike many iterations go together, so that little memory is
+  // needed and a heavy species ends long before hydrogen. Collective. `inertia`: a owned cell, above zero; `change`:
+  // `fields` a cell, rates of owned cells in, changes out (halo filled). As above.
+  Result changes(int fields, std::span<const double> inertia, const Conductance& conductance, std::span<double> change,
+                 double tolerance = 1e-4, int maxIterations = 100000);
 
  private:
-  // The fields that are still being solved: their places among all, and their systems.
-  struct Active {
-    std::vector<int> field;
-    std::span<const double> diagonal, conductance;
-    std::span<double> x;
-    std::vector<double> rz, rr, target, step;  // a value a field
-    [[nodiscard]] int count() const { return static_cast<int>(field.size()); }
-  };
+  static constexpr int width = 8;  // fields that go together
 
-  void apply(const Active& active, std::span<const double> x, std::span<double> result) const;
-  // Residuals' products with what they are preconditioned to, of each active field and all ranks: [r.z | z.Az | r.r].
-  void products(const Active& active);
-  void leave(Active& active, std::span<double> x);
+  // For each field: the half width of the eigenvalues around one, and by how much the residual has to fall.
+  struct Targets {
+    std::vector<double> radius, reduction;
+  };
+  [[nodiscard]] Targets targets(int fields, std::span<const double> source, double tolerance) const;
+  [[nodiscard]] std::vector<double> radii(int fields, std::span<const double> inertia, const Conductance& conductance);
+  // One iteration of the fields that go together: `next` change from the last one.
+  struct Weights;
+  void iterate(const Weights& weights, std::span<const double> inertia, std::span<const double> last,
+               std::span<double> next);
 
   const Mesh& mesh_;
   HaloExchange& halo_;
-  std::vector<double> residual_, preconditioned_, product_, direction_, directionProduct_, inverse_, sums_;
-  std::vector<double> activeDiagonal_, activeConductance_, activeX_;
+  std::vector<double> residual_, change_, otherChange_, solution_, inverse_, neighbours_, conductance_;
 };
 
 }  // namespace lampblack::flow

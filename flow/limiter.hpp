@@ -18,10 +18,13 @@ namespace lampblack::flow {
 inline double limitedFaceValue(double up, double down, double gradient, const Upwind& at) {
   const double ahead = (down - up) / at.ahead;
   const double behind = gradient + (gradient - ahead) * at.behind / at.ahead;
-  if (!(ahead * behind > 0.0)) return up;
-  const double slope = (at.ahead + at.behind) * ahead * behind / (at.ahead * ahead + at.behind * behind);
+  const bool isMonotone = ahead * behind > 0.0;
+  const double sum = at.ahead * ahead + at.behind * behind;
+  // Without a branch, so that a loop over species goes through vectors.
+  const double slope = (at.ahead + at.behind) * ahead * behind / (isMonotone ? sum : 1.0);
   const double largest = std::min(std::abs(down - up), std::abs(behind) * at.behind);
-  return up + std::copysign(std::min(std::abs(slope) * at.toFace, largest), slope);
+  const double step = std::copysign(std::min(std::abs(slope) * at.toFace, largest), slope);
+  return up + (isMonotone ? step : 0.0);
 }
 
 }  // namespace lampblack::flow

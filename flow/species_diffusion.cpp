@@ -4,137 +4,143 @@
 #include <cmath>
 #include <utility>
 
+#include "flow/face_fluxes.hpp"
+
 namespace lampblack::flow {
 
-void SpeciesDiffusion::faceFlux(int face, bool gradientTerm, const double* low, const double* high, double lowWeight,
-                                double* flux) const {
-  const int n = static_cast<int>(context_.mechanism.numSpecies());
-  const double* g = &conductance_[static_cast<std::size_t>(face) * n];
-  const double slope = weightSlope_[face];
-  double net = 0.0;
-  double sumY = 0.0;
-  for (int k = 0; k < n; ++k) {
-    const double y = lowWeight * low[k] + (1.0 - lowWeight) * high[k];
-    const double weightPart = -g[k] * y * slope;
-    const double gradientPart = -g[k] * (high[k] - low[k]);
-    flux[k] = gradientTerm ? gradientPart + weightPart : weightPart;
-    net += gradientPart + weightPart;
+SpeciesDiffusion::SpeciesDiffusion(const FlowContext& context)
+    : context_(context),
+      diffusion_(context.mesh, context.halo),
+      row_(context.mechanism.numSpecies()),
+      startRow_(context.mechanism.numSpecies()) {
+  if (context.transportModel.isMulticomponent() || context.transportModel.soret) detailed_.emplace(context);
+}
+
+const double* SpeciesDiffusion::diffusivity(const Coefficients& of, int cell) const {
+  const std::vector<double>& all = of.ofStart.empty() ? properties_->massDiffusivity : of.ofStart;
+  return &all[static_cast<std::size_t>(cell) * context_.mechanism.numSpecies()];
+}
+
+void SpeciesDiffusion::conductance(int face, std::span<const int> species, double* g) const {
+  const Mesh& m = context_.mesh;
+  const double metric = m.area[face] / m.distance[face];
+  const double* low = diffusivity(now_, m.low[face]);
+  if (m.high[face] >= 0) {
+    const double* high = diffusivity(now_, m.high[face]);
+    const double ofLow = metric * m.lowWeight[face], ofHigh = metric * (1.0 - m.lowWeight[face]);
+    for (std::size_t i = 0; i < species.size(); ++i) g[i] = ofLow * low[species[i]] + ofHigh * high[species[i]];
+  } else {
+    const double share = context_.isCompositionGiven(face) ? metric : 0.0;
+    for (std::size_t i = 0; i < species.size(); ++i) g[i] = share * low[species[i]];
+  }
+}
+
+bool SpeciesDiffusion::flux(const Coefficients& of, int face, std::span<const double> Y, std::span<double> row) const {
+  const Mesh& m = context_.mesh;
+  const std::size_t n = row.size();
+  const bool isInside = m.high[face] >= 0;
+  if (!isInside && !context_.isCompositionGiven(face)) {
+    std::ranges::fill(row, 0.0);
+    return false;
+  }
+  const double* low = &Y[static_cast<std::size_t>(m.low[face]) * n];
+  const double* high = isInside ? &Y[static_cast<std::size_t>(m.high[face]) * n] : context_.boundaryY(face).data();
+  const double* lowD = diffusivity(of, m.low[face]);
+  const double* highD = isInside ? diffusivity(of, m.high[face]) : lowD;
+  // At a boundary the gas is that beyond it, its diffusivity the cell's.
+  const double w = isInside ? m.lowWeight[face] : 0.0;
+  const double metric = m.area[face] / m.distance[face];
+  const double slope = of.weightSlope[face];
+  double net = 0.0, sumY = 0.0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double g = metric * (w * lowD[k] + (1.0 - w) * highD[k]);
+    const double y = w * low[k] + (1.0 - w) * high[k];
+    row[k] = -g * ((high[k] - low[k]) + y * slope);
+    net += row[k];
     sumY += y;
   }
   const double correction = -net / sumY;
-  for (int k = 0; k < n; ++k) flux[k] += (lowWeight * low[k] + (1.0 - lowWeight) * high[k]) * correction;
+  for (std::size_t k = 0; k < n; ++k) row[k] += (w * low[k] + (1.0 - w) * high[k]) * correction;
+  if (!of.ofDetails.empty()) {
+    const double* details = &of.ofDetails[static_cast<std::size_t>(face) * n];
+    for (std::size_t k = 0; k < n; ++k) row[k] += details[k];
+  }
+  return true;
+}
+
+bool SpeciesDiffusion::flux(int face, std::span<const double> Y, std::span<double> row) const {
+  return flux(now_, face, Y, row);
 }
 
 void SpeciesDiffusion::prepare(const State& state, const GasProperties& properties) {
   const Mesh& m = context_.mesh;
-  const int n = state.species;
-  const auto at = [n](int i) { return static_cast<std::size_t>(i) * n; };
-  conductance_.assign(at(m.faces), 0.0);
-  weightSlope_.assign(m.faces, 0.0);
-  const bool alongMassFractions = context_.transportModel.hasLewisNumbers();
-  for (int face = 0; face < m.faces; ++face) {
-    const int low = m.low[face];
-    const int high = m.high[face];
-    const double metric = m.area[face] / m.distance[face];
-    double* g = &conductance_[at(face)];
-    if (high >= 0) {
-      const double w = m.lowWeight[face];
-      for (int k = 0; k < n; ++k)
-        g[k] = metric *
-               (w * properties.massDiffusivity[at(low) + k] + (1.0 - w) * properties.massDiffusivity[at(high) + k]);
-      if (!alongMassFractions)
-        weightSlope_[face] = std::log(properties.molecularWeight[high] / properties.molecularWeight[low]);
-    } else if (context_.isCompositionGiven(face)) {
-      for (int k = 0; k < n; ++k) g[k] = metric * properties.massDiffusivity[at(low) + k];
-      if (!alongMassFractions)
-        weightSlope_[face] =
-            std::log(context_.thermo.meanMolecularWeight(context_.boundaryY(face)) / properties.molecularWeight[low]);
+  properties_ = &properties;
+  now_.weightSlope.assign(m.faces, 0.0);
+  now_.ofDetails.clear();
+  if (!context_.transportModel.hasLewisNumbers())
+    for (int face = 0; face < m.faces; ++face) {
+      const double low = properties.molecularWeight[m.low[face]];
+      if (m.high[face] >= 0)
+        now_.weightSlope[face] = std::log(properties.molecularWeight[m.high[face]] / low);
+      else if (context_.isCompositionGiven(face))
+        now_.weightSlope[face] = std::log(context_.thermo.meanMolecularWeight(context_.boundaryY(face)) / low);
     }
-  }
   if (!detailed_) return;
-  explicit_.clear();
-  std::vector<double> flux(conductance_.size(), 0.0);
-  if (context_.transportModel.isMulticomponent()) {
-    evaluate(state.Y, true, flux);
-    for (double& f : flux) f = -f;
-  }
-  detailed_->addFlux(state, properties, flux);
-  explicit_ = std::move(flux);
-}
-
-void SpeciesDiffusion::evaluate(std::span<const double> Y, bool gradientTerm, std::span<double> flux) const {
-  const Mesh& m = context_.mesh;
-  const auto n = static_cast<std::size_t>(context_.mechanism.numSpecies());
-  for (int face = 0; face < m.faces; ++face) {
-    double* f = &flux[face * n];
-    if (m.high[face] >= 0)
-      faceFlux(face, gradientTerm, &Y[m.low[face] * n], &Y[m.high[face] * n], m.lowWeight[face], f);
-    else if (context_.isCompositionGiven(face))
-      faceFlux(face, gradientTerm, &Y[m.low[face] * n], context_.boundaryY(face).data(), 0.0, f);
-    else
-      std::fill_n(f, n, 0.0);
-  }
-  for (std::size_t i = 0; i < explicit_.size(); ++i) flux[i] += explicit_[i];
-}
-
-void SpeciesDiffusion::presentFlux(const State& state, std::span<double> flux) const {
-  evaluate(state.Y, true, flux);
-}
-
-void SpeciesDiffusion::setUpBlock(int first, int count, std::span<const double> content,
-                                  std::span<const double> newMass, double dt, std::span<const double> flux) {
-  const Mesh& m = context_.mesh;
-  const auto n = static_cast<std::ptrdiff_t>(context_.mechanism.numSpecies());
-  const auto width = static_cast<std::size_t>(count);
-  blockDiagonal_.resize(m.owned * width);
-  blockSource_.resize(m.owned * width);
-  blockConductance_.resize(m.interiorFaces * width);
-  blockSolution_.resize(m.cells * width);
-  for (int c = 0; c < m.cells; ++c) std::copy_n(&solution_[c * n + first], count, &blockSolution_[c * width]);
-  for (int c = 0; c < m.owned; ++c) {
-    std::fill_n(&blockDiagonal_[c * width], count, newMass[c] / dt);
-    for (std::size_t k = 0; k < width; ++k) blockSource_[c * width + k] = content[c * n + first + k] / dt;
-  }
-  for (int face = 0; face < m.faces; ++face) {
-    const int low = m.low[face];
-    const int high = m.high[face];
-    const double* f = &flux[face * n + first];
-    const double* g = &conductance_[face * n + first];
-    if (low < m.owned)
-      for (std::size_t k = 0; k < width; ++k) blockSource_[low * width + k] -= f[k];
-    if (high >= 0) {
-      std::copy_n(g, count, &blockConductance_[face * width]);
-      if (high < m.owned)
-        for (std::size_t k = 0; k < width; ++k) blockSource_[high * width + k] += f[k];
-    } else if (context_.isCompositionGiven(face)) {
-      const double* given = &context_.boundaryY(face)[static_cast<std::size_t>(first)];
-      for (std::size_t k = 0; k < width; ++k) {
-        blockDiagonal_[low * width + k] += g[k];
-        blockSource_[low * width + k] += g[k] * given[k];
-      }
+  const std::size_t n = row_.size();
+  std::vector<double> details(static_cast<std::size_t>(m.faces) * n, 0.0);
+  if (context_.transportModel.isMulticomponent())
+    for (int face = 0; face < m.faces; ++face) {
+      flux(face, state.Y, row_);
+      for (std::size_t k = 0; k < n; ++k) details[face * n + k] = -row_[k];
     }
-  }
+  detailed_->addFlux(state, properties, details);
+  now_.ofDetails = std::move(details);
 }
 
-ImplicitDiffusion::Result SpeciesDiffusion::implicitFlux(const State& guess, std::span<const double> content,
-                                                         std::span<const double> newMass, double dt,
-                                                         std::span<double> flux) {
-  const int n = guess.species;
-  evaluate(guess.Y, false, flux);
-  solution_.assign(guess.Y.begin(), guess.Y.end());
-  ImplicitDiffusion::Result result;
-  for (int first = 0; first < n; first += block) {
-    const int count = std::min(block, n - first);
-    setUpBlock(first, count, content, newMass, dt, flux);
-    const auto solved = diffusion_.solve(count, blockDiagonal_, blockConductance_, blockSource_, blockSolution_);
-    result.iterations = std::max(result.iterations, solved.iterations);
-    result.worstResidual = std::max(result.worstResidual, solved.worstResidual);
-    for (int c = 0; c < context_.mesh.cells; ++c)
-      std::copy_n(&blockSolution_[static_cast<std::size_t>(c) * count], count,
-                  &solution_[static_cast<std::size_t>(c) * n + first]);
+void SpeciesDiffusion::keepStart(const State& state) {
+  start_ = now_;
+  start_.ofStart = properties_->massDiffusivity;
+  start_.startY = state.Y;
+}
+
+void SpeciesDiffusion::correct(int face, double present, std::span<double> row) const {
+  flux(start_, face, start_.startY, startRow_);
+  for (std::size_t k = 0; k < row.size(); ++k) row[k] = 0.5 * startRow_[k] + present * row[k];
+}
+
+int SpeciesDiffusion::advance(const Gas& gas, double dt, const Sink& sink) {
+  const Mesh& m = context_.mesh;
+  const std::size_t n = row_.size();
+  const std::vector<double>& guess = gas.guess.Y;
+  // At what rate the contents change by everything else and by the guess's diffusion.
+  Y_.resize(guess.size());
+  inertia_.resize(static_cast<std::size_t>(m.owned));
+  for (int c = 0; c < m.owned; ++c) {
+    inertia_[c] = gas.mass[c] / dt;
+    for (std::size_t i = c * n; i < (c + 1) * n; ++i) Y_[i] = gas.content[i] / dt - inertia_[c] * guess[i];
   }
-  evaluate(solution_, true, flux);
-  return result;
+  for (int face = 0; face < m.faces; ++face) {
+    if (!flux(face, guess, row_)) continue;
+    if (gas.isCorrected) correct(face, 0.5, row_);
+    addFaceFlux(m, face, row_, 1.0, Y_);
+  }
+  const auto through = [this](int face, std::span<const int> species, double* g) { conductance(face, species, g); };
+  const auto result = diffusion_.changes(static_cast<int>(n), inertia_, through, Y_);
+  for (std::size_t i = 0; i < Y_.size(); ++i) Y_[i] += guess[i];
+
+  std::vector<double> found(gas.isCorrected ? n : 0);
+  for (int face = 0; face < m.faces; ++face) {
+    if (!flux(face, Y_, row_)) continue;
+    if (gas.isCorrected) {
+      found = row_;
+      flux(face, guess, row_);
+      correct(face, -0.5, row_);
+      for (std::size_t k = 0; k < n; ++k) row_[k] += found[k];
+    }
+    addFaceFlux(m, face, row_, dt, gas.content);
+    sink(face, row_);
+  }
+  return result.iterations;
 }
 
 }  // namespace lampblack::flow

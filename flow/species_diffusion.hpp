@@ -3,9 +3,13 @@
 // the first term implicit; with Lewis numbers along those of mass fractions, without the second. What multicomponent
 // diffusion differs from that by, and the Soret effect, are of the prepared state; sweeps correct them. The fluxes are
 // evaluated from the implicit solution, so that what leaves one cell enters the next to the last bit, whatever the
-// linear solver's tolerance.
+// solver's tolerance.
+//
+// Fluxes here: kg/s, from low to high or outwards. None is kept for all species and faces: a face's stand in a row that
+// is made where it is needed.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -21,39 +25,53 @@ namespace lampblack::flow {
 
 class SpeciesDiffusion {
  public:
-  explicit SpeciesDiffusion(const FlowContext& context) : context_(context), diffusion_(context.mesh, context.halo) {
-    if (context.transportModel.isMulticomponent() || context.transportModel.soret) detailed_.emplace(context);
-  }
+  explicit SpeciesDiffusion(const FlowContext& context);
 
-  // Fluxes here: kg/s, species a face, low to high or outwards.
-
-  // Takes the coefficients of the state, which everything below goes by.
+  // Takes the coefficients of the state, which everything below goes by; the properties have to stay.
   void prepare(const State& state, const GasProperties& properties);
-  // Fluxes of that state.
-  void presentFlux(const State& state, std::span<double> flux) const;
-  // Collective. Fluxes at the end of a step, of which the state is the guess. `content` (kg, species a owned cell): rho
-  // Y V there without them; `newMass` (kg, a owned cell): the gas's mass.
-  ImplicitDiffusion::Result implicitFlux(const State& guess, std::span<const double> content,
-                                         std::span<const double> newMass, double dt, std::span<double> flux);
+  // Keeps coefficients and mass fractions as those of the step's start, for steps of several sweeps.
+  void keepStart(const State& state);
+
+  // Flux through a face from the mass fractions of all local cells; false, and zeros, where nothing diffuses.
+  bool flux(int face, std::span<const double> Y, std::span<double> row) const;
+
+  // A gas without the diffusion that is sought: mass (kg) of owned cells and content (kg, species a cell), which is
+  // advanced by it. With `isCorrected` fluxes are the mean of those at the step's start and of the guess, and what the
+  // guess's change.
+  struct Gas {
+    const State& guess;
+    std::span<const double> mass;
+    std::span<double> content;
+    bool isCorrected = false;
+  };
+  // Takes each face's flux of the step.
+  using Sink = std::function<void(int face, std::span<const double> row)>;
+  // Collective. The most iterations of any species.
+  int advance(const Gas& gas, double dt, const Sink& sink);
 
  private:
-  // Implicit systems are set up and solved for so many species at a time: the solver's fields are most of its memory.
-  static constexpr int block = 16;
+  struct Coefficients {
+    std::vector<double> weightSlope;    // ln of the weights' ratio across a face
+    std::vector<double> ofDetails;      // kg/s, species a face, what the detailed model adds; empty without one
+    std::vector<double> ofStart;        // kg/m/s, species a cell; empty: diffusivities are those of the properties
+    std::vector<double> startY;
+  };
+
+  [[nodiscard]] const double* diffusivity(const Coefficients& of, int cell) const;
+  bool flux(const Coefficients& of, int face, std::span<const double> Y, std::span<double> row) const;
+  void conductance(int face, std::span<const int> species, double* g) const;
+  // Half of the start's flux plus `present` times that of the guess, which `row` holds.
+  void correct(int face, double present, std::span<double> row) const;
 
   const FlowContext& context_;
   ImplicitDiffusion diffusion_;
-  std::vector<double> conductance_, weightSlope_, solution_;
-  std::vector<double> blockDiagonal_, blockConductance_, blockSource_, blockSolution_;
   std::optional<DetailedDiffusion> detailed_;
-  std::vector<double> explicit_;  // kg/s, species a face, what the detailed model adds; empty without one
-
-  // Species [first, first + count) of the systems: from those of all, and to the solution of all.
-  void setUpBlock(int first, int count, std::span<const double> content, std::span<const double> newMass, double dt,
-                  std::span<const double> flux);
-  void evaluate(std::span<const double> Y, bool gradientTerm, std::span<double> flux) const;
-  // Flux of the implicit gradient (0 or 1 times) and explicit terms through a face, from mass fractions of both sides.
-  void faceFlux(int face, bool gradientTerm, const double* low, const double* high, double lowWeight,
-                double* flux) const;
+  const GasProperties* properties_ = nullptr;
+  Coefficients now_, start_;
+  std::vector<double> Y_;  // rates, then the implicit mass fractions, species a cell
+  std::vector<double> inertia_;
+  std::vector<double> row_;
+  mutable std::vector<double> startRow_;
 };
 
 }  // namespace lampblack::flow

@@ -9,15 +9,6 @@
 #include "flow/time_step.hpp"
 
 namespace lampblack::flow {
-namespace {
-
-// flux += (start - latest) / 2
-void addHalfDifference(std::span<const double> start, std::span<const double> latest, std::span<double> flux) {
-  for (std::size_t i = 0; i < flux.size(); ++i) flux[i] += 0.5 * (start[i] - latest[i]);
-}
-
-}  // namespace
-
 TransportOperator::TransportOperator(const FlowContext& context, const State& state, Options options)
     : context_(context),
       options_(options),
@@ -29,12 +20,15 @@ TransportOperator::TransportOperator(const FlowContext& context, const State& st
       carried_(context, state.carriedCount()) {
   const auto faces = static_cast<std::size_t>(context.mesh.faces);
   const auto owned = static_cast<std::size_t>(context.mesh.owned);
-  content_.resize(owned * state.species);
+  const auto n = static_cast<std::size_t>(state.species);
+  content_.resize(owned * n);
   heatContent_.resize(owned);
   newMass_.resize(owned);
-  diffusion_ = {std::vector<double>(faces * state.species, 0.0), std::vector<double>(faces, 0.0),
-                std::vector<double>(faces, 0.0)};
+  heat_ = {std::vector<double>(faces, 0.0), std::vector<double>(faces, 0.0)};
+  boundaryFlux_.assign(static_cast<std::size_t>(context.mesh.boundaryFaces()) * n, 0.0);
   faceVelocity_.assign(faces, 0.0);
+  row_.resize(n);
+  speciesEnthalpy_.resize(n);
 }
 
 void TransportOperator::initialise(State& state, double dt) {
@@ -45,11 +39,15 @@ void TransportOperator::initialise(State& state, double dt) {
   std::fill(state.massFlux.begin(), state.massFlux.end(), 0.0);
   faces_.prepare(state);
   speciesDiffusion_.prepare(state, properties_);
-  speciesDiffusion_.presentFlux(state, diffusion_.species);
-  computeEnthalpyFlux(state);
+  std::ranges::fill(content_, 0.0);
+  for (int face = 0; face < m.faces; ++face) {
+    speciesDiffusion_.flux(face, state.Y, row_);
+    heat_.enthalpy[face] = enthalpyFlux(state, face, row_);
+    addFaceFlux(m, face, row_, 1.0, content_);
+  }
   heatConduction_.prepare(properties_);
-  heatConduction_.presentFlux(state, diffusion_.heat);
-  const auto divergence = expansion_.initial(state, properties_, diffusion_);
+  heatConduction_.presentFlux(state, heat_.heat);
+  const auto divergence = expansion_.initial(state, properties_, content_, heat_);
   momentum_.balanceForces(state);
   const std::vector<double> weight = state.pressure;
   // So short that nothing but the pressure changes the velocity; that of the blow is not kept.
@@ -57,7 +55,10 @@ void TransportOperator::initialise(State& state, double dt) {
                     faceVelocity_);
   momentum_.endStep();
   state.pressure = weight;
-  updateFluxes(state, state);
+  for (int face = 0; face < m.faces; ++face) {
+    faces_.interpolate(state, face, faceVelocity_[face], row_);
+    state.massFlux[face] = faces_.density[face] * faceVelocity_[face] * m.area[face];
+  }
 }
 
 void TransportOperator::keepStart(const State& state) {
@@ -65,9 +66,8 @@ void TransportOperator::keepStart(const State& state) {
   mean_ = state;
   startViscosity_ = properties_.viscosity;
   startBoundaryViscosity_ = properties_.boundaryViscosity;
-  startSpeciesFlux_.resize(diffusion_.species.size());
-  startHeatFlux_.resize(diffusion_.heat.size());
-  speciesDiffusion_.presentFlux(state, startSpeciesFlux_);
+  startHeatFlux_.resize(heat_.heat.size());
+  speciesDiffusion_.keepStart(state);
   heatConduction_.presentFlux(state, startHeatFlux_);
 }
 
@@ -83,8 +83,9 @@ void TransportOperator::average(const State& state) {
   mean(startViscosity_, properties_.viscosity, meanViscosity_);
 }
 
-// Content of the owned cells at the step's end after convection and the balance alone.
-void TransportOperator::addConvection(const State& start, const State& state, double dt) {
+// Content of the owned cells at the step's end after the balance and convection by the mass flux of the last sweep or
+// step.
+void TransportOperator::predictContents(const State& start, const State& mean, const State& state, double dt) {
   const Mesh& m = context_.mesh;
   const int n = state.species;
   for (int c = 0; c < m.owned; ++c) {
@@ -97,89 +98,95 @@ void TransportOperator::addConvection(const State& start, const State& state, do
     heatContent_[c] = m.volume[c] * (start.density[c] * start.enthalpy[c] + dt * state.balance.enthalpy[c]);
     newMass_[c] = m.volume[c] * (start.density[c] + dt * gained);
   }
+  compression_ = 0.0;
   for (int face = 0; face < m.faces; ++face) {
-    const double amount = dt * state.massFlux[face];
-    const double heat = amount * faces_.enthalpy[face];
-    const double* y = &faces_.Y[static_cast<std::size_t>(face) * n];
-    const auto give = [&](int cell, double sign) {
-      if (cell < 0 || cell >= m.owned) return;
-      double* content = &content_[static_cast<std::size_t>(cell) * n];
-      for (int k = 0; k < n; ++k) content[k] += sign * amount * y[k];
-      heatContent_[cell] += sign * heat;
-      newMass_[cell] += sign * amount;
-    };
-    give(m.low[face], -1.0);
-    give(m.high[face], 1.0);
+    const double flux = state.massFlux[face];
+    faces_.interpolate(mean, face, flux, row_);
+    addFaceFlux(m, face, row_, dt * flux, content_);
+    addFaceFlux(m, face, flux * faces_.enthalpy[face], dt, heatContent_);
+    addFaceFlux(m, face, flux, dt, newMass_);
+  }
+}
+
+// The mass flux of the projected velocities takes the place of that which the contents were predicted with.
+void TransportOperator::correctContents(const State& mean, State& state, double dt) {
+  const Mesh& m = context_.mesh;
+  for (int face = 0; face < m.faces; ++face) {
+    double& flux = state.massFlux[face];
+    const double velocity = faceVelocity_[face];
+    double heat = -flux * faces_.enthalpy[face];
+    double excess = -flux;  // of what the new direction's upwind gas carries
+    if ((velocity >= 0.0) != (flux >= 0.0)) {
+      faces_.massFractions(mean, face, flux, row_);
+      addFaceFlux(m, face, row_, -dt * flux, content_);
+      addFaceFlux(m, face, -flux, dt, newMass_);
+      faces_.interpolate(mean, face, velocity, row_);
+      excess = 0.0;
+    } else {
+      faces_.massFractions(mean, face, velocity, row_);
+    }
+    flux = faces_.density[face] * velocity * m.area[face];
+    excess += flux;
+    addFaceFlux(m, face, row_, dt * excess, content_);
+    addFaceFlux(m, face, excess, dt, newMass_);
+    addFaceFlux(m, face, heat + flux * faces_.enthalpy[face], dt, heatContent_);
   }
 }
 
 // Work of the rising thermodynamic pressure on the gas of a closed vessel.
 void TransportOperator::addCompression() {
   for (std::size_t c = 0; c < heatContent_.size(); ++c)
-    heatContent_[c] += context_.mesh.volume[c] * expansion_.pressureRise();
+    heatContent_[c] += context_.mesh.volume[c] * (expansion_.pressureRise() - compression_);
+  compression_ = expansion_.pressureRise();
 }
 
-// Of the species that diffuse.
-void TransportOperator::computeEnthalpyFlux(const State& mean) {
+// W, of species that diffuse through a face.
+double TransportOperator::enthalpyFlux(const State& mean, int face, std::span<const double> species) {
   const Mesh& m = context_.mesh;
-  const int n = mean.species;
-  std::vector<double> speciesEnthalpy(n);
-  for (int face = 0; face < m.faces; ++face) {
-    const double* flux = &diffusion_.species[static_cast<std::size_t>(face) * n];
-    const int low = m.low[face];
-    const double T = m.high[face] >= 0 ? m.lowWeight[face] * mean.temperature[low] +
-                                             (1.0 - m.lowWeight[face]) * mean.temperature[m.high[face]]
-                                       : faces_.boundaryTemperature()[face - m.interiorFaces];
-    context_.thermo.speciesEnthalpies(T, speciesEnthalpy);
-    double sum = 0.0;
-    for (int k = 0; k < n; ++k) sum += flux[k] * speciesEnthalpy[k];
-    diffusion_.enthalpy[face] = sum;
-  }
+  const int low = m.low[face];
+  const double T = m.high[face] >= 0 ? m.lowWeight[face] * mean.temperature[low] +
+                                           (1.0 - m.lowWeight[face]) * mean.temperature[m.high[face]]
+                                     : faces_.boundaryTemperature()[face - m.interiorFaces];
+  context_.thermo.speciesEnthalpies(T, speciesEnthalpy_);
+  double sum = 0.0;
+  for (std::size_t k = 0; k < species.size(); ++k) sum += species[k] * speciesEnthalpy_[k];
+  return sum;
 }
 
-// Diffusion and conduction of the sweep: implicit; from the second sweep on corrected so that they become the mean of
-// those at both ends.
-void TransportOperator::computeDiffusion(const State& mean, const State& state, double dt) {
+// Diffusion and conduction of the sweep; from the second on corrected so that they become the mean of those at both
+// ends.
+void TransportOperator::advanceDiffusion(const State& mean, const State& state, double dt) {
   const Mesh& m = context_.mesh;
-  const int n = state.species;
-  const bool corrected = sweep_ > 1;
-  std::vector<double> speciesExtra, heatExtra;
+  const bool several = options_.sweeps > 1, corrected = sweep_ > 1;
+  if (corrected) expansion_.withdraw(state, properties_, diffused_, heat_);
+  expansion_.beforeDiffusion(state, properties_, content_);
+  if (several) diffused_ = content_;
+  std::ranges::fill(heat_.enthalpy, 0.0);
+  diagnostics_.speciesIterations = speciesDiffusion_.advance(
+      {state, newMass_, content_, corrected}, dt, [&](int face, std::span<const double> row) {
+        heat_.enthalpy[face] = enthalpyFlux(mean, face, row);
+        if (face >= m.interiorFaces)
+          std::ranges::copy(row, boundaryFlux_.begin() + (face - m.interiorFaces) * static_cast<std::ptrdiff_t>(row.size()));
+      });
+  if (several)
+    for (std::size_t i = 0; i < diffused_.size(); ++i) diffused_[i] = (content_[i] - diffused_[i]) / dt;
+  addFaceFluxes(m, heat_.enthalpy, 1, dt, heatContent_);
+
+  std::vector<double> extra;
   if (corrected) {
-    speciesExtra.assign(startSpeciesFlux_.size(), 0.0);
-    heatExtra.assign(startHeatFlux_.size(), 0.0);
-    speciesDiffusion_.presentFlux(state, diffusion_.species);
-    heatConduction_.presentFlux(state, diffusion_.heat);
-    addHalfDifference(startSpeciesFlux_, diffusion_.species, speciesExtra);
-    addHalfDifference(startHeatFlux_, diffusion_.heat, heatExtra);
+    extra = startHeatFlux_;
+    heatConduction_.presentFlux(state, heat_.heat);
+    for (std::size_t i = 0; i < extra.size(); ++i) extra[i] = 0.5 * (extra[i] - heat_.heat[i]);
+    addFaceFluxes(m, extra, 1, dt, heatContent_);
   }
-  std::vector<double> content = content_;
-  if (corrected) addFaceFluxes(m, speciesExtra, n, dt, content);
-  diagnostics_.speciesIterations =
-      speciesDiffusion_.implicitFlux(state, content, newMass_, dt, diffusion_.species).iterations;
-  addFaceFluxes(m, diffusion_.species, n, dt, content);
-  for (std::size_t i = 0; i < speciesExtra.size(); ++i) diffusion_.species[i] += speciesExtra[i];
-  computeEnthalpyFlux(mean);
-
-  std::vector<double> heat = heatContent_;
-  addFaceFluxes(m, diffusion_.enthalpy, 1, dt, heat);
-  if (corrected) addFaceFluxes(m, heatExtra, 1, dt, heat);
-  heatConduction_.implicitFlux(state, properties_, {newMass_, content, heat}, dt, diffusion_.heat);
-  for (std::size_t i = 0; i < heatExtra.size(); ++i) diffusion_.heat[i] += heatExtra[i];
+  heatConduction_.implicitFlux(state, properties_, {newMass_, content_, heatContent_}, dt, heat_.heat);
+  addFaceFluxes(m, heat_.heat, 1, dt, heatContent_);
+  for (std::size_t i = 0; i < extra.size(); ++i) heat_.heat[i] += extra[i];
 }
 
-void TransportOperator::updateFluxes(State& state, const State& mean) {
-  const Mesh& m = context_.mesh;
-  faces_.interpolate(mean, faceVelocity_);
-  for (int face = 0; face < m.faces; ++face)
-    state.massFlux[face] = faces_.density[face] * faceVelocity_[face] * m.area[face];
-}
-
-void TransportOperator::finish(State& state, double dt) {
+void TransportOperator::finish(State& state) {
   const Mesh& m = context_.mesh;
   const int n = state.species;
-  addFaceFluxes(m, diffusion_.species, n, dt, content_);
-  addFaceFluxes(m, diffusion_.enthalpy, 1, dt, heatContent_);
-  addFaceFluxes(m, diffusion_.heat, 1, dt, heatContent_);
   for (int c = 0; c < m.owned; ++c) {
     const double* content = &content_[static_cast<std::size_t>(c) * n];
     double mass = 0.0;
@@ -193,7 +200,7 @@ void TransportOperator::finish(State& state, double dt) {
   }
 }
 
-void TransportOperator::recordBoundary(const State& state, double dt) {
+void TransportOperator::recordBoundary(const State& mean, const State& state, double dt) {
   const Mesh& m = context_.mesh;
   const int n = state.species;
   const int scalars = state.carriedCount();
@@ -203,14 +210,14 @@ void TransportOperator::recordBoundary(const State& state, double dt) {
     (outward < 0.0 ? in : out) += dt * std::abs(outward);
   };
   for (int face = m.interiorFaces; face < m.faces; ++face) {
-    for (int k = 0; k < n; ++k) {
-      const std::size_t i = static_cast<std::size_t>(face) * n + k;
-      book(state.massFlux[face] * faces_.Y[i] + diffusion_.species[i], boundary_.speciesIn[k], boundary_.speciesOut[k]);
-    }
+    faces_.massFractions(mean, face, state.massFlux[face], row_);
+    const double* diffuses = &boundaryFlux_[static_cast<std::size_t>(face - m.interiorFaces) * n];
+    for (int k = 0; k < n; ++k)
+      book(state.massFlux[face] * row_[k] + diffuses[k], boundary_.speciesIn[k], boundary_.speciesOut[k]);
     for (int s = 0; s < scalars; ++s)
       book(carried_.flux()[static_cast<std::size_t>(face) * scalars + s], boundary_.carriedIn[s],
            boundary_.carriedOut[s]);
-    book(state.massFlux[face] * faces_.enthalpy[face] + diffusion_.enthalpy[face] + diffusion_.heat[face],
+    book(state.massFlux[face] * faces_.enthalpy[face] + heat_.enthalpy[face] + heat_.heat[face],
          boundary_.enthalpyIn, boundary_.enthalpyOut);
   }
 }
@@ -237,7 +244,7 @@ void TransportOperator::advance(State& state, double time, double dt) {
   if (first && context_.varying) context_.varying->set(time + 0.5 * dt, time + 0.25 * (dt - lastStep_));
   // A temperature out of range on one rank must stop all of them.
   collectively(m.comm, [&] { properties_.update(context_, state); });
-  expansion_.begin(state, properties_, diffusion_, first, dt, lastStep_);
+  expansion_.begin(state, properties_, first, dt, lastStep_);
   speciesDiffusion_.prepare(state, properties_);
   heatConduction_.prepare(properties_);
   if (first) startPressure_ = state.thermodynamicPressure;
@@ -246,35 +253,32 @@ void TransportOperator::advance(State& state, double time, double dt) {
   const State& start = several ? *start_ : state;
   const State& mean = several ? *mean_ : state;
   faces_.prepare(mean);
-  faces_.interpolate(mean, state.massFlux);
 
-  // Diffusion with the mass flux of the last sweep or step.
-  addConvection(start, state, dt);
+  predictContents(start, mean, state, dt);
   if (!first) addCompression();
-  computeDiffusion(mean, state, dt);
+  advanceDiffusion(mean, state, dt);
 
   // Velocity, pressure and mass flux for exactly this diffusion.
-  const auto divergence = expansion_.complete(state, properties_, diffusion_, first);
+  const auto divergence = expansion_.complete(state, properties_, content_, heat_, first);
   const std::vector<double>& startViscosity = several ? startViscosity_ : properties_.viscosity;
   const std::vector<double>& boundaryViscosity = several ? startBoundaryViscosity_ : properties_.boundaryViscosity;
   const auto projected = momentum_.advance(
       state, {start, mean, startViscosity, boundaryViscosity, divergence, 0.5 * (lastStep_ + dt)}, faceVelocity_);
   diagnostics_.continuityError = projected.continuityError;
   diagnostics_.pressureIterations = projected.iterations;
-  updateFluxes(state, mean);
 
-  addConvection(start, state, dt);
+  correctContents(mean, state, dt);
   addCompression();
   const std::vector<double>& meanViscosity = several ? meanViscosity_ : properties_.viscosity;
   carried_.advance(state, {start, mean, meanViscosity, faces_, faceVelocity_, newMass_}, dt);
-  collectively(m.comm, [&] { finish(state, dt); });
+  if (sweep_ == options_.sweeps) recordBoundary(mean, state, dt);
+  collectively(m.comm, [&] { finish(state); });
   state.thermodynamicPressure = startPressure_ + expansion_.pressureRise();
   state.updateHalo(context_.halo);
   if (sweep_ < options_.sweeps) return;
   sweep_ = 0;
   lastStep_ = dt;
   momentum_.endStep();
-  recordBoundary(state, dt);
   for (const auto& watcher : watchers_) watcher(boundary_);
 }
 

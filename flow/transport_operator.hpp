@@ -74,13 +74,13 @@ class TransportOperator : public Operator {
   void initialise(State& state, double dt);
 
  private:
-  void addConvection(const State& start, const State& state, double dt);
-  void computeDiffusion(const State& mean, const State& state, double dt);
+  void predictContents(const State& start, const State& mean, const State& state, double dt);
+  void correctContents(const State& mean, State& state, double dt);
   void addCompression();
-  void computeEnthalpyFlux(const State& mean);
-  void updateFluxes(State& state, const State& mean);
-  void finish(State& state, double dt);
-  void recordBoundary(const State& state, double dt);
+  [[nodiscard]] double enthalpyFlux(const State& mean, int face, std::span<const double> species);
+  void advanceDiffusion(const State& mean, const State& state, double dt);
+  void finish(State& state);
+  void recordBoundary(const State& mean, const State& state, double dt);
   void keepStart(const State& state);
   void average(const State& state);
 
@@ -100,17 +100,20 @@ class TransportOperator : public Operator {
   int sweep_ = 0;               // of the present step
   double startPressure_ = 0.0;  // Pa, thermodynamic pressure at the step's start
   double lastStep_ = 0.0;       // s
-  // Only of steps of several sweeps: the start; the mean of it and of what the last sweep found; fluxes of the start.
+  // Only of steps of several sweeps: the start; the mean of it and of what the last sweep found; conduction at the
+  // start; what diffusion brought in the last sweep, kg/s of each species to the owned cells.
   std::optional<State> start_, mean_;
-  std::vector<double> startSpeciesFlux_, startHeatFlux_;
+  std::vector<double> startHeatFlux_, diffused_;
   std::vector<double> startViscosity_, meanViscosity_;  // Pa s, cells
   std::vector<double> startBoundaryViscosity_;          // Pa s, boundary faces
 
-  std::vector<double> content_;       // kg, rho Y V of the owned cells as it is being advanced
-  std::vector<double> heatContent_;   // J, rho h V
-  std::vector<double> newMass_;       // kg
-  DiffusiveFluxes diffusion_;         // of the sweep
+  // Of the owned cells as they are being advanced: kg, rho Y V; J, rho h V; kg.
+  std::vector<double> content_, heatContent_, newMass_;
+  double compression_ = 0.0;          // Pa, rise of the thermodynamic pressure that heatContent_ has the work of
+  HeatFluxes heat_;                   // of the sweep
+  std::vector<double> boundaryFlux_;  // kg/s, species a boundary face: what diffuses in the sweep
   std::vector<double> faceVelocity_;  // m/s
+  std::vector<double> row_, speciesEnthalpy_;
 };
 
 }  // namespace lampblack::flow

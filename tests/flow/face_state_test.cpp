@@ -54,16 +54,17 @@ Faces facesOf(int refinement, bool isMirrored) {
   state.updateHalo(box.halo);
   FaceState faces(box.context, state.species, 0);
   faces.prepare(state);
-  faces.interpolate(state, std::vector<double>(at(m.faces), isMirrored ? -1.0 : 1.0));
   Faces result;
   double count = 0.0;
   for (int face = 0; face < m.interiorFaces; ++face) {
     if (m.low[at(face)] >= m.owned) continue;  // counted by the neighbour
+    std::vector<double> Y(low.size());
+    faces.interpolate(state, face, isMirrored ? -1.0 : 1.0, Y);
     const double x = mirrored(m.faceCentre[at(face)][0], isMirrored),
                  y = mirrored(m.faceCentre[at(face)][1], isMirrored);
     const double weight = std::exp(100.0 * x - 70.0 * y) * (1.0 + m.normalAxis[at(face)]);
     result.sum +=
-        weight * faces.temperature[at(face)] * faces.Y[at(face) * low.size() + gas.mechanism.speciesIndex("H2")];
+        weight * faces.temperature[at(face)] * Y[gas.mechanism.speciesIndex("H2")];
     if (std::min(x, y) < 0.1 * width || std::max(x, y) > 0.9 * width) continue;
     result.error += std::abs(faces.temperature[at(face)] - temperatureAt(x, y));
     ++count;

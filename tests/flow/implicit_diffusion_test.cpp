@@ -1,4 +1,4 @@
-// The conjugate-gradient solver of many fields, against elimination of the dense matrix.
+// The solver of implicit diffusion of many fields, against elimination of the dense matrix.
 #include "flow/implicit_diffusion.hpp"
 
 #include <gtest/gtest.h>
@@ -101,7 +101,6 @@ TEST_F(Diffusion, AgreesWithDenseEliminationForEveryField) {
       EXPECT_NEAR(x[i * fields + at(k)], exact[i], tolerance * std::sqrt(sourceNorm) + 1e5 * 4.0 * epsilon)
           << "field " << k << ", cell " << i;
   }
-  EXPECT_LE(result.worstResidual, tolerance);
 }
 
 TEST_F(Diffusion, FillsTheHaloOfTheSolution) {
