@@ -15,9 +15,9 @@ namespace lampblack::flow {
 
 class CarriedTransport {
  public:
-  CarriedTransport(const FlowContext& context, int scalars)
+  CarriedTransport(const FlowContext& context, ImplicitDiffusion& diffusion, int scalars)
       : context_(context),
-        diffusion_(context.mesh, context.halo),
+        diffusion_(diffusion),
         flux_(static_cast<std::size_t>(context.mesh.faces) * static_cast<std::size_t>(scalars), 0.0) {}
 
   // The gas of a sweep: the step's start, and its mean with what the last sweep found (both the state itself in the
@@ -45,7 +45,7 @@ class CarriedTransport {
                    std::span<double> flux) const;
 
   const FlowContext& context_;
-  ImplicitDiffusion diffusion_;
+  ImplicitDiffusion& diffusion_;
   std::vector<double> flux_;
 };
 

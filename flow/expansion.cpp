@@ -97,8 +97,7 @@ void Expansion::withdraw(const State& state, const GasProperties& properties, st
   addHeat(state, properties, fluxes, -1.0);
 }
 
-void Expansion::beforeDiffusion(const State& state, const GasProperties& properties,
-                                std::span<const double> contents) {
+void Expansion::beforeDiffusion(const State& state, const GasProperties& properties, std::span<const double> contents) {
   addContents(state, properties, contents, -1.0 / dt_);
 }
 

@@ -62,15 +62,15 @@ void FaceState::setBoundaries(const State& state) {
     const bool isTemperatureGiven = temperatureKnown_[b] == BoundaryData::Value;
     const bool isYGiven = YKnown_[b] == BoundaryData::Value;
     boundaryTemperature_[b] = isTemperatureGiven ? context_.boundaryTemperature(face) : state.temperature[c];
-    std::copy_n(isYGiven ? context_.boundaryY(face).data() : &state.Y[c * species_], species_,
-                &boundaryY_[b * species_]);
+    std::copy_n(isYGiven ? context_.boundaryY(face).data() : &Y_[c * species_], species_, &boundaryY_[b * species_]);
     // No particles come in.
     for (int s = 0; s < carried_; ++s) boundaryCarried_[b * carried_ + s] = isYGiven ? 0.0 : perMass_[c * carried_ + s];
   }
 }
 
-void FaceState::prepare(const State& state) {
+void FaceState::prepare(const State& state, std::span<const double> Y) {
   const Mesh& m = context_.mesh;
+  Y_ = Y;
   for (int c = 0; c < m.cells; ++c)
     for (int s = 0; s < carried_; ++s) perMass_[c * carried_ + s] = state.carried[c * carried_ + s] / state.density[c];
   setBoundaries(state);
@@ -86,7 +86,7 @@ void FaceState::prepare(const State& state) {
       2 * species_,
       [&](int cell, double* out) {
         for (int axis = 0; axis < 2; ++axis)
-          gradient_.along(axis, cell, state.Y, boundaryY_, species_, {out + axis * n, n}, YKnown_);
+          gradient_.along(axis, cell, Y_, boundaryY_, species_, {out + axis * n, n}, YKnown_);
       },
       [&](int cell, const double* in) { std::copy_n(in, 2 * n, &haloSlope_[(cell - m.owned) * 2 * n]); });
 }
@@ -97,44 +97,43 @@ bool FaceState::enters(int face, double direction) const {
                                               : boundary.kind == BoundaryKind::Outlet && direction < 0.0;
 }
 
-void FaceState::massFractions(const State& state, int face, double direction, std::span<double> Y) const {
+void FaceState::massFractions(int face, double direction, std::span<double> row) const {
   const Mesh& m = context_.mesh;
   const int n = species_;
   if (m.high[face] < 0) {
-    std::copy_n(enters(face, direction) ? context_.boundaryY(face).data()
-                                        : &state.Y[static_cast<std::size_t>(m.low[face]) * n],
-                n, Y.begin());
+    std::copy_n(
+        enters(face, direction) ? context_.boundaryY(face).data() : &Y_[static_cast<std::size_t>(m.low[face]) * n], n,
+        row.begin());
     return;
   }
   const int axis = m.normalAxis[face];
   const Upwind u = YUpwind_.of(face, direction);
   const double* slope = slope_.data();
   if (u.up < m.owned)
-    gradient_.along(axis, u.up, state.Y, boundaryY_, n, slope_, YKnown_);
+    gradient_.along(axis, u.up, Y_, boundaryY_, n, slope_, YKnown_);
   else
     slope = &haloSlope_[static_cast<std::size_t>(2 * (u.up - m.owned) + axis) * n];
-  const double* up = &state.Y[static_cast<std::size_t>(u.up) * n];
-  const double* down = &state.Y[static_cast<std::size_t>(u.down) * n];
-  for (int k = 0; k < n; ++k) Y[k] = limitedFaceValue(up[k], down[k], slope[k] * u.sign, u);
+  const double* up = &Y_[static_cast<std::size_t>(u.up) * n];
+  const double* down = &Y_[static_cast<std::size_t>(u.down) * n];
+  for (int k = 0; k < n; ++k) row[k] = limitedFaceValue(up[k], down[k], slope[k] * u.sign, u);
   double sum = 0.0;
-  for (int k = 0; k < n; ++k) sum += Y[k];
+  for (int k = 0; k < n; ++k) sum += row[k];
   const double scale = 1.0 / sum;
-  for (int k = 0; k < n; ++k) Y[k] *= scale;
+  for (int k = 0; k < n; ++k) row[k] *= scale;
 }
 
-void FaceState::interpolate(const State& state, int face, double direction, std::span<double> Y) {
+void FaceState::interpolate(const State& state, int face, double direction, std::span<double> row) {
   const Mesh& m = context_.mesh;
-  massFractions(state, face, direction, Y);
+  massFractions(face, direction, row);
   if (m.high[face] >= 0) {
     const Upwind t = temperatureUpwind_.of(face, direction);
     temperature[face] = limitedFaceValue(state.temperature[t.up], state.temperature[t.down],
                                          temperatureGradient_[2 * t.up + m.normalAxis[face]] * t.sign, t);
   } else {
-    temperature[face] =
-        enters(face, direction) ? context_.boundaryTemperature(face) : state.temperature[m.low[face]];
+    temperature[face] = enters(face, direction) ? context_.boundaryTemperature(face) : state.temperature[m.low[face]];
   }
-  density[face] = context_.thermo.density(temperature[face], state.thermodynamicPressure, Y);
-  enthalpy[face] = context_.thermo.enthalpyMass(temperature[face], Y);
+  density[face] = context_.thermo.density(temperature[face], state.thermodynamicPressure, row);
+  enthalpy[face] = context_.thermo.enthalpyMass(temperature[face], row);
 }
 
 double FaceState::carriedPerMass(int face, int scalar, double direction) const {

@@ -18,14 +18,15 @@ class FaceState {
  public:
   explicit FaceState(const FlowContext& context, int species, int carried);
 
-  // Collective. Gradients and boundary values of the state's scalars.
-  void prepare(const State& state);
+  // Collective. Gradients and boundary values of the state's scalars, with these mass fractions of all local cells,
+  // which have to stay.
+  void prepare(const State& state, std::span<const double> Y);
 
   // Temperature, density and enthalpy of a face, upwind of `direction` (any quantity with the sign of the flux, low to
-  // high or outwards), and to Y its mass fractions, `species` of them. `state`: the prepared.
-  void interpolate(const State& state, int face, double direction, std::span<double> Y);
+  // high or outwards), and to `row` its mass fractions, `species` of them. `state`: the prepared.
+  void interpolate(const State& state, int face, double direction, std::span<double> row);
   // The mass fractions alone.
-  void massFractions(const State& state, int face, double direction, std::span<double> Y) const;
+  void massFractions(int face, double direction, std::span<double> row) const;
 
   std::vector<double> temperature;  // K, a face
   std::vector<double> density;      // kg/m^3
@@ -44,6 +45,7 @@ class FaceState {
 
   const FlowContext& context_;
   int species_, carried_;
+  std::span<const double> Y_;
   Gradient gradient_;
   std::vector<BoundaryData> temperatureKnown_, YKnown_;  // of carried scalars as of Y
   UpwindGeometry temperatureUpwind_, YUpwind_;

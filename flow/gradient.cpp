@@ -11,8 +11,7 @@ Gradient::Gradient(const Mesh& mesh) : mesh_(mesh) {}
 void Gradient::addAlong(int axis, int cell, const Field& field, int first, int count, double* out, int stride) const {
   const Mesh& m = mesh_;
   const int components = field.components;
-  const bool isEachComponent =
-      components > 1 && field.known.size() > static_cast<std::size_t>(m.boundaryFaces());
+  const bool isEachComponent = components > 1 && field.known.size() > static_cast<std::size_t>(m.boundaryFaces());
   const auto reach = [&](int face) {
     if (m.high[face] >= 0 || field.known.empty()) return m.distance[face];
     const int b = face - m.interiorFaces;

@@ -39,8 +39,8 @@ void HeatConduction::evaluate(std::span<const double> temperature, std::span<dou
   }
 }
 
-void HeatConduction::implicitFlux(const State& guess, const GasProperties& properties, const Contents& contents, double dt,
-                              std::span<double> flux) {
+void HeatConduction::implicitFlux(const State& guess, const GasProperties& properties, const Contents& contents,
+                                  double dt, std::span<double> flux) {
   const Mesh& m = context_.mesh;
   const auto n = static_cast<std::size_t>(guess.species);
   inertia_.resize(static_cast<std::size_t>(m.owned));
@@ -58,8 +58,8 @@ void HeatConduction::implicitFlux(const State& guess, const GasProperties& prope
   });
   evaluate(guess.temperature, flux);
   addFaceFluxes(m, flux, 1, 1.0, temperature_);
-  diffusion_.changes(1, inertia_, [this](int face, std::span<const int>, double* g) { *g = conductance_[face]; },
-                   temperature_);
+  diffusion_.changes(
+      1, inertia_, [this](int face, std::span<const int>, double* g) { *g = conductance_[face]; }, temperature_);
   for (int c = 0; c < m.cells; ++c) temperature_[c] += guess.temperature[c];
   evaluate(temperature_, flux);
 }

@@ -15,7 +15,7 @@ namespace lampblack::flow {
 
 class HeatConduction {
  public:
-  explicit HeatConduction(const FlowContext& context) : context_(context), diffusion_(context.mesh, context.halo) {}
+  HeatConduction(const FlowContext& context, ImplicitDiffusion& diffusion) : context_(context), diffusion_(diffusion) {}
 
   // Fluxes here: W a face, from low to high or outwards.
 
@@ -37,7 +37,7 @@ class HeatConduction {
   void evaluate(std::span<const double> temperature, std::span<double> flux) const;
 
   const FlowContext& context_;
-  ImplicitDiffusion diffusion_;
+  ImplicitDiffusion& diffusion_;
   std::vector<double> conductance_;  // W/K, a face; zero where no heat passes
   std::vector<double> inertia_, temperature_, Y_;
 };

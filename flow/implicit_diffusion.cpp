@@ -41,9 +41,10 @@ int iterationsFor(double radius, double reduction, int most) {
   if (reduction >= 1.0) return 0;
   const double needed = radius > 0.0 ? std::ceil(std::acosh(1.0 / reduction) / std::acosh(1.0 / radius)) : 1.0;
   if (!(needed <= most))
-    throw NumericsError(fmt::format("implicit diffusion would not converge in {} iterations: it moves {:g} times what "
-                                    "a cell holds in a step; take a shorter step or larger cells",
-                                    most, 1.0 / (1.0 - radius)));
+    throw NumericsError(
+        fmt::format("implicit diffusion would not converge in {} iterations: it moves {:g} times what "
+                    "a cell holds in a step; take a shorter step or larger cells",
+                    most, 1.0 / (1.0 - radius)));
   return static_cast<int>(needed);
 }
 

@@ -29,7 +29,8 @@ class ImplicitDiffusion {
   // the last step's field as the guess, the error is that share of what the step changes, and a steady state has none.
   // NumericsError on all ranks when that takes more than `maxIterations`.
   Result solve(int fields, std::span<const double> diagonal, std::span<const double> conductance,
-               std::span<const double> source, std::span<double> x, double tolerance = 1e-4, int maxIterations = 100000);
+               std::span<const double> source, std::span<double> x, double tolerance = 1e-4,
+               int maxIterations = 100000);
 
   // source -= the left side above of `x` (fields a cell, halo filled), in the owned cells.
   void subtract(int fields, std::span<const double> diagonal, std::span<const double> conductance,

@@ -44,20 +44,21 @@ double ReactionOperator::densityOfRate(const State& state, std::size_t cell) con
 
 // Of the step's start and end: reactions per mass and per volume are of second order to each other with it.
 double ReactionOperator::meanDensity(const State& state, std::size_t cell) const {
-  return before_.Y.empty() ? state.density[cell] : 0.5 * (before_.density[cell] + state.density[cell]);
+  return state.start.Y.empty() ? state.density[cell] : 0.5 * (state.start.density[cell] + state.density[cell]);
 }
 
 void ReactionOperator::pack(const State& state, std::size_t cell, double dt, std::span<double> in) const {
   const auto n = static_cast<std::size_t>(state.species);
   const double* Y = &state.Y[cell * n];
-  const double* before = before_.Y.empty() ? Y : &before_.Y[cell * n];
-  const double enthalpy = before_.Y.empty() ? state.enthalpy[cell] : before_.enthalpy[cell];
+  const double* before = state.start.Y.empty() ? Y : &state.start.Y[cell * n];
+  const double enthalpy = state.start.Y.empty() ? state.enthalpy[cell] : state.start.enthalpy[cell];
   in[0] = context_.mesh.centre[cell][0];
   in[1] = context_.mesh.centre[cell][1];
   in[2] = enthalpy;
   in[3] = (state.enthalpy[cell] - enthalpy) / dt;
   in[4] = state.temperature[cell];
-  in[5] = before_.Y.empty() ? state.thermodynamicPressure : 0.5 * (before_.pressure + state.thermodynamicPressure);
+  in[5] = state.start.Y.empty() ? state.thermodynamicPressure
+                                : 0.5 * (state.start.thermodynamicPressure + state.thermodynamicPressure);
   in[6] = initialStep_[cell];
   in[7] = static_cast<double>(context_.mesh.naturalCell[cell]);
   const std::span<double> start = in.subspan(Layout::inHeader, n);
@@ -155,7 +156,7 @@ void ReactionOperator::removeNetMass(const State& state, std::size_t cell) {
 void ReactionOperator::limitRates(const State& state, std::size_t cell) {
   const auto n = static_cast<std::size_t>(state.species);
   const double* Y = &state.Y[cell * n];
-  const double* before = &before_.Y[cell * n];
+  const double* before = &state.start.Y[cell * n];
   double* rate = &rate_[cell * n];
   const auto excess = [&](std::size_t k) {
     const double available = std::max(Y[k], 0.0), change = Y[k] - before[k];
@@ -213,16 +214,11 @@ double ReactionOperator::heatRelease(const State& state, std::size_t cell) const
 }
 
 void ReactionOperator::endStep(State& state) {
-  if (step_ > 0.0 && !before_.Y.empty())  // else the state is a new one
+  if (step_ > 0.0 && !state.start.Y.empty())  // else the state is a new one
     for (std::size_t cell = 0; cell < cost_.size(); ++cell) {
       limitRates(state, cell);
       diagnostics_.limitedCells += isLimited_[cell];
     }
-  const auto owned = static_cast<std::ptrdiff_t>(cost_.size());
-  before_.Y.assign(state.Y.begin(), state.Y.begin() + static_cast<std::ptrdiff_t>(rate_.size()));
-  before_.density.assign(state.density.begin(), state.density.begin() + owned);
-  before_.enthalpy.assign(state.enthalpy.begin(), state.enthalpy.begin() + owned);
-  before_.pressure = state.thermodynamicPressure;
   step_ = 0.0;
 }
 

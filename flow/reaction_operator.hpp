@@ -72,13 +72,6 @@ class ReactionOperator : public Operator {
   WorkSharing sharing_;
   std::vector<double> cost_;         // s, of each owned cell's last solve
   std::vector<double> initialStep_;  // s, ConstantPressureReactor::Cell::initialStep of the next solve
-  // Of each owned cell at the beginning of the step; empty before the first endStep(), as if nothing but reactions
-  // changed a cell.
-  struct {
-    std::vector<double> Y;  // species a cell
-    std::vector<double> density, enthalpy;
-    double pressure = 0.0;  // Pa, thermodynamic
-  } before_;
   double step_ = 0.0;                // s, the present; zero between steps
   std::vector<double> rate_;         // kg/m3/s, mean reaction rate of the last sweep, species a owned cell
   std::vector<double> isLimited_;    // 1 or 0, owned cells: whether rate_ is less than it was found (limitRates)

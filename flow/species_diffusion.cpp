@@ -8,9 +8,9 @@
 
 namespace lampblack::flow {
 
-SpeciesDiffusion::SpeciesDiffusion(const FlowContext& context)
+SpeciesDiffusion::SpeciesDiffusion(const FlowContext& context, ImplicitDiffusion& diffusion)
     : context_(context),
-      diffusion_(context.mesh, context.halo),
+      diffusion_(diffusion),
       row_(context.mechanism.numSpecies()),
       startRow_(context.mechanism.numSpecies()) {
   if (context.transportModel.isMulticomponent() || context.transportModel.soret) detailed_.emplace(context);
@@ -97,44 +97,43 @@ void SpeciesDiffusion::prepare(const State& state, const GasProperties& properti
   now_.ofDetails = std::move(details);
 }
 
-void SpeciesDiffusion::keepStart(const State& state) {
+void SpeciesDiffusion::keepStart() {
   start_ = now_;
   start_.ofStart = properties_->massDiffusivity;
-  start_.startY = state.Y;
 }
 
-void SpeciesDiffusion::correct(int face, double present, std::span<double> row) const {
-  flux(start_, face, start_.startY, startRow_);
+void SpeciesDiffusion::correct(std::span<const double> start, int face, double present, std::span<double> row) const {
+  flux(start_, face, start, startRow_);
   for (std::size_t k = 0; k < row.size(); ++k) row[k] = 0.5 * startRow_[k] + present * row[k];
 }
 
 int SpeciesDiffusion::advance(const Gas& gas, double dt, const Sink& sink) {
   const Mesh& m = context_.mesh;
   const std::size_t n = row_.size();
-  const std::vector<double>& guess = gas.guess.Y;
+  const bool isCorrected = !gas.start.empty();
   // At what rate the contents change by everything else and by the guess's diffusion.
-  Y_.resize(guess.size());
+  const std::span<double> Y = gas.solution;
   inertia_.resize(static_cast<std::size_t>(m.owned));
   for (int c = 0; c < m.owned; ++c) {
     inertia_[c] = gas.mass[c] / dt;
-    for (std::size_t i = c * n; i < (c + 1) * n; ++i) Y_[i] = gas.content[i] / dt - inertia_[c] * guess[i];
+    for (std::size_t i = c * n; i < (c + 1) * n; ++i) Y[i] = gas.content[i] / dt - inertia_[c] * gas.guess[i];
   }
   for (int face = 0; face < m.faces; ++face) {
-    if (!flux(face, guess, row_)) continue;
-    if (gas.isCorrected) correct(face, 0.5, row_);
-    addFaceFlux(m, face, row_, 1.0, Y_);
+    if (!flux(face, gas.guess, row_)) continue;
+    if (isCorrected) correct(gas.start, face, 0.5, row_);
+    addFaceFlux(m, face, row_, 1.0, Y);
   }
   const auto through = [this](int face, std::span<const int> species, double* g) { conductance(face, species, g); };
-  const auto result = diffusion_.changes(static_cast<int>(n), inertia_, through, Y_);
-  for (std::size_t i = 0; i < Y_.size(); ++i) Y_[i] += guess[i];
+  const auto result = diffusion_.changes(static_cast<int>(n), inertia_, through, Y);
+  for (std::size_t i = 0; i < Y.size(); ++i) Y[i] += gas.guess[i];
 
-  std::vector<double> found(gas.isCorrected ? n : 0);
+  std::vector<double> found(isCorrected ? n : 0);
   for (int face = 0; face < m.faces; ++face) {
-    if (!flux(face, Y_, row_)) continue;
-    if (gas.isCorrected) {
+    if (!flux(face, Y, row_)) continue;
+    if (isCorrected) {
       found = row_;
-      flux(face, guess, row_);
-      correct(face, -0.5, row_);
+      flux(face, gas.guess, row_);
+      correct(gas.start, face, -0.5, row_);
       for (std::size_t k = 0; k < n; ++k) row_[k] += found[k];
     }
     addFaceFlux(m, face, row_, dt, gas.content);

@@ -25,24 +25,25 @@ namespace lampblack::flow {
 
 class SpeciesDiffusion {
  public:
-  explicit SpeciesDiffusion(const FlowContext& context);
+  SpeciesDiffusion(const FlowContext& context, ImplicitDiffusion& diffusion);
 
   // Takes the coefficients of the state, which everything below goes by; the properties have to stay.
   void prepare(const State& state, const GasProperties& properties);
-  // Keeps coefficients and mass fractions as those of the step's start, for steps of several sweeps.
-  void keepStart(const State& state);
+  // Keeps the coefficients as those of the step's start, for steps of several sweeps.
+  void keepStart();
 
   // Flux through a face from the mass fractions of all local cells; false, and zeros, where nothing diffuses.
   bool flux(int face, std::span<const double> Y, std::span<double> row) const;
 
   // A gas without the diffusion that is sought: mass (kg) of owned cells and content (kg, species a cell), which is
-  // advanced by it. With `isCorrected` fluxes are the mean of those at the step's start and of the guess, and what the
-  // guess's change.
+  // advanced by it. `guess`: mass fractions of all local cells, and `solution` room for as many. With those of the
+  // step's start, `start`, the fluxes are the mean of the start's and the guess's, and what the guess's change.
   struct Gas {
-    const State& guess;
+    std::span<const double> guess;
+    std::span<double> solution;
     std::span<const double> mass;
     std::span<double> content;
-    bool isCorrected = false;
+    std::span<const double> start = {};
   };
   // Takes each face's flux of the step.
   using Sink = std::function<void(int face, std::span<const double> row)>;
@@ -51,24 +52,22 @@ class SpeciesDiffusion {
 
  private:
   struct Coefficients {
-    std::vector<double> weightSlope;    // ln of the weights' ratio across a face
-    std::vector<double> ofDetails;      // kg/s, species a face, what the detailed model adds; empty without one
-    std::vector<double> ofStart;        // kg/m/s, species a cell; empty: diffusivities are those of the properties
-    std::vector<double> startY;
+    std::vector<double> weightSlope;  // ln of the weights' ratio across a face
+    std::vector<double> ofDetails;    // kg/s, species a face, what the detailed model adds; empty without one
+    std::vector<double> ofStart;      // kg/m/s, species a cell; empty: diffusivities are those of the properties
   };
 
   [[nodiscard]] const double* diffusivity(const Coefficients& of, int cell) const;
   bool flux(const Coefficients& of, int face, std::span<const double> Y, std::span<double> row) const;
   void conductance(int face, std::span<const int> species, double* g) const;
-  // Half of the start's flux plus `present` times that of the guess, which `row` holds.
-  void correct(int face, double present, std::span<double> row) const;
+  // Half of the flux of the start's mass fractions plus `present` times that of the guess, which `row` holds.
+  void correct(std::span<const double> start, int face, double present, std::span<double> row) const;
 
   const FlowContext& context_;
-  ImplicitDiffusion diffusion_;
+  ImplicitDiffusion& diffusion_;
   std::optional<DetailedDiffusion> detailed_;
   const GasProperties* properties_ = nullptr;
   Coefficients now_, start_;
-  std::vector<double> Y_;  // rates, then the implicit mass fractions, species a cell
   std::vector<double> inertia_;
   std::vector<double> row_;
   mutable std::vector<double> startRow_;

@@ -27,6 +27,14 @@ void State::Balance::clear() {
   for (std::vector<double>* rates : {&species, &enthalpy, &carried}) std::fill(rates->begin(), rates->end(), 0.0);
 }
 
+void State::keepStart() {
+  const auto owned = static_cast<std::ptrdiff_t>(balance.enthalpy.size());
+  start.Y = Y;
+  start.density.assign(density.begin(), density.begin() + owned);
+  start.enthalpy.assign(enthalpy.begin(), enthalpy.begin() + owned);
+  start.thermodynamicPressure = thermodynamicPressure;
+}
+
 void State::updateHalo(HaloExchange& halo) {
   std::vector<FieldView> fields{{velocity, 2}, {pressure, 1}, {temperature, 1},
                                 {density, 1},  {enthalpy, 1}, {Y, species}};

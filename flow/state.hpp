@@ -52,13 +52,22 @@ struct State {
     void clear();
   } balance;
 
+  // The step's start, which the first operator of a step keeps and the others read: what they change is counted from
+  // there. Empty before the first step: nothing has changed yet.
+  struct Start {
+    std::vector<double> Y;                  // of all local cells
+    std::vector<double> density, enthalpy;  // of the owned cells
+    double thermodynamicPressure = 0.0;     // Pa
+  } start;
+  void keepStart();
+
   // kg/s (per metre depth or radian) through each face, positive from low to high or outwards.
   std::vector<double> massFlux;
 
   // Fills the halo of everything a neighbour needs.
   void updateHalo(HaloExchange& halo);
 
-  // Everything above. The halo of a loaded state has to be updated.
+  // Everything above but the start. The halo of a loaded state has to be updated.
   void saveOrLoad(StateArchive& archive);
 };
 

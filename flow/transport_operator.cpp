@@ -13,11 +13,12 @@ TransportOperator::TransportOperator(const FlowContext& context, const State& st
     : context_(context),
       options_(options),
       faces_(context, state.species, state.carriedCount()),
-      speciesDiffusion_(context),
-      heatConduction_(context),
+      diffusion_(context.mesh, context.halo),
+      speciesDiffusion_(context, diffusion_),
+      heatConduction_(context, diffusion_),
       expansion_(context),
       momentum_(context, state.swirls),
-      carried_(context, state.carriedCount()) {
+      carried_(context, diffusion_, state.carriedCount()) {
   const auto faces = static_cast<std::size_t>(context.mesh.faces);
   const auto owned = static_cast<std::size_t>(context.mesh.owned);
   const auto n = static_cast<std::size_t>(state.species);
@@ -37,7 +38,7 @@ void TransportOperator::initialise(State& state, double dt) {
   state.updateHalo(context_.halo);
   collectively(m.comm, [&] { properties_.update(context_, state); });
   std::fill(state.massFlux.begin(), state.massFlux.end(), 0.0);
-  faces_.prepare(state);
+  faces_.prepare(state, state.Y);
   speciesDiffusion_.prepare(state, properties_);
   std::ranges::fill(content_, 0.0);
   for (int face = 0; face < m.faces; ++face) {
@@ -63,11 +64,13 @@ void TransportOperator::initialise(State& state, double dt) {
 
 void TransportOperator::keepStart(const State& state) {
   start_ = state;
-  mean_ = state;
+  for (auto* kept : {&start_->Y, &start_->start.Y, &start_->balance.species}) *kept = {};  // State::start has the first
+  mean_ = start_;
+  mean_->Y.resize(state.Y.size());
   startViscosity_ = properties_.viscosity;
   startBoundaryViscosity_ = properties_.boundaryViscosity;
   startHeatFlux_.resize(heat_.heat.size());
-  speciesDiffusion_.keepStart(state);
+  speciesDiffusion_.keepStart();
   heatConduction_.presentFlux(state, startHeatFlux_);
 }
 
@@ -75,9 +78,10 @@ void TransportOperator::average(const State& state) {
   const auto mean = [](std::span<const double> start, std::span<const double> latest, std::span<double> result) {
     for (std::size_t i = 0; i < result.size(); ++i) result[i] = 0.5 * (start[i] + latest[i]);
   };
-  for (const auto field : {&State::velocity, &State::swirl, &State::temperature, &State::density, &State::Y,
-                           &State::carried, &State::massFlux})
+  for (const auto field :
+       {&State::velocity, &State::swirl, &State::temperature, &State::density, &State::carried, &State::massFlux})
     mean((*start_).*field, state.*field, (*mean_).*field);
+  mean(state.start.Y, state.Y, mean_->Y);
   mean_->thermodynamicPressure = 0.5 * (start_->thermodynamicPressure + state.thermodynamicPressure);
   meanViscosity_.resize(startViscosity_.size());
   mean(startViscosity_, properties_.viscosity, meanViscosity_);
@@ -92,7 +96,7 @@ void TransportOperator::predictContents(const State& start, const State& mean, c
     double gained = 0.0;
     for (int k = 0; k < n; ++k) {
       const std::size_t i = static_cast<std::size_t>(c) * n + k;
-      content_[i] = m.volume[c] * (start.density[c] * start.Y[i] + dt * state.balance.species[i]);
+      content_[i] = m.volume[c] * (start.density[c] * state.start.Y[i] + dt * state.balance.species[i]);
       gained += state.balance.species[i];
     }
     heatContent_[c] = m.volume[c] * (start.density[c] * start.enthalpy[c] + dt * state.balance.enthalpy[c]);
@@ -117,13 +121,13 @@ void TransportOperator::correctContents(const State& mean, State& state, double 
     double heat = -flux * faces_.enthalpy[face];
     double excess = -flux;  // of what the new direction's upwind gas carries
     if ((velocity >= 0.0) != (flux >= 0.0)) {
-      faces_.massFractions(mean, face, flux, row_);
+      faces_.massFractions(face, flux, row_);
       addFaceFlux(m, face, row_, -dt * flux, content_);
       addFaceFlux(m, face, -flux, dt, newMass_);
       faces_.interpolate(mean, face, velocity, row_);
       excess = 0.0;
     } else {
-      faces_.massFractions(mean, face, velocity, row_);
+      faces_.massFractions(face, velocity, row_);
     }
     flux = faces_.density[face] * velocity * m.area[face];
     excess += flux;
@@ -155,19 +159,23 @@ double TransportOperator::enthalpyFlux(const State& mean, int face, std::span<co
 
 // Diffusion and conduction of the sweep; from the second on corrected so that they become the mean of those at both
 // ends.
-void TransportOperator::advanceDiffusion(const State& mean, const State& state, double dt) {
+void TransportOperator::advanceDiffusion(const State& mean, State& state, double dt) {
   const Mesh& m = context_.mesh;
   const bool several = options_.sweeps > 1, corrected = sweep_ > 1;
   if (corrected) expansion_.withdraw(state, properties_, diffused_, heat_);
   expansion_.beforeDiffusion(state, properties_, content_);
   if (several) diffused_ = content_;
   std::ranges::fill(heat_.enthalpy, 0.0);
-  diagnostics_.speciesIterations = speciesDiffusion_.advance(
-      {state, newMass_, content_, corrected}, dt, [&](int face, std::span<const double> row) {
-        heat_.enthalpy[face] = enthalpyFlux(mean, face, row);
-        if (face >= m.interiorFaces)
-          std::ranges::copy(row, boundaryFlux_.begin() + (face - m.interiorFaces) * static_cast<std::ptrdiff_t>(row.size()));
-      });
+  // In the first sweep the guess is the start, and the state has room for the solution.
+  if (corrected) solution_.resize(state.Y.size());
+  SpeciesDiffusion::Gas gas{state.start.Y, state.Y, newMass_, content_};
+  if (corrected) gas = {state.Y, solution_, newMass_, content_, state.start.Y};
+  diagnostics_.speciesIterations = speciesDiffusion_.advance(gas, dt, [&](int face, std::span<const double> row) {
+    heat_.enthalpy[face] = enthalpyFlux(mean, face, row);
+    if (face >= m.interiorFaces)
+      std::ranges::copy(row,
+                        boundaryFlux_.begin() + (face - m.interiorFaces) * static_cast<std::ptrdiff_t>(row.size()));
+  });
   if (several)
     for (std::size_t i = 0; i < diffused_.size(); ++i) diffused_[i] = (content_[i] - diffused_[i]) / dt;
   addFaceFluxes(m, heat_.enthalpy, 1, dt, heatContent_);
@@ -200,7 +208,7 @@ void TransportOperator::finish(State& state) {
   }
 }
 
-void TransportOperator::recordBoundary(const State& mean, const State& state, double dt) {
+void TransportOperator::recordBoundary(const State& state, double dt) {
   const Mesh& m = context_.mesh;
   const int n = state.species;
   const int scalars = state.carriedCount();
@@ -210,15 +218,15 @@ void TransportOperator::recordBoundary(const State& mean, const State& state, do
     (outward < 0.0 ? in : out) += dt * std::abs(outward);
   };
   for (int face = m.interiorFaces; face < m.faces; ++face) {
-    faces_.massFractions(mean, face, state.massFlux[face], row_);
+    faces_.massFractions(face, state.massFlux[face], row_);
     const double* diffuses = &boundaryFlux_[static_cast<std::size_t>(face - m.interiorFaces) * n];
     for (int k = 0; k < n; ++k)
       book(state.massFlux[face] * row_[k] + diffuses[k], boundary_.speciesIn[k], boundary_.speciesOut[k]);
     for (int s = 0; s < scalars; ++s)
       book(carried_.flux()[static_cast<std::size_t>(face) * scalars + s], boundary_.carriedIn[s],
            boundary_.carriedOut[s]);
-    book(state.massFlux[face] * faces_.enthalpy[face] + heat_.enthalpy[face] + heat_.heat[face],
-         boundary_.enthalpyIn, boundary_.enthalpyOut);
+    book(state.massFlux[face] * faces_.enthalpy[face] + heat_.enthalpy[face] + heat_.heat[face], boundary_.enthalpyIn,
+         boundary_.enthalpyOut);
   }
 }
 
@@ -247,12 +255,13 @@ void TransportOperator::advance(State& state, double time, double dt) {
   expansion_.begin(state, properties_, first, dt, lastStep_);
   speciesDiffusion_.prepare(state, properties_);
   heatConduction_.prepare(properties_);
-  if (first) startPressure_ = state.thermodynamicPressure;
+  if (first) state.keepStart();
   if (several && first) keepStart(state);
   if (several) average(state);
   const State& start = several ? *start_ : state;
   const State& mean = several ? *mean_ : state;
-  faces_.prepare(mean);
+  // The state's own mass fractions are written over before the step is done with them.
+  faces_.prepare(mean, several ? mean.Y : state.start.Y);
 
   predictContents(start, mean, state, dt);
   if (!first) addCompression();
@@ -271,9 +280,9 @@ void TransportOperator::advance(State& state, double time, double dt) {
   addCompression();
   const std::vector<double>& meanViscosity = several ? meanViscosity_ : properties_.viscosity;
   carried_.advance(state, {start, mean, meanViscosity, faces_, faceVelocity_, newMass_}, dt);
-  if (sweep_ == options_.sweeps) recordBoundary(mean, state, dt);
+  if (sweep_ == options_.sweeps) recordBoundary(state, dt);
   collectively(m.comm, [&] { finish(state); });
-  state.thermodynamicPressure = startPressure_ + expansion_.pressureRise();
+  state.thermodynamicPressure = state.start.thermodynamicPressure + expansion_.pressureRise();
   state.updateHalo(context_.halo);
   if (sweep_ < options_.sweeps) return;
   sweep_ = 0;

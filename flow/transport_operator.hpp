@@ -23,6 +23,7 @@
 #include "flow/flow_context.hpp"
 #include "flow/gas_properties.hpp"
 #include "flow/heat_conduction.hpp"
+#include "flow/implicit_diffusion.hpp"
 #include "flow/momentum.hpp"
 #include "flow/operator.hpp"
 #include "flow/species_diffusion.hpp"
@@ -78,9 +79,9 @@ class TransportOperator : public Operator {
   void correctContents(const State& mean, State& state, double dt);
   void addCompression();
   [[nodiscard]] double enthalpyFlux(const State& mean, int face, std::span<const double> species);
-  void advanceDiffusion(const State& mean, const State& state, double dt);
+  void advanceDiffusion(const State& mean, State& state, double dt);
   void finish(State& state);
-  void recordBoundary(const State& mean, const State& state, double dt);
+  void recordBoundary(const State& state, double dt);
   void keepStart(const State& state);
   void average(const State& state);
 
@@ -88,6 +89,7 @@ class TransportOperator : public Operator {
   Options options_;
   GasProperties properties_;
   FaceState faces_;
+  ImplicitDiffusion diffusion_;
   SpeciesDiffusion speciesDiffusion_;
   HeatConduction heatConduction_;
   Expansion expansion_;
@@ -97,13 +99,13 @@ class TransportOperator : public Operator {
   BoundaryAmounts boundary_;
   std::vector<std::function<void(const BoundaryAmounts&)>> watchers_;
 
-  int sweep_ = 0;               // of the present step
-  double startPressure_ = 0.0;  // Pa, thermodynamic pressure at the step's start
-  double lastStep_ = 0.0;       // s
+  int sweep_ = 0;          // of the present step
+  double lastStep_ = 0.0;  // s
   // Only of steps of several sweeps: the start; the mean of it and of what the last sweep found; conduction at the
   // start; what diffusion brought in the last sweep, kg/s of each species to the owned cells.
   std::optional<State> start_, mean_;
   std::vector<double> startHeatFlux_, diffused_;
+  std::vector<double> solution_;                        // of the species' diffusion, species a cell
   std::vector<double> startViscosity_, meanViscosity_;  // Pa s, cells
   std::vector<double> startBoundaryViscosity_;          // Pa s, boundary faces
 

@@ -40,7 +40,8 @@ class DetailedFluxes : public testing::Test {
   std::vector<double> fluxes(const FlowContext& context) const {
     GasProperties properties;
     properties.update(context, state);
-    SpeciesDiffusion diffusion(context);
+    ImplicitDiffusion solver(box.mesh, context.halo);
+    SpeciesDiffusion diffusion(context, solver);
     diffusion.prepare(state, properties);
     return fluxes(diffusion);
   }
@@ -143,7 +144,8 @@ TEST_F(DetailedFluxes, AreThereInAStep) {
       .diffusion = TransportModel::Diffusion::Multicomponent, .soret = true, .lewisNumbers = {}};
   GasProperties properties;
   properties.update(box.context, state);
-  SpeciesDiffusion diffusion(box.context);
+  ImplicitDiffusion solver(box.mesh, box.halo);
+  SpeciesDiffusion diffusion(box.context, solver);
   diffusion.prepare(state, properties);
   const Mesh& m = box.mesh;
   std::vector<double> content(at(m.owned) * n), mass(at(m.owned));
@@ -153,7 +155,8 @@ TEST_F(DetailedFluxes, AreThereInAStep) {
   }
   const std::vector<double> present = fluxes(diffusion);
   std::vector<double> ofStep(present.size(), 0.0);
-  diffusion.advance({state, mass, content}, 1e-13, [&](int face, std::span<const double> row) {
+  std::vector<double> solution(state.Y.size());
+  diffusion.advance({state.Y, solution, mass, content}, 1e-13, [&](int face, std::span<const double> row) {
     std::copy(row.begin(), row.end(), ofStep.begin() + static_cast<std::ptrdiff_t>(at(face) * n));
   });
   double largest = 0.0;

@@ -53,7 +53,7 @@ Faces facesOf(int refinement, bool isMirrored) {
   });
   state.updateHalo(box.halo);
   FaceState faces(box.context, state.species, 0);
-  faces.prepare(state);
+  faces.prepare(state, state.Y);
   Faces result;
   double count = 0.0;
   for (int face = 0; face < m.interiorFaces; ++face) {
@@ -63,8 +63,7 @@ Faces facesOf(int refinement, bool isMirrored) {
     const double x = mirrored(m.faceCentre[at(face)][0], isMirrored),
                  y = mirrored(m.faceCentre[at(face)][1], isMirrored);
     const double weight = std::exp(100.0 * x - 70.0 * y) * (1.0 + m.normalAxis[at(face)]);
-    result.sum +=
-        weight * faces.temperature[at(face)] * Y[gas.mechanism.speciesIndex("H2")];
+    result.sum += weight * faces.temperature[at(face)] * Y[gas.mechanism.speciesIndex("H2")];
     if (std::min(x, y) < 0.1 * width || std::max(x, y) > 0.9 * width) continue;
     result.error += std::abs(faces.temperature[at(face)] - temperatureAt(x, y));
     ++count;

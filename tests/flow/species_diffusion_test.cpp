@@ -29,9 +29,11 @@ std::vector<double> fluxesOf(Box& box, const State& state, double dt) {
     for (std::size_t k = 0; k < n; ++k) content[c * n + k] = mass[c] * state.Y[c * n + k];
   }
   std::vector<double> flux(at(m.faces) * n, 0.0);
-  SpeciesDiffusion diffusion(box.context);
+  ImplicitDiffusion solver(m, box.halo);
+  SpeciesDiffusion diffusion(box.context, solver);
   diffusion.prepare(state, properties);
-  diffusion.advance({state, mass, content}, dt, [&](int face, std::span<const double> row) {
+  std::vector<double> solution(state.Y.size());
+  diffusion.advance({state.Y, solution, mass, content}, dt, [&](int face, std::span<const double> row) {
     std::copy(row.begin(), row.end(), flux.begin() + static_cast<std::ptrdiff_t>(at(face) * n));
   });
   return flux;
@@ -121,7 +123,7 @@ TEST_F(Diffusing, BothRanksComputeTheSameFluxThroughASharedFace) {
 TEST_F(Diffusing, FaceStateSumsToOneAndIsInPressureEquilibrium) {
   const State state = box.state([&](const auto& x) { return mixed(x); });
   FaceState faces(box.context, state.species, 0);
-  faces.prepare(state);
+  faces.prepare(state, state.Y);
   const auto n = gas.mechanism.numSpecies();
   for (const double sign : {1.0, -1.0}) {
     for (int face = 0; face < box.mesh.faces; ++face) {
