@@ -95,9 +95,8 @@ void Swirl::addInside(const MomentumSweep& sweep) {
     conductance_[face] = mu * radius * radius * m.area[face] / m.distance[face];
     const double flux = sweep.mean.massFlux[face];
     const Upwind u = upwind_.of(face, flux);
-    const int axis = m.normalAxis[face];
-    const double value = smoothFaceValue(angularMomentum_[u.up], angularMomentum_[u.down],
-                                         slope_[2 * u.up + axis] * u.sign, slope_[2 * u.down + axis] * u.sign, u);
+    const double value = limitedFaceValue(angularMomentum_[u.up], angularMomentum_[u.down],
+                                          slope_[2 * u.up + m.normalAxis[face]] * u.sign, u);
     if (low < m.owned) source_[low] -= flux * (value - angularMomentum_[low]);
     if (high < m.owned) source_[high] += flux * (value - angularMomentum_[high]);
   }
