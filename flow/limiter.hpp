@@ -1,4 +1,5 @@
-// Limited second-order upwind interpolation to a face.
+// Limited second-order upwind interpolation to a face: between the neighbours' values for what has bounds, and one that
+// keeps smooth extrema for velocities.
 #pragma once
 
 #include <algorithm>
@@ -25,6 +26,22 @@ inline double limitedFaceValue(double up, double down, double gradient, const Up
   const double largest = std::min(std::abs(down - up), std::abs(behind) * at.behind);
   const double step = std::copysign(std::min(std::abs(slope) * at.toFace, largest), slope);
   return up + (isMonotone ? step : 0.0);
+}
+
+// For velocities, which may pass their neighbours': where the field is smooth the value along the parabola's own slope,
+// at crests and troughs too, where the above is the upwind value. In the spirit of Colella and Sekora (2008) a field is
+// smooth where the curvatures of the upwind and the downwind cell have one sign and like sizes: the smaller of them,
+// the downwind one with some margin, is the share of the upwind cell's that is believed. `gradient` and
+// `gradientBeyond`: those of the upwind and the downwind cell along up -> down.
+inline double smoothFaceValue(double up, double down, double gradient, double gradientBeyond, const Upwind& at) {
+  constexpr double margin = 1.25;
+  const double limited = limitedFaceValue(up, down, gradient, at);
+  // Curvatures times half of the distance, of the parabolas through either cell's value and slope and the other value.
+  const double ahead = (down - up) / at.ahead;
+  const double own = ahead - gradient, beyond = gradientBeyond - ahead;
+  if (!(own * beyond > 0.0)) return limited;
+  const double share = std::min(1.0, margin * beyond / own);
+  return limited + share * (up + gradient * at.toFace - limited);
 }
 
 }  // namespace lampblack::flow

@@ -51,12 +51,25 @@ Momentum::Momentum(const FlowContext& context, bool swirls)
                                : isOutlet                                 ? BoundaryData::Nothing
                                                                           : BoundaryData::ZeroSlope);
   }
+  findOpposites();
   for (int i = 0; i < 2; ++i) {
     std::vector<BoundaryData> known;
     for (int b = 0; b < m.boundaryFaces(); ++b) known.push_back(velocityKnown_[2 * b + i]);
     upwind_.emplace_back(context, known);
   }
   if (swirls) swirl_.emplace(context, pressureKnown_);
+}
+
+void Momentum::findOpposites() {
+  const Mesh& m = context_.mesh;
+  opposite_.assign(m.boundaryFaces(), -1);
+  for (int face = m.interiorFaces; face < m.faces; ++face) {
+    const int cell = m.low[face];
+    for (int j = m.faceStart[cell]; j < m.faceStart[cell + 1]; ++j) {
+      const int other = m.faceOfCell[j];
+      if (m.high[other] >= 0 && m.normalAxis[other] == m.normalAxis[face]) opposite_[face - m.interiorFaces] = other;
+    }
+  }
 }
 
 void Momentum::boundaryVelocities(const State& state) {
@@ -101,6 +114,19 @@ void Momentum::explicitStress(const MomentumSweep& sweep) {
     const double* g = &velocityGradient_[4 * cell];
     return g[0] + g[3] + (axisymmetric ? sweep.mean.velocity[2 * cell] / m.centre[cell][0] : 0.0);
   };
+  const auto between = [&](int face, int axis, int i) {
+    const double w = m.lowWeight[face];
+    return w * velocityGradient_[4 * m.low[face] + 2 * axis + i] +
+           (1.0 - w) * velocityGradient_[4 * m.high[face] + 2 * axis + i];
+  };
+  // The normal velocity's slope along an opening: on the line from the face on the cell's other side through its
+  // centre. With the cell's own the force on it would be half of what it is.
+  const auto transposedAt = [&](int face, int axis, int i) {
+    if (m.high[face] >= 0) return between(face, axis, i);
+    const double own = velocityGradient_[4 * m.low[face] + 2 * axis + i];
+    const int opposite = opposite_[face - m.interiorFaces];
+    return opposite < 0 || i == axis ? own : 2.0 * own - between(opposite, axis, i);
+  };
   for (int face = 0; face < m.faces; ++face) {
     const int low = m.low[face];
     const int high = m.high[face] >= 0 ? m.high[face] : low;
@@ -115,8 +141,7 @@ void Momentum::explicitStress(const MomentumSweep& sweep) {
     for (int i = 0; i < 2; ++i) {
       if (isTight && i != axis) continue;
       // velocityGradient_[4 c + 2 j + i] is du_j/dx_i; the transposed part needs du_normal/dx_i.
-      const double transposed =
-          w * velocityGradient_[4 * low + 2 * axis + i] + (1.0 - w) * velocityGradient_[4 * high + 2 * axis + i];
+      const double transposed = transposedAt(face, axis, i);
       const double traction =
           m.normalSign[face] * mu * m.area[face] * (transposed - (i == axis ? 2.0 / 3.0 * divergence : 0.0));
       if (low < m.owned) source_[2 * low + i] += traction;
@@ -159,8 +184,9 @@ void Momentum::predict(const State& state, const MomentumSweep& sweep) {
       const double mu = m.lowWeight[face] * viscosity[low] + (1.0 - m.lowWeight[face]) * viscosity[high];
       for (int i = 0; i < 2; ++i) {
         const Upwind u = upwind_[i].of(face, flux);
-        const double value = limitedFaceValue(velocity[2 * u.up + i], velocity[2 * u.down + i],
-                                              velocityGradient_[4 * u.up + 2 * i + axis] * u.sign, u);
+        const double value = smoothFaceValue(velocity[2 * u.up + i], velocity[2 * u.down + i],
+                                             velocityGradient_[4 * u.up + 2 * i + axis] * u.sign,
+                                             velocityGradient_[4 * u.down + 2 * i + axis] * u.sign, u);
         // Advective form: convection of the difference to the cell's own velocity.
         if (low < m.owned) source_[2 * low + i] -= flux * (value - velocity[2 * low + i]);
         if (high < m.owned) source_[2 * high + i] += flux * (value - velocity[2 * high + i]);

@@ -1,7 +1,7 @@
-// Momentum of the low-Mach equations (Wang 2025, eqs. 6-2 and 6-5): limited upwind convection by the face
-// mass flux, implicit viscosity, and the pressure gradient of the last step; the projection finds by how much the
-// pressure changes (incremental projection, van Kan 1986). A steady flow has no change left to find, and knows no time
-// step.
+// Momentum of the low-Mach equations (Wang 2025, eqs. 6-2 and 6-5): upwind convection, limited where the flow is not
+// smooth, by the face mass flux, implicit viscosity, and the pressure gradient of the last step; the projection finds
+// by how much the pressure changes (incremental projection, van Kan 1986). A steady flow has no change left to find,
+// and knows no time step.
 #pragma once
 
 #include <optional>
@@ -43,6 +43,7 @@ class Momentum {
 
  private:
   void setInverseDensity(std::span<const double> density);
+  void findOpposites();
   void boundaryVelocities(const State& state);
   void outletPressures(const State& state);
   void predict(const State& state, const MomentumSweep& sweep);
@@ -57,7 +58,8 @@ class Momentum {
   FaceVelocity faceVelocity_;
   std::optional<Swirl> swirl_;
   std::vector<BoundaryData> velocityKnown_, pressureKnown_;  // two a boundary face; one
-  std::vector<UpwindGeometry> upwind_;                       // of each component
+  std::vector<int> opposite_;           // of each boundary face the face on its cell's other side, or -1
+  std::vector<UpwindGeometry> upwind_;  // of each component
   std::vector<double> boundaryVelocity_, boundaryPressure_;
   std::vector<double> velocityGradient_, pressureGradient_;
   std::vector<double> acceleration_;  // m/s2, (grad p - f)/rho with gravity's force f, two a cell

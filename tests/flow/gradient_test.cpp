@@ -196,5 +196,92 @@ TEST(LimitedFaceValue, IsUpwindAtExtrema) {
   EXPECT_EQ((Line{0.4, 1.0, 1.0, uniform}.faceValue()), 1.0);
 }
 
+// Four places on a line: `Line` and the value beyond the one ahead.
+struct LongLine {
+  Line line;
+  double beyond, ahead;  // value, and its distance from the downwind place
+  [[nodiscard]] double faceValue() const {
+    const double here = (line.down - line.up) / line.at.ahead, next = (beyond - line.down) / ahead;
+    const double gradientBeyond = (here * ahead + next * line.at.ahead) / (ahead + line.at.ahead);
+    return smoothFaceValue(line.up, line.down, line.gradient(), gradientBeyond, line.at);
+  }
+};
+
+// The values of `f` on cells of which each is `ratio` times as wide as the one before; the upwind cell is about x.
+template <class F>
+LongLine sampled(const F& f, double x, double width, double ratio) {
+  const double behind = 0.5 * width * (1.0 + 1.0 / ratio), ahead = 0.5 * width * (1.0 + ratio);
+  return {{f(x - behind), f(x), f(x + ahead), {0, 1, 1.0, ahead, behind, 0.5 * width}},
+          f(x + ahead * (1.0 + ratio)),
+          ahead * ratio};
+}
+
+// Parabolas are followed along their own slope wherever their crest is, which the bounded limiter cuts.
+TEST(SmoothFaceValue, FollowsAParabolaAcrossItsCrest) {
+  for (const double ratio : {0.8, 1.0, 1.3})
+    for (double x = -2.0; x < 2.0; x += 0.23) {
+      const LongLine line = sampled([](double place) { return 3.0 - place * place; }, x, 1.0, ratio);
+      EXPECT_NEAR(line.faceValue(), 3.0 - x * x - 2.0 * x * 0.5, 1e-13) << ratio << ' ' << x;
+    }
+}
+
+// Of the second order where the bounded one has lost it: half a cell from a crest.
+TEST(SmoothFaceValue, IsOfSecondOrderAtACrest) {
+  for (const double ratio : {0.8, 1.0, 1.25}) {
+    double slopeError[2], bounded[2];
+    for (int i = 0; i < 2; ++i) {
+      const double h = 0.02 / (1 << i);
+      const LongLine line =
+          sampled([](double x) { return std::cos(x) + 0.1 * std::sin(3.0 * x); }, 0.3 + 0.1 * h, h, ratio);
+      const double slope = -std::sin(0.3 + 0.1 * h) + 0.3 * std::cos(3.0 * (0.3 + 0.1 * h));
+      slopeError[i] = (line.faceValue() - line.line.up) / line.line.at.toFace - slope;
+      const LongLine crest = sampled([](double x) { return std::cos(x + x * x); }, 0.1 * h, h, ratio);
+      const double at = 0.1 * h, there = -std::sin(at + at * at) * (1.0 + 2.0 * at);
+      bounded[i] = (crest.line.faceValue() - crest.line.up) / crest.line.at.toFace - there;
+      const double found = (crest.faceValue() - crest.line.up) / crest.line.at.toFace - there;
+      EXPECT_LT(std::abs(found), 10.0 * h * h) << ratio;
+    }
+    EXPECT_NEAR(slopeError[0] / slopeError[1], 4.0, 0.4) << ratio;
+    EXPECT_NEAR(bounded[0] / bounded[1], 2.0, 0.4) << ratio;
+  }
+}
+
+// Beside a jump, and where the curvature turns round, the bounded value is taken.
+TEST(SmoothFaceValue, IsBoundedAtJumps) {
+  const Upwind uniform{0, 1, 1.0, 1.0, 1.0, 0.5};
+  EXPECT_EQ((LongLine{{0.0, 0.0, 1.0, uniform}, 1.0, 1.0}.faceValue()), 0.0);
+  EXPECT_EQ((LongLine{{0.0, 1.0, 1.0, uniform}, 1.0, 1.0}.faceValue()), 1.0);
+  EXPECT_EQ((LongLine{{0.0, 1.0, 0.0, uniform}, 1.0, 1.0}.faceValue()), 1.0);  // zigzag
+  const LongLine turning{{0.0, 1.0, 3.0, uniform}, 4.0, 1.0};
+  EXPECT_EQ(turning.faceValue(), turning.line.faceValue());
+}
+
+// Where the next cell has less curvature, only a quarter more than that is believed.
+TEST(SmoothFaceValue, BelievesTheSmallerCurvature) {
+  const Upwind uniform{0, 1, 1.0, 1.0, 1.0, 0.5};
+  // Slopes -3, 1, 2 in turn: curvatures 4 and 1, an own slope of -1 and a bounded one of none.
+  EXPECT_NEAR((LongLine{{3.0, 0.0, 1.0, uniform}, 3.0, 1.0}.faceValue()), -0.5 * 1.25 * 0.25, 1e-15);
+  // Slopes -1, 1, 5: the upwind cell's curvature is the smaller.
+  EXPECT_NEAR((LongLine{{1.0, 0.0, 1.0, uniform}, 6.0, 1.0}.faceValue()), 0.0, 1e-15);
+  EXPECT_NEAR((LongLine{{2.0, 0.0, 1.0, uniform}, 6.0, 1.0}.faceValue()), -0.25, 1e-15);
+}
+
+TEST(SmoothFaceValue, IsTheSameUpsideDown) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> value(-1.0, 1.0), share(0.02, 0.98), distance(0.3, 3.0);
+  int smooth = 0;
+  for (int i = 0; i < 10000; ++i) {
+    const LongLine line{
+        {value(random), value(random), value(random), {0, 1, 1.0, 1.0, distance(random), share(random)}},
+        value(random),
+        distance(random)};
+    LongLine turned = line;
+    for (double* v : {&turned.line.behind, &turned.line.up, &turned.line.down, &turned.beyond}) *v = 2.0 - *v;
+    EXPECT_NEAR(turned.faceValue(), 2.0 - line.faceValue(), 1e-12);
+    smooth += line.faceValue() != line.line.faceValue();
+  }
+  EXPECT_GT(smooth, 2000);
+}
+
 }  // namespace
 }  // namespace lampblack::test

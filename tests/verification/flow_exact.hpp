@@ -44,6 +44,14 @@ class FlowExact : public testing::Test {
   static void bringToLife(Box& box) {
     box.context.varying = std::make_shared<BoundaryValues>(box.mesh, box.context.boundaries, box.gas.thermo);
   }
+
+  // Of velocities, over a velocity of the flow: mean over the domain, and in the worst of all cells.
+  struct Errors {
+    std::array<double, 2> mean{}, largest{};
+  };
+  // The flow of Kovasznay (1948) on vertices in units of a wave's length, after so many steps of a quarter of the
+  // smallest cell.
+  Errors kovasznay(std::array<std::vector<double>, 2> vertices, int steps);
 };
 
 inline double meanError(const Box& box, const std::function<double(int)>& error) {
@@ -54,6 +62,45 @@ inline void expectOrders(const std::string& what, const std::array<double, 3>& e
   report(fmt::format("{}: {:.2e} {:.2e} {:.2e}, orders {:.2f} {:.2f}", what, error[0], error[1], error[2],
                      std::log2(error[0] / error[1]), std::log2(error[1] / error[2])));
   EXPECT_GT(std::log2(error[1] / error[2]), least) << what;
+}
+
+// Behind a grid, Reynolds number 40: u = 1 - exp(lx) cos 2 pi y, v = l/(2 pi) exp(lx) sin 2 pi y, and a pressure that
+// depends on x alone, so that an outlet at a place x is exact. Next to y = 0 the gas comes in through the outlet of a
+// domain that begins at x = -0.5, where part of it leaves through the inlet.
+inline FlowExact::Errors FlowExact::kovasznay(std::array<std::vector<double>, 2> vertices, int steps) {
+  const double reynolds = 40.0, length = 1e-3;
+  const double speed = reynolds * viscosity() / length;
+  const double l = reynolds / 2.0 - std::sqrt(reynolds * reynolds / 4.0 + 4.0 * pi * pi);
+  const auto u = [&](const Place& x, double) {
+    return speed * (1.0 - std::exp(l * (x[0] / length - 0.5)) * std::cos(2.0 * pi * x[1] / length));
+  };
+  const auto v = [&](const Place& x, double) {
+    return speed * l / (2.0 * pi) * std::exp(l * (x[0] / length - 0.5)) * std::sin(2.0 * pi * x[1] / length);
+  };
+  double smallest = length;
+  for (std::vector<double>& axis : vertices) {
+    for (double& x : axis) x *= length;
+    for (std::size_t i = 1; i < axis.size(); ++i) smallest = std::min(smallest, axis[i] - axis[i - 1]);
+  }
+  Box box(Geometry::Planar, std::move(vertices),
+          {stream(0, false, u, v), opening(BoundaryKind::Outlet, 0, true, 0.0, 300.0, n2),
+           side(BoundaryKind::Symmetry, 1, false), side(BoundaryKind::Symmetry, 1, true)});
+  bringToLife(box);
+  State state = box.state([&](const Place& x) { return Box::Local{{u(x, 0), v(x, 0)}, 300.0, n2}; });
+  const double dt = 0.25 * smallest / speed;
+  TransportOperator transport(box.context, state);
+  transport.initialise(state, dt);
+  for (int i = 0; i < steps; ++i) transport.advance(state, 0.0, dt);
+  Errors errors;
+  for (int component = 0; component < 2; ++component) {
+    const auto error = [&](int c) {
+      const Place& x = box.mesh.centre[at(c)];
+      return (state.velocity[at(2 * c + component)] - (component == 0 ? u(x, 0.0) : v(x, 0.0))) / speed;
+    };
+    errors.mean[at(component)] = meanError(box, error);
+    errors.largest[at(component)] = largest(box.mesh, [&](int c) { return std::abs(error(c)); });
+  }
+  return errors;
 }
 
 }  // namespace lampblack::test
