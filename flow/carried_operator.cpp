@@ -246,7 +246,7 @@ void CarriedOperator::endSweep(State& state) {
     for (std::size_t s = 0; s < scalars_; ++s)
       state.balance.carried[at(c, state.scalars.size()) + first_ + s] += rate[s];
     for (std::size_t i = 0; i < species.size(); ++i)
-      state.balance.species[at(c, state.species) + species[i]] += rate[scalars_ + i] * W[species[i]];
+      state.balance.exchange(static_cast<std::size_t>(c), species[i], rate[scalars_ + i] * W[species[i]]);
     state.balance.enthalpy[c] += heat_[c];
   }
 }

@@ -54,10 +54,12 @@ double Expansion::ofHeat(const State& state, const GasProperties& properties, in
 }
 
 void Expansion::addBalance(const State& state, const GasProperties& properties, std::span<double> divergence) const {
-  const auto n = static_cast<std::size_t>(state.species);
-  for (int c = 0; c < context_.mesh.owned; ++c)
-    divergence[c] += context_.mesh.volume[c] * (ofSpecies(state, properties, c, &state.balance.species[c * n]) +
+  std::vector<double> rate(static_cast<std::size_t>(state.species));
+  for (int c = 0; c < context_.mesh.owned; ++c) {
+    state.balance.ofSpecies(static_cast<std::size_t>(c), rate);
+    divergence[c] += context_.mesh.volume[c] * (ofSpecies(state, properties, c, rate.data()) +
                                                 ofHeat(state, properties, c, state.balance.enthalpy[c]));
+  }
 }
 
 void Expansion::addHeat(const State& state, const GasProperties& properties, const HeatFluxes& fluxes, double sign) {

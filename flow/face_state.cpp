@@ -1,6 +1,7 @@
 #include "flow/face_state.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/constants.hpp"
 #include "flow/limiter.hpp"
@@ -8,17 +9,30 @@
 namespace lampblack::flow {
 namespace {
 
-// Gas that is drawn in through an outlet is known, gas that leaves is not.
-std::vector<BoundaryData> knownData(const FlowContext& context, bool isOfTemperature) {
+// Gas that is drawn in through an outlet is known, gas that leaves is not. `fed`: of what is fed with a given flux
+// alone.
+std::vector<BoundaryData> knownData(const FlowContext& context, bool isOfTemperature, BoundaryData fed) {
   std::vector<BoundaryData> known;
   for (int face = context.mesh.interiorFaces; face < context.mesh.faces; ++face) {
     const BoundaryCondition& boundary = context.boundaryOf(face);
     const bool isWall = boundary.kind == BoundaryKind::Wall || boundary.kind == BoundaryKind::Symmetry;
     const bool isGiven = !isWall || (isOfTemperature && boundary.kind == BoundaryKind::Wall && boundary.isothermal);
     const bool hasFlux = isOfTemperature && (boundary.heatFlux != 0.0 || boundary.varies.heatFlux);
-    known.push_back(isGiven ? BoundaryData::Value : hasFlux ? BoundaryData::Nothing : BoundaryData::ZeroSlope);
+    const bool isHeld = isOfTemperature ? boundary.kind != BoundaryKind::Outlet : context.isCompositionGiven(face);
+    known.push_back(!isGiven && hasFlux ? BoundaryData::Nothing
+                    : !isGiven          ? BoundaryData::ZeroSlope
+                    : isHeld            ? BoundaryData::Value
+                                        : fed);
   }
   return known;
+}
+
+// What lies at a face through which gas comes in with a given flux, where diffusion may have changed it: between the
+// cell and what is fed, and no further than the slope on the cell's other side leads.
+double behindFeed(double cell, double fed, double extrapolated) {
+  const double byFeed = fed - cell, bySlope = extrapolated - cell;
+  if (!(byFeed * bySlope > 0.0)) return cell;
+  return cell + (std::abs(byFeed) < std::abs(bySlope) ? byFeed : bySlope);
 }
 
 }  // namespace
@@ -28,8 +42,10 @@ FaceState::FaceState(const FlowContext& context, int species, int carried)
       species_(species),
       carried_(carried),
       gradient_(context.mesh),
-      temperatureKnown_(knownData(context, true)),
-      YKnown_(knownData(context, false)),
+      temperatureKnown_(knownData(context, true, BoundaryData::Value)),
+      YKnown_(knownData(context, false, BoundaryData::Value)),
+      temperatureHeld_(knownData(context, true, BoundaryData::Nothing)),
+      YHeld_(knownData(context, false, BoundaryData::Nothing)),
       temperatureUpwind_(context, temperatureKnown_),
       YUpwind_(context, YKnown_) {
   const Mesh& m = context.mesh;
@@ -66,6 +82,27 @@ void FaceState::setBoundaries(const State& state) {
     // No particles come in.
     for (int s = 0; s < carried_; ++s) boundaryCarried_[b * carried_ + s] = isYGiven ? 0.0 : perMass_[c * carried_ + s];
   }
+  for (int face = m.interiorFaces; face < m.faces; ++face) limitFed(state, face);
+}
+
+void FaceState::limitFed(const State& state, int face) {
+  const Mesh& m = context_.mesh;
+  const int b = face - m.interiorFaces, c = m.low[face], axis = m.normalAxis[face];
+  const double reach = m.normalSign[face] * m.distance[face];
+  const auto limit = [&](std::span<const double> values, std::span<double> atFaces, int components,
+                         const std::vector<BoundaryData>& known, const std::vector<BoundaryData>& held) {
+    if (known[b] != BoundaryData::Value || held[b] == BoundaryData::Value || components == 0) return;
+    feedSlope_.resize(static_cast<std::size_t>(components));
+    gradient_.along(axis, c, values, atFaces, components, feedSlope_, held);
+    for (int k = 0; k < components; ++k) {
+      const double cell = values[c * components + k];
+      double& atFace = atFaces[b * components + k];
+      atFace = behindFeed(cell, atFace, cell + reach * feedSlope_[k]);
+    }
+  };
+  limit(state.temperature, boundaryTemperature_, 1, temperatureKnown_, temperatureHeld_);
+  limit(Y_, boundaryY_, species_, YKnown_, YHeld_);
+  limit(perMass_, boundaryCarried_, carried_, YKnown_, YHeld_);
 }
 
 void FaceState::prepare(const State& state, std::span<const double> Y) {

@@ -40,6 +40,8 @@ class FaceState {
 
  private:
   void setBoundaries(const State& state);
+  // Values at a face of what is fed with a given flux, where it is.
+  void limitFed(const State& state, int face);
   // Whether gas comes in from beyond the boundary at a face.
   [[nodiscard]] bool enters(int face, double direction) const;
 
@@ -48,6 +50,7 @@ class FaceState {
   std::span<const double> Y_;
   Gradient gradient_;
   std::vector<BoundaryData> temperatureKnown_, YKnown_;  // of carried scalars as of Y
+  std::vector<BoundaryData> temperatureHeld_, YHeld_;    // the same, without what is fed with a given flux alone
   UpwindGeometry temperatureUpwind_, YUpwind_;
   std::vector<double> boundaryTemperature_, boundaryY_, boundaryCarried_;
   std::vector<double> perMass_;
@@ -56,6 +59,7 @@ class FaceState {
   // they are asked for, which costs no more and keeps no memory.
   std::vector<double> haloSlope_;
   mutable std::vector<double> slope_;
+  std::vector<double> feedSlope_;
 };
 
 }  // namespace lampblack::flow

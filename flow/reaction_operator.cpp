@@ -33,7 +33,6 @@ ReactionOperator::ReactionOperator(const FlowContext& context, Options options)
       sharing_(context.mesh.comm, options.shareWork),
       cost_(context.mesh.owned, 1e-4),
       initialStep_(context.mesh.owned, 0.0),
-      rate_(cost_.size() * context.mechanism.numSpecies()),
       isLimited_(cost_.size()),
       heatRelease_(cost_.size()) {}
 
@@ -66,7 +65,8 @@ void ReactionOperator::pack(const State& state, std::size_t cell, double dt, std
   std::copy_n(before, n, start.begin());
   // What transport alone has changed since then, at a constant rate.
   const double density = densityOfRate(state, cell);
-  for (std::size_t k = 0; k < n; ++k) source[k] = (Y[k] - before[k]) / dt - rate_[cell * n + k] / density;
+  const double* rate = &state.balance.reactions[cell * n];
+  for (std::size_t k = 0; k < n; ++k) source[k] = (Y[k] - before[k]) / dt - rate[k] / density;
 }
 
 void ReactionOperator::solve(double time, double dt, std::span<const std::span<const double>> in,
@@ -122,7 +122,7 @@ void ReactionOperator::unpack(State& state, std::size_t cell, double dt, std::sp
   const double density = meanDensity(state, cell), densityOfLast = densityOfRate(state, cell);
   for (std::size_t k = 0; k < n; ++k) {
     double& Y = state.Y[cell * n + k];
-    double& rate = rate_[cell * n + k];
+    double& rate = state.balance.reactions[cell * n + k];
     const double reacted = out[Layout::outHeader + k];
     rate = density * ((reacted - Y) / dt + rate / densityOfLast);
     Y = reacted;
@@ -141,11 +141,12 @@ void ReactionOperator::unpack(State& state, std::size_t cell, double dt, std::sp
   diagnostics_.handedOverCells += out[6];
 }
 
-void ReactionOperator::removeNetMass(const State& state, std::size_t cell) {
+void ReactionOperator::removeNetMass(State& state, std::size_t cell) {
   const auto n = static_cast<std::size_t>(state.species);
+  double* rate = &state.balance.reactions[cell * n];
   double net = 0.0;
-  for (std::size_t k = 0; k < n; ++k) net += rate_[cell * n + k];
-  for (std::size_t k = 0; k < n; ++k) rate_[cell * n + k] -= net * state.Y[cell * n + k];
+  for (std::size_t k = 0; k < n; ++k) net += rate[k];
+  for (std::size_t k = 0; k < n; ++k) rate[k] -= net * state.Y[cell * n + k];
 }
 
 // The rates are what the next step's transport takes for its own. If a species goes on changing as it has, they may
@@ -153,11 +154,11 @@ void ReactionOperator::removeNetMass(const State& state, std::size_t cell) {
 // there, and one that has begun to form far too much, and what diffuses from such a cell be wrong by as much. A steady
 // state never comes here. What is left of the rates does not conserve elements: it has to be taken out again with the
 // density it was put in with (densityOfRate), though that is of first order in time only.
-void ReactionOperator::limitRates(const State& state, std::size_t cell) {
+void ReactionOperator::limitRates(State& state, std::size_t cell) {
   const auto n = static_cast<std::size_t>(state.species);
   const double* Y = &state.Y[cell * n];
   const double* before = &state.start.Y[cell * n];
-  double* rate = &rate_[cell * n];
+  double* rate = &state.balance.reactions[cell * n];
   const auto excess = [&](std::size_t k) {
     const double available = std::max(Y[k], 0.0), change = Y[k] - before[k];
     return rate[k] > 0.0 ? std::max(change - 0.5 * available, 0.0) : std::min(change + available, 0.0);
@@ -199,17 +200,13 @@ void ReactionOperator::advance(State& state, double time, double dt) {
   state.updateHalo(context_.halo);
 }
 
-void ReactionOperator::endSweep(State& state) {
-  for (std::size_t i = 0; i < rate_.size(); ++i) state.balance.species[i] += rate_[i];
-}
-
 // Of the rates, W/m3.
 double ReactionOperator::heatRelease(const State& state, std::size_t cell) const {
   const auto n = static_cast<std::size_t>(state.species);
   std::vector<double> enthalpies(n);
   context_.thermo.speciesEnthalpies(state.temperature[cell], enthalpies);
   double heat = 0.0;
-  for (std::size_t k = 0; k < n; ++k) heat -= enthalpies[k] * rate_[cell * n + k];
+  for (std::size_t k = 0; k < n; ++k) heat -= enthalpies[k] * state.balance.reactions[cell * n + k];
   return heat;
 }
 
@@ -226,7 +223,6 @@ void ReactionOperator::endStep(State& state) {
 void ReactionOperator::saveOrLoad(StateArchive& archive) {
   archive.cells("chemistry_cost", cost_, 1);
   archive.cells("chemistry_first_step", initialStep_, 1);
-  archive.cells("chemistry_rate", rate_, static_cast<int>(context_.mechanism.numSpecies()));
   archive.cells("chemistry_rate_is_limited", isLimited_, 1);
   archive.cells("heat_release", heatRelease_, 1);
   std::array<double, 6> counted{diagnostics_.solverSteps,     diagnostics_.integratedCells, diagnostics_.skippedCells,

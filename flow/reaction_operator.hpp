@@ -43,7 +43,6 @@ class ReactionOperator : public Operator {
   ReactionOperator(const FlowContext& context, Options options);
 
   void advance(State& state, double time, double dt) override;
-  void endSweep(State& state) override;
   void endStep(State& state) override;
   void saveOrLoad(StateArchive& archive) override;
   [[nodiscard]] const char* name() const override { return "chemistry"; }
@@ -60,8 +59,8 @@ class ReactionOperator : public Operator {
   void pack(const State& state, std::size_t cell, double dt, std::span<double> in) const;
   void solve(double time, double dt, std::span<const std::span<const double>> in, std::span<std::vector<double>> out);
   void unpack(State& state, std::size_t cell, double dt, std::span<const double> out);
-  void removeNetMass(const State& state, std::size_t cell);
-  void limitRates(const State& state, std::size_t cell);
+  void removeNetMass(State& state, std::size_t cell);
+  void limitRates(State& state, std::size_t cell);
   [[nodiscard]] double heatRelease(const State& state, std::size_t cell) const;
 
   const FlowContext& context_;
@@ -73,8 +72,7 @@ class ReactionOperator : public Operator {
   std::vector<double> cost_;         // s, of each owned cell's last solve
   std::vector<double> initialStep_;  // s, ConstantPressureReactor::Cell::initialStep of the next solve
   double step_ = 0.0;                // s, the present; zero between steps
-  std::vector<double> rate_;         // kg/m3/s, mean reaction rate of the last sweep, species a owned cell
-  std::vector<double> isLimited_;    // 1 or 0, owned cells: whether rate_ is less than it was found (limitRates)
+  std::vector<double> isLimited_;    // 1 or 0, owned cells: whether rates are less than found (limitRates)
   std::vector<double> heatRelease_;  // W/m3, of the last step, where rates are limited
   Diagnostics diagnostics_;
   Imbalance imbalances_{0.0, 0.0};  // sums over all stages

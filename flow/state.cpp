@@ -18,13 +18,35 @@ State::State(const Mesh& mesh, std::size_t speciesCount, std::vector<CarriedScal
   carried.assign(cells * scalars.size(), 0.0);
   carriedDiffusivity.assign(cells * scalars.size(), 0.0);
   const auto owned = static_cast<std::size_t>(mesh.owned);
-  balance = {std::vector<double>(owned * speciesCount), std::vector<double>(owned),
+  balance = {std::vector<double>(owned * speciesCount),
+             {},
+             {},
+             std::vector<double>(owned),
              std::vector<double>(owned * scalars.size())};
   massFlux.assign(static_cast<std::size_t>(mesh.faces), 0.0);
 }
 
+void State::Balance::ofSpecies(std::size_t cell, std::span<double> rate) const {
+  std::copy_n(&reactions[cell * rate.size()], rate.size(), rate.begin());
+  const std::size_t n = exchangedSpecies.size();
+  for (std::size_t i = 0; i < n; ++i) rate[exchangedSpecies[i]] += exchanged[cell * n + i];
+}
+
+void State::Balance::exchange(std::size_t cell, std::size_t species, double rate) {
+  auto place = std::find(exchangedSpecies.begin(), exchangedSpecies.end(), species);
+  if (place == exchangedSpecies.end()) {
+    const std::size_t n = exchangedSpecies.size(), cells = enthalpy.size();
+    std::vector<double> wider((n + 1) * cells, 0.0);
+    for (std::size_t c = 0; c < cells; ++c) std::copy_n(exchanged.data() + c * n, n, &wider[c * (n + 1)]);
+    exchanged = std::move(wider);
+    exchangedSpecies.push_back(species);
+    place = exchangedSpecies.end() - 1;
+  }
+  exchanged[cell * exchangedSpecies.size() + static_cast<std::size_t>(place - exchangedSpecies.begin())] += rate;
+}
+
 void State::Balance::clear() {
-  for (std::vector<double>* rates : {&species, &enthalpy, &carried}) std::fill(rates->begin(), rates->end(), 0.0);
+  for (std::vector<double>* rates : {&exchanged, &enthalpy, &carried}) std::fill(rates->begin(), rates->end(), 0.0);
 }
 
 void State::keepStart() {
@@ -60,6 +82,7 @@ void State::saveOrLoad(StateArchive& archive) {
     archive.cells("carried_diffusivity", carriedDiffusivity, carriedCount());
   }
   archive.faces("mass_flux", massFlux, 1);
+  archive.cells("reaction_rates", balance.reactions, species);
 }
 
 }  // namespace lampblack::flow

@@ -44,12 +44,19 @@ struct State {
 
   // What operators that are coupled to the transport stage did in the last sweep, as mean rates of the owned cells: the
   // transport stage takes them as sources, and they take its changes as theirs (ReactionOperator). Each adds
-  // its part in Operator::endSweep().
+  // its part in Operator::endSweep(); that of the reactions stands here alone, from sweep to sweep.
   struct Balance {
-    std::vector<double> species;   // kg/m^3/s, `species` a cell; their sum is mass that the gas gains
+    std::vector<double> reactions;  // kg/m^3/s, `species` a cell
+    // kg/m^3/s, of some species, by number, a value of each a cell: what the gas gains by other means; or none.
+    std::vector<std::size_t> exchangedSpecies;
+    std::vector<double> exchanged;
     std::vector<double> enthalpy;  // W/m^3, of the gas
     std::vector<double> carried;   // per m^3 and s, carriedCount() a cell
-    void clear();
+    // Of all species in a cell; the sum is mass that the gas gains.
+    void ofSpecies(std::size_t cell, std::span<double> rate) const;
+    // Adds to what is exchanged. A species not seen before gets its place.
+    void exchange(std::size_t cell, std::size_t species, double rate);
+    void clear();  // but for the reactions
   } balance;
 
   // The step's start, which the first operator of a step keeps and the others read: what they change is counted from

@@ -64,7 +64,8 @@ void TransportOperator::initialise(State& state, double dt) {
 
 void TransportOperator::keepStart(const State& state) {
   start_ = state;
-  for (auto* kept : {&start_->Y, &start_->start.Y, &start_->balance.species}) *kept = {};  // State::start has the first
+  for (auto* kept : {&start_->Y, &start_->start.Y, &start_->balance.reactions})
+    *kept = {};  // State::start has the first
   mean_ = start_;
   mean_->Y.resize(state.Y.size());
   startViscosity_ = properties_.viscosity;
@@ -94,10 +95,11 @@ void TransportOperator::predictContents(const State& start, const State& mean, c
   const int n = state.species;
   for (int c = 0; c < m.owned; ++c) {
     double gained = 0.0;
+    state.balance.ofSpecies(static_cast<std::size_t>(c), row_);
     for (int k = 0; k < n; ++k) {
       const std::size_t i = static_cast<std::size_t>(c) * n + k;
-      content_[i] = m.volume[c] * (start.density[c] * state.start.Y[i] + dt * state.balance.species[i]);
-      gained += state.balance.species[i];
+      content_[i] = m.volume[c] * (start.density[c] * state.start.Y[i] + dt * row_[k]);
+      gained += row_[k];
     }
     heatContent_[c] = m.volume[c] * (start.density[c] * start.enthalpy[c] + dt * state.balance.enthalpy[c]);
     newMass_[c] = m.volume[c] * (start.density[c] + dt * gained);

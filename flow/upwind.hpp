@@ -30,13 +30,21 @@ class UpwindGeometry {
     const Mesh& m = mesh_;
     const double w = m.lowWeight[face];
     const double distance = m.distance[face];
-    if (flux >= 0.0) return {m.low[face], m.high[face], 1.0, distance, behind_[2 * face], (1.0 - w) * distance};
-    return {m.high[face], m.low[face], -1.0, distance, behind_[2 * face + 1], w * distance};
+    if (flux >= 0.0) return {m.low[face], m.high[face], 1.0, distance, distanceBehind(2 * face), (1.0 - w) * distance};
+    return {m.high[face], m.low[face], -1.0, distance, distanceBehind(2 * face + 1), w * distance};
   }
 
  private:
+  [[nodiscard]] double distanceBehind(int side) const {
+    const int behind = behind_[side];
+    return behind < 0 ? own_[-1 - behind] : mesh_.distance[behind];
+  }
+
   const Mesh& mesh_;
-  std::vector<double> behind_;  // m, of each interior face's low and high cell
+  // Of each interior face's low and high cell: the face behind it whose distance counts, or -1 - the place in own_ of a
+  // distance that is no face's, or of a halo cell, whose faces are not all here.
+  std::vector<int> behind_;
+  std::vector<double> own_;  // m
 };
 
 }  // namespace lampblack::flow

@@ -46,10 +46,11 @@ void writeFields(ResultsWriter& results, const FlowContext& context, const FlowC
   results.cellField("velocity", "m/s", 2, part(state.velocity, 2), "gas velocity along the mesh's axes");
   results.cellField("pressure", "Pa", 1, part(state.pressure, 1), "hydrodynamic pressure");
   std::vector<double> column(owned);
-  std::vector<double> all(owned * n);
-  for (std::size_t c = 0; c < owned; ++c) context.thermo.massToMole({&state.Y[c * n], n}, {&all[c * n], n});
+  std::vector<double> weight(owned);
+  for (std::size_t c = 0; c < owned; ++c) weight[c] = context.thermo.meanMolecularWeight({&state.Y[c * n], n});
   for (std::size_t k : flowCase.output.species) {
-    for (std::size_t c = 0; c < owned; ++c) column[c] = all[c * n + k];
+    for (std::size_t c = 0; c < owned; ++c)
+      column[c] = state.Y[c * n + k] * weight[c] / context.mechanism.molecularWeights()[k];
     const std::string& name = context.mechanism.speciesName(k);
     results.cellField("X_" + name, "1", 1, column, "mole fraction of " + name);
   }

@@ -113,9 +113,10 @@ TEST(NewModel, ASteadyStateDoesNotDependOnTheStep) {
         double* Y = &state.Y[cell * n];
         const double before = state.density[cell];
         double mass = before - dt * brought;
-        for (std::size_t k = 0; k < n; ++k) mass += dt * state.balance.species[cell * n + k];
-        for (std::size_t k = 0; k < n; ++k)
-          Y[k] = (before * Y[k] + dt * (state.balance.species[cell * n + k] - (k == h2 ? brought : 0.0))) / mass;
+        std::vector<double> told(n);
+        state.balance.ofSpecies(cell, told);
+        for (std::size_t k = 0; k < n; ++k) mass += dt * told[k];
+        for (std::size_t k = 0; k < n; ++k) Y[k] = (before * Y[k] + dt * (told[k] - (k == h2 ? brought : 0.0))) / mass;
         state.density[cell] = mass;
         state.enthalpy[cell] = (before * state.enthalpy[cell] + dt * state.balance.enthalpy[cell]) / mass;
         state.carried[cell] += dt * (brought + state.balance.carried[cell]);
@@ -134,7 +135,9 @@ TEST(NewModel, ASteadyStateDoesNotDependOnTheStep) {
       EXPECT_NEAR(state.carried[cell] / (brought / rate), 1, 1e-6) << dt;
       // What the next step's transport is told.
       EXPECT_NEAR(state.balance.carried[cell] / -brought, 1, 1e-6) << dt;
-      EXPECT_NEAR(state.balance.species[cell * n + h2] / brought, 1, 1e-6) << dt;
+      std::vector<double> told(n);
+      state.balance.ofSpecies(cell, told);
+      EXPECT_NEAR(told[h2] / brought, 1, 1e-6) << dt;
       EXPECT_NEAR(state.balance.enthalpy[cell] / (brought * dustEnthalpy), 1, 1e-6) << dt;
       // What was there of dust in the beginning and is not there now has become gas.
       const double gained = 2e-3 - state.carried[cell];
@@ -174,7 +177,9 @@ TEST(NewModel, TransportIsToldNoMoreThanThereIs) {
     EXPECT_NEAR(dt * state.balance.carried[cell] / (-0.5 * state.carried[cell]), 1, 1e-12);
     EXPECT_NEAR(state.balance.enthalpy[cell] / (-state.balance.carried[cell] * dustEnthalpy), 1, 1e-9);
     // A flow that carries all away, and adds what it was told.
-    const double told = dt * state.balance.species[cell * n + h2], mass = state.density[cell] + told;
+    std::vector<double> rates(n);
+    state.balance.ofSpecies(cell, rates);
+    const double told = dt * rates[h2], mass = state.density[cell] + told;
     for (std::size_t k = 0; k < n; ++k)
       state.Y[cell * n + k] = (state.density[cell] * state.Y[cell * n + k] + (k == h2 ? told : 0.0)) / mass;
     state.enthalpy[cell] = (state.density[cell] * state.enthalpy[cell] + dt * state.balance.enthalpy[cell]) / mass;

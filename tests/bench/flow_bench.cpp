@@ -104,7 +104,7 @@ class Run {
     dt_ = std::min({case_.time.maximumStep, dt_ * case_.time.growth, transport_.largestStep(state_)});
     const State before = state_;
     for (int sweep = 0; sweep < case_.flow.sweeps; ++sweep) {
-      const std::vector<double> rate = state_.balance.species;
+      const std::vector<double> rate = state_.balance.reactions;
       const long reductionsBefore = reductions;
       const double start = now();
       transport_.advance(state_, time_, dt_);

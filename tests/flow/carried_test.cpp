@@ -86,7 +86,7 @@ TEST_P(Carried, TheBalanceIsASource) {
   const int steps = 20;
   for (int i = 0; i < steps; ++i) {
     for (int c = 0; c < b.mesh.owned; ++c) {
-      state.balance.species[at(c) * n + hydrogen] = rate[0] * where(c);
+      state.balance.reactions[at(c) * n + hydrogen] = rate[0] * where(c);
       state.balance.enthalpy[at(c)] = rate[1] * where(c);
       state.balance.carried[at(c)] = rate[2] * where(c);
     }

@@ -95,8 +95,8 @@ TEST_F(Reacting, SharingWorkChangesNoBit) {
   // In place of a transport stage, which keeps the start, adds what the balance says and clears it.
   const auto addBalance = [&](State& state) {
     state.keepStart();
-    for (std::size_t i = 0; i < state.balance.species.size(); ++i)
-      state.Y[i] += dt * state.balance.species[i] / state.density[i / at(state.species)];
+    for (std::size_t i = 0; i < state.balance.reactions.size(); ++i)
+      state.Y[i] += dt * state.balance.reactions[i] / state.density[i / at(state.species)];
     state.balance.clear();
   };
   for (int i = 0; i < 3; ++i) {
@@ -159,8 +159,8 @@ TEST_P(ReactingSweeps, BudgetsCloseWithTransport) {
     for (int c = 0; c < box.mesh.owned; ++c) {
       double sum = 0.0;
       for (int k = 0; k < state.species; ++k) {
-        sum += state.balance.species[at(c * state.species + k)];
-        scale = std::max(scale, std::abs(state.balance.species[at(c * state.species + k)]));
+        sum += state.balance.reactions[at(c * state.species + k)];
+        scale = std::max(scale, std::abs(state.balance.reactions[at(c * state.species + k)]));
       }
       net = std::max(net, std::abs(sum));
     }
@@ -185,8 +185,8 @@ TEST_F(Reacting, RatesOfASlowGasAreTakenAsTheyAre) {
   ReactionOperator chemistry(box.context, options(true));
   const auto limitedInAStepOf = [&](double dt) {
     state.keepStart();
-    for (std::size_t i = 0; i < state.balance.species.size(); ++i)  // in place of transport
-      state.Y[i] += dt * state.balance.species[i] / state.density[i / at(state.species)];
+    for (std::size_t i = 0; i < state.balance.reactions.size(); ++i)  // in place of transport
+      state.Y[i] += dt * state.balance.reactions[i] / state.density[i / at(state.species)];
     state.balance.clear();
     chemistry.advance(state, 0.0, dt);
     chemistry.endStep(state);
