@@ -295,7 +295,8 @@ def main(executable: str, ranks: str, *mpiexec: str) -> int:
     # All messages on one rank; that only one of several ranks speaks does not need every one of them.
     mistakes = [wrong for i, wrong in enumerate(MISTAKES) if program.ranks == 1 or i % 8 == 0 or wrong.name in OF_RANKS]
     assert {wrong.name for wrong in mistakes}.issuperset(OF_RANKS)
-    tasks = [("mistake", *pair) for pair in running.thinned(mistakes)] + [("usage", *case) for case in USAGE]
+    usage = USAGE if program.ranks == 1 else USAGE[::3]
+    tasks = [("mistake", *pair) for pair in running.thinned(mistakes)] + [("usage", *case) for case in usage]
     run = {"results.h5": "not to be lost", "results.xdmf": "<Xdmf/>", "history.csv": "time [s]\n0\n", "notes.txt": "mine"}
     tasks += [("occupied", status, {"run.json": json.dumps({"status": status}), **run})
               for status in ("done", "failed", "running")]
