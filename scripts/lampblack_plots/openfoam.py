@@ -72,18 +72,20 @@ def differences(run, tight):
     return rows
 
 
+def short(value):
+    """Two digits, without an exponent where that is shorter."""
+    return f"{value:.0f}" if value >= 100 else f"{value:.2g}"
+
+
 def main():
     """LABEL RUN TIGHT, any number of times: a table of largest and mean differences."""
     names = ["T"] + SPECIES
-    print(f"{'largest / mean difference':<42}{'T, K':>19}" + "".join(f"{name + ', %':>17}" for name in SPECIES))
+    print(f"{'largest / mean difference':<30}{'T, K':>20}" + "".join(f"{name + ', %':>20}" for name in SPECIES))
     words = sys.argv[1:]
     for label, run, tight in zip(words[::3], words[1::3], words[2::3]):
         rows = differences(fields_of(run), fields_of(tight))
-        line = f"{label:<42}"
-        for name in names:
-            factor, width = (1, 19) if name == "T" else (100, 17)
-            line += f"{rows[name][0] * factor:.2g} / {rows[name][1] * factor:.2g}".rjust(width)
-        print(line)
+        cells = [" / ".join(short(value * (1 if name == "T" else 100)) for value in rows[name]) for name in names]
+        print(f"{label:<30}" + "".join(f"{cell:>20}" for cell in cells))
     return 0
 
 

@@ -82,7 +82,7 @@ def main():
         # A uniform field is one number for all cells.
         same = write_case(work / "uniform", {**texts(tight), "T": "uniform 300"})
         code, said, error = compared("same", same, foam[1])
-        assert code == 0 and said.splitlines()[1].split()[1:4] == ["1.7e+03", "/", "8e+02"], said + error
+        assert code == 0 and said.splitlines()[1].split()[1:4] == ["1700", "/", "800"], said + error
 
         # What is missing or cut off ends in a line.
         bad = write_case(work / "cut", {**texts(tight), "OH": listed([1, 2, 3]).replace("3\n(", "4\n(")})
