@@ -66,7 +66,7 @@ def differences(run, tight):
     """{name: (largest, mean)}: of T in K, of a species over its largest value in the tight run."""
     rows = {}
     for name in run:
-        scale = 1.0 if name == "T" else np.max(np.abs(tight[name]))
+        scale = 1.0 if name == "T" else np.max(np.abs(tight[name])) or 1.0
         away = np.abs(run[name] - tight[name]) / scale
         rows[name] = float(np.max(away)), float(np.mean(away))
     return rows
