@@ -167,15 +167,15 @@ MISTAKES = SOOT_MISTAKES + [
 def main(executable: str, ranks: str, *mpiexec: str) -> int:
     program = running.Program(executable, list(mpiexec), int(ranks))
 
-    def check(mistake: tuple) -> int:
-        name, deck, old, new, expected = mistake
+    def check(task: tuple) -> int:
+        (name, deck, old, new, expected), also_check = task
         assert deck.count(old) == 1, f"{name}: '{old}' is not once in the deck"
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "deck.yaml"
             path.write_text(deck.replace(old, new), encoding="utf-8")
             result = program("run", path, "--out", pathlib.Path(folder) / "out")
             problems = [] if result.code == 2 else [f"exit code {result.code}"]
-            problems += running.differs_from_check(program, result, path)
+            problems += running.differs_from_check(program, result, path) if also_check else []
             lines = result.err.splitlines()
             if not lines or not re.match(rf"lampblack: {re.escape(str(path))}:", lines[0]):
                 problems.append("does not start with the deck's name")
@@ -189,7 +189,7 @@ def main(executable: str, ranks: str, *mpiexec: str) -> int:
 
     # All messages on one rank; that only one of several ranks speaks does not need every one of them.
     mistakes = MISTAKES if int(ranks) == 1 else MISTAKES[::6]
-    failures = sum(running.at_once(check, mistakes))
+    failures = sum(running.at_once(check, running.thinned(mistakes)))
     print(f"{len(mistakes) - failures} passed, {failures} failed on {ranks} rank(s)")
     return 1 if failures else 0
 

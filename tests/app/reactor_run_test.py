@@ -123,11 +123,12 @@ def species_with_comma(program, folder):
 
 
 def soot(program, folder):
-    """Each model and an ensemble by one changed line, in each kind of reactor: elements to round-off, in all files."""
+    """Each model and an ensemble by one changed line, in each kind of reactor: elements to round-off, in all files. On two
+    ranks one model a kind: the first rank solves the reactor alone. Repeats of an ensemble are shared."""
     models = ("two_equation_dimer", "leung", "moss_brookes", "hmom", "momic", "sectional")
     short = {"closed": ("time.end=0.5 ms",), "plug_flow": ("reactor.length=1 cm",), "stirred": ()}
-    for kind, settings in short.items():
-        for model in models:
+    for k, (kind, settings) in enumerate(short.items()):
+        for model in models if program.ranks == 1 else models[2 * k + 1:2 * k + 2]:
             out, results, text = run(program, f"reactor/{kind}_soot", folder, f"soot.model={model}", *settings, "output.species=[A2]")
             results = results["reactors"]["reactor"] if kind == "stirred" else results
             assert results["element_imbalance"] < 1e-13 and abs(results["energy_imbalance"]) < 1e-9, (kind, model, results)
@@ -149,8 +150,9 @@ def soot(program, folder):
             assert history["soot_volume_fraction"][-1] > 0 and history["soot_volume_fraction_error"][-1] > 0
             if kind != "stirred":
                 assert np.max(history["element_imbalance"]) < 1e-13 and np.max(np.abs(history["energy_imbalance"])) < 1e-7
-        done = subprocess.run([sys.executable, running.SOURCE / "scripts/plot", out], capture_output=True, text=True, check=False)
-        assert done.returncode == 0 and (out / "pictures/particles.png").stat().st_size > 5000, done.stderr
+        if program.ranks == 1:
+            done = subprocess.run([sys.executable, running.SOURCE / "scripts/plot", out], capture_output=True, text=True, check=False)
+            assert done.returncode == 0 and (out / "pictures/particles.png").stat().st_size > 5000, done.stderr
         shutil.rmtree(out)
 
 
@@ -170,7 +172,7 @@ def ensembles_in_networks(program, folder):
 
     def history_of(path, name):
         out = folder / name
-        result = program("run", path, "--out", out, *running.settings(*settings))
+        result = program("run", path, "--out", out, *running.settings(*settings), timeout=200)
         assert result.code == 0, result.err
         with h5py.File(out / "results.h5", "r") as file:
             return {key: file["history"][key][()] for key in file["history"]}
@@ -182,10 +184,12 @@ def ensembles_in_networks(program, folder):
         assert np.array_equal(values, alone[name if name == "time" else f"one_{name}"], equal_nan=True), name
     two = history("two", "one: {residence_time: 5 ms}, two: {residence_time: 1 ms}",
                   "  connections: [{from: one, to: two}, {from: two, to: one, fraction: 0.5}]\n")
-    done = subprocess.run([sys.executable, running.SOURCE / "scripts/plot", folder / "two"], capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
+    if program.ranks == 1:
+        done = subprocess.run([sys.executable, running.SOURCE / "scripts/plot", folder / "two"], capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stderr
+        for picture in ("reactor_one", "particles_one", "reactor_two", "particles_two"):
+            assert (folder / f"two/pictures/{picture}.png").stat().st_size > 5000, done.stdout
     for name in ("one", "two"):
-        assert all((folder / f"two/pictures/{what}_{name}.png").stat().st_size > 5000 for what in ("reactor", "particles")), done.stdout
         assert two[f"{name}_soot_volume_fraction"][-1] > 0 and np.max(two[f"{name}_element_imbalance"]) < 1e-12, name
 
 
@@ -198,7 +202,10 @@ def too_few_sections(program, folder):
 
 def main(executable, ranks, *mpiexec):
     program = running.Program(executable, list(mpiexec), int(ranks))
-    for test in (ignition, regular_output, network, transient, species_with_comma, soot, ensembles_in_networks, too_few_sections):
+    tests = [ignition, network, soot, ensembles_in_networks, too_few_sections]
+    if program.ranks == 1:  # what the first rank does alone, beyond a sample
+        tests += [regular_output, transient, species_with_comma]
+    for test in tests:
         with tempfile.TemporaryDirectory() as folder:
             test(program, pathlib.Path(folder))
         print(f"ok  {test.__name__}")
