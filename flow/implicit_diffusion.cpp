@@ -179,7 +179,7 @@ void ImplicitDiffusion::iterate(const Weights& weights, std::span<const double> 
     diagonal.fill(inertia[c]);
     for (int i = m.faceStart[c]; i < m.faceStart[c + 1]; ++i) {
       const int face = m.faceOfCell[i];
-      const double* g = &conductance_[face * width];
+      const float* g = &conductance_[face * width];
       for (int k = 0; k < width; ++k) diagonal[k] += g[k];
       if (m.high[face] < 0) {
         for (int k = 0; k < width; ++k) taken[k] += g[k] * own[k];
@@ -220,8 +220,11 @@ ImplicitDiffusion::Result ImplicitDiffusion::changes(int fields, std::span<const
     std::vector<Chebyshev> of;
     for (const int field : group) of.emplace_back(radius[field]);
 
-    std::ranges::fill(conductance_, 0.0);
-    for (int face = 0; face < m.faces; ++face) conductance(face, group, &conductance_[face * width]);
+    std::array<double, width> g{};
+    for (int face = 0; face < m.faces; ++face) {
+      conductance(face, group, g.data());
+      for (int k = 0; k < width; ++k) conductance_[face * width + k] = static_cast<float>(g[k]);
+    }
     // Its first iteration is that of no change yet.
     std::ranges::fill(residual_, 0.0);
     std::ranges::fill(solution_, 0.0);

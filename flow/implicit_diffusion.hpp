@@ -63,7 +63,10 @@ class ImplicitDiffusion {
 
   const Mesh& mesh_;
   HaloExchange& halo_;
-  std::vector<double> residual_, change_, otherChange_, solution_, inverse_, neighbours_, conductance_;
+  std::vector<double> residual_, change_, otherChange_, solution_, inverse_, neighbours_;
+  // Of the fields that go together. Single precision moves a solution by 1e-7 of the change that fluxes make; the fluxes
+  // that cells exchange are evaluated from it with conductances of double precision.
+  std::vector<float> conductance_;
 };
 
 }  // namespace lampblack::flow

@@ -29,7 +29,8 @@ Projection::Projection(const FlowContext& context, double tolerance) : context_(
     checkPetsc(MatNullSpaceDestroy(&constants));
   }
   checkPetsc(KSPCreate(m.comm, solver_.put()));
-  checkPetsc(KSPSetType(solver_.get(), KSPCG));
+  // Pipelined: one reduction an iteration in place of three, beside the work of the next.
+  checkPetsc(KSPSetType(solver_.get(), KSPPIPECG));
   PC preconditioner = nullptr;
   checkPetsc(KSPGetPC(solver_.get(), &preconditioner));
   checkPetsc(PCSetType(preconditioner, PCHYPRE));

@@ -1,7 +1,7 @@
 // Pressure projection on face fluxes: finds the change q of the hydrodynamic pressure for which the face velocities
 //   u_f = uhat_f - (dt / rho_f) dq/dn
 // have the given divergence in every cell, with a compact stencil so that pressure cannot decouple (Rhie and Chow
-// 1983). Conjugate gradients with BoomerAMG; the preconditioner is kept until the iterations grow.
+// 1983). Pipelined conjugate gradients (Ghysels and Vanroose 2014) with BoomerAMG; the preconditioner is kept until the iterations grow.
 #pragma once
 
 #include <span>
