@@ -1,7 +1,8 @@
 // Pressure projection on face fluxes: finds the change q of the hydrodynamic pressure for which the face velocities
 //   u_f = uhat_f - (dt / rho_f) dq/dn
 // have the given divergence in every cell, with a compact stencil so that pressure cannot decouple (Rhie and Chow
-// 1983). Pipelined conjugate gradients (Ghysels and Vanroose 2014) with BoomerAMG; the preconditioner is kept until the iterations grow.
+// 1983). Pipelined conjugate gradients (Ghysels and Vanroose 2014) with BoomerAMG, plain ones where their round-off is
+// in the way, as for a gas that is as good as at rest; the preconditioner is kept until the iterations grow.
 #pragma once
 
 #include <span>
@@ -35,6 +36,8 @@ class Projection {
   void saveOrLoad(StateArchive& archive);
 
  private:
+  // From `guess` to solution_; the iterations it took.
+  int iterate(std::span<const double> guess, double tolerance);
   void conductances(double dt, std::span<const double> inverseDensity);
   void assemble();
 
@@ -45,7 +48,7 @@ class Projection {
   std::vector<double> setupConductance_;  // when the preconditioner was set up
   PetscMatrix matrix_;
   PetscVector rightSide_, solution_;
-  PetscSolver solver_;
+  PetscSolver solver_, careful_;
   int iterationsAfterSetup_ = -1;
 };
 
