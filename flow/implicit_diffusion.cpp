@@ -142,9 +142,8 @@ std::vector<double> ImplicitDiffusion::radii(int fields, std::span<const double>
     const int count = std::min(width, fields - first);
     std::iota(group.begin(), group.begin() + count, first);
     // Of the neighbours, and of all that takes part: boundaries hold the change as the inertia does.
-    std::vector<double>&inside = change_, &beyond = otherChange_;
-    std::ranges::fill(inside, 0.0);
-    std::ranges::fill(beyond, 0.0);
+    std::vector<double>&inside = change_, &beyond = neighbours_;
+    for (std::vector<double>* sums : {&inside, &beyond}) sums->assign(static_cast<std::size_t>(m.cells) * width, 0.0);
     std::array<double, width> g{};
     for (int face = 0; face < m.faces; ++face) {
       conductance(face, {group.data(), static_cast<std::size_t>(count)}, g.data());
@@ -165,85 +164,111 @@ std::vector<double> ImplicitDiffusion::radii(int fields, std::span<const double>
   return largest;
 }
 
-struct ImplicitDiffusion::Weights {
-  std::array<double, width> old{}, fresh{};
-};
+void ImplicitDiffusion::begin(Group& group, std::span<const int> fields, int all, std::span<const double> change,
+                              const Conductance& conductance) {
+  const Mesh& m = mesh_;
+  group.fields.assign(fields.begin(), fields.end());
+  group.conductance.resize(static_cast<std::size_t>(m.faces) * width);
+  std::array<double, width> g{};
+  for (int face = 0; face < m.faces; ++face) {
+    conductance(face, fields, g.data());
+    for (int k = 0; k < width; ++k) group.conductance[face * width + k] = static_cast<float>(g[k]);
+  }
+  // The first iteration is that of no change yet.
+  for (std::vector<double>* values : {&group.change, &group.otherChange})
+    values->assign(static_cast<std::size_t>(m.cells) * width, 0.0);
+  for (std::vector<double>* values : {&group.residual, &group.solution})
+    values->assign(static_cast<std::size_t>(m.owned) * width, 0.0);
+  for (int c = 0; c < m.owned; ++c)
+    for (std::size_t k = 0; k < fields.size(); ++k) group.residual[c * width + k] = change[c * all + fields[k]];
+}
 
-void ImplicitDiffusion::iterate(const Weights& weights, std::span<const double> inertia, std::span<const double> last,
-                                std::span<double> next) {
+// One iteration: the next change from the last one.
+void ImplicitDiffusion::iterate(Group& group, std::span<const double> old, std::span<const double> fresh,
+                                std::span<const double> inertia) {
   const Mesh& m = mesh_;
   for (int c = 0; c < m.owned; ++c) {
-    const double* own = &last[c * width];
+    const double* own = &group.change[c * width];
     std::array<double, width> taken, diagonal;
     for (int k = 0; k < width; ++k) taken[k] = inertia[c] * own[k];
     diagonal.fill(inertia[c]);
     for (int i = m.faceStart[c]; i < m.faceStart[c + 1]; ++i) {
       const int face = m.faceOfCell[i];
-      const float* g = &conductance_[face * width];
+      const float* g = &group.conductance[face * width];
       for (int k = 0; k < width; ++k) diagonal[k] += g[k];
       if (m.high[face] < 0) {
         for (int k = 0; k < width; ++k) taken[k] += g[k] * own[k];
         continue;
       }
-      const double* other = &last[(m.low[face] == c ? m.high[face] : m.low[face]) * width];
+      const double* other = &group.change[(m.low[face] == c ? m.high[face] : m.low[face]) * width];
       for (int k = 0; k < width; ++k) taken[k] += g[k] * (own[k] - other[k]);
     }
-    double* residual = &residual_[c * width];
-    double* changed = &next[c * width];
-    double* x = &solution_[c * width];
+    double* residual = &group.residual[c * width];
+    double* changed = &group.otherChange[c * width];
+    double* x = &group.solution[c * width];
     for (int k = 0; k < width; ++k) {
       residual[k] -= taken[k];
-      changed[k] = weights.old[k] * own[k] + weights.fresh[k] * residual[k] / diagonal[k];
+      changed[k] = old[k] * own[k] + fresh[k] * residual[k] / diagonal[k];
       x[k] += changed[k];
     }
   }
+  std::swap(group.change, group.otherChange);
 }
 
 ImplicitDiffusion::Result ImplicitDiffusion::changes(int fields, std::span<const double> inertia,
                                                      const Conductance& conductance, std::span<double> change,
                                                      double tolerance, int maxIterations) {
   const Mesh& m = mesh_;
-  for (std::vector<double>* values : {&change_, &otherChange_})
-    values->resize(static_cast<std::size_t>(m.cells) * width);
-  for (std::vector<double>* values : {&residual_, &solution_})
-    values->resize(static_cast<std::size_t>(m.owned) * width);
-  conductance_.resize(static_cast<std::size_t>(m.faces) * width);
   const std::vector<double> radius = radii(fields, inertia, conductance);
   std::vector<int> order(static_cast<std::size_t>(fields));
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, [&](int a, int b) { return radius[a] > radius[b]; });
+  // Where a rank has few cells, messages cost more than memory: groups then share them.
+  constexpr std::int64_t cellsWorthAMessage = 8000;
+  const std::size_t together =
+      m.ranks > 1 ? static_cast<std::size_t>(std::max<std::int64_t>(cellsWorthAMessage * m.ranks / m.totalCells, 1))
+                  : 1;
+  const std::size_t count = (order.size() + width - 1) / width;
+  groups_.resize(std::max(groups_.size(), std::min(together, count)));
   Result result;
-  for (std::size_t first = 0; first < order.size(); first += width) {
-    const std::span<const int> group{order.data() + first, std::min<std::size_t>(width, order.size() - first)};
-    const int iterations = iterationsFor(radius[group.front()], tolerance, maxIterations);
-    result.iterations = std::max(result.iterations, iterations);
-    std::vector<Chebyshev> of;
-    for (const int field : group) of.emplace_back(radius[field]);
-
-    std::array<double, width> g{};
-    for (int face = 0; face < m.faces; ++face) {
-      conductance(face, group, g.data());
-      for (int k = 0; k < width; ++k) conductance_[face * width + k] = static_cast<float>(g[k]);
+  for (std::size_t first = 0; first < count; first += together) {
+    const std::span<Group> batch{groups_.data(), std::min(together, count - first)};
+    int most = 0;
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      const std::size_t begins = (first + i) * width;
+      const std::span<const int> of{order.data() + begins, std::min<std::size_t>(width, order.size() - begins)};
+      begin(batch[i], of, fields, change, conductance);
+      batch[i].iterations = iterationsFor(radius[of.front()], tolerance, maxIterations);
+      most = std::max(most, batch[i].iterations);
     }
-    // Its first iteration is that of no change yet.
-    std::ranges::fill(residual_, 0.0);
-    std::ranges::fill(solution_, 0.0);
-    std::ranges::fill(change_, 0.0);
-    for (int c = 0; c < m.owned; ++c)
-      for (std::size_t k = 0; k < group.size(); ++k) residual_[c * width + k] = change[c * fields + group[k]];
-    for (int iteration = 1; iteration <= iterations; ++iteration) {
-      Weights weights;
-      for (std::size_t k = 0; k < group.size(); ++k) weights.old[k] = of[k].old, weights.fresh[k] = of[k].fresh;
-      iterate(weights, inertia, change_, otherChange_);
-      std::swap(change_, otherChange_);
-      if (iteration == iterations) break;
-      for (Chebyshev& one : of) one.next();
-      halo_.update(change_, width);
+    std::vector<std::vector<Chebyshev>> progress;
+    for (const Group& group : batch) {
+      progress.emplace_back();
+      for (const int field : group.fields) progress.back().emplace_back(radius[field]);
     }
-    for (int c = 0; c < m.owned; ++c)
-      for (std::size_t k = 0; k < group.size(); ++k) change[c * fields + group[k]] = solution_[c * width + k];
+    for (int iteration = 1; iteration <= most; ++iteration) {
+      std::vector<FieldView> messages;
+      for (std::size_t i = 0; i < batch.size(); ++i) {
+        Group& group = batch[i];
+        if (iteration > group.iterations) continue;
+        std::array<double, width> old{}, fresh{};
+        for (std::size_t k = 0; k < group.fields.size(); ++k) {
+          old[k] = progress[i][k].old;
+          fresh[k] = progress[i][k].fresh;
+          progress[i][k].next();
+        }
+        iterate(group, old, fresh, inertia);
+        if (iteration < group.iterations) messages.push_back({group.change, width});
+      }
+      if (!messages.empty()) halo_.update(messages);
+    }
+    for (const Group& group : batch)
+      for (int c = 0; c < m.owned; ++c)
+        for (std::size_t k = 0; k < group.fields.size(); ++k)
+          change[c * fields + group.fields[k]] = group.solution[c * width + k];
   }
   halo_.update(change, fields);
+  result.iterations = order.empty() ? 0 : iterationsFor(radius[order.front()], tolerance, maxIterations);
   return result;
 }
 

@@ -42,8 +42,9 @@ class ImplicitDiffusion {
   // Changes d_k of many fields in a step,
   //   inertia(P) d_k(P) + sum over all faces of conductance_k(f) (d_k(P) - d_k(N)) = rate_k(P),
   // beyond boundary faces no change. Fields that take alike many iterations go together, so that little memory is
-  // needed and a heavy species ends long before hydrogen. Collective. `inertia`: a owned cell, above zero; `change`:
-  // `fields` a cell, rates of owned cells in, changes out (halo filled). As above.
+  // needed and a heavy species ends long before hydrogen, whatever group it shares messages with. Collective.
+  // `inertia`: a owned cell, above zero; `change`: `fields` a cell, rates of owned cells in, changes out (halo filled).
+  // As above.
   Result changes(int fields, std::span<const double> inertia, const Conductance& conductance, std::span<double> change,
                  double tolerance = 1e-4, int maxIterations = 100000);
 
@@ -56,17 +57,24 @@ class ImplicitDiffusion {
   };
   [[nodiscard]] Targets targets(int fields, std::span<const double> source, double tolerance) const;
   [[nodiscard]] std::vector<double> radii(int fields, std::span<const double> inertia, const Conductance& conductance);
-  // One iteration of the fields that go together: `next` change from the last one.
-  struct Weights;
-  void iterate(const Weights& weights, std::span<const double> inertia, std::span<const double> last,
-               std::span<double> next);
+  // Fields that go together: `width` values a cell or face.
+  struct Group {
+    std::vector<int> fields;
+    int iterations = 0;
+    std::vector<double> residual, solution, change, otherChange;
+    // Single precision moves a solution by 1e-7 of the change that fluxes make; the fluxes that cells exchange are
+    // evaluated from it with conductances of double precision.
+    std::vector<float> conductance;
+  };
+  void begin(Group& group, std::span<const int> fields, int all, std::span<const double> change,
+             const Conductance& conductance);
+  void iterate(Group& group, std::span<const double> old, std::span<const double> fresh,
+               std::span<const double> inertia);
 
   const Mesh& mesh_;
   HaloExchange& halo_;
-  std::vector<double> residual_, change_, otherChange_, solution_, inverse_, neighbours_;
-  // Of the fields that go together. Single precision moves a solution by 1e-7 of the change that fluxes make; the fluxes
-  // that cells exchange are evaluated from it with conductances of double precision.
-  std::vector<float> conductance_;
+  std::vector<double> residual_, change_, inverse_, neighbours_;
+  std::vector<Group> groups_;
 };
 
 }  // namespace lampblack::flow
