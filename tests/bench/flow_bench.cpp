@@ -5,7 +5,7 @@
 //   build/release/tests/bench/flow_bench                           (configured with -DLAMPBLACK_BENCH=ON; two minutes)
 //   build/release/tests/bench/flow_bench mesh.refinement=0.5       (any keys of the deck)
 //   build/release/tests/bench/flow_bench transport                 (the last part alone; half a minute)
-//   mpirun -n 2 build/release/tests/bench/flow_bench transport     (with the reductions of PETSc, which one rank has not)
+//   mpirun -n 2 build/release/tests/bench/flow_bench transport     (PETSc reduces there, too)
 //
 // The states are those of the run: at some moments the cells are kept as they are handed to the chemistry, and advanced
 // again by each method. "one by one" is how cells were advanced before vector lanes; both are timed in turns, the least
