@@ -86,5 +86,42 @@ TEST(FaceState, IsOfSecondOrderOnGradedMeshesEitherWay) {
   }
 }
 
+// Beside an inlet that is fed with a given flux of its species diffusion may have changed the gas: what is linear in
+// the cells goes on linear, however far away the feed is, and steps from the feed make no new extremum.
+TEST(FaceState, AFeedLeadsNoFurtherThanTheSlopeBehindIt) {
+  Gas& gas = Gas::hydrogen();
+  const std::size_t h2 = gas.mechanism.speciesIndex("H2"), n2 = gas.mechanism.speciesIndex("N2");
+  constexpr int cells = 8;
+  const auto of = [&](double Y) {
+    std::vector<double> mixture(gas.mechanism.numSpecies(), 0.0);
+    mixture[h2] = Y;
+    mixture[n2] = 1.0 - Y;
+    return mixture;
+  };
+  const auto faceAfterTheFirstCell = [&](double fed, double first, double slope) {
+    Box box(Geometry::Planar, {uniformAxis(width, cells), uniformAxis(width, 3)},
+            {opening(BoundaryKind::Inlet, 0, false, 0.1, 300.0, of(fed)), side(BoundaryKind::Wall, 0, true),
+             side(BoundaryKind::Wall, 1, false), side(BoundaryKind::Wall, 1, true)});
+    const Mesh& m = box.mesh;
+    State state = box.state([&](const auto& x) {
+      return Box::Local{{0.0, 0.0}, 300.0, of(first + slope * (x[0] / width * cells - 0.5))};
+    });
+    state.updateHalo(box.halo);
+    FaceState faces(box.context, state.species, 0);
+    faces.prepare(state, state.Y);
+    double found = 0.0;
+    std::vector<double> Y(gas.mechanism.numSpecies());
+    for (int face = 0; face < m.interiorFaces; ++face) {
+      if (m.normalAxis[at(face)] != 0 || std::abs(m.faceCentre[at(face)][0] - width / cells) > 1e-9) continue;
+      faces.massFractions(face, 1.0, Y);
+      found = std::max(found, Y[h2]);
+    }
+    return maxOverRanks(found);
+  };
+  EXPECT_NEAR(faceAfterTheFirstCell(0.0, 0.2, 0.01), 0.205, 1e-12);  // diffusion has brought hydrogen to the inlet
+  EXPECT_NEAR(faceAfterTheFirstCell(0.2, 0.2, 0.01), 0.2, 1e-12);    // as fed: a step would make a new minimum
+  EXPECT_NEAR(faceAfterTheFirstCell(0.3, 0.2, 0.01), 0.2, 1e-12);    // a trough
+}
+
 }  // namespace
 }  // namespace lampblack::test
