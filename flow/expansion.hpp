@@ -32,7 +32,7 @@ class Expansion {
 
   // Begins a sweep over dt: with p_eos - p0 of the state. `lastStep` (s): that before this one, 0 if there is none.
   void begin(const State& state, const GasProperties& properties, bool isFirstSweep, double dt, double lastStep);
-  // Diffusion takes the contents (kg, species a owned cell) from `before` to those that complete() is given.
+  // Diffusion is about to change these contents (kg, species a owned cell) to those that complete() is given.
   void beforeDiffusion(const State& state, const GasProperties& properties, std::span<const double> contents);
   // The sweep's divergence (1/s, owned cells), with this diffusion.
   std::span<const double> complete(const State& state, const GasProperties& properties,
@@ -53,8 +53,7 @@ class Expansion {
   void saveOrLoad(StateArchive& archive);
 
  private:
-  // Adds to the divergence of a cell what mass (kg/s, of each species) and enthalpy (W) that come into it expand it by,
-  // as a sum of both.
+  // 1/s, by which a cell is expanded by mass (kg/s, of each species) or heat (W) that comes into it.
   [[nodiscard]] double ofSpecies(const State& state, const GasProperties& properties, int cell,
                                  const double* species) const;
   [[nodiscard]] double ofHeat(const State& state, const GasProperties& properties, int cell, double heat) const;

@@ -98,12 +98,13 @@ void Projection::saveOrLoad(StateArchive& archive) {
   checkPetsc(KSPSetUp(solver_.get()));
 }
 
-int Projection::iterate(std::span<const double> guess, double tolerance) {
+Projection::Iterations Projection::iterate(std::span<const double> guess, double tolerance) {
   // Many times what a solve takes; the pipelined iteration goes on for ever where it has come to its round-off.
   constexpr int mostPipelined = 50, most = 500;
   const PetscBool keepsPreconditioner = iterationsAfterSetup_ >= 0 ? PETSC_TRUE : PETSC_FALSE;
   KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
   PetscInt iterations = 0;
+  Iterations result;
   for (KSP solver : {solver_.get(), careful_.get()}) {
     const bool isPipelined = solver == solver_.get();
     double* x = nullptr;
@@ -116,7 +117,9 @@ int Projection::iterate(std::span<const double> guess, double tolerance) {
     checkPetsc(KSPSolve(solver, rightSide_.get(), solution_.get()));
     checkPetsc(KSPGetConvergedReason(solver, &reason));
     checkPetsc(KSPGetIterationNumber(solver, &iterations));
-    if (reason > 0) return static_cast<int>(iterations);
+    result.ofSolver = static_cast<int>(iterations);
+    result.all += result.ofSolver;
+    if (reason > 0) return result;
   }
   throw NumericsError(fmt::format("the pressure solve failed (PETSc reason {}) after {} iterations",
                                   static_cast<int>(reason), static_cast<int>(iterations)));
@@ -151,10 +154,10 @@ Projection::Result Projection::solve(double dt, std::span<const double> inverseD
 
   if (iterationsAfterSetup_ < 0) setupConductance_ = conductance_;
   // The tolerance is absolute: a fraction of the largest face flow, so that continuity holds alike in every step.
-  const int iterations = iterate(change, tolerance_ * flowScale);
+  const Iterations iterations = iterate(change, tolerance_ * flowScale);
   if (iterationsAfterSetup_ < 0)
-    iterationsAfterSetup_ = iterations;
-  else if (iterations > 2 * iterationsAfterSetup_ + 3)
+    iterationsAfterSetup_ = iterations.ofSolver;
+  else if (iterations.ofSolver > 2 * iterationsAfterSetup_ + 3)
     iterationsAfterSetup_ = -1;  // the preconditioner has aged: set it up anew next time
 
   const double* solved = nullptr;
@@ -168,7 +171,7 @@ Projection::Result Projection::solve(double dt, std::span<const double> inverseD
     const double beyond = m.high[face] >= 0 ? change[m.high[face]] : 0.0;
     faceVelocity[face] -= conductance_[face] / m.area[face] * (beyond - change[m.low[face]]);
   }
-  Result result{iterations, 0.0};
+  Result result{iterations.all, 0.0};
   std::vector<double> net(m.owned, 0.0);
   for (int face = 0; face < m.faces; ++face) {
     const double flow = m.area[face] * faceVelocity[face];

@@ -21,7 +21,7 @@ class Projection {
   Projection(const FlowContext& context, double tolerance = 1e-9);
 
   struct Result {
-    int iterations = 0;
+    int iterations = 0;            // those of a pipelined attempt that was in vain included
     double continuityError = 0.0;  // 1/s, largest |divergence of u_f - target| of any cell
   };
 
@@ -36,8 +36,11 @@ class Projection {
   void saveOrLoad(StateArchive& archive);
 
  private:
-  // From `guess` to solution_; the iterations it took.
-  int iterate(std::span<const double> guess, double tolerance);
+  // From `guess` to solution_.
+  struct Iterations {
+    int all = 0, ofSolver = 0;  // of both solvers; of the one that converged
+  };
+  Iterations iterate(std::span<const double> guess, double tolerance);
   void conductances(double dt, std::span<const double> inverseDensity);
   void assemble();
 
