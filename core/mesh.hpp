@@ -1,95 +1,114 @@
-// The finite-volume mesh as flat arrays, made once from a distributed DMPlex box: owned cells first, then one layer of
+// The finite-volume mesh as flat arrays, made once from the shares of a MeshBlock: owned cells first, then one layer of
 // halo cells; interior faces first, then boundary faces. Everything a flux loop needs is an array here.
 //
-// Geometry. `Planar`: two-dimensional, unit depth. `Axisymmetric`: coordinate 0 is the radius r, coordinate 1 the axial
-// position z, and all metrics are per radian: volumes are the integral of r dA, face areas are length times r. The
-// planar measures are kept beside them for what acts on planes (pressure gradient, hoop stress).
+// Geometry. `Planar`: two- or three-dimensional, a plane of unit depth. `Axisymmetric`: coordinate 0 is the radius r,
+// coordinate 1 the axial position z, and all metrics are per radian: volumes are the integral of r dA, face areas are
+// length times r. The planar areas are kept beside them for what acts on planes (hoop stress).
+//
+// Places and vectors have three components, of which only the first `dimension` are not zero.
 #pragma once
 
 #include <mpi.h>
 
-#include <array>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "core/box_mesh.hpp"
+#include "core/cell_set.hpp"
+#include "core/mesh_block.hpp"
+#include "core/vector3.hpp"
+
 namespace lampblack {
-
-enum class Geometry { Planar, Axisymmetric };
-
-// A part of the box's surface: the faces of one side whose centre lies in [from, to] along the other axis (m).
-struct BoundaryPatch {
-  std::string name;
-  int axis = 0;        // 0 or 1: the axis the side is normal to
-  bool atMax = false;  // side at the low or high end of that axis
-  double from = -1e300;
-  double to = 1e300;
-};
-
-struct MeshSpec {
-  Geometry geometry = Geometry::Planar;
-  std::array<std::vector<double>, 2> vertices;  // m, increasing along each axis
-  std::vector<BoundaryPatch> patches;           // first match wins; a face without a patch is an InputError
-  // Along an axis: what leaves at one end comes in at the other. Such an axis has three cells or more and no patches.
-  std::array<bool, 2> periodic{false, false};
-};
 
 class Mesh {
  public:
-  // Collective. `cellWeight` (one per cell in natural order, or empty for equal weights) is the expected cost that
-  // METIS balances. Every rank owns at least one cell. InputError, on all ranks, when an axis has no cells, there are
-  // fewer cells than ranks, a radius is negative, or a boundary face belongs to no patch.
-  Mesh(MPI_Comm comm, MeshSpec spec, const std::vector<double>& cellWeight = {});
+  // Collective. `cellWeight` (one for each cell of this rank's share, or empty on all ranks for equal weights) is the
+  // expected cost that the partition balances. Every rank owns at least one cell. InputError, on all ranks, when there
+  // are fewer cells than ranks, a radius is negative, a cell is folded, or a boundary face belongs to no patch.
+  Mesh(MPI_Comm comm, const MeshBlock& block, Geometry geometry, std::span<const double> cellWeight = {});
+  // The same of a box, which stands in `box` from then on.
+  Mesh(MPI_Comm comm, const MeshSpec& spec, std::span<const double> cellWeight = {});
 
   MPI_Comm comm;
   int rank = 0;
   int ranks = 1;
-  MeshSpec spec;
-  std::int64_t totalCells = 0;
-  std::array<int, 2> cellsAlong{0, 0};
+  Geometry geometry = Geometry::Planar;
+  int dimension = 2;
+  std::optional<MeshSpec> box;  // what it was made from, where it is a box
+  std::vector<std::string> patches;
+  std::int64_t totalCells = 0, totalFaces = 0, totalVertices = 0;
 
   // Cells: [0, owned) are this rank's, [owned, cells) are halo.
   int owned = 0;
   int cells = 0;
-  std::vector<std::int64_t> naturalCell;      // i + j * cellsAlong[0], the same on any number of ranks
-  std::vector<int> haloRank;                  // owner of cell owned + i
-  std::vector<std::array<double, 2>> centre;  // m
-  std::vector<double> volume;                 // m^3 (planar: per metre depth) or m^3/rad
-  std::vector<double> planarArea;             // m^2
+  std::vector<std::int64_t> naturalCell;  // permanent number, the same on any number of ranks
+  std::vector<int> haloRank;              // owner of cell owned + i
+  std::vector<Vector3> centre;            // m
+  std::vector<double> volume;             // m^3 (planar: per metre depth) or m^3/rad
+  std::vector<double> planarArea;         // m^2, of a plane cell
 
   // Faces: [0, interiorFaces) lie between two local cells, of which at least one is owned; the rest are boundary faces
-  // of owned cells. The unit normal points from `low` to `high`, or out of the domain; `low` is before `high` on the
-  // axis (of a periodic pair the cell at the upper end), so that two ranks compute a shared face's flux in the same
+  // of owned cells. The unit normal points from `low` to `high`, or out of the domain; `low` has the smaller number
+  // (of a periodic pair the cell whose face is the image), so that two ranks compute a shared face's flux in the same
   // order, to the last bit.
   int interiorFaces = 0;
   int faces = 0;
   std::vector<int> low;
-  std::vector<int> high;                          // -1 on boundary faces
-  std::vector<int> normalAxis;                    // axis of the normal
-  std::vector<double> normalSign;                 // +1 or -1 along that axis
-  std::vector<double> area;                       // metric area
-  std::vector<double> planarLength;               // m
-  std::vector<double> distance;                   // m, centre to centre, or centre to boundary face
-  std::vector<double> lowWeight;                  // linear interpolation weight of `low` at the face
-  std::vector<std::array<double, 2>> faceCentre;  // m
-  std::vector<int> patch;                         // of boundary faces, index face - interiorFaces
+  std::vector<int> high;                 // -1 on boundary faces
+  std::vector<std::int64_t> faceNumber;  // permanent, 0 to totalFaces - 1; a face between two ranks is local to both
+  std::vector<Vector3> normal;
+  std::vector<double> area;         // metric area
+  std::vector<Vector3> faceCentre;  // m, as `low` has it
+  std::vector<Vector3> step;        // m, from the centre of `low` to that of `high`, or to the boundary face's
+  std::vector<double> distance;     // m, of the two along the normal
+  std::vector<double> lowWeight;    // linear interpolation weight of `low` at the face
+  std::vector<int> patch;           // of boundary faces, index face - interiorFaces
+
+  // Where the steps are not along the normals, or do not meet the faces' centres, on any rank: what is missing from
+  // fluxes and values that go by the two cells alone. Empty otherwise.
+  std::vector<Vector3> oblique;  // normal - step/distance, of length tan(angle)
+  std::vector<Vector3> offset;   // m, from where the step meets the face to its centre
+  [[nodiscard]] bool isOblique() const { return !oblique.empty(); }
+  [[nodiscard]] bool isSkewed() const { return !offset.empty(); }
+  // m, length of a face's step.
+  [[nodiscard]] double spacing(int face) const {
+    const auto f = static_cast<std::size_t>(face);
+    return isOblique() ? length(step[f]) : distance[f];
+  }
 
   // Faces of each cell in compressed rows: faceOfCell[faceStart[c] .. faceStart[c+1]). An owned cell has all its faces,
   // in an order that does not depend on the ranks; a halo cell has those it shares with owned cells.
   std::vector<int> faceStart;
   std::vector<int> faceOfCell;
+  // Which of its sides a face is to `low` and to `high`, so that two ranks can speak of one face of a cell.
+  std::vector<signed char> lowSide, highSide;
+  static constexpr int mostSides = 6;
 
-  [[nodiscard]] bool axisymmetric() const { return spec.geometry == Geometry::Axisymmetric; }
+  // Gradients in owned cells none of whose faces is a boundary's (core/least_squares.hpp): where a cell's weights begin
+  // in `gradientWeight`, one for each of its faces; -1 for the others, which depend on what is known at the boundary.
+  std::vector<int> gradientRow;
+  std::vector<Vector3> gradientWeight;
+
+  // The owned cells' corners, for what draws them or looks for places in them.
+  std::vector<CellShape> shape;
+  std::vector<int> cornerStart;  // of each owned cell in `corner`, and the end
+  std::vector<int> corner;       // in the arrays below
+  std::vector<std::int64_t> vertexNumber;  // permanent, increasing
+  std::vector<Vector3> vertex;             // m
+
+  [[nodiscard]] bool axisymmetric() const { return geometry == Geometry::Axisymmetric; }
   [[nodiscard]] int boundaryFaces() const { return faces - interiorFaces; }
   [[nodiscard]] const std::string& patchName(int face) const {
-    return spec.patches[static_cast<std::size_t>(patch[static_cast<std::size_t>(face - interiorFaces)])].name;
+    return patches[static_cast<std::size_t>(patch[static_cast<std::size_t>(face - interiorFaces)])];
   }
-  // Rank-independent numbers of the local faces, 0 to totalFaces() - 1: those normal to axis 0 row by row, then those
-  // normal to axis 1. A face between two ranks is local to both.
-  [[nodiscard]] std::vector<std::int64_t> naturalFaces() const;
-  [[nodiscard]] std::int64_t totalFaces() const;
-  // Local index of a natural cell among the owned ones, or -1.
+  // Local index of a cell among the owned ones by its permanent number, or -1.
   [[nodiscard]] int findOwned(std::int64_t natural) const;
+
+ private:
+  void build(const MeshBlock& block, std::span<const double> cellWeight);
 };
 
 }  // namespace lampblack

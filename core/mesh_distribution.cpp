@@ -1,161 +1,194 @@
 #include "core/mesh_distribution.hpp"
 
-#include <petscdmplex.h>
-#include <petscpartitioner.h>
-#include <petscsf.h>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <utility>
+#include <cstddef>
+#include <limits>
+#include <numeric>
 
 #include "core/errors.hpp"
-#include "core/partition.hpp"
-#include "core/petsc.hpp"
+#include "core/hilbert.hpp"
+#include "core/shares.hpp"
 
 namespace lampblack {
 namespace {
 
-// A box whose vertices have whole-number coordinates, so that a point's natural index can be read off its position on
-// any rank after distribution. All of it is on rank 0.
-PetscDm createIndexBox(MPI_Comm comm, const std::array<int, 2>& cellsAlong, const std::array<bool, 2>& periodic) {
-  const PetscInt faces[2] = {cellsAlong[0], cellsAlong[1]};
-  const PetscReal lower[2] = {0.0, 0.0};
-  const PetscReal upper[2] = {static_cast<PetscReal>(cellsAlong[0]), static_cast<PetscReal>(cellsAlong[1])};
-  const DMBoundaryType ends[2] = {periodic[0] ? DM_BOUNDARY_PERIODIC : DM_BOUNDARY_NONE,
-                                  periodic[1] ? DM_BOUNDARY_PERIODIC : DM_BOUNDARY_NONE};
-  PetscDm dm;
-  checkPetsc(DMPlexCreateBoxMesh(comm, 2, PETSC_FALSE, faces, lower, upper, ends, PETSC_TRUE, dm.put()));
-  checkPetsc(DMSetBasicAdjacency(dm.get(), PETSC_TRUE, PETSC_FALSE));
-  return dm;
-}
-
-std::array<PetscReal, 3> position(DM dm, PetscInt point) {
-  std::array<PetscReal, 3> centroid{};
-  checkPetsc(DMPlexComputeCellGeometryFVM(dm, point, nullptr, centroid.data(), nullptr));
-  return centroid;
-}
-
-std::int64_t naturalIndex(DM dm, PetscInt cell, const std::array<int, 2>& cellsAlong) {
-  const auto at = position(dm, cell);
-  return static_cast<std::int64_t>(std::floor(at[0])) + static_cast<std::int64_t>(std::floor(at[1])) * cellsAlong[0];
-}
-
-// The cells in a DMPlex's partitioning order, rank after rank, and how many each rank gets.
-struct Assignment {
-  std::vector<PetscInt> sizes, points;
-};
-
-// Collective; rank 0, which holds the box, decides.
-Assignment assignCells(MPI_Comm comm, DM dm, const std::array<int, 2>& cellsAlong, const std::vector<double>& weight,
-                       int ranks) {
-  PetscInt graphCells = 0;
-  PetscInt* start = nullptr;
-  PetscInt* neighbours = nullptr;
-  checkPetsc(DMPlexCreatePartitionerGraph(dm, 0, &graphCells, &start, &neighbours, nullptr));
-  std::vector<std::int64_t> rowStart;
-  std::vector<std::int64_t> adjacency;
-  if (graphCells > 0) {
-    rowStart.assign(start, start + graphCells + 1);
-    adjacency.assign(neighbours, neighbours + start[graphCells]);
-  }
-  checkPetsc(PetscFree(start));
-  checkPetsc(PetscFree(neighbours));
-
-  Assignment assignment;
-  assignment.sizes.assign(static_cast<std::size_t>(ranks), 0);
-  collectively(comm, [&] {
-    if (graphCells == 0) return;
-    std::vector<double> graphWeight;
-    if (!weight.empty()) {
-      for (PetscInt c = 0; c < graphCells; ++c)
-        graphWeight.push_back(weight[static_cast<std::size_t>(naturalIndex(dm, c, cellsAlong))]);
-    }
-    const std::vector<int> part = partitionGraph(rowStart, adjacency, graphWeight, ranks);
-    for (int r = 0; r < ranks; ++r) {
-      for (PetscInt c = 0; c < graphCells; ++c) {
-        if (part[static_cast<std::size_t>(c)] != r) continue;
-        assignment.points.push_back(c);
-        ++assignment.sizes[static_cast<std::size_t>(r)];
-      }
-    }
-  });
-  return assignment;
-}
-
-// Moves the box's cells to their ranks through PETSc's shell partitioner, with one layer of halo cells.
-PetscDm distribute(MPI_Comm comm, PetscDm dm, const std::array<int, 2>& cellsAlong, const std::vector<double>& weight) {
+int rankIn(MPI_Comm comm) {
   int rank = 0;
-  int ranks = 1;
   MPI_Comm_rank(comm, &rank);
-  MPI_Comm_size(comm, &ranks);
-  if (ranks == 1) return dm;
-
-  const Assignment assignment = assignCells(comm, dm.get(), cellsAlong, weight, ranks);
-  PetscPartitioner partitioner = nullptr;
-  checkPetsc(DMPlexGetPartitioner(dm.get(), &partitioner));
-  checkPetsc(PetscPartitionerSetType(partitioner, PETSCPARTITIONERSHELL));
-  checkPetsc(PetscPartitionerShellSetPartition(partitioner, ranks, rank == 0 ? assignment.sizes.data() : nullptr,
-                                               rank == 0 ? assignment.points.data() : nullptr));
-  PetscDm distributed;
-  checkPetsc(DMPlexDistribute(dm.get(), 1, nullptr, distributed.put()));
-  if (distributed.get() == nullptr) throw NumericsError("DMPlex did not distribute the mesh");
-  return distributed;
+  return rank;
 }
 
-// Owner rank of each local cell point: this rank unless the point is a leaf of the point SF.
-std::vector<int> ownerOfCells(DM dm, PetscInt cellStart, PetscInt cellEnd, int rank) {
-  std::vector<int> owner(static_cast<std::size_t>(cellEnd - cellStart), rank);
-  PetscSF sf = nullptr;
-  PetscInt leaves = 0;
-  const PetscInt* local = nullptr;
-  const PetscSFNode* remote = nullptr;
-  checkPetsc(DMGetPointSF(dm, &sf));
-  checkPetsc(PetscSFGetGraph(sf, nullptr, &leaves, &local, &remote));
-  for (PetscInt i = 0; i < leaves; ++i) {
-    const PetscInt point = local != nullptr ? local[i] : i;
-    if (point >= cellStart && point < cellEnd)
-      owner[static_cast<std::size_t>(point - cellStart)] = static_cast<int>(remote[i].rank);
+int ranksOf(MPI_Comm comm) {
+  int ranks = 1;
+  MPI_Comm_size(comm, &ranks);
+  return ranks;
+}
+
+std::array<double, 3> middleOf(std::span<const std::array<double, 3>> corners) {
+  std::array<double, 3> sum{};
+  for (const auto& corner : corners)
+    for (std::size_t i = 0; i < 3; ++i) sum[i] += corner[i];
+  for (double& x : sum) x /= static_cast<double>(corners.size());
+  return sum;
+}
+
+// Place of each cell along the curve through the mesh's bounding box.
+std::vector<std::uint64_t> keysOf(MPI_Comm comm, const CellSet& cells, int dimension) {
+  constexpr double most = std::numeric_limits<double>::max();
+  std::array<double, 6> ends{most, most, most, most, most, most};  // lowest, and highest with the other sign
+  for (const auto& place : cells.places)
+    for (std::size_t i = 0; i < 3; ++i) {
+      ends[i] = std::min(ends[i], place[i]);
+      ends[3 + i] = std::min(ends[3 + i], -place[i]);
+    }
+  MPI_Allreduce(MPI_IN_PLACE, ends.data(), 6, MPI_DOUBLE, MPI_MIN, comm);
+  double size = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) size = std::max(size, -ends[3 + i] - ends[i]);
+  std::vector<std::uint64_t> keys;
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    std::array<double, 3> place = middleOf(cells.placesOf(c));
+    for (std::size_t i = 0; i < 3; ++i) place[i] = (place[i] - ends[i]) / size;
+    keys.push_back(hilbertIndex(place, dimension));
   }
+  return keys;
+}
+
+// Where the curve is cut: cells from the key of cut r on belong to rank r + 1 or later.
+std::vector<std::uint64_t> cutCurve(MPI_Comm comm, const std::vector<std::uint64_t>& keys,
+                                    const std::vector<double>& weight) {
+  const int ranks = ranksOf(comm);
+  std::vector<std::size_t> order(keys.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return keys[a] < keys[b]; });
+  std::vector<std::uint64_t> sorted;
+  std::vector<double> before{0.0};  // weight of the cells up to each
+  for (const std::size_t i : order) {
+    sorted.push_back(keys[i]);
+    before.push_back(before.back() + weight[i]);
+  }
+  double total = before.back();
+  MPI_Allreduce(MPI_IN_PLACE, &total, 1, MPI_DOUBLE, MPI_SUM, comm);
+  // The smallest key below which there is at least the wanted weight, for all cuts at once, by halving.
+  std::vector<std::uint64_t> low(static_cast<std::size_t>(ranks - 1), 0), high(low.size(), std::uint64_t{1} << 63);
+  std::vector<double> below(low.size());
+  for (int round = 0; round < 64; ++round) {
+    for (std::size_t r = 0; r < low.size(); ++r) {
+      const std::uint64_t middle = low[r] + (high[r] - low[r]) / 2;
+      const auto end = std::ranges::lower_bound(sorted, middle) - sorted.begin();
+      below[r] = before[static_cast<std::size_t>(end)];
+    }
+    MPI_Allreduce(MPI_IN_PLACE, below.data(), ranks - 1, MPI_DOUBLE, MPI_SUM, comm);
+    for (std::size_t r = 0; r < low.size(); ++r) {
+      const std::uint64_t middle = low[r] + (high[r] - low[r]) / 2;
+      // Rounded to the nearest cell: half of one may be missing.
+      (below[r] >= total * static_cast<double>(r + 1) / ranks ? high[r] : low[r]) = middle;
+    }
+  }
+  return high;
+}
+
+std::vector<int> ownersBy(const std::vector<std::uint64_t>& keys, const std::vector<std::uint64_t>& cuts) {
+  std::vector<int> owner;
+  for (const std::uint64_t key : keys)
+    owner.push_back(static_cast<int>(std::ranges::upper_bound(cuts, key) - cuts.begin()));
   return owner;
 }
 
-// A face with one cell: at the box's surface (or at the outer rim of the halo, of no use to this rank).
-LocalBox::BoundaryFace describeBoundaryFace(DM dm, PetscInt face, int cell, const std::array<int, 2>& cellsAlong) {
-  constexpr double tolerance = 1e-6;  // of a cell: centroids of a whole-number grid are exact
-  const auto at = position(dm, face);
-  const int axis = at[0] < tolerance || at[0] > cellsAlong[0] - tolerance ? 0 : 1;
-  return {cell, axis, at[static_cast<std::size_t>(axis)] >= tolerance};
+bool hasEveryRankCells(MPI_Comm comm, const std::vector<int>& owner) {
+  std::vector<std::int64_t> count(static_cast<std::size_t>(ranksOf(comm)), 0);
+  for (const int rank : owner) ++count[static_cast<std::size_t>(rank)];
+  MPI_Allreduce(MPI_IN_PLACE, count.data(), static_cast<int>(count.size()), MPI_INT64_T, MPI_SUM, comm);
+  return std::ranges::all_of(count, [](std::int64_t n) { return n > 0; });
 }
 
 }  // namespace
 
-LocalBox distributeBox(MPI_Comm comm, const std::array<int, 2>& cellsAlong, const std::array<bool, 2>& periodic,
-                       const std::vector<double>& cellWeight) {
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
-  const PetscDm dm = distribute(comm, createIndexBox(comm, cellsAlong, periodic), cellsAlong, cellWeight);
-  PetscInt cellStart = 0;
-  PetscInt cellEnd = 0;
-  PetscInt faceStart = 0;
-  PetscInt faceEnd = 0;
-  checkPetsc(DMPlexGetHeightStratum(dm.get(), 0, &cellStart, &cellEnd));
-  checkPetsc(DMPlexGetHeightStratum(dm.get(), 1, &faceStart, &faceEnd));
-
-  LocalBox box;
-  const std::vector<int> owner = ownerOfCells(dm.get(), cellStart, cellEnd, rank);
-  for (PetscInt c = cellStart; c < cellEnd; ++c)
-    box.cells.push_back({naturalIndex(dm.get(), c, cellsAlong), owner[static_cast<std::size_t>(c - cellStart)]});
-  for (PetscInt f = faceStart; f < faceEnd; ++f) {
-    PetscInt supportSize = 0;
-    const PetscInt* support = nullptr;
-    checkPetsc(DMPlexGetSupportSize(dm.get(), f, &supportSize));
-    checkPetsc(DMPlexGetSupport(dm.get(), f, &support));
-    const int a = static_cast<int>(support[0] - cellStart);
-    if (supportSize == 2)
-      box.interior.push_back({a, static_cast<int>(support[1] - cellStart)});
-    else
-      box.boundary.push_back(describeBoundaryFace(dm.get(), f, a, cellsAlong));
+std::vector<int> partitionAlongCurve(MPI_Comm comm, const CellSet& cells, int dimension,
+                                     std::span<const double> weight) {
+  const int ranks = ranksOf(comm);
+  auto total = static_cast<std::int64_t>(cells.size());
+  MPI_Allreduce(MPI_IN_PLACE, &total, 1, MPI_INT64_T, MPI_SUM, comm);
+  if (total < ranks) {
+    // Known to all, so raised on all together.
+    collectively(comm, [&] {
+      throw InputError(
+          fmt::format("the mesh has {} cells, fewer than the {} ranks it is to be spread over", total, ranks));
+    });
   }
-  return box;
+  if (ranks == 1) return std::vector<int>(cells.size(), 0);
+  const std::vector<std::uint64_t> keys = keysOf(comm, cells, dimension);
+  const std::vector<double> equal(cells.size(), 1.0);
+  double sum = std::accumulate(weight.begin(), weight.end(), 0.0);
+  MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, comm);
+  if (sum > 0.0 && std::isfinite(sum)) {
+    // One cell may outweigh all others: no rank goes without even so, by a weight that every cell has.
+    const double mean = sum / static_cast<double>(total);
+    for (const double share : {0.0, 1.0}) {
+      std::vector<double> own(weight.begin(), weight.end());
+      for (double& w : own) w += share * mean;
+      const std::vector<int> owner = ownersBy(keys, cutCurve(comm, keys, own));
+      if (hasEveryRankCells(comm, owner)) return owner;
+    }
+  }
+  return ownersBy(keys, cutCurve(comm, keys, equal));
+}
+
+DistributedCells distribute(MPI_Comm comm, CellSet cells, std::int64_t totalCells, const std::vector<int>& owner) {
+  const int rank = rankIn(comm);
+  const auto ranks = static_cast<std::size_t>(ranksOf(comm));
+  std::int64_t first = 0;
+  const auto own = static_cast<std::int64_t>(cells.size());
+  MPI_Exscan(&own, &first, 1, MPI_INT64_T, MPI_SUM, comm);
+  const Shares shares(comm, first, totalCells);
+
+  // Whose the neighbours are.
+  const auto isHere = [&](std::int64_t number) { return number >= first && number < first + own; };
+  std::vector<std::int64_t> elsewhere;
+  for (const CellSet::Side& side : cells.sides)
+    if (side.neighbour >= 0 && !isHere(side.neighbour)) elsewhere.push_back(side.neighbour);
+  const auto answers = ask<std::int32_t>(comm, shares, elsewhere, [&](std::int64_t number) {
+    return static_cast<std::int32_t>(owner[static_cast<std::size_t>(number - first)]);
+  });
+  std::size_t next = 0;
+  for (CellSet::Side& side : cells.sides)
+    if (side.neighbour >= 0)
+      side.owner = isHere(side.neighbour) ? owner[static_cast<std::size_t>(side.neighbour - first)] : answers[next++];
+
+  const auto move = [&](const CellSet& from, auto&& eachRankOf) {
+    std::vector<std::vector<std::int64_t>> messages(ranks);
+    for (std::size_t c = 0; c < from.size(); ++c)
+      eachRankOf(c, [&](int to) { from.pack(c, messages[static_cast<std::size_t>(to)]); });
+    return sendToRanks(comm, messages);
+  };
+  DistributedCells result;
+  {
+    const auto arrived = move(cells, [&](std::size_t c, auto&& sendTo) { sendTo(owner[c]); });
+    cells = {};
+    CellSet unordered;
+    unordered.unpack(arrived.values);
+    std::vector<std::size_t> order(unordered.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto byNumber = [&](std::size_t a, std::size_t b) { return unordered.numbers[a] < unordered.numbers[b]; };
+    if (!std::ranges::is_sorted(order, byNumber)) std::ranges::sort(order, byNumber);
+    result.owned = reordered(unordered, order);
+  }
+  const auto seen = move(result.owned, [&](std::size_t c, auto&& sendTo) {
+    std::vector<int> to;
+    for (const CellSet::Side& side : result.owned.sidesOf(c))
+      if (side.neighbour >= 0 && side.owner != rank && std::ranges::find(to, side.owner) == to.end())
+        to.push_back(side.owner);
+    for (const int r : to) sendTo(r);
+  });
+  for (std::size_t r = 0; r < ranks; ++r) {
+    const std::size_t before = result.halo.size();
+    result.halo.unpack({seen.values.data() + seen.start[r], seen.start[r + 1] - seen.start[r]});
+    result.haloOwner.resize(result.haloOwner.size() + result.halo.size() - before, static_cast<int>(r));
+  }
+  return result;
 }
 
 }  // namespace lampblack

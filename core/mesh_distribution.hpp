@@ -1,36 +1,29 @@
-// The DMPlex side of a mesh: a box of cells, partitioned by METIS and distributed with one layer of halo cells, reduced
-// to what this rank sees of it. Knows indices only; positions and metrics are the Mesh's.
+// Gives each cell of a mesh to a rank, and brings it there with one layer of its neighbours. No rank ever holds more
+// than its share.
 #pragma once
 
 #include <mpi.h>
 
-#include <array>
-#include <cstdint>
+#include <span>
 #include <vector>
+
+#include "core/cell_set.hpp"
 
 namespace lampblack {
 
-// This rank's cells, in no particular order, and the faces around them.
-struct LocalBox {
-  struct Cell {
-    std::int64_t natural;  // i + j * cellsAlong[0]
-    int owner;             // rank
-  };
-  struct InteriorFace {
-    int a, b;  // indices into `cells`; either may be a halo cell
-  };
-  struct BoundaryFace {
-    int cell, axis;
-    bool atMax;
-  };
-  std::vector<Cell> cells;
-  std::vector<InteriorFace> interior;
-  std::vector<BoundaryFace> boundary;
+// Collective. The rank of each of this rank's cells: pieces of a space-filling curve of about equal weight, each of at
+// least one cell. `weight`: of each of this rank's cells, zero or more, on any scale; empty on all ranks for equal ones,
+// which also stand in where the sum is zero. InputError, on all ranks, when there are fewer cells than ranks.
+std::vector<int> partitionAlongCurve(MPI_Comm comm, const CellSet& cells, int dimension,
+                                     std::span<const double> weight);
+
+struct DistributedCells {
+  CellSet owned;               // by number
+  CellSet halo;                // the neighbours of owned cells on other ranks, by owner and number
+  std::vector<int> haloOwner;  // rank of each
 };
 
-// Collective. Every rank owns at least one cell. `cellWeight` is in natural order, or empty for equal weights; rank 0's
-// counts. InputError, on all ranks, when there are fewer cells than ranks.
-LocalBox distributeBox(MPI_Comm comm, const std::array<int, 2>& cellsAlong, const std::array<bool, 2>& periodic,
-                       const std::vector<double>& cellWeight);
+// Collective. `cells`: this rank's share; `shareStart`: number of its first.
+DistributedCells distribute(MPI_Comm comm, CellSet cells, std::int64_t totalCells, const std::vector<int>& owner);
 
 }  // namespace lampblack

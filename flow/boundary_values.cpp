@@ -24,7 +24,7 @@ void BoundaryValues::evaluate(int face, double gas, double velocity, Face& value
   const BoundaryCondition& boundary =
       boundaries_[static_cast<std::size_t>(mesh_.patch[static_cast<std::size_t>(face - mesh_.interiorFaces)])];
   const BoundaryVariation& varies = boundary.varies;
-  const std::array<double, 2>& place = mesh_.faceCentre[static_cast<std::size_t>(face)];
+  const Vector3& place = mesh_.faceCentre[static_cast<std::size_t>(face)];
   values.speed = varies.speed ? varies.speed(place, gas) : boundary.speed;
   values.speedOfMomentum = varies.speed ? varies.speed(place, velocity) : boundary.speed;
   values.tangential = varies.tangential ? varies.tangential(place, velocity) : boundary.tangential;

@@ -93,7 +93,7 @@ class CarriedOperator : public Operator {
   int stages_ = 0;
   // Of the last row.
   double peak_ = 0.0;
-  std::array<double, 2> place_{};
+  Vector3 place_{};
   std::vector<double> partialDensity_, values_, concentrations_, enthalpy_, slope_;
 };
 

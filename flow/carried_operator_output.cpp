@@ -36,7 +36,7 @@ std::vector<double> CarriedOperator::historyValues(const State& state) {
     place_ = m.centre[c];
   }
   MPI_Allreduce(MPI_IN_PLACE, &best, 1, MPI_DOUBLE_INT, MPI_MAXLOC, m.comm);
-  MPI_Bcast(place_.data(), 2, MPI_DOUBLE, best.rank, m.comm);
+  MPI_Bcast(place_.data(), 3, MPI_DOUBLE, best.rank, m.comm);
   MPI_Allreduce(MPI_IN_PLACE, &atLimit, 1, MPI_DOUBLE, MPI_MAX, m.comm);
   auto steps = static_cast<double>(steps_);
   MPI_Allreduce(MPI_IN_PLACE, &steps, 1, MPI_DOUBLE, MPI_SUM, m.comm);

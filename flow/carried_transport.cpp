@@ -24,9 +24,8 @@ void CarriedTransport::convectiveFlux(const State& state, const Gas& gas) {
       continue;
     }
     const double w = m.lowWeight[face];
-    const int axis = m.normalAxis[face];
     const auto mean = [&](std::span<const double> field) { return w * field[low] + (1.0 - w) * field[high]; };
-    const double slope = w * temperatureGradient[2 * low + axis] + (1.0 - w) * temperatureGradient[2 * high + axis];
+    const double slope = faceSlope(m, face, m.normal[face], temperatureGradient);
     const double drift = -mean(gas.viscosity) / mean(gas.mean.density) * slope / mean(gas.mean.temperature);
     for (int s = 0; s < n; ++s) {
       const double velocity = gas.faceVelocity[face] + state.scalars[s].thermophoresis * drift;
@@ -54,6 +53,14 @@ void CarriedTransport::presentFlux(const State& state, const FaceState& faces, s
                                    std::span<double> flux) const {
   const Mesh& m = context_.mesh;
   const int n = state.carriedCount();
+  if (m.isOblique()) {
+    perMass_.resize(static_cast<std::size_t>(m.cells) * n);
+    for (int c = 0; c < m.cells; ++c)
+      for (int s = 0; s < n; ++s) perMass_[c * n + s] = state.carried[c * n + s] / state.density[c];
+    perMassGradient_.resize(perMass_.size() * m.dimension);
+    gradient_.compute(perMass_, {}, n, perMassGradient_, nothingPasses_);
+    context_.halo.update(perMassGradient_, n * m.dimension);
+  }
   for (int face = 0; face < m.interiorFaces; ++face) {
     const int low = m.low[face], high = m.high[face];
     const double w = m.lowWeight[face];
@@ -63,6 +70,8 @@ void CarriedTransport::presentFlux(const State& state, const FaceState& faces, s
       g = metric * (w * state.carriedDiffusivity[low * n + s] + (1.0 - w) * state.carriedDiffusivity[high * n + s]);
       flux[face * n + s] =
           g * (state.carried[low * n + s] / state.density[low] - state.carried[high * n + s] / state.density[high]);
+      if (m.isOblique())
+        flux[face * n + s] -= g * m.distance[face] * faceSlope(m, face, m.oblique[face], perMassGradient_, n, s);
     }
   }
 }
@@ -96,11 +105,9 @@ void CarriedTransport::diffuse(const State& state, const Gas& gas, double dt, st
   };
   // Particles see how much there is of them where there is next to nothing.
   diffusion_.changes(n, inertia, through, perMass, 1e-8);
-  for (int c = 0; c < m.cells; ++c)
-    for (int s = 0; s < n; ++s) perMass[c * n + s] += state.carried[c * n + s] / state.density[c];
   for (int face = 0; face < m.interiorFaces; ++face)
     for (int s = 0; s < n; ++s)
-      flux[face * n + s] = conductance[face * n + s] * (perMass[m.low[face] * n + s] - perMass[m.high[face] * n + s]);
+      flux[face * n + s] += conductance[face * n + s] * (perMass[m.low[face] * n + s] - perMass[m.high[face] * n + s]);
   addFaceFluxes(m, flux, n, dt, content);
 }
 

@@ -18,7 +18,9 @@ class CarriedTransport {
   CarriedTransport(const FlowContext& context, ImplicitDiffusion& diffusion, int scalars)
       : context_(context),
         diffusion_(diffusion),
-        flux_(static_cast<std::size_t>(context.mesh.faces) * static_cast<std::size_t>(scalars), 0.0) {}
+        gradient_(context.mesh),
+        flux_(static_cast<std::size_t>(context.mesh.faces) * static_cast<std::size_t>(scalars), 0.0),
+        nothingPasses_(static_cast<std::size_t>(context.mesh.boundaryFaces()), BoundaryData::ZeroSlope) {}
 
   // The gas of a sweep: the step's start, and its mean with what the last sweep found (both the state itself in the
   // first sweep), viscosity (Pa s, cells) and values at faces of that mean, and what the gas is advanced with.
@@ -40,13 +42,17 @@ class CarriedTransport {
  private:
   void convectiveFlux(const State& state, const Gas& gas);
   void diffuse(const State& state, const Gas& gas, double dt, std::span<double> content);
-  // Flux of the state by its own diffusivities, and the conductances (per s) it has through the interior faces.
+  // Collective. Flux of the state by its own diffusivities, and the conductances (per s) it has through the interior faces.
   void presentFlux(const State& state, const FaceState& faces, std::span<double> conductance,
                    std::span<double> flux) const;
 
   const FlowContext& context_;
   ImplicitDiffusion& diffusion_;
+  Gradient gradient_;
   std::vector<double> flux_;
+  // Of what is carried per mass of gas, where steps are oblique to faces.
+  mutable std::vector<double> perMass_, perMassGradient_;
+  std::vector<BoundaryData> nothingPasses_;
 };
 
 }  // namespace lampblack::flow

@@ -47,7 +47,8 @@ FaceState::FaceState(const FlowContext& context, int species, int carried)
       temperatureHeld_(knownData(context, true, BoundaryData::Nothing)),
       YHeld_(knownData(context, false, BoundaryData::Nothing)),
       temperatureUpwind_(context, temperatureKnown_),
-      YUpwind_(context, YKnown_) {
+      YUpwind_(context, YKnown_),
+      YGradient_(context, species) {
   const Mesh& m = context.mesh;
   const auto faces = static_cast<std::size_t>(m.faces);
   const auto boundary = static_cast<std::size_t>(m.boundaryFaces());
@@ -55,14 +56,13 @@ FaceState::FaceState(const FlowContext& context, int species, int carried)
   temperature.resize(faces);
   density.resize(faces);
   enthalpy.resize(faces);
-  slope_.resize(static_cast<std::size_t>(species));
-  haloSlope_.resize(static_cast<std::size_t>(m.cells - m.owned) * 2 * species);
+  for (std::vector<double>* row : {&slope_, &offsetSlope_}) row->resize(static_cast<std::size_t>(species));
   boundaryTemperature_.resize(boundary);
   boundaryY_.resize(boundary * species);
   boundaryCarried_.resize(boundary * carried);
   perMass_.resize(cells * carried);
-  temperatureGradient_.resize(cells * 2);
-  carriedGradient_.resize(cells * carried * 2);
+  temperatureGradient_.resize(cells * m.dimension);
+  carriedGradient_.resize(cells * carried * m.dimension);
 }
 
 void FaceState::setBoundaries(const State& state) {
@@ -87,17 +87,16 @@ void FaceState::setBoundaries(const State& state) {
 
 void FaceState::limitFed(const State& state, int face) {
   const Mesh& m = context_.mesh;
-  const int b = face - m.interiorFaces, c = m.low[face], axis = m.normalAxis[face];
-  const double reach = m.normalSign[face] * m.distance[face];
+  const int b = face - m.interiorFaces, c = m.low[face];
   const auto limit = [&](std::span<const double> values, std::span<double> atFaces, int components,
                          const std::vector<BoundaryData>& known, const std::vector<BoundaryData>& held) {
     if (known[b] != BoundaryData::Value || held[b] == BoundaryData::Value || components == 0) return;
     feedSlope_.resize(static_cast<std::size_t>(components));
-    gradient_.along(axis, c, values, atFaces, components, feedSlope_, held);
+    gradient_.along(m.step[face], c, values, atFaces, components, feedSlope_, held);
     for (int k = 0; k < components; ++k) {
       const double cell = values[c * components + k];
       double& atFace = atFaces[b * components + k];
-      atFace = behindFeed(cell, atFace, cell + reach * feedSlope_[k]);
+      atFace = behindFeed(cell, atFace, cell + feedSlope_[k]);
     }
   };
   limit(state.temperature, boundaryTemperature_, 1, temperatureKnown_, temperatureHeld_);
@@ -112,20 +111,13 @@ void FaceState::prepare(const State& state, std::span<const double> Y) {
     for (int s = 0; s < carried_; ++s) perMass_[c * carried_ + s] = state.carried[c * carried_ + s] / state.density[c];
   setBoundaries(state);
   gradient_.compute(state.temperature, boundaryTemperature_, 1, temperatureGradient_, temperatureKnown_);
-  std::vector<FieldView> gradients{{temperatureGradient_, 2}};
+  std::vector<FieldView> gradients{{temperatureGradient_, m.dimension}};
   if (carried_ > 0) {
     gradient_.compute(perMass_, boundaryCarried_, carried_, carriedGradient_, YKnown_);
-    gradients.push_back({carriedGradient_, 2 * carried_});
+    gradients.push_back({carriedGradient_, m.dimension * carried_});
   }
   context_.halo.update(gradients);
-  const auto n = static_cast<std::size_t>(species_);
-  context_.halo.exchange(
-      2 * species_,
-      [&](int cell, double* out) {
-        for (int axis = 0; axis < 2; ++axis)
-          gradient_.along(axis, cell, Y_, boundaryY_, species_, {out + axis * n, n}, YKnown_);
-      },
-      [&](int cell, const double* in) { std::copy_n(in, 2 * n, &haloSlope_[(cell - m.owned) * 2 * n]); });
+  YGradient_.prepare(Y_, boundaryY_, YKnown_);
 }
 
 bool FaceState::enters(int face, double direction) const {
@@ -143,16 +135,15 @@ void FaceState::massFractions(int face, double direction, std::span<double> row)
         row.begin());
     return;
   }
-  const int axis = m.normalAxis[face];
   const Upwind u = YUpwind_.of(face, direction);
-  const double* slope = slope_.data();
-  if (u.up < m.owned)
-    gradient_.along(axis, u.up, Y_, boundaryY_, n, slope_, YKnown_);
-  else
-    slope = &haloSlope_[static_cast<std::size_t>(2 * (u.up - m.owned) + axis) * n];
+  YGradient_.along(u.direction, u.up, slope_);
   const double* up = &Y_[static_cast<std::size_t>(u.up) * n];
   const double* down = &Y_[static_cast<std::size_t>(u.down) * n];
-  for (int k = 0; k < n; ++k) row[k] = limitedFaceValue(up[k], down[k], slope[k] * u.sign, u);
+  for (int k = 0; k < n; ++k) row[k] = limitedFaceValue(up[k], down[k], slope_[k], u);
+  if (m.isSkewed() && m.offset[face] != Vector3{}) {
+    YGradient_.along(m.offset[face], u.up, offsetSlope_);
+    for (int k = 0; k < n; ++k) row[k] += limitedOffset(row[k], up[k], slope_[k], offsetSlope_[k], u);
+  }
   double sum = 0.0;
   for (int k = 0; k < n; ++k) sum += row[k];
   const double scale = 1.0 / sum;
@@ -163,9 +154,7 @@ void FaceState::interpolate(const State& state, int face, double direction, std:
   const Mesh& m = context_.mesh;
   massFractions(face, direction, row);
   if (m.high[face] >= 0) {
-    const Upwind t = temperatureUpwind_.of(face, direction);
-    temperature[face] = limitedFaceValue(state.temperature[t.up], state.temperature[t.down],
-                                         temperatureGradient_[2 * t.up + m.normalAxis[face]] * t.sign, t);
+    temperature[face] = limited(temperatureUpwind_.of(face, direction), face, state.temperature, temperatureGradient_);
   } else {
     temperature[face] = enters(face, direction) ? context_.boundaryTemperature(face) : state.temperature[m.low[face]];
   }
@@ -174,9 +163,18 @@ void FaceState::interpolate(const State& state, int face, double direction, std:
 }
 
 double FaceState::carriedPerMass(int face, int scalar, double direction) const {
-  const Upwind u = YUpwind_.of(face, direction);
-  const double slope = carriedGradient_[(u.up * carried_ + scalar) * 2 + context_.mesh.normalAxis[face]] * u.sign;
-  return limitedFaceValue(perMass_[u.up * carried_ + scalar], perMass_[u.down * carried_ + scalar], slope, u);
+  return limited(YUpwind_.of(face, direction), face, perMass_, carriedGradient_, carried_, scalar);
+}
+
+double FaceState::limited(const Upwind& u, int face, std::span<const double> values, std::span<const double> gradient,
+                          int components, int component) const {
+  const Mesh& m = context_.mesh;
+  const double* ofUp = &gradient[static_cast<std::size_t>(u.up * components + component) * m.dimension];
+  const double up = values[u.up * components + component];
+  const double slope = slopeAlong(u.direction, ofUp, m.dimension);
+  const double value = limitedFaceValue(up, values[u.down * components + component], slope, u);
+  if (!m.isSkewed()) return value;
+  return value + limitedOffset(value, up, slope, slopeAlong(m.offset[face], ofUp, m.dimension), u);
 }
 
 }  // namespace lampblack::flow

@@ -9,6 +9,7 @@
 #include "core/rooms.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/gradient.hpp"
+#include "flow/row_gradient.hpp"
 #include "flow/state.hpp"
 #include "flow/upwind.hpp"
 
@@ -42,6 +43,9 @@ class FaceState {
   void setBoundaries(const State& state);
   // Values at a face of what is fed with a given flux, where it is.
   void limitFed(const State& state, int face);
+  // Limited value at an interior face of a field with its gradient in the cells.
+  [[nodiscard]] double limited(const Upwind& u, int face, std::span<const double> values,
+                               std::span<const double> gradient, int components = 1, int component = 0) const;
   // Whether gas comes in from beyond the boundary at a face.
   [[nodiscard]] bool enters(int face, double direction) const;
 
@@ -55,10 +59,8 @@ class FaceState {
   std::vector<double> boundaryTemperature_, boundaryY_, boundaryCarried_;
   std::vector<double> perMass_;
   std::vector<double> temperatureGradient_, carriedGradient_;
-  // Slopes of the mass fractions in the halo cells, along one axis and then the other; elsewhere they are made where
-  // they are asked for, which costs no more and keeps no memory.
-  std::vector<double> haloSlope_;
-  mutable std::vector<double> slope_;
+  RowGradient YGradient_;
+  mutable std::vector<double> slope_, offsetSlope_;
   std::vector<double> feedSlope_;
 };
 

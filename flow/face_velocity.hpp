@@ -20,20 +20,23 @@ namespace lampblack::flow {
 class FaceVelocity {
  public:
   explicit FaceVelocity(const FlowContext& context)
-      : context_(context), deviation_(static_cast<std::size_t>(context.mesh.faces), 0.0), found_(deviation_) {}
+      : context_(context),
+        deviation_(static_cast<std::size_t>(context.mesh.faces), 0.0),
+        found_(deviation_),
+        offset_(context.mesh.isSkewed() ? deviation_ : std::vector<double>{}) {}
 
   // What the cells know at the end of the momentum's prediction; halo filled.
   struct Cells {
-    std::span<const double> velocity;          // m/s, two a cell
-    std::span<const double> acceleration;      // m/s2, (grad p - f)/rho with gravity's force f, two a cell
+    std::span<const double> velocity;          // m/s, a component and cell
+    std::span<const double> acceleration;      // m/s2, (grad p - f)/rho with gravity's force f, a component and cell
     std::span<const double> relaxation;        // 1/s, 1/tau
     std::span<const double> pressure;          // Pa
-    std::span<const double> velocityGradient;  // 1/s, four a cell, of `velocity`, read in the cells next to outlets
+    std::span<const double> velocityGradient;  // 1/s, of `velocity`; where no face has an Mesh::offset only owned cells
   };
   // Normal velocity (m/s) of every face after dt under the old pressure. `inverseDensity`: 1/rho at each face.
   void predict(const Cells& cells, std::span<const double> inverseDensity, double dt, std::span<double> faceVelocity);
 
-  // After the projection: takes what faces deviate by from the cells' new velocities (two a cell, halo filled). With
+  // After the projection: takes what faces deviate by from the cells' new velocities (halo filled). With
   // the end of the step it is what the next one begins with.
   void take(std::span<const double> velocity, std::span<const double> faceVelocity);
 
@@ -42,11 +45,15 @@ class FaceVelocity {
   void saveOrLoad(StateArchive& archive) { archive.faces("face_velocity_deviation", deviation_, 1); }
 
  private:
-  [[nodiscard]] double mean(int face, std::span<const double> values, int components, int component) const;
+  [[nodiscard]] double mean(int face, std::span<const double> values) const;
+  // Part along a direction of vectors in the cells, interpolated to a face.
+  [[nodiscard]] double meanAlong(const Vector3& direction, int face, std::span<const double> vectors) const;
 
   const FlowContext& context_;
   std::vector<double> deviation_;  // m/s, before the step; zero on the boundary
   std::vector<double> found_;      // m/s, by the last sweep
+  // m/s, from where a step meets the face to its centre, along the slope of the predicted velocities.
+  std::vector<double> offset_;
 };
 
 }  // namespace lampblack::flow

@@ -25,7 +25,7 @@ struct FlowContext {
   const Thermo& thermo;
   Transport& transport;
   std::vector<BoundaryCondition> boundaries;  // index: patch of the mesh
-  std::array<double, 2> gravity{0.0, 0.0};    // m/s^2
+  Vector3 gravity{0.0, 0.0, 0.0};             // m/s^2
   // kg/m^3, whose weight the hydrodynamic pressure leaves out: that of the gas around the outlets, so that the pressure
   // there is zero at any height; in a closed vessel any will do.
   double referenceDensity = 0.0;
@@ -79,9 +79,12 @@ struct FlowContext {
     const BoundaryValues::Face* values = varyingAt(face);
     return values ? values->swirl : boundaryOf(face).swirl;
   }
-  // N/m^3, weight less buoyancy of gas of that density, along an axis.
+  // N/m^3, weight less buoyancy of gas of that density, along an axis or a direction.
   [[nodiscard]] double bodyForce(double density, int axis) const {
     return (density - referenceDensity) * gravity[static_cast<std::size_t>(axis)];
+  }
+  [[nodiscard]] double bodyForce(double density, const Vector3& direction) const {
+    return (density - referenceDensity) * dot(gravity, direction);
   }
   [[nodiscard]] const BoundaryValues::Face* varyingAt(int face) const {
     return varying ? varying->at(face - mesh.interiorFaces) : nullptr;

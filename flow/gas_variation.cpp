@@ -33,7 +33,7 @@ void fillMoleFractions(const std::vector<std::pair<std::size_t, double>>& given,
 
 }  // namespace
 
-void GasVariation::apply(const std::array<double, 2>& place, double time, const Thermo& thermo, double& T,
+void GasVariation::apply(const Vector3& place, double time, const Thermo& thermo, double& T,
                          std::vector<double>& Y) const {
   if (temperature) {
     T = temperature(place, time);

@@ -1,7 +1,6 @@
 // A gas that depends on place and time: at a boundary, or at the start.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <functional>
 #include <utility>
@@ -9,11 +8,12 @@
 
 #include "chemistry/thermo/thermo.hpp"
 #include "core/rooms.hpp"
+#include "core/vector3.hpp"
 
 namespace lampblack::flow {
 
-// A quantity over place and time, SI. Place: both coordinates of the mesh, m.
-using FieldFunction = std::function<double(const std::array<double, 2>& place, double time)>;
+// A quantity over place and time, SI. Place: along the axes of the mesh, m.
+using FieldFunction = std::function<double(const Vector3& place, double time)>;
 
 struct GasVariation {
   FieldFunction temperature;  // K; empty: does not vary
@@ -24,7 +24,7 @@ struct GasVariation {
 
   // Changes what varies. InputError where a temperature is out of the range of transport properties or mole fractions
   // are below zero or do not sum to one.
-  void apply(const std::array<double, 2>& place, double time, const Thermo& thermo, double& T,
+  void apply(const Vector3& place, double time, const Thermo& thermo, double& T,
              std::vector<double>& Y) const;
 };
 

@@ -3,63 +3,87 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "core/least_squares.hpp"
+
 namespace lampblack::flow {
 
 Gradient::Gradient(const Mesh& mesh) : mesh_(mesh) {}
 
-// Slope of components [first, first + count), which have the same flags, to out[k * stride].
-void Gradient::addAlong(int axis, int cell, const Field& field, int first, int count, double* out, int stride) const {
+const Vector3* Gradient::weights(int cell, std::span<const BoundaryData> known, int components, int first,
+                                 Weights& room) const {
   const Mesh& m = mesh_;
-  const int components = field.components;
-  const bool isEachComponent = components > 1 && field.known.size() > static_cast<std::size_t>(m.boundaryFaces());
-  const auto reach = [&](int face) {
-    if (m.high[face] >= 0 || field.known.empty()) return m.distance[face];
+  if (m.gradientRow[cell] >= 0) return &m.gradientWeight[static_cast<std::size_t>(m.gradientRow[cell])];
+  const bool isEachComponent = components > 1 && known.size() > static_cast<std::size_t>(m.boundaryFaces());
+  const auto dataOf = [&](int face) {
     const int b = face - m.interiorFaces;
-    return Gradient::reach(m.distance[face], field.known[isEachComponent ? b * components + first : b]);
+    return known.empty() ? BoundaryData::Value : known[isEachComponent ? b * components + first : b];
   };
-  // The slope at the centre is the mean of the two one-sided slopes, weighted by the inverse distances.
-  double weightSum = 0.0;
+  LeastSquares squares;
   for (int i = m.faceStart[cell]; i < m.faceStart[cell + 1]; ++i) {
     const int face = m.faceOfCell[i];
-    if (m.normalAxis[face] != axis) continue;
-    const double distance = reach(face);
-    if (distance > 0.0) weightSum += 1.0 / distance;
+    const BoundaryData data = m.high[face] >= 0 ? BoundaryData::Value : dataOf(face);
+    if (data == BoundaryData::Value) squares.add(m.step[face]);
+    if (data == BoundaryData::ZeroSlope) squares.add(scaled(m.normal[face], reach(m.distance[face], data)));
   }
-  const double* own = field.values.data() + static_cast<std::ptrdiff_t>(cell) * components + first;
+  squares.finish(m.dimension);
   for (int i = m.faceStart[cell]; i < m.faceStart[cell + 1]; ++i) {
     const int face = m.faceOfCell[i];
-    if (m.normalAxis[face] != axis) continue;
-    const bool interior = m.high[face] >= 0;
-    if (!interior && reach(face) != m.distance[face]) continue;  // no slope to add
-    const bool isLow = m.low[face] == cell;
-    const double outward = isLow ? m.normalSign[face] : -1.0;
-    const double weight = outward / (m.distance[face] * m.distance[face] * weightSum);
-    const double* other =
-        interior ? field.values.data() + static_cast<std::ptrdiff_t>(isLow ? m.high[face] : m.low[face]) * components
-                 : field.boundary.data() + static_cast<std::ptrdiff_t>(face - m.interiorFaces) * components;
-    other += first;
-    for (int k = 0; k < count; ++k) out[k * stride] += weight * (other[k] - own[k]);
+    const bool counts = m.high[face] >= 0 || dataOf(face) == BoundaryData::Value;
+    const double sign = m.low[face] == cell ? 1.0 : -1.0;
+    room[i - m.faceStart[cell]] = counts ? squares.weight(scaled(m.step[face], sign)) : Vector3{};
   }
+  return room.data();
 }
 
 void Gradient::compute(std::span<const double> values, std::span<const double> boundary, int components,
                        std::span<double> gradient, std::span<const BoundaryData> known) const {
-  const Field field{values, boundary, components, known};
+  const Mesh& m = mesh_;
+  const int d = m.dimension;
   // Components of the same flags at once.
-  const bool isEachComponent = components > 1 && known.size() > static_cast<std::size_t>(mesh_.boundaryFaces());
+  const bool isEachComponent = components > 1 && known.size() > static_cast<std::size_t>(m.boundaryFaces());
   const int width = isEachComponent ? 1 : components;
-  for (int cell = 0; cell < mesh_.owned; ++cell) {
-    double* out = gradient.data() + static_cast<std::ptrdiff_t>(cell) * components * 2;
-    std::fill(out, out + 2 * components, 0.0);
-    for (int first = 0; first < components; first += width)
-      for (int axis = 0; axis < 2; ++axis) addAlong(axis, cell, field, first, width, out + 2 * first + axis, 2);
+  Weights room;
+  for (int cell = 0; cell < m.owned; ++cell) {
+    double* out = gradient.data() + static_cast<std::ptrdiff_t>(cell) * components * d;
+    std::fill(out, out + d * components, 0.0);
+    const double* own = values.data() + static_cast<std::ptrdiff_t>(cell) * components;
+    for (int first = 0; first < components; first += width) {
+      const Vector3* weight = weights(cell, known, components, first, room);
+      for (int i = m.faceStart[cell]; i < m.faceStart[cell + 1]; ++i, ++weight) {
+        if (*weight == Vector3{}) continue;
+        const int face = m.faceOfCell[i];
+        const double* other =
+            m.high[face] < 0 ? boundary.data() + static_cast<std::ptrdiff_t>(face - m.interiorFaces) * components
+                             : values.data() + static_cast<std::ptrdiff_t>(m.low[face] == cell ? m.high[face]
+                                                                                              : m.low[face]) *
+                                                   components;
+        for (int k = first; k < first + width; ++k) {
+          const double difference = other[k] - own[k];
+          for (int axis = 0; axis < d; ++axis) out[k * d + axis] += (*weight)[axis] * difference;
+        }
+      }
+    }
   }
 }
 
-void Gradient::along(int axis, int cell, std::span<const double> values, std::span<const double> boundary,
-                     int components, std::span<double> slope, std::span<const BoundaryData> known) const {
+void Gradient::along(const Vector3& direction, int cell, std::span<const double> values,
+                     std::span<const double> boundary, int components, std::span<double> slope,
+                     std::span<const BoundaryData> known) const {
+  const Mesh& m = mesh_;
   std::fill_n(slope.begin(), components, 0.0);
-  addAlong(axis, cell, {values, boundary, components, known}, 0, components, slope.data(), 1);
+  Weights room;
+  const Vector3* weight = weights(cell, known, 1, 0, room);
+  const double* own = values.data() + static_cast<std::ptrdiff_t>(cell) * components;
+  for (int i = m.faceStart[cell]; i < m.faceStart[cell + 1]; ++i, ++weight) {
+    const double share = dot(*weight, direction);
+    if (share == 0.0) continue;  // of a box the faces of the other axes
+    const int face = m.faceOfCell[i];
+    const double* other =
+        m.high[face] < 0
+            ? boundary.data() + static_cast<std::ptrdiff_t>(face - m.interiorFaces) * components
+            : values.data() + static_cast<std::ptrdiff_t>(m.low[face] == cell ? m.high[face] : m.low[face]) * components;
+    for (int k = 0; k < components; ++k) slope[k] += share * (other[k] - own[k]);
+  }
 }
 
 }  // namespace lampblack::flow

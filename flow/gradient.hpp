@@ -1,6 +1,9 @@
-// Cell gradients by a parabola through the neighbouring values along each axis: second order on graded meshes.
+// Cell gradients by least squares over the cells beyond the faces (core/least_squares.hpp), which on a box is the slope
+// of the parabola along each axis: second order on graded boxes, first on cells without order, where it is exact for
+// linear fields.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -20,15 +23,15 @@ class Gradient {
  public:
   explicit Gradient(const Mesh& mesh);
 
-  // Gradient of `components` values a cell (halo filled) in the owned cells: gradient[(cell * components + k) * 2 +
-  // axis]. `boundary` holds the value at each boundary face (components a face), read where `known` says Value. `known`
-  // has a flag a boundary face, or a flag a component of each, or none for Value everywhere.
+  // Gradient of `components` values a cell (halo filled) in the owned cells: gradient[(cell * components + k) *
+  // dimension + axis]. `boundary` holds the value at each boundary face (components a face), read where `known` says
+  // Value. `known` has a flag a boundary face, or a flag a component of each, or none for Value everywhere.
   void compute(std::span<const double> values, std::span<const double> boundary, int components,
                std::span<double> gradient, std::span<const BoundaryData> known = {}) const;
 
-  // The same along one axis in one owned cell: slope[k]; `known` has a flag a boundary face.
-  void along(int axis, int cell, std::span<const double> values, std::span<const double> boundary, int components,
-             std::span<double> slope, std::span<const BoundaryData> known = {}) const;
+  // Its part along a direction, of any length, in one owned cell: slope[k]; `known` has a flag a boundary face.
+  void along(const Vector3& direction, int cell, std::span<const double> values, std::span<const double> boundary,
+             int components, std::span<double> slope, std::span<const BoundaryData> known = {}) const;
 
   // Distance at which a boundary's value counts that lies `distance` from the cell's centre: a field without slope has
   // the cell's own value at the mirrored place. Zero: it does not count.
@@ -37,14 +40,26 @@ class Gradient {
   }
 
  private:
-  struct Field {
-    std::span<const double> values, boundary;
-    int components;
-    std::span<const BoundaryData> known;
-  };
-  void addAlong(int axis, int cell, const Field& field, int first, int count, double* out, int stride) const;
+  using Weights = std::array<Vector3, Mesh::mostSides>;
+  // Of each face of an owned cell, for the component whose flags begin at `first`.
+  const Vector3* weights(int cell, std::span<const BoundaryData> known, int components, int first,
+                         Weights& room) const;
 
   const Mesh& mesh_;
 };
+
+// Of a gradient in the cells (halo filled; `components` a cell), at a face, interpolated, or the cell's own at the
+// boundary: the part along `direction`.
+inline double faceSlope(const Mesh& m, int face, const Vector3& direction, std::span<const double> gradient,
+                        int components = 1, int component = 0) {
+  const int d = m.dimension;
+  const int low = m.low[face], high = m.high[face] >= 0 ? m.high[face] : low;
+  const double w = m.high[face] >= 0 ? m.lowWeight[face] : 1.0;
+  const double* ofLow = &gradient[static_cast<std::size_t>(low * components + component) * d];
+  const double* ofHigh = &gradient[static_cast<std::size_t>(high * components + component) * d];
+  double slope = 0.0;
+  for (int i = 0; i < d; ++i) slope += direction[i] * (w * ofLow[i] + (1.0 - w) * ofHigh[i]);
+  return slope;
+}
 
 }  // namespace lampblack::flow

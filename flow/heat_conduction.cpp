@@ -5,7 +5,36 @@
 
 namespace lampblack::flow {
 
-void HeatConduction::prepare(const GasProperties& properties) {
+HeatConduction::HeatConduction(const FlowContext& context, ImplicitDiffusion& diffusion)
+    : context_(context), diffusion_(diffusion), gradient_(context.mesh) {
+  const Mesh& m = context.mesh;
+  if (!m.isOblique()) return;
+  known_.resize(static_cast<std::size_t>(m.boundaryFaces()));
+  boundaryTemperature_.resize(known_.size());
+  temperatureGradient_.resize(static_cast<std::size_t>(m.cells) * m.dimension);
+  oblique_.resize(static_cast<std::size_t>(m.faces));
+}
+
+// Conduction along Mesh::oblique, from the cells' gradients (Jasak 1996, section 3.3.1.3).
+void HeatConduction::findOblique(std::span<const double> temperature) {
+  const Mesh& m = context_.mesh;
+  for (int face = m.interiorFaces; face < m.faces; ++face) {
+    const int b = face - m.interiorFaces;
+    const BoundaryKind kind = context_.boundaryOf(face).kind;
+    const bool isTight = kind == BoundaryKind::Wall || kind == BoundaryKind::Symmetry;
+    known_[b] = context_.isTemperatureGiven(face)         ? BoundaryData::Value
+                : isTight && givenFlux(face) == 0.0 ? BoundaryData::ZeroSlope
+                                                          : BoundaryData::Nothing;
+    if (known_[b] == BoundaryData::Value) boundaryTemperature_[b] = context_.boundaryTemperature(face);
+  }
+  gradient_.compute(temperature, boundaryTemperature_, 1, temperatureGradient_, known_);
+  context_.halo.update(temperatureGradient_, m.dimension);
+  for (int face = 0; face < m.faces; ++face)
+    oblique_[face] =
+        -conductance_[face] * m.distance[face] * faceSlope(m, face, m.oblique[face], temperatureGradient_);
+}
+
+void HeatConduction::prepare(const State& state, const GasProperties& properties) {
   const Mesh& m = context_.mesh;
   conductance_.assign(static_cast<std::size_t>(m.faces), 0.0);
   for (int face = 0; face < m.faces; ++face) {
@@ -20,6 +49,7 @@ void HeatConduction::prepare(const GasProperties& properties) {
     if (context_.isTemperatureGiven(face))
       conductance_[face] = metric * properties.boundaryConductivity[face - m.interiorFaces];
   }
+  if (m.isOblique()) findOblique(state.temperature);
 }
 
 // W, through a wall into the gas.
@@ -36,6 +66,7 @@ void HeatConduction::evaluate(std::span<const double> temperature, std::span<dou
     const double beyond = isInterior ? temperature[m.high[face]] : context_.boundaryTemperature(face);
     flux[face] = conductance_[face] * (temperature[m.low[face]] - beyond);
     if (!isInterior) flux[face] -= givenFlux(face);
+    if (!oblique_.empty()) flux[face] += oblique_[face];
   }
 }
 

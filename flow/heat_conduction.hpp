@@ -8,6 +8,7 @@
 #include "core/rooms.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/gas_properties.hpp"
+#include "flow/gradient.hpp"
 #include "flow/implicit_diffusion.hpp"
 #include "flow/state.hpp"
 
@@ -15,12 +16,13 @@ namespace lampblack::flow {
 
 class HeatConduction {
  public:
-  HeatConduction(const FlowContext& context, ImplicitDiffusion& diffusion) : context_(context), diffusion_(diffusion) {}
+  HeatConduction(const FlowContext& context, ImplicitDiffusion& diffusion);
 
   // Fluxes here: W a face, from low to high or outwards.
 
-  // Takes the coefficients of the state, which everything below goes by.
-  void prepare(const GasProperties& properties);
+  // Collective. Takes the coefficients of the state, which everything below goes by, and of its temperature what goes
+  // along faces that the cells' steps are oblique to.
+  void prepare(const State& state, const GasProperties& properties);
   // Fluxes of that state.
   void presentFlux(const State& state, std::span<double> flux) const { evaluate(state.temperature, flux); }
 
@@ -34,12 +36,17 @@ class HeatConduction {
 
  private:
   [[nodiscard]] double givenFlux(int face) const;
+  void findOblique(std::span<const double> temperature);
   void evaluate(std::span<const double> temperature, std::span<double> flux) const;
 
   const FlowContext& context_;
   ImplicitDiffusion& diffusion_;
   std::vector<double> conductance_;  // W/K, a face; zero where no heat passes
   std::vector<double> inertia_, temperature_, Y_;
+  Gradient gradient_;
+  std::vector<BoundaryData> known_;
+  std::vector<double> boundaryTemperature_, temperatureGradient_;
+  std::vector<double> oblique_;  // W, a face; empty where no step is oblique
 };
 
 }  // namespace lampblack::flow

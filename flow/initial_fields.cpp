@@ -14,8 +14,9 @@ void setInitialFields(const FlowContext& context, const InitialFields& fields, S
   std::vector<double> Y(n);
   if (fields.thermodynamicPressure) state.thermodynamicPressure = *fields.thermodynamicPressure;
   for (std::size_t c = 0; c < static_cast<std::size_t>(m.cells); ++c) try {
-      for (std::size_t i = 0; i < 2; ++i)
-        if (fields.velocity[i]) state.velocity[2 * c + i] = fields.velocity[i](m.centre[c], 0.0);
+      const auto d = static_cast<std::size_t>(m.dimension);
+      for (std::size_t i = 0; i < d; ++i)
+        if (fields.velocity[i]) state.velocity[d * c + i] = fields.velocity[i](m.centre[c], 0.0);
       if (fields.swirl) state.swirl[c] = fields.swirl(m.centre[c], 0.0);
       for (std::size_t s = 0; s < fields.carried.size(); ++s)
         state.carried[c * fields.carried.size() + s] = fields.carried[s](m.centre[c], 0.0);

@@ -44,4 +44,12 @@ inline double smoothFaceValue(double up, double down, double gradient, double gr
   return limited + share * (up + gradient * at.toFace - limited);
 }
 
+// What a value at the place where the step meets the face differs by from that at the face's centre, `slope` being the
+// upwind cell's along Mesh::offset: as much of it as the limiter has left of the step along `gradient`.
+inline double limitedOffset(double value, double up, double gradient, double slope, const Upwind& at) {
+  const double whole = gradient * at.toFace, limited = value - up;
+  if (!(whole * limited > 0.0)) return 0.0;
+  return slope * std::min(1.0, limited / whole);
+}
+
 }  // namespace lampblack::flow

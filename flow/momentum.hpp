@@ -43,28 +43,33 @@ class Momentum {
 
  private:
   void setInverseDensity(std::span<const double> density);
+  static std::vector<BoundaryData> pressureData(const FlowContext& context);
   void findOpposites();
   void boundaryVelocities(const State& state);
   void outletPressures(const State& state);
   void predict(const State& state, const MomentumSweep& sweep);
+  void addInside(int face, const MomentumSweep& sweep);
+  void addBoundary(int face, const MomentumSweep& sweep);
   void addLastSweepsViscosity(const State& state, const MomentumSweep& sweep);
   void explicitStress(const MomentumSweep& sweep);
   void outletStress(const MomentumSweep& sweep);
 
   const FlowContext& context_;
+  int dimension_;
   Gradient gradient_;
   ImplicitDiffusion diffusion_;
+  std::vector<BoundaryData> pressureKnown_;  // one a boundary face
   Projection projection_;
   FaceVelocity faceVelocity_;
   std::optional<Swirl> swirl_;
-  std::vector<BoundaryData> velocityKnown_, pressureKnown_;  // two a boundary face; one
+  std::vector<BoundaryData> velocityKnown_;  // one a component and boundary face
   std::vector<int> opposite_;           // of each boundary face the face on its cell's other side, or -1
   std::vector<UpwindGeometry> upwind_;  // of each component
   std::vector<double> boundaryVelocity_, boundaryPressure_;
   std::vector<double> velocityGradient_, pressureGradient_;
-  std::vector<double> acceleration_;  // m/s2, (grad p - f)/rho with gravity's force f, two a cell
+  std::vector<double> acceleration_;  // m/s2, (grad p - f)/rho with gravity's force f, a component and cell
   std::vector<double> relaxation_;    // 1/s, rate at which convection and viscosity renew a cell's momentum
-  std::vector<double> excess_;        // m/s, two a cell: half of what the last sweep changed, with the other sign
+  std::vector<double> excess_;        // m/s, a component and cell: half of what the last sweep changed, with the other sign
   std::vector<double> diagonal_, conductance_, source_, predicted_, inverseDensity_, pressureChange_;
 };
 

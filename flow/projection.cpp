@@ -6,10 +6,12 @@
 #include <cmath>
 
 #include "core/errors.hpp"
+#include "flow/face_fluxes.hpp"
 
 namespace lampblack::flow {
 
-Projection::Projection(const FlowContext& context, double tolerance) : context_(context), tolerance_(tolerance) {
+Projection::Projection(const FlowContext& context, std::span<const BoundaryData> known, double tolerance)
+    : context_(context), tolerance_(tolerance), gradient_(context.mesh), known_(known.begin(), known.end()) {
   const Mesh& m = context.mesh;
   PetscInt first = 0;
   const PetscInt owned = m.owned;
@@ -20,7 +22,8 @@ Projection::Projection(const FlowContext& context, double tolerance) : context_(
   for (double r : row) row_.push_back(static_cast<PetscInt>(r));
 
   checkPetsc(
-      MatCreateAIJ(m.comm, owned, owned, PETSC_DETERMINE, PETSC_DETERMINE, 5, nullptr, 4, nullptr, matrix_.put()));
+      MatCreateAIJ(m.comm, owned, owned, PETSC_DETERMINE, PETSC_DETERMINE, Mesh::mostSides + 1, nullptr,
+                          Mesh::mostSides, nullptr, matrix_.put()));
   checkPetsc(MatCreateVecs(matrix_.get(), solution_.put(), rightSide_.put()));
   if (context.isClosed()) {
     MatNullSpace constants = nullptr;
@@ -125,36 +128,33 @@ Projection::Iterations Projection::iterate(std::span<const double> guess, double
                                   static_cast<int>(reason), static_cast<int>(iterations)));
 }
 
-Projection::Result Projection::solve(double dt, std::span<const double> inverseDensity,
-                                     std::span<const double> divergence, std::span<double> faceVelocity,
-                                     std::span<double> change, double slowFlow) {
+// What flows out of the owned cells, m^3/s, beyond `divergence`.
+std::vector<double> Projection::excess(std::span<const double> divergence, std::span<const double> faceVelocity) const {
   const Mesh& m = context_.mesh;
-  conductances(dt, inverseDensity);
-  assemble();
-
-  // Net outflow of the uncorrected velocities beyond the wanted one; the pressure has to take it away.
   std::vector<double> excess(m.owned);
   for (int c = 0; c < m.owned; ++c) excess[c] = -divergence[c] * m.volume[c];
-  double flowScale = std::max(slowFlow, 1e-300);
-  for (int face = 0; face < m.faces; ++face) {
-    const double flow = m.area[face] * faceVelocity[face];
-    if (m.low[face] < m.owned) excess[m.low[face]] += flow;
-    if (m.high[face] >= 0 && m.high[face] < m.owned) excess[m.high[face]] -= flow;
-    flowScale = std::max(flowScale, std::abs(flow));
-  }
-  MPI_Allreduce(MPI_IN_PLACE, &flowScale, 1, MPI_DOUBLE, MPI_MAX, m.comm);
+  addFaceFluxes(m, flow(faceVelocity), 1, -1.0, excess);
+  return excess;
+}
+
+std::vector<double> Projection::flow(std::span<const double> faceVelocity) const {
+  std::vector<double> flow(faceVelocity.begin(), faceVelocity.end());
+  for (std::size_t face = 0; face < flow.size(); ++face) flow[face] *= context_.mesh.area[face];
+  return flow;
+}
+
+// One solve for the change that takes the excess away, from the guess.
+int Projection::correct(std::span<const double> excess, double tolerance, std::span<double> change) {
   double* right = nullptr;
   checkPetsc(VecGetArray(rightSide_.get(), &right));
-  for (int c = 0; c < m.owned; ++c) right[c] = -excess[c];
+  for (std::size_t c = 0; c < excess.size(); ++c) right[c] = -excess[c];
   checkPetsc(VecRestoreArray(rightSide_.get(), &right));
   if (MatNullSpace constants = nullptr; context_.isClosed()) {
     checkPetsc(MatGetNullSpace(matrix_.get(), &constants));
     checkPetsc(MatNullSpaceRemove(constants, rightSide_.get()));  // round-off
   }
-
   if (iterationsAfterSetup_ < 0) setupConductance_ = conductance_;
-  // The tolerance is absolute: a fraction of the largest face flow, so that continuity holds alike in every step.
-  const Iterations iterations = iterate(change, tolerance_ * flowScale);
+  const Iterations iterations = iterate(change, tolerance);
   if (iterationsAfterSetup_ < 0)
     iterationsAfterSetup_ = iterations.ofSolver;
   else if (iterations.ofSolver > 2 * iterationsAfterSetup_ + 3)
@@ -162,24 +162,68 @@ Projection::Result Projection::solve(double dt, std::span<const double> inverseD
 
   const double* solved = nullptr;
   checkPetsc(VecGetArrayRead(solution_.get(), &solved));
-  std::copy_n(solved, m.owned, change.begin());
+  std::copy_n(solved, context_.mesh.owned, change.begin());
   checkPetsc(VecRestoreArrayRead(solution_.get(), &solved));
   context_.halo.update(change, 1);
+  return iterations.all;
+}
 
+// Velocities that the change makes through faces that the cells' steps are oblique to. Returns the largest flow by which
+// they differ from the former.
+double Projection::addOblique(std::span<const double> change, std::span<double> velocity,
+                              std::span<double> former) const {
+  const Mesh& m = context_.mesh;
+  const std::vector<double> atOutlets(static_cast<std::size_t>(m.boundaryFaces()), 0.0);
+  std::vector<double> gradient(static_cast<std::size_t>(m.cells) * m.dimension);
+  gradient_.compute(change, atOutlets, 1, gradient, known_);
+  context_.halo.update(gradient, m.dimension);
+  double largest = 0.0;
+  for (int face = 0; face < m.faces; ++face) {
+    if (conductance_[face] == 0.0) continue;
+    const double made =
+        -conductance_[face] * m.distance[face] / m.area[face] * faceSlope(m, face, m.oblique[face], gradient);
+    velocity[face] += made - former[face];
+    largest = std::max(largest, m.area[face] * std::abs(made - former[face]));
+    former[face] = made;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, m.comm);
+  return largest;
+}
+
+Projection::Result Projection::solve(double dt, std::span<const double> inverseDensity,
+                                     std::span<const double> divergence, std::span<double> faceVelocity,
+                                     std::span<double> change, double slowFlow) {
+  const Mesh& m = context_.mesh;
+  conductances(dt, inverseDensity);
+  assemble();
+  double flowScale = std::max(slowFlow, 1e-300);
+  for (const double flow : flow(faceVelocity)) flowScale = std::max(flowScale, std::abs(flow));
+  MPI_Allreduce(MPI_IN_PLACE, &flowScale, 1, MPI_DOUBLE, MPI_MAX, m.comm);
+
+  // The tolerance is absolute: a fraction of the largest face flow, so that continuity holds alike in every step.
+  Result result;
+  std::vector<double> oblique(m.isOblique() ? static_cast<std::size_t>(m.faces) : 0, 0.0);
+  constexpr int mostCorrections = 8;
+  double first = 0.0;
+  for (int correction = 0;; ++correction) {
+    result.iterations += correct(excess(divergence, faceVelocity), tolerance_ * flowScale, change);
+    if (!m.isOblique() || correction == mostCorrections) break;
+    const double changed = addOblique(change, faceVelocity, oblique);
+    if (correction == 0) first = changed;
+    // The last addition is solved for, too: continuity goes before the shape of the pressure.
+    if (changed <= std::max(1e-2 * first, tolerance_ * flowScale)) {
+      result.iterations += correct(excess(divergence, faceVelocity), tolerance_ * flowScale, change);
+      break;
+    }
+  }
   for (int face = 0; face < m.faces; ++face) {
     if (m.area[face] <= 0.0) continue;
     const double beyond = m.high[face] >= 0 ? change[m.high[face]] : 0.0;
     faceVelocity[face] -= conductance_[face] / m.area[face] * (beyond - change[m.low[face]]);
   }
-  Result result{iterations.all, 0.0};
-  std::vector<double> net(m.owned, 0.0);
-  for (int face = 0; face < m.faces; ++face) {
-    const double flow = m.area[face] * faceVelocity[face];
-    if (m.low[face] < m.owned) net[m.low[face]] += flow;
-    if (m.high[face] >= 0 && m.high[face] < m.owned) net[m.high[face]] -= flow;
-  }
+  const std::vector<double> left = excess(divergence, faceVelocity);
   for (int c = 0; c < m.owned; ++c)
-    result.continuityError = std::max(result.continuityError, std::abs(net[c] / m.volume[c] - divergence[c]));
+    result.continuityError = std::max(result.continuityError, std::abs(left[c] / m.volume[c]));
   MPI_Allreduce(MPI_IN_PLACE, &result.continuityError, 1, MPI_DOUBLE, MPI_MAX, m.comm);
   return result;
 }

@@ -2,7 +2,8 @@
 //   u_f = uhat_f - (dt / rho_f) dq/dn
 // have the given divergence in every cell, with a compact stencil so that pressure cannot decouple (Rhie and Chow
 // 1983). Pipelined conjugate gradients (Ghysels and Vanroose 2014) with BoomerAMG, plain ones where their round-off is
-// in the way, as for a gas that is as good as at rest; the preconditioner is kept until the iterations grow.
+// in the way, as for a gas that is as good as at rest; the preconditioner is kept until the iterations grow. Where steps
+// are oblique to faces the gradient along Mesh::oblique is that of the last solve: they are repeated until it stands.
 #pragma once
 
 #include <span>
@@ -12,13 +13,15 @@
 #include "core/rooms.hpp"
 #include "core/state_archive.hpp"
 #include "flow/flow_context.hpp"
+#include "flow/gradient.hpp"
 
 namespace lampblack::flow {
 
 class Projection {
  public:
-  // Collective. Without an outlet the changes of pressure have the mean zero.
-  Projection(const FlowContext& context, double tolerance = 1e-9);
+  // Collective. Without an outlet the changes of pressure have the mean zero. `known`: what is known of a change of the
+  // pressure at boundary faces, whose value is zero.
+  Projection(const FlowContext& context, std::span<const BoundaryData> known, double tolerance = 1e-9);
 
   struct Result {
     int iterations = 0;            // those of a pipelined attempt that was in vain included
@@ -41,11 +44,18 @@ class Projection {
     int all = 0, ofSolver = 0;  // of both solvers; of the one that converged
   };
   Iterations iterate(std::span<const double> guess, double tolerance);
+  [[nodiscard]] std::vector<double> excess(std::span<const double> divergence,
+                                           std::span<const double> faceVelocity) const;
+  [[nodiscard]] std::vector<double> flow(std::span<const double> faceVelocity) const;  // m^3/s
+  int correct(std::span<const double> excess, double tolerance, std::span<double> change);
+  double addOblique(std::span<const double> change, std::span<double> velocity, std::span<double> former) const;
   void conductances(double dt, std::span<const double> inverseDensity);
   void assemble();
 
   const FlowContext& context_;
   double tolerance_;
+  Gradient gradient_;
+  std::vector<BoundaryData> known_;
   std::vector<PetscInt> row_;  // global matrix row of every local cell
   std::vector<double> conductance_;
   std::vector<double> setupConductance_;  // when the preconditioner was set up

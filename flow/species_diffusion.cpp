@@ -14,6 +14,7 @@ SpeciesDiffusion::SpeciesDiffusion(const FlowContext& context, ImplicitDiffusion
       row_(context.mechanism.numSpecies()),
       startRow_(context.mechanism.numSpecies()) {
   if (context.transportModel.isMulticomponent() || context.transportModel.soret) detailed_.emplace(context);
+  if (context.mesh.isOblique()) oblique_.emplace(context);
 }
 
 const double* SpeciesDiffusion::diffusivity(const Coefficients& of, int cell) const {
@@ -85,7 +86,7 @@ void SpeciesDiffusion::prepare(const State& state, const GasProperties& properti
       else if (context_.isCompositionGiven(face))
         now_.weightSlope[face] = std::log(context_.thermo.meanMolecularWeight(context_.boundaryY(face)) / low);
     }
-  if (!detailed_) return;
+  if (!detailed_ && !oblique_) return;
   const std::size_t n = row_.size();
   std::vector<double> details(static_cast<std::size_t>(m.faces) * n, 0.0);
   if (context_.transportModel.isMulticomponent())
@@ -93,7 +94,8 @@ void SpeciesDiffusion::prepare(const State& state, const GasProperties& properti
       flux(face, state.Y, row_);
       for (std::size_t k = 0; k < n; ++k) details[face * n + k] = -row_[k];
     }
-  detailed_->addFlux(state, properties, details);
+  if (detailed_) detailed_->addFlux(state, properties, details);
+  if (oblique_) oblique_->addFlux(state, properties, details);
   now_.ofDetails = std::move(details);
 }
 

@@ -1,7 +1,8 @@
 // Species diffusion. Mixture-averaged (Wang 2025, eqs. 6-6 to 6-9), the fluxes go along gradients of mole fractions
 //   j_k = -rho D_k (grad Y_k + Y_k grad ln W) + Y_k c,   c such that the fluxes sum to zero at every face,
 // the first term implicit; with Lewis numbers along those of mass fractions, without the second. What multicomponent
-// diffusion differs from that by, and the Soret effect, are of the prepared state; sweeps correct them. The fluxes are
+// diffusion differs from that by, the Soret effect, and what goes along faces that the cells' steps are oblique to, are
+// of the prepared state; sweeps correct them. The fluxes are
 // evaluated from the implicit solution, so that what leaves one cell enters the next to the last bit, whatever the
 // solver's tolerance.
 //
@@ -19,6 +20,7 @@
 #include "flow/flow_context.hpp"
 #include "flow/gas_properties.hpp"
 #include "flow/implicit_diffusion.hpp"
+#include "flow/oblique_diffusion.hpp"
 #include "flow/state.hpp"
 
 namespace lampblack::flow {
@@ -27,7 +29,7 @@ class SpeciesDiffusion {
  public:
   SpeciesDiffusion(const FlowContext& context, ImplicitDiffusion& diffusion);
 
-  // Takes the coefficients of the state, which everything below goes by; the properties have to stay.
+  // Collective. Takes the coefficients of the state, which everything below goes by; the properties have to stay.
   void prepare(const State& state, const GasProperties& properties);
   // Keeps the coefficients as those of the step's start, for steps of several sweeps.
   void keepStart();
@@ -53,7 +55,8 @@ class SpeciesDiffusion {
  private:
   struct Coefficients {
     std::vector<double> weightSlope;  // ln of the weights' ratio across a face
-    std::vector<double> ofDetails;    // kg/s, species a face, what the detailed model adds; empty without one
+    // kg/s, species a face, what the detailed model and steps that are oblique to the faces add; empty without them.
+    std::vector<double> ofDetails;
     std::vector<double> ofStart;      // kg/m/s, species a cell; empty: diffusivities are those of the properties
   };
 
@@ -66,6 +69,7 @@ class SpeciesDiffusion {
   const FlowContext& context_;
   ImplicitDiffusion& diffusion_;
   std::optional<DetailedDiffusion> detailed_;
+  std::optional<ObliqueDiffusion> oblique_;
   const GasProperties* properties_ = nullptr;
   Coefficients now_, start_;
   std::vector<double> inertia_;

@@ -6,9 +6,12 @@
 namespace lampblack::flow {
 
 State::State(const Mesh& mesh, std::size_t speciesCount, std::vector<CarriedScalar> carriedScalars, bool turns)
-    : species(static_cast<int>(speciesCount)), swirls(turns), scalars(std::move(carriedScalars)) {
+    : species(static_cast<int>(speciesCount)),
+      dimension(mesh.dimension),
+      swirls(turns),
+      scalars(std::move(carriedScalars)) {
   const auto cells = static_cast<std::size_t>(mesh.cells);
-  velocity.assign(2 * cells, 0.0);
+  velocity.assign(static_cast<std::size_t>(dimension) * cells, 0.0);
   if (swirls) swirl.assign(cells, 0.0);
   pressure.assign(cells, 0.0);
   temperature.assign(cells, 0.0);
@@ -58,7 +61,7 @@ void State::keepStart() {
 }
 
 void State::updateHalo(HaloExchange& halo) {
-  std::vector<FieldView> fields{{velocity, 2}, {pressure, 1}, {temperature, 1},
+  std::vector<FieldView> fields{{velocity, dimension}, {pressure, 1}, {temperature, 1},
                                 {density, 1},  {enthalpy, 1}, {Y, species}};
   if (swirls) fields.push_back({swirl, 1});
   if (!scalars.empty()) {
@@ -70,7 +73,7 @@ void State::updateHalo(HaloExchange& halo) {
 
 void State::saveOrLoad(StateArchive& archive) {
   archive.shared("thermodynamic_pressure", thermodynamicPressure);
-  archive.cells("velocity", velocity, 2);
+  archive.cells("velocity", velocity, dimension);
   if (swirls) archive.cells("swirl", swirl, 1);
   archive.cells("pressure", pressure, 1);
   archive.cells("temperature", temperature, 1);

@@ -27,12 +27,13 @@ struct State {
   State(const Mesh& mesh, std::size_t species, std::vector<CarriedScalar> carried, bool turns = false);
 
   int species = 0;
+  int dimension = 2;
   bool swirls = false;
   std::vector<CarriedScalar> scalars;
   [[nodiscard]] int carriedCount() const { return static_cast<int>(scalars.size()); }
 
   double thermodynamicPressure = 101325.0;  // Pa, uniform
-  std::vector<double> velocity;             // m/s, 2 a cell
+  std::vector<double> velocity;             // m/s, `dimension` a cell
   std::vector<double> swirl;                // m/s, velocity about the axis, one a cell; empty where nothing swirls
   std::vector<double> pressure;             // Pa, hydrodynamic
   std::vector<double> temperature;          // K

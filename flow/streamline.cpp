@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/errors.hpp"
 #include "core/gather.hpp"
 
 namespace lampblack::flow {
@@ -24,8 +25,10 @@ double slopeAt(const std::vector<double>& x, std::size_t i, const Field& f) {
 
 Streamlines::Streamlines(const Mesh& mesh, const State& state, const GasProperties& properties, double thermophoresis)
     : mesh_(mesh) {
+  if (!isPossible(mesh))
+    throw InputError("paths of particles need a plane mesh that is a whole box: no part left out or bent, no mesh file");
   for (std::size_t axis = 0; axis < 2; ++axis) {
-    const auto& v = mesh.spec.vertices[axis];
+    const auto& v = mesh.box->vertices[axis];
     for (std::size_t i = 0; i + 1 < v.size(); ++i) centre_[axis].push_back(0.5 * (v[i] + v[i + 1]));
   }
   velocity_ = gatherNatural(mesh, state.velocity, 2);
@@ -42,6 +45,10 @@ Streamlines::Streamlines(const Mesh& mesh, const State& state, const GasProperti
       velocity_[2 * c + 1] += factor * slopeAt(centre_[1], j, [&](std::size_t a) { return temperature[i + a * n0]; });
     }
   computeDivergence();
+}
+
+bool Streamlines::isPossible(const Mesh& mesh) {
+  return mesh.box && mesh.dimension == 2 && mesh.box->leftOut.empty() && !mesh.box->map;
 }
 
 void Streamlines::computeDivergence() {
@@ -88,7 +95,7 @@ std::array<double, 2> Streamlines::velocityAt(const std::array<double, 2>& posit
 
 bool Streamlines::inside(const std::array<double, 2>& position) const {
   for (std::size_t axis = 0; axis < 2; ++axis) {
-    const auto& v = mesh_.spec.vertices[axis];
+    const auto& v = mesh_.box->vertices[axis];
     if (position[axis] < v.front() || position[axis] > v.back()) return false;
   }
   return true;

@@ -34,7 +34,10 @@ struct PathPoint {
 
 class Streamlines {
  public:
-  // Collective. `thermophoresis` is the coefficient K of the drift velocity -K (mu/rho) grad T / T.
+  // Whether they can be traced on a mesh: a plane one that is a whole box.
+  static bool isPossible(const Mesh& mesh);
+
+  // Collective. InputError where that is not so. `thermophoresis` is the coefficient K of the drift velocity -K (mu/rho) grad T / T.
   Streamlines(const Mesh& mesh, const State& state, const GasProperties& properties, double thermophoresis);
 
   // Path from `start` until it leaves the domain or `duration` has passed, one point every `timeStep`.

@@ -2,10 +2,17 @@
 
 #include <algorithm>
 
+#include "core/errors.hpp"
+
 #include "flow/limiter.hpp"
 
 namespace lampblack::flow {
 namespace {
+
+// The axis a face of a box is normal to.
+int axisOf(const Mesh& m, int face) {
+  return m.normal[face][0] != 0.0 ? 0 : 1;
+}
 
 // Where nothing rubs, w/r has no slope: r w has none at the axis or along it, and some where a boundary lies outwards.
 std::vector<BoundaryData> knownData(const FlowContext& context) {
@@ -14,7 +21,7 @@ std::vector<BoundaryData> knownData(const FlowContext& context) {
   for (int face = m.interiorFaces; face < m.faces; ++face) {
     const BoundaryCondition& boundary = context.boundaryOf(face);
     const bool isSmooth = boundary.kind == BoundaryKind::Symmetry || boundary.slip;
-    const bool hasSlope = m.normalAxis[face] == 0 && m.faceCentre[face][0] > 0.0;
+    const bool hasSlope = axisOf(m, face) == 0 && m.faceCentre[face][0] > 0.0;
     known.push_back(boundary.kind == BoundaryKind::Outlet ? BoundaryData::Nothing
                     : !isSmooth                           ? BoundaryData::Value
                     : hasSlope                            ? BoundaryData::Nothing
@@ -32,6 +39,8 @@ Swirl::Swirl(const FlowContext& context, std::span<const BoundaryData> pressureK
       known_(knownData(context)),
       upwind_(context, known_) {
   const Mesh& m = context.mesh;
+  if (!m.axisymmetric() || m.isOblique() || m.isSkewed())
+    throw InputError("a flow with swirl needs an axisymmetric mesh of rectangles: take a box that no table or formula bends");
   boundary_.resize(static_cast<std::size_t>(m.boundaryFaces()));
   angularMomentum_.resize(static_cast<std::size_t>(m.cells));
   slope_.resize(static_cast<std::size_t>(m.cells) * 2);
@@ -40,10 +49,10 @@ Swirl::Swirl(const FlowContext& context, std::span<const BoundaryData> pressureK
   centrifugal_.resize(static_cast<std::size_t>(m.cells));
   std::vector<char> isOuter(static_cast<std::size_t>(m.cells), 0);
   for (int face = m.interiorFaces; face < m.faces; ++face)
-    if (m.normalAxis[face] == 0 && pressureKnown[face - m.interiorFaces] == BoundaryData::Nothing)
+    if (axisOf(m, face) == 0 && pressureKnown[face - m.interiorFaces] == BoundaryData::Nothing)
       isOuter[m.low[face]] = 1;
   for (int face = 0; face < m.interiorFaces; ++face)
-    if (m.normalAxis[face] == 0 && m.high[face] < m.owned && isOuter[m.high[face]] != 0)
+    if (axisOf(m, face) == 0 && m.high[face] < m.owned && isOuter[m.high[face]] != 0)
       outermost_.push_back({m.high[face], face});
 }
 
@@ -96,7 +105,7 @@ void Swirl::addInside(const MomentumSweep& sweep) {
     const double flux = sweep.mean.massFlux[face];
     const Upwind u = upwind_.of(face, flux);
     const double value = limitedFaceValue(angularMomentum_[u.up], angularMomentum_[u.down],
-                                          slope_[2 * u.up + m.normalAxis[face]] * u.sign, u);
+                                          slopeAlong(u.direction, &slope_[2 * u.up], 2), u);
     if (low < m.owned) source_[low] -= flux * (value - angularMomentum_[low]);
     if (high < m.owned) source_[high] += flux * (value - angularMomentum_[high]);
   }
@@ -107,7 +116,7 @@ void Swirl::addBoundaries(const MomentumSweep& sweep) {
   for (int face = m.interiorFaces; face < m.faces; ++face) {
     const int b = face - m.interiorFaces;
     const int c = m.low[face];
-    const int axis = m.normalAxis[face];
+    const int axis = axisOf(m, face);
     const double radius = m.faceCentre[face][0];
     const double viscous = sweep.boundaryViscosity[b] * radius * radius * m.area[face];
     const double flux = sweep.mean.massFlux[face];
@@ -120,13 +129,13 @@ void Swirl::addBoundaries(const MomentumSweep& sweep) {
     } else if (known_[b] == BoundaryData::Nothing && flux > 0.0) {
       // What leaves goes along the cell's own slope. The torque across the outlet is that on the cell's other side:
       // with the stress at the outlet alone, a vortex that leaves outwards would lose its angular momentum.
-      const double outwards = m.normalSign[face] * m.distance[face];
+      const double outwards = m.normal[face][axisOf(m, face)] * m.distance[face];
       const double slope = slope_[2 * c + axis];
       const double opposite = radius - 2.0 * outwards;
       const double torque = axis == 1 ? slope : opposite * slope - 2.0 * (angularMomentum_[c] - outwards * slope);
       const double perRadius = axis == 1 ? 1.0 : 1.0 / radius;
       source_[c] +=
-          m.normalSign[face] * sweep.boundaryViscosity[b] * m.area[face] * perRadius * torque - flux * outwards * slope;
+          m.normal[face][axisOf(m, face)] * sweep.boundaryViscosity[b] * m.area[face] * perRadius * torque - flux * outwards * slope;
     }
   }
 }

@@ -46,7 +46,7 @@ void TransportOperator::initialise(State& state, double dt) {
     heat_.enthalpy[face] = enthalpyFlux(state, face, row_);
     addFaceFlux(m, face, row_, 1.0, content_);
   }
-  heatConduction_.prepare(properties_);
+  heatConduction_.prepare(state, properties_);
   heatConduction_.presentFlux(state, heat_.heat);
   const auto divergence = expansion_.initial(state, properties_, content_, heat_);
   momentum_.balanceForces(state);
@@ -256,7 +256,7 @@ void TransportOperator::advance(State& state, double time, double dt) {
   collectively(m.comm, [&] { properties_.update(context_, state); });
   expansion_.begin(state, properties_, first, dt, lastStep_);
   speciesDiffusion_.prepare(state, properties_);
-  heatConduction_.prepare(properties_);
+  heatConduction_.prepare(state, properties_);
   if (first) state.keepStart();
   if (several && first) keepStart(state);
   if (several) average(state);

@@ -12,8 +12,8 @@ using namespace resultswriter;
 
 ResultsWriter::ResultsWriter(MPI_Comm comm, std::filesystem::path path, const RunInfo& run, const MeshOutput& mesh) {
   const std::size_t n = mesh.globalCell.size();
-  const int corners = mesh.dimension == 2 ? 4 : 8;
-  agree(comm, mesh.dimension == 2 || mesh.dimension == 3, "a mesh to write has two or three dimensions");
+  const int corners = mesh.corners;
+  agree(comm, isTopology(mesh.dimension, corners), "a mesh to write has cells of a kind that there is not");
   agree(comm,
         mesh.connectivity.size() == n * static_cast<std::size_t>(corners) && mesh.cellVolume.size() == n &&
             mesh.cellCentre.size() == 3 * n && (mesh.owner.empty() || mesh.owner.size() == n) &&
@@ -35,7 +35,7 @@ ResultsWriter::ResultsWriter(MPI_Comm comm, std::filesystem::path path, const Ru
     self_->writeOrdered(exchange, fmt::format("/mesh/{}", name), std::span<const T>(values), width, unit, description);
   };
   write(vertices, "vertices", mesh.vertexCoordinates, 3, "m", "Coordinates of the vertices");
-  write(self_->cells, "cells", mesh.connectivity, corners, "1", "Vertices of each cell, counter-clockwise");
+  write(self_->cells, "cells", mesh.connectivity, corners, "1", mesh.dimension == 2 ? "Vertices of each cell, counter-clockwise" : "Vertices of each cell, in the order of VTK");
   write(self_->cells, "cellVolume", mesh.cellVolume, 1, "m^3", "Volume of each cell");
   write(self_->cells, "cellCentre", mesh.cellCentre, 3, "m", "Centre of each cell");
   std::vector<std::int64_t> owner(mesh.owner.begin(), mesh.owner.end());

@@ -29,7 +29,10 @@ struct RunInfo {
 
 // The mesh as this rank sees it. Global numbers are 0..total-1 and do not depend on the number of ranks.
 struct MeshOutput {
-  int dimension = 2;                       // 2: quadrilaterals (4 vertices), 3: hexahedra (8 vertices, VTK order)
+  int dimension = 2;
+  // Vertices of a cell, in VTK's order: 3 or 4 in a plane; 4, 5, 6 or 8 in space. A mesh of several kinds of cells has
+  // the most of any, and others repeat a vertex: a triangle as a quadrilateral, the rest as hexahedra.
+  int corners = 4;
   std::vector<std::int64_t> globalCell;    // owned cells; each cell of the mesh is owned by exactly one rank
   std::vector<std::int64_t> globalVertex;  // vertices this rank knows; every vertex is known to at least one rank
   std::vector<double> vertexCoordinates;   // 3 for each of globalVertex, m

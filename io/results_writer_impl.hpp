@@ -54,7 +54,7 @@ struct ResultsWriter::Implementation {
         cells(communicator, mesh.globalCell, mesh.totalCells),
         exceptionsAtStart(std::uncaught_exceptions()) {
     MPI_Comm_rank(comm, &rank);
-    if (mesh.totalCells > 0) xdmfMesh = {mesh.dimension, mesh.totalCells, mesh.totalVertices};
+    if (mesh.totalCells > 0) xdmfMesh = {mesh.dimension, mesh.corners, mesh.totalCells, mesh.totalVertices};
   }
 
   MPI_Comm comm;

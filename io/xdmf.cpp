@@ -49,15 +49,36 @@ const char* attributeType(int components) {
   }
 }
 
+// XDMF's word for cells of so many corners; nullptr where there are none.
+const char* topologyOf(int dimension, int corners) {
+  if (dimension == 2) return corners == 3 ? "Triangle" : corners == 4 ? "Quadrilateral" : nullptr;
+  if (dimension != 3) return nullptr;
+  switch (corners) {
+    case 4:
+      return "Tetrahedron";
+    case 5:
+      return "Pyramid";
+    case 6:
+      return "Wedge";
+    case 8:
+      return "Hexahedron";
+    default:
+      return nullptr;
+  }
+}
+
 }  // namespace
 
+bool isTopology(int dimension, int corners) {
+  return topologyOf(dimension, corners) != nullptr;
+}
+
 std::string xdmfText(const std::string& file, const XdmfMesh& mesh, const std::vector<XdmfStep>& steps) {
-  const bool flat = mesh.dimension == 2;
   const std::string meshText = fmt::format(
       "        <Topology TopologyType=\"{}\" NumberOfElements=\"{}\">\n          {}\n        </Topology>\n"
       "        <Geometry GeometryType=\"XYZ\">\n          {}\n        </Geometry>\n",
-      flat ? "Quadrilateral" : "Hexahedron", mesh.cells,
-      dataItem(fmt::format("{} {}", mesh.cells, flat ? 4 : 8), "Int", file + ":/mesh/cells"),
+      topologyOf(mesh.dimension, mesh.corners), mesh.cells,
+      dataItem(fmt::format("{} {}", mesh.cells, mesh.corners), "Int", file + ":/mesh/cells"),
       dataItem(fmt::format("{} 3", mesh.vertices), "Float", file + ":/mesh/vertices"));
   std::string text =
       "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n"

@@ -24,9 +24,13 @@ struct XdmfStep {
 
 struct XdmfMesh {
   int dimension = 2;
+  int corners = 4;  // of a cell
   std::int64_t cells = 0;
   std::int64_t vertices = 0;
 };
+
+// Whether there are cells of so many corners.
+bool isTopology(int dimension, int corners);
 
 // The whole file as text; `file` is the HDF5 file's name beside it.
 std::string xdmfText(const std::string& file, const XdmfMesh& mesh, const std::vector<XdmfStep>& steps);

@@ -66,7 +66,7 @@ struct FlowCase {
   std::uint64_t seed = 0;
   MeshSpec mesh;
   std::vector<BoundaryCondition> boundaries;  // in the order of mesh.patches
-  std::array<double, 2> gravity{0.0, 0.0};    // m/s^2
+  Vector3 gravity{0.0, 0.0, 0.0};             // m/s^2
   double referenceDensity = 0.0;              // kg/m^3, FlowContext
   MixingLayer initial;
   InitialFields initialFields;  // over the layer

@@ -43,10 +43,10 @@ BoundaryPatch readPatch(const Deck& deck, const std::string& name, Geometry geom
 }
 
 // A place on a boundary, its middle.
-std::array<double, 2> middleOf(const BoundaryPatch& patch, const MeshSpec& mesh) {
+Vector3 middleOf(const BoundaryPatch& patch, const MeshSpec& mesh) {
   const auto normal = static_cast<std::size_t>(patch.axis);
   const std::vector<double>& along = mesh.vertices[1 - normal];
-  std::array<double, 2> place{};
+  Vector3 place{};
   place[normal] = patch.atMax ? mesh.vertices[normal].back() : mesh.vertices[normal].front();
   place[1 - normal] = 0.5 * (std::max(patch.from, along.front()) + std::min(patch.to, along.back()));
   return place;
@@ -165,7 +165,7 @@ class ConditionReader {
   const Deck& deck_;
   std::string section_, type_;
   bool isAxisymmetric_;
-  std::array<double, 2> middle_;
+  Vector3 middle_;
   const Mechanism& mechanism_;
   GivenFields fields_;
   BoundaryCondition boundary_;

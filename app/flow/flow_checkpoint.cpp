@@ -40,9 +40,9 @@ std::string kindName(BoundaryKind kind) {
 
 StateNumbers stateNumbers(const Mesh& mesh) {
   return {{mesh.naturalCell.begin(), mesh.naturalCell.begin() + mesh.owned},
-          mesh.naturalFaces(),
+          mesh.faceNumber,
           mesh.totalCells,
-          mesh.totalFaces()};
+          mesh.totalFaces};
 }
 
 Fingerprint flowFingerprint(const FlowCase& flowCase, const std::vector<CarriedScalar>& scalars) {

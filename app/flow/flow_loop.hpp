@@ -45,7 +45,7 @@ class FlowLoop {
 
   struct Peak {
     double value = 0.0;
-    std::array<double, 2> place{};
+    Vector3 place{};
   };
 
   double chooseStep(double previous, double until);

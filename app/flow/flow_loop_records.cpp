@@ -45,7 +45,7 @@ FlowLoop::Peak FlowLoop::peakOf(const std::function<double(int)>& value) const {
     }
   }
   MPI_Allreduce(MPI_IN_PLACE, &best, 1, MPI_DOUBLE_INT, MPI_MAXLOC, comm_);
-  MPI_Bcast(peak.place.data(), 2, MPI_DOUBLE, best.rank, comm_);
+  MPI_Bcast(peak.place.data(), 3, MPI_DOUBLE, best.rank, comm_);
   peak.value = best.value;
   return peak;
 }

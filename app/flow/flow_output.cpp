@@ -1,35 +1,62 @@
 #include "app/flow/flow_output.hpp"
 
 #include <algorithm>
-#include <map>
+#include <array>
+#include <numeric>
 
 namespace lampblack::app {
 
+namespace {
+
+// The corners that stand for each of a quadrilateral's or a hexahedron's where a cell of another shape has to look like
+// one.
+std::vector<int> drawnAs(CellShape shape, int corners) {
+  if (corners == cornersOf(shape)) {
+    std::vector<int> own(static_cast<std::size_t>(corners));
+    std::iota(own.begin(), own.end(), 0);
+    return own;
+  }
+  switch (shape) {
+    case CellShape::Triangle:
+      return {0, 1, 2, 2};
+    case CellShape::Tetrahedron:
+      return {0, 1, 2, 2, 3, 3, 3, 3};
+    case CellShape::Pyramid:
+      return {0, 1, 2, 3, 4, 4, 4, 4};
+    default:  // prism
+      return {0, 1, 2, 2, 3, 4, 5, 5};
+  }
+}
+
+// Corners of the one shape that all cells of the mesh have, or of the shape that all can look like. Collective.
+int drawnCorners(const Mesh& mesh) {
+  std::array<int, 2> ends{0, 0};  // most, and fewest with the other sign
+  ends[1] = -8;
+  for (const CellShape shape : mesh.shape) {
+    ends[0] = std::max(ends[0], cornersOf(shape));
+    ends[1] = std::max(ends[1], -cornersOf(shape));
+  }
+  MPI_Allreduce(MPI_IN_PLACE, ends.data(), 2, MPI_INT, MPI_MAX, mesh.comm);
+  return ends[0] == -ends[1] ? ends[0] : mesh.dimension == 2 ? 4 : 8;
+}
+
+}  // namespace
+
 MeshOutput meshOutput(const Mesh& mesh) {
   MeshOutput out;
-  const std::int64_t n0 = mesh.cellsAlong[0];
-  const std::int64_t n1 = mesh.cellsAlong[1];
+  out.dimension = mesh.dimension;
+  out.corners = drawnCorners(mesh);
   out.totalCells = mesh.totalCells;
-  out.totalVertices = (n0 + 1) * (n1 + 1);
-  std::map<std::int64_t, std::array<double, 2>> vertices;
+  out.totalVertices = mesh.totalVertices;
   for (int c = 0; c < mesh.owned; ++c) {
-    const std::int64_t natural = mesh.naturalCell[c];
-    const std::int64_t i = natural % n0;
-    const std::int64_t j = natural / n0;
-    out.globalCell.push_back(natural);
+    out.globalCell.push_back(mesh.naturalCell[c]);
     out.cellVolume.push_back(mesh.volume[c]);
-    for (double x : {mesh.centre[c][0], mesh.centre[c][1], 0.0}) out.cellCentre.push_back(x);
-    for (const auto& [di, dj] : {std::pair{0, 0}, std::pair{1, 0}, std::pair{1, 1}, std::pair{0, 1}}) {
-      const std::int64_t vertex = (i + di) + (j + dj) * (n0 + 1);
-      out.connectivity.push_back(vertex);
-      vertices[vertex] = {mesh.spec.vertices[0][static_cast<std::size_t>(i + di)],
-                          mesh.spec.vertices[1][static_cast<std::size_t>(j + dj)]};
-    }
+    out.cellCentre.insert(out.cellCentre.end(), mesh.centre[c].begin(), mesh.centre[c].end());
+    for (const int corner : drawnAs(mesh.shape[c], out.corners))
+      out.connectivity.push_back(mesh.vertexNumber[mesh.corner[mesh.cornerStart[c] + corner]]);
   }
-  for (const auto& [vertex, x] : vertices) {
-    out.globalVertex.push_back(vertex);
-    for (double value : {x[0], x[1], 0.0}) out.vertexCoordinates.push_back(value);
-  }
+  out.globalVertex = mesh.vertexNumber;
+  for (const Vector3& x : mesh.vertex) out.vertexCoordinates.insert(out.vertexCoordinates.end(), x.begin(), x.end());
   return out;
 }
 
@@ -43,7 +70,7 @@ void writeFields(ResultsWriter& results, const FlowContext& context, const FlowC
   results.beginStep(step, time);
   results.cellField("temperature", "K", 1, part(state.temperature, 1), "gas temperature");
   results.cellField("density", "kg/m^3", 1, part(state.density, 1), "gas density");
-  results.cellField("velocity", "m/s", 2, part(state.velocity, 2), "gas velocity along the mesh's axes");
+  results.cellField("velocity", "m/s", state.dimension, part(state.velocity, static_cast<std::size_t>(state.dimension)), "gas velocity along the mesh's axes");
   results.cellField("pressure", "Pa", 1, part(state.pressure, 1), "hydrodynamic pressure");
   std::vector<double> column(owned);
   std::vector<double> weight(owned);

@@ -50,7 +50,7 @@ void GivenFields::readFormulas(const Deck& deck, const std::string& section, con
     const std::string key = section + ".formula." + name;
     deck.at(key, [&] {
       const Formula formula(deck.string(key), {axes[0], axes[1], "t"});
-      fields_[name] = {[formula](const std::array<double, 2>& place, double time) {
+      fields_[name] = {[formula](const Vector3& place, double time) {
                          return formula(std::array{place[0], place[1], time});
                        },
                        key};
@@ -73,7 +73,7 @@ void GivenFields::readTable(const Deck& deck, const std::string& section, const 
     for (std::size_t column = 0; column < table->names().size(); ++column) {
       const std::string& name = table->names()[column];
       if (has(name)) throw InputError(fmt::format("'{}' is given by a formula, too", name));
-      fields_[name] = {[table, column](const std::array<double, 2>& place, double time) {
+      fields_[name] = {[table, column](const Vector3& place, double time) {
                          return table->value(column, std::array{place[0], place[1], time});
                        },
                        key};

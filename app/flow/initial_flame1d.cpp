@@ -48,7 +48,7 @@ InitialFields readInitialFlame(const Deck& deck, const FlowCase& flowCase) {
     InitialFields fields;
     for (std::size_t column = 0; column < profile->names().size(); ++column) {
       const std::string& name = profile->names()[column];
-      const FieldFunction value = [profile, column, axis, origin](const std::array<double, 2>& place, double) {
+      const FieldFunction value = [profile, column, axis, origin](const Vector3& place, double) {
         return profile->value(column, std::array{place[axis] - origin});
       };
       if (name == "temperature") {
@@ -56,14 +56,14 @@ InitialFields readInitialFlame(const Deck& deck, const FlowCase& flowCase) {
       } else if (name == "velocity") {
         fields.velocity[axis] = value;
       } else if (name == "spread") {
-        fields.velocity[1 - axis] = [value, axis](const std::array<double, 2>& place, double time) {
+        fields.velocity[1 - axis] = [value, axis](const Vector3& place, double time) {
           return value(place, time) * place[1 - axis];
         };
       } else {
         const auto species = flowCase.mechanism->findSpecies(name.substr(2));
         if (!species) throw InputError(fmt::format("the mechanism has no species '{}'", name.substr(2)));
         // A solver's round-off may lie below zero.
-        fields.gas.moleFractions.emplace_back(*species, [value](const std::array<double, 2>& place, double time) {
+        fields.gas.moleFractions.emplace_back(*species, [value](const Vector3& place, double time) {
           return std::max(value(place, time), 0.0);
         });
       }

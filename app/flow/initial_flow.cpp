@@ -134,14 +134,14 @@ InitialFields readInitialFlow(const Deck& deck, const FlowCase& flowCase, const 
         std::vector<GridTable::Coordinate>{{"first", units::length}, {"second", units::length}}, numbers);
     std::size_t column = 0;
     const auto next = [&]() -> FieldFunction {
-      return [table, at = column++](const std::array<double, 2>& place, double) { return table->value(at, place); };
+      return [table, at = column++](const Vector3& place, double) { return table->value(at, place); };
     };
     InitialFields fields;
     if (isClosed(flowCase)) fields.thermodynamicPressure = thermodynamicPressure(results, step);
     fields.gas.temperature = next();
     for (std::size_t k = 0; k < flowCase.mechanism->numSpecies(); ++k)
       // Advection leaves some slightly below zero.
-      fields.gas.moleFractions.emplace_back(k, [value = next()](const std::array<double, 2>& place, double time) {
+      fields.gas.moleFractions.emplace_back(k, [value = next()](const Vector3& place, double time) {
         return std::max(value(place, time), 0.0);
       });
     for (std::size_t s = 0; s < scalars.size(); ++s) fields.carried.push_back(next());

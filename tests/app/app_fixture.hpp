@@ -85,7 +85,7 @@ struct Flame {
 };
 
 // Rich and hot enough for every part of the soot model, between 1500 and 1900 K.
-inline Gas sootingGas(const std::array<double, 2>& x) {
+inline Gas sootingGas(const Vector3& x) {
   return {1500.0 + 400.0 * std::exp(-std::pow((x[1] - 4.5e-3) / 3e-3, 2)) - 2e3 * x[0],
           "C2H2: 0.05, H: 2e-3, H2: 0.05, OH: 1e-4, H2O: 0.1, O2: 1e-4, CO: 0.15, A2: 2e-5, N2: 0.65"};
 }

@@ -105,7 +105,7 @@ TEST_P(EveryModel, KeepsMassElementsAndEnthalpy) {
 }
 
 TEST_P(EveryModel, LeavesEveryBitOfACellWithoutSoot) {
-  const auto gas = [](const std::array<double, 2>& x) {
+  const auto gas = [](const Vector3& x) {
     return x[1] < 4e-3 ? test::sootingGas(x) : test::Gas{300.0 + 1e4 * x[0], "C2H4: 0.3, N2: 0.5, O2: 0.2"};
   };
   Flame flame(MPI_COMM_WORLD, gas, deckLines());

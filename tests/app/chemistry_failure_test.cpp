@@ -16,7 +16,7 @@ class ChemistryFailure : public testing::TestWithParam<bool> {};
 
 TEST_P(ChemistryFailure, IsToldAlikeOnAllRanks) {
   // The cell at (1.25, 3.6) mm alone has something to burn; the other cells have no chemistry to fail in.
-  const auto gas = [](const std::array<double, 2>& x) {
+  const auto gas = [](const Vector3& x) {
     const bool hot = x[0] < 2e-3 && std::abs(x[1] - 3.6e-3) < 1e-4;
     return hot ? test::Gas{1750.0, "C2H4: 0.1, O2: 0.2, H: 0.002, OH: 0.002, N2: 0.696"} : test::Gas{300.0, "N2: 1"};
   };

@@ -40,8 +40,8 @@ TEST(MeshOutput, HasCounterClockwiseQuadrilateralsInGlobalNumbers) {
       area += 0.5 * (a[0] * b[1] - a[1] * b[0]);
       for (std::size_t axis = 0; axis < 2; ++axis) middle[axis] += 0.25 * a[axis];
       // Vertices are numbered along the first axis first.
-      EXPECT_EQ(a[0], mesh.spec.vertices[0][static_cast<std::size_t>(here % 7)]);
-      EXPECT_EQ(a[1], mesh.spec.vertices[1][static_cast<std::size_t>(here / 7)]);
+      EXPECT_EQ(a[0], mesh.box->vertices[0][static_cast<std::size_t>(here % 7)]);
+      EXPECT_EQ(a[1], mesh.box->vertices[1][static_cast<std::size_t>(here / 7)]);
     }
     EXPECT_NEAR(area, mesh.planarArea[c], 1e-12 * mesh.planarArea[c]) << "positive: counter-clockwise";
     for (std::size_t axis = 0; axis < 2; ++axis) {

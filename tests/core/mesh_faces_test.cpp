@@ -20,7 +20,15 @@ class MeshFaces : public testing::TestWithParam<Geometry> {
  protected:
   // +1 when the face's normal points out of the cell.
   [[nodiscard]] double outward(int face, int cell) const {
-    return (mesh.low[at(face)] == cell ? 1.0 : -1.0) * mesh.normalSign[at(face)];
+    return (mesh.low[at(face)] == cell ? 1.0 : -1.0) * signOf(mesh, face);
+  }
+  // m, from the vertices of the cell that the face points out of.
+  [[nodiscard]] double planarLength(int face) const {
+    const auto along = at(1 - axisOf(mesh, face));
+    const auto& v = mesh.box->vertices[along];
+    const std::int64_t cell = mesh.naturalCell[at(mesh.low[at(face)])];
+    const auto i = static_cast<std::size_t>(along == 0 ? cell % 15 : cell / 15);
+    return v[i + 1] - v[i];
   }
   Mesh mesh{MPI_COMM_WORLD, gradedBox(GetParam())};
 };
@@ -31,10 +39,12 @@ INSTANTIATE_TEST_SUITE_P(Geometry, MeshFaces, testing::Values(Geometry::Planar, 
                          });
 
 TEST_P(MeshFaces, CountsAndArraySizesAgree) {
-  for (const auto& values : {mesh.low, mesh.high, mesh.normalAxis}) EXPECT_EQ(values.size(), at(mesh.faces));
-  for (const auto& values : {mesh.normalSign, mesh.area, mesh.planarLength, mesh.distance, mesh.lowWeight})
+  for (const auto& values : {mesh.low, mesh.high}) EXPECT_EQ(values.size(), at(mesh.faces));
+  for (const auto& values : {mesh.normal, mesh.faceCentre, mesh.step}) EXPECT_EQ(values.size(), at(mesh.faces));
+  for (const auto& values : {mesh.area, mesh.distance, mesh.lowWeight})
     EXPECT_EQ(values.size(), at(mesh.faces));
-  EXPECT_EQ(mesh.faceCentre.size(), at(mesh.faces));
+  EXPECT_FALSE(mesh.isOblique());
+  EXPECT_FALSE(mesh.isSkewed());
   EXPECT_EQ(mesh.patch.size(), at(mesh.boundaryFaces()));
   EXPECT_EQ(sumOverRanks(mesh.boundaryFaces()), 2.0 * (15 + 11));
   // A face between two ranks is on both, counted by half.
@@ -55,8 +65,8 @@ TEST_P(MeshFaces, EveryFaceTouchesAnOwnedCellAndPointsFromTheSmallerNaturalIndex
     }
     ASSERT_GE(high, 0);
     EXPECT_TRUE(low < mesh.owned || high < mesh.owned);
-    EXPECT_EQ(mesh.normalSign[at(f)], 1.0);
-    EXPECT_EQ(mesh.naturalCell[at(high)] - mesh.naturalCell[at(low)], mesh.normalAxis[at(f)] == 0 ? 1 : 15);
+    EXPECT_EQ(signOf(mesh, f), 1.0);
+    EXPECT_EQ(mesh.naturalCell[at(high)] - mesh.naturalCell[at(low)], axisOf(mesh, f) == 0 ? 1 : 15);
   }
 }
 
@@ -68,8 +78,8 @@ TEST_P(MeshFaces, SurfaceOfEveryOwnedCellIsClosed) {
     ASSERT_EQ(mesh.faceStart[at(c) + 1] - mesh.faceStart[at(c)], 4);
     for (int k = mesh.faceStart[at(c)]; k < mesh.faceStart[at(c) + 1]; ++k) {
       const int f = mesh.faceOfCell[at(k)];
-      const auto axis = at(mesh.normalAxis[at(f)]);
-      planar[axis] += outward(f, c) * mesh.planarLength[at(f)];
+      const auto axis = at(axisOf(mesh, f));
+      planar[axis] += outward(f, c) * planarLength(f);
       metric[axis] += outward(f, c) * mesh.area[at(f)];
       largest = std::max(largest, mesh.area[at(f)]);
     }
@@ -85,7 +95,7 @@ TEST_P(MeshFaces, SurfaceOfEveryOwnedCellIsClosed) {
 TEST_P(MeshFaces, AreasAreLengthsTimesRadius) {
   for (int f = 0; f < mesh.faces; ++f) {
     const double radius = mesh.axisymmetric() ? mesh.faceCentre[at(f)][0] : 1.0;
-    EXPECT_EQ(mesh.area[at(f)], mesh.planarLength[at(f)] * radius);
+    EXPECT_EQ(mesh.area[at(f)], planarLength(f) * radius);
     const bool onAxis = mesh.faceCentre[at(f)][0] == 0.0;
     if (mesh.axisymmetric()) {
       EXPECT_EQ(mesh.area[at(f)] == 0.0, onAxis);
@@ -95,7 +105,7 @@ TEST_P(MeshFaces, AreasAreLengthsTimesRadius) {
 
 TEST_P(MeshFaces, DistancesRunBetweenCentresAndWeightsReproduceALinearField) {
   for (int f = 0; f < mesh.faces; ++f) {
-    const auto axis = at(mesh.normalAxis[at(f)]);
+    const auto axis = at(axisOf(mesh, f));
     const double face = mesh.faceCentre[at(f)][axis];
     const double low = mesh.centre[at(mesh.low[at(f)])][axis];
     // Coordinates are at most 0.03 m and so are known to 0.03 epsilon; a few of them are combined.
@@ -116,13 +126,13 @@ TEST_P(MeshFaces, DistancesRunBetweenCentresAndWeightsReproduceALinearField) {
 }
 
 TEST_P(MeshFaces, FaceCentreLiesOnBothCellsOutline) {
-  const auto& x = mesh.spec.vertices;
+  const auto& x = mesh.box->vertices;
   for (int f = 0; f < mesh.faces; ++f) {
     const int c = mesh.low[at(f)];
-    const auto axis = at(mesh.normalAxis[at(f)]);
+    const auto axis = at(axisOf(mesh, f));
     const std::int64_t natural = mesh.naturalCell[at(c)];
     const std::int64_t index[2] = {natural % 15, natural / 15};
-    const auto layer = static_cast<std::size_t>(index[axis]) + (mesh.normalSign[at(f)] > 0 ? 1 : 0);
+    const auto layer = static_cast<std::size_t>(index[axis]) + (signOf(mesh, f) > 0 ? 1 : 0);
     EXPECT_EQ(mesh.faceCentre[at(f)][axis], x[axis][layer]);
     EXPECT_EQ(mesh.faceCentre[at(f)][1 - axis], mesh.centre[at(c)][1 - axis]);
   }
@@ -131,7 +141,8 @@ TEST_P(MeshFaces, FaceCentreLiesOnBothCellsOutline) {
 TEST_P(MeshFaces, BoundaryFacesHaveTheFirstPatchThatHoldsThem) {
   double fuelFaces = 0.0;
   for (int f = mesh.interiorFaces; f < mesh.faces; ++f) {
-    const auto [x, y] = mesh.faceCentre[at(f)];
+    const auto [x, y, z] = mesh.faceCentre[at(f)];
+    EXPECT_EQ(z, 0.0);
     std::string expected = x < 0.01 ? "fuel" : "coflow";
     if (y == 0.03) expected = "outlet";
     if (x == 0.0) expected = "inner";
@@ -178,7 +189,7 @@ double fluxOf(const Mesh& mesh, int face) {
   const auto value = [&](int cell) { return std::sin(0.7 * static_cast<double>(mesh.naturalCell[at(cell)])) + 1.1; };
   const auto f = at(face);
   const double low = value(mesh.low[f]);
-  if (mesh.high[f] < 0) return mesh.normalSign[f] * low * mesh.area[f] / mesh.distance[f];
+  if (mesh.high[f] < 0) return signOf(mesh, face) * low * mesh.area[f] / mesh.distance[f];
   const double high = value(mesh.high[f]);
   const double middle = mesh.lowWeight[f] * low + (1.0 - mesh.lowWeight[f]) * high;
   return middle * (low - high) / mesh.distance[f] * mesh.area[f];
@@ -191,7 +202,7 @@ TEST_P(MeshFaces, TwoRanksFluxesThroughASharedFaceAgreeToTheLastBit) {
   };
   std::vector<Record> own;
   for (int f = 0; f < mesh.interiorFaces; ++f)
-    own.push_back({mesh.naturalCell[at(mesh.low[at(f)])] * 2 + mesh.normalAxis[at(f)], fluxOf(mesh, f)});
+    own.push_back({mesh.naturalCell[at(mesh.low[at(f)])] * 2 + axisOf(mesh, f), fluxOf(mesh, f)});
   auto all = gatherAll(own);
   std::sort(all.begin(), all.end(), [](const Record& a, const Record& b) { return a.face < b.face; });
   int shared = 0;

@@ -13,7 +13,7 @@
 namespace lampblack::test {
 namespace {
 
-MeshSpec periodicBox(std::array<bool, 2> periodic) {
+MeshSpec periodicBox(std::array<bool, 3> periodic) {
   MeshSpec spec;
   spec.vertices = {gradedAxis(0.0, {{3.0, 7, 2.0}}), gradedAxis(0.0, {{1.0, 5, 0.5}})};
   spec.periodic = periodic;
@@ -24,16 +24,16 @@ MeshSpec periodicBox(std::array<bool, 2> periodic) {
 }
 
 TEST(PeriodicMesh, LinksTheCellsAtItsEnds) {
-  for (const auto& periodic : {std::array{true, false}, std::array{false, true}, std::array{true, true}}) {
+  for (const auto& periodic : {std::array{true, false, false}, std::array{false, true, false}, std::array{true, true, false}}) {
     const Mesh mesh(MPI_COMM_WORLD, periodicBox(periodic));
     EXPECT_EQ(sumOverRanks(mesh.owned), 35.0);
     EXPECT_EQ(sumOverRanks(mesh.boundaryFaces()), (periodic[0] ? 0.0 : 10.0) + (periodic[1] ? 0.0 : 14.0));
     double around = 0.0;
     for (int f = 0; f < mesh.interiorFaces; ++f) {
-      const int low = mesh.low[at(f)], high = mesh.high[at(f)], axis = mesh.normalAxis[at(f)];
+      const int low = mesh.low[at(f)], high = mesh.high[at(f)], axis = axisOf(mesh, f);
       const std::int64_t stride = axis == 0 ? 1 : 7, cells = axis == 0 ? 7 : 5;
-      const auto& x = mesh.spec.vertices[at(axis)];
-      EXPECT_EQ(mesh.normalSign[at(f)], 1.0);
+      const auto& x = mesh.box->vertices[at(axis)];
+      EXPECT_EQ(signOf(mesh, f), 1.0);
       const std::int64_t step = mesh.naturalCell[at(high)] - mesh.naturalCell[at(low)];
       const double lowWidth = 2.0 * (mesh.faceCentre[at(f)][at(axis)] - mesh.centre[at(low)][at(axis)]);
       EXPECT_GT(lowWidth, 0.0);
@@ -50,16 +50,16 @@ TEST(PeriodicMesh, LinksTheCellsAtItsEnds) {
     }
     EXPECT_EQ(sumOverRanks(around), (periodic[0] ? 5.0 : 0.0) + (periodic[1] ? 7.0 : 0.0));
     for (int c = 0; c < mesh.owned; ++c) EXPECT_EQ(mesh.faceStart[at(c) + 1] - mesh.faceStart[at(c)], 4);
-    const auto numbers = mesh.naturalFaces();
+    const auto& numbers = mesh.faceNumber;
     EXPECT_EQ(std::set<std::int64_t>(numbers.begin(), numbers.end()).size(), numbers.size());
   }
 }
 
 TEST(PeriodicMesh, NeedsThreeCellsAndNoRadius) {
-  MeshSpec thin = periodicBox({true, false});
+  MeshSpec thin = periodicBox({true, false, false});
   thin.vertices[0] = {0.0, 1.0, 2.0};
   EXPECT_THROW(Mesh(MPI_COMM_WORLD, thin), InputError);
-  MeshSpec round = periodicBox({true, false});
+  MeshSpec round = periodicBox({true, false, false});
   round.geometry = Geometry::Axisymmetric;
   EXPECT_THROW(Mesh(MPI_COMM_WORLD, round), InputError);
 }

@@ -4,12 +4,14 @@
 #include <mpi.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "core/grading.hpp"
 #include "core/mesh.hpp"
+#include "core/shares.hpp"
 #include "tests/every_room.hpp"
 #include "tests/messages.hpp"
 #include "tests/world.hpp"
@@ -69,6 +71,24 @@ inline MeshSpec unitBox(int columns, int rows) {
                    gradedAxis(0.0, {{static_cast<double>(rows), rows, 1.0}})};
   spec.patches = {{"left", 0, false}, {"right", 0, true}, {"bottom", 1, false}, {"top", 1, true}};
   return spec;
+}
+
+// The axis that a face of a box is normal to, and the direction along it.
+inline int axisOf(const Mesh& mesh, int face) {
+  const Vector3& n = mesh.normal[static_cast<std::size_t>(face)];
+  for (int axis = 0; axis < 3; ++axis)
+    if (std::abs(n[static_cast<std::size_t>(axis)]) == 1.0) return axis;
+  return -1;
+}
+inline double signOf(const Mesh& mesh, int face) {
+  return mesh.normal[static_cast<std::size_t>(face)][static_cast<std::size_t>(axisOf(mesh, face))];
+}
+
+// Of values of all cells those of this rank's share of a box that is not made yet.
+inline std::vector<double> shareOf(const std::vector<double>& all) {
+  const Shares shares(static_cast<std::int64_t>(all.size()), worldSize());
+  const auto first = all.begin() + shares.first(worldRank());
+  return {first, first + shares.count(worldRank())};
 }
 
 inline std::size_t at(int index) {

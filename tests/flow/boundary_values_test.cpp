@@ -14,7 +14,7 @@
 namespace lampblack::test {
 namespace {
 
-using Place = std::array<double, 2>;
+using Place = Vector3;
 
 class VaryingBoundaries : public testing::Test {
  protected:

@@ -25,7 +25,7 @@ class DetailedFluxes : public testing::Test {
           {gradedAxis(0.0, {{4e-3, 6, 2.0}}), uniformAxis(3e-3, 4)},
           {opening(BoundaryKind::Inlet, 0, false, 0.1, 350.0, fuel), side(BoundaryKind::Wall, 0, true),
            side(BoundaryKind::Symmetry, 1, false), opening(BoundaryKind::Outlet, 1, true, 0.0, 300.0, air)}};
-  State state = box.state([&](const std::array<double, 2>& x) {
+  State state = box.state([&](const Vector3& x) {
     const double share = 0.5 + 0.45 * std::sin(700.0 * x[0]) * std::cos(300.0 * x[1]);
     Box::Local local{{0.0, 0.0}, 500.0 + 1.5e5 * x[0] + 2e5 * x[1], {}};
     for (std::size_t k = 0; k < n; ++k) local.Y.push_back(share * fuel[k] + (1.0 - share) * air[k]);

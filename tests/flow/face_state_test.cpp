@@ -62,7 +62,7 @@ Faces facesOf(int refinement, bool isMirrored) {
     faces.interpolate(state, face, isMirrored ? -1.0 : 1.0, Y);
     const double x = mirrored(m.faceCentre[at(face)][0], isMirrored),
                  y = mirrored(m.faceCentre[at(face)][1], isMirrored);
-    const double weight = std::exp(100.0 * x - 70.0 * y) * (1.0 + m.normalAxis[at(face)]);
+    const double weight = std::exp(100.0 * x - 70.0 * y) * (1.0 + axisOf(m, face));
     result.sum += weight * faces.temperature[at(face)] * Y[gas.mechanism.speciesIndex("H2")];
     if (std::min(x, y) < 0.1 * width || std::max(x, y) > 0.9 * width) continue;
     result.error += std::abs(faces.temperature[at(face)] - temperatureAt(x, y));
@@ -112,7 +112,7 @@ TEST(FaceState, AFeedLeadsNoFurtherThanTheSlopeBehindIt) {
     double found = 0.0;
     std::vector<double> Y(gas.mechanism.numSpecies());
     for (int face = 0; face < m.interiorFaces; ++face) {
-      if (m.normalAxis[at(face)] != 0 || std::abs(m.faceCentre[at(face)][0] - width / cells) > 1e-9) continue;
+      if (axisOf(m, face) != 0 || std::abs(m.faceCentre[at(face)][0] - width / cells) > 1e-9) continue;
       faces.massFractions(face, 1.0, Y);
       found = std::max(found, Y[h2]);
     }

@@ -65,6 +65,11 @@ inline double maxOverRanks(double value) {
 inline double minOverRanks(double value) {
   return -maxOverRanks(-value);
 }
+// The axis that a face of a box is normal to.
+inline int axisOf(const Mesh& mesh, int face) {
+  const Vector3& n = mesh.normal[static_cast<std::size_t>(face)];
+  return std::abs(n[0]) == 1.0 ? 0 : std::abs(n[1]) == 1.0 ? 1 : 2;
+}
 inline std::size_t at(std::ptrdiff_t index) {
   return static_cast<std::size_t>(index);
 }
@@ -106,7 +111,7 @@ struct Box {
     double temperature = 300.0;
     std::vector<double> Y;
   };
-  State state(const std::function<Local(const std::array<double, 2>&)>& set, std::vector<CarriedScalar> carried = {},
+  State state(const std::function<Local(const Vector3&)>& set, std::vector<CarriedScalar> carried = {},
               bool swirls = false) {
     const std::size_t n = gas.mechanism.numSpecies();
     State s(mesh, n, std::move(carried), swirls);
@@ -131,7 +136,7 @@ struct Box {
                          const std::vector<Side>& sides) {
     MeshSpec spec;
     spec.geometry = geometry;
-    spec.vertices = std::move(vertices);
+    for (std::size_t axis = 0; axis < vertices.size(); ++axis) spec.vertices[axis] = std::move(vertices[axis]);
     for (const Side& s : sides) spec.patches.push_back(s.patch);
     return spec;
   }

@@ -81,7 +81,7 @@ TEST(Gradient, ParabolaWithoutSlopeAtASideIsExact) {
   std::vector<BoundaryData> known;
   for (int b = 0; b < m.boundaryFaces(); ++b) {
     const auto& x = m.faceCentre[at(m.interiorFaces + b)];
-    const bool isLeft = m.normalAxis[at(m.interiorFaces + b)] == 0 && x[0] < 0.5;
+    const bool isLeft = axisOf(m, m.interiorFaces + b) == 0 && x[0] < 0.5;
     known.push_back(isLeft ? BoundaryData::ZeroSlope : BoundaryData::Value);
     known.push_back(BoundaryData::Value);
     boundary[at(2 * b)] = isLeft ? std::numeric_limits<double>::quiet_NaN() : first(x[0]);

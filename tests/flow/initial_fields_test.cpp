@@ -11,7 +11,7 @@
 namespace lampblack::test {
 namespace {
 
-using Place = std::array<double, 2>;
+using Place = Vector3;
 
 TEST(InitialFields, LieOverTheState) {
   Gas& gas = Gas::hydrogen();

@@ -19,7 +19,7 @@ class Reacting : public testing::Test {
   std::vector<double> air = gas.massFractions("O2: 0.21, N2: 0.79");
   std::vector<double> premixed = gas.massFractions("H2: 0.3, O2: 0.15, N2: 0.55, OH: 0.002, H: 0.001");
   // Igniting gas in the right half, cold air in the left one.
-  Box::Local halfHot(const std::array<double, 2>& x) const {
+  Box::Local halfHot(const Vector3& x) const {
     return x[0] > 0.004 ? Box::Local{{0.0, 0.4}, 1000.0 + 2e4 * x[1], premixed} : Box::Local{{0.0, 0.4}, 300.0, air};
   }
   std::vector<Side> sides() const {

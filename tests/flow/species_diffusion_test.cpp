@@ -52,7 +52,7 @@ class Diffusing : public testing::Test {
     return local;
   }
   // Three gases, each with its own wave: the species' ratios of differences differ, and so do their limiters.
-  Box::Local mixed(const std::array<double, 2>& x) const {
+  Box::Local mixed(const Vector3& x) const {
     const double share = 0.5 + 0.5 * std::sin(400.0 * x[0]) * std::cos(300.0 * x[1]);
     const double steam = 0.3 + 0.2 * std::sin(900.0 * x[0] + 500.0 * x[1]);
     Box::Local local = blend(share, 400.0 + 1200.0 * share * (1.0 - share));
@@ -106,7 +106,7 @@ TEST_F(Diffusing, BothRanksComputeTheSameFluxThroughASharedFace) {
   std::vector<std::uint64_t> bits(2 * faces * n, 0);
   std::size_t shared = 0;
   for (int face = 0; face < m.interiorFaces; ++face) {
-    const auto key = static_cast<std::size_t>(2 * m.naturalCell[at(m.low[at(face)])] + m.normalAxis[at(face)]);
+    const auto key = static_cast<std::size_t>(2 * m.naturalCell[at(m.low[at(face)])] + axisOf(m, face));
     for (std::size_t k = 0; k < n; ++k) {
       std::uint64_t pattern = 0;
       std::memcpy(&pattern, &flux[at(face) * n + k], sizeof pattern);
@@ -155,7 +155,7 @@ TEST_F(Diffusing, BinaryCosineDecaysAtTheAnalyticRate) {
   // Small: W of the mixture varies by 1e-5, so that the coefficient is constant.
   const double mean = 1e-2;
   const double amplitude = 1e-6;
-  const State state = tube.state([&](const std::array<double, 2>& x) {
+  const State state = tube.state([&](const Vector3& x) {
     Box::Local local{{0.0, 0.0}, 300.0, std::vector<double>(gas.mechanism.numSpecies(), 0.0)};
     local.Y[h2] = mean + amplitude * std::cos(wave * x[0]);
     local.Y[n2] = 1.0 - local.Y[h2];
@@ -168,7 +168,7 @@ TEST_F(Diffusing, BinaryCosineDecaysAtTheAnalyticRate) {
   // Amplitude of the flux: its projection onto sin(wave x) over all faces normal to x.
   double sum = 0.0;
   for (int face = 0; face < m.interiorFaces; ++face) {
-    if (m.normalAxis[at(face)] != 0 || m.low[at(face)] >= m.owned) continue;
+    if (axisOf(m, face) != 0 || m.low[at(face)] >= m.owned) continue;
     sum += flux[at(face) * gas.mechanism.numSpecies() + h2] / m.area[at(face)] *
            std::sin(wave * m.faceCentre[at(face)][0]);
   }

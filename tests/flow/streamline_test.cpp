@@ -26,7 +26,7 @@ class Counterflow : public testing::Test {
   // u_r = a r / 2, u_z = -a z: free of divergence, linear, so that bilinear interpolation is exact inside the outermost
   // cell centres.
   Streamlines lines(double temperatureSlope = 0.0, double thermophoresis = 0.0, double axial = strain) {
-    const State state = box.state([&](const std::array<double, 2>& x) {
+    const State state = box.state([&](const Vector3& x) {
       return Box::Local{{0.5 * strain * x[0], -axial * x[1]}, 600.0 + temperatureSlope * x[1], n2};
     });
     properties.update(box.context, state);

@@ -33,7 +33,7 @@ class SwirlInAVessel : public testing::Test {
   static void makeTurn(Box& box) {
     box.context.varying = std::make_shared<BoundaryValues>(box.mesh, box.context.boundaries, box.gas.thermo);
   }
-  State turningAs(Box& box, const std::function<double(const std::array<double, 2>&)>& swirl) {
+  State turningAs(Box& box, const std::function<double(const Vector3&)>& swirl) {
     State state = box.state([&](const auto&) { return Box::Local{{0.0, 0.0}, 300.0, n2}; }, {}, true);
     for (int c = 0; c < box.mesh.cells; ++c) state.swirl[at(c)] = swirl(box.mesh.centre[at(c)]);
     return state;

@@ -158,7 +158,7 @@ TEST(ConvectiveTimeStep, IsExactOnAUniformFlow) {
   EXPECT_EQ(convectiveTimeStep(box.mesh, state, 0.5), std::numeric_limits<double>::infinity());
   TransportOperator transport(box.context, state);
   transport.initialise(state, 1e-4);
-  const auto& y = box.mesh.spec.vertices[1];
+  const auto& y = box.mesh.box->vertices[1];
   EXPECT_NEAR(convectiveTimeStep(box.mesh, state, 0.5) / (0.5 * (y[1] - y[0]) / 0.7), 1.0, 20.0 * epsilon);
 }
 

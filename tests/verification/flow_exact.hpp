@@ -20,7 +20,7 @@
 namespace lampblack::test {
 
 using std::numbers::pi;
-using Place = std::array<double, 2>;
+using Place = Vector3;
 
 class FlowExact : public testing::Test {
  protected:

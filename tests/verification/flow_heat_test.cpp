@@ -29,7 +29,7 @@ TEST_F(FlowHeat, HotSpotOfDensityRatioEightRelaxesAtConstantPressure) {
   for (int level = 0; level < 2; ++level) {
     const int cells = 24 << level;
     Box box(Geometry::Planar, {uniformAxis(size, cells), uniformAxis(size, cells)}, sides);
-    State state = box.state([&](const std::array<double, 2>& x) {
+    State state = box.state([&](const Vector3& x) {
       const double r2 = std::pow(x[0] - 0.5 * size, 2) + std::pow(x[1] - 0.5 * size, 2);
       return Box::Local{{0.0, 0.0}, 300.0 + 2100.0 * std::exp(-r2 / std::pow(0.6e-3, 2)), air};
     });
@@ -110,7 +110,7 @@ TEST_F(FlowHeat, ConvectionAgainstConductionIsSecondOrder) {
             {opening(BoundaryKind::Outlet, 0, false, 0.0, T0, air), held, side(BoundaryKind::Symmetry, 1, false),
              side(BoundaryKind::Symmetry, 1, true)});
     const double guess = m * 1010.0 / 0.032;  // 1/m
-    State state = box.state([&](const std::array<double, 2>& x) {
+    State state = box.state([&](const Vector3& x) {
       return Box::Local{{0.6 * speed, 0.0}, T0 + (T1 - T0) * std::exp(guess * (x[0] - length)), air};
     });
     TransportOperator transport(box.context, state);

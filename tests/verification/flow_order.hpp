@@ -25,14 +25,14 @@ struct Quantities {
 struct Problem {
   std::string name;
   Box box;
-  std::function<Box::Local(const std::array<double, 2>&)> start;
+  std::function<Box::Local(const Vector3&)> start;
   double duration = 0.0;
   int steps = 0;  // of the longest step
   std::string species;
   bool reacts = false;
   double prelude = 0.0;  // s, after which the measured runs start from one state
   // Particles per m3 that the gas carries, with thermophoresis, and their diffusivity.
-  std::function<double(const std::array<double, 2>&)> particles = {};
+  std::function<double(const Vector3&)> particles = {};
   double diffusivity = 0.0;
 
   State stateAtStart() {
@@ -94,7 +94,7 @@ inline Problem hotSpotInAStream() {
                                 side(BoundaryKind::Symmetry, 1, false), side(BoundaryKind::Symmetry, 1, true)};
   return {"hot spot",
           Box(Geometry::Planar, {uniformAxis(size, 32), uniformAxis(size, 32)}, sides),
-          [=](const std::array<double, 2>& x) {
+          [=](const Vector3& x) {
             const double r2 = std::pow(x[0] - 0.4 * size, 2) + std::pow(x[1] - 0.45 * size, 2);
             return Box::Local{{speed, 0.0}, 300.0 + 2100.0 * std::exp(-r2 / std::pow(0.8e-3, 2)), air};
           },
@@ -103,7 +103,7 @@ inline Problem hotSpotInAStream() {
           "O2",
           false,
           0.0,
-          [=](const std::array<double, 2>& x) {
+          [=](const Vector3& x) {
             return 1e15 *
                    (1.0 + 0.5 * std::cos(std::numbers::pi * x[0] / size) * std::cos(std::numbers::pi * x[1] / size));
           },
@@ -120,7 +120,7 @@ inline Problem layerRichInHydrogen() {
                                 side(BoundaryKind::Symmetry, 1, false), side(BoundaryKind::Symmetry, 1, true)};
   return {"layer",
           Box(Geometry::Planar, {uniformAxis(size, 48), uniformAxis(1e-3, 1)}, sides),
-          [=, &gas](const std::array<double, 2>& x) {
+          [=, &gas](const Vector3& x) {
             const double X = 0.475 * (1.0 - std::tanh((x[0] - 0.4 * size) / 0.4e-3));
             return Box::Local{{0.0, 0.0}, 300.0, gas.massFractions(fmt::format("H2: {}, N2: {}", X, 1.0 - X))};
           },
@@ -139,7 +139,7 @@ inline Problem premixedFlame(Gas& gas) {
                                 side(BoundaryKind::Symmetry, 1, false), side(BoundaryKind::Symmetry, 1, true)};
   return {"premixed",
           Box(Geometry::Planar, {uniformAxis(size, 60), uniformAxis(1e-3, 1)}, sides, gas),
-          [=](const std::array<double, 2>& x) {
+          [=](const Vector3& x) {
             const double share = 0.5 * (1.0 + std::tanh((x[0] - 0.4 * size) / 0.3e-3));
             Box::Local local{{speed, 0.0}, 300.0 + 1900.0 * share, {}};
             for (std::size_t k = 0; k < fresh.size(); ++k)

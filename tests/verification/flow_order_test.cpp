@@ -87,7 +87,7 @@ TEST(FlowOrder, WaveOfHydrogenDecays) {
                                 side(BoundaryKind::Symmetry, 1, false), side(BoundaryKind::Symmetry, 1, true)};
   Problem problem{"wave",
                   Box(Geometry::Planar, {uniformAxis(size, 32), uniformAxis(1e-3, 1)}, sides),
-                  [&](const std::array<double, 2>& x) {
+                  [&](const Vector3& x) {
                     const double X = 0.95 + 0.01 * std::cos(std::numbers::pi * x[0] / size);
                     return Box::Local{{0.0, 0.0}, 300.0, gas.massFractions(fmt::format("H2: {}, N2: {}", X, 1.0 - X))};
                   },
@@ -140,7 +140,7 @@ TEST(FlowOrder, EvenMixtureIgnitesAsAReactor) {
                                 side(BoundaryKind::Symmetry, 1, false), side(BoundaryKind::Symmetry, 1, true)};
   Problem problem{"ignition",
                   Box(Geometry::Planar, {uniformAxis(size, 4), uniformAxis(size, 1)}, sides),
-                  [&](const std::array<double, 2>&) {
+                  [&](const Vector3&) {
                     return Box::Local{{0.0, 0.0}, T0, mixture};
                   },
                   duration,

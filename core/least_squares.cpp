@@ -1,0 +1,78 @@
+#include "core/least_squares.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lampblack {
+namespace {
+
+using Matrix = std::array<Vector3, 3>;
+
+// Symmetric; by Jacobi's rotations (Golub and Van Loan 2013, section 8.5). Directions of next to no weight are left out.
+Matrix pseudoInverse(Matrix a) {
+  Matrix vectors{{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
+  for (int sweep = 0; sweep < 30; ++sweep) {
+    for (std::size_t p = 0; p < 2; ++p)
+      for (std::size_t q = p + 1; q < 3; ++q) {
+        if (a[p][q] == 0.0) continue;
+        const double theta = 0.5 * (a[q][q] - a[p][p]) / a[p][q];
+        const double t = std::copysign(1.0, theta) / (std::abs(theta) + std::sqrt(theta * theta + 1.0));
+        const double c = 1.0 / std::sqrt(t * t + 1.0), s = t * c;
+        for (std::size_t i = 0; i < 3; ++i) {
+          const double x = a[i][p], y = a[i][q];
+          a[i][p] = c * x - s * y;
+          a[i][q] = s * x + c * y;
+          const double u = vectors[i][p], v = vectors[i][q];
+          vectors[i][p] = c * u - s * v;
+          vectors[i][q] = s * u + c * v;
+        }
+        for (std::size_t i = 0; i < 3; ++i) {
+          const double x = a[p][i], y = a[q][i];
+          a[p][i] = c * x - s * y;
+          a[q][i] = s * x + c * y;
+        }
+        a[p][q] = a[q][p] = 0.0;
+      }
+  }
+  const double largest = std::max({a[0][0], a[1][1], a[2][2]});
+  Matrix inverse{};
+  for (std::size_t e = 0; e < 3; ++e) {
+    if (!(a[e][e] > 1e-12 * largest)) continue;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) inverse[i][j] += vectors[i][e] * vectors[j][e] / a[e][e];
+  }
+  return inverse;
+}
+
+}  // namespace
+
+void LeastSquares::add(const Vector3& d) {
+  const double size = length(d), share = 1.0 / (size * size * size);
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) sum_[i][j] += share * d[i] * d[j];
+}
+
+void LeastSquares::finish(int dimension) {
+  const Matrix& m = sum_;
+  const double trace = m[0][0] + m[1][1] + m[2][2];
+  constexpr double nothing = 1e-10;
+  inverse_ = {};
+  if (dimension == 2) {
+    const double determinant = m[0][0] * m[1][1] - m[0][1] * m[1][0];
+    if (determinant > nothing * trace * trace) {
+      inverse_[0] = {m[1][1] / determinant, -m[0][1] / determinant, 0.0};
+      inverse_[1] = {-m[1][0] / determinant, m[0][0] / determinant, 0.0};
+      return;
+    }
+  } else {
+    const Vector3 a = cross(m[1], m[2]), b = cross(m[2], m[0]), c = cross(m[0], m[1]);
+    const double determinant = dot(m[0], a);
+    if (determinant > nothing * trace * trace * trace) {
+      for (std::size_t i = 0; i < 3; ++i) inverse_[i] = {a[i] / determinant, b[i] / determinant, c[i] / determinant};
+      return;
+    }
+  }
+  inverse_ = pseudoInverse(sum_);
+}
+
+}  // namespace lampblack

@@ -1,0 +1,321 @@
+#include "core/mesh_connect.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <unordered_map>
+
+#include "core/errors.hpp"
+#include "core/shares.hpp"
+
+namespace lampblack {
+namespace {
+
+// A vertex as its owner knows it.
+struct Vertex {
+  std::array<double, 3> place{};
+  std::int64_t original = -1;  // the one it is an image of, or itself
+  std::int64_t number = -1;    // without the vertices that no cell uses
+};
+
+// The vertices of a share, asked for by anyone.
+class VertexOwner {
+ public:
+  VertexOwner(MPI_Comm comm, const MeshBlock& block)
+      : comm_(comm), block_(block), shares_(comm, block.firstVertex, block.totalVertices) {
+    int ranks = 1;
+    MPI_Comm_size(comm, &ranks);
+    std::vector<std::vector<std::array<std::int64_t, 2>>> toOwner(static_cast<std::size_t>(ranks));
+    for (const auto& [image, original] : block.periodic)
+      toOwner[static_cast<std::size_t>(shares_.rankOf(image))].push_back({image, original});
+    for (const auto& [image, original] : sendToRanks(comm, toOwner).values) originals_[image] = original;
+    followImages();
+  }
+
+  [[nodiscard]] const Shares& shares() const { return shares_; }
+
+  // The vertices of these numbers, which are then known to be used. Collective.
+  std::vector<Vertex> vertices(const std::vector<std::int64_t>& wanted) {
+    std::vector<char> isUsed(block_.vertices.size(), 0);
+    std::vector<Vertex> result = ask<Vertex>(comm_, shares_, wanted, [&](std::int64_t number) {
+      const auto own = static_cast<std::size_t>(number - block_.firstVertex);
+      isUsed[own] = 1;
+      return Vertex{block_.vertices[own], originalOf(number), number};
+    });
+    std::int64_t used = std::count(isUsed.begin(), isUsed.end(), 1), before = 0;
+    MPI_Exscan(&used, &before, 1, MPI_INT64_T, MPI_SUM, comm_);
+    MPI_Allreduce(&used, &total_, 1, MPI_INT64_T, MPI_SUM, comm_);
+    if (total_ == block_.totalVertices) return result;
+    std::vector<std::int64_t> newNumber;
+    for (const char use : isUsed) {
+      newNumber.push_back(before);
+      before += use;
+    }
+    const auto renumbered = ask<std::int64_t>(comm_, shares_, wanted, [&](std::int64_t number) {
+      return newNumber[static_cast<std::size_t>(number - block_.firstVertex)];
+    });
+    for (std::size_t i = 0; i < result.size(); ++i) result[i].number = renumbered[i];
+    return result;
+  }
+  [[nodiscard]] std::int64_t total() const { return total_; }
+
+ private:
+  [[nodiscard]] std::int64_t originalOf(std::int64_t number) const {
+    const auto found = originals_.find(number);
+    return found == originals_.end() ? number : found->second;
+  }
+
+  // An image's original may be an image itself, at the corner of two periodic sides.
+  void followImages() {
+    for (int changed = 1; changed != 0;) {
+      std::vector<std::int64_t> images, originals;
+      for (const auto& [image, original] : originals_) {
+        images.push_back(image);
+        originals.push_back(original);
+      }
+      const auto further =
+          ask<std::int64_t>(comm_, shares_, originals, [&](std::int64_t number) { return originalOf(number); });
+      changed = 0;
+      for (std::size_t i = 0; i < images.size(); ++i) {
+        if (further[i] == originals[i]) continue;
+        originals_[images[i]] = further[i];
+        changed = 1;
+      }
+      MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_MAX, comm_);
+    }
+  }
+
+  MPI_Comm comm_;
+  const MeshBlock& block_;
+  Shares shares_;
+  std::unordered_map<std::int64_t, std::int64_t> originals_;
+  std::int64_t total_ = 0;
+};
+
+// A face as one that knows of it tells it to the rank where all that know of it meet.
+struct Meeting {
+  std::array<std::int64_t, 4> key{-1, -1, -1, -1};  // its vertices (originals of images), sorted
+  std::int64_t cell = -1;                           // -1: its name
+  std::int16_t side = 0, patch = -1;
+  std::int8_t isImage = 0;  // all its vertices are images
+  std::array<char, 3> filler{};
+};
+
+// What a side learns.
+struct Found {
+  std::int64_t cell, neighbour;
+  std::int16_t side, neighbourSide, patch;
+  std::int8_t isLow, isTriple;
+};
+
+std::array<std::int64_t, 4> sorted(std::array<std::int64_t, 4> key) {
+  std::ranges::sort(key);
+  return key;
+}
+
+std::int64_t smallestVertex(const std::array<std::int64_t, 4>& key) {
+  return *std::ranges::find_if(key, [](std::int64_t vertex) { return vertex >= 0; });
+}
+
+// Tells the sides that meet in one face, all that have one key, about each other.
+void introduce(std::span<const Meeting> all, const Shares& cells, std::vector<std::vector<Found>>& toRank) {
+  std::vector<const Meeting*> sides;
+  std::int16_t patch = -1;
+  for (const Meeting& one : all) {
+    if (one.cell >= 0)
+      sides.push_back(&one);
+    else if (patch < 0)
+      patch = one.patch;
+  }
+  for (const Meeting* own : sides) {
+    Found found{own->cell, -1, own->side, -1, patch, 1, static_cast<std::int8_t>(sides.size() > 2 ? 1 : 0)};
+    if (sides.size() == 2) {
+      const Meeting& other = *(own == sides[0] ? sides[1] : sides[0]);
+      const bool isLow = own->isImage != other.isImage ? own->isImage != 0 : own->cell < other.cell;
+      found = {own->cell, other.cell, own->side, other.side, -1, static_cast<std::int8_t>(isLow ? 1 : 0), 0};
+    }
+    toRank[static_cast<std::size_t>(cells.rankOf(own->cell))].push_back(found);
+  }
+}
+
+class Connector {
+ public:
+  Connector(MPI_Comm comm, const MeshBlock& block)
+      : comm_(comm), block_(block), cellShares_(comm, block.firstCell, block.totalCells), owner_(comm, block) {
+    MPI_Comm_size(comm, &ranks_);
+  }
+
+  ConnectedCells run() {
+    placeCorners();
+    meet();
+    checkSurface();
+    result_.totalFaces = numberFaces();
+    result_.totalVertices = owner_.total();
+    return std::move(result_);
+  }
+
+ private:
+  [[nodiscard]] std::size_t cellCount() const { return block_.shapes.size(); }
+
+  // Corners of the cells with their places; what they are images of is kept beside.
+  void placeCorners() {
+    CellSet& cells = result_.cells;
+    std::vector<std::int64_t> wanted = block_.corners;
+    for (const MeshBlock::NamedFace& face : block_.named)
+      for (const std::int64_t vertex : face.vertices)
+        if (vertex >= 0) wanted.push_back(vertex);
+    std::ranges::sort(wanted);
+    wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+    const std::vector<Vertex> known = owner_.vertices(wanted);
+    const auto of = [&](std::int64_t vertex) -> const Vertex& {
+      return known[static_cast<std::size_t>(std::ranges::lower_bound(wanted, vertex) - wanted.begin())];
+    };
+    for (const std::int64_t corner : block_.corners) {
+      const Vertex& vertex = of(corner);
+      cells.vertices.push_back(vertex.number);
+      cells.places.push_back(vertex.place);
+      original_.push_back(vertex.original);
+    }
+    for (std::size_t c = 0; c < cellCount(); ++c) {
+      cells.numbers.push_back(block_.firstCell + static_cast<std::int64_t>(c));
+      cells.shapes.push_back(block_.shapes[c]);
+      cells.cornerStart.push_back(cells.cornerStart.back() + cornersOf(block_.shapes[c]));
+      cells.sideStart.push_back(cells.sideStart.back() + static_cast<std::int64_t>(sidesOf(block_.shapes[c]).size()));
+    }
+    cells.sides.resize(static_cast<std::size_t>(cells.sideStart.back()));
+    for (const MeshBlock::NamedFace& face : block_.named) {
+      Meeting meeting;
+      meeting.patch = static_cast<std::int16_t>(face.patch);
+      for (std::size_t i = 0; i < 4; ++i)
+        if (face.vertices[i] >= 0) meeting.key[i] = of(face.vertices[i]).original;
+      meeting.key = sorted(meeting.key);
+      named_.push_back(meeting);
+    }
+  }
+
+  void meet() {
+    CellSet& cells = result_.cells;
+    std::vector<std::vector<Meeting>> toRank(static_cast<std::size_t>(ranks_));
+    const auto send = [&](const Meeting& meeting) {
+      toRank[static_cast<std::size_t>(owner_.shares().rankOf(smallestVertex(meeting.key)))].push_back(meeting);
+    };
+    for (std::size_t c = 0; c < cellCount(); ++c) {
+      const auto sides = sidesOf(cells.shapes[c]);
+      const auto first = static_cast<std::size_t>(cells.cornerStart[c]);
+      for (std::size_t s = 0; s < sides.size(); ++s) {
+        Meeting meeting;
+        meeting.cell = cells.numbers[c];
+        meeting.side = static_cast<std::int16_t>(s);
+        meeting.isImage = 1;
+        for (int i = 0; i < sides[s].corners; ++i) {
+          const std::size_t corner = first + static_cast<std::size_t>(sides[s].corner[static_cast<std::size_t>(i)]);
+          meeting.key[static_cast<std::size_t>(i)] = original_[corner];
+          if (original_[corner] == block_.corners[corner]) meeting.isImage = 0;
+        }
+        meeting.key = sorted(meeting.key);
+        send(meeting);
+      }
+    }
+    for (const Meeting& meeting : named_) send(meeting);
+    original_ = {};
+    named_ = {};
+
+    Received<Meeting> met = sendToRanks(comm_, toRank);
+    toRank = {};
+    std::ranges::sort(met.values, [](const Meeting& a, const Meeting& b) {
+      return a.key != b.key ? a.key < b.key : a.cell != b.cell ? a.cell < b.cell : a.side < b.side;
+    });
+    std::vector<std::vector<Found>> back(static_cast<std::size_t>(ranks_));
+    for (std::size_t i = 0; i < met.values.size();) {
+      std::size_t end = i;
+      while (end < met.values.size() && met.values[end].key == met.values[i].key) ++end;
+      introduce({&met.values[i], end - i}, cellShares_, back);
+      i = end;
+    }
+    met = {};
+    const Received<Found> found = sendToRanks(comm_, back);
+    for (const Found& one : found.values) {
+      CellSet::Side& side = sideAt(one.cell, one.side);
+      side.neighbour = one.neighbour;
+      side.neighbourSide = static_cast<std::int8_t>(one.neighbourSide);
+      side.patch = one.patch;
+      side.isLow = one.isLow;
+      if (one.isTriple != 0) triples_.push_back(one.cell - block_.firstCell);
+    }
+  }
+
+  CellSet::Side& sideAt(std::int64_t cell, std::int64_t side) {
+    CellSet& cells = result_.cells;
+    const auto c = static_cast<std::size_t>(cell - block_.firstCell);
+    return cells.sides[static_cast<std::size_t>(cells.sideStart[c] + side)];
+  }
+
+  [[nodiscard]] std::string placeOf(std::size_t cell, const CellSide& side) const {
+    std::array<double, 3> sum{};
+    for (int i = 0; i < side.corners; ++i)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        sum[axis] += result_.cells.placesOf(cell)[static_cast<std::size_t>(side.corner[static_cast<std::size_t>(i)])][axis] /
+                     side.corners;
+    return block_.dimension == 2 ? fmt::format("({:.6g}, {:.6g}) m", sum[0], sum[1])
+                                 : fmt::format("({:.6g}, {:.6g}, {:.6g}) m", sum[0], sum[1], sum[2]);
+  }
+
+  void checkSurface() {
+    const CellSet& cells = result_.cells;
+    collectively(comm_, [&] {
+      if (!triples_.empty())
+        throw InputError(fmt::format("three cells of the mesh share one face, one of them cell {} (counted from zero)",
+                                     block_.firstCell + triples_.front()));
+      for (std::size_t c = 0; c < cellCount(); ++c) {
+        const auto shape = sidesOf(cells.shapes[c]);
+        for (std::size_t s = 0; s < shape.size(); ++s) {
+          const CellSet::Side& side = cells.sidesOf(c)[s];
+          if (side.neighbour < 0 && side.patch < 0)
+            throw InputError(fmt::format("the boundary face at {} belongs to no boundary", placeOf(c, shape[s])));
+        }
+      }
+    });
+  }
+
+  // Each face by the cell it points out of; the other cell is told. Returns how many there are.
+  std::int64_t numberFaces() {
+    CellSet& cells = result_.cells;
+    const std::int64_t own = std::ranges::count_if(cells.sides, [](const CellSet::Side& side) { return side.isLow != 0; });
+    std::int64_t next = 0, total = 0;
+    MPI_Exscan(&own, &next, 1, MPI_INT64_T, MPI_SUM, comm_);
+    MPI_Allreduce(&own, &total, 1, MPI_INT64_T, MPI_SUM, comm_);
+    struct Told {
+      std::int64_t cell, side, face;
+    };
+    std::vector<std::vector<Told>> toRank(static_cast<std::size_t>(ranks_));
+    for (CellSet::Side& side : cells.sides) {
+      if (side.isLow == 0) continue;
+      side.face = next++;
+      if (side.neighbour >= 0)
+        toRank[static_cast<std::size_t>(cellShares_.rankOf(side.neighbour))].push_back(
+            {side.neighbour, side.neighbourSide, side.face});
+    }
+    for (const Told& told : sendToRanks(comm_, toRank).values) sideAt(told.cell, told.side).face = told.face;
+    return total;
+  }
+
+  MPI_Comm comm_;
+  const MeshBlock& block_;
+  Shares cellShares_;
+  VertexOwner owner_;
+  int ranks_ = 1;
+  std::vector<std::int64_t> original_;  // of each corner
+  std::vector<Meeting> named_;
+  std::vector<std::int64_t> triples_;
+  ConnectedCells result_;
+};
+
+}  // namespace
+
+ConnectedCells connect(MPI_Comm comm, const MeshBlock& block) {
+  return Connector(comm, block).run();
+}
+
+}  // namespace lampblack
