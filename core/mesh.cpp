@@ -151,6 +151,7 @@ class MeshBuilder {
       const SideMeasures side = measure(m.low[at(face)], m.lowSide[at(face)]);
       m.faceCentre.push_back(side.centre);
       m.normal.push_back(side.normal);
+      if (m.axisymmetric()) m.planarLength.push_back(side.size);
       m.area.push_back(m.axisymmetric() ? side.size * side.centre[0] : side.size);
       const Vector3 fromLow = difference(side.centre, m.centre[at(m.low[at(face)])]);
       const double toLow = dot(fromLow, side.normal);

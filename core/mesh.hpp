@@ -61,6 +61,10 @@ class Mesh {
   std::vector<std::int64_t> faceNumber;  // permanent, 0 to totalFaces - 1; a face between two ranks is local to both
   std::vector<Vector3> normal;
   std::vector<double> area;         // metric area
+  std::vector<double> planarLength;  // m, of an axisymmetric mesh's; empty otherwise
+  [[nodiscard]] double size(int face) const {  // m^2, or m in a plane
+    return axisymmetric() ? planarLength[static_cast<std::size_t>(face)] : area[static_cast<std::size_t>(face)];
+  }
   std::vector<Vector3> faceCentre;  // m, as `low` has it
   std::vector<Vector3> step;        // m, from the centre of `low` to that of `high`, or to the boundary face's
   std::vector<double> distance;     // m, of the two along the normal

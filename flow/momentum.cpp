@@ -41,6 +41,7 @@ Momentum::Momentum(const FlowContext& context, bool swirls)
       gradient_(context.mesh),
       diffusion_(context.mesh, context.halo),
       pressureKnown_(pressureData(context)),
+      force_(context, pressureKnown_),
       projection_(context, pressureKnown_),
       faceVelocity_(context) {
   const Mesh& m = context.mesh;
@@ -94,6 +95,43 @@ void Momentum::findOpposites() {
       if (m.high[other] >= 0 && outwards < -straight) opposite_[face - m.interiorFaces] = other;
     }
   }
+  int open = 0;
+  if (m.isOblique() || m.isSkewed())
+    for (int face = m.interiorFaces; face < m.faces; ++face) open = std::max(open, isOpenCorner(face) ? 1 : 0);
+  MPI_Allreduce(MPI_IN_PLACE, &open, 1, MPI_INT, MPI_MAX, m.comm);
+  hasOpenCorners_ = open != 0;
+}
+
+// Cells at an outlet that have no face on the other side, such as triangles, know two slopes along it and none across:
+// what leaves along their own gradient would feed itself. They take the mean gradient of the cells beside them.
+void Momentum::settleOutletGradients() {
+  if (!hasOpenCorners_) return;
+  const Mesh& m = context_.mesh;
+  const auto entries = static_cast<std::size_t>(dimension_ * dimension_);
+  std::vector<double> settled;
+  for (int face = m.interiorFaces; face < m.faces; ++face) {
+    if (!isOpenCorner(face)) continue;
+    const int cell = m.low[face];
+    std::vector<double> total(entries, 0.0);
+    int neighbours = 0;
+    for (int j = m.faceStart[cell]; j < m.faceStart[cell + 1]; ++j) {
+      const int other = m.faceOfCell[j];
+      if (m.high[other] < 0) continue;
+      const int beyond = m.low[other] == cell ? m.high[other] : m.low[other];
+      for (std::size_t i = 0; i < entries; ++i) total[i] += velocityGradient_[beyond * entries + i];
+      ++neighbours;
+    }
+    for (const double sum : total) settled.push_back(sum / std::max(neighbours, 1));
+  }
+  std::size_t next = 0;
+  for (int face = m.interiorFaces; face < m.faces; ++face)
+    if (isOpenCorner(face))
+      for (std::size_t i = 0; i < entries; ++i) velocityGradient_[m.low[face] * entries + i] = settled[next++];
+  context_.halo.update(velocityGradient_, dimension_ * dimension_);
+}
+
+bool Momentum::isOpenCorner(int face) const {
+  return context_.boundaryOf(face).kind == BoundaryKind::Outlet && opposite_[face - context_.mesh.interiorFaces] < 0;
 }
 
 void Momentum::boundaryVelocities(const State& state) {
@@ -151,7 +189,8 @@ void Momentum::predict(const State& state, const MomentumSweep& sweep) {
   const int d = dimension_;
   gradient_.compute(velocity, boundaryVelocity_, d, velocityGradient_, velocityKnown_);
   context_.halo.update(velocityGradient_, d * d);
-  gradient_.compute(state.pressure, boundaryPressure_, 1, pressureGradient_, pressureKnown_);
+  settleOutletGradients();
+  force_.compute(state.pressure, boundaryPressure_, pressureGradient_);
   if (swirl_) swirl_->completeOuterSlopes(density, pressureGradient_);
 
   std::fill(relaxation_.begin(), relaxation_.end(), 0.0);
@@ -195,7 +234,14 @@ void Momentum::addInside(int face, const MomentumSweep& sweep) {
     const double* ofDown = &velocityGradient_[(u.down * d + i) * d];
     double value = smoothFaceValue(velocity[d * u.up + i], velocity[d * u.down + i], slopeAlong(u.direction, ofUp, d),
                                    slopeAlong(u.direction, ofDown, d), u);
-    if (m.isSkewed()) value += slopeAlong(m.offset[face], ofUp, d);
+    if (m.isOblique() || m.isSkewed()) {
+      value = velocity[d * u.up + i] + u.toFace * slopeAlong(u.direction, ofUp, d);
+      if (m.isOblique() || m.isSkewed()) {
+      // Curvatures are no measure of smoothness on cells without order: along the slope.
+      value = velocity[d * u.up + i] + u.toFace * slopeAlong(u.direction, ofUp, d);
+      if (m.isSkewed()) value += slopeAlong(m.offset[face], ofUp, d);
+    }
+    }
     double force = 0.0;
     if (m.isOblique())
       force = mu * m.area[face] * faceSlope(m, face, m.oblique[face], velocityGradient_, d, i);
@@ -280,6 +326,7 @@ Projection::Result Momentum::advance(State& state, const MomentumSweep& sweep, s
   std::vector<FieldView> known{{predicted_, d}, {acceleration_, d}, {relaxation_, 1}};
   if (m.isSkewed()) known.push_back({velocityGradient_, d * d});
   context_.halo.update(known);
+  settleOutletGradients();
   setInverseDensity(density);
   faceVelocity_.predict({predicted_, acceleration_, relaxation_, state.pressure, velocityGradient_}, inverseDensity_,
                         sweep.dt, faceVelocity);
@@ -292,7 +339,7 @@ Projection::Result Momentum::advance(State& state, const MomentumSweep& sweep, s
   const Projection::Result result =
       projection_.solve(sweep.dt, inverseDensity_, sweep.divergence, faceVelocity, pressureChange_, slowFlow);
   const std::vector<double> unchanged(boundaryPressure_.size(), 0.0);
-  gradient_.compute(pressureChange_, unchanged, 1, pressureGradient_, pressureKnown_);
+  force_.compute(pressureChange_, unchanged, pressureGradient_);
   for (int c = 0; c < m.owned; ++c)
     for (int i = 0; i < d; ++i)
       state.velocity[d * c + i] = predicted_[d * c + i] - sweep.dt / density[c] * pressureGradient_[d * c + i];

@@ -14,6 +14,7 @@
 #include "flow/gradient.hpp"
 #include "flow/implicit_diffusion.hpp"
 #include "flow/momentum_sweep.hpp"
+#include "flow/pressure_force.hpp"
 #include "flow/projection.hpp"
 #include "flow/state.hpp"
 #include "flow/swirl.hpp"
@@ -45,6 +46,8 @@ class Momentum {
   void setInverseDensity(std::span<const double> density);
   static std::vector<BoundaryData> pressureData(const FlowContext& context);
   void findOpposites();
+  void settleOutletGradients();
+  [[nodiscard]] bool isOpenCorner(int face) const;
   void boundaryVelocities(const State& state);
   void outletPressures(const State& state);
   void predict(const State& state, const MomentumSweep& sweep);
@@ -59,11 +62,13 @@ class Momentum {
   Gradient gradient_;
   ImplicitDiffusion diffusion_;
   std::vector<BoundaryData> pressureKnown_;  // one a boundary face
+  PressureForce force_;
   Projection projection_;
   FaceVelocity faceVelocity_;
   std::optional<Swirl> swirl_;
   std::vector<BoundaryData> velocityKnown_;  // one a component and boundary face
   std::vector<int> opposite_;           // of each boundary face the face on its cell's other side, or -1
+  bool hasOpenCorners_ = false;         // an outlet's cell without such a face, on any rank
   std::vector<UpwindGeometry> upwind_;  // of each component
   std::vector<double> boundaryVelocity_, boundaryPressure_;
   std::vector<double> velocityGradient_, pressureGradient_;

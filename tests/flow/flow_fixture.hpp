@@ -10,6 +10,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -19,6 +20,7 @@
 #include "flow/flow_context.hpp"
 #include "flow/state.hpp"
 #include "tests/every_room.hpp"
+#include "tests/skewed_mesh.hpp"
 #include "tests/source_folder.hpp"
 
 namespace lampblack::test {
@@ -84,7 +86,7 @@ inline Side side(BoundaryKind kind, int axis, bool atMax) {
   s.patch = {"", axis, atMax};
   s.condition.kind = kind;
   s.condition.slip = true;
-  s.patch.name = s.condition.name = std::string(axis == 0 ? "x" : "y") + (atMax ? "max" : "min");
+  s.patch.name = s.condition.name = std::string(1, "xyz"[axis]) + (atMax ? "max" : "min");
   return s;
 }
 inline Side opening(BoundaryKind kind, int axis, bool atMax, double speed, double temperature, std::vector<double> Y) {
@@ -95,11 +97,20 @@ inline Side opening(BoundaryKind kind, int axis, bool atMax, double speed, doubl
   return s;
 }
 
+// Vertices along each axis; none along the third in a plane.
+using Axes = std::array<std::vector<double>, 3>;
+
+// Other cells than the box's own: how they are made of those, and by how much of a cell inner vertices are moved.
+struct Split {
+  Cells cells;
+  double jitter = 0.2;
+};
+
 struct Box {
-  Box(Geometry geometry, std::array<std::vector<double>, 2> vertices, const std::vector<Side>& sides,
-      Gas& gasOfBox = Gas::hydrogen())
+  Box(Geometry geometry, Axes vertices, const std::vector<Side>& sides, Gas& gasOfBox = Gas::hydrogen(),
+      std::optional<Split> split = {})
       : gas(gasOfBox),
-        mesh(MPI_COMM_WORLD, specOf(geometry, std::move(vertices), sides)),
+        mesh(meshOf(specOf(geometry, std::move(vertices), sides), split)),
         halo(mesh),
         context{mesh, halo, gas.mechanism, gas.thermo, gas.transport, {}} {
     for (const Side& s : sides) context.boundaries.push_back(s.condition);
@@ -107,7 +118,7 @@ struct Box {
 
   // A state at 1 atm of what `set` says at each cell's centre: velocity, temperature, mass fractions.
   struct Local {
-    std::array<double, 2> velocity{0.0, 0.0};
+    Vector3 velocity{};
     double temperature = 300.0;
     std::vector<double> Y;
   };
@@ -117,7 +128,7 @@ struct Box {
     State s(mesh, n, std::move(carried), swirls);
     for (int c = 0; c < mesh.cells; ++c) {
       const Local local = set(mesh.centre[at(c)]);
-      for (int i = 0; i < 2; ++i) s.velocity[at(2 * c + i)] = local.velocity[at(i)];
+      for (int i = 0; i < mesh.dimension; ++i) s.velocity[at(mesh.dimension * c + i)] = local.velocity[at(i)];
       s.temperature[at(c)] = local.temperature;
       s.density[at(c)] = gas.thermo.density(local.temperature, s.thermodynamicPressure, local.Y);
       s.enthalpy[at(c)] = gas.thermo.enthalpyMass(local.temperature, local.Y);
@@ -132,11 +143,14 @@ struct Box {
   FlowContext context;
 
  private:
-  static MeshSpec specOf(Geometry geometry, std::array<std::vector<double>, 2> vertices,
-                         const std::vector<Side>& sides) {
+  static Mesh meshOf(const MeshSpec& spec, const std::optional<Split>& split) {
+    if (!split) return {MPI_COMM_WORLD, spec};
+    return {MPI_COMM_WORLD, SkewedMesh(MPI_COMM_WORLD, spec, split->cells, split->jitter).block(), spec.geometry};
+  }
+  static MeshSpec specOf(Geometry geometry, Axes vertices, const std::vector<Side>& sides) {
     MeshSpec spec;
     spec.geometry = geometry;
-    for (std::size_t axis = 0; axis < vertices.size(); ++axis) spec.vertices[axis] = std::move(vertices[axis]);
+    spec.vertices = std::move(vertices);
     for (const Side& s : sides) spec.patches.push_back(s.patch);
     return spec;
   }

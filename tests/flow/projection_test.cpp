@@ -16,7 +16,7 @@ std::vector<Side> sides(BoundaryKind top) {
           opening(BoundaryKind::Inlet, 1, false, 0.3, 300.0, air), opening(top, 1, true, 0.0, 300.0, air)};
 }
 
-std::array<std::vector<double>, 2> graded() {
+Axes graded() {
   return {gradedAxis(0.0, {{0.01, 14, 3.0}}), gradedAxis(0.0, {{0.03, 18, 0.4}})};
 }
 

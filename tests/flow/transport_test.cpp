@@ -16,7 +16,7 @@ class Channel : public testing::TestWithParam<Geometry> {
   Gas& gas = Gas::hydrogen();
   std::vector<double> fuel = gas.massFractions("H2: 0.5, H2O: 0.5");
   std::vector<double> air = gas.massFractions("O2: 0.21, N2: 0.79");
-  std::array<std::vector<double>, 2> axes{gradedAxis(0.0, {{0.006, 12, 2.0}}), gradedAxis(0.0, {{0.012, 16, 1.5}})};
+  Axes axes{gradedAxis(0.0, {{0.006, 12, 2.0}}), gradedAxis(0.0, {{0.012, 16, 1.5}})};
 
   // Flow along the second axis: an inner stream of fuel within `half` of the axis, an outer one of air.
   std::vector<Side> sides(double fuelSpeed, double fuelT, double airSpeed, double airT, bool fixedComposition) const {

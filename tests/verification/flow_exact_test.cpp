@@ -10,7 +10,7 @@ namespace {
 TEST_F(FlowExact, Kovasznay) {
   expectKovasznay("Kovasznay, 12, 24, 48 cells a wave",
                   [](int cells) {
-                    return std::array{uniformAxis(1.5, 3 * cells / 2), uniformAxis(0.5, cells / 2)};
+                    return Axes{uniformAxis(1.5, 3 * cells / 2), uniformAxis(0.5, cells / 2)};
                   },
                   40, {1.85, 1.9, 1.85, 1.9});
 }

@@ -7,7 +7,7 @@ namespace {
 
 class SwirlExact : public FlowExact {
  protected:
-  State swirling(Box& box, const std::function<std::array<double, 2>(const Place&)>& velocity,
+  State swirling(Box& box, const std::function<Place(const Place&)>& velocity,
                  const std::function<double(const Place&)>& swirl) {
     State state = box.state([&](const Place& x) { return Box::Local{velocity(x), 300.0, n2}; }, {}, true);
     for (int c = 0; c < box.mesh.cells; ++c) state.swirl[at(c)] = swirl(box.mesh.centre[at(c)]);
@@ -37,7 +37,7 @@ TEST_F(SwirlExact, StoppedPipe) {
     State state = swirling(
         box,
         [](const Place&) {
-          return std::array{0.0, 0.0};
+          return Place{0.0, 0.0, 0.0};
         },
         [&](const Place& x) { return w(x, 0.0); });
     const int steps = 10 << level;
@@ -73,7 +73,7 @@ TEST_F(SwirlExact, BurgersVortex) {
     State state = swirling(
         box,
         [&](const Place& x) {
-          return std::array{-0.5 * a * x[0], a * x[1]};
+          return Place{-0.5 * a * x[0], a * x[1], 0.0};
         },
         [&](const Place& x) { return speed * x[0] / radius; });
     const double dt = 0.5 / (a * cells);
@@ -103,7 +103,7 @@ TEST_F(SwirlExact, WaveThatLeavesAPipe) {
     State state = swirling(
         box,
         [&](const Place&) {
-          return std::array{0.0, along};
+          return Place{0.0, along, 0.0};
         },
         [&](const Place& x) { return w(x, 0.0); });
     const double dt = 0.25 * length / cells / along;
@@ -140,7 +140,7 @@ TEST_F(SwirlExact, VortexWithASource) {
     State state = swirling(
         box,
         [&](const Place& x) {
-          return std::array{source / x[0], 0.0};
+          return Place{source / x[0], 0.0, 0.0};
         },
         [&](const Place& x) { return speed * x[0] / inner; });
     const double dt = 0.4 * (outer - inner) / cells * inner / source;
@@ -184,7 +184,7 @@ TEST_F(SwirlExact, RingsBesideASlipWall) {
         box,
         [&](const Place& x) {
           const double s = x[0] / radius, a = pi * x[1] / radius;
-          return std::array{-pi * speed * s * (1.0 - s * s) * std::cos(a), speed * (2.0 - 4.0 * s * s) * std::sin(a)};
+          return Place{-pi * speed * s * (1.0 - s * s) * std::cos(a), speed * (2.0 - 4.0 * s * s) * std::sin(a), 0.0};
         },
         [&](const Place& x) { return turning * x[0]; });
     const int steps = 2 * cells;
@@ -234,7 +234,7 @@ TEST_F(SwirlExact, TurningDisk) {
     State state = swirling(
         box,
         [&](const Place& x) {
-          return std::array{0.0, -drawn * std::min(1.0, x[1] / length)};
+          return Place{0.0, -drawn * std::min(1.0, x[1] / length), 0.0};
         },
         [](const Place&) { return 0.0; });
     TransportOperator transport(box.context, state, {0.5, 2});

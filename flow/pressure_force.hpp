@@ -1,0 +1,32 @@
+// The gradient of the pressure that moves the gas of a cell. On a box it is that of Gradient, of second order on graded
+// cells too. On other cells it is the sum of the pressures on the faces, so that what pushes one cell pushes back
+// another: the pressures there have noise of first order, where velocities between cells are corrected by it, and
+// gradients that are not conservative would turn that into a force that does not vanish on fine meshes.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/rooms.hpp"
+#include "flow/flow_context.hpp"
+#include "flow/gradient.hpp"
+
+namespace lampblack::flow {
+
+class PressureForce {
+ public:
+  // `known`: what is known of the pressure at boundary faces; has to stay.
+  PressureForce(const FlowContext& context, const std::vector<BoundaryData>& known);
+
+  // Collective. `pressure`: Pa, cells, halo filled, and at boundary faces where known; `gradient`: Pa/m, a component and
+  // owned cell.
+  void compute(std::span<const double> pressure, std::span<const double> boundary, std::span<double> gradient);
+
+ private:
+  const FlowContext& context_;
+  const std::vector<BoundaryData>& known_;
+  Gradient gradient_;
+  std::vector<double> slope_;  // Pa/m, in the cells
+};
+
+}  // namespace lampblack::flow
