@@ -125,7 +125,7 @@ TEST_F(GmshErrors, CountsThatCannotBeAreRefused) {
   EXPECT_THAT(refusalOf(head, "$Nodes\n1 5 1 4 \n2 1 0 4 \n"), HasSubstr("announces 5 nodes, its blocks have 4"));
   EXPECT_THAT(refusalOf(head, "$Nodes\n1 4 1 4 \n2 1 0 3 \n"),
               HasSubstr("section $Nodes: the section announces 4 nodes, its blocks have 3"));
-  EXPECT_THAT(refusalOf("$EndNodes", "3 $EndNodes"), HasSubstr("section $Nodes: expected $EndNodes, found '3'"));
+  EXPECT_THAT(refusalOf("\n$EndNodes", "\n3 $EndNodes"), HasSubstr("section $Nodes: expected $EndNodes, found '3'"));
   EXPECT_THAT(refusalOf(head, "$Nodes\n1 4 1 4 \n4 1 0 4 \n"),
               HasSubstr("the dimension of an entity, 0 to 3, found 4"));
   const std::string elements = "$Elements\n2 3 1 2000000000 \n1 1 1 1 \n";
