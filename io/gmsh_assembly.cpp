@@ -86,7 +86,8 @@ void GmshAssembly::moveCells() {
   for (const GmshRun& run : elements.runs) corners = std::max(corners, findGmshType(run.type)->nodes);
   MPI_Allreduce(MPI_IN_PLACE, &corners, 1, MPI_INT, MPI_MAX, comm_);
 
-  // Of a cell: its shape, the tag of its element, those of its nodes.
+  // Where no cell has a group, the numbers among those without one are those among all. Of a cell: its shape, the tag
+  // of its element, those of its nodes.
   const int width = 2 + corners;
   std::vector<std::int64_t> numbers, values;
   const std::int64_t* at = elements.numbers.data();
@@ -97,7 +98,7 @@ void GmshAssembly::moveCells() {
       continue;
     }
     for (std::int64_t i = 0; i < run.count; ++i, at += type.nodes + 1) {
-      numbers.push_back((plan_.groupedOnly ? run.firstGrouped : run.first) + i);
+      numbers.push_back(run.first + i);
       values.push_back(static_cast<std::int64_t>(type.shape));
       values.insert(values.end(), at, at + type.nodes + 1);
       values.resize(numbers.size() * static_cast<std::size_t>(width), -1);

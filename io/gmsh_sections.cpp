@@ -29,7 +29,7 @@ void GmshSections::read() {
 }
 
 int GmshSections::dimension() const {
-  const int dimension = elements_[3] > 0 ? 3 : 2;
+  const int dimension = elements(3) > 0 ? 3 : 2;
   if (elements(dimension) == 0)
     throw stream_.fileError(
         "the mesh has no cells: no triangles, quadrilaterals, tetrahedra, pyramids, prisms or hexahedra; make a mesh "
@@ -235,7 +235,8 @@ void GmshSections::readElementBlock(const Block& block) {
   const std::int64_t group = block.dimension == 0 ? 0 : groups_.groupOf(stream_, block.dimension, block.entity);
   // Points are nothing here, lines only where they may be a named part of a plane mesh's boundary.
   const bool wanted = block.dimension > 1 || group != 0;
-  sender_.beginRun({block.kind, group, elements_[d], grouped_[d], 0});
+  std::int64_t& before = group == 0 ? ungrouped_[d] : grouped_[d];
+  sender_.beginRun({block.kind, group, before, 0});
   std::array<std::int64_t, 8> corners{};
   const std::span<const std::int64_t> nodes(corners.data(), static_cast<std::size_t>(type->nodes));
   for (std::int64_t i = 0; i < block.count; ++i) {
@@ -248,10 +249,8 @@ void GmshSections::readElementBlock(const Block& block) {
     }
     if (wanted) sender_.element(tag, nodes);
   }
-  elements_[d] += block.count;
-  if (group == 0 || block.count == 0) return;
-  grouped_[d] += block.count;
-  used_[d][group] = groups_.nameOf(block.dimension, group);
+  before += block.count;
+  if (group != 0 && block.count > 0) used_[d][group] = groups_.nameOf(block.dimension, group);
 }
 
 void GmshSections::readPeriodic() {

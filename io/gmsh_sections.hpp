@@ -23,12 +23,13 @@ class GmshSections {
   // The whole file. InputError, with its place, for anything that is not as it should be.
   void read();
 
-  [[nodiscard]] std::int64_t nodes() const { return nodes_; }
   // 3 where there are elements of volumes, otherwise 2. InputError where there are no cells, or where a part of the
   // surface belongs to two groups of different names.
   [[nodiscard]] int dimension() const;
   // Elements of a dimension, all of them or those with a physical group.
-  [[nodiscard]] std::int64_t elements(int dimension) const { return elements_.at(static_cast<std::size_t>(dimension)); }
+  [[nodiscard]] std::int64_t elements(int dimension) const {
+    return grouped(dimension) + ungrouped_.at(static_cast<std::size_t>(dimension));
+  }
   [[nodiscard]] std::int64_t grouped(int dimension) const { return grouped_.at(static_cast<std::size_t>(dimension)); }
   // Tags of the physical groups of a dimension that have elements, and their names.
   [[nodiscard]] const std::map<std::int64_t, std::string>& groups(int dimension) const {
@@ -61,7 +62,7 @@ class GmshSections {
   bool seenNames_ = false, seenEntities_ = false, seenNodes_ = false, seenElements_ = false, seenPeriodic_ = false;
   GmshGroups groups_;
   std::array<std::map<std::int64_t, std::string>, 4> used_;  // groups that have elements, by dimension
-  std::array<std::int64_t, 4> elements_{}, grouped_{};
+  std::array<std::int64_t, 4> grouped_{}, ungrouped_{};      // elements by dimension, with and without a group
   std::int64_t nodes_ = 0;
 };
 

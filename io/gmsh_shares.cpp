@@ -15,11 +15,11 @@ constexpr int gmshMessageTag = 23;
 // The first value of a message.
 enum class GmshMessage : std::int64_t { Nodes, Tags, Places, Elements, Periodic, End };
 
-constexpr std::size_t valuesOfRun = 5;
+constexpr std::size_t valuesOfRun = 4;
 
 void takeElements(GmshShare& share, std::span<const std::int64_t> values) {
   while (!values.empty()) {
-    const GmshRun run{values[0], values[1], values[2], values[3], values[4]};
+    const GmshRun run{values[0], values[1], values[2], values[3]};
     const GmshElementType& type = *findGmshType(run.type);
     const auto length = static_cast<std::size_t>(run.count * (type.nodes + 1));
     GmshShare::Elements& elements = share.elements.at(static_cast<std::size_t>(type.dimension));
@@ -135,13 +135,12 @@ void GmshSender::beginRun(const GmshRun& run) {
 void GmshSender::element(std::int64_t tag, std::span<const std::int64_t> nodes) {
   if (runStart_ == 0) {
     runStart_ = elements_.size();
-    elements_.insert(elements_.end(), {run_.type, run_.group, run_.first, run_.firstGrouped, 0});
+    elements_.insert(elements_.end(), {run_.type, run_.group, run_.first, 0});
   }
   ++elements_[runStart_ + valuesOfRun - 1];
   elements_.push_back(tag);
   elements_.insert(elements_.end(), nodes.begin(), nodes.end());
   ++run_.first;
-  if (run_.group != 0) ++run_.firstGrouped;
   if (elements_.size() > portion_) sendElements();
 }
 

@@ -16,9 +16,9 @@ namespace lampblack::io {
 // Elements that follow each other in the file, of one type and one physical group.
 struct GmshRun {
   std::int64_t type = 0;
-  std::int64_t group = 0;         // tag of the physical group, 0 without one
-  std::int64_t first = 0;         // number of the first among all elements of its dimension, in the order of the file
-  std::int64_t firstGrouped = 0;  // the same among those with a physical group
+  std::int64_t group = 0;  // tag of the physical group, 0 without one
+  std::int64_t first = 0;  // number of the first in the order of the file, among elements of its dimension: among those
+                           // with a physical group if it has one, else among those without
   std::int64_t count = 0;
 };
 

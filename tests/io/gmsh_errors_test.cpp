@@ -82,7 +82,7 @@ TEST_F(GmshErrors, ATruncatedFileIsSaidToBe) {
   for (const test::GmshEncoding& encoding : test::gmshEncodings()) {
     const std::string text = gmshText(sound_, encoding);
     // The last cut that matters is within the last line: its end need not be there.
-    for (std::size_t length = 0; length + 1 < text.size(); length += 3) {
+    for (std::size_t length = 0; length + 1 < text.size(); length += 23) {
       const std::string message = refusal(text.substr(0, length));
       if (text.size() - length > 80) {
         EXPECT_THAT(message, HasSubstr("mesh.msh")) << length;
