@@ -55,8 +55,7 @@ std::string describe(long process) {
   char host[256] = "this machine";
   static_cast<void>(gethostname(host, sizeof host - 1));
   std::string text = fmt::format("process {} on {}", process, host);
-  if (const auto start = startOf(process))
-    text += fmt::format(", since {:%Y-%m-%d %H:%M:%S} UTC", fmt::gmtime(*start));
+  if (const auto start = startOf(process)) text += fmt::format(", since {:%Y-%m-%d %H:%M:%S} UTC", fmt::gmtime(*start));
   return text;
 }
 

@@ -1,5 +1,5 @@
-// A mesh file of Gmsh is read or refused with InputError; nothing else. What is read is a mesh: every cell and every face
-// has vertices that are there, every face a patch. How much is read at once depends on the input's length.
+// A mesh file of Gmsh is read or refused with InputError; nothing else. What is read is a mesh: every cell and every
+// face has vertices that are there, every face a patch. How much is read at once depends on the input's length.
 #include <mpi.h>
 
 #include <algorithm>
@@ -28,7 +28,8 @@ void check(const lampblack::MeshBlock& mesh) {
   const auto isVertex = [&](std::int64_t number) { return number >= 0 && number < mesh.totalVertices; };
   std::size_t corners = 0;
   for (const lampblack::CellShape shape : mesh.shapes) corners += static_cast<std::size_t>(cornersOf(shape));
-  require(!mesh.shapes.empty() && static_cast<std::int64_t>(mesh.shapes.size()) == mesh.totalCells, "cells are missing");
+  require(!mesh.shapes.empty() && static_cast<std::int64_t>(mesh.shapes.size()) == mesh.totalCells,
+          "cells are missing");
   require(static_cast<std::int64_t>(mesh.vertices.size()) == mesh.totalVertices, "vertices are missing");
   require(corners == mesh.corners.size() && std::all_of(mesh.corners.begin(), mesh.corners.end(), isVertex),
           "a cell has a corner that is no vertex");

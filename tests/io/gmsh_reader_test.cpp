@@ -94,7 +94,7 @@ TEST_F(GmshReader, APlaneMeshIsReadInEveryEncoding) {
 // physical group has, with a face in the group "left out".
 test::GmshModel spaceModel(bool mirrored) {
   test::GmshModel model;
-  model.names = {R"(2 1 "air inlet")", R"(2 2 "left out")", R"(2 3 "air inlet")", R"(1 4 "an edge")"};
+  model.names = {R"(2 1 "air "inlet"")", R"(2 2 "left out")", R"(2 3 "air "inlet"")", R"(1 4 "an edge")"};
   model.entities = {{2, 1, {1}}, {2, 2, {2}}, {2, 3, {3}}, {2, 4, {}}, {1, 1, {4}}, {3, 1, {9}}, {3, 2, {}}};
   model.nodes = {
       {3, 1, true, {{108, {9, 9, 8}}, {101, {0, 0, 0}}, {103, {1, 0, 0}}, {102, {1, 1, 0}}, {104, {0, 1, 0}}}},
@@ -135,8 +135,9 @@ TEST_F(GmshReader, AllShapesOfSpaceAreReadAndTurned) {
       EXPECT_EQ(mesh.vertices[7], (Place{0, 1, 1}));
       EXPECT_EQ(mesh.vertices[11], (Place{2, 0.5, 2}));
       EXPECT_EQ(mesh.cells, (Cells{{4, 5, 6, 7, 10}, {0, 1, 2, 3, 4, 5, 6, 7}, {5, 11, 6, 10}, {1, 8, 2, 5, 9, 6}}));
-      EXPECT_THAT(mesh.patches, ElementsAre("air inlet"));
-      EXPECT_THAT(mesh.named, UnorderedElementsAre(Face("air inlet", {0, 1, 2, 3}), Face("air inlet", {1, 2, 8})));
+      EXPECT_THAT(mesh.patches, ElementsAre("air \"inlet\""));
+      EXPECT_THAT(mesh.named,
+                  UnorderedElementsAre(Face("air \"inlet\"", {0, 1, 2, 3}), Face("air \"inlet\"", {1, 2, 8})));
       EXPECT_THAT(mesh.periodic, IsEmpty());
     });
   }
