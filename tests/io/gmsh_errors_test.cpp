@@ -129,6 +129,8 @@ TEST_F(GmshErrors, CountsThatCannotBeAreRefused) {
   EXPECT_THAT(refusalOf(head, "$Nodes\n1 4 1 4 \n4 1 0 4 \n"),
               HasSubstr("the dimension of an entity, 0 to 3, found 4"));
   const std::string elements = "$Elements\n2 3 1 2000000000 \n1 1 1 1 \n";
+  EXPECT_THAT(refusalOf(elements, "$Elements\n2 1000000 1 9 \n1 1 1 1 \n"),
+              HasSubstr("the number of elements is 1000000, more than the"));
   EXPECT_THAT(refusalOf(elements, "$Elements\n2 2 1 9 \n1 1 1 1 \n"), HasSubstr("more elements than the 2"));
   EXPECT_THAT(refusalOf(elements, "$Elements\n2 4 1 9 \n1 1 1 1 \n"),
               HasSubstr("announces 4 elements, its blocks have 3"));
