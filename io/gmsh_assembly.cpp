@@ -261,8 +261,7 @@ void GmshAssembly::nameFaces() {
     return fmt::format("section $Elements: the element {} names", element);
   });
 
-  for (const std::string& name : plan_.groupNames)
-    if (std::ranges::find(block_.patches, name) == block_.patches.end()) block_.patches.push_back(name);
+  block_.patches = plan_.groupNames;  // of those with the same name, only the first gets faces
   eachFace([&](std::int64_t, std::span<const std::int64_t> nodes, std::int64_t group) {
     MeshBlock::NamedFace face;
     for (std::size_t k = 0; k < nodes.size(); ++k) {
