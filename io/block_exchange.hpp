@@ -1,6 +1,5 @@
 // Brings values from the ranks that own them into the order of a file: global numbers 0..total-1 are cut into one
-// contiguous block a rank, and each value travels to the rank that holds its block. Who sends what to whom is found
-// once; every exchange afterwards is a single MPI_Alltoallv.
+// contiguous block a rank, and each value travels to the rank that holds its block.
 #pragma once
 
 #include <mpi.h>
@@ -10,8 +9,13 @@
 #include <vector>
 
 #include "core/rooms.hpp"
+#include "io/rank_exchange.hpp"
 
 namespace lampblack::io {
+
+// Where the block of each rank begins, and whose block a number is in.
+std::int64_t blockStart(std::int64_t total, int ranks, int rank);
+int blockOf(std::int64_t number, std::int64_t total, int ranks);
 
 class BlockExchange {
  public:
@@ -27,26 +31,26 @@ class BlockExchange {
   [[nodiscard]] std::int64_t count() const { return count_; }
   [[nodiscard]] std::int64_t total() const { return total_; }
 
-  // The values of this rank's block, `width` for each number. Where a number is given by several ranks, the highest
-  // rank's value is kept. Collective.
+  // The values of this rank's block, `width` for each number, 0 where none is given. Where a number is given by several
+  // ranks, the highest rank's value is kept. Collective.
   [[nodiscard]] std::vector<double> toBlock(std::span<const double> values, int width) const;
   [[nodiscard]] std::vector<std::int64_t> toBlock(std::span<const std::int64_t> values, int width) const;
   // The way back: what this rank's block holds goes to all that gave its numbers. Collective.
   [[nodiscard]] std::vector<double> fromBlock(std::span<const double> block, int width) const;
+  [[nodiscard]] std::vector<std::int64_t> fromBlock(std::span<const std::int64_t> block, int width) const;
 
  private:
   template <typename T>
-  std::vector<T> exchange(std::span<const T> values, int width, MPI_Datatype type) const;
+  std::vector<T> place(const std::vector<T>& received, int width) const;
+  template <typename T>
+  std::vector<T> pick(std::span<const T> block, int width) const;
 
-  MPI_Comm comm_;
   std::int64_t total_;
   std::int64_t first_ = 0;
   std::int64_t count_ = 0;
   bool once_ = false;
   bool covered_ = false;
-  std::vector<std::size_t> order_;       // my values sorted by the rank they go to
-  std::vector<int> sendCounts_;          // values to each rank
-  std::vector<int> receiveCounts_;       // values from each rank
+  RankExchange ranks_;
   std::vector<std::int64_t> positions_;  // in my block, of the values received
 };
 

@@ -20,10 +20,10 @@ namespace lampblack::io {
 namespace {
 
 // The process of this machine that holds a lock on the open folder, by the kernel's list of locks: lines like
-// "1: FLOCK  ADVISORY  WRITE 708 00:2f:13364 0 EOF".
-std::optional<long> holderOf(int folder) {
+// "1: FLOCK  ADVISORY  WRITE 708 00:2f:13364 0 EOF"; 0 where it is not there.
+long holderOf(int folder) {
   struct stat found {};
-  if (fstat(folder, &found) != 0) return std::nullopt;
+  if (fstat(folder, &found) != 0) return 0;
   const std::string inode = fmt::format(":{}", found.st_ino);
   std::ifstream locks("/proc/locks");
   for (std::string line; std::getline(locks, line);) {
@@ -34,7 +34,7 @@ std::optional<long> holderOf(int folder) {
         process > 0)
       return process;
   }
-  return std::nullopt;
+  return 0;
 }
 
 // When a process started, from field 22 of its stat (proc(5)): clock ticks since the computer started.
@@ -50,13 +50,12 @@ std::optional<std::time_t> startOf(long process) {
   return std::time(nullptr) - static_cast<std::time_t>(uptime - ticks / static_cast<double>(sysconf(_SC_CLK_TCK)));
 }
 
-std::string describe(std::optional<long> process) {
-  if (!process) return "another process";
+std::string describe(long process) {
+  if (process == 0) return "another process";
   char host[256] = "this machine";
   static_cast<void>(gethostname(host, sizeof host - 1));
-  std::string text = fmt::format("process {} on {}", *process, host);
-  if (const auto start = startOf(*process))
-    text += fmt::format(", since {:%Y-%m-%d %H:%M:%S} UTC", fmt::gmtime(*start));
+  std::string text = fmt::format("process {} on {}", process, host);
+  if (const auto start = startOf(process)) text += fmt::format(", since {:%Y-%m-%d %H:%M:%S} UTC", fmt::gmtime(*start));
   return text;
 }
 

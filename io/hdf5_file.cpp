@@ -207,7 +207,8 @@ void ParallelFile::attributeAny(const std::string& path, const std::string& name
 
 void ParallelFile::attribute(const std::string& path, const std::string& name, const std::string& value) {
   // Attributes in the object header end at 64 KiB: longer texts are cut there rather than lost.
-  const std::string text = value.size() > 60000 ? value.substr(0, 60000) + "\n# cut" : value;
+  std::string text = value.substr(0, 60000);
+  if (value.size() > 60000) text += "\n# cut";
   Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "make a text type");
   check(H5Tset_size(type, text.size() + 1), "size a text type");
   check(H5Tset_cset(type, H5T_CSET_UTF8), "set a text's encoding");
