@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/errors.hpp"
+#include "core/first_error.hpp"
+#include "flow/cell_errors.hpp"
 
 namespace lampblack::flow {
 
@@ -121,8 +124,9 @@ Projection::Iterations Projection::iterate(std::span<const double> guess, double
     result.all += result.ofSolver;
     if (reason > 0) return result;
   }
-  throw NumericsError(fmt::format("the pressure solve failed (PETSc reason {}) after {} iterations",
-                                  static_cast<int>(reason), static_cast<int>(iterations)));
+  raiseTogether(context_.mesh.comm,
+                NumericsError(fmt::format("the pressure solve failed (PETSc reason {}) after {} iterations",
+                                          static_cast<int>(reason), static_cast<int>(iterations))));
 }
 
 Projection::Result Projection::solve(double dt, std::span<const double> inverseDensity,
@@ -142,7 +146,14 @@ Projection::Result Projection::solve(double dt, std::span<const double> inverseD
     if (m.high[face] >= 0 && m.high[face] < m.owned) excess[m.high[face]] -= flow;
     flowScale = std::max(flowScale, std::abs(flow));
   }
+  // What is no number would break the solver: no scale is infinite otherwise.
+  if (!std::ranges::all_of(excess, [](double e) { return std::isfinite(e); }))
+    flowScale = std::numeric_limits<double>::infinity();
   MPI_Allreduce(MPI_IN_PLACE, &flowScale, 1, MPI_DOUBLE, MPI_MAX, m.comm);
+  if (flowScale > std::numeric_limits<double>::max())
+    inEachCell(m, [&](int c) {
+      if (!std::isfinite(excess[c])) throw NumericsError("the velocities have grown beyond all numbers");
+    });
   double* right = nullptr;
   checkPetsc(VecGetArray(rightSide_.get(), &right));
   for (int c = 0; c < m.owned; ++c) right[c] = -excess[c];
