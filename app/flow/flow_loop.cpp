@@ -64,10 +64,12 @@ FlowLoop::FlowLoop(MPI_Comm comm, FlowCase flowCase)
 }
 
 void FlowLoop::load(const WholeCheckpoint& checkpoint) {
+  const double start = secondsSinceStart();
   CheckpointReader reader(comm_, checkpoint.file, stateNumbers(mesh_), flowFingerprint(case_, state_.scalars));
   saveOrLoad(reader, earlierRows_);
   beginFromLoaded();
   restart_ = checkpoint;
+  wallLimit_.checkpointTook(secondsSinceStart() - start);  // reading it; writing is no faster
 }
 
 void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
@@ -93,8 +95,7 @@ void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
       if (!problem.empty()) printWarnings({problem});
     }
     stepBegan_ = secondsSinceStart();
-    dt_ = chooseStep(dt_, std::min(nextOutput_, case_.time.end));
-    stepOrRetry(outputs);
+    stepOrRetry(chooseStep(dt_, std::min(nextOutput_, case_.time.end)), outputs);
     const bool due = time_ >= nextOutput_ * (1.0 - 1e-12) || time_ >= case_.time.end * (1.0 - 1e-12);
     if (due || steps_ % case_.output.historySteps == 0) {
       const HistoryRow row = observe();

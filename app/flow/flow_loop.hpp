@@ -80,9 +80,9 @@ class FlowLoop {
 
   void step(double dt);
 
-  // A step of dt_. One that fails is taken back and tried again, smaller; where nothing helps, NumericsError with the
-  // last good state on disk.
-  void stepOrRetry(Outputs& outputs);
+  // One that fails is taken back and tried again, smaller; where nothing helps, NumericsError with the last good state
+  // on disk.
+  void stepOrRetry(double dt, Outputs& outputs);
 
   // NumericsError where a value of the state is not finite.
   void agree(FlowCheckpoints& checkpoints, bool isFinite);

@@ -1,6 +1,7 @@
 // What a flow's run keeps and tells: rows of the history, fields, checkpoints, the closing report.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 
@@ -130,7 +131,10 @@ void FlowLoop::saveOrLoad(StateArchive& archive, std::vector<double>& history) {
 }
 
 void FlowLoop::restore(ResultsWriter& results, HistoryWriter& history) {
+  const double start = secondsSinceStart();
   for (const auto& file : restart_->outputs) results.loadSteps(file);
+  const auto count = static_cast<double>(std::max<std::size_t>(results.stepCount(), 1));
+  wallLimit_.outputTook((secondsSinceStart() - start) / count);
   const std::size_t width = history.columnCount();
   for (std::size_t i = 0; i + width <= earlierRows_.size(); i += width)
     history.row(std::span<const double>(earlierRows_).subspan(i, width));

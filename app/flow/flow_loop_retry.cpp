@@ -35,7 +35,7 @@ void FlowLoop::takeBack(double time, std::int64_t steps) {
   beginFromLoaded();
 }
 
-void FlowLoop::stepOrRetry(Outputs& outputs) {
+void FlowLoop::stepOrRetry(double dt, Outputs& outputs) {
   {
     const Timers::Scope scope(timers_, "way back");
     kept_.keep([this](StateArchive& archive) { saveOrLoadParts(archive); });
@@ -43,13 +43,14 @@ void FlowLoop::stepOrRetry(Outputs& outputs) {
   const double time = time_;
   const std::int64_t steps = steps_;
   const auto ofAllRanks = [this](const std::exception& error) { return mesh_.ranks == 1 || isCollective(error); };
-  for (std::vector<double> tried;; dt_ *= smaller) {
+  for (std::vector<double> tried;; dt *= smaller) {
     std::exception_ptr failure;
     std::string reason;  // of what a smaller step may mend
     try {
-      step(dt_);
+      step(dt);
       wallLimit_.stepTook(secondsSinceStart() - stepBegan_);
       agree(outputs.checkpoints, isFinite(mesh_, state_));
+      dt_ = dt;
       return;
     } catch (const NumericsError& error) {
       if (!ofAllRanks(error)) throw;
@@ -60,7 +61,7 @@ void FlowLoop::stepOrRetry(Outputs& outputs) {
       failure = std::current_exception();
     }
     takeBack(time, steps);
-    tried.push_back(dt_);
+    tried.push_back(dt);
     if (reason.empty() || static_cast<int>(tried.size()) > case_.time.retries) giveUp(outputs, failure, tried);
     ++retried_;
     if (retried_ > mostTold) continue;
@@ -68,7 +69,7 @@ void FlowLoop::stepOrRetry(Outputs& outputs) {
     printWarnings(
         {fmt::format("step {} from t = {:.6g} s failed and is tried again with dt = {:.3g} s in place of "
                      "{:.3g} s: {}{}",
-                     steps_ + 1, time_, smaller * dt_, dt_, reason,
+                     steps_ + 1, time_, smaller * dt, dt, reason,
                      retried_ < mostTold ? "" : "; from here on such steps are counted in the history only")});
   }
 }

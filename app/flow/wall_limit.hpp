@@ -23,11 +23,11 @@ class WallLimit {
   // that go on from each other come to an end.
   [[nodiscard]] bool isNear(double elapsed) const {
     if (!limit_ || !longestStep_) return false;
-    // No step or file has to take as long as those before it.
-    constexpr double margin = 1.5;
+    // No step or file takes just as long as those before it, and files have to be closed, and the program to end.
+    constexpr double margin = 1.5, end = 1.0;
     // A checkpoint has as much as an output, at least, and as long as none was written nobody knows better.
     const double closing = std::max(lastCheckpoint_, longestOutput_) + longestOutput_;
-    return elapsed + margin * (*longestStep_ + closing) >= *limit_;
+    return elapsed + margin * (*longestStep_ + closing) + end >= *limit_;
   }
 
  private:
