@@ -85,7 +85,7 @@ void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
   } else {
     output(results);
   }
-  agree(checkpoints, true);
+  agree(checkpoints);
   while (time_ < case_.time.end * (1.0 - 1e-12)) {
     if (wishes_.signal != 0 || wishes_.wallLimit) stop(outputs);
     if (wishes_.checkpoint) {

@@ -59,7 +59,6 @@ class FlowLoop {
     Progress progress;
     FlowCheckpoints checkpoints;
   };
-  // What ranks agree on after each step.
   struct Wishes {
     int signal = 0;  // that asks the run to stop
     bool checkpoint = false, wallLimit = false;
@@ -84,8 +83,8 @@ class FlowLoop {
   // on disk.
   void stepOrRetry(double dt, Outputs& outputs);
 
-  // NumericsError where a value of the state is not finite.
-  void agree(FlowCheckpoints& checkpoints, bool isFinite);
+  // What ranks agree on after a step, in one reduction; NumericsError where a value of the state is not finite.
+  void agree(FlowCheckpoints& checkpoints);
 
   // State, operators and budget: what a step changes.
   void saveOrLoadParts(StateArchive& archive);

@@ -14,14 +14,21 @@
 namespace lampblack::app {
 namespace {
 
+constexpr const char* wayBack = "way back";  // stage: what it takes to be able to go back from a step
+
 constexpr double smaller = 0.25;       // of the step that has failed; a power of two, which rounds nothing
 constexpr std::int64_t mostTold = 20;  // failures with their reasons; the history counts the others
 
 }  // namespace
 
-void FlowLoop::agree(FlowCheckpoints& checkpoints, bool isFinite) {
-  const double now = secondsSinceStart();
-  std::array<int, 3> found{checkpoints.wants(steps_) ? 1 : 0, wallLimit_.isNear(now) ? 1 : 0, isFinite ? 0 : 1};
+void FlowLoop::agree(FlowCheckpoints& checkpoints) {
+  bool finite = true;
+  {
+    const Timers::Scope scope(timers_, wayBack);
+    finite = isFinite(mesh_, state_);
+  }
+  const bool limit = wallLimit_.isNear(secondsSinceStart());
+  std::array<int, 3> found{checkpoints.wants(steps_) ? 1 : 0, limit ? 1 : 0, finite ? 0 : 1};
   wishes_.signal = agreedStopRequest(comm_, found);
   if (found[0] != 0) wishes_.checkpoint = true;
   if (found[1] != 0) wishes_.wallLimit = true;
@@ -37,7 +44,7 @@ void FlowLoop::takeBack(double time, std::int64_t steps) {
 
 void FlowLoop::stepOrRetry(double dt, Outputs& outputs) {
   {
-    const Timers::Scope scope(timers_, "way back");
+    const Timers::Scope scope(timers_, wayBack);
     kept_.keep([this](StateArchive& archive) { saveOrLoadParts(archive); });
   }
   const double time = time_;
@@ -49,7 +56,7 @@ void FlowLoop::stepOrRetry(double dt, Outputs& outputs) {
     try {
       step(dt);
       wallLimit_.stepTook(secondsSinceStart() - stepBegan_);
-      agree(outputs.checkpoints, isFinite(mesh_, state_));
+      agree(outputs.checkpoints);
       dt_ = dt;
       return;
     } catch (const NumericsError& error) {
