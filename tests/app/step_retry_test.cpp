@@ -1,5 +1,6 @@
 // A step that fails is taken back and tried again with a quarter of its length; where that does not help either, the
 // run ends with its last good state on disk.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -17,8 +18,8 @@
 namespace lampblack::app {
 namespace {
 
+using test::at;
 using testing::AllOf;
-using testing::ElementsAre;
 using testing::HasSubstr;
 
 // What is done to the step that begins at a state, and what the states were.
@@ -118,7 +119,7 @@ FlowCase caseOf(const std::vector<std::string>& overrides) {
 
 struct Ran {
   std::int64_t retried = 0;
-  std::vector<double> countInHistory;
+  std::vector<double> countInHistory, massInflow, solverSteps;
 };
 
 Ran run(Watcher& watcher, const std::filesystem::path& path, const std::vector<std::string>& overrides,
@@ -132,7 +133,9 @@ Ran run(Watcher& watcher, const std::filesystem::path& path, const std::vector<s
   loop.run(folder, {"test", "none", {}, "now"});
   RunRecord record;
   loop.count(record);
-  return {record.retriedSteps.value(), Hdf5Reader(folder.results()).numbers("/history/retried_steps")};
+  const Hdf5Reader results(folder.results());
+  return {record.retriedSteps.value(), results.numbers("/history/retried_steps"),
+          results.numbers("/history/mass_inflow"), results.numbers("/history/stiff_solver_steps")};
 }
 
 void expectSameBits(const std::vector<double>& found, const std::vector<double>& expected, const char* what) {
@@ -195,8 +198,10 @@ TEST_P(RetriedStep, GoesOnAsIfItHadBeenTheSmallerOneFromTheStart) {
   const Ran retried = run(fault, scratch.path() / "retried", overrides);
   EXPECT_EQ(fault.steps.at(disturbedStep).dt, 0.25 * alone.steps.at(disturbedStep).dt);
   Shortener shortener(0.25 * alone.steps.at(disturbedStep).dt);
-  run(shortener, scratch.path() / "shorter", overrides);
+  const Ran shorter = run(shortener, scratch.path() / "shorter", overrides);
   expectSameSteps(fault, shortener);
+  expectSameBits(retried.massInflow, shorter.massInflow, "what came in");
+  expectSameBits(retried.solverSteps, shorter.solverSteps, "what operators count");
   EXPECT_EQ(retried.retried, 1);
   EXPECT_EQ(retried.countInHistory.at(disturbedStep - 1), 0.0);
   EXPECT_EQ(retried.countInHistory.at(disturbedStep), 1.0);
@@ -236,6 +241,7 @@ TEST(RetriedStep, SaysFieldAndPlaceOfWhatIsNoNumber) {
 TEST(RetriedStep, EndsTheRunWhereNothingHelpsWithSomethingToGoOnFrom) {
   const test::SharedScratchFolder scratch;
   const auto out = scratch.path() / "out";
+  const Mesh mesh(MPI_COMM_WORLD, caseOf(settings(1)).mesh);
   Fault fault(fail, true, 3);
   const std::string message = test::messageOf<NumericsError>([&] { run(fault, out, settings(1, {"time.retries=2"})); });
   EXPECT_EQ(fault.steps.size(), disturbedStep);
@@ -246,6 +252,11 @@ TEST(RetriedStep, EndsTheRunWhereNothingHelpsWithSomethingToGoOnFrom) {
   const Hdf5Reader kept(out / "results.h5.part");
   EXPECT_EQ(kept.numbers("/history/step").back(), static_cast<double>(disturbedStep));
   EXPECT_EQ(kept.numbers("/history/retried_steps").size(), disturbedStep);
+  const std::string last = kept.names("/steps").back();
+  const std::vector<double> written = kept.numbers("/steps/" + last + "/temperature");
+  double hottest = 0.0;
+  for (int c = 0; c < mesh.owned; ++c) hottest = std::max(hottest, fault.steps.back().after.temperature[at(c)]);
+  EXPECT_EQ(*std::ranges::max_element(written), test::maxOverRanks(hottest));
 
   // And from there it goes on as a run in which nothing failed.
   Watcher alone, rest;
