@@ -119,7 +119,7 @@ FlowCase caseOf(const std::vector<std::string>& overrides) {
 
 struct Ran {
   std::int64_t retried = 0;
-  std::vector<double> countInHistory, massInflow, solverSteps;
+  std::vector<double> countInHistory, massInflow, solverSteps, dt;
 };
 
 Ran run(Watcher& watcher, const std::filesystem::path& path, const std::vector<std::string>& overrides,
@@ -135,7 +135,8 @@ Ran run(Watcher& watcher, const std::filesystem::path& path, const std::vector<s
   loop.count(record);
   const Hdf5Reader results(folder.results());
   return {record.retriedSteps.value(), results.numbers("/history/retried_steps"),
-          results.numbers("/history/mass_inflow"), results.numbers("/history/stiff_solver_steps")};
+          results.numbers("/history/mass_inflow"), results.numbers("/history/stiff_solver_steps"),
+          results.numbers("/history/dt")};
 }
 
 void expectSameBits(const std::vector<double>& found, const std::vector<double>& expected, const char* what) {
@@ -202,6 +203,8 @@ TEST_P(RetriedStep, GoesOnAsIfItHadBeenTheSmallerOneFromTheStart) {
   expectSameSteps(fault, shortener);
   expectSameBits(retried.massInflow, shorter.massInflow, "what came in");
   expectSameBits(retried.solverSteps, shorter.solverSteps, "what operators count");
+  ASSERT_EQ(retried.dt.size(), fault.steps.size());
+  for (std::size_t i = 0; i < retried.dt.size(); ++i) EXPECT_EQ(retried.dt[i], fault.steps[i].dt) << i;
   EXPECT_EQ(retried.retried, 1);
   EXPECT_EQ(retried.countInHistory.at(disturbedStep - 1), 0.0);
   EXPECT_EQ(retried.countInHistory.at(disturbedStep), 1.0);
@@ -217,7 +220,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Kind{"TemperatureOutOfRange", 2, false, [](State& state) { spoil(state.temperature, 1e9); }},
                     Kind{"MassFlux", 1, true,
                          [](State& state) { spoil(state.massFlux, std::numeric_limits<double>::infinity()); }}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& kind) { return kind.param.name; });
 
 TEST(RetriedStep, SaysFieldAndPlaceOfWhatIsNoNumber) {
   const test::SharedScratchFolder scratch;
@@ -236,6 +239,14 @@ TEST(RetriedStep, SaysFieldAndPlaceOfWhatIsNoNumber) {
   EXPECT_THAT(message, AllOf(HasSubstr("the mass fraction of "), HasSubstr(" is nan at (0.013, 0.002) m"),
                              HasSubstr("this was step 13 from t = "), HasSubstr("--restart goes on from ")));
   EXPECT_TRUE(test::sameOnAllRanks(message));
+}
+
+TEST(RetriedStep, StopsBeforeThePressureMeetsWhatIsNoNumber) {
+  const test::SharedScratchFolder scratch;
+  Fault fault([](State& state) { spoil(state.velocity, nan); }, false);
+  EXPECT_THAT(
+      test::messageOf<NumericsError>([&] { run(fault, scratch.path() / "out", settings(2, {"time.retries=0"})); }),
+      AllOf(HasSubstr("in the cell at ("), HasSubstr("the velocities have grown beyond all numbers")));
 }
 
 TEST(RetriedStep, EndsTheRunWhereNothingHelpsWithSomethingToGoOnFrom) {
