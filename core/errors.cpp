@@ -1,8 +1,10 @@
 #include "core/errors.hpp"
 
+#include <limits>
 #include <new>
 #include <vector>
 
+#include "core/first_error.hpp"
 #include "core/stop_request.hpp"
 #include "core/system_error.hpp"
 
@@ -57,13 +59,19 @@ bool isCollective(const std::exception& error) {
 }
 
 void raiseCollectively(MPI_Comm comm, const std::exception_ptr& error) {
+  raiseFirst(comm, error, 0);
+}
+
+void raiseFirst(MPI_Comm comm, const std::exception_ptr& error, std::int64_t order) {
   int rank = 0;
   int size = 1;
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &size);
-  int firstFailing = error ? rank : size;
-  MPI_Allreduce(MPI_IN_PLACE, &firstFailing, 1, MPI_INT, MPI_MIN, comm);
-  if (firstFailing == size) return;
+  constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
+  std::int64_t first = error ? order * size + rank : none;
+  MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT64_T, MPI_MIN, comm);
+  if (first == none) return;
+  const auto firstFailing = static_cast<int>(first % size);
 
   Failure failure;
   if (rank == firstFailing) failure = describe(error);

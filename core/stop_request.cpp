@@ -1,5 +1,7 @@
 #include "core/stop_request.hpp"
 
+#include <algorithm>
+#include <array>
 #include <csignal>
 
 #include "core/errors.hpp"
@@ -16,6 +18,11 @@ void note(int signal) {
     std::raise(signal);
   }
   requested = signal;
+}
+
+[[noreturn]] void raiseStop(MPI_Comm comm, int signal, const std::string& cause, const std::string& where) {
+  raiseCollectively(comm, std::make_exception_ptr(Stopped(signal, "stopped by " + cause + " " + where)));
+  throw std::logic_error("a stop that was not raised");
 }
 
 }  // namespace
@@ -42,8 +49,16 @@ int stopRequest() {
 }
 
 int agreedStopRequest(MPI_Comm comm) {
-  int signal = requested;
-  MPI_Allreduce(MPI_IN_PLACE, &signal, 1, MPI_INT, MPI_MAX, comm);
+  return agreedStopRequest(comm, {});
+}
+
+int agreedStopRequest(MPI_Comm comm, std::span<int> others) {
+  std::array<int, 5> values{requested};
+  if (others.size() >= values.size()) throw std::logic_error("agreedStopRequest: too many values");
+  std::ranges::copy(others, values.begin() + 1);
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), 1 + static_cast<int>(others.size()), MPI_INT, MPI_MAX, comm);
+  std::copy_n(values.begin() + 1, others.size(), others.begin());
+  const int signal = values[0];
   if (signal != 0) requested = signal;
   return signal;
 }
@@ -53,8 +68,11 @@ std::string signalName(int signal) {
 }
 
 void raiseStopped(MPI_Comm comm, int signal, const std::string& where) {
-  raiseCollectively(comm, std::make_exception_ptr(Stopped(signal, "stopped by " + signalName(signal) + " " + where)));
-  throw std::logic_error("a stop that was not raised");
+  raiseStop(comm, signal, signalName(signal), where);
+}
+
+void raiseStopped(MPI_Comm comm, const std::string& cause, const std::string& where) {
+  raiseStop(comm, SIGTERM, cause, where);
 }
 
 }  // namespace lampblack

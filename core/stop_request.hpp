@@ -4,6 +4,7 @@
 
 #include <mpi.h>
 
+#include <span>
 #include <stdexcept>
 #include <string>
 
@@ -27,6 +28,8 @@ int stopRequest();
 
 // Collective: the signal that asked any rank to stop, or 0. From then on stopRequest() gives it on all of them.
 int agreedStopRequest(MPI_Comm comm);
+// The same, and in the same reduction each of `others` becomes its largest value on any rank. There are four at most.
+int agreedStopRequest(MPI_Comm comm, std::span<int> others);
 
 // From here on SIGUSR1 asks a run for a checkpoint; before, it ends the process as it does others.
 void watchForCheckpointSignal();
@@ -39,5 +42,7 @@ std::string signalName(int signal);
 
 // Collective: raises Stopped on all ranks with the message "stopped by SIGTERM <where>".
 [[noreturn]] void raiseStopped(MPI_Comm comm, int signal, const std::string& where);
+// The same where it is not a signal that stops: "stopped by <cause> <where>". The run ends as one that SIGTERM stops.
+[[noreturn]] void raiseStopped(MPI_Comm comm, const std::string& cause, const std::string& where);
 
 }  // namespace lampblack

@@ -252,6 +252,7 @@ void CarriedOperator::endSweep(State& state) {
 }
 
 void CarriedOperator::saveOrLoad(StateArchive& archive) {
+  if (archive.loading()) lastStep_ = 0.0;  // the rates are what endSweep() left
   archive.cells("carried_cost", cost_, 1);
   archive.cells("carried_rate", rate_, static_cast<int>(values_.size()));
   archive.cells("carried_heat", heat_, 1);

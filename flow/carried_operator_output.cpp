@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/errors.hpp"
+#include "core/first_error.hpp"
 #include "flow/carried_operator.hpp"
 
 namespace lampblack::flow {
@@ -43,10 +44,11 @@ std::vector<double> CarriedOperator::historyValues(const State& state) {
   peak_ = best.value;
   const double part = peak_ > 0.0 ? atLimit / peak_ : 0.0;
   if (part > options_.allowedAtLimit)
-    throw NumericsError(fmt::format(
-        "a part {:.2g} of the largest volume fraction of {} stands in the largest particles that the model can have; "
-        "allowed is {:.2g}. {}",
-        part, model_.material(), options_.allowedAtLimit, options_.advice));
+    raiseTogether(m.comm,
+                  NumericsError(fmt::format("a part {:.2g} of the largest volume fraction of {} stands in the largest "
+                                            "particles that the model can have; "
+                                            "allowed is {:.2g}. {}",
+                                            part, model_.material(), options_.allowedAtLimit, options_.advice)));
   return {peak_, part, steps};
 }
 

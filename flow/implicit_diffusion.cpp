@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "core/first_error.hpp"
 
 namespace lampblack::flow {
 namespace {
@@ -36,15 +37,16 @@ class Chebyshev {
   double radius_, ratio_;
 };
 
-// The residual falls by Chebyshev's polynomial of that degree, which is one over the radius outside its interval.
-int iterationsFor(double radius, double reduction, int most) {
+// Of a radius that is the same on all ranks. The residual falls by Chebyshev's polynomial of that degree, which is one
+// over the radius outside its interval.
+int iterationsFor(MPI_Comm comm, double radius, double reduction, int most) {
   if (reduction >= 1.0) return 0;
   const double needed = radius > 0.0 ? std::ceil(std::acosh(1.0 / reduction) / std::acosh(1.0 / radius)) : 1.0;
   if (!(needed <= most))
-    throw NumericsError(
-        fmt::format("implicit diffusion would not converge in {} iterations: it moves {:g} times what "
-                    "a cell holds in a step; take a shorter step or larger cells",
-                    most, 1.0 / (1.0 - radius)));
+    raiseTogether(comm, NumericsError(fmt::format(
+                            "implicit diffusion would not converge in {} iterations: it moves {:g} times what "
+                            "a cell holds in a step; take a shorter step or larger cells",
+                            most, 1.0 / (1.0 - radius))));
   return static_cast<int>(needed);
 }
 
@@ -114,7 +116,7 @@ ImplicitDiffusion::Result ImplicitDiffusion::solve(int fields, std::span<const d
   for (std::size_t k = 0; k < n; ++k) {
     of.emplace_back(wanted.radius[k]);
     result.iterations =
-        std::max(result.iterations, iterationsFor(wanted.radius[k], wanted.reduction[k], maxIterations));
+        std::max(result.iterations, iterationsFor(mesh_.comm, wanted.radius[k], wanted.reduction[k], maxIterations));
   }
   change_.assign(static_cast<std::size_t>(m.cells) * n, 0.0);
   for (int iteration = 1; iteration <= result.iterations; ++iteration) {
@@ -238,7 +240,7 @@ ImplicitDiffusion::Result ImplicitDiffusion::changes(int fields, std::span<const
       const std::size_t begins = (first + i) * width;
       const std::span<const int> of{order.data() + begins, std::min<std::size_t>(width, order.size() - begins)};
       begin(batch[i], of, fields, change, conductance);
-      batch[i].iterations = iterationsFor(radius[of.front()], tolerance, maxIterations);
+      batch[i].iterations = iterationsFor(m.comm, radius[of.front()], tolerance, maxIterations);
       most = std::max(most, batch[i].iterations);
     }
     std::vector<std::vector<Chebyshev>> progress;
@@ -268,7 +270,7 @@ ImplicitDiffusion::Result ImplicitDiffusion::changes(int fields, std::span<const
           change[c * fields + group.fields[k]] = group.solution[c * width + k];
   }
   halo_.update(change, fields);
-  result.iterations = order.empty() ? 0 : iterationsFor(radius[order.front()], tolerance, maxIterations);
+  result.iterations = order.empty() ? 0 : iterationsFor(m.comm, radius[order.front()], tolerance, maxIterations);
   return result;
 }
 

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/errors.hpp"
+#include "core/first_error.hpp"
+#include "flow/cell_errors.hpp"
 #include "flow/face_fluxes.hpp"
 
 namespace lampblack::flow {
@@ -124,8 +127,9 @@ Projection::Iterations Projection::iterate(std::span<const double> guess, double
     result.all += result.ofSolver;
     if (reason > 0) return result;
   }
-  throw NumericsError(fmt::format("the pressure solve failed (PETSc reason {}) after {} iterations",
-                                  static_cast<int>(reason), static_cast<int>(iterations)));
+  raiseTogether(context_.mesh.comm,
+                NumericsError(fmt::format("the pressure solve failed (PETSc reason {}) after {} iterations",
+                                          static_cast<int>(reason), static_cast<int>(iterations))));
 }
 
 // What flows out of the owned cells, m^3/s, beyond `divergence`.
@@ -198,20 +202,29 @@ Projection::Result Projection::solve(double dt, std::span<const double> inverseD
   assemble();
   double flowScale = std::max(slowFlow, 1e-300);
   for (const double flow : flow(faceVelocity)) flowScale = std::max(flowScale, std::abs(flow));
+  // What is no number would break the solver: no scale is infinite otherwise.
+  const std::vector<double> first = excess(divergence, faceVelocity);
+  if (!std::ranges::all_of(first, [](double e) { return std::isfinite(e); }))
+    flowScale = std::numeric_limits<double>::infinity();
   MPI_Allreduce(MPI_IN_PLACE, &flowScale, 1, MPI_DOUBLE, MPI_MAX, m.comm);
+  if (flowScale > std::numeric_limits<double>::max())
+    inEachCell(m, [&](int c) {
+      if (!std::isfinite(first[c])) throw NumericsError("the velocities have grown beyond all numbers");
+    });
 
   // The tolerance is absolute: a fraction of the largest face flow, so that continuity holds alike in every step.
   Result result;
   std::vector<double> oblique(m.isOblique() ? static_cast<std::size_t>(m.faces) : 0, 0.0);
   constexpr int mostCorrections = 8;
-  double first = 0.0;
+  double firstChange = 0.0;
   for (int correction = 0;; ++correction) {
-    result.iterations += correct(excess(divergence, faceVelocity), tolerance_ * flowScale, change);
+    result.iterations +=
+        correct(correction == 0 ? first : excess(divergence, faceVelocity), tolerance_ * flowScale, change);
     if (!m.isOblique() || correction == mostCorrections) break;
     const double changed = addOblique(change, faceVelocity, oblique);
-    if (correction == 0) first = changed;
+    if (correction == 0) firstChange = changed;
     // The last addition is solved for, too: continuity goes before the shape of the pressure.
-    if (changed <= std::max(1e-2 * first, tolerance_ * flowScale)) {
+    if (changed <= std::max(1e-2 * firstChange, tolerance_ * flowScale)) {
       result.iterations += correct(excess(divergence, faceVelocity), tolerance_ * flowScale, change);
       break;
     }

@@ -221,6 +221,7 @@ void ReactionOperator::endStep(State& state) {
 
 // What a step begins with is the state: endStep() takes it from there after loading.
 void ReactionOperator::saveOrLoad(StateArchive& archive) {
+  if (archive.loading()) step_ = 0.0;  // of a step that was broken off
   archive.cells("chemistry_cost", cost_, 1);
   archive.cells("chemistry_first_step", initialStep_, 1);
   archive.cells("chemistry_rate_is_limited", isLimited_, 1);

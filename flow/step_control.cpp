@@ -39,6 +39,7 @@ double StepControl::largestStep(const State&) {
 void StepControl::saveOrLoad(StateArchive& archive) {
   archive.shared("step_error", error_);
   archive.shared("step_of_error", step_);
+  if (archive.loading()) sweep_ = 0;  // of a step that was broken off
 }
 
 std::vector<Quantity> StepControl::historyColumns() const {

@@ -5,6 +5,7 @@
 
 #include "core/errors.hpp"
 #include "core/flush_denormals.hpp"
+#include "flow/cell_errors.hpp"
 #include "flow/face_fluxes.hpp"
 #include "flow/time_step.hpp"
 
@@ -197,7 +198,8 @@ void TransportOperator::advanceDiffusion(const State& mean, State& state, double
 void TransportOperator::finish(State& state) {
   const Mesh& m = context_.mesh;
   const int n = state.species;
-  for (int c = 0; c < m.owned; ++c) {
+  // A temperature out of range on one rank must stop all of them.
+  inEachCell(m, [&](int c) {
     const double* content = &content_[static_cast<std::size_t>(c) * n];
     double mass = 0.0;
     for (int k = 0; k < n; ++k) mass += content[k];
@@ -207,7 +209,7 @@ void TransportOperator::finish(State& state) {
     state.enthalpy[c] = heatContent_[c] / mass;
     state.temperature[c] = context_.thermo.temperatureFromEnthalpy(state.enthalpy[c], {y, static_cast<std::size_t>(n)},
                                                                    state.temperature[c]);
-  }
+  });
 }
 
 void TransportOperator::recordBoundary(const State& state, double dt) {
@@ -241,6 +243,7 @@ void TransportOperator::saveOrLoad(StateArchive& archive) {
   archive.shared("transport_diagnostics", seen);
   diagnostics_ = {seen.at(0), static_cast<int>(seen.at(1)), static_cast<int>(seen.at(2))};
   lastStep_ = seen.at(3);
+  if (archive.loading()) sweep_ = 0;  // of a step that was broken off
   momentum_.saveOrLoad(archive);
   expansion_.saveOrLoad(archive);
 }
@@ -252,7 +255,6 @@ void TransportOperator::advance(State& state, double time, double dt) {
   const bool several = options_.sweeps > 1;
   // The gas's boundaries at the middle of its step, those of the velocities at the middle of theirs.
   if (first && context_.varying) context_.varying->set(time + 0.5 * dt, time + 0.25 * (dt - lastStep_));
-  // A temperature out of range on one rank must stop all of them.
   collectively(m.comm, [&] { properties_.update(context_, state); });
   expansion_.begin(state, properties_, first, dt, lastStep_);
   speciesDiffusion_.prepare(state, properties_);
@@ -283,7 +285,7 @@ void TransportOperator::advance(State& state, double time, double dt) {
   const std::vector<double>& meanViscosity = several ? meanViscosity_ : properties_.viscosity;
   carried_.advance(state, {start, mean, meanViscosity, faces_, faceVelocity_, newMass_}, dt);
   if (sweep_ == options_.sweeps) recordBoundary(state, dt);
-  collectively(m.comm, [&] { finish(state); });
+  finish(state);
   state.thermodynamicPressure = state.start.thermodynamicPressure + expansion_.pressureRise();
   state.updateHalo(context_.halo);
   if (sweep_ < options_.sweeps) return;

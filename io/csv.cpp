@@ -42,21 +42,26 @@ TextTable readCsv(const std::string& text) {
   std::vector<std::string> row;
   std::string field;
   bool quoted = false, comment = false;
+  std::size_t line = 1, begins = 1;
   const auto endRow = [&] {
     if (row.empty() && field.empty()) return;
     row.push_back(std::move(field));
     field.clear();
-    if (table.columns.empty())
+    if (table.columns.empty()) {
       table.columns = row;
-    else if (row.size() != table.columns.size())
-      throw InputError(fmt::format("row {} has {} fields, the first line {}", table.rows.size() + 1, row.size(),
-                                   table.columns.size()));
-    else
+    } else if (row.size() != table.columns.size()) {
+      throw InputError(
+          fmt::format("line {} has {} fields, the line of the names {}", begins, row.size(), table.columns.size()));
+    } else {
       table.rows.push_back(row);
+      table.lines.push_back(begins);
+    }
     row.clear();
   };
   for (std::size_t i = text.starts_with("\xef\xbb\xbf") ? 3 : 0; i < text.size(); ++i) {
     const char c = text[i];
+    if (row.empty() && field.empty() && !quoted) begins = line;
+    if (c == '\n') ++line;
     if (comment) {
       comment = c != '\n';
     } else if (quoted) {

@@ -2,6 +2,7 @@
 // quotes. Every table that Lampblack writes or reads goes through here; names of species have commas.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@ namespace lampblack::io {
 struct TextTable {
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;
+  std::vector<std::size_t> lines = {};  // of a file that was read: where each row begins, from 1
 };
 
 // One line with its end.

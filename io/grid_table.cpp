@@ -31,11 +31,11 @@ class Column {
     if (unit_.dimension != dimension)
       throw InputError(fmt::format("the column '{}' is in {}; expected {}", name, unit, units::describe(dimension)));
   }
-  [[nodiscard]] double read(const std::string& field, std::size_t row) const {
+  [[nodiscard]] double read(const std::string& field, std::size_t line) const {
     try {
       return unit_.factor * units::parseNumber(field) + unit_.offset;
     } catch (const InputError&) {
-      throw InputError(fmt::format("row {}: expected a number as '{}', found '{}'", row + 1, name_, field));
+      throw InputError(fmt::format("line {}: expected a finite number as '{}', found '{}'", line, name_, field));
     }
   }
 
@@ -63,7 +63,7 @@ GridTable::GridTable(const std::filesystem::path& file, std::vector<Coordinate> 
       const Column reader(name, unit, *dimension);
       std::vector<double> values;
       for (std::size_t row = 0; row < table.rows.size(); ++row)
-        values.push_back(reader.read(table.rows[row][column], row));
+        values.push_back(reader.read(table.rows[row][column], table.lines[row]));
       if (isCoordinate) {
         numbers.places[static_cast<std::size_t>(coordinate - coordinates_.begin())] = std::move(values);
       } else {

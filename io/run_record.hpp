@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,7 @@ struct RunRecord {
   double wallTime = 0.0;       // s
   double simulatedTime = 0.0;  // s
   std::int64_t steps = 0;
+  std::optional<std::int64_t> retriedSteps;  // of a problem that can
   std::int64_t cells = 0;
   double peakMemoryPerRank = 0.0;  // bytes, the largest
   std::vector<StageTime> stages;

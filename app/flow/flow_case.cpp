@@ -270,8 +270,13 @@ FlowCase readFlowCase(const Deck& deck) {
   readInitial(deck, flowCase);
   readGravity(deck, flowCase);
   flowCase.radiation = readRadiation(deck);
-  flowCase.time = {deck.quantity("time.end"), deck.quantity("time.first_step"), deck.quantity("time.maximum_step"),
-                   deck.number("time.growth"), deck.optionalNumber("time.tolerance")};
+  flowCase.time = {deck.quantity("time.end"),
+                   deck.quantity("time.first_step"),
+                   deck.quantity("time.maximum_step"),
+                   deck.number("time.growth"),
+                   deck.optionalNumber("time.tolerance"),
+                   deck.integer<int>("time.retries"),
+                   deck.optionalQuantity("time.wall_limit")};
   flowCase.flow.courant = deck.number("time.courant");
   flowCase.flow.sweeps = deck.integer<int>("time.sweeps");
   if (flowCase.time.tolerance && flowCase.flow.sweeps < 2)

@@ -29,6 +29,8 @@ struct TimeControl {
   double maximumStep = 1.0;         // s
   double growth = 1.2;              // of the step from one to the next, at most
   std::optional<double> tolerance;  // of a step; nothing: steps do not look at their errors
+  int retries = 4;                  // of a step that fails, each with a quarter of the step before
+  std::optional<double> wallLimit;  // s, from the start of the program
 };
 
 struct OutputControl {

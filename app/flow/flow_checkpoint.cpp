@@ -84,16 +84,13 @@ void FlowCheckpoints::startedFrom(const WholeCheckpoint& checkpoint, std::int64_
   step_ = step;
 }
 
-bool FlowCheckpoints::due(std::int64_t step) {
-  int wanted = takeCheckpointSignal() ? 1 : 0;
-  if (mesh_.rank == 0) {
-    std::error_code error;
-    if (control_.steps && step != step_ && step % *control_.steps == 0) wanted = 1;
-    if (step != step_ && MPI_Wtime() - since_ >= control_.wallTime) wanted = 1;
-    if (std::filesystem::exists(folder_.request(), error)) wanted = 1;
-  }
-  MPI_Allreduce(MPI_IN_PLACE, &wanted, 1, MPI_INT, MPI_MAX, mesh_.comm);
-  return wanted != 0;
+bool FlowCheckpoints::wants(std::int64_t step) {
+  if (takeCheckpointSignal()) return true;
+  if (mesh_.rank != 0) return false;
+  if (control_.steps && step != step_ && step % *control_.steps == 0) return true;
+  if (step != step_ && MPI_Wtime() - since_ >= control_.wallTime) return true;
+  std::error_code error;
+  return std::filesystem::exists(folder_.request(), error);
 }
 
 void FlowCheckpoints::write(std::int64_t step, const ResultsWriter& results, const Save& save) {

@@ -32,8 +32,9 @@ class FlowCheckpoints {
   // The run went on from this one at this step.
   void startedFrom(const WholeCheckpoint& checkpoint, std::int64_t step);
 
-  // Collective: whether one is to be written after this step: by the deck, a signal, or the file that asks for it.
-  [[nodiscard]] bool due(std::int64_t step);
+  // Whether this rank knows that one is to be written after this step: by the deck, a signal, or the file that asks for
+  // it. One rank is enough; what a signal has asked for is told once.
+  [[nodiscard]] bool wants(std::int64_t step);
   // Collective. Where the disk is full a SystemError; the former checkpoints stay.
   void write(std::int64_t step, const ResultsWriter& results, const Save& save);
   // The last that was written, or gone on from; may be empty.

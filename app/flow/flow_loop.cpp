@@ -7,8 +7,7 @@
 #include "app/flow/trajectories.hpp"
 #include "app/run/warnings.hpp"
 #include "core/errors.hpp"
-#include "core/stop_request.hpp"
-#include "io/progress.hpp"
+#include "core/wall_clock.hpp"
 
 namespace lampblack::app {
 
@@ -34,7 +33,9 @@ FlowLoop::FlowLoop(MPI_Comm comm, FlowCase flowCase)
       state_(mesh_, case_.mechanism->numSpecies(),
              case_.carried ? CarriedOperator::scalarsOf(*case_.carried) : std::vector<CarriedScalar>{}, case_.swirls),
       flow_(context_, state_, case_.flow),
-      chemistry_(context_, keepingFailedCells(case_.chemistry)) {
+      chemistry_(context_, keepingFailedCells(case_.chemistry)),
+      kept_(mesh_.owned, mesh_.faces),
+      wallLimit_(case_.time.wallLimit) {
   state_.thermodynamicPressure = case_.pressure;
   if (case_.carried) carried_ = std::make_unique<CarriedOperator>(context_, *case_.carried, 0, case_.carriedOptions);
   collectively(comm_, [&] {
@@ -63,34 +64,38 @@ FlowLoop::FlowLoop(MPI_Comm comm, FlowCase flowCase)
 }
 
 void FlowLoop::load(const WholeCheckpoint& checkpoint) {
+  const double start = secondsSinceStart();
   CheckpointReader reader(comm_, checkpoint.file, stateNumbers(mesh_), flowFingerprint(case_, state_.scalars));
   saveOrLoad(reader, earlierRows_);
-  state_.updateHalo(halo_);
-  beginNext();
+  beginFromLoaded();
   restart_ = checkpoint;
+  wallLimit_.checkpointTook(secondsSinceStart() - start);  // reading it; writing is no faster
 }
 
 void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
   folder_ = folder;
-  ResultsWriter results(comm_, folder.results(), info, meshOutput(mesh_));
-  HistoryWriter history(comm_, folder.history(), historyColumns(operators_, budget_->lines(state_)));
-  Progress progress(comm_, time_, case_.time.end);
-  FlowCheckpoints checkpoints(mesh_, case_.checkpoint, flowFingerprint(case_, state_.scalars), folder.path());
+  Outputs outputs{folder, ResultsWriter(comm_, folder.results(), info, meshOutput(mesh_)),
+                  HistoryWriter(comm_, folder.history(), historyColumns(operators_, budget_->lines(state_))),
+                  Progress(comm_, time_, case_.time.end),
+                  FlowCheckpoints(mesh_, case_.checkpoint, flowFingerprint(case_, state_.scalars), folder.path())};
+  auto& [_, results, history, progress, checkpoints] = outputs;
   if (restart_) {
     restore(results, history);
     checkpoints.startedFrom(*restart_, steps_);
   } else {
     output(results);
   }
+  agree(checkpoints);
   while (time_ < case_.time.end * (1.0 - 1e-12)) {
-    if (const int signal = agreedStopRequest(comm_); signal != 0) stop(signal, folder, checkpoints, results, history);
-    if (checkpoints.due(steps_)) {
+    if (wishes_.signal != 0 || wishes_.wallLimit) stop(outputs);
+    if (wishes_.checkpoint) {
+      wishes_.checkpoint = false;
       progress.finish();
-      const std::string problem = writeCheckpoint(checkpoints, results, history);
+      const std::string problem = writeCheckpoint(outputs);
       if (!problem.empty()) printWarnings({problem});
     }
-    dt_ = chooseStep(dt_, std::min(nextOutput_, case_.time.end));
-    step(dt_);
+    stepBegan_ = secondsSinceStart();
+    stepOrRetry(chooseStep(dt_, std::min(nextOutput_, case_.time.end)), outputs);
     const bool due = time_ >= nextOutput_ * (1.0 - 1e-12) || time_ >= case_.time.end * (1.0 - 1e-12);
     if (due || steps_ % case_.output.historySteps == 0) {
       const HistoryRow row = observe();
@@ -101,10 +106,11 @@ void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
       output(results);
       nextOutput_ += case_.output.interval;
     }
+    wallLimit_.stepTook(secondsSinceStart() - stepBegan_);
   }
   progress.finish();
   if (case_.checkpoint.atEnd) {
-    const std::string problem = writeCheckpoint(checkpoints, results, history);
+    const std::string problem = writeCheckpoint(outputs);
     if (!problem.empty()) printWarnings({problem});
   }
   if (last_.step != steps_) observe();  // a restart at the very end
@@ -138,6 +144,11 @@ double FlowLoop::chooseStep(double previous, double until) {
 void FlowLoop::beginNext() {
   for (Operator* op : operators_) op->endStep(state_);
   for (Operator* op : operators_) op->endSweep(state_);
+}
+
+void FlowLoop::beginFromLoaded() {
+  state_.updateHalo(halo_);
+  beginNext();
 }
 
 void FlowLoop::step(double dt) {

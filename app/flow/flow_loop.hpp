@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -14,12 +15,15 @@
 #include "app/flow/flow_case.hpp"
 #include "app/flow/flow_checkpoint.hpp"
 #include "app/flow/flow_output.hpp"
+#include "app/flow/wall_limit.hpp"
+#include "core/kept_state.hpp"
 #include "core/rooms.hpp"
 #include "core/timers.hpp"
 #include "flow/carried_operator.hpp"
 #include "flow/radiation_operator.hpp"
 #include "flow/step_control.hpp"
 #include "flow/transport_operator.hpp"
+#include "io/progress.hpp"
 #include "io/run_folder.hpp"
 #include "io/run_record.hpp"
 
@@ -36,11 +40,30 @@ class FlowLoop {
 
   [[nodiscard]] std::int64_t cells() const { return mesh_.totalCells; }
 
+  // A further operator of each step, behind the case's own, which has to live as long; before load() and run().
+  void addOperator(Operator& added) { operators_.push_back(&added); }
+
   void run(const RunFolder& folder, const RunInfo& info);
+
+  // How far the run has come.
+  void count(RunRecord& record) const;
 
   void report(double wallTime, RunRecord& record);
 
  private:
+  // What a run writes while it goes on.
+  struct Outputs {
+    const RunFolder& folder;
+    ResultsWriter results;
+    HistoryWriter history;
+    Progress progress;
+    FlowCheckpoints checkpoints;
+  };
+  struct Wishes {
+    int signal = 0;  // that asks the run to stop
+    bool checkpoint = false, wallLimit = false;
+  };
+
   ReactionOperator::Options keepingFailedCells(ReactionOperator::Options options);
 
   struct Peak {
@@ -51,8 +74,24 @@ class FlowLoop {
   double chooseStep(double previous, double until);
 
   void beginNext();
+  // After loading.
+  void beginFromLoaded();
 
   void step(double dt);
+
+  // One that fails is taken back and tried again, smaller; where nothing helps, NumericsError with the last good state
+  // on disk.
+  void stepOrRetry(double dt, Outputs& outputs);
+
+  // What ranks agree on after a step, in one reduction; NumericsError where a value of the state is not finite.
+  void agree(FlowCheckpoints& checkpoints);
+
+  // State, operators and budget: what a step changes.
+  void saveOrLoadParts(StateArchive& archive);
+
+  void takeBack(double time, std::int64_t steps);
+
+  [[noreturn]] void giveUp(Outputs& outputs, const std::exception_ptr& failure, const std::vector<double>& tried);
 
   Peak peakOf(const std::function<double(int)>& value) const;
 
@@ -67,11 +106,13 @@ class FlowLoop {
   void restore(ResultsWriter& results, HistoryWriter& history);
 
   // What kept it from being written, or nothing: a run does not end because its checkpoint has no room.
-  std::string writeCheckpoint(FlowCheckpoints& checkpoints, const ResultsWriter& results, const HistoryWriter& history);
+  std::string writeCheckpoint(Outputs& outputs);
 
-  // Writes a checkpoint, keeps the last state in the results too, and raises Stopped.
-  [[noreturn]] void stop(int signal, const RunFolder& folder, FlowCheckpoints& checkpoints, ResultsWriter& results,
-                         HistoryWriter& history);
+  // Writes a checkpoint, keeps the last state in the results too, and says where.
+  std::string keepLast(Outputs& outputs);
+
+  // With both kept, raises Stopped.
+  [[noreturn]] void stop(Outputs& outputs);
 
   void output(ResultsWriter& results);
 
@@ -99,6 +140,11 @@ class FlowLoop {
   double nextOutput_ = 0.0;
   std::int64_t steps_ = 0;
   std::int64_t written_ = -1;  // the last step in the results
+  std::int64_t retried_ = 0;   // steps that failed and were tried again
+  KeptState kept_;             // the start of the step
+  WallLimit wallLimit_;
+  double stepBegan_ = 0.0;  // s, secondsSinceStart()
+  Wishes wishes_;
   HistoryRow last_;
   Peak peakTemperature_;
 };

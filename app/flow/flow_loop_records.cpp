@@ -1,6 +1,7 @@
 // What a flow's run keeps and tells: rows of the history, fields, checkpoints, the closing report.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 
@@ -10,6 +11,7 @@
 #include "core/errors.hpp"
 #include "core/stop_request.hpp"
 #include "core/system_error.hpp"
+#include "core/wall_clock.hpp"
 #include "io/report.hpp"
 
 namespace lampblack::app {
@@ -20,6 +22,7 @@ HistoryRow FlowLoop::observe() {
   row.step = steps_;
   row.time = time_;
   row.dt = dt_;
+  row.retriedSteps = retried_;
   row.extremes = extremesOf(context_, state_);
   for (Operator* op : operators_) {
     const std::vector<double> values = op->historyValues(state_);
@@ -57,6 +60,13 @@ std::string FlowLoop::status(const HistoryRow& row) const {
   return text;
 }
 
+void FlowLoop::count(RunRecord& record) const {
+  record.steps = steps_;
+  record.retriedSteps = retried_;
+  record.cells = mesh_.totalCells;
+  record.simulatedTime = time_;
+}
+
 void FlowLoop::report(double wallTime, RunRecord& record) {
   ClosingReport closing;
   closing.ranks = mesh_.ranks;
@@ -71,11 +81,10 @@ void FlowLoop::report(double wallTime, RunRecord& record) {
       closing.imbalances.push_back({op->name(), imbalance->before, imbalance->after});
   record.stages = closing.stages;
   record.peakMemoryPerRank = closing.peakMemoryPerRank;
-  record.steps = steps_;
-  record.cells = mesh_.totalCells;
-  record.simulatedTime = time_;
+  count(record);
   if (mesh_.rank != 0) return;
   std::cout << formatReport(closing);
+  if (retried_ > 0) fmt::print("steps that failed and were tried again, smaller: {}\n", retried_);
   fmt::print("peak temperature {:.1f} K at {} = ({:.3f}, {:.3f}) mm\n", last_.extremes.maximumTemperature,
              mesh_.axisymmetric() ? "(r, z)" : "(x, y)", 1e3 * peakTemperature_.place[0],
              1e3 * peakTemperature_.place[1]);
@@ -87,10 +96,14 @@ void FlowLoop::report(double wallTime, RunRecord& record) {
              last_.extremes.massFractionSumError, last_.extremes.minimumMassFraction);
 }
 
-void FlowLoop::saveOrLoad(StateArchive& archive, std::vector<double>& history) {
+void FlowLoop::saveOrLoadParts(StateArchive& archive) {
   state_.saveOrLoad(archive);
   for (Operator* op : operators_) op->saveOrLoad(archive);
   budget_->saveOrLoad(archive);
+}
+
+void FlowLoop::saveOrLoad(StateArchive& archive, std::vector<double>& history) {
+  saveOrLoadParts(archive);
   const double interval = case_.output.interval;
   std::vector<double> clock{time_,
                             static_cast<double>(steps_),
@@ -98,13 +111,14 @@ void FlowLoop::saveOrLoad(StateArchive& archive, std::vector<double>& history) {
                             nextOutput_,
                             interval,
                             static_cast<double>(written_),
-                            static_cast<double>(historyColumns(operators_, budget_->lines(state_)).size())};
-  const double columns = clock.back();
+                            static_cast<double>(historyColumns(operators_, budget_->lines(state_)).size()),
+                            static_cast<double>(retried_)};
+  const double columns = clock[6];
   archive.shared("clock", clock);
   archive.shared("history", history);
   if (!archive.loading()) return;
   collectively(comm_, [&] {
-    if (clock.size() != 7 || clock[6] != columns)
+    if (clock.size() != 8 || clock[6] != columns)
       throw InputError("the checkpoint was written by another version of Lampblack, with another history");
   });
   time_ = clock[0];
@@ -113,50 +127,59 @@ void FlowLoop::saveOrLoad(StateArchive& archive, std::vector<double>& history) {
   // Another interval counts from the start.
   nextOutput_ = clock[4] == interval ? clock[3] : interval * (std::floor(time_ / interval * (1.0 + 1e-12)) + 1.0);
   written_ = static_cast<std::int64_t>(clock[5]);
+  retried_ = static_cast<std::int64_t>(clock[7]);
 }
 
 void FlowLoop::restore(ResultsWriter& results, HistoryWriter& history) {
+  const double start = secondsSinceStart();
   for (const auto& file : restart_->outputs) results.loadSteps(file);
+  const auto count = static_cast<double>(std::max<std::size_t>(results.stepCount(), 1));
+  wallLimit_.outputTook((secondsSinceStart() - start) / count);
   const std::size_t width = history.columnCount();
   for (std::size_t i = 0; i + width <= earlierRows_.size(); i += width)
     history.row(std::span<const double>(earlierRows_).subspan(i, width));
   earlierRows_.clear();
 }
 
-std::string FlowLoop::writeCheckpoint(FlowCheckpoints& checkpoints, const ResultsWriter& results,
-                                      const HistoryWriter& history) {
+std::string FlowLoop::writeCheckpoint(Outputs& outputs) {
   const Timers::Scope scope(timers_, "checkpoints");
+  const double start = secondsSinceStart();
   try {
-    checkpoints.write(steps_, results, [&](StateArchive& archive) {
-      std::vector<double> rows = history.rows();
+    outputs.checkpoints.write(steps_, outputs.results, [&](StateArchive& archive) {
+      std::vector<double> rows = outputs.history.rows();
       saveOrLoad(archive, rows);
     });
   } catch (const SystemError& error) {
     return fmt::format("no checkpoint at step {}: {}", steps_, error.what());
   }
+  wallLimit_.checkpointTook(secondsSinceStart() - start);
   return "";
 }
 
-void FlowLoop::stop(int signal, const RunFolder& folder, FlowCheckpoints& checkpoints, ResultsWriter& results,
-                    HistoryWriter& history) {
-  std::string checkpoint = writeCheckpoint(checkpoints, results, history);
-  if (checkpoint.empty()) checkpoint = fmt::format("--restart goes on from {}", checkpoints.last().string());
+std::string FlowLoop::keepLast(Outputs& outputs) {
+  std::string checkpoint = writeCheckpoint(outputs);
+  if (checkpoint.empty()) checkpoint = fmt::format("--restart goes on from {}", outputs.checkpoints.last().string());
   if (written_ != steps_) {
-    history.row(historyValues(observe()));
-    output(results);
+    if (last_.step != steps_) outputs.history.row(historyValues(observe()));
+    output(outputs.results);
   }
-  history.writeTo(results);
-  results.closePartial();
-  const std::string kept = folder.partialResults().string();
-  raiseStopped(
-      comm_, signal,
-      fmt::format("at t = {:.6g} s, step {}: the fields until then are in {}; {}", time_, steps_, kept, checkpoint));
+  outputs.history.writeTo(outputs.results);
+  outputs.results.closePartial();
+  return fmt::format("the fields until then are in {}; {}", outputs.folder.partialResults().string(), checkpoint);
+}
+
+void FlowLoop::stop(Outputs& outputs) {
+  const std::string where = fmt::format("at t = {:.6g} s, step {}: {}", time_, steps_, keepLast(outputs));
+  if (wishes_.signal != 0) raiseStopped(comm_, wishes_.signal, where);
+  raiseStopped(comm_, fmt::format("time.wall_limit of {}", formatDuration(case_.time.wallLimit.value_or(0.0))), where);
 }
 
 void FlowLoop::output(ResultsWriter& results) {
   const Timers::Scope scope(timers_, "output");
+  const double start = secondsSinceStart();
   written_ = steps_;
   writeFields(results, context_, case_, state_, operators_, steps_, time_);
+  wallLimit_.outputTook(secondsSinceStart() - start);
 }
 
 ReactionOperator::Options FlowLoop::keepingFailedCells(ReactionOperator::Options options) {

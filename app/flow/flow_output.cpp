@@ -92,6 +92,7 @@ std::vector<Quantity> historyColumns(const std::vector<Operator*>& operators, co
   std::vector<Quantity> columns{{"step", "1", "number of the step"},
                                 {"time", "s", "simulated time"},
                                 {"dt", "s", "time step"},
+                                {"retried_steps", "1", "attempts at a step so far that failed, before a smaller one"},
                                 {"maximum_temperature", "K", "largest gas temperature"},
                                 {"minimum_mass_fraction", "1", "most negative mass fraction; nothing is clipped"},
                                 {"mass_fraction_sum_error", "1", "largest |sum of mass fractions - 1|"}};
@@ -110,6 +111,7 @@ std::vector<double> historyValues(const HistoryRow& row) {
   std::vector<double> values{static_cast<double>(row.step),
                              row.time,
                              row.dt,
+                             static_cast<double>(row.retriedSteps),
                              row.extremes.maximumTemperature,
                              row.extremes.minimumMassFraction,
                              row.extremes.massFractionSumError};

@@ -22,6 +22,7 @@ void writeFields(ResultsWriter& results, const FlowContext& context, const FlowC
 struct HistoryRow {
   std::int64_t step = 0;
   double time = 0.0, dt = 0.0;
+  std::int64_t retriedSteps = 0;
   StateExtremes extremes;
   std::vector<double> operators;  // the values of each, one behind the other
   std::vector<Budget::Line> budget;

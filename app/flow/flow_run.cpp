@@ -54,7 +54,12 @@ class PreparedFlow : public PreparedRun {
         printWarnings(restart->damaged);
         if (rank == 0) fmt::print("continues from {}\n", restart->file.string());
       }
-      run_->run(folder, info);
+      try {
+        run_->run(folder, info);
+      } catch (...) {
+        run_->count(record);  // how far it came
+        throw;
+      }
       run_->report(MPI_Wtime() - start_, record);
     });
   }

@@ -161,6 +161,21 @@ void addTimeAndOutput(DeckSchema& schema) {
                .above(0)
                .below(1))
       .add(numberKey("time.growth", "Largest ratio of a time step to the one before.").byDefault("1.2").above(1))
+      .add(
+          integerKey("time.retries",
+                     "How often a time step that fails is tried again, each time with a quarter of its length, before "
+                     "the run ends with its last good state and a checkpoint. Steps fail where a value is no number "
+                     "any more, a temperature is out of range, or the pressure or a cell's chemistry cannot be solved. "
+                     "0: the first failure ends the run.")
+              .byDefault("4")
+              .atLeast(0)
+              .atMost(20))
+      .add(quantityKey("time.wall_limit", units::time,
+                       "Wall time, from the start of the program, before whose end the run stops by itself as SIGTERM "
+                       "stops it: with its last state in the results and a checkpoint, from which `lampblack run "
+                       "--restart` goes on, and exit code 143. It makes one step at least. Absent: no limit.")
+               .optional()
+               .above(0))
       .add(quantityKey("output.interval", units::time, "Time between field outputs; the last state is always written.")
                .optional()
                .above(0))

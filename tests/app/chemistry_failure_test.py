@@ -1,6 +1,6 @@
 """A run whose chemistry cannot be solved ends on all ranks, with exit code 3, one message and a record that says so. It
 leaves the cell in a file, which `lampblack replay` advances again: to the same failure, or to the end with options that
-can be met.
+can be met. Before, the step is tried again, smaller, as often as the deck allows, and the run keeps what it goes on from.
 
 Usage: chemistry_failure_test.py EXECUTABLE RANKS MPIEXEC...
 """
@@ -21,24 +21,41 @@ NUMBER = "[-+.0-9e]+"
 def check_failure(program: running.Program, folder: pathlib.Path) -> pathlib.Path:
     """Runs into the failure; returns the file that the cell leaves."""
     deck = running.small_case(folder)
-    result = program("run", deck, *running.settings(*TOO_MUCH), "--out", folder / "out", timeout=120)
+    result = program("run", deck, *running.settings(*TOO_MUCH, "time.retries=2"), "--out", folder / "out", timeout=120)
     assert result.code == 3, f"exit code {result.code}, expected 3\n{result.out}{result.err}"
-    lines = result.err.splitlines()
-    assert len(lines) == 1, f"expected one line on standard error\n{result.err}"
+    *warnings, last = result.err.splitlines()
+    tried = [re.search("^lampblack: warning: step 1 from t = 0 s failed and is tried again with dt = ([0-9.e-]+) s in place of "
+                       r"([0-9.e-]+) s: chemistry failed in cell [0-9]+ at \(", line).groups() for line in warnings]
+    assert tried == [("2.5e-07", "1e-06"), ("6.25e-08", "2.5e-07")], result.err
+    assert "this was step 1 from t = 0 s, tried with dt = 1e-06 s, 2.5e-07 s, 6.25e-08 s; " in last, last
+    lines = [last]
     for part in (r"^lampblack: numerics: chemistry failed in cell [0-9]+ at \([-0-9.e]+, [-0-9.e]+\) m at time [-0-9.e]+ s",
                  r"T = [0-9.]+ K", r"p = 101325 Pa", r"mass fractions \{.*(N2|C2H4): [0-9.e-]+"):
         assert re.search(part, lines[0]), f"the message lacks {part}\n{result.err}"
     record = json.loads((folder / "out/run.json").read_text(encoding="utf-8"))
-    assert record["status"] == "failed", record
+    assert record["status"] == "failed" and record["retried_steps"] == 2 and record["steps"] == 0, record
     assert record["message"] and record["message"] in lines[0], record
     assert not (folder / "out/results.h5").exists(), "a failed run looks finished"
     assert (folder / "out/results.h5.part").exists(), "what there was is lost"
     cell = re.search(r"in cell ([0-9]+) ", lines[0]).group(1)
-    told = re.search(r"lampblack replay (\S+)$", lines[0])
+    told = re.search(r"lampblack replay (\S+); ", lines[0])
     assert told, f"the message does not say how to replay\n{result.err}"
     assert pathlib.Path(told.group(1)) == folder / f"out/failed_cell_{cell}.yaml", told.group(1)
     print(f"{program.ranks} rank(s): {lines[0][:150]}...")
     return pathlib.Path(told.group(1))
+
+
+def check_going_on(program: running.Program, folder: pathlib.Path) -> None:
+    """What the run has kept goes on where the deck asks for what can be done."""
+    arguments = ("run", folder / "flame/deck.yaml", *running.settings("time.end=3 us"), "--out", folder / "out", "--restart")
+    result = program(*arguments, timeout=120)
+    assert result.code == 0 and "continues from " in result.out, f"{result.out}{result.err}"
+    assert "steps that failed and were tried again, smaller: 2\n" in result.out, result.out
+    record = json.loads((folder / "out/run.json").read_text(encoding="utf-8"))
+    assert record["status"] == "done" and record["retried_steps"] == 2, record
+    history = (folder / "out/history.csv").read_text(encoding="utf-8").splitlines()
+    column = history[0].split(",").index("retried_steps [1]")
+    assert {float(row.split(",")[column]) for row in history[1:]} == {2.0}, history
 
 
 def check_replay(program: running.Program, file: pathlib.Path) -> None:
@@ -72,9 +89,9 @@ def check_replay(program: running.Program, file: pathlib.Path) -> None:
 def check_force(program: running.Program, folder: pathlib.Path) -> None:
     """Another run in the same folder does not keep the cell of the first."""
     (folder / "out/failed_cell_999999.yaml").write_text("mine\n", encoding="utf-8")
-    result = program("run", folder / "flame/deck.yaml", *running.settings(*TOO_MUCH), "--out", folder / "out", "--force",
-                     timeout=120)
-    assert result.code == 3, result.err
+    result = program("run", folder / "flame/deck.yaml", *running.settings(*TOO_MUCH, "time.retries=0"), "--out", folder / "out",
+                     "--force", timeout=120)
+    assert result.code == 3 and len(result.err.splitlines()) == 1, result.err
     assert not (folder / "out/failed_cell_999999.yaml").exists(), "the failed cell of an earlier run is left"
 
 
@@ -82,7 +99,9 @@ def main(executable: str, ranks: str, *mpiexec: str) -> None:
     program = running.Program(executable, list(mpiexec), int(ranks))
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        check_replay(program, check_failure(program, folder))
+        failed = check_failure(program, folder)
+        check_replay(program, failed)
+        check_going_on(program, folder)
         check_force(program, folder)
 
 

@@ -1,6 +1,7 @@
 // Tables over place and time.
 #include "io/grid_table.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <array>
@@ -61,7 +62,16 @@ TEST_F(Tables, SayWhatIsWrong) {
   EXPECT_THAT(problem("velocity\n1\n"), HasSubstr("expected a column of one of: r, z, t"));
   EXPECT_THAT(problem("r,speed\n1,2\n"), HasSubstr("no column has a name that counts here"));
   EXPECT_THAT(problem("r,velocity\n"), HasSubstr("no rows"));
-  EXPECT_THAT(problem("r,velocity\n1,fast\n"), HasSubstr("row 1: expected a number as 'velocity', found 'fast'"));
+  EXPECT_THAT(problem("r,velocity\n1,fast\n"),
+              HasSubstr("line 2: expected a finite number as 'velocity', found 'fast'"));
+  // Lines of the file count, not rows; the texts of the file may go over several.
+  EXPECT_THAT(problem("# a remark\n\nr,velocity,\"in\nwords\"\n0,1,\"two\nlines\"\n\n1,nan,x\n"),
+              HasSubstr("line 8: expected a finite number as 'velocity', found 'nan'"));
+  for (const char* none : {"NaN", "inf", "-inf", "1e999", ""})
+    EXPECT_THAT(problem(fmt::format("r,velocity\n0,1\n1,{}\n", none)),
+                HasSubstr(fmt::format("line 3: expected a finite number as 'velocity', found '{}'", none)));
+  EXPECT_THAT(problem("r,velocity\nnan,1\n"), HasSubstr("line 2: expected a finite number as 'r', found 'nan'"));
+  EXPECT_THAT(problem("r,velocity\n0,1\n1\n"), HasSubstr("line 3 has 1 fields, the line of the names 2"));
   EXPECT_THAT(problem("r,velocity [K]\n1,2\n"), HasSubstr("'velocity' is in K; expected a velocity"));
   EXPECT_THAT(problem("r,t,velocity\n0,0,1\n1,0,1\n0,1,1\n"), HasSubstr("a grid of 4 points, but there are 3 rows"));
   EXPECT_THAT(problem("r,t,velocity\n0,0,1\n1,0,1\n0,1,1\n0,1,1\n"), HasSubstr("row 4 has the place of another row"));

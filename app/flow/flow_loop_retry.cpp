@@ -1,0 +1,106 @@
+// A step of a flow's run that may fail: the way back, smaller steps, and the end where they do not help.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "app/flow/flow_loop.hpp"
+#include "app/run/warnings.hpp"
+#include "core/errors.hpp"
+#include "core/first_error.hpp"
+#include "core/stop_request.hpp"
+#include "core/system_error.hpp"
+#include "core/wall_clock.hpp"
+#include "flow/finite_state.hpp"
+
+namespace lampblack::app {
+namespace {
+
+constexpr const char* wayBack = "way back";  // stage: what it takes to be able to go back from a step
+
+constexpr double smaller = 0.25;       // of the step that has failed; a power of two, which rounds nothing
+constexpr std::int64_t mostTold = 20;  // failures with their reasons; the history counts the others
+
+}  // namespace
+
+void FlowLoop::agree(FlowCheckpoints& checkpoints) {
+  bool finite = true;
+  {
+    const Timers::Scope scope(timers_, wayBack);
+    finite = isFinite(mesh_, state_);
+  }
+  const bool limit = wallLimit_.isNear(secondsSinceStart());
+  std::array<int, 3> found{checkpoints.wants(steps_) ? 1 : 0, limit ? 1 : 0, finite ? 0 : 1};
+  wishes_.signal = agreedStopRequest(comm_, found);
+  if (found[0] != 0) wishes_.checkpoint = true;
+  if (found[1] != 0) wishes_.wallLimit = true;
+  if (found[2] != 0) raiseNotFinite(context_, state_);
+}
+
+void FlowLoop::takeBack(double time, std::int64_t steps) {
+  kept_.giveBack([this](StateArchive& archive) { saveOrLoadParts(archive); });
+  time_ = time;
+  steps_ = steps;
+  beginFromLoaded();
+}
+
+void FlowLoop::stepOrRetry(double dt, Outputs& outputs) {
+  {
+    const Timers::Scope scope(timers_, wayBack);
+    kept_.keep([this](StateArchive& archive) { saveOrLoadParts(archive); });
+  }
+  const double time = time_;
+  const std::int64_t steps = steps_;
+  const auto ofAllRanks = [this](const std::exception& error) { return mesh_.ranks == 1 || isCollective(error); };
+  for (std::vector<double> tried;; dt *= smaller) {
+    std::exception_ptr failure;
+    std::string reason;  // of what a smaller step may mend
+    try {
+      step(dt);
+      wallLimit_.stepTook(secondsSinceStart() - stepBegan_);
+      agree(outputs.checkpoints);
+      dt_ = dt;
+      return;
+    } catch (const NumericsError& error) {
+      if (!ofAllRanks(error)) throw;
+      failure = std::current_exception();
+      reason = error.what();
+    } catch (const InputError& error) {  // what a boundary gets from a formula
+      if (!ofAllRanks(error)) throw;
+      failure = std::current_exception();
+    }
+    takeBack(time, steps);
+    tried.push_back(dt);
+    if (reason.empty() || static_cast<int>(tried.size()) > case_.time.retries) giveUp(outputs, failure, tried);
+    ++retried_;
+    if (retried_ > mostTold) continue;
+    outputs.progress.finish();
+    printWarnings(
+        {fmt::format("step {} from t = {:.6g} s failed and is tried again with dt = {:.3g} s in place of "
+                     "{:.3g} s: {}{}",
+                     steps_ + 1, time_, smaller * dt, dt, reason,
+                     retried_ < mostTold ? "" : "; from here on such steps are counted in the history only")});
+  }
+}
+
+void FlowLoop::giveUp(Outputs& outputs, const std::exception_ptr& failure, const std::vector<double>& tried) {
+  std::string kept;
+  outputs.progress.finish();
+  try {
+    kept = keepLast(outputs);
+  } catch (const SystemError& error) {
+    kept = fmt::format("the last state could not be kept: {}", error.what());
+  }
+  std::vector<std::string> steps;
+  for (const double dt : tried) steps.push_back(fmt::format("{:.3g} s", dt));
+  const std::string more = fmt::format("; this was step {} from t = {:.6g} s, tried with dt = {}; {}", steps_ + 1,
+                                       time_, fmt::join(steps, ", "), kept);
+  try {
+    std::rethrow_exception(failure);
+  } catch (const InputError& error) {
+    raiseTogether(comm_, InputError(error.what() + more));
+  } catch (const NumericsError& error) {
+    raiseTogether(comm_, NumericsError(error.what() + more));
+  }
+  throw std::logic_error("a failure of another kind");
+}
+
+}  // namespace lampblack::app

@@ -1,0 +1,33 @@
+// Work in cells that may fail in some of them: all ranks then raise the error of the same cell, with its place.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <exception>
+#include <limits>
+
+#include "core/errors.hpp"
+#include "core/first_error.hpp"
+#include "core/mesh.hpp"
+#include "core/rooms.hpp"
+
+namespace lampblack::flow {
+
+// Collective, one reduction. Does `work` in each owned cell. NumericsError of the failing cell with the smallest
+// natural number, on any number of ranks the same.
+template <typename Work>
+void inEachCell(const Mesh& m, const Work& work) {
+  std::exception_ptr first;
+  auto number = std::numeric_limits<std::int64_t>::max();
+  for (int c = 0; c < m.owned; ++c) try {
+      work(c);
+    } catch (const NumericsError& error) {
+      if (m.naturalCell[c] >= number) continue;
+      number = m.naturalCell[c];
+      first = std::make_exception_ptr(NumericsError(
+          fmt::format("in the cell at ({:.6g}, {:.6g}) m: {}", m.centre[c][0], m.centre[c][1], error.what())));
+    }
+  raiseFirst(m.comm, first, number);
+}
+
+}  // namespace lampblack::flow

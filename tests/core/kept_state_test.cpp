@@ -1,0 +1,60 @@
+// What is kept in memory comes back as it was, and nothing but that.
+#include "core/kept_state.hpp"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "tests/every_room.hpp"
+
+namespace lampblack::test {
+namespace {
+
+// Three cells, two of them owned, and four faces.
+struct Owner {
+  std::vector<double> cells{1, 2, 3, 4, 5, 6}, faces{7, 8, 9, 10}, sums{11, 12}, shared{13, 14};
+  double number = 15;
+  std::string name = "cells";
+
+  void saveOrLoad(StateArchive& archive) {
+    archive.cells(name, cells, 2);
+    archive.faces("faces", faces, 1);
+    archive.sums("sums", sums);
+    archive.shared("shared", shared);
+    archive.shared("number", number);
+  }
+};
+
+TEST(KeptState, GivesBackWhatItWasGivenLast) {
+  Owner owner;
+  const KeptState::Owners owners = [&](StateArchive& archive) { owner.saveOrLoad(archive); };
+  KeptState kept(2, 4);
+  for (const double offset : {0.0, 100.0}) {
+    owner.cells[0] += offset;
+    owner.shared = {offset};
+    kept.keep(owners);
+    const Owner before = owner;
+    owner = {{0, 0, 0, 0, -5, -6}, {0, 0, 0, 0}, {0, 0}, {1, 2, 3, 4}, 0};
+    kept.giveBack(owners);
+    // What follows the owned cells is left alone.
+    EXPECT_EQ(owner.cells, (std::vector<double>{1 + offset, 2, 3, 4, -5, -6}));
+    EXPECT_EQ(owner.faces, before.faces);
+    EXPECT_EQ(owner.sums, before.sums);
+    EXPECT_EQ(owner.shared, before.shared);
+    EXPECT_EQ(owner.number, 15);
+    EXPECT_EQ(kept.bytes(), sizeof(double) * (4 + 4 + 2 + before.shared.size() + 1));
+  }
+}
+
+TEST(KeptState, KnowsOtherPieces) {
+  Owner owner;
+  const KeptState::Owners owners = [&](StateArchive& archive) { owner.saveOrLoad(archive); };
+  KeptState kept(2, 4);
+  EXPECT_THROW(kept.giveBack(owners), std::logic_error) << "nothing was kept";
+  kept.keep(owners);
+  owner.name = "others";
+  EXPECT_THROW(kept.giveBack(owners), std::logic_error);
+}
+
+}  // namespace
+}  // namespace lampblack::test
