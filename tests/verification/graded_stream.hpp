@@ -101,7 +101,8 @@ class GradedStream : public FlowExact {
       change = largest(box.mesh, [&](int c) { return std::abs(valueOf(c) - before[at(c)]); }) /
                (setting.ofComposition ? 1.0 : T1 - T0);
     }
-    EXPECT_LT(change, 1e-9) << "not steady";
+    // The limiter of cells without order has kinks that a steady state may swing about.
+    EXPECT_LT(change, split ? 1e-5 : 1e-9) << "not steady";
     if (mean != nullptr)
       *mean = meanError(box, [&](int c) { return valueOf(c) - exact(box.mesh.centre[at(c)][0]); }) /
               (setting.ofComposition ? 1.0 : T1 - T0);
