@@ -41,7 +41,8 @@ class Box {
   Box(MPI_Comm comm, const MeshSpec& spec) : spec_(spec), dimension_(spec.dimension()) {
     MPI_Comm_rank(comm, &rank_);
     MPI_Comm_size(comm, &ranks_);
-    for (int axis = 0; axis < dimension_; ++axis) cells_[at(axis)] = static_cast<int>(spec.vertices[at(axis)].size()) - 1;
+    for (int axis = 0; axis < dimension_; ++axis)
+      cells_[at(axis)] = static_cast<int>(spec.vertices[at(axis)].size()) - 1;
     for (const MeshSpec::LeftOut& part : spec.leftOut) leftOut_.push_back(rangeOf(part));
     rowStart_.push_back(0);
     for (int k = 0; k < cells_[2]; ++k)

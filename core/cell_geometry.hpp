@@ -10,8 +10,8 @@
 namespace lampblack {
 
 struct SideMeasures {
-  Vector3 centre{};  // m
-  Vector3 normal{};  // outwards, of length one
+  Vector3 centre{};   // m
+  Vector3 normal{};   // outwards, of length one
   double size = 0.0;  // m^2; of a plane cell the length, m
 };
 // A quadrilateral in space need not be plane: it is the four triangles around the mean of its corners.

@@ -8,7 +8,8 @@ namespace {
 
 using Matrix = std::array<Vector3, 3>;
 
-// Symmetric; by Jacobi's rotations (Golub and Van Loan 2013, section 8.5). Directions of next to no weight are left out.
+// Symmetric; by Jacobi's rotations (Golub and Van Loan 2013, section 8.5). Directions of next to no weight are left
+// out.
 Matrix pseudoInverse(Matrix a) {
   Matrix vectors{{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
   for (int sweep = 0; sweep < 30; ++sweep) {

@@ -68,10 +68,11 @@ class MeshBuilder {
       const Place cell = of(c);
       const CellMeasures measures = measureCell(cell.shape(), cell.corners());
       if (!(measures.size > 0.0) || !(measures.shape > 0.0))
-        throw InputError(fmt::format(
-            "cell {} of the mesh (counted from zero), a {} at {}, is folded: a corner lies inside out, or two corners are "
-            "one; repair the mesh there",
-            m.naturalCell[at(c)], nameOf(cell.shape()), placeText(measures.centre, m.dimension)));
+        throw InputError(
+            fmt::format("cell {} of the mesh (counted from zero), a {} at {}, is folded: a corner lies inside out, or "
+                        "two corners are "
+                        "one; repair the mesh there",
+                        m.naturalCell[at(c)], nameOf(cell.shape()), placeText(measures.centre, m.dimension)));
       m.centre.push_back(measures.centre);
       m.volume.push_back(measures.size);
       if (m.dimension == 2) m.planarArea.push_back(measures.size);
@@ -135,8 +136,8 @@ class MeshBuilder {
     if (side.owner == m.rank) return m.findOwned(side.neighbour);
     const auto [first, last] = std::ranges::equal_range(m.haloRank, side.owner);
     const auto begin = m.naturalCell.begin() + m.owned;
-    const auto found = std::lower_bound(begin + (first - m.haloRank.begin()), begin + (last - m.haloRank.begin()),
-                                        side.neighbour);
+    const auto found =
+        std::lower_bound(begin + (first - m.haloRank.begin()), begin + (last - m.haloRank.begin()), side.neighbour);
     return static_cast<int>(found - m.naturalCell.begin());
   }
 
@@ -182,6 +183,8 @@ class MeshBuilder {
         oblique = {};
         m.step[face] = scaled(m.normal[face], m.distance[face]);
       }
+      if (const double size = length(oblique); size > Mesh::mostOblique)
+        oblique = scaled(oblique, Mesh::mostOblique / size);
       Vector3 offset{};
       if (m.high[face] >= 0) {
         const Vector3 meets = sum(m.centre[at(m.low[face])], scaled(m.step[face], 1.0 - m.lowWeight[face]));

@@ -60,8 +60,8 @@ class Mesh {
   std::vector<int> high;                 // -1 on boundary faces
   std::vector<std::int64_t> faceNumber;  // permanent, 0 to totalFaces - 1; a face between two ranks is local to both
   std::vector<Vector3> normal;
-  std::vector<double> area;         // metric area
-  std::vector<double> planarLength;  // m, of an axisymmetric mesh's; empty otherwise
+  std::vector<double> area;                    // metric area
+  std::vector<double> planarLength;            // m, of an axisymmetric mesh's; empty otherwise
   [[nodiscard]] double size(int face) const {  // m^2, or m in a plane
     return axisymmetric() ? planarLength[static_cast<std::size_t>(face)] : area[static_cast<std::size_t>(face)];
   }
@@ -73,8 +73,10 @@ class Mesh {
 
   // Where the steps are not along the normals, or do not meet the faces' centres, on any rank: what is missing from
   // fluxes and values that go by the two cells alone. Empty otherwise.
-  std::vector<Vector3> oblique;  // normal - step/distance, of length tan(angle)
+  std::vector<Vector3> oblique;  // normal - step/distance, of length tan(angle), at most that of 60 degrees
   std::vector<Vector3> offset;   // m, from where the step meets the face to its centre
+  // Beyond, what the cells' gradients add would be more than what goes by the two cells, and a field would swing.
+  static constexpr double mostOblique = 1.73;
   [[nodiscard]] bool isOblique() const { return !oblique.empty(); }
   [[nodiscard]] bool isSkewed() const { return !offset.empty(); }
   // m, length of a face's step.
@@ -98,8 +100,8 @@ class Mesh {
 
   // The owned cells' corners, for what draws them or looks for places in them.
   std::vector<CellShape> shape;
-  std::vector<int> cornerStart;  // of each owned cell in `corner`, and the end
-  std::vector<int> corner;       // in the arrays below
+  std::vector<int> cornerStart;            // of each owned cell in `corner`, and the end
+  std::vector<int> corner;                 // in the arrays below
   std::vector<std::int64_t> vertexNumber;  // permanent, increasing
   std::vector<Vector3> vertex;             // m
 

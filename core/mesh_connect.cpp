@@ -256,8 +256,9 @@ class Connector {
     std::array<double, 3> sum{};
     for (int i = 0; i < side.corners; ++i)
       for (std::size_t axis = 0; axis < 3; ++axis)
-        sum[axis] += result_.cells.placesOf(cell)[static_cast<std::size_t>(side.corner[static_cast<std::size_t>(i)])][axis] /
-                     side.corners;
+        sum[axis] +=
+            result_.cells.placesOf(cell)[static_cast<std::size_t>(side.corner[static_cast<std::size_t>(i)])][axis] /
+            side.corners;
     return block_.dimension == 2 ? fmt::format("({:.6g}, {:.6g}) m", sum[0], sum[1])
                                  : fmt::format("({:.6g}, {:.6g}, {:.6g}) m", sum[0], sum[1], sum[2]);
   }
@@ -282,7 +283,8 @@ class Connector {
   // Each face by the cell it points out of; the other cell is told. Returns how many there are.
   std::int64_t numberFaces() {
     CellSet& cells = result_.cells;
-    const std::int64_t own = std::ranges::count_if(cells.sides, [](const CellSet::Side& side) { return side.isLow != 0; });
+    const std::int64_t own =
+        std::ranges::count_if(cells.sides, [](const CellSet::Side& side) { return side.isLow != 0; });
     std::int64_t next = 0, total = 0;
     MPI_Exscan(&own, &next, 1, MPI_INT64_T, MPI_SUM, comm_);
     MPI_Allreduce(&own, &total, 1, MPI_INT64_T, MPI_SUM, comm_);

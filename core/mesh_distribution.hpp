@@ -12,8 +12,8 @@
 namespace lampblack {
 
 // Collective. The rank of each of this rank's cells: pieces of a space-filling curve of about equal weight, each of at
-// least one cell. `weight`: of each of this rank's cells, zero or more, on any scale; empty on all ranks for equal ones,
-// which also stand in where the sum is zero. InputError, on all ranks, when there are fewer cells than ranks.
+// least one cell. `weight`: of each of this rank's cells, zero or more, on any scale; empty on all ranks for equal
+// ones, which also stand in where the sum is zero. InputError, on all ranks, when there are fewer cells than ranks.
 std::vector<int> partitionAlongCurve(MPI_Comm comm, const CellSet& cells, int dimension,
                                      std::span<const double> weight);
 

@@ -63,8 +63,8 @@ Received<T> sendToRanks(MPI_Comm comm, const std::vector<std::vector<T>>& toRank
   return received;
 }
 
-// Collective. Asks the owners of numbers, by `shares`, for what they have: `answer(number)` on the owner. Answers are in
-// the order of `numbers`, which may repeat.
+// Collective. Asks the owners of numbers, by `shares`, for what they have: `answer(number)` on the owner. Answers are
+// in the order of `numbers`, which may repeat.
 template <typename T, typename Answer>
 std::vector<T> ask(MPI_Comm comm, const Shares& shares, const std::vector<std::int64_t>& numbers,
                    const Answer& answer) {

@@ -42,7 +42,8 @@ class CarriedTransport {
  private:
   void convectiveFlux(const State& state, const Gas& gas);
   void diffuse(const State& state, const Gas& gas, double dt, std::span<double> content);
-  // Collective. Flux of the state by its own diffusivities, and the conductances (per s) it has through the interior faces.
+  // Collective. Flux of the state by its own diffusivities, and the conductances (per s) it has through the interior
+  // faces.
   void presentFlux(const State& state, const FaceState& faces, std::span<double> conductance,
                    std::span<double> flux) const;
 

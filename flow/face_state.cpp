@@ -48,7 +48,9 @@ FaceState::FaceState(const FlowContext& context, int species, int carried)
       YHeld_(knownData(context, false, BoundaryData::Nothing)),
       temperatureUpwind_(context, temperatureKnown_),
       YUpwind_(context, YKnown_),
-      YGradient_(context, species) {
+      YGradient_(context, species),
+      temperatureBounds_(context, 1),
+      carriedBounds_(context, carried) {
   const Mesh& m = context.mesh;
   const auto faces = static_cast<std::size_t>(m.faces);
   const auto boundary = static_cast<std::size_t>(m.boundaryFaces());
@@ -56,7 +58,8 @@ FaceState::FaceState(const FlowContext& context, int species, int carried)
   temperature.resize(faces);
   density.resize(faces);
   enthalpy.resize(faces);
-  for (std::vector<double>* row : {&slope_, &offsetSlope_}) row->resize(static_cast<std::size_t>(species));
+  for (std::vector<double>* row : {&slope_, &offsetSlope_, &smallest_, &largest_})
+    row->resize(static_cast<std::size_t>(std::max({species, carried, 1})));
   boundaryTemperature_.resize(boundary);
   boundaryY_.resize(boundary * species);
   boundaryCarried_.resize(boundary * carried);
@@ -118,6 +121,9 @@ void FaceState::prepare(const State& state, std::span<const double> Y) {
   }
   context_.halo.update(gradients);
   YGradient_.prepare(Y_, boundaryY_, YKnown_);
+  if (!m.isSkewed()) return;
+  temperatureBounds_.prepare(state.temperature, boundaryTemperature_, temperatureKnown_);
+  if (carried_ > 0) carriedBounds_.prepare(perMass_, boundaryCarried_, YKnown_);
 }
 
 bool FaceState::enters(int face, double direction) const {
@@ -140,9 +146,12 @@ void FaceState::massFractions(int face, double direction, std::span<double> row)
   const double* up = &Y_[static_cast<std::size_t>(u.up) * n];
   const double* down = &Y_[static_cast<std::size_t>(u.down) * n];
   for (int k = 0; k < n; ++k) row[k] = limitedFaceValue(up[k], down[k], slope_[k], u);
-  if (m.isSkewed() && m.offset[face] != Vector3{}) {
+  if (m.isSkewed()) {
     YGradient_.along(m.offset[face], u.up, offsetSlope_);
-    for (int k = 0; k < n; ++k) row[k] += limitedOffset(row[k], up[k], slope_[k], offsetSlope_[k], u);
+    YGradient_.bounds(u.up, smallest_, largest_);
+    for (int k = 0; k < n; ++k)
+      row[k] = boundedFaceValue(row[k] + limitedOffset(row[k], up[k], slope_[k], offsetSlope_[k], u), up[k],
+                                smallest_[k], largest_[k]);
   }
   double sum = 0.0;
   for (int k = 0; k < n; ++k) sum += row[k];
@@ -154,7 +163,8 @@ void FaceState::interpolate(const State& state, int face, double direction, std:
   const Mesh& m = context_.mesh;
   massFractions(face, direction, row);
   if (m.high[face] >= 0) {
-    temperature[face] = limited(temperatureUpwind_.of(face, direction), face, state.temperature, temperatureGradient_);
+    temperature[face] = limited(temperatureUpwind_.of(face, direction), face, state.temperature, temperatureGradient_,
+                                temperatureBounds_);
   } else {
     temperature[face] = enters(face, direction) ? context_.boundaryTemperature(face) : state.temperature[m.low[face]];
   }
@@ -163,18 +173,20 @@ void FaceState::interpolate(const State& state, int face, double direction, std:
 }
 
 double FaceState::carriedPerMass(int face, int scalar, double direction) const {
-  return limited(YUpwind_.of(face, direction), face, perMass_, carriedGradient_, carried_, scalar);
+  return limited(YUpwind_.of(face, direction), face, perMass_, carriedGradient_, carriedBounds_, carried_, scalar);
 }
 
 double FaceState::limited(const Upwind& u, int face, std::span<const double> values, std::span<const double> gradient,
-                          int components, int component) const {
+                          const RowGradient& bounds, int components, int component) const {
   const Mesh& m = context_.mesh;
   const double* ofUp = &gradient[static_cast<std::size_t>(u.up * components + component) * m.dimension];
   const double up = values[u.up * components + component];
   const double slope = slopeAlong(u.direction, ofUp, m.dimension);
   const double value = limitedFaceValue(up, values[u.down * components + component], slope, u);
   if (!m.isSkewed()) return value;
-  return value + limitedOffset(value, up, slope, slopeAlong(m.offset[face], ofUp, m.dimension), u);
+  const double wanted = value + limitedOffset(value, up, slope, slopeAlong(m.offset[face], ofUp, m.dimension), u);
+  bounds.bounds(u.up, smallest_, largest_);
+  return boundedFaceValue(wanted, up, smallest_[component], largest_[component]);
 }
 
 }  // namespace lampblack::flow

@@ -45,7 +45,8 @@ class FaceState {
   void limitFed(const State& state, int face);
   // Limited value at an interior face of a field with its gradient in the cells.
   [[nodiscard]] double limited(const Upwind& u, int face, std::span<const double> values,
-                               std::span<const double> gradient, int components = 1, int component = 0) const;
+                               std::span<const double> gradient, const RowGradient& bounds, int components = 1,
+                               int component = 0) const;
   // Whether gas comes in from beyond the boundary at a face.
   [[nodiscard]] bool enters(int face, double direction) const;
 
@@ -60,7 +61,9 @@ class FaceState {
   std::vector<double> perMass_;
   std::vector<double> temperatureGradient_, carriedGradient_;
   RowGradient YGradient_;
-  mutable std::vector<double> slope_, offsetSlope_;
+  // Bounds of the temperature and of what is carried, where faces have offsets.
+  RowGradient temperatureBounds_, carriedBounds_;
+  mutable std::vector<double> slope_, offsetSlope_, smallest_, largest_;
   std::vector<double> feedSlope_;
 };
 

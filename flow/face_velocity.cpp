@@ -29,8 +29,8 @@ void FaceVelocity::predict(const Cells& cells, std::span<const double> inverseDe
     double slope = (cells.pressure[m.high[face]] - cells.pressure[m.low[face]]) / m.distance[face] -
                    context_.bodyForce(density, normal);
     if (m.isOblique())
-      slope += density * meanAlong(m.oblique[face], face, cells.acceleration) +
-               context_.bodyForce(density, m.oblique[face]);
+      slope +=
+          density * meanAlong(m.oblique[face], face, cells.acceleration) + context_.bodyForce(density, m.oblique[face]);
     const double excess = meanAlong(normal, face, cells.acceleration) - inverseDensity[face] * slope;
     // The deviation's equation with constant coefficients, exactly.
     const double decayed = dt * mean(face, cells.relaxation);

@@ -24,8 +24,7 @@ struct GasVariation {
 
   // Changes what varies. InputError where a temperature is out of the range of transport properties or mole fractions
   // are below zero or do not sum to one.
-  void apply(const Vector3& place, double time, const Thermo& thermo, double& T,
-             std::vector<double>& Y) const;
+  void apply(const Vector3& place, double time, const Thermo& thermo, double& T, std::vector<double>& Y) const;
 };
 
 }  // namespace lampblack::flow

@@ -53,10 +53,10 @@ void Gradient::compute(std::span<const double> values, std::span<const double> b
         if (*weight == Vector3{}) continue;
         const int face = m.faceOfCell[i];
         const double* other =
-            m.high[face] < 0 ? boundary.data() + static_cast<std::ptrdiff_t>(face - m.interiorFaces) * components
-                             : values.data() + static_cast<std::ptrdiff_t>(m.low[face] == cell ? m.high[face]
-                                                                                              : m.low[face]) *
-                                                   components;
+            m.high[face] < 0
+                ? boundary.data() + static_cast<std::ptrdiff_t>(face - m.interiorFaces) * components
+                : values.data() +
+                      static_cast<std::ptrdiff_t>(m.low[face] == cell ? m.high[face] : m.low[face]) * components;
         for (int k = first; k < first + width; ++k) {
           const double difference = other[k] - own[k];
           for (int axis = 0; axis < d; ++axis) out[k * d + axis] += (*weight)[axis] * difference;
@@ -81,7 +81,8 @@ void Gradient::along(const Vector3& direction, int cell, std::span<const double>
     const double* other =
         m.high[face] < 0
             ? boundary.data() + static_cast<std::ptrdiff_t>(face - m.interiorFaces) * components
-            : values.data() + static_cast<std::ptrdiff_t>(m.low[face] == cell ? m.high[face] : m.low[face]) * components;
+            : values.data() +
+                  static_cast<std::ptrdiff_t>(m.low[face] == cell ? m.high[face] : m.low[face]) * components;
     for (int k = 0; k < components; ++k) slope[k] += share * (other[k] - own[k]);
   }
 }

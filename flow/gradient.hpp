@@ -42,8 +42,7 @@ class Gradient {
  private:
   using Weights = std::array<Vector3, Mesh::mostSides>;
   // Of each face of an owned cell, for the component whose flags begin at `first`.
-  const Vector3* weights(int cell, std::span<const BoundaryData> known, int components, int first,
-                         Weights& room) const;
+  const Vector3* weights(int cell, std::span<const BoundaryData> known, int components, int first, Weights& room) const;
 
   const Mesh& mesh_;
 };

@@ -22,16 +22,15 @@ void HeatConduction::findOblique(std::span<const double> temperature) {
     const int b = face - m.interiorFaces;
     const BoundaryKind kind = context_.boundaryOf(face).kind;
     const bool isTight = kind == BoundaryKind::Wall || kind == BoundaryKind::Symmetry;
-    known_[b] = context_.isTemperatureGiven(face)         ? BoundaryData::Value
+    known_[b] = context_.isTemperatureGiven(face)   ? BoundaryData::Value
                 : isTight && givenFlux(face) == 0.0 ? BoundaryData::ZeroSlope
-                                                          : BoundaryData::Nothing;
+                                                    : BoundaryData::Nothing;
     if (known_[b] == BoundaryData::Value) boundaryTemperature_[b] = context_.boundaryTemperature(face);
   }
   gradient_.compute(temperature, boundaryTemperature_, 1, temperatureGradient_, known_);
   context_.halo.update(temperatureGradient_, m.dimension);
   for (int face = 0; face < m.faces; ++face)
-    oblique_[face] =
-        -conductance_[face] * m.distance[face] * faceSlope(m, face, m.oblique[face], temperatureGradient_);
+    oblique_[face] = -conductance_[face] * m.distance[face] * faceSlope(m, face, m.oblique[face], temperatureGradient_);
 }
 
 void HeatConduction::prepare(const State& state, const GasProperties& properties) {

@@ -52,4 +52,12 @@ inline double limitedOffset(double value, double up, double gradient, double slo
   return slope * std::min(1.0, limited / whole);
 }
 
+// A face value on cells without order, where nothing may lie straight behind: within the values of the upwind cell `up`
+// and of the cells around it, and no further from its own than they reach on the other side, so that what leaves a cell
+// in a step of half of its volume leaves no new extreme.
+inline double boundedFaceValue(double value, double up, double smallest, double largest) {
+  const double below = up - smallest, above = largest - up;
+  return std::clamp(value, up - std::min(below, above), up + std::min(below, above));
+}
+
 }  // namespace lampblack::flow

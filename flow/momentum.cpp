@@ -58,9 +58,9 @@ Momentum::Momentum(const FlowContext& context, bool swirls)
     for (int i = 0; i < dimension_; ++i) {
       // Of a boundary along the axes each component is given or has no slope.
       const double share = std::abs(m.normal[face][i]);
-      velocityKnown_.push_back(given == Given::Nothing                     ? BoundaryData::Nothing
+      velocityKnown_.push_back(given == Given::Nothing                  ? BoundaryData::Nothing
                                : given == Given::Normal && share == 0.0 ? BoundaryData::ZeroSlope
-                                                                           : BoundaryData::Value);
+                                                                        : BoundaryData::Value);
     }
   }
   findOpposites();
@@ -103,31 +103,14 @@ void Momentum::findOpposites() {
 }
 
 // Cells at an outlet that have no face on the other side, such as triangles, know two slopes along it and none across:
-// what leaves along their own gradient would feed itself. They take the mean gradient of the cells beside them.
+// what leaves along their own gradient would feed itself, along their neighbours' it would where much leaves. It leaves
+// as it is.
 void Momentum::settleOutletGradients() {
   if (!hasOpenCorners_) return;
   const Mesh& m = context_.mesh;
-  const auto entries = static_cast<std::size_t>(dimension_ * dimension_);
-  std::vector<double> settled;
-  for (int face = m.interiorFaces; face < m.faces; ++face) {
-    if (!isOpenCorner(face)) continue;
-    const int cell = m.low[face];
-    std::vector<double> total(entries, 0.0);
-    int neighbours = 0;
-    for (int j = m.faceStart[cell]; j < m.faceStart[cell + 1]; ++j) {
-      const int other = m.faceOfCell[j];
-      if (m.high[other] < 0) continue;
-      const int beyond = m.low[other] == cell ? m.high[other] : m.low[other];
-      for (std::size_t i = 0; i < entries; ++i) total[i] += velocityGradient_[beyond * entries + i];
-      ++neighbours;
-    }
-    for (const double sum : total) settled.push_back(sum / std::max(neighbours, 1));
-  }
-  std::size_t next = 0;
+  const auto entries = static_cast<std::ptrdiff_t>(dimension_ * dimension_);
   for (int face = m.interiorFaces; face < m.faces; ++face)
-    if (isOpenCorner(face))
-      for (std::size_t i = 0; i < entries; ++i) velocityGradient_[m.low[face] * entries + i] = settled[next++];
-  context_.halo.update(velocityGradient_, dimension_ * dimension_);
+    if (isOpenCorner(face)) std::fill_n(velocityGradient_.begin() + m.low[face] * entries, entries, 0.0);
 }
 
 bool Momentum::isOpenCorner(int face) const {
@@ -188,8 +171,8 @@ void Momentum::predict(const State& state, const MomentumSweep& sweep) {
   outletPressures(sweep.mean);
   const int d = dimension_;
   gradient_.compute(velocity, boundaryVelocity_, d, velocityGradient_, velocityKnown_);
-  context_.halo.update(velocityGradient_, d * d);
   settleOutletGradients();
+  context_.halo.update(velocityGradient_, d * d);
   force_.compute(state.pressure, boundaryPressure_, pressureGradient_);
   if (swirl_) swirl_->completeOuterSlopes(density, pressureGradient_);
 
@@ -237,14 +220,13 @@ void Momentum::addInside(int face, const MomentumSweep& sweep) {
     if (m.isOblique() || m.isSkewed()) {
       value = velocity[d * u.up + i] + u.toFace * slopeAlong(u.direction, ofUp, d);
       if (m.isOblique() || m.isSkewed()) {
-      // Curvatures are no measure of smoothness on cells without order: along the slope.
-      value = velocity[d * u.up + i] + u.toFace * slopeAlong(u.direction, ofUp, d);
-      if (m.isSkewed()) value += slopeAlong(m.offset[face], ofUp, d);
-    }
+        // Curvatures are no measure of smoothness on cells without order: along the slope.
+        value = velocity[d * u.up + i] + u.toFace * slopeAlong(u.direction, ofUp, d);
+        if (m.isSkewed()) value += slopeAlong(m.offset[face], ofUp, d);
+      }
     }
     double force = 0.0;
-    if (m.isOblique())
-      force = mu * m.area[face] * faceSlope(m, face, m.oblique[face], velocityGradient_, d, i);
+    if (m.isOblique()) force = mu * m.area[face] * faceSlope(m, face, m.oblique[face], velocityGradient_, d, i);
     if (low < m.owned) source_[d * low + i] += force - flux * (value - velocity[d * low + i]);
     if (high < m.owned) source_[d * high + i] -= force - flux * (value - velocity[d * high + i]);
     conductance_[d * face + i] = mu * m.area[face] / m.distance[face];
@@ -327,10 +309,10 @@ Projection::Result Momentum::advance(State& state, const MomentumSweep& sweep, s
     for (int i = 0; i < d; ++i)
       acceleration_[d * c + i] = (pressureGradient_[d * c + i] - context_.bodyForce(density[c], i)) / density[c];
   gradient_.compute(predicted_, boundaryVelocity_, d, velocityGradient_, velocityKnown_);
+  settleOutletGradients();
   std::vector<FieldView> known{{predicted_, d}, {acceleration_, d}, {relaxation_, 1}};
   if (m.isSkewed()) known.push_back({velocityGradient_, d * d});
   context_.halo.update(known);
-  settleOutletGradients();
   setInverseDensity(density);
   faceVelocity_.predict({predicted_, acceleration_, relaxation_, state.pressure, velocityGradient_}, inverseDensity_,
                         sweep.dt, faceVelocity);

@@ -67,14 +67,14 @@ class Momentum {
   FaceVelocity faceVelocity_;
   std::optional<Swirl> swirl_;
   std::vector<BoundaryData> velocityKnown_;  // one a component and boundary face
-  std::vector<int> opposite_;           // of each boundary face the face on its cell's other side, or -1
-  bool hasOpenCorners_ = false;         // an outlet's cell without such a face, on any rank
-  std::vector<UpwindGeometry> upwind_;  // of each component
+  std::vector<int> opposite_;                // of each boundary face the face on its cell's other side, or -1
+  bool hasOpenCorners_ = false;              // an outlet's cell without such a face, on any rank
+  std::vector<UpwindGeometry> upwind_;       // of each component
   std::vector<double> boundaryVelocity_, boundaryPressure_;
   std::vector<double> velocityGradient_, pressureGradient_;
   std::vector<double> acceleration_;  // m/s2, (grad p - f)/rho with gravity's force f, a component and cell
   std::vector<double> relaxation_;    // 1/s, rate at which convection and viscosity renew a cell's momentum
-  std::vector<double> excess_;        // m/s, a component and cell: half of what the last sweep changed, with the other sign
+  std::vector<double> excess_;  // m/s, a component and cell: half of what the last sweep changed, with the other sign
   std::vector<double> diagonal_, conductance_, source_, predicted_, inverseDensity_, pressureChange_;
 };
 

@@ -43,8 +43,8 @@ void Momentum::explicitStress(const MomentumSweep& sweep) {
     const bool isInside = m.high[face] >= 0;
     const int low = m.low[face], high = isInside ? m.high[face] : low;
     const double w = isInside ? m.lowWeight[face] : 1.0;
-    const double mu = isInside ? w * viscosity[low] + (1.0 - w) * viscosity[high]
-                               : sweep.boundaryViscosity[face - m.interiorFaces];
+    const double mu =
+        isInside ? w * viscosity[low] + (1.0 - w) * viscosity[high] : sweep.boundaryViscosity[face - m.interiorFaces];
     const double divergence = w * dilatation(low) + (1.0 - w) * dilatation(high);
     const Vector3& normal = m.normal[face];
     Vector3 traction = difference(transposedAt(face), scaled(normal, 2.0 / 3.0 * divergence));

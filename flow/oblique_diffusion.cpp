@@ -13,9 +13,9 @@ ObliqueDiffusion::ObliqueDiffusion(const FlowContext& context)
   const std::size_t n = context.mechanism.numSpecies();
   for (int face = m.interiorFaces; face < m.faces; ++face) {
     const BoundaryKind kind = context.boundaryOf(face).kind;
-    known_.push_back(context.isCompositionGiven(face)                                  ? BoundaryData::Value
+    known_.push_back(context.isCompositionGiven(face)                               ? BoundaryData::Value
                      : kind == BoundaryKind::Wall || kind == BoundaryKind::Symmetry ? BoundaryData::ZeroSlope
-                                                                                       : BoundaryData::Nothing);
+                                                                                    : BoundaryData::Nothing);
   }
   boundaryY_.resize(known_.size() * n);
   boundaryLogWeight_.resize(known_.size());

@@ -18,8 +18,8 @@ class PressureForce {
   // `known`: what is known of the pressure at boundary faces; has to stay.
   PressureForce(const FlowContext& context, const std::vector<BoundaryData>& known);
 
-  // Collective. `pressure`: Pa, cells, halo filled, and at boundary faces where known; `gradient`: Pa/m, a component and
-  // owned cell.
+  // Collective. `pressure`: Pa, cells, halo filled, and at boundary faces where known; `gradient`: Pa/m, a component
+  // and owned cell.
   void compute(std::span<const double> pressure, std::span<const double> boundary, std::span<double> gradient);
 
  private:

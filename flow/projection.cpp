@@ -24,8 +24,7 @@ Projection::Projection(const FlowContext& context, std::span<const BoundaryData>
   context.halo.update(row, 1);
   for (double r : row) row_.push_back(static_cast<PetscInt>(r));
 
-  checkPetsc(
-      MatCreateAIJ(m.comm, owned, owned, PETSC_DETERMINE, PETSC_DETERMINE, Mesh::mostSides + 1, nullptr,
+  checkPetsc(MatCreateAIJ(m.comm, owned, owned, PETSC_DETERMINE, PETSC_DETERMINE, Mesh::mostSides + 1, nullptr,
                           Mesh::mostSides, nullptr, matrix_.put()));
   checkPetsc(MatCreateVecs(matrix_.get(), solution_.put(), rightSide_.put()));
   if (context.isClosed()) {
@@ -172,8 +171,8 @@ int Projection::correct(std::span<const double> excess, double tolerance, std::s
   return iterations.all;
 }
 
-// Velocities that the change makes through faces that the cells' steps are oblique to. Returns the largest flow by which
-// they differ from the former.
+// Velocities that the change makes through faces that the cells' steps are oblique to. Returns the largest flow by
+// which they differ from the former.
 double Projection::addOblique(std::span<const double> change, std::span<double> velocity,
                               std::span<double> former) const {
   const Mesh& m = context_.mesh;

@@ -2,8 +2,9 @@
 //   u_f = uhat_f - (dt / rho_f) dq/dn
 // have the given divergence in every cell, with a compact stencil so that pressure cannot decouple (Rhie and Chow
 // 1983). Pipelined conjugate gradients (Ghysels and Vanroose 2014) with BoomerAMG, plain ones where their round-off is
-// in the way, as for a gas that is as good as at rest; the preconditioner is kept until the iterations grow. Where steps
-// are oblique to faces the gradient along Mesh::oblique is that of the last solve: they are repeated until it stands.
+// in the way, as for a gas that is as good as at rest; the preconditioner is kept until the iterations grow. Where
+// steps are oblique to faces the gradient along Mesh::oblique is that of the last solve: they are repeated until it
+// stands.
 #pragma once
 
 #include <span>

@@ -57,7 +57,7 @@ class SpeciesDiffusion {
     std::vector<double> weightSlope;  // ln of the weights' ratio across a face
     // kg/s, species a face, what the detailed model and steps that are oblique to the faces add; empty without them.
     std::vector<double> ofDetails;
-    std::vector<double> ofStart;      // kg/m/s, species a cell; empty: diffusivities are those of the properties
+    std::vector<double> ofStart;  // kg/m/s, species a cell; empty: diffusivities are those of the properties
   };
 
   [[nodiscard]] const double* diffusivity(const Coefficients& of, int cell) const;

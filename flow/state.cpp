@@ -62,7 +62,7 @@ void State::keepStart() {
 
 void State::updateHalo(HaloExchange& halo) {
   std::vector<FieldView> fields{{velocity, dimension}, {pressure, 1}, {temperature, 1},
-                                {density, 1},  {enthalpy, 1}, {Y, species}};
+                                {density, 1},          {enthalpy, 1}, {Y, species}};
   if (swirls) fields.push_back({swirl, 1});
   if (!scalars.empty()) {
     fields.push_back({carried, carriedCount()});

@@ -26,7 +26,8 @@ double slopeAt(const std::vector<double>& x, std::size_t i, const Field& f) {
 Streamlines::Streamlines(const Mesh& mesh, const State& state, const GasProperties& properties, double thermophoresis)
     : mesh_(mesh) {
   if (!isPossible(mesh))
-    throw InputError("paths of particles need a plane mesh that is a whole box: no part left out or bent, no mesh file");
+    throw InputError(
+        "paths of particles need a plane mesh that is a whole box: no part left out or bent, no mesh file");
   for (std::size_t axis = 0; axis < 2; ++axis) {
     const auto& v = mesh.box->vertices[axis];
     for (std::size_t i = 0; i + 1 < v.size(); ++i) centre_[axis].push_back(0.5 * (v[i] + v[i + 1]));

@@ -37,7 +37,8 @@ class Streamlines {
   // Whether they can be traced on a mesh: a plane one that is a whole box.
   static bool isPossible(const Mesh& mesh);
 
-  // Collective. InputError where that is not so. `thermophoresis` is the coefficient K of the drift velocity -K (mu/rho) grad T / T.
+  // Collective. InputError where that is not so. `thermophoresis` is the coefficient K of the drift velocity -K
+  // (mu/rho) grad T / T.
   Streamlines(const Mesh& mesh, const State& state, const GasProperties& properties, double thermophoresis);
 
   // Path from `start` until it leaves the domain or `duration` has passed, one point every `timeStep`.

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/errors.hpp"
-
 #include "flow/limiter.hpp"
 
 namespace lampblack::flow {
@@ -40,7 +39,8 @@ Swirl::Swirl(const FlowContext& context, std::span<const BoundaryData> pressureK
       upwind_(context, known_) {
   const Mesh& m = context.mesh;
   if (!m.axisymmetric() || m.isOblique() || m.isSkewed())
-    throw InputError("a flow with swirl needs an axisymmetric mesh of rectangles: take a box that no table or formula bends");
+    throw InputError(
+        "a flow with swirl needs an axisymmetric mesh of rectangles: take a box that no table or formula bends");
   boundary_.resize(static_cast<std::size_t>(m.boundaryFaces()));
   angularMomentum_.resize(static_cast<std::size_t>(m.cells));
   slope_.resize(static_cast<std::size_t>(m.cells) * 2);
@@ -134,8 +134,8 @@ void Swirl::addBoundaries(const MomentumSweep& sweep) {
       const double opposite = radius - 2.0 * outwards;
       const double torque = axis == 1 ? slope : opposite * slope - 2.0 * (angularMomentum_[c] - outwards * slope);
       const double perRadius = axis == 1 ? 1.0 : 1.0 / radius;
-      source_[c] +=
-          m.normal[face][axisOf(m, face)] * sweep.boundaryViscosity[b] * m.area[face] * perRadius * torque - flux * outwards * slope;
+      source_[c] += m.normal[face][axisOf(m, face)] * sweep.boundaryViscosity[b] * m.area[face] * perRadius * torque -
+                    flux * outwards * slope;
     }
   }
 }

@@ -44,12 +44,9 @@ class UpwindGeometry {
               distanceBehind(2 * face),
               (1.0 - w) * spacing,
               scaled(m.step[face], 1.0 / spacing)};
-    return {m.high[face],
-            m.low[face],
-            spacing,
-            distanceBehind(2 * face + 1),
-            w * spacing,
-            scaled(m.step[face], -1.0 / spacing)};
+    return {m.high[face], m.low[face],
+            spacing,      distanceBehind(2 * face + 1),
+            w * spacing,  scaled(m.step[face], -1.0 / spacing)};
   }
 
  private:
@@ -60,8 +57,8 @@ class UpwindGeometry {
 
   const Mesh& mesh_;
   // Of each interior face's low and high cell: the face behind it whose distance counts, or -1 - the place in own_ of a
-  // distance that is no face's, or of a halo cell, whose faces are not all here. The face itself where the cell has none
-  // on the other side.
+  // distance that is no face's, or of a halo cell, whose faces are not all here. The face itself where the cell has
+  // none on the other side.
   std::vector<int> behind_;
   std::vector<double> own_;  // m
 };

@@ -35,7 +35,9 @@ ResultsWriter::ResultsWriter(MPI_Comm comm, std::filesystem::path path, const Ru
     self_->writeOrdered(exchange, fmt::format("/mesh/{}", name), std::span<const T>(values), width, unit, description);
   };
   write(vertices, "vertices", mesh.vertexCoordinates, 3, "m", "Coordinates of the vertices");
-  write(self_->cells, "cells", mesh.connectivity, corners, "1", mesh.dimension == 2 ? "Vertices of each cell, counter-clockwise" : "Vertices of each cell, in the order of VTK");
+  write(
+      self_->cells, "cells", mesh.connectivity, corners, "1",
+      mesh.dimension == 2 ? "Vertices of each cell, counter-clockwise" : "Vertices of each cell, in the order of VTK");
   write(self_->cells, "cellVolume", mesh.cellVolume, 1, "m^3", "Volume of each cell");
   write(self_->cells, "cellCentre", mesh.cellCentre, 3, "m", "Centre of each cell");
   std::vector<std::int64_t> owner(mesh.owner.begin(), mesh.owner.end());

@@ -36,7 +36,8 @@ inline double noise(std::int64_t a, std::int64_t b) {
 // nothing periodic.
 class SkewedMesh {
  public:
-  SkewedMesh(MPI_Comm comm, const MeshSpec& spec, Cells cells, double jitter) : spec_(spec), kind_(cells), jitter_(jitter) {
+  SkewedMesh(MPI_Comm comm, const MeshSpec& spec, Cells cells, double jitter)
+      : spec_(spec), kind_(cells), jitter_(jitter) {
     int ranks = 1, rank = 0;
     MPI_Comm_size(comm, &ranks);
     MPI_Comm_rank(comm, &rank);
@@ -47,8 +48,9 @@ class SkewedMesh {
     block_.patches = box.patches;
     const std::size_t corners = box.dimension == 2 ? 4 : 8;
     for (std::size_t c = 0; c < box.shapes.size(); ++c)
-      split(box.firstCell + static_cast<std::int64_t>(c), {box.corners.begin() + static_cast<std::ptrdiff_t>(c * corners),
-                                                           box.corners.begin() + static_cast<std::ptrdiff_t>((c + 1) * corners)});
+      split(box.firstCell + static_cast<std::int64_t>(c),
+            {box.corners.begin() + static_cast<std::ptrdiff_t>(c * corners),
+             box.corners.begin() + static_cast<std::ptrdiff_t>((c + 1) * corners)});
     for (const MeshBlock::NamedFace& face : box.named) splitFace(face);
     const auto own = static_cast<std::int64_t>(block_.shapes.size());
     MPI_Exscan(&own, &block_.firstCell, 1, MPI_INT64_T, MPI_SUM, comm);
@@ -92,7 +94,8 @@ class SkewedMesh {
       const auto& x = spec_.vertices[a];
       const auto i = static_cast<std::size_t>(index[a]);
       place[a] = x[i];
-      if (isInner) place[a] += jitter_ * noise(vertex, static_cast<std::int64_t>(a)) * std::min(x[i + 1] - x[i], x[i] - x[i - 1]);
+      if (isInner)
+        place[a] += jitter_ * noise(vertex, static_cast<std::int64_t>(a)) * std::min(x[i + 1] - x[i], x[i] - x[i - 1]);
     }
     return place;
   }
@@ -156,9 +159,9 @@ class SkewedMesh {
     const bool isAcrossThirdAxis = block_.dimension == 3 && order[3] - order[0] < (n_[0] + 1) * (n_[1] + 1);
     const auto cellIndex = indexOf(order[0], 1);
     const std::int64_t column = cellIndex[0] + n_[0] * cellIndex[1];
-    const bool isSplit =
-        kind_ == Cells::Tetrahedra ||
-        (isAcrossThirdAxis && (kind_ == Cells::Prisms || (kind_ == Cells::MixedSpace && kindOf(column) == Cells::Prisms)));
+    const bool isSplit = kind_ == Cells::Tetrahedra ||
+                         (isAcrossThirdAxis &&
+                          (kind_ == Cells::Prisms || (kind_ == Cells::MixedSpace && kindOf(column) == Cells::Prisms)));
     if (!isSplit) {
       block_.named.push_back(face);
       return;

@@ -63,9 +63,8 @@ InitialFields readInitialFlame(const Deck& deck, const FlowCase& flowCase) {
         const auto species = flowCase.mechanism->findSpecies(name.substr(2));
         if (!species) throw InputError(fmt::format("the mechanism has no species '{}'", name.substr(2)));
         // A solver's round-off may lie below zero.
-        fields.gas.moleFractions.emplace_back(*species, [value](const Vector3& place, double time) {
-          return std::max(value(place, time), 0.0);
-        });
+        fields.gas.moleFractions.emplace_back(
+            *species, [value](const Vector3& place, double time) { return std::max(value(place, time), 0.0); });
       }
     }
     return fields;

@@ -141,9 +141,8 @@ InitialFields readInitialFlow(const Deck& deck, const FlowCase& flowCase, const 
     fields.gas.temperature = next();
     for (std::size_t k = 0; k < flowCase.mechanism->numSpecies(); ++k)
       // Advection leaves some slightly below zero.
-      fields.gas.moleFractions.emplace_back(k, [value = next()](const Vector3& place, double time) {
-        return std::max(value(place, time), 0.0);
-      });
+      fields.gas.moleFractions.emplace_back(
+          k, [value = next()](const Vector3& place, double time) { return std::max(value(place, time), 0.0); });
     for (std::size_t s = 0; s < scalars.size(); ++s) fields.carried.push_back(next());
     if (std::ranges::find(numbers.names, swirl) != numbers.names.end()) fields.swirl = next();
     for (FieldFunction& velocityAlong : fields.velocity) velocityAlong = next();

@@ -86,7 +86,7 @@ TEST(StudyTable, CsvIsReadAsItWasWritten) {
   const TextTable again = readCsv("# a comment\n" + csvText(table));
   EXPECT_EQ(again.columns, table.columns);
   EXPECT_EQ(again.rows, table.rows);
-  EXPECT_THAT([] { readCsv("a,b\n1\n"); }, ThrowsMessage<InputError>(HasSubstr("row 1 has 1 fields")));
+  EXPECT_THAT([] { readCsv("a,b\n1\n"); }, ThrowsMessage<InputError>(HasSubstr("line 2 has 1 fields")));
 }
 
 TEST(Convergence, ThePowerOfAnExactLawIsFound) {

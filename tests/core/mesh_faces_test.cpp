@@ -41,8 +41,7 @@ INSTANTIATE_TEST_SUITE_P(Geometry, MeshFaces, testing::Values(Geometry::Planar, 
 TEST_P(MeshFaces, CountsAndArraySizesAgree) {
   for (const auto& values : {mesh.low, mesh.high}) EXPECT_EQ(values.size(), at(mesh.faces));
   for (const auto& values : {mesh.normal, mesh.faceCentre, mesh.step}) EXPECT_EQ(values.size(), at(mesh.faces));
-  for (const auto& values : {mesh.area, mesh.distance, mesh.lowWeight})
-    EXPECT_EQ(values.size(), at(mesh.faces));
+  for (const auto& values : {mesh.area, mesh.distance, mesh.lowWeight}) EXPECT_EQ(values.size(), at(mesh.faces));
   EXPECT_FALSE(mesh.isOblique());
   EXPECT_FALSE(mesh.isSkewed());
   EXPECT_EQ(mesh.patch.size(), at(mesh.boundaryFaces()));

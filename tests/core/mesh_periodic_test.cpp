@@ -24,7 +24,8 @@ MeshSpec periodicBox(std::array<bool, 3> periodic) {
 }
 
 TEST(PeriodicMesh, LinksTheCellsAtItsEnds) {
-  for (const auto& periodic : {std::array{true, false, false}, std::array{false, true, false}, std::array{true, true, false}}) {
+  for (const auto& periodic :
+       {std::array{true, false, false}, std::array{false, true, false}, std::array{true, true, false}}) {
     const Mesh mesh(MPI_COMM_WORLD, periodicBox(periodic));
     EXPECT_EQ(sumOverRanks(mesh.owned), 35.0);
     EXPECT_EQ(sumOverRanks(mesh.boundaryFaces()), (periodic[0] ? 0.0 : 10.0) + (periodic[1] ? 0.0 : 14.0));

@@ -84,7 +84,8 @@ TEST(Projection, OfAClosedVesselHasThePressureItsDivergenceNeeds) {
   const std::vector<double> inverseDensity(at(m.faces), 0.8);
   for (int face = 0; face < m.interiorFaces; ++face)
     velocity[at(face)] = std::sin(1e3 * m.centre[at(m.low[at(face)])][0]) + (axisOf(m, face) == 0 ? 0.1 : 0.3);
-  const auto result = Projection(box.context, nothingKnown(box)).solve(1e-4, inverseDensity, divergence, velocity, pressure);
+  const auto result =
+      Projection(box.context, nothingKnown(box)).solve(1e-4, inverseDensity, divergence, velocity, pressure);
   EXPECT_GT(result.iterations, 0);
   EXPECT_LT(result.continuityError, 1e-4);  // 1/s, of some 1e3
   double sum = 0.0, magnitude = 0.0;

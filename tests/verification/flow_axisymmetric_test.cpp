@@ -90,7 +90,8 @@ TEST_F(FlowAxisymmetric, RadialSourceFlowKeepsTheFluxAndIsSecondOrder) {
     const double density = gas.thermo.density(300.0, 101325.0, n2);
     for (int face = 0; face < m.faces; ++face) {
       if (axisOf(m, face) != 0) continue;
-      const double rv = m.normal[at(face)][0] * state.massFlux[at(face)] / density * m.faceCentre[at(face)][0] / m.area[at(face)];
+      const double rv =
+          m.normal[at(face)][0] * state.massFlux[at(face)] / density * m.faceCentre[at(face)][0] / m.area[at(face)];
       EXPECT_NEAR(rv / (speed * inner), 1.0, 2.0 * cells * 1e-9) << "r = " << m.faceCentre[at(face)][0];
     }
     const auto deviation = [&](bool atOutlet) {

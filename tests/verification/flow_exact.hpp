@@ -54,8 +54,8 @@ class FlowExact : public testing::Test {
   Errors kovasznay(Axes vertices, int steps, std::optional<Split> split = {});
   // The same with 12, 24, 48 cells a wave: the last orders of u and v, of the mean and the largest errors, are above
   // `least`. `axes`: vertices for so many cells a wave; the steps it takes to the steady state are in proportion.
-  void expectKovasznay(const std::string& what, const std::function<Axes(int)>& axes,
-                       int stepsOfACell, const std::array<double, 4>& least, std::optional<Split> split = {});
+  void expectKovasznay(const std::string& what, const std::function<Axes(int)>& axes, int stepsOfACell,
+                       const std::array<double, 4>& least, std::optional<Split> split = {});
 };
 
 inline double meanError(const Box& box, const std::function<double(int)>& error) {
@@ -108,10 +108,8 @@ inline FlowExact::Errors FlowExact::kovasznay(Axes vertices, int steps, std::opt
   return errors;
 }
 
-inline void FlowExact::expectKovasznay(const std::string& what,
-                                       const std::function<Axes(int)>& axes,
-                                       int stepsOfACell, const std::array<double, 4>& least,
-                                       std::optional<Split> split) {
+inline void FlowExact::expectKovasznay(const std::string& what, const std::function<Axes(int)>& axes, int stepsOfACell,
+                                       const std::array<double, 4>& least, std::optional<Split> split) {
   std::array<double, 3> errorU{}, errorV{}, largestU{}, largestV{};
   for (std::size_t level = 0; level < 3; ++level) {
     const int cells = 12 << level;

@@ -71,12 +71,11 @@ TEST_F(FlowGraded, LineSource) {
 
 // On cells that grow along both axes.
 TEST_F(FlowExact, KovasznayOnGradedCells) {
-  expectKovasznay(
-      "Kovasznay on graded cells",
-      [](int cells) {
-        return Axes{gradedAxis(0.0, {{1.5, 3 * cells / 2, 3.0}}), gradedAxis(0.0, {{0.5, cells / 2, 2.0}})};
-      },
-      80, {1.8, 1.9, 1.8, 1.6});
+  expectKovasznay("Kovasznay on graded cells",
+                  [](int cells) {
+                    return Axes{gradedAxis(0.0, {{1.5, 3 * cells / 2, 3.0}}), gradedAxis(0.0, {{0.5, cells / 2, 2.0}})};
+                  },
+                  80, {1.8, 1.9, 1.8, 1.6});
 }
 
 }  // namespace

@@ -87,8 +87,8 @@ class FlowSkewed : public GradedStream {
     std::array<double, 2> u{}, v{};
     for (std::size_t level = 0; level < 2; ++level) {
       const int wave = n << level;
-      const Errors found = kovasznay({uniformAxis(1.5, 3 * wave / 2), uniformAxis(0.5, wave / 2), {}}, 25 * wave,
-                                     Split{cells});
+      const Errors found =
+          kovasznay({uniformAxis(1.5, 3 * wave / 2), uniformAxis(0.5, wave / 2), {}}, 25 * wave, Split{cells});
       u[level] = found.mean[0];
       v[level] = found.mean[1];
     }

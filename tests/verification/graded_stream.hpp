@@ -35,7 +35,8 @@ class GradedStream : public FlowExact {
 
   // Largest error over the difference of the ends.
   double error(const Setting& setting, int cells) {
-    return error(setting, {gradedAxis(innerOf(setting), {{innerOf(setting) + 0.01, cells, 0.25}}), uniformAxis(1e-3, 1)});
+    return error(setting,
+                 {gradedAxis(innerOf(setting), {{innerOf(setting) + 0.01, cells, 0.25}}), uniformAxis(1e-3, 1)});
   }
   [[nodiscard]] static double innerOf(const Setting& setting) {
     return setting.geometry == Geometry::Axisymmetric ? 5e-3 : 0.0;
