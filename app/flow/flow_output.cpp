@@ -70,7 +70,8 @@ void writeFields(ResultsWriter& results, const FlowContext& context, const FlowC
   results.beginStep(step, time);
   results.cellField("temperature", "K", 1, part(state.temperature, 1), "gas temperature");
   results.cellField("density", "kg/m^3", 1, part(state.density, 1), "gas density");
-  results.cellField("velocity", "m/s", state.dimension, part(state.velocity, static_cast<std::size_t>(state.dimension)), "gas velocity along the mesh's axes");
+  results.cellField("velocity", "m/s", state.dimension, part(state.velocity, static_cast<std::size_t>(state.dimension)),
+                    "gas velocity along the mesh's axes");
   results.cellField("pressure", "Pa", 1, part(state.pressure, 1), "hydrodynamic pressure");
   std::vector<double> column(owned);
   std::vector<double> weight(owned);
