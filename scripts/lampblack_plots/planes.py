@@ -2,7 +2,6 @@
 about the axis, so that it looks like the flame."""
 
 import numpy as np
-from matplotlib import tri
 from matplotlib.collections import LineCollection, PolyCollection
 
 from .results import unit_of
@@ -60,16 +59,12 @@ def _figure_size(results):
 
 def _streamlines(axes, results, shapes, velocity):
     """Streamlines on a regular grid between the cells; none where all cells stand in one row."""
-    velocity = velocity[shapes.cells]
     x, y = results.centres[shapes.cells, 0] * 1e3, results.centres[shapes.cells, 1] * 1e3
     if np.ptp(x) == 0 or np.ptp(y) == 0:
         return
     grid_x, grid_y = np.linspace(x.min(), x.max(), 90), np.linspace(y.min(), y.max(), 120)
-    mesh = tri.Triangulation(x, y)
-    at = np.meshgrid(grid_x, grid_y)
-    inside = shapes.holds(at[0] * 1e-3, at[1] * 1e-3)
-    u = np.ma.filled(tri.LinearTriInterpolator(mesh, velocity[:, 0])(*at), 0.0) * inside
-    v = np.ma.filled(tri.LinearTriInterpolator(mesh, velocity[:, 1])(*at), 0.0) * inside
+    at = np.meshgrid(grid_x * 1e-3, grid_y * 1e-3)
+    u, v = (shapes.values_at(velocity[:, axis], *at) for axis in (0, 1))
     style = {"density": 0.9, "color": "white", "linewidth": 0.6, "arrowsize": 0.7}
     axes.streamplot(grid_x, grid_y, u, v, **style)
     if results.touches_axis():

@@ -26,6 +26,7 @@ class Shapes:
         plane = self.cut + 1e-7 * (high - low)
         self.cells = np.flatnonzero((places[:, :, 2].min(axis=1) < plane) & (places[:, :, 2].max(axis=1) > plane))
         self.polygons = [_section(places[cell], plane) for cell in self.cells]
+        self._centres = results.centres[self.cells, :2]
         self._corners = None
 
     def surface(self):
@@ -38,17 +39,21 @@ class Shapes:
         edges, count = np.unique(edges, axis=0, return_counts=True)
         return self._vertices[edges[count == 1]]
 
-    def holds(self, x, y):
-        """Which places (m) lie in a cell."""
+    def values_at(self, values, x, y):
+        """Values of the cells, given for all of them, at places (m): linear between the vertices, each of which has the mean of
+        its cells; 0 where there is no cell."""
         if self._corners is None:
-            return np.ones(np.shape(x), dtype=bool)
+            mesh = tri.Triangulation(*self._centres.T)
+            return np.ma.filled(tri.LinearTriInterpolator(mesh, values[self.cells])(x, y), 0.0)
         corners = self._corners
         triangles = np.concatenate([corners[:, [0, k, k + 1]] for k in range(1, corners.shape[1] - 1)])
-        places = self._vertices[triangles]
-        size = np.cross(places[:, 1] - places[:, 0], places[:, 2] - places[:, 0])
-        triangles = triangles[size > 1e-12 * size.max()]
-        finder = tri.Triangulation(*self._vertices.T, triangles).get_trifinder()
-        return finder(x, y) >= 0
+        cell = np.tile(np.arange(len(corners)), corners.shape[1] - 2)
+        whole = (triangles[:, 1] != triangles[:, 2]) & (triangles[:, 0] != triangles[:, 1])
+        triangles, cell = triangles[whole], cell[whole]
+        mesh = tri.Triangulation(*self._vertices.T, triangles)
+        size = np.bincount(triangles.ravel(), minlength=len(self._vertices))
+        total = np.bincount(triangles.ravel(), weights=np.repeat(values[cell], 3), minlength=len(self._vertices))
+        return np.ma.filled(tri.LinearTriInterpolator(mesh, total / np.maximum(size, 1))(x, y), 0.0)
 
 
 def _section(corners, height):
