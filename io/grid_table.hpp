@@ -18,7 +18,7 @@ namespace lampblack::io {
 
 class GridTable {
  public:
-  static constexpr std::size_t maxCoordinates = 3;
+  static constexpr std::size_t maxCoordinates = 4;
 
   // `coordinates`: names and what they are measured in; a table has at least one of them. `dimensionOf`: the dimension
   // of any other column, or nothing for columns that are left out. InputError where the file is no such table.

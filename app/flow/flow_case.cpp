@@ -15,7 +15,6 @@
 #include "app/flow/initial_flow.hpp"
 #include "app/tools/gas_input.hpp"
 #include "core/errors.hpp"
-#include "core/grading.hpp"
 #include "coupling/carried_particles.hpp"
 #include "flow/carried_operator.hpp"
 
@@ -24,40 +23,6 @@ namespace lampblack::app {
 using namespace flowcase;
 
 namespace {
-
-MeshSpec readMesh(const Deck& deck, std::size_t species) {
-  MeshSpec spec;
-  spec.geometry = deck.choice("mesh.geometry") == "axisymmetric" ? Geometry::Axisymmetric : Geometry::Planar;
-  const AxisNames names = axisNames(spec.geometry);
-  const AxisNames others =
-      axisNames(spec.geometry == Geometry::Axisymmetric ? Geometry::Planar : Geometry::Axisymmetric);
-  for (const std::string& other : others)
-    if (deck.has("mesh." + other))
-      throw deck.error("mesh." + other, fmt::format("a {} mesh has the axes {} and {}", deck.choice("mesh.geometry"),
-                                                    names[0], names[1]));
-  const double refinement = deck.number("mesh.refinement");
-  std::array<std::vector<AxisSegment>, 2> segments;
-  for (std::size_t axis = 0; axis < 2; ++axis) {
-    const std::string list = "mesh." + names[axis];
-    for (std::size_t i = 0; i < deck.size(list); ++i) {
-      const std::string item = fmt::format("{}[{}].", list, i);
-      segments[axis].push_back(
-          {deck.quantity(item + "to"), deck.integer<int>(item + "cells"), deck.number(item + "ratio")});
-    }
-    if (segments[axis].empty())
-      throw deck.error("mesh", fmt::format("the mesh has no cells along {}: expected a list '{}' of segments",
-                                           names[axis], names[axis]));
-  }
-  requireCells(deck, gradedCells(segments[0], refinement) * gradedCells(segments[1], refinement), species);
-  for (std::size_t axis = 0; axis < 2; ++axis) {
-    try {
-      spec.vertices[axis] = gradedAxis(0.0, segments[axis], refinement);
-    } catch (const InputError& error) {
-      throw deck.error("mesh." + names[axis], error.what());
-    }
-  }
-  return spec;
-}
 
 Stream streamOf(const Deck& deck, const std::string& key, const FlowCase& flowCase) {
   const std::string name = deck.string(key);
@@ -78,18 +43,18 @@ std::vector<std::string> carriedNames(const FlowCase& flowCase) {
 }
 
 void readInitialFields(const Deck& deck, FlowCase& flowCase) {
-  const AxisNames axes = axisNames(flowCase.mesh.geometry);
-  const std::array<std::string, 2> velocities{"velocity_" + axes[0], "velocity_" + axes[1]};
-  GivenFields::Names names{
-      {"temperature", units::temperature}, {velocities[0], units::velocity}, {velocities[1], units::velocity}};
+  const AxisNames axes = axisNames(flowCase);
+  GivenFields::Names names{{"temperature", units::temperature}};
+  for (const std::string& axis : axes) names["velocity_" + axis] = units::velocity;
   if (flowCase.mesh.geometry == Geometry::Axisymmetric) names["swirl_velocity"] = units::velocity;
   const GivenFields given(deck, "initial", axes, names, *flowCase.mechanism);
   InitialFields& fields = flowCase.initialFields;
   fields = {.gas = given.gas(),
-            .velocity = {given.find(velocities[0]), given.find(velocities[1])},
+            .velocity = {},
             .swirl = given.find("swirl_velocity"),
             .thermodynamicPressure = {},
             .carried = {}};
+  for (std::size_t axis = 0; axis < axes.size(); ++axis) fields.velocity[axis] = given.find("velocity_" + axes[axis]);
   for (const char* whole : {"initial.flame1d", "initial.flow"}) {
     if (!deck.has(whole)) continue;
     if (!fields.isEmpty() || deck.choice("initial.layer") != "none")
@@ -102,6 +67,9 @@ void readInitialFields(const Deck& deck, FlowCase& flowCase) {
   flowCase.swirls = fields.swirl || std::ranges::any_of(flowCase.boundaries, [](const BoundaryCondition& boundary) {
                       return boundary.swirl != 0.0 || boundary.varies.swirl;
                     });
+  if (flowCase.swirls && flowCase.meshFile)
+    throw deck.error("mesh.file",
+                     "a flow that swirls needs a mesh of rectangles; expected a box, segments of 'r' and 'z'");
 }
 
 // One gas everywhere, under the fields that are given.
@@ -142,8 +110,10 @@ void readInitial(const Deck& deck, FlowCase& flowCase) {
   layer.position = neededQuantity(deck, "initial", "position", "a layer");
   layer.width = neededQuantity(deck, "initial", "width", "a layer");
   layer.burnt = deck.choice("initial.layer") == "burnt";
-  const double end = flowCase.mesh.vertices[static_cast<std::size_t>(layer.axis)].back();
+  const std::vector<double>& along = flowCase.mesh.vertices[static_cast<std::size_t>(layer.axis)];
   const auto requireInside = [&](const char* key, double place) {
+    if (flowCase.meshFile || flowCase.mesh.map) return;  // it is known later how far the mesh goes
+    const double end = along.back();
     if (place < 0 || place > end)
       throw deck.error(key, fmt::format("expected a place in the domain, from 0 to {:g} m, found {:g} m", end, place));
   };
@@ -154,19 +124,26 @@ void readInitial(const Deck& deck, FlowCase& flowCase) {
   requireInside("initial.hot_position", layer.hotPosition);
 }
 
+// Whether a symmetry of a box is normal to an axis somewhere. Of a file the mesh tells (flow_mesh).
+bool isSymmetryAcross(const FlowCase& flowCase, std::size_t boundary, std::size_t axis) {
+  if (flowCase.meshFile || flowCase.boundaries[boundary].kind != BoundaryKind::Symmetry) return false;
+  const BoundaryPatch& patch = flowCase.mesh.patches[boundary];
+  const bool isBent = flowCase.mesh.map && patch.axis == 1;
+  return patch.leftOut >= 0 || isBent || patch.axis == static_cast<int>(axis);
+}
+
 // Gravity, which an axis or a plane of symmetry allows along it only.
 void readGravity(const Deck& deck, FlowCase& flowCase) {
-  const AxisNames names = axisNames(flowCase.mesh.geometry);
+  const AxisNames names = axisNames(flowCase);
   for (const char* name : {"r", "x", "y", "z"}) {
     const std::string key = std::string("gravity.") + name;
     if (!deck.has(key)) continue;
     const auto axis = std::ranges::find(names, name);
-    if (axis == names.end())
-      throw deck.error(key, fmt::format("the axes of this mesh are {} and {}", names[0], names[1]));
+    if (axis == names.end()) throw deck.error(key, axesText(names));
     const auto i = static_cast<std::size_t>(axis - names.begin());
     flowCase.gravity[i] = deck.quantity(key);
     for (std::size_t b = 0; b < flowCase.boundaries.size(); ++b)
-      if (flowCase.boundaries[b].kind == BoundaryKind::Symmetry && flowCase.mesh.patches[b].axis == static_cast<int>(i))
+      if (isSymmetryAcross(flowCase, b, i))
         throw deck.error(key, fmt::format("gravity would point through '{}', where the flow is symmetric",
                                           flowCase.boundaries[b].name));
   }
@@ -218,6 +195,11 @@ void readTrajectories(const Deck& deck, FlowCase& flowCase) {
   if (deck.has("soot") && deck.choice("soot.model") == "none") return;
   if (!flowCase.carried)
     throw deck.error("trajectories", "trajectories need a 'soot' section: it names the particle model");
+  if (!flowCase.isWholePlaneBox())
+    throw deck.error(
+        "trajectories",
+        "paths need a plane mesh that is a whole box, without solids, a floor or a ceiling of its own or a "
+        "mesh file; leave the section out");
   if (flowCase.mesh.periodic[0] || flowCase.mesh.periodic[1])
     throw deck.error("trajectories", "paths cannot go through a periodic boundary yet; leave the section out");
   TrajectoryRequest options;
@@ -262,7 +244,7 @@ FlowCase readFlowCase(const Deck& deck) {
   flowCase.pressure = deck.quantity("pressure");
   flowCase.seed = deck.integer<std::uint64_t>("seed");
   flowCase.mechanism = readMechanism(deck);
-  flowCase.mesh = readMesh(deck, flowCase.mechanism->numSpecies());
+  readMesh(deck, flowCase);
   flowCase.transport = readTransport(deck, *flowCase.mechanism);
   readBoundaries(deck, flowCase);
   flowCase.chemistry.shareWork = deck.boolean("chemistry.share_work");
@@ -289,7 +271,12 @@ FlowCase readFlowCase(const Deck& deck) {
   flowCase.chemistry.reactor.absoluteTolerance = deck.number("chemistry.absolute_tolerance");
   readOutput(deck, flowCase);
   readTrajectories(deck, flowCase);
-  refuseExcess(deck, flowCase);
+  if (!flowCase.meshFile) {
+    double cells = 1;
+    for (int axis = 0; axis < flowCase.dimension; ++axis)
+      cells *= static_cast<double>(flowCase.mesh.vertices[static_cast<std::size_t>(axis)].size() - 1);
+    refuseExcess(deck, flowCase, cells);
+  }
   return flowCase;
 }
 

@@ -1,6 +1,7 @@
 // What a deck with `problem: flow` asks for, checked and in SI: the bridge from the words of the deck to the operators.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -61,12 +62,25 @@ struct TrajectoryRequest {
   SootModelOptions soot;
 };
 
+// A mesh made by other programs, in place of a box.
+struct MeshFile {
+  std::filesystem::path path;
+  double unit = 1.0;  // m, of one unit of the file
+  Deck deck;          // whose lines messages point at
+  // Names of its surface whose faces are one with others.
+  std::vector<std::string> periodic;
+  std::string content;  // a hash, once the mesh is made
+};
+
 struct FlowCase {
   std::string title;
   std::shared_ptr<const Mechanism> mechanism;
   double pressure = 0.0;  // Pa
   std::uint64_t seed = 0;
-  MeshSpec mesh;
+  MeshSpec mesh;                    // a box; of a mesh file its geometry alone
+  std::vector<std::string> solids;  // names of mesh.leftOut
+  int dimension = 2;
+  std::optional<MeshFile> meshFile;
   std::vector<BoundaryCondition> boundaries;  // in the order of mesh.patches
   Vector3 gravity{0.0, 0.0, 0.0};             // m/s^2
   double referenceDensity = 0.0;              // kg/m^3, FlowContext
@@ -84,6 +98,11 @@ struct FlowCase {
   CarriedOperator::Options carriedOptions;
   std::optional<TrajectoryRequest> trajectories;
   std::vector<std::string> notes;  // what the user should be told before the run
+
+  // A plane box of which nothing is left out or bent.
+  [[nodiscard]] bool isWholePlaneBox() const {
+    return !meshFile && dimension == 2 && mesh.leftOut.empty() && !mesh.map;
+  }
 };
 
 // All keys a flow deck may have.

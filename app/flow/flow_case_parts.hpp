@@ -10,11 +10,24 @@
 
 namespace lampblack::app::flowcase {
 
-using AxisNames = std::array<std::string, 2>;
+// Of a mesh, two or three.
+using AxisNames = std::vector<std::string>;
 
-inline AxisNames axisNames(Geometry geometry) {
-  return geometry == Geometry::Axisymmetric ? AxisNames{"r", "z"} : AxisNames{"x", "y"};
+AxisNames axisNames(Geometry geometry, int dimension);
+inline AxisNames axisNames(const FlowCase& flowCase) {
+  return axisNames(flowCase.mesh.geometry, flowCase.dimension);
 }
+// "the axes of this mesh are r and z".
+std::string axesText(const AxisNames& names);
+
+// The section mesh: a box with its solids, floor and ceiling, or a file.
+void readMesh(const Deck& deck, FlowCase& flowCase);
+
+// Whether a cell of a box, by its centre, is left out.
+bool isLeftOut(const MeshSpec& mesh, const std::array<double, 3>& centre);
+
+// Tells the user where an edge, of what is named, lies inside a cell of an axis.
+void noteEdgeInside(FlowCase& flowCase, const std::string& what, double edge, const std::vector<double>& vertices);
 
 // Mass fractions of a composition that the deck gives as mole fractions.
 std::vector<double> readComposition(const Deck& deck, const std::string& key, const Mechanism& mechanism);

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "app/flow/content_hash.hpp"
 #include "chemistry/mechanism/mechanism_writer.hpp"
 #include "core/errors.hpp"
 #include "core/stop_request.hpp"
@@ -11,15 +12,38 @@
 namespace lampblack::app {
 namespace {
 
-// FNV-1a of 64 bits (Fowler, Noll, Vo 1991).
-std::uint64_t hash(const std::string& text) {
-  std::uint64_t value = 0xcbf29ce484222325ULL;
-  for (const char c : text) value = (value ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
-  return value;
+std::string hashed(const std::string& words, const std::string& text) {
+  ContentHash hash;
+  hash.add(text);
+  return fmt::format("{}, {}", words, hash.text());
 }
 
-std::string hashed(const std::string& words, const std::string& text) {
-  return fmt::format("{}, {:016x}", words, hash(text));
+// Of a box the places of its vertices along the axes, what is left out, and where bent walls lie.
+std::string boxText(const MeshSpec& mesh) {
+  std::string text;
+  for (const auto& axis : mesh.vertices)
+    for (const double x : axis) text += fmt::format("{} ", x);
+  for (const MeshSpec::LeftOut& part : mesh.leftOut)
+    for (const auto& corner : {part.lower, part.upper})
+      for (const double x : corner) text += fmt::format("{} ", x);
+  if (mesh.map)
+    for (const double x : mesh.vertices[0])
+      for (const double y : {mesh.vertices[1].front(), mesh.vertices[1].back()})
+        text += fmt::format("{} ", mesh.map({x, y, 0.0})[1]);
+  return text;
+}
+
+std::string meshText(const FlowCase& flowCase) {
+  const std::string geometry = flowCase.mesh.geometry == Geometry::Axisymmetric ? "axisymmetric"
+                               : flowCase.dimension == 2                        ? "planar"
+                                                                                : "space";
+  if (flowCase.meshFile)
+    return hashed(geometry + ", a file", fmt::format("{} {}", flowCase.meshFile->unit, flowCase.meshFile->content));
+  std::string cells;
+  for (int axis = 0; axis < flowCase.dimension; ++axis)
+    cells +=
+        fmt::format("{}{}", axis > 0 ? " x " : "", flowCase.mesh.vertices[static_cast<std::size_t>(axis)].size() - 1);
+  return hashed(fmt::format("{}, {} cells", geometry, cells), boxText(flowCase.mesh));
 }
 
 std::string kindName(BoundaryKind kind) {
@@ -46,26 +70,24 @@ StateNumbers stateNumbers(const Mesh& mesh) {
 }
 
 Fingerprint flowFingerprint(const FlowCase& flowCase, const std::vector<CarriedScalar>& scalars) {
-  const auto& vertices = flowCase.mesh.vertices;
-  std::string places;
-  for (const auto& axis : vertices)
-    for (const double x : axis) places += fmt::format("{} ", x);
   std::string boundaries;
   std::string extents;
   for (std::size_t i = 0; i < flowCase.boundaries.size(); ++i) {
+    const BoundaryCondition& boundary = flowCase.boundaries[i];
+    boundaries += fmt::format("{}{}: {}", i > 0 ? ", " : "", boundary.name, kindName(boundary.kind));
+    if (flowCase.meshFile) continue;
     const BoundaryPatch& patch = flowCase.mesh.patches[i];
-    boundaries += fmt::format("{}{}: {}", i > 0 ? ", " : "", patch.name, kindName(flowCase.boundaries[i].kind));
-    extents += fmt::format("{} {} {} {};", patch.axis, patch.atMax, patch.from, patch.to);
+    if (patch.leftOut >= 0)
+      extents += fmt::format("solid {};", patch.leftOut);
+    else
+      extents += fmt::format("{} {} {} {};", patch.axis, patch.atMax, patch.from, patch.to);
   }
   std::string carried;
   for (const CarriedScalar& scalar : scalars)
     carried += fmt::format("{} {} {} {};", scalar.name, scalar.unit, scalar.description, scalar.thermophoresis);
   const Mechanism& mechanism = *flowCase.mechanism;
   return {
-      {"mesh", hashed(fmt::format("{}, {} x {} cells",
-                                  flowCase.mesh.geometry == Geometry::Axisymmetric ? "axisymmetric" : "planar",
-                                  vertices[0].size() - 1, vertices[1].size() - 1),
-                      places)},
+      {"mesh", meshText(flowCase)},
       {"boundaries", hashed(boundaries, extents)},
       {"mechanism", hashed(fmt::format("{} species, {} reactions", mechanism.numSpecies(), mechanism.numReactions()),
                            mechanismYaml(mechanism))},

@@ -39,10 +39,8 @@ void requireCells(const Deck& deck, double cells, std::size_t species) {
     throw deck.error(key, fmt::format("{:.9g} cells are too many; at most {} can be numbered", cells, most));
 }
 
-void refuseExcess(const Deck& deck, const FlowCase& flowCase) {
+void refuseExcess(const Deck& deck, const FlowCase& flowCase, double cells) {
   const OutputControl& output = flowCase.output;
-  const auto& axes = flowCase.mesh.vertices;
-  const double cells = static_cast<double>(axes[0].size() - 1) * static_cast<double>(axes[1].size() - 1);
   const double outputs = flowCase.time.end / output.interval;
   requireOutputs(deck, "output.interval", "outputs of the fields", outputs,
                  cells * number * (6 + static_cast<double>(output.species.size())));

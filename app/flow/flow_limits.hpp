@@ -11,6 +11,6 @@ namespace lampblack::app {
 void requireCells(const Deck& deck, double cells, std::size_t species);
 
 // InputError where the outputs, the history or the trajectories of a case that was read are too many.
-void refuseExcess(const Deck& deck, const FlowCase& flowCase);
+void refuseExcess(const Deck& deck, const FlowCase& flowCase, double cells);
 
 }  // namespace lampblack::app

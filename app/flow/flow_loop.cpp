@@ -4,6 +4,7 @@
 #include <exception>
 #include <utility>
 
+#include "app/flow/flow_mesh.hpp"
 #include "app/flow/trajectories.hpp"
 #include "app/run/warnings.hpp"
 #include "core/errors.hpp"
@@ -14,7 +15,7 @@ namespace lampblack::app {
 FlowLoop::FlowLoop(MPI_Comm comm, FlowCase flowCase)
     : comm_(comm),
       case_(std::move(flowCase)),
-      mesh_(comm, case_.mesh),
+      mesh_(makeMesh(comm, case_)),
       halo_(mesh_),
       thermo_(*case_.mechanism),
       transport_(*case_.mechanism, case_.transport.averaged()),

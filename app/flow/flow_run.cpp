@@ -22,7 +22,10 @@ class PreparedFlow : public PreparedRun {
     FlowCase flowCase;
     collectively(comm, [&] {
       flowCase = readFlowCase(deck);
-      const std::size_t cells = (flowCase.mesh.vertices[0].size() - 1) * (flowCase.mesh.vertices[1].size() - 1);
+      if (flowCase.meshFile) return;
+      std::size_t cells = 1;
+      for (int axis = 0; axis < flowCase.dimension; ++axis)
+        cells *= flowCase.mesh.vertices[static_cast<std::size_t>(axis)].size() - 1;
       if (cells < static_cast<std::size_t>(ranks))
         throw deck.error("mesh", fmt::format("{} cells cannot be spread over {} ranks", cells, ranks));
     });

@@ -1,3 +1,6 @@
+#include <array>
+#include <string>
+
 #include "app/deck/radiation_deck.hpp"
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/temperature_input.hpp"
@@ -13,9 +16,21 @@ namespace {
 
 void addMesh(DeckSchema& schema) {
   schema
-      .add(choiceKey("mesh.geometry", {"axisymmetric", "planar"},
-                     "Symmetry of the domain: axisymmetric, with axes r and z, or planar, with x and y.")
+      .add(choiceKey(
+               "mesh.geometry", {"axisymmetric", "planar", "space"},
+               "Symmetry of the domain: axisymmetric, with axes r and z; planar, with x and y; or none, space, with "
+               "x, y and z.")
                .byDefault("axisymmetric"))
+      .add(stringKey(
+               "mesh.file",
+               "Mesh file of Gmsh (versions 4.0 and 4.1), relative to the deck, in place of segments along axes: "
+               "triangles and quadrilaterals in a plane (axisymmetric: x of the file is the radius r, y is z), or, "
+               "with geometry space, tetrahedra, pyramids, prisms and hexahedra. Its physical groups of lines (space: "
+               "of faces) are the boundaries, by their names.")
+               .optional())
+      .add(quantityKey("mesh.unit", units::length, "Length of one unit of the mesh file, '1 mm'; absent: 1 m.")
+               .optional()
+               .above(0))
       .add(numberKey("mesh.refinement", "Multiplies the cell count of every segment.").byDefault("1").above(0));
   for (const std::string axis : {"r", "z", "x", "y"}) {
     const std::string list = "mesh." + axis;
@@ -25,6 +40,34 @@ void addMesh(DeckSchema& schema) {
         .add(
             numberKey(list + "[].ratio", "Last cell size over first; above 1 the cells grow.").byDefault("1").above(0));
   }
+  schema.section(
+      "mesh.solids.*", Presence::optional,
+      "A box of solid in the mesh - a step, a lip, a bluff body - whose cells are left out: those with their "
+      "centres in it. Each has a boundary, 'lip: {type: wall, solid: lip}'.");
+  for (const std::string axis : {"r", "z", "x", "y"})
+    schema.add(quantityKey("mesh.solids.*." + axis, units::length,
+                           "Lower and upper end of the solid along the " + axis +
+                               " axis, '[0 mm, 5 mm]'; absent: it goes through the whole mesh along it.")
+                   .list(2)
+                   .optional());
+  for (const auto& [name, what, otherwise] :
+       {std::array<std::string, 3>{"floor", "lower", "y = 0"},
+        std::array<std::string, 3>{"ceiling", "upper", "the end of the last segment of y"}}) {
+    const std::string section = "mesh." + name;
+    schema
+        .section(
+            section, Presence::optional,
+            "A " + what +
+                " wall that is not straight: its height y over x, by a formula or a table; absent: " + otherwise +
+                ". The vertices between floor and ceiling keep their proportions; 'from' and 'to' of boundaries and "
+                "solids are as if both were straight.",
+            {{"mesh.geometry", {"planar"}}})
+        .add(stringKey(section + ".formula", "Height in m over x in m, '0.01 + 0.002*sin(300*x)'.").optional())
+        .add(stringKey(section + ".table",
+                       "CSV file, relative to the deck, with points of the wall: the columns x and y, a unit may stand "
+                       "behind a name, 'y [mm]'. Linear between its points, constant beyond them.")
+                 .optional());
+  }
 }
 
 void addBoundaries(DeckSchema& schema) {
@@ -33,10 +76,17 @@ void addBoundaries(DeckSchema& schema) {
           "boundaries.*.type", {"inlet", "outlet", "wall", "symmetry", "periodic"},
           "Kind of boundary: a stream that comes in, an opening, a solid wall, an axis or plane of symmetry, or one of "
           "two opposite sides of which what leaves by one comes in by the other."))
-      .add(choiceKey("boundaries.*.side", {"r-min", "r-max", "z-min", "z-max", "x-min", "x-max", "y-min", "y-max"},
-                     "Side of the box that the boundary lies on."))
-      .add(quantityKey("boundaries.*.from", units::length,
-                       "Coordinate along the side where the boundary starts; absent: the lower end of the side.")
+      .add(choiceKey(
+               "boundaries.*.side", {"r-min", "r-max", "z-min", "z-max", "x-min", "x-max", "y-min", "y-max"},
+               "Side of the box that the boundary lies on. A box needs it, or 'solid'; boundaries of a mesh file go "
+               "by their names.")
+               .optional())
+      .add(stringKey("boundaries.*.solid", "Solid of 'mesh.solids' whose surface the boundary is, in place of a side.")
+               .optional())
+      .add(quantityKey(
+               "boundaries.*.from", units::length,
+               "Coordinate along the side (in space: along the first of its two axes) where the boundary starts; "
+               "absent: the lower end of the side.")
                .optional())
       .add(quantityKey("boundaries.*.to", units::length,
                        "Coordinate along the side where the boundary ends; absent: the upper end of the side.")
@@ -48,7 +98,7 @@ void addBoundaries(DeckSchema& schema) {
       .add(quantityKey(
                "boundaries.*.tangential_velocity", units::velocity,
                "Velocity along the boundary, in the direction of its axis: of a moving wall, or of a stream that comes "
-               "in at an angle; absent: zero.")
+               "in at an angle; absent: zero. Not in space.")
                .optional()
                .onlyWith("boundaries.*.type", {"inlet", "wall"}))
       .add(quantityKey("boundaries.*.swirl_velocity", units::velocity,
@@ -103,7 +153,9 @@ void addInitial(DeckSchema& schema) {
                      "burnt: complete combustion where the streams meet (without CO2 in the mechanism: equilibrium); "
                      "hot: cold mixture with a hot layer that ignites it; none: one gas everywhere.")
                .byDefault("burnt"))
-      .add(stringKey("initial.low", "Boundary whose stream fills the low end of the axis. A layer needs it.")
+      .add(stringKey(
+               "initial.low",
+               "Boundary whose stream fills the low end of the axis (z; planar and in space: y). A layer needs it.")
                .optional()
                .onlyWith("initial.layer", {"burnt", "hot"}))
       .add(stringKey("initial.high", "Boundary whose stream fills the high end. A layer needs it.")

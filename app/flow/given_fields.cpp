@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <memory>
+#include <span>
 #include <utility>
 
 #include "core/errors.hpp"
@@ -14,6 +16,13 @@ namespace lampblack::app::flowcase {
 namespace {
 
 constexpr std::string_view moleFraction = "X_";
+
+// The two or three coordinates, then the time.
+std::array<double, 4> inAxes(const Vector3& place, double time, std::size_t dimension) {
+  std::array values{place[0], place[1], place[2], 0.0};
+  values[dimension] = time;
+  return values;
+}
 
 std::vector<std::string> namesOf(const GivenFields::Names& names) {
   std::vector<std::string> known;
@@ -28,7 +37,7 @@ void addGivenFieldKeys(DeckSchema& schema, const std::string& section, const std
       .add(stringKey(
                section + ".formula.*",
                "A quantity over place and time, '0.2*(1 - (r/0.005)^2)': a formula in SI of the mesh's axes (r and "
-               "z, or x and y) and t. Its name is one of: " +
+               "z, x and y, or x, y and z) and t. Its name is one of: " +
                    names + ".")
                .optional())
       .add(stringKey(section + ".table",
@@ -49,9 +58,12 @@ void GivenFields::readFormulas(const Deck& deck, const std::string& section, con
   for (const std::string& name : deck.children(section + ".formula")) {
     const std::string key = section + ".formula." + name;
     deck.at(key, [&] {
-      const Formula formula(deck.string(key), {axes[0], axes[1], "t"});
-      fields_[name] = {[formula](const Vector3& place, double time) {
-                         return formula(std::array{place[0], place[1], time});
+      std::vector<std::string> variables = axes;
+      variables.emplace_back("t");
+      const Formula formula(deck.string(key), variables);
+      fields_[name] = {[formula, dimension = axes.size()](const Vector3& place, double time) {
+                         const std::array values = inAxes(place, time, dimension);
+                         return formula(std::span(values).first(dimension + 1));
                        },
                        key};
     });
@@ -66,15 +78,17 @@ void GivenFields::readTable(const Deck& deck, const std::string& section, const 
     return known == names.end() ? units::dimensionless : known->second;
   };
   deck.at(key, [&] {
-    const auto table = std::make_shared<GridTable>(
-        deck.resolvePath(deck.string(key)),
-        std::vector<GridTable::Coordinate>{{axes[0], units::length}, {axes[1], units::length}, {"t", units::time}},
-        dimensionOf);
+    std::vector<GridTable::Coordinate> coordinates;
+    for (const std::string& axis : axes) coordinates.push_back({axis, units::length});
+    coordinates.push_back({"t", units::time});
+    const auto table =
+        std::make_shared<GridTable>(deck.resolvePath(deck.string(key)), std::move(coordinates), dimensionOf);
     for (std::size_t column = 0; column < table->names().size(); ++column) {
       const std::string& name = table->names()[column];
       if (has(name)) throw InputError(fmt::format("'{}' is given by a formula, too", name));
-      fields_[name] = {[table, column](const Vector3& place, double time) {
-                         return table->value(column, std::array{place[0], place[1], time});
+      fields_[name] = {[table, column, dimension = axes.size()](const Vector3& place, double time) {
+                         const std::array values = inAxes(place, time, dimension);
+                         return table->value(column, std::span(values).first(dimension + 1));
                        },
                        key};
     }

@@ -35,10 +35,9 @@ void addInitialFlameKeys(DeckSchema& schema) {
 
 InitialFields readInitialFlame(const Deck& deck, const FlowCase& flowCase) {
   const std::string section = "initial.flame1d.", file = section + "file";
-  const AxisNames names = axisNames(flowCase.mesh.geometry);
+  const AxisNames names = axisNames(flowCase);
   const auto named = std::ranges::find(names, deck.choice(section + "axis"));
-  if (named == names.end())
-    throw deck.error(section + "axis", fmt::format("the axes of this mesh are {} and {}", names[0], names[1]));
+  if (named == names.end()) throw deck.error(section + "axis", axesText(names));
   const auto axis = static_cast<std::size_t>(named - names.begin());
   const double origin = deck.quantity(section + "origin");
   try {
@@ -56,9 +55,11 @@ InitialFields readInitialFlame(const Deck& deck, const FlowCase& flowCase) {
       } else if (name == "velocity") {
         fields.velocity[axis] = value;
       } else if (name == "spread") {
-        fields.velocity[1 - axis] = [value, axis](const Vector3& place, double time) {
-          return value(place, time) * place[1 - axis];
-        };
+        for (std::size_t other = 0; other < names.size(); ++other)
+          if (other != axis)
+            fields.velocity[other] = [value, other](const Vector3& place, double time) {
+              return value(place, time) * place[other];
+            };
       } else {
         const auto species = flowCase.mechanism->findSpecies(name.substr(2));
         if (!species) throw InputError(fmt::format("the mechanism has no species '{}'", name.substr(2)));

@@ -37,6 +37,11 @@ std::vector<double> component(const std::vector<double>& values, std::size_t com
 
 void requireSameGeometry(const Hdf5Reader& results, Geometry geometry) {
   const Deck earlier = Deck::parse(results.textAttribute("/", "deck"), results.name(), {}, flowSchema());
+  for (const char* key : {"mesh.file", "mesh.solids", "mesh.floor", "mesh.ceiling"})
+    if (earlier.has(key))
+      throw InputError(fmt::format("{} is of a mesh with '{}'; expected a whole plane box", results.name(), key));
+  if (earlier.choice("mesh.geometry") == "space")
+    throw InputError(fmt::format("{} is three-dimensional; expected a whole plane box", results.name()));
   const bool wasAxisymmetric = earlier.choice("mesh.geometry") == "axisymmetric";
   if (wasAxisymmetric != (geometry == Geometry::Axisymmetric))
     throw InputError(fmt::format("{} is of {} geometry; expected that of this mesh", results.name(),
@@ -46,7 +51,7 @@ void requireSameGeometry(const Hdf5Reader& results, Geometry geometry) {
 // Rounding of a length apart.
 void requireCover(const Hdf5Reader& results, const MeshSpec& mesh) {
   const std::vector<double> vertices = results.numbers("/mesh/vertices");
-  const AxisNames names = axisNames(mesh.geometry);
+  const AxisNames names = axisNames(mesh.geometry, mesh.dimension());
   for (std::size_t axis = 0; axis < 2; ++axis) {
     const std::vector<double> of = component(vertices, 3, axis);
     const auto [first, last] = std::ranges::minmax(of);
@@ -114,6 +119,8 @@ void addInitialFlowKeys(DeckSchema& schema) {
 
 InitialFields readInitialFlow(const Deck& deck, const FlowCase& flowCase, const std::vector<std::string>& scalars) {
   return deck.at(section + ".results", [&] {
+    if (flowCase.meshFile || flowCase.mesh.map || flowCase.dimension != 2)
+      throw InputError("an earlier run is laid over plane boxes only, without a floor or a ceiling of their own");
     std::filesystem::path file = deck.resolvePath(deck.string(section + ".results"));
     if (std::filesystem::is_directory(file)) file /= "results.h5";
     const Hdf5Reader results(file);

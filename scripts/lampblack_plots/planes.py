@@ -1,10 +1,11 @@
-"""Pictures of a field over the plane; what is axisymmetric is mirrored about the axis, so that it looks like the flame."""
+"""Pictures of a field over the plane, in space over a cut through the middle of the third axis; what is axisymmetric is mirrored
+about the axis, so that it looks like the flame."""
 
 import numpy as np
-from matplotlib import tri
-from matplotlib.collections import PolyCollection
+from matplotlib.collections import LineCollection, PolyCollection
 
 from .results import unit_of
+from .shapes import Shapes
 from .style import plt, scaled_fraction, shown_time
 
 STRIP = 20  # longer over wider: drawn without equal axes
@@ -20,15 +21,25 @@ PLANES = [
 ]
 
 
-def _draw(axes, results, values, colours, limits):
-    """The cells in their colours, and the mirrored ones."""
-    polygons = results.vertices[results.cells][:, :, :2] * 1e3
-    sides = [polygons, polygons * np.array([-1.0, 1.0])] if results.touches_axis() else [polygons]
+def _cells(axes, results, shapes, values, colours, side):
+    """The cells in their colours, in mm, and the edges of the surface but for the axis; `side` is -1 for the mirrored ones."""
+    mirror = np.array([side, 1.0]) * 1e3
+    drawn = PolyCollection([polygon * mirror for polygon in shapes.polygons], array=values[shapes.cells], cmap=colours,
+                           edgecolors="face", linewidths=0.2)
+    axes.add_collection(drawn)
+    edges = shapes.surface()
+    if results.touches_axis():
+        edges = edges[np.abs(edges[:, :, 0]).max(axis=1) > 0]
+    axes.add_collection(LineCollection(edges * mirror, colors="black", linewidths=0.8))
+    return drawn
+
+
+def _draw(axes, results, shapes, values, colours, limits):
+    """The cells and, where there is an axis, their mirror images."""
     drawn = None
-    for side in sides:
-        drawn = PolyCollection(side, array=values, cmap=colours, edgecolors="face", linewidths=0.2)
+    for side in (1.0, -1.0) if results.touches_axis() else (1.0,):
+        drawn = _cells(axes, results, shapes, values, colours, side)
         drawn.set_clim(*limits)
-        axes.add_collection(drawn)
     axes.autoscale_view()
     # A strip would be a line: it is drawn as wide as it is long.
     width, height = axes.get_xlim()[1] - axes.get_xlim()[0], axes.get_ylim()[1] - axes.get_ylim()[0]
@@ -46,23 +57,21 @@ def _figure_size(results):
     return (7.0, float(np.clip(1.2 + 5.0 * ratio, 2.6, 9.0)))
 
 
-def _streamlines(axes, results, velocity):
+def _streamlines(axes, results, shapes, velocity):
     """Streamlines on a regular grid between the cells; none where all cells stand in one row."""
-    x, y = results.centres[:, 0] * 1e3, results.centres[:, 1] * 1e3
+    x, y = results.centres[shapes.cells, 0] * 1e3, results.centres[shapes.cells, 1] * 1e3
     if np.ptp(x) == 0 or np.ptp(y) == 0:
         return
     grid_x, grid_y = np.linspace(x.min(), x.max(), 90), np.linspace(y.min(), y.max(), 120)
-    mesh = tri.Triangulation(x, y)
-    at = np.meshgrid(grid_x, grid_y)
-    u = np.ma.filled(tri.LinearTriInterpolator(mesh, velocity[:, 0])(*at), 0.0)
-    v = np.ma.filled(tri.LinearTriInterpolator(mesh, velocity[:, 1])(*at), 0.0)
+    at = np.meshgrid(grid_x * 1e-3, grid_y * 1e-3)
+    u, v = (shapes.values_at(velocity[:, axis], *at) for axis in (0, 1))
     style = {"density": 0.9, "color": "white", "linewidth": 0.6, "arrowsize": 0.7}
     axes.streamplot(grid_x, grid_y, u, v, **style)
     if results.touches_axis():
         axes.streamplot(-grid_x[::-1], grid_y, -u[:, ::-1], v[:, ::-1], **style)
 
 
-def _plot_flame(results, pictures):
+def _plot_flame(results, shapes, pictures):
     """The flame at a glance: temperature on the left of the axis, soot on the right."""
     temperature, soot = results.field("temperature"), results.field("soot_volume_fraction")
     if temperature is None or soot is None or not results.touches_axis() or not np.all(np.isfinite(soot)):
@@ -70,13 +79,11 @@ def _plot_flame(results, pictures):
     soot, unit = scaled_fraction(soot)
     width, height = _figure_size(results)
     figure, axes = plt.subplots(figsize=(width + 3.0, height + 0.4))
-    polygons = results.vertices[results.cells][:, :, :2] * 1e3
     for side, values, colours, label, place in (
         (-1.0, temperature, "inferno", "T, K", "left"),
         (1.0, soot, "magma", f"soot volume fraction, {unit}", "right"),
     ):
-        drawn = PolyCollection(polygons * np.array([side, 1.0]), array=values, cmap=colours, edgecolors="face", linewidths=0.2)
-        axes.add_collection(drawn)
+        drawn = _cells(axes, results, shapes, values, colours, side)
         figure.colorbar(drawn, ax=axes, label=label, location=place, pad=0.12 if place == "left" else 0.02)
     axes.autoscale_view()
     axes.set_aspect("equal")
@@ -87,14 +94,13 @@ def _plot_flame(results, pictures):
 
 
 def plot_planes(results, pictures):
-    if not results.is_plane:
-        pictures.skip("plane pictures", "the mesh is three-dimensional; open results.xdmf in ParaView")
-        return
     if not results.steps:
         pictures.skip("plane pictures", "no step was written")
         return
     step = results.steps[-1]
-    _plot_flame(results, pictures)
+    shapes = Shapes(results)
+    cut = "" if shapes.cut is None else f", z = {shapes.cut * 1e3:.3g} mm"
+    _plot_flame(results, shapes, pictures)
     for name, field, title, colours, is_fraction in PLANES:
         values = results.field(field)
         if values is None:
@@ -112,9 +118,9 @@ def plot_planes(results, pictures):
         figure, axes = plt.subplots(figsize=_figure_size(results))
         low = 0.0 if is_fraction or velocity is not None else float(values.min())
         high = float(values.max())
-        drawn = _draw(axes, results, values, colours, (low, high if high > low else low + 1.0))
+        drawn = _draw(axes, results, shapes, values, colours, (low, high if high > low else low + 1.0))
         if velocity is not None and results.centres.shape[0] > 3:
-            _streamlines(axes, results, velocity)
+            _streamlines(axes, results, shapes, velocity)
         figure.colorbar(drawn, ax=axes, label=f"{title}, {unit}" if unit not in ("", "1") else title)
-        axes.set_title(f"{title} at t = {shown_time(results.time(step))}, largest {high:.4g} {unit}".rstrip())
+        axes.set_title(f"{title} at t = {shown_time(results.time(step))}, largest {high:.4g} {unit}".rstrip() + cut)
         pictures.save(figure, name)

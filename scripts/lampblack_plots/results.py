@@ -67,7 +67,7 @@ class Results:
         self.centres = mesh["cellCentre"][()]
         self.vertices = mesh["vertices"][()]
         self.cells = mesh["cells"][()]
-        self.is_plane = self.cells.shape[1] == 4
+        self.is_plane = int(mesh.attrs["dimension"]) == 2 if "dimension" in mesh.attrs else self.cells.shape[1] <= 4
 
     @property
     def steps(self):
@@ -99,13 +99,22 @@ class Results:
         return None
 
     def centreline(self):
-        """Cells of the column nearest the axis, of a planar mesh nearest its middle, sorted along it; and their places in m."""
+        """Cells of the column nearest the axis, of a planar mesh nearest its middle, sorted along it; and their places in m.
+        Where cells do not stand in columns: those that the axis, or the line through the middle, goes through."""
         r = self.centres[:, 0]
         away = np.abs(r - (0.5 * (self.vertices[:, 0].min() + self.vertices[:, 0].max()) if self._is_planar() else r.min()))
         nearest = r[np.argmin(away)]
         column = np.flatnonzero(np.abs(r - nearest) <= 1e-6 * max(np.ptp(r), 1e-300))
+        if not self.is_box():
+            corners = self.vertices[self.cells][:, :, 0]
+            inside = nearest if self._is_planar() else 1e-6 * np.ptp(r) + corners.min()
+            column = np.flatnonzero((corners.min(axis=1) <= inside) & (corners.max(axis=1) > inside))
         column = column[np.argsort(self.centres[column, 1])]
         return column, self.centres[column, 1]
+
+    def is_box(self):
+        """Whether the cells stand in columns, one over the other."""
+        return not any(key in self._mesh_of_deck() for key in ("file", "floor", "ceiling"))
 
     def touches_axis(self):
         """Whether the mesh is the right half of something mirrored about r = 0."""
@@ -116,11 +125,14 @@ class Results:
         """Of the two axes of the plane."""
         return ("x", "y") if self._is_planar() else ("r", "z")
 
+    def _mesh_of_deck(self):
+        deck = self.record().get("deck") or {}
+        mesh = deck.get("mesh") if isinstance(deck, dict) else {}
+        return mesh if isinstance(mesh, dict) else {}
+
     def _is_planar(self):
-        mesh = self.record().get("deck") or {}
-        mesh = mesh.get("mesh") if isinstance(mesh, dict) else {}
-        words = [str(value).lower() for value in mesh.values()] if isinstance(mesh, dict) else []
-        return "planar" in words or "cartesian" in words
+        words = [str(value).lower() for value in self._mesh_of_deck().values()]
+        return "planar" in words or "cartesian" in words or "space" in words
 
     def record(self):
         """run.json, or nothing where it is missing or damaged."""

@@ -51,7 +51,9 @@ TEST(FlowCase, ReadsTheShippedDeck) {
   EXPECT_EQ(flowCase.mechanism->numSpecies(), 47U);
   EXPECT_DOUBLE_EQ(flowCase.pressure, 101325.0);
   EXPECT_EQ(flowCase.mesh.geometry, Geometry::Axisymmetric);
-  for (const auto& vertices : flowCase.mesh.vertices) {
+  EXPECT_TRUE(flowCase.mesh.vertices[2].empty());
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const auto& vertices = flowCase.mesh.vertices[axis];
     EXPECT_EQ(vertices.front(), 0.0);
     EXPECT_TRUE(std::is_sorted(vertices.begin(), vertices.end()));
   }

@@ -1,0 +1,16 @@
+// The mesh of a flow, from what its deck says: a box, or a file.
+#pragma once
+
+#include <mpi.h>
+
+#include "app/flow/flow_case.hpp"
+#include "core/rooms.hpp"
+
+namespace lampblack::app {
+
+// Collective. The patches of the mesh are the boundaries of the case, in their order. Of a file its content is hashed,
+// into `flowCase`. InputError, on all ranks, at a key of the deck where the file is damaged, is not of the deck's
+// geometry, has other names than the deck's boundaries, or more cells than there is room for.
+Mesh makeMesh(MPI_Comm comm, FlowCase& flowCase);
+
+}  // namespace lampblack::app
