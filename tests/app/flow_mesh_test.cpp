@@ -364,6 +364,22 @@ TEST(FlowMesh, TheSurfaceOfAMeshFileHasToMakeSense) {
               HasSubstr("a flow that swirls needs a mesh of rectangles"));
 }
 
+TEST(FlowMesh, APartInsideTheMeshIsNoBoundary) {
+  const MeshFileDeck deck;
+  std::string text = rowOfThree;
+  const auto replace = [&](const std::string& before, const std::string& after) {
+    text.replace(text.find(before), before.size(), after);
+  };
+  replace("$PhysicalNames\n5\n", "$PhysicalNames\n6\n1 15 \"inner\"\n");
+  replace("0 4 1 0\n", "0 5 1 0\n");
+  replace("1 0 0 0 2 1 0 1 20 0\n", "5 1 0 0 1 1 0 1 15 0\n1 0 0 0 2 1 0 1 20 0\n");
+  replace("6 9 1 9\n", "7 10 1 10\n1 5 1 1\n10 2 5\n");
+  deck.write(text);
+  EXPECT_THAT(deck.error(rowSides), HasSubstr("'inner' has no boundary"));
+  EXPECT_THAT(deck.error(rowSides + "  inner: {type: wall}\n"),
+              testing::AllOf(HasSubstr("boundaries.inner"), HasSubstr("cells on both sides")));
+}
+
 TEST(FlowMesh, ACheckpointKnowsTheMeshFile) {
   const MeshFileDeck deck;
   const auto fingerprint = [&](const std::string& mesh) {
