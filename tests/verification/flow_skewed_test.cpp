@@ -115,7 +115,8 @@ using FlowSkewedFine = FlowSkewed;
 
 TEST_F(FlowSkewedFine, Kovasznay) {
   for (const Cells cells : {Cells::Quadrilaterals, Cells::Triangles, Cells::MixedPlane})
-    expectKovasznayOn(cells, 24, 1.75);
+    // Measured: 1.9 to 2.1 on quadrilaterals, 1.6 to 1.8 with triangles (docs/theory/flow.md).
+    expectKovasznayOn(cells, 24, cells == Cells::Quadrilaterals ? 1.85 : 1.55);
 }
 
 TEST_F(FlowSkewedFine, VorticesInSpace) {
