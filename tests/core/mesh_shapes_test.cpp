@@ -182,6 +182,16 @@ TEST(MeshOfBlocks, AMapBendsTheBox) {
   EXPECT_NEAR(sumOverRanks(floor), exact, 1e-13);
 }
 
+TEST(MeshOfBlocks, AShearedBoxIsObliqueButItsFacesAreMetInTheMiddle) {
+  MeshSpec spec = unitBox(8, 5);
+  spec.map = [](const Vector3& x) { return Vector3{x[0] + 0.25 * x[1], x[1], 0.0}; };
+  const Mesh mesh(MPI_COMM_WORLD, spec);
+  EXPECT_FALSE(mesh.isSkewed());
+  ASSERT_EQ(mesh.oblique.size(), at(mesh.faces));
+  // The angle between the lines along an axis and the normals of the faces they pass is that of the shear.
+  for (int f = 0; f < mesh.interiorFaces; ++f) EXPECT_NEAR(length(mesh.oblique[at(f)]), 0.25, 1e-14);
+}
+
 // More cells than travel at once (valuesInPortion), so that faces meet and cells move in several portions.
 TEST(MeshOfBlocks, ALargeMeshIsMadeInPortions) {
   const int columns = 400, rows = 600;
