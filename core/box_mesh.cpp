@@ -141,6 +141,8 @@ class Box {
     const CellShape shape = dimension_ == 2 ? CellShape::Quadrilateral : CellShape::Hexahedron;
     block.firstCell = shares.first(rank_);
     const std::int64_t end = block.firstCell + shares.count(rank_);
+    block.shapes.reserve(static_cast<std::size_t>(shares.count(rank_)));
+    block.corners.reserve(block.shapes.capacity() * at(cornersOf(shape)));
     auto row = static_cast<std::size_t>(std::upper_bound(rowStart_.begin(), rowStart_.end(), block.firstCell) -
                                         rowStart_.begin() - 1);
     for (; row + 1 < rowStart_.size() && rowStart_[row] < end; ++row) {
@@ -173,6 +175,7 @@ class Box {
   void addVertices(MeshBlock& block) const {
     const Shares shares(block.totalVertices, ranks_);
     block.firstVertex = shares.first(rank_);
+    block.vertices.reserve(static_cast<std::size_t>(shares.count(rank_)));
     for (std::int64_t number = block.firstVertex; number < block.firstVertex + shares.count(rank_); ++number) {
       Index v{0, 0, 0};
       std::int64_t rest = number;

@@ -5,6 +5,22 @@
 
 namespace lampblack {
 
+void CellSet::Amount::add(CellShape shape) {
+  ++cells;
+  corners += cornersOf(shape);
+  sides += static_cast<std::int64_t>(lampblack::sidesOf(shape).size());
+}
+
+void CellSet::resize(const Amount& all) {
+  numbers.resize(static_cast<std::size_t>(all.cells));
+  shapes.resize(numbers.size());
+  cornerStart.resize(numbers.size() + 1);
+  sideStart.resize(numbers.size() + 1);
+  vertices.resize(static_cast<std::size_t>(all.corners));
+  places.resize(vertices.size());
+  sides.resize(static_cast<std::size_t>(all.sides));
+}
+
 void CellSet::pack(std::size_t cell, std::vector<std::int64_t>& message) const {
   message.push_back(numbers[cell]);
   message.push_back(static_cast<std::int64_t>(shapes[cell]));
@@ -19,32 +35,22 @@ void CellSet::pack(std::size_t cell, std::vector<std::int64_t>& message) const {
   }
 }
 
-void CellSet::unpack(std::span<const std::int64_t> message) {
-  for (std::size_t next = 0; next < message.size();) {
-    numbers.push_back(message[next++]);
-    shapes.push_back(static_cast<CellShape>(message[next++]));
-    const int corners = cornersOf(shapes.back());
-    for (int c = 0; c < corners; ++c) vertices.push_back(message[next++]);
-    for (int c = 0; c < corners; ++c) {
-      std::array<double, 3>& place = places.emplace_back();
-      for (double& x : place) x = std::bit_cast<double>(message[next++]);
-    }
-    for (std::size_t s = 0; s < lampblack::sidesOf(shapes.back()).size(); ++s, next += 3)
-      sides.push_back(std::bit_cast<Side>(std::array{message[next], message[next + 1], message[next + 2]}));
-    cornerStart.push_back(static_cast<std::int64_t>(vertices.size()));
-    sideStart.push_back(static_cast<std::int64_t>(sides.size()));
+void CellSet::unpack(std::span<const std::int64_t> message, Amount& next) {
+  for (std::size_t word = 0; word < message.size();) {
+    const auto cell = static_cast<std::size_t>(next.cells);
+    numbers[cell] = message[word++];
+    shapes[cell] = static_cast<CellShape>(message[word++]);
+    auto corner = static_cast<std::size_t>(next.corners), side = static_cast<std::size_t>(next.sides);
+    next.add(shapes[cell]);
+    cornerStart[cell + 1] = next.corners;
+    sideStart[cell + 1] = next.sides;
+    const auto corners = static_cast<std::size_t>(cornersOf(shapes[cell]));
+    for (std::size_t c = 0; c < corners; ++c) vertices[corner + c] = message[word++];
+    for (std::size_t c = 0; c < corners; ++c)
+      for (double& x : places[corner + c]) x = std::bit_cast<double>(message[word++]);
+    for (; side < static_cast<std::size_t>(next.sides); ++side, word += 3)
+      sides[side] = std::bit_cast<Side>(std::array{message[word], message[word + 1], message[word + 2]});
   }
-}
-
-CellSet reordered(const CellSet& cells, const std::vector<std::size_t>& order) {
-  CellSet result;
-  std::vector<std::int64_t> message;
-  for (const std::size_t cell : order) {
-    message.clear();
-    cells.pack(cell, message);
-    result.unpack(message);
-  }
-  return result;
 }
 
 }  // namespace lampblack

@@ -43,12 +43,16 @@ struct CellSet {
             static_cast<std::size_t>(sideStart[cell + 1] - sideStart[cell])};
   }
 
-  // A cell as words, appended to `message`; and the cells of such a message, appended here.
-  void pack(std::size_t cell, std::vector<std::int64_t>& message) const;
-  void unpack(std::span<const std::int64_t> message);
-};
+  // Room for so many cells, with so many corners and sides in all.
+  struct Amount {
+    std::int64_t cells = 0, corners = 0, sides = 0;
+    void add(CellShape shape);
+  };
+  void resize(const Amount& all);
 
-// Cells in another order: that of `order`, by index.
-CellSet reordered(const CellSet& cells, const std::vector<std::size_t>& order);
+  // A cell as words, appended to `message`; and the cells of such a message, put where `next` says, which moves on.
+  void pack(std::size_t cell, std::vector<std::int64_t>& message) const;
+  void unpack(std::span<const std::int64_t> message, Amount& next);
+};
 
 }  // namespace lampblack

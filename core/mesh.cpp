@@ -13,6 +13,7 @@
 #include "core/least_squares.hpp"
 #include "core/mesh_connect.hpp"
 #include "core/mesh_distribution.hpp"
+#include "core/sorted_numbers.hpp"
 
 namespace lampblack {
 namespace {
@@ -33,12 +34,16 @@ class MeshBuilder {
   void run() {
     orderCells();
     collectively(mesh_.comm, [&] { measureCells(); });
+    // What is not needed any more goes before there is more: this is where a mesh takes most memory.
     orderFaces();
+    cells_.owned.sides = {};
+    keepCorners();
+    cells_.owned.vertices = {};
     measureFaces();
+    cells_ = {};
     keepDeviations();
     linkCellsToFaces();
     weighGradients();
-    keepCorners();
   }
 
  private:
@@ -57,13 +62,17 @@ class MeshBuilder {
     Mesh& m = mesh_;
     m.owned = static_cast<int>(cells_.owned.size());
     m.cells = m.owned + static_cast<int>(cells_.halo.size());
-    m.naturalCell = cells_.owned.numbers;
+    m.naturalCell.reserve(at(m.cells));
+    m.naturalCell.assign(cells_.owned.numbers.begin(), cells_.owned.numbers.end());
     m.naturalCell.insert(m.naturalCell.end(), cells_.halo.numbers.begin(), cells_.halo.numbers.end());
     m.haloRank = cells_.haloOwner;
   }
 
   void measureCells() {
     Mesh& m = mesh_;
+    m.centre.reserve(at(m.cells));
+    m.volume.reserve(at(m.cells));
+    if (m.dimension == 2) m.planarArea.reserve(at(m.cells));
     for (int c = 0; c < m.cells; ++c) {
       const Place cell = of(c);
       const CellMeasures measures = measureCell(cell.shape(), cell.corners());
@@ -97,43 +106,52 @@ class MeshBuilder {
   // number of ranks.
   void orderFaces() {
     Mesh& m = mesh_;
-    std::vector<Link> links;
+    // Faces that point out of owned cells are numbered as these are: only those from halo cells stand elsewhere.
+    std::vector<Link> inside, fromHalo, surface;
+    inside.reserve(cells_.owned.sides.size() / 2 + 1);
     for (int c = 0; c < m.owned; ++c) {
       const auto sides = cells_.owned.sidesOf(at(c));
       for (std::size_t s = 0; s < sides.size(); ++s) {
         const CellSet::Side& side = sides[s];
         const auto own = static_cast<signed char>(s);
-        if (side.neighbour < 0) {
-          links.push_back({c, -1, own, -1, side.patch, side.face});
-          continue;
-        }
-        const int beyond = localOf(side);
-        if (side.isLow != 0)
-          links.push_back({c, beyond, own, side.neighbourSide, -1, side.face});
-        else if (beyond >= m.owned)
-          links.push_back({beyond, c, side.neighbourSide, own, -1, side.face});
+        if (side.neighbour < 0)
+          surface.push_back({c, -1, own, -1, side.patch, side.face});
+        else if (side.isLow != 0)
+          inside.push_back({c, localOf(c, side), own, side.neighbourSide, -1, side.face});
+        else if (side.owner != m.rank)
+          fromHalo.push_back({localOf(c, side), c, side.neighbourSide, own, -1, side.face});
       }
     }
-    std::ranges::sort(links, [](const Link& a, const Link& b) {
-      const bool isInside = a.high >= 0, isOtherInside = b.high >= 0;
-      return isInside != isOtherInside ? isInside : a.number < b.number;
-    });
-    m.faces = static_cast<int>(links.size());
-    m.interiorFaces = static_cast<int>(std::ranges::count_if(links, [](const Link& link) { return link.high >= 0; }));
-    for (const Link& link : links) {
-      m.low.push_back(link.low);
-      m.high.push_back(link.high);
-      m.lowSide.push_back(link.lowSide);
-      m.highSide.push_back(link.highSide);
-      m.faceNumber.push_back(link.number);
-      if (link.high < 0) m.patch.push_back(link.patch);
-    }
+    std::ranges::sort(fromHalo, {}, &Link::number);
+    const std::size_t ofOwned = inside.size();
+    inside.insert(inside.end(), fromHalo.begin(), fromHalo.end());
+    std::ranges::inplace_merge(inside, inside.begin() + static_cast<std::ptrdiff_t>(ofOwned), {}, &Link::number);
+    m.interiorFaces = static_cast<int>(inside.size());
+    m.faces = m.interiorFaces + static_cast<int>(surface.size());
+    for (auto* ints : {&m.low, &m.high}) ints->reserve(at(m.faces));
+    for (auto* sides : {&m.lowSide, &m.highSide}) sides->reserve(at(m.faces));
+    m.faceNumber.reserve(at(m.faces));
+    for (const auto* links : {&inside, &surface})
+      for (const Link& link : *links) {
+        m.low.push_back(link.low);
+        m.high.push_back(link.high);
+        m.lowSide.push_back(link.lowSide);
+        m.highSide.push_back(link.highSide);
+        m.faceNumber.push_back(link.number);
+        if (link.high < 0) m.patch.push_back(link.patch);
+      }
   }
 
-  // Local index of what lies beyond a side.
-  [[nodiscard]] int localOf(const CellSet::Side& side) const {
+  // Local index of what lies beyond a side of an owned cell.
+  [[nodiscard]] int localOf(int cell, const CellSet::Side& side) const {
     const Mesh& m = mesh_;
-    if (side.owner == m.rank) return m.findOwned(side.neighbour);
+    if (side.owner == m.rank) {
+      // Where no number between the two is missing here, there is nothing to look for.
+      const std::int64_t guess = cell + side.neighbour - m.naturalCell[at(cell)];
+      if (guess >= 0 && guess < m.owned && m.naturalCell[static_cast<std::size_t>(guess)] == side.neighbour)
+        return static_cast<int>(guess);
+      return m.findOwned(side.neighbour);
+    }
     const auto [first, last] = std::ranges::equal_range(m.haloRank, side.owner);
     const auto begin = m.naturalCell.begin() + m.owned;
     const auto found =
@@ -148,6 +166,9 @@ class MeshBuilder {
 
   void measureFaces() {
     Mesh& m = mesh_;
+    for (auto* vectors : {&m.faceCentre, &m.normal, &m.step}) vectors->reserve(at(m.faces));
+    for (auto* numbers : {&m.area, &m.distance, &m.lowWeight}) numbers->reserve(at(m.faces));
+    if (m.axisymmetric()) m.planarLength.reserve(at(m.faces));
     for (int face = 0; face < m.faces; ++face) {
       const SideMeasures side = measure(m.low[at(face)], m.lowSide[at(face)]);
       m.faceCentre.push_back(side.centre);
@@ -173,32 +194,44 @@ class MeshBuilder {
 
   // What the steps deviate by from the normals and from the faces' centres; nothing where that is round-off.
   void keepDeviations() {
-    constexpr double roundOff = 1e-11;
     Mesh& m = mesh_;
     std::array<double, 2> largest{0.0, 0.0};
     for (std::size_t face = 0; face < at(m.faces); ++face) {
-      const Vector3 across = scaled(m.step[face], 1.0 / m.distance[face]);
-      Vector3 oblique = difference(m.normal[face], across);
-      if (length(oblique) < roundOff) {
-        oblique = {};
-        m.step[face] = scaled(m.normal[face], m.distance[face]);
-      }
-      if (const double size = length(oblique); size > Mesh::mostOblique)
-        oblique = scaled(oblique, Mesh::mostOblique / size);
-      Vector3 offset{};
-      if (m.high[face] >= 0) {
-        const Vector3 meets = sum(m.centre[at(m.low[face])], scaled(m.step[face], 1.0 - m.lowWeight[face]));
-        offset = difference(m.faceCentre[face], meets);
-        if (length(offset) < roundOff * m.distance[face]) offset = {};
-      }
-      m.oblique.push_back(oblique);
-      m.offset.push_back(offset);
+      const auto [oblique, offset] = deviationsAt(face);
       largest[0] = std::max(largest[0], length(oblique));
       largest[1] = std::max(largest[1], length(offset));
     }
     MPI_Allreduce(MPI_IN_PLACE, largest.data(), 2, MPI_DOUBLE, MPI_MAX, m.comm);
-    if (largest[0] == 0.0) m.oblique = {};
-    if (largest[1] == 0.0) m.offset = {};
+    // Most meshes have neither, so that they are found twice rather than kept in vain.
+    if (largest[0] > 0.0) m.oblique.reserve(at(m.faces));
+    if (largest[1] > 0.0) m.offset.reserve(at(m.faces));
+    for (std::size_t face = 0; face < at(m.faces); ++face) {
+      if (largest[0] == 0.0 && largest[1] == 0.0) break;
+      const auto [oblique, offset] = deviationsAt(face);
+      if (largest[0] > 0.0) m.oblique.push_back(oblique);
+      if (largest[1] > 0.0) m.offset.push_back(offset);
+    }
+  }
+
+  // `oblique` and `offset` of a face; a step that is along the normal but for round-off becomes so.
+  std::pair<Vector3, Vector3> deviationsAt(std::size_t face) {
+    constexpr double roundOff = 1e-11;
+    Mesh& m = mesh_;
+    const Vector3 across = scaled(m.step[face], 1.0 / m.distance[face]);
+    Vector3 oblique = difference(m.normal[face], across);
+    if (length(oblique) < roundOff) {
+      oblique = {};
+      m.step[face] = scaled(m.normal[face], m.distance[face]);
+    }
+    if (const double size = length(oblique); size > Mesh::mostOblique)
+      oblique = scaled(oblique, Mesh::mostOblique / size);
+    Vector3 offset{};
+    if (m.high[face] >= 0) {
+      const Vector3 meets = sum(m.centre[at(m.low[face])], scaled(m.step[face], 1.0 - m.lowWeight[face]));
+      offset = difference(m.faceCentre[face], meets);
+      if (length(offset) < roundOff * m.distance[face]) offset = {};
+    }
+    return {oblique, offset};
   }
 
   // The rows of faceOfCell, each in face order.
@@ -223,12 +256,21 @@ class MeshBuilder {
     const auto stepFrom = [&](int cell, int face) {
       return scaled(m.step[at(face)], m.low[at(face)] == cell ? 1.0 : -1.0);
     };
+    const auto facesOf = [&](int c) {
+      return std::span<const int>{&m.faceOfCell[at(m.faceStart[at(c)])],
+                                  at(m.faceStart[at(c) + 1] - m.faceStart[at(c)])};
+    };
+    const auto isInside = [&](int c) {
+      return std::ranges::all_of(facesOf(c), [&](int face) { return m.high[at(face)] >= 0; });
+    };
+    std::size_t weights = 0;
+    for (int c = 0; c < m.owned; ++c) weights += isInside(c) ? facesOf(c).size() : 0;
+    m.gradientWeight.reserve(weights);
+    m.gradientRow.reserve(at(m.owned));
     for (int c = 0; c < m.owned; ++c) {
-      const std::span<const int> faces{&m.faceOfCell[at(m.faceStart[at(c)])],
-                                       at(m.faceStart[at(c) + 1] - m.faceStart[at(c)])};
-      const bool isInside = std::ranges::all_of(faces, [&](int face) { return m.high[at(face)] >= 0; });
-      m.gradientRow.push_back(isInside ? static_cast<int>(m.gradientWeight.size()) : -1);
-      if (!isInside) continue;
+      m.gradientRow.push_back(isInside(c) ? static_cast<int>(m.gradientWeight.size()) : -1);
+      if (!isInside(c)) continue;
+      const std::span<const int> faces = facesOf(c);
       LeastSquares squares;
       for (const int face : faces) squares.add(stepFrom(c, face));
       squares.finish(m.dimension);
@@ -241,16 +283,16 @@ class MeshBuilder {
     const CellSet& owned = cells_.owned;
     m.shape = owned.shapes;
     m.cornerStart.assign(owned.cornerStart.begin(), owned.cornerStart.end());
-    m.vertexNumber = owned.vertices;
-    std::ranges::sort(m.vertexNumber);
-    m.vertexNumber.erase(std::unique(m.vertexNumber.begin(), m.vertexNumber.end()), m.vertexNumber.end());
-    m.vertexNumber.shrink_to_fit();
+    m.vertexNumber = sortedOnce(owned.vertices);
     m.vertex.resize(m.vertexNumber.size());
-    for (std::size_t i = 0; i < owned.vertices.size(); ++i) {
-      const auto found = std::ranges::lower_bound(m.vertexNumber, owned.vertices[i]);
-      m.corner.push_back(static_cast<int>(found - m.vertexNumber.begin()));
-      m.vertex[at(m.corner.back())] = owned.places[i];
-    }
+    m.corner.reserve(owned.vertices.size());
+    CornerFinder finder(m.vertexNumber);
+    for (std::size_t c = 0; c < owned.size(); ++c)
+      for (std::size_t i = 0; i < owned.verticesOf(c).size(); ++i) {
+        const std::size_t vertex = finder.indexOf(i, owned.verticesOf(c)[i]);
+        m.corner.push_back(static_cast<int>(vertex));
+        m.vertex[vertex] = owned.placesOf(c)[i];
+      }
   }
 
   Mesh& mesh_;
@@ -259,9 +301,9 @@ class MeshBuilder {
 
 }  // namespace
 
-Mesh::Mesh(MPI_Comm communicator, const MeshBlock& block, Geometry meshGeometry, std::span<const double> cellWeight)
+Mesh::Mesh(MPI_Comm communicator, MeshBlock block, Geometry meshGeometry, std::span<const double> cellWeight)
     : comm(communicator), geometry(meshGeometry) {
-  build(block, cellWeight);
+  build(std::move(block), cellWeight);
 }
 
 Mesh::Mesh(MPI_Comm communicator, const MeshSpec& spec, std::span<const double> cellWeight)
@@ -269,7 +311,7 @@ Mesh::Mesh(MPI_Comm communicator, const MeshSpec& spec, std::span<const double> 
   build(boxBlock(comm, spec), cellWeight);
 }
 
-void Mesh::build(const MeshBlock& block, std::span<const double> cellWeight) {
+void Mesh::build(MeshBlock block, std::span<const double> cellWeight) {
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &ranks);
   dimension = block.dimension;
@@ -282,10 +324,13 @@ void Mesh::build(const MeshBlock& block, std::span<const double> cellWeight) {
     if (axisymmetric() && dimension != 2) throw InputError("an axisymmetric mesh lies in a plane");
   });
   ConnectedCells connected = connect(comm, block);
+  block = {};
   totalFaces = connected.totalFaces;
   totalVertices = connected.totalVertices;
-  const std::vector<int> owner = partitionAlongCurve(comm, connected.cells, dimension, cellWeight);
-  MeshBuilder(*this, distribute(comm, std::move(connected.cells), totalCells, owner)).run();
+  std::vector<int> owner = partitionAlongCurve(comm, connected.cells, dimension, cellWeight);
+  DistributedCells distributed = distribute(comm, std::move(connected.cells), totalCells, owner);
+  owner = {};
+  MeshBuilder(*this, std::move(distributed)).run();
 }
 
 int Mesh::findOwned(std::int64_t natural) const {

@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <iterator>
 #include <unordered_map>
 
 #include "core/errors.hpp"
+#include "core/rank_exchange.hpp"
 #include "core/shares.hpp"
+#include "core/sorted_numbers.hpp"
 
 namespace lampblack {
 namespace {
@@ -32,9 +35,13 @@ class VertexOwner {
       toOwner[static_cast<std::size_t>(shares_.rankOf(image))].push_back({image, original});
     for (const auto& [image, original] : sendToRanks(comm, toOwner).values) originals_[image] = original;
     followImages();
+    hasImages_ = originals_.empty() ? 0 : 1;
+    MPI_Allreduce(MPI_IN_PLACE, &hasImages_, 1, MPI_INT, MPI_MAX, comm);
   }
 
   [[nodiscard]] const Shares& shares() const { return shares_; }
+  // Whether any vertex of the mesh is one.
+  [[nodiscard]] bool hasImages() const { return hasImages_ != 0; }
 
   // The vertices of these numbers, which are then known to be used. Collective.
   std::vector<Vertex> vertices(const std::vector<std::int64_t>& wanted) {
@@ -49,6 +56,7 @@ class VertexOwner {
     MPI_Allreduce(&used, &total_, 1, MPI_INT64_T, MPI_SUM, comm_);
     if (total_ == block_.totalVertices) return result;
     std::vector<std::int64_t> newNumber;
+    newNumber.reserve(isUsed.size());
     for (const char use : isUsed) {
       newNumber.push_back(before);
       before += use;
@@ -92,6 +100,7 @@ class VertexOwner {
   Shares shares_;
   std::unordered_map<std::int64_t, std::int64_t> originals_;
   std::int64_t total_ = 0;
+  int hasImages_ = 0;
 };
 
 // A face as one that knows of it tells it to the rank where all that know of it meet.
@@ -162,70 +171,116 @@ class Connector {
   // Corners of the cells with their places; what they are images of is kept beside.
   void placeCorners() {
     CellSet& cells = result_.cells;
-    std::vector<std::int64_t> wanted = block_.corners;
+    std::vector<std::int64_t> namedVertices;
     for (const MeshBlock::NamedFace& face : block_.named)
-      for (const std::int64_t vertex : face.vertices)
-        if (vertex >= 0) wanted.push_back(vertex);
-    std::ranges::sort(wanted);
-    wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+      std::ranges::copy_if(face.vertices, std::back_inserter(namedVertices),
+                           [](std::int64_t vertex) { return vertex >= 0; });
+    std::vector<std::int64_t> wanted = sortedOnce(block_.corners);
+    if (const auto others = sortedOnce(namedVertices); !std::ranges::includes(wanted, others)) {
+      wanted.insert(wanted.end(), others.begin(), others.end());
+      wanted = sortedOnce(wanted);
+    }
     const std::vector<Vertex> known = owner_.vertices(wanted);
-    const auto of = [&](std::int64_t vertex) -> const Vertex& {
-      return known[static_cast<std::size_t>(std::ranges::lower_bound(wanted, vertex) - wanted.begin())];
-    };
-    for (const std::int64_t corner : block_.corners) {
-      const Vertex& vertex = of(corner);
-      cells.vertices.push_back(vertex.number);
-      cells.places.push_back(vertex.place);
-      original_.push_back(vertex.original);
-    }
+
+    CellSet::Amount all;
+    for (const CellShape shape : block_.shapes) all.add(shape);
+    cells.resize(all);
+    if (owner_.hasImages()) original_.resize(cells.vertices.size());
+    CornerFinder finder(wanted);
+    CellSet::Amount next;
     for (std::size_t c = 0; c < cellCount(); ++c) {
-      cells.numbers.push_back(block_.firstCell + static_cast<std::int64_t>(c));
-      cells.shapes.push_back(block_.shapes[c]);
-      cells.cornerStart.push_back(cells.cornerStart.back() + cornersOf(block_.shapes[c]));
-      cells.sideStart.push_back(cells.sideStart.back() + static_cast<std::int64_t>(sidesOf(block_.shapes[c]).size()));
+      cells.numbers[c] = block_.firstCell + static_cast<std::int64_t>(c);
+      cells.shapes[c] = block_.shapes[c];
+      const auto first = static_cast<std::size_t>(next.corners);
+      next.add(cells.shapes[c]);
+      cells.cornerStart[c + 1] = next.corners;
+      cells.sideStart[c + 1] = next.sides;
+      for (std::size_t corner = first; corner < static_cast<std::size_t>(next.corners); ++corner) {
+        const Vertex& vertex = known[finder.indexOf(corner - first, block_.corners[corner])];
+        cells.vertices[corner] = vertex.number;
+        cells.places[corner] = vertex.place;
+        if (owner_.hasImages()) original_[corner] = vertex.original;
+      }
     }
-    cells.sides.resize(static_cast<std::size_t>(cells.sideStart.back()));
     for (const MeshBlock::NamedFace& face : block_.named) {
       Meeting meeting;
       meeting.patch = static_cast<std::int16_t>(face.patch);
       for (std::size_t i = 0; i < 4; ++i)
-        if (face.vertices[i] >= 0) meeting.key[i] = of(face.vertices[i]).original;
+        if (face.vertices[i] >= 0) meeting.key[i] = known[indexIn(wanted, face.vertices[i])].original;
       meeting.key = sorted(meeting.key);
       named_.push_back(meeting);
     }
   }
 
-  void meet() {
-    CellSet& cells = result_.cells;
-    std::vector<std::vector<Meeting>> toRank(static_cast<std::size_t>(ranks_));
-    const auto send = [&](const Meeting& meeting) {
-      toRank[static_cast<std::size_t>(owner_.shares().rankOf(smallestVertex(meeting.key)))].push_back(meeting);
-    };
-    for (std::size_t c = 0; c < cellCount(); ++c) {
-      const auto sides = sidesOf(cells.shapes[c]);
-      const auto first = static_cast<std::size_t>(cells.cornerStart[c]);
-      for (std::size_t s = 0; s < sides.size(); ++s) {
-        Meeting meeting;
-        meeting.cell = cells.numbers[c];
-        meeting.side = static_cast<std::int16_t>(s);
-        meeting.isImage = 1;
-        for (int i = 0; i < sides[s].corners; ++i) {
-          const std::size_t corner = first + static_cast<std::size_t>(sides[s].corner[static_cast<std::size_t>(i)]);
-          meeting.key[static_cast<std::size_t>(i)] = original_[corner];
-          if (original_[corner] == block_.corners[corner]) meeting.isImage = 0;
-        }
-        meeting.key = sorted(meeting.key);
-        send(meeting);
-      }
+  // What a side tells where its face's other knowers are.
+  [[nodiscard]] Meeting meetingOf(std::size_t cell, std::size_t side) const {
+    const CellSet& cells = result_.cells;
+    const auto first = static_cast<std::size_t>(cells.cornerStart[cell]);
+    const CellSide& shape = sidesOf(cells.shapes[cell])[side];
+    Meeting meeting;
+    meeting.cell = cells.numbers[cell];
+    meeting.side = static_cast<std::int16_t>(side);
+    meeting.isImage = 1;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(shape.corners); ++i) {
+      const std::size_t corner = first + static_cast<std::size_t>(shape.corner[i]);
+      meeting.key[i] = owner_.hasImages() ? original_[corner] : block_.corners[corner];
+      if (meeting.key[i] == block_.corners[corner]) meeting.isImage = 0;
     }
-    for (const Meeting& meeting : named_) send(meeting);
+    meeting.key = sorted(meeting.key);
+    return meeting;
+  }
+
+  // Faces meet in portions: those whose smallest vertex lies in the same part of its owner's share.
+  [[nodiscard]] std::size_t portionOf(std::int64_t vertex, std::size_t portions) const {
+    const Shares& shares = owner_.shares();
+    const int rank = shares.rankOf(vertex);
+    return static_cast<std::size_t>(vertex - shares.first(rank)) * portions /
+           static_cast<std::size_t>(shares.count(rank));
+  }
+
+  void meet() {
+    const CellSet& cells = result_.cells;
+    struct OwnSide {
+      std::int32_t cell, side;
+    };
+    // Sides by portion.
+    const std::size_t portions = portionsOf(comm_, cells.sides.size());
+    std::vector<std::size_t> start(portions + 2, 0);
+    const auto eachSide = [&](auto&& visit) {
+      for (std::size_t c = 0; c < cellCount(); ++c)
+        for (std::size_t s = 0; s < cells.sidesOf(c).size(); ++s)
+          visit(c, s, portions == 1 ? 0 : portionOf(smallestVertex(meetingOf(c, s).key), portions));
+    };
+    eachSide([&](std::size_t, std::size_t, std::size_t portion) { ++start[portion + 2]; });
+    for (std::size_t p = 2; p < start.size(); ++p) start[p] += start[p - 1];
+    std::vector<OwnSide> order(start.back());
+    eachSide([&](std::size_t c, std::size_t s, std::size_t portion) {
+      order[start[portion + 1]++] = {static_cast<std::int32_t>(c), static_cast<std::int32_t>(s)};
+    });
+    const auto portionOfNamed = [&](const Meeting& name) { return portionOf(smallestVertex(name.key), portions); };
+    std::ranges::sort(named_, {}, portionOfNamed);
+
+    for (std::size_t portion = 0; portion < portions; ++portion) {
+      std::vector<std::vector<Meeting>> toRank(static_cast<std::size_t>(ranks_));
+      const auto send = [&](const Meeting& meeting) {
+        toRank[static_cast<std::size_t>(owner_.shares().rankOf(smallestVertex(meeting.key)))].push_back(meeting);
+      };
+      for (std::size_t i = start[portion]; i < start[portion + 1]; ++i)
+        send(meetingOf(static_cast<std::size_t>(order[i].cell), static_cast<std::size_t>(order[i].side)));
+      std::ranges::for_each(std::ranges::equal_range(named_, portion, {}, portionOfNamed), send);
+      introduceAll(sendToRanks(comm_, toRank));
+    }
     original_ = {};
     named_ = {};
+  }
 
-    Received<Meeting> met = sendToRanks(comm_, toRank);
-    toRank = {};
+  // Collective. Sides that have met here learn of each other.
+  void introduceAll(Received<Meeting> met) {
     std::ranges::sort(met.values, [](const Meeting& a, const Meeting& b) {
-      return a.key != b.key ? a.key < b.key : a.cell != b.cell ? a.cell < b.cell : a.side < b.side;
+      return a.key != b.key     ? a.key < b.key
+             : a.cell != b.cell ? a.cell < b.cell
+             : a.side != b.side ? a.side < b.side
+                                : a.patch < b.patch;
     });
     std::vector<std::vector<Found>> back(static_cast<std::size_t>(ranks_));
     for (std::size_t i = 0; i < met.values.size();) {
@@ -235,8 +290,7 @@ class Connector {
       i = end;
     }
     met = {};
-    const Received<Found> found = sendToRanks(comm_, back);
-    for (const Found& one : found.values) {
+    for (const Found& one : sendToRanks(comm_, back).values) {
       CellSet::Side& side = sideAt(one.cell, one.side);
       side.neighbour = one.neighbour;
       side.neighbourSide = static_cast<std::int8_t>(one.neighbourSide);
@@ -244,6 +298,10 @@ class Connector {
       side.isLow = one.isLow;
       if (one.isTriple != 0) triples_.push_back(one.cell - block_.firstCell);
     }
+  }
+
+  [[nodiscard]] bool isOwn(std::int64_t cell) const {
+    return cell >= block_.firstCell && cell < block_.firstCell + static_cast<std::int64_t>(cellCount());
   }
 
   CellSet::Side& sideAt(std::int64_t cell, std::int64_t side) {
@@ -268,7 +326,7 @@ class Connector {
     collectively(comm_, [&] {
       if (!triples_.empty())
         throw InputError(fmt::format("three cells of the mesh share one face, one of them cell {} (counted from zero)",
-                                     block_.firstCell + triples_.front()));
+                                     block_.firstCell + *std::ranges::min_element(triples_)));
       for (std::size_t c = 0; c < cellCount(); ++c) {
         const auto shape = sidesOf(cells.shapes[c]);
         for (std::size_t s = 0; s < shape.size(); ++s) {
@@ -295,7 +353,9 @@ class Connector {
     for (CellSet::Side& side : cells.sides) {
       if (side.isLow == 0) continue;
       side.face = next++;
-      if (side.neighbour >= 0)
+      if (isOwn(side.neighbour))
+        sideAt(side.neighbour, side.neighbourSide).face = side.face;
+      else if (side.neighbour >= 0)
         toRank[static_cast<std::size_t>(cellShares_.rankOf(side.neighbour))].push_back(
             {side.neighbour, side.neighbourSide, side.face});
     }

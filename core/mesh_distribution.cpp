@@ -8,9 +8,11 @@
 #include <cstddef>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "core/errors.hpp"
 #include "core/hilbert.hpp"
+#include "core/rank_exchange.hpp"
 #include "core/shares.hpp"
 
 namespace lampblack {
@@ -49,6 +51,7 @@ std::vector<std::uint64_t> keysOf(MPI_Comm comm, const CellSet& cells, int dimen
   double size = 0.0;
   for (std::size_t i = 0; i < 3; ++i) size = std::max(size, -ends[3 + i] - ends[i]);
   std::vector<std::uint64_t> keys;
+  keys.reserve(cells.size());
   for (std::size_t c = 0; c < cells.size(); ++c) {
     std::array<double, 3> place = middleOf(cells.placesOf(c));
     for (std::size_t i = 0; i < 3; ++i) place[i] = (place[i] - ends[i]) / size;
@@ -58,19 +61,20 @@ std::vector<std::uint64_t> keysOf(MPI_Comm comm, const CellSet& cells, int dimen
 }
 
 // Where the curve is cut: cells from the key of cut r on belong to rank r + 1 or later.
-std::vector<std::uint64_t> cutCurve(MPI_Comm comm, const std::vector<std::uint64_t>& keys,
-                                    const std::vector<double>& weight) {
+template <typename Weight>
+std::vector<std::uint64_t> cutCurve(MPI_Comm comm, const std::vector<std::uint64_t>& keys, const Weight& weightOf) {
   const int ranks = ranksOf(comm);
-  std::vector<std::size_t> order(keys.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return keys[a] < keys[b]; });
-  std::vector<std::uint64_t> sorted;
-  std::vector<double> before{0.0};  // weight of the cells up to each
-  for (const std::size_t i : order) {
-    sorted.push_back(keys[i]);
-    before.push_back(before.back() + weight[i]);
-  }
-  double total = before.back();
+  struct Cell {
+    std::uint64_t key;
+    double before;  // weight of the cells up to it
+  };
+  std::vector<Cell> sorted;
+  sorted.reserve(keys.size());
+  for (std::size_t i = 0; i < keys.size(); ++i) sorted.push_back({keys[i], weightOf(i)});
+  std::ranges::sort(sorted, {}, &Cell::key);
+  double total = 0.0;
+  for (Cell& cell : sorted) cell.before = std::exchange(total, total + cell.before);
+  const double all = total;
   MPI_Allreduce(MPI_IN_PLACE, &total, 1, MPI_DOUBLE, MPI_SUM, comm);
   // The smallest key below which there is at least the wanted weight, for all cuts at once, by halving.
   std::vector<std::uint64_t> low(static_cast<std::size_t>(ranks - 1), 0), high(low.size(), std::uint64_t{1} << 63);
@@ -78,8 +82,8 @@ std::vector<std::uint64_t> cutCurve(MPI_Comm comm, const std::vector<std::uint64
   for (int round = 0; round < 64; ++round) {
     for (std::size_t r = 0; r < low.size(); ++r) {
       const std::uint64_t middle = low[r] + (high[r] - low[r]) / 2;
-      const auto end = std::ranges::lower_bound(sorted, middle) - sorted.begin();
-      below[r] = before[static_cast<std::size_t>(end)];
+      const auto end = std::ranges::lower_bound(sorted, middle, {}, &Cell::key);
+      below[r] = end == sorted.end() ? all : end->before;
     }
     MPI_Allreduce(MPI_IN_PLACE, below.data(), ranks - 1, MPI_DOUBLE, MPI_SUM, comm);
     for (std::size_t r = 0; r < low.size(); ++r) {
@@ -93,6 +97,7 @@ std::vector<std::uint64_t> cutCurve(MPI_Comm comm, const std::vector<std::uint64
 
 std::vector<int> ownersBy(const std::vector<std::uint64_t>& keys, const std::vector<std::uint64_t>& cuts) {
   std::vector<int> owner;
+  owner.reserve(keys.size());
   for (const std::uint64_t key : keys)
     owner.push_back(static_cast<int>(std::ranges::upper_bound(cuts, key) - cuts.begin()));
   return owner;
@@ -103,6 +108,44 @@ bool hasEveryRankCells(MPI_Comm comm, const std::vector<int>& owner) {
   for (const int rank : owner) ++count[static_cast<std::size_t>(rank)];
   MPI_Allreduce(MPI_IN_PLACE, count.data(), static_cast<int>(count.size()), MPI_INT64_T, MPI_SUM, comm);
   return std::ranges::all_of(count, [](std::int64_t n) { return n > 0; });
+}
+
+struct ArrivedCells {
+  CellSet cells;  // by the rank that sent them, and in its order
+  std::vector<std::int64_t> ofRank;
+};
+
+// Sends each cell to the ranks that `eachRankOf(cell, sendTo)` names, always the same, in portions.
+template <typename EachRank>
+ArrivedCells sendCells(MPI_Comm comm, const CellSet& from, EachRank&& eachRankOf) {
+  const auto ranks = static_cast<std::size_t>(ranksOf(comm));
+  std::vector<CellSet::Amount> sent(ranks), next(ranks);
+  for (std::size_t c = 0; c < from.size(); ++c)
+    eachRankOf(c, [&](int to) { sent[static_cast<std::size_t>(to)].add(from.shapes[c]); });
+  static_assert(sizeof(CellSet::Amount) == 3 * sizeof(std::int64_t));
+  MPI_Alltoall(sent.data(), 3, MPI_INT64_T, next.data(), 3, MPI_INT64_T, comm);
+  ArrivedCells arrived;
+  CellSet::Amount all;
+  for (CellSet::Amount& amount : next) {
+    arrived.ofRank.push_back(amount.cells);
+    const CellSet::Amount begin = all;
+    all = {all.cells + amount.cells, all.corners + amount.corners, all.sides + amount.sides};
+    amount = begin;
+  }
+  arrived.cells.resize(all);
+  constexpr std::size_t valuesOfCell = 32;
+  std::size_t c = 0;
+  for (std::size_t portion = 0, portions = portionsOf(comm, from.size() * valuesOfCell); portion < portions;
+       ++portion) {
+    std::vector<std::vector<std::int64_t>> messages(ranks);
+    for (const std::size_t end = std::min(c + valuesInPortion / valuesOfCell, from.size()); c < end; ++c)
+      eachRankOf(c, [&](int to) { from.pack(c, messages[static_cast<std::size_t>(to)]); });
+    const Received<std::int64_t> received = sendToRanks(comm, messages);
+    for (std::size_t r = 0; r < ranks; ++r)
+      arrived.cells.unpack({received.values.data() + received.start[r], received.start[r + 1] - received.start[r]},
+                           next[r]);
+  }
+  return arrived;
 }
 
 }  // namespace
@@ -121,20 +164,18 @@ std::vector<int> partitionAlongCurve(MPI_Comm comm, const CellSet& cells, int di
   }
   if (ranks == 1) return std::vector<int>(cells.size(), 0);
   const std::vector<std::uint64_t> keys = keysOf(comm, cells, dimension);
-  const std::vector<double> equal(cells.size(), 1.0);
   double sum = std::accumulate(weight.begin(), weight.end(), 0.0);
   MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, comm);
   if (sum > 0.0 && std::isfinite(sum)) {
     // One cell may outweigh all others: no rank goes without even so, by a weight that every cell has.
     const double mean = sum / static_cast<double>(total);
     for (const double share : {0.0, 1.0}) {
-      std::vector<double> own(weight.begin(), weight.end());
-      for (double& w : own) w += share * mean;
-      const std::vector<int> owner = ownersBy(keys, cutCurve(comm, keys, own));
+      const auto more = [&](std::size_t cell) { return weight[cell] + share * mean; };
+      std::vector<int> owner = ownersBy(keys, cutCurve(comm, keys, more));
       if (hasEveryRankCells(comm, owner)) return owner;
     }
   }
-  return ownersBy(keys, cutCurve(comm, keys, equal));
+  return ownersBy(keys, cutCurve(comm, keys, [](std::size_t) { return 1.0; }));
 }
 
 DistributedCells distribute(MPI_Comm comm, CellSet cells, std::int64_t totalCells, const std::vector<int>& owner) {
@@ -158,36 +199,25 @@ DistributedCells distribute(MPI_Comm comm, CellSet cells, std::int64_t totalCell
     if (side.neighbour >= 0)
       side.owner = isHere(side.neighbour) ? owner[static_cast<std::size_t>(side.neighbour - first)] : answers[next++];
 
-  const auto move = [&](const CellSet& from, auto&& eachRankOf) {
-    std::vector<std::vector<std::int64_t>> messages(ranks);
-    for (std::size_t c = 0; c < from.size(); ++c)
-      eachRankOf(c, [&](int to) { from.pack(c, messages[static_cast<std::size_t>(to)]); });
-    return sendToRanks(comm, messages);
-  };
   DistributedCells result;
-  {
-    const auto arrived = move(cells, [&](std::size_t c, auto&& sendTo) { sendTo(owner[c]); });
-    cells = {};
-    CellSet unordered;
-    unordered.unpack(arrived.values);
-    std::vector<std::size_t> order(unordered.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    const auto byNumber = [&](std::size_t a, std::size_t b) { return unordered.numbers[a] < unordered.numbers[b]; };
-    if (!std::ranges::is_sorted(order, byNumber)) std::ranges::sort(order, byNumber);
-    result.owned = reordered(unordered, order);
+  if (ranks == 1) {
+    result.owned = std::move(cells);
+    return result;
   }
-  const auto seen = move(result.owned, [&](std::size_t c, auto&& sendTo) {
-    std::vector<int> to;
-    for (const CellSet::Side& side : result.owned.sidesOf(c))
-      if (side.neighbour >= 0 && side.owner != rank && std::ranges::find(to, side.owner) == to.end())
-        to.push_back(side.owner);
-    for (const int r : to) sendTo(r);
+  // The shares of the ranks follow one another, so that cells by rank and number are cells by number.
+  result.owned = sendCells(comm, cells, [&](std::size_t c, auto&& sendTo) { sendTo(owner[c]); }).cells;
+  cells = {};
+  ArrivedCells seen = sendCells(comm, result.owned, [&](std::size_t c, auto&& sendTo) {
+    const auto sides = result.owned.sidesOf(c);
+    for (std::size_t s = 0; s < sides.size(); ++s) {
+      if (sides[s].neighbour < 0 || sides[s].owner == rank) continue;
+      const auto isSame = [&](const CellSet::Side& side) { return side.owner == sides[s].owner; };
+      if (std::none_of(sides.begin(), sides.begin() + static_cast<std::ptrdiff_t>(s), isSame)) sendTo(sides[s].owner);
+    }
   });
-  for (std::size_t r = 0; r < ranks; ++r) {
-    const std::size_t before = result.halo.size();
-    result.halo.unpack({seen.values.data() + seen.start[r], seen.start[r + 1] - seen.start[r]});
-    result.haloOwner.resize(result.haloOwner.size() + result.halo.size() - before, static_cast<int>(r));
-  }
+  result.halo = std::move(seen.cells);
+  for (std::size_t r = 0; r < ranks; ++r)
+    result.haloOwner.resize(result.haloOwner.size() + static_cast<std::size_t>(seen.ofRank[r]), static_cast<int>(r));
   return result;
 }
 

@@ -63,32 +63,4 @@ Received<T> sendToRanks(MPI_Comm comm, const std::vector<std::vector<T>>& toRank
   return received;
 }
 
-// Collective. Asks the owners of numbers, by `shares`, for what they have: `answer(number)` on the owner. Answers are
-// in the order of `numbers`, which may repeat.
-template <typename T, typename Answer>
-std::vector<T> ask(MPI_Comm comm, const Shares& shares, const std::vector<std::int64_t>& numbers,
-                   const Answer& answer) {
-  int ranks = 1;
-  MPI_Comm_size(comm, &ranks);
-  std::vector<std::vector<std::int64_t>> asked(static_cast<std::size_t>(ranks));
-  std::vector<int> rank;
-  rank.reserve(numbers.size());
-  for (const std::int64_t number : numbers) {
-    rank.push_back(shares.rankOf(number));
-    asked[static_cast<std::size_t>(rank.back())].push_back(number);
-  }
-  const Received<std::int64_t> questions = sendToRanks(comm, asked);
-  std::vector<std::vector<T>> answers(static_cast<std::size_t>(ranks));
-  for (std::size_t r = 0; r < answers.size(); ++r)
-    for (std::size_t i = questions.start[r]; i < questions.start[r + 1]; ++i)
-      answers[r].push_back(answer(questions.values[i]));
-  asked.clear();
-  const Received<T> received = sendToRanks(comm, answers);
-  std::vector<std::size_t> next(received.start.begin(), received.start.end() - 1);
-  std::vector<T> ordered;
-  ordered.reserve(numbers.size());
-  for (const int r : rank) ordered.push_back(received.values[next[static_cast<std::size_t>(r)]++]);
-  return ordered;
-}
-
 }  // namespace lampblack

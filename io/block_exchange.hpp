@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "core/rank_exchange.hpp"
 #include "core/rooms.hpp"
-#include "io/rank_exchange.hpp"
 
 namespace lampblack::io {
 

@@ -11,6 +11,8 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "core/rank_exchange.hpp"
+#include "core/sorted_numbers.hpp"
 #include "io/block_exchange.hpp"
 #include "io/cell_orientation.hpp"
 #include "io/gmsh_cells.hpp"
@@ -20,16 +22,6 @@ namespace lampblack::io {
 namespace {
 
 constexpr double planeTolerance = 1e-9;  // of the extent of a plane mesh: rounding of coordinates as text
-
-std::vector<std::int64_t> sortedOnce(std::vector<std::int64_t> values) {
-  std::ranges::sort(values);
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-  return values;
-}
-
-std::size_t indexIn(const std::vector<std::int64_t>& sorted, std::int64_t value) {
-  return static_cast<std::size_t>(std::ranges::lower_bound(sorted, value) - sorted.begin());
-}
 
 class GmshAssembly {
  public:
@@ -252,7 +244,7 @@ void GmshAssembly::nameFaces() {
   eachFace([&](std::int64_t, std::span<const std::int64_t> nodes, std::int64_t) {
     tags.insert(tags.end(), nodes.begin(), nodes.end());
   });
-  tags = sortedOnce(std::move(tags));
+  tags = sortedOnce(tags);
   const std::vector<std::int64_t> vertices = verticesOf(tags, [&](std::int64_t missing) {
     std::int64_t element = 0;
     eachFace([&](std::int64_t tag, std::span<const std::int64_t> nodes, std::int64_t) {

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "core/errors.hpp"
-#include "io/rank_exchange.hpp"
+#include "core/rank_exchange.hpp"
 
 namespace lampblack::io {
 namespace {

@@ -9,6 +9,8 @@
 #include "core/errors.hpp"
 #include "core/halo_exchange.hpp"
 #include "core/hilbert.hpp"
+#include "core/rank_exchange.hpp"
+#include "core/sorted_numbers.hpp"
 #include "mpi_support.hpp"
 #include "tests/every_room.hpp"
 #include "tests/skewed_mesh.hpp"
@@ -182,6 +184,76 @@ TEST(MeshOfBlocks, AMapBendsTheBox) {
   double exact = 0.0;
   for (int i = 0; i < 8; ++i) exact += std::hypot(1.0, 0.5 * (std::sin(0.4 * (i + 1)) - std::sin(0.4 * i)));
   EXPECT_NEAR(sumOverRanks(floor), exact, 1e-13);
+}
+
+TEST(MeshOfBlocks, AShearedBoxIsObliqueButItsFacesAreMetInTheMiddle) {
+  MeshSpec spec = unitBox(8, 5);
+  spec.map = [](const Vector3& x) { return Vector3{x[0] + 0.25 * x[1], x[1], 0.0}; };
+  const Mesh mesh(MPI_COMM_WORLD, spec);
+  EXPECT_FALSE(mesh.isSkewed());
+  ASSERT_EQ(mesh.oblique.size(), at(mesh.faces));
+  // The angle between the lines along an axis and the normals of the faces they pass is that of the shear.
+  for (int f = 0; f < mesh.interiorFaces; ++f) EXPECT_NEAR(length(mesh.oblique[at(f)]), 0.25, 1e-14);
+}
+
+// More cells than travel at once (valuesInPortion), so that faces meet and cells move in several portions.
+TEST(MeshOfBlocks, ALargeMeshIsMadeInPortions) {
+  const int columns = 400, rows = 600;
+  ASSERT_GT(4U * at(columns * rows), 3U * valuesInPortion);
+  const Mesh mesh(MPI_COMM_WORLD, unitBox(columns, rows));
+  EXPECT_EQ(mesh.totalFaces, columns * (rows + 1) + rows * (columns + 1));
+  EXPECT_EQ(mesh.totalVertices, (columns + 1) * (rows + 1));
+  EXPECT_EQ(sumOverRanks(mesh.owned), columns * rows);
+  EXPECT_EQ(sumOverRanks(mesh.boundaryFaces()), 2 * (columns + rows));
+  int wrong = 0;
+  for (int f = 0; f < mesh.faces; ++f) {
+    const std::int64_t low = mesh.naturalCell[at(mesh.low[at(f)])], column = low % columns, row = low / columns;
+    // The cell's middle, and half a cell further where the face is.
+    const Vector3 middle{static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5, 0.0};
+    wrong += mesh.centre[at(mesh.low[at(f)])] == middle ? 0 : 1;
+    wrong += mesh.faceCentre[at(f)] == sum(middle, scaled(mesh.normal[at(f)], 0.5)) ? 0 : 1;
+    if (mesh.high[at(f)] < 0) {
+      const std::string side = mesh.normal[at(f)][0] < 0.0   ? "left"
+                               : mesh.normal[at(f)][0] > 0.0 ? "right"
+                               : mesh.normal[at(f)][1] < 0.0 ? "bottom"
+                                                             : "top";
+      wrong += mesh.patchName(f) == side ? 0 : 1;
+      continue;
+    }
+    const std::int64_t step = mesh.naturalCell[at(mesh.high[at(f)])] - low;
+    wrong += step == (mesh.normal[at(f)][0] > 0.5 ? 1 : columns) ? 0 : 1;
+    if (f > 0) wrong += mesh.faceNumber[at(f)] > mesh.faceNumber[at(f) - 1] ? 0 : 1;
+  }
+  for (int c = 0; c < mesh.owned; ++c) wrong += mesh.faceStart[at(c) + 1] - mesh.faceStart[at(c)] == 4 ? 0 : 1;
+  EXPECT_EQ(wrong, 0);
+}
+
+// What each side asks, of numbers that many ranks ask for and that nobody has asked for, in two portions.
+TEST(RankExchange, AnswersComeInTheOrderOfTheQuestions) {
+  const std::int64_t total = 1000;
+  const Shares shares(total, worldSize());
+  std::vector<std::int64_t> numbers(worldRank() == 0 ? valuesInPortion + 5 : 3);
+  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = static_cast<std::int64_t>(i * 7919) % total;
+  const auto answers = ask<std::array<std::int64_t, 2>>(MPI_COMM_WORLD, shares, numbers, [&](std::int64_t number) {
+    return std::array<std::int64_t, 2>{number * number, worldRank()};
+  });
+  ASSERT_EQ(answers.size(), numbers.size());
+  int wrong = 0;
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    wrong += answers[i] == std::array<std::int64_t, 2>{numbers[i] * numbers[i], shares.rankOf(numbers[i])} ? 0 : 1;
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST(SortedNumbers, EachStandsOnceAndIsFoundFromAnyHint) {
+  std::vector<std::int64_t> numbers;
+  for (std::int64_t i = 0; i < 200000; ++i) numbers.push_back(3 * (i * 7919 % 70000));
+  const std::vector<std::int64_t> sorted = sortedOnce(numbers);
+  ASSERT_EQ(sorted.size(), 70000U);
+  for (std::size_t i = 0; i < sorted.size(); ++i) ASSERT_EQ(sorted[i], static_cast<std::int64_t>(3 * i));
+  CornerFinder finder(sorted);
+  for (std::size_t i = 0; i < 20000; ++i)
+    ASSERT_EQ(finder.indexOf(i % 8, numbers[i]), static_cast<std::size_t>(numbers[i] / 3));
+  EXPECT_EQ(indexIn(sorted, 4), 2U);
 }
 
 TEST(MeshOfBlocks, AFoldedCellIsAnInputErrorThatSaysWhere) {
