@@ -202,6 +202,14 @@ class Box {
 
 }  // namespace
 
+bool MeshSpec::isLeftOut(const std::array<double, 3>& centre) const {
+  return std::ranges::any_of(leftOut, [&](const LeftOut& part) {
+    for (int axis = 0; axis < dimension(); ++axis)
+      if (centre[at(axis)] < part.lower[at(axis)] || centre[at(axis)] >= part.upper[at(axis)]) return false;
+    return true;
+  });
+}
+
 MeshBlock boxBlock(MPI_Comm comm, const MeshSpec& spec) {
   MeshBlock block;
   collectively(comm, [&] {

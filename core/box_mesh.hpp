@@ -34,13 +34,17 @@ struct MeshSpec {
   std::array<bool, 3> periodic{false, false, false};
   // Cells whose centre lies between two corners (m) are left out.
   struct LeftOut {
-    std::array<double, 3> lower{}, upper{};
+    std::array<double, 3> lower{}, upper{};  // the first belongs to the part, the second does not
   };
   std::vector<LeftOut> leftOut;
   // Where a vertex of the box comes to lie; empty: where it is. Patches and parts left out go by the box.
   std::function<std::array<double, 3>(const std::array<double, 3>&)> map;
 
   [[nodiscard]] int dimension() const { return vertices[2].empty() ? 2 : 3; }
+  // Whether a cell with this centre is left out.
+  [[nodiscard]] bool isLeftOut(const std::array<double, 3>& centre) const;
+  // A plane box of which nothing is left out or bent.
+  [[nodiscard]] bool isWholePlane() const { return dimension() == 2 && leftOut.empty() && !map; }
 };
 
 // Collective. Cells are numbered along the first axis first: i + n0 (j + n1 k) where nothing is left out. InputError,

@@ -22,11 +22,6 @@ std::size_t at(int index) {
   return static_cast<std::size_t>(index);
 }
 
-std::string placeText(const Vector3& place, int dimension) {
-  return dimension == 2 ? fmt::format("({:.6g}, {:.6g}) m", place[0], place[1])
-                        : fmt::format("({:.6g}, {:.6g}, {:.6g}) m", place[0], place[1], place[2]);
-}
-
 class MeshBuilder {
  public:
   MeshBuilder(Mesh& mesh, DistributedCells cells) : mesh_(mesh), cells_(std::move(cells)) {}
@@ -196,12 +191,18 @@ class MeshBuilder {
   void keepDeviations() {
     Mesh& m = mesh_;
     std::array<double, 2> largest{0.0, 0.0};
+    double beyond = 0.0;
     for (std::size_t face = 0; face < at(m.faces); ++face) {
       const auto [oblique, offset] = deviationsAt(face);
       largest[0] = std::max(largest[0], length(oblique));
       largest[1] = std::max(largest[1], length(offset));
+      // A face between two ranks is of both.
+      const bool isShared = m.high[face] >= 0 && (m.low[face] >= m.owned || m.high[face] >= m.owned);
+      if (m.distance[face] * std::hypot(1.0, Mesh::mostOblique) < length(m.step[face])) beyond += isShared ? 0.5 : 1.0;
     }
     MPI_Allreduce(MPI_IN_PLACE, largest.data(), 2, MPI_DOUBLE, MPI_MAX, m.comm);
+    MPI_Allreduce(MPI_IN_PLACE, &beyond, 1, MPI_DOUBLE, MPI_SUM, m.comm);
+    m.facesBeyond = std::llround(beyond);
     // Most meshes have neither, so that they are found twice rather than kept in vain.
     if (largest[0] > 0.0) m.oblique.reserve(at(m.faces));
     if (largest[1] > 0.0) m.offset.reserve(at(m.faces));

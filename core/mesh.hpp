@@ -77,6 +77,7 @@ class Mesh {
   std::vector<Vector3> offset;   // m, from where the step meets the face to its centre
   // Beyond, what the cells' gradients add would be more than what goes by the two cells, and a field would swing.
   static constexpr double mostOblique = 1.73;
+  std::int64_t facesBeyond = 0;  // of all ranks, those that are cut to it
   [[nodiscard]] bool isOblique() const { return !oblique.empty(); }
   [[nodiscard]] bool isSkewed() const { return !offset.empty(); }
   // m, length of a face's step.

@@ -317,8 +317,7 @@ class Connector {
         sum[axis] +=
             result_.cells.placesOf(cell)[static_cast<std::size_t>(side.corner[static_cast<std::size_t>(i)])][axis] /
             side.corners;
-    return block_.dimension == 2 ? fmt::format("({:.6g}, {:.6g}) m", sum[0], sum[1])
-                                 : fmt::format("({:.6g}, {:.6g}, {:.6g}) m", sum[0], sum[1], sum[2]);
+    return placeText(sum, block_.dimension);
   }
 
   void checkSurface() {

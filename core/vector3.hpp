@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <string>
 
 namespace lampblack {
 
@@ -27,5 +28,8 @@ inline Vector3 cross(const Vector3& a, const Vector3& b) {
 inline double length(const Vector3& a) {
   return std::sqrt(dot(a, a));
 }
+
+// "(0.01, 0.002) m", for messages: as many coordinates as the mesh has.
+std::string placeText(const Vector3& place, int dimension);
 
 }  // namespace lampblack

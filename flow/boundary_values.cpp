@@ -41,8 +41,8 @@ void BoundaryValues::set(double gas, double velocity) {
         evaluate(number_[row], gas, velocity, faces_[row]);
       } catch (const std::exception& error) {
         const auto& place = mesh_.faceCentre[static_cast<std::size_t>(number_[row])];
-        throw InputError(fmt::format("boundary {}, at ({:g}, {:g}) m and t = {:g} s: {}", mesh_.patchName(number_[row]),
-                                     place[0], place[1], gas, error.what()));
+        throw InputError(fmt::format("boundary {}, at {} and t = {:g} s: {}", mesh_.patchName(number_[row]),
+                                     placeText(place, mesh_.dimension), gas, error.what()));
       }
   });
 }

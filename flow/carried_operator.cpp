@@ -13,7 +13,7 @@ namespace {
 
 // How a cell is packed for the trip to another rank and back. In: place, number, gas, densities, concentrations, and
 // what brings them; out: seconds, steps, densities, concentrations.
-constexpr std::size_t inHeader = 8, outHeader = 2;
+constexpr std::size_t inHeader = 9, outHeader = 2;
 
 constexpr double firstCost = 1e-5;  // s, before a cell was ever advanced
 
@@ -88,8 +88,8 @@ void CarriedOperator::solve(double time, double dt, std::span<const double> in, 
                                                 values.subspan(scalars_), supply);
     out[1] = done.steps + done.rejected;
   } catch (const NumericsError& error) {
-    throw NumericsError(fmt::format("{} failed in cell {:.0f} at ({:.6g}, {:.6g}) m at time {:.6g} s: {}",
-                                    model_.material(), in[2], in[0], in[1], time, error.what()));
+    throw NumericsError(fmt::format("{} failed in cell {:.0f} at {} at time {:.6g} s: {}", model_.material(), in[2],
+                                    placeText({in[0], in[1], in[8]}, context_.mesh.dimension), time, error.what()));
   }
   out[0] = MPI_Wtime() - start;
 }
@@ -112,7 +112,8 @@ void CarriedOperator::pack(const State& state, const BusyCell& busy, double dt, 
         state.thermodynamicPressure,
         state.density[c],
         busy.viscosity,
-        busy.meanMolecularWeight};
+        busy.meanMolecularWeight,
+        m.centre[c][2]};
   const std::size_t n = values_.size();
   in.resize(inHeader + 2 * n);
   const std::span<double> start = std::span(in).subspan(inHeader, n);

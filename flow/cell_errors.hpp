@@ -24,8 +24,8 @@ void inEachCell(const Mesh& m, const Work& work) {
     } catch (const NumericsError& error) {
       if (m.naturalCell[c] >= number) continue;
       number = m.naturalCell[c];
-      first = std::make_exception_ptr(NumericsError(
-          fmt::format("in the cell at ({:.6g}, {:.6g}) m: {}", m.centre[c][0], m.centre[c][1], error.what())));
+      first = std::make_exception_ptr(
+          NumericsError(fmt::format("in the cell at {}: {}", placeText(m.centre[c], m.dimension), error.what())));
     }
   raiseFirst(m.comm, first, number);
 }

@@ -50,6 +50,7 @@ FaceState::FaceState(const FlowContext& context, int species, int carried)
       YUpwind_(context, YKnown_),
       YGradient_(context, species),
       temperatureBounds_(context, 1),
+      YBounds_(context, species),
       carriedBounds_(context, carried) {
   const Mesh& m = context.mesh;
   const auto faces = static_cast<std::size_t>(m.faces);
@@ -58,8 +59,7 @@ FaceState::FaceState(const FlowContext& context, int species, int carried)
   temperature.resize(faces);
   density.resize(faces);
   enthalpy.resize(faces);
-  for (std::vector<double>* row : {&slope_, &offsetSlope_, &smallest_, &largest_})
-    row->resize(static_cast<std::size_t>(std::max({species, carried, 1})));
+  for (std::vector<double>* row : {&slope_, &offsetSlope_}) row->resize(static_cast<std::size_t>(species));
   boundaryTemperature_.resize(boundary);
   boundaryY_.resize(boundary * species);
   boundaryCarried_.resize(boundary * carried);
@@ -123,7 +123,8 @@ void FaceState::prepare(const State& state, std::span<const double> Y) {
   YGradient_.prepare(Y_, boundaryY_, YKnown_);
   if (!m.isSkewed()) return;
   temperatureBounds_.prepare(state.temperature, boundaryTemperature_, temperatureKnown_);
-  if (carried_ > 0) carriedBounds_.prepare(perMass_, boundaryCarried_, YKnown_);
+  YBounds_.prepare(Y_, boundaryY_, YKnown_);
+  carriedBounds_.prepare(perMass_, boundaryCarried_, YKnown_);
 }
 
 bool FaceState::enters(int face, double direction) const {
@@ -148,10 +149,11 @@ void FaceState::massFractions(int face, double direction, std::span<double> row)
   for (int k = 0; k < n; ++k) row[k] = limitedFaceValue(up[k], down[k], slope_[k], u);
   if (m.isSkewed()) {
     YGradient_.along(m.offset[face], u.up, offsetSlope_);
-    YGradient_.bounds(u.up, smallest_, largest_);
+    const double* smallest = YBounds_.smallest(u.up);
+    const double* largest = YBounds_.largest(u.up);
     for (int k = 0; k < n; ++k)
       row[k] = boundedFaceValue(row[k] + limitedOffset(row[k], up[k], slope_[k], offsetSlope_[k], u), up[k],
-                                smallest_[k], largest_[k]);
+                                smallest[k], largest[k]);
   }
   double sum = 0.0;
   for (int k = 0; k < n; ++k) sum += row[k];
@@ -177,7 +179,7 @@ double FaceState::carriedPerMass(int face, int scalar, double direction) const {
 }
 
 double FaceState::limited(const Upwind& u, int face, std::span<const double> values, std::span<const double> gradient,
-                          const RowGradient& bounds, int components, int component) const {
+                          const NeighbourBounds& bounds, int components, int component) const {
   const Mesh& m = context_.mesh;
   const double* ofUp = &gradient[static_cast<std::size_t>(u.up * components + component) * m.dimension];
   const double up = values[u.up * components + component];
@@ -185,8 +187,7 @@ double FaceState::limited(const Upwind& u, int face, std::span<const double> val
   const double value = limitedFaceValue(up, values[u.down * components + component], slope, u);
   if (!m.isSkewed()) return value;
   const double wanted = value + limitedOffset(value, up, slope, slopeAlong(m.offset[face], ofUp, m.dimension), u);
-  bounds.bounds(u.up, smallest_, largest_);
-  return boundedFaceValue(wanted, up, smallest_[component], largest_[component]);
+  return boundedFaceValue(wanted, up, bounds.smallest(u.up)[component], bounds.largest(u.up)[component]);
 }
 
 }  // namespace lampblack::flow

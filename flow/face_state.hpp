@@ -9,6 +9,7 @@
 #include "core/rooms.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/gradient.hpp"
+#include "flow/neighbour_bounds.hpp"
 #include "flow/row_gradient.hpp"
 #include "flow/state.hpp"
 #include "flow/upwind.hpp"
@@ -45,7 +46,7 @@ class FaceState {
   void limitFed(const State& state, int face);
   // Limited value at an interior face of a field with its gradient in the cells.
   [[nodiscard]] double limited(const Upwind& u, int face, std::span<const double> values,
-                               std::span<const double> gradient, const RowGradient& bounds, int components = 1,
+                               std::span<const double> gradient, const NeighbourBounds& bounds, int components = 1,
                                int component = 0) const;
   // Whether gas comes in from beyond the boundary at a face.
   [[nodiscard]] bool enters(int face, double direction) const;
@@ -61,9 +62,8 @@ class FaceState {
   std::vector<double> perMass_;
   std::vector<double> temperatureGradient_, carriedGradient_;
   RowGradient YGradient_;
-  // Bounds of the temperature and of what is carried, where faces have offsets.
-  RowGradient temperatureBounds_, carriedBounds_;
-  mutable std::vector<double> slope_, offsetSlope_, smallest_, largest_;
+  NeighbourBounds temperatureBounds_, YBounds_, carriedBounds_;  // where faces have offsets
+  mutable std::vector<double> slope_, offsetSlope_;
   std::vector<double> feedSlope_;
 };
 

@@ -35,7 +35,7 @@ struct Field {
 // All that has values of cells.
 std::array<Field, 8> fieldsOf(const State& state) {
   const auto scalars = static_cast<std::size_t>(state.carriedCount());
-  return {{{"velocity", &state.velocity, 2},
+  return {{{"velocity", &state.velocity, static_cast<std::size_t>(state.dimension)},
            {"swirl velocity", &state.swirl, state.swirls ? std::size_t{1} : 0},
            {"pressure", &state.pressure, 1},
            {"temperature", &state.temperature, 1},
@@ -76,7 +76,7 @@ void raiseNotFinite(const FlowContext& context, const State& state) {
   const auto blame = [&](std::int64_t natural, const std::string& fault, const Vector3& place) {
     if (natural >= number) return;
     number = natural;
-    first = std::make_exception_ptr(NumericsError(fmt::format("{} at ({:.6g}, {:.6g}) m", fault, place[0], place[1])));
+    first = std::make_exception_ptr(NumericsError(fmt::format("{} at {}", fault, placeText(place, m.dimension))));
   };
   for (int c = 0; c < m.owned; ++c)
     if (const std::string fault = faultIn(context, state, static_cast<std::size_t>(c)); !fault.empty())

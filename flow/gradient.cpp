@@ -52,11 +52,7 @@ void Gradient::compute(std::span<const double> values, std::span<const double> b
       for (int i = m.faceStart[cell]; i < m.faceStart[cell + 1]; ++i, ++weight) {
         if (*weight == Vector3{}) continue;
         const int face = m.faceOfCell[i];
-        const double* other =
-            m.high[face] < 0
-                ? boundary.data() + static_cast<std::ptrdiff_t>(face - m.interiorFaces) * components
-                : values.data() +
-                      static_cast<std::ptrdiff_t>(m.low[face] == cell ? m.high[face] : m.low[face]) * components;
+        const double* other = valuesBeyond(m, cell, face, values, boundary, components);
         for (int k = first; k < first + width; ++k) {
           const double difference = other[k] - own[k];
           for (int axis = 0; axis < d; ++axis) out[k * d + axis] += (*weight)[axis] * difference;
@@ -78,11 +74,7 @@ void Gradient::along(const Vector3& direction, int cell, std::span<const double>
     const double share = dot(*weight, direction);
     if (share == 0.0) continue;  // of a box the faces of the other axes
     const int face = m.faceOfCell[i];
-    const double* other =
-        m.high[face] < 0
-            ? boundary.data() + static_cast<std::ptrdiff_t>(face - m.interiorFaces) * components
-            : values.data() +
-                  static_cast<std::ptrdiff_t>(m.low[face] == cell ? m.high[face] : m.low[face]) * components;
+    const double* other = valuesBeyond(m, cell, face, values, boundary, components);
     for (int k = 0; k < components; ++k) slope[k] += share * (other[k] - own[k]);
   }
 }

@@ -47,6 +47,13 @@ class Gradient {
   const Mesh& mesh_;
 };
 
+// What lies beyond a face of a cell: the values of the other cell, or those at the boundary face (`components` each).
+inline const double* valuesBeyond(const Mesh& m, int cell, int face, std::span<const double> values,
+                                  std::span<const double> boundary, int components) {
+  if (m.high[face] < 0) return boundary.data() + static_cast<std::ptrdiff_t>(face - m.interiorFaces) * components;
+  return values.data() + static_cast<std::ptrdiff_t>(m.low[face] == cell ? m.high[face] : m.low[face]) * components;
+}
+
 // Of a gradient in the cells (halo filled; `components` a cell), at a face, interpolated, or the cell's own at the
 // boundary: the part along `direction`.
 inline double faceSlope(const Mesh& m, int face, const Vector3& direction, std::span<const double> gradient,

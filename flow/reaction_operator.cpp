@@ -13,7 +13,7 @@ namespace lampblack::flow {
 struct ReactionOperator::Layout {
   // in: centre (2), enthalpy, its constant source, guess of the temperature, pressure, first step, natural number, Y,
   // their constant sources
-  static constexpr std::size_t inHeader = 8;
+  static constexpr std::size_t inHeader = 9;
   // out: temperature, next first step, seconds, solver steps, retries, skipped, handed over, Y
   static constexpr std::size_t outHeader = 7;
 };
@@ -60,6 +60,7 @@ void ReactionOperator::pack(const State& state, std::size_t cell, double dt, std
                                 : 0.5 * (state.start.thermodynamicPressure + state.thermodynamicPressure);
   in[6] = initialStep_[cell];
   in[7] = static_cast<double>(context_.mesh.naturalCell[cell]);
+  in[8] = context_.mesh.centre[cell][2];
   const std::span<double> start = in.subspan(Layout::inHeader, n);
   const std::span<double> source = in.subspan(Layout::inHeader + n, n);
   std::copy_n(before, n, start.begin());
@@ -74,8 +75,8 @@ void ReactionOperator::solve(double time, double dt, std::span<const std::span<c
   const double start = MPI_Wtime();
   const std::size_t n = context_.mechanism.numSpecies(), count = in.size();
   const auto failure = [&](std::size_t i, const std::string& reason) {
-    return NumericsError(fmt::format("chemistry failed in cell {:.0f} at ({:.6g}, {:.6g}) m at time {:.6g} s: {}",
-                                     in[i][7], in[i][0], in[i][1], time, reason));
+    return NumericsError(fmt::format("chemistry failed in cell {:.0f} at {} at time {:.6g} s: {}", in[i][7],
+                                     placeText({in[i][0], in[i][1], in[i][8]}, context_.mesh.dimension), time, reason));
   };
   cells_.resize(count);
   results_.resize(count);

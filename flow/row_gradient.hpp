@@ -22,20 +22,13 @@ class RowGradient {
   // The part along a direction, of any length, in any local cell.
   void along(const Vector3& direction, int cell, std::span<double> slope) const;
 
-  // On a mesh whose faces have offsets: smallest and largest of a cell's own values, its neighbours', and those known
-  // at its boundary faces.
-  void bounds(int cell, std::span<double> smallest, std::span<double> largest) const;
-
  private:
   const FlowContext& context_;
   Gradient gradient_;
   int fields_;
   std::span<const double> values_, boundary_;
   std::span<const BoundaryData> known_;
-  void ownBounds(int cell, std::span<double> smallest, std::span<double> largest) const;
-
-  std::vector<double> halo_;        // of each halo cell, `fields` along one axis after the other
-  std::vector<double> haloBounds_;  // of each halo cell, the smallest and then the largest; empty without offsets
+  std::vector<double> halo_;  // of each halo cell, `fields` along one axis after the other
 };
 
 }  // namespace lampblack::flow

@@ -49,7 +49,7 @@ Streamlines::Streamlines(const Mesh& mesh, const State& state, const GasProperti
 }
 
 bool Streamlines::isPossible(const Mesh& mesh) {
-  return mesh.box && mesh.dimension == 2 && mesh.box->leftOut.empty() && !mesh.box->map;
+  return mesh.box && mesh.box->isWholePlane();
 }
 
 void Streamlines::computeDivergence() {

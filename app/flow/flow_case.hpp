@@ -100,9 +100,7 @@ struct FlowCase {
   std::vector<std::string> notes;  // what the user should be told before the run
 
   // A plane box of which nothing is left out or bent.
-  [[nodiscard]] bool isWholePlaneBox() const {
-    return !meshFile && dimension == 2 && mesh.leftOut.empty() && !mesh.map;
-  }
+  [[nodiscard]] bool isWholePlaneBox() const { return !meshFile && mesh.isWholePlane(); }
 };
 
 // All keys a flow deck may have.

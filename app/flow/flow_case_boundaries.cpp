@@ -245,7 +245,7 @@ struct Side {
         centre[normal] = centreOf(across, atMax ? across.size() - 2 : 0);
         centre[along] = centreOf(vertices, i);
         centre[third] = centreOf(rest, k);
-        isOpen = isOpen || !isLeftOut(flowCase.mesh, centre);
+        isOpen = isOpen || !flowCase.mesh.isLeftOut(centre);
       }
       open.push_back(isOpen);
     }

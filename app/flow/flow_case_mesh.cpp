@@ -27,14 +27,6 @@ std::string axesText(const AxisNames& names) {
                      fmt::join(names.begin(), names.end(), names.size() == 2 ? " and " : ", "));
 }
 
-bool isLeftOut(const MeshSpec& mesh, const std::array<double, 3>& centre) {
-  return std::ranges::any_of(mesh.leftOut, [&](const MeshSpec::LeftOut& part) {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      if (centre[axis] < part.lower[axis] || centre[axis] >= part.upper[axis]) return false;
-    return true;
-  });
-}
-
 void noteEdgeInside(FlowCase& flowCase, const std::string& what, double edge, const std::vector<double>& vertices) {
   const double end = vertices.back();
   const double nearest = *std::ranges::min_element(vertices, {}, [&](double place) { return std::abs(place - edge); });

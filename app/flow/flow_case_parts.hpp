@@ -23,9 +23,6 @@ std::string axesText(const AxisNames& names);
 // The section mesh: a box with its solids, floor and ceiling, or a file.
 void readMesh(const Deck& deck, FlowCase& flowCase);
 
-// Whether a cell of a box, by its centre, is left out.
-bool isLeftOut(const MeshSpec& mesh, const std::array<double, 3>& centre);
-
 // Tells the user where an edge, of what is named, lies inside a cell of an axis.
 void noteEdgeInside(FlowCase& flowCase, const std::string& what, double edge, const std::vector<double>& vertices);
 

@@ -1,5 +1,7 @@
 #include "app/flow/flow_loop.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <exception>
 #include <utility>
@@ -62,6 +64,14 @@ FlowLoop::FlowLoop(MPI_Comm comm, FlowCase flowCase)
   flow_.watchBoundary([this](const TransportOperator::BoundaryAmounts& amounts) { budget_->addStep(amounts); });
   dt_ = case_.time.firstStep;
   nextOutput_ = case_.output.interval;
+}
+
+std::vector<std::string> FlowLoop::notesOfMesh() const {
+  if (mesh_.facesBeyond == 0) return {};
+  return {
+      fmt::format("{} of the mesh's {} faces are turned by more than 60 degrees from the steps between their cells: "
+                  "what diffuses and presses along them counts as at 60 degrees; better shaped cells are more accurate",
+                  mesh_.facesBeyond, mesh_.totalFaces)};
 }
 
 void FlowLoop::load(const WholeCheckpoint& checkpoint) {

@@ -40,6 +40,9 @@ class FlowLoop {
 
   [[nodiscard]] std::int64_t cells() const { return mesh_.totalCells; }
 
+  // What a user should know of the mesh, or nothing.
+  [[nodiscard]] std::vector<std::string> notesOfMesh() const;
+
   // A further operator of each step, behind the case's own, which has to live as long; before load() and run().
   void addOperator(Operator& added) { operators_.push_back(&added); }
 

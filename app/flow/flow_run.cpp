@@ -34,6 +34,7 @@ class PreparedFlow : public PreparedRun {
     species_ = flowCase.mechanism->numSpecies();
     reactions_ = flowCase.mechanism->numReactions();
     run_ = std::make_unique<FlowLoop>(comm, std::move(flowCase));
+    for (const std::string& note : run_->notesOfMesh()) notes_.push_back(note);
   }
 
   [[nodiscard]] std::string summary() const override {

@@ -256,6 +256,21 @@ TEST(SortedNumbers, EachStandsOnceAndIsFoundFromAnyHint) {
   EXPECT_EQ(indexIn(sorted, 4), 2U);
 }
 
+// Of 4 x 3 cells sheared along x by twice their height, the faces across y and their steps are 63 degrees apart; those
+// across x lean as much.
+TEST(MeshOfBlocks, FacesBeyondSixtyDegreesAreCutAndCounted) {
+  MeshSpec spec = unitBox(4, 3);
+  spec.map = [](const Vector3& x) { return Vector3{x[0] + 2.0 * x[1], x[1], 0.0}; };
+  const Mesh mesh(MPI_COMM_WORLD, spec);
+  // All of them: 5 x 3 across x and 4 x 4 across y.
+  EXPECT_EQ(mesh.facesBeyond, 31);
+  for (const Vector3& oblique : mesh.oblique) EXPECT_NEAR(length(oblique), Mesh::mostOblique, 1e-12);
+  spec.map = [](const Vector3& x) { return Vector3{x[0] + 1.5 * x[1], x[1], 0.0}; };
+  const Mesh less(MPI_COMM_WORLD, spec);
+  EXPECT_EQ(less.facesBeyond, 0);
+  for (const Vector3& oblique : less.oblique) EXPECT_NEAR(length(oblique), 1.5, 1e-12);
+}
+
 TEST(MeshOfBlocks, AFoldedCellIsAnInputErrorThatSaysWhere) {
   MeshSpec spec = unitBox(3, 3);
   spec.map = [](const Vector3& x) { return x[0] == 1.0 && x[1] == 1.0 ? Vector3{2.5, 2.5, 0.0} : x; };

@@ -45,6 +45,25 @@ class FlowExact : public testing::Test {
     box.context.varying = std::make_shared<BoundaryValues>(box.mesh, box.context.boundaries, box.gas.thermo);
   }
 
+  // Vortices between planes of symmetry, `length` wide, which viscosity takes away (Taylor and Green 1937).
+  struct Vortices {
+    double speed, k, decay, density;  // m/s, 1/m, 1/s of the velocity, kg/m3
+    [[nodiscard]] double u(const Place& x, double t) const {
+      return speed * std::sin(k * x[0]) * std::cos(k * x[1]) * std::exp(-decay * t);
+    }
+    [[nodiscard]] double v(const Place& x, double t) const {
+      return -speed * std::cos(k * x[0]) * std::sin(k * x[1]) * std::exp(-decay * t);
+    }
+    [[nodiscard]] double p(const Place& x, double t) const {
+      return 0.25 * density * speed * speed * (std::cos(2.0 * k * x[0]) + std::cos(2.0 * k * x[1])) *
+             std::exp(-2.0 * decay * t);
+    }
+  };
+  Vortices vortices(double reynolds, double length) {
+    const double k = pi / length;
+    return {reynolds * viscosity() / length, k, 2.0 * k * k * viscosity(), density};
+  }
+
   // Of velocities, over a velocity of the flow: mean over the domain, and in the worst of all cells.
   struct Errors {
     std::array<double, 2> mean{}, largest{};

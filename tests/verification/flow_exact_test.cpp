@@ -17,29 +17,16 @@ TEST_F(FlowExact, Kovasznay) {
 
 // Vortices between planes of symmetry that viscosity takes away: steps in proportion to the mesh's width.
 TEST_F(FlowExact, TaylorGreen) {
-  const double reynolds = 5.0, length = 1e-3;  // of a vortex
-  const double speed = reynolds * viscosity() / length;
-  const double k = pi / length;
-  const double duration = 0.5 / (2.0 * k * k * viscosity());
+  const double length = 1e-3;
+  const Vortices flow = vortices(5.0, length);
+  const double speed = flow.speed, duration = 0.5 / flow.decay;
   std::array<double, 3> velocity{}, pressure{};
   for (std::size_t level = 0; level < 3; ++level) {
     const int cells = 16 << level;
     Box box(Geometry::Planar, {uniformAxis(length, cells), uniformAxis(length, cells)},
             {side(BoundaryKind::Symmetry, 0, false), side(BoundaryKind::Symmetry, 0, true),
              side(BoundaryKind::Symmetry, 1, false), side(BoundaryKind::Symmetry, 1, true)});
-    const auto u = [&](const Place& x, double t) {
-      return speed * std::sin(k * x[0]) * std::cos(k * x[1]) * std::exp(-2.0 * k * k * viscosity() * t);
-    };
-    const auto p = [&](const Place& x, double t) {
-      return 0.25 * density * speed * speed * (std::cos(2.0 * k * x[0]) + std::cos(2.0 * k * x[1])) *
-             std::exp(-4.0 * k * k * viscosity() * t);
-    };
-    State state = box.state([&](const Place& x) {
-      return Box::Local{
-          {speed * std::sin(k * x[0]) * std::cos(k * x[1]), -speed * std::cos(k * x[0]) * std::sin(k * x[1])},
-          300.0,
-          n2};
-    });
+    State state = box.state([&](const Place& x) { return Box::Local{{flow.u(x, 0.0), flow.v(x, 0.0)}, 300.0, n2}; });
     const int steps = static_cast<int>(std::ceil(duration * speed / (0.2 * length / cells)));
     const double dt = duration / steps;
     TransportOperator transport(box.context, state, {0.5, 2});
@@ -49,11 +36,11 @@ TEST_F(FlowExact, TaylorGreen) {
     // Velocities stand half a step before the gas, pressures are those in the middle of what moves them.
     const double time = duration - 0.5 * dt, timeOfPressure = duration - dt;
     velocity[level] =
-        meanError(box, [&](int c) { return state.velocity[at(2 * c)] - u(box.mesh.centre[at(c)], time); }) / speed;
+        meanError(box, [&](int c) { return state.velocity[at(2 * c)] - flow.u(box.mesh.centre[at(c)], time); }) / speed;
     const double mean = integral(box.mesh, [&](int c) { return state.pressure[at(c)]; }) / (length * length);
     pressure[level] =
-        meanError(box,
-                  [&](int c) { return state.pressure[at(c)] - mean - p(box.mesh.centre[at(c)], timeOfPressure); }) /
+        meanError(
+            box, [&](int c) { return state.pressure[at(c)] - mean - flow.p(box.mesh.centre[at(c)], timeOfPressure); }) /
         (density * speed * speed);
   }
   expectOrders("Taylor-Green, 16, 32, 64 cells a vortex, u", velocity, 1.8);

@@ -26,8 +26,9 @@ class FlowSkewed : public GradedStream {
     double velocity, across, pressure;  // mean errors over the velocity or its dynamic pressure
   };
   Vortex vortex(Cells cells, int n) {
-    const double length = 1e-3, speed = 5.0 * viscosity() / length, k = pi / length;  // of a vortex; Reynolds number 5
-    const double decay = 2.0 * k * k * viscosity(), duration = 0.5 / decay;
+    const double length = 1e-3;
+    const Vortices flow = vortices(5.0, length);
+    const double speed = flow.speed, duration = 0.5 / flow.decay;
     Axes axes{uniformAxis(length, n), uniformAxis(length, n), {}};
     if (cells >= Cells::Hexahedra) axes[2] = uniformAxis(length, n);
     std::vector<Side> sides;
@@ -35,15 +36,8 @@ class FlowSkewed : public GradedStream {
       for (const bool atMax : {false, true}) sides.push_back(side(BoundaryKind::Symmetry, axis, atMax));
     Box box(Geometry::Planar, axes, sides, gas, Split{cells});
     const int d = box.mesh.dimension;
-    const auto u = [&](const Place& x, double t) {
-      return speed * std::sin(k * x[0]) * std::cos(k * x[1]) * std::exp(-decay * t);
-    };
-    const auto p = [&](const Place& x, double t) {
-      return 0.25 * density * speed * speed * (std::cos(2.0 * k * x[0]) + std::cos(2.0 * k * x[1])) *
-             std::exp(-2.0 * decay * t);
-    };
     State state = box.state([&](const Place& x) {
-      return Box::Local{{u(x, 0.0), -speed * std::cos(k * x[0]) * std::sin(k * x[1]), 0.0}, 300.0, n2};
+      return Box::Local{{flow.u(x, 0.0), flow.v(x, 0.0), 0.0}, 300.0, n2};
     });
     const int steps = static_cast<int>(std::ceil(duration * speed / (0.1 * length / n)));
     const double dt = duration / steps;
@@ -56,10 +50,11 @@ class FlowSkewed : public GradedStream {
     const Mesh& m = box.mesh;
     const double size = integral(m, [](int) { return 1.0; });
     const double mean = integral(m, [&](int c) { return state.pressure[at(c)]; }) / size;
-    return {meanError(box, [&](int c) { return state.velocity[at(d * c)] - u(m.centre[at(c)], time); }) / speed,
+    return {meanError(box, [&](int c) { return state.velocity[at(d * c)] - flow.u(m.centre[at(c)], time); }) / speed,
             d == 2 ? 0.0 : meanError(box, [&](int c) { return state.velocity[at(d * c + 2)]; }) / speed,
-            meanError(box, [&](int c) { return state.pressure[at(c)] - mean - p(m.centre[at(c)], timeOfPressure); }) /
-                (density * speed * speed)};
+            meanError(box, [&](int c) {
+              return state.pressure[at(c)] - mean - flow.p(m.centre[at(c)], timeOfPressure);
+            }) / (density * speed * speed)};
   }
 
   void expectVortex(Cells cells, int n, double least) {
