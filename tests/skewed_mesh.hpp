@@ -26,7 +26,8 @@ enum class Cells {
 
 // A number in [-1, 1) that looks random, always the same for the same words.
 inline double noise(std::int64_t a, std::int64_t b) {
-  auto x = static_cast<std::uint64_t>(a) * 0x9E3779B97F4A7C15ULL + static_cast<std::uint64_t>(b) * 0x632BE59BD9B4E019ULL;
+  auto x =
+      static_cast<std::uint64_t>(a) * 0x9E3779B97F4A7C15ULL + static_cast<std::uint64_t>(b) * 0x632BE59BD9B4E019ULL;
   x = (x ^ (x >> 31)) * 0xBF58476D1CE4E5B9ULL;
   x ^= x >> 29;
   return static_cast<double>(x % 20011) / 10005.5 - 1.0;

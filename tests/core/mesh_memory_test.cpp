@@ -16,9 +16,13 @@ namespace {
 bool isWatching = false;
 std::size_t largest = 0;
 
-void* take(std::size_t bytes) {
+void* takeOrNull(std::size_t bytes) noexcept {
   if (isWatching && bytes > largest) largest = bytes;
-  if (void* const memory = std::malloc(bytes > 0 ? bytes : 1)) return memory;
+  return std::malloc(bytes > 0 ? bytes : 1);
+}
+
+void* take(std::size_t bytes) {
+  if (void* const memory = takeOrNull(bytes)) return memory;
   throw std::bad_alloc();
 }
 
@@ -30,6 +34,13 @@ void* operator new(std::size_t bytes) {
 }
 void* operator new[](std::size_t bytes) {
   return take(bytes);
+}
+// What algorithms sort and merge with.
+void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
+  return takeOrNull(bytes);
+}
+void* operator new[](std::size_t bytes, const std::nothrow_t&) noexcept {
+  return takeOrNull(bytes);
 }
 void operator delete(void* memory) noexcept {
   std::free(memory);
