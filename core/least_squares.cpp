@@ -45,35 +45,40 @@ Matrix pseudoInverse(Matrix a) {
   return inverse;
 }
 
-}  // namespace
-
-void LeastSquares::add(const Vector3& d) {
-  const double size = length(d), share = 1.0 / (size * size * size);
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j) sum_[i][j] += share * d[i] * d[j];
-}
-
-void LeastSquares::finish(int dimension) {
-  const Matrix& m = sum_;
+Matrix inverseOf(const Matrix& m, int dimension) {
   const double trace = m[0][0] + m[1][1] + m[2][2];
   constexpr double nothing = 1e-10;
-  inverse_ = {};
   if (dimension == 2) {
     const double determinant = m[0][0] * m[1][1] - m[0][1] * m[1][0];
-    if (determinant > nothing * trace * trace) {
-      inverse_[0] = {m[1][1] / determinant, -m[0][1] / determinant, 0.0};
-      inverse_[1] = {-m[1][0] / determinant, m[0][0] / determinant, 0.0};
-      return;
-    }
+    if (determinant > nothing * trace * trace)
+      return {{{m[1][1] / determinant, -m[0][1] / determinant, 0.0},
+               {-m[1][0] / determinant, m[0][0] / determinant, 0.0},
+               {}}};
   } else {
     const Vector3 a = cross(m[1], m[2]), b = cross(m[2], m[0]), c = cross(m[0], m[1]);
     const double determinant = dot(m[0], a);
     if (determinant > nothing * trace * trace * trace) {
-      for (std::size_t i = 0; i < 3; ++i) inverse_[i] = {a[i] / determinant, b[i] / determinant, c[i] / determinant};
-      return;
+      Matrix inverse;
+      for (std::size_t i = 0; i < 3; ++i) inverse[i] = {a[i] / determinant, b[i] / determinant, c[i] / determinant};
+      return inverse;
     }
   }
-  inverse_ = pseudoInverse(sum_);
+  return pseudoInverse(m);
+}
+
+void addSquare(const Vector3& d, double share, Matrix& sum) {
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) sum[i][j] += share * d[i] * d[j];
+}
+
+}  // namespace
+
+void LeastSquares::finish(int dimension) {
+  Matrix extent{}, weighted{};
+  for (std::size_t i = 0; i < count_; ++i) addSquare(differences_[i], 1.0, extent);
+  metric_ = inverseOf(extent, dimension);
+  for (std::size_t i = 0; i < count_; ++i) addSquare(differences_[i], share(differences_[i]), weighted);
+  inverse_ = inverseOf(weighted, dimension);
 }
 
 }  // namespace lampblack

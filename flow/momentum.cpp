@@ -218,12 +218,9 @@ void Momentum::addInside(int face, const MomentumSweep& sweep) {
     double value = smoothFaceValue(velocity[d * u.up + i], velocity[d * u.down + i], slopeAlong(u.direction, ofUp, d),
                                    slopeAlong(u.direction, ofDown, d), u);
     if (m.isOblique() || m.isSkewed()) {
+      // Curvatures are no measure of smoothness on cells without order: along the slope.
       value = velocity[d * u.up + i] + u.toFace * slopeAlong(u.direction, ofUp, d);
-      if (m.isOblique() || m.isSkewed()) {
-        // Curvatures are no measure of smoothness on cells without order: along the slope.
-        value = velocity[d * u.up + i] + u.toFace * slopeAlong(u.direction, ofUp, d);
-        if (m.isSkewed()) value += slopeAlong(m.offset[face], ofUp, d);
-      }
+      if (m.isSkewed()) value += slopeAlong(m.offset[face], ofUp, d);
     }
     double force = 0.0;
     if (m.isOblique()) force = mu * m.area[face] * faceSlope(m, face, m.oblique[face], velocityGradient_, d, i);

@@ -14,7 +14,7 @@
 namespace lampblack::flow {
 
 Projection::Projection(const FlowContext& context, std::span<const BoundaryData> known, double tolerance)
-    : context_(context), tolerance_(tolerance), gradient_(context.mesh), known_(known.begin(), known.end()) {
+    : context_(context), tolerance_(tolerance) {
   const Mesh& m = context.mesh;
   PetscInt first = 0;
   const PetscInt owned = m.owned;
@@ -27,21 +27,31 @@ Projection::Projection(const FlowContext& context, std::span<const BoundaryData>
   checkPetsc(MatCreateAIJ(m.comm, owned, owned, PETSC_DETERMINE, PETSC_DETERMINE, Mesh::mostSides + 1, nullptr,
                           Mesh::mostSides, nullptr, matrix_.put()));
   checkPetsc(MatCreateVecs(matrix_.get(), solution_.put(), rightSide_.put()));
+  if (m.isOblique()) oblique_.emplace(context, known, matrix_.get(), conductance_);
   if (context.isClosed()) {
     MatNullSpace constants = nullptr;
     checkPetsc(MatNullSpaceCreate(m.comm, PETSC_TRUE, 0, nullptr, &constants));
-    checkPetsc(MatSetNullSpace(matrix_.get(), constants));
+    for (Mat matrix : {matrix_.get(), whole()}) checkPetsc(MatSetNullSpace(matrix, constants));
     checkPetsc(MatNullSpaceDestroy(&constants));
   }
   checkPetsc(KSPCreate(m.comm, solver_.put()));
-  // Pipelined: one reduction an iteration in place of three, beside the work of the next.
-  checkPetsc(KSPSetType(solver_.get(), KSPPIPECG));
+  checkPetsc(KSPCreate(m.comm, careful_.put()));
+  if (oblique_) {
+    // Not symmetric.
+    for (KSP solver : {solver_.get(), careful_.get()}) {
+      checkPetsc(KSPSetType(solver, KSPGMRES));
+      checkPetsc(KSPSetPCSide(solver, PC_RIGHT));
+    }
+    checkPetsc(KSPGMRESSetRestart(careful_.get(), 100));
+  } else {
+    // Pipelined: one reduction an iteration in place of three, beside the work of the next.
+    checkPetsc(KSPSetType(solver_.get(), KSPPIPECG));
+    checkPetsc(KSPSetType(careful_.get(), KSPCG));
+  }
   PC preconditioner = nullptr;
   checkPetsc(KSPGetPC(solver_.get(), &preconditioner));
   checkPetsc(PCSetType(preconditioner, PCHYPRE));
   checkPetsc(PCHYPRESetType(preconditioner, "boomeramg"));
-  checkPetsc(KSPCreate(m.comm, careful_.put()));
-  checkPetsc(KSPSetType(careful_.get(), KSPCG));
   checkPetsc(KSPSetPC(careful_.get(), preconditioner));
   for (KSP solver : {solver_.get(), careful_.get()}) {
     checkPetsc(KSPSetNormType(solver, KSP_NORM_UNPRECONDITIONED));
@@ -98,28 +108,32 @@ void Projection::saveOrLoad(StateArchive& archive) {
   if (iterationsAfterSetup_ < 0) return;  // the next solve makes a new one
   conductance_ = setupConductance_;
   assemble();
-  checkPetsc(KSPSetOperators(solver_.get(), matrix_.get(), matrix_.get()));
+  checkPetsc(KSPSetOperators(solver_.get(), whole(), matrix_.get()));
   checkPetsc(KSPSetReusePreconditioner(solver_.get(), PETSC_FALSE));
   checkPetsc(KSPSetUp(solver_.get()));
 }
 
 Projection::Iterations Projection::iterate(std::span<const double> guess, double tolerance) {
   // Many times what a solve takes; the pipelined iteration goes on for ever where it has come to its round-off.
-  constexpr int mostPipelined = 50, most = 500;
+  constexpr int mostQuick = 50, most = 500;
   const PetscBool keepsPreconditioner = iterationsAfterSetup_ >= 0 ? PETSC_TRUE : PETSC_FALSE;
   KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
   PetscInt iterations = 0;
   Iterations result;
   for (KSP solver : {solver_.get(), careful_.get()}) {
-    const bool isPipelined = solver == solver_.get();
+    const bool isQuick = solver == solver_.get();
     double* x = nullptr;
     checkPetsc(VecGetArray(solution_.get(), &x));
     std::copy_n(guess.begin(), context_.mesh.owned, x);
     checkPetsc(VecRestoreArray(solution_.get(), &x));
-    checkPetsc(KSPSetTolerances(solver, 1e-14, tolerance, PETSC_DEFAULT, isPipelined ? mostPipelined : most));
-    checkPetsc(KSPSetOperators(solver, matrix_.get(), matrix_.get()));
-    checkPetsc(KSPSetReusePreconditioner(solver, isPipelined ? keepsPreconditioner : PETSC_TRUE));
-    checkPetsc(KSPSolve(solver, rightSide_.get(), solution_.get()));
+    checkPetsc(KSPSetTolerances(solver, 1e-14, tolerance, PETSC_DEFAULT, isQuick ? mostQuick : most));
+    checkPetsc(KSPSetOperators(solver, whole(), matrix_.get()));
+    checkPetsc(KSPSetReusePreconditioner(solver, isQuick ? keepsPreconditioner : PETSC_TRUE));
+    const auto solve = [&] { return KSPSolve(solver, rightSide_.get(), solution_.get()); };
+    if (oblique_)
+      oblique_->run(solve);
+    else
+      checkPetsc(solve());
     checkPetsc(KSPGetConvergedReason(solver, &reason));
     checkPetsc(KSPGetIterationNumber(solver, &iterations));
     result.ofSolver = static_cast<int>(iterations);
@@ -171,28 +185,6 @@ int Projection::correct(std::span<const double> excess, double tolerance, std::s
   return iterations.all;
 }
 
-// Velocities that the change makes through faces that the cells' steps are oblique to. Returns the largest flow by
-// which they differ from the former.
-double Projection::addOblique(std::span<const double> change, std::span<double> velocity,
-                              std::span<double> former) const {
-  const Mesh& m = context_.mesh;
-  const std::vector<double> atOutlets(static_cast<std::size_t>(m.boundaryFaces()), 0.0);
-  std::vector<double> gradient(static_cast<std::size_t>(m.cells) * m.dimension);
-  gradient_.compute(change, atOutlets, 1, gradient, known_);
-  context_.halo.update(gradient, m.dimension);
-  double largest = 0.0;
-  for (int face = 0; face < m.faces; ++face) {
-    if (conductance_[face] == 0.0) continue;
-    const double made =
-        -conductance_[face] * m.distance[face] / m.area[face] * faceSlope(m, face, m.oblique[face], gradient);
-    velocity[face] += made - former[face];
-    largest = std::max(largest, m.area[face] * std::abs(made - former[face]));
-    former[face] = made;
-  }
-  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, m.comm);
-  return largest;
-}
-
 Projection::Result Projection::solve(double dt, std::span<const double> inverseDensity,
                                      std::span<const double> divergence, std::span<double> faceVelocity,
                                      std::span<double> change, double slowFlow) {
@@ -213,26 +205,13 @@ Projection::Result Projection::solve(double dt, std::span<const double> inverseD
 
   // The tolerance is absolute: a fraction of the largest face flow, so that continuity holds alike in every step.
   Result result;
-  std::vector<double> oblique(m.isOblique() ? static_cast<std::size_t>(m.faces) : 0, 0.0);
-  constexpr int mostCorrections = 8;
-  double firstChange = 0.0;
-  for (int correction = 0;; ++correction) {
-    result.iterations +=
-        correct(correction == 0 ? first : excess(divergence, faceVelocity), tolerance_ * flowScale, change);
-    if (!m.isOblique() || correction == mostCorrections) break;
-    const double changed = addOblique(change, faceVelocity, oblique);
-    if (correction == 0) firstChange = changed;
-    // The last addition is solved for, too: continuity goes before the shape of the pressure.
-    if (changed <= std::max(1e-2 * firstChange, tolerance_ * flowScale)) {
-      result.iterations += correct(excess(divergence, faceVelocity), tolerance_ * flowScale, change);
-      break;
-    }
-  }
+  result.iterations = correct(first, tolerance_ * flowScale, change);
   for (int face = 0; face < m.faces; ++face) {
     if (m.area[face] <= 0.0) continue;
     const double beyond = m.high[face] >= 0 ? change[m.high[face]] : 0.0;
     faceVelocity[face] -= conductance_[face] / m.area[face] * (beyond - change[m.low[face]]);
   }
+  if (oblique_) oblique_->addVelocity(change, faceVelocity);
   const std::vector<double> left = excess(divergence, faceVelocity);
   for (int c = 0; c < m.owned; ++c)
     result.continuityError = std::max(result.continuityError, std::abs(left[c] / m.volume[c]));

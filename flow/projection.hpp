@@ -7,6 +7,7 @@
 // stands.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -14,7 +15,7 @@
 #include "core/rooms.hpp"
 #include "core/state_archive.hpp"
 #include "flow/flow_context.hpp"
-#include "flow/gradient.hpp"
+#include "flow/oblique_pressure.hpp"
 
 namespace lampblack::flow {
 
@@ -49,18 +50,17 @@ class Projection {
                                            std::span<const double> faceVelocity) const;
   [[nodiscard]] std::vector<double> flow(std::span<const double> faceVelocity) const;  // m^3/s
   int correct(std::span<const double> excess, double tolerance, std::span<double> change);
-  double addOblique(std::span<const double> change, std::span<double> velocity, std::span<double> former) const;
+  [[nodiscard]] Mat whole() const { return oblique_ ? oblique_->matrix() : matrix_.get(); }
   void conductances(double dt, std::span<const double> inverseDensity);
   void assemble();
 
   const FlowContext& context_;
   double tolerance_;
-  Gradient gradient_;
-  std::vector<BoundaryData> known_;
   std::vector<PetscInt> row_;  // global matrix row of every local cell
   std::vector<double> conductance_;
   std::vector<double> setupConductance_;  // when the preconditioner was set up
-  PetscMatrix matrix_;
+  PetscMatrix matrix_;                    // of the differences along the steps, from which the preconditioner is made
+  std::optional<ObliquePressure> oblique_;
   PetscVector rightSide_, solution_;
   PetscSolver solver_, careful_;
   int iterationsAfterSetup_ = -1;
