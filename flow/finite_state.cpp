@@ -5,10 +5,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <string>
 
 #include "core/errors.hpp"
 #include "core/first_error.hpp"
+#include "flow/cell_errors.hpp"
 
 namespace lampblack::flow {
 namespace {
@@ -89,6 +91,27 @@ void raiseNotFinite(const FlowContext& context, const State& state) {
   if (!std::isfinite(state.thermodynamicPressure))
     blame(3 * m.totalCells, fmt::format("the thermodynamic pressure is {}", state.thermodynamicPressure), {0.0, 0.0});
   raiseFirst(m.comm, first, number);
+}
+
+void raiseStandstill(const Mesh& mesh, const State& state, double dt) {
+  const auto speed = [&](int c) {
+    const double* u = &state.velocity[static_cast<std::size_t>(c) * static_cast<std::size_t>(mesh.dimension)];
+    return std::hypot(u[0], u[1], mesh.dimension == 3 ? u[2] : 0.0);
+  };
+  const auto rate = [&](int c) {
+    return speed(c) / (mesh.dimension == 3 ? std::cbrt(mesh.volume[c]) : std::sqrt(mesh.planarArea[c]));
+  };
+  double fastest = 0.0;
+  for (int c = 0; c < mesh.owned; ++c) fastest = std::max(fastest, rate(c));
+  MPI_Allreduce(MPI_IN_PLACE, &fastest, 1, MPI_DOUBLE, MPI_MAX, mesh.comm);
+  inEachCell(mesh, [&](int c) {
+    if (rate(c) >= fastest)
+      throw NumericsError(
+          fmt::format("time stands still: the step has come down to {:.3g} s, and the gas moves at {:.3g} m/s here; "
+                      "look at the fields around this place",
+                      dt, speed(c)));
+  });
+  throw std::logic_error("no cell is the fastest");
 }
 
 }  // namespace lampblack::flow

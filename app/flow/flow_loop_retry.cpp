@@ -17,6 +17,7 @@ namespace {
 constexpr const char* wayBack = "way back";  // stage: what it takes to be able to go back from a step
 
 constexpr double smaller = 0.25;       // of the step that has failed; a power of two, which rounds nothing
+constexpr double shortest = 1e-9;      // of the first step: no chemistry and no flow that is resolved needs less
 constexpr std::int64_t mostTold = 20;  // failures with their reasons; the history counts the others
 
 }  // namespace
@@ -43,6 +44,11 @@ void FlowLoop::takeBack(double time, std::int64_t steps) {
 }
 
 void FlowLoop::stepOrRetry(double dt, Outputs& outputs) {
+  if (dt < shortest * case_.time.firstStep) try {
+      raiseStandstill(mesh_, state_, dt);
+    } catch (const NumericsError&) {
+      giveUp(outputs, std::current_exception(), {dt});
+    }
   {
     const Timers::Scope scope(timers_, wayBack);
     kept_.keep([this](StateArchive& archive) { saveOrLoadParts(archive); });

@@ -278,6 +278,26 @@ TEST(RetriedStep, EndsTheRunWhereNothingHelpsWithSomethingToGoOnFrom) {
   expectSameSteps(rest, alone);
 }
 
+// A step a tenth as long each time, as what grows from step to step does.
+class Shrinker : public Watcher {
+ public:
+  [[nodiscard]] double largestStep(const State&) override {
+    return steps.size() < disturbedStep ? std::numeric_limits<double>::infinity()
+                                        : 1e-6 * std::pow(0.1, static_cast<double>(steps.size() - disturbedStep));
+  }
+};
+
+TEST(RetriedStep, EndsTheRunWhereTimeStandsStill) {
+  const test::SharedScratchFolder scratch;
+  Shrinker shrinker;
+  const std::string message =
+      test::messageOf<NumericsError>([&] { run(shrinker, scratch.path() / "out", settings(1)); });
+  EXPECT_THAT(message, AllOf(HasSubstr("in the cell at ("), HasSubstr("time stands still"), HasSubstr(" m/s here"),
+                             HasSubstr("tried with dt = "), HasSubstr("--restart goes on from ")));
+  EXPECT_TRUE(test::sameOnAllRanks(message));
+  EXPECT_LT(shrinker.steps.size(), disturbedStep + 12);
+}
+
 TEST(RetriedStep, HasAsManyAttemptsAsTheDeckAllowsEachTime) {
   const test::SharedScratchFolder scratch;
   Fault fault(fail, true, 2);
