@@ -69,8 +69,8 @@ FlowLoop::FlowLoop(MPI_Comm comm, FlowCase flowCase)
 std::vector<std::string> FlowLoop::notesOfMesh() const {
   if (mesh_.facesBeyond == 0) return {};
   return {
-      fmt::format("{} of the mesh's {} faces are turned by more than 60 degrees from the steps between their cells: "
-                  "what diffuses and presses along them counts as at 60 degrees; better shaped cells are more accurate",
+      fmt::format("{} of the mesh's {} faces are turned by more than 76 degrees from the steps between their cells: "
+                  "what diffuses and presses along them counts as at 76 degrees; better shaped cells are more accurate",
                   mesh_.facesBeyond, mesh_.totalFaces)};
 }
 
