@@ -77,6 +77,10 @@ class TransportOperator : public Operator {
     double kineticEnergy = 0.0, enstrophy = 0.0;
   };
   [[nodiscard]] Integrals integrals(const State& state);
+  // Of the state's velocity, until the next step. Collective.
+  [[nodiscard]] const VelocityGradient& velocityGradient(const State& state) {
+    return momentum_.velocityGradient(state);
+  }
   // Of each boundary, in the context's order. Collective.
   [[nodiscard]] std::vector<BoundaryTotals> boundaryTotals(const State& state);
 
