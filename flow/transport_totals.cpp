@@ -1,14 +1,33 @@
 // What the transport tells of the flow as a whole: integrals over the domain and over its boundaries.
 #include <array>
+#include <vector>
 
 #include "flow/transport_operator.hpp"
 
 namespace lampblack::flow {
 namespace {
 
-// The square of the vorticity in a cell, 1/s^2. `turning`: slopes of r w, where the gas has a velocity w about the
-// axis.
-double squaredVorticity(const Mesh& m, const VelocityGradient& gradient, int cell, const double* turning) {
+// The angular velocity w/r of a gas that turns about the axis, and its slopes.
+struct Turning {
+  std::vector<double> rate, slopes;  // 1/s; 1/(m s), two a cell
+};
+
+Turning turningOf(const FlowContext& context, const State& state) {
+  const Mesh& m = context.mesh;
+  Turning turning{std::vector<double>(static_cast<std::size_t>(m.cells)),
+                  std::vector<double>(static_cast<std::size_t>(m.owned) * 2)};
+  for (int c = 0; c < m.cells; ++c) turning.rate[c] = state.swirl[c] / m.centre[c][0];
+  const std::vector<double> boundary(static_cast<std::size_t>(m.boundaryFaces()), 0.0);
+  std::vector<BoundaryData> known;
+  for (int face = m.interiorFaces; face < m.faces; ++face)
+    known.push_back(context.boundaryOf(face).kind == BoundaryKind::Symmetry ? BoundaryData::ZeroSlope
+                                                                            : BoundaryData::Nothing);
+  Gradient(m).compute(turning.rate, boundary, 1, turning.slopes, known);
+  return turning;
+}
+
+// The square of the vorticity in a cell, 1/s^2. `turning`: empty where nothing turns.
+double squaredVorticity(const Mesh& m, const VelocityGradient& gradient, int cell, const Turning& turning) {
   const auto slope = [&](int component, int axis) { return gradient.of(cell, component)[axis]; };
   const double inPlane = slope(1, 0) - slope(0, 1);
   double sum = inPlane * inPlane;
@@ -16,7 +35,12 @@ double squaredVorticity(const Mesh& m, const VelocityGradient& gradient, int cel
     const double x = slope(2, 1) - slope(1, 2), y = slope(0, 2) - slope(2, 0);
     sum += x * x + y * y;
   }
-  if (turning) sum += (turning[0] * turning[0] + turning[1] * turning[1]) / (m.centre[cell][0] * m.centre[cell][0]);
+  if (!turning.rate.empty()) {
+    const double r = m.centre[cell][0];
+    const double along = 2.0 * turning.rate[cell] + r * turning.slopes[2 * cell],
+                 outwards = r * turning.slopes[2 * cell + 1];
+    sum += along * along + outwards * outwards;
+  }
   return sum;
 }
 
@@ -26,26 +50,14 @@ TransportOperator::Integrals TransportOperator::integrals(const State& state) {
   const Mesh& m = context_.mesh;
   const int d = m.dimension;
   const VelocityGradient& gradient = momentum_.velocityGradient(state);
-  std::vector<double> turning;
-  if (state.swirls) {
-    std::vector<double> angularMomentum(static_cast<std::size_t>(m.cells));
-    for (int c = 0; c < m.cells; ++c) angularMomentum[c] = m.centre[c][0] * state.swirl[c];
-    turning.resize(static_cast<std::size_t>(m.owned) * 2);
-    const std::vector<double> atBoundary(static_cast<std::size_t>(m.boundaryFaces()), 0.0);
-    std::vector<BoundaryData> known;
-    for (int face = m.interiorFaces; face < m.faces; ++face)
-      known.push_back(context_.boundaryOf(face).kind == BoundaryKind::Symmetry ? BoundaryData::ZeroSlope
-                                                                               : BoundaryData::Nothing);
-    Gradient(m).compute(angularMomentum, atBoundary, 1, turning, known);
-  }
+  const Turning turning = state.swirls ? turningOf(context_, state) : Turning{};
   std::array<double, 2> sums{0.0, 0.0};
   for (int c = 0; c < m.owned; ++c) {
     double square = state.swirls ? state.swirl[c] * state.swirl[c] : 0.0;
     for (int i = 0; i < d; ++i) square += state.velocity[d * c + i] * state.velocity[d * c + i];
     const double half = 0.5 * state.density[c] * m.volume[c];
     sums[0] += half * square;
-    sums[1] +=
-        half * squaredVorticity(m, gradient, c, state.swirls ? &turning[2 * static_cast<std::size_t>(c)] : nullptr);
+    sums[1] += half * squaredVorticity(m, gradient, c, turning);
   }
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, m.comm);
   return {sums[0], sums[1]};

@@ -68,13 +68,15 @@ void addOutputKeys(DeckSchema& schema) {
                .byDefault("[all]"))
       .section("output.probes.*", Presence::optional,
                "A place whose gas is written with each row of the history, to the table tables/probe_<name>.csv.")
-      .add(quantityKey("output.probes.*.at", units::length, "Its coordinates, '[10 mm, 5 mm]', in space three.").list())
+      .add(
+          quantityKey("output.probes.*.at", units::length, "Coordinates of the probe, '[10 mm, 5 mm]', in space three.")
+              .list())
       .section("output.lines.*", Presence::optional,
                "A straight line along which the gas is written with each field output, to the table "
                "tables/line_<name>.csv.")
-      .add(quantityKey("output.lines.*.from", units::length, "Coordinates of its first point.").list())
-      .add(quantityKey("output.lines.*.to", units::length, "Coordinates of its last point.").list())
-      .add(integerKey("output.lines.*.points", "Number of points, at even distances, both ends among them.")
+      .add(quantityKey("output.lines.*.from", units::length, "Coordinates of the first point of the line.").list())
+      .add(quantityKey("output.lines.*.to", units::length, "Coordinates of the last point of the line.").list())
+      .add(integerKey("output.lines.*.points", "Number of points of the line, at even distances, both ends among them.")
                .byDefault("101")
                .atLeast(2)
                .atMost(mostPoints))
