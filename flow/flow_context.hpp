@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "chemistry/mechanism/mechanism.hpp"
@@ -94,5 +95,10 @@ struct FlowContext {
     return std::ranges::none_of(boundaries, [](const auto& b) { return b.kind == BoundaryKind::Outlet; });
   }
 };
+
+// Of what is integrated over a mesh: "N/rad", "N/m" or "N".
+inline std::string unitOfWhole(const Mesh& mesh, const std::string& unit) {
+  return unit + (mesh.axisymmetric() ? "/rad" : mesh.dimension == 2 ? "/m" : "");
+}
 
 }  // namespace lampblack::flow

@@ -5,6 +5,14 @@
 
 namespace lampblack::flow {
 
+BoundaryData knownTemperature(const FlowContext& context, int face) {
+  if (context.isTemperatureGiven(face)) return BoundaryData::Value;
+  const BoundaryKind kind = context.boundaryOf(face).kind;
+  const bool isTight =
+      kind == BoundaryKind::Symmetry || (kind == BoundaryKind::Wall && context.boundaryHeatFlux(face) == 0.0);
+  return isTight ? BoundaryData::ZeroSlope : BoundaryData::Nothing;
+}
+
 HeatConduction::HeatConduction(const FlowContext& context, ImplicitDiffusion& diffusion)
     : context_(context), diffusion_(diffusion), gradient_(context.mesh) {
   const Mesh& m = context.mesh;
@@ -20,11 +28,7 @@ void HeatConduction::findOblique(std::span<const double> temperature) {
   const Mesh& m = context_.mesh;
   for (int face = m.interiorFaces; face < m.faces; ++face) {
     const int b = face - m.interiorFaces;
-    const BoundaryKind kind = context_.boundaryOf(face).kind;
-    const bool isTight = kind == BoundaryKind::Wall || kind == BoundaryKind::Symmetry;
-    known_[b] = context_.isTemperatureGiven(face)   ? BoundaryData::Value
-                : isTight && givenFlux(face) == 0.0 ? BoundaryData::ZeroSlope
-                                                    : BoundaryData::Nothing;
+    known_[b] = knownTemperature(context_, face);
     if (known_[b] == BoundaryData::Value) boundaryTemperature_[b] = context_.boundaryTemperature(face);
   }
   gradient_.compute(temperature, boundaryTemperature_, 1, temperatureGradient_, known_);

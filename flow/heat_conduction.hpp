@@ -14,6 +14,9 @@
 
 namespace lampblack::flow {
 
+// What heat conduction knows of the temperature at a boundary face; a value is FlowContext::boundaryTemperature.
+BoundaryData knownTemperature(const FlowContext& context, int face);
+
 class HeatConduction {
  public:
   HeatConduction(const FlowContext& context, ImplicitDiffusion& diffusion);

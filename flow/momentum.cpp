@@ -7,38 +7,11 @@
 #include "flow/limiter.hpp"
 
 namespace lampblack::flow {
-namespace {
-
-// What a boundary gives of the velocity.
-enum class Given { Nothing, Normal, All };
-
-Given givenAt(const BoundaryCondition& boundary) {
-  switch (boundary.kind) {
-    case BoundaryKind::Inlet:
-      return Given::All;
-    case BoundaryKind::Outlet:
-      return Given::Nothing;
-    case BoundaryKind::Symmetry:
-      return Given::Normal;
-    case BoundaryKind::Wall:
-      return boundary.slip ? Given::Normal : Given::All;
-  }
-  return Given::Nothing;
-}
-
-// Along a boundary of a plane mesh, in the direction of the axis it is closest to.
-Vector3 tangentOf(const Vector3& normal) {
-  const bool isAlongSecond = std::abs(normal[0]) >= std::abs(normal[1]);
-  const double sign = (isAlongSecond ? normal[0] : -normal[1]) >= 0.0 ? 1.0 : -1.0;
-  return {-sign * normal[1], sign * normal[0], 0.0};
-}
-
-}  // namespace
 
 Momentum::Momentum(const FlowContext& context, bool swirls)
     : context_(context),
       dimension_(context.mesh.dimension),
-      gradient_(context.mesh),
+      gradient_(context),
       diffusion_(context.mesh, context.halo),
       pressureKnown_(pressureData(context)),
       force_(context, pressureKnown_),
@@ -46,29 +19,12 @@ Momentum::Momentum(const FlowContext& context, bool swirls)
       faceVelocity_(context) {
   const Mesh& m = context.mesh;
   const auto d = static_cast<std::size_t>(dimension_);
-  boundaryVelocity_.resize(d * m.boundaryFaces());
   boundaryPressure_.assign(m.boundaryFaces(), 0.0);
-  velocityGradient_.resize(static_cast<std::size_t>(m.cells) * d * d);
   pressureGradient_.resize(static_cast<std::size_t>(m.cells) * d);
   acceleration_.resize(pressureGradient_.size());
   relaxation_.resize(static_cast<std::size_t>(m.cells));
   inverseDensity_.resize(static_cast<std::size_t>(m.faces));
-  for (int face = m.interiorFaces; face < m.faces; ++face) {
-    const Given given = givenAt(context.boundaryOf(face));
-    for (int i = 0; i < dimension_; ++i) {
-      // Of a boundary along the axes each component is given or has no slope.
-      const double share = std::abs(m.normal[face][i]);
-      velocityKnown_.push_back(given == Given::Nothing                  ? BoundaryData::Nothing
-                               : given == Given::Normal && share == 0.0 ? BoundaryData::ZeroSlope
-                                                                        : BoundaryData::Value);
-    }
-  }
-  findOpposites();
-  for (int i = 0; i < dimension_; ++i) {
-    std::vector<BoundaryData> known;
-    for (int b = 0; b < m.boundaryFaces(); ++b) known.push_back(velocityKnown_[dimension_ * b + i]);
-    upwind_.emplace_back(context, known);
-  }
+  for (int i = 0; i < dimension_; ++i) upwind_.emplace_back(context, gradient_.known(i));
   if (swirls) swirl_.emplace(context, pressureKnown_);
 }
 
@@ -81,67 +37,6 @@ std::vector<BoundaryData> Momentum::pressureData(const FlowContext& context) {
                                                      : BoundaryData::Nothing);
   }
   return known;
-}
-
-void Momentum::findOpposites() {
-  constexpr double straight = 0.9;
-  const Mesh& m = context_.mesh;
-  opposite_.assign(m.boundaryFaces(), -1);
-  for (int face = m.interiorFaces; face < m.faces; ++face) {
-    const int cell = m.low[face];
-    for (int j = m.faceStart[cell]; j < m.faceStart[cell + 1]; ++j) {
-      const int other = m.faceOfCell[j];
-      const double outwards = (m.low[other] == cell ? 1.0 : -1.0) * dot(m.normal[other], m.normal[face]);
-      if (m.high[other] >= 0 && outwards < -straight) opposite_[face - m.interiorFaces] = other;
-    }
-  }
-  int open = 0;
-  if (m.isOblique() || m.isSkewed())
-    for (int face = m.interiorFaces; face < m.faces; ++face) open = std::max(open, isOpenCorner(face) ? 1 : 0);
-  MPI_Allreduce(MPI_IN_PLACE, &open, 1, MPI_INT, MPI_MAX, m.comm);
-  hasOpenCorners_ = open != 0;
-}
-
-// Cells at an outlet that have no face on the other side, such as triangles, know two slopes along it and none across:
-// what leaves along their own gradient would feed itself, along their neighbours' it would where much leaves. It leaves
-// as it is.
-void Momentum::settleOutletGradients() {
-  if (!hasOpenCorners_) return;
-  const Mesh& m = context_.mesh;
-  const auto entries = static_cast<std::ptrdiff_t>(dimension_ * dimension_);
-  for (int face = m.interiorFaces; face < m.faces; ++face)
-    if (isOpenCorner(face)) std::fill_n(velocityGradient_.begin() + m.low[face] * entries, entries, 0.0);
-}
-
-bool Momentum::isOpenCorner(int face) const {
-  return context_.boundaryOf(face).kind == BoundaryKind::Outlet && opposite_[face - context_.mesh.interiorFaces] < 0;
-}
-
-void Momentum::boundaryVelocities(const State& state) {
-  const Mesh& m = context_.mesh;
-  const int d = dimension_;
-  for (int face = m.interiorFaces; face < m.faces; ++face) {
-    const std::array<double, 2> given = context_.boundaryVelocity(face);
-    const double* own = &state.velocity[d * m.low[face]];
-    double* value = &boundaryVelocity_[d * (face - m.interiorFaces)];
-    const Vector3& normal = m.normal[face];
-    switch (givenAt(context_.boundaryOf(face))) {
-      case Given::Nothing:
-        for (int i = 0; i < d; ++i) value[i] = own[i];
-        break;
-      case Given::Normal: {
-        double outwards = given[0];
-        for (int i = 0; i < d; ++i) outwards += own[i] * normal[i];
-        for (int i = 0; i < d; ++i) value[i] = own[i] - outwards * normal[i];
-        break;
-      }
-      case Given::All: {
-        const Vector3 tangent = tangentOf(normal);
-        for (int i = 0; i < d; ++i) value[i] = -given[0] * normal[i] + given[1] * tangent[i];
-        break;
-      }
-    }
-  }
 }
 
 // Gas that leaves meets the ambient pressure, zero; gas that is drawn in has been accelerated from rest, so that its
@@ -167,12 +62,11 @@ void Momentum::predict(const State& state, const MomentumSweep& sweep) {
   const std::vector<double>& density = sweep.start.density;
   const std::vector<double>& velocity = sweep.mean.velocity;
   const std::span<const double> viscosity = sweep.viscosity;
-  boundaryVelocities(sweep.mean);
+  gradient_.setBoundary(velocity);
   outletPressures(sweep.mean);
   const int d = dimension_;
-  gradient_.compute(velocity, boundaryVelocity_, d, velocityGradient_, velocityKnown_);
-  settleOutletGradients();
-  context_.halo.update(velocityGradient_, d * d);
+  gradient_.compute(velocity);
+  gradient_.updateHalo();
   force_.compute(state.pressure, boundaryPressure_, pressureGradient_);
   if (swirl_) swirl_->completeOuterSlopes(density, pressureGradient_);
 
@@ -213,8 +107,8 @@ void Momentum::addInside(int face, const MomentumSweep& sweep) {
   const double mu = m.lowWeight[face] * sweep.viscosity[low] + (1.0 - m.lowWeight[face]) * sweep.viscosity[high];
   for (int i = 0; i < d; ++i) {
     const Upwind u = upwind_[i].of(face, flux);
-    const double* ofUp = &velocityGradient_[(u.up * d + i) * d];
-    const double* ofDown = &velocityGradient_[(u.down * d + i) * d];
+    const double* ofUp = gradient_.of(u.up, i);
+    const double* ofDown = gradient_.of(u.down, i);
     double value = smoothFaceValue(velocity[d * u.up + i], velocity[d * u.down + i], slopeAlong(u.direction, ofUp, d),
                                    slopeAlong(u.direction, ofDown, d), u);
     if (m.isOblique() || m.isSkewed()) {
@@ -223,7 +117,7 @@ void Momentum::addInside(int face, const MomentumSweep& sweep) {
       if (m.isSkewed()) value += slopeAlong(m.offset[face], ofUp, d);
     }
     double force = 0.0;
-    if (m.isOblique()) force = mu * m.area[face] * faceSlope(m, face, m.oblique[face], velocityGradient_, d, i);
+    if (m.isOblique()) force = mu * m.area[face] * faceSlope(m, face, m.oblique[face], gradient_.values(), d, i);
     if (low < m.owned) source_[d * low + i] += force - flux * (value - velocity[d * low + i]);
     if (high < m.owned) source_[d * high + i] -= force - flux * (value - velocity[d * high + i]);
     conductance_[d * face + i] = mu * m.area[face] / m.distance[face];
@@ -240,22 +134,22 @@ void Momentum::addBoundary(int face, const MomentumSweep& sweep) {
   const Mesh& m = context_.mesh;
   const int d = dimension_, cell = m.low[face];
   const double* own = &sweep.mean.velocity[d * cell];
-  const double* beyond = &boundaryVelocity_[d * (face - m.interiorFaces)];
+  const double* beyond = &gradient_.boundary()[d * (face - m.interiorFaces)];
   const double flux = sweep.mean.massFlux[face];
   relaxation_[cell] += 0.5 * std::abs(flux);
-  const Given given = givenAt(context_.boundaryOf(face));
-  if (given == Given::Nothing) return;
+  const GivenVelocity given = givenVelocity(context_.boundaryOf(face));
+  if (given == GivenVelocity::Nothing) return;
   const double mu = sweep.boundaryViscosity[face - m.interiorFaces];
   const double conductance = mu * m.area[face] / m.distance[face];
   for (int i = 0; i < d; ++i) {
     // Where only the normal velocity is given it is what pulls, each component by its share.
-    const double share = given == Given::All ? 1.0 : m.normal[face][i] * m.normal[face][i];
+    const double share = given == GivenVelocity::All ? 1.0 : m.normal[face][i] * m.normal[face][i];
     if (share == 0.0) continue;
     diagonal_[d * cell + i] += conductance * share;
     relaxation_[cell] += 0.5 * conductance * share;
     source_[d * cell + i] += conductance * (beyond[i] - (1.0 - share) * own[i]) - flux * (beyond[i] - own[i]);
-    if (m.isOblique() && given == Given::All)
-      source_[d * cell + i] += mu * m.area[face] * faceSlope(m, face, m.oblique[face], velocityGradient_, d, i);
+    if (m.isOblique() && given == GivenVelocity::All)
+      source_[d * cell + i] += mu * m.area[face] * faceSlope(m, face, m.oblique[face], gradient_.values(), d, i);
   }
 }
 
@@ -305,13 +199,12 @@ Projection::Result Momentum::advance(State& state, const MomentumSweep& sweep, s
   for (int c = 0; c < m.owned; ++c)
     for (int i = 0; i < d; ++i)
       acceleration_[d * c + i] = (pressureGradient_[d * c + i] - context_.bodyForce(density[c], i)) / density[c];
-  gradient_.compute(predicted_, boundaryVelocity_, d, velocityGradient_, velocityKnown_);
-  settleOutletGradients();
+  gradient_.compute(predicted_);
   std::vector<FieldView> known{{predicted_, d}, {acceleration_, d}, {relaxation_, 1}};
-  if (m.isSkewed()) known.push_back({velocityGradient_, d * d});
+  if (m.isSkewed()) known.push_back({gradient_.values(), d * d});
   context_.halo.update(known);
   setInverseDensity(density);
-  faceVelocity_.predict({predicted_, acceleration_, relaxation_, state.pressure, velocityGradient_}, inverseDensity_,
+  faceVelocity_.predict({predicted_, acceleration_, relaxation_, state.pressure, gradient_.values()}, inverseDensity_,
                         sweep.dt, faceVelocity);
 
   pressureChange_.assign(static_cast<std::size_t>(m.cells), 0.0);

@@ -11,7 +11,6 @@
 #include "core/rooms.hpp"
 #include "flow/face_velocity.hpp"
 #include "flow/flow_context.hpp"
-#include "flow/gradient.hpp"
 #include "flow/implicit_diffusion.hpp"
 #include "flow/momentum_sweep.hpp"
 #include "flow/pressure_force.hpp"
@@ -19,6 +18,7 @@
 #include "flow/state.hpp"
 #include "flow/swirl.hpp"
 #include "flow/upwind.hpp"
+#include "flow/velocity_gradient.hpp"
 
 namespace lampblack::flow {
 
@@ -34,6 +34,14 @@ class Momentum {
   // Collective. Gives a gas at rest the pressure that carries its weight, and that keeps it on its circles.
   void balanceForces(State& state);
 
+  // The gradient of the state's velocity (halo filled), until the next step. Collective.
+  const VelocityGradient& velocityGradient(const State& state);
+  // N (per metre of depth or radian), friction of the gas on a boundary face: of the state whose gradient was last
+  // asked for; Pa s.
+  [[nodiscard]] Vector3 boundaryTraction(int face, const State& state, double viscosity) const;
+  // Pa, hydrodynamic pressure at each boundary face.
+  [[nodiscard]] std::vector<double> boundaryPressures(const State& state);
+
   // The step's last sweep is done.
   void endStep() { faceVelocity_.endStep(); }
 
@@ -45,10 +53,6 @@ class Momentum {
  private:
   void setInverseDensity(std::span<const double> density);
   static std::vector<BoundaryData> pressureData(const FlowContext& context);
-  void findOpposites();
-  void settleOutletGradients();
-  [[nodiscard]] bool isOpenCorner(int face) const;
-  void boundaryVelocities(const State& state);
   void outletPressures(const State& state);
   void predict(const State& state, const MomentumSweep& sweep);
   void addInside(int face, const MomentumSweep& sweep);
@@ -59,19 +63,16 @@ class Momentum {
 
   const FlowContext& context_;
   int dimension_;
-  Gradient gradient_;
+  VelocityGradient gradient_;
   ImplicitDiffusion diffusion_;
   std::vector<BoundaryData> pressureKnown_;  // one a boundary face
   PressureForce force_;
   Projection projection_;
   FaceVelocity faceVelocity_;
   std::optional<Swirl> swirl_;
-  std::vector<BoundaryData> velocityKnown_;  // one a component and boundary face
-  std::vector<int> opposite_;                // of each boundary face the face on its cell's other side, or -1
-  bool hasOpenCorners_ = false;              // an outlet's cell without such a face, on any rank
-  std::vector<UpwindGeometry> upwind_;       // of each component
-  std::vector<double> boundaryVelocity_, boundaryPressure_;
-  std::vector<double> velocityGradient_, pressureGradient_;
+  std::vector<UpwindGeometry> upwind_;  // of each component
+  std::vector<double> boundaryPressure_;
+  std::vector<double> pressureGradient_;
   std::vector<double> acceleration_;  // m/s2, (grad p - f)/rho with gravity's force f, a component and cell
   std::vector<double> relaxation_;    // 1/s, rate at which convection and viscosity renew a cell's momentum
   std::vector<double> excess_;  // m/s, a component and cell: half of what the last sweep changed, with the other sign

@@ -32,11 +32,8 @@ void PressureForce::compute(std::span<const double> pressure, std::span<const do
       if (m.isSkewed()) value += faceSlope(m, face, m.offset[face], slope_);
     } else if (known_[face - m.interiorFaces] == BoundaryData::Value) {
       value = boundary[face - m.interiorFaces];
-    } else if (known_[face - m.interiorFaces] == BoundaryData::ZeroSlope) {
-      const Vector3 along = difference(m.step[face], scaled(m.normal[face], m.distance[face]));
-      value = pressure[low] + slopeAlong(along, own, d);
     } else {
-      value = pressure[low] + slopeAlong(m.step[face], own, d);
+      value = pressure[low] + slopeAlong(reachOf(face), own, d);
     }
     const double size = m.size(face);
     for (int i = 0; i < d; ++i) {
@@ -48,6 +45,27 @@ void PressureForce::compute(std::span<const double> pressure, std::span<const do
   for (int c = 0; c < m.owned; ++c) {
     const double size = d == 2 ? m.planarArea[c] : m.volume[c];
     for (int i = 0; i < d; ++i) gradient[c * d + i] /= size;
+  }
+}
+
+// Where the pressure has no slope along the normal, only what the face's centre is beside the cell's counts.
+Vector3 PressureForce::reachOf(int face) const {
+  const Mesh& m = context_.mesh;
+  return known_[face - m.interiorFaces] == BoundaryData::ZeroSlope
+             ? difference(m.step[face], scaled(m.normal[face], m.distance[face]))
+             : m.step[face];
+}
+
+void PressureForce::atBoundary(std::span<const double> pressure, std::span<const double> boundary,
+                               std::span<double> values) const {
+  const Mesh& m = context_.mesh;
+  for (int face = m.interiorFaces; face < m.faces; ++face) {
+    const int b = face - m.interiorFaces, cell = m.low[face];
+    values[b] = boundary[b];
+    if (known_[b] == BoundaryData::Value) continue;
+    double slope = 0.0;
+    gradient_.along(reachOf(face), cell, pressure, boundary, 1, {&slope, 1}, known_);
+    values[b] = pressure[cell] + slope;
   }
 }
 

@@ -22,7 +22,14 @@ class PressureForce {
   // and owned cell.
   void compute(std::span<const double> pressure, std::span<const double> boundary, std::span<double> gradient);
 
+  // `values`: Pa at each boundary face, as far as the cells beside it and what is known there tell; `pressure` and
+  // `boundary` as above.
+  void atBoundary(std::span<const double> pressure, std::span<const double> boundary, std::span<double> values) const;
+
  private:
+  // m, from a boundary face's cell: where its pressure lies on the slope in the cell.
+  [[nodiscard]] Vector3 reachOf(int face) const;
+
   const FlowContext& context_;
   const std::vector<BoundaryData>& known_;
   Gradient gradient_;

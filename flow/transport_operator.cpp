@@ -29,6 +29,7 @@ TransportOperator::TransportOperator(const FlowContext& context, const State& st
   heat_ = {std::vector<double>(faces, 0.0), std::vector<double>(faces, 0.0)};
   boundaryFlux_.assign(static_cast<std::size_t>(context.mesh.boundaryFaces()) * n, 0.0);
   faceVelocity_.assign(faces, 0.0);
+  boundaryFlows_.assign(3 * context.boundaries.size(), 0.0);
   row_.resize(n);
   speciesEnthalpy_.resize(n);
 }
@@ -218,19 +219,26 @@ void TransportOperator::recordBoundary(const State& state, double dt) {
   const int scalars = state.carriedCount();
   boundary_ = {std::vector<double>(n, 0.0), std::vector<double>(n, 0.0), std::vector<double>(scalars, 0.0),
                std::vector<double>(scalars, 0.0)};
+  std::ranges::fill(boundaryFlows_, 0.0);
   const auto book = [dt](double outward, double& in, double& out) {
     (outward < 0.0 ? in : out) += dt * std::abs(outward);
   };
   for (int face = m.interiorFaces; face < m.faces; ++face) {
     faces_.massFractions(face, state.massFlux[face], row_);
     const double* diffuses = &boundaryFlux_[static_cast<std::size_t>(face - m.interiorFaces) * n];
-    for (int k = 0; k < n; ++k)
-      book(state.massFlux[face] * row_[k] + diffuses[k], boundary_.speciesIn[k], boundary_.speciesOut[k]);
+    double* flows = &boundaryFlows_[3 * static_cast<std::size_t>(m.patch[face - m.interiorFaces])];
+    for (int k = 0; k < n; ++k) {
+      const double outward = state.massFlux[face] * row_[k] + diffuses[k];
+      book(outward, boundary_.speciesIn[k], boundary_.speciesOut[k]);
+      flows[0] -= outward;
+    }
     for (int s = 0; s < scalars; ++s)
       book(carried_.flux()[static_cast<std::size_t>(face) * scalars + s], boundary_.carriedIn[s],
            boundary_.carriedOut[s]);
-    book(state.massFlux[face] * faces_.enthalpy[face] + heat_.enthalpy[face] + heat_.heat[face], boundary_.enthalpyIn,
-         boundary_.enthalpyOut);
+    const double enthalpy = state.massFlux[face] * faces_.enthalpy[face] + heat_.enthalpy[face] + heat_.heat[face];
+    book(enthalpy, boundary_.enthalpyIn, boundary_.enthalpyOut);
+    flows[1] -= enthalpy;
+    flows[2] -= heat_.heat[face];
   }
 }
 
@@ -240,6 +248,7 @@ void TransportOperator::saveOrLoad(StateArchive& archive) {
   archive.cells("conductivity", properties_.conductivity, 1);
   std::vector<double> seen{diagnostics_.continuityError, static_cast<double>(diagnostics_.pressureIterations),
                            static_cast<double>(diagnostics_.speciesIterations), lastStep_};
+  archive.sums("boundary_flows", boundaryFlows_);
   archive.shared("transport_diagnostics", seen);
   diagnostics_ = {seen.at(0), static_cast<int>(seen.at(1)), static_cast<int>(seen.at(2))};
   lastStep_ = seen.at(3);
@@ -311,12 +320,20 @@ std::vector<Quantity> TransportOperator::historyColumns() const {
           {"thermodynamic_pressure", "Pa", "uniform part of the pressure, which changes in a closed vessel"},
           {"continuity_error", "1/s", "largest error of the projected velocity's divergence"},
           {"pressure_iterations", "1", "of the pressure solve"},
-          {"species_iterations", "1", "of the implicit species diffusion"}};
+          {"species_iterations", "1", "of the implicit species diffusion"},
+          {"kinetic_energy", unitOfWhole(context_.mesh, "J"), "integral of half the density times velocity squared"},
+          {"enstrophy", unitOfWhole(context_.mesh, "kg/s^2"), "integral of half the density times vorticity squared"}};
 }
 
 std::vector<double> TransportOperator::historyValues(const State& state) {
-  return {pressureDrift(state), state.thermodynamicPressure, diagnostics_.continuityError,
-          static_cast<double>(diagnostics_.pressureIterations), static_cast<double>(diagnostics_.speciesIterations)};
+  const Integrals whole = integrals(state);
+  return {pressureDrift(state),
+          state.thermodynamicPressure,
+          diagnostics_.continuityError,
+          static_cast<double>(diagnostics_.pressureIterations),
+          static_cast<double>(diagnostics_.speciesIterations),
+          whole.kineticEnergy,
+          whole.enstrophy};
 }
 
 void TransportOperator::fields(const State& state, const FieldSink& sink) const {

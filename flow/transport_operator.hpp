@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "core/rooms.hpp"
+#include "flow/boundary_totals.hpp"
 #include "flow/carried_transport.hpp"
 #include "flow/expansion.hpp"
 #include "flow/face_state.hpp"
@@ -70,6 +71,19 @@ class TransportOperator : public Operator {
   // Largest |p_eos - p0| / p0 of all cells. Collective.
   [[nodiscard]] double pressureDrift(const State& state);
 
+  // Over the domain, per radian or metre of depth: J, half of the density times the square of the velocity; kg/s^2,
+  // half of the density times the square of the vorticity. Collective.
+  struct Integrals {
+    double kineticEnergy = 0.0, enstrophy = 0.0;
+  };
+  [[nodiscard]] Integrals integrals(const State& state);
+  // Of the state's velocity, until the next step. Collective.
+  [[nodiscard]] const VelocityGradient& velocityGradient(const State& state) {
+    return momentum_.velocityGradient(state);
+  }
+  // Of each boundary, in the context's order. Collective.
+  [[nodiscard]] std::vector<BoundaryTotals> boundaryTotals(const State& state);
+
   // Makes the mass fluxes of a new state consistent with its velocity, and its velocity with what its diffusion expands
   // the gas by: a projection without advancing anything. Collective.
   void initialise(State& state, double dt);
@@ -97,6 +111,8 @@ class TransportOperator : public Operator {
   CarriedTransport carried_;
   Diagnostics diagnostics_;
   BoundaryAmounts boundary_;
+  // Of each boundary into the domain in the last step, this rank's part: kg/s; W in all, and conducted.
+  std::vector<double> boundaryFlows_;
   std::vector<std::function<void(const BoundaryAmounts&)>> watchers_;
 
   int sweep_ = 0;          // of the present step

@@ -12,7 +12,7 @@
 namespace lampblack::io {
 namespace {
 
-constexpr std::int64_t formatVersion = 4;
+constexpr std::int64_t formatVersion = 5;
 constexpr const char* fileType = "lampblack checkpoint";
 
 std::filesystem::path unfinishedName(const std::filesystem::path& path) {

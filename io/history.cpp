@@ -16,14 +16,14 @@ HistoryWriter::HistoryWriter(MPI_Comm comm, const std::filesystem::path& path, s
   MPI_Comm_rank(comm, &rank_);
   if (rank_ != 0) return;
   csv_.open(path, std::ios::trunc);
-  writeLine(csvHeader(columns_));
+  write(csvHeader(columns_));
 }
 
-void HistoryWriter::writeLine(const std::string& line) {
+void HistoryWriter::write(const std::string& lines) {
   errno = 0;
-  csv_ << line << std::flush;
+  csv_ << lines << std::flush;
   if (csv_) {
-    size_ += line.size();
+    size_ += lines.size();
     return;
   }
   const int error = errno;
@@ -35,9 +35,13 @@ void HistoryWriter::writeLine(const std::string& line) {
 void HistoryWriter::row(std::span<const double> values) {
   collectively(comm_, [&] {
     if (rank_ != 0) return;
-    if (values.size() != columns_.size()) throw std::logic_error("a row of the history does not fit its columns");
+    const std::size_t width = columns_.size();
+    if (values.size() % width != 0) throw std::logic_error("a row of the history does not fit its columns");
     rows_.insert(rows_.end(), values.begin(), values.end());
-    writeLine(fmt::format("{}\n", fmt::join(values, ",")));
+    std::string lines;
+    for (std::size_t i = 0; i < values.size(); i += width)
+      lines += fmt::format("{}\n", fmt::join(values.subspan(i, width), ","));
+    write(lines);
   });
 }
 

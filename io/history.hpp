@@ -21,19 +21,19 @@ class HistoryWriter {
   // Rank 0 writes `path`, with a header "time [s],steps [1],...". InputError (rank 0) where it cannot be made.
   HistoryWriter(MPI_Comm comm, const std::filesystem::path& path, std::vector<Quantity> columns);
 
-  // Collective. One value for each column; only rank 0's count. SystemError where the disk is full: the file then ends
-  // with the last whole row.
+  // Collective. One value for each column, of one row or several; only rank 0's count. SystemError where the disk is
+  // full: the file then ends with the last rows that were written as a whole.
   void row(std::span<const double> values);
 
   // The rows so far, row-major, on rank 0.
   [[nodiscard]] const std::vector<double>& rows() const { return rows_; }
-  [[nodiscard]] std::size_t columnCount() const { return columns_.size(); }
+  [[nodiscard]] const std::vector<Quantity>& columns() const { return columns_; }
 
   // Collective: the same rows as a table of the results file.
   void writeTo(ResultsWriter& results, const std::string& path = "/history") const;
 
  private:
-  void writeLine(const std::string& line);  // with its end
+  void write(const std::string& lines);  // with their ends
 
   MPI_Comm comm_;
   std::filesystem::path path_;

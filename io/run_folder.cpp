@@ -8,6 +8,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <vector>
 
 #include "io/checkpoint_folder.hpp"
 #include "io/disk_space.hpp"
@@ -45,6 +46,23 @@ void removeFailedCells(const fs::path& folder) {
   }
 }
 
+// Those of an earlier run, and their folder where nothing else is in it.
+void removeTables(const fs::path& folder) {
+  const fs::path tables = folder / RunFolder::tableFolder;
+  std::error_code error;
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(tables, error)) {
+    const std::string name = entry.path().filename().string();
+    const bool isTable = name.starts_with("probe_") || name.starts_with("line_") || name.starts_with("boundary_");
+    if (isTable && name.ends_with(".csv")) files.push_back(entry.path());
+  }
+  for (const fs::path& file : files) {
+    fs::remove(file, error);
+    if (error) throw InputError(fmt::format("{}: cannot be removed: {}", file.string(), error.message()));
+  }
+  if (fs::is_directory(tables, error) && fs::is_empty(tables, error)) fs::remove(tables, error);
+}
+
 enum class Earlier { refused, replaced, continued };
 
 // Throws on rank 0 only.
@@ -71,6 +89,7 @@ std::shared_ptr<FolderLock> prepareHere(const fs::path& path, Earlier earlier) {
     }
   }
   removeFailedCells(path);
+  removeTables(path);
   if (earlier != Earlier::continued) CheckpointFolder(path).removeAllBut({});
   fs::create_directories(path, error);
   if (error == std::errc::no_space_on_device) refuseWrite(path, error.value());
@@ -105,6 +124,13 @@ RunFolder RunFolder::prepare(const fs::path& path, bool force, MPI_Comm comm) {
 
 RunFolder RunFolder::goOn(const fs::path& path, MPI_Comm comm) {
   return {path, prepareTogether(path, Earlier::continued, comm)};
+}
+
+void RunFolder::makeTableFolder() const {
+  const fs::path tables = path_ / tableFolder;
+  std::error_code error;
+  fs::create_directories(tables, error);
+  if (error) refuseWrite(tables, error.value());
 }
 
 void writeFileAtomically(const fs::path& path, const std::string& content) {

@@ -35,6 +35,12 @@ class RunFolder {
   [[nodiscard]] std::filesystem::path failedCell(std::int64_t cell) const {
     return path_ / (failedCellPrefix + std::to_string(cell) + ".yaml");
   }
+  // Tables that a deck asks for, by what they are of; the folder is there while there are any.
+  static constexpr const char* tableFolder = "tables";
+  [[nodiscard]] std::filesystem::path table(const std::string& name) const {
+    return path_ / tableFolder / (name + ".csv");
+  }
+  void makeTableFolder() const;  // not collective; InputError or SystemError
   [[nodiscard]] std::filesystem::path file(const std::string& name) const { return path_ / name; }
 
  private:

@@ -155,15 +155,6 @@ void readGravity(const Deck& deck, FlowCase& flowCase) {
           Thermo(*flowCase.mechanism).density(boundary.temperature, flowCase.pressure, boundary.Y);
 }
 
-void readOutput(const Deck& deck, FlowCase& flowCase) {
-  OutputControl& output = flowCase.output;
-  output.interval = deck.optionalQuantity("output.interval").value_or(flowCase.time.end);
-  output.historySteps = deck.integer<int>("output.history_steps");
-  output.species = readSpeciesList(deck, "output.species", *flowCase.mechanism);
-  flowCase.checkpoint = {deck.optionalInteger<std::int64_t>("checkpoint.steps"), deck.quantity("checkpoint.wall_time"),
-                         deck.boolean("checkpoint.at_end")};
-}
-
 void readSoot(const Deck& deck, FlowCase& flowCase) {
   auto model = readSootModel(deck, *flowCase.mechanism);
   if (!model) {

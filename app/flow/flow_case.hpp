@@ -34,10 +34,29 @@ struct TimeControl {
   std::optional<double> wallLimit;  // s, from the start of the program
 };
 
+// Tables beside the fields and the history.
+struct OutputTables {
+  struct Probe {
+    std::string name;
+    Vector3 at{};  // m
+  };
+  struct Line {
+    std::string name;
+    Vector3 from{}, to{};  // m
+    int points = 2;
+  };
+  std::vector<Probe> probes;
+  std::vector<Line> lines;
+  std::vector<std::string> quantities;  // fields of both; empty: the usual ones
+  std::vector<std::size_t> boundaries;  // numbers in FlowCase::boundaries
+  std::optional<Deck> deck;             // whose lines messages point at
+};
+
 struct OutputControl {
   double interval = 0.0;             // s between field outputs
   int historySteps = 1;              // steps between rows of the history
   std::vector<std::size_t> species;  // mole fractions written
+  OutputTables tables;
 };
 
 // When checkpoints are written besides when they are asked for.

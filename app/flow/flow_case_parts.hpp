@@ -32,4 +32,8 @@ std::vector<double> readComposition(const Deck& deck, const std::string& key, co
 // The section boundaries, on the mesh that has been read: along every side one boundary follows the other.
 void readBoundaries(const Deck& deck, FlowCase& flowCase);
 
+// The section output: its keys, and reading it when mesh, boundaries and times have been read.
+void addOutputKeys(DeckSchema& schema);
+void readOutput(const Deck& deck, FlowCase& flowCase);
+
 }  // namespace lampblack::app::flowcase

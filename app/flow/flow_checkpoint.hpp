@@ -24,7 +24,7 @@ Fingerprint flowFingerprint(const FlowCase& flowCase, const std::vector<CarriedS
 
 class FlowCheckpoints {
  public:
-  using Save = std::function<void(StateArchive&)>;
+  using Save = std::function<void(CheckpointWriter&)>;
 
   FlowCheckpoints(const Mesh& mesh, CheckpointControl control, Fingerprint fingerprint,
                   const std::filesystem::path& runFolder);

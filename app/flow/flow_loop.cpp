@@ -62,6 +62,7 @@ FlowLoop::FlowLoop(MPI_Comm comm, FlowCase flowCase)
     for (const CarriedModel::Scalar& scalar : case_.carried->scalars()) carriedMass.push_back(scalar.elements);
   budget_ = std::make_unique<Budget>(context_, massAndElements(*case_.mechanism, carriedMass), state_);
   flow_.watchBoundary([this](const TransportOperator::BoundaryAmounts& amounts) { budget_->addStep(amounts); });
+  tables_ = std::make_unique<FlowTables>(context_, case_, tableSource());
   dt_ = case_.time.firstStep;
   nextOutput_ = case_.output.interval;
 }
@@ -78,6 +79,7 @@ void FlowLoop::load(const WholeCheckpoint& checkpoint) {
   const double start = secondsSinceStart();
   CheckpointReader reader(comm_, checkpoint.file, stateNumbers(mesh_), flowFingerprint(case_, state_.scalars));
   saveOrLoad(reader, earlierRows_);
+  tables_->load(reader);
   beginFromLoaded();
   restart_ = checkpoint;
   wallLimit_.checkpointTook(secondsSinceStart() - start);  // reading it; writing is no faster
@@ -90,6 +92,7 @@ void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
                   Progress(comm_, time_, case_.time.end),
                   FlowCheckpoints(mesh_, case_.checkpoint, flowFingerprint(case_, state_.scalars), folder.path())};
   auto& [_, results, history, progress, checkpoints] = outputs;
+  tables_->open(folder);
   if (restart_) {
     restore(results, history);
     checkpoints.startedFrom(*restart_, steps_);
@@ -109,8 +112,7 @@ void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
     stepOrRetry(chooseStep(dt_, std::min(nextOutput_, case_.time.end)), outputs);
     const bool due = time_ >= nextOutput_ * (1.0 - 1e-12) || time_ >= case_.time.end * (1.0 - 1e-12);
     if (due || steps_ % case_.output.historySteps == 0) {
-      const HistoryRow row = observe();
-      history.row(historyValues(row));
+      const HistoryRow row = writeRow(history);
       progress.update(steps_, time_, dt_, status(row));
     }
     if (due) {
@@ -137,6 +139,7 @@ void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
   }
   const Timers::Scope scope(timers_, "output");
   history.writeTo(results);
+  tables_->writeTo(results);
   results.close();
   if (failure) std::rethrow_exception(failure);
 }

@@ -15,6 +15,7 @@
 #include "app/flow/flow_case.hpp"
 #include "app/flow/flow_checkpoint.hpp"
 #include "app/flow/flow_output.hpp"
+#include "app/flow/flow_tables.hpp"
 #include "app/flow/wall_limit.hpp"
 #include "core/kept_state.hpp"
 #include "core/rooms.hpp"
@@ -99,6 +100,9 @@ class FlowLoop {
   Peak peakOf(const std::function<double(int)>& value) const;
 
   HistoryRow observe();
+  // What the state is now, as a row of the history and of the tables that go with it.
+  HistoryRow writeRow(HistoryWriter& history);
+  [[nodiscard]] FlowTables::Source tableSource() { return {state_, flow_, operators_}; }
 
   [[nodiscard]] std::string status(const HistoryRow& row) const;
 
@@ -135,6 +139,7 @@ class FlowLoop {
   std::unique_ptr<StepControl> stepControl_;
   std::vector<Operator*> operators_;  // each advances over the step, one after the other
   std::unique_ptr<Budget> budget_;
+  std::unique_ptr<FlowTables> tables_;
   Timers timers_;
   std::optional<WholeCheckpoint> restart_;  // what the run goes on from
   std::vector<double> earlierRows_;         // of the history before that

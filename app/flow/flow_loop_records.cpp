@@ -34,6 +34,14 @@ HistoryRow FlowLoop::observe() {
   return row;
 }
 
+HistoryRow FlowLoop::writeRow(HistoryWriter& history) {
+  HistoryRow row = observe();
+  history.row(historyValues(row));
+  const Timers::Scope scope(timers_, "monitoring");
+  tables_->historyRow({steps_, time_}, tableSource());
+  return row;
+}
+
 FlowLoop::Peak FlowLoop::peakOf(const std::function<double(int)>& value) const {
   struct {
     double value;
@@ -135,9 +143,7 @@ void FlowLoop::restore(ResultsWriter& results, HistoryWriter& history) {
   for (const auto& file : restart_->outputs) results.loadSteps(file);
   const auto count = static_cast<double>(std::max<std::size_t>(results.stepCount(), 1));
   wallLimit_.outputTook((secondsSinceStart() - start) / count);
-  const std::size_t width = history.columnCount();
-  for (std::size_t i = 0; i + width <= earlierRows_.size(); i += width)
-    history.row(std::span<const double>(earlierRows_).subspan(i, width));
+  history.row(earlierRows_);
   earlierRows_.clear();
 }
 
@@ -145,9 +151,10 @@ std::string FlowLoop::writeCheckpoint(Outputs& outputs) {
   const Timers::Scope scope(timers_, "checkpoints");
   const double start = secondsSinceStart();
   try {
-    outputs.checkpoints.write(steps_, outputs.results, [&](StateArchive& archive) {
+    outputs.checkpoints.write(steps_, outputs.results, [&](CheckpointWriter& archive) {
       std::vector<double> rows = outputs.history.rows();
       saveOrLoad(archive, rows);
+      tables_->save(archive);
     });
   } catch (const SystemError& error) {
     return fmt::format("no checkpoint at step {}: {}", steps_, error.what());
@@ -160,10 +167,11 @@ std::string FlowLoop::keepLast(Outputs& outputs) {
   std::string checkpoint = writeCheckpoint(outputs);
   if (checkpoint.empty()) checkpoint = fmt::format("--restart goes on from {}", outputs.checkpoints.last().string());
   if (written_ != steps_) {
-    if (last_.step != steps_) outputs.history.row(historyValues(observe()));
+    if (last_.step != steps_) writeRow(outputs.history);
     output(outputs.results);
   }
   outputs.history.writeTo(outputs.results);
+  tables_->writeTo(outputs.results);
   outputs.results.closePartial();
   return fmt::format("the fields until then are in {}; {}", outputs.folder.partialResults().string(), checkpoint);
 }
@@ -179,6 +187,7 @@ void FlowLoop::output(ResultsWriter& results) {
   const double start = secondsSinceStart();
   written_ = steps_;
   writeFields(results, context_, case_, state_, operators_, steps_, time_);
+  tables_->outputRows({steps_, time_}, tableSource());
   wallLimit_.outputTook(secondsSinceStart() - start);
 }
 

@@ -60,32 +60,53 @@ MeshOutput meshOutput(const Mesh& mesh) {
   return out;
 }
 
-void writeFields(ResultsWriter& results, const FlowContext& context, const FlowCase& flowCase, const State& state,
-                 const std::vector<Operator*>& operators, std::int64_t step, double time) {
+void flowFields(const FlowContext& context, const FlowCase& flowCase, const State& state,
+                const std::vector<Operator*>& operators, const std::set<std::string>* wanted,
+                const FlowFieldSink& sink) {
   const auto owned = static_cast<std::size_t>(context.mesh.owned);
   const auto n = static_cast<std::size_t>(state.species);
   const auto part = [owned](const std::vector<double>& field, std::size_t components) {
     return std::span<const double>{field.data(), owned * components};
   };
-  results.beginStep(step, time);
-  results.cellField("temperature", "K", 1, part(state.temperature, 1), "gas temperature");
-  results.cellField("density", "kg/m^3", 1, part(state.density, 1), "gas density");
-  results.cellField("velocity", "m/s", state.dimension, part(state.velocity, static_cast<std::size_t>(state.dimension)),
-                    "gas velocity along the mesh's axes");
-  results.cellField("pressure", "Pa", 1, part(state.pressure, 1), "hydrodynamic pressure");
-  std::vector<double> column(owned);
-  std::vector<double> weight(owned);
-  for (std::size_t c = 0; c < owned; ++c) weight[c] = context.thermo.meanMolecularWeight({&state.Y[c * n], n});
+  std::size_t left = wanted ? wanted->size() : 1;  // to be found
+  const auto counts = [&](const std::string& name) {
+    if (!wanted) return true;
+    if (!wanted->contains(name)) return false;
+    --left;
+    return true;
+  };
+  const auto give = [&](const Quantity& field, int components, std::span<const double> values) {
+    if (counts(field.name)) sink(field, components, values);
+  };
+  give({"temperature", "K", "gas temperature"}, 1, part(state.temperature, 1));
+  give({"density", "kg/m^3", "gas density"}, 1, part(state.density, 1));
+  give({"velocity", "m/s", "gas velocity along the mesh's axes"}, state.dimension,
+       part(state.velocity, static_cast<std::size_t>(state.dimension)));
+  give({"pressure", "Pa", "hydrodynamic pressure"}, 1, part(state.pressure, 1));
+  std::vector<double> column(owned), weight;
   for (std::size_t k : flowCase.output.species) {
+    const std::string& species = context.mechanism.speciesName(k);
+    const std::string name = "X_" + species;
+    if (!counts(name)) continue;
+    if (weight.empty())
+      for (std::size_t c = 0; c < owned; ++c)
+        weight.push_back(context.thermo.meanMolecularWeight({&state.Y[c * n], n}));
     for (std::size_t c = 0; c < owned; ++c)
       column[c] = state.Y[c * n + k] * weight[c] / context.mechanism.molecularWeights()[k];
-    const std::string& name = context.mechanism.speciesName(k);
-    results.cellField("X_" + name, "1", 1, column, "mole fraction of " + name);
+    sink({name, "1", "mole fraction of " + species}, 1, column);
   }
   for (const Operator* op : operators)
-    op->fields(state, [&](const Quantity& field, std::span<const double> values) {
-      results.cellField(field.name, field.unit, 1, values, field.description);
-    });
+    if (left > 0)
+      op->fields(state, [&](const Quantity& field, std::span<const double> values) { give(field, 1, values); });
+}
+
+void writeFields(ResultsWriter& results, const FlowContext& context, const FlowCase& flowCase, const State& state,
+                 const std::vector<Operator*>& operators, std::int64_t step, double time) {
+  results.beginStep(step, time);
+  flowFields(context, flowCase, state, operators, nullptr,
+             [&](const Quantity& field, int components, std::span<const double> values) {
+               results.cellField(field.name, field.unit, components, values, field.description);
+             });
   results.endStep();
 }
 

@@ -1,6 +1,12 @@
 // What a flow run writes: the mesh and fields for pictures, the history, the trajectories.
 #pragma once
 
+#include <functional>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
 #include "app/flow/flow_case.hpp"
 #include "core/rooms.hpp"
 #include "flow/budget.hpp"
@@ -13,6 +19,13 @@
 namespace lampblack::app {
 
 MeshOutput meshOutput(const Mesh& mesh);
+
+// All fields of an output, the gas's and then those of the operators: takes the values of the owned cells, `components`
+// a cell. `wanted`: names of fields that count, null for all.
+using FlowFieldSink = std::function<void(const Quantity& field, int components, std::span<const double> values)>;
+void flowFields(const FlowContext& context, const FlowCase& flowCase, const State& state,
+                const std::vector<Operator*>& operators, const std::set<std::string>* wanted,
+                const FlowFieldSink& sink);
 
 // Writes one step: the gas, then what the operators have.
 void writeFields(ResultsWriter& results, const FlowContext& context, const FlowCase& flowCase, const State& state,

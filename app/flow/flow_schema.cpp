@@ -6,6 +6,7 @@
 #include "app/deck/temperature_input.hpp"
 #include "app/deck/transport_deck.hpp"
 #include "app/flow/flow_case.hpp"
+#include "app/flow/flow_case_parts.hpp"
 #include "app/flow/given_fields.hpp"
 #include "app/flow/initial_flame1d.hpp"
 #include "app/flow/initial_flow.hpp"
@@ -227,16 +228,9 @@ void addTimeAndOutput(DeckSchema& schema) {
                        "stops it: with its last state in the results and a checkpoint, from which `lampblack run "
                        "--restart` goes on, and exit code 143. It makes one step at least. Absent: no limit.")
                .optional()
-               .above(0))
-      .add(quantityKey("output.interval", units::time, "Time between field outputs; the last state is always written.")
-               .optional()
-               .above(0))
-      .add(integerKey("output.history_steps", "Number of time steps between two rows of the history.")
-               .byDefault("1")
-               .atLeast(1))
-      .add(stringKey("output.species", "Species whose mole fractions are written; 'all' writes every one.")
-               .list()
-               .byDefault("[all]"))
+               .above(0));
+  flowcase::addOutputKeys(schema);
+  schema
       .add(integerKey(
                "checkpoint.steps",
                "Time steps between two checkpoints, from which `lampblack run --restart` continues a run that was "

@@ -160,4 +160,5 @@ def main(executable: str, *mpiexec: str) -> int:
     return 0
 
 
-sys.exit(main(*sys.argv[1:]))
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))

@@ -23,7 +23,8 @@ numpy = running.package("numpy")
 
 # No row of the history in the middle: what it counts since the last one is saved.
 SETTINGS = ("time.end=28 us", "time.maximum_step=2 us", "output.interval=7 us", "output.history_steps=4",
-            "boundaries.fuel.swirl_velocity=10 cm/s")
+            "boundaries.fuel.swirl_velocity=10 cm/s", "output.boundaries=[all]",
+            "output.probes={flame: {at: [1 mm, 5 mm]}}", "output.lines={axis: {from: [0 mm, 1 mm], to: [0 mm, 7 mm], points: 5}}")
 # The start of a run that goes on is that of its checkpoint, whatever the deck says.
 OTHER_START = ("initial.position=5 mm", "initial.temperature=1500 K", "time.first_step=0.7 us")
 MIDDLE = 10  # of some 17 steps
@@ -34,6 +35,10 @@ def rows(out):
     """The history: all columns that depend on no clock."""
     with open(out / "history.csv", newline="", encoding="utf-8") as file:
         return [{key: value for key, value in row.items() if not key.startswith(WALL_TIMES)} for row in csv.DictReader(file)]
+
+
+def tables(out):
+    return {path.name: path.read_text("utf-8") for path in (out / "tables").glob("*.csv")}
 
 
 def datasets(path):
@@ -50,6 +55,7 @@ def assert_equal(out, reference, but=()):
     different = [name for name in expected if name not in but and found[name].tobytes() != expected[name].tobytes()]
     assert not different, f"{out.name} differs from {reference.name} in {different}"
     assert rows(out) == rows(reference), f"{out.name} has another history than {reference.name}"
+    assert tables(out) == tables(reference), f"{out.name} has other tables than {reference.name}"
     assert (out / "results.xdmf").read_text("utf-8") == (reference / "results.xdmf").read_text("utf-8")
 
 
@@ -84,7 +90,22 @@ def check_middle(program, folder, deck, sweeps=1):
     rest = folder / "rest"
     run(program, deck, *options, *running.settings(*OTHER_START), "--out", rest, "--restart", whole / f"checkpoint/step_{MIDDLE:06}.h5")
     assert_equal(rest, whole)
+    check_other_tables(program, folder, deck, options, whole)
     return whole
+
+
+def check_other_tables(program, folder, deck, options, whole):
+    """A restart with other tables: what both have goes on, what is new begins, what is left out is gone."""
+    out = folder / "others"
+    other = running.settings("output.boundaries=[fuel]", "output.probes={flame: {at: [1 mm, 5 mm]}, new: {at: [2 mm, 5 mm]}}",
+                             "output.lines={axis: {from: [0 mm, 1 mm], to: [0 mm, 7 mm], points: 5}}")
+    run(program, deck, *options, *other, "--out", out, "--restart", whole / f"checkpoint/step_{MIDDLE:06}.h5")
+    found, expected = tables(out), tables(whole)
+    new = found.pop("probe_new.csv").splitlines()
+    assert new[0] == expected["probe_flame.csv"].splitlines()[0]
+    steps = [int(line.split(",")[0]) for line in expected["probe_flame.csv"].splitlines()[1:]]
+    assert [int(line.split(",")[0]) for line in new[1:]] == [step for step in steps if step > MIDDLE], new
+    assert found == {name: text for name, text in expected.items() if name in ("boundary_fuel.csv", "probe_flame.csv", "line_axis.csv")}
 
 
 def check_other_ranks(executable, mpiexec, folder, deck, whole, ranks, others):

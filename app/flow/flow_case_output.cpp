@@ -1,0 +1,122 @@
+// What a flow deck asks to be written, and when.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "app/flow/flow_case_parts.hpp"
+#include "app/tools/gas_input.hpp"
+#include "core/errors.hpp"
+
+namespace lampblack::app::flowcase {
+namespace {
+
+constexpr double mostPoints = 100000;  // of a line
+
+// Names become those of files and groups.
+void requireFileName(const Deck& deck, const std::string& key, const std::string& name) {
+  const auto isPlain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '+'; };
+  if (!std::ranges::all_of(name, isPlain))
+    throw deck.error(key,
+                     fmt::format("the name '{}' is to be that of a file: expected letters, digits, _, - and +", name));
+}
+
+Vector3 readPlace(const Deck& deck, const std::string& key, const FlowCase& flowCase) {
+  const std::vector<double> given = deck.quantities(key);
+  const AxisNames axes = axisNames(flowCase);
+  if (given.size() != axes.size())
+    throw deck.error(key,
+                     fmt::format("expected {} coordinates, found {}: {}", axes.size(), given.size(), axesText(axes)));
+  Vector3 place{};
+  std::ranges::copy(given, place.begin());
+  return place;
+}
+
+std::vector<std::size_t> readTableBoundaries(const Deck& deck, const FlowCase& flowCase) {
+  const std::string key = "output.boundaries";
+  std::vector<std::string> names = deck.strings(key), there;
+  for (const BoundaryCondition& boundary : flowCase.boundaries) there.push_back(boundary.name);
+  if (names == std::vector<std::string>{"all"} && std::ranges::find(there, "all") == there.end()) names = there;
+  std::vector<std::size_t> numbers;
+  for (const std::string& name : names) {
+    const auto found = std::ranges::find(there, name);
+    if (found == there.end())
+      throw deck.error(key, fmt::format("'{}' is no boundary of this deck that the gas meets; these are: {}", name,
+                                        fmt::join(there, ", ")));
+    requireFileName(deck, key, name);
+    const auto number = static_cast<std::size_t>(found - there.begin());
+    if (std::ranges::find(numbers, number) != numbers.end())
+      throw deck.error(key, fmt::format("'{}' is there twice", name));
+    numbers.push_back(number);
+  }
+  return numbers;
+}
+
+}  // namespace
+
+void addOutputKeys(DeckSchema& schema) {
+  schema
+      .add(quantityKey("output.interval", units::time, "Time between field outputs; the last state is always written.")
+               .optional()
+               .above(0))
+      .add(integerKey("output.history_steps", "Number of time steps between two rows of the history.")
+               .byDefault("1")
+               .atLeast(1))
+      .add(stringKey("output.species", "Species whose mole fractions are written; 'all' writes every one.")
+               .list()
+               .byDefault("[all]"))
+      .section("output.probes.*", Presence::optional,
+               "A place whose gas is written with each row of the history, to the table tables/probe_<name>.csv.")
+      .add(
+          quantityKey("output.probes.*.at", units::length, "Coordinates of the probe, '[10 mm, 5 mm]', in space three.")
+              .list())
+      .section("output.lines.*", Presence::optional,
+               "A straight line along which the gas is written with each field output, to the table "
+               "tables/line_<name>.csv.")
+      .add(quantityKey("output.lines.*.from", units::length, "Coordinates of the first point of the line.").list())
+      .add(quantityKey("output.lines.*.to", units::length, "Coordinates of the last point of the line.").list())
+      .add(integerKey("output.lines.*.points", "Number of points of the line, at even distances, both ends among them.")
+               .byDefault("101")
+               .atLeast(2)
+               .atMost(mostPoints))
+      .add(stringKey("output.quantities",
+                     "Fields that probes and lines have, by their names in the results (velocity: all of its "
+                     "components); empty: temperature, velocity, density, pressure, mole fractions of output.species "
+                     "and the soot's volume fraction.")
+               .list()
+               .byDefault("[]"))
+      .add(stringKey("output.boundaries",
+                     "Boundaries of which mass flow, heat and forces are written with each row of the history, to the "
+                     "tables tables/boundary_<name>.csv; 'all': all but periodic ones.")
+               .list()
+               .byDefault("[]"));
+}
+
+void readOutput(const Deck& deck, FlowCase& flowCase) {
+  OutputControl& output = flowCase.output;
+  output.interval = deck.optionalQuantity("output.interval").value_or(flowCase.time.end);
+  output.historySteps = deck.integer<int>("output.history_steps");
+  output.species = readSpeciesList(deck, "output.species", *flowCase.mechanism);
+  flowCase.checkpoint = {deck.optionalInteger<std::int64_t>("checkpoint.steps"), deck.quantity("checkpoint.wall_time"),
+                         deck.boolean("checkpoint.at_end")};
+  OutputTables& tables = output.tables;
+  tables.deck = deck;
+  tables.quantities = deck.strings("output.quantities");
+  tables.boundaries = readTableBoundaries(deck, flowCase);
+  for (const std::string& name : deck.children("output.probes")) {
+    const std::string section = "output.probes." + name;
+    requireFileName(deck, section, name);
+    tables.probes.push_back({name, readPlace(deck, section + ".at", flowCase)});
+  }
+  for (const std::string& name : deck.children("output.lines")) {
+    const std::string section = "output.lines." + name;
+    requireFileName(deck, section, name);
+    const OutputTables::Line line{name, readPlace(deck, section + ".from", flowCase),
+                                  readPlace(deck, section + ".to", flowCase), deck.integer<int>(section + ".points")};
+    if (line.from == line.to) throw deck.error(section, "expected two ends that differ");
+    tables.lines.push_back(line);
+  }
+}
+
+}  // namespace lampblack::app::flowcase

@@ -1,0 +1,19 @@
+// What passes through a boundary and presses on it, summed over its faces: per radian of an axisymmetric flow, per
+// metre of depth of a plane one.
+#pragma once
+
+#include "core/mesh.hpp"
+#include "core/rooms.hpp"
+
+namespace lampblack::flow {
+
+struct BoundaryTotals {
+  double area = 0.0;          // m^2
+  double massFlow = 0.0;      // kg/s, into the domain, mean of the last step
+  double enthalpyFlow = 0.0;  // W, into the domain: convection, diffusion and conduction, formation included
+  double heatFlow = 0.0;      // W, into the domain: the part of it that is conducted
+  // N, of the gas on what lies beyond, along the mesh's axes: by the hydrodynamic pressure, and by friction.
+  Vector3 pressureForce{}, viscousForce{};
+};
+
+}  // namespace lampblack::flow

@@ -1,0 +1,44 @@
+// Fields at places: linear in the cell that has the place, along the cell's least-squares gradient, so that a linear
+// field is met exactly.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/cell_finder.hpp"
+#include "core/rooms.hpp"
+#include "flow/flow_context.hpp"
+#include "flow/gradient.hpp"
+
+namespace lampblack::flow {
+
+class FieldSampler {
+ public:
+  // Collective, with the same places on all ranks.
+  FieldSampler(const FlowContext& context, std::vector<Vector3> places);
+
+  [[nodiscard]] const std::vector<Vector3>& places() const { return places_; }
+  // The first place that is outside the mesh, or -1.
+  [[nodiscard]] int firstOutside() const;
+
+  // A value a cell (the halo is filled here), and what is known of it at the boundary faces.
+  struct Field {
+    std::vector<double> values;
+    std::vector<double> boundary;
+    std::vector<BoundaryData> known;
+  };
+  // A field of which nothing is known at boundaries but that it is even at a symmetry.
+  [[nodiscard]] static Field scalarField(const FlowContext& context);
+
+  // Collective, all places inside. Values at the places, the fields of a place one after the other; the same on all
+  // ranks.
+  [[nodiscard]] std::vector<double> sample(std::span<Field> fields) const;
+
+ private:
+  const FlowContext& context_;
+  std::vector<Vector3> places_;
+  FoundCells found_;
+  Gradient gradient_;
+};
+
+}  // namespace lampblack::flow
