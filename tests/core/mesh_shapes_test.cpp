@@ -87,7 +87,7 @@ TEST_P(MeshShapes, LinearFieldsAreRightAtTheFacesWithObliqueAndOffset) {
     if (length(mesh.oblique[f]) < Mesh::mostOblique * (1.0 - 1e-12)) {
       EXPECT_NEAR(along, dot(slope, mesh.normal[f]), 1e-12);
     } else {
-      EXPECT_LT(mesh.distance[f], 0.51 * mesh.spacing(face)) << "less than 60 degrees";
+      EXPECT_LT(mesh.distance[f] * std::hypot(1.0, Mesh::mostOblique), 1.02 * mesh.spacing(face));
     }
     const double value = mesh.lowWeight[f] * low + (1.0 - mesh.lowWeight[f]) * high + dot(slope, mesh.offset[f]);
     EXPECT_NEAR(value, dot(slope, mesh.faceCentre[f]), 1e-12);
@@ -256,19 +256,19 @@ TEST(SortedNumbers, EachStandsOnceAndIsFoundFromAnyHint) {
   EXPECT_EQ(indexIn(sorted, 4), 2U);
 }
 
-// Of 4 x 3 cells sheared along x by twice their height, the faces across y and their steps are 63 degrees apart; those
-// across x lean as much.
-TEST(MeshOfBlocks, FacesBeyondSixtyDegreesAreCutAndCounted) {
+// Of 4 x 3 cells sheared along x by five times their height, the faces across y and their steps are 79 degrees apart;
+// those across x lean as much.
+TEST(MeshOfBlocks, FacesTurnedTooFarAreCutAndCounted) {
   MeshSpec spec = unitBox(4, 3);
-  spec.map = [](const Vector3& x) { return Vector3{x[0] + 2.0 * x[1], x[1], 0.0}; };
+  spec.map = [](const Vector3& x) { return Vector3{x[0] + 5.0 * x[1], x[1], 0.0}; };
   const Mesh mesh(MPI_COMM_WORLD, spec);
   // All of them: 5 x 3 across x and 4 x 4 across y.
   EXPECT_EQ(mesh.facesBeyond, 31);
   for (const Vector3& oblique : mesh.oblique) EXPECT_NEAR(length(oblique), Mesh::mostOblique, 1e-12);
-  spec.map = [](const Vector3& x) { return Vector3{x[0] + 1.5 * x[1], x[1], 0.0}; };
+  spec.map = [](const Vector3& x) { return Vector3{x[0] + 3.5 * x[1], x[1], 0.0}; };
   const Mesh less(MPI_COMM_WORLD, spec);
   EXPECT_EQ(less.facesBeyond, 0);
-  for (const Vector3& oblique : less.oblique) EXPECT_NEAR(length(oblique), 1.5, 1e-12);
+  for (const Vector3& oblique : less.oblique) EXPECT_NEAR(length(oblique), 3.5, 1e-12);
 }
 
 TEST(MeshOfBlocks, AFoldedCellIsAnInputErrorThatSaysWhere) {
