@@ -12,7 +12,7 @@
 namespace lampblack::io {
 namespace {
 
-constexpr std::int64_t formatVersion = 4;
+constexpr std::int64_t formatVersion = 5;
 constexpr const char* fileType = "lampblack checkpoint";
 
 std::filesystem::path unfinishedName(const std::filesystem::path& path) {
@@ -128,6 +128,11 @@ CheckpointReader::CheckpointReader(MPI_Comm comm, const std::filesystem::path& p
                       "steps, outputs, tolerances and what flows in may change",
                       path.string(), differences));
   });
+}
+
+void CheckpointReader::renumber(const StateNumbers& numbers) {
+  cells_ = BlockExchange(comm_, numbers.cells, numbers.totalCells);
+  faces_ = BlockExchange(comm_, numbers.faces, numbers.totalFaces);
 }
 
 void CheckpointReader::ordered(const BlockExchange& exchange, const std::string& name, std::vector<double>& values,
