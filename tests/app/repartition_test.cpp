@@ -24,7 +24,8 @@ using test::at;
 class CostlyBand final : public Operator {
  public:
   [[nodiscard]] const char* name() const override { return "band"; }
-  void advance(State&, double, double) override {}
+  void advance(State&, double, double) override { ++advanced; }
+  int advanced = 0;
   void addCost(const Mesh& mesh, CellCost& cost) const override {
     for (int c = 0; c < mesh.owned; ++c)
       if (mesh.centre[at(c)][0] < 7e-3 && mesh.centre[at(c)][1] < 2.5e-3) cost.own[at(c)] += costOfCell;
@@ -78,6 +79,11 @@ Ran run(const Task& task) {
     if (task.before) task.before(loop);
     loop.run(RunFolder::prepare(task.folder, false, task.comm), {"test", "none", {}, "now"});
     if (task.after) task.after(loop);
+    RunRecord record;
+    loop.count(record);
+    if (!task.restart) {
+      EXPECT_GE(band.advanced, record.steps) << "as every operator";
+    }
     partitions = loop.costs().partitions();
   }
   MPI_Barrier(MPI_COMM_WORLD);
@@ -133,6 +139,15 @@ void expectBalanced(const FlowLoop& loop) {
 
 double imbalance(const FlowLoop& loop) {
   return imbalanceOf(loop.mesh().comm, loop.costs().average());
+}
+
+TEST(Repartition, CountsWhatIsSharedAsEven) {
+  CellCost cost(1);
+  cost.own = {test::worldRank() == 0 ? 4.0 : 1.0};
+  cost.shared = {test::worldRank() == 0 ? 0.0 : 6.0};
+  const double ranks = test::worldSize();
+  const double shared = 6.0 * (ranks - 1.0) / ranks;
+  EXPECT_DOUBLE_EQ(imbalanceOf(MPI_COMM_WORLD, cost), (4.0 + shared) / ((3.0 + ranks) / ranks + shared));
 }
 
 TEST(Repartition, BalancesABandOfCostlyCellsAndChangesNothingElse) {
