@@ -10,19 +10,21 @@ class KeptState::Writer : public StateArchive {
   explicit Writer(KeptState& kept) : kept_(kept) {}
   [[nodiscard]] bool loading() const override { return false; }
   void cells(const std::string& name, std::vector<double>& values, int width) override {
-    put(name, {values.data(), kept_.cells_ * static_cast<std::size_t>(width)});
+    put(name, {values.data(), kept_.cells_ * static_cast<std::size_t>(width)}, Piece::Of::Cells, width);
   }
   void faces(const std::string& name, std::vector<double>& values, int width) override {
-    put(name, {values.data(), kept_.faces_ * static_cast<std::size_t>(width)});
+    put(name, {values.data(), kept_.faces_ * static_cast<std::size_t>(width)}, Piece::Of::Faces, width);
   }
   void sums(const std::string& name, std::span<double> values) override { put(name, values); }
   void shared(const std::string& name, std::vector<double>& values) override { put(name, values); }
 
  private:
-  void put(const std::string& name, std::span<const double> values) {
+  void put(const std::string& name, std::span<const double> values, Piece::Of of = Piece::Of::Rank, int width = 0) {
     if (kept_.count_ == kept_.pieces_.size()) kept_.pieces_.emplace_back();
     Piece& piece = kept_.pieces_[kept_.count_++];
     piece.name = name;
+    piece.of = of;
+    piece.width = width;
     piece.values.assign(values.begin(), values.end());
   }
 
@@ -67,6 +69,16 @@ void KeptState::keep(const Owners& owners) {
 void KeptState::giveBack(const Owners& owners) {
   Reader reader(*this);
   owners(reader);
+}
+
+void KeptState::rearrange(int ownedCells, int faces, const Move& moveCells, const Move& moveFaces) {
+  for (std::size_t i = 0; i < count_; ++i) {
+    Piece& piece = pieces_[i];
+    if (piece.of == Piece::Of::Cells) piece.values = moveCells(piece.values, piece.width);
+    if (piece.of == Piece::Of::Faces) piece.values = moveFaces(piece.values, piece.width);
+  }
+  cells_ = static_cast<std::size_t>(ownedCells);
+  faces_ = static_cast<std::size_t>(faces);
 }
 
 std::size_t KeptState::bytes() const {

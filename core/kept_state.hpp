@@ -1,4 +1,5 @@
-// What a StateArchive names, kept in memory, each rank its own part: what a step that has failed goes back to.
+// What a StateArchive names, kept in memory, each rank its own part: what a step that has failed goes back to, and what
+// moves to other ranks where a mesh is partitioned anew.
 #pragma once
 
 #include <cstddef>
@@ -21,12 +22,19 @@ class KeptState {
   // Gives it back. The owners have to name the same pieces in the same order (std::logic_error).
   void giveBack(const Owners& owners);
 
+  // Of `width` values each for what this rank had: those of what it has now. Collective.
+  using Move = std::function<std::vector<double>(const std::vector<double>& values, int width)>;
+  // What is kept belongs to a mesh whose cells and faces now lie on other ranks. Collective.
+  void rearrange(int ownedCells, int faces, const Move& moveCells, const Move& moveFaces);
+
   [[nodiscard]] std::size_t bytes() const;
 
  private:
   struct Piece {
     std::string name;
     std::vector<double> values;
+    enum class Of { Cells, Faces, Rank } of = Of::Rank;
+    int width = 0;
   };
   class Writer;
   class Reader;

@@ -216,7 +216,10 @@ WorkSharing::Statistics WorkSharing::run(const Items& items) {
   }
 
   // Others' items first, so that they travel back while this rank advances its own.
-  double busy = 0.0;
+  double busy = 0.0, work = 0.0;
+  const auto count = [&](std::span<const double> output) {
+    if (items.work) work += items.work(output);
+  };
   std::vector<std::vector<double>> returned;
   returned.reserve(plan.transfers.size());  // MPI keeps pointers to the elements' values
   for (const auto& transfer : plan.transfers) {
@@ -227,7 +230,10 @@ WorkSharing::Statistics WorkSharing::run(const Items& items) {
     const auto advance = [&] {
       // Nobody reads results where any item failed.
       if (guard.unlessFailed([&] { group.advance(); }))
-        for (const auto& output : group.outputs()) append(results, output);
+        for (const auto& output : group.outputs()) {
+          append(results, output);
+          count(output);
+        }
       group.clear();
     };
     for (MessageReader message(received); !message.done();) {
@@ -245,7 +251,10 @@ WorkSharing::Statistics WorkSharing::run(const Items& items) {
   const auto advanceOwn = [&] {
     if (guard.unlessFailed([&] { group.advance(); }))
       for (std::size_t i = 0; i < own.size(); ++i)
-        guard.unlessFailed([&] { items.unpack(own[i], group.outputs()[i]); });
+        guard.unlessFailed([&] {
+          count(group.outputs()[i]);
+          items.unpack(own[i], group.outputs()[i]);
+        });
     group.clear();
     own.clear();
     // MPI moves large parcels only while it is called: without this, the receivers would wait for this loop's end.
@@ -271,6 +280,7 @@ WorkSharing::Statistics WorkSharing::run(const Items& items) {
   }
   raiseCollectively(comm_, guard.error());
   statistics.imbalanceBefore = plan.imbalanceBefore;
+  if (items.work) busy = work;
   std::vector<double> busyOfRank(static_cast<std::size_t>(ranks));
   MPI_Allgather(&busy, 1, MPI_DOUBLE, busyOfRank.data(), 1, MPI_DOUBLE, comm_);
   statistics.imbalanceAfter = imbalance(busyOfRank);

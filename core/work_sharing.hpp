@@ -39,10 +39,12 @@ class WorkSharing {
     std::function<void(std::span<const std::span<const double>> inputs, std::span<std::vector<double>> outputs)>
         advanceGroup;
     std::function<void(std::size_t item, std::span<const double> output)> unpack;
+    // What advancing an item has cost, in the unit of `cost`, as its output tells. Not set: seconds are measured.
+    std::function<double(std::span<const double> output)> work;
   };
   struct Statistics {
     double imbalanceBefore = 1.0;  // of the estimated cost
-    double imbalanceAfter = 1.0;   // of the measured time spent on advancing
+    double imbalanceAfter = 1.0;   // of Items::work of what each rank has advanced, or of the time that took
     std::size_t itemsSent = 0;
   };
 

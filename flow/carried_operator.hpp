@@ -56,6 +56,7 @@ class CarriedOperator : public Operator {
   [[nodiscard]] std::vector<std::string> closingLines() const override;
   [[nodiscard]] std::optional<Imbalance> imbalance() const override;
   void fields(const State& state, const FieldSink& sink) const override;
+  void addCost(const Mesh& mesh, CellCost& cost) const override;
 
   // Of a cell, in the order of the model.
   [[nodiscard]] std::span<double> densities(State& state, int cell) const;
@@ -83,11 +84,13 @@ class CarriedOperator : public Operator {
   std::size_t first_, scalars_;
   Options options_;
   WorkSharing sharing_;
-  std::vector<double> cost_;  // s, of each owned cell's last advance
+  std::vector<double> cost_;        // of each owned cell's last advance
+  std::vector<double> costOfStep_;  // the sum of these over the step's sweeps; 0 where nothing was to be done
   // Of each owned cell: its values at the end of the last step; their mean rates by the particles in it, and
   // the power that these gave to the gas, W/m3.
   std::vector<double> before_, rate_, heat_;
-  double lastStep_ = 0.0;           // s
+  double lastStep_ = 0.0;  // s
+  bool inStep_ = false;
   long steps_ = 0;                  // since the start, on this rank
   Imbalance imbalances_{0.0, 0.0};  // sums over the stages
   int stages_ = 0;

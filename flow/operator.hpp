@@ -16,6 +16,13 @@
 
 namespace lampblack::flow {
 
+// What the owned cells cost, in about microseconds of one processor, as operators count it.
+struct CellCost {
+  std::vector<double> own;     // what the rank that owns the cell has to do itself
+  std::vector<double> shared;  // what work sharing spreads over the ranks, whoever owns the cell
+  explicit CellCost(int owned) : own(static_cast<std::size_t>(owned)), shared(own.size()) {}
+};
+
 class Operator {
  public:
   // Busiest rank's cost over the mean: as the mesh is partitioned, and with work sharing, means over the stages so far.
@@ -42,6 +49,9 @@ class Operator {
   virtual void saveOrLoad(StateArchive&) {}
   // s, that `advance` may be asked for in this state. Collective.
   [[nodiscard]] virtual double largestStep(const State&) { return std::numeric_limits<double>::infinity(); }
+
+  // Adds what each owned cell has cost in the last step. Counted, not timed, so that it is the same in every run.
+  virtual void addCost(const Mesh&, CellCost&) const {}
 
   // What a row of the history has of it, and the values now: of the state, or since the last row. Collective.
   [[nodiscard]] virtual std::vector<Quantity> historyColumns() const { return {}; }

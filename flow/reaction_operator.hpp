@@ -50,6 +50,7 @@ class ReactionOperator : public Operator {
   [[nodiscard]] std::vector<double> historyValues(const State& state) override;
   [[nodiscard]] std::optional<Imbalance> imbalance() const override;
   void fields(const State& state, const FieldSink& sink) const override;
+  void addCost(const Mesh& mesh, CellCost& cost) const override;
   Diagnostics takeDiagnostics();  // collective
 
  private:
@@ -69,7 +70,8 @@ class ReactionOperator : public Operator {
   std::vector<ConstantPressureReactor::Cell> cells_;  // of solve()
   std::vector<ConstantPressureReactor::Result> results_;
   WorkSharing sharing_;
-  std::vector<double> cost_;         // s, of each owned cell's last solve
+  std::vector<double> cost_;         // ConstantPressureReactor::Result::work, smoothed, of each owned cell
+  std::vector<double> costOfStep_;   // the sum of these over the step's sweeps
   std::vector<double> initialStep_;  // s, ConstantPressureReactor::Cell::initialStep of the next solve
   double step_ = 0.0;                // s, the present; zero between steps
   std::vector<double> isLimited_;    // 1 or 0, owned cells: whether rates are less than found (limitRates)

@@ -61,6 +61,7 @@ class TransportOperator : public Operator {
   [[nodiscard]] std::vector<Quantity> historyColumns() const override;
   [[nodiscard]] std::vector<double> historyValues(const State& state) override;
   void fields(const State& state, const FieldSink& sink) const override;
+  void addCost(const Mesh& mesh, CellCost& cost) const override;
 
   // Is called at the end of each step's last sweep: budgets count what crossed the boundary.
   void watchBoundary(std::function<void(const BoundaryAmounts&)> watcher) { watchers_.push_back(std::move(watcher)); }

@@ -130,6 +130,11 @@ CheckpointReader::CheckpointReader(MPI_Comm comm, const std::filesystem::path& p
   });
 }
 
+void CheckpointReader::renumber(const StateNumbers& numbers) {
+  cells_ = BlockExchange(comm_, numbers.cells, numbers.totalCells);
+  faces_ = BlockExchange(comm_, numbers.faces, numbers.totalFaces);
+}
+
 void CheckpointReader::ordered(const BlockExchange& exchange, const std::string& name, std::vector<double>& values,
                                int width) {
   std::vector<double> block;

@@ -66,6 +66,9 @@ class CheckpointReader : public StateArchive {
   CheckpointReader(MPI_Comm comm, const std::filesystem::path& path, const StateNumbers& numbers,
                    const Fingerprint& fingerprint);
 
+  // The mesh has been partitioned anew: what this rank reads from now on. Collective.
+  void renumber(const StateNumbers& numbers);
+
   using StateArchive::shared;
   [[nodiscard]] bool loading() const override { return true; }
   void cells(const std::string& name, std::vector<double>& values, int width) override;

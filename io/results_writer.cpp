@@ -67,6 +67,11 @@ ResultsWriter::~ResultsWriter() {
   }
 }
 
+void ResultsWriter::renumber(std::span<const std::int64_t> globalCell) {
+  self_->cells = BlockExchange(self_->comm, globalCell, self_->cells.total());
+  agree(self_->comm, self_->cells.coversOnce(), "a mesh to write has to have each cell on exactly one rank");
+}
+
 void ResultsWriter::beginStep(std::int64_t step, double time) {
   if (self_->open) throw std::logic_error("a step of the results is begun before the last one ended");
   self_->open = XdmfStep{fmt::format("/steps/{:06}", step), time, {}};

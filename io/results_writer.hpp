@@ -56,6 +56,9 @@ class ResultsWriter {
   ResultsWriter(const ResultsWriter&) = delete;
   ResultsWriter& operator=(const ResultsWriter&) = delete;
 
+  // The mesh has been partitioned anew: what this rank owns from now on.
+  void renumber(std::span<const std::int64_t> globalCell);
+
   // Opens the group /steps/<step>. `time` in s.
   void beginStep(std::int64_t step, double time);
   // One value (or `components` values, cell-major) for each owned cell in the order of MeshOutput::globalCell. Two

@@ -100,6 +100,7 @@ struct FlowCase {
   std::vector<std::string> solids;  // names of mesh.leftOut
   int dimension = 2;
   std::optional<MeshFile> meshFile;
+  std::optional<double> repartition;  // busiest rank's cost over the mean, above which the mesh is partitioned anew
   std::vector<BoundaryCondition> boundaries;  // in the order of mesh.patches
   Vector3 gravity{0.0, 0.0, 0.0};             // m/s^2
   double referenceDensity = 0.0;              // kg/m^3, FlowContext

@@ -167,6 +167,7 @@ void readMesh(const Deck& deck, FlowCase& flowCase) {
   const std::string geometry = deck.choice("mesh.geometry");
   flowCase.mesh.geometry = geometry == "axisymmetric" ? Geometry::Axisymmetric : Geometry::Planar;
   flowCase.dimension = geometry == "space" ? 3 : 2;
+  flowCase.repartition = deck.optionalNumber("mesh.repartition");
   if (deck.has("mesh.file")) {
     readFile(deck, flowCase);
     return;

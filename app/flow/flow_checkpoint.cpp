@@ -95,9 +95,10 @@ Fingerprint flowFingerprint(const FlowCase& flowCase, const std::vector<CarriedS
       {"particle model", scalars.empty() ? "no scalars" : hashed(fmt::format("{} scalars", scalars.size()), carried)}};
 }
 
-FlowCheckpoints::FlowCheckpoints(const Mesh& mesh, CheckpointControl control, Fingerprint fingerprint,
+FlowCheckpoints::FlowCheckpoints(MPI_Comm comm, CheckpointControl control, Fingerprint fingerprint,
                                  const std::filesystem::path& runFolder)
-    : mesh_(mesh), control_(control), fingerprint_(std::move(fingerprint)), folder_(runFolder), since_(MPI_Wtime()) {
+    : comm_(comm), control_(control), fingerprint_(std::move(fingerprint)), folder_(runFolder), since_(MPI_Wtime()) {
+  MPI_Comm_rank(comm_, &rank_);
   watchForCheckpointSignal();
 }
 
@@ -108,17 +109,17 @@ void FlowCheckpoints::startedFrom(const WholeCheckpoint& checkpoint, std::int64_
 
 bool FlowCheckpoints::wants(std::int64_t step) {
   if (takeCheckpointSignal()) return true;
-  if (mesh_.rank != 0) return false;
+  if (rank_ != 0) return false;
   if (control_.steps && step != step_ && step % *control_.steps == 0) return true;
   if (step != step_ && MPI_Wtime() - since_ >= control_.wallTime) return true;
   std::error_code error;
   return std::filesystem::exists(folder_.request(), error);
 }
 
-void FlowCheckpoints::write(std::int64_t step, const ResultsWriter& results, const Save& save) {
+void FlowCheckpoints::write(const Mesh& mesh, std::int64_t step, const ResultsWriter& results, const Save& save) {
   since_ = MPI_Wtime();
-  collectively(mesh_.comm, [&] {
-    if (mesh_.rank != 0) return;
+  collectively(comm_, [&] {
+    if (rank_ != 0) return;
     std::error_code ignored;
     std::filesystem::remove(folder_.request(), ignored);
     folder_.make();
@@ -130,7 +131,7 @@ void FlowCheckpoints::write(std::int64_t step, const ResultsWriter& results, con
     next.outputs.push_back(folder_.outputs(step));
     results.saveSteps(next.outputs.back(), savedOutputs_);
   }
-  CheckpointWriter writer(mesh_.comm, next.file, stateNumbers(mesh_), fingerprint_);
+  CheckpointWriter writer(comm_, next.file, stateNumbers(mesh), fingerprint_);
   save(writer);
   std::vector<std::string> outputs;
   for (const auto& file : next.outputs) outputs.push_back(file.filename().string());
@@ -142,8 +143,8 @@ void FlowCheckpoints::write(std::int64_t step, const ResultsWriter& results, con
   step_ = step;
   savedOutputs_ = results.stepCount();
   ownOutputs_ = true;
-  collectively(mesh_.comm, [&] {
-    if (mesh_.rank != 0) return;
+  collectively(comm_, [&] {
+    if (rank_ != 0) return;
     std::vector<std::filesystem::path> kept{current_.file, former_.file};
     for (const WholeCheckpoint* one : {&current_, &former_})
       kept.insert(kept.end(), one->outputs.begin(), one->outputs.end());

@@ -26,7 +26,7 @@ class FlowCheckpoints {
  public:
   using Save = std::function<void(CheckpointWriter&)>;
 
-  FlowCheckpoints(const Mesh& mesh, CheckpointControl control, Fingerprint fingerprint,
+  FlowCheckpoints(MPI_Comm comm, CheckpointControl control, Fingerprint fingerprint,
                   const std::filesystem::path& runFolder);
 
   // The run went on from this one at this step.
@@ -36,12 +36,13 @@ class FlowCheckpoints {
   // it. One rank is enough; what a signal has asked for is told once.
   [[nodiscard]] bool wants(std::int64_t step);
   // Collective. Where the disk is full a SystemError; the former checkpoints stay.
-  void write(std::int64_t step, const ResultsWriter& results, const Save& save);
+  void write(const Mesh& mesh, std::int64_t step, const ResultsWriter& results, const Save& save);
   // The last that was written, or gone on from; may be empty.
   [[nodiscard]] const std::filesystem::path& last() const { return current_.file; }
 
  private:
-  const Mesh& mesh_;
+  MPI_Comm comm_;
+  int rank_ = 0;
   CheckpointControl control_;
   Fingerprint fingerprint_;
   CheckpointFolder folder_;

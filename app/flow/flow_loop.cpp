@@ -17,69 +17,47 @@ namespace lampblack::app {
 FlowLoop::FlowLoop(MPI_Comm comm, FlowCase flowCase)
     : comm_(comm),
       case_(std::move(flowCase)),
-      mesh_(makeMesh(comm, case_)),
-      halo_(mesh_),
       thermo_(*case_.mechanism),
       transport_(*case_.mechanism, case_.transport.averaged()),
-      context_{mesh_,
-               halo_,
-               *case_.mechanism,
-               thermo_,
-               transport_,
-               case_.boundaries,
-               case_.gravity,
-               case_.referenceDensity,
-               std::ranges::any_of(case_.boundaries, [](const BoundaryCondition& b) { return !b.varies.isEmpty(); })
-                   ? std::make_shared<BoundaryValues>(mesh_, case_.boundaries, thermo_)
-                   : nullptr,
-               case_.transport},
-      state_(mesh_, case_.mechanism->numSpecies(),
-             case_.carried ? CarriedOperator::scalarsOf(*case_.carried) : std::vector<CarriedScalar>{}, case_.swirls),
-      flow_(context_, state_, case_.flow),
-      chemistry_(context_, keepingFailedCells(case_.chemistry)),
-      kept_(mesh_.owned, mesh_.faces),
+      domain_(std::make_unique<FlowDomain>(makeMesh(comm, case_), case_, thermo_, transport_,
+                                           keepingFailedCells(case_.chemistry))),
+      operators_(domain_->operators),
+      costs_(domain_->mesh),
+      repartitions_(case_.repartition.has_value() && domain_->mesh.ranks > 1),
+      kept_(domain_->mesh.owned, domain_->mesh.faces),
       wallLimit_(case_.time.wallLimit) {
-  state_.thermodynamicPressure = case_.pressure;
-  if (case_.carried) carried_ = std::make_unique<CarriedOperator>(context_, *case_.carried, 0, case_.carriedOptions);
-  collectively(comm_, [&] {
-    setMixingLayer(context_, case_.initial, state_);
-    setInitialFields(context_, case_.initialFields, state_);
-  });
-  flow_.initialise(state_, case_.time.firstStep);
-  operators_ = {&flow_, &chemistry_};
-  if (carried_) operators_.push_back(carried_.get());
-  if (case_.radiation.on) {
-    radiation_ = std::make_unique<RadiationOperator>(context_, case_.radiation.surroundings, case_.carried.get());
-    operators_.push_back(radiation_.get());
-  }
-  if (case_.time.tolerance) {
-    stepControl_ = std::make_unique<StepControl>(context_, *case_.time.tolerance, case_.flow.sweeps);
-    operators_.push_back(stepControl_.get());
-  }
+  domain_->setStart(case_);
   beginNext();
-  std::vector<std::vector<double>> carriedMass;
-  if (case_.carried)
-    for (const CarriedModel::Scalar& scalar : case_.carried->scalars()) carriedMass.push_back(scalar.elements);
-  budget_ = std::make_unique<Budget>(context_, massAndElements(*case_.mechanism, carriedMass), state_);
-  flow_.watchBoundary([this](const TransportOperator::BoundaryAmounts& amounts) { budget_->addStep(amounts); });
-  tables_ = std::make_unique<FlowTables>(context_, case_, tableSource());
+  domain_->beginBudget(case_);
+  tables_ = std::make_unique<FlowTables>(domain_->context, case_, tableSource());
   dt_ = case_.time.firstStep;
   nextOutput_ = case_.output.interval;
 }
 
 std::vector<std::string> FlowLoop::notesOfMesh() const {
-  if (mesh_.facesBeyond == 0) return {};
+  if (domain_->mesh.facesBeyond == 0) return {};
   return {
       fmt::format("{} of the mesh's {} faces are turned by more than 76 degrees from the steps between their cells: "
                   "what diffuses and presses along them counts as at 76 degrees; better shaped cells are more accurate",
-                  mesh_.facesBeyond, mesh_.totalFaces)};
+                  domain_->mesh.facesBeyond, domain_->mesh.totalFaces)};
 }
 
 void FlowLoop::load(const WholeCheckpoint& checkpoint) {
   const double start = secondsSinceStart();
-  CheckpointReader reader(comm_, checkpoint.file, stateNumbers(mesh_), flowFingerprint(case_, state_.scalars));
+  CheckpointReader reader(comm_, checkpoint.file, stateNumbers(domain_->mesh),
+                          flowFingerprint(case_, domain_->state.scalars));
+  // On as many ranks the same pieces, and the same bits; on others pieces by what cells have cost.
+  CellCosts stored(domain_->mesh);
+  stored.saveOrLoad(reader);
+  const bool hasOtherRanks = stored.ranks() != domain_->mesh.ranks;
+  const std::vector<double>& weights = hasOtherRanks ? stored.weights() : stored.present();
+  if (domain_->mesh.ranks > 1 && !areEven(comm_, weights)) {
+    install(partitionedBy(weights));
+    reader.renumber(stateNumbers(domain_->mesh));
+  }
   saveOrLoad(reader, earlierRows_);
   tables_->load(reader);
+  if (hasOtherRanks) costs_.adopt(domain_->mesh.ranks, costs_.weights());
   beginFromLoaded();
   restart_ = checkpoint;
   wallLimit_.checkpointTook(secondsSinceStart() - start);  // reading it; writing is no faster
@@ -87,10 +65,11 @@ void FlowLoop::load(const WholeCheckpoint& checkpoint) {
 
 void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
   folder_ = folder;
-  Outputs outputs{folder, ResultsWriter(comm_, folder.results(), info, meshOutput(mesh_)),
-                  HistoryWriter(comm_, folder.history(), historyColumns(operators_, budget_->lines(state_))),
-                  Progress(comm_, time_, case_.time.end),
-                  FlowCheckpoints(mesh_, case_.checkpoint, flowFingerprint(case_, state_.scalars), folder.path())};
+  Outputs outputs{
+      folder, ResultsWriter(comm_, folder.results(), info, meshOutput(domain_->mesh)),
+      HistoryWriter(comm_, folder.history(), historyColumns(operators_, domain_->budget->lines(domain_->state))),
+      Progress(comm_, time_, case_.time.end),
+      FlowCheckpoints(comm_, case_.checkpoint, flowFingerprint(case_, domain_->state.scalars), folder.path())};
   auto& [_, results, history, progress, checkpoints] = outputs;
   tables_->open(folder);
   if (restart_) {
@@ -119,6 +98,7 @@ void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
       output(results);
       nextOutput_ += case_.output.interval;
     }
+    repartitionIfUneven(outputs);
     wallLimit_.stepTook(secondsSinceStart() - stepBegan_);
   }
   progress.finish();
@@ -132,7 +112,7 @@ void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
   if (case_.trajectories) {
     const Timers::Scope scope(timers_, "trajectories");
     try {
-      runTrajectories(context_, case_, state_, flow_.properties(), results);
+      runTrajectories(domain_->context, case_, domain_->state, domain_->flow.properties(), results);
     } catch (const NumericsError&) {
       failure = std::current_exception();
     }
@@ -146,7 +126,7 @@ void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
 
 double FlowLoop::chooseStep(double previous, double until) {
   double dt = std::min(case_.time.maximumStep, previous * case_.time.growth);
-  for (Operator* op : operators_) dt = std::min(dt, op->largestStep(state_));
+  for (Operator* op : operators_) dt = std::min(dt, op->largestStep(domain_->state));
   if (steps_ == 0) dt = std::min(dt, case_.time.firstStep);
   // Land on the output without a sliver of a step before it.
   const double left = until - time_;
@@ -156,12 +136,12 @@ double FlowLoop::chooseStep(double previous, double until) {
 
 // What the operators tell of the state: the rates of the last sweep, and that a step begins here.
 void FlowLoop::beginNext() {
-  for (Operator* op : operators_) op->endStep(state_);
-  for (Operator* op : operators_) op->endSweep(state_);
+  for (Operator* op : operators_) op->endStep(domain_->state);
+  for (Operator* op : operators_) op->endSweep(domain_->state);
 }
 
 void FlowLoop::beginFromLoaded() {
-  state_.updateHalo(halo_);
+  domain_->state.updateHalo(domain_->halo);
   beginNext();
 }
 
@@ -169,10 +149,10 @@ void FlowLoop::step(double dt) {
   for (int sweep = 0; sweep < case_.flow.sweeps; ++sweep) {
     for (Operator* op : operators_) {
       const Timers::Scope scope(timers_, op->name());
-      op->advance(state_, time_, dt);
+      op->advance(domain_->state, time_, dt);
     }
     if (sweep + 1 < case_.flow.sweeps)
-      for (Operator* op : operators_) op->endSweep(state_);
+      for (Operator* op : operators_) op->endSweep(domain_->state);
   }
   beginNext();
   time_ += dt;

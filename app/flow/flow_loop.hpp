@@ -12,18 +12,16 @@
 #include <string>
 #include <vector>
 
+#include "app/flow/cell_costs.hpp"
 #include "app/flow/flow_case.hpp"
 #include "app/flow/flow_checkpoint.hpp"
+#include "app/flow/flow_domain.hpp"
 #include "app/flow/flow_output.hpp"
 #include "app/flow/flow_tables.hpp"
 #include "app/flow/wall_limit.hpp"
 #include "core/kept_state.hpp"
 #include "core/rooms.hpp"
 #include "core/timers.hpp"
-#include "flow/carried_operator.hpp"
-#include "flow/radiation_operator.hpp"
-#include "flow/step_control.hpp"
-#include "flow/transport_operator.hpp"
 #include "io/progress.hpp"
 #include "io/run_folder.hpp"
 #include "io/run_record.hpp"
@@ -39,15 +37,24 @@ class FlowLoop {
   // Takes everything from a checkpoint. InputError where it is another run's; nothing is written.
   void load(const WholeCheckpoint& checkpoint);
 
-  [[nodiscard]] std::int64_t cells() const { return mesh_.totalCells; }
+  [[nodiscard]] std::int64_t cells() const { return domain_->mesh.totalCells; }
 
   // What a user should know of the mesh, or nothing.
   [[nodiscard]] std::vector<std::string> notesOfMesh() const;
 
   // A further operator of each step, behind the case's own, which has to live as long; before load() and run().
-  void addOperator(Operator& added) { operators_.push_back(&added); }
+  void addOperator(Operator& added) {
+    added_.push_back(&added);
+    operators_.push_back(&added);
+  }
 
   void run(const RunFolder& folder, const RunInfo& info);
+
+  // Between two steps: partitions the mesh by these weights of the owned cells and goes on there. Collective.
+  void repartition(const std::vector<double>& weights);
+  // The mesh as it is partitioned now.
+  [[nodiscard]] const Mesh& mesh() const { return domain_->mesh; }
+  [[nodiscard]] const CellCosts& costs() const { return costs_; }
 
   // How far the run has come.
   void count(RunRecord& record) const;
@@ -87,6 +94,14 @@ class FlowLoop {
   // on disk.
   void stepOrRetry(double dt, Outputs& outputs);
 
+  // The mesh in pieces of equal weight, of which each owned cell of the present one has what is given.
+  Mesh partitionedBy(const std::vector<double>& weights);
+  // Goes over to this mesh, with everything blank.
+  void install(Mesh mesh);
+  // Where the deck asks for it and the ranks' costs have become uneven, partitions the mesh by them and goes on there.
+  void repartitionIfUneven(Outputs& outputs);
+  void moveTo(Mesh mesh, const std::vector<double>& weights);
+
   // What ranks agree on after a step, in one reduction; NumericsError where a value of the state is not finite.
   void agree(FlowCheckpoints& checkpoints);
 
@@ -102,7 +117,7 @@ class FlowLoop {
   HistoryRow observe();
   // What the state is now, as a row of the history and of the tables that go with it.
   HistoryRow writeRow(HistoryWriter& history);
-  [[nodiscard]] FlowTables::Source tableSource() { return {state_, flow_, operators_}; }
+  [[nodiscard]] FlowTables::Source tableSource() { return {domain_->state, domain_->flow, operators_}; }
 
   [[nodiscard]] std::string status(const HistoryRow& row) const;
 
@@ -126,19 +141,12 @@ class FlowLoop {
   MPI_Comm comm_;
   FlowCase case_;
   std::optional<RunFolder> folder_;  // once it runs
-  Mesh mesh_;
-  HaloExchange halo_;
   Thermo thermo_;
   Transport transport_;
-  FlowContext context_;
-  State state_;
-  TransportOperator flow_;
-  ReactionOperator chemistry_;
-  std::unique_ptr<CarriedOperator> carried_;
-  std::unique_ptr<RadiationOperator> radiation_;
-  std::unique_ptr<StepControl> stepControl_;
-  std::vector<Operator*> operators_;  // each advances over the step, one after the other
-  std::unique_ptr<Budget> budget_;
+  std::unique_ptr<FlowDomain> domain_;
+  std::vector<Operator*> added_, operators_;  // those of others; all, each advances over the step, one after the other
+  CellCosts costs_;
+  bool repartitions_;  // whether the mesh may still be partitioned anew
   std::unique_ptr<FlowTables> tables_;
   Timers timers_;
   std::optional<WholeCheckpoint> restart_;  // what the run goes on from

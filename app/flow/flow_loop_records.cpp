@@ -23,13 +23,13 @@ HistoryRow FlowLoop::observe() {
   row.time = time_;
   row.dt = dt_;
   row.retriedSteps = retried_;
-  row.extremes = extremesOf(context_, state_);
+  row.extremes = extremesOf(domain_->context, domain_->state);
   for (Operator* op : operators_) {
-    const std::vector<double> values = op->historyValues(state_);
+    const std::vector<double> values = op->historyValues(domain_->state);
     row.operators.insert(row.operators.end(), values.begin(), values.end());
   }
-  row.budget = budget_->lines(state_);
-  peakTemperature_ = peakOf([&](int c) { return state_.temperature[c]; });
+  row.budget = domain_->budget->lines(domain_->state);
+  peakTemperature_ = peakOf([&](int c) { return domain_->state.temperature[c]; });
   last_ = row;
   return row;
 }
@@ -46,13 +46,13 @@ FlowLoop::Peak FlowLoop::peakOf(const std::function<double(int)>& value) const {
   struct {
     double value;
     int rank;
-  } best{-1.0, mesh_.rank};
+  } best{-1.0, domain_->mesh.rank};
   Peak peak;
-  for (int c = 0; c < mesh_.owned; ++c) {
+  for (int c = 0; c < domain_->mesh.owned; ++c) {
     const double v = value(c);
     if (v > best.value) {
       best.value = v;
-      peak.place = mesh_.centre[c];
+      peak.place = domain_->mesh.centre[c];
     }
   }
   MPI_Allreduce(MPI_IN_PLACE, &best, 1, MPI_DOUBLE_INT, MPI_MAXLOC, comm_);
@@ -71,14 +71,14 @@ std::string FlowLoop::status(const HistoryRow& row) const {
 void FlowLoop::count(RunRecord& record) const {
   record.steps = steps_;
   record.retriedSteps = retried_;
-  record.cells = mesh_.totalCells;
+  record.cells = domain_->mesh.totalCells;
   record.simulatedTime = time_;
 }
 
 void FlowLoop::report(double wallTime, RunRecord& record) {
   ClosingReport closing;
-  closing.ranks = mesh_.ranks;
-  closing.cells = mesh_.totalCells;
+  closing.ranks = domain_->mesh.ranks;
+  closing.cells = domain_->mesh.totalCells;
   closing.steps = steps_;
   closing.wallTime = wallTime;
   closing.peakMemoryPerRank = peakMemory(comm_);
@@ -90,11 +90,12 @@ void FlowLoop::report(double wallTime, RunRecord& record) {
   record.stages = closing.stages;
   record.peakMemoryPerRank = closing.peakMemoryPerRank;
   count(record);
-  if (mesh_.rank != 0) return;
+  if (domain_->mesh.rank != 0) return;
   std::cout << formatReport(closing);
+  if (costs_.partitions() > 0) fmt::print("times the mesh was partitioned anew: {}\n", costs_.partitions());
   if (retried_ > 0) fmt::print("steps that failed and were tried again, smaller: {}\n", retried_);
   fmt::print("peak temperature {:.1f} K at {} = ({:.3f}, {:.3f}) mm\n", last_.extremes.maximumTemperature,
-             mesh_.axisymmetric() ? "(r, z)" : "(x, y)", 1e3 * peakTemperature_.place[0],
+             domain_->mesh.axisymmetric() ? "(r, z)" : "(x, y)", 1e3 * peakTemperature_.place[0],
              1e3 * peakTemperature_.place[1]);
   for (const Operator* op : operators_)
     for (const std::string& line : op->closingLines()) fmt::print("{}\n", line);
@@ -105,22 +106,24 @@ void FlowLoop::report(double wallTime, RunRecord& record) {
 }
 
 void FlowLoop::saveOrLoadParts(StateArchive& archive) {
-  state_.saveOrLoad(archive);
+  domain_->state.saveOrLoad(archive);
   for (Operator* op : operators_) op->saveOrLoad(archive);
-  budget_->saveOrLoad(archive);
+  domain_->budget->saveOrLoad(archive);
 }
 
 void FlowLoop::saveOrLoad(StateArchive& archive, std::vector<double>& history) {
   saveOrLoadParts(archive);
+  costs_.saveOrLoad(archive);
   const double interval = case_.output.interval;
-  std::vector<double> clock{time_,
-                            static_cast<double>(steps_),
-                            dt_,
-                            nextOutput_,
-                            interval,
-                            static_cast<double>(written_),
-                            static_cast<double>(historyColumns(operators_, budget_->lines(state_)).size()),
-                            static_cast<double>(retried_)};
+  std::vector<double> clock{
+      time_,
+      static_cast<double>(steps_),
+      dt_,
+      nextOutput_,
+      interval,
+      static_cast<double>(written_),
+      static_cast<double>(historyColumns(operators_, domain_->budget->lines(domain_->state)).size()),
+      static_cast<double>(retried_)};
   const double columns = clock[6];
   archive.shared("clock", clock);
   archive.shared("history", history);
@@ -151,7 +154,7 @@ std::string FlowLoop::writeCheckpoint(Outputs& outputs) {
   const Timers::Scope scope(timers_, "checkpoints");
   const double start = secondsSinceStart();
   try {
-    outputs.checkpoints.write(steps_, outputs.results, [&](CheckpointWriter& archive) {
+    outputs.checkpoints.write(domain_->mesh, steps_, outputs.results, [&](CheckpointWriter& archive) {
       std::vector<double> rows = outputs.history.rows();
       saveOrLoad(archive, rows);
       tables_->save(archive);
@@ -186,7 +189,7 @@ void FlowLoop::output(ResultsWriter& results) {
   const Timers::Scope scope(timers_, "output");
   const double start = secondsSinceStart();
   written_ = steps_;
-  writeFields(results, context_, case_, state_, operators_, steps_, time_);
+  writeFields(results, domain_->context, case_, domain_->state, operators_, steps_, time_);
   tables_->outputRows({steps_, time_}, tableSource());
   wallLimit_.outputTook(secondsSinceStart() - start);
 }

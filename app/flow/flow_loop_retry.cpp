@@ -26,14 +26,14 @@ void FlowLoop::agree(FlowCheckpoints& checkpoints) {
   bool finite = true;
   {
     const Timers::Scope scope(timers_, wayBack);
-    finite = isFinite(mesh_, state_);
+    finite = isFinite(domain_->mesh, domain_->state);
   }
   const bool limit = wallLimit_.isNear(secondsSinceStart());
   std::array<int, 3> found{checkpoints.wants(steps_) ? 1 : 0, limit ? 1 : 0, finite ? 0 : 1};
   wishes_.signal = agreedStopRequest(comm_, found);
   if (found[0] != 0) wishes_.checkpoint = true;
   if (found[1] != 0) wishes_.wallLimit = true;
-  if (found[2] != 0) raiseNotFinite(context_, state_);
+  if (found[2] != 0) raiseNotFinite(domain_->context, domain_->state);
 }
 
 void FlowLoop::takeBack(double time, std::int64_t steps) {
@@ -45,7 +45,7 @@ void FlowLoop::takeBack(double time, std::int64_t steps) {
 
 void FlowLoop::stepOrRetry(double dt, Outputs& outputs) {
   if (dt < shortest * case_.time.firstStep) try {
-      raiseStandstill(mesh_, state_, dt);
+      raiseStandstill(domain_->mesh, domain_->state, dt);
     } catch (const NumericsError&) {
       giveUp(outputs, std::current_exception(), {dt});
     }
@@ -55,7 +55,9 @@ void FlowLoop::stepOrRetry(double dt, Outputs& outputs) {
   }
   const double time = time_;
   const std::int64_t steps = steps_;
-  const auto ofAllRanks = [this](const std::exception& error) { return mesh_.ranks == 1 || isCollective(error); };
+  const auto ofAllRanks = [this](const std::exception& error) {
+    return domain_->mesh.ranks == 1 || isCollective(error);
+  };
   for (std::vector<double> tried;; dt *= smaller) {
     std::exception_ptr failure;
     std::string reason;  // of what a smaller step may mend
@@ -64,6 +66,7 @@ void FlowLoop::stepOrRetry(double dt, Outputs& outputs) {
       wallLimit_.stepTook(secondsSinceStart() - stepBegan_);
       agree(outputs.checkpoints);
       dt_ = dt;
+      costs_.addStep(domain_->mesh, operators_);
       return;
     } catch (const NumericsError& error) {
       if (!ofAllRanks(error)) throw;

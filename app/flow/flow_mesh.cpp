@@ -126,26 +126,29 @@ void checkSurface(const Mesh& mesh, const FlowCase& flowCase) {
   });
 }
 
-Mesh readMeshFile(MPI_Comm comm, FlowCase& flowCase) {
+Mesh readMeshFile(MPI_Comm comm, FlowCase& flowCase, std::span<const double> cellWeight) {
   MeshFile& file = *flowCase.meshFile;
   const std::string key = "mesh.file";
   MeshBlock block = pointingAt(comm, file.deck, key, [&] { return readGmsh(comm, file.path, file.unit); });
+  const std::string before = file.content;
   file.content = pointingAt(comm, file.deck, key, [&] { return contentOf(comm, file.path); });
   collectively(comm, [&] {
+    if (!before.empty() && file.content != before)
+      throw file.deck.error(key, fmt::format("{} has changed since the run began", file.path.string()));
     requireGeometry(flowCase, block.dimension);
     orderPatches(block, flowCase);
     const auto cells = static_cast<double>(block.totalCells);
     requireCells(file.deck, cells, flowCase.mechanism->numSpecies());
     refuseExcess(file.deck, flowCase, cells);
   });
-  return pointingAt(comm, file.deck, key, [&] { return Mesh(comm, block, flowCase.mesh.geometry); });
+  return pointingAt(comm, file.deck, key, [&] { return Mesh(comm, block, flowCase.mesh.geometry, cellWeight); });
 }
 
 }  // namespace
 
-Mesh makeMesh(MPI_Comm comm, FlowCase& flowCase) {
-  if (!flowCase.meshFile) return {comm, flowCase.mesh};
-  Mesh mesh = readMeshFile(comm, flowCase);
+Mesh makeMesh(MPI_Comm comm, FlowCase& flowCase, std::span<const double> cellWeight) {
+  if (!flowCase.meshFile) return {comm, flowCase.mesh, cellWeight};
+  Mesh mesh = readMeshFile(comm, flowCase, cellWeight);
   checkSurface(mesh, flowCase);
   return mesh;
 }

@@ -3,6 +3,8 @@
 
 #include <mpi.h>
 
+#include <span>
+
 #include "app/flow/flow_case.hpp"
 #include "core/rooms.hpp"
 
@@ -10,7 +12,9 @@ namespace lampblack::app {
 
 // Collective. The patches of the mesh are the boundaries of the case, in their order. Of a file its content is hashed,
 // into `flowCase`. InputError, on all ranks, at a key of the deck where the file is damaged, is not of the deck's
-// geometry, has other names than the deck's boundaries, or more cells than there is room for.
-Mesh makeMesh(MPI_Comm comm, FlowCase& flowCase);
+// geometry, has other names than the deck's boundaries, or more cells than there is room for, or where it is read again
+// and has changed. `cellWeight`: of the cells whose permanent numbers are this rank's block (BlockExchange), or empty
+// on all ranks.
+Mesh makeMesh(MPI_Comm comm, FlowCase& flowCase, std::span<const double> cellWeight = {});
 
 }  // namespace lampblack::app

@@ -32,7 +32,14 @@ void addMesh(DeckSchema& schema) {
       .add(quantityKey("mesh.unit", units::length, "Length of one unit of the mesh file, '1 mm'; absent: 1 m.")
                .optional()
                .above(0))
-      .add(numberKey("mesh.refinement", "Multiplies the cell count of every segment.").byDefault("1").above(0));
+      .add(numberKey("mesh.refinement", "Multiplies the cell count of every segment.").byDefault("1").above(0))
+      .add(
+          numberKey("mesh.repartition",
+                    "Cost of the busiest rank over the mean, '1.2', above which the mesh is partitioned anew between "
+                    "two steps, by what each of its cells costs its own rank. What work sharing spreads over the ranks "
+                    "is even already: this is for 'chemistry.share_work: false'. Absent: the mesh keeps its pieces.")
+              .optional()
+              .above(1));
   for (const std::string axis : {"r", "z", "x", "y"}) {
     const std::string list = "mesh." + axis;
     schema.section(list, Presence::optional, "Segments of the " + axis + " axis, one after the other from zero.")

@@ -41,7 +41,7 @@ std::string FlowTables::Table::header() const {
 }
 
 FlowTables::FlowTables(const FlowContext& context, const FlowCase& flowCase, const Source& source)
-    : context_(context), case_(flowCase) {
+    : context_(&context), case_(flowCase) {
   const OutputTables& tables = flowCase.output.tables;
   const auto axes = flowcase::axisNames(flowCase);
   if (!tables.probes.empty() || !tables.lines.empty()) chooseQuantities(source);
@@ -70,15 +70,24 @@ FlowTables::FlowTables(const FlowContext& context, const FlowCase& flowCase, con
   }
 }
 
+void FlowTables::moveTo(const FlowContext& context) {
+  context_ = &context;
+  if (probes_) probes_ = std::make_unique<FieldSampler>(context, probes_->places());
+  std::vector<FieldSampler> lines;
+  for (const FieldSampler& line : lines_) lines.emplace_back(context, line.places());
+  lines_.swap(lines);
+}
+
 void FlowTables::requireInside(const FieldSampler& sampler, const std::function<std::string(int)>& keyOf,
                                const std::string& what) const {
   const int outside = sampler.firstOutside();
   if (outside < 0) return;
   const Vector3& place = sampler.places()[outside];
-  const std::string where = whereMeshIs(context_.mesh, place);
-  raiseTogether(context_.mesh.comm, case_.output.tables.deck->error(
-                                        keyOf(outside), fmt::format("{} at {} is outside the mesh: {}", what,
-                                                                    placeText(place, context_.mesh.dimension), where)));
+  const std::string where = whereMeshIs(context_->mesh, place);
+  raiseTogether(
+      context_->mesh.comm,
+      case_.output.tables.deck->error(keyOf(outside), fmt::format("{} at {} is outside the mesh: {}", what,
+                                                                  placeText(place, context_->mesh.dimension), where)));
 }
 
 void FlowTables::chooseQuantities(const Source& source) {
@@ -86,7 +95,7 @@ void FlowTables::chooseQuantities(const Source& source) {
   const std::vector<std::string>& asked = case_.output.tables.quantities;
   std::vector<std::string> there;
   std::vector<Wanted> found;
-  flowFields(context_, case_, source.state, source.operators, nullptr,
+  flowFields(*context_, case_, source.state, source.operators, nullptr,
              [&](const Quantity& field, int components, std::span<const double>) {
                there.push_back(field.name);
                if (asked.empty() ? !isUsual(field.name) : std::ranges::find(asked, field.name) == asked.end()) return;
@@ -98,7 +107,7 @@ void FlowTables::chooseQuantities(const Source& source) {
              });
   for (const std::string& name : asked)
     if (std::ranges::find(there, name) == there.end())
-      raiseTogether(context_.mesh.comm,
+      raiseTogether(context_->mesh.comm,
                     case_.output.tables.deck->error(
                         "output.quantities", fmt::format("'{}' is no field of this flow; its fields are: {}", name,
                                                          fmt::join(there, ", "))));
@@ -112,7 +121,7 @@ std::vector<Quantity> FlowTables::columnsOf(const std::vector<Quantity>& first) 
 }
 
 std::vector<Quantity> FlowTables::boundaryColumns() const {
-  const auto unit = [this](const char* of) { return unitOfWhole(context_.mesh, of); };
+  const auto unit = [this](const char* of) { return unitOfWhole(context_->mesh, of); };
   std::vector<Quantity> columns = momentColumns;
   columns.push_back({"area", unit("m^2"), "of the boundary"});
   columns.push_back({"mass_flow", unit("kg/s"), "of gas that comes in through it, mean of the step"});
@@ -126,10 +135,10 @@ std::vector<Quantity> FlowTables::boundaryColumns() const {
 }
 
 std::vector<FieldSampler::Field> FlowTables::fieldsOf(const Source& source) const {
-  const Mesh& m = context_.mesh;
+  const Mesh& m = context_->mesh;
   std::set<std::string> names;
   for (const Wanted& wanted : wanted_) names.insert(wanted.field);
-  std::vector<FieldSampler::Field> fields(wanted_.size(), FieldSampler::scalarField(context_));
+  std::vector<FieldSampler::Field> fields(wanted_.size(), FieldSampler::scalarField(*context_));
   for (std::size_t f = 0; f < wanted_.size(); ++f) {
     FieldSampler::Field& field = fields[f];
     if (wanted_[f].field == "velocity") {
@@ -139,14 +148,14 @@ std::vector<FieldSampler::Field> FlowTables::fieldsOf(const Source& source) cons
         field.boundary[b] = gradient.boundary()[b * m.dimension + wanted_[f].component];
     } else if (wanted_[f].field == "temperature") {
       for (int face = m.interiorFaces; face < m.faces; ++face) {
-        field.known[face - m.interiorFaces] = knownTemperature(context_, face);
-        field.boundary[face - m.interiorFaces] = context_.boundaryTemperature(face);
+        field.known[face - m.interiorFaces] = knownTemperature(*context_, face);
+        field.boundary[face - m.interiorFaces] = context_->boundaryTemperature(face);
       }
     } else if (wanted_[f].field == "swirl_velocity") {
       std::ranges::fill(field.known, BoundaryData::Nothing);
     }
   }
-  flowFields(context_, case_, source.state, source.operators, &names,
+  flowFields(*context_, case_, source.state, source.operators, &names,
              [&](const Quantity& quantity, int components, std::span<const double> values) {
                for (std::size_t f = 0; f < wanted_.size(); ++f)
                  if (wanted_[f].field == quantity.name)
@@ -158,11 +167,11 @@ std::vector<FieldSampler::Field> FlowTables::fieldsOf(const Source& source) cons
 
 void FlowTables::open(const RunFolder& folder) {
   if (tables_.empty()) return;
-  collectively(context_.mesh.comm, [&] {
-    if (context_.mesh.rank == 0) folder.makeTableFolder();
+  collectively(context_->mesh.comm, [&] {
+    if (context_->mesh.rank == 0) folder.makeTableFolder();
   });
   for (const Table& table : tables_) {
-    writers_.emplace_back(context_.mesh.comm, folder.table(table.id()), table.columns);
+    writers_.emplace_back(context_->mesh.comm, folder.table(table.id()), table.columns);
     if (const auto earlier = loaded_.find(table.header()); earlier != loaded_.end())
       writers_.back().row(earlier->second);
   }
@@ -189,7 +198,7 @@ void FlowTables::historyRow(const Moment& moment, const Source& source) {
     std::vector<double> row = first;
     row.insert(row.end(), {of.area, of.massFlow, of.enthalpyFlow, of.heatFlow});
     for (const Vector3* force : {&of.pressureForce, &of.viscousForce})
-      row.insert(row.end(), force->begin(), force->begin() + context_.mesh.dimension);
+      row.insert(row.end(), force->begin(), force->begin() + context_->mesh.dimension);
     writers_[table++].row(row);
   }
 }
@@ -205,7 +214,7 @@ void FlowTables::outputRows(const Moment& moment, const Source& source) {
       const Vector3& place = line.places()[p];
       rows.insert(rows.end(),
                   {static_cast<double>(moment.step), moment.time, length(difference(place, line.places().front()))});
-      rows.insert(rows.end(), place.begin(), place.begin() + context_.mesh.dimension);
+      rows.insert(rows.end(), place.begin(), place.begin() + context_->mesh.dimension);
       const auto begin = samples.begin() + static_cast<std::ptrdiff_t>(p * wanted_.size());
       rows.insert(rows.end(), begin, begin + static_cast<std::ptrdiff_t>(wanted_.size()));
     }

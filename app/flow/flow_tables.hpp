@@ -38,7 +38,9 @@ class FlowTables {
   // Collective. InputError, which points into the deck, for a place outside the mesh and a quantity that is none.
   FlowTables(const FlowContext& context, const FlowCase& flowCase, const Source& source);
 
-  // Collective, as all below. Begins the files, with what was loaded.
+  // Collective, as all below. Goes on with a flow whose mesh has been partitioned anew; before rows of it.
+  void moveTo(const FlowContext& context);
+  // Begins the files, with what was loaded.
   void open(const RunFolder& folder);
   // Of probes and boundaries, with a row of the history.
   void historyRow(const Moment& moment, const Source& source);
@@ -71,7 +73,7 @@ class FlowTables {
   [[nodiscard]] std::vector<Quantity> columnsOf(const std::vector<Quantity>& first) const;
   [[nodiscard]] std::vector<Quantity> boundaryColumns() const;
 
-  const FlowContext& context_;
+  const FlowContext* context_;
   const FlowCase& case_;
   std::vector<Wanted> wanted_;
   std::unique_ptr<FieldSampler> probes_;  // a place a probe; null without any

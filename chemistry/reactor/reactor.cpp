@@ -31,6 +31,7 @@ ConstantPressureReactor::Impl::Impl(const Mechanism& mechanismIn, const Options&
     : mechanism(mechanismIn),
       options(optionsIn),
       n(mechanismIn.numSpecies()),
+      counted(n),
       system(mechanismIn, nullptr, leastFraction(optionsIn)),
       rosenbrock(system),
       bdf(system) {
@@ -56,6 +57,7 @@ bool ConstantPressureReactor::Impl::skip(Cell& cell, double dt, Result& result) 
   if (options.negligibleChange <= 0) return false;
   system.setConditions(cell.pressure, cell.source, cell.heating);
   ++result.rhsEvaluations;
+  result.work += counted.rates;
   if (!system.chemicalRates(start.data(), chemical.data())) return false;
   double largest = 0;
   for (std::size_t k = 0; k < n; ++k) largest = std::max(largest, std::abs(chemical[k]));
@@ -71,6 +73,7 @@ bool ConstantPressureReactor::Impl::skip(Cell& cell, double dt, Result& result) 
     }
   }
   ++result.rhsEvaluations;
+  result.work += counted.rates;
   if (!system.chemicalRates(predicted.data(), chemicalEnd.data())) return false;
   for (std::size_t k = 0; k < n; ++k) {
     if (!(std::abs(chemicalEnd[k]) * dt < options.negligibleChange)) return false;
@@ -123,6 +126,8 @@ bool ConstantPressureReactor::Impl::integrate(const Cell& cell, double dt, const
   result.steps += work.steps;
   result.rhsEvaluations += work.rhsEvaluations;
   result.jacobianEvaluations += work.jacobianEvaluations;
+  result.work += attempt.method == Method::Rosenbrock ? counted.scalarStep * work.jacobianEvaluations
+                                                      : counted.bdfRates * work.rhsEvaluations;
   if (!arrived) reason = attempt.method == Method::Bdf ? bdf.reason() : "more steps than the method may take";
   return arrived;
 }
@@ -192,6 +197,7 @@ ConstantPressureReactor::Result ConstantPressureReactor::advance(Cell& cell, dou
   const Stopwatch watch;
   self.place = 0;
   Result result;
+  result.work = self.counted.cell;
   self.begin(cell, dt);
   if (dt > 0) self.advance(cell, dt, observer, result);
   result.seconds = watch.seconds();

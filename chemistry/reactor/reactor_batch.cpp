@@ -20,6 +20,7 @@ void ConstantPressureReactor::advance(std::span<Cell> cells, double dt, std::spa
     self.place = i;
     self.finish(cells[i], dt, results[i]);
     results[i].seconds += watch.seconds();
+    results[i].work += self.counted.cell;
   }
 }
 
@@ -76,6 +77,7 @@ void ConstantPressureReactor::Impl::advanceInLanes(double dt, std::span<Result> 
     result.steps = inLanes[i].steps;
     result.rhsEvaluations += 3 * own;
     result.jacobianEvaluations = own;
+    result.work += counted.laneStep * own;
     if (attempts > 0) result.seconds += seconds * own / attempts;
   }
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <cmath>
 #include <optional>
 #include <span>
 #include <string>
@@ -25,6 +26,21 @@ class Stopwatch {
 
  private:
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+// What a cell's work is counted in (Result::work): about microseconds, fitted to mechanisms of 9 and 47 species
+// (docs/verification.md, "The mesh on many ranks").
+struct CountedWork {
+  explicit CountedWork(std::size_t species)
+      : cell(0.03 * static_cast<double>(species)),
+        rates(0.05 * static_cast<double>(species)),
+        bdfRates(0.1 * static_cast<double>(species)),
+        laneStep(0.0172 * std::pow(static_cast<double>(species), 1.6)),
+        scalarStep(5 * laneStep) {}
+  double cell;      // of any cell
+  double rates;     // an evaluation that decides whether a cell is skipped
+  double bdfRates;  // an evaluation with its part of the steps
+  double laneStep, scalarStep;
 };
 
 struct ConstantPressureReactor::Impl {
@@ -66,6 +82,7 @@ struct ConstantPressureReactor::Impl {
   const Mechanism& mechanism;
   Options options;
   std::size_t n;  // species
+  CountedWork counted;
   ReactorSystem system;
   ReactorRosenbrock rosenbrock;
   ReactorIntegrator bdf;

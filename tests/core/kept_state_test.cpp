@@ -46,6 +46,37 @@ TEST(KeptState, GivesBackWhatItWasGivenLast) {
   }
 }
 
+// To a mesh of which this rank owns the second cell and a new one, and sees three faces.
+TEST(KeptState, GoesAlongToOtherCellsAndFaces) {
+  Owner owner;
+  const KeptState::Owners owners = [&](StateArchive& archive) { owner.saveOrLoad(archive); };
+  KeptState kept(2, 4);
+  kept.keep(owners);
+  kept.rearrange(
+      2, 3,
+      [](const std::vector<double>& values, int width) {
+        EXPECT_EQ(width, 2);
+        EXPECT_EQ(values, (std::vector<double>{1, 2, 3, 4}));
+        return std::vector<double>{3, 4, 20, 21};
+      },
+      [](const std::vector<double>& values, int width) {
+        EXPECT_EQ(width, 1);
+        EXPECT_EQ(values, (std::vector<double>{7, 8, 9, 10}));
+        return std::vector<double>{10, 9, 8};
+      });
+  const Owner before = owner;
+  owner = {{0, 0, 0, 0}, {0, 0, 0}, {0, 0}, {}, 0};
+  kept.giveBack(owners);
+  EXPECT_EQ(owner.cells, (std::vector<double>{3, 4, 20, 21}));
+  EXPECT_EQ(owner.faces, (std::vector<double>{10, 9, 8}));
+  EXPECT_EQ(owner.sums, before.sums);
+  EXPECT_EQ(owner.shared, before.shared);
+  kept.keep(owners);
+  owner.cells.assign(4, 0.0);
+  kept.giveBack(owners);
+  EXPECT_EQ(owner.cells, (std::vector<double>{3, 4, 20, 21}));
+}
+
 TEST(KeptState, KnowsOtherPieces) {
   Owner owner;
   const KeptState::Owners owners = [&](StateArchive& archive) { owner.saveOrLoad(archive); };

@@ -96,6 +96,34 @@ TEST(WorkSharingTest, MeasuredImbalanceFallsForASkewedCost) {
   EXPECT_LT(statistics.imbalanceAfter, 0.5 * (1.0 + worldSize()));
 }
 
+// Counted in what items tell of themselves, and where they were advanced.
+TEST(WorkSharingTest, CountedImbalanceIsThatOfTheWorkDone) {
+  for (const bool isShared : {false, true})
+    for (const bool inGroups : {false, true}) {
+      Bag bag(skewed(), 3);
+      const auto advance = bag.items.advance;
+      double done = 0.0;
+      bag.items.advance = [&](std::span<const double> input, std::vector<double>& output) {
+        advance(input, output);
+        output.push_back(7.0 * input.back());
+        done += output.back();
+      };
+      if (inGroups) {
+        bag.items.groupSize = 3;
+        bag.items.advanceGroup = [&](auto inputs, auto outputs) {
+          for (std::size_t i = 0; i < inputs.size(); ++i) bag.items.advance(inputs[i], outputs[i]);
+        };
+      }
+      bag.items.unpack = [](std::size_t, std::span<const double>) {};
+      bag.items.work = [](std::span<const double> output) { return output.back(); };
+      const auto statistics = WorkSharing(MPI_COMM_WORLD, isShared).run(bag.items);
+      EXPECT_DOUBLE_EQ(statistics.imbalanceAfter, maxOverRanks(done) * worldSize() / sumOverRanks(done));
+      if (!isShared) {
+        EXPECT_DOUBLE_EQ(statistics.imbalanceAfter, statistics.imbalanceBefore);
+      }
+    }
+}
+
 TEST(WorkSharingTest, BalancedItemsStayWhereTheyAre) {
   Bag bag(std::vector<int>(at(worldSize()), 20));
   EXPECT_EQ(WorkSharing(MPI_COMM_WORLD).run(bag.items).itemsSent, 0u);

@@ -1,0 +1,71 @@
+#include "app/flow/flow_domain.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/errors.hpp"
+
+namespace lampblack::app {
+namespace {
+
+std::shared_ptr<BoundaryValues> varyingValues(const Mesh& mesh, const FlowCase& flowCase, const Thermo& thermo) {
+  const auto varies = [](const BoundaryCondition& boundary) { return !boundary.varies.isEmpty(); };
+  if (std::ranges::none_of(flowCase.boundaries, varies)) return nullptr;
+  return std::make_shared<BoundaryValues>(mesh, flowCase.boundaries, thermo);
+}
+
+}  // namespace
+
+FlowDomain::FlowDomain(Mesh partitioned, const FlowCase& flowCase, const Thermo& thermo, Transport& transport,
+                       const ReactionOperator::Options& chemistryOptions)
+    : mesh(std::move(partitioned)),
+      halo(mesh),
+      context{mesh,
+              halo,
+              *flowCase.mechanism,
+              thermo,
+              transport,
+              flowCase.boundaries,
+              flowCase.gravity,
+              flowCase.referenceDensity,
+              varyingValues(mesh, flowCase, thermo),
+              flowCase.transport},
+      state(mesh, flowCase.mechanism->numSpecies(),
+            flowCase.carried ? CarriedOperator::scalarsOf(*flowCase.carried) : std::vector<CarriedScalar>{},
+            flowCase.swirls),
+      flow(context, state, flowCase.flow),
+      chemistry(context, chemistryOptions) {
+  state.thermodynamicPressure = flowCase.pressure;
+  if (context.varying) context.varying->set(0.0, 0.0);
+  operators = {&flow, &chemistry};
+  if (flowCase.carried) {
+    carried = std::make_unique<CarriedOperator>(context, *flowCase.carried, 0, flowCase.carriedOptions);
+    operators.push_back(carried.get());
+  }
+  if (flowCase.radiation.on) {
+    radiation = std::make_unique<RadiationOperator>(context, flowCase.radiation.surroundings, flowCase.carried.get());
+    operators.push_back(radiation.get());
+  }
+  if (flowCase.time.tolerance) {
+    stepControl = std::make_unique<StepControl>(context, *flowCase.time.tolerance, flowCase.flow.sweeps);
+    operators.push_back(stepControl.get());
+  }
+}
+
+void FlowDomain::setStart(const FlowCase& flowCase) {
+  collectively(mesh.comm, [&] {
+    setMixingLayer(context, flowCase.initial, state);
+    setInitialFields(context, flowCase.initialFields, state);
+  });
+  flow.initialise(state, flowCase.time.firstStep);
+}
+
+void FlowDomain::beginBudget(const FlowCase& flowCase) {
+  std::vector<std::vector<double>> carriedMass;
+  if (flowCase.carried)
+    for (const CarriedModel::Scalar& scalar : flowCase.carried->scalars()) carriedMass.push_back(scalar.elements);
+  budget = std::make_unique<Budget>(context, massAndElements(*flowCase.mechanism, carriedMass), state);
+  flow.watchBoundary([this](const TransportOperator::BoundaryAmounts& amounts) { budget->addStep(amounts); });
+}
+
+}  // namespace lampblack::app

@@ -1,0 +1,44 @@
+// What of a flow's run lies on the mesh as it is partitioned: mesh, state, operators, budget. Where the mesh is
+// partitioned anew all of it is made again, and filled through a StateArchive.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "app/flow/flow_case.hpp"
+#include "core/halo_exchange.hpp"
+#include "core/rooms.hpp"
+#include "flow/budget.hpp"
+#include "flow/carried_operator.hpp"
+#include "flow/flow_context.hpp"
+#include "flow/radiation_operator.hpp"
+#include "flow/step_control.hpp"
+
+namespace lampblack::app {
+
+struct FlowDomain {
+  // Collective. The case, thermo and transport have to live as long. The state is not a gas yet.
+  FlowDomain(Mesh partitioned, const FlowCase& flowCase, const Thermo& thermo, Transport& transport,
+             const ReactionOperator::Options& chemistryOptions);
+  FlowDomain(const FlowDomain&) = delete;
+  FlowDomain& operator=(const FlowDomain&) = delete;
+
+  // Collective. The state that the deck begins with.
+  void setStart(const FlowCase& flowCase);
+  // Collective. Counts from the present state on.
+  void beginBudget(const FlowCase& flowCase);
+
+  Mesh mesh;
+  HaloExchange halo;
+  FlowContext context;
+  State state;
+  TransportOperator flow;
+  ReactionOperator chemistry;
+  std::unique_ptr<CarriedOperator> carried;
+  std::unique_ptr<RadiationOperator> radiation;
+  std::unique_ptr<StepControl> stepControl;
+  std::vector<Operator*> operators;  // of these, each advances over the step, one after the other
+  std::unique_ptr<Budget> budget;
+};
+
+}  // namespace lampblack::app

@@ -1,0 +1,227 @@
+// A run whose mesh is partitioned anew, between two steps or where it goes on from a checkpoint: costly cells are
+// spread evenly, and nothing else changes.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <memory>
+#include <numeric>
+
+#include "app/flow/flow_loop.hpp"
+#include "core/rooms.hpp"
+#include "io/checkpoint_folder.hpp"
+#include "io/hdf5_reader.hpp"
+#include "tests/app/app_fixture.hpp"
+#include "tests/core/mpi_support.hpp"
+#include "tests/shared_scratch.hpp"
+
+namespace lampblack::app {
+namespace {
+
+using test::at;
+
+// Cells where the fuel comes in cost their rank a hundred times what their transport does.
+class CostlyBand final : public Operator {
+ public:
+  [[nodiscard]] const char* name() const override { return "band"; }
+  void advance(State&, double, double) override { ++advanced; }
+  int advanced = 0;
+  void addCost(const Mesh& mesh, CellCost& cost) const override {
+    for (int c = 0; c < mesh.owned; ++c)
+      if (mesh.centre[at(c)][0] < 7e-3 && mesh.centre[at(c)][1] < 2.5e-3) cost.own[at(c)] += costOfCell;
+  }
+  static constexpr double costOfCell = 2e3;
+};
+
+// Some 30 steps of 240 cells, with what operators keep: swirl and soot.
+std::vector<std::string> settings(const std::vector<std::string>& more = {}) {
+  std::vector<std::string> all{"time.end=50 us",         "time.maximum_step=2 us",
+                               "output.interval=25 us",  "output.history_steps=4",
+                               "mesh.refinement=2",      "boundaries.fuel.swirl_velocity=10 cm/s",
+                               "output.species=[O2, OH]"};
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+struct Ran {
+  std::map<std::string, std::vector<double>> fields, history;
+  std::int64_t partitions = 0;
+};
+
+Ran readBack(const std::filesystem::path& results) {
+  const Hdf5Reader file(results);
+  Ran ran;
+  for (const std::string& step : file.names("/steps"))
+    for (const std::string& field : file.names("/steps/" + step))
+      ran.fields[step + "/" + field] = file.numbers("/steps/" + step + "/" + field);
+  for (const std::string& column : file.names("/history")) ran.history[column] = file.numbers("/history/" + column);
+  return ran;
+}
+
+struct Task {
+  std::filesystem::path folder;
+  std::vector<std::string> overrides;
+  std::optional<std::filesystem::path> restart = {};  // folder of a run, which goes on from its last checkpoint
+  MPI_Comm comm = MPI_COMM_WORLD;
+  std::function<void(FlowLoop&)> before = {}, after = {};
+};
+
+// Only ranks of its communicator run it; all read what came of it.
+Ran run(const Task& task) {
+  std::int64_t partitions = 0;
+  if (task.comm != MPI_COMM_NULL) {
+    FlowCase flowCase = readFlowCase(test::flameDeck(task.overrides));
+    flowCase.trajectories.reset();
+    CostlyBand band;
+    FlowLoop loop(task.comm, std::move(flowCase));
+    loop.addOperator(band);
+    if (task.restart) loop.load(newestCheckpoint(task.comm, *task.restart));
+    if (task.before) task.before(loop);
+    loop.run(RunFolder::prepare(task.folder, false, task.comm), {"test", "none", {}, "now"});
+    if (task.after) task.after(loop);
+    RunRecord record;
+    loop.count(record);
+    if (!task.restart) {
+      EXPECT_GE(band.advanced, record.steps) << "as every operator";
+    }
+    partitions = loop.costs().partitions();
+  }
+  MPI_Barrier(MPI_COMM_WORLD);
+  Ran ran = readBack(task.folder / "results.h5");
+  ran.partitions = partitions;
+  return ran;
+}
+
+// What ranks differ in, and what is round-off.
+bool isOwn(const std::string& name) {
+  for (const char* part : {"imbalance", "error", "iterations", "steps", "cells", "minimum_mass_fraction", "diameter",
+                           "retries", "pressure"})
+    if (name.find(part) != std::string::npos) return true;
+  return false;
+}
+
+// The solvers' tolerances are 1e-9 of the pressure and 1e-6 of the chemistry, whose steps fall otherwise.
+void expectSameFields(const Ran& found, const Ran& expected) {
+  ASSERT_EQ(found.fields.size(), expected.fields.size());
+  ASSERT_EQ(found.history.size(), expected.history.size());
+  for (const auto of : {&Ran::fields, &Ran::history})
+    for (const auto& [name, values] : expected.*of) {
+      if (isOwn(name)) continue;
+      const std::vector<double>& others = (found.*of).at(name);
+      ASSERT_EQ(others.size(), values.size()) << name;
+      double scale = 0.0, difference = 0.0;
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        scale = std::max(scale, std::abs(values[i]));
+        difference = std::max(difference, std::abs(others[i] - values[i]));
+      }
+      EXPECT_LE(difference, 1e-5 * scale + 1e-12) << name;
+    }
+  for (const auto& [name, values] : found.history)
+    if (name.ends_with("budget_error")) {
+      EXPECT_LT(*std::ranges::max_element(values), 1e-12) << name;
+    }
+}
+
+void expectSameBits(const Ran& found, const Ran& expected) {
+  EXPECT_EQ(found.fields, expected.fields);
+  EXPECT_EQ(found.history, expected.history);
+}
+
+// Pieces of the curve end at cells: a rank is a cell off at most at either end.
+void expectBalanced(const FlowLoop& loop) {
+  const std::vector<double>& cost = loop.costs().average().own;
+  ASSERT_EQ(cost.size(), at(loop.mesh().owned));
+  double own = std::accumulate(cost.begin(), cost.end(), 0.0), sum = 0.0;
+  MPI_Allreduce(&own, &sum, 1, MPI_DOUBLE, MPI_SUM, loop.mesh().comm);
+  EXPECT_NEAR(own, sum / loop.mesh().ranks, 1.1 * CostlyBand::costOfCell);
+  EXPECT_EQ(loop.costs().ranks(), loop.mesh().ranks);
+}
+
+double imbalance(const FlowLoop& loop) {
+  return imbalanceOf(loop.mesh().comm, loop.costs().average());
+}
+
+TEST(Repartition, CountsWhatIsSharedAsEven) {
+  CellCost cost(1);
+  cost.own = {test::worldRank() == 0 ? 4.0 : 1.0};
+  cost.shared = {test::worldRank() == 0 ? 0.0 : 6.0};
+  const double ranks = test::worldSize();
+  const double shared = 6.0 * (ranks - 1.0) / ranks;
+  EXPECT_DOUBLE_EQ(imbalanceOf(MPI_COMM_WORLD, cost), (4.0 + shared) / ((3.0 + ranks) / ranks + shared));
+}
+
+TEST(Repartition, BalancesABandOfCostlyCellsAndChangesNothingElse) {
+  const test::SharedScratchFolder scratch;
+  const Ran even = run({.folder = scratch.path() / "even",
+                        .overrides = settings({"mesh.repartition=10"}),
+                        .after = [](const FlowLoop& loop) {
+                          if (loop.mesh().ranks > 1) {
+                            EXPECT_GT(imbalance(loop), 1.2);
+                          }
+                        }});
+  EXPECT_EQ(even.partitions, 0);
+  const Ran anew = run(
+      {.folder = scratch.path() / "anew", .overrides = settings({"mesh.repartition=1.2"}), .after = expectBalanced});
+  EXPECT_EQ(anew.partitions, test::worldSize() > 1 ? 1 : 0);
+  if (test::worldSize() == 1) return expectSameBits(anew, even);
+  expectSameFields(anew, even);
+  EXPECT_NE(anew.fields, even.fields) << "sums in another order show in the last bits";
+}
+
+TEST(Repartition, IntoTheSamePiecesKeepsEveryBit) {
+  const test::SharedScratchFolder scratch;
+  const auto overrides = settings({"checkpoint.steps=16", "mesh.refinement=1", "time.sweeps=2", "time.tolerance=0.01"});
+  const Ran whole = run({.folder = scratch.path() / "whole", .overrides = overrides});
+  expectSameBits(run({.folder = scratch.path() / "rest", .overrides = overrides, .restart = scratch.path() / "whole"}),
+                 whole);
+  expectSameBits(run({.folder = scratch.path() / "moved",
+                      .overrides = overrides,
+                      .restart = scratch.path() / "whole",
+                      .before =
+                          [](FlowLoop& loop) {
+                            const std::vector<std::int64_t> cells = loop.mesh().naturalCell;
+                            loop.repartition(std::vector<double>(at(loop.mesh().owned), 1.0));
+                            EXPECT_EQ(loop.mesh().naturalCell, cells);
+                          }}),
+                 whole);
+}
+
+TEST(Repartition, IsTakenUpByARestartToTheLastBit) {
+  const test::SharedScratchFolder scratch;
+  const auto overrides = settings({"mesh.repartition=1.2", "checkpoint.steps=24"});
+  const Ran whole = run({.folder = scratch.path() / "whole", .overrides = overrides});
+  const Ran rest = run({.folder = scratch.path() / "rest",
+                        .overrides = overrides,
+                        .restart = scratch.path() / "whole",
+                        .before = expectBalanced});
+  expectSameBits(rest, whole);
+  EXPECT_EQ(rest.partitions, whole.partitions);
+}
+
+// One rank fewer, and from one rank as many as there are.
+TEST(Repartition, PartitionsARestartOnOtherRanksByWhatCellsHaveCost) {
+  if (test::worldSize() == 1) GTEST_SKIP() << "needs more than one rank";
+  const test::SharedScratchFolder scratch;
+  MPI_Comm fewer = MPI_COMM_NULL, one = MPI_COMM_NULL;
+  MPI_Comm_split(MPI_COMM_WORLD, test::worldRank() + 1 < test::worldSize() ? 0 : MPI_UNDEFINED, 0, &fewer);
+  MPI_Comm_split(MPI_COMM_WORLD, test::worldRank() == 0 ? 0 : MPI_UNDEFINED, 0, &one);
+  const auto overrides = settings({"checkpoint.steps=16"});
+  const Ran whole = run({.folder = scratch.path() / "whole", .overrides = overrides});
+  expectSameFields(run({.folder = scratch.path() / "fewer",
+                        .overrides = overrides,
+                        .restart = scratch.path() / "whole",
+                        .comm = fewer,
+                        .before = expectBalanced}),
+                   whole);
+  run({.folder = scratch.path() / "one", .overrides = overrides, .comm = one});
+  expectSameFields(run({.folder = scratch.path() / "more",
+                        .overrides = overrides,
+                        .restart = scratch.path() / "one",
+                        .before = expectBalanced}),
+                   whole);
+  for (MPI_Comm* comm : {&fewer, &one})
+    if (*comm != MPI_COMM_NULL) MPI_Comm_free(comm);
+}
+
+}  // namespace
+}  // namespace lampblack::app
