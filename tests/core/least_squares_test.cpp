@@ -1,0 +1,35 @@
+#include "core/least_squares.hpp"
+
+#include <gtest/gtest.h>
+
+namespace lampblack::test {
+namespace {
+
+Vector3 gradientOf(const std::vector<Vector3>& places, const std::vector<double>& differences) {
+  LeastSquares squares;
+  for (const Vector3& d : places) squares.add(d);
+  squares.finish(2);
+  Vector3 gradient{};
+  for (std::size_t i = 0; i < places.size(); ++i)
+    gradient = sum(gradient, scaled(squares.weight(places[i]), differences[i]));
+  return gradient;
+}
+
+TEST(LeastSquares, TwoValuesOnALineGiveTheParabolasSlope) {
+  // x + 3 x^2 beside a place, 0.5 before and 2 behind it.
+  const Vector3 gradient = gradientOf({{0.5, 0.0, 0.0}, {-2.0, 0.0, 0.0}, {0.0, 0.1, 0.0}, {0.0, -0.1, 0.0}},
+                                      {0.5 + 0.75, -2.0 + 12.0, 0.0, 0.0});
+  EXPECT_NEAR(gradient[0], 1.0, 1e-12);
+  EXPECT_NEAR(gradient[1], 0.0, 1e-12);
+}
+
+TEST(LeastSquares, TheSlopeAlongALongCellIsThatOfItsEnds) {
+  // The near values lie across a cell seven times as long as wide, and a little to one side: what they differ by is
+  // next to no slope along it. By plain distances it would be 0.93.
+  const Vector3 gradient =
+      gradientOf({{7.0, 0.0, 0.0}, {-7.0, 0.0, 0.0}, {0.7, 1.0, 0.0}, {0.7, -1.0, 0.0}}, {0.0, 0.0, 1.0, 1.0});
+  EXPECT_LT(std::abs(gradient[0]), 0.02);
+}
+
+}  // namespace
+}  // namespace lampblack::test
