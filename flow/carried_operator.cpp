@@ -17,7 +17,8 @@ constexpr std::size_t inHeader = 9, outHeader = 2;
 
 constexpr double firstCost = 1.0;  // before a cell was ever advanced: that of all others
 
-// About microseconds: of RODAS3 with a dense matrix, fitted to models of 3 and 100 scalars.
+// About microseconds: rates, and the factors of a dense matrix, of RODAS3. Estimated, not measured: it weighs cells
+// with particles against each other, and against the gas to a factor of two or so.
 double costOfAdvance(std::size_t scalars, double steps) {
   const auto n = static_cast<double>(scalars);
   return 1.0 + steps * (1.0 + 0.3 * n + 0.01 * n * n);

@@ -105,17 +105,17 @@ void Momentum::addInside(int face, const MomentumSweep& sweep) {
   const std::vector<double>& velocity = sweep.mean.velocity;
   const double flux = sweep.mean.massFlux[face];
   const double mu = m.lowWeight[face] * sweep.viscosity[low] + (1.0 - m.lowWeight[face]) * sweep.viscosity[high];
+  const bool isWithoutOrder = m.isOblique() || m.isSkewed();
   for (int i = 0; i < d; ++i) {
     const Upwind u = upwind_[i].of(face, flux);
     const double* ofUp = gradient_.of(u.up, i);
     const double* ofDown = gradient_.of(u.down, i);
-    double value = smoothFaceValue(velocity[d * u.up + i], velocity[d * u.down + i], slopeAlong(u.direction, ofUp, d),
-                                   slopeAlong(u.direction, ofDown, d), u);
-    if (m.isOblique() || m.isSkewed()) {
-      // Curvatures are no measure of smoothness on cells without order: along the slope.
-      value = velocity[d * u.up + i] + u.toFace * slopeAlong(u.direction, ofUp, d);
-      if (m.isSkewed()) value += slopeAlong(m.offset[face], ofUp, d);
-    }
+    const double up = velocity[d * u.up + i], slope = slopeAlong(u.direction, ofUp, d);
+    // Curvatures are no measure of smoothness on cells without order: along the slope.
+    double value = isWithoutOrder
+                       ? up + u.toFace * slope
+                       : smoothFaceValue(up, velocity[d * u.down + i], slope, slopeAlong(u.direction, ofDown, d), u);
+    if (m.isSkewed()) value += slopeAlong(m.offset[face], ofUp, d);
     double force = 0.0;
     if (m.isOblique()) force = mu * m.area[face] * faceSlope(m, face, m.oblique[face], gradient_.values(), d, i);
     if (low < m.owned) source_[d * low + i] += force - flux * (value - velocity[d * low + i]);
@@ -125,7 +125,7 @@ void Momentum::addInside(int face, const MomentumSweep& sweep) {
   // On cells without order the pressure makes up for what interpolated velocities lack: the less, the longer a face's
   // deviation lasts. A tenth: errors of the pressure a fourth of what they are with the whole, those of the velocities
   // the same (docs/theory/flow.md).
-  const double viscousShare = m.isOblique() || m.isSkewed() ? 0.1 : 1.0;
+  const double viscousShare = isWithoutOrder ? 0.1 : 1.0;
   for (const int cell : {low, high})
     if (cell < m.owned) relaxation_[cell] += viscousShare * conductance_[d * face] + 0.5 * std::abs(flux);
 }

@@ -114,7 +114,8 @@ void Projection::saveOrLoad(StateArchive& archive) {
 }
 
 Projection::Iterations Projection::iterate(std::span<const double> guess, double tolerance) {
-  // Many times what a solve takes; the pipelined iteration goes on for ever where it has come to its round-off.
+  // Many times what a solve takes; the pipelined iteration goes on for ever where it has come to its round-off, and
+  // GMRES forgets at each of its restarts.
   constexpr int mostQuick = 50, most = 500;
   const PetscBool keepsPreconditioner = iterationsAfterSetup_ >= 0 ? PETSC_TRUE : PETSC_FALSE;
   KSPConvergedReason reason = KSP_CONVERGED_ITERATING;

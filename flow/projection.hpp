@@ -26,7 +26,7 @@ class Projection {
   Projection(const FlowContext& context, std::span<const BoundaryData> known, double tolerance = 1e-9);
 
   struct Result {
-    int iterations = 0;            // those of a pipelined attempt that was in vain included
+    int iterations = 0;            // those of a quick attempt that was in vain included
     double continuityError = 0.0;  // 1/s, largest |divergence of u_f - target| of any cell
   };
 

@@ -139,13 +139,14 @@ std::vector<FieldSampler::Field> FlowTables::fieldsOf(const Source& source) cons
   std::set<std::string> names;
   for (const Wanted& wanted : wanted_) names.insert(wanted.field);
   std::vector<FieldSampler::Field> fields(wanted_.size(), FieldSampler::scalarField(*context_));
+  const VelocityGradient* gradient =
+      names.contains("velocity") ? &source.transport.velocityGradient(source.state) : nullptr;
   for (std::size_t f = 0; f < wanted_.size(); ++f) {
     FieldSampler::Field& field = fields[f];
     if (wanted_[f].field == "velocity") {
-      const VelocityGradient& gradient = source.transport.velocityGradient(source.state);
-      field.known = gradient.known(wanted_[f].component);
+      field.known = gradient->known(wanted_[f].component);
       for (std::size_t b = 0; b < field.boundary.size(); ++b)
-        field.boundary[b] = gradient.boundary()[b * m.dimension + wanted_[f].component];
+        field.boundary[b] = gradient->boundary()[b * m.dimension + wanted_[f].component];
     } else if (wanted_[f].field == "temperature") {
       for (int face = m.interiorFaces; face < m.faces; ++face) {
         field.known[face - m.interiorFaces] = knownTemperature(*context_, face);

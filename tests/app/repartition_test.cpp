@@ -35,16 +35,16 @@ class CostlyBand final : public Operator {
 
 // Some 30 steps of 240 cells, with what operators keep: swirl and soot.
 std::vector<std::string> settings(const std::vector<std::string>& more = {}) {
-  std::vector<std::string> all{"time.end=50 us",         "time.maximum_step=2 us",
-                               "output.interval=25 us",  "output.history_steps=4",
-                               "mesh.refinement=2",      "boundaries.fuel.swirl_velocity=10 cm/s",
-                               "output.species=[O2, OH]"};
+  std::vector<std::string> all{
+      "time.end=50 us",          "time.maximum_step=2 us",  "output.interval=25 us",
+      "output.history_steps=4",  "mesh.refinement=2",       "boundaries.fuel.swirl_velocity=10 cm/s",
+      "output.species=[O2, OH]", "output.boundaries=[all]", "output.probes.flame.at=[5 mm, 2 mm]"};
   all.insert(all.end(), more.begin(), more.end());
   return all;
 }
 
 struct Ran {
-  std::map<std::string, std::vector<double>> fields, history;
+  std::map<std::string, std::vector<double>> fields, history, tables;
   std::int64_t partitions = 0;
 };
 
@@ -55,6 +55,12 @@ Ran readBack(const std::filesystem::path& results) {
     for (const std::string& field : file.names("/steps/" + step))
       ran.fields[step + "/" + field] = file.numbers("/steps/" + step + "/" + field);
   for (const std::string& column : file.names("/history")) ran.history[column] = file.numbers("/history/" + column);
+  for (const std::string group : {"/probes", "/boundaries"})
+    for (const std::string& table : file.names(group))
+      for (const std::string& column : file.names(group + "/" + table)) {
+        const std::string path = group + "/" + table + "/" + column;
+        ran.tables[path] = file.numbers(path);
+      }
   return ran;
 }
 
@@ -104,7 +110,9 @@ bool isOwn(const std::string& name) {
 void expectSameFields(const Ran& found, const Ran& expected) {
   ASSERT_EQ(found.fields.size(), expected.fields.size());
   ASSERT_EQ(found.history.size(), expected.history.size());
-  for (const auto of : {&Ran::fields, &Ran::history})
+  ASSERT_EQ(found.tables.size(), expected.tables.size());
+  ASSERT_FALSE(expected.tables.empty());
+  for (const auto of : {&Ran::fields, &Ran::history, &Ran::tables})
     for (const auto& [name, values] : expected.*of) {
       if (isOwn(name)) continue;
       const std::vector<double>& others = (found.*of).at(name);
@@ -125,6 +133,7 @@ void expectSameFields(const Ran& found, const Ran& expected) {
 void expectSameBits(const Ran& found, const Ran& expected) {
   EXPECT_EQ(found.fields, expected.fields);
   EXPECT_EQ(found.history, expected.history);
+  EXPECT_EQ(found.tables, expected.tables);
 }
 
 // Pieces of the curve end at cells: a rank is a cell off at most at either end.
