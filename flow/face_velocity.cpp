@@ -19,10 +19,9 @@ double FaceVelocity::meanAlong(const Vector3& direction, int face, std::span<con
          (1.0 - m.lowWeight[face]) * slopeAlong(direction, &vectors[d * m.high[face]], d);
 }
 
-void FaceVelocity::predict(const Cells& cells, std::span<const double> inverseDensity, double dt,
-                           std::span<double> faceVelocity) {
+void FaceVelocity::computeExcess(const Cells& cells, std::span<const double> inverseDensity) {
   const Mesh& m = context_.mesh;
-  const int d = m.dimension;
+  excess_.resize(static_cast<std::size_t>(m.interiorFaces));
   for (int face = 0; face < m.interiorFaces; ++face) {
     const Vector3& normal = m.normal[face];
     const double density = 1.0 / inverseDensity[face];
@@ -31,11 +30,42 @@ void FaceVelocity::predict(const Cells& cells, std::span<const double> inverseDe
     if (m.isOblique())
       slope +=
           density * meanAlong(m.oblique[face], face, cells.acceleration) + context_.bodyForce(density, m.oblique[face]);
-    const double excess = meanAlong(normal, face, cells.acceleration) - inverseDensity[face] * slope;
+    excess_[face] = meanAlong(normal, face, cells.acceleration) - inverseDensity[face] * slope;
+  }
+  if (!m.isOblique() && !m.isSkewed()) removeSmoothExcess();
+}
+
+// What the faces of a cell have in common, as vectors in the cells, interpolated back to the faces: all of the excess
+// in a smooth flow, nothing of that of pressures that go up and down from cell to cell.
+void FaceVelocity::removeSmoothExcess() {
+  const Mesh& m = context_.mesh;
+  const int d = m.dimension;
+  common_.assign(static_cast<std::size_t>(m.cells) * d, 0.0);
+  share_.assign(common_.size(), 0.0);
+  for (int face = 0; face < m.interiorFaces; ++face)
+    for (const int cell : {m.low[face], m.high[face]})
+      for (int i = 0; i < d; ++i) {
+        common_[cell * d + i] += m.normal[face][i] * excess_[face];
+        share_[cell * d + i] += m.normal[face][i] * m.normal[face][i];
+      }
+  for (std::size_t i = 0; i < static_cast<std::size_t>(m.owned) * d; ++i)
+    if (share_[i] > 0.0) common_[i] /= share_[i];
+  context_.halo.update(common_, d);
+  for (int face = 0; face < m.interiorFaces; ++face) excess_[face] -= meanAlong(m.normal[face], face, common_);
+}
+
+void FaceVelocity::predict(const Cells& cells, std::span<const double> inverseDensity, double dt,
+                           std::span<double> faceVelocity) {
+  const Mesh& m = context_.mesh;
+  const int d = m.dimension;
+  computeExcess(cells, inverseDensity);
+  for (int face = 0; face < m.interiorFaces; ++face) {
+    const Vector3& normal = m.normal[face];
     // The deviation's equation with constant coefficients, exactly.
     const double decayed = dt * mean(face, cells.relaxation);
     const double lost = -std::expm1(-decayed);
-    const double deviation = (1.0 - lost) * deviation_[face] + dt * excess * (decayed > 0.0 ? lost / decayed : 1.0);
+    const double deviation =
+        (1.0 - lost) * deviation_[face] + dt * excess_[face] * (decayed > 0.0 ? lost / decayed : 1.0);
     faceVelocity[face] = meanAlong(normal, face, cells.velocity) + deviation;
     if (!m.isSkewed()) continue;
     double ofOffset = 0.0;

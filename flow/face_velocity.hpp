@@ -45,13 +45,17 @@ class FaceVelocity {
   void saveOrLoad(StateArchive& archive) { archive.faces("face_velocity_deviation", deviation_, 1); }
 
  private:
+  void computeExcess(const Cells& cells, std::span<const double> inverseDensity);
+  void removeSmoothExcess();
   [[nodiscard]] double mean(int face, std::span<const double> values) const;
   // Part along a direction of vectors in the cells, interpolated to a face.
   [[nodiscard]] double meanAlong(const Vector3& direction, int face, std::span<const double> vectors) const;
 
   const FlowContext& context_;
-  std::vector<double> deviation_;  // m/s, before the step; zero on the boundary
-  std::vector<double> found_;      // m/s, by the last sweep
+  std::vector<double> deviation_;       // m/s, before the step; zero on the boundary
+  std::vector<double> found_;           // m/s, by the last sweep
+  std::vector<double> excess_;          // m/s2, r at each interior face
+  std::vector<double> common_, share_;  // m/s2, a component and cell, and of how many faces
   // m/s, from where a step meets the face to its centre, along the slope of the predicted velocities.
   std::vector<double> offset_;
 };

@@ -44,6 +44,18 @@ inline double smoothFaceValue(double up, double down, double gradient, double gr
   return limited + share * (up + gradient * at.toFace - limited);
 }
 
+// For velocities of flows whose vortices are a few cells wide: nearly central. A third linear interpolation between the
+// cells and two thirds the mean of what both extrapolate to the face, which on even cells makes the convection of
+// fourth order, and of the difference of the two extrapolations, which a smooth flow does not have, as much as takes
+// from the shortest waves what a central scheme would leave to pile up.
+inline double centralFaceValue(double up, double down, double gradient, double gradientBeyond, const Upwind& at) {
+  constexpr double damping = 0.1;
+  const double ofUp = up + gradient * at.toFace;
+  const double ofDown = down - gradientBeyond * (at.ahead - at.toFace);
+  const double linear = up + (down - up) * at.toFace / at.ahead;
+  return linear / 3.0 + (ofUp + ofDown) / 3.0 + 0.5 * damping * (ofUp - ofDown);
+}
+
 // What a value at the place where the step meets the face differs by from that at the face's centre, `slope` being the
 // upwind cell's along Mesh::offset: as much of it as the limiter has left of the step along `gradient`.
 inline double limitedOffset(double value, double up, double gradient, double slope, const Upwind& at) {

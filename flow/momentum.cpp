@@ -8,9 +8,10 @@
 
 namespace lampblack::flow {
 
-Momentum::Momentum(const FlowContext& context, bool swirls)
+Momentum::Momentum(const FlowContext& context, bool swirls, VelocityScheme scheme)
     : context_(context),
       dimension_(context.mesh.dimension),
+      scheme_(scheme),
       gradient_(context),
       diffusion_(context.mesh, context.halo),
       pressureKnown_(pressureData(context)),
@@ -98,6 +99,25 @@ void Momentum::predict(const State& state, const MomentumSweep& sweep) {
   diffusion_.solve(d, diagonal_, conductance_, source_, predicted_);
 }
 
+// What a mass flux carries of a component through an interior face.
+double Momentum::carriedVelocity(int face, double flux, int component, std::span<const double> velocity) const {
+  const Mesh& m = context_.mesh;
+  const int d = dimension_;
+  const Upwind u = upwind_[component].of(face, flux);
+  const double* ofUp = gradient_.of(u.up, component);
+  const double up = velocity[d * u.up + component], down = velocity[d * u.down + component];
+  const double slope = slopeAlong(u.direction, ofUp, d);
+  const double slopeBeyond = slopeAlong(u.direction, gradient_.of(u.down, component), d);
+  if (scheme_ == VelocityScheme::Central) {
+    const double value = centralFaceValue(up, down, slope, slopeBeyond, u);
+    return m.isSkewed() ? value + faceSlope(m, face, m.offset[face], gradient_.values(), d, component) : value;
+  }
+  // Curvatures are no measure of smoothness on cells without order: along the slope.
+  const double value =
+      m.isOblique() || m.isSkewed() ? up + u.toFace * slope : smoothFaceValue(up, down, slope, slopeBeyond, u);
+  return m.isSkewed() ? value + slopeAlong(m.offset[face], ofUp, d) : value;
+}
+
 // Convection in advective form, of the difference to the cell's own velocity, and implicit viscosity.
 void Momentum::addInside(int face, const MomentumSweep& sweep) {
   const Mesh& m = context_.mesh;
@@ -107,15 +127,7 @@ void Momentum::addInside(int face, const MomentumSweep& sweep) {
   const double mu = m.lowWeight[face] * sweep.viscosity[low] + (1.0 - m.lowWeight[face]) * sweep.viscosity[high];
   const bool isWithoutOrder = m.isOblique() || m.isSkewed();
   for (int i = 0; i < d; ++i) {
-    const Upwind u = upwind_[i].of(face, flux);
-    const double* ofUp = gradient_.of(u.up, i);
-    const double* ofDown = gradient_.of(u.down, i);
-    const double up = velocity[d * u.up + i], slope = slopeAlong(u.direction, ofUp, d);
-    // Curvatures are no measure of smoothness on cells without order: along the slope.
-    double value = isWithoutOrder
-                       ? up + u.toFace * slope
-                       : smoothFaceValue(up, velocity[d * u.down + i], slope, slopeAlong(u.direction, ofDown, d), u);
-    if (m.isSkewed()) value += slopeAlong(m.offset[face], ofUp, d);
+    const double value = carriedVelocity(face, flux, i, velocity);
     double force = 0.0;
     if (m.isOblique()) force = mu * m.area[face] * faceSlope(m, face, m.oblique[face], gradient_.values(), d, i);
     if (low < m.owned) source_[d * low + i] += force - flux * (value - velocity[d * low + i]);

@@ -22,9 +22,15 @@
 
 namespace lampblack::flow {
 
+// How velocities are interpolated to faces where they are carried.
+enum class VelocityScheme {
+  Limited,  // upwind of second order, of first where the flow is not smooth: for steady flames
+  Central,  // of fourth order with little damping: for flows that have to keep their vortices
+};
+
 class Momentum {
  public:
-  Momentum(const FlowContext& context, bool swirls);
+  Momentum(const FlowContext& context, bool swirls, VelocityScheme scheme = VelocityScheme::Limited);
 
   // Collective. Advances `state`, which has velocity, swirl and pressure of the last sweep or of the start; halos are
   // filled.
@@ -61,8 +67,11 @@ class Momentum {
   void explicitStress(const MomentumSweep& sweep);
   void outletStress(const MomentumSweep& sweep);
 
+  [[nodiscard]] double carriedVelocity(int face, double flux, int component, std::span<const double> velocity) const;
+
   const FlowContext& context_;
   int dimension_;
+  VelocityScheme scheme_;
   VelocityGradient gradient_;
   ImplicitDiffusion diffusion_;
   std::vector<BoundaryData> pressureKnown_;  // one a boundary face

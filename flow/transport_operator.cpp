@@ -18,7 +18,7 @@ TransportOperator::TransportOperator(const FlowContext& context, const State& st
       speciesDiffusion_(context, diffusion_),
       heatConduction_(context, diffusion_),
       expansion_(context),
-      momentum_(context, state.swirls),
+      momentum_(context, state.swirls, options.velocityScheme),
       carried_(context, diffusion_, state.carriedCount()) {
   const auto faces = static_cast<std::size_t>(context.mesh.faces);
   const auto owned = static_cast<std::size_t>(context.mesh.owned);

@@ -36,6 +36,7 @@ class TransportOperator : public Operator {
   struct Options {
     double courant = 0.5;  // share of a cell's volume that may flow out in a step
     int sweeps = 1;
+    VelocityScheme velocityScheme = VelocityScheme::Limited;
   };
   struct Diagnostics {
     double continuityError = 0.0;  // 1/s

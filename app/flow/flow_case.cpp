@@ -252,6 +252,13 @@ FlowCase readFlowCase(const Deck& deck) {
                    deck.optionalQuantity("time.wall_limit")};
   flowCase.flow.courant = deck.number("time.courant");
   flowCase.flow.sweeps = deck.integer<int>("time.sweeps");
+  if (deck.choice("convection.velocity") == "central") {
+    flowCase.flow.velocityScheme = VelocityScheme::Central;
+    if (flowCase.flow.sweeps < 2)
+      throw deck.error("convection.velocity",
+                       "central convection is not stable in steps of one sweep; expected "
+                       "'time.sweeps: 2' or more");
+  }
   if (flowCase.time.tolerance && flowCase.flow.sweeps < 2)
     throw deck.error("time.tolerance",
                      "the error of a step is what its last sweep corrects; expected 'sweeps: 2' or more");

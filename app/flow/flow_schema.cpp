@@ -236,6 +236,12 @@ void addTimeAndOutput(DeckSchema& schema) {
                        "--restart` goes on, and exit code 143. It makes one step at least. Absent: no limit.")
                .optional()
                .above(0));
+  schema.add(
+      choiceKey("convection.velocity", {"limited", "central"},
+                "How the flow carries its velocity. limited: upwind of second order, of first where the flow is "
+                "not smooth; robust, for steady flames. central: of fourth order on even cells with little "
+                "damping, for flows that have to keep vortices a few cells wide; needs 'time.sweeps: 2' or more.")
+          .byDefault("limited"));
   flowcase::addOutputKeys(schema);
   schema
       .add(integerKey(

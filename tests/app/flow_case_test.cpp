@@ -45,6 +45,13 @@ TEST(FlowCase, ReadsSutherlandsLaw) {
   EXPECT_THROW(withTransport({law}), InputError);
 }
 
+TEST(FlowCase, ReadsHowVelocitiesAreCarried) {
+  EXPECT_EQ(withTransport({}).flow.velocityScheme, VelocityScheme::Limited);
+  EXPECT_EQ(withTransport({"convection.velocity=central", "time.sweeps=2"}).flow.velocityScheme,
+            VelocityScheme::Central);
+  EXPECT_THROW(withTransport({"convection.velocity=central"}), InputError);
+}
+
 TEST(FlowCase, ReadsTheShippedDeck) {
   const Deck deck = Deck::load(test::sourceFolder / "cases/flow/counterflow_ethylene/deck.yaml", {}, flowSchema());
   const FlowCase flowCase = readFlowCase(deck);
