@@ -2,9 +2,28 @@
 
 #include <cmath>
 
+#include "core/least_squares.hpp"
 #include "flow/upwind.hpp"
 
 namespace lampblack::flow {
+
+FaceVelocity::FaceVelocity(const FlowContext& context)
+    : context_(context),
+      deviation_(static_cast<std::size_t>(context.mesh.faces), 0.0),
+      found_(deviation_),
+      offset_(context.mesh.isSkewed() ? deviation_ : std::vector<double>{}) {
+  const Mesh& m = context.mesh;
+  excess_.resize(static_cast<std::size_t>(m.interiorFaces));
+  normalWeight_.resize(static_cast<std::size_t>(m.faceStart[m.owned]));
+  for (int c = 0; c < m.owned; ++c) {
+    LeastSquares squares;
+    for (int i = m.faceStart[c]; i < m.faceStart[c + 1]; ++i)
+      if (m.high[m.faceOfCell[i]] >= 0) squares.add(m.normal[m.faceOfCell[i]]);
+    squares.finish(m.dimension);
+    for (int i = m.faceStart[c]; i < m.faceStart[c + 1]; ++i)
+      if (m.high[m.faceOfCell[i]] >= 0) normalWeight_[i] = squares.weight(m.normal[m.faceOfCell[i]]);
+  }
+}
 
 double FaceVelocity::mean(int face, std::span<const double> values) const {
   const Mesh& m = context_.mesh;
@@ -21,7 +40,6 @@ double FaceVelocity::meanAlong(const Vector3& direction, int face, std::span<con
 
 void FaceVelocity::computeExcess(const Cells& cells, std::span<const double> inverseDensity) {
   const Mesh& m = context_.mesh;
-  excess_.resize(static_cast<std::size_t>(m.interiorFaces));
   for (int face = 0; face < m.interiorFaces; ++face) {
     const Vector3& normal = m.normal[face];
     const double density = 1.0 / inverseDensity[face];
@@ -32,7 +50,7 @@ void FaceVelocity::computeExcess(const Cells& cells, std::span<const double> inv
           density * meanAlong(m.oblique[face], face, cells.acceleration) + context_.bodyForce(density, m.oblique[face]);
     excess_[face] = meanAlong(normal, face, cells.acceleration) - inverseDensity[face] * slope;
   }
-  if (!m.isOblique() && !m.isSkewed()) removeSmoothExcess();
+  removeSmoothExcess();
 }
 
 // What the faces of a cell have in common, as vectors in the cells, interpolated back to the faces: all of the excess
@@ -41,15 +59,11 @@ void FaceVelocity::removeSmoothExcess() {
   const Mesh& m = context_.mesh;
   const int d = m.dimension;
   common_.assign(static_cast<std::size_t>(m.cells) * d, 0.0);
-  share_.assign(common_.size(), 0.0);
-  for (int face = 0; face < m.interiorFaces; ++face)
-    for (const int cell : {m.low[face], m.high[face]})
-      for (int i = 0; i < d; ++i) {
-        common_[cell * d + i] += m.normal[face][i] * excess_[face];
-        share_[cell * d + i] += m.normal[face][i] * m.normal[face][i];
-      }
-  for (std::size_t i = 0; i < static_cast<std::size_t>(m.owned) * d; ++i)
-    if (share_[i] > 0.0) common_[i] /= share_[i];
+  for (int c = 0; c < m.owned; ++c)
+    for (int i = m.faceStart[c]; i < m.faceStart[c + 1]; ++i) {
+      if (m.high[m.faceOfCell[i]] < 0) continue;
+      for (int axis = 0; axis < d; ++axis) common_[c * d + axis] += normalWeight_[i][axis] * excess_[m.faceOfCell[i]];
+    }
   context_.halo.update(common_, d);
   for (int face = 0; face < m.interiorFaces; ++face) excess_[face] -= meanAlong(m.normal[face], face, common_);
 }

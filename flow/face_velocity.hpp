@@ -19,11 +19,7 @@ namespace lampblack::flow {
 
 class FaceVelocity {
  public:
-  explicit FaceVelocity(const FlowContext& context)
-      : context_(context),
-        deviation_(static_cast<std::size_t>(context.mesh.faces), 0.0),
-        found_(deviation_),
-        offset_(context.mesh.isSkewed() ? deviation_ : std::vector<double>{}) {}
+  explicit FaceVelocity(const FlowContext& context);
 
   // What the cells know at the end of the momentum's prediction; halo filled.
   struct Cells {
@@ -52,10 +48,11 @@ class FaceVelocity {
   [[nodiscard]] double meanAlong(const Vector3& direction, int face, std::span<const double> vectors) const;
 
   const FlowContext& context_;
-  std::vector<double> deviation_;       // m/s, before the step; zero on the boundary
-  std::vector<double> found_;           // m/s, by the last sweep
-  std::vector<double> excess_;          // m/s2, r at each interior face
-  std::vector<double> common_, share_;  // m/s2, a component and cell, and of how many faces
+  std::vector<double> deviation_;      // m/s, before the step; zero on the boundary
+  std::vector<double> found_;          // m/s, by the last sweep
+  std::vector<double> excess_;         // m/s2, r at each interior face
+  std::vector<double> common_;         // m/s2, a component and cell: what r of its faces has in common
+  std::vector<Vector3> normalWeight_;  // of r at each face of an owned cell, as Mesh::faceOfCell has them
   // m/s, from where a step meets the face to its centre, along the slope of the predicted velocities.
   std::vector<double> offset_;
 };

@@ -67,7 +67,8 @@ void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
   folder_ = folder;
   Outputs outputs{
       folder, ResultsWriter(comm_, folder.results(), info, meshOutput(domain_->mesh)),
-      HistoryWriter(comm_, folder.history(), historyColumns(operators_, domain_->budget->lines(domain_->state))),
+      HistoryWriter(comm_, folder.history(),
+                    historyColumns(domain_->mesh, operators_, domain_->budget->lines(domain_->state))),
       Progress(comm_, time_, case_.time.end),
       FlowCheckpoints(comm_, case_.checkpoint, flowFingerprint(case_, domain_->state.scalars), folder.path())};
   auto& [_, results, history, progress, checkpoints] = outputs;

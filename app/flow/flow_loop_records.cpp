@@ -122,7 +122,7 @@ void FlowLoop::saveOrLoad(StateArchive& archive, std::vector<double>& history) {
       nextOutput_,
       interval,
       static_cast<double>(written_),
-      static_cast<double>(historyColumns(operators_, domain_->budget->lines(domain_->state)).size()),
+      static_cast<double>(historyColumns(domain_->mesh, operators_, domain_->budget->lines(domain_->state)).size()),
       static_cast<double>(retried_)};
   const double columns = clock[6];
   archive.shared("clock", clock);

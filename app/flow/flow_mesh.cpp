@@ -126,6 +126,30 @@ void checkSurface(const Mesh& mesh, const FlowCase& flowCase) {
   });
 }
 
+// Collective. Places of the start's layers along their axis, which a box is asked beforehand.
+void checkLayers(const Mesh& mesh, const FlowCase& flowCase) {
+  const Deck& deck = flowCase.meshFile->deck;
+  const std::string layer = deck.choice("initial.layer");
+  if (layer == "none") return;
+  const MixingLayer& start = flowCase.initial;
+  double ends[2] = {1e300, 1e300};  // lower, and upper with the other sign
+  for (const Vector3& place : mesh.vertex) {
+    const double along = place[static_cast<std::size_t>(start.axis)];
+    ends[0] = std::min(ends[0], along);
+    ends[1] = std::min(ends[1], -along);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, ends, 2, MPI_DOUBLE, MPI_MIN, mesh.comm);
+  collectively(mesh.comm, [&] {
+    const auto requireInside = [&](const char* key, double place) {
+      if (place < ends[0] || place > -ends[1])
+        throw deck.error(key, fmt::format("expected a place in the mesh, from {:g} to {:g} m, found {:g} m", ends[0],
+                                          -ends[1], place));
+    };
+    requireInside("initial.position", start.position);
+    if (!start.burnt) requireInside("initial.hot_position", start.hotPosition);
+  });
+}
+
 Mesh readMeshFile(MPI_Comm comm, FlowCase& flowCase, std::span<const double> cellWeight) {
   MeshFile& file = *flowCase.meshFile;
   const std::string key = "mesh.file";
@@ -150,6 +174,7 @@ Mesh makeMesh(MPI_Comm comm, FlowCase& flowCase, std::span<const double> cellWei
   if (!flowCase.meshFile) return {comm, flowCase.mesh, cellWeight};
   Mesh mesh = readMeshFile(comm, flowCase, cellWeight);
   checkSurface(mesh, flowCase);
+  checkLayers(mesh, flowCase);
   return mesh;
 }
 

@@ -110,7 +110,8 @@ void writeFields(ResultsWriter& results, const FlowContext& context, const FlowC
   results.endStep();
 }
 
-std::vector<Quantity> historyColumns(const std::vector<Operator*>& operators, const std::vector<Budget::Line>& budget) {
+std::vector<Quantity> historyColumns(const Mesh& mesh, const std::vector<Operator*>& operators,
+                                     const std::vector<Budget::Line>& budget) {
   std::vector<Quantity> columns{{"step", "1", "number of the step"},
                                 {"time", "s", "simulated time"},
                                 {"dt", "s", "time step"},
@@ -121,9 +122,10 @@ std::vector<Quantity> historyColumns(const std::vector<Operator*>& operators, co
   for (const Operator* op : operators)
     for (Quantity& column : op->historyColumns()) columns.push_back(std::move(column));
   for (const Budget::Line& line : budget) {
-    columns.push_back({line.name + "_content", "kg/rad", line.name + " in the domain (planar: kg/m)"});
-    columns.push_back({line.name + "_inflow", "kg/rad", line.name + " that came in since the start"});
-    columns.push_back({line.name + "_outflow", "kg/rad", line.name + " that left since the start"});
+    const std::string unit = unitOfWhole(mesh, "kg");
+    columns.push_back({line.name + "_content", unit, line.name + " in the domain"});
+    columns.push_back({line.name + "_inflow", unit, line.name + " that came in since the start"});
+    columns.push_back({line.name + "_outflow", unit, line.name + " that left since the start"});
     columns.push_back({line.name + "_budget_error", "1", "unexplained change over the inflow"});
   }
   return columns;

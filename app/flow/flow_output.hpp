@@ -40,7 +40,8 @@ struct HistoryRow {
   std::vector<double> operators;  // the values of each, one behind the other
   std::vector<Budget::Line> budget;
 };
-std::vector<Quantity> historyColumns(const std::vector<Operator*>& operators, const std::vector<Budget::Line>& budget);
+std::vector<Quantity> historyColumns(const Mesh& mesh, const std::vector<Operator*>& operators,
+                                     const std::vector<Budget::Line>& budget);
 std::vector<double> historyValues(const HistoryRow& row);
 
 }  // namespace lampblack::app

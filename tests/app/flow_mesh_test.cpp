@@ -380,6 +380,20 @@ TEST(FlowMesh, APartInsideTheMeshIsNoBoundary) {
               testing::AllOf(HasSubstr("boundaries.inner"), HasSubstr("cells on both sides")));
 }
 
+TEST(FlowMesh, TheStartsLayersLieInTheMeshFile) {
+  const MeshFileDeck deck;
+  const auto error = [&](const std::string& position, const std::string& hotPosition) {
+    return deck.error(
+        rowSides, "geometry: planar, unit: 1 cm",
+        "initial: {layer: hot, low: in, high: in, width: 1 mm, hot_width: 1 mm, temperature: 400 K, position: " +
+            position + ", hot_position: " + hotPosition + "}\n");
+  };
+  EXPECT_EQ(error("5 mm", "1 cm"), "");
+  EXPECT_THAT(error("11 mm", "5 mm"),
+              testing::AllOf(HasSubstr("initial.position"), HasSubstr("from 0 to 0.01 m, found 0.011 m")));
+  EXPECT_THAT(error("5 mm", "-1 mm"), HasSubstr("initial.hot_position"));
+}
+
 TEST(FlowMesh, ACheckpointKnowsTheMeshFile) {
   const MeshFileDeck deck;
   const auto fingerprint = [&](const std::string& mesh) {

@@ -86,7 +86,7 @@ TEST(History, HasAValueForEveryColumnOfEveryOperator) {
   HistoryRow row;
   row.budget = {{}, {}};
   row.operators = spark.historyValues(state);
-  const std::vector<Quantity> columns = historyColumns({&spark}, row.budget);
+  const std::vector<Quantity> columns = historyColumns(mesh, {&spark}, row.budget);
   const std::vector<double> values = historyValues(row);
   ASSERT_EQ(columns.size(), values.size());
   const auto place = std::ranges::find(columns, "sparks", &Quantity::name) - columns.begin();
