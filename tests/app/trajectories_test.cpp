@@ -40,11 +40,11 @@ Datasets readTrajectories(const fs::path& path) {
 }
 
 // More than ranks, so that a rank has several; the last leaves the domain early.
-const std::vector<TrajectoryStart> fiveStarts{
+const std::vector<Vector3> fiveStarts{
     {1e-3, 4.5e-3}, {2e-3, 4.2e-3}, {3e-3, 3.8e-3}, {1e-3, 3e-3}, {13.9e-3, 4e-3}};
 
 void writeTrajectories(MPI_Comm comm, const fs::path& path, std::uint64_t seed,
-                       const std::vector<TrajectoryStart>& starts = fiveStarts) {
+                       const std::vector<Vector3>& starts = fiveStarts) {
   test::Flame flame(comm, test::sootingGas);
   flame.flowCase.seed = seed;
   flame.flowCase.trajectories->starts = starts;
