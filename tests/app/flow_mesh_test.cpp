@@ -395,8 +395,5 @@ TEST(FlowMesh, ACheckpointKnowsTheMeshFile) {
   EXPECT_NE(fingerprint("geometry: planar"), first);
 }
 
-TEST(FlowMesh, PathsNeedAWholeBox) {
-}
-
 }  // namespace
 }  // namespace lampblack::app
