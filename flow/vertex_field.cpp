@@ -33,7 +33,7 @@ class VertexSums {
         width_(Row::first + components_ * perComponent_),
         gradient_(static_cast<std::size_t>(mesh_.cells) * components_ * mesh_.dimension) {
     Gradient(mesh_).compute(source.values, source.boundary, source.components, gradient_, source.known);
-    if (mesh_.isSkewed()) context.halo.update(gradient_, source.components * mesh_.dimension);
+    context.halo.update(gradient_, source.components * mesh_.dimension);
     listEntries();
   }
 
@@ -111,8 +111,15 @@ class VertexSums {
     const double w = mesh_.lowWeight[face];
     out[Row::standing] = static_cast<double>(Standing::Opening);
     out[Row::value] = w * value(mesh_.low[face]) + (1.0 - w) * value(mesh_.high[face]);
-    if (mesh_.isSkewed())
-      out[Row::value] += faceSlope(mesh_, face, mesh_.offset[face], gradient_, source_.components, static_cast<int>(k));
+    const auto slope = [&](const Vector3& direction) {
+      return faceSlope(mesh_, face, direction, gradient_, source_.components, static_cast<int>(k));
+    };
+    if (mesh_.isSkewed()) out[Row::value] += slope(mesh_.offset[face]);
+    for (int axis = 0; axis < mesh_.dimension; ++axis) {
+      Vector3 along{};
+      along[axis] = 1.0;
+      out[Row::slope + axis] = slope(along);
+    }
   }
   void writeBoundary(int face, std::size_t k, double* out) const {
     const std::size_t b = static_cast<std::size_t>(face - mesh_.interiorFaces);

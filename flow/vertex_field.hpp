@@ -4,7 +4,8 @@
 // At an inner vertex: the mean of the cells around, weighted with the inverse distance, led to the vertex by half of
 // each cell's own slope and half of their mean slope. The first half errs by as much as the second, the other way. At a
 // vertex of the boundary what is known there counts alone: of walls and symmetries first, then of inlets; where nothing
-// is known the cells count as inside. On periodic sides the values at their faces count.
+// is known the cells count as inside. On periodic sides the values at their faces
+// count, led as those of cells; where two such sides meet the ends differ by an error of second order.
 //
 // Sums go by permanent numbers, so that values do not depend on the ranks to the last bit.
 #pragma once

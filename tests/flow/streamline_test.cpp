@@ -320,6 +320,29 @@ TEST(Paths, GoThroughPeriodicSides) {
   }
 }
 
+// Through the ends, and not back through the box, where a solid stands in the way.
+TEST(Paths, GoThroughPeriodicSidesTheShortWay) {
+  MeshSpec spec;
+  spec.vertices = {uniformAxis(1.0, 10), uniformAxis(1.0, 4), {}};
+  spec.periodic = {true, false, false};
+  std::vector<BoundaryCondition> conditions;
+  for (const bool atMax : {false, true}) {
+    const Side s = side(BoundaryKind::Symmetry, 1, atMax);
+    spec.patches.push_back(s.patch);
+    conditions.push_back(s.condition);
+  }
+  spec.leftOut.push_back({{0.4, 0.0, -1.0}, {0.6, 1.0, 1.0}});
+  spec.patches.push_back({"solid", 0, false, -1e300, 1e300, 0});
+  conditions.push_back(side(BoundaryKind::Wall, 0, false).condition);
+  Box box(spec, conditions);
+  const Flow flow = Flow::of(box, [](const Vector3&) { return Vector3{1.0, 0.0, 0.0}; });
+  for (const double dt : {0.02, 0.05, 0.1}) {
+    const Paths paths = flow.traceAll({{0.87, 0.4, 0.0}}, dt, 0.3);
+    EXPECT_EQ(paths.ends[0].patch, -1);
+    EXPECT_NEAR(paths.path[0].back().position[0], 0.17, 1e-12);
+  }
+}
+
 // Waves in a periodic box, where paths cross the sides, are as exact there as in its middle.
 TEST(Paths, ThroughPeriodicSidesAreOfSecondOrder) {
   using std::numbers::pi;
