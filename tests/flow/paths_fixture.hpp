@@ -2,10 +2,13 @@
 // paths are known.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <numbers>
 #include <string>
 #include <vector>
 
+#include "flow/streamline.hpp"
 #include "flow_fixture.hpp"
 
 namespace lampblack::test {
@@ -61,5 +64,59 @@ inline Vector3 vortexPath(Vector3 x, int dimension, double time) {
   }
   return x;
 }
+
+inline const std::vector<double>& nitrogen() {
+  static const std::vector<double> Y = Gas::hydrogen().massFractions("N2: 1");
+  return Y;
+}
+
+// A point of a path as all ranks know it.
+struct Sample {
+  Vector3 position{};
+  double divergence = 0.0;
+  friend bool operator==(const Sample&, const Sample&) = default;
+};
+using Path = std::vector<Sample>;
+struct Paths {
+  std::vector<Path> path;
+  std::vector<PathEnd> ends;
+};
+
+class Flow {
+ public:
+  Flow(Box& box, const std::function<Box::Local(const Vector3&)>& local, double thermophoresis = 0.0)
+      : box_(box), state_(box.state(local)) {
+    properties.update(box.context, state_);
+    lines.emplace(box.context, state_, properties, thermophoresis);
+  }
+  // Of a velocity in nitrogen at 300 K.
+  static Flow of(Box& box, const std::function<Vector3(const Vector3&)>& velocity) {
+    return {box, [&](const Vector3& x) { return Box::Local{velocity(x), 300.0, nitrogen()}; }};
+  }
+
+  Paths traceAll(const std::vector<Vector3>& starts, double dt, double duration) const {
+    const TracedPaths traced = lines->trace(starts, dt, duration);
+    Paths all{{}, traced.ends};
+    for (const PathEnd& end : traced.ends) all.path.emplace_back(at(end.points));
+    for (const PathPoint& p : traced.points) {
+      EXPECT_LT(p.place.cell, box_.mesh.owned);
+      all.path[at(p.path)].at(at(p.step)) = {p.position, p.divergence};
+    }
+    // What no other rank has is zero there.
+    for (Path& path : all.path)
+      MPI_Allreduce(MPI_IN_PLACE, path.data(), static_cast<int>(4 * path.size()), MPI_DOUBLE, MPI_SUM, box_.mesh.comm);
+    return all;
+  }
+  Path trace(const Vector3& start, double dt, double duration) const {
+    return traceAll({start}, dt, duration).path.front();
+  }
+
+  GasProperties properties;
+  std::optional<Streamlines> lines;
+
+ private:
+  Box& box_;
+  State state_;
+};
 
 }  // namespace lampblack::test
