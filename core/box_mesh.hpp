@@ -43,8 +43,6 @@ struct MeshSpec {
   [[nodiscard]] int dimension() const { return vertices[2].empty() ? 2 : 3; }
   // Whether a cell with this centre is left out.
   [[nodiscard]] bool isLeftOut(const std::array<double, 3>& centre) const;
-  // A plane box of which nothing is left out or bent.
-  [[nodiscard]] bool isWholePlane() const { return dimension() == 2 && leftOut.empty() && !map; }
 };
 
 // Collective. Cells are numbered along the first axis first: i + n0 (j + n1 k) where nothing is left out. InputError,

@@ -22,11 +22,7 @@ Beyond beyondFaces(const Mesh& mesh, int cell, const Vector3& place) {
   for (int i = mesh.faceStart[cell]; i < mesh.faceStart[cell + 1]; ++i) {
     const int face = mesh.faceOfCell[i];
     const double sign = mesh.low[face] == cell ? 1.0 : -1.0;
-    // A face may be known as its image on the other side of a periodic mesh has it: the step leads there from `high`.
-    const Vector3 centre =
-        sign > 0.0 ? mesh.faceCentre[face]
-                   : sum(mesh.centre[cell],
-                         difference(difference(mesh.faceCentre[face], mesh.centre[mesh.low[face]]), mesh.step[face]));
+    const Vector3 centre = mesh.faceCentreOf(cell, face);
     const Vector3 outwards = scaled(mesh.normal[face], sign);
     const double depth = dot(difference(centre, mesh.centre[cell]), outwards);
     const double share = dot(difference(place, centre), outwards) / depth;

@@ -334,6 +334,15 @@ void Mesh::build(MeshBlock block, std::span<const double> cellWeight) {
   MeshBuilder(*this, std::move(distributed)).run();
 }
 
+Vector3 Mesh::shiftBeyond(int cell, int face) const {
+  const std::size_t f = at(face);
+  if (high[f] < 0) return {};
+  // A periodic mesh has three cells or more along its axis; else the difference is round-off.
+  const Vector3 shift = difference(centre[at(high[f])], sum(centre[at(low[f])], step[f]));
+  if (length(shift) < 0.5 * length(step[f])) return {};
+  return scaled(shift, low[f] == cell ? 1.0 : -1.0);
+}
+
 int Mesh::findOwned(std::int64_t natural) const {
   // Owned cells are ordered by number.
   const auto end = naturalCell.begin() + owned;

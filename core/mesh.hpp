@@ -75,8 +75,8 @@ class Mesh {
   // fluxes and values that go by the two cells alone. Empty otherwise.
   std::vector<Vector3> oblique;  // normal - step/distance, of length tan(angle), at most mostOblique
   std::vector<Vector3> offset;   // m, from where the step meets the face to its centre
-  // 76 degrees. What is cut is missing from the fluxes on any number of cells: a flame on triangles at 74 degrees, cut at
-  // 60, was as wrong on fine cells as on coarse ones.
+  // 76 degrees. What is cut is missing from the fluxes on any number of cells: a flame on triangles at 74 degrees, cut
+  // at 60, was as wrong on fine cells as on coarse ones.
   static constexpr double mostOblique = 4.0;
   std::int64_t facesBeyond = 0;  // of all ranks, those that are cut to it
   [[nodiscard]] bool isOblique() const { return !oblique.empty(); }
@@ -112,6 +112,16 @@ class Mesh {
   [[nodiscard]] const std::string& patchName(int face) const {
     return patches[static_cast<std::size_t>(patch[static_cast<std::size_t>(face - interiorFaces)])];
   }
+  // m, as this cell, one of the face's two, has it. A face may be known as its image on the other side of a periodic
+  // mesh has it, from where the step leads to `high`.
+  [[nodiscard]] Vector3 faceCentreOf(int cell, int face) const {
+    const auto f = static_cast<std::size_t>(face);
+    if (low[f] == cell) return faceCentre[f];
+    const Vector3 fromLow = difference(faceCentre[f], centre[static_cast<std::size_t>(low[f])]);
+    return sum(centre[static_cast<std::size_t>(cell)], difference(fromLow, step[f]));
+  }
+  // m, from where a cell has one of its faces to where the cell beyond has it; zero but for periodic ones.
+  [[nodiscard]] Vector3 shiftBeyond(int cell, int face) const;
   // Local index of a cell among the owned ones by its permanent number, or -1.
   [[nodiscard]] int findOwned(std::int64_t natural) const;
 

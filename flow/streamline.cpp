@@ -1,119 +1,238 @@
 #include "flow/streamline.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <utility>
 
 #include "core/errors.hpp"
-#include "core/gather.hpp"
+#include "core/first_error.hpp"
+#include "core/rank_exchange.hpp"
+#include "flow/heat_conduction.hpp"
+#include "flow/velocity_gradient.hpp"
 
 namespace lampblack::flow {
 namespace {
 
-// Derivative at index i of samples f(i) at places x by the parabola through its neighbours (one-sided at the ends).
-template <typename Field>
-double slopeAt(const std::vector<double>& x, std::size_t i, const Field& f) {
-  if (x.size() < 2) return 0.0;
-  if (i == 0) return (f(1) - f(0)) / (x[1] - x[0]);
-  if (i + 1 == x.size()) return (f(i) - f(i - 1)) / (x[i] - x[i - 1]);
-  const double left = x[i] - x[i - 1];
-  const double right = x[i + 1] - x[i];
-  return ((f(i) - f(i - 1)) / left * right + (f(i + 1) - f(i)) / right * left) / (left + right);
+// Of the owned cells, m/s, a component and cell.
+std::vector<double> thermophoreticDrift(const FlowContext& context, const State& state, const GasProperties& properties,
+                                        double thermophoresis) {
+  const Mesh& m = context.mesh;
+  std::vector<double> temperature(state.temperature), atBoundary(m.boundaryFaces());
+  context.halo.update(temperature, 1);
+  std::vector<BoundaryData> known;
+  for (int face = m.interiorFaces; face < m.faces; ++face) {
+    known.push_back(knownTemperature(context, face));
+    if (known.back() == BoundaryData::Value) atBoundary[face - m.interiorFaces] = context.boundaryTemperature(face);
+  }
+  std::vector<double> drift(static_cast<std::size_t>(m.cells) * m.dimension);
+  Gradient(m).compute(temperature, atBoundary, 1, drift, known);
+  for (int c = 0; c < m.owned; ++c)
+    for (int i = 0; i < m.dimension; ++i)
+      drift[c * m.dimension + i] *= -thermophoresis * properties.viscosity[c] / state.density[c] / temperature[c];
+  return drift;
+}
+
+// The particles' velocity. At a boundary the gas has that of the boundary, and particles drift in it as in the cell,
+// but for through what lets no heat pass.
+VertexField::Source particleVelocity(const FlowContext& context, const State& state, const GasProperties& properties,
+                                     double thermophoresis) {
+  const Mesh& m = context.mesh;
+  const int d = m.dimension;
+  VelocityGradient gas(context);
+  gas.setBoundary(state.velocity);
+  VertexField::Source source{
+      d, state.velocity, {gas.boundary().begin(), gas.boundary().end()}, {gas.known().begin(), gas.known().end()}};
+  const std::vector<double> drift = thermophoreticDrift(context, state, properties, thermophoresis);
+  for (int i = 0; i < d * m.owned; ++i) source.values[i] += drift[i];
+  context.halo.update(source.values, d);
+  for (int face = m.interiorFaces; face < m.faces; ++face) {
+    Vector3 there{};
+    std::copy_n(&drift[d * m.low[face]], d, there.begin());
+    if (knownTemperature(context, face) == BoundaryData::ZeroSlope)
+      there = difference(there, scaled(m.normal[face], dot(there, m.normal[face])));
+    for (int i = 0; i < d; ++i) source.boundary[d * (face - m.interiorFaces) + i] += there[i];
+  }
+  return source;
+}
+
+// Of that velocity.
+VertexField::Source divergenceOf(const FlowContext& context, const VertexField::Source& velocity) {
+  const Mesh& m = context.mesh;
+  const int d = m.dimension;
+  std::vector<double> gradient(velocity.values.size() * d);
+  Gradient(m).compute(velocity.values, velocity.boundary, d, gradient, velocity.known);
+  VertexField::Source source;
+  source.values.resize(m.cells);
+  for (int c = 0; c < m.owned; ++c) {
+    for (int i = 0; i < d; ++i) source.values[c] += gradient[(c * d + i) * d + i];
+    if (m.axisymmetric()) source.values[c] += velocity.values[c * d] / m.centre[c][0];
+  }
+  context.halo.update(source.values, 1);
+  source.boundary.resize(m.boundaryFaces());
+  source.known.assign(m.boundaryFaces(), BoundaryData::Nothing);
+  source.isBounded = true;
+  return source;
+}
+
+// A path on its way, as it travels.
+struct Traveller {
+  std::int64_t path, step, cell, crossings;  // `cell`: permanent number
+  bool isHalfWay;                            // within the step
+  Vector3 begin;                             // m, of the step
+  Vector3 from, to;                          // m, the piece it goes along
+};
+
+class Tracer {
+ public:
+  Tracer(const FlowContext& context, const Streamlines& lines, double timeStep, std::int64_t steps, TracedPaths& traced)
+      : context_(context), mesh_(context.mesh), lines_(lines), timeStep_(timeStep), steps_(steps), traced_(traced) {}
+
+  // Goes on until the path ends, or leaves this rank's cells: then true, and `rank` has the next.
+  bool leaves(Traveller& path, int& rank) {
+    int cell = mesh_.findOwned(path.cell);
+    for (;;) {
+      const CellExit exit = exitOf(mesh_, cell, path.from, path.to);
+      if (exit.face < 0) {
+        path.from = path.to;
+        if (!stepOn(path, cell)) return false;
+        continue;
+      }
+      countCrossing(path);
+      path.from = sum(path.from, scaled(difference(path.to, path.from), exit.share));
+      if (mesh_.high[exit.face] < 0) {
+        if (!slides(path, exit.face)) return false;
+        continue;
+      }
+      const Vector3 shift = mesh_.shiftBeyond(cell, exit.face);
+      for (Vector3* place : {&path.begin, &path.from, &path.to}) *place = sum(*place, shift);
+      cell = mesh_.low[exit.face] == cell ? mesh_.high[exit.face] : mesh_.low[exit.face];
+      path.cell = mesh_.naturalCell[cell];
+      if (cell < mesh_.owned) continue;
+      rank = mesh_.haloRank[cell - mesh_.owned];
+      return true;
+    }
+  }
+
+ private:
+  // At the end of a piece: the point it is, and the next piece. False where the path's time is over.
+  bool stepOn(Traveller& path, int cell) {
+    path.crossings = 0;
+    const PlaceInCell place = placeInCell(mesh_, cell, path.from);
+    const Vector3 velocity = lines_.velocityAt(place);
+    if (!std::isfinite(length(velocity)))
+      throw NumericsError(
+          fmt::format("the velocity of particles at {} is not finite", placeText(path.from, mesh_.dimension)));
+    if (!path.isHalfWay) {
+      path.begin = path.from;
+      traced_.points.push_back({static_cast<int>(path.path), path.step, path.from, place, lines_.divergenceAt(place)});
+      if (path.step == steps_) return false;
+    }
+    path.to = sum(path.begin, scaled(velocity, path.isHalfWay ? timeStep_ : 0.5 * timeStep_));
+    if (path.isHalfWay) ++path.step;
+    path.isHalfWay = !path.isHalfWay;
+    return true;
+  }
+
+  // Along a symmetry it goes on; elsewhere on the boundary it ends.
+  bool slides(Traveller& path, int face) {
+    if (context_.boundaryOf(face).kind == BoundaryKind::Symmetry) {
+      const Vector3& normal = mesh_.normal[face];
+      path.to = difference(path.to, scaled(normal, dot(difference(path.to, path.from), normal)));
+      return true;
+    }
+    PathEnd& end = traced_.ends[static_cast<std::size_t>(path.path)];
+    end.patch = mesh_.patch[face - mesh_.interiorFaces];
+    end.place = path.from;
+    return false;
+  }
+
+  void countCrossing(Traveller& path) const {
+    if (++path.crossings <= 4 * mesh_.totalCells + 100) return;
+    throw NumericsError(fmt::format("a path of particles at {} finds no way through the cells there",
+                                    placeText(path.from, mesh_.dimension)));
+  }
+
+  const FlowContext& context_;
+  const Mesh& mesh_;
+  const Streamlines& lines_;
+  double timeStep_;
+  std::int64_t steps_;
+  TracedPaths& traced_;
+};
+
+std::vector<Traveller> travellersFrom(const Mesh& mesh, std::span<const Vector3> starts) {
+  const FoundCells found = findCells(mesh, starts);
+  std::vector<Traveller> travellers;
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    if (found.naturalCell[i] < 0)
+      raiseTogether(mesh.comm,
+                    InputError(fmt::format("a path cannot start at {}: {}", placeText(starts[i], mesh.dimension),
+                                           whereMeshIs(mesh, starts[i]))));
+    if (found.cell[i] >= 0)
+      travellers.push_back(
+          {static_cast<std::int64_t>(i), 0, found.naturalCell[i], 0, false, starts[i], starts[i], starts[i]});
+  }
+  return travellers;
+}
+
+// Of each path from the rank that knows it, to all.
+void shareEnds(const Mesh& mesh, TracedPaths& traced) {
+  const std::size_t paths = traced.ends.size();
+  std::vector<std::int64_t> points(paths, 0), patches(paths);
+  std::vector<double> places(3 * paths);
+  for (const PathPoint& point : traced.points) ++points[static_cast<std::size_t>(point.path)];
+  for (std::size_t i = 0; i < paths; ++i) {
+    patches[i] = traced.ends[i].patch;
+    std::ranges::copy(traced.ends[i].place, &places[3 * i]);
+  }
+  const int count = static_cast<int>(paths);
+  MPI_Allreduce(MPI_IN_PLACE, points.data(), count, MPI_INT64_T, MPI_SUM, mesh.comm);
+  MPI_Allreduce(MPI_IN_PLACE, patches.data(), count, MPI_INT64_T, MPI_MAX, mesh.comm);
+  MPI_Allreduce(MPI_IN_PLACE, places.data(), 3 * count, MPI_DOUBLE, MPI_SUM, mesh.comm);
+  for (std::size_t i = 0; i < paths; ++i)
+    traced.ends[i] = {points[i], static_cast<int>(patches[i]), {places[3 * i], places[3 * i + 1], places[3 * i + 2]}};
 }
 
 }  // namespace
 
-Streamlines::Streamlines(const Mesh& mesh, const State& state, const GasProperties& properties, double thermophoresis)
-    : mesh_(mesh) {
-  if (!isPossible(mesh))
-    throw InputError(
-        "paths of particles need a plane mesh that is a whole box: no part left out or bent, no mesh file");
-  for (std::size_t axis = 0; axis < 2; ++axis) {
-    const auto& v = mesh.box->vertices[axis];
-    for (std::size_t i = 0; i + 1 < v.size(); ++i) centre_[axis].push_back(0.5 * (v[i] + v[i + 1]));
-  }
-  velocity_ = gatherNatural(mesh, state.velocity, 2);
-  const std::vector<double> temperature = gatherNatural(mesh, state.temperature, 1);
-  const std::vector<double> density = gatherNatural(mesh, state.density, 1);
-  const std::vector<double> viscosity = gatherNatural(mesh, properties.viscosity, 1);
-  const std::size_t n0 = centre_[0].size();
-  const std::size_t n1 = centre_[1].size();
-  for (std::size_t j = 0; j < n1; ++j)
-    for (std::size_t i = 0; i < n0; ++i) {
-      const std::size_t c = i + j * n0;
-      const double factor = -thermophoresis * viscosity[c] / density[c] / temperature[c];
-      velocity_[2 * c] += factor * slopeAt(centre_[0], i, [&](std::size_t a) { return temperature[a + j * n0]; });
-      velocity_[2 * c + 1] += factor * slopeAt(centre_[1], j, [&](std::size_t a) { return temperature[i + a * n0]; });
-    }
-  computeDivergence();
+Streamlines::Streamlines(const FlowContext& context, const State& state, const GasProperties& properties,
+                         double thermophoresis)
+    : context_(context) {
+  VertexField::Source velocity = particleVelocity(context, state, properties, thermophoresis);
+  divergence_.emplace(context, divergenceOf(context, velocity));
+  velocity_.emplace(context, std::move(velocity));
 }
 
-bool Streamlines::isPossible(const Mesh& mesh) {
-  return mesh.box && mesh.box->isWholePlane();
+Vector3 Streamlines::velocityAt(const PlaceInCell& place) const {
+  Vector3 velocity{};
+  for (int i = 0; i < context_.mesh.dimension; ++i) velocity[i] = velocity_->at(place, i);
+  return velocity;
 }
 
-void Streamlines::computeDivergence() {
-  const std::size_t n0 = centre_[0].size();
-  const std::size_t n1 = centre_[1].size();
-  divergence_.resize(n0 * n1);
-  for (std::size_t j = 0; j < n1; ++j)
-    for (std::size_t i = 0; i < n0; ++i) {
-      const std::size_t c = i + j * n0;
-      divergence_[c] = slopeAt(centre_[0], i, [&](std::size_t a) { return velocity_[2 * (a + j * n0)]; }) +
-                       slopeAt(centre_[1], j, [&](std::size_t a) { return velocity_[2 * (i + a * n0) + 1]; });
-      if (mesh_.axisymmetric()) divergence_[c] += velocity_[2 * c] / centre_[0][i];
-    }
-}
-
-BilinearPoint Streamlines::locate(const std::array<double, 2>& position) const {
-  std::array<std::size_t, 2> base{};
-  std::array<double, 2> share{};
-  for (std::size_t axis = 0; axis < 2; ++axis) {
-    const auto& x = centre_[axis];
-    if (x.size() < 2) continue;
-    const auto above = std::upper_bound(x.begin(), x.end(), position[axis]);
-    const auto i = static_cast<std::size_t>(
-        std::clamp<std::ptrdiff_t>(above - x.begin() - 1, 0, static_cast<std::ptrdiff_t>(x.size()) - 2));
-    base[axis] = i;
-    // Constant beyond the outermost centres.
-    share[axis] = std::clamp((position[axis] - x[i]) / (x[i + 1] - x[i]), 0.0, 1.0);
-  }
-  const std::size_t n0 = centre_[0].size();
-  const std::size_t di = n0 > 1 ? 1 : 0;
-  const std::size_t dj = centre_[1].size() > 1 ? n0 : 0;
-  const std::size_t c = base[0] + base[1] * n0;
-  return {{c, c + di, c + dj, c + di + dj},
-          {(1 - share[0]) * (1 - share[1]), share[0] * (1 - share[1]), (1 - share[0]) * share[1], share[0] * share[1]}};
-}
-
-std::array<double, 2> Streamlines::velocityAt(const std::array<double, 2>& position) const {
-  const BilinearPoint place = locate(position);
-  std::array<double, 2> w{place.of(velocity_, 2, 0), place.of(velocity_, 2, 1)};
-  // On the axis the radial velocity is proportional to the radius.
-  if (mesh_.axisymmetric() && position[0] < centre_[0].front()) w[0] *= std::max(position[0], 0.0) / centre_[0].front();
-  return w;
-}
-
-bool Streamlines::inside(const std::array<double, 2>& position) const {
-  for (std::size_t axis = 0; axis < 2; ++axis) {
-    const auto& v = mesh_.box->vertices[axis];
-    if (position[axis] < v.front() || position[axis] > v.back()) return false;
-  }
-  return true;
-}
-
-std::vector<PathPoint> Streamlines::trace(std::array<double, 2> start, double timeStep, double duration) const {
-  std::vector<PathPoint> path;
-  std::array<double, 2> x = start;
+TracedPaths Streamlines::trace(std::span<const Vector3> starts, double timeStep, double duration) const {
+  const Mesh& m = context_.mesh;
   const auto steps = static_cast<std::int64_t>(std::ceil(duration / timeStep - 1e-9));
-  for (std::int64_t step = 0; step <= steps && inside(x); ++step) {
-    const BilinearPoint place = locate(x);
-    path.push_back({static_cast<double>(step) * timeStep, x, place, place.of(divergence_)});
-    const auto first = velocityAt(x);
-    const auto middle = velocityAt({x[0] + 0.5 * timeStep * first[0], x[1] + 0.5 * timeStep * first[1]});
-    x = {x[0] + timeStep * middle[0], x[1] + timeStep * middle[1]};
+  TracedPaths traced{{}, std::vector<PathEnd>(starts.size())};
+  Tracer tracer(context_, *this, timeStep, steps, traced);
+  std::vector<Traveller> here = travellersFrom(m, starts);
+  for (std::int64_t alive = 1; alive > 0;) {
+    std::vector<Traveller> leaving;
+    std::vector<int> ranks;
+    collectively(m.comm, [&] {
+      for (Traveller& path : here)
+        if (int rank = 0; tracer.leaves(path, rank)) {
+          leaving.push_back(path);
+          ranks.push_back(rank);
+        }
+    });
+    alive = static_cast<std::int64_t>(leaving.size());
+    MPI_Allreduce(MPI_IN_PLACE, &alive, 1, MPI_INT64_T, MPI_SUM, m.comm);
+    if (alive > 0) here = RankExchange(m.comm, ranks).there(leaving, 1);
   }
-  return path;
+  shareEnds(m, traced);
+  return traced;
 }
 
 }  // namespace lampblack::flow

@@ -1,60 +1,61 @@
-// Paths of particles through a frozen flow: the gas velocity plus thermophoresis, bilinear between cell centres, traced
-// by the second-order midpoint rule. The whole flow is held in natural order on every rank, so that any rank can trace
-// any path and finds the same one, to the last bit.
+// Paths of particles through a frozen flow on any mesh: the gas velocity plus thermophoresis, continuous between
+// centres and vertices (flow/vertex_field.hpp), traced by the second-order midpoint rule. Each piece of a path is
+// traced by the rank that owns the cells it goes through, so that no rank holds more of the flow than its own share; a
+// path that leaves a rank's cells goes on at the next. Paths do not depend on the ranks to the last bit.
+//
+// Paths go through periodic sides and go on at the other side, and slide along symmetries. They end where they leave
+// through an opening or meet a wall.
 #pragma once
 
-#include <array>
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
-#include "core/mesh.hpp"
+#include "core/cell_finder.hpp"
+#include "core/place_in_cell.hpp"
 #include "core/rooms.hpp"
+#include "flow/flow_context.hpp"
 #include "flow/gas_properties.hpp"
 #include "flow/state.hpp"
+#include "flow/vertex_field.hpp"
 
 namespace lampblack::flow {
 
-// Where a point lies between four cell centres, and their weights.
-struct BilinearPoint {
-  std::array<std::size_t, 4> cell;
-  std::array<double, 4> weight;
-  [[nodiscard]] double of(std::span<const double> field, int components = 1, int component = 0) const {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < 4; ++i) sum += weight[i] * field[cell[i] * components + component];
-    return sum;
-  }
+struct PathPoint {
+  int path;           // index of its start
+  std::int64_t step;  // times the time step: the time since the start
+  Vector3 position;   // m
+  PlaceInCell place;
+  double divergence;  // 1/s, of the particles' velocity
 };
 
-struct PathPoint {
-  double time;                     // s
-  std::array<double, 2> position;  // m
-  BilinearPoint place;
-  double divergence;  // 1/s, of the particles' velocity
+struct PathEnd {
+  std::int64_t points = 0;
+  int patch = -1;   // of the mesh, where it ended; -1: it did not meet the boundary
+  Vector3 place{};  // m, where it met it
+};
+
+struct TracedPaths {
+  std::vector<PathPoint> points;  // those in this rank's cells
+  std::vector<PathEnd> ends;      // of every path, the same on all ranks
 };
 
 class Streamlines {
  public:
-  // Whether they can be traced on a mesh: a plane one that is a whole box.
-  static bool isPossible(const Mesh& mesh);
+  // Collective. `thermophoresis` is the coefficient K of the drift velocity -K (mu/rho) grad T / T.
+  Streamlines(const FlowContext& context, const State& state, const GasProperties& properties, double thermophoresis);
 
-  // Collective. InputError where that is not so. `thermophoresis` is the coefficient K of the drift velocity -K
-  // (mu/rho) grad T / T.
-  Streamlines(const Mesh& mesh, const State& state, const GasProperties& properties, double thermophoresis);
+  // Collective, with the same starts on all ranks. Paths from them until they end or `duration` (s) has passed, one
+  // point every `timeStep` (s). InputError for a start outside the mesh, NumericsError where a velocity is not finite.
+  [[nodiscard]] TracedPaths trace(std::span<const Vector3> starts, double timeStep, double duration) const;
 
-  // Path from `start` until it leaves the domain or `duration` has passed, one point every `timeStep`.
-  [[nodiscard]] std::vector<PathPoint> trace(std::array<double, 2> start, double timeStep, double duration) const;
-
-  [[nodiscard]] BilinearPoint locate(const std::array<double, 2>& position) const;
-  [[nodiscard]] std::span<const double> velocity() const { return velocity_; }  // of the particles, 2 a cell
+  [[nodiscard]] Vector3 velocityAt(const PlaceInCell& place) const;  // m/s, of the particles
+  [[nodiscard]] double divergenceAt(const PlaceInCell& place) const { return divergence_->at(place); }
 
  private:
-  [[nodiscard]] bool inside(const std::array<double, 2>& position) const;
-  [[nodiscard]] std::array<double, 2> velocityAt(const std::array<double, 2>& position) const;
-  void computeDivergence();
-
-  const Mesh& mesh_;
-  std::array<std::vector<double>, 2> centre_;  // of the cells along each axis
-  std::vector<double> velocity_, divergence_;
+  const FlowContext& context_;
+  std::optional<VertexField> velocity_, divergence_;
 };
 
 }  // namespace lampblack::flow

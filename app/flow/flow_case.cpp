@@ -167,18 +167,22 @@ void readSoot(const Deck& deck, FlowCase& flowCase) {
   flowCase.carriedOptions = {flowCase.chemistry.shareWork, deck.number("soot.sectional.overflow"), tooFewSections};
 }
 
-// The outlet that a point lies on, or nullptr.
-const std::string* outletAt(const FlowCase& flowCase, const std::array<double, 2>& point) {
-  for (std::size_t b = 0; b < flowCase.boundaries.size(); ++b) {
-    const BoundaryPatch& patch = flowCase.mesh.patches[b];
-    const auto axis = static_cast<std::size_t>(patch.axis);
-    const auto& vertices = flowCase.mesh.vertices[axis];
-    const double along = point[1 - axis];
-    if (flowCase.boundaries[b].kind == BoundaryKind::Outlet &&
-        point[axis] == (patch.atMax ? vertices.back() : vertices.front()) && along >= patch.from && along <= patch.to)
-      return &flowCase.boundaries[b].name;
+// Of a plane mesh r and z may stand for x and y.
+Vector3 readStart(const Deck& deck, const std::string& item, const FlowCase& flowCase) {
+  AxisNames names = axisNames(flowCase);
+  if (flowCase.mesh.geometry == Geometry::Planar && names.size() == 2 && deck.has(item + ".r")) names = {"r", "z"};
+  for (const char* other : {"r", "x", "y", "z"})
+    if (const std::string key = fmt::format("{}.{}", item, other);
+        deck.has(key) && std::ranges::find(names, other) == names.end())
+      throw deck.error(key, axesText(axisNames(flowCase)));
+  Vector3 place{};
+  for (std::size_t axis = 0; axis < names.size(); ++axis) {
+    const std::string key = item + "." + names[axis];
+    if (!deck.has(key))
+      throw deck.error(item, fmt::format("a start needs the key '{}': {}", names[axis], axesText(axisNames(flowCase))));
+    place[axis] = deck.quantity(key);
   }
-  return nullptr;
+  return place;
 }
 
 void readTrajectories(const Deck& deck, FlowCase& flowCase) {
@@ -186,13 +190,6 @@ void readTrajectories(const Deck& deck, FlowCase& flowCase) {
   if (deck.has("soot") && deck.choice("soot.model") == "none") return;
   if (!flowCase.carried)
     throw deck.error("trajectories", "trajectories need a 'soot' section: it names the particle model");
-  if (!flowCase.isWholePlaneBox())
-    throw deck.error(
-        "trajectories",
-        "paths need a plane mesh that is a whole box, without solids, a floor or a ceiling of its own or a "
-        "mesh file; leave the section out");
-  if (flowCase.mesh.periodic[0] || flowCase.mesh.periodic[1])
-    throw deck.error("trajectories", "paths cannot go through a periodic boundary yet; leave the section out");
   TrajectoryRequest options;
   options.soot = readSootModelOptions(deck, *flowCase.mechanism);
   for (const std::string& species : sootSpecies(options.soot))
@@ -210,20 +207,9 @@ void readTrajectories(const Deck& deck, FlowCase& flowCase) {
   if (options.largest <= options.smallest) throw deck.error("trajectories.largest", "expected more than 'smallest'");
   if (options.timeStep > options.duration)
     throw deck.error("trajectories.time_step", "expected no more than 'duration'");
-  for (std::size_t i = 0; i < deck.size("trajectories.start"); ++i) {
-    const std::string item = fmt::format("trajectories.start[{}]", i);
-    const TrajectoryStart start{deck.quantity(item + ".r"), deck.quantity(item + ".z")};
-    const auto& v = flowCase.mesh.vertices;
-    if (start.r > v[0].back() || start.z > v[1].back())
-      throw deck.error(item, "the start lies outside the mesh; expected a place inside it");
-    if (const std::string* outlet = outletAt(flowCase, {start.r, start.z}))
-      throw deck.error(
-          item,
-          fmt::format(
-              "the start lies on the outlet '{}', where the path would leave at once; expected a place inside the mesh",
-              *outlet));
-    options.starts.push_back(start);
-  }
+  for (std::size_t i = 0; i < deck.size("trajectories.start"); ++i)
+    options.starts.push_back(readStart(deck, fmt::format("trajectories.start[{}]", i), flowCase));
+  options.deck = deck;
   flowCase.trajectories = options;
 }
 

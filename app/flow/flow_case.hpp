@@ -66,12 +66,8 @@ struct CheckpointControl {
   bool atEnd = false;
 };
 
-struct TrajectoryStart {
-  double r = 0.0, z = 0.0;  // m; x and y in planar geometry
-};
-
 struct TrajectoryRequest {
-  std::vector<TrajectoryStart> starts;
+  std::vector<Vector3> starts;           // m, along the mesh's axes
   double duration = 0.0;                 // s, at most
   double timeStep = 0.0;                 // s, between samples of the gas
   int particles = 0;                     // capacity of each ensemble
@@ -79,6 +75,7 @@ struct TrajectoryRequest {
   int bins = 0;                          // of the size distribution
   double smallest = 0.0, largest = 0.0;  // m, diameter range of the bins
   SootModelOptions soot;
+  std::optional<Deck> deck;  // whose lines messages point at
 };
 
 // A mesh made by other programs, in place of a box.
@@ -118,9 +115,6 @@ struct FlowCase {
   CarriedOperator::Options carriedOptions;
   std::optional<TrajectoryRequest> trajectories;
   std::vector<std::string> notes;  // what the user should be told before the run
-
-  // A plane box of which nothing is left out or bent.
-  [[nodiscard]] bool isWholePlaneBox() const { return !meshFile && mesh.isWholePlane(); }
 };
 
 // All keys a flow deck may have.

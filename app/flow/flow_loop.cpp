@@ -30,6 +30,7 @@ FlowLoop::FlowLoop(MPI_Comm comm, FlowCase flowCase)
   beginNext();
   domain_->beginBudget(case_);
   tables_ = std::make_unique<FlowTables>(domain_->context, case_, tableSource());
+  if (case_.trajectories) requireStartsInside(domain_->context, *case_.trajectories);
   dt_ = case_.time.firstStep;
   nextOutput_ = case_.output.interval;
 }

@@ -290,11 +290,16 @@ void addParticles(DeckSchema& schema) {
                .byDefault("200 nm")
                .above(0))
       .section("trajectories.start", Presence::required, "Where the ensembles start.")
-      .add(quantityKey("trajectories.start[].r", units::length, "Where a streamline starts: radius (planar: x).")
+      .add(quantityKey("trajectories.start[].r", units::length,
+                       "Where a streamline starts: radius of an axisymmetric mesh (in a plane the same as x).")
+               .optional()
                .atLeast(0))
-      .add(
-          quantityKey("trajectories.start[].z", units::length, "Where a streamline starts: axial position (planar: y).")
-              .atLeast(0));
+      .add(quantityKey("trajectories.start[].x", units::length, "Where a streamline starts: along x.").optional())
+      .add(quantityKey("trajectories.start[].y", units::length, "Where a streamline starts: along y.").optional())
+      .add(quantityKey("trajectories.start[].z", units::length,
+                       "Where a streamline starts: axial position, or in space along z (with r in a plane the same "
+                       "as y).")
+               .optional());
 }
 
 }  // namespace

@@ -1,16 +1,21 @@
 #include "app/flow/trajectories.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numeric>
+#include <utility>
 
+#include "app/flow/flow_case_parts.hpp"
 #include "app/run/warnings.hpp"
+#include "core/cell_finder.hpp"
 #include "core/errors.hpp"
-#include "core/gather.hpp"
-#include "flow/carried_operator.hpp"
+#include "core/first_error.hpp"
+#include "core/rank_exchange.hpp"
+#include "flow/path_gas.hpp"
 #include "flow/streamline.hpp"
 #include "particles/collisions/collision_physics.hpp"
 #include "particles/ensemble/ensemble_path.hpp"
@@ -18,49 +23,14 @@
 namespace lampblack::app {
 namespace {
 
-// The gas as soot sees it, on the whole domain.
-class GasOnPath {
- public:
-  GasOnPath(const FlowContext& context, const State& state, const GasProperties& properties,
-            const SootModelOptions& soot)
-      : pressure_(state.thermodynamicPressure) {
-    std::vector<std::size_t> species;
-    for (const std::string& name : sootSpecies(soot)) species.push_back(context.mechanism.speciesIndex(name));
-    width_ = fixed + static_cast<int>(species.size());
-    const int owned = context.mesh.owned;
-    std::vector<double> local(static_cast<std::size_t>(owned) * width_);
-    std::vector<double> concentrations;
-    for (int c = 0; c < owned; ++c) {
-      const ParticleGas gas = gasOfCell(context, state, c, properties.viscosity[c], species, concentrations);
-      double* out = &local[static_cast<std::size_t>(c) * width_];
-      for (double value : {gas.temperature, gas.density, gas.viscosity, gas.meanMolecularWeight}) *out++ = value;
-      for (double value : concentrations) *out++ = value;
-    }
-    fields_ = gatherNatural(context.mesh, local, width_);
-  }
-
-  [[nodiscard]] GasSample at(const PathPoint& point) const {
-    const auto value = [&](int i) { return point.place.of(fields_, width_, i); };
-    GasSample sample{point.time, {value(0), pressure_, value(1), value(2), value(3)}, {}};
-    for (int i = fixed; i < width_; ++i) sample.concentrations.push_back(value(i));
-    return sample;
-  }
-
- private:
-  static constexpr int fixed = 4;
-  double pressure_;
-  int width_ = 0;
-  std::vector<double> fields_;
-};
-
 // A path and what became of the particles on it.
 struct Trajectory {
-  std::vector<PathPoint> places;
+  std::vector<Vector3> places;  // m
   ParticlePath path;
   std::vector<EnsemblePathRecord> records;
 };
 
-void writeTrajectory(ResultsWriter& results, std::size_t id, int owner, const Trajectory& trajectory,
+void writeTrajectory(ResultsWriter& results, std::size_t id, int owner, const Mesh& mesh, const Trajectory& trajectory,
                      const EnsemblePathOptions& options) {
   const std::string group = fmt::format("/trajectories/{}/", id);
   const std::vector<EnsemblePathRecord>& records = trajectory.records;
@@ -83,11 +53,13 @@ void writeTrajectory(ResultsWriter& results, std::size_t id, int owner, const Tr
   std::vector<double> position;
   std::vector<double> distribution;
   for (std::size_t i = 0; i < records.size(); ++i) {
-    position.insert(position.end(), trajectory.places[i].position.begin(), trajectory.places[i].position.end());
+    position.insert(position.end(), trajectory.places[i].begin(), trajectory.places[i].begin() + mesh.dimension);
     distribution.insert(distribution.end(), records[i].distribution.begin(), records[i].distribution.end());
   }
   const auto bins = static_cast<std::int64_t>(options.bins);
-  results.dataset(group + "position", {rows, 2}, position, "m", "radius and axial position (planar: x and y)", owner);
+  results.dataset(group + "position", {rows, mesh.dimension}, position, "m",
+                  fmt::format("coordinates {}", fmt::join(flowcase::axisNames(mesh.geometry, mesh.dimension), ", ")),
+                  owner);
   results.dataset(group + "bin_edges", {bins + 1}, options.binEdges(), "m", "diameters between the bins", owner);
   results.dataset(group + "size_distribution", {rows, bins}, distribution, "1/m^3", "dN/dlog10(d)", owner);
 }
@@ -107,26 +79,118 @@ std::vector<int> shareOut(const std::vector<double>& costs, int ranks) {
   return owners;
 }
 
-// A path of one point ends where it starts.
-void warnOfShortPaths(const TrajectoryRequest& request, const std::vector<Trajectory>& trajectories) {
+std::string nameOf(const TrajectoryRequest& request, std::size_t id, const Mesh& mesh) {
+  return fmt::format("trajectory {} from {}", id, placeText(request.starts[id], mesh.dimension));
+}
+
+// A path of one point ends where it starts; one that meets a wall is not what the user had in mind.
+void warnOfEnds(const TrajectoryRequest& request, const FlowContext& context, const std::vector<PathEnd>& ends) {
   std::vector<std::string> warnings;
-  for (std::size_t id = 0; id < trajectories.size(); ++id)
-    if (trajectories[id].places.size() < 2)
+  for (std::size_t id = 0; id < ends.size(); ++id) {
+    const PathEnd& end = ends[id];
+    const std::string name = nameOf(request, id, context.mesh);
+    const bool meetsWall =
+        end.patch >= 0 && context.boundaries[static_cast<std::size_t>(end.patch)].kind == BoundaryKind::Wall;
+    if (meetsWall)
       warnings.push_back(fmt::format(
-          "trajectory {} from ({:.6g}, {:.6g}) m leaves the domain in its first time step of {:g} s: it has one row, "
-          "without particles",
-          id, request.starts[id].r, request.starts[id].z, request.timeStep));
+          "{} meets the wall '{}' at {} after {:g} s: it ends there{}", name,
+          context.boundaries[static_cast<std::size_t>(end.patch)].name, placeText(end.place, context.mesh.dimension),
+          static_cast<double>(end.points - 1) * request.timeStep, end.points < 2 ? ", without particles" : ""));
+    else if (end.points < 2)
+      warnings.push_back(
+          fmt::format("{} leaves the domain in its first time step of {:g} s: it has one row, without particles", name,
+                      request.timeStep));
+  }
   printWarnings(warnings);
 }
 
+// The points of the paths, each with its gas, on the ranks that march them: in the order of time.
+class PointsOnPaths {
+ public:
+  PointsOnPaths(const FlowContext& context, const PathGas& gas, const TracedPaths& traced,
+                const std::vector<int>& owners)
+      : gas_(gas), width_(first + gas.width()) {
+    std::vector<double> sent;
+    std::vector<int> ranks;
+    for (const PathPoint& point : traced.points) {
+      for (const double value : {static_cast<double>(point.path), static_cast<double>(point.step), point.divergence,
+                                 point.position[0], point.position[1], point.position[2]})
+        sent.push_back(value);
+      gas.append(point.place, sent);
+      ranks.push_back(owners[static_cast<std::size_t>(point.path)]);
+    }
+    numbers_ = RankExchange(context.mesh.comm, ranks).there(sent, static_cast<int>(width_));
+    for (std::size_t i = 0; i < numbers_.size(); i += width_) rows_.push_back(&numbers_[i]);
+    std::ranges::sort(rows_, [](const double* a, const double* b) {
+      return std::pair{a[0], a[1]} < std::pair{b[0], b[1]};
+    });
+  }
+
+  void fill(std::size_t id, double timeStep, Trajectory& trajectory) const {
+    const auto ofPath =
+        std::ranges::equal_range(rows_, static_cast<double>(id), {}, [](const double* row) { return row[0]; });
+    for (const double* row : ofPath) {
+      const ParticleGas gas = gas_.gasOf({row + first, gas_.width()});
+      trajectory.places.push_back({row[3], row[4], row[5]});
+      trajectory.path.points.push_back(
+          {row[1] * timeStep, gas, {gas.concentrations.begin(), gas.concentrations.end()}});
+    }
+    for (std::size_t k = 0; k + 1 < ofPath.size(); ++k)
+      trajectory.path.divergence.push_back({ofPath[k][2], ofPath[k + 1][2]});
+  }
+
+ private:
+  static constexpr std::size_t first = 6;  // number of the gas among those of a point
+  const PathGas& gas_;
+  std::size_t width_;
+  std::vector<double> numbers_;
+  std::vector<const double*> rows_;
+};
+
+// The outlet that a place in a cell lies on, or null.
+const std::string* outletAt(const FlowContext& context, int cell, const Vector3& place) {
+  const Mesh& m = context.mesh;
+  for (int i = m.faceStart[cell]; i < m.faceStart[cell + 1]; ++i) {
+    const auto face = static_cast<std::size_t>(m.faceOfCell[i]);
+    if (m.high[face] >= 0 || context.boundaryOf(m.faceOfCell[i]).kind != BoundaryKind::Outlet) continue;
+    if (dot(difference(place, m.faceCentre[face]), m.normal[face]) > -1e-9 * m.distance[face])
+      return &context.boundaryOf(m.faceOfCell[i]).name;
+  }
+  return nullptr;
+}
+
 }  // namespace
+
+void requireStartsInside(const FlowContext& context, const TrajectoryRequest& request) {
+  const Mesh& m = context.mesh;
+  const FoundCells found = findCells(m, request.starts);
+  const auto item = [](std::size_t i) { return fmt::format("trajectories.start[{}]", i); };
+  for (std::size_t i = 0; i < request.starts.size(); ++i) {
+    if (found.naturalCell[i] >= 0) continue;
+    const std::string where = whereMeshIs(m, request.starts[i]);
+    raiseTogether(m.comm, request.deck->error(item(i), fmt::format("the start at {} lies outside the mesh: {}",
+                                                                   placeText(request.starts[i], m.dimension), where)));
+  }
+  collectively(m.comm, [&] {
+    for (std::size_t i = 0; i < request.starts.size(); ++i) {
+      if (found.cell[i] < 0) continue;
+      if (const std::string* outlet = outletAt(context, found.cell[i], request.starts[i]))
+        throw request.deck->error(item(i), fmt::format("the start lies on the outlet '{}', where the path would leave "
+                                                       "at once; expected a place inside the mesh",
+                                                       *outlet));
+    }
+  });
+}
 
 void runTrajectories(const FlowContext& context, const FlowCase& flowCase, const State& state,
                      const GasProperties& properties, ResultsWriter& results) {
   const TrajectoryRequest& request = *flowCase.trajectories;
   const Mesh& m = context.mesh;
-  const Streamlines streamlines(m, state, properties, waldmannThermophoresis());
-  const GasOnPath gas(context, state, properties, request.soot);
+  std::vector<std::size_t> species;
+  for (const std::string& name : sootSpecies(request.soot)) species.push_back(context.mechanism.speciesIndex(name));
+  const Streamlines streamlines(context, state, properties, waldmannThermophoresis());
+  const TracedPaths traced = streamlines.trace(request.starts, request.timeStep, request.duration);
+  const PathGas gas(context, state, properties, species);
 
   EnsemblePathOptions march;
   march.logDiameterMin = std::log10(request.smallest);
@@ -140,34 +204,25 @@ void runTrajectories(const FlowContext& context, const FlowCase& flowCase, const
 
   std::vector<Trajectory> trajectories(request.starts.size());
   std::vector<double> costs;
-  collectively(m.comm, [&] {
-    for (std::size_t id = 0; id < trajectories.size(); ++id) {
-      const TrajectoryStart& start = request.starts[id];
-      trajectories[id].places = streamlines.trace({start.r, start.z}, request.timeStep, request.duration);
-      costs.push_back(static_cast<double>(trajectories[id].places.size()));
-    }
-  });
+  for (const PathEnd& end : traced.ends) costs.push_back(static_cast<double>(end.points));
   const std::vector<int> owners = shareOut(costs, m.ranks);
+  const PointsOnPaths points(context, gas, traced, owners);
   collectively(m.comm, [&] {
     for (std::size_t id = 0; id < trajectories.size(); ++id) {
       if (owners[id] != m.rank) continue;
-      const TrajectoryStart& start = request.starts[id];
       Trajectory& one = trajectories[id];
-      for (const PathPoint& place : one.places) one.path.points.push_back(gas.at(place));
-      for (std::size_t k = 0; k + 1 < one.places.size(); ++k)
-        one.path.divergence.push_back({one.places[k].divergence, one.places[k + 1].divergence});
+      points.fill(id, request.timeStep, one);
       options.owner = id;
       try {
         one.records = marchPath(*makeEnsemble(options), one.path, march).records;
       } catch (const NumericsError& error) {
-        throw NumericsError(
-            fmt::format("trajectory {} from ({:.6g}, {:.6g}) m: {}", id, start.r, start.z, error.what()));
+        throw NumericsError(fmt::format("{}: {}", nameOf(request, id, m), error.what()));
       }
     }
   });
-  warnOfShortPaths(request, trajectories);
+  warnOfEnds(request, context, traced.ends);
   for (std::size_t id = 0; id < trajectories.size(); ++id)
-    writeTrajectory(results, id, owners[id], trajectories[id], march);
+    writeTrajectory(results, id, owners[id], m, trajectories[id], march);
 }
 
 }  // namespace lampblack::app

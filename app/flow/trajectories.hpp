@@ -10,8 +10,13 @@
 
 namespace lampblack::app {
 
-// Collective. Traces the deck's trajectories through the state's flow, marches an ensemble along each (trajectory i on
-// rank i mod ranks; its random numbers depend on the seed and i alone) and writes them under /trajectories.
+// Collective. InputError at its key of the deck for a start that is outside the mesh, or on an outlet, where the path
+// would leave at once.
+void requireStartsInside(const FlowContext& context, const TrajectoryRequest& request);
+
+// Collective. Traces the deck's trajectories through the state's flow, marches an ensemble along each (each on one
+// rank, with the longest first; its random numbers depend on the seed and its number alone) and writes them under
+// /trajectories.
 void runTrajectories(const FlowContext& context, const FlowCase& flowCase, const State& state,
                      const GasProperties& properties, ResultsWriter& results);
 

@@ -101,8 +101,8 @@ TEST(FlowCase, ReadsTheShippedDeck) {
   EXPECT_DOUBLE_EQ(soot.pah[0].stickingCoefficient, *defaultStickingCoefficient("A2"));
   ASSERT_TRUE(flowCase.trajectories);
   ASSERT_EQ(flowCase.trajectories->starts.size(), 4U);
-  EXPECT_DOUBLE_EQ(flowCase.trajectories->starts[0].r, 0.5e-3);
-  EXPECT_DOUBLE_EQ(flowCase.trajectories->starts[0].z, 4.5e-3);
+  EXPECT_DOUBLE_EQ(flowCase.trajectories->starts[0][0], 0.5e-3);
+  EXPECT_DOUBLE_EQ(flowCase.trajectories->starts[0][1], 4.5e-3);
 }
 
 TEST(FlowCase, FillsInDefaultsInSi) {

@@ -146,7 +146,6 @@ TEST(FlowMesh, SolidsLeaveCellsOut) {
   EXPECT_EQ(mesh.totalCells, 24 - 2 - 2);
   EXPECT_THAT(mesh.patches, ElementsAre("in", "out", "floor", "top", "rod", "step"));
   EXPECT_THAT(Surface(mesh).faces, ElementsAre(3, 4, 4, 6, 6, 3));
-  EXPECT_FALSE(flowCase.isWholePlaneBox());
 }
 
 TEST(FlowMesh, ASolidThatNamesOneAxisGoesThroughTheMesh) {
@@ -408,13 +407,6 @@ TEST(FlowMesh, ACheckpointKnowsTheMeshFile) {
   moved.replace(moved.find("1 1 0\n2 1 0"), 5, "1.1 1 0");
   deck.write(moved);
   EXPECT_NE(fingerprint("geometry: planar"), first);
-}
-
-TEST(FlowMesh, PathsNeedAWholeBox) {
-  EXPECT_TRUE(caseOf(channel, channelSides).isWholePlaneBox());
-  EXPECT_FALSE(caseOf(channel + ", floor: {formula: \"x/10\"}", channelSides).isWholePlaneBox());
-  EXPECT_FALSE(caseOf(spaceMesh, spacePeriodic).isWholePlaneBox());
-  EXPECT_FALSE(MeshFileDeck().read(rowSides).isWholePlaneBox());
 }
 
 }  // namespace

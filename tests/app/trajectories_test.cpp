@@ -1,14 +1,18 @@
 // Ensembles along streamlines do not depend on which rank marches them: the same bits on any number of ranks.
 #include "app/flow/trajectories.hpp"
 
+#include <gmock/gmock.h>
 #include <hdf5.h>
 
 #include <map>
 
+#include "app/flow/flow_mesh.hpp"
 #include "app/flow/flow_output.hpp"
+#include "core/errors.hpp"
 #include "core/rooms.hpp"
 #include "tests/app/app_fixture.hpp"
 #include "tests/core/mpi_support.hpp"
+#include "tests/messages.hpp"
 #include "tests/shared_scratch.hpp"
 
 namespace lampblack::app {
@@ -40,11 +44,10 @@ Datasets readTrajectories(const fs::path& path) {
 }
 
 // More than ranks, so that a rank has several; the last leaves the domain early.
-const std::vector<TrajectoryStart> fiveStarts{
-    {1e-3, 4.5e-3}, {2e-3, 4.2e-3}, {3e-3, 3.8e-3}, {1e-3, 3e-3}, {13.9e-3, 4e-3}};
+const std::vector<Vector3> fiveStarts{{1e-3, 4.5e-3}, {2e-3, 4.2e-3}, {3e-3, 3.8e-3}, {1e-3, 3e-3}, {13.9e-3, 4e-3}};
 
 void writeTrajectories(MPI_Comm comm, const fs::path& path, std::uint64_t seed,
-                       const std::vector<TrajectoryStart>& starts = fiveStarts) {
+                       const std::vector<Vector3>& starts = fiveStarts) {
   test::Flame flame(comm, test::sootingGas);
   flame.flowCase.seed = seed;
   flame.flowCase.trajectories->starts = starts;
@@ -75,6 +78,121 @@ TEST(Trajectories, OneThatLeavesAtOnceHasOneRowWithoutParticles) {
     EXPECT_EQ(all.at("1/number_density"), std::vector<double>{0.0});
     EXPECT_GT(all.at("1/temperature").at(0), 200.0);
   }
+}
+
+// Through cells of other shapes and with other axes: places by the names of the axes, as many columns as there are.
+std::string pathsDeck(const std::string& geometry, const std::string& axes, const std::string& more,
+                      const std::string& start, const std::string& sides) {
+  const std::string gas = "temperature: 1600 K, composition: \"C2H2: 0.1, H2: 0.1, H: 0.001, N2: 0.8\"";
+  return "problem: flow\nmechanism: " + test::sourcePath("cases/mechanisms/ethylene_bisetti2012_47.yaml") +
+         "\nmesh: {geometry: " + geometry + ", " + axes + more + "}\nboundaries:\n  in: {type: inlet, side: x-min, " +
+         "velocity: 2 m/s, " + gas + "}\n  out: {type: outlet, side: x-max, " + gas + "}\n" + sides +
+         "time: {end: 1 us}\ninitial: {layer: none, " + gas + "}\nsoot: {pah: [A2]}\n" +
+         "trajectories: {duration: 1 ms, time_step: 50 us, particles: 64, start: [" + start + "]}\n";
+}
+const std::string axesOfPlane = "x: [{to: 6 mm, cells: 6}], y: [{to: 4 mm, cells: 4}]";
+const std::string sidesOfPlane =
+    "  low: {type: wall, side: y-min, slip: true}\n  high: {type: wall, side: y-max, slip: true}\n";
+
+FlowCase pathsCase(const std::string& text) {
+  return readFlowCase(Deck::parse(text, "deck.yaml", {}, flowSchema()));
+}
+
+struct Starts {
+  explicit Starts(const std::string& text)
+      : flowCase(pathsCase(text)),
+        mesh(makeMesh(MPI_COMM_WORLD, flowCase)),
+        halo(mesh),
+        thermo(*flowCase.mechanism),
+        transport(*flowCase.mechanism),
+        context{mesh, halo, *flowCase.mechanism, thermo, transport, flowCase.boundaries} {}
+  FlowCase flowCase;
+  Mesh mesh;
+  HaloExchange halo;
+  Thermo thermo;
+  Transport transport;
+  FlowContext context;
+};
+
+TEST(Trajectories, StartByTheAxesOfTheMesh) {
+  const auto startOf = [](const std::string& text) { return pathsCase(text).trajectories->starts.at(0); };
+  EXPECT_EQ(startOf(pathsDeck("planar", axesOfPlane, "", "{x: 1 mm, y: 2 mm}", sidesOfPlane)),
+            (Vector3{1e-3, 2e-3, 0.0}));
+  EXPECT_EQ(startOf(pathsDeck("planar", axesOfPlane, "", "{r: 1 mm, z: 2 mm}", sidesOfPlane)),
+            (Vector3{1e-3, 2e-3, 0.0}));
+  EXPECT_EQ(startOf(pathsDeck(
+                "space", axesOfPlane, ", z: [{to: 3 mm, cells: 3}]", "{x: 1 mm, y: 2 mm, z: 2.5 mm}",
+                sidesOfPlane + "  ends: {type: periodic, side: z-min}\n  ends2: {type: periodic, side: z-max}\n")),
+            (Vector3{1e-3, 2e-3, 2.5e-3}));
+  for (const auto& [start, expected] : {std::pair{"{x: 1 mm}", "needs the key 'y'"},
+                                        std::pair{"{x: 1 mm, y: 2 mm, z: 1 mm}", "the axes of this mesh are x and y"},
+                                        std::pair{"{r: 1 mm, y: 2 mm}", "the axes of this mesh are x and y"}})
+    EXPECT_THAT(test::messageOf<InputError>(
+                    [&, from = start] { startOf(pathsDeck("planar", axesOfPlane, "", from, sidesOfPlane)); }),
+                testing::HasSubstr(expected));
+}
+
+TEST(Trajectories, StartWhereThereAreCells) {
+  const std::string solid = ", solids: {rod: {x: [2 mm, 3 mm], y: [1 mm, 3 mm]}}",
+                    sides = sidesOfPlane + "  rod: {type: wall, solid: rod}\n";
+  const auto check = [&](const std::string& start) {
+    Starts starts(pathsDeck("planar", axesOfPlane, solid, start, sides));
+    requireStartsInside(starts.context, *starts.flowCase.trajectories);
+  };
+  EXPECT_NO_THROW(check("{x: 1.5 mm, y: 2 mm}"));
+  for (const auto& [start, expected] :
+       {std::pair{"{x: 2.5 mm, y: 2 mm}", "has no cell there"}, std::pair{"{x: 9 mm, y: 2 mm}", "outside the mesh"},
+        std::pair{"{x: 6 mm, y: 2 mm}", "lies on the outlet 'out'"}})
+    EXPECT_THAT(test::messageOf<InputError>([&, from = start] { check(from); }),
+                testing::AllOf(testing::HasSubstr("trajectories.start[0]"), testing::HasSubstr(expected)));
+}
+
+// In space beside a solid: gas and position of the points, one column an axis, and where a path ends.
+Datasets pathsBesideASolid(const fs::path& folder, double timeStep, double duration) {
+  Starts flow(
+      pathsDeck("space", axesOfPlane, ", z: [{to: 3 mm, cells: 3}], solids: {rod: {x: [3 mm, 4 mm], y: [0 mm, 1 mm]}}",
+                "{x: 1 mm, y: 3.2 mm, z: 1.3 mm}, {x: 1 mm, y: 0.5 mm, z: 1.3 mm}",
+                sidesOfPlane + "  front: {type: symmetry, side: z-min}\n  back: {type: symmetry, side: z-max}\n" +
+                    "  rod: {type: wall, solid: rod}\n"));
+  flow.flowCase.trajectories->timeStep = timeStep;
+  flow.flowCase.trajectories->duration = duration;
+  State state(flow.mesh, flow.flowCase.mechanism->numSpecies(), CarriedOperator::scalarsOf(*flow.flowCase.carried));
+  setMixingLayer(flow.context, flow.flowCase.initial, state);
+  for (int c = 0; c < flow.mesh.cells; ++c) state.velocity[3 * static_cast<std::size_t>(c)] = 2.0;
+  GasProperties properties;
+  properties.update(flow.context, state);
+  ResultsWriter results(MPI_COMM_WORLD, folder / "results.h5", {}, meshOutput(flow.mesh));
+  runTrajectories(flow.context, flow.flowCase, state, properties, results);
+  results.close();
+  return test::worldRank() == 0 ? readTrajectories(folder / "results.h5") : Datasets{};
+}
+
+TEST(Trajectories, InSpaceBesideASolid) {
+  const test::SharedScratchFolder folder;
+  Datasets all = pathsBesideASolid(folder.path(), 5e-5, 1e-3);
+  if (test::worldRank() != 0) return;
+  for (const std::string id : {"0", "1"}) {
+    ASSERT_EQ(all[id + "/time"].size(), 21U);
+    ASSERT_EQ(all[id + "/position"].size(), 63U);
+    EXPECT_NEAR(all[id + "/position"][62], 1.3e-3, 1e-12);
+    for (const double T : all[id + "/temperature"]) EXPECT_NEAR(T, 1600.0, 1e-9);
+  }
+  EXPECT_NEAR(all["0/position"][60], 3e-3, 1e-12) << "1 ms at 2 m/s";
+  EXPECT_NEAR(all["0/position"][61], 3.2e-3, 1e-12);
+  EXPECT_LT(all["1/position"][60], 3e-3) << "the rod holds the gas beside it";
+  EXPECT_GT(all["1/position"][60], 2.5e-3);
+}
+
+TEST(Trajectories, OneThatMeetsAWallEndsThere) {
+  const test::SharedScratchFolder folder;
+  testing::internal::CaptureStderr();
+  Datasets all = pathsBesideASolid(folder.path(), 1.2e-3, 2.4e-3);  // steps so long that they end in the rod
+  const std::string warning = testing::internal::GetCapturedStderr();
+  if (test::worldRank() != 0) return;
+  EXPECT_EQ(all["0/time"].size(), 3U);
+  EXPECT_EQ(all["1/time"].size(), 1U);
+  EXPECT_THAT(warning, testing::HasSubstr("trajectory 1 from (0.001, 0.0005, 0.0013) m meets the wall 'rod' at (0.003, "
+                                          "0.0005, 0.0013) m after 0 s: it ends there, without particles"));
 }
 
 TEST(Trajectories, AreTheSameBitsOnAnyNumberOfRanks) {

@@ -6,9 +6,9 @@
 #include <limits>
 #include <set>
 
-#include "core/gather.hpp"
 #include "mpi_support.hpp"
 #include "tests/every_room.hpp"
+#include "tests/gather.hpp"
 
 namespace {
 int messagesSent = 0;

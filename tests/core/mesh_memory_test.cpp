@@ -7,9 +7,9 @@
 #include <numeric>
 #include <optional>
 
-#include "core/gather.hpp"
 #include "core/halo_exchange.hpp"
 #include "mpi_support.hpp"
+#include "tests/gather.hpp"
 
 namespace {
 

@@ -116,6 +116,13 @@ struct Box {
     for (const Side& s : sides) context.boundaries.push_back(s.condition);
   }
 
+  // Any mesh; the conditions are in the order of its patches.
+  Box(const MeshSpec& spec, std::vector<BoundaryCondition> conditions, std::optional<Split> split = {},
+      MPI_Comm comm = MPI_COMM_WORLD, Gas& gasOfBox = Gas::hydrogen())
+      : gas(gasOfBox), mesh(meshOf(spec, split, comm)), halo(mesh), context{mesh,          halo,
+                                                                            gas.mechanism, gas.thermo,
+                                                                            gas.transport, std::move(conditions)} {}
+
   // A state at 1 atm of what `set` says at each cell's centre: velocity, temperature, mass fractions.
   struct Local {
     Vector3 velocity{};
@@ -143,9 +150,9 @@ struct Box {
   FlowContext context;
 
  private:
-  static Mesh meshOf(const MeshSpec& spec, const std::optional<Split>& split) {
-    if (!split) return {MPI_COMM_WORLD, spec};
-    return {MPI_COMM_WORLD, SkewedMesh(MPI_COMM_WORLD, spec, split->cells, split->jitter).block(), spec.geometry};
+  static Mesh meshOf(const MeshSpec& spec, const std::optional<Split>& split, MPI_Comm comm = MPI_COMM_WORLD) {
+    if (!split) return {comm, spec};
+    return {comm, SkewedMesh(comm, spec, split->cells, split->jitter).block(), spec.geometry};
   }
   static MeshSpec specOf(Geometry geometry, Axes vertices, const std::vector<Side>& sides) {
     MeshSpec spec;

@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.hpp"
-#include "core/gather.hpp"
 #include "flow_fixture.hpp"
 #include "tests/every_room.hpp"
+#include "tests/gather.hpp"
 
 namespace lampblack::test {
 namespace {

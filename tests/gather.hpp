@@ -1,12 +1,22 @@
-#include "core/gather.hpp"
+// A cell field in natural order on every rank, for tests that compare whole fields.
+#pragma once
+
+#include <mpi.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
+#include <span>
+#include <vector>
 
-namespace lampblack {
+#include "core/mesh.hpp"
+#include "tests/every_room.hpp"
 
-std::vector<double> gatherNatural(const Mesh& mesh, std::span<const double> values, int components) {
+namespace lampblack::test {
+
+// Collective. `values`: `components` a cell, owned cells first. Returns totalCells * components values in natural
+// order, the same on every rank.
+inline std::vector<double> gatherNatural(const Mesh& mesh, std::span<const double> values, int components) {
   const auto ranks = static_cast<std::size_t>(mesh.ranks);
   std::vector<int> cells(ranks);
   std::vector<int> start(ranks, 0);
@@ -28,4 +38,4 @@ std::vector<double> gatherNatural(const Mesh& mesh, std::span<const double> valu
   return ordered;
 }
 
-}  // namespace lampblack
+}  // namespace lampblack::test
