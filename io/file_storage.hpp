@@ -9,7 +9,7 @@ struct FileStorage {
   // 0: contiguous. 1 (fast) to 9 (small): fields in chunks, their bytes shuffled by place and deflated. No value
   // changes.
   int compression = 0;
-  // Ranks that collect what the others have and write it ("aggregators" of MPI-IO); 0: as many as MPI chooses.
+  // Ranks that collect the fields of the others and write them; 0: each writes a share.
   int writers = 0;
 };
 

@@ -32,7 +32,8 @@ std::int64_t dividedUp(std::int64_t whole, std::int64_t part) {
   return (whole + part - 1) / part;
 }
 
-// ROMIO and OMPIO read the number of ranks that write by the same key; what one of them does not know it passes over.
+// For what MPI-IO collects itself. ROMIO and OMPIO read the number of ranks that write by the same key, and pass over
+// what only the other knows; OMPIO collects nothing where each rank's piece is in one, as of fields.
 class Hints {
  public:
   explicit Hints(int writers) {

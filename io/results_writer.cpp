@@ -22,7 +22,7 @@ ResultsWriter::ResultsWriter(MPI_Comm comm, std::filesystem::path path, const Ru
         "the arrays of a mesh to write do not fit each other");
   self_ = std::make_unique<Implementation>(comm, std::move(path), mesh, storage);
   agree(comm, self_->cells.coversOnce(), "a mesh to write has to have each cell on exactly one rank");
-  const BlockExchange vertices(comm, mesh.globalVertex, mesh.totalVertices);
+  const BlockExchange vertices(comm, mesh.globalVertex, mesh.totalVertices, storage.writers);
   agree(comm, vertices.covers(), "a mesh to write has to have each vertex on a rank");
 
   self_->describeRun(run);
@@ -69,7 +69,7 @@ ResultsWriter::~ResultsWriter() {
 }
 
 void ResultsWriter::renumber(std::span<const std::int64_t> globalCell) {
-  self_->cells = BlockExchange(self_->comm, globalCell, self_->cells.total());
+  self_->cells = BlockExchange(self_->comm, globalCell, self_->cells.total(), self_->storage.writers);
   agree(self_->comm, self_->cells.coversOnce(), "a mesh to write has to have each cell on exactly one rank");
 }
 

@@ -1,7 +1,8 @@
 // The results of a run: one HDF5 file written collectively by all ranks, and an XDMF file beside it that ParaView
 // opens. Data are stored in the global numbering of cells and vertices, so that the same run on another number of ranks
-// makes the same datasets. Each rank sends its values to the rank that holds their block of the file; every rank then
-// writes one contiguous slab. docs/formats.md lists every dataset. All functions are collective.
+// makes the same datasets. Each rank sends its values to the rank that holds their block of the file; every rank, or as
+// many as FileStorage says, then writes one contiguous slab. docs/formats.md lists every dataset. All functions are
+// collective.
 #pragma once
 
 #include <mpi.h>

@@ -51,7 +51,7 @@ struct ResultsWriter::Implementation {
         path(std::move(finalPath)),
         storage(how),
         file(communicator, resultswriter::partName(path), storage),
-        cells(communicator, mesh.globalCell, mesh.totalCells),
+        cells(communicator, mesh.globalCell, mesh.totalCells, storage.writers),
         exceptionsAtStart(std::uncaught_exceptions()) {
     MPI_Comm_rank(comm, &rank);
     if (mesh.totalCells == 0) return;

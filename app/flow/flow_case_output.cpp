@@ -76,9 +76,10 @@ void addOutputKeys(DeckSchema& schema) {
                .byDefault("0")
                .atLeast(0)
                .atMost(FileStorage::mostCompression))
-      .add(integerKey("output.writers",
-                      "Number of ranks that collect the fields of the others and write them to results.h5, at most as "
-                      "many as there are; few are better for some parallel file systems. Absent: MPI chooses.")
+      .add(integerKey(
+               "output.writers",
+               "Number of ranks that collect the fields of the others and write them to results.h5, at most as "
+               "many as there are; few are better for some parallel file systems. Absent: each rank writes a share.")
                .optional()
                .atLeast(1))
       .section("output.probes.*", Presence::optional,
