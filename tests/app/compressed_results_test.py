@@ -14,7 +14,7 @@ import running
 h5py = running.package("h5py")
 np = running.package("numpy")
 
-SHORT = ("time.end=3 us", "time.maximum_step=1 us", "output.interval=1 us", "mesh.refinement=5", "trajectories.duration=10 us",
+SHORT = ("time.end=3 us", "time.maximum_step=1 us", "output.interval=1 us", "mesh.refinement=5",
          "output.species=[all]", "chemistry.share_work=false")
 COMPRESSED = ("output.compression=6", "output.writers=1", "output.wall_distance=true")
 
