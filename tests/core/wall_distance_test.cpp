@@ -94,6 +94,18 @@ TEST(WallDistance, AroundSolidsIsThatFromTheNearestOfAllFaces) {
   }
 }
 
+// Cells above a block that is no wall itself have their nearest faces straight through it, below: these come by no way
+// from cell to cell, and with several ranks from another rank.
+TEST(WallDistance, GoesStraightThroughWhatIsNoWall) {
+  for (const int dimension : {2, 3}) {
+    MeshSpec spec = boxOf(dimension, 40, 1.0);
+    spec.leftOut = {{{0.3, 0.2, -1}, {1.7, 0.5, 9}}};
+    spec.patches.push_back({"block", 0, false, -1e300, 1e300, 0});
+    const Mesh mesh(MPI_COMM_WORLD, spec);
+    expectNearestOfAll(mesh, patchesCalled(mesh, {"y-min"}));
+  }
+}
+
 class WallDistanceOfShapes : public testing::TestWithParam<Cells> {};
 INSTANTIATE_TEST_SUITE_P(Cells, WallDistanceOfShapes,
                          testing::Values(Cells::Quadrilaterals, Cells::Triangles, Cells::MixedPlane, Cells::Hexahedra,
