@@ -101,8 +101,11 @@ TEST(WallDistance, GoesStraightThroughWhatIsNoWall) {
     MeshSpec spec = boxOf(dimension, 40, 1.0);
     spec.leftOut = {{{0.3, 0.2, -1}, {1.7, 0.5, 9}}};
     spec.patches.push_back({"block", 0, false, -1e300, 1e300, 0});
-    const Mesh mesh(MPI_COMM_WORLD, spec);
-    expectNearestOfAll(mesh, patchesCalled(mesh, {"y-min"}));
+    const Mesh lying(MPI_COMM_WORLD, spec);
+    expectNearestOfAll(lying, patchesCalled(lying, {"y-min"}));
+    spec.leftOut = {{{0.6, 0.1, -1}, {1.0, 0.9, 9}}};
+    const Mesh standing(MPI_COMM_WORLD, spec);
+    expectNearestOfAll(standing, patchesCalled(standing, {"x-min"}));
   }
 }
 
