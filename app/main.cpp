@@ -45,10 +45,12 @@ struct Arguments {
 
 void check(const Arguments& arguments) {
   const Deck deck = Deck::load(arguments.deck, arguments.overrides, deckKinds(), PETSC_COMM_WORLD);
-  const std::string found = problemOf(deck).prepare(PETSC_COMM_WORLD, deck)->summary();
+  const auto prepared = problemOf(deck).prepare(PETSC_COMM_WORLD, deck);
   int rank = 0;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  if (rank == 0) std::cout << arguments.deck << " is a valid deck: " << found << ".\n";
+  if (rank != 0) return;
+  std::cout << arguments.deck << " is a valid deck: " << prepared->summary() << ".\n";
+  for (const std::string& line : prepared->details()) std::cout << line << "\n";
 }
 
 void run(const Arguments& arguments) {

@@ -32,6 +32,7 @@ struct FlowContext {
   double referenceDensity = 0.0;
   std::shared_ptr<BoundaryValues> varying = nullptr;  // null where no boundary varies over place or time
   TransportModel transportModel{};                    // `transport` has its averaged() options
+  std::vector<double> wallDistance{};                 // m, of the owned cells; empty where nobody asks
 
   [[nodiscard]] const BoundaryCondition& boundaryOf(int face) const {
     return boundaries[mesh.patch[face - mesh.interiorFaces]];

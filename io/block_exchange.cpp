@@ -7,7 +7,7 @@ namespace lampblack::io {
 namespace {
 
 // The rank of each number. Collective: all ranks throw where any number is out of range.
-std::vector<int> ranksOfBlocks(MPI_Comm comm, std::span<const std::int64_t> numbers, std::int64_t total) {
+std::vector<int> ranksOfBlocks(MPI_Comm comm, std::span<const std::int64_t> numbers, std::int64_t total, int holders) {
   int outside = 0;
   for (const std::int64_t number : numbers) outside |= number < 0 || number >= total ? 1 : 0;
   MPI_Allreduce(MPI_IN_PLACE, &outside, 1, MPI_INT, MPI_MAX, comm);
@@ -16,7 +16,9 @@ std::vector<int> ranksOfBlocks(MPI_Comm comm, std::span<const std::int64_t> numb
   MPI_Comm_size(comm, &ranks);
   std::vector<int> result;
   result.reserve(numbers.size());
-  for (const std::int64_t number : numbers) result.push_back(blockOf(number, total, ranks));
+  if (holders == 0) holders = ranks;
+  for (const std::int64_t number : numbers)
+    result.push_back(static_cast<int>(blockStart(ranks, holders, blockOf(number, total, holders))));
   return result;
 }
 
@@ -33,14 +35,17 @@ int blockOf(std::int64_t number, std::int64_t total, int ranks) {
   return rank;
 }
 
-BlockExchange::BlockExchange(MPI_Comm comm, std::span<const std::int64_t> globalNumbers, std::int64_t total)
-    : total_(total), ranks_(comm, ranksOfBlocks(comm, globalNumbers, total)) {
+BlockExchange::BlockExchange(MPI_Comm comm, std::span<const std::int64_t> globalNumbers, std::int64_t total,
+                             int holders)
+    : total_(total), ranks_(comm, ranksOfBlocks(comm, globalNumbers, total, holders)) {
   int ranks = 1;
   int rank = 0;
   MPI_Comm_size(comm, &ranks);
   MPI_Comm_rank(comm, &rank);
-  first_ = blockStart(total, ranks, rank);
-  count_ = blockStart(total, ranks, rank + 1) - first_;
+  if (holders == 0) holders = ranks;
+  const int block = blockOf(rank, ranks, holders);
+  first_ = blockStart(total, holders, block);
+  if (blockStart(ranks, holders, block) == rank) count_ = blockStart(total, holders, block + 1) - first_;
 
   positions_ = ranks_.there(globalNumbers, 1);
   std::vector<int> given(static_cast<std::size_t>(count_), 0);

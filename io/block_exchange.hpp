@@ -1,5 +1,5 @@
 // Brings values from the ranks that own them into the order of a file: global numbers 0..total-1 are cut into one
-// contiguous block a rank, and each value travels to the rank that holds its block.
+// contiguous block a rank, or a block for each of some ranks, and each value travels to the rank that holds its block.
 #pragma once
 
 #include <mpi.h>
@@ -19,14 +19,15 @@ int blockOf(std::int64_t number, std::int64_t total, int ranks);
 
 class BlockExchange {
  public:
-  // `globalNumbers` of the values this rank gives, in the order it will give them. Collective.
-  BlockExchange(MPI_Comm comm, std::span<const std::int64_t> globalNumbers, std::int64_t total);
+  // `globalNumbers` of the values this rank gives, in the order it will give them. `holders`: how many ranks hold
+  // blocks, spread evenly over all; 0: each. Collective.
+  BlockExchange(MPI_Comm comm, std::span<const std::int64_t> globalNumbers, std::int64_t total, int holders = 0);
 
   // Whether each number was given exactly once, or at least once, on all ranks together. The same on all ranks.
   [[nodiscard]] bool coversOnce() const { return once_; }
   [[nodiscard]] bool covers() const { return covered_; }
 
-  // This rank's block of the file: its first number and how many.
+  // This rank's block of the file: its first number and how many, 0 where it holds none.
   [[nodiscard]] std::int64_t first() const { return first_; }
   [[nodiscard]] std::int64_t count() const { return count_; }
   [[nodiscard]] std::int64_t total() const { return total_; }

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <string>
 
 #include "io/disk_space.hpp"
 
@@ -18,6 +19,40 @@ constexpr std::int64_t note = std::int64_t{4} << 10;
 constexpr std::int64_t margin = std::int64_t{64} << 10;
 // Claimed besides where there is room, so that few operations have to claim.
 constexpr std::int64_t plenty = std::int64_t{1} << 20;
+
+// Values of a chunk at most: 512 KiB of them. HDF5 needs all of a chunk for any of its values, and keeps 1 MiB of
+// chunks of a dataset by default, so that readers of a part of a field take each chunk apart once. Smaller chunks pack
+// no better and make the index of large fields longer. The size does not depend on the ranks, so that files do not
+// either; a chunk that is of several ranks' blocks is compressed by one of them.
+constexpr std::int64_t valuesInChunk = std::int64_t{1} << 16;
+// Below that the index of the chunks (2 KiB at least) takes what is gained.
+constexpr std::int64_t leastCompressed = std::int64_t{8} << 10;
+
+std::int64_t dividedUp(std::int64_t whole, std::int64_t part) {
+  return (whole + part - 1) / part;
+}
+
+// For what MPI-IO collects itself. ROMIO and OMPIO read the number of ranks that write by the same key, and pass over
+// what only the other knows; OMPIO collects nothing where each rank's piece is in one, as of fields.
+class Hints {
+ public:
+  explicit Hints(int writers) {
+    if (writers == 0) return;
+    MPI_Info_create(&info_);
+    MPI_Info_set(info_, "cb_nodes", std::to_string(writers).c_str());
+    MPI_Info_set(info_, "collective_buffering", "true");
+    MPI_Info_set(info_, "romio_cb_write", "enable");
+  }
+  ~Hints() {
+    if (info_ != MPI_INFO_NULL) MPI_Info_free(&info_);
+  }
+  Hints(const Hints&) = delete;
+  Hints& operator=(const Hints&) = delete;
+  [[nodiscard]] MPI_Info info() const { return info_; }
+
+ private:
+  MPI_Info info_ = MPI_INFO_NULL;
+};
 
 // Finds out on rank 0, with plain C, whether the file can be made: MPI-IO's own complaints say little.
 void probe(MPI_Comm comm, const std::filesystem::path& path) {
@@ -40,11 +75,17 @@ void probe(MPI_Comm comm, const std::filesystem::path& path) {
 
 }  // namespace
 
-ParallelFile::ParallelFile(MPI_Comm comm, const std::filesystem::path& path) : comm_(comm), name_(path.string()) {
+ParallelFile::ParallelFile(MPI_Comm comm, const std::filesystem::path& path, const FileStorage& storage)
+    : comm_(comm), name_(path.string()), compression_(storage.compression) {
+  collectively(comm, [&] {
+    if (compression_ > 0 && H5Zfilter_avail(H5Z_FILTER_DEFLATE) <= 0)
+      throw InputError(name_ + ": the HDF5 library was built without compression (deflate)");
+  });
+  const Hints hints(storage.writers);
   probe(comm, path);
   MPI_Comm_rank(comm, &rank_);
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make HDF5 access properties");
-  check(H5Pset_fapl_mpio(access, comm, MPI_INFO_NULL), "use MPI-IO");
+  check(H5Pset_fapl_mpio(access, comm, hints.info()), "use MPI-IO");
   check(H5Pset_coll_metadata_write(access, true), "write metadata collectively");
   check(H5Pset_all_coll_metadata_ops(access, true), "read metadata collectively");
   check(H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST), "choose the file format");
@@ -89,16 +130,33 @@ void ParallelFile::claim(std::int64_t bytes, const std::string& what) {
   claimed_ = room[1];
 }
 
+std::int64_t ParallelFile::layOut(const std::vector<std::int64_t>& dims, std::int64_t valueSize, hid_t creation,
+                                  const std::string& what) const {
+  std::int64_t bytes = valueSize;
+  for (const std::int64_t extent : dims) bytes *= extent;
+  if (compression_ == 0 || dims.empty() || bytes < leastCompressed) return bytes;
+  // Chunks of whole rows, all alike, with as little as can be beyond the last row: HDF5 stores that too.
+  const std::int64_t rowValues = bytes / valueSize / dims[0];
+  const std::int64_t chunks = dividedUp(dims[0], std::max<std::int64_t>(valuesInChunk / rowValues, 1));
+  std::vector<hsize_t> chunk(dims.begin(), dims.end());
+  chunk[0] = static_cast<hsize_t>(dividedUp(dims[0], chunks));
+  check(H5Pset_chunk(creation, static_cast<int>(chunk.size()), chunk.data()), what);
+  check(H5Pset_shuffle(creation), what);
+  check(H5Pset_deflate(creation, static_cast<unsigned>(compression_)), what);
+  // A chunk that does not become smaller is stored as it is. Before it is written HDF5 gives it the place of a
+  // compressed empty one (a thousandth), which is free again then; and nodes of the index, each half full or more.
+  const std::int64_t chunkBytes = static_cast<std::int64_t>(chunk[0]) * rowValues * valueSize;
+  return chunks * (chunkBytes + chunkBytes / 500 + 512) + note;
+}
+
 void ParallelFile::writeAny(const std::string& path, const std::vector<std::int64_t>& dims, std::int64_t firstRow,
                             std::int64_t rows, const void* data, hid_t fileType, hid_t memoryType) {
   const std::string what = fmt::format("write {} to {}", path, name_);
-  std::int64_t bytes = static_cast<std::int64_t>(H5Tget_size(fileType));
-  for (const std::int64_t extent : dims) bytes *= extent;
-  claim(bytes, what);
+  Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, what);
+  claim(layOut(dims, static_cast<std::int64_t>(H5Tget_size(fileType)), creation, what), what);
   const std::vector<hsize_t> shape(dims.begin(), dims.end());
   const int rank = static_cast<int>(shape.size());
   Handle space(shape.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(rank, shape.data(), nullptr), H5Sclose, what);
-  Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, what);
   check(H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER), what);
   // Time stamps would make two files with the same data differ.
   check(H5Pset_obj_track_times(creation, false), what);

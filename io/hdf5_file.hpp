@@ -14,14 +14,16 @@
 #include <vector>
 
 #include "core/rooms.hpp"
+#include "io/file_storage.hpp"
 #include "io/hdf5_handle.hpp"
 
 namespace lampblack::io::hdf5 {
 
 class ParallelFile {
  public:
-  // Creates or replaces the file. InputError, the same on all ranks, where that is not possible.
-  ParallelFile(MPI_Comm comm, const std::filesystem::path& path);
+  // Creates or replaces the file. InputError, the same on all ranks, where that is not possible or this HDF5 cannot
+  // compress.
+  ParallelFile(MPI_Comm comm, const std::filesystem::path& path, const FileStorage& storage = {});
 
   // A dataset of shape `dims`; this rank writes the rows [firstRow, firstRow + rows) of the first dimension (rows may
   // be 0). Missing groups on the way are made. A scalar has no dims and is written by the ranks with rows > 0.
@@ -59,12 +61,17 @@ class ParallelFile {
   void attributeAny(const std::string& path, const std::string& name, hid_t fileType, hid_t memoryType,
                     const void* value);
 
+  // Whether values of this shape are worth compressing; then makes `creation` do so. Returns what they may take on the
+  // disk, in bytes.
+  std::int64_t layOut(const std::vector<std::int64_t>& dims, std::int64_t valueSize, hid_t creation,
+                      const std::string& what) const;
   // Room for `bytes` of values and what HDF5 notes about them.
   void claim(std::int64_t bytes, const std::string& what);
 
   QuietErrors quiet_;
   MPI_Comm comm_;
   std::string name_;
+  int compression_;
   // Bytes of the file: in use, at most; and with their place on the disk.
   std::int64_t end_ = 0, claimed_ = 0;
   bool full_ = false;

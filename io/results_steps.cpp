@@ -47,7 +47,7 @@ void ResultsWriter::saveSteps(const std::filesystem::path& path, std::size_t fir
 }
 
 void ResultsWriter::Implementation::copySteps(const std::filesystem::path& to, std::size_t first) {
-  hdf5::ParallelFile copy(comm, to);
+  hdf5::ParallelFile copy(comm, to, storage);
   for (std::size_t i = first; i < steps.size(); ++i) {
     const XdmfStep& step = steps[i];
     copy.group(step.group);

@@ -10,7 +10,8 @@
 namespace lampblack::io {
 using namespace resultswriter;
 
-ResultsWriter::ResultsWriter(MPI_Comm comm, std::filesystem::path path, const RunInfo& run, const MeshOutput& mesh) {
+ResultsWriter::ResultsWriter(MPI_Comm comm, std::filesystem::path path, const RunInfo& run, const MeshOutput& mesh,
+                             const FileStorage& storage) {
   const std::size_t n = mesh.globalCell.size();
   const int corners = mesh.corners;
   agree(comm, isTopology(mesh.dimension, corners), "a mesh to write has cells of a kind that there is not");
@@ -19,9 +20,9 @@ ResultsWriter::ResultsWriter(MPI_Comm comm, std::filesystem::path path, const Ru
             mesh.cellCentre.size() == 3 * n && (mesh.owner.empty() || mesh.owner.size() == n) &&
             mesh.vertexCoordinates.size() == 3 * mesh.globalVertex.size(),
         "the arrays of a mesh to write do not fit each other");
-  self_ = std::make_unique<Implementation>(comm, std::move(path), mesh);
+  self_ = std::make_unique<Implementation>(comm, std::move(path), mesh, storage);
   agree(comm, self_->cells.coversOnce(), "a mesh to write has to have each cell on exactly one rank");
-  const BlockExchange vertices(comm, mesh.globalVertex, mesh.totalVertices);
+  const BlockExchange vertices(comm, mesh.globalVertex, mesh.totalVertices, storage.writers);
   agree(comm, vertices.covers(), "a mesh to write has to have each vertex on a rank");
 
   self_->describeRun(run);
@@ -48,7 +49,7 @@ ResultsWriter::ResultsWriter(MPI_Comm comm, std::filesystem::path path, const Ru
 }
 
 ResultsWriter::ResultsWriter(MPI_Comm comm, std::filesystem::path path, const RunInfo& run)
-    : self_(std::make_unique<Implementation>(comm, std::move(path), MeshOutput{})) {
+    : self_(std::make_unique<Implementation>(comm, std::move(path), MeshOutput{}, FileStorage{})) {
   self_->describeRun(run);
   self_->file.flush();
 }
@@ -68,7 +69,7 @@ ResultsWriter::~ResultsWriter() {
 }
 
 void ResultsWriter::renumber(std::span<const std::int64_t> globalCell) {
-  self_->cells = BlockExchange(self_->comm, globalCell, self_->cells.total());
+  self_->cells = BlockExchange(self_->comm, globalCell, self_->cells.total(), self_->storage.writers);
   agree(self_->comm, self_->cells.coversOnce(), "a mesh to write has to have each cell on exactly one rank");
 }
 
@@ -95,7 +96,7 @@ void ResultsWriter::endStep() {
   self_->steps.push_back(std::move(*self_->open));
   self_->open.reset();
   self_->file.flush();
-  self_->writeXdmf(self_->path.filename().string());
+  self_->writeXdmf(partName(self_->path));
 }
 
 void ResultsWriter::table(const std::string& path, const std::vector<Quantity>& columns, std::span<const double> rows) {
@@ -162,14 +163,14 @@ void ResultsWriter::close() {
     std::filesystem::rename(partName(self_->path), self_->path, error);
     if (error) refuseWrite(self_->path, error.value());
   });
-  self_->writeXdmf(self_->path.filename().string());
+  self_->writeXdmf(self_->path);
 }
 
 void ResultsWriter::closePartial() {
   if (!self_->file.isOpen()) return;
   self_->open.reset();
   self_->file.close();
-  self_->writeXdmf(partName(self_->path).filename().string());
+  self_->writeXdmf(partName(self_->path));
 }
 
 }  // namespace lampblack::io

@@ -1,7 +1,8 @@
 // The results of a run: one HDF5 file written collectively by all ranks, and an XDMF file beside it that ParaView
 // opens. Data are stored in the global numbering of cells and vertices, so that the same run on another number of ranks
-// makes the same datasets. Each rank sends its values to the rank that holds their block of the file; every rank then
-// writes one contiguous slab. docs/formats.md lists every dataset. All functions are collective.
+// makes the same datasets. Each rank sends its values to the rank that holds their block of the file; every rank, or as
+// many as FileStorage says, then writes one contiguous slab. docs/formats.md lists every dataset. All functions are
+// collective.
 #pragma once
 
 #include <mpi.h>
@@ -16,6 +17,7 @@
 #include "core/errors.hpp"
 #include "core/quantity.hpp"
 #include "core/rooms.hpp"
+#include "io/file_storage.hpp"
 
 namespace lampblack::io {
 
@@ -49,7 +51,8 @@ class ResultsWriter {
   // Creates `path`.part and `path` with the extension .xdmf beside it. InputError where the file cannot be made;
   // std::logic_error (on all ranks) where the mesh does not number each cell exactly once. Later failures to write are
   // NumericsErrors; on a full disk SystemErrors of all ranks, and what was complete stays readable in `path`.part.
-  ResultsWriter(MPI_Comm comm, std::filesystem::path path, const RunInfo& run, const MeshOutput& mesh);
+  ResultsWriter(MPI_Comm comm, std::filesystem::path path, const RunInfo& run, const MeshOutput& mesh,
+                const FileStorage& storage = {});
   // The same without a mesh: tables and datasets only, and no XDMF file.
   ResultsWriter(MPI_Comm comm, std::filesystem::path path, const RunInfo& run);
   ~ResultsWriter();
@@ -68,7 +71,7 @@ class ResultsWriter {
                  const std::string& description);
   void cellField(const std::string& name, const std::string& unit, int components,
                  std::span<const std::int64_t> ownedValues, const std::string& description);
-  // Ends the step: everything so far is on disk and in the XDMF file.
+  // Ends the step: everything so far is on disk and in the XDMF file, to which the step is appended (xdmf_file.hpp).
   void endStep();
 
   // How many steps there are.

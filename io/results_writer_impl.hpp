@@ -15,9 +15,8 @@
 #include "io/disk_space.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/results_writer.hpp"
-#include "io/run_folder.hpp"
 #include "io/run_record.hpp"
-#include "io/xdmf.hpp"
+#include "io/xdmf_file.hpp"
 
 namespace lampblack::io {
 
@@ -47,21 +46,26 @@ inline std::filesystem::path partName(const std::filesystem::path& path) {
 }  // namespace resultswriter
 
 struct ResultsWriter::Implementation {
-  Implementation(MPI_Comm communicator, std::filesystem::path finalPath, const MeshOutput& mesh)
+  Implementation(MPI_Comm communicator, std::filesystem::path finalPath, const MeshOutput& mesh, const FileStorage& how)
       : comm(communicator),
         path(std::move(finalPath)),
-        file(communicator, resultswriter::partName(path)),
-        cells(communicator, mesh.globalCell, mesh.totalCells),
+        storage(how),
+        file(communicator, resultswriter::partName(path), storage),
+        cells(communicator, mesh.globalCell, mesh.totalCells, storage.writers),
         exceptionsAtStart(std::uncaught_exceptions()) {
     MPI_Comm_rank(comm, &rank);
-    if (mesh.totalCells > 0) xdmfMesh = {mesh.dimension, mesh.corners, mesh.totalCells, mesh.totalVertices};
+    if (mesh.totalCells == 0) return;
+    std::filesystem::path beside = path;
+    xdmf.emplace(beside.replace_extension(".xdmf"),
+                 XdmfMesh{mesh.dimension, mesh.corners, mesh.totalCells, mesh.totalVertices});
   }
 
   MPI_Comm comm;
   std::filesystem::path path;
+  FileStorage storage;
   hdf5::ParallelFile file;
   BlockExchange cells;
-  std::optional<XdmfMesh> xdmfMesh;
+  std::optional<XdmfFile> xdmf;  // of rank 0
   std::vector<XdmfStep> steps;
   std::optional<XdmfStep> open;
   std::map<std::string, std::pair<std::string, std::string>> words;  // of each field: unit, description
@@ -131,13 +135,10 @@ struct ResultsWriter::Implementation {
     file.attribute("/", "deck", run.deckResolved);
   }
 
-  void writeXdmf(const std::string& file5) const {
-    if (!xdmfMesh) return;
+  // All steps that ended; `of` is the HDF5 file under the name it has now.
+  void writeXdmf(const std::filesystem::path& of) {
     collectively(comm, [&] {
-      if (rank != 0) return;
-      std::filesystem::path beside = path;
-      beside.replace_extension(".xdmf");
-      writeFileAtomically(beside, xdmfText(file5, *xdmfMesh, steps));
+      if (rank == 0 && xdmf) xdmf->update(of.filename().string(), steps);
     });
   }
 };

@@ -36,6 +36,7 @@ std::string toJson(const RunRecord& record) {
   json.field("started", record.started).field("finished", record.finished);
   json.field("ranks", record.ranks).field("seed", record.seed);
   json.field("cells", record.cells).field("steps", record.steps);
+  if (!record.meshJson.empty()) json.key("mesh").raw(record.meshJson);
   if (record.retriedSteps) json.field("retried_steps", *record.retriedSteps);
   json.field("simulated_time_s", record.simulatedTime).field("wall_time_s", record.wallTime);
   json.field("peak_memory_per_rank_bytes", record.peakMemoryPerRank);

@@ -35,6 +35,7 @@ struct RunRecord {
   std::int64_t steps = 0;
   std::optional<std::int64_t> retriedSteps;  // of a problem that can
   std::int64_t cells = 0;
+  std::string meshJson;            // how good the mesh is, one object; may be empty
   double peakMemoryPerRank = 0.0;  // bytes, the largest
   std::vector<StageTime> stages;
   std::string resultsJson;  // what came out, one object; may be empty

@@ -73,32 +73,36 @@ bool isTopology(int dimension, int corners) {
   return topologyOf(dimension, corners) != nullptr;
 }
 
-std::string xdmfText(const std::string& file, const XdmfMesh& mesh, const std::vector<XdmfStep>& steps) {
-  const std::string meshText = fmt::format(
+std::string xdmfStepText(const std::string& file, const XdmfMesh& mesh, const XdmfStep& step) {
+  std::string text = fmt::format(
+      "      <Grid Name=\"{}\" GridType=\"Uniform\">\n        <Time Value=\"{}\"/>\n"
       "        <Topology TopologyType=\"{}\" NumberOfElements=\"{}\">\n          {}\n        </Topology>\n"
       "        <Geometry GeometryType=\"XYZ\">\n          {}\n        </Geometry>\n",
-      topologyOf(mesh.dimension, mesh.corners), mesh.cells,
+      escaped(step.group), step.time, topologyOf(mesh.dimension, mesh.corners), mesh.cells,
       dataItem(fmt::format("{} {}", mesh.cells, mesh.corners), "Int", file + ":/mesh/cells"),
       dataItem(fmt::format("{} 3", mesh.vertices), "Float", file + ":/mesh/vertices"));
+  for (const XdmfField& field : step.fields) {
+    const std::string dimensions =
+        field.components == 1 ? fmt::format("{}", mesh.cells) : fmt::format("{} {}", mesh.cells, field.components);
+    text += fmt::format(
+        "        <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"Cell\">\n          {}\n"
+        "        </Attribute>\n",
+        escaped(field.name), attributeType(field.components),
+        dataItem(dimensions, field.isInteger ? "Int" : "Float", fmt::format("{}:{}/{}", file, step.group, field.name)));
+  }
+  return text + "      </Grid>\n";
+}
+
+std::string_view xdmfTail() {
+  return "    </Grid>\n  </Domain>\n</Xdmf>\n";
+}
+
+std::string xdmfText(const std::string& file, const XdmfMesh& mesh, const std::vector<XdmfStep>& steps) {
   std::string text =
       "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n"
       "    <Grid Name=\"run\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
-  for (const XdmfStep& step : steps) {
-    text += fmt::format("      <Grid Name=\"{}\" GridType=\"Uniform\">\n        <Time Value=\"{}\"/>\n{}",
-                        escaped(step.group), step.time, meshText);
-    for (const XdmfField& field : step.fields) {
-      const std::string dimensions =
-          field.components == 1 ? fmt::format("{}", mesh.cells) : fmt::format("{} {}", mesh.cells, field.components);
-      text += fmt::format(
-          "        <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"Cell\">\n          {}\n"
-          "        </Attribute>\n",
-          escaped(field.name), attributeType(field.components),
-          dataItem(dimensions, field.isInteger ? "Int" : "Float",
-                   fmt::format("{}:{}/{}", file, step.group, field.name)));
-    }
-    text += "      </Grid>\n";
-  }
-  return text + "    </Grid>\n  </Domain>\n</Xdmf>\n";
+  for (const XdmfStep& step : steps) text += xdmfStepText(file, mesh, step);
+  return text.append(xdmfTail());
 }
 
 }  // namespace lampblack::io

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/rooms.hpp"
@@ -32,7 +33,9 @@ struct XdmfMesh {
 // Whether there are cells of so many corners.
 bool isTopology(int dimension, int corners);
 
-// The whole file as text; `file` is the HDF5 file's name beside it.
+// The whole file as text; `file` is the HDF5 file's name beside it. It is the head, the text of each step and the tail.
 std::string xdmfText(const std::string& file, const XdmfMesh& mesh, const std::vector<XdmfStep>& steps);
+std::string xdmfStepText(const std::string& file, const XdmfMesh& mesh, const XdmfStep& step);
+std::string_view xdmfTail();
 
 }  // namespace lampblack::io

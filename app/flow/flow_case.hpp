@@ -20,6 +20,7 @@
 #include "flow/transport_model.hpp"
 #include "flow/transport_operator.hpp"
 #include "io/deck.hpp"
+#include "io/file_storage.hpp"
 #include "particles/gas/soot_gas.hpp"
 
 namespace lampblack::app {
@@ -56,6 +57,8 @@ struct OutputControl {
   double interval = 0.0;             // s between field outputs
   int historySteps = 1;              // steps between rows of the history
   std::vector<std::size_t> species;  // mole fractions written
+  bool wallDistance = false;         // whether it is a field
+  FileStorage storage;
   OutputTables tables;
 };
 

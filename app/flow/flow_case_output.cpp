@@ -66,6 +66,22 @@ void addOutputKeys(DeckSchema& schema) {
       .add(stringKey("output.species", "Species whose mole fractions are written; 'all' writes every one.")
                .list()
                .byDefault("[all]"))
+      .add(booleanKey("output.wall_distance",
+                      "Whether the distance of each cell's centre from the nearest wall is a field of the results, "
+                      "wall_distance. Boundaries of the type wall count.")
+               .byDefault("false"))
+      .add(integerKey("output.compression",
+                      "How hard the fields of results.h5 are compressed, from 1, fast, to 9, small; 0: not at all. No "
+                      "value changes.")
+               .byDefault("0")
+               .atLeast(0)
+               .atMost(FileStorage::mostCompression))
+      .add(integerKey(
+               "output.writers",
+               "Number of ranks that collect the fields of the others and write them to results.h5, at most as "
+               "many as there are; few are better for some parallel file systems. Absent: each rank writes a share.")
+               .optional()
+               .atLeast(1))
       .section("output.probes.*", Presence::optional,
                "A place whose gas is written with each row of the history, to the table tables/probe_<name>.csv.")
       .add(
@@ -97,6 +113,12 @@ void readOutput(const Deck& deck, FlowCase& flowCase) {
   OutputControl& output = flowCase.output;
   output.interval = deck.optionalQuantity("output.interval").value_or(flowCase.time.end);
   output.historySteps = deck.integer<int>("output.history_steps");
+  output.wallDistance = deck.boolean("output.wall_distance");
+  if (output.wallDistance && std::ranges::none_of(flowCase.boundaries, [](const BoundaryCondition& boundary) {
+        return boundary.kind == BoundaryKind::Wall;
+      }))
+    throw deck.error("output.wall_distance", "no boundary of this deck is a wall; expected false");
+  output.storage = {deck.integer<int>("output.compression"), deck.optionalInteger<int>("output.writers").value_or(0)};
   output.species = readSpeciesList(deck, "output.species", *flowCase.mechanism);
   flowCase.checkpoint = {deck.optionalInteger<std::int64_t>("checkpoint.steps"), deck.quantity("checkpoint.wall_time"),
                          deck.boolean("checkpoint.at_end")};

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "core/wall_distance.hpp"
 
 namespace lampblack::app {
 namespace {
@@ -12,6 +13,14 @@ std::shared_ptr<BoundaryValues> varyingValues(const Mesh& mesh, const FlowCase& 
   const auto varies = [](const BoundaryCondition& boundary) { return !boundary.varies.isEmpty(); };
   if (std::ranges::none_of(flowCase.boundaries, varies)) return nullptr;
   return std::make_shared<BoundaryValues>(mesh, flowCase.boundaries, thermo);
+}
+
+std::vector<double> distancesFromWalls(const Mesh& mesh, HaloExchange& halo, const FlowCase& flowCase) {
+  if (!flowCase.output.wallDistance) return {};
+  std::vector<int> walls;
+  for (std::size_t b = 0; b < flowCase.boundaries.size(); ++b)
+    if (flowCase.boundaries[b].kind == BoundaryKind::Wall) walls.push_back(static_cast<int>(b));
+  return wallDistance(mesh, halo, walls);
 }
 
 }  // namespace
@@ -29,7 +38,8 @@ FlowDomain::FlowDomain(Mesh partitioned, const FlowCase& flowCase, const Thermo&
               flowCase.gravity,
               flowCase.referenceDensity,
               varyingValues(mesh, flowCase, thermo),
-              flowCase.transport},
+              flowCase.transport,
+              distancesFromWalls(mesh, halo, flowCase)},
       state(mesh, flowCase.mechanism->numSpecies(),
             flowCase.carried ? CarriedOperator::scalarsOf(*flowCase.carried) : std::vector<CarriedScalar>{},
             flowCase.swirls),

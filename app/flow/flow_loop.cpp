@@ -22,6 +22,7 @@ FlowLoop::FlowLoop(MPI_Comm comm, FlowCase flowCase)
       domain_(std::make_unique<FlowDomain>(makeMesh(comm, case_), case_, thermo_, transport_,
                                            keepingFailedCells(case_.chemistry))),
       operators_(domain_->operators),
+      quality_(domain_->mesh),
       costs_(domain_->mesh),
       repartitions_(case_.repartition.has_value() && domain_->mesh.ranks > 1),
       kept_(domain_->mesh.owned, domain_->mesh.faces),
@@ -33,14 +34,6 @@ FlowLoop::FlowLoop(MPI_Comm comm, FlowCase flowCase)
   if (case_.trajectories) requireStartsInside(domain_->context, *case_.trajectories);
   dt_ = case_.time.firstStep;
   nextOutput_ = case_.output.interval;
-}
-
-std::vector<std::string> FlowLoop::notesOfMesh() const {
-  if (domain_->mesh.facesBeyond == 0) return {};
-  return {
-      fmt::format("{} of the mesh's {} faces are turned by more than 76 degrees from the steps between their cells: "
-                  "what diffuses and presses along them counts as at 76 degrees; better shaped cells are more accurate",
-                  domain_->mesh.facesBeyond, domain_->mesh.totalFaces)};
 }
 
 void FlowLoop::load(const WholeCheckpoint& checkpoint) {
@@ -67,7 +60,7 @@ void FlowLoop::load(const WholeCheckpoint& checkpoint) {
 void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
   folder_ = folder;
   Outputs outputs{
-      folder, ResultsWriter(comm_, folder.results(), info, meshOutput(domain_->mesh)),
+      folder, ResultsWriter(comm_, folder.results(), info, meshOutput(domain_->mesh), case_.output.storage),
       HistoryWriter(comm_, folder.history(),
                     historyColumns(domain_->mesh, operators_, domain_->budget->lines(domain_->state))),
       Progress(comm_, time_, case_.time.end),

@@ -20,6 +20,7 @@
 #include "app/flow/flow_tables.hpp"
 #include "app/flow/wall_limit.hpp"
 #include "core/kept_state.hpp"
+#include "core/mesh_quality.hpp"
 #include "core/rooms.hpp"
 #include "core/timers.hpp"
 #include "io/progress.hpp"
@@ -39,8 +40,7 @@ class FlowLoop {
 
   [[nodiscard]] std::int64_t cells() const { return domain_->mesh.totalCells; }
 
-  // What a user should know of the mesh, or nothing.
-  [[nodiscard]] std::vector<std::string> notesOfMesh() const;
+  [[nodiscard]] const MeshQuality& quality() const { return quality_; }
 
   // A further operator of each step, behind the case's own, which has to live as long; before load() and run().
   void addOperator(Operator& added) {
@@ -145,6 +145,7 @@ class FlowLoop {
   Transport transport_;
   std::unique_ptr<FlowDomain> domain_;
   std::vector<Operator*> added_, operators_;  // those of others; all, each advances over the step, one after the other
+  MeshQuality quality_;
   CellCosts costs_;
   bool repartitions_;  // whether the mesh may still be partitioned anew
   std::unique_ptr<FlowTables> tables_;

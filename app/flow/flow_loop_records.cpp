@@ -12,9 +12,35 @@
 #include "core/stop_request.hpp"
 #include "core/system_error.hpp"
 #include "core/wall_clock.hpp"
+#include "io/json.hpp"
 #include "io/report.hpp"
 
 namespace lampblack::app {
+namespace {
+
+// One object: the worst of each measure with its place, in SI.
+std::string meshJson(const MeshQuality& quality) {
+  JsonWriter json;
+  json.beginObject();
+  for (std::size_t s = 0; s < quality.cells.size(); ++s)
+    if (quality.cells[s] > 0) json.field(nameOf(static_cast<CellShape>(s)), quality.cells[s]);
+  const auto add = [&](const char* name, const MeshQuality::Worst& worst) {
+    json.key(name).beginObject().field("value", worst.value).field("number", worst.number).key("place").beginArray();
+    for (int axis = 0; axis < quality.dimension; ++axis) json.value(worst.place[axis]);
+    json.endArray().endObject();
+  };
+  add("smallest_cell", quality.smallest);
+  add("largest_cell", quality.largest);
+  add("growth", quality.growth);
+  add("angle", quality.angle);
+  json.field("mean_angle", quality.meanAngle).field("faces_beyond_largest_angle", quality.facesBeyond);
+  add("skewness", quality.skewness);
+  add("aspect_ratio", quality.aspect);
+  json.endObject();
+  return json.text();
+}
+
+}  // namespace
 
 HistoryRow FlowLoop::observe() {
   const Timers::Scope scope(timers_, "monitoring");
@@ -72,6 +98,7 @@ void FlowLoop::count(RunRecord& record) const {
   record.steps = steps_;
   record.retriedSteps = retried_;
   record.cells = domain_->mesh.totalCells;
+  record.meshJson = meshJson(quality_);
   record.simulatedTime = time_;
 }
 
@@ -92,6 +119,7 @@ void FlowLoop::report(double wallTime, RunRecord& record) {
   count(record);
   if (domain_->mesh.rank != 0) return;
   std::cout << formatReport(closing);
+  for (const std::string& line : quality_.lines()) fmt::print("{}\n", line);
   if (costs_.partitions() > 0) fmt::print("times the mesh was partitioned anew: {}\n", costs_.partitions());
   if (retried_ > 0) fmt::print("steps that failed and were tried again, smaller: {}\n", retried_);
   fmt::print("peak temperature {:.1f} K at {} = ({:.3f}, {:.3f}) mm\n", last_.extremes.maximumTemperature,

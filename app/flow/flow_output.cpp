@@ -83,6 +83,8 @@ void flowFields(const FlowContext& context, const FlowCase& flowCase, const Stat
   give({"velocity", "m/s", "gas velocity along the mesh's axes"}, state.dimension,
        part(state.velocity, static_cast<std::size_t>(state.dimension)));
   give({"pressure", "Pa", "hydrodynamic pressure"}, 1, part(state.pressure, 1));
+  if (!context.wallDistance.empty())
+    give({"wall_distance", "m", "distance of the cell's centre from the nearest wall"}, 1, context.wallDistance);
   std::vector<double> column(owned), weight;
   for (std::size_t k : flowCase.output.species) {
     const std::string& species = context.mechanism.speciesName(k);

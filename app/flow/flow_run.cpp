@@ -22,6 +22,9 @@ class PreparedFlow : public PreparedRun {
     FlowCase flowCase;
     collectively(comm, [&] {
       flowCase = readFlowCase(deck);
+      if (flowCase.output.storage.writers > ranks)
+        throw deck.error("output.writers", fmt::format("expected {} at most, the number of ranks, found {}", ranks,
+                                                       flowCase.output.storage.writers));
       if (flowCase.meshFile) return;
       std::size_t cells = 1;
       for (int axis = 0; axis < flowCase.dimension; ++axis)
@@ -34,11 +37,17 @@ class PreparedFlow : public PreparedRun {
     species_ = flowCase.mechanism->numSpecies();
     reactions_ = flowCase.mechanism->numReactions();
     run_ = std::make_unique<FlowLoop>(comm, std::move(flowCase));
-    for (const std::string& note : run_->notesOfMesh()) notes_.push_back(note);
+    for (const std::string& warning : run_->quality().warnings()) notes_.push_back(warning);
   }
 
   [[nodiscard]] std::string summary() const override {
     return fmt::format("{} cells, {} species, {} reactions", run_->cells(), species_, reactions_);
+  }
+
+  [[nodiscard]] std::vector<std::string> details() const override {
+    std::vector<std::string> lines = run_->quality().lines();
+    for (const std::string& note : notes_) lines.push_back("note: " + note);
+    return lines;
   }
 
   void run(const RunOptions& options) override {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "app/run/recorded_run.hpp"
 #include "core/rooms.hpp"
@@ -15,6 +16,8 @@ class PreparedRun {
 
   // What is there, in a few words ("47 species, ...").
   [[nodiscard]] virtual std::string summary() const = 0;
+  // What more there is to know of it, a line each.
+  [[nodiscard]] virtual std::vector<std::string> details() const { return {}; }
   // Collective, once. From the first step to the report. InputError where the folder cannot be used, NumericsError as
   // they come; the run folder then says so.
   virtual void run(const RunOptions& options) = 0;

@@ -42,6 +42,11 @@ def main(executable: str, ranks: str, *mpiexec: str) -> None:
                     "simulated_time_s": float(rows[-1]["time [s]"]), "overrides": list(SETTINGS)}
         found = {key: record[key] for key in expected}
         assert found == expected, f"{found} instead of {expected}"
+        mesh = record["mesh"]
+        assert mesh["quadrilateral"] == 60 and mesh["angle"]["value"] == 0 and mesh["growth"]["value"] > 1, mesh
+        assert "mesh: 60 quadrilaterals of " in result.out, result.out
+        checked = program("check", deck)
+        assert "mesh: 60 quadrilaterals of " in checked.out and "all faces are orthogonal" in checked.out, checked.out
         assert record["deck"]["output"]["history_steps"] == 3 and abs(record["deck"]["time"]["end"] - 1e-5) < 1e-19
 
 

@@ -115,7 +115,7 @@ def main(executable: str, *mpiexec: str) -> int:
         runs = {"flow": (running.small_case(folder), *running.settings(
             "radiation.model=optically_thin", "boundaries.fuel.swirl_velocity=1 m/s", "time.sweeps=2", "time.tolerance=0.1",
             "output.probes={p: {at: [1 mm, 5 mm]}}", "output.lines={l: {from: [0 mm, 1 mm], to: [0 mm, 7 mm], points: 3}}",
-            "output.boundaries=[fuel]"))}
+            "output.boundaries=[fuel]", "output.wall_distance=true"))}
         for text, run in ((COUNTERFLOW, "counterflow"), (SOOT, "soot"), (POPULATION, "population")):
             (folder / f"{run}.yaml").write_text(text, encoding="utf-8")
             runs[run] = (folder / f"{run}.yaml",)

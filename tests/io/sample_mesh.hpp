@@ -60,14 +60,15 @@ inline double sampleVelocity(std::int64_t cell, int component) {
 }
 
 // Two steps of two fields, a history, and a trajectory that the last rank owns.
-inline void writeSample(MPI_Comm comm, const std::filesystem::path& path, const SampleMesh& sample) {
+inline void writeSample(MPI_Comm comm, const std::filesystem::path& path, const SampleMesh& sample,
+                        const FileStorage& storage = {}) {
   int ranks = 1;
   int rank = 0;
   MPI_Comm_size(comm, &ranks);
   MPI_Comm_rank(comm, &rank);
   const MeshOutput mesh = sample.part(comm);
   const RunInfo run{"0.1.0", "abc", "problem: flow\n", "2024-01-01T00:00:00Z"};
-  ResultsWriter results(comm, path, run, mesh);
+  ResultsWriter results(comm, path, run, mesh, storage);
   for (const std::int64_t step : {0, 20}) {
     const double time = 1e-3 * static_cast<double>(step);
     std::vector<double> temperature;
