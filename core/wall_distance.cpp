@@ -183,13 +183,10 @@ class WallSweeps {
 
   // A wall of the cell beyond a face, where this cell sees it: moved, if the face is of a periodic pair.
   int seenFrom(int cell, int face, int wall) {
-    const Mesh& m = mesh_;
-    const Vector3 toHigh = difference(m.centre[slot(m.high[slot(face)])], m.centre[slot(m.low[slot(face)])]);
-    const Vector3 shift = difference(m.step[slot(face)], toHigh);
-    if (length(shift) <= 1e-6 * length(m.step[slot(face)])) return wall;
+    const Vector3 shift = mesh_.shiftBeyond(cell, face);
+    if (shift == Vector3{}) return wall;
     WallFace image = walls_[slot(wall)];
-    const double sign = m.low[slot(face)] == cell ? 1.0 : -1.0;
-    for (int i = 0; i < image.corners; ++i) image.corner[slot(i)] = sum(image.corner[slot(i)], scaled(shift, sign));
+    for (int i = 0; i < image.corners; ++i) image.corner[slot(i)] = difference(image.corner[slot(i)], shift);
     return indexOf(image);
   }
 
