@@ -84,13 +84,16 @@ TEST(History, HasAValueForEveryColumnOfEveryOperator) {
   Spark spark;
   spark.advance(state, 0.0, 1e-6);
   HistoryRow row;
-  row.budget = {{}, {}};
+  row.budget = {{"mass", 1.0, 0.0, 0.0, 0.0}};
   row.operators = spark.historyValues(state);
   const std::vector<Quantity> columns = historyColumns(mesh, {&spark}, row.budget);
   const std::vector<double> values = historyValues(row);
   ASSERT_EQ(columns.size(), values.size());
   const auto place = std::ranges::find(columns, "sparks", &Quantity::name) - columns.begin();
   EXPECT_EQ(values.at(static_cast<std::size_t>(place)), 1);
+  const auto content = std::ranges::find(columns, "mass_content", &Quantity::name);
+  ASSERT_NE(content, columns.end());
+  EXPECT_EQ(content->unit, "kg/rad");
   std::vector<std::string> fields;
   spark.fields(state, [&](const Quantity& field, std::span<const double>) { fields.push_back(field.name); });
   EXPECT_EQ(fields, std::vector<std::string>{"spark"});

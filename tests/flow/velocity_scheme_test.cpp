@@ -97,6 +97,29 @@ TEST(FaceVelocity, LeavesSmoothFlowsAlone) {
   EXPECT_NEAR(std::log2(coarse / fine), 4.0, 0.1);
 }
 
+// What the faces of a rectangle have in common is taken off; a triangle's have next to nothing else, and keep it.
+TEST(FaceVelocity, KeepsAllOfItOnTriangles) {
+  for (const Cells cells : {Cells::Quadrilaterals, Cells::Triangles}) {
+    const std::vector<Side> sides{side(BoundaryKind::Wall, 0, false), side(BoundaryKind::Wall, 0, true),
+                                  side(BoundaryKind::Wall, 1, false), side(BoundaryKind::Wall, 1, true)};
+    const Box box(Geometry::Planar, {uniformAxis(1.0, 6), uniformAxis(1.0, 6)}, sides, Gas::hydrogen(),
+                  Split{cells, 0.0});
+    const Mesh& m = box.mesh;
+    std::vector<double> p(at(m.cells)), none(p.size() * 4, 0.0), through(at(m.faces), 0.0);
+    for (int c = 0; c < m.cells; ++c) p[at(c)] = m.centre[at(c)][0] + 2.0 * m.centre[at(c)][1];
+    FaceVelocity faces(box.context);
+    const std::span<const double> zero(none);
+    faces.predict({zero.first(2 * p.size()), zero.first(2 * p.size()), zero.first(p.size()), p, zero},
+                  std::vector<double>(through.size(), 1.0), 0.1, through);
+    double most = 0.0;
+    for (int face = 0; face < m.interiorFaces; ++face) {
+      const double whole = 0.1 * (p[at(m.low[at(face)])] - p[at(m.high[at(face)])]) / m.distance[at(face)];
+      most = std::max(most, std::abs(through[at(face)] - (cells == Cells::Triangles ? whole : 0.0)));
+    }
+    EXPECT_LT(maxOverRanks(most), 1e-12);
+  }
+}
+
 // A vortex carried once through a periodic box in a stream three times as fast: the share of its energy that is left.
 double energyLeft(VelocityScheme scheme, int cells) {
   Gas& gas = Gas::hydrogen();
