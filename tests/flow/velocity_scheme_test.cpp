@@ -164,7 +164,7 @@ TEST(VelocityScheme, KeepsVorticesWhereItIsCentral) {
   report(fmt::format("a vortex of 6 cells carried once through the box keeps {:.4f} of its energy, central {:.4f}",
                      limited, central));
   EXPECT_LT(limited, 0.85);
-  EXPECT_NEAR(central, 0.96, 0.015);
+  EXPECT_NEAR(central, 0.9605, 0.0015);  // slopes of the wrong cells: 0.9636
 }
 
 }  // namespace
