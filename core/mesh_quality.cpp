@@ -140,7 +140,8 @@ std::vector<std::string> MeshQuality::lines() const {
   constexpr double one = 1.0 + 1e-9;
   if (growth.value > one) first += fmt::format("; neighbours differ by {:.3g} at most", growth.value);
   if (aspect.value > one) first += fmt::format("; aspect ratio {:.3g} at most", aspect.value);
-  if (angle.value == 0.0 && skewness.value == 0.0) {
+  constexpr double degreesOfRoundOff = 1e-5;
+  if (angle.value < degreesOfRoundOff && skewness.value < one - 1.0) {
     if (growth.value <= one && aspect.value <= one) return {first + "; all cells are perfect"};
     return {first + "; all faces are orthogonal"};
   }
