@@ -4,8 +4,12 @@
 // neighbouring cells (Rhie and Chow 1983). The deviation has an equation of its own,
 //   dd/dt = r - d/tau,    r = (grad p)/rho of the cells, interpolated, - (1/rho) dp/dn across the face,
 // gravity's force taken off both gradients,
-// with tau the time in which convection and viscosity renew a cell's momentum: a steady flow has d = tau r, of third
-// order in the mesh's width and whatever the time step (Choi 1999 on why the plain interpolation does depend on it).
+// with tau the time in which convection and viscosity renew a cell's momentum: a steady flow has d = tau r whatever the
+// time step (Choi 1999 on why the plain interpolation does depend on it).
+//
+// What r has in common at the faces of a quadrilateral or hexahedron is taken off: in a smooth flow that is nearly all
+// of it, which would take energy from vortices a few cells wide; of pressures that go up and down from cell to cell it
+// is nothing. What is left falls as the fourth power of the mesh's width, against the pressure's own slope.
 #pragma once
 
 #include <span>
