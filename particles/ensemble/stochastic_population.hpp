@@ -12,6 +12,11 @@
 
 namespace lampblack::particles {
 
+inline void requireParticle(const GivenParticle& p) {
+  if (!(p.carbon > 0) || !(p.hydrogen >= 0) || !(p.primaries >= 1) || !(p.number > 0))
+    throw InputError("stochastic soot: a particle needs carbon, a number and at least one primary");
+}
+
 template <class Method>
 void StochasticProcess<Method>::initialise(std::span<const GivenParticle> population) {
   if (population.empty() || population.size() > options_.particles) {
@@ -19,8 +24,7 @@ void StochasticProcess<Method>::initialise(std::span<const GivenParticle> popula
         fmt::format("stochastic soot: {} particles, there is room for 1 to {}", population.size(), options_.particles));
   }
   for (const GivenParticle& p : population) {
-    if (!(p.carbon > 0) || !(p.hydrogen >= 0) || !(p.primaries >= 1) || !(p.number > 0))
-      throw InputError("stochastic soot: a particle needs carbon, a number and at least one primary");
+    requireParticle(p);
     if (!weighted && p.number != population[0].number)
       throw InputError("stochastic soot: particles of equal weight that stand for different numbers");
   }
@@ -78,18 +82,22 @@ void StochasticProcess<Method>::join(std::span<const GivenParticle> particles, d
 }
 
 // Which layout of a packed state this is; another one is refused.
-inline constexpr double packedVersion = 3;
+inline constexpr double packedVersion = 4;
 
 template <class Method>
 std::vector<double> StochasticProcess<Method>::pack() const {
   std::vector<double> state;
+  state.reserve(packedHead + packedParticle * size());
   packDoubles(
       state, std::array{packedVersion, static_cast<double>(options_.method), static_cast<double>(options_.particles),
                         static_cast<double>(random_.position()), reached_, nucleusAfter_, planned_ ? 1.0 : 0.0, cost_});
   packDoubles(state, exchange_);
   for (const PopulationCounter& counter : populationCounters)
     state.push_back(static_cast<double>(counters().*counter.value));  // below 2^53
-  method_.pack(state);
+  packDoubles(state, method_.memory());
+  method_.forEachParticle([&](const Particle& p, double w) {
+    packDoubles(state, GivenParticle{p.carbon, p.hydrogen, p.primaries, w});
+  });
   return state;
 }
 
@@ -107,8 +115,21 @@ void StochasticProcess<Method>::unpack(std::span<const double> values) {
   exchange_ = state.next<EnsembleExchange>();
   for (const PopulationCounter& counter : populationCounters)
     method_.counters().*counter.value = static_cast<std::uint64_t>(state.next());
-  method_.unpack(state);
-  if (state.left() != 0) throw InputError("stochastic soot: the saved state is longer than its population");
+  const auto memory = state.next<std::array<double, 2>>();
+  std::vector<PackedEntry> entries;
+  entries.reserve(state.left() / packedParticle);
+  while (state.left() > 0) {
+    const auto p = state.next<GivenParticle>();
+    requireParticle(p);
+    if (!weighted && p.number != memory[0])
+      throw InputError("stochastic soot: the saved state is damaged: particles of equal weight differ in it");
+    const Particle particle = type_.make(p.carbon, p.hydrogen, p.primaries);
+    if constexpr (weighted)
+      entries.push_back({particle, p.number});
+    else
+      entries.push_back(particle);
+  }
+  method_.restore(memory, std::move(entries));
 }
 
 template <class Method>

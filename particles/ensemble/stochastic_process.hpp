@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "core/random.hpp"
 #include "particles/ensemble/ensemble.hpp"
 #include "particles/ensemble/newborn_step.hpp"
+#include "particles/ensemble/packed_ensemble.hpp"
 #include "particles/soot/soot_columns.hpp"
 
 namespace lampblack::particles {
@@ -69,6 +71,7 @@ class StochasticProcess final : public Ensemble {
   void recordUptakeOfDimers(const SootMedium& medium, double dimers);
 
   static constexpr bool weighted = requires(Method method, const Particle& p) { method.setNucleus(p, 1.0); };
+  using PackedEntry = std::conditional_t<weighted, typename Method::Entry, Particle>;
 
   EnsembleOptions options_;
   SootAggregate type_;

@@ -42,7 +42,7 @@ class SootAggregate {
   [[nodiscard]] double volume(const Particle& p) const { return mass(p) / density_; }
   [[nodiscard]] double collisionDiameter(const Particle& p) const { return p.diameter; }
   [[nodiscard]] double primaryDiameter(const Particle& p) const {
-    return cubeRoot(6 / constants::pi * volume(p) / p.primaries);
+    return cubeRoot(perVolume() * mass(p) / p.primaries);
   }
   [[nodiscard]] double surface(const Particle& p) const {
     const double d = primaryDiameter(p);
@@ -69,7 +69,8 @@ class SootAggregate {
   }
   [[nodiscard]] Particle mean(const Particle& p, double wp, const Particle& q, double wq) const {
     const double a = wp / (wp + wq), b = wq / (wp + wq);
-    return make(a * p.carbon + b * q.carbon, a * p.hydrogen + b * q.hydrogen, a * p.primaries + b * q.primaries);
+    return make(a * p.carbon + b * q.carbon, a * p.hydrogen + b * q.hydrogen,
+                p.primaries + b * (q.primaries - p.primaries));  // of equal ones to the last bit
   }
   [[nodiscard]] Particle fragment(const Particle& p, double fraction) const {
     return make(fraction * p.carbon, fraction * p.hydrogen, std::max(1.0, fraction * p.primaries));

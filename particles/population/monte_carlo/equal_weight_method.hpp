@@ -10,7 +10,6 @@
 #include <optional>
 #include <vector>
 
-#include "core/packed_doubles.hpp"
 #include "core/rooms.hpp"
 #include "particles/population/monte_carlo/equal_rates.hpp"
 #include "particles/population/monte_carlo/equal_weight_sample.hpp"
@@ -188,17 +187,12 @@ class EqualWeightMethod {
     sample_.massChanged();
     sample_.bringNumberIntoRange(random, counters_);
   }
-  // What a population in a gas has to keep so that it goes on as it would have: counters apart.
-  void pack(std::vector<double>& state) const {
-    packDoubles(state, std::array{sample_.weight(), sample_.filled() ? 1.0 : 0.0, static_cast<double>(size())});
-    sample_.store().forEach([&](const Entry& entry) { packDoubles(state, entry.particle); });
-  }
-  void unpack(PackedDoubles& state) {
-    const double weight = state.next();
-    const bool filled = state.next() != 0;
-    const std::size_t count = state.nextCount();
-    sample_.replace(weight, filled, count,
-                    [&](std::size_t) { return rates().entry(state.next<typename Type::Particle>()); });
+  // What a population in a gas keeps besides its particles and counters so that it goes on as it would have: for how
+  // many real ones (1/m3) each stands, and whether the sample was full.
+  [[nodiscard]] std::array<double, 2> memory() const { return {sample_.weight(), sample_.filled() ? 1.0 : 0.0}; }
+  void restore(const std::array<double, 2>& memory, const std::vector<typename Type::Particle>& particles) {
+    sample_.replace(memory[0], memory[1] != 0, particles.size(),
+                    [&](std::size_t k) { return rates().entry(particles[k]); });
     retune();
   }
   void dilute(double factor) { sample_.dilute(factor); }

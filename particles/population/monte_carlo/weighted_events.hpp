@@ -286,25 +286,24 @@ void WeightedMethod<Type, Store>::join(const std::vector<WeightedParticle<Partic
                                        RandomStream& random) {
   const auto copies = systematicCopies(
       coming.size(), [&](std::size_t) { return chance; }, random);
+  // Many at once are cheaper put in order with the others than one by one.
+  std::vector<Entry> entries = takeAll();
   for (std::size_t k = 0; k < coming.size(); ++k)
-    if (copies[k] > 0) add(coming[k].particle, coming[k].number / chance, copies[k]);
+    for (std::size_t copy = 0; copy < copies[k]; ++copy) {
+      entries.push_back({coming[k].particle, coming[k].number / chance});
+      track(entries.back(), 1);
+    }
+  assign(std::move(entries));
+  makeRoom(0);
 }
 
 template <ParticleType Type, class Store>
-void WeightedMethod<Type, Store>::pack(std::vector<double>& state) const {
-  packDoubles(state, std::array{nucleusWeight_, filled_ ? 1.0 : 0.0, static_cast<double>(size())});
-  store_.forEach([&](const Entry& entry) { packDoubles(state, entry); });
-}
-
-template <ParticleType Type, class Store>
-void WeightedMethod<Type, Store>::unpack(PackedDoubles& state) {
-  nucleusWeight_ = state.next();
-  const bool filled = state.next() != 0;
-  std::vector<Entry> entries(state.nextCount(), first_);
-  for (Entry& entry : entries) entry = state.next<Entry>();
+void WeightedMethod<Type, Store>::restore(const std::array<double, 2>& memory, std::vector<Entry> entries) {
+  nucleusWeight_ = memory[0];
   store_.clear();
   assign(std::move(entries));
-  filled_ = filled;
+  filled_ = memory[1] != 0;
+  if (store_.size() > capacity_) makeRoom(0);
   retune();
 }
 

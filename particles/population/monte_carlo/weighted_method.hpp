@@ -33,7 +33,6 @@
 #include <span>
 #include <vector>
 
-#include "core/packed_doubles.hpp"
 #include "particles/population/monte_carlo/deferred_growth.hpp"
 #include "particles/population/monte_carlo/growth_step.hpp"
 #include "particles/population/monte_carlo/initial_sample.hpp"
@@ -114,9 +113,11 @@ class WeightedMethod {
   // Takes in the part `chance` of particles that stand for `number` (1/m3) real ones each, with numbers that make up
   // for the others.
   void join(const std::vector<WeightedParticle<Particle>>& coming, double chance, RandomStream& random);
-  // What a population in a gas has to keep so that it goes on as it would have: counters apart.
-  void pack(std::vector<double>& state) const;
-  void unpack(PackedDoubles& state);
+  // What a population in a gas keeps besides its particles and counters so that it goes on as it would have: for how
+  // many real ones (1/m3) a nucleus stands, and whether the store was full. More particles than there is room for are
+  // merged.
+  [[nodiscard]] std::array<double, 2> memory() const { return {nucleusWeight_, filled_ ? 1.0 : 0.0}; }
+  void restore(const std::array<double, 2>& memory, std::vector<Entry> entries);
   void dilute(double factor);
   void beginStep(double, double) {}
   void atTime(double) {}

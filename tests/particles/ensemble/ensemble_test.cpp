@@ -179,7 +179,7 @@ TEST_P(EnsembleMethods, HasTheMomentsOfEqualWeights) {
   if (GetParam() == EnsembleMethod::dsmc) GTEST_SKIP() << "the reference";
   const test::FlameGas gas(1650, 1e-3, 0.03, 1e-5, 0.08, 0, 0.03, {1e-6, 4e-7, 3e-7});
   const double dt = 4e-4;
-  const int steps = 10, repeats = 20;
+  const int steps = 10, repeats = 80;
   const std::vector<double> orders = {0, 1.0 / 3, 2.0 / 3, 1, 4.0 / 3};
   std::vector<std::vector<double>> here(orders.size()), there(orders.size());
   for (int r = 0; r < repeats; ++r) {

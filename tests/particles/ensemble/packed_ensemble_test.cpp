@@ -1,4 +1,6 @@
 // The complete state of a stochastic population as it travels and is saved: who unpacks it goes on to the same bits.
+#include "particles/ensemble/packed_ensemble.hpp"
+
 #include <gtest/gtest.h>
 
 #include "core/errors.hpp"
@@ -108,10 +110,41 @@ TEST_P(PackedSoot, RefusesTheStateOfAnother) {
   longer.push_back(1);
   EXPECT_THROW(makeEnsemble(options(7))->unpack(cut), InputError);
   EXPECT_THROW(makeEnsemble(options(7))->unpack(longer), InputError);
-  // A number of particles beyond what is there to read, or beyond the room.
-  for (std::size_t k = 0; k < state.size(); ++k)
-    if (state[k] == static_cast<double>(soot->size())) state[k] = 1e15;
-  EXPECT_THROW(makeEnsemble(options(7))->unpack(state), InputError);
+  // A particle of nothing, and one that stands for another number than its head says.
+  std::vector<double> empty = state, other = state;
+  empty[packedHead] = 0;
+  EXPECT_THROW(makeEnsemble(options(7))->unpack(empty), InputError);
+  other[packedHead + packedParticle - 1] *= 2;
+  if (GetParam().method == EnsembleMethod::dsmc) {
+    EXPECT_THROW(makeEnsemble(options(7))->unpack(other), InputError);
+  }
+}
+
+TEST_P(PackedSoot, HasItsParticlesBehindTheHead) {
+  const auto soot = makeEnsemble(options(7));
+  EXPECT_EQ(soot->pack().size(), packedHead);
+  soot->advance(flame().state, 0, 3e-4);
+  std::vector<GivenParticle> packed = packedParticles(soot->pack());
+  ASSERT_EQ(packed.size(), soot->size());
+  double carbon = 0;
+  for (const GivenParticle& p : packed) carbon += p.number * p.carbon;
+  EXPECT_NEAR(carbon, soot->totals().carbon, 1e-12 * carbon);
+}
+
+// Particles put behind those of a packed population of different weights are its own, in any order; too many merge.
+TEST(PackedEnsemble, TakesParticlesThatWerePutIn) {
+  EnsembleOptions o;
+  o.method = EnsembleMethod::sammc;
+  o.particles = 100;
+  o.soot = test::threePah();
+  const auto soot = makeEnsemble(o);
+  std::vector<double> state = soot->pack();
+  for (int k = 0; k < 250; ++k) packDoubles(state, GivenParticle{1e-23 * (1 + (k * 37) % 250), 1e-25, 1, 1e9});
+  soot->unpack(state);
+  EXPECT_EQ(soot->size(), 100U);
+  EXPECT_EQ(soot->counters().merges, 150U);
+  EXPECT_NEAR(soot->totals().number, 250e9, 1);
+  EXPECT_NEAR(soot->totals().carbon, 1e-23 * 1e9 * 250 * 251 / 2, 1e-26);
 }
 
 }  // namespace
