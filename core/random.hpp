@@ -40,6 +40,7 @@ class RandomStream {
   // 64 independent fair coins.
   std::uint64_t bits() { return next64(); }
 
+  [[nodiscard]] std::uint64_t owner() const { return owner_; }
   // Number of 64-bit words drawn so far; restoring it restores the stream exactly.
   [[nodiscard]] std::uint64_t position() const { return position_; }
   void seek(std::uint64_t position) {

@@ -1,31 +1,14 @@
 #include "coupling/reactor_ensemble.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <utility>
 
-#include "core/constants.hpp"
-#include "core/errors.hpp"
 #include "core/packed_doubles.hpp"
+#include "coupling/ensemble_species.hpp"
 
 namespace lampblack::coupling {
-namespace {
-
-// Mole fraction of all PAH below which none are born.
-constexpr double negligibleMoleFraction = 1e-15;
-
-}  // namespace
 
 ReactorEnsemble::ReactorEnsemble(const Mechanism& mechanism, EnsembleOptions options) {
-  for (const std::string& name : sootSpecies(options.soot)) {
-    const auto k = mechanism.findSpecies(name);
-    if (!k)
-      throw InputError(fmt::format(
-          "ensembles need the species '{}', but the mechanism has no species of this name; choose another mechanism",
-          name));
-    species_.push_back(*k);
-  }
+  species_ = indicesOfSootSpecies(mechanism, options.soot);
   population_ = makeEnsemble(std::move(options));
 }
 
@@ -55,10 +38,7 @@ void ReactorEnsemble::join(std::span<const double> content, double share) {
 }
 
 bool ReactorEnsemble::idle(const ParticleGas& gas) const {
-  if (population_->size() > 0) return false;
-  double pah = 0;
-  for (std::size_t i = SootSpecies::fixed; i < species_.size(); ++i) pah += std::max(gas.concentrations[i], 0.0);
-  return pah < negligibleMoleFraction * gas.pressure / (constants::gasConstant * gas.temperature);
+  return population_->size() == 0 && !hasPrecursors(gas);
 }
 
 }  // namespace lampblack::coupling

@@ -64,7 +64,7 @@ CarriedOperator::CarriedOperator(const FlowContext& context, CarriedModel& model
       before_(cost_.size() * (scalars_ + model.exchanged().size())),
       rate_(before_.size()),
       heat_(cost_.size()),
-      partialDensity_(context.mechanism.numSpecies()),
+      exchange_(context),
       values_(scalars_ + model.exchanged().size()),
       enthalpy_(scalars_),
       slope_(scalars_) {}
@@ -153,27 +153,8 @@ void CarriedOperator::take(State& state, int cell, double dt, std::span<const do
   heat_[cell] = -power;
   std::copy_n(after.begin(), scalars_, densities(state, cell).begin());
 
-  // Back to the gas's partial densities; what did not change keeps its bits.
-  const auto n = static_cast<std::size_t>(state.species);
-  double* Y = &state.Y[at(cell, n)];
-  const auto W = context_.mechanism.molecularWeights();
-  const double rho = state.density[cell];
-  bool isChanged = false;
-  for (std::size_t k = 0; k < n; ++k) partialDensity_[k] = rho * Y[k];
-  for (std::size_t i = 0; i < species.size(); ++i) {
-    const double change = after[scalars_ + i] - values_[scalars_ + i];
-    if (change == 0.0) continue;
-    partialDensity_[species[i]] += change * W[species[i]];
-    isChanged = true;
-  }
-  if (!isChanged && given == 0.0) return;
-
-  double mass = 0.0;
-  for (std::size_t k = 0; k < n; ++k) mass += partialDensity_[k];
-  for (std::size_t k = 0; k < n; ++k) Y[k] = partialDensity_[k] / mass;
-  state.enthalpy[cell] = (rho * state.enthalpy[cell] - given) / mass;
-  state.density[cell] = mass;
-  state.temperature[cell] = context_.thermo.temperatureFromEnthalpy(state.enthalpy[cell], {Y, n}, temperature);
+  for (std::size_t i = scalars_; i < values_.size(); ++i) values_[i] = after[i] - values_[i];
+  exchange_.book(state, cell, species, std::span(values_).subspan(scalars_), given);
 }
 
 void CarriedOperator::setDiffusivities(State& state, int cell, double viscosity) {

@@ -19,6 +19,7 @@
 #include "core/work_sharing.hpp"
 #include "flow/carried_model.hpp"
 #include "flow/flow_context.hpp"
+#include "flow/gas_exchange.hpp"
 #include "flow/operator.hpp"
 
 namespace lampblack::flow {
@@ -97,7 +98,8 @@ class CarriedOperator : public Operator {
   // Of the last row.
   double peak_ = 0.0;
   Vector3 place_{};
-  std::vector<double> partialDensity_, values_, concentrations_, enthalpy_, slope_;
+  GasExchange exchange_;
+  std::vector<double> values_, concentrations_, enthalpy_, slope_;
 };
 
 }  // namespace lampblack::flow

@@ -6,30 +6,38 @@
 
 namespace lampblack::flow {
 
+void CarriedTransport::findDrift(const Gas& gas) {
+  const Mesh& m = context_.mesh;
+  const auto temperatureGradient = gas.faces.temperatureGradient();
+  for (int face = 0; face < m.interiorFaces; ++face) {
+    const int low = m.low[face], high = m.high[face];
+    const double w = m.lowWeight[face];
+    const auto mean = [&](std::span<const double> field) { return w * field[low] + (1.0 - w) * field[high]; };
+    const double slope = faceSlope(m, face, m.normal[face], temperatureGradient);
+    const double drift = -mean(gas.viscosity) / mean(gas.mean.density) * slope / mean(gas.mean.temperature);
+    driftFlux_[face] = gas.faces.density[face] * m.area[face] * drift;
+  }
+}
+
 void CarriedTransport::convectiveFlux(const State& state, const Gas& gas) {
   const Mesh& m = context_.mesh;
   const int n = state.carriedCount();
-  const auto temperatureGradient = gas.faces.temperatureGradient();
   for (int face = 0; face < m.faces; ++face) {
     double* flux = &flux_[static_cast<std::size_t>(face) * n];
     std::fill_n(flux, n, 0.0);
     const int low = m.low[face];
-    const int high = m.high[face];
     if (m.area[face] <= 0.0) continue;
-    if (high < 0) {
+    if (m.high[face] < 0) {
       // Particles leave with the gas; nothing enters with it, and walls take none.
       if (state.massFlux[face] > 0.0)
         for (int s = 0; s < n; ++s)
           flux[s] = state.massFlux[face] * gas.mean.carried[low * n + s] / gas.mean.density[low];
       continue;
     }
-    const double w = m.lowWeight[face];
-    const auto mean = [&](std::span<const double> field) { return w * field[low] + (1.0 - w) * field[high]; };
-    const double slope = faceSlope(m, face, m.normal[face], temperatureGradient);
-    const double drift = -mean(gas.viscosity) / mean(gas.mean.density) * slope / mean(gas.mean.temperature);
+    const double gasFlux = gas.faces.density[face] * m.area[face] * gas.faceVelocity[face];
     for (int s = 0; s < n; ++s) {
-      const double velocity = gas.faceVelocity[face] + state.scalars[s].thermophoresis * drift;
-      flux[s] = gas.faces.density[face] * m.area[face] * velocity * gas.faces.carriedPerMass(face, s, velocity);
+      const double carrying = gasFlux + state.scalars[s].thermophoresis * driftFlux_[face];
+      flux[s] = carrying * gas.faces.carriedPerMass(face, s, carrying);
     }
   }
 }
@@ -38,6 +46,8 @@ void CarriedTransport::advance(State& state, const Gas& gas, double dt) {
   const Mesh& m = context_.mesh;
   const int n = state.carriedCount();
   if (n == 0) return;
+  findDrift(gas);
+  if (std::ranges::none_of(state.scalars, &CarriedScalar::isTransported)) return;
   convectiveFlux(state, gas);
   std::vector<double> content(static_cast<std::size_t>(m.owned) * n);
   for (int c = 0; c < m.owned; ++c)
@@ -46,7 +56,8 @@ void CarriedTransport::advance(State& state, const Gas& gas, double dt) {
   addFaceFluxes(m, flux_, n, dt, content);
   diffuse(state, gas, dt, content);
   for (int c = 0; c < m.owned; ++c)
-    for (int s = 0; s < n; ++s) state.carried[c * n + s] = content[c * n + s] / m.volume[c];
+    for (int s = 0; s < n; ++s)
+      if (state.scalars[s].isTransported) state.carried[c * n + s] = content[c * n + s] / m.volume[c];
 }
 
 void CarriedTransport::presentFlux(const State& state, const FaceState& faces, std::span<double> conductance,

@@ -20,6 +20,7 @@ class CarriedTransport {
         diffusion_(diffusion),
         gradient_(context.mesh),
         flux_(static_cast<std::size_t>(context.mesh.faces) * static_cast<std::size_t>(scalars), 0.0),
+        driftFlux_(static_cast<std::size_t>(scalars > 0 ? context.mesh.interiorFaces : 0), 0.0),
         nothingPasses_(static_cast<std::size_t>(context.mesh.boundaryFaces()), BoundaryData::ZeroSlope) {}
 
   // The gas of a sweep: the step's start, and its mean with what the last sweep found (both the state itself in the
@@ -38,8 +39,12 @@ class CarriedTransport {
   // Convective flux of the last step, per s, scalars a face, positive from low to high or outwards; what crosses the
   // boundary is in here, as diffusion does not cross it.
   [[nodiscard]] std::span<const double> flux() const { return flux_; }
+  // kg/s, what thermophoresis moves of the gas's mass through each interior face in the last step for a coefficient of
+  // one: particles drift as if so much gas flowed.
+  [[nodiscard]] std::span<const double> driftFlux() const { return driftFlux_; }
 
  private:
+  void findDrift(const Gas& gas);
   void convectiveFlux(const State& state, const Gas& gas);
   void diffuse(const State& state, const Gas& gas, double dt, std::span<double> content);
   // Collective. Flux of the state by its own diffusivities, and the conductances (per s) it has through the interior
@@ -50,7 +55,7 @@ class CarriedTransport {
   const FlowContext& context_;
   ImplicitDiffusion& diffusion_;
   Gradient gradient_;
-  std::vector<double> flux_;
+  std::vector<double> flux_, driftFlux_;
   // Of what is carried per mass of gas, where steps are oblique to faces.
   mutable std::vector<double> perMass_, perMassGradient_;
   std::vector<BoundaryData> nothingPasses_;

@@ -20,6 +20,8 @@ struct CarriedScalar {
   std::string description;
   // Drift velocity -thermophoresis * (mu/rho) * grad T / T; 0: none.
   double thermophoresis = 0.0;
+  // false: its owner moves what it stands for, and sets it anew in every step; transport leaves it as it is.
+  bool isTransported = true;
 };
 
 struct State {

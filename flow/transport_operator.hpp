@@ -70,6 +70,10 @@ class TransportOperator : public Operator {
   [[nodiscard]] const Diagnostics& diagnostics() const { return diagnostics_; }
   [[nodiscard]] const BoundaryAmounts& boundaryAmounts() const { return boundary_; }
   [[nodiscard]] const GasProperties& properties() const { return properties_; }
+  // Of the last step, for who moves particles himself: CarriedTransport::driftFlux(), and the gas's density at the
+  // faces, kg/m3.
+  [[nodiscard]] std::span<const double> driftFlux() const { return carried_.driftFlux(); }
+  [[nodiscard]] std::span<const double> faceDensity() const { return faces_.density; }
   // Largest |p_eos - p0| / p0 of all cells. Collective.
   [[nodiscard]] double pressureDrift(const State& state);
 

@@ -9,12 +9,10 @@
 namespace lampblack::particles {
 namespace {
 
-constexpr std::uint32_t streamPurpose = 0x53535354;  // stochastic soot
-
 template <class Method>
 std::unique_ptr<Ensemble> make(EnsembleOptions options, const PopulationModel& model,
                                const MonteCarloOptions& monteCarlo) {
-  RandomStream random(options.seed, options.owner, streamPurpose);
+  RandomStream random(options.seed, options.owner, ensembleStream);
   const SootAggregate type(options.soot.sootDensity, options.coalescing);
   Method method(type, model, InitialPopulation{}, monteCarlo, random);
   return std::make_unique<StochasticProcess<Method>>(std::move(options), type, std::move(method), random);

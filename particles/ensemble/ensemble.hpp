@@ -40,7 +40,8 @@ struct EnsembleOptions {
   bool alphaOfPrimaries = false;  // mu_1 in alpha(T, mu_1) is of the mean primary (Wang 2025, eq. 9-37), not particle
   bool keepsHydrogen = true;      // false: that of PAH returns to the gas as H2 when they are taken up
   double splitTolerance = 0.01;   // relative change of the population in a splitting step
-  // 1/m3: dsmc, at which a sample that is or becomes empty is full at least; more where more are born at once.
+  // 1/m3, that fewer particles are not resolved: those born where there are as many stand for this over the capacity
+  // (dsmc: that at which a sample that is or becomes empty is full at least; more where more are born at once).
   double startNumberDensity = 1e6;
 };
 
@@ -89,8 +90,9 @@ class Ensemble {
   // will cost is likely about the same; the same on every machine.
   [[nodiscard]] virtual double cost() const = 0;
 
-  // The complete state: a population of the same options that unpacks it goes on to the same bits, whether it was
-  // saved, went to another rank or stayed. Throws InputError for what pack() did not write.
+  // The complete state (packed_ensemble.hpp), with whose random numbers it draws: a population of the same options that
+  // unpacks it goes on to the same bits, whether it was saved, went to another rank or stayed. Throws InputError for
+  // what pack() did not write.
   [[nodiscard]] virtual std::vector<double> pack() const = 0;
   virtual void unpack(std::span<const double> state) = 0;
 

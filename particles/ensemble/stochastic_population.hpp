@@ -88,9 +88,11 @@ template <class Method>
 std::vector<double> StochasticProcess<Method>::pack() const {
   std::vector<double> state;
   state.reserve(packedHead + packedParticle * size());
-  packDoubles(
-      state, std::array{packedVersion, static_cast<double>(options_.method), static_cast<double>(options_.particles),
-                        static_cast<double>(random_.position()), reached_, nucleusAfter_, planned_ ? 1.0 : 0.0, cost_});
+  packDoubles(state,
+              std::array{packedVersion, static_cast<double>(options_.method), static_cast<double>(options_.particles)});
+  packDoubles(state, packedOwner(random_.owner()));
+  packDoubles(state, std::array{static_cast<double>(random_.position()), reached_, nucleusAfter_, planned_ ? 1.0 : 0.0,
+                                cost_});
   packDoubles(state, exchange_);
   for (const PopulationCounter& counter : populationCounters)
     state.push_back(static_cast<double>(counters().*counter.value));  // below 2^53
@@ -107,6 +109,7 @@ void StochasticProcess<Method>::unpack(std::span<const double> values) {
   if (state.next() != packedVersion || state.next() != static_cast<double>(options_.method) ||
       state.next() != static_cast<double>(options_.particles))
     throw InputError("stochastic soot: the saved state is of a population with another method or number of particles");
+  random_ = RandomStream(options_.seed, ownerOf(state.next<PackedOwner>()), ensembleStream);
   random_.seek(static_cast<std::uint64_t>(state.next()));
   reached_ = state.next();
   nucleusAfter_ = state.next();

@@ -20,6 +20,8 @@
 
 namespace lampblack::particles {
 
+inline constexpr std::uint32_t ensembleStream = 0x53535354;  // stochastic soot
+
 // `Method` is an EqualWeightMethod or WeightedMethod of SootAggregate.
 template <class Method>
 class StochasticProcess final : public Ensemble {
@@ -227,7 +229,8 @@ void StochasticProcess<Method>::jump(const SootMedium& medium, double dt, double
     if constexpr (weighted) {
       // A new particle for each numerical one as the number of real ones renews itself, and not too many a step.
       const double n = static_cast<double>(options_.particles);
-      method_.setNucleus(nucleus, std::max(start.number / n, 20 * inception * stepLength / n));
+      method_.setNucleus(nucleus,
+                         std::max({start.number, 20 * inception * stepLength, options_.startNumberDensity}) / n);
     } else {
       method_.setNucleus(nucleus);
       if (size() == 0 && inception > 0) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "core/errors.hpp"
@@ -38,6 +39,13 @@ std::vector<std::string> sootSpecies(const SootModelOptions& options) {
   std::vector<std::string> names{"H", "H2", "OH", "H2O", "O2", "C2H2", "CO"};
   for (const PahSpecies& pah : options.pah) names.push_back(pah.name);
   return names;
+}
+
+bool hasPrecursors(const ParticleGas& gas) {
+  double pah = 0;
+  for (std::size_t i = SootSpecies::fixed; i < gas.concentrations.size(); ++i)
+    pah += std::max(gas.concentrations[i], 0.0);
+  return !(pah < 1e-15 * gas.pressure / (constants::gasConstant * gas.temperature));
 }
 
 void requirePhysical(const CarrierGas& gas, std::string_view what) {

@@ -73,6 +73,9 @@ struct SootModelOptions {
 // Names of the species, as mechanisms call them.
 [[nodiscard]] std::vector<std::string> sootSpecies(const SootModelOptions& options);
 
+// Whether a gas has PAH to speak of: a mole fraction of 1e-15 or more. `gas`: the species of sootSpecies().
+[[nodiscard]] bool hasPrecursors(const ParticleGas& gas);
+
 // Throws NumericsError, in the name of `what`, for a gas that is not physical.
 void requirePhysical(const CarrierGas& gas, std::string_view what);
 

@@ -35,6 +35,7 @@ class SootAggregate {
     return p;
   }
 
+  [[nodiscard]] double density() const { return density_; }
   [[nodiscard]] bool coalescing() const { return coalescing_; }
   // The cube of the diameter of the primaries is this times the mass over their number, m3/kg.
   [[nodiscard]] double perVolume() const { return 6 / constants::pi / density_; }

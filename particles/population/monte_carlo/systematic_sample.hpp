@@ -35,4 +35,13 @@ template <class Expected>
   return copies;
 }
 
+// The next of a row of points in [0, 1) that fill it evenly wherever the row is cut (the golden ratio's multiples;
+// Kronecker's sequence). From a random beginning each point alone is uniform. Who draws with them from a sorted
+// population by probabilities of several outcomes gets of any run of neighbours nearly the mean of each.
+inline void nextEvenPoint(double& point) {
+  constexpr double goldenPart = 0.61803398874989484820;
+  point += goldenPart;
+  if (point >= 1) point -= 1;
+}
+
 }  // namespace lampblack::particles

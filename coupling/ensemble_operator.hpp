@@ -1,0 +1,118 @@
+// Stochastic ensembles of particles in the cells of a flow, one in each owned cell where there is soot or what it could
+// come of: a process of the flow beside transport and chemistry. In each step the particles move between the cells
+// (EnsembleTransport), then each cell's population changes in the gas of the cell (Ensemble), on any rank
+// (WorkSharing); what it takes from the gas and gives to it is booked to the cell, species, mass and enthalpy.
+//
+// The populations are kept packed, 32 bytes a particle, and are unpacked one after the other into one Ensemble a rank.
+//
+// Coupling. Without `average` the exchange of a step is booked at its end, at once. With it the exchange goes into a
+// reserve of the cell, and the gas's transport and chemistry have what is in the reserve over the time `average` as a
+// constant source: the noise of few particles reaches the gas smoothed, a steady state does not depend on the step, and
+// atoms and enthalpy are those of gas, particles and reserve together, to round-off. docs/theory/ensembles_in_cells.md.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/rooms.hpp"
+#include "core/work_sharing.hpp"
+#include "coupling/ensemble_transport.hpp"
+#include "flow/gas_exchange.hpp"
+#include "flow/operator.hpp"
+#include "flow/transport_operator.hpp"
+#include "particles/ensemble/ensemble.hpp"
+#include "particles/models/particle_model.hpp"
+
+namespace lampblack::coupling {
+
+class EnsembleOperator : public Operator {
+ public:
+  enum class Exchange {
+    TwoWay,  // the gas loses what the particles take
+    OneWay   // the gas does not know of the particles
+  };
+  struct Options {
+    EnsembleOptions ensemble;  // `owner` is the cell's permanent number
+    Exchange exchange = Exchange::TwoWay;
+    double average = 0.0;  // s
+    bool diffusion = true;
+    bool secondOrder = true;
+    bool shareWork = true;
+    int sweeps = 1;  // of a step
+  };
+  // What State::carried has of the particles, per m3; the last are atoms in the reserve, which the gas is still to get.
+  enum Amount : std::size_t { number, carbon, hydrogen, primaries, surface, diameters, owedC, owedH, owedO, amounts };
+  [[nodiscard]] static std::vector<CarriedScalar> scalars();
+  // kg of each element of the mechanism in a unit of each amount.
+  [[nodiscard]] static std::vector<std::vector<double>> unitElements(const Mechanism& mechanism);
+  // Absorption coefficient (1/m) of particles of these amounts.
+  [[nodiscard]] static double absorption(const Options& options, double temperature, std::span<const double> amounts);
+
+  // `flow` moves the gas, before this operator in every sweep. The amounts stand first in State::carried. InputError
+  // where the mechanism lacks a species.
+  EnsembleOperator(const FlowContext& context, const TransportOperator& flow, Options options);
+
+  [[nodiscard]] const char* name() const override { return "ensembles"; }
+  void advance(State& state, double time, double dt) override;
+  void endSweep(State& state) override;
+  void endStep(State& state) override;
+  void saveOrLoad(StateArchive& archive) override;
+
+  [[nodiscard]] std::vector<Quantity> historyColumns() const override;
+  [[nodiscard]] std::vector<double> historyValues(const State& state) override;
+  [[nodiscard]] std::string status() const override;
+  [[nodiscard]] std::vector<std::string> closingLines() const override;
+  [[nodiscard]] std::optional<Imbalance> imbalance() const override;
+  void fields(const State& state, const FieldSink& sink) const override;
+  void addCost(const Mesh& mesh, CellCost& cost) const override;
+
+  // Of the last step: each amount that left through the boundary, of this rank's cells, per metre depth or radian.
+  [[nodiscard]] const std::vector<double>& outflow() const { return outflow_; }
+  // Packed, of the owned cells; empty where there is none.
+  [[nodiscard]] const std::vector<std::vector<double>>& populations() const { return populations_; }
+  // Replaces the population of an owned cell; as Ensemble::initialise. The amounts follow with the next step.
+  void initialise(State& state, int cell, std::span<const GivenParticle> population);
+
+ private:
+  // A reserve: mol/m3 of each exchanged species, then J/m3.
+  [[nodiscard]] std::size_t reserveWidth() const { return species_.size() + 1; }
+  [[nodiscard]] ParticleGas gasOf(const State& state, int cell, std::vector<double>& concentrations) const;
+  void pack(const State& state, int cell, std::vector<double>& in) const;
+  void solve(double time, double dt, std::span<const double> in, std::span<double> out) const;
+  void unpack(State& state, int cell, std::span<const double> out);
+  void book(State& state, int cell, std::span<const double> gained, double heat);
+  void payReserves(double dt);
+  void setOwed(State& state, int cell);
+  void countOutflow();
+
+  const FlowContext& context_;
+  const TransportOperator& flow_;
+  Options options_;
+  std::vector<std::size_t> species_;
+  std::unique_ptr<Ensemble> engine_;
+  std::vector<double> blank_;  // a packed population without particles
+  EnsembleTransport transport_;
+  GasExchange exchange_;
+  WorkSharing sharing_;
+  std::vector<std::vector<double>> populations_, arrived_;
+  std::vector<double> reserve_;  // of the owned cells
+  std::vector<double> rate_;     // what the balance has of it, per s
+  std::vector<double> cost_;     // of each owned cell's last advance
+  // What several sweeps of a step begin with.
+  std::vector<std::vector<double>> startPopulations_;
+  std::vector<double> startReserve_;
+  bool inStep_ = false;
+  double step_ = 0.0;      // s, the last
+  std::int64_t steps_ = 0;  // since the start
+  std::vector<double> outflow_;
+  // Since the start, of this rank: kg per metre depth or radian by numerical particles that come and go; events.
+  double resampled_ = 0.0, events_ = 0.0;
+  Imbalance imbalances_{0.0, 0.0};  // sums over the stages
+  int stages_ = 0;
+  // Of the last row.
+  double peak_ = 0.0;
+  Vector3 place_{};
+};
+
+}  // namespace lampblack::coupling

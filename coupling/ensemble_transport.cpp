@@ -1,0 +1,310 @@
+#include "coupling/ensemble_transport.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "core/errors.hpp"
+#include "core/first_error.hpp"
+#include "core/random.hpp"
+#include "core/rank_exchange.hpp"
+#include "particles/collisions/sphere.hpp"
+#include "particles/population/monte_carlo/systematic_sample.hpp"
+
+namespace lampblack::coupling {
+namespace {
+
+constexpr std::uint32_t movesStream = 0x4d4f5645;  // and the parts of a step behind it
+constexpr int mostParts = 200;
+
+// Where a volume (m3) lies between powers of two, 2^(first + node): straight between them.
+struct Between {
+  std::size_t node;
+  double part;
+};
+Between between(double volume, int first, std::size_t nodes) {
+  int exponent = 0;
+  const double mantissa = std::frexp(volume, &exponent);  // in [0.5, 1)
+  const int node = exponent - 1 - first;
+  if (node < 0) return {0, 0.0};
+  if (node > static_cast<int>(nodes) - 2) return {nodes - 2, 1.0};
+  return {static_cast<std::size_t>(node), 2.0 * mantissa - 1.0};
+}
+
+GivenParticle particleAt(const double* row) {
+  return {row[0], row[1], row[2], row[3]};
+}
+
+}  // namespace
+
+// One of a cell's faces, as its particles see it, in one part of a step.
+struct EnsembleTransport::Side {
+  int face = 0, beyond = -1;                     // the cell on the other side, or -1
+  std::array<double, classes> convected{};       // probability to go with the gas
+  std::array<double, classes> diffused{};        // factor of `diffusion`: o
+  std::array<double, nodes> diffusion{};         // times d^2, m2: at the nodes
+  bool diffuses = false;
+};
+
+struct EnsembleTransport::Leaving {
+  std::int64_t face = 0;  // permanent number
+  int cell = 0;           // local, where it comes to
+  GivenParticle particle;  // its number per metre depth or radian
+};
+
+EnsembleTransport::EnsembleTransport(const FlowContext& context, Options options)
+    : context_(context),
+      options_(std::move(options)),
+      gradient_(context.mesh),
+      known_(static_cast<std::size_t>(context.mesh.boundaryFaces()), BoundaryData::ZeroSlope),
+      density_(static_cast<std::size_t>(context.mesh.cells) * classes),
+      gradients_(density_.size() * static_cast<std::size_t>(context.mesh.dimension)),
+      nothing_(known_.size() * classes),
+      diffusivity_(options_.diffusion ? static_cast<std::size_t>(context.mesh.cells) * nodes : 0),
+      isFound_(static_cast<std::size_t>(context.mesh.cells)) {}
+
+EnsembleTransport::~EnsembleTransport() = default;
+
+int EnsembleTransport::classOf(double volume) {
+  return std::clamp((std::ilogb(volume) - smallest) / 3, 0, classes - 1);
+}
+
+double EnsembleTransport::massOf(const Gas& gas, int cell, double part) const {
+  const double start = gas.state.start.density[cell], end = gas.state.density[cell];
+  return context_.mesh.volume[cell] * (start + part * (end - start));
+}
+
+// kg/s, of the gas that particles of the cell see flow out through one of its faces.
+double EnsembleTransport::outflow(const Gas& gas, int face, int cell) const {
+  const Mesh& m = context_.mesh;
+  if (m.high[face] < 0) return gas.state.massFlux[face];
+  const double flux = gas.state.massFlux[face] + options_.thermophoresis * gas.driftFlux[face];
+  return m.low[face] == cell ? flux : -flux;
+}
+
+// Of a local cell: D d^2 at the nodes.
+const double* EnsembleTransport::diffusivityOf(const Gas& gas, int cell) {
+  double* row = &diffusivity_[static_cast<std::size_t>(cell) * nodes];
+  if (isFound_[cell] != 0) return row;
+  isFound_[cell] = 1;
+  const CarrierGas carrier{gas.state.temperature[cell], gas.state.thermodynamicPressure, gas.state.density[cell],
+                           gas.viscosity[cell], gas.molecularWeight[cell]};
+  for (std::size_t node = 0; node < nodes; ++node) {
+    const double d = sphereDiameter(std::ldexp(1.0, smallest + static_cast<int>(node)));
+    row[node] = brownianDiffusivity(carrier, d) * d * d;
+  }
+  return row;
+}
+
+// Collective. Of the classes, with their gradients.
+void EnsembleTransport::findDensities(const Gas& gas, double part, const std::vector<Rows>& populations,
+                                      const std::vector<Rows>& arrived) {
+  const Mesh& m = context_.mesh;
+  std::ranges::fill(density_, 0.0);
+  for (int cell = 0; cell < m.owned; ++cell) {
+    double* of = &density_[static_cast<std::size_t>(cell) * classes];
+    const auto add = [&](const Rows& rows, std::size_t head) {
+      for (std::size_t i = head; i < rows.size(); i += packedParticle)
+        of[classOf((rows[i] + rows[i + 1]) / options_.type.density())] += rows[i + 3];
+    };
+    add(populations[cell], packedHead);
+    add(arrived[cell], 0);
+    const double perMass = m.volume[cell] / massOf(gas, cell, part);
+    for (int k = 0; k < classes; ++k) of[k] *= perMass;
+  }
+  context_.halo.update(density_, classes);
+  for (int face = m.interiorFaces; face < m.faces; ++face) {
+    const BoundaryKind kind = context_.boundaryOf(face).kind;
+    const bool isOpen = kind == BoundaryKind::Inlet || kind == BoundaryKind::Outlet;
+    // Nothing comes in; what goes out is as what comes after it.
+    known_[face - m.interiorFaces] = !isOpen                             ? BoundaryData::ZeroSlope
+                                     : gas.state.massFlux[face] < 0.0 ? BoundaryData::Value
+                                                                         : BoundaryData::Nothing;
+  }
+  gradient_.compute(density_, nothing_, classes, gradients_, known_);
+  if (m.isOblique() && options_.diffusion) context_.halo.update(gradients_, classes * m.dimension);
+}
+
+void EnsembleTransport::findSides(const Gas& gas, int cell, double dt, double mass, std::vector<Side>& sides) {
+  const Mesh& m = context_.mesh;
+  const double* present = &density_[static_cast<std::size_t>(cell) * classes];
+  const double* slopes = &gradients_[static_cast<std::size_t>(cell * classes * m.dimension)];
+  sides.clear();
+  for (int i = m.faceStart[cell]; i < m.faceStart[cell + 1]; ++i) {
+    const int face = m.faceOfCell[i];
+    if (m.area[face] <= 0.0) continue;
+    const bool isLow = m.low[face] == cell;
+    const double convected = std::max(outflow(gas, face, cell), 0.0) * dt / mass;
+    Side side;
+    side.face = face;
+    side.beyond = isLow ? m.high[face] : m.low[face];
+    side.diffuses = options_.diffusion && side.beyond >= 0;
+    if (!(convected > 0.0) && !side.diffuses) continue;
+    Vector3 from = difference(m.faceCentreOf(cell, face), m.centre[cell]);
+    for (int axis = 0; axis < m.dimension; ++axis)
+      from[axis] -= 0.5 * dt * gas.state.velocity[static_cast<std::size_t>(cell) * m.dimension + axis];
+    for (int k = 0; k < classes; ++k) {
+      double ratio = 1.0;
+      if (options_.secondOrder && side.beyond >= 0 && present[k] > 0.0) {
+        for (int axis = 0; axis < m.dimension; ++axis)
+          ratio += slopes[k * m.dimension + axis] * from[axis] / present[k];
+        ratio = std::clamp(ratio, 0.0, 2.0);
+      }
+      side.convected[k] = convected * ratio;
+    }
+    if (side.diffuses) {
+      const double through = dt / mass * gas.faceDensity[face] * m.area[face] / m.distance[face];
+      const double own = isLow ? m.lowWeight[face] : 1.0 - m.lowWeight[face];
+      const double *here = diffusivityOf(gas, cell), *there = diffusivityOf(gas, side.beyond);
+      for (std::size_t node = 0; node < nodes; ++node)
+        side.diffusion[node] = through * (own * here[node] + (1.0 - own) * there[node]);
+      side.diffused.fill(1.0);
+      if (m.isOblique())
+        for (int k = 0; k < classes; ++k) {
+          if (!(present[k] > 0.0)) continue;
+          // Half of it is taken from what goes each way.
+          const double skew =
+              0.5 * m.distance[face] * faceSlope(m, face, m.oblique[face], gradients_, classes, k) / present[k];
+          side.diffused[k] = std::clamp(1.0 - (isLow ? skew : -skew), 0.0, 2.0);
+        }
+    }
+    sides.push_back(side);
+  }
+}
+
+void EnsembleTransport::drawLeaving(int cell, const std::vector<Side>& sides, double& point, std::size_t head,
+                                    Rows& rows) {
+  const Mesh& m = context_.mesh;
+  std::array<double, Mesh::mostSides> upTo{};
+  std::size_t kept = head;
+  for (std::size_t i = head; i < rows.size(); i += packedParticle) {
+    const double volume = (rows[i] + rows[i + 1]) / options_.type.density();
+    const int k = classOf(volume);
+    double d = sphereDiameter(volume), ofMobility = volume;
+    if (rows[i + 2] > 1.0) {
+      d *= SootAggregate::mobilityFactor(rows[i + 2]) / std::cbrt(rows[i + 2]);
+      ofMobility = constants::pi / 6.0 * d * d * d;
+    }
+    const Between at = between(ofMobility, smallest, nodes);
+    const double perSquare = 1.0 / (d * d);
+    double sum = 0.0;
+    for (std::size_t s = 0; s < sides.size(); ++s) {
+      const Side& side = sides[s];
+      sum += side.convected[k];
+      if (side.diffuses)
+        sum += side.diffused[k] * perSquare *
+               (side.diffusion[at.node] + at.part * (side.diffusion[at.node + 1] - side.diffusion[at.node]));
+      upTo[s] = sum;
+    }
+    nextEvenPoint(point);
+    const double drawn = sum > 1.0 ? point * sum : point;
+    if (drawn >= sum) {
+      if (kept != i) std::copy_n(&rows[i], packedParticle, &rows[kept]);
+      kept += packedParticle;
+      continue;
+    }
+    std::size_t s = 0;
+    while (s + 1 < sides.size() && drawn >= upTo[s]) ++s;
+    GivenParticle particle = particleAt(&rows[i]);
+    particle.number *= m.volume[cell];
+    if (sides[s].beyond < 0)
+      gone_.push_back(particle);
+    else
+      leaving_.push_back({m.faceNumber[sides[s].face], sides[s].beyond, particle});
+  }
+  rows.resize(kept);
+}
+
+// Collective. Those that came through a face come behind one another in the order in which they left, faces in that of
+// their numbers.
+void EnsembleTransport::send(std::vector<Rows>& arrived) {
+  const Mesh& m = context_.mesh;
+  constexpr int width = 2 + packedParticle;
+  std::vector<int> ranks;
+  std::vector<double> rows;
+  const auto isOwn = [&](const Leaving& one) { return one.cell < m.owned; };
+  for (const Leaving& one : leaving_) {
+    if (isOwn(one)) continue;
+    ranks.push_back(m.haloRank[one.cell - m.owned]);
+    const GivenParticle& p = one.particle;
+    rows.insert(rows.end(), {static_cast<double>(one.face), static_cast<double>(m.naturalCell[one.cell]), p.carbon,
+                             p.hydrogen, p.primaries, p.number});
+  }
+  std::erase_if(leaving_, [&](const Leaving& one) { return !isOwn(one); });
+  const RankExchange exchange(m.comm, ranks);
+  const std::vector<double> came = exchange.there(rows, width);
+  for (std::size_t i = 0; i < came.size(); i += width)
+    leaving_.push_back({static_cast<std::int64_t>(came[i]), m.findOwned(static_cast<std::int64_t>(came[i + 1])),
+                        particleAt(&came[i + 2])});
+  std::ranges::stable_sort(leaving_, [](const Leaving& a, const Leaving& b) {
+    return std::tie(a.cell, a.face) < std::tie(b.cell, b.face);
+  });
+  for (const Leaving& one : leaving_) {
+    const GivenParticle& p = one.particle;
+    arrived[one.cell].insert(arrived[one.cell].end(),
+                             {p.carbon, p.hydrogen, p.primaries, p.number / m.volume[one.cell]});
+  }
+  leaving_.clear();
+}
+
+// Collective. So many that what would leave a cell by the values in it is no more than there is.
+int EnsembleTransport::findParts(const Gas& gas, double dt, const std::vector<Rows>& populations) {
+  const Mesh& m = context_.mesh;
+  double most = 0.0;
+  for (int cell = 0; cell < m.owned; ++cell) {
+    const Rows& rows = populations[cell];
+    if (rows.size() <= packedHead) continue;
+    double lightest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = packedHead; i < rows.size(); i += packedParticle)
+      lightest = std::min(lightest, rows[i] + rows[i + 1]);
+    const double volume = lightest / options_.type.density();
+    const Between at = between(volume, smallest, nodes);
+    double out = 0.0;
+    for (int i = m.faceStart[cell]; i < m.faceStart[cell + 1]; ++i) {
+      const int face = m.faceOfCell[i];
+      if (m.area[face] <= 0.0) continue;
+      out += std::max(outflow(gas, face, cell), 0.0);
+      if (!options_.diffusion || m.high[face] < 0) continue;
+      const double* D = diffusivityOf(gas, cell) + at.node;
+      out += gas.faceDensity[face] * m.area[face] / m.distance[face] * (D[0] + at.part * (D[1] - D[0])) /
+             std::pow(sphereDiameter(volume), 2);
+    }
+    most = std::max(most, dt * out / std::min(massOf(gas, cell, 0.0), massOf(gas, cell, 1.0)));
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, m.comm);
+  if (!(most < mostParts))
+    raiseTogether(m.comm, NumericsError(fmt::format("in a step of {:.3g} s particles move through {:.3g} cells; a "
+                                                    "smaller 'time.maximum_step' helps",
+                                                    dt, most)));
+  return std::max(1, static_cast<int>(std::ceil(most)));
+}
+
+void EnsembleTransport::advance(const Gas& gas, double dt, std::uint64_t step, std::vector<Rows>& populations,
+                                std::vector<Rows>& arrived) {
+  const Mesh& m = context_.mesh;
+  gone_.clear();
+  std::ranges::fill(isFound_, 0);
+  parts_ = findParts(gas, dt, populations);
+  std::vector<Side> sides;
+  for (int part = 0; part < parts_; ++part) {
+    const double begun = static_cast<double>(part) / parts_;
+    findDensities(gas, begun, populations, arrived);
+    for (int cell = 0; cell < m.owned; ++cell) {
+      if (populations[cell].size() <= packedHead && arrived[cell].empty()) continue;
+      findSides(gas, cell, dt / parts_, massOf(gas, cell, begun), sides);
+      RandomStream random(options_.seed, static_cast<std::uint64_t>(m.naturalCell[cell]),
+                          movesStream + static_cast<std::uint32_t>(part));
+      random.seek(step);
+      double point = random.uniform();
+      if (populations[cell].size() > packedHead) drawLeaving(cell, sides, point, packedHead, populations[cell]);
+      drawLeaving(cell, sides, point, 0, arrived[cell]);
+    }
+    send(arrived);
+  }
+}
+
+}  // namespace lampblack::coupling

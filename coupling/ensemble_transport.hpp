@@ -1,0 +1,97 @@
+// How the particles of ensembles in the cells of a flow move from cell to cell: whole numerical particles are drawn, each
+// with the probability that the finite-volume flux of what it stands for gives, so that every moment has the mean of a
+// carried scalar. What leaves a cell comes into another or goes out: nothing is lost but to round-off.
+//
+// Through a face, a particle of the cell `d` with the gas mass M_d at the step's start goes in dt with the probability
+//
+//   p = dt/M_d [ max(m, 0) r + G(D) o ],   m = gas's mass flux out of d + thermophoresis, G = rho_f A D / distance,
+//
+// as carried scalars do: by upwind convection with the value at the face over that in the cell (r), and by diffusion
+// both ways. r is of second order in place and time: linear in the cell, by the gradient of the particles of like size
+// per mass of gas, at the place from which the gas reaches the face in the middle of the step; it is limited to between
+// 0 and 2, which no face value of a smooth field exceeds, and to nothing else: a limiter of slopes would bias what is
+// noisy. o corrects diffusion where the step from cell to cell is oblique to the face. Like sizes: volumes within a
+// factor of eight.
+//
+// Which particles go is drawn evenly over their order (EvenPoints), by one random number of the cell and step: results do not
+// depend on ranks. docs/theory/ensembles_in_cells.md.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/rooms.hpp"
+#include "flow/flow_context.hpp"
+#include "flow/gradient.hpp"
+#include "flow/state.hpp"
+#include "particles/ensemble/packed_ensemble.hpp"
+#include "particles/soot/soot_aggregate.hpp"
+
+namespace lampblack::coupling {
+
+class EnsembleTransport {
+ public:
+  struct Options {
+    SootAggregate type;
+    double thermophoresis = 0.0;  // V = -thermophoresis (mu/rho) grad T / T
+    bool diffusion = true;
+    bool secondOrder = true;  // false: upwind values, r = 1
+    std::uint64_t seed = 1;
+  };
+  // The gas of the step, whose mass fluxes are those that moved it: fields of all local cells and faces.
+  struct Gas {
+    const State& state;                       // with State::start
+    std::span<const double> driftFlux;        // kg/s, interior faces (CarriedTransport)
+    std::span<const double> faceDensity;      // kg/m3
+    std::span<const double> viscosity;        // Pa s
+    std::span<const double> molecularWeight;  // kg/mol
+  };
+  // Particles in rows, as packed ensembles have them, behind `head` values.
+  using Rows = std::vector<double>;
+
+  EnsembleTransport(const FlowContext& context, Options options);
+  ~EnsembleTransport();
+
+  // Collective. Takes out of each owned cell's population those that leave in dt, and adds to `arrived` of each cell
+  // those that come, with their numbers per volume there. `step`: which step of the run it is.
+  void advance(const Gas& gas, double dt, std::uint64_t step, std::vector<Rows>& populations,
+               std::vector<Rows>& arrived);
+
+  // What left through the boundary in the last step, of this rank's cells: numbers per metre depth or radian.
+  [[nodiscard]] const std::vector<GivenParticle>& gone() const { return gone_; }
+  // In how many parts the last step was taken, so that no cell gives more than it has.
+  [[nodiscard]] int parts() const { return parts_; }
+
+ private:
+  static constexpr int classes = 12;        // of size
+  static constexpr int smallest = -94;      // log2 of the smallest volume, m3: 0.5 nm
+  static constexpr std::size_t nodes = 37;  // of the tables of diffusivities, a factor of two in volume each
+  struct Side;
+  struct Leaving;
+
+  [[nodiscard]] static int classOf(double volume);
+  const double* diffusivityOf(const Gas& gas, int cell);
+  void findDensities(const Gas& gas, double part, const std::vector<Rows>& populations,
+                     const std::vector<Rows>& arrived);
+  void findSides(const Gas& gas, int cell, double dt, double mass, std::vector<Side>& sides);
+  [[nodiscard]] double outflow(const Gas& gas, int face, int cell) const;
+  [[nodiscard]] double massOf(const Gas& gas, int cell, double part) const;
+  void drawLeaving(int cell, const std::vector<Side>& sides, double& point, std::size_t head, Rows& rows);
+  void send(std::vector<Rows>& arrived);
+  [[nodiscard]] int findParts(const Gas& gas, double dt, const std::vector<Rows>& populations);
+
+  const FlowContext& context_;
+  Options options_;
+  Gradient gradient_;
+  std::vector<BoundaryData> known_;         // of the particles at each boundary face
+  std::vector<double> density_, gradients_;  // numbers of each class per mass of gas, 1/kg
+  std::vector<double> nothing_;             // at the boundary
+  std::vector<double> diffusivity_;         // of local cells: D d^2 at the nodes, m4/s
+  std::vector<char> isFound_;               // whether it is that of this step
+  std::vector<Leaving> leaving_;
+  std::vector<GivenParticle> gone_;
+  int parts_ = 1;
+};
+
+}  // namespace lampblack::coupling
