@@ -5,6 +5,21 @@
 #include <utility>
 
 namespace lampblack {
+namespace {
+
+// Of rows by rank, `rows` of each: how many values each rank's have together.
+std::vector<std::size_t> valuesOfRanks(const std::vector<std::size_t>& rows, const std::vector<std::int64_t>& lengths) {
+  std::vector<std::size_t> values;
+  auto next = lengths.begin();
+  for (const std::size_t count : rows) {
+    const auto end = next + static_cast<std::ptrdiff_t>(count);
+    values.push_back(static_cast<std::size_t>(std::accumulate(next, end, std::int64_t{0})));
+    next = end;
+  }
+  return values;
+}
+
+}  // namespace
 
 RankExchange::RankExchange(MPI_Comm comm, std::span<const int> destinations) : comm_(comm) {
   int ranks = 1;
@@ -41,6 +56,28 @@ void RankExchange::pass(const void* sent, const std::vector<std::size_t>& from, 
     write += coming.back();
   }
   detail::exchangeBytes(comm_, parts, coming, &into);
+}
+
+void RankExchange::passRows(const PackedRows& sent, const std::vector<std::size_t>& from, PackedRows& received,
+                            const std::vector<std::size_t>& to) const {
+  const std::vector<std::size_t> coming = valuesOfRanks(to, received.lengths);
+  received.values.resize(std::accumulate(coming.begin(), coming.end(), std::size_t{0}));
+  pass(sent.values.data(), valuesOfRanks(from, sent.lengths), received.values.data(), coming, sizeof(double));
+}
+
+PackedRows RankExchange::there(const PackedRows& rows) const {
+  PackedRows result;
+  result.lengths = there(rows.lengths, 1);
+  passRows(gathered(rows, order_), sendCounts_, result, receiveCounts_);
+  return result;
+}
+
+PackedRows RankExchange::back(const PackedRows& rows) const {
+  const std::vector<std::int64_t> lengths = back(rows.lengths, 1);
+  PackedRows answers;
+  for (const std::size_t item : order_) answers.lengths.push_back(lengths[item]);
+  passRows(rows, receiveCounts_, answers, sendCounts_);
+  return scattered(answers, order_);
 }
 
 std::size_t portionsOf(MPI_Comm comm, std::size_t values) {

@@ -12,6 +12,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "core/packed_rows.hpp"
 #include "core/shares.hpp"
 
 namespace lampblack {
@@ -49,6 +50,10 @@ class RankExchange {
     return result;
   }
 
+  // Collective. The same of rows of any lengths, one for each item.
+  [[nodiscard]] PackedRows there(const PackedRows& rows) const;
+  [[nodiscard]] PackedRows back(const PackedRows& rows) const;
+
  private:
   template <typename T>
   static constexpr std::size_t sizeOf() {
@@ -59,6 +64,9 @@ class RankExchange {
   // Items of so many bytes, `from` of them to each rank, by rank, and `to` from each.
   void pass(const void* sent, const std::vector<std::size_t>& from, void* received, const std::vector<std::size_t>& to,
             std::size_t bytes) const;
+  // The values of rows, in the order of ranks, `from` of them to each; of those that come the lengths are there.
+  void passRows(const PackedRows& sent, const std::vector<std::size_t>& from, PackedRows& received,
+                const std::vector<std::size_t>& to) const;
 
   MPI_Comm comm_;
   std::size_t received_ = 0;
