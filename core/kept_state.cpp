@@ -15,17 +15,26 @@ class KeptState::Writer : public StateArchive {
   void faces(const std::string& name, std::vector<double>& values, int width) override {
     put(name, {values.data(), kept_.faces_ * static_cast<std::size_t>(width)}, Piece::Of::Faces, width);
   }
+  void rows(const std::string& name, std::vector<std::vector<double>>& values) override {
+    PackedRows& kept = next(name, Piece::Of::Rows, 0);
+    for (std::size_t cell = 0; cell < kept_.cells_; ++cell) kept.add(values[cell]);
+  }
   void sums(const std::string& name, std::span<double> values) override { put(name, values); }
   void shared(const std::string& name, std::vector<double>& values) override { put(name, values); }
 
  private:
   void put(const std::string& name, std::span<const double> values, Piece::Of of = Piece::Of::Rank, int width = 0) {
+    next(name, of, width).values.assign(values.begin(), values.end());
+  }
+  // An empty piece.
+  PackedRows& next(const std::string& name, Piece::Of of, int width) {
     if (kept_.count_ == kept_.pieces_.size()) kept_.pieces_.emplace_back();
     Piece& piece = kept_.pieces_[kept_.count_++];
     piece.name = name;
     piece.of = of;
     piece.width = width;
-    piece.values.assign(values.begin(), values.end());
+    piece.kept.clear();
+    return piece.kept;
   }
 
   KeptState& kept_;
@@ -36,21 +45,30 @@ class KeptState::Reader : public StateArchive {
   explicit Reader(const KeptState& kept) : kept_(kept) {}
   [[nodiscard]] bool loading() const override { return true; }
   void cells(const std::string& name, std::vector<double>& values, int) override {
-    std::ranges::copy(take(name), values.begin());
+    std::ranges::copy(take(name).values, values.begin());
   }
   void faces(const std::string& name, std::vector<double>& values, int) override {
-    std::ranges::copy(take(name), values.begin());
+    std::ranges::copy(take(name).values, values.begin());
+  }
+  void rows(const std::string& name, std::vector<std::vector<double>>& values) override {
+    const PackedRows& kept = take(name);
+    auto from = kept.values.begin();
+    for (std::size_t cell = 0; cell < kept_.cells_; ++cell) {
+      const auto to = from + kept.lengths[cell];
+      values[cell].assign(from, to);
+      from = to;
+    }
   }
   void sums(const std::string& name, std::span<double> values) override {
-    std::ranges::copy(take(name), values.begin());
+    std::ranges::copy(take(name).values, values.begin());
   }
-  void shared(const std::string& name, std::vector<double>& values) override { values = take(name); }
+  void shared(const std::string& name, std::vector<double>& values) override { values = take(name).values; }
 
  private:
-  const std::vector<double>& take(const std::string& name) {
+  const PackedRows& take(const std::string& name) {
     if (next_ == kept_.count_ || kept_.pieces_[next_].name != name)
       throw std::logic_error("KeptState: '" + name + "' was not kept in this place");
-    return kept_.pieces_[next_++].values;
+    return kept_.pieces_[next_++].kept;
   }
 
   const KeptState& kept_;
@@ -71,11 +89,13 @@ void KeptState::giveBack(const Owners& owners) {
   owners(reader);
 }
 
-void KeptState::rearrange(int ownedCells, int faces, const Move& moveCells, const Move& moveFaces) {
+void KeptState::rearrange(int ownedCells, int faces, const Move& moveCells, const Move& moveFaces,
+                          const MoveRows& moveRows) {
   for (std::size_t i = 0; i < count_; ++i) {
     Piece& piece = pieces_[i];
-    if (piece.of == Piece::Of::Cells) piece.values = moveCells(piece.values, piece.width);
-    if (piece.of == Piece::Of::Faces) piece.values = moveFaces(piece.values, piece.width);
+    if (piece.of == Piece::Of::Cells) piece.kept.values = moveCells(piece.kept.values, piece.width);
+    if (piece.of == Piece::Of::Faces) piece.kept.values = moveFaces(piece.kept.values, piece.width);
+    if (piece.of == Piece::Of::Rows) piece.kept = moveRows(piece.kept);
   }
   cells_ = static_cast<std::size_t>(ownedCells);
   faces_ = static_cast<std::size_t>(faces);
@@ -83,7 +103,10 @@ void KeptState::rearrange(int ownedCells, int faces, const Move& moveCells, cons
 
 std::size_t KeptState::bytes() const {
   std::size_t sum = 0;
-  for (std::size_t i = 0; i < count_; ++i) sum += sizeof(double) * pieces_[i].values.size();
+  for (std::size_t i = 0; i < count_; ++i) {
+    const PackedRows& kept = pieces_[i].kept;
+    sum += sizeof(double) * kept.values.size() + sizeof(std::int64_t) * kept.lengths.size();
+  }
   return sum;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/packed_rows.hpp"
 #include "core/state_archive.hpp"
 
 namespace lampblack {
@@ -24,16 +25,18 @@ class KeptState {
 
   // Of `width` values each for what this rank had: those of what it has now. Collective.
   using Move = std::function<std::vector<double>(const std::vector<double>& values, int width)>;
+  // The same of a row of any length for each.
+  using MoveRows = std::function<PackedRows(const PackedRows& rows)>;
   // What is kept belongs to a mesh whose cells and faces now lie on other ranks. Collective.
-  void rearrange(int ownedCells, int faces, const Move& moveCells, const Move& moveFaces);
+  void rearrange(int ownedCells, int faces, const Move& moveCells, const Move& moveFaces, const MoveRows& moveRows);
 
   [[nodiscard]] std::size_t bytes() const;
 
  private:
   struct Piece {
     std::string name;
-    std::vector<double> values;
-    enum class Of { Cells, Faces, Rank } of = Of::Rank;
+    PackedRows kept;  // only values but of rows
+    enum class Of { Cells, Faces, Rows, Rank } of = Of::Rank;
     int width = 0;
   };
   class Writer;

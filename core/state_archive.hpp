@@ -20,6 +20,9 @@ class StateArchive {
   // follows the owned cells (the halo) is left alone.
   virtual void cells(const std::string& name, std::vector<double>& values, int width) = 0;
   virtual void faces(const std::string& name, std::vector<double>& values, int width) = 0;
+  // A row of doubles of any length, none perhaps, for each owned cell. The vector has its size already, as above; the
+  // rows get theirs where they are filled.
+  virtual void rows(const std::string& name, std::vector<std::vector<double>>& values) = 0;
   // Each rank's part of sums over all ranks. Another number of ranks gets the sums on rank 0, and zero elsewhere.
   virtual void sums(const std::string& name, std::span<double> values) = 0;
   // The same on all ranks, of any length; rank 0's are saved.

@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <numeric>
+#include <span>
 
 #include "core/errors.hpp"
+#include "io/ordered_rows.hpp"
 #include "io/sealed_file.hpp"
 
 namespace lampblack::io {
@@ -21,6 +24,10 @@ std::filesystem::path unfinishedName(const std::filesystem::path& path) {
 
 std::string dataset(const std::string& name) {
   return "/state/" + name;
+}
+
+std::string lengthsDataset(const std::string& name) {
+  return dataset(name) + "_lengths";
 }
 
 }  // namespace
@@ -72,6 +79,20 @@ void CheckpointWriter::cells(const std::string& name, std::vector<double>& value
 void CheckpointWriter::faces(const std::string& name, std::vector<double>& values, int width) {
   const auto own = static_cast<std::ptrdiff_t>(localFaces_) * width;
   ordered(faces_, name, {values.begin(), values.begin() + own}, width);
+}
+
+void CheckpointWriter::rows(const std::string& name, std::vector<std::vector<double>>& values) {
+  const auto own = std::span(values).first(localCells_);
+  std::vector<std::int64_t> lengths;
+  for (const auto& row : own) lengths.push_back(static_cast<std::int64_t>(row.size()));
+  lengths = cells_.toBlock(lengths, 1);
+  file_.write(lengthsDataset(name), {cells_.total(), 1}, cells_.first(), cells_.count(), lengths.data());
+  const OrderedRows ordered(comm_, cells_, lengths);
+  file_.make(dataset(name), {ordered.total()});
+  for (std::int64_t portion = 0; portion < ordered.portions(); ++portion) {
+    const std::vector<double> piece = ordered.toPiece(portion, own);
+    file_.fill(dataset(name), ordered.first(portion), ordered.count(portion), piece.data());
+  }
 }
 
 void CheckpointWriter::sums(const std::string& name, std::span<double> values) {
@@ -153,6 +174,50 @@ void CheckpointReader::cells(const std::string& name, std::vector<double>& value
 
 void CheckpointReader::faces(const std::string& name, std::vector<double>& values, int width) {
   ordered(faces_, name, values, width);
+}
+
+std::vector<std::int64_t> CheckpointReader::lengthsOfBlock(const std::string& name, std::int64_t values) const {
+  const std::string place = lengthsDataset(name);
+  if (file_->shape(place) != std::vector<std::int64_t>{cells_.total(), 1})
+    throw InputError(fmt::format("{}: {} does not have the shape that this run needs", file_->name(), place));
+  std::vector<std::int64_t> lengths;
+  std::int64_t left = values;
+  for (const double length : file_->rows(place, cells_.first(), cells_.count())) {
+    if (!(length >= 0 && length <= static_cast<double>(left)) || length != std::floor(length))
+      throw InputError(fmt::format("{}: {} has the length {}, which no row of {} can have", file_->name(), place,
+                                   length, dataset(name)));
+    lengths.push_back(static_cast<std::int64_t>(length));
+    left -= lengths.back();
+  }
+  return lengths;
+}
+
+void CheckpointReader::rows(const std::string& name, std::vector<std::vector<double>>& values) {
+  std::int64_t total = 0;
+  std::vector<std::int64_t> lengths;
+  collectively(comm_, [&] {
+    const auto shape = file_->shape(dataset(name));
+    std::error_code error;
+    const std::uintmax_t bytes = std::filesystem::file_size(file_->name(), error);
+    // No more than there are bytes for, so that no sum of lengths is more than there are integers.
+    if (error || shape.size() != 1 || static_cast<std::uintmax_t>(shape[0]) > bytes / sizeof(double))
+      throw InputError(fmt::format("{}: {} is no list of values that the file holds", file_->name(), dataset(name)));
+    total = shape[0];
+    lengths = lengthsOfBlock(name, total);
+  });
+  const OrderedRows ordered(comm_, cells_, lengths);
+  collectively(comm_, [&] {
+    if (ordered.total() != total)
+      throw InputError(fmt::format("{}: the lengths of {} add up to {}, but it has {} values", file_->name(),
+                                   dataset(name), ordered.total(), total));
+    for (std::size_t cell = 0; cell < ordered.lengths().size(); ++cell)
+      values[cell].resize(static_cast<std::size_t>(ordered.lengths()[cell]));
+  });
+  for (std::int64_t portion = 0; portion < ordered.portions(); ++portion) {
+    std::vector<double> piece;
+    collectively(comm_, [&] { piece = file_->rows(dataset(name), ordered.first(portion), ordered.count(portion)); });
+    ordered.fromPiece(portion, piece, std::span(values));
+  }
 }
 
 void CheckpointReader::sums(const std::string& name, std::span<double> values) {

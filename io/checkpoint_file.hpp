@@ -42,6 +42,7 @@ class CheckpointWriter : public StateArchive {
   [[nodiscard]] bool loading() const override { return false; }
   void cells(const std::string& name, std::vector<double>& values, int width) override;
   void faces(const std::string& name, std::vector<double>& values, int width) override;
+  void rows(const std::string& name, std::vector<std::vector<double>>& values) override;
   void sums(const std::string& name, std::span<double> values) override;
   void shared(const std::string& name, std::vector<double>& values) override;
   void texts(const std::string& name, const std::vector<std::string>& values);
@@ -73,6 +74,7 @@ class CheckpointReader : public StateArchive {
   [[nodiscard]] bool loading() const override { return true; }
   void cells(const std::string& name, std::vector<double>& values, int width) override;
   void faces(const std::string& name, std::vector<double>& values, int width) override;
+  void rows(const std::string& name, std::vector<std::vector<double>>& values) override;
   void sums(const std::string& name, std::span<double> values) override;
   void shared(const std::string& name, std::vector<double>& values) override;
   [[nodiscard]] std::vector<std::string> texts(const std::string& name) const;
@@ -82,6 +84,8 @@ class CheckpointReader : public StateArchive {
 
  private:
   void ordered(const BlockExchange& exchange, const std::string& name, std::vector<double>& values, int width);
+  // Of the rows of this rank's block of cells, as far as they can be right without the other ranks'; not collective.
+  [[nodiscard]] std::vector<std::int64_t> lengthsOfBlock(const std::string& name, std::int64_t values) const;
 
   MPI_Comm comm_;
   BlockExchange cells_, faces_;

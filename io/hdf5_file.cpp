@@ -152,6 +152,13 @@ std::int64_t ParallelFile::layOut(const std::vector<std::int64_t>& dims, std::in
 void ParallelFile::writeAny(const std::string& path, const std::vector<std::int64_t>& dims, std::int64_t firstRow,
                             std::int64_t rows, const void* data, hid_t fileType, hid_t memoryType) {
   const std::string what = fmt::format("write {} to {}", path, name_);
+  Handle dataset = makeAny(path, dims, fileType, what);
+  fillAny(dataset, firstRow, rows, data, memoryType, what);
+  dataset.close(what);
+}
+
+Handle ParallelFile::makeAny(const std::string& path, const std::vector<std::int64_t>& dims, hid_t fileType,
+                             const std::string& what) {
   Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, what);
   claim(layOut(dims, static_cast<std::int64_t>(H5Tget_size(fileType)), creation, what), what);
   const std::vector<hsize_t> shape(dims.begin(), dims.end());
@@ -160,8 +167,16 @@ void ParallelFile::writeAny(const std::string& path, const std::vector<std::int6
   check(H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER), what);
   // Time stamps would make two files with the same data differ.
   check(H5Pset_obj_track_times(creation, false), what);
-  Handle dataset(H5Dcreate2(file_, path.c_str(), fileType, space, linkCreation_, creation, H5P_DEFAULT), H5Dclose,
-                 what);
+  return {H5Dcreate2(file_, path.c_str(), fileType, space, linkCreation_, creation, H5P_DEFAULT), H5Dclose, what};
+}
+
+void ParallelFile::fillAny(const Handle& dataset, std::int64_t firstRow, std::int64_t rows, const void* data,
+                           hid_t memoryType, const std::string& what) {
+  const Handle space(H5Dget_space(dataset), H5Sclose, what);
+  const int rank = H5Sget_simple_extent_ndims(space);
+  check(rank, what);
+  std::vector<hsize_t> shape(static_cast<std::size_t>(rank));
+  if (rank > 0) check(H5Sget_simple_extent_dims(space, shape.data(), nullptr), what);
 
   std::vector<hsize_t> block = shape;
   hsize_t values = 1;
@@ -185,6 +200,17 @@ void ParallelFile::writeAny(const std::string& path, const std::vector<std::int6
   }
   const double nothing = 0.0;  // some MPI-IO layers dislike a null pointer even for no bytes
   check(H5Dwrite(dataset, memoryType, memory, space, transfer_, data != nullptr ? data : &nothing), what);
+}
+
+void ParallelFile::make(const std::string& path, const std::vector<std::int64_t>& dims) {
+  const std::string what = fmt::format("write {} to {}", path, name_);
+  makeAny(path, dims, H5T_IEEE_F64LE, what).close(what);
+}
+
+void ParallelFile::fill(const std::string& path, std::int64_t firstRow, std::int64_t rows, const double* data) {
+  const std::string what = fmt::format("write {} to {}", path, name_);
+  Handle dataset(H5Dopen2(file_, path.c_str(), H5P_DEFAULT), H5Dclose, what);
+  fillAny(dataset, firstRow, rows, data, H5T_NATIVE_DOUBLE, what);
   dataset.close(what);
 }
 

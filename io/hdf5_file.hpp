@@ -32,6 +32,11 @@ class ParallelFile {
   void write(const std::string& path, const std::vector<std::int64_t>& dims, std::int64_t firstRow, std::int64_t rows,
              const std::int64_t* data);
 
+  // The same in portions: a dataset whose place is there, its values are not yet, and then rows of it as often as it
+  // takes. Nothing is left to write of an empty one.
+  void make(const std::string& path, const std::vector<std::int64_t>& dims);
+  void fill(const std::string& path, std::int64_t firstRow, std::int64_t rows, const double* data);
+
   // Rows of a dataset of this file: those that this rank asks for.
   [[nodiscard]] std::vector<double> read(const std::string& path, std::int64_t firstRow, std::int64_t rows,
                                          std::int64_t width) const;
@@ -58,6 +63,10 @@ class ParallelFile {
  private:
   void writeAny(const std::string& path, const std::vector<std::int64_t>& dims, std::int64_t firstRow,
                 std::int64_t rows, const void* data, hid_t fileType, hid_t memoryType);
+  Handle makeAny(const std::string& path, const std::vector<std::int64_t>& dims, hid_t fileType,
+                 const std::string& what);
+  void fillAny(const Handle& dataset, std::int64_t firstRow, std::int64_t rows, const void* data, hid_t memoryType,
+               const std::string& what);
   void attributeAny(const std::string& path, const std::string& name, hid_t fileType, hid_t memoryType,
                     const void* value);
 

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,25 +13,9 @@
 #include "app/run/warnings.hpp"
 #include "core/errors.hpp"
 #include "io/block_exchange.hpp"
+#include "io/movement.hpp"
 
 namespace lampblack::app {
-namespace {
-
-// Brings values from where numbers are to where they will be. Making and using it is collective.
-class Movement {
- public:
-  Movement(MPI_Comm comm, std::span<const std::int64_t> from, std::span<const std::int64_t> to, std::int64_t total)
-      : leaving_(std::make_shared<BlockExchange>(comm, from, total)),
-        arriving_(std::make_shared<BlockExchange>(comm, to, total)) {}
-  std::vector<double> operator()(const std::vector<double>& values, int width) const {
-    return arriving_->fromBlock(leaving_->toBlock(values, width), width);
-  }
-
- private:
-  std::shared_ptr<const BlockExchange> leaving_, arriving_;  // a KeptState::Move is copied
-};
-
-}  // namespace
 
 Mesh FlowLoop::partitionedBy(const std::vector<double>& weights) {
   const StateNumbers numbers = stateNumbers(domain_->mesh);
@@ -105,7 +88,7 @@ void FlowLoop::moveTo(Mesh mesh, const std::vector<double>& weights) {
     const Movement ofCells(comm_, from.cells, to.cells, to.totalCells);
     const Movement ofFaces(comm_, from.faces, to.faces, to.totalFaces);
     moved = ofCells(weights, 1);
-    moving.rearrange(mesh.owned, mesh.faces, ofCells, ofFaces);
+    moving.rearrange(mesh.owned, mesh.faces, ofCells, ofFaces, ofCells);
   }
   install(std::move(mesh));
   moving.giveBack(owners);

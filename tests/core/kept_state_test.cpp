@@ -14,11 +14,13 @@ namespace {
 struct Owner {
   std::vector<double> cells{1, 2, 3, 4, 5, 6}, faces{7, 8, 9, 10}, sums{11, 12}, shared{13, 14};
   double number = 15;
+  std::vector<std::vector<double>> rows{{21, 22, 23}, {}, {24}};
   std::string name = "cells";
 
   void saveOrLoad(StateArchive& archive) {
     archive.cells(name, cells, 2);
     archive.faces("faces", faces, 1);
+    archive.rows("rows", rows);
     archive.sums("sums", sums);
     archive.shared("shared", shared);
     archive.shared("number", number);
@@ -32,9 +34,12 @@ TEST(KeptState, GivesBackWhatItWasGivenLast) {
   for (const double offset : {0.0, 100.0}) {
     owner.cells[0] += offset;
     owner.shared = {offset};
+    owner.rows[0].resize(offset > 0 ? 1 : 3, 23);
+    owner.rows[1].assign(offset > 0 ? 2 : 0, 25);
     kept.keep(owners);
     const Owner before = owner;
     owner = {{0, 0, 0, 0, -5, -6}, {0, 0, 0, 0}, {0, 0}, {1, 2, 3, 4}, 0};
+    owner.rows = {{1}, {2}, {-24}};
     kept.giveBack(owners);
     // What follows the owned cells is left alone.
     EXPECT_EQ(owner.cells, (std::vector<double>{1 + offset, 2, 3, 4, -5, -6}));
@@ -42,7 +47,9 @@ TEST(KeptState, GivesBackWhatItWasGivenLast) {
     EXPECT_EQ(owner.sums, before.sums);
     EXPECT_EQ(owner.shared, before.shared);
     EXPECT_EQ(owner.number, 15);
-    EXPECT_EQ(kept.bytes(), sizeof(double) * (4 + 4 + 2 + before.shared.size() + 1));
+    EXPECT_EQ(owner.rows, (std::vector<std::vector<double>>{before.rows[0], before.rows[1], {-24}}));
+    // Of the rows three values and two lengths.
+    EXPECT_EQ(kept.bytes(), sizeof(double) * (4 + 4 + 2 + before.shared.size() + 1 + 3 + 2));
   }
 }
 
@@ -63,14 +70,21 @@ TEST(KeptState, GoesAlongToOtherCellsAndFaces) {
         EXPECT_EQ(width, 1);
         EXPECT_EQ(values, (std::vector<double>{7, 8, 9, 10}));
         return std::vector<double>{10, 9, 8};
+      },
+      [](const PackedRows& rows) {
+        EXPECT_EQ(rows.lengths, (std::vector<std::int64_t>{3, 0}));
+        EXPECT_EQ(rows.values, (std::vector<double>{21, 22, 23}));
+        return PackedRows{{0, 2}, {31, 32}};
       });
   const Owner before = owner;
   owner = {{0, 0, 0, 0}, {0, 0, 0}, {0, 0}, {}, 0};
+  owner.rows = {{1}, {}};
   kept.giveBack(owners);
   EXPECT_EQ(owner.cells, (std::vector<double>{3, 4, 20, 21}));
   EXPECT_EQ(owner.faces, (std::vector<double>{10, 9, 8}));
   EXPECT_EQ(owner.sums, before.sums);
   EXPECT_EQ(owner.shared, before.shared);
+  EXPECT_EQ(owner.rows, (std::vector<std::vector<double>>{{}, {31, 32}}));
   kept.keep(owners);
   owner.cells.assign(4, 0.0);
   kept.giveBack(owners);

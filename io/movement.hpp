@@ -1,0 +1,35 @@
+// Values of a mesh's cells or faces that go from the ranks that have them to those that will.
+#pragma once
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/packed_rows.hpp"
+#include "core/rooms.hpp"
+#include "io/block_exchange.hpp"
+
+namespace lampblack::io {
+
+// Making and using it is collective. A copy is cheap.
+class Movement {
+ public:
+  // Global numbers of what this rank has and of what it will have, of 0..total-1.
+  Movement(MPI_Comm comm, std::span<const std::int64_t> from, std::span<const std::int64_t> to, std::int64_t total);
+
+  // Of `width` values for each number: those of the new ones.
+  [[nodiscard]] std::vector<double> operator()(const std::vector<double>& values, int width) const;
+  // Of a row for each number. Each goes straight to the rank that will have it: of both there has to be one
+  // (std::logic_error).
+  [[nodiscard]] PackedRows operator()(const PackedRows& rows) const;
+
+ private:
+  MPI_Comm comm_;
+  std::int64_t arrivals_;
+  std::shared_ptr<const BlockExchange> leaving_, arriving_;
+};
+
+}  // namespace lampblack::io
