@@ -11,8 +11,13 @@
 // atoms and enthalpy are those of gas, particles and reserve together, to round-off. docs/theory/ensembles_in_cells.md.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/rooms.hpp"
@@ -45,7 +50,7 @@ class EnsembleOperator : public Operator {
   enum Amount : std::size_t { number, carbon, hydrogen, primaries, surface, diameters, owedC, owedH, owedO, amounts };
   [[nodiscard]] static std::vector<CarriedScalar> scalars();
   // kg of each element of the mechanism in a unit of each amount.
-  [[nodiscard]] static std::vector<std::vector<double>> unitElements(const Mechanism& mechanism);
+  [[nodiscard]] static std::vector<std::vector<double>> unitElements(const Mechanism& mechanism, Exchange exchange);
   // Absorption coefficient (1/m) of particles of these amounts.
   [[nodiscard]] static double absorption(const Options& options, double temperature, std::span<const double> amounts);
 
@@ -67,8 +72,9 @@ class EnsembleOperator : public Operator {
   void fields(const State& state, const FieldSink& sink) const override;
   void addCost(const Mesh& mesh, CellCost& cost) const override;
 
-  // Of the last step: each amount that left through the boundary, of this rank's cells, per metre depth or radian.
-  [[nodiscard]] const std::vector<double>& outflow() const { return outflow_; }
+  // Is called at the end of each step: each amount that left through the boundary in it, of this rank's cells, per
+  // metre depth or radian.
+  void watchOutflow(std::function<void(std::span<const double>)> watcher) { watchers_.push_back(std::move(watcher)); }
   // Packed, of the owned cells; empty where there is none.
   [[nodiscard]] const std::vector<std::vector<double>>& populations() const { return populations_; }
   // Replaces the population of an owned cell; as Ensemble::initialise. The amounts follow with the next step.
@@ -78,12 +84,11 @@ class EnsembleOperator : public Operator {
   // A reserve: mol/m3 of each exchanged species, then J/m3.
   [[nodiscard]] std::size_t reserveWidth() const { return species_.size() + 1; }
   [[nodiscard]] ParticleGas gasOf(const State& state, int cell, std::vector<double>& concentrations) const;
-  void pack(const State& state, int cell, std::vector<double>& in) const;
-  void solve(double time, double dt, std::span<const double> in, std::span<double> out) const;
+  void pack(const State& state, int cell, double dt, std::vector<double>& in);
+  void solve(double time, std::span<const double> in, std::vector<double>& out) const;
   void unpack(State& state, int cell, std::span<const double> out);
-  void book(State& state, int cell, std::span<const double> gained, double heat);
-  void payReserves(double dt);
-  void setOwed(State& state, int cell);
+  void setAmounts(State& state, int cell, const Ensemble::Totals& totals) const;
+  void setOwed(State& state, int cell) const;
   void countOutflow();
 
   const FlowContext& context_;
@@ -102,12 +107,15 @@ class EnsembleOperator : public Operator {
   // What several sweeps of a step begin with.
   std::vector<std::vector<double>> startPopulations_;
   std::vector<double> startReserve_;
+  double startResampled_ = 0.0;
   bool inStep_ = false;
-  double step_ = 0.0;      // s, the last
+  double lastStep_ = 0.0;   // s
   std::int64_t steps_ = 0;  // since the start
   std::vector<double> outflow_;
-  // Since the start, of this rank: kg per metre depth or radian by numerical particles that come and go; events.
-  double resampled_ = 0.0, events_ = 0.0;
+  std::vector<std::function<void(std::span<const double>)>> watchers_;
+  double resampled_ = 0.0;  // by numerical particles that come and go, since the start, kg per metre depth or radian
+  std::vector<double> massOfAtoms_;  // kg/mol of C, of H, of O in the exchanged species
+  std::vector<double> concentrations_;
   Imbalance imbalances_{0.0, 0.0};  // sums over the stages
   int stages_ = 0;
   // Of the last row.

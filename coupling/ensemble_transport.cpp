@@ -43,16 +43,16 @@ GivenParticle particleAt(const double* row) {
 
 // One of a cell's faces, as its particles see it, in one part of a step.
 struct EnsembleTransport::Side {
-  int face = 0, beyond = -1;                     // the cell on the other side, or -1
-  std::array<double, classes> convected{};       // probability to go with the gas
-  std::array<double, classes> diffused{};        // factor of `diffusion`: o
-  std::array<double, nodes> diffusion{};         // times d^2, m2: at the nodes
+  int face = 0, beyond = -1;                // the cell on the other side, or -1
+  std::array<double, classes> convected{};  // probability to go with the gas
+  std::array<double, classes> diffused{};   // factor of `diffusion`: o
+  std::array<double, nodes> diffusion{};    // times d^2, m2: at the nodes
   bool diffuses = false;
 };
 
 struct EnsembleTransport::Leaving {
-  std::int64_t face = 0;  // permanent number
-  int cell = 0;           // local, where it comes to
+  std::int64_t face = 0;   // permanent number
+  int cell = 0;            // local, where it comes to
   GivenParticle particle;  // its number per metre depth or radian
 };
 
@@ -121,9 +121,9 @@ void EnsembleTransport::findDensities(const Gas& gas, double part, const std::ve
     const BoundaryKind kind = context_.boundaryOf(face).kind;
     const bool isOpen = kind == BoundaryKind::Inlet || kind == BoundaryKind::Outlet;
     // Nothing comes in; what goes out is as what comes after it.
-    known_[face - m.interiorFaces] = !isOpen                             ? BoundaryData::ZeroSlope
+    known_[face - m.interiorFaces] = !isOpen                          ? BoundaryData::ZeroSlope
                                      : gas.state.massFlux[face] < 0.0 ? BoundaryData::Value
-                                                                         : BoundaryData::Nothing;
+                                                                      : BoundaryData::Nothing;
   }
   gradient_.compute(density_, nothing_, classes, gradients_, known_);
   if (m.isOblique() && options_.diffusion) context_.halo.update(gradients_, classes * m.dimension);
@@ -240,9 +240,8 @@ void EnsembleTransport::send(std::vector<Rows>& arrived) {
   for (std::size_t i = 0; i < came.size(); i += width)
     leaving_.push_back({static_cast<std::int64_t>(came[i]), m.findOwned(static_cast<std::int64_t>(came[i + 1])),
                         particleAt(&came[i + 2])});
-  std::ranges::stable_sort(leaving_, [](const Leaving& a, const Leaving& b) {
-    return std::tie(a.cell, a.face) < std::tie(b.cell, b.face);
-  });
+  std::ranges::stable_sort(
+      leaving_, [](const Leaving& a, const Leaving& b) { return std::tie(a.cell, a.face) < std::tie(b.cell, b.face); });
   for (const Leaving& one : leaving_) {
     const GivenParticle& p = one.particle;
     arrived[one.cell].insert(arrived[one.cell].end(),

@@ -1,6 +1,6 @@
-// How the particles of ensembles in the cells of a flow move from cell to cell: whole numerical particles are drawn, each
-// with the probability that the finite-volume flux of what it stands for gives, so that every moment has the mean of a
-// carried scalar. What leaves a cell comes into another or goes out: nothing is lost but to round-off.
+// How the particles of ensembles in the cells of a flow move from cell to cell: whole numerical particles are drawn,
+// each with the probability that the finite-volume flux of what it stands for gives, so that every moment has the mean
+// of a carried scalar. What leaves a cell comes into another or goes out: nothing is lost but to round-off.
 //
 // Through a face, a particle of the cell `d` with the gas mass M_d at the step's start goes in dt with the probability
 //
@@ -13,8 +13,8 @@
 // noisy. o corrects diffusion where the step from cell to cell is oblique to the face. Like sizes: volumes within a
 // factor of eight.
 //
-// Which particles go is drawn evenly over their order (EvenPoints), by one random number of the cell and step: results do not
-// depend on ranks. docs/theory/ensembles_in_cells.md.
+// Which particles go is drawn evenly over their order (EvenPoints), by one random number of the cell and step: results
+// do not depend on ranks. docs/theory/ensembles_in_cells.md.
 #pragma once
 
 #include <cstdint>
@@ -84,11 +84,11 @@ class EnsembleTransport {
   const FlowContext& context_;
   Options options_;
   Gradient gradient_;
-  std::vector<BoundaryData> known_;         // of the particles at each boundary face
+  std::vector<BoundaryData> known_;          // of the particles at each boundary face
   std::vector<double> density_, gradients_;  // numbers of each class per mass of gas, 1/kg
-  std::vector<double> nothing_;             // at the boundary
-  std::vector<double> diffusivity_;         // of local cells: D d^2 at the nodes, m4/s
-  std::vector<char> isFound_;               // whether it is that of this step
+  std::vector<double> nothing_;              // at the boundary
+  std::vector<double> diffusivity_;          // of local cells: D d^2 at the nodes, m4/s
+  std::vector<char> isFound_;                // whether it is that of this step
   std::vector<Leaving> leaving_;
   std::vector<GivenParticle> gone_;
   int parts_ = 1;

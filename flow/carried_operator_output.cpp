@@ -6,6 +6,7 @@
 #include "core/errors.hpp"
 #include "core/first_error.hpp"
 #include "flow/carried_operator.hpp"
+#include "flow/peak.hpp"
 
 namespace lampblack::flow {
 
@@ -24,24 +25,14 @@ std::vector<Quantity> CarriedOperator::historyColumns() const {
 
 std::vector<double> CarriedOperator::historyValues(const State& state) {
   const Mesh& m = context_.mesh;
-  struct {
-    double value;
-    int rank;
-  } best{-1.0, m.rank};
+  const Peak peak = peakOf(m, [&](int c) { return model_.volumeFraction(densities(state, c)); });
+  place_ = peak.place;
   double atLimit = 0.0;
-  for (int c = 0; c < m.owned; ++c) {
-    const double fraction = model_.volumeFraction(densities(state, c));
-    atLimit = std::max(atLimit, model_.volumeFractionAtLimit(densities(state, c)));
-    if (fraction <= best.value) continue;
-    best.value = fraction;
-    place_ = m.centre[c];
-  }
-  MPI_Allreduce(MPI_IN_PLACE, &best, 1, MPI_DOUBLE_INT, MPI_MAXLOC, m.comm);
-  MPI_Bcast(place_.data(), 3, MPI_DOUBLE, best.rank, m.comm);
+  for (int c = 0; c < m.owned; ++c) atLimit = std::max(atLimit, model_.volumeFractionAtLimit(densities(state, c)));
   MPI_Allreduce(MPI_IN_PLACE, &atLimit, 1, MPI_DOUBLE, MPI_MAX, m.comm);
   auto steps = static_cast<double>(steps_);
   MPI_Allreduce(MPI_IN_PLACE, &steps, 1, MPI_DOUBLE, MPI_SUM, m.comm);
-  peak_ = best.value;
+  peak_ = peak.value;
   const double part = peak_ > 0.0 ? atLimit / peak_ : 0.0;
   if (part > options_.allowedAtLimit)
     raiseTogether(m.comm,

@@ -1,23 +1,25 @@
 #include "flow/radiation_operator.hpp"
 
+#include <utility>
+
 namespace lampblack::flow {
 
-RadiationOperator::RadiationOperator(const FlowContext& context, double surroundings, CarriedModel* carried)
+RadiationOperator::RadiationOperator(const FlowContext& context, double surroundings, Absorption particles)
     : context_(context),
       radiation_(context.mechanism, surroundings),
-      carried_(carried),
+      particles_(std::move(particles)),
       start_(static_cast<std::size_t>(context.mesh.owned)),
       loss_(start_),
       X_(context.mechanism.numSpecies()) {}
 
 void RadiationOperator::evaluate(const State& state) {
   const std::size_t n = X_.size();
-  const std::size_t scalars = carried_ == nullptr ? 0 : carried_->scalars().size();
+  const std::size_t scalars = state.scalars.size();
   for (std::size_t c = 0; c < loss_.size(); ++c) {
     const double T = state.temperature[c];
     context_.thermo.massToMole({&state.Y[c * n], n}, X_);
     double absorption = radiation_.absorption(T, state.thermodynamicPressure, X_);
-    if (scalars > 0) absorption += carried_->absorption(T, {&state.carried[c * state.scalars.size()], scalars});
+    if (particles_) absorption += particles_(T, {&state.carried[c * scalars], scalars});
     loss_[c] = radiation_.loss(absorption, T);
   }
 }

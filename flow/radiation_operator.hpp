@@ -3,10 +3,11 @@
 // has found as its end.
 #pragma once
 
+#include <functional>
+#include <span>
 #include <vector>
 
 #include "core/rooms.hpp"
-#include "flow/carried_model.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/operator.hpp"
 #include "flow/radiation.hpp"
@@ -15,8 +16,10 @@ namespace lampblack::flow {
 
 class RadiationOperator : public Operator {
  public:
-  // `carried`: what the state carries, from its first scalar on; null for nothing that radiates.
-  RadiationOperator(const FlowContext& context, double surroundings, CarriedModel* carried);
+  // Absorption coefficient (1/m) at a temperature of what the state carries in a cell.
+  using Absorption = std::function<double(double temperature, std::span<const double> carried)>;
+  // `particles`: empty where nothing of what is carried radiates.
+  RadiationOperator(const FlowContext& context, double surroundings, Absorption particles);
 
   [[nodiscard]] const char* name() const override { return "radiation"; }
   void advance(State& state, double time, double dt) override;
@@ -32,7 +35,7 @@ class RadiationOperator : public Operator {
 
   const FlowContext& context_;
   ThinRadiation radiation_;
-  CarriedModel* carried_;
+  Absorption particles_;
   std::vector<double> start_, loss_;  // W/m3 of owned cells: at the step's start, of the latest state
   std::vector<double> X_;
 };

@@ -9,7 +9,7 @@
 
 namespace lampblack::app {
 
-void addEnsembleKeys(DeckSchema& schema, const std::string& description) {
+void addEnsembleKeys(DeckSchema& schema, const std::string& description, const std::string& particles) {
   schema.section("stochastic", Presence::optional, description)
       .add(choiceKey("stochastic.method", {"dsmc", "sammc", "swa"},
                      "Monte Carlo method. dsmc: particles of equal weight, doubled when few, reduced when many; sammc: "
@@ -17,18 +17,9 @@ void addEnsembleKeys(DeckSchema& schema, const std::string& description) {
                      "weighted algorithm, weights that conserve mass.")
                .byDefault("sammc"))
       .add(integerKey("stochastic.particles",
-                      "Number of numerical particles of a repeat: more have less noise and cost more.")
-               .byDefault("2000")
+                      "Number of numerical particles of an ensemble: more have less noise and cost more.")
+               .byDefault(particles)
                .atLeast(8))
-      .add(integerKey("stochastic.repeats",
-                      "Number of independent repeats of every ensemble, from which mean and confidence follow.")
-               .byDefault("8")
-               .atLeast(2)
-               .atMost(100000))
-      .add(integerKey("stochastic.seed",
-                      "Start of the random numbers: another seed gives another sample, the same seed the same result.")
-               .byDefault("1")
-               .atLeast(0))
       .add(choiceKey(
                "stochastic.shape", {"spheres", "aggregates"},
                "spheres: particles coalesce when they coagulate; aggregates: their primary particles stay and touch.")
@@ -60,9 +51,22 @@ void addEnsembleKeys(DeckSchema& schema, const std::string& description) {
                .above(0));
 }
 
+void addRepeatKeys(DeckSchema& schema) {
+  schema
+      .add(integerKey("stochastic.repeats",
+                      "Number of independent repeats of every ensemble, from which mean and confidence follow.")
+               .byDefault("8")
+               .atLeast(2)
+               .atMost(100000))
+      .add(integerKey("stochastic.seed",
+                      "Start of the random numbers: another seed gives another sample, the same seed the same result.")
+               .byDefault("1")
+               .atLeast(0));
+}
+
 EnsembleRequest readEnsemble(const Deck& deck, const SootModelOptions& soot) {
   EnsembleRequest request;
-  request.repeats = deck.integer<std::size_t>("stochastic.repeats");
+  if (deck.has("stochastic.repeats")) request.repeats = deck.integer<std::size_t>("stochastic.repeats");
   EnsembleOptions& options = request.soot;
   const std::string method = deck.choice("stochastic.method");
   options.method = method == "dsmc"    ? EnsembleMethod::dsmc
@@ -71,7 +75,7 @@ EnsembleRequest readEnsemble(const Deck& deck, const SootModelOptions& soot) {
   options.particles = deck.integer<std::size_t>("stochastic.particles");
   requireMemory(deck, "stochastic.particles", fmt::format("a sample of {} particles", options.particles),
                 40 * static_cast<double>(options.particles));
-  options.seed = deck.integer<std::uint64_t>("stochastic.seed");
+  if (deck.has("stochastic.seed")) options.seed = deck.integer<std::uint64_t>("stochastic.seed");
   options.soot = soot;
   options.coalescing = deck.choice("stochastic.shape") == "spheres";
   options.alphaOfPrimaries = deck.choice("stochastic.active_sites") == "primary";

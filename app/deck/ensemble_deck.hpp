@@ -12,12 +12,15 @@ namespace lampblack::app {
 
 struct EnsembleRequest {
   EnsembleOptions soot;
-  std::size_t repeats = 0;
+  std::size_t repeats = 1;  // where there is the key
   EnsemblePathOptions bins;
 };
 
-// The section, described for the problem, with the keys that all problems have.
-void addEnsembleKeys(DeckSchema& schema, const std::string& description);
+// The section, described for the problem, with the keys that all problems have; `particles`: the default number of
+// numerical particles.
+void addEnsembleKeys(DeckSchema& schema, const std::string& description, const std::string& particles = "2000");
+// Those of problems whose ensembles are repeated: how often, and with which random numbers.
+void addRepeatKeys(DeckSchema& schema);
 
 // Of a deck with the section. `soot`: what the section `soot` says of PAH, surface and switches. InputError, pointing
 // into the deck.

@@ -12,6 +12,7 @@ void addStochasticKeys(DeckSchema& schema) {
   addEnsembleKeys(schema,
                   "Ensembles of soot particles along the flame, by repeats of independent random numbers; needs the "
                   "section soot, whose PAH, surface and switches are theirs.");
+  addRepeatKeys(schema);
   schema
       .add(choiceKey("stochastic.coupled", {"decoupled", "two_way"},
                      "decoupled: the flame as solved with soot.model, whose exchange with the gas stands for the "

@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "app/deck/ensemble_deck.hpp"
 #include "app/deck/radiation_deck.hpp"
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/temperature_input.hpp"
@@ -16,6 +17,7 @@
 #include "app/tools/gas_input.hpp"
 #include "core/errors.hpp"
 #include "coupling/carried_particles.hpp"
+#include "coupling/ensemble_species.hpp"
 #include "flow/carried_operator.hpp"
 
 namespace lampblack::app {
@@ -155,7 +157,35 @@ void readGravity(const Deck& deck, FlowCase& flowCase) {
           Thermo(*flowCase.mechanism).density(boundary.temperature, flowCase.pressure, boundary.Y);
 }
 
+void readEnsembles(const Deck& deck, FlowCase& flowCase) {
+  if (!deck.has("soot")) throw deck.error("stochastic", "ensembles need the section 'soot': PAH, surface, switches");
+  if (deck.isGiven("soot.model") && deck.choice("soot.model") != "none")
+    throw deck.error("soot.model",
+                     "ensembles in the cells take the place of a model: leave this out, or the section 'stochastic'");
+  EnsembleOperator::Options options;
+  options.ensemble = readEnsemble(deck, readSootModelOptions(deck, *flowCase.mechanism, {})).soot;
+  try {
+    (void)indicesOfSootSpecies(*flowCase.mechanism, options.ensemble.soot);
+  } catch (const InputError& error) {
+    throw deck.error("stochastic", error.what());
+  }
+  options.ensemble.seed = flowCase.seed;
+  options.ensemble.startNumberDensity = deck.quantity("stochastic.least_number");
+  const bool isTwoWay = deck.choice("stochastic.exchange") == "two_way";
+  options.exchange = isTwoWay ? EnsembleOperator::Exchange::TwoWay : EnsembleOperator::Exchange::OneWay;
+  if (isTwoWay) options.average = deck.quantity("stochastic.average");
+  options.diffusion = deck.boolean("soot.diffusion");
+  options.secondOrder = deck.choice("stochastic.order") == "second";
+  options.shareWork = flowCase.chemistry.shareWork;
+  options.sweeps = deck.integer<int>("time.sweeps");
+  flowCase.ensembles = options;
+}
+
 void readSoot(const Deck& deck, FlowCase& flowCase) {
+  if (deck.has("stochastic")) {
+    readEnsembles(deck, flowCase);
+    return;
+  }
   auto model = readSootModel(deck, *flowCase.mechanism);
   if (!model) {
     if (deck.has("soot") && deck.has("trajectories"))
@@ -187,8 +217,8 @@ Vector3 readStart(const Deck& deck, const std::string& item, const FlowCase& flo
 
 void readTrajectories(const Deck& deck, FlowCase& flowCase) {
   if (!deck.has("trajectories")) return;
-  if (deck.has("soot") && deck.choice("soot.model") == "none") return;
-  if (!flowCase.carried)
+  if (deck.has("soot") && !flowCase.ensembles && deck.choice("soot.model") == "none") return;
+  if (!flowCase.carried && !flowCase.ensembles)
     throw deck.error("trajectories", "trajectories need a 'soot' section: it names the particle model");
   TrajectoryRequest options;
   options.soot = readSootModelOptions(deck, *flowCase.mechanism);

@@ -10,6 +10,7 @@
 #include "chemistry/mechanism/mechanism.hpp"
 #include "core/mesh.hpp"
 #include "core/rooms.hpp"
+#include "coupling/ensemble_operator.hpp"
 #include "flow/boundary.hpp"
 #include "flow/carried_model.hpp"
 #include "flow/carried_operator.hpp"
@@ -114,7 +115,8 @@ struct FlowCase {
   ReactionOperator::Options chemistry;
   TransportOperator::Options flow;
   RadiationOptions radiation;
-  std::shared_ptr<CarriedModel> carried;  // null: nothing
+  std::shared_ptr<CarriedModel> carried;               // null: nothing
+  std::optional<EnsembleOperator::Options> ensembles;  // in the cells; then nothing else is carried
   CarriedOperator::Options carriedOptions;
   std::optional<TrajectoryRequest> trajectories;
   std::vector<std::string> notes;  // what the user should be told before the run

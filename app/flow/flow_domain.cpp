@@ -23,6 +23,22 @@ std::vector<double> distancesFromWalls(const Mesh& mesh, HaloExchange& halo, con
   return wallDistance(mesh, halo, walls);
 }
 
+std::vector<CarriedScalar> carriedScalars(const FlowCase& flowCase) {
+  if (flowCase.ensembles) return EnsembleOperator::scalars();
+  return flowCase.carried ? CarriedOperator::scalarsOf(*flowCase.carried) : std::vector<CarriedScalar>{};
+}
+
+RadiationOperator::Absorption particleAbsorption(const FlowCase& flowCase) {
+  if (flowCase.ensembles)
+    return [&options = *flowCase.ensembles](double temperature, std::span<const double> amounts) {
+      return EnsembleOperator::absorption(options, temperature, amounts);
+    };
+  if (!flowCase.carried) return {};
+  return [&model = *flowCase.carried](double temperature, std::span<const double> densities) {
+    return model.absorption(temperature, densities);
+  };
+}
+
 }  // namespace
 
 FlowDomain::FlowDomain(Mesh partitioned, const FlowCase& flowCase, const Thermo& thermo, Transport& transport,
@@ -40,9 +56,7 @@ FlowDomain::FlowDomain(Mesh partitioned, const FlowCase& flowCase, const Thermo&
               varyingValues(mesh, flowCase, thermo),
               flowCase.transport,
               distancesFromWalls(mesh, halo, flowCase)},
-      state(mesh, flowCase.mechanism->numSpecies(),
-            flowCase.carried ? CarriedOperator::scalarsOf(*flowCase.carried) : std::vector<CarriedScalar>{},
-            flowCase.swirls),
+      state(mesh, flowCase.mechanism->numSpecies(), carriedScalars(flowCase), flowCase.swirls),
       flow(context, state, flowCase.flow),
       chemistry(context, chemistryOptions) {
   state.thermodynamicPressure = flowCase.pressure;
@@ -52,8 +66,13 @@ FlowDomain::FlowDomain(Mesh partitioned, const FlowCase& flowCase, const Thermo&
     carried = std::make_unique<CarriedOperator>(context, *flowCase.carried, 0, flowCase.carriedOptions);
     operators.push_back(carried.get());
   }
+  if (flowCase.ensembles) {
+    ensembles = std::make_unique<EnsembleOperator>(context, flow, *flowCase.ensembles);
+    operators.push_back(ensembles.get());
+  }
   if (flowCase.radiation.on) {
-    radiation = std::make_unique<RadiationOperator>(context, flowCase.radiation.surroundings, flowCase.carried.get());
+    radiation =
+        std::make_unique<RadiationOperator>(context, flowCase.radiation.surroundings, particleAbsorption(flowCase));
     operators.push_back(radiation.get());
   }
   if (flowCase.time.tolerance) {
@@ -74,8 +93,17 @@ void FlowDomain::beginBudget(const FlowCase& flowCase) {
   std::vector<std::vector<double>> carriedMass;
   if (flowCase.carried)
     for (const CarriedModel::Scalar& scalar : flowCase.carried->scalars()) carriedMass.push_back(scalar.elements);
+  if (flowCase.ensembles)
+    carriedMass = EnsembleOperator::unitElements(*flowCase.mechanism, flowCase.ensembles->exchange);
   budget = std::make_unique<Budget>(context, massAndElements(*flowCase.mechanism, carriedMass), state);
   flow.watchBoundary([this](const TransportOperator::BoundaryAmounts& amounts) { budget->addStep(amounts); });
+  if (!ensembles) return;
+  ensembles->watchOutflow([this](std::span<const double> amounts) {
+    TransportOperator::BoundaryAmounts gone;
+    gone.carriedOut.assign(amounts.begin(), amounts.end());
+    gone.carriedIn.resize(amounts.size());
+    budget->addStep(gone);
+  });
 }
 
 }  // namespace lampblack::app

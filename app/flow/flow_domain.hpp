@@ -8,6 +8,7 @@
 #include "app/flow/flow_case.hpp"
 #include "core/halo_exchange.hpp"
 #include "core/rooms.hpp"
+#include "coupling/ensemble_operator.hpp"
 #include "flow/budget.hpp"
 #include "flow/carried_operator.hpp"
 #include "flow/flow_context.hpp"
@@ -35,6 +36,7 @@ struct FlowDomain {
   TransportOperator flow;
   ReactionOperator chemistry;
   std::unique_ptr<CarriedOperator> carried;
+  std::unique_ptr<EnsembleOperator> ensembles;
   std::unique_ptr<RadiationOperator> radiation;
   std::unique_ptr<StepControl> stepControl;
   std::vector<Operator*> operators;  // of these, each advances over the step, one after the other

@@ -23,6 +23,7 @@
 #include "core/mesh_quality.hpp"
 #include "core/rooms.hpp"
 #include "core/timers.hpp"
+#include "flow/peak.hpp"
 #include "io/progress.hpp"
 #include "io/run_folder.hpp"
 #include "io/run_record.hpp"
@@ -77,11 +78,6 @@ class FlowLoop {
 
   ReactionOperator::Options keepingFailedCells(ReactionOperator::Options options);
 
-  struct Peak {
-    double value = 0.0;
-    Vector3 place{};
-  };
-
   double chooseStep(double previous, double until);
 
   void beginNext();
@@ -111,8 +107,6 @@ class FlowLoop {
   void takeBack(double time, std::int64_t steps);
 
   [[noreturn]] void giveUp(Outputs& outputs, const std::exception_ptr& failure, const std::vector<double>& tried);
-
-  Peak peakOf(const std::function<double(int)>& value) const;
 
   HistoryRow observe();
   // What the state is now, as a row of the history and of the tables that go with it.

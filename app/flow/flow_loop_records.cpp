@@ -55,7 +55,7 @@ HistoryRow FlowLoop::observe() {
     row.operators.insert(row.operators.end(), values.begin(), values.end());
   }
   row.budget = domain_->budget->lines(domain_->state);
-  peakTemperature_ = peakOf([&](int c) { return domain_->state.temperature[c]; });
+  peakTemperature_ = peakOf(domain_->mesh, [&](int c) { return domain_->state.temperature[c]; });
   last_ = row;
   return row;
 }
@@ -66,25 +66,6 @@ HistoryRow FlowLoop::writeRow(HistoryWriter& history) {
   const Timers::Scope scope(timers_, "monitoring");
   tables_->historyRow({steps_, time_}, tableSource());
   return row;
-}
-
-FlowLoop::Peak FlowLoop::peakOf(const std::function<double(int)>& value) const {
-  struct {
-    double value;
-    int rank;
-  } best{-1.0, domain_->mesh.rank};
-  Peak peak;
-  for (int c = 0; c < domain_->mesh.owned; ++c) {
-    const double v = value(c);
-    if (v > best.value) {
-      best.value = v;
-      peak.place = domain_->mesh.centre[c];
-    }
-  }
-  MPI_Allreduce(MPI_IN_PLACE, &best, 1, MPI_DOUBLE_INT, MPI_MAXLOC, comm_);
-  MPI_Bcast(peak.place.data(), 3, MPI_DOUBLE, best.rank, comm_);
-  peak.value = best.value;
-  return peak;
 }
 
 std::string FlowLoop::status(const HistoryRow& row) const {

@@ -1,6 +1,7 @@
 #include <array>
 #include <string>
 
+#include "app/deck/ensemble_deck.hpp"
 #include "app/deck/radiation_deck.hpp"
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/temperature_input.hpp"
@@ -260,6 +261,31 @@ void addTimeAndOutput(DeckSchema& schema) {
 
 void addParticles(DeckSchema& schema) {
   addSootModelKeys(schema);
+  addEnsembleKeys(schema,
+                  "Ensembles of soot particles in the cells, in place of soot.model: they move with the gas, by "
+                  "thermophoresis and by diffusion from cell to cell. Needs the section soot, whose PAH, surface and "
+                  "switches are theirs; the random numbers are those of 'seed'.",
+                  "500");
+  schema
+      .add(choiceKey("stochastic.exchange", {"two_way", "one_way"},
+                     "two_way: the gas loses what the particles take, and its heat; one_way: the gas does not know of "
+                     "the particles.")
+               .byDefault("two_way"))
+      .add(quantityKey("stochastic.average", units::time,
+                       "Time over which the gas gets what the particles exchange with it: longer is smoother, atoms "
+                       "and heat are kept in either case. Zero: at once.")
+               .byDefault("0.2 ms")
+               .atLeast(0)
+               .onlyWith("stochastic.exchange", {"two_way"}))
+      .add(quantityKey("stochastic.least_number", units::perVolume,
+                       "Particles per volume that count: where there are fewer, a new numerical particle stands for "
+                       "this over 'stochastic.particles', so that traces of soot do not fill ensembles.")
+               .byDefault("1e12 1/m^3")
+               .above(0))
+      .add(choiceKey("stochastic.order", {"first", "second"},
+                     "Order of the particles' transport in place and time. first: more diffusion by the cells' size, "
+                     "fewer operations.")
+               .byDefault("second"));
   schema
       .section("trajectories", Presence::optional,
                "Stochastic ensembles that ride along streamlines of the final flow; needs the soot section.")

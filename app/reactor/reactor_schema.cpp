@@ -160,6 +160,7 @@ void addEnsembles(DeckSchema& schema) {
       schema,
       "Ensembles of soot particles in place of soot.model, coupled with the gas both ways: every repeat is a "
       "reactor, or a network, of its own. Needs the section soot, whose PAH, surface and switches are theirs.");
+  addRepeatKeys(schema);
   schema.add(numberKey("stochastic.coupling_change",
                        "Steps in which gas and particles change in turn are so long that a concentration which the "
                        "particles see changes by about this part of itself, or the temperature by this part of 200 K.")

@@ -91,8 +91,8 @@ std::vector<double> StochasticProcess<Method>::pack() const {
   packDoubles(state,
               std::array{packedVersion, static_cast<double>(options_.method), static_cast<double>(options_.particles)});
   packDoubles(state, packedOwner(random_.owner()));
-  packDoubles(state, std::array{static_cast<double>(random_.position()), reached_, nucleusAfter_, planned_ ? 1.0 : 0.0,
-                                cost_});
+  packDoubles(
+      state, std::array{static_cast<double>(random_.position()), reached_, nucleusAfter_, planned_ ? 1.0 : 0.0, cost_});
   packDoubles(state, exchange_);
   for (const PopulationCounter& counter : populationCounters)
     state.push_back(static_cast<double>(counters().*counter.value));  // below 2^53

@@ -1,0 +1,97 @@
+// What EnsembleOperator tells: its columns of the history, lines of the report, fields.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "coupling/ensemble_operator.hpp"
+#include "flow/peak.hpp"
+#include "particles/models/particle_model.hpp"
+
+namespace lampblack::coupling {
+namespace {
+
+// Of the amounts per volume.
+ParticleProperties propertiesOf(std::span<const double> amount, double density) {
+  using A = EnsembleOperator;
+  ParticleProperties p;
+  const double mass = amount[A::carbon] + amount[A::hydrogen], N = amount[A::number];
+  if (!(N > 0.0)) return p;
+  p.numberDensity = N;
+  p.volumeFraction = mass / density;
+  p.meanDiameter = std::cbrt(6.0 / constants::pi * p.volumeFraction / N);
+  p.surfaceArea = amount[A::surface];
+  p.primaryDiameter = 6.0 * p.volumeFraction / amount[A::surface];
+  p.primariesPerAggregate = amount[A::primaries] / N;
+  p.mobilityDiameter = amount[A::diameters] / N;
+  p.gyrationDiameter = p.primaryDiameter * SootAggregate::collisionFactor(p.primariesPerAggregate);
+  return p;
+}
+
+}  // namespace
+
+std::optional<Operator::Imbalance> EnsembleOperator::imbalance() const {
+  if (stages_ == 0) return {};
+  return Imbalance{imbalances_.before / stages_, imbalances_.after / stages_};
+}
+
+std::vector<Quantity> EnsembleOperator::historyColumns() const {
+  return {{"peak_soot_volume_fraction", "1", "largest volume fraction of soot"},
+          {"ensembles", "1", "cells with particles"},
+          {"numerical_particles", "1", "numerical particles in all cells"},
+          {"soot_resampled", unitOfWhole(context_.mesh, "kg"),
+           "soot that came and went with numerical particles since the start, zero in the mean"},
+          {"transport_parts", "1", "parts that the particles' transport was divided into"}};
+}
+
+std::vector<double> EnsembleOperator::historyValues(const State& state) {
+  const Mesh& m = context_.mesh;
+  const Peak peak = peakOf(m, [&](int cell) {
+    const double* amount = &state.carried[static_cast<std::size_t>(cell) * state.scalars.size()];
+    return (amount[carbon] + amount[hydrogen]) / options_.ensemble.soot.sootDensity;
+  });
+  peak_ = peak.value;
+  place_ = peak.place;
+  std::array<double, 3> sums{0.0, 0.0, resampled_};
+  for (const std::vector<double>& population : populations_) {
+    if (population.size() <= packedHead) continue;
+    sums[0] += 1.0;
+    sums[1] += static_cast<double>((population.size() - packedHead) / packedParticle);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, m.comm);
+  return {peak_, sums[0], sums[1], sums[2], static_cast<double>(transport_.parts())};
+}
+
+std::string EnsembleOperator::status() const {
+  return fmt::format("fv {:.3g} ppm", 1e6 * peak_);
+}
+
+std::vector<std::string> EnsembleOperator::closingLines() const {
+  return {fmt::format("peak soot volume fraction {:.4g} ppm at ({:.3f}, {:.3f}) mm", 1e6 * peak_, 1e3 * place_[0],
+                      1e3 * place_[1])};
+}
+
+void EnsembleOperator::fields(const State& state, const FieldSink& sink) const {
+  const auto owned = static_cast<std::size_t>(context_.mesh.owned);
+  const std::size_t n = state.scalars.size();
+  std::vector<double> column(owned);
+  for (std::size_t s = 0; s < amounts; ++s) {
+    for (std::size_t c = 0; c < owned; ++c) column[c] = state.carried[c * n + s];
+    sink({state.scalars[s].name, state.scalars[s].unit, state.scalars[s].description}, column);
+  }
+  std::vector<ParticleProperties> all;
+  for (std::size_t c = 0; c < owned; ++c)
+    all.push_back(propertiesOf({&state.carried[c * n], amounts}, options_.ensemble.soot.sootDensity));
+  for (const ParticlePropertyName& property : particlePropertyNames) {
+    for (std::size_t c = 0; c < owned; ++c) column[c] = all[c].*property.value;
+    sink({std::string("soot_") + property.name, property.unit, property.description}, column);
+  }
+  for (std::size_t c = 0; c < owned; ++c)
+    column[c] = populations_[c].size() <= packedHead
+                    ? 0.0
+                    : static_cast<double>((populations_[c].size() - packedHead) / packedParticle);
+  sink({"numerical_particles", "1", "numerical particles of the cell's ensemble"}, column);
+}
+
+}  // namespace lampblack::coupling
