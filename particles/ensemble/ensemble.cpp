@@ -4,6 +4,7 @@
 #include "particles/population/monte_carlo/class_store.hpp"
 #include "particles/population/monte_carlo/equal_weight_method.hpp"
 #include "particles/population/monte_carlo/sorted_store.hpp"
+#include "particles/population/monte_carlo/two_level_store.hpp"
 #include "particles/population/monte_carlo/weighted_method.hpp"
 
 namespace lampblack::particles {
@@ -50,8 +51,12 @@ std::unique_ptr<Ensemble> makeEnsemble(EnsembleOptions options) {
       monteCarlo.method = MonteCarloMethod::swa;
       break;
   }
-  return make<WeightedMethod<SootAggregate, SortedStore<WeightedRates<SootAggregate>>>>(std::move(options), model,
-                                                                                        monteCarlo);
+  // Beyond some thousand particles order pays.
+  if (options.particles > 8192)
+    return make<WeightedMethod<SootAggregate, SortedStore<WeightedRates<SootAggregate>>>>(std::move(options), model,
+                                                                                          monteCarlo);
+  return make<WeightedMethod<SootAggregate, TwoLevelStore<WeightedRates<SootAggregate>>>>(std::move(options), model,
+                                                                                          monteCarlo);
 }
 
 }  // namespace lampblack::particles

@@ -190,6 +190,7 @@ void StochasticProcess<Method>::advance(const ParticleGas& gas, double dilution,
     ++method_.counters().splitSteps;
     remaining = length < remaining ? remaining - length : 0;
   }
+  if constexpr (weighted) method_.mergeExcess();
   cost_ += static_cast<double>(counters().events() + counters().fictitious - eventsBefore);
   if (random_.position() >> 33 != 0) throw NumericsError("stochastic soot: the random stream is used up");
 }

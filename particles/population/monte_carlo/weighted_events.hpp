@@ -107,22 +107,43 @@ void WeightedMethod<Type, Store>::transferWeight(const Entry& i, const Entry& j,
   put(type_.coagulated(grows.particle, stays.particle), weight);
 }
 
-// Merges neighbours until `count` more particles fit.
+// Merges neighbours until `count` more particles fit. A store that merges many at once is given more of them.
 template <ParticleType Type, class Store>
 void WeightedMethod<Type, Store>::makeRoom(std::size_t count) {
   if (store_.size() + count < capacity_) return;
-  while (store_.size() + count > capacity_) {
-    const bool merged = store_.mergeNearest([this](const Entry& lower, const Entry& upper) {
-      const Entry mean = meanOf(lower, upper);
-      taken(lower);
-      taken(upper);
-      track(mean, 1);
-      return mean;
-    });
-    if (!merged) return;
-    ++counters_.merges;
+  if (mergesMany && store_.size() + count <= capacity_ + capacity_ / 8) {
+    filled_ = true;
+    return;
   }
+  if (!mergeDownTo(count < capacity_ ? capacity_ - count : 1)) return;
   filled_ = true;
+}
+
+template <ParticleType Type, class Store>
+bool WeightedMethod<Type, Store>::mergeDownTo(std::size_t count) {
+  const auto mean = [this](const Entry& lower, const Entry& upper) {
+    const Entry both = meanOf(lower, upper);
+    taken(lower);
+    taken(upper);
+    track(both, 1);
+    return both;
+  };
+  if constexpr (mergesMany) {
+    counters_.merges += store_.mergeDownTo(count, mean);
+  } else {
+    while (store_.size() > count) {
+      if (!store_.mergeNearest(mean)) return false;
+      ++counters_.merges;
+    }
+  }
+  return true;
+}
+
+template <ParticleType Type, class Store>
+void WeightedMethod<Type, Store>::mergeExcess() {
+  if (store_.size() >= capacity_) filled_ = true;
+  if (store_.size() > capacity_) (void)mergeDownTo(capacity_);
+  if constexpr (mergesMany) store_.settle();
 }
 
 // Particles that are new to the population, `copies` of the same kind.
@@ -249,10 +270,18 @@ void WeightedMethod<Type, Store>::changeParticles(F f) {
 
 template <ParticleType Type, class Store>
 void WeightedMethod<Type, Store>::setKernel(const CollisionKernelOptions& kernel) {
-  std::vector<Entry> entries = takeAll();
-  store_.changeRates([&](WeightedRates<Type>& rates) { rates.setKernel(kernel); });
-  assign(std::move(entries));
-  retune();
+  if constexpr (mergesMany) {
+    sinceTuned_ = 0;
+    store_.changeRates([&](WeightedRates<Type>& rates) {
+      rates.setKernel(kernel);
+      if (rates.tunable() && store_.size() > 0) rates.tune([this](const auto& f) { store_.forEach(f); });
+    });
+  } else {
+    std::vector<Entry> entries = takeAll();
+    store_.changeRates([&](WeightedRates<Type>& rates) { rates.setKernel(kernel); });
+    assign(std::move(entries));
+    retune();
+  }
 }
 
 template <ParticleType Type, class Store>
@@ -294,7 +323,7 @@ void WeightedMethod<Type, Store>::join(const std::vector<WeightedParticle<Partic
       track(entries.back(), 1);
     }
   assign(std::move(entries));
-  makeRoom(0);
+  mergeExcess();
 }
 
 template <ParticleType Type, class Store>
@@ -303,7 +332,7 @@ void WeightedMethod<Type, Store>::restore(const std::array<double, 2>& memory, s
   store_.clear();
   assign(std::move(entries));
   filled_ = memory[1] != 0;
-  if (store_.size() > capacity_) makeRoom(0);
+  if (store_.size() > capacity_) mergeExcess();
   retune();
 }
 

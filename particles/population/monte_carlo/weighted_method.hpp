@@ -103,6 +103,8 @@ class WeightedMethod {
   void setKernel(const CollisionKernelOptions& kernel);
   // The store as made of its particles alone, without a trace of the events there were.
   void rebuild();
+  // A store may hold an eighth more than there is room for, until this is asked for.
+  void mergeExcess();
   // What nucleate() puts in, and for how many real ones (1/m3) that stands.
   void setNucleus(const Particle& nucleus, double weight) {
     nucleus_ = nucleus;
@@ -142,6 +144,9 @@ class WeightedMethod {
   [[nodiscard]] const Type& type() const { return type_; }
 
  private:
+  static constexpr bool mergesMany = requires(Store store) {
+    store.mergeDownTo(1, [](const Entry& e, const Entry&) { return e; });
+  };
   // By which volumes change in a step. Splitting has an error of second order in it, deferment none.
   static constexpr double growthPart = isDeferred<Type> ? 0.3 : 0.05;
 
@@ -170,6 +175,7 @@ class WeightedMethod {
     return {type_.mean(a.particle, a.weight, b.particle, b.weight), weight};
   }
   void makeRoom(std::size_t count);
+  bool mergeDownTo(std::size_t count);
   void refill();
   void add(const Particle& particle, double weight, std::size_t copies = 1);
   void coagulateLeftOvers(const Entry& i, double leftI, const Entry& j, double leftJ, RandomStream& random);

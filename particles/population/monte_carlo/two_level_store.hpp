@@ -1,0 +1,380 @@
+// Weighted entries in one flat array without order, with sums of their bounds over blocks of neighbouring places: for
+// the small populations of many cells, where a sorted structure costs more than it saves. A pair is drawn by two walks
+// over the sums of blocks and of one block each, and what coagulated goes back to the places it came from, so that an
+// event touches two entries and two blocks. The bounds are those of each entry itself, which turns down fewer pairs
+// than bounds of whole chunks (SortedStore). O(N / 32 + 32) an event; neighbours in volume are merged many at once
+// (mergeDownTo), O(N log N).
+//
+// Sums are changed by differences and made anew after as many changes as there are entries, so that rounding errors do
+// not pile up; a walk that ends beyond the last entry for such an error is a fictitious event.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <queue>
+#include <utility>
+#include <vector>
+
+#include "core/random.hpp"
+#include "core/rooms.hpp"
+#include "particles/population/monte_carlo/sorted_store.hpp"
+
+namespace lampblack::particles {
+
+template <SortedRates Rates>
+class TwoLevelStore {
+ public:
+  using Entry = typename Rates::Entry;
+
+  explicit TwoLevelStore(Rates rates) : rates_(std::move(rates)), rank_(rates_.rank()) {
+    quantities_ = 4 * rank_;
+    singleQuantity_.fill(unused);
+    for (std::size_t process = 0; process < singleProcesses; ++process)
+      if (rates_.active(static_cast<SingleProcess>(process))) singleQuantity_[process] = quantities_++;
+  }
+
+  [[nodiscard]] std::size_t size() const { return entries_.size() - holes_; }
+  [[nodiscard]] std::size_t bytes() const {
+    std::size_t sum = entries_.capacity() * sizeof(Entry);
+    for (std::size_t k = 0; k < quantities_; ++k)
+      sum += (bounds_[k].capacity() + blocks_[k].capacity()) * sizeof(double);
+    return sum;
+  }
+  [[nodiscard]] const Rates& rates() const { return rates_; }
+  // After the rates changed: all bounds anew, the kernel's majorant tuned to the population. O(N).
+  template <class F>
+  void changeRates(F&& change) {
+    closeHoles();
+    sort();
+    change(rates_);
+    measure();
+  }
+
+  // Puts what events have left out of order in order, so that nothing depends on the way that led here.
+  void settle() {
+    closeHoles();
+    if (sort()) measure();
+  }
+
+  void clear() {
+    entries_.clear();
+    holes_ = 0;
+    measure();
+  }
+  void insert(const Entry& entry, std::size_t copies = 1) {
+    for (; copies > 0; --copies) {
+      if (holes_ > 0) {
+        const std::size_t at = hole_[--holes_];
+        entries_[at] = entry;
+        setBounds(at, true);
+        continue;
+      }
+      entries_.push_back(entry);
+      const std::size_t at = entries_.size() - 1;
+      for (std::size_t k = 0; k < quantities_; ++k) {
+        bounds_[k].push_back(0.0);
+        if (at % block == 0) blocks_[k].push_back(0.0);
+      }
+      setBounds(at, true);
+    }
+  }
+  // Replaces everything, in order of volume, then weight.
+  void assign(std::vector<Entry> entries) {
+    entries_ = std::move(entries);
+    holes_ = 0;
+    sort();
+    measure();
+  }
+
+  // Those of what was taken out are in the rates until something goes in or is drawn: a bound all the same.
+  [[nodiscard]] double pairRate() const {
+    double sum = 0;
+    for (std::size_t r = 0; r < rank_; ++r) sum += product(r, false) + product(r, true);
+    return rates_.weightFactor() * sum;
+  }
+  bool drawPair(RandomStream& random, Entry& first, Entry& second) {
+    closeHoles();
+    double total = 0;
+    for (std::size_t r = 0; r < rank_; ++r) total += product(r, false) + product(r, true);
+    if (size() < 2 || !(total > 0)) return false;
+    // Which product of sums; what is left of the random number finds the partner drawn by weight.
+    double x = random.uniform() * total;
+    std::size_t part = 0;
+    for (; part + 1 < 2 * rank_; ++part) {
+      const double of = product(part / 2, part % 2 == 1);
+      if (x < of) break;
+      x -= of;
+    }
+    const std::size_t r = part / 2;
+    const bool isQ = part % 2 == 1;  // whether the weighted sum is that of q
+    const std::size_t i = find(weightedOf(r, isQ), x / totals_[countedOf(r, !isQ)]);
+    const std::size_t j = find(countedOf(r, !isQ), random.uniform() * totals_[countedOf(r, !isQ)]);
+    if (i >= entries_.size() || j >= entries_.size() || i == j) return false;
+    double majorant = 0;
+    for (std::size_t s = 0; s < rank_; ++s)
+      majorant += bounds_[countedOf(s, false)][i] * bounds_[countedOf(s, true)][j] +
+                  bounds_[countedOf(s, true)][i] * bounds_[countedOf(s, false)][j];
+    if (!rates_.accepts(entries_[i], entries_[j], majorant, random.uniform())) return false;
+    first = entries_[i];
+    second = entries_[j];
+    hole_ = {i, j};
+    holes_ = 2;
+    return true;
+  }
+
+  [[nodiscard]] double singleRate(SingleProcess process) const {
+    const std::size_t quantity = singleQuantity_[static_cast<std::size_t>(process)];
+    return quantity == unused ? 0 : totals_[quantity];
+  }
+  bool drawSingle(SingleProcess process, RandomStream& random, Entry& entry) {
+    closeHoles();
+    const double rate = singleRate(process);
+    if (!(rate > 0)) return false;
+    const std::size_t quantity = singleQuantity_[static_cast<std::size_t>(process)];
+    const std::size_t at = find(quantity, random.uniform() * rate);
+    if (at >= entries_.size()) return false;
+    if (!(rates_.single(process, entries_[at]) > random.uniform() * bounds_[quantity][at])) return false;
+    entry = take(at);
+    return true;
+  }
+  [[nodiscard]] Entry takeUniform(RandomStream& random) {
+    closeHoles();
+    return take(static_cast<std::size_t>(random.below(entries_.size())));
+  }
+
+  // As mergeNearest() of SortedStore, until `count` are left: what merges are the neighbours with the smallest
+  // difference, of equal differences the pair whose lower particle has the smallest weight. Returns how many merged.
+  template <class MeanOf>
+  std::size_t mergeDownTo(std::size_t count, MeanOf&& meanOf);
+  template <class MeanOf>
+  bool mergeNearest(MeanOf&& meanOf) {
+    return size() >= 2 && mergeDownTo(size() - 1, meanOf) > 0;
+  }
+  // By looking at all; what each does is said in sorted_store.hpp.
+  [[nodiscard]] Entry takeNearest(const Entry& like) {
+    closeHoles();
+    const double volume = rates_.volume(like);
+    std::size_t best = 0;
+    const auto distance = [&](std::size_t k) { return std::abs(rates_.volume(entries_[k]) - volume); };
+    for (std::size_t k = 1; k < entries_.size(); ++k) {
+      const double d = distance(k), least = distance(best);
+      if (d < least || (d == least && rates_.volume(entries_[k]) > rates_.volume(entries_[best]))) best = k;
+    }
+    return take(best);
+  }
+  [[nodiscard]] Entry takeHeaviest() {
+    closeHoles();
+    std::size_t best = 0;
+    for (std::size_t k = 1; k < entries_.size(); ++k)
+      if (rates_.weight(entries_[k]) > rates_.weight(entries_[best])) best = k;
+    return take(best);
+  }
+
+  template <class F>
+  void forEach(F&& f) const {
+    for (std::size_t k = 0; k < entries_.size(); ++k)
+      if (!isHole(k)) f(entries_[k]);
+  }
+  // f(Entry&) -> bool, false drops the entry. In order of volume afterwards.
+  template <class F>
+  void transform(F&& f) {
+    closeHoles();
+    std::size_t kept = 0;
+    for (Entry& entry : entries_)
+      if (f(entry)) {
+        if (&entries_[kept] != &entry) entries_[kept] = entry;
+        ++kept;
+      }
+    entries_.erase(entries_.begin() + static_cast<std::ptrdiff_t>(kept), entries_.end());
+    sort();
+    measure();
+  }
+
+ private:
+  static constexpr std::size_t block = 32;
+  static constexpr std::size_t unused = ~std::size_t{0};
+  static constexpr std::size_t mostQuantities = 4 * CollisionKernel::largestRank + singleProcesses;
+
+  // Of each r: p, q of an entry, then times its weight.
+  static std::size_t countedOf(std::size_t r, bool isQ) { return 4 * r + (isQ ? 1 : 0); }
+  static std::size_t weightedOf(std::size_t r, bool isQ) { return 4 * r + (isQ ? 3 : 2); }
+  // Weighted p times q, or weighted q times p.
+  [[nodiscard]] double product(std::size_t r, bool isQ) const {
+    return totals_[weightedOf(r, isQ)] * totals_[countedOf(r, !isQ)];
+  }
+
+  [[nodiscard]] bool less(const Entry& a, const Entry& b) const {
+    const double va = rates_.volume(a), vb = rates_.volume(b);
+    return va < vb || (va == vb && rates_.weight(a) < rates_.weight(b));
+  }
+  bool sort() {  // whether they were not
+    const auto inOrder = [this](const Entry& a, const Entry& b) { return less(a, b); };
+    if (std::is_sorted(entries_.begin(), entries_.end(), inOrder)) return false;
+    std::stable_sort(entries_.begin(), entries_.end(), inOrder);
+    return true;
+  }
+  [[nodiscard]] bool isHole(std::size_t at) const {
+    for (std::size_t k = 0; k < holes_; ++k)
+      if (hole_[k] == at) return true;
+    return false;
+  }
+
+  // What came out and did not go back: the last entries go there.
+  void closeHoles() {
+    if (holes_ == 0) return;
+    if (holes_ == 2 && hole_[0] > hole_[1]) std::swap(hole_[0], hole_[1]);
+    while (holes_ > 0) remove(hole_[--holes_]);  // the later one first
+  }
+  void remove(std::size_t at) {
+    const std::size_t last = entries_.size() - 1;
+    for (std::size_t k = 0; k < quantities_; ++k) {
+      change(k, at, bounds_[k][last]);
+      change(k, last, 0.0);
+      bounds_[k].pop_back();
+      if (last % block == 0) blocks_[k].pop_back();
+    }
+    entries_[at] = entries_[last];
+    entries_.pop_back();
+  }
+  [[nodiscard]] Entry take(std::size_t at) {
+    const Entry entry = entries_[at];
+    remove(at);
+    return entry;
+  }
+
+  void change(std::size_t quantity, std::size_t at, double value) {
+    const double by = value - bounds_[quantity][at];
+    bounds_[quantity][at] = value;
+    blocks_[quantity][at / block] += by;
+    totals_[quantity] += by;
+  }
+  void setBounds(std::size_t at, bool counted) {
+    const Entry& entry = entries_[at];
+    const double weight = rates_.weight(entry);
+    const CollisionKernel::Terms terms = rank_ > 0 ? rates_.terms(entry) : CollisionKernel::Terms{};
+    for (std::size_t r = 0; r < rank_; ++r) {
+      change(countedOf(r, false), at, terms.p[r]);
+      change(countedOf(r, true), at, terms.q[r]);
+      change(weightedOf(r, false), at, weight * terms.p[r]);
+      change(weightedOf(r, true), at, weight * terms.q[r]);
+    }
+    for (std::size_t process = 0; process < singleProcesses; ++process)
+      if (singleQuantity_[process] != unused)
+        change(singleQuantity_[process], at, singleBound(rates_, static_cast<SingleProcess>(process), entry));
+    if (counted && ++changes_ > entries_.size() + leastChanges) sumUp();
+  }
+  // All bounds and sums anew.
+  void measure() {
+    const std::size_t n = entries_.size();
+    for (std::size_t k = 0; k < quantities_; ++k) {
+      bounds_[k].assign(n, 0.0);
+      blocks_[k].assign((n + block - 1) / block, 0.0);
+    }
+    for (std::size_t at = 0; at < n; ++at) setBounds(at, false);
+    sumUp();
+  }
+  void sumUp() {
+    changes_ = 0;
+    for (std::size_t k = 0; k < quantities_; ++k) {
+      totals_[k] = 0;
+      for (std::size_t b = 0; b < blocks_[k].size(); ++b) {
+        double sum = 0;
+        const std::size_t end = std::min((b + 1) * block, entries_.size());
+        for (std::size_t at = b * block; at < end; ++at) sum += bounds_[k][at];
+        blocks_[k][b] = sum;
+        totals_[k] += sum;
+      }
+    }
+  }
+  // The entry in whose part of the sum `x` falls; behind the last for a rounding error.
+  [[nodiscard]] std::size_t find(std::size_t quantity, double x) const {
+    const std::vector<double>& sums = blocks_[quantity];
+    std::size_t b = 0;
+    for (; b < sums.size() && x >= sums[b]; ++b) x -= sums[b];
+    if (b == sums.size()) return entries_.size();
+    const double* bounds = bounds_[quantity].data();
+    const std::size_t end = std::min((b + 1) * block, entries_.size());
+    std::size_t at = b * block;
+    for (; at < end && x >= bounds[at]; ++at) x -= bounds[at];
+    return at < end ? at : entries_.size();
+  }
+
+  static constexpr std::size_t leastChanges = 64;
+
+  Rates rates_;
+  std::size_t rank_, quantities_ = 0;
+  std::array<std::size_t, singleProcesses> singleQuantity_{};
+  std::vector<Entry> entries_;
+  std::array<std::size_t, 2> hole_{};  // places whose entries are out
+  std::size_t holes_ = 0, changes_ = 0;
+  std::array<std::vector<double>, mostQuantities> bounds_, blocks_;
+  std::array<double, mostQuantities> totals_{};
+};
+
+template <SortedRates Rates>
+template <class MeanOf>
+std::size_t TwoLevelStore<Rates>::mergeDownTo(std::size_t count, MeanOf&& meanOf) {
+  closeHoles();
+  if (entries_.size() <= count || entries_.size() < 2) return 0;
+  sort();
+  // A list of neighbours; a pair in the queue is out of date where one of the two has changed since.
+  constexpr std::uint32_t none = ~std::uint32_t{0};
+  const auto n = static_cast<std::uint32_t>(entries_.size());
+  std::vector<std::uint32_t> next(n), previous(n), version(n, 0);
+  for (std::uint32_t k = 0; k < n; ++k) {
+    previous[k] = k == 0 ? none : k - 1;
+    next[k] = k + 1 == n ? none : k + 1;
+  }
+  struct Pair {
+    double difference, weight;
+    std::uint32_t lower, upper, lowerVersion, upperVersion;
+    bool operator<(const Pair& other) const {  // the largest comes out first
+      if (difference != other.difference) return difference > other.difference;
+      if (weight != other.weight) return weight > other.weight;
+      return lower > other.lower;
+    }
+  };
+  std::vector<Pair> room;
+  room.reserve(2 * n);
+  std::priority_queue<Pair> pairs(std::less<Pair>(), std::move(room));
+  const auto consider = [&](std::uint32_t lower, std::uint32_t upper) {
+    if (lower == none || upper == none) return;
+    const double v = rates_.volume(entries_[lower]), d = rates_.volume(entries_[upper]) - v;
+    pairs.push({rates_.relativeDifference() ? d / v : d, rates_.weight(entries_[lower]), lower, upper, version[lower],
+                version[upper]});
+  };
+  for (std::uint32_t k = 0; k + 1 < n; ++k) consider(k, k + 1);
+  std::size_t left = n, merged = 0;
+  std::vector<char> isGone(n, 0);
+  while (left > std::max<std::size_t>(count, 1)) {
+    const Pair pair = pairs.top();
+    pairs.pop();
+    if (isGone[pair.lower] != 0 || isGone[pair.upper] != 0 || version[pair.lower] != pair.lowerVersion ||
+        version[pair.upper] != pair.upperVersion)
+      continue;
+    // The mean lies between the two, and so in their place among the others.
+    entries_[pair.lower] = meanOf(entries_[pair.lower], entries_[pair.upper]);
+    ++version[pair.lower];
+    isGone[pair.upper] = 1;
+    next[pair.lower] = next[pair.upper];
+    if (next[pair.lower] != none) previous[next[pair.lower]] = pair.lower;
+    consider(previous[pair.lower], pair.lower);
+    consider(pair.lower, next[pair.lower]);
+    --left;
+    ++merged;
+  }
+  std::size_t kept = 0;
+  for (std::uint32_t k = 0; k < n; ++k)
+    if (isGone[k] == 0) {
+      if (kept != k) entries_[kept] = entries_[k];
+      ++kept;
+    }
+  entries_.erase(entries_.begin() + static_cast<std::ptrdiff_t>(kept), entries_.end());
+  measure();
+  return merged;
+}
+
+}  // namespace lampblack::particles
