@@ -106,12 +106,15 @@ TEST(CheckpointRows, LieOneBehindTheOtherInTheFile) {
   EXPECT_EQ(file.numbers("/state/particles", {static_cast<std::int64_t>(values.size())}), values);
 }
 
-TEST(CheckpointRows, MayAllBeEmpty) {
+// Where one begins, many others may begin and end.
+TEST(CheckpointRows, MayAllBeEmptyButOne) {
   const test::SharedScratchFolder folder;
-  const RowsOfCells of{[](std::int64_t) { return 0; }};
-  write(MPI_COMM_WORLD, folder.path() / "rows.h5", 0, of);
-  const StateNumbers numbers = numbersOf(MPI_COMM_WORLD, 1);
-  EXPECT_EQ(read(MPI_COMM_WORLD, folder.path() / "rows.h5", numbers), Rows(numbers.cells.size()));
+  for (const std::int64_t one : {-1, 0, 3, 9, 23, 46}) {
+    const RowsOfCells of{[=](std::int64_t cell) { return cell == one ? 4 : 0; }};
+    write(MPI_COMM_WORLD, folder.path() / "rows.h5", 0, of);
+    const StateNumbers numbers = numbersOf(MPI_COMM_WORLD, 1);
+    EXPECT_EQ(read(MPI_COMM_WORLD, folder.path() / "rows.h5", numbers), of.rows(numbers.cells)) << one;
+  }
 }
 
 // More than two portions on three ranks, most of them of one cell; pieces begin and end within rows and at their ends.
@@ -192,6 +195,8 @@ TEST(CheckpointRows, OfAFileWithOtherLengthsThanValuesAreRefusedByAllRanks) {
                 HasSubstr(fmt::format("rows.h5: the lengths of /state/particles add up to {}, but it has {} values",
                                       2 * rowCells - 1, 2 * rowCells)));
   }
+  // Nothing is left for the next cell of the block.
+  EXPECT_THAT(refusal(with(0, 2.0 * rowCells), fitting), HasSubstr("/state/particles_lengths has the length 2,"));
   EXPECT_THAT(refusal(twos, {2 * rowCells + 1}), HasSubstr("but it has 95 values"));
   EXPECT_THAT(refusal(twos, {2 * rowCells - 1}), HasSubstr("rows.h5: "));
   EXPECT_THAT(refusal(twos, {0}), HasSubstr("rows.h5: "));
