@@ -171,6 +171,7 @@ void readEnsembles(const Deck& deck, FlowCase& flowCase) {
   }
   options.ensemble.seed = flowCase.seed;
   options.ensemble.startNumberDensity = deck.quantity("stochastic.least_number");
+  options.ensemble.shareAtOnce = deck.number("stochastic.share_at_once");
   const bool isTwoWay = deck.choice("stochastic.exchange") == "two_way";
   options.exchange = isTwoWay ? EnsembleOperator::Exchange::TwoWay : EnsembleOperator::Exchange::OneWay;
   if (isTwoWay) options.average = deck.quantity("stochastic.average");

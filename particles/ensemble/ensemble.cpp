@@ -23,6 +23,8 @@ std::unique_ptr<Ensemble> make(EnsembleOptions options, const PopulationModel& m
 
 std::unique_ptr<Ensemble> makeEnsemble(EnsembleOptions options) {
   if (options.particles < 8) throw InputError("stochastic soot: at least 8 numerical particles are needed");
+  if (!(options.shareAtOnce >= 0) || !(options.shareAtOnce < 1))
+    throw InputError("stochastic soot: the share of a particle that is taken up at once has to be in [0, 1)");
   if (!(options.startNumberDensity > 0) || !(options.splitTolerance > 0) || !(options.splitTolerance <= 1)) {
     throw InputError("stochastic soot: the start number density and the split tolerance need to be positive");
   }
@@ -39,6 +41,7 @@ std::unique_ptr<Ensemble> makeEnsemble(EnsembleOptions options) {
   monteCarlo.particles = options.particles;
   monteCarlo.expectedNumber = options.startNumberDensity;
   monteCarlo.nucleusWeight = 1;
+  monteCarlo.shareAtOnce = options.shareAtOnce;
   switch (options.method) {
     case EnsembleMethod::dsmc:
       monteCarlo.method = MonteCarloMethod::dsmc;

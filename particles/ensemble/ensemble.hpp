@@ -40,6 +40,9 @@ struct EnsembleOptions {
   bool alphaOfPrimaries = false;  // mu_1 in alpha(T, mu_1) is of the mean primary (Wang 2025, eq. 9-37), not particle
   bool keepsHydrogen = true;      // false: that of PAH returns to the gas as H2 when they are taken up
   double splitTolerance = 0.01;   // relative change of the population in a splitting step
+  // sammc: the share of its volume that a particle may take up of small ones at once; 0: one by one. Saves most of the
+  // events where new particles are many; the growth of the second moment by them is too large by at most half of it.
+  double shareAtOnce = 0;
   // 1/m3, that fewer particles are not resolved: those born where there are as many stand for this over the capacity
   // (dsmc: that at which a sample that is or becomes empty is full at least; more where more are born at once).
   double startNumberDensity = 1e6;

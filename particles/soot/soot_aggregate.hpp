@@ -68,6 +68,10 @@ class SootAggregate {
   [[nodiscard]] Particle coagulated(const Particle& p, const Particle& q) const {
     return make(p.carbon + q.carbon, p.hydrogen + q.hydrogen, p.primaries + q.primaries);
   }
+  // With `times` of q.
+  [[nodiscard]] Particle coagulated(const Particle& p, const Particle& q, double times) const {
+    return make(p.carbon + times * q.carbon, p.hydrogen + times * q.hydrogen, p.primaries + times * q.primaries);
+  }
   [[nodiscard]] Particle mean(const Particle& p, double wp, const Particle& q, double wq) const {
     const double a = wp / (wp + wq), b = wq / (wp + wq);
     return make(a * p.carbon + b * q.carbon, a * p.hydrogen + b * q.hydrogen,

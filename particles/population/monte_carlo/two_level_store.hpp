@@ -5,12 +5,21 @@
 // than bounds of whole chunks (SortedStore). O(N / 32 + 32) an event; neighbours in volume are merged many at once
 // (mergeDownTo), O(N log N).
 //
+// Several at once (setShareAtOnce). A large particle that stands for few meets the small ones that most of the number
+// is made of very often, and each meeting changes it by next to nothing. Such meetings are then drawn in bundles: the
+// event of a collector i with a small particle j stands for g_i of them and happens 1/g_i times as often. g_i is so
+// small that the g_i small ones are no more than the given share of the volume of i, and that they take no more than
+// half of what j stands for. Number and mass have the right mean, each event keeps mass; the growth of the second
+// moment by these meetings is too large by at most half that share. Small are those up to the volume within which nine
+// tenths of the number lie and that stand for many; both limits are found where all bounds are.
+//
 // Sums are changed by differences and made anew after as many changes as there are entries, so that rounding errors do
 // not pile up; a walk that ends beyond the last entry for such an error is a fictitious event.
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -18,6 +27,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/cube_root.hpp"
 #include "core/random.hpp"
 #include "core/rooms.hpp"
 #include "particles/population/monte_carlo/sorted_store.hpp"
@@ -30,7 +40,7 @@ class TwoLevelStore {
   using Entry = typename Rates::Entry;
 
   explicit TwoLevelStore(Rates rates) : rates_(std::move(rates)), rank_(rates_.rank()) {
-    quantities_ = 4 * rank_;
+    quantities_ = groups * rank_;
     singleQuantity_.fill(unused);
     for (std::size_t process = 0; process < singleProcesses; ++process)
       if (rates_.active(static_cast<SingleProcess>(process))) singleQuantity_[process] = quantities_++;
@@ -44,41 +54,52 @@ class TwoLevelStore {
     return sum;
   }
   [[nodiscard]] const Rates& rates() const { return rates_; }
+  // The share of a particle's volume that it may take up at once, zero: one by one. Only where a pair coagulates at
+  // the larger of its weights.
+  void setShareAtOnce(double share) { shareAtOnce_ = share; }
+  // How many of the second particle each of the first takes up in the event that was drawn last.
+  [[nodiscard]] double collected() const { return collected_; }
+
   // After the rates changed: all bounds anew, the kernel's majorant tuned to the population. O(N).
   template <class F>
   void changeRates(F&& change) {
     closeHoles();
-    sort();
     change(rates_);
-    measure();
+    isMeasured_ = false;
   }
 
   // Puts what events have left out of order in order, so that nothing depends on the way that led here.
   void settle() {
     closeHoles();
-    if (sort()) measure();
+    if (sort()) isMeasured_ = false;
   }
 
   void clear() {
     entries_.clear();
     holes_ = 0;
-    measure();
+    isMeasured_ = false;
   }
   void insert(const Entry& entry, std::size_t copies = 1) {
     for (; copies > 0; --copies) {
       if (holes_ > 0) {
         const std::size_t at = hole_[--holes_];
+        const bool isSame = rates_.volume(entries_[at]) == rates_.volume(entry);
         entries_[at] = entry;
-        setBounds(at, true);
+        setBounds(at, isSame);
+        countChange();
         continue;
       }
       entries_.push_back(entry);
+      if (!isMeasured_) continue;
+      isSmall_.push_back(0);
+      bundle_.push_back(1.0);
       const std::size_t at = entries_.size() - 1;
       for (std::size_t k = 0; k < quantities_; ++k) {
         bounds_[k].push_back(0.0);
         if (at % block == 0) blocks_[k].push_back(0.0);
       }
-      setBounds(at, true);
+      setBounds(at, false);
+      countChange();
     }
   }
   // Replaces everything, in order of volume, then weight.
@@ -86,46 +107,52 @@ class TwoLevelStore {
     entries_ = std::move(entries);
     holes_ = 0;
     sort();
-    measure();
+    isMeasured_ = false;
   }
 
   // Those of what was taken out are in the rates until something goes in or is drawn: a bound all the same.
   [[nodiscard]] double pairRate() const {
+    measure();
     double sum = 0;
-    for (std::size_t r = 0; r < rank_; ++r) sum += product(r, false) + product(r, true);
+    for (std::size_t part = 0; part < 4 * rank_; ++part) sum += product(part);
     return rates_.weightFactor() * sum;
   }
   bool drawPair(RandomStream& random, Entry& first, Entry& second) {
     closeHoles();
+    measure();
     double total = 0;
-    for (std::size_t r = 0; r < rank_; ++r) total += product(r, false) + product(r, true);
+    for (std::size_t part = 0; part < 4 * rank_; ++part) total += product(part);
     if (size() < 2 || !(total > 0)) return false;
     // Which product of sums; what is left of the random number finds the partner drawn by weight.
     double x = random.uniform() * total;
     std::size_t part = 0;
-    for (; part + 1 < 2 * rank_; ++part) {
-      const double of = product(part / 2, part % 2 == 1);
+    for (; part + 1 < 4 * rank_; ++part) {
+      const double of = product(part);
       if (x < of) break;
       x -= of;
     }
-    const std::size_t r = part / 2;
-    const bool isQ = part % 2 == 1;  // whether the weighted sum is that of q
-    const std::size_t i = find(weightedOf(r, isQ), x / totals_[countedOf(r, !isQ)]);
-    const std::size_t j = find(countedOf(r, !isQ), random.uniform() * totals_[countedOf(r, !isQ)]);
+    const double counted = totals_[countedOf(part)];
+    if (!(counted > 0)) return false;
+    std::size_t i = find(countedOf(part), random.uniform() * counted);
+    std::size_t j = find(weightedOf(part), x / counted);
     if (i >= entries_.size() || j >= entries_.size() || i == j) return false;
     double majorant = 0;
     for (std::size_t s = 0; s < rank_; ++s)
-      majorant += bounds_[countedOf(s, false)][i] * bounds_[countedOf(s, true)][j] +
-                  bounds_[countedOf(s, true)][i] * bounds_[countedOf(s, false)][j];
-    if (!rates_.accepts(entries_[i], entries_[j], majorant, random.uniform())) return false;
+      majorant +=
+          bounds_[groups * s][i] * bounds_[groups * s + 1][j] + bounds_[groups * s + 1][i] * bounds_[groups * s][j];
+    if (isSmall_[i] != 0 && bundle_[j] > 1) std::swap(i, j);  // i collects
+    const double bundle = isSmall_[j] != 0 ? bundle_[i] : 1.0;
+    if (!accepts(i, j, bundle, majorant, random.uniform())) return false;
     first = entries_[i];
     second = entries_[j];
+    collected_ = bundle;
     hole_ = {i, j};
     holes_ = 2;
     return true;
   }
 
   [[nodiscard]] double singleRate(SingleProcess process) const {
+    measure();
     const std::size_t quantity = singleQuantity_[static_cast<std::size_t>(process)];
     return quantity == unused ? 0 : totals_[quantity];
   }
@@ -190,27 +217,40 @@ class TwoLevelStore {
       }
     entries_.erase(entries_.begin() + static_cast<std::ptrdiff_t>(kept), entries_.end());
     sort();
-    measure();
+    isMeasured_ = false;
   }
 
  private:
   static constexpr std::size_t block = 32;
   static constexpr std::size_t unused = ~std::size_t{0};
-  static constexpr std::size_t mostQuantities = 4 * CollisionKernel::largestRank + singleProcesses;
+  static constexpr std::size_t mostQuantities = 8 * CollisionKernel::largestRank + singleProcesses;
+  // Of the events that are left: more of them do not pay for the sums.
+  static constexpr double heavyPart = 0.05, worthwhile = 0.8;
 
-  // Of each r: p, q of an entry, then times its weight.
-  static std::size_t countedOf(std::size_t r, bool isQ) { return 4 * r + (isQ ? 1 : 0); }
-  static std::size_t weightedOf(std::size_t r, bool isQ) { return 4 * r + (isQ ? 3 : 2); }
-  // Weighted p times q, or weighted q times p.
-  [[nodiscard]] double product(std::size_t r, bool isQ) const {
-    return totals_[weightedOf(r, isQ)] * totals_[countedOf(r, !isQ)];
+  // Of each r: p and q of an entry; both over its bundle; both times its weight where it is not small, and where it is.
+  static constexpr std::size_t groups = 8;
+  // Of a part: which r, whether the weighted sum is that of the small ones, and whether it is that of q.
+  static std::size_t weightedOf(std::size_t part) { return groups * (part / 4) + 4 + part % 4; }
+  static std::size_t countedOf(std::size_t part) {
+    const bool ofSmall = part % 4 >= 2, isQ = part % 2 == 1;
+    return groups * (part / 4) + (ofSmall ? 2 : 0) + (isQ ? 0 : 1);
+  }
+  [[nodiscard]] double product(std::size_t part) const { return totals_[weightedOf(part)] * totals_[countedOf(part)]; }
+  // Whether an attempt at a pair becomes an event, u being uniform: with the ratio of its rate to that of attempts.
+  [[nodiscard]] bool accepts(std::size_t i, std::size_t j, double bundle, double majorant, double u) const {
+    const double wi = rates_.weight(entries_[i]), wj = rates_.weight(entries_[j]);
+    const double attempts =
+        rates_.weightFactor() * ((isSmall_[i] != 0 ? wi / bundle_[j] : wi) + (isSmall_[j] != 0 ? wj / bundle_[i] : wj));
+    // Weights decide first: they are cheap.
+    if (!(rates_.weightPart(entries_[i], entries_[j]) > u * attempts * bundle)) return false;
+    return rates_.pair(entries_[i], entries_[j]) > u * attempts * bundle * majorant;
   }
 
   [[nodiscard]] bool less(const Entry& a, const Entry& b) const {
     const double va = rates_.volume(a), vb = rates_.volume(b);
     return va < vb || (va == vb && rates_.weight(a) < rates_.weight(b));
   }
-  bool sort() {  // whether they were not
+  bool sort() const {  // whether they were not
     const auto inOrder = [this](const Entry& a, const Entry& b) { return less(a, b); };
     if (std::is_sorted(entries_.begin(), entries_.end(), inOrder)) return false;
     std::stable_sort(entries_.begin(), entries_.end(), inOrder);
@@ -230,13 +270,19 @@ class TwoLevelStore {
   }
   void remove(std::size_t at) {
     const std::size_t last = entries_.size() - 1;
-    for (std::size_t k = 0; k < quantities_; ++k) {
+    for (std::size_t k = 0; isMeasured_ && k < quantities_; ++k) {
       change(k, at, bounds_[k][last]);
       change(k, last, 0.0);
       bounds_[k].pop_back();
       if (last % block == 0) blocks_[k].pop_back();
     }
     entries_[at] = entries_[last];
+    if (isMeasured_) {
+      isSmall_[at] = isSmall_[last];
+      bundle_[at] = bundle_[last];
+      isSmall_.pop_back();
+      bundle_.pop_back();
+    }
     entries_.pop_back();
   }
   [[nodiscard]] Entry take(std::size_t at) {
@@ -245,30 +291,65 @@ class TwoLevelStore {
     return entry;
   }
 
-  void change(std::size_t quantity, std::size_t at, double value) {
+  void change(std::size_t quantity, std::size_t at, double value) const {
     const double by = value - bounds_[quantity][at];
     bounds_[quantity][at] = value;
     blocks_[quantity][at / block] += by;
     totals_[quantity] += by;
   }
-  void setBounds(std::size_t at, bool counted) {
+  // `isSame`: nothing but the weight is another.
+  void setBounds(std::size_t at, bool isSame) const {
     const Entry& entry = entries_[at];
     const double weight = rates_.weight(entry);
-    const CollisionKernel::Terms terms = rank_ > 0 ? rates_.terms(entry) : CollisionKernel::Terms{};
+    const bool isSmall = smallVolume_ > 0 && rates_.volume(entry) <= smallVolume_ && weight >= heavyWeight_;
+    const double bundle = smallVolume_ > 0
+                              ? std::max(1.0, std::floor(std::min(shareAtOnce_ * rates_.volume(entry) / smallVolume_,
+                                                                  0.5 * heavyWeight_ / weight)))
+                              : 1.0;
+    const bool isAsBefore = isSame && bundle == bundle_[at];
+    CollisionKernel::Terms terms;
+    if (isSame) {
+      for (std::size_t r = 0; r < rank_; ++r) {
+        terms.p[r] = bounds_[groups * r][at];
+        terms.q[r] = bounds_[groups * r + 1][at];
+      }
+    } else if (rank_ > 0) {
+      terms = rates_.terms(entry);
+    }
+    isSmall_[at] = isSmall ? 1 : 0;
+    bundle_[at] = bundle;
     for (std::size_t r = 0; r < rank_; ++r) {
-      change(countedOf(r, false), at, terms.p[r]);
-      change(countedOf(r, true), at, terms.q[r]);
-      change(weightedOf(r, false), at, weight * terms.p[r]);
-      change(weightedOf(r, true), at, weight * terms.q[r]);
+      const std::size_t of = groups * r;
+      const double wp = weight * terms.p[r], wq = weight * terms.q[r];
+      if (!isAsBefore) {
+        change(of, at, terms.p[r]);
+        change(of + 1, at, terms.q[r]);
+        change(of + 2, at, terms.p[r] / bundle);
+        change(of + 3, at, terms.q[r] / bundle);
+      }
+      change(of + 4, at, isSmall ? 0.0 : wp);
+      change(of + 5, at, isSmall ? 0.0 : wq);
+      if (smallVolume_ > 0) {
+        change(of + 6, at, isSmall ? wp : 0.0);
+        change(of + 7, at, isSmall ? wq : 0.0);
+      }
     }
     for (std::size_t process = 0; process < singleProcesses; ++process)
       if (singleQuantity_[process] != unused)
         change(singleQuantity_[process], at, singleBound(rates_, static_cast<SingleProcess>(process), entry));
-    if (counted && ++changes_ > entries_.size() + leastChanges) sumUp();
   }
-  // All bounds and sums anew.
-  void measure() {
+  void countChange() {
+    if (++changes_ > entries_.size() + leastChanges) sumUp();
+  }
+  // All bounds and sums anew, where they are not those of the entries.
+  void measure() const {
+    if (isMeasured_) return;
+    isMeasured_ = true;
+    sort();
     const std::size_t n = entries_.size();
+    isSmall_.assign(n, 0);
+    bundle_.assign(n, 1.0);
+    findSmall();
     for (std::size_t k = 0; k < quantities_; ++k) {
       bounds_[k].assign(n, 0.0);
       blocks_[k].assign((n + block - 1) / block, 0.0);
@@ -276,7 +357,35 @@ class TwoLevelStore {
     for (std::size_t at = 0; at < n; ++at) setBounds(at, false);
     sumUp();
   }
-  void sumUp() {
+  // Of entries in order: the limits, of some that leave a tenth to six tenths of the number beyond, with which the
+  // fewest events are to be expected where collision rates go with the square of the collector's diameter.
+  void findSmall() const {
+    smallVolume_ = heavyWeight_ = 0;
+    if (!(shareAtOnce_ > 0)) return;
+    double number = 0, upTo = 0, squares = 0, least = worthwhile;
+    for (const Entry& entry : entries_) number += rates_.weight(entry);
+    std::size_t at = 0;
+    for (const double share : {0.4, 0.5, 0.6, 0.7, 0.8, 0.9}) {
+      for (; at < entries_.size() && upTo < share * number; ++at) {
+        upTo += rates_.weight(entries_[at]);
+        squares += rates_.weight(entries_[at]) * rates_.weight(entries_[at]);
+      }
+      if (at == 0) return;
+      const double small = rates_.volume(entries_[at - 1]), heavy = heavyPart * squares / upTo;
+      double all = 0, bundled = 0;
+      for (const Entry& entry : entries_) {
+        const double v = rates_.volume(entry), area = cubeRoot(v) * cubeRoot(v);
+        all += area;
+        bundled += area / std::max(1.0, std::min(shareAtOnce_ * v / small, 0.5 * heavy / rates_.weight(entry)));
+      }
+      const double expected = 1 - upTo / number * (1 - bundled / all);
+      if (!(expected < least)) continue;
+      least = expected;
+      smallVolume_ = small;
+      heavyWeight_ = heavy;
+    }
+  }
+  void sumUp() const {
     changes_ = 0;
     for (std::size_t k = 0; k < quantities_; ++k) {
       totals_[k] = 0;
@@ -307,11 +416,18 @@ class TwoLevelStore {
   Rates rates_;
   std::size_t rank_, quantities_ = 0;
   std::array<std::size_t, singleProcesses> singleQuantity_{};
-  std::vector<Entry> entries_;
+  double shareAtOnce_ = 0, collected_ = 1;
   std::array<std::size_t, 2> hole_{};  // places whose entries are out
-  std::size_t holes_ = 0, changes_ = 0;
-  std::array<std::vector<double>, mostQuantities> bounds_, blocks_;
-  std::array<double, mostQuantities> totals_{};
+  std::size_t holes_ = 0;
+  // Bounds are found when somebody asks: not each of many changes to all entries is followed by an event.
+  mutable bool isMeasured_ = false;
+  mutable std::vector<Entry> entries_;
+  mutable std::size_t changes_ = 0;
+  mutable std::array<std::vector<double>, mostQuantities> bounds_, blocks_;
+  mutable std::array<double, mostQuantities> totals_{};
+  mutable double smallVolume_ = 0, heavyWeight_ = 0;  // of small entries: the largest, and the least; 0: none are
+  mutable std::vector<char> isSmall_;
+  mutable std::vector<double> bundle_;
 };
 
 template <SortedRates Rates>
@@ -373,7 +489,7 @@ std::size_t TwoLevelStore<Rates>::mergeDownTo(std::size_t count, MeanOf&& meanOf
       ++kept;
     }
   entries_.erase(entries_.begin() + static_cast<std::ptrdiff_t>(kept), entries_.end());
-  measure();
+  isMeasured_ = false;
   return merged;
 }
 

@@ -15,6 +15,13 @@ bool WeightedMethod<Type, Store>::coagulate(RandomStream& random) {
   taken(i);
   taken(j);
   ++counters_.coagulations;
+  if constexpr (mergesMany) {
+    if (const double times = store_.collected(); times > 1) {
+      put(j.particle, j.weight - times * i.weight);
+      put(type_.coagulated(i.particle, j.particle, times), i.weight);
+      return true;
+    }
+  }
   if (method_ == MonteCarloMethod::swa) {
     transferWeight(i, j, random);
   } else {

@@ -68,6 +68,10 @@ class WeightedMethod {
     }
     std::vector<Entry> entries;
     const double weight = initial.number > 0 ? initial.number / static_cast<double>(capacity_) : 0;
+    if constexpr (mergesMany) {
+      if (method_ == MonteCarloMethod::sammc && options.fraction == FractionFunction::one)
+        store_.setShareAtOnce(options.shareAtOnce);
+    }
     for (const double v : initialVolumes(initial, capacity_, random)) entries.push_back({type.make(v), weight});
     for (const Entry& entry : entries) track(entry, 1);
     putIn_ = held_;

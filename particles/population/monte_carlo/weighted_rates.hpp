@@ -93,15 +93,16 @@ class WeightedRates {
   [[nodiscard]] bool keepsHeaviest() const { return keepsHeaviest_; }
   [[nodiscard]] bool monotone() const { return monotone_; }
 
- private:
-  [[nodiscard]] CollisionKernel::Properties properties(const Entry& entry) const {
-    return kernelProperties(*kernel_, type_, entry.particle);
-  }
   // The kernel's factor: Wang (2025), eq. 5-5, or the two orders of the pair in SWA.
   [[nodiscard]] double weightPart(const Entry& i, const Entry& j) const {
     if (!exists(type_, i.particle) || !exists(type_, j.particle)) return 0;
     if (swa_) return i.weight + j.weight;
     return fraction_.rate(type_.volume(i.particle), type_.volume(j.particle), i.weight, j.weight);
+  }
+
+ private:
+  [[nodiscard]] CollisionKernel::Properties properties(const Entry& entry) const {
+    return kernelProperties(*kernel_, type_, entry.particle);
   }
   [[nodiscard]] const PowerLaw& law(SingleProcess process) const {
     return process == SingleProcess::breakage ? *breakage_ : *deposition_;
