@@ -1,0 +1,327 @@
+// Ensembles in the cells of a flow: what they take the gas loses, ranks and work sharing do not show, a restart goes on
+// to the same bits, and coagulation on the way through a pipe is what the exact solution says.
+#include "coupling/ensemble_operator.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/constants.hpp"
+#include "core/kept_state.hpp"
+#include "flow/budget.hpp"
+#include "particles/models/soot_model.hpp"
+#include "tests/every_room.hpp"
+#include "tests/flow/flow_fixture.hpp"
+#include "tests/particles/statistics.hpp"
+
+namespace lampblack::test {
+namespace {
+
+using Exchange = EnsembleOperator::Exchange;
+
+Gas& ethylene() {
+  static Gas gas("ethylene_bisetti2012_47.yaml");
+  return gas;
+}
+
+EnsembleOperator::Options options(Exchange exchange, double average = 0.0) {
+  EnsembleOperator::Options o;
+  o.ensemble.method = EnsembleMethod::sammc;
+  o.ensemble.particles = 60;
+  o.ensemble.seed = 5;
+  o.ensemble.splitTolerance = 0.2;
+  o.ensemble.startNumberDensity = 1e12;
+  o.ensemble.soot.pah = {{"A2", 10, 8, 2e-3}};
+  o.ensemble.soot.carbonWeight = ethylene().mechanism.atomicWeight(ethylene().mechanism.elementIndex("C"));
+  o.ensemble.soot.hydrogenWeight = ethylene().mechanism.atomicWeight(ethylene().mechanism.elementIndex("H"));
+  o.exchange = exchange;
+  o.average = average;
+  return o;
+}
+
+// A closed vessel of sooting gas, hotter and richer in PAH on one side.
+struct Vessel {
+  explicit Vessel(const EnsembleOperator::Options& o, MPI_Comm comm = MPI_COMM_WORLD)
+      : box(spec(), walls(), {}, comm, ethylene()),
+        state(box.state(
+            [&](const Vector3& x) {
+              const double part = x[0] / 0.004;
+              return Box::Local{
+                  {},
+                  1500.0 + 200.0 * part,
+                  ethylene().massFractions(fmt::format("N2: 0.8, C2H2: 0.08, H2: 0.06, H: 5e-4, OH: 1e-5, "
+                                                       "H2O: 0.04, CO: 0.02, A2: {:.17g}",
+                                                       2e-4 * part))};
+            },
+            EnsembleOperator::scalars())),
+        transport(box.context, state),
+        ensembles(box.context, transport, o) {
+    transport.initialise(state, dt);
+    begin();
+  }
+  static MeshSpec spec() {
+    MeshSpec s;
+    s.vertices = {uniformAxis(0.004, 6), uniformAxis(0.004, 5), {}};
+    for (const BoundaryCondition& wall : walls())
+      s.patches.push_back({wall.name, wall.name[0] == 'x' ? 0 : 1, wall.name.ends_with("max")});
+    return s;
+  }
+  static std::vector<BoundaryCondition> walls() {
+    std::vector<BoundaryCondition> conditions;
+    for (const int axis : {0, 1})
+      for (const bool atMax : {false, true}) conditions.push_back(side(BoundaryKind::Wall, axis, atMax).condition);
+    return conditions;
+  }
+  void begin() {
+    for (Operator* op : std::initializer_list<Operator*>{&transport, &ensembles}) op->endStep(state);
+    for (Operator* op : std::initializer_list<Operator*>{&transport, &ensembles}) op->endSweep(state);
+  }
+  void step(bool withGas = true) {
+    if (withGas)
+      transport.advance(state, time, dt);
+    else
+      state.keepStart();
+    ensembles.advance(state, time, dt);
+    begin();
+    time += dt;
+  }
+  void saveOrLoad(StateArchive& archive) {
+    state.saveOrLoad(archive);
+    transport.saveOrLoad(archive);
+    ensembles.saveOrLoad(archive);
+  }
+  static constexpr double dt = 2e-5;
+  double time = 0.0;
+  Box box;
+  State state;
+  TransportOperator transport;
+  EnsembleOperator ensembles;
+};
+
+double contentOf(Vessel& v, const std::string& quantity) {
+  const Budget budget(
+      v.box.context,
+      massAndElements(ethylene().mechanism, EnsembleOperator::unitElements(ethylene().mechanism, Exchange::TwoWay)),
+      v.state);
+  for (const Budget::Line& line : budget.lines(v.state))
+    if (line.name == quantity) return line.content;
+  return 0.0;
+}
+
+class ExchangeWithGas : public testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(Averages, ExchangeWithGas, testing::Values(0.0, 1e-4));
+
+TEST_P(ExchangeWithGas, KeepsElementsAndGivesTheGasWhatParticlesLeave) {
+  Vessel v(options(Exchange::TwoWay, GetParam()));
+  const std::vector<std::string> names{"mass", "C", "H", "O", "N"};
+  std::vector<double> before;
+  for (const std::string& name : names) before.push_back(contentOf(v, name));
+  for (int s = 0; s < 25; ++s) v.step();
+  const double soot = integral(
+      v.box.mesh, [&](int c) { return v.state.carried[at(c) * v.state.scalars.size() + EnsembleOperator::carbon]; });
+  EXPECT_GT(soot, 1e-6 * before[1]);
+  for (std::size_t k = 0; k < names.size(); ++k)
+    EXPECT_NEAR(contentOf(v, names[k]) / before[k], 1.0, 1e-13) << names[k];
+}
+
+// The gas's PAH goes into the particles, whether it is told at once or smoothed.
+TEST(EnsembleOperator, SmoothsWhatTheGasLosesWithoutChangingIt) {
+  std::vector<double> soot, pah;
+  for (const double average : {0.0, 1e-4}) {
+    Vessel v(options(Exchange::TwoWay, average));
+    const std::size_t A2 = ethylene().mechanism.speciesIndex("A2");
+    const auto left = [&] {
+      return integral(v.box.mesh,
+                      [&](int c) { return v.state.density[at(c)] * v.state.Y[at(c * v.state.species) + A2]; });
+    };
+    const double before = left();
+    for (int s = 0; s < 50; ++s) v.step();
+    pah.push_back(left() / before);
+    soot.push_back(integral(
+        v.box.mesh, [&](int c) { return v.state.carried[at(c) * v.state.scalars.size() + EnsembleOperator::carbon]; }));
+  }
+  report(fmt::format("PAH left after 1 ms: {:.4f} at once, {:.4f} over 0.1 ms; soot differs by {:.1e}", pah[0], pah[1],
+                     soot[1] / soot[0] - 1.0));
+  EXPECT_LT(pah[0], 0.97);
+  EXPECT_NEAR(pah[1], pah[0], 0.15 * (1.0 - pah[0]));  // a tenth of the time is still to come
+  EXPECT_NEAR(soot[1] / soot[0], 1.0, 0.1);
+}
+
+// What particles gain is as warm as the gas when they gain it; their own heat on the way is not followed.
+TEST(EnsembleOperator, KeepsTheEnthalpyOfGasAndParticles) {
+  EnsembleOperator::Options still = options(Exchange::TwoWay);
+  still.diffusion = false;
+  Vessel v(still);
+  std::ranges::fill(v.state.massFlux, 0.0);
+  const auto gasHeat = [&] {
+    return integral(v.box.mesh, [&](int c) { return v.state.density[at(c)] * v.state.enthalpy[at(c)]; });
+  };
+  double moved = 0.0;
+  for (int s = 0; s < 25; ++s) {
+    const double before = gasHeat();
+    const std::vector<double> T = v.state.temperature, amounts = v.state.carried;
+    v.step(false);
+    const double gained = integral(v.box.mesh, [&](int c) {
+      const double *old = &amounts[at(c) * v.state.scalars.size()],
+                   *now = &v.state.carried[at(c) * v.state.scalars.size()];
+      return (now[EnsembleOperator::carbon] - old[EnsembleOperator::carbon]) * sootCarbonEnthalpy(T[at(c)]).first +
+             (now[EnsembleOperator::hydrogen] - old[EnsembleOperator::hydrogen]) * sootHydrogenEnthalpy(T[at(c)]).first;
+    });
+    EXPECT_NEAR(gasHeat() + gained, before, 1e-12 * std::abs(before));
+    moved += std::abs(gained);
+  }
+  EXPECT_GT(moved, 1e-8 * std::abs(gasHeat()));
+}
+
+TEST(EnsembleOperator, OneWayLeavesTheGasAlone) {
+  Vessel v(options(Exchange::OneWay)), without(options(Exchange::OneWay));
+  for (int s = 0; s < 5; ++s) {
+    v.step();
+    without.transport.advance(without.state, without.time, Vessel::dt);
+    without.transport.endSweep(without.state);
+  }
+  for (int c = 0; c < v.box.mesh.owned; ++c) EXPECT_EQ(v.state.temperature[at(c)], without.state.temperature[at(c)]);
+  EXPECT_GT(integral(v.box.mesh, [&](int c) { return v.state.carried[at(c) * v.state.scalars.size()]; }), 0.0);
+}
+
+// In a gas that stays as it is the ensembles are the same to the last bit on any number of ranks, with sharing and
+// without.
+TEST(EnsembleOperator, DoesNotDependOnRanksNorSharing) {
+  EnsembleOperator::Options shared = options(Exchange::OneWay), own = shared;
+  own.shareWork = false;
+  Vessel alone(own, MPI_COMM_SELF), together(shared), apart(own);
+  for (Vessel* v : {&alone, &together, &apart})
+    for (int s = 0; s < 12; ++s) v->step(false);
+  std::size_t particles = 0;
+  for (int c = 0; c < together.box.mesh.owned; ++c) {
+    const int same = alone.box.mesh.findOwned(together.box.mesh.naturalCell[at(c)]);
+    const auto& population = alone.ensembles.populations()[at(same)];
+    EXPECT_EQ(together.ensembles.populations()[at(c)], population) << c;
+    EXPECT_EQ(apart.ensembles.populations()[at(c)], population) << c;
+    particles += packedParticles(population).size();
+  }
+  EXPECT_GT(sumOverRanks(static_cast<double>(particles)), 200.0);
+}
+
+// What a step that failed goes back to, and a restart: the same bits.
+TEST(EnsembleOperator, GoesOnToTheSameBits) {
+  Vessel v(options(Exchange::TwoWay, 1e-4));
+  for (int s = 0; s < 6; ++s) v.step();
+  KeptState kept(v.box.mesh.owned, v.box.mesh.faces);
+  const double time = v.time;
+  kept.keep([&](StateArchive& archive) { v.saveOrLoad(archive); });
+  for (int s = 0; s < 4; ++s) v.step();
+  const auto populations = v.ensembles.populations();
+  const std::vector<double> carried = v.state.carried, temperature = v.state.temperature;
+  kept.giveBack([&](StateArchive& archive) { v.saveOrLoad(archive); });
+  v.state.updateHalo(v.box.halo);
+  v.time = time;
+  v.begin();
+  for (int s = 0; s < 4; ++s) v.step();
+  EXPECT_EQ(v.ensembles.populations(), populations);
+  EXPECT_EQ(v.state.carried, carried);
+  EXPECT_EQ(v.state.temperature, temperature);
+}
+
+TEST(EnsembleOperator, TakesStepsOfSeveralSweepsOnce) {
+  EnsembleOperator::Options o = options(Exchange::OneWay);
+  o.sweeps = 2;
+  Vessel once(options(Exchange::OneWay)), twice(o);
+  for (int s = 0; s < 6; ++s) {
+    once.step(false);
+    twice.state.keepStart();
+    for (int sweep = 0; sweep < 2; ++sweep) twice.ensembles.advance(twice.state, twice.time, Vessel::dt);
+    twice.begin();
+    twice.time += Vessel::dt;
+  }
+  EXPECT_EQ(once.ensembles.populations(), twice.ensembles.populations());
+}
+
+TEST(EnsembleOperator, MakesEnsemblesOnlyWhereThereIsSomethingToBecomeSoot) {
+  Vessel v(options(Exchange::OneWay));
+  for (int c = 0; c < v.box.mesh.cells; ++c)
+    if (v.box.mesh.centre[at(c)][0] < 0.0013)
+      v.state.Y[at(c * v.state.species) + ethylene().mechanism.speciesIndex("A2")] = 0.0;
+  v.step(false);
+  for (int c = 0; c < v.box.mesh.owned; ++c)
+    EXPECT_EQ(v.ensembles.populations()[at(c)].empty(), v.box.mesh.centre[at(c)][0] < 0.0013);
+}
+
+// A pipe in which nothing but coagulation with a constant kernel happens. Behind the first cells, where the particles
+// are put in, each cell follows from the one before by the time between them: N = N1 / (1 + K N1 t / 2) (Smoluchowski
+// 1917), and the second moment of the volume by M2 = M2_1 + K M1^2 t.
+TEST(EnsembleOperator, CoagulatesInAPipeAsTheExactSolution) {
+  constexpr int cells = 24, first = 4;
+  constexpr double length = 0.012, speed = 1.0, N0 = 1e16, K = 1e-13;
+  Gas& gas = ethylene();
+  const auto N2 = gas.massFractions("N2: 1");
+  Box box(Geometry::Planar, {uniformAxis(length, cells), uniformAxis(0.001, 1), {}},
+          {opening(BoundaryKind::Inlet, 0, false, speed, 1500.0, N2),
+           opening(BoundaryKind::Outlet, 0, true, 0.0, 1500.0, N2), side(BoundaryKind::Symmetry, 1, false),
+           side(BoundaryKind::Symmetry, 1, true)},
+          gas);
+  if (box.mesh.ranks > 2) GTEST_SKIP() << "a row of cells";
+  State state = box.state(
+      [&](const Vector3&) {
+        return Box::Local{{speed, 0.0}, 1500.0, N2};
+      },
+      EnsembleOperator::scalars());
+  TransportOperator transport(box.context, state);
+  EnsembleOperator::Options o = options(Exchange::OneWay);
+  o.diffusion = false;
+  o.ensemble.particles = 400;
+  o.ensemble.kernel = {.type = CollisionKernelType::constant, .rate = K};
+  for (bool SootModelOptions::*process : {&SootModelOptions::inception, &SootModelOptions::condensation,
+                                          &SootModelOptions::surfaceGrowth, &SootModelOptions::oxidation})
+    o.ensemble.soot.*process = false;
+  EnsembleOperator ensembles(box.context, transport, o);
+  transport.initialise(state, 1e-5);
+  const double v0 = 1e-26;
+  std::vector<GivenParticle> fresh(400, {v0 * o.ensemble.soot.sootDensity, 0.0, 1.0, N0 / 400});
+  const double dt = 0.4 * length / cells / speed;
+  std::vector<std::vector<double>> number(cells), square(cells);
+  for (int s = 0; s < 1200; ++s) {
+    for (int c = 0; c < box.mesh.owned; ++c)
+      if (box.mesh.centre[at(c)][0] < 2.5 * length / cells) ensembles.initialise(state, c, fresh);
+    state.keepStart();
+    ensembles.advance(state, 0.0, dt);
+    ensembles.endStep(state);
+    if (s < 200 || s % 20 != 0) continue;
+    for (int i = 0; i < cells; ++i) {
+      double sums[2] = {0.0, 0.0};
+      for (int c = 0; c < box.mesh.owned; ++c) {
+        if (std::abs(box.mesh.centre[at(c)][0] - (i + 0.5) * length / cells) > 1e-6) continue;
+        for (const GivenParticle& p : packedParticles(ensembles.populations()[at(c)])) {
+          const double v = p.carbon / o.ensemble.soot.sootDensity / v0;
+          sums[0] += p.number;
+          sums[1] += p.number * v * v;
+        }
+      }
+      number[at(i)].push_back(sumOverRanks(sums[0]));
+      square[at(i)].push_back(sumOverRanks(sums[1]));
+    }
+  }
+  const auto relative = [&](const std::vector<std::vector<double>>& of, int i, const auto& exact) {
+    const Sample here = summarise(of[at(i)]);
+    return std::pair((here.mean - exact) / exact, here.standardError / exact);
+  };
+  const double N1 = summarise(number[first]).mean, S1 = summarise(square[first]).mean;
+  double worst = 0.0, worstSquare = 0.0;
+  for (int i = first + 1; i < cells; ++i) {
+    const double t = (i - first) * length / cells / speed;
+    const auto [n, errorN] = relative(number, i, N1 / (1.0 + 0.5 * K * N1 * t));
+    const auto [q, errorQ] = relative(square, i, S1 + K * N0 * N0 * t);
+    // The discrete cells of second order, and 50 samples that are not quite independent.
+    EXPECT_LT(std::abs(n), 0.01 + 4.0 * errorN) << i;
+    EXPECT_LT(std::abs(q), 0.02 + 4.0 * errorQ) << i;
+    worst = std::max(worst, std::abs(n));
+    worstSquare = std::max(worstSquare, std::abs(q));
+  }
+  report(fmt::format(
+      "pipe: number falls to {:.3f} of what comes in; largest difference {:.2f} % of the number, {:.1f} % of M2",
+      summarise(number[cells - 1]).mean / N0, 100.0 * worst, 100.0 * worstSquare));
+}
+
+}  // namespace
+}  // namespace lampblack::test
