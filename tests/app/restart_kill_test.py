@@ -1,7 +1,8 @@
 """A flow that is killed again and again, at random moments, while it writes outputs and checkpoints too: it goes on from its last
 whole checkpoint each time, and in the end its results are those of a run that was left alone, to the last bit.
 
-Usage: restart_kill_test.py EXECUTABLE RANKS KILLS MPIEXEC...
+Usage: restart_kill_test.py EXECUTABLE RANKS KILLS WHAT MPIEXEC...
+WHAT: gas, the tests' own flame; ensembles, the same with an ensemble of soot in each cell.
 """
 
 import os
@@ -16,7 +17,11 @@ import restart_test
 import running
 
 # A checkpoint after each step, an output after every other: a third of the time is spent on writing.
-SETTINGS = running.settings("time.end=0.12 ms", "time.maximum_step=1 us", "output.interval=2 us", "checkpoint.steps=1")
+SETTINGS = {
+    "gas": running.settings("time.end=0.12 ms", "time.maximum_step=1 us", "output.interval=2 us", "checkpoint.steps=1"),
+    "ensembles": running.settings("time.end=0.12 ms", "time.maximum_step=2 us", "output.interval=4 us", "checkpoint.steps=1",
+                                  "stochastic={particles: 40, least_number: 1e9 1/m^3, average: 10 us}"),
+}
 
 
 def processes(program, process):
@@ -36,10 +41,10 @@ def kill(program, process):
     process.communicate(timeout=60)
 
 
-def interrupt(program, deck, out, chance):
+def interrupt(program, deck, settings, out, chance):
     """Starts or goes on, and kills at a random moment. Whether it was killed before its end."""
     again = ["--restart"] if restart_test.checkpoints(out) else ["--force"]
-    process = restart_test.start(program, deck, *SETTINGS, "--out", out, *again)
+    process = restart_test.start(program, deck, *settings, "--out", out, *again)
     if chance.random() < 0.2:  # while it starts, reads the checkpoint, or restores what was written
         delay = chance.uniform(0.0, 1.0)
     else:  # while it goes on
@@ -60,7 +65,8 @@ def interrupt(program, deck, out, chance):
     return False
 
 
-def main(executable, ranks, kills, *mpiexec):
+def main(executable, ranks, kills, what, *mpiexec):
+    settings = SETTINGS[what]
     program = running.Program(executable, list(mpiexec), int(ranks))
     chance = random.Random(7)
     killed = whole_runs = in_checkpoint = damaged = 0
@@ -68,10 +74,10 @@ def main(executable, ranks, kills, *mpiexec):
         folder = pathlib.Path(name)
         deck = running.small_case(folder)
         alone = folder / "alone"
-        restart_test.run(program, deck, *SETTINGS, "--out", alone)
+        restart_test.run(program, deck, *settings, "--out", alone)
         out = folder / "killed"
         while killed < int(kills):
-            if interrupt(program, deck, out, chance):
+            if interrupt(program, deck, settings, out, chance):
                 killed += 1
                 in_checkpoint += any(file.suffix == ".part" for file in out.glob("checkpoint/*"))
                 part = out / "results.h5.part"
@@ -84,7 +90,7 @@ def main(executable, ranks, kills, *mpiexec):
                 whole_runs += 1
                 for file in out.glob("checkpoint/*"):
                     file.unlink()
-        restart_test.run(program, deck, *SETTINGS, "--out", out, "--restart" if restart_test.checkpoints(out) else "--force")
+        restart_test.run(program, deck, *settings, "--out", out, "--restart" if restart_test.checkpoints(out) else "--force")
         restart_test.assert_equal(out, alone)
     print(f"{killed} kills, {in_checkpoint} of them while a checkpoint or its outputs were written, {damaged} left results that "
           f"cannot be read; {whole_runs + 1} runs ended, all as the one that was left alone")
