@@ -1,12 +1,13 @@
 // Speed of the methods with different weights: events per second against the number of numerical particles, and the
 // cases of chapter 5 of Wang (2025) with 2000 numerical particles and 200 repeats.
 //
-//   population_weighted_bench [events | cases [start of a name]]
+//   population_weighted_bench [events | cases [start of a name [number of particles of events]]]
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdio>
 #include <ctime>
 #include <string>
 #include <vector>
@@ -56,42 +57,51 @@ InitialPopulation population(InitialPopulation::Distribution distribution, doubl
   return initial;
 }
 
-// Coagulation for about two events a particle at the least, from a population that has coagulated for a while.
+std::string only;               // what starts so is run
+std::size_t onlyParticles = 0;  // zero: all
+
+// Coagulation of populations that have coagulated for a while: from one event to ten events a particle, one population
+// after the other until there were a million events and two a particle. (A population of a thousand that goes on for a
+// million events has weights beyond the range of numbers.)
 void events(const std::string& name, const PopulationModel& model, const InitialPopulation& initial,
             MonteCarloOptions options) {
+  if (!name.starts_with(only)) return;
   fmt::print("{}\n  {:>9} {:>12} {:>12} {:>10} {:>10} {:>8}\n", name, "N", "events/s", "ns/event", "attempts",
              "bytes/N", "merges");
   for (const std::size_t n : {1000u, 10000u, 100000u, 1000000u}) {
+    if (onlyParticles != 0 && n != onlyParticles) continue;
     options.particles = n;
-    const auto solver = makeMonteCarlo(model, initial, options);
-    double dt = 1e-3 / (1e-6 * 1e6);
-    const auto count = [&] { return solver->counters().events(); };
-    double step = initial.volume < 1e-10 ? 1e-7 : dt;
-    while (count() < n) {
-      const auto before = count();
-      solver->advance(solver->time() + step);
-      if (count() - before < n / 20) step *= 2;
-    }
-    const auto start = count();
-    const auto fictitious = solver->counters().fictitious;
-    const auto merges = solver->counters().merges;
     const std::uint64_t least = std::max<std::uint64_t>(2 * n, 1000000);
-    const double from = cpuSeconds();
-    while (count() < start + least) {
-      const auto before = count();
-      solver->advance(solver->time() + step);
-      if (count() - before < least / 20) step *= 1.5;
+    std::uint64_t done = 0, attempts = 0, merges = 0;
+    double time = 0, bytes = 0;
+    for (options.repeat = 0; done < least; ++options.repeat) {
+      const auto solver = makeMonteCarlo(model, initial, options);
+      const PopulationCounters& counters = solver->counters();
+      double step = initial.volume < 1e-10 ? 1e-7 : 1e-3;
+      const auto advanceTo = [&](std::uint64_t count, std::uint64_t most) {
+        while (counters.events() < count) {
+          const auto before = counters.events();
+          solver->advance(solver->time() + step);
+          if (counters.events() - before < most) step *= 1.5;
+        }
+      };
+      advanceTo(n, n / 20);
+      const PopulationCounters start = counters;
+      const double from = cpuSeconds();
+      advanceTo(start.events() + std::min<std::uint64_t>(9 * n, least - done), n / 20);
+      time += cpuSeconds() - from;
+      done += counters.events() - start.events();
+      attempts += counters.events() + counters.fictitious - (start.events() + start.fictitious);
+      merges += counters.merges - start.merges;
+      bytes = std::max(bytes, static_cast<double>(solver->bytes()));
     }
-    const double time = cpuSeconds() - from;
-    const auto done = static_cast<double>(count() - start);
-    fmt::print("  {:>9} {:>12.4g} {:>12.1f} {:>10.3f} {:>10.1f} {:>8.3f}\n", n, done / time, 1e9 * time / done,
-               1 + static_cast<double>(solver->counters().fictitious - fictitious) / done,
-               static_cast<double>(solver->bytes()) / static_cast<double>(n),
-               static_cast<double>(solver->counters().merges - merges) / done);
+    const auto count = static_cast<double>(done);
+    fmt::print("  {:>9} {:>12.4g} {:>12.1f} {:>10.3f} {:>10.1f} {:>8.3f}\n", n, count / time, 1e9 * time / count,
+               static_cast<double>(attempts) / count, bytes / static_cast<double>(n),
+               static_cast<double>(merges) / count);
+    std::fflush(stdout);
   }
 }
-
-std::string only;  // cases whose name starts so
 
 void run(const Case& c) {
   if (!c.name.starts_with(only)) return;
@@ -170,6 +180,7 @@ int main(int argc, char** argv) {
   const std::string what = argc > 1 ? argv[1] : "";
   using Distribution = InitialPopulation::Distribution;
   if (argc > 2) only = argv[2];
+  if (argc > 3) onlyParticles = std::stoul(argv[3]);
   if (what != "cases") {
     MonteCarloOptions options;
     options.method = MonteCarloMethod::sammc;
@@ -179,6 +190,11 @@ int main(int argc, char** argv) {
     const auto nano = population(Distribution::monodisperse, 1e18, 5e-28);
     events("sammc, hyperbolic, constant kernel", constant(1e-12), mono, options);
     events("sammc, hyperbolic, free-molecular kernel", freeMolecular(), nano, options);
+    // Hardly any two volumes are equal.
+    const auto spread = population(Distribution::exponential, 1e12, 1);
+    const auto spreadNano = population(Distribution::exponential, 1e18, 5e-28);
+    events("sammc, exponential start, constant kernel", constant(1e-12), spread, options);
+    events("sammc, exponential start, free-molecular kernel", freeMolecular(), spreadNano, options);
     options.method = MonteCarloMethod::samwfmc;
     events("samwfmc, hyperbolic, free-molecular kernel", freeMolecular(), nano, options);
     options.method = MonteCarloMethod::wfmc;
