@@ -60,18 +60,16 @@ class SumsOfChunks {
   // The slot in which `x` falls, 0 <= x < total, all slots being laid end to end; x becomes the distance from its
   // start. Rounding may leave x at or slightly above the slot's value.
   [[nodiscard]] std::size_t find(std::size_t quantity, double& x) const {
-    std::size_t group = 0;
-    for (std::size_t level = levels_.size(); level-- > 0;) {
-      const double* sum = &levels_[level][(group * quantities_ + quantity) * fan];
-      std::size_t child = 0;
-      while (child < fan - 1 && x >= sum[child]) x -= sum[child++];
-      if (!(sum[child] > 0)) {
-        while (child > 0 && !(sum[child] > 0)) --child;
-        x = sum[child];
-      }
-      group = group * fan + child;
-    }
+    return childOf(0, groupOf(quantity, x), quantity, x);
+  }
+  // The same in two steps that may lie far apart: the group of slots, fetched into the cache, and the slot in it.
+  [[nodiscard]] std::size_t findGroup(std::size_t quantity, double& x) const {
+    const std::size_t group = groupOf(quantity, x);
+    __builtin_prefetch(&levels_[0][(group * quantities_ + quantity) * fan]);
     return group;
+  }
+  [[nodiscard]] std::size_t findInGroup(std::size_t group, std::size_t quantity, double& x) const {
+    return childOf(0, group, quantity, x);
   }
 
   [[nodiscard]] std::size_t bytes() const {
@@ -82,6 +80,31 @@ class SumsOfChunks {
 
  private:
   static constexpr std::size_t fan = chunk_tree::fan;
+
+  [[nodiscard]] std::size_t groupOf(std::size_t quantity, double& x) const {
+    std::size_t group = 0;
+    for (std::size_t level = levels_.size(); level-- > 1;) group = childOf(level, group, quantity, x);
+    return group;
+  }
+  // In which child of a group x falls; x becomes the distance from its start.
+  [[nodiscard]] std::size_t childOf(std::size_t level, std::size_t group, std::size_t quantity, double& x) const {
+    const double* sum = &levels_[level][(group * quantities_ + quantity) * fan];
+    // All running sums, instead of steps of which nobody knows how many there will be.
+    std::size_t child = 0;
+    double running = 0, start = 0;
+    for (std::size_t c = 0; c + 1 < fan; ++c) {
+      running += sum[c];
+      const bool beyond = x >= running;
+      child += beyond;
+      start = beyond ? running : start;
+    }
+    x -= start;
+    if (!(sum[child] > 0)) [[unlikely]] {
+      while (child > 0 && !(sum[child] > 0)) --child;
+      x = sum[child];
+    }
+    return group * fan + child;
+  }
 
   void raise(std::size_t group) {
     for (std::size_t level = 0;; ++level) {

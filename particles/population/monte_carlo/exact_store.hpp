@@ -71,6 +71,18 @@ class ExactStore {
     }
     return *total_;
   }
+  template <class Left>
+  bool drawPair(RandomStream& random, Entry& first, Entry& second, Left&& left) {
+    if (!drawPair(random, first, second)) return false;
+    const std::array<double, 2> weights = left(first, second);
+    const auto putBack = [this](Entry entry, double weight) {
+      entry.weight = weight;
+      insert(std::move(entry));
+    };
+    if (weights[0] > 0) putBack(first, weights[0]);
+    if (weights[1] > 0) putBack(second, weights[1]);
+    return true;
+  }
   bool drawPair(RandomStream& random, Entry& first, Entry& second) {
     if (!(pairRate() > 0)) return false;
     const auto i = drawFrom(rows_, random);

@@ -51,6 +51,14 @@ struct SortedChunk {
     weights_.fill(0);
   }
 
+  // Into the cache, for what comes soon: all of it; what is known of it; that and the weights.
+  void fetch() const { fetchLines(this, sizeof(SortedChunk)); }
+  void fetchHead() const { fetchLines(this, sizeof(SortedChunk) - 2 * sizeof(Column)); }
+  void fetchWeights() const {
+    fetchHead();
+    fetchLines(weights(), places * sizeof(double));
+  }
+
   [[nodiscard]] double volume(std::uint32_t k) const { return volumes_[margin + k]; }
   [[nodiscard]] double weight(std::uint32_t k) const { return weights_[margin + k]; }
   [[nodiscard]] const double* weights() const { return &weights_[margin]; }
@@ -83,6 +91,12 @@ struct SortedChunk {
     size += copies;
     weightSum += copies * w;
     ++changes;
+  }
+  // Entry `at` gets the weight w and comes to be at `to`, those of the same volume from there on moving up.
+  void lessenWeight(std::uint32_t at, std::uint32_t to, double w) {
+    weightSum += w - weight(at);
+    for (; at > to; --at) weights_[margin + at] = weights_[margin + at - 1];
+    weights_[margin + to] = w;
   }
   // Takes out entries k and k + 1.
   void eraseTwo(std::uint32_t k) {
@@ -229,6 +243,9 @@ struct SortedChunk {
   typedef std::int64_t Bits __attribute__((vector_size(lanes * sizeof(double))));
   using Column = std::array<double, places + 2 * margin>;
 
+  static void fetchLines(const void* from, std::size_t bytes) {
+    for (std::size_t k = 0; k < bytes; k += 64) __builtin_prefetch(static_cast<const char*>(from) + k, 1);
+  }
   // By reference: vectors are not returned by value, whose registers not every processor has.
   static const Unaligned& load(const double* from) { return *reinterpret_cast<const Unaligned*>(from); }
   static void store(double* to, const Lanes& x) { *reinterpret_cast<Unaligned*>(to) = x; }

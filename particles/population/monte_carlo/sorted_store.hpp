@@ -51,11 +51,19 @@ class SortedStore {
 
   void clear();
   void insert(const Entry& entry, std::size_t copies = 1);
+  // Fetches into the cache what inserting this will need.
+  void expect(const Entry& entry) { fetch(2, rates_.volume(entry), rates_.weight(entry)); }
   // Replaces everything; O(N) where the entries come in order.
   void assign(std::vector<Entry> entries);
 
   [[nodiscard]] double pairRate() const { return pairRate_; }
-  bool drawPair(RandomStream& random, Entry& first, Entry& second);
+  bool drawPair(RandomStream& random, Entry& first, Entry& second) {
+    return drawPair(random, first, second, [](const Entry&, const Entry&) { return std::array{0.0, 0.0}; });
+  }
+  // The same for events that leave something of the pair: left(first, second) says which weights stay, none of them
+  // above what there was. What stays mostly keeps its place.
+  template <class Left>
+  bool drawPair(RandomStream& random, Entry& first, Entry& second, Left&& left);
   [[nodiscard]] double singleRate(SingleProcess process) const {
     const std::size_t quantity = singleQuantity_[static_cast<std::size_t>(process)];
     return quantity == unused ? 0 : sums_.total(quantity);
@@ -100,9 +108,35 @@ class SortedStore {
       return {chunk.particles[at], chunk.weight(at)};
   }
   [[nodiscard]] Slot locate(double volume, double weight) const;
+
+  // Two random numbers find a pair. They are drawn two attempts ahead, so that what they will most likely find is in
+  // the cache by then: first the sums over its chunks, then the chunks. What they do find is up to the sums of that
+  // time.
+  struct PairDraw {
+    double x = 0, y = 0;  // uniform in (0, 1)
+  };
+  // One of the two partners, or the group of chunks that it is in, and how far from its start.
+  struct Found {
+    std::size_t at;
+    double distance;
+  };
+  struct Partners {
+    std::size_t term;               // r
+    bool q;                         // whether the weighted sum is that of q
+    std::size_t weighted, counted;  // quantities of the sums
+    Found heavy, other;             // distances from the start of everything
+  };
+  [[nodiscard]] Partners locate(const PairDraw& draw) const;
+  static PairDraw drawTwo(RandomStream& random) {
+    const double x = random.uniform();
+    return {x, random.uniform()};
+  }
+  PairDraw nextDraw(RandomStream& random);
+  void fetch(std::size_t which, double volume, double weight);
   // Out of its chunk; joinIfSparse() is due.
   void erase(Place place);
-  void eraseTwo(Place place);  // this one and the next, in one chunk; the smallest difference gets stale
+  bool lessen(Place place, double weight);  // where it is, if the order allows that
+  void eraseTwo(Place place);               // this one and the next, in one chunk; the smallest difference gets stale
   void joinIfSparse(Slot slot);
   Entry take(Place place);
 
@@ -151,11 +185,17 @@ class SortedStore {
   Slot first_ = 0;
   std::size_t size_ = 0;
   std::array<Slot, 2> recent_{0, 0};  // chunks where something was taken out; what replaces it is likely to go there
+  std::array<Slot, 3> expected_{};    // chunks that were fetched for what will be put in
   ChunkDirectory directory_;
   // For each r: count p, count q, weight p, weight q; then count times single rates that are active.
   SumsOfChunks sums_;
   double pairRate_ = 0;
   std::array<double, 2 * CollisionKernel::largestRank> pairParts_{};  // without the factor, running sums
+  struct {
+    bool drawn = false;
+    PairDraw next, afterNext;
+    Partners partners{};  // of afterNext as things stood: their groups
+  } ahead_;
   LeastOfChunks least_, heaviest_;
 };
 

@@ -34,6 +34,8 @@ void SortedStore<Rates>::clear() {
   heaviest_.reset(1);
   first_ = makeChunk();
   recent_ = {first_, first_};
+  expected_.fill(first_);
+  ahead_ = {};
   directory_.reset(first_);
   findLeast(chunks_[first_]);
   publish(first_);
@@ -116,6 +118,27 @@ void SortedStore<Rates>::insert(const Entry& entry, std::size_t copies) {
     publish(slot);
   else
     touched(slot);
+}
+
+template <SortedRates Rates>
+inline bool SortedStore<Rates>::lessen(Place place, double weight) {
+  Chunk& chunk = chunks_[place.slot];
+  const double before = chunk.weight(place.at), volume = chunk.volume(place.at);
+  if (weight == before) return true;
+  // It may come to be before entries of the same volume, but as the first one might be below the chunk's boundary.
+  if (place.at == 0 || !chunk.below(0, volume, weight)) return false;
+  std::uint32_t to = place.at;
+  while (!chunk.below(to - 1, volume, weight)) --to;
+  chunk.lessenWeight(place.at, to, weight);
+  if constexpr (!Rates::bare) {
+    const auto particles = chunk.particles.begin();
+    std::rotate(particles + to, particles + place.at, particles + place.at + 1);
+  }
+  if (before == chunk.heaviest) chunk.heaviestExact = false;
+  // Of the pairs of neighbours only weights have changed, none of them upwards.
+  for (std::uint32_t k = to; k <= place.at; ++k) consider(chunk, k);
+  setLeast(place.slot);
+  return true;
 }
 
 template <SortedRates Rates>

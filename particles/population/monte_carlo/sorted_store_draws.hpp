@@ -9,7 +9,7 @@ namespace lampblack::particles {
 template <SortedRates Rates>
 inline typename SortedStore<Rates>::Slot SortedStore<Rates>::locate(double volume, double weight) const {
   if (rank_ > 0) {  // what coagulated mostly goes back to where it came from
-    for (const Slot slot : recent_) {
+    for (const Slot slot : {recent_[0], recent_[1], expected_[0], expected_[1], expected_[2]}) {
       if (chunks_[slot].contains(volume, weight)) return slot;
     }
   }
@@ -17,26 +17,56 @@ inline typename SortedStore<Rates>::Slot SortedStore<Rates>::locate(double volum
 }
 
 template <SortedRates Rates>
-bool SortedStore<Rates>::drawPair(RandomStream& random, Entry& first, Entry& second) {
-  const double total = rank_ > 0 ? pairParts_[2 * rank_ - 1] : 0;
-  if (size_ < 2 || !(total > 0)) return false;
+inline void SortedStore<Rates>::fetch(std::size_t which, double volume, double weight) {
+  expected_[which] = directory_.find(volume, weight);
+  chunks_[expected_[which]].fetch();
+}
+
+template <SortedRates Rates>
+inline typename SortedStore<Rates>::Partners SortedStore<Rates>::locate(const PairDraw& draw) const {
   // Which product of sums; what is left of the random number finds the partner drawn by weight.
-  double x = random.uniform() * total;
+  double x = draw.x * pairParts_[2 * rank_ - 1];
   std::size_t part = 0;
   while (part + 1 < 2 * rank_ && x >= pairParts_[part]) ++part;
   if (part > 0) x -= pairParts_[part - 1];
   const std::size_t r = part / 2;
-  const bool q = part % 2 == 1;  // whether the weighted sum is that of q
+  const bool q = part % 2 == 1;
   const std::size_t weighted = 4 * r + (q ? 3 : 2), counted = 4 * r + (q ? 0 : 1);
   const double countedTotal = sums_.total(counted);
-  x /= countedTotal;
-  double y = random.uniform() * countedTotal;
-  const auto a = static_cast<Slot>(sums_.find(weighted, x));
-  const Chunk& heavy = chunks_[a];
-  for (std::size_t k = 0; k < Chunk::places; k += 8) __builtin_prefetch(heavy.weights() + k);
-  const auto b = static_cast<Slot>(sums_.find(counted, y));
-  const Chunk& other = chunks_[b];
-  __builtin_prefetch(&other.terms);
+  return {r, q, weighted, counted, {0, x / countedTotal}, {0, draw.y * countedTotal}};
+}
+
+template <SortedRates Rates>
+inline typename SortedStore<Rates>::PairDraw SortedStore<Rates>::nextDraw(RandomStream& random) {
+  if (!ahead_.drawn) {
+    ahead_.drawn = true;
+    ahead_.next = drawTwo(random);
+    ahead_.afterNext = drawTwo(random);
+    ahead_.partners = locate(ahead_.afterNext);
+  }
+  const PairDraw now = ahead_.next;
+  Partners& partners = ahead_.partners;
+  chunks_[sums_.findInGroup(partners.heavy.at, partners.weighted, partners.heavy.distance)].fetchWeights();
+  chunks_[sums_.findInGroup(partners.other.at, partners.counted, partners.other.distance)].fetchHead();
+  ahead_.next = ahead_.afterNext;
+  ahead_.afterNext = drawTwo(random);
+  partners = locate(ahead_.afterNext);
+  partners.heavy.at = sums_.findGroup(partners.weighted, partners.heavy.distance);
+  partners.other.at = sums_.findGroup(partners.counted, partners.other.distance);
+  return now;
+}
+
+template <SortedRates Rates>
+template <class Left>
+bool SortedStore<Rates>::drawPair(RandomStream& random, Entry& first, Entry& second, Left&& left) {
+  if (size_ < 2 || !(pairRate_ > 0)) return false;
+  const Partners partners = locate(nextDraw(random));
+  const std::size_t r = partners.term;
+  const bool q = partners.q;
+  double x = partners.heavy.distance, y = partners.other.distance;
+  const auto a = static_cast<Slot>(sums_.find(partners.weighted, x));
+  const auto b = static_cast<Slot>(sums_.find(partners.counted, y));
+  const Chunk &heavy = chunks_[a], &other = chunks_[b];
   const std::uint32_t i = heavy.atWeight(x / (q ? heavy.terms.q[r] : heavy.terms.p[r]));
   if (i >= heavy.size) return false;
   // The fraction that is left after the index decides about acceptance.
@@ -52,15 +82,29 @@ bool SortedStore<Rates>::drawPair(RandomStream& random, Entry& first, Entry& sec
   second = entryAt(other, j);
   if (!rates_.accepts(first, second, majorant, index - j)) return false;
   recent_ = {a, b};
-  if (a == b) {  // the later one first: the place of the other does not change
-    erase({a, std::max(i, j)});
-    erase({a, std::min(i, j)});
-  } else {
-    erase({a, i});
-    erase({b, j});
+  const std::array<double, 2> weights = left(first, second);
+  const bool firstStays = weights[0] > 0 && lessen({a, i}, weights[0]);
+  const bool secondStays = weights[1] > 0 && lessen({b, j}, weights[1]);
+  if (!firstStays && weights[0] > 0) fetch(0, rates_.volume(first), weights[0]);
+  if (!secondStays && weights[1] > 0) fetch(1, rates_.volume(second), weights[1]);
+  if (firstStays && secondStays) {
+    touched(a);
+    if (b != a) touched(b);
+    return true;
   }
+  // The later one first: the place of the other does not change.
+  const bool firstIsLater = a == b && i > j;
+  if (!firstStays && firstIsLater) erase({a, i});
+  if (!secondStays) erase({b, j});
+  if (!firstStays && !firstIsLater) erase({a, i});
   joinIfSparse(a);
   if (b != a && chunks_[b].used) joinIfSparse(b);
+  const auto putBack = [this](Entry entry, double weight) {
+    entry.weight = weight;
+    insert(entry);
+  };
+  if (!firstStays && weights[0] > 0) putBack(first, weights[0]);
+  if (!secondStays && weights[1] > 0) putBack(second, weights[1]);
   return true;
 }
 
@@ -122,6 +166,7 @@ bool SortedStore<Rates>::mergeNearest(MeanOf&& meanOf) {
                               static_cast<std::uint32_t>(chunk.below(k + 1, volume, weight));
   const std::uint32_t at = chunk.position(volume, weight) - below;
   if (at < k || at == 0 || at + 2 >= chunk.size || rates_.keepsHeaviest()) {
+    fetch(0, volume, weight);
     eraseTwo({slot, k});
     joinIfSparse(slot);
     insert(mean);

@@ -57,6 +57,7 @@ concept EntryStore = requires(S store, const S fixed, typename S::Entry entry, R
   { store.drawPair(random, entry, entry) } -> std::same_as<bool>;  // one attempt; true: both are taken out
   { fixed.singleRate(process) } -> std::convertible_to<double>;    // bound of the sum of `single`
   { store.drawSingle(process, random, entry) } -> std::same_as<bool>;  // one attempt; true: it is taken out
+  // Of weighted entries, also with a fourth argument left(first, second) -> {double, double}: the weights that stay in.
   { store.takeUniform(random) } -> std::same_as<typename S::Entry>;
   // Also: forEach(f) with f(const Entry&); transform(f) with f(Entry&) -> bool, false drops the entry.
 };

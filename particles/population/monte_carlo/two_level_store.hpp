@@ -118,6 +118,11 @@ class TwoLevelStore {
     return rates_.weightFactor() * sum;
   }
   bool drawPair(RandomStream& random, Entry& first, Entry& second) {
+    return drawPair(random, first, second, [](const Entry&, const Entry&) { return std::array{0.0, 0.0}; });
+  }
+  // left(first, second) says which weights stay in.
+  template <class Left>
+  bool drawPair(RandomStream& random, Entry& first, Entry& second, Left&& left) {
     closeHoles();
     measure();
     double total = 0;
@@ -146,8 +151,9 @@ class TwoLevelStore {
     first = entries_[i];
     second = entries_[j];
     collected_ = bundle;
-    hole_ = {i, j};
-    holes_ = 2;
+    const std::array<double, 2> weights = left(first, second);
+    stayOrGo(i, weights[0]);
+    stayOrGo(j, weights[1]);
     return true;
   }
 
@@ -262,6 +268,15 @@ class TwoLevelStore {
     return false;
   }
 
+  void stayOrGo(std::size_t at, double weight) {
+    if (weight > 0) {
+      entries_[at].weight = weight;
+      setBounds(at, true);
+      countChange();
+    } else {
+      hole_[holes_++] = at;
+    }
+  }
   // What came out and did not go back: the last entries go there.
   void closeHoles() {
     if (holes_ == 0) return;

@@ -10,47 +10,55 @@ namespace lampblack::particles {
 
 template <ParticleType Type, class Store>
 bool WeightedMethod<Type, Store>::coagulate(RandomStream& random) {
-  if (!store_.drawPair(random, first_, second_)) return false;
-  const Entry &i = first_, &j = second_;
-  taken(i);
-  taken(j);
+  if (!(method_ == MonteCarloMethod::swa ? transferWeight(random) : coagulateFractions(random))) return false;
   ++counters_.coagulations;
-  if constexpr (mergesMany) {
-    if (const double times = store_.collected(); times > 1) {
-      put(j.particle, j.weight - times * i.weight);
-      put(type_.coagulated(i.particle, j.particle, times), i.weight);
-      return true;
-    }
-  }
-  if (method_ == MonteCarloMethod::swa) {
-    transferWeight(i, j, random);
-  } else {
-    const double vi = type_.volume(i.particle), vj = type_.volume(j.particle);
-    const double alpha = store_.rates().fraction()(vi, vj, i.weight, j.weight);
-    const double amount = alpha * std::min(i.weight, j.weight);
-    const double leftI = i.weight - amount, leftJ = j.weight - amount;
-    const Particle fresh = type_.coagulated(i.particle, j.particle);
-    if (leftI > 0 && leftJ > 0) {
-      if (vi == vj && method_ != MonteCarloMethod::wfmc) {  // Wang (2025), eqs. 4-19, 4-20, 5-15
-        const Entry rest = meanOf({i.particle, leftI}, {j.particle, leftJ});
-        put(rest.particle, rest.weight);
-      } else {
-        coagulateLeftOvers(i, leftI, j, leftJ, random);
-      }
-      put(fresh, amount);
-    } else if (leftI > 0 || leftJ > 0) {  // Wang (2025), eqs. 4-21, 4-22, 5-14
-      put(leftI > 0 ? i.particle : j.particle, std::max(leftI, leftJ));
-      put(fresh, amount);
-    } else {  // Wang (2025), eqs. 4-18, 5-13
-      put(fresh, 0.5 * amount);
-      put(fresh, 0.5 * amount);
-    }
-  }
   if (store_.rates().tunable() && ++sinceTuned_ > 2 * capacity_) retune();
   return true;
 }
 
-// With both left over and the new particle there is one too many.
+template <ParticleType Type, class Store>
+bool WeightedMethod<Type, Store>::coagulateFractions(RandomStream& random) {
+  double amount = 0, leftI = 0, leftJ = 0, times = 1;
+  bool stay = false;  // whether what is left over stays as it is, with less weight
+  const bool happened = store_.drawPair(random, first_, second_, [&](const Entry& i, const Entry& j) {
+    const double vi = type_.volume(i.particle), vj = type_.volume(j.particle);
+    if constexpr (mergesMany) times = store_.collected();
+    // Where i takes up several of j at once, it does so as a whole.
+    amount = times > 1 ? i.weight
+                       : store_.rates().fraction()(vi, vj, i.weight, j.weight) * std::min(i.weight, j.weight);
+    leftI = i.weight - amount;
+    leftJ = j.weight - times * amount;
+    expect(type_.coagulated(i.particle, j.particle), amount);
+    stay = !(leftI > 0 && leftJ > 0) || (method_ == MonteCarloMethod::sammc && vi != vj);
+    return stay ? std::array{leftI, leftJ} : std::array{0.0, 0.0};
+  });
+  if (!happened) return false;
+  const Entry &i = first_, &j = second_;
+  taken(i);
+  taken(j);
+  const Particle fresh = coagulated(i.particle, j.particle, times);
+  if (!(leftI > 0 || leftJ > 0)) {  // Wang (2025), eqs. 4-18, 5-13
+    put(fresh, 0.5 * amount);
+    put(fresh, 0.5 * amount);
+    return true;
+  }
+  if (stay) {  // Wang (2025), eqs. 4-21, 4-22, 5-14; 5-16 with both left over
+    if (leftI > 0) track({i.particle, leftI}, 1);
+    if (leftJ > 0) track({j.particle, leftJ}, 1);
+    if (leftI > 0 && leftJ > 0) {
+      makeRoom(1);
+    }
+  } else if (type_.volume(i.particle) == type_.volume(j.particle) && method_ != MonteCarloMethod::wfmc) {
+    const Entry rest = meanOf({i.particle, leftI}, {j.particle, leftJ});  // eqs. 4-19, 4-20, 5-15
+    put(rest.particle, rest.weight);
+  } else {
+    coagulateLeftOvers(i, leftI, j, leftJ, random);
+  }
+  put(fresh, amount);
+  return true;
+}
+
+// wfmc and samwfmc: with both left over and the new particle there is one too many.
 //
 // wfmc: let L_i = leftI v_i and L_j = leftJ v_j be the volumes left over. i is kept with probability L_i / (L_i + L_j)
 // and the weight (L_i + L_j) / v_i, so that volume is conserved, or j likewise. Any sum of f over the particles then
@@ -59,12 +67,6 @@ bool WeightedMethod<Type, Store>::coagulate(RandomStream& random) {
 template <ParticleType Type, class Store>
 void WeightedMethod<Type, Store>::coagulateLeftOvers(const Entry& i, double leftI, const Entry& j, double leftJ,
                                                      RandomStream& random) {
-  if (method_ == MonteCarloMethod::sammc) {  // Wang (2025), eq. 5-16
-    put(i.particle, leftI);
-    put(j.particle, leftJ);
-    makeRoom(1);
-    return;
-  }
   const double vi = type_.volume(i.particle), vj = type_.volume(j.particle);
   if (method_ == MonteCarloMethod::wfmc) {
     const double sum = leftI * vi + leftJ * vj;
@@ -92,10 +94,15 @@ void WeightedMethod<Type, Store>::coagulateLeftOvers(const Entry& i, double left
 }
 
 template <ParticleType Type, class Store>
-void WeightedMethod<Type, Store>::transferWeight(const Entry& i, const Entry& j, RandomStream& random) {
-  const double wi = i.weight, wj = j.weight;
-  const bool iGrows = random.uniform() * (wi + wj) < wj;  // at the rate K w_j
-  const Entry &grows = iGrows ? i : j, &stays = iGrows ? j : i;
+bool WeightedMethod<Type, Store>::transferWeight(RandomStream& random) {
+  bool iGrows = false;
+  const bool happened = store_.drawPair(random, first_, second_, [&](const Entry& i, const Entry& j) {
+    iGrows = random.uniform() * (i.weight + j.weight) < j.weight;  // at the rate K w_j
+    return iGrows ? std::array{0.0, j.weight} : std::array{i.weight, 0.0};
+  });
+  if (!happened) return false;
+  const Entry &grows = iGrows ? first_ : second_, &stays = iGrows ? second_ : first_;
+  const double wi = first_.weight, wj = second_.weight;
   double weight = 0;
   switch (transfer_) {
     case WeightTransfer::harmonic:
@@ -110,8 +117,9 @@ void WeightedMethod<Type, Store>::transferWeight(const Entry& i, const Entry& j,
       break;
     }
   }
-  put(stays.particle, stays.weight);
+  taken(grows);
   put(type_.coagulated(grows.particle, stays.particle), weight);
+  return true;
 }
 
 // Merges neighbours until `count` more particles fit. A store that merges many at once is given more of them.

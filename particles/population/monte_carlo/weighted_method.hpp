@@ -159,6 +159,16 @@ class WeightedMethod {
     track(entry, 1);
     store_.insert(entry);
   }
+  // It will be put in soon.
+  void expect(const Particle& particle, double weight) {
+    if constexpr (requires { store_.expect(Entry{particle, weight}); }) store_.expect({particle, weight});
+  }
+  [[nodiscard]] Particle coagulated(const Particle& p, const Particle& q, double times) const {
+    if constexpr (requires { type_.coagulated(p, q, times); }) {
+      if (times > 1) return type_.coagulated(p, q, times);
+    }
+    return type_.coagulated(p, q);
+  }
   void taken(const Entry& entry) { track(entry, -1); }
   void track(const Entry& entry, double sign) {
     if (!store_.rates().gels()) return;
@@ -183,7 +193,8 @@ class WeightedMethod {
   void refill();
   void add(const Particle& particle, double weight, std::size_t copies = 1);
   void coagulateLeftOvers(const Entry& i, double leftI, const Entry& j, double leftJ, RandomStream& random);
-  void transferWeight(const Entry& i, const Entry& j, RandomStream& random);
+  bool coagulateFractions(RandomStream& random);
+  bool transferWeight(RandomStream& random);
 
   Type type_;
   MonteCarloMethod method_;

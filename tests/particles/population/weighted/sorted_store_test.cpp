@@ -150,16 +150,29 @@ void randomOperations(bool relative, std::uint64_t seed) {
       ASSERT_EQ(std::abs(e.particle.volume - like.particle.volume), nearest);
       list.remove(e);
     } else if (choice < 0.98) {
+      // As a coagulation leaves them: one of them taken out, with the same weight, or with less; and a new one.
+      std::array<double, 2> left{};
       Entry i, j;
-      if (store.drawPair(random, i, j)) {
+      const bool drawn = store.drawPair(random, i, j, [&](const Entry& a, const Entry& b) {
+        for (double* part : {&left[0], &left[1]}) *part = 0.5 * static_cast<double>(random.below(3));
+        left[0] *= a.weight;
+        left[1] *= b.weight;
+        return left;
+      });
+      if (drawn) {
+        Entry sum = j;
+        sum.particle.volume += i.particle.volume;
+        store.expect(sum);
         list.remove(i);
         list.remove(j);
-        // As a coagulation puts them back: one with less weight, one larger.
-        i.weight *= 0.5;
-        j.particle.volume += i.particle.volume;
+        i.weight = left[0];
+        j.weight = left[1];
         for (const Entry& e : {i, j}) {
-          store.insert(e);
-          list.insert(e);
+          if (e.weight > 0) list.insert(e);
+        }
+        if (random.below(2) == 0) {
+          store.insert(sum);
+          list.insert(sum);
         }
       }
     } else {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "particles/population/monte_carlo/monte_carlo_options.hpp"
+#include "particles/population/monte_carlo/weighted_solver.hpp"
 #include "tests/every_room.hpp"
 #include "tests/particles/statistics.hpp"
 
@@ -198,6 +199,37 @@ TEST(WeightedMethod, SammcBreaksWithoutBiasAndMmcDoesNot) {
   // Weights that are added to particles of another volume do not conserve mass.
   const auto biased = endMoments(model, initial, {"mmc", mmc}, 8, 500, 100);
   EXPECT_GT(std::abs(summarise(biased[1]).z(1)), 2 * zLimit);
+}
+
+// Each breakage at the rate v adds its weight to the number, and merging keeps the number: M0 - M1 t is a martingale
+// whose variance is the integral of the mean of sum w^2 v. That holds however unequal merging has made the weights.
+TEST(WeightedMethod, TheNoiseOfBreakageIsThatOfTheWeights) {
+  using Method = WeightedMethod<Sphere, SortedStore<WeightedRates<Sphere>>>;
+  PopulationModel model;
+  model.breakage = BreakageOptions{1, 1, 2, BreakageOptions::Daughters::uniform};
+  const auto initial = start(InitialPopulation::Distribution::monodisperse, 1);
+  std::vector<double> difference;
+  double sum = 0;
+  for (std::uint64_t repeat = 0; repeat < 400; ++repeat) {
+    const MonteCarloOptions options = optionsOf({"", sammc}, 100, repeat);
+    RandomStream random(options.seed, repeat, JumpProcess<Method>::streamPurpose);
+    const Sphere type(model.density);
+    Method method(type, model, initial, options, random);
+    JumpProcess<Method> process(std::move(method), model, options, random);
+    double integral = 0;
+    constexpr double step = 0.01, end = 2;
+    for (int k = 0; k < 200; ++k) {  // in the middles of the steps
+      process.advance((k + 0.5) * step);
+      process.method().forEachParticle(
+          [&](const auto& particle, double weight) { integral += step * weight * weight * type.volume(particle); });
+    }
+    process.advance(end);
+    const double deviation = process.moments()[0] - (1 + end);
+    difference.push_back(deviation * deviation - integral);
+    sum += integral / 400;
+  }
+  EXPECT_LT(std::abs(summarise(difference).z(0)), zLimit);
+  EXPECT_GT(sum, 5 * 0.01 * 2);  // far above that of equal weights: the start particles have become few and heavy
 }
 
 // Twelve equal fragments at the rate v^1.8 conserve mass; nuclei of the volume of all particles are exact in number up
