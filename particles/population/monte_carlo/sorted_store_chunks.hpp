@@ -135,8 +135,7 @@ inline bool SortedStore<Rates>::lessen(Place place, double weight) {
     std::rotate(particles + to, particles + place.at, particles + place.at + 1);
   }
   if (before == chunk.heaviest) chunk.heaviestExact = false;
-  // Of the pairs of neighbours only weights have changed, none of them upwards.
-  for (std::uint32_t k = to; k <= place.at; ++k) consider(chunk, k);
+  consider(chunk, to);  // the others that have moved are of the same volume and heavier
   setLeast(place.slot);
   return true;
 }
