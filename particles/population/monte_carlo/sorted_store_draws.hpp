@@ -83,8 +83,10 @@ bool SortedStore<Rates>::drawPair(RandomStream& random, Entry& first, Entry& sec
   if (!rates_.accepts(first, second, majorant, index - j)) return false;
   recent_ = {a, b};
   const std::array<double, 2> weights = left(first, second);
-  const bool firstStays = weights[0] > 0 && lessen({a, i}, weights[0]);
-  const bool secondStays = weights[1] > 0 && lessen({b, j}, weights[1]);
+  // Among entries of one volume in one chunk, what one of them does would move the other.
+  const bool apart = a != b || rates_.volume(first) != rates_.volume(second);
+  const bool firstStays = apart && weights[0] > 0 && lessen({a, i}, weights[0]);
+  const bool secondStays = apart && weights[1] > 0 && lessen({b, j}, weights[1]);
   if (!firstStays && weights[0] > 0) fetch(0, rates_.volume(first), weights[0]);
   if (!secondStays && weights[1] > 0) fetch(1, rates_.volume(second), weights[1]);
   if (firstStays && secondStays) {

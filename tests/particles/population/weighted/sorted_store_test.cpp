@@ -236,5 +236,33 @@ TEST(SortedStore, NeedsAtMost64BytesAParticle) {
   EXPECT_LE(store.bytes(), 64 * count);
 }
 
+// Pairs from few volumes in one chunk: what is left of one moves among its like, and the other is still found.
+TEST(SortedStore, LeavesThePartnerOfThePairThatWasDrawn) {
+  using Rates = WeightedTestRates<true>;
+  SortedStore<Rates> store{Rates()};
+  PlainList<Rates> list{Rates()};
+  RandomStream random(31, 0, 0);
+  for (int step = 0; step < 20000; ++step) {
+    while (list.entries().size() < 40) {
+      const Rates::Entry e{{1.0 + static_cast<double>(random.below(3))}, std::exp(4 * random.uniform())};
+      store.insert(e);
+      list.insert(e);
+    }
+    Rates::Entry i, j;
+    const bool second = random.below(2) == 0;
+    const double part = random.uniform();
+    const auto left = [&](const Rates::Entry& a, const Rates::Entry& b) {
+      return second ? std::array{part * a.weight, 0.0} : std::array{0.0, part * b.weight};
+    };
+    if (!store.drawPair(random, i, j, left)) continue;
+    list.remove(i);
+    list.remove(j);
+    Rates::Entry rest = second ? i : j;
+    rest.weight *= part;
+    list.insert(rest);
+    ASSERT_NO_FATAL_FAILURE(compare(store, list)) << step;
+  }
+}
+
 }  // namespace
 }  // namespace lampblack::test
