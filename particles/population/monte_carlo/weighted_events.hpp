@@ -24,8 +24,8 @@ bool WeightedMethod<Type, Store>::coagulateFractions(RandomStream& random) {
     const double vi = type_.volume(i.particle), vj = type_.volume(j.particle);
     if constexpr (mergesMany) times = store_.collected();
     // Where i takes up several of j at once, it does so as a whole.
-    amount = times > 1 ? i.weight
-                       : store_.rates().fraction()(vi, vj, i.weight, j.weight) * std::min(i.weight, j.weight);
+    amount =
+        times > 1 ? i.weight : store_.rates().fraction()(vi, vj, i.weight, j.weight) * std::min(i.weight, j.weight);
     leftI = i.weight - amount;
     leftJ = j.weight - times * amount;
     expect(type_.coagulated(i.particle, j.particle), amount);
