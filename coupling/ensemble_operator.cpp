@@ -172,7 +172,7 @@ void EnsembleOperator::solve(double time, std::span<const double> in, std::vecto
   out.insert(out.end(), population.begin(), population.end());
 }
 
-void EnsembleOperator::unpack(State& state, int cell, std::span<const double> out) {
+void EnsembleOperator::unpack(State& state, int cell, bool isHeld, std::span<const double> out) {
   const auto done = PackedDoubles(out).next<Done>();
   const std::span<const double> population = out.subspan(doneWidth + species_.size());
   populations_[cell].assign(population.begin(), population.end());
@@ -185,7 +185,7 @@ void EnsembleOperator::unpack(State& state, int cell, std::span<const double> ou
   const double heat = done.gainedCarbon * sootCarbonEnthalpy(temperature).first +
                       done.gainedHydrogen * sootHydrogenEnthalpy(temperature).first;  // J/m3
   const std::span<const double> change = out.subspan(doneWidth, species_.size());
-  if (!(options_.average > 0.0)) {
+  if (!(options_.average > 0.0) && !isHeld) {
     exchange_.book(state, cell, species_, change, heat);
     return;
   }
@@ -210,8 +210,11 @@ void EnsembleOperator::advance(State& state, double time, double dt) {
   }
   inStep_ = true;
   lastStep_ = dt;
-  // Transport and chemistry have paid out of the reserves.
-  for (std::size_t i = 0; i < reserve_.size(); ++i) reserve_[i] -= dt * rate_[i];
+  const bool isHeld = isGasHeld(time);
+  if (isHeld)
+    state.start.density.assign(state.density.begin(), state.density.begin() + m.owned);
+  else  // transport and chemistry have paid out of the reserves
+    for (std::size_t i = 0; i < reserve_.size(); ++i) reserve_[i] -= dt * rate_[i];
   for (std::vector<double>& rows : arrived_) rows.clear();
   transport_.advance(
       {state, flow_.driftFlux(), flow_.faceDensity(), flow_.properties().viscosity, flow_.properties().molecularWeight},
@@ -235,7 +238,7 @@ void EnsembleOperator::advance(State& state, double time, double dt) {
   }
   items.pack = [&](std::size_t i, std::vector<double>& in) { pack(state, busy[i], dt, in); };
   items.advance = [&](std::span<const double> in, std::vector<double>& out) { solve(time, in, out); };
-  items.unpack = [&](std::size_t i, std::span<const double> out) { unpack(state, busy[i], out); };
+  items.unpack = [&](std::size_t i, std::span<const double> out) { unpack(state, busy[i], isHeld, out); };
   items.work = [](std::span<const double> out) { return out[0]; };
   const WorkSharing::Statistics statistics = sharing_.run(items);
   imbalances_.before += statistics.imbalanceBefore;

@@ -41,6 +41,9 @@ class EnsembleOperator : public Operator {
     EnsembleOptions ensemble;  // `owner` is the cell's permanent number
     Exchange exchange = Exchange::TwoWay;
     double average = 0.0;  // s
+    // s, from when on the gas stays as it is: whoever runs the operators advances no other, and what is exchanged stays
+    // in the reserve.
+    std::optional<double> holdGas = {};
     bool diffusion = true;
     bool secondOrder = true;
     bool shareWork = true;
@@ -77,6 +80,7 @@ class EnsembleOperator : public Operator {
   void watchOutflow(std::function<void(std::span<const double>)> watcher) { watchers_.push_back(std::move(watcher)); }
   // Packed, of the owned cells; empty where there is none.
   [[nodiscard]] const std::vector<std::vector<double>>& populations() const { return populations_; }
+  [[nodiscard]] bool isGasHeld(double time) const { return options_.holdGas && time >= *options_.holdGas; }
   // Replaces the population of an owned cell; as Ensemble::initialise. The amounts follow with the next step.
   void initialise(State& state, int cell, std::span<const GivenParticle> population);
 
@@ -86,7 +90,7 @@ class EnsembleOperator : public Operator {
   [[nodiscard]] ParticleGas gasOf(const State& state, int cell, std::vector<double>& concentrations) const;
   void pack(const State& state, int cell, double dt, std::vector<double>& in);
   void solve(double time, std::span<const double> in, std::vector<double>& out) const;
-  void unpack(State& state, int cell, std::span<const double> out);
+  void unpack(State& state, int cell, bool isHeld, std::span<const double> out);
   void setAmounts(State& state, int cell, const Ensemble::Totals& totals) const;
   void setOwed(State& state, int cell) const;
   void countOutflow();

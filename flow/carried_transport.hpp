@@ -20,7 +20,7 @@ class CarriedTransport {
         diffusion_(diffusion),
         gradient_(context.mesh),
         flux_(static_cast<std::size_t>(context.mesh.faces) * static_cast<std::size_t>(scalars), 0.0),
-        driftFlux_(static_cast<std::size_t>(scalars > 0 ? context.mesh.interiorFaces : 0), 0.0),
+        driftFlux_(static_cast<std::size_t>(scalars > 0 ? context.mesh.faces : 0), 0.0),
         nothingPasses_(static_cast<std::size_t>(context.mesh.boundaryFaces()), BoundaryData::ZeroSlope) {}
 
   // The gas of a sweep: the step's start, and its mean with what the last sweep found (both the state itself in the
@@ -39,9 +39,10 @@ class CarriedTransport {
   // Convective flux of the last step, per s, scalars a face, positive from low to high or outwards; what crosses the
   // boundary is in here, as diffusion does not cross it.
   [[nodiscard]] std::span<const double> flux() const { return flux_; }
-  // kg/s, what thermophoresis moves of the gas's mass through each interior face in the last step for a coefficient of
-  // one: particles drift as if so much gas flowed.
-  [[nodiscard]] std::span<const double> driftFlux() const { return driftFlux_; }
+  // kg/s, what thermophoresis moves of the gas's mass through each face in the last step for a coefficient of one:
+  // particles drift as if so much gas flowed; not through the boundary.
+  [[nodiscard]] std::vector<double>& driftFlux() { return driftFlux_; }
+  [[nodiscard]] const std::vector<double>& driftFlux() const { return driftFlux_; }
 
  private:
   void findDrift(const Gas& gas);

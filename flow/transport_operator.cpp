@@ -19,12 +19,13 @@ TransportOperator::TransportOperator(const FlowContext& context, const State& st
       heatConduction_(context, diffusion_),
       expansion_(context),
       momentum_(context, state.swirls, options.velocityScheme),
-      carried_(context, diffusion_, state.carriedCount()) {
+      carried_(context, diffusion_, state.carriedCount()),
+      movesForOthers_(std::ranges::any_of(state.scalars, [](const auto& scalar) { return !scalar.isTransported; })) {
   const auto faces = static_cast<std::size_t>(context.mesh.faces);
   const auto owned = static_cast<std::size_t>(context.mesh.owned);
   const auto n = static_cast<std::size_t>(state.species);
   // What is loaded has its size beforehand.
-  for (auto* loaded : {&properties_.viscosity, &properties_.conductivity})
+  for (auto* loaded : {&properties_.viscosity, &properties_.conductivity, &properties_.molecularWeight})
     loaded->resize(static_cast<std::size_t>(context.mesh.cells));
   content_.resize(owned * n);
   heatContent_.resize(owned);
@@ -262,6 +263,15 @@ void TransportOperator::saveOrLoad(StateArchive& archive) {
   diagnostics_ = {seen.at(0), static_cast<int>(seen.at(1)), static_cast<int>(seen.at(2))};
   lastStep_ = seen.at(3);
   if (archive.loading()) sweep_ = 0;  // of a step that was broken off
+  if (movesForOthers_) {
+    archive.faces("face_density", faces_.density, 1);
+    archive.faces("drift_flux", carried_.driftFlux(), 1);
+    archive.cells("mean_molecular_weight", properties_.molecularWeight, 1);
+    if (archive.loading()) {
+      context_.halo.update(properties_.viscosity, 1);
+      context_.halo.update(properties_.molecularWeight, 1);
+    }
+  }
   momentum_.saveOrLoad(archive);
   expansion_.saveOrLoad(archive);
 }

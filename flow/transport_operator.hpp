@@ -121,6 +121,7 @@ class TransportOperator : public Operator {
   std::vector<double> boundaryFlows_;
   std::vector<std::function<void(const BoundaryAmounts&)>> watchers_;
 
+  bool movesForOthers_;    // whether somebody else moves particles by what is found here
   int sweep_ = 0;          // of the present step
   double lastStep_ = 0.0;  // s
   // Only of steps of several sweeps: the start; the mean of it and of what the last sweep found; conduction at the

@@ -175,6 +175,7 @@ void readEnsembles(const Deck& deck, FlowCase& flowCase) {
   const bool isTwoWay = deck.choice("stochastic.exchange") == "two_way";
   options.exchange = isTwoWay ? EnsembleOperator::Exchange::TwoWay : EnsembleOperator::Exchange::OneWay;
   if (isTwoWay) options.average = deck.quantity("stochastic.average");
+  options.holdGas = deck.optionalQuantity("stochastic.hold_gas");
   options.diffusion = deck.boolean("soot.diffusion");
   options.secondOrder = deck.choice("stochastic.order") == "second";
   options.shareWork = flowCase.chemistry.shareWork;

@@ -141,8 +141,11 @@ void FlowLoop::beginFromLoaded() {
 }
 
 void FlowLoop::step(double dt) {
+  const EnsembleOperator* ensembles = domain_->ensembles.get();
+  const bool isHeld = ensembles != nullptr && ensembles->isGasHeld(time_);
   for (int sweep = 0; sweep < case_.flow.sweeps; ++sweep) {
     for (Operator* op : operators_) {
+      if (isHeld && op != ensembles) continue;
       const Timers::Scope scope(timers_, op->name());
       op->advance(domain_->state, time_, dt);
     }

@@ -277,6 +277,12 @@ void addParticles(DeckSchema& schema) {
                .byDefault("0.2 ms")
                .atLeast(0)
                .onlyWith("stochastic.exchange", {"two_way"}))
+      .add(
+          quantityKey("stochastic.hold_gas", units::time,
+                      "From this time on the gas stays as it is and only the particles go on, which costs less where a "
+                      "flame is steady; what they exchange is counted, but the gas does not get it. Absent: never.")
+              .optional()
+              .atLeast(0))
       .add(quantityKey("stochastic.least_number", units::perVolume,
                        "Particles per volume that count: where there are fewer, a new numerical particle stands for "
                        "this over 'stochastic.particles', so that traces of soot do not fill ensembles.")

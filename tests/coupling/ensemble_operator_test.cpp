@@ -224,6 +224,36 @@ TEST(EnsembleOperator, GoesOnToTheSameBits) {
   EXPECT_EQ(v.state.temperature, temperature);
 }
 
+// The gas stays to the last bit, the balance of atoms too, and a restart has what moves the particles.
+TEST(EnsembleOperator, GoesOnInAGasThatIsHeld) {
+  EnsembleOperator::Options o = options(Exchange::TwoWay, 1e-4);
+  o.holdGas = 4.5 * Vessel::dt;
+  Vessel v(o);
+  for (int s = 0; s < 5; ++s) v.step();
+  ASSERT_TRUE(v.ensembles.isGasHeld(v.time));
+  const std::vector<double> T = v.state.temperature;
+  const double carbon = contentOf(v, "C"), soot = v.state.carried[EnsembleOperator::carbon];
+  const auto hold = [](Vessel& vessel) {
+    vessel.ensembles.advance(vessel.state, vessel.time, Vessel::dt);
+    vessel.begin();
+    vessel.time += Vessel::dt;
+  };
+  for (int s = 0; s < 3; ++s) hold(v);
+  KeptState kept(v.box.mesh.owned, v.box.mesh.faces);
+  kept.keep([&](StateArchive& archive) { v.saveOrLoad(archive); });
+  for (int s = 0; s < 3; ++s) hold(v);
+  EXPECT_EQ(v.state.temperature, T);
+  EXPECT_NEAR(contentOf(v, "C") / carbon, 1.0, 1e-13);
+  EXPECT_NE(v.state.carried[EnsembleOperator::carbon], soot);
+  Vessel other(o);
+  kept.giveBack([&](StateArchive& archive) { other.saveOrLoad(archive); });
+  other.state.updateHalo(other.box.halo);
+  other.time = 8 * Vessel::dt;
+  other.begin();
+  for (int s = 0; s < 3; ++s) hold(other);
+  EXPECT_EQ(other.ensembles.populations(), v.ensembles.populations());
+}
+
 TEST(EnsembleOperator, TakesStepsOfSeveralSweepsOnce) {
   EnsembleOperator::Options o = options(Exchange::OneWay);
   o.sweeps = 2;
