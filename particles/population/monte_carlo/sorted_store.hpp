@@ -22,8 +22,9 @@
 
 namespace lampblack::particles {
 
-// The rates say in addition how neighbours are compared, which extremes are needed, what is known of the terms, and
-// decide an attempt: accepts(i, j, m, u) is pair(i, j) > u * weightFactor * (w_i + w_j) * m.
+// The rates say in addition how neighbours are compared, which extremes are needed, what is known of the terms, what
+// part of pair() is that of the weights, and decide an attempt: accepts(i, j, m, u) is pair(i, j) > u * weightFactor *
+// (w_i + w_j) * m.
 template <class R>
 concept SortedRates = EntryRates<R> && requires(const R rates, const typename R::Entry entry, double x) {
   { R::bare } -> std::convertible_to<bool>;                  // the particle is its volume
@@ -32,6 +33,7 @@ concept SortedRates = EntryRates<R> && requires(const R rates, const typename R:
   { rates.merges() } -> std::same_as<bool>;                  // mergeNearest() may be called
   { rates.keepsHeaviest() } -> std::same_as<bool>;           // takeHeaviest() may be called
   { rates.monotone() } -> std::same_as<bool>;  // terms and single rates are largest at an end of a range of volumes
+  { rates.weightPart(entry, entry) } -> std::convertible_to<double>;
   { rates.accepts(entry, entry, x, x) } -> std::same_as<bool>;
 };
 

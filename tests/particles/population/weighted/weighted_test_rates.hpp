@@ -48,9 +48,8 @@ struct WeightedTestRates {
     return sum * sum * std::sqrt(1 / u + 1 / v);
   }
   [[nodiscard]] double weightFactor() const { return 1; }
-  [[nodiscard]] double pair(const Entry& i, const Entry& j) const {
-    return std::max(i.weight, j.weight) * kernel(i, j);
-  }
+  [[nodiscard]] double weightPart(const Entry& i, const Entry& j) const { return std::max(i.weight, j.weight); }
+  [[nodiscard]] double pair(const Entry& i, const Entry& j) const { return weightPart(i, j) * kernel(i, j); }
   [[nodiscard]] bool accepts(const Entry& i, const Entry& j, double majorant, double u) const {
     return pair(i, j) > u * (i.weight + j.weight) * majorant;
   }
