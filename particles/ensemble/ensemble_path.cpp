@@ -1,8 +1,7 @@
 #include "particles/ensemble/ensemble_path.hpp"
 
-#include <cmath>
-
 #include "core/errors.hpp"
+#include "particles/ensemble/size_bins.hpp"
 
 namespace lampblack::particles {
 namespace {
@@ -19,11 +18,7 @@ EnsemblePathRecord record(const Ensemble& soot, const EnsemblePathOptions& optio
 }  // namespace
 
 std::vector<double> EnsemblePathOptions::binEdges() const {
-  const double width = (logDiameterMax - logDiameterMin) / static_cast<double>(bins);
-  std::vector<double> edges;
-  for (std::size_t b = 0; b <= bins; ++b)
-    edges.push_back(std::pow(10.0, logDiameterMin + width * static_cast<double>(b)));
-  return edges;
+  return SizeBins{logDiameterMin, logDiameterMax, bins}.edges();
 }
 
 EnsemblePathResult marchPath(Ensemble& soot, const ParticlePath& path, const EnsemblePathOptions& options) {

@@ -6,6 +6,7 @@
 
 #include "core/packed_doubles.hpp"
 #include "core/rooms.hpp"
+#include "particles/ensemble/size_bins.hpp"
 #include "particles/ensemble/stochastic_process.hpp"
 #include "particles/population/monte_carlo/systematic_sample.hpp"
 #include "particles/population/monte_carlo/weighted_deviation.hpp"
@@ -160,10 +161,10 @@ double StochasticProcess<Method>::moment(double order) const {
 template <class Method>
 std::vector<double> StochasticProcess<Method>::sizeDistribution(double logMin, double logMax, std::size_t bins) const {
   std::vector<double> density(bins, 0);
-  const double width = (logMax - logMin) / static_cast<double>(bins);
+  const SizeBins all{logMin, logMax, bins};
+  const double width = all.width();
   method_.forEachParticle([&](const Particle& p, double w) {
-    const double x = (std::log10(type_.mobilityDiameter(p)) - logMin) / width;
-    if (x >= 0 && x < static_cast<double>(bins)) density[static_cast<std::size_t>(x)] += w / width;
+    if (const std::size_t bin = all.of(type_.mobilityDiameter(p)); bin < bins) density[bin] += w / width;
   });
   return density;
 }
