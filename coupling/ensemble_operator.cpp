@@ -70,6 +70,7 @@ EnsembleOperator::EnsembleOperator(const FlowContext& context, const TransportOp
     : context_(context),
       flow_(flow),
       options_(std::move(options)),
+      type_(options_.ensemble.soot.sootDensity, options_.ensemble.coalescing),
       species_(indicesOfSootSpecies(context.mechanism, options_.ensemble.soot)),
       engine_(makeEnsemble(options_.ensemble)),
       blank_(engine_->pack()),
@@ -86,6 +87,9 @@ EnsembleOperator::EnsembleOperator(const FlowContext& context, const TransportOp
        {context.mechanism.elementIndex("C"), context.mechanism.elementIndex("H"), context.mechanism.elementIndex("O")})
     for (const std::size_t k : species_)
       massOfAtoms_.push_back(context.mechanism.atoms(k, element) * context.mechanism.atomicWeight(element));
+  if (options_.statistics)
+    statistics_.emplace(context.mesh, *options_.statistics,
+                        options_.sizes ? std::optional(options_.bins) : std::nullopt);
 }
 
 ParticleGas EnsembleOperator::gasOf(const State& state, int cell, std::vector<double>& concentrations) const {
@@ -210,6 +214,7 @@ void EnsembleOperator::advance(State& state, double time, double dt) {
   }
   inStep_ = true;
   lastStep_ = dt;
+  stepEnd_ = time + dt;
   const bool isHeld = isGasHeld(time);
   if (isHeld)
     state.start.density.assign(state.density.begin(), state.density.begin() + m.owned);
@@ -257,10 +262,25 @@ void EnsembleOperator::countOutflow() {
   }
 }
 
-void EnsembleOperator::endStep(State&) {
+void EnsembleOperator::addToStatistics(const State& state) {
+  if (!statistics_) return;
+  const auto amountsOf = [&](int cell) {
+    const double* amount = &state.carried[static_cast<std::size_t>(cell) * state.scalars.size()];
+    return EnsembleStatistics::CellAmounts{amount[number],
+                                           (amount[carbon] + amount[hydrogen]) / options_.ensemble.soot.sootDensity,
+                                           amount[primaries], amount[surface], amount[diameters]};
+  };
+  const auto sizesOf = [&](int cell, std::span<double> sizes) {
+    addSizes(type_, options_.bins, populations_[cell], sizes);
+  };
+  statistics_->addStep(stepEnd_, lastStep_, {amountsOf, sizesOf});
+}
+
+void EnsembleOperator::endStep(State& state) {
   if (inStep_) {
     ++steps_;
     for (const auto& watcher : watchers_) watcher(outflow_);
+    addToStatistics(state);
   }
   inStep_ = false;
   if (!(options_.average > 0.0)) return;
@@ -294,6 +314,7 @@ void EnsembleOperator::saveOrLoad(StateArchive& archive) {
   lastStep_ = shared.at(1);
   imbalances_ = {shared.at(2), shared.at(3)};
   stages_ = static_cast<int>(shared.at(4));
+  EnsembleStatistics::saveOrLoad(archive, statistics_ ? &*statistics_ : nullptr);
 }
 
 void EnsembleOperator::addCost(const Mesh&, CellCost& cost) const {

@@ -22,6 +22,8 @@
 
 #include "core/rooms.hpp"
 #include "core/work_sharing.hpp"
+#include "coupling/ensemble_sizes.hpp"
+#include "coupling/ensemble_statistics.hpp"
 #include "coupling/ensemble_transport.hpp"
 #include "flow/gas_exchange.hpp"
 #include "flow/operator.hpp"
@@ -47,7 +49,10 @@ class EnsembleOperator : public Operator {
     bool diffusion = true;
     bool secondOrder = true;
     bool shareWork = true;
-    int sweeps = 1;  // of a step
+    int sweeps = 1;     // of a step
+    SizeBins bins;      // of size distributions
+    bool sizes = true;  // whether they are fields
+    std::optional<EnsembleStatistics::Options> statistics;
   };
   // What State::carried has of the particles, per m3; the last are atoms in the reserve, which the gas is still to get.
   enum Amount : std::size_t { number, carbon, hydrogen, primaries, surface, diameters, owedC, owedH, owedO, amounts };
@@ -78,6 +83,10 @@ class EnsembleOperator : public Operator {
   // Is called at the end of each step: each amount that left through the boundary in it, of this rank's cells, per
   // metre depth or radian.
   void watchOutflow(std::function<void(std::span<const double>)> watcher) { watchers_.push_back(std::move(watcher)); }
+  [[nodiscard]] const Options& options() const { return options_; }
+  [[nodiscard]] const SootAggregate& particleType() const { return type_; }
+  // Averages over time; null without.
+  [[nodiscard]] const EnsembleStatistics* statistics() const { return statistics_ ? &*statistics_ : nullptr; }
   // Packed, of the owned cells; empty where there is none.
   [[nodiscard]] const std::vector<std::vector<double>>& populations() const { return populations_; }
   [[nodiscard]] bool isGasHeld(double time) const { return options_.holdGas && time >= *options_.holdGas; }
@@ -94,10 +103,12 @@ class EnsembleOperator : public Operator {
   void setAmounts(State& state, int cell, const Ensemble::Totals& totals) const;
   void setOwed(State& state, int cell) const;
   void countOutflow();
+  void addToStatistics(const State& state);
 
   const FlowContext& context_;
   const TransportOperator& flow_;
   Options options_;
+  SootAggregate type_;
   std::vector<std::size_t> species_;
   std::unique_ptr<Ensemble> engine_;
   std::vector<double> blank_;  // a packed population without particles
@@ -114,12 +125,14 @@ class EnsembleOperator : public Operator {
   double startResampled_ = 0.0;
   bool inStep_ = false;
   double lastStep_ = 0.0;   // s
+  double stepEnd_ = 0.0;    // s
   std::int64_t steps_ = 0;  // since the start
   std::vector<double> outflow_;
   std::vector<std::function<void(std::span<const double>)>> watchers_;
   double resampled_ = 0.0;  // by numerical particles that come and go, since the start, kg per metre depth or radian
   std::vector<double> massOfAtoms_;  // kg/mol of C, of H, of O in the exchanged species
   std::vector<double> concentrations_;
+  std::optional<EnsembleStatistics> statistics_;
   Imbalance imbalances_{0.0, 0.0};  // sums over the stages
   int stages_ = 0;
   // Of the last row.

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <limits>
 
 #include "coupling/ensemble_operator.hpp"
 #include "flow/peak.hpp"
@@ -37,12 +39,17 @@ std::optional<Operator::Imbalance> EnsembleOperator::imbalance() const {
 }
 
 std::vector<Quantity> EnsembleOperator::historyColumns() const {
-  return {{"peak_soot_volume_fraction", "1", "largest volume fraction of soot"},
-          {"ensembles", "1", "cells with particles"},
-          {"numerical_particles", "1", "numerical particles in all cells"},
-          {"soot_resampled", unitOfWhole(context_.mesh, "kg"),
-           "soot that came and went with numerical particles since the start, zero in the mean"},
-          {"transport_parts", "1", "parts that the particles' transport was divided into"}};
+  std::vector<Quantity> columns{{"peak_soot_volume_fraction", "1", "largest volume fraction of soot"},
+                                {"ensembles", "1", "cells with particles"},
+                                {"numerical_particles", "1", "numerical particles in all cells"},
+                                {"soot_resampled", unitOfWhole(context_.mesh, "kg"),
+                                 "soot that came and went with numerical particles since the start, zero in the mean"},
+                                {"transport_parts", "1", "parts that the particles' transport was divided into"}};
+  if (statistics_) {
+    columns.push_back({"soot_averages_since", "s", "when averages of the soot over time started; nan before"});
+    columns.push_back({"soot_averaged_blocks", "1", "blocks of time in the averages of the soot"});
+  }
+  return columns;
 }
 
 std::vector<double> EnsembleOperator::historyValues(const State& state) {
@@ -60,7 +67,12 @@ std::vector<double> EnsembleOperator::historyValues(const State& state) {
     sums[1] += static_cast<double>((population.size() - packedHead) / packedParticle);
   }
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, m.comm);
-  return {peak_, sums[0], sums[1], sums[2], static_cast<double>(transport_.parts())};
+  std::vector<double> values{peak_, sums[0], sums[1], sums[2], static_cast<double>(transport_.parts())};
+  if (statistics_) {
+    values.push_back(statistics_->since().value_or(std::numeric_limits<double>::quiet_NaN()));
+    values.push_back(static_cast<double>(statistics_->blocks()));
+  }
+  return values;
 }
 
 std::string EnsembleOperator::status() const {
@@ -68,8 +80,10 @@ std::string EnsembleOperator::status() const {
 }
 
 std::vector<std::string> EnsembleOperator::closingLines() const {
-  return {fmt::format("peak soot volume fraction {:.4g} ppm at ({:.3f}, {:.3f}) mm", 1e6 * peak_, 1e3 * place_[0],
-                      1e3 * place_[1])};
+  std::vector<std::string> lines{fmt::format("peak soot volume fraction {:.4g} ppm at ({:.3f}, {:.3f}) mm", 1e6 * peak_,
+                                             1e3 * place_[0], 1e3 * place_[1])};
+  if (statistics_) std::ranges::copy(statistics_->closingLines(), std::back_inserter(lines));
+  return lines;
 }
 
 void EnsembleOperator::fields(const State& state, const FieldSink& sink) const {
@@ -92,6 +106,17 @@ void EnsembleOperator::fields(const State& state, const FieldSink& sink) const {
                     ? 0.0
                     : static_cast<double>((populations_[c].size() - packedHead) / packedParticle);
   sink({"numerical_particles", "1", "numerical particles of the cell's ensemble"}, column);
+  if (const std::string name = "soot_geometric_standard_deviation"; sink.wants(name)) {
+    for (std::size_t c = 0; c < owned; ++c) column[c] = geometricDeviation(type_, populations_[c]);
+    sink({name, "1", "of the mobility diameter, by number; 1 where there are no particles"}, column);
+  }
+  if (const std::string name = "soot_size_distribution"; options_.sizes && sink.wants(name)) {
+    std::vector<double> sizes(owned * options_.bins.count, 0.0);
+    for (std::size_t c = 0; c < owned; ++c)
+      addSizes(type_, options_.bins, populations_[c], {&sizes[c * options_.bins.count], options_.bins.count});
+    sink({name, "1/m^3", "dN/dlog10(d) by mobility diameter, in the bins of /soot_sizes/bin_edges"}, sizes);
+  }
+  if (statistics_) statistics_->fields(sink);
 }
 
 }  // namespace lampblack::coupling

@@ -2,11 +2,13 @@
 // together and writes what they tell, without knowing which they are.
 #pragma once
 
+#include <concepts>
 #include <functional>
 #include <limits>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/quantity.hpp"
@@ -29,8 +31,19 @@ class Operator {
   struct Imbalance {
     double before = 1.0, after = 1.0;
   };
-  // Takes one field: a value for each owned cell.
-  using FieldSink = std::function<void(const Quantity&, std::span<const double>)>;
+  // Takes one field: a value for each owned cell, or as many for each as it has components.
+  struct FieldSink {
+    template <typename Take>
+    requires std::invocable<Take, const Quantity&, std::span<const double>> FieldSink(Take taker)
+        : take(std::move(taker)) {}
+    void operator()(const Quantity& field, std::span<const double> values) const { take(field, values); }
+
+    std::function<void(const Quantity&, std::span<const double>)> take;
+    // Whether a field counts: what costs is not worked out for nobody.
+    std::function<bool(const std::string& name)> wants = [](const std::string&) { return true; };
+    // Whether fields are wanted too that are not known yet, as NaN: a table has its columns from the start.
+    bool future = false;
+  };
 
   virtual ~Operator() = default;
   [[nodiscard]] virtual const char* name() const = 0;

@@ -16,6 +16,7 @@
 #include "app/flow/initial_flow.hpp"
 #include "app/tools/gas_input.hpp"
 #include "core/errors.hpp"
+#include "coupling/block_statistics.hpp"
 #include "coupling/carried_particles.hpp"
 #include "coupling/ensemble_species.hpp"
 #include "flow/carried_operator.hpp"
@@ -157,13 +158,36 @@ void readGravity(const Deck& deck, FlowCase& flowCase) {
           Thermo(*flowCase.mechanism).density(boundary.temperature, flowCase.pressure, boundary.Y);
 }
 
+EnsembleStatistics::Options readStatistics(const Deck& deck, FlowCase& flowCase) {
+  constexpr double usualBlocks = 20.0;  // in the whole run
+  const std::string section = "stochastic.statistics";
+  const double end = deck.quantity("time.end");
+  EnsembleStatistics::Options options;
+  options.start = deck.optionalQuantity(section + ".start");
+  options.block = deck.optionalQuantity(section + ".block").value_or(end / usualBlocks);
+  options.drift = deck.number(section + ".drift");
+  if (options.start && *options.start >= end)
+    throw deck.error(section + ".start", fmt::format("expected less than 'time.end', {} s", end));
+  // Of averages that start by themselves those blocks come first that show it.
+  const double begin = options.start.value_or(static_cast<double>(leastToBeStationary) * options.block);
+  if (begin + static_cast<double>(leastBlocks) * options.block > end * (1.0 + 1e-12))
+    flowCase.notes.push_back(fmt::format(
+        "averages of the soot cannot start before {:.4g} s: until time.end there are no {} blocks of {:.4g} "
+        "s, which intervals of confidence take",
+        begin, leastBlocks, options.block));
+  return options;
+}
+
 void readEnsembles(const Deck& deck, FlowCase& flowCase) {
   if (!deck.has("soot")) throw deck.error("stochastic", "ensembles need the section 'soot': PAH, surface, switches");
   if (deck.isGiven("soot.model") && deck.choice("soot.model") != "none")
     throw deck.error("soot.model",
                      "ensembles in the cells take the place of a model: leave this out, or the section 'stochastic'");
   EnsembleOperator::Options options;
-  options.ensemble = readEnsemble(deck, readSootModelOptions(deck, *flowCase.mechanism, {})).soot;
+  const EnsembleRequest request = readEnsemble(deck, readSootModelOptions(deck, *flowCase.mechanism, {}));
+  options.ensemble = request.soot;
+  options.bins = {request.bins.logDiameterMin, request.bins.logDiameterMax, request.bins.bins};
+  options.sizes = deck.boolean("stochastic.size_distribution");
   try {
     (void)indicesOfSootSpecies(*flowCase.mechanism, options.ensemble.soot);
   } catch (const InputError& error) {
@@ -180,6 +204,7 @@ void readEnsembles(const Deck& deck, FlowCase& flowCase) {
   options.secondOrder = deck.choice("stochastic.order") == "second";
   options.shareWork = flowCase.chemistry.shareWork;
   options.sweeps = deck.integer<int>("time.sweeps");
+  if (deck.has("stochastic.statistics")) options.statistics = readStatistics(deck, flowCase);
   flowCase.ensembles = options;
 }
 

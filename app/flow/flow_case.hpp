@@ -47,8 +47,13 @@ struct OutputTables {
     Vector3 from{}, to{};  // m
     int points = 2;
   };
+  struct Region {
+    std::string name;
+    Vector3 from{}, to{};  // m
+  };
   std::vector<Probe> probes;
   std::vector<Line> lines;
+  std::vector<Region> regions;          // of ensembles
   std::vector<std::string> quantities;  // fields of both; empty: the usual ones
   std::vector<std::size_t> boundaries;  // numbers in FlowCase::boundaries
   std::optional<Deck> deck;             // whose lines messages point at

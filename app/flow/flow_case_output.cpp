@@ -139,6 +139,16 @@ void readOutput(const Deck& deck, FlowCase& flowCase) {
     if (line.from == line.to) throw deck.error(section, "expected two ends that differ");
     tables.lines.push_back(line);
   }
+  for (const std::string& name : deck.children("stochastic.regions")) {
+    const std::string section = "stochastic.regions." + name;
+    requireFileName(deck, section, name);
+    const OutputTables::Region region{name, readPlace(deck, section + ".from", flowCase),
+                                      readPlace(deck, section + ".to", flowCase)};
+    for (std::size_t axis = 0; axis < axisNames(flowCase).size(); ++axis)
+      if (!(region.from[axis] < region.to[axis]))
+        throw deck.error(section + ".to", fmt::format("expected more than 'from' along {}", axisNames(flowCase)[axis]));
+    tables.regions.push_back(region);
+  }
 }
 
 }  // namespace lampblack::app::flowcase

@@ -67,6 +67,11 @@ void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
       FlowCheckpoints(comm_, case_.checkpoint, flowFingerprint(case_, domain_->state.scalars), folder.path())};
   auto& [_, results, history, progress, checkpoints] = outputs;
   tables_->open(folder);
+  if (case_.ensembles) {
+    const std::vector<double> edges = case_.ensembles->bins.edges();
+    results.dataset("/soot_sizes/bin_edges", {static_cast<std::int64_t>(edges.size())}, edges, "m",
+                    "mobility diameters between the bins of the size distributions");
+  }
   if (restart_) {
     restore(results, history);
     checkpoints.startedFrom(*restart_, steps_);

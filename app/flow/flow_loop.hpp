@@ -111,7 +111,9 @@ class FlowLoop {
   HistoryRow observe();
   // What the state is now, as a row of the history and of the tables that go with it.
   HistoryRow writeRow(HistoryWriter& history);
-  [[nodiscard]] FlowTables::Source tableSource() { return {domain_->state, domain_->flow, operators_}; }
+  [[nodiscard]] FlowTables::Source tableSource() {
+    return {domain_->state, domain_->flow, operators_, domain_->ensembles.get()};
+  }
 
   [[nodiscard]] std::string status(const HistoryRow& row) const;
 

@@ -61,8 +61,8 @@ MeshOutput meshOutput(const Mesh& mesh) {
 }
 
 void flowFields(const FlowContext& context, const FlowCase& flowCase, const State& state,
-                const std::vector<Operator*>& operators, const std::set<std::string>* wanted,
-                const FlowFieldSink& sink) {
+                const std::vector<Operator*>& operators, const std::set<std::string>* wanted, const FlowFieldSink& sink,
+                bool future) {
   const auto owned = static_cast<std::size_t>(context.mesh.owned);
   const auto n = static_cast<std::size_t>(state.species);
   const auto part = [owned](const std::vector<double>& field, std::size_t components) {
@@ -97,9 +97,13 @@ void flowFields(const FlowContext& context, const FlowCase& flowCase, const Stat
       column[c] = state.Y[c * n + k] * weight[c] / context.mechanism.molecularWeights()[k];
     sink({name, "1", "mole fraction of " + species}, 1, column);
   }
+  Operator::FieldSink fromOperator = [&](const Quantity& field, std::span<const double> values) {
+    give(field, static_cast<int>(values.size() / owned), values);
+  };
+  if (wanted) fromOperator.wants = [&](const std::string& name) { return wanted->contains(name); };
+  fromOperator.future = future;
   for (const Operator* op : operators)
-    if (left > 0)
-      op->fields(state, [&](const Quantity& field, std::span<const double> values) { give(field, 1, values); });
+    if (left > 0) op->fields(state, fromOperator);
 }
 
 void writeFields(ResultsWriter& results, const FlowContext& context, const FlowCase& flowCase, const State& state,

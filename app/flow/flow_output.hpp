@@ -21,11 +21,11 @@ namespace lampblack::app {
 MeshOutput meshOutput(const Mesh& mesh);
 
 // All fields of an output, the gas's and then those of the operators: takes the values of the owned cells, `components`
-// a cell. `wanted`: names of fields that count, null for all.
+// a cell. `wanted`: names of fields that count, null for all. `future`: Operator::FieldSink.
 using FlowFieldSink = std::function<void(const Quantity& field, int components, std::span<const double> values)>;
 void flowFields(const FlowContext& context, const FlowCase& flowCase, const State& state,
-                const std::vector<Operator*>& operators, const std::set<std::string>* wanted,
-                const FlowFieldSink& sink);
+                const std::vector<Operator*>& operators, const std::set<std::string>* wanted, const FlowFieldSink& sink,
+                bool future = false);
 
 // Writes one step: the gas, then what the operators have.
 void writeFields(ResultsWriter& results, const FlowContext& context, const FlowCase& flowCase, const State& state,

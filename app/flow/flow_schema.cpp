@@ -299,7 +299,41 @@ void addParticles(DeckSchema& schema) {
       .add(choiceKey("stochastic.order", {"first", "second"},
                      "Order of the particles' transport in place and time. first: more diffusion by the cells' size, "
                      "fewer operations.")
-               .byDefault("second"));
+               .byDefault("second"))
+      .add(booleanKey("stochastic.size_distribution",
+                      "Whether the size distribution of each cell is a field of the results, and with "
+                      "stochastic.statistics its mean over time: as many numbers a cell as stochastic.bins, which is "
+                      "about what mole fractions of all species take.")
+               .byDefault("true"))
+      .section("stochastic.statistics", Presence::optional,
+               "Averages of the soot over time, for flames that have become steady but for the noise of their "
+               "ensembles: of each cell means, and intervals of confidence from means over blocks of time. Absent: "
+               "none.")
+      .add(quantityKey("stochastic.statistics.start", units::time,
+                       "When the averages start. Absent: by themselves, when the soot in the whole domain and its "
+                       "number have no trend over the last ten blocks or more.")
+               .optional()
+               .atLeast(0))
+      .add(quantityKey("stochastic.statistics.block", units::time,
+                       "Length of a block of time, which should be long against what the soot takes to forget; the "
+                       "report says where it is not. Five blocks make an interval. Absent: a twentieth of time.end. "
+                       "A run that goes on from a checkpoint keeps the length it has begun with.")
+               .optional()
+               .above(0))
+      .add(numberKey("stochastic.statistics.drift",
+                     "Relative change of the soot over the blocks that are looked at which counts as no trend, "
+                     "however clear it is; for averages that start by themselves.")
+               .byDefault("0.01")
+               .atLeast(0)
+               .below(1))
+      .section("stochastic.regions.*", Presence::optional,
+               "A box of which the size distribution and, of aggregates, the joint distribution of the primary "
+               "particles' diameter and number are written with each field output, to the tables "
+               "tables/sizes_<name>.csv and tables/joint_<name>.csv: mean of the cells with their centre in it.")
+      .add(quantityKey("stochastic.regions.*.from", units::length,
+                       "Smallest coordinates of the box, '[0 mm, 3 mm]', in space three.")
+               .list())
+      .add(quantityKey("stochastic.regions.*.to", units::length, "Largest coordinates of the box.").list());
   schema
       .section("trajectories", Presence::optional,
                "Stochastic ensembles that ride along streamlines of the final flow; needs the soot section.")

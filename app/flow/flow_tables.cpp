@@ -29,9 +29,26 @@ bool isUsual(const std::string& field) {
   return usual.contains(field) || field.starts_with("X_");
 }
 
-// "boundary" to "/boundaries".
-std::string groupOf(const std::string& kind) {
-  return kind == "boundary" ? "/boundaries" : "/" + kind + "s";
+// Of the results.
+std::string groupOf(const std::string& kind, const std::string& name) {
+  if (kind == "sizes" || kind == "joint") return "/regions/" + name + "/" + kind;
+  return (kind == "boundary" ? "/boundaries/" : "/" + kind + "s/") + name;
+}
+
+std::vector<Quantity> joined(std::vector<Quantity> first, const std::vector<Quantity>& more) {
+  first.insert(first.end(), more.begin(), more.end());
+  return first;
+}
+
+// The moment in front of each row.
+std::vector<double> withMoment(const FlowTables::Moment& moment, std::span<const double> rows, std::size_t width) {
+  std::vector<double> all;
+  for (std::size_t row = 0; row < rows.size(); row += width) {
+    all.insert(all.end(), {static_cast<double>(moment.step), moment.time});
+    all.insert(all.end(), rows.begin() + static_cast<std::ptrdiff_t>(row),
+               rows.begin() + static_cast<std::ptrdiff_t>(row + width));
+  }
+  return all;
 }
 
 }  // namespace
@@ -68,6 +85,23 @@ FlowTables::FlowTables(const FlowContext& context, const FlowCase& flowCase, con
     requireInside(
         lines_.back(), [&](int) { return "output.lines." + line.name; }, "a point of the line");
   }
+  makeRegions();
+  for (std::size_t r = 0; r < regions_.size(); ++r) {
+    const std::string& name = tables.regions[r].name;
+    if (regions_[r].isEmpty())
+      raiseTogether(context.mesh.comm, tables.deck->error("stochastic.regions." + name,
+                                                          "no cell of the mesh has its centre in this region"));
+    tables_.push_back({"sizes", name, joined(momentColumns, EnsembleRegion::sizeColumns())});
+    // Of spheres one follows from the other.
+    if (!flowCase.ensembles->ensemble.coalescing)
+      tables_.push_back({"joint", name, joined(momentColumns, EnsembleRegion::jointColumns())});
+  }
+}
+
+void FlowTables::makeRegions() {
+  regions_.clear();
+  for (const OutputTables::Region& region : case_.output.tables.regions)
+    regions_.emplace_back(context_->mesh, region.from, region.to);
 }
 
 void FlowTables::moveTo(const FlowContext& context) {
@@ -76,6 +110,7 @@ void FlowTables::moveTo(const FlowContext& context) {
   std::vector<FieldSampler> lines;
   for (const FieldSampler& line : lines_) lines.emplace_back(context, line.places());
   lines_.swap(lines);
+  makeRegions();
 }
 
 void FlowTables::requireInside(const FieldSampler& sampler, const std::function<std::string(int)>& keyOf,
@@ -95,16 +130,21 @@ void FlowTables::chooseQuantities(const Source& source) {
   const std::vector<std::string>& asked = case_.output.tables.quantities;
   std::vector<std::string> there;
   std::vector<Wanted> found;
-  flowFields(*context_, case_, source.state, source.operators, nullptr,
-             [&](const Quantity& field, int components, std::span<const double>) {
-               there.push_back(field.name);
-               if (asked.empty() ? !isUsual(field.name) : std::ranges::find(asked, field.name) == asked.end()) return;
-               for (int i = 0; i < components; ++i) {
-                 Quantity column = field;
-                 if (components > 1) column.name += "_" + axes[static_cast<std::size_t>(i)];
-                 found.push_back({column, field.name, i});
-               }
-             });
+  flowFields(
+      *context_, case_, source.state, source.operators, nullptr,
+      [&](const Quantity& field, int components, std::span<const double>) {
+        there.push_back(field.name);
+        if (asked.empty() ? !isUsual(field.name) : std::ranges::find(asked, field.name) == asked.end()) return;
+        for (int i = 0; i < components; ++i) {
+          Quantity column = field;
+          if (field.name == "velocity")
+            column.name += "_" + axes[static_cast<std::size_t>(i)];
+          else if (components > 1)
+            column.name += fmt::format("_{:02}", i + 1);
+          found.push_back({column, field.name, i});
+        }
+      },
+      true);
   for (const std::string& name : asked)
     if (std::ranges::find(there, name) == there.end())
       raiseTogether(context_->mesh.comm,
@@ -156,13 +196,14 @@ std::vector<FieldSampler::Field> FlowTables::fieldsOf(const Source& source) cons
       std::ranges::fill(field.known, BoundaryData::Nothing);
     }
   }
-  flowFields(*context_, case_, source.state, source.operators, &names,
-             [&](const Quantity& quantity, int components, std::span<const double> values) {
-               for (std::size_t f = 0; f < wanted_.size(); ++f)
-                 if (wanted_[f].field == quantity.name)
-                   for (int c = 0; c < m.owned; ++c)
-                     fields[f].values[c] = values[c * components + wanted_[f].component];
-             });
+  flowFields(
+      *context_, case_, source.state, source.operators, &names,
+      [&](const Quantity& quantity, int components, std::span<const double> values) {
+        for (std::size_t f = 0; f < wanted_.size(); ++f)
+          if (wanted_[f].field == quantity.name)
+            for (int c = 0; c < m.owned; ++c) fields[f].values[c] = values[c * components + wanted_[f].component];
+      },
+      true);
   return fields;
 }
 
@@ -205,9 +246,9 @@ void FlowTables::historyRow(const Moment& moment, const Source& source) {
 }
 
 void FlowTables::outputRows(const Moment& moment, const Source& source) {
-  if (lines_.empty()) return;
-  std::vector<FieldSampler::Field> fields = fieldsOf(source);
-  std::size_t table = tables_.size() - lines_.size();
+  std::size_t table = (probes_ ? probes_->places().size() : 0) + case_.output.tables.boundaries.size();
+  std::vector<FieldSampler::Field> fields;
+  if (!lines_.empty()) fields = fieldsOf(source);
   for (const FieldSampler& line : lines_) {
     const std::vector<double> samples = line.sample(fields);
     std::vector<double> rows;
@@ -221,11 +262,20 @@ void FlowTables::outputRows(const Moment& moment, const Source& source) {
     }
     writers_[table++].row(rows);
   }
+  if (!source.ensembles) return;
+  const EnsembleOperator& of = *source.ensembles;
+  for (const EnsembleRegion& region : regions_) {
+    writers_[table++].row(withMoment(moment, region.sizeRows(of.particleType(), of.options().bins, of.populations()),
+                                     EnsembleRegion::sizeColumns().size()));
+    if (of.particleType().coalescing()) continue;
+    writers_[table++].row(withMoment(moment, region.jointRows(of.particleType(), of.options().bins, of.populations()),
+                                     EnsembleRegion::jointColumns().size()));
+  }
 }
 
 void FlowTables::writeTo(ResultsWriter& results) const {
   for (std::size_t t = 0; t < writers_.size(); ++t)
-    writers_[t].writeTo(results, groupOf(tables_[t].kind) + "/" + tables_[t].name);
+    writers_[t].writeTo(results, groupOf(tables_[t].kind, tables_[t].name));
 }
 
 void FlowTables::save(CheckpointWriter& archive) const {

@@ -1,5 +1,6 @@
-// Tables of a flow: fields at probes and boundaries' sums, a row each row of the history; fields along lines, at each
-// output. A CSV file each in the folder `tables` of the run, and a group each of the results (docs/formats.md).
+// Tables of a flow: fields at probes and boundaries' sums, a row each row of the history; fields along lines, and sizes
+// of the particles in regions, at each output. A CSV file each in the folder `tables` of the run, and a group each of
+// the results (docs/formats.md).
 #pragma once
 
 #include <cstdint>
@@ -11,6 +12,8 @@
 
 #include "app/flow/flow_case.hpp"
 #include "core/rooms.hpp"
+#include "coupling/ensemble_operator.hpp"
+#include "coupling/ensemble_sizes.hpp"
 #include "flow/field_sampler.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/operator.hpp"
@@ -29,6 +32,7 @@ class FlowTables {
     const State& state;
     TransportOperator& transport;
     const std::vector<Operator*>& operators;
+    const EnsembleOperator* ensembles = nullptr;
   };
   struct Moment {
     std::int64_t step = 0;
@@ -44,7 +48,7 @@ class FlowTables {
   void open(const RunFolder& folder);
   // Of probes and boundaries, with a row of the history.
   void historyRow(const Moment& moment, const Source& source);
-  // Of lines, with an output.
+  // Of lines and regions, with an output.
   void outputRows(const Moment& moment, const Source& source);
   void writeTo(ResultsWriter& results) const;
 
@@ -54,7 +58,7 @@ class FlowTables {
 
  private:
   struct Table {
-    std::string kind, name;  // "probe", "wake"
+    std::string kind, name;  // "probe", "wake"; of regions "sizes" or "joint"
     std::vector<Quantity> columns;
     [[nodiscard]] std::string id() const { return kind + "_" + name; }
     [[nodiscard]] std::string header() const;  // what tells it from others
@@ -67,6 +71,7 @@ class FlowTables {
   };
 
   void chooseQuantities(const Source& source);
+  void makeRegions();
   void requireInside(const FieldSampler& sampler, const std::function<std::string(int)>& keyOf,
                      const std::string& what) const;
   [[nodiscard]] std::vector<FieldSampler::Field> fieldsOf(const Source& source) const;
@@ -78,7 +83,8 @@ class FlowTables {
   std::vector<Wanted> wanted_;
   std::unique_ptr<FieldSampler> probes_;  // a place a probe; null without any
   std::vector<FieldSampler> lines_;
-  std::vector<Table> tables_;  // probes, boundaries, lines
+  std::vector<EnsembleRegion> regions_;
+  std::vector<Table> tables_;  // probes, boundaries, lines, regions
   std::vector<HistoryWriter> writers_;
   std::map<std::string, std::vector<double>> loaded_;  // rows by header
 };
