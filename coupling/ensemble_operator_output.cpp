@@ -39,17 +39,15 @@ std::optional<Operator::Imbalance> EnsembleOperator::imbalance() const {
 }
 
 std::vector<Quantity> EnsembleOperator::historyColumns() const {
-  std::vector<Quantity> columns{{"peak_soot_volume_fraction", "1", "largest volume fraction of soot"},
-                                {"ensembles", "1", "cells with particles"},
-                                {"numerical_particles", "1", "numerical particles in all cells"},
-                                {"soot_resampled", unitOfWhole(context_.mesh, "kg"),
-                                 "soot that came and went with numerical particles since the start, zero in the mean"},
-                                {"transport_parts", "1", "parts that the particles' transport was divided into"}};
-  if (statistics_) {
-    columns.push_back({"soot_averages_since", "s", "when averages of the soot over time started; nan before"});
-    columns.push_back({"soot_averaged_blocks", "1", "blocks of time in the averages of the soot"});
-  }
-  return columns;
+  return {{"peak_soot_volume_fraction", "1", "largest volume fraction of soot"},
+          {"ensembles", "1", "cells with particles"},
+          {"numerical_particles", "1", "numerical particles in all cells"},
+          {"soot_resampled", unitOfWhole(context_.mesh, "kg"),
+           "soot that came and went with numerical particles since the start, zero in the mean"},
+          {"transport_parts", "1", "parts that the particles' transport was divided into"},
+          // With and without averages, so that a run may go on with them.
+          {"soot_averages_since", "s", "when averages of the soot over time started; nan before"},
+          {"soot_averaged_blocks", "1", "blocks of time in the averages of the soot"}};
 }
 
 std::vector<double> EnsembleOperator::historyValues(const State& state) {
@@ -67,12 +65,14 @@ std::vector<double> EnsembleOperator::historyValues(const State& state) {
     sums[1] += static_cast<double>((population.size() - packedHead) / packedParticle);
   }
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, m.comm);
-  std::vector<double> values{peak_, sums[0], sums[1], sums[2], static_cast<double>(transport_.parts())};
-  if (statistics_) {
-    values.push_back(statistics_->since().value_or(std::numeric_limits<double>::quiet_NaN()));
-    values.push_back(static_cast<double>(statistics_->blocks()));
-  }
-  return values;
+  const std::optional<double> since = statistics_ ? statistics_->since() : std::nullopt;
+  return {peak_,
+          sums[0],
+          sums[1],
+          sums[2],
+          static_cast<double>(transport_.parts()),
+          since.value_or(std::numeric_limits<double>::quiet_NaN()),
+          statistics_ ? static_cast<double>(statistics_->blocks()) : 0.0};
 }
 
 std::string EnsembleOperator::status() const {
