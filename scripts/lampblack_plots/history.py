@@ -14,7 +14,7 @@ def _is_error(name):
 
 
 def _is_shown(name):
-    return name not in ("time", "step", "steps") and not name.endswith(("_content", "_inflow", "_outflow"))
+    return name not in ("time", "step", "steps", "soot_averages_since") and not name.endswith(("_content", "_inflow", "_outflow"))
 
 
 def plot_history(results, pictures):

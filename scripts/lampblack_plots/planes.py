@@ -34,7 +34,7 @@ def _cells(axes, results, shapes, values, colours, side):
     return drawn
 
 
-def _draw(axes, results, shapes, values, colours, limits):
+def draw(axes, results, shapes, values, colours, limits):
     """The cells and, where there is an axis, their mirror images."""
     drawn = None
     for side in (1.0, -1.0) if results.touches_axis() else (1.0,):
@@ -118,7 +118,7 @@ def plot_planes(results, pictures):
         figure, axes = plt.subplots(figsize=_figure_size(results))
         low = 0.0 if is_fraction or velocity is not None else float(values.min())
         high = float(values.max())
-        drawn = _draw(axes, results, shapes, values, colours, (low, high if high > low else low + 1.0))
+        drawn = draw(axes, results, shapes, values, colours, (low, high if high > low else low + 1.0))
         if velocity is not None and results.centres.shape[0] > 3:
             _streamlines(axes, results, shapes, velocity)
         figure.colorbar(drawn, ax=axes, label=f"{title}, {unit}" if unit not in ("", "1") else title)

@@ -4,6 +4,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend has to be chosen first)
+from matplotlib.animation import FuncAnimation, PillowWriter  # noqa: E402
 
 plt.rcParams.update(
     {
@@ -33,6 +34,17 @@ class Pictures:
         path = self.folder / f"{name}.png"
         temporary = self.folder / f".{name}.png"
         figure.savefig(temporary, format="png")
+        temporary.replace(path)
+        plt.close(figure)
+        self.made.append(path)
+
+    def film(self, figure, name, frame, count, per_second=4):
+        """An animated GIF; frame(i) draws into the figure. Its writer needs Pillow, without which there is no matplotlib."""
+        self.folder.mkdir(parents=True, exist_ok=True)
+        path = self.folder / f"{name}.gif"
+        temporary = self.folder / f".{name}.gif"
+        film = FuncAnimation(figure, frame, frames=count, init_func=lambda: None)
+        film.save(temporary, writer=PillowWriter(fps=per_second), dpi=90)
         temporary.replace(path)
         plt.close(figure)
         self.made.append(path)
