@@ -30,8 +30,9 @@ struct BlockMean {
 
 // Whether the last blocks, half of all and leastToBeStationary at least, have no trend: neither they nor their later
 // half (that which has a peak in its middle has no slope). There is a trend where a line by least squares has a slope,
-// or Kendall's tau says so (a line sees little of a growth by powers), at 95 %; but for one by which the mean changes
-// by less than the share `drift` from the first to the last. Means that are zero are of something that has not begun.
+// or the pairs that grow say so (Kendall 1938) (a line sees little of a growth by powers), at 95 %; but for one by
+// which the mean changes by less than the share `drift` from the first to the last. Means that are zero are of
+// something that has not begun.
 [[nodiscard]] bool isStationary(std::span<const double> blocks, double drift);
 
 // Correlation of each block with the next, from minus one to one; zero of fewer than three.

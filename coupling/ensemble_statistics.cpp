@@ -92,7 +92,7 @@ void EnsembleStatistics::closeBlock(double time) {
   blockTime_ = 0.0;
 }
 
-// Welford's recurrence.
+// The recurrence of Welford (1962).
 void EnsembleStatistics::addBlock() {
   const auto n = static_cast<double>(++blocks_);
   const auto owned = static_cast<std::size_t>(mesh_.owned);

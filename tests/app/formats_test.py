@@ -116,6 +116,14 @@ def main(executable: str, *mpiexec: str) -> int:
             "radiation.model=optically_thin", "boundaries.fuel.swirl_velocity=1 m/s", "time.sweeps=2", "time.tolerance=0.1",
             "output.probes={p: {at: [1 mm, 5 mm]}}", "output.lines={l: {from: [0 mm, 1 mm], to: [0 mm, 7 mm], points: 3}}",
             "output.boundaries=[fuel]", "output.wall_distance=true"))}
+        ensembles = folder / "flame/ensembles.yaml"
+        text = runs["flow"][0].read_text(encoding="utf-8")
+        ensembles.write_text(text[:text.index("trajectories:")], encoding="utf-8")
+        # All blocks of an instant: five are soon over.
+        runs["flow_ensembles"] = (ensembles, *running.settings(
+            "time.end=30 us", "time.maximum_step=2 us", "output.species=[A2]", "stochastic={particles: 50, shape: aggregates, bins: 5, least_number: 1e8 1/m^3}",
+            "stochastic.statistics={start: 10 us, block: 2 us}",
+            "stochastic.regions.all={from: [0 mm, 0 mm], to: [14 mm, 8 mm]}"))
         for text, run in ((COUNTERFLOW, "counterflow"), (SOOT, "soot"), (POPULATION, "population")):
             (folder / f"{run}.yaml").write_text(text, encoding="utf-8")
             runs[run] = (folder / f"{run}.yaml",)
