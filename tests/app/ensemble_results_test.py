@@ -6,12 +6,15 @@ Usage: ensemble_results_test.py EXECUTABLE MPIEXEC...
 """
 
 import pathlib
+import subprocess
 import sys
 import tempfile
 
 import running
 
 h5py, np = running.package("h5py"), running.package("numpy")
+running.package("matplotlib")
+image = running.package("PIL.Image")
 
 MIDDLE = 30  # of some 60 steps; within a block
 SETTINGS = ("time.end=120 us", "time.maximum_step=2 us", "output.interval=40 us", "output.species=[A2]",
@@ -65,26 +68,30 @@ def check_averages(data):
     return steps, last
 
 
+def region_weights(data):
+    """Shares of the cells in the volume of the region `flame`."""
+    volume, centre = data["mesh/cellVolume"], data["mesh/cellCentre"]
+    inside = (centre[:, 0] <= 6e-3) & (centre[:, 1] >= 2e-3) & (centre[:, 1] <= 6e-3)
+    return np.where(inside, volume, 0.0) / volume[inside].sum()
+
+
 def check_sizes(data, steps, last):
     """Sums of bins; regions against their cells."""
     edges = data["soot_sizes/bin_edges"]
     assert edges.shape == (13,) and abs(edges[0] / 0.5e-9 - 1) < 1e-12 and abs(edges[-1] / 500e-9 - 1) < 1e-12
     width = np.log10(edges[1] / edges[0])
-    sizes, volume, centre = last["soot_size_distribution"], data["mesh/cellVolume"], data["mesh/cellCentre"]
-    number = last["soot_number"]
+    sizes, number, weights = last["soot_size_distribution"], last["soot_number"], region_weights(data)
     assert np.allclose(sizes.sum(axis=1) * width, number, rtol=1e-12, atol=0)
     assert np.allclose(last["soot_size_distribution_mean"].sum(axis=1) * width, last["soot_number_density_mean"],
                        rtol=0.2, atol=0.2 * number.max()), "of about the same time"
-    inside = (centre[:, 0] <= 6e-3) & (centre[:, 1] >= 2e-3) & (centre[:, 1] <= 6e-3)
-    weights = volume[inside] / volume[inside].sum()
     table = {name.split("/")[-1]: values for name, values in data.items() if name.startswith("regions/flame/sizes/")}
     assert table["size_distribution"].size == len(steps) * 12
-    assert np.allclose(table["size_distribution"][-12:], weights @ sizes[inside], rtol=1e-12, atol=0)
+    assert np.allclose(table["size_distribution"][-12:], weights @ sizes, rtol=1e-12, atol=0)
     joint = {name.split("/")[-1]: values for name, values in data.items() if name.startswith("regions/flame/joint/")}
     now = joint["step"] == float(int(steps[-1]))
     mass = last["soot_carbon"] + last["soot_hydrogen"]
     for column, field in (("number_density", number), ("mass_density", mass), ("surface_area", last["soot_surface"])):
-        assert abs(joint[column][now].sum() / (weights @ field[inside]) - 1) < 1e-12, column
+        assert abs(joint[column][now].sum() / (weights @ field) - 1) < 1e-12, column
     assert data["regions/cold/joint/step"].size == 0, "no particles in the cold"
     assert data["regions/cold/sizes/size_distribution"].max() == 0
 
@@ -123,7 +130,23 @@ def check_without_sizes(program, folder, deck):
     run(program, deck, *running.settings(*settings), "--out", folder / "spheres")
     data = datasets(folder / "spheres")
     assert not any("size_distribution" in name for name in data if name.startswith("steps/"))
-    assert "regions/flame/sizes/diameter_low" in data and not any("joint" in name for name in data)
+    assert not any("joint" in name for name in data)
+    # The table of each region has its rows.
+    last = max(name for name in data if name.startswith("steps/")).split("/")[1]
+    weights = region_weights(data)
+    for name, number in (("flame", weights @ data[f"steps/{last}/soot_number"]), ("cold", 0.0)):
+        table = data[f"regions/{name}/sizes/size_distribution"].reshape(4, 12)
+        width = np.log10(data["soot_sizes/bin_edges"][1] / data["soot_sizes/bin_edges"][0])
+        assert abs(table[-1].sum() * width - number) <= 1e-12 * number, name
+
+
+def check_pictures(whole):
+    drawn = subprocess.run([running.SOURCE / "scripts/plot", whole], capture_output=True, text=True, check=False)
+    assert drawn.returncode == 0, drawn.stderr
+    for name in ("soot_averages.png", "sizes_region_flame.png", "sizes_line_axis.png", "sizes_centreline.png", "sizes_plane.png"):
+        assert (whole / "pictures" / name).read_bytes()[1:4] == b"PNG", (name, drawn.stdout)
+    film = image.open(whole / "pictures/sizes.gif")
+    assert film.n_frames == 3, "a frame for each output with particles"
 
 
 def check_wrong(program, deck, folder):
@@ -150,6 +173,7 @@ def main(executable: str, *mpiexec: str) -> int:
         assert "averages of the soot since t = 4" in result.out, result.out
         data = datasets(whole)
         check_sizes(data, *check_averages(data))
+        check_pictures(whole)
         check_restart(program, list(mpiexec), executable, folder, deck, whole)
         check_without_sizes(program, folder, deck)
     return 0

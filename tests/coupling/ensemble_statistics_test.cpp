@@ -169,10 +169,31 @@ TEST(EnsembleStatistics, StartByThemselvesWhenNothingGrows) {
   EXPECT_LT(*statistics.since(), 40e-3);
   EXPECT_NEAR(static_cast<double>(statistics.blocks()), (clock.time - *statistics.since()) / 1e-3, 1.5);
   EXPECT_NE(statistics.closingLines()[0].find("found stationary"), std::string::npos);
+  EXPECT_EQ(statistics.closingLines().size(), 2U) << "blocks of the growth, which are correlated, do not count";
   // The cells know nothing of the growth.
   const Fields fields = fieldsOf(statistics);
   for (int c = 0; c < mesh.owned; ++c)
     EXPECT_NEAR(fields.at("soot_number_density_mean")[static_cast<std::size_t>(c)], 1e15, 0.03e15);
+}
+
+TEST(EnsembleStatistics, WaitForVolumeAndNumber) {
+  const Mesh mesh(MPI_COMM_WORLD, test::plainBox(4, 3));
+  for (const bool numberGrows : {false, true}) {
+    Statistics statistics(mesh, {{}, 1e-3}, {});
+    Noise noise(1, 0.0);
+    double growing = 0.0, steady = 0.0;
+    const Statistics::Source source{
+        [&](int) {
+          return Statistics::CellAmounts{numberGrows ? growing : steady, numberGrows ? steady : growing, 1.0, 1.0, 1.0};
+        },
+        {}};
+    for (int block = 1; block <= 30; ++block) {
+      growing = block;
+      steady = 10.0 + noise.next();
+      statistics.addStep(1e-3 * block, 1e-3, source);
+    }
+    EXPECT_FALSE(statistics.since()) << numberGrows;
+  }
 }
 
 TEST(EnsembleStatistics, WarnsOfShortBlocks) {
