@@ -66,7 +66,7 @@ TEST(BlockStatistics, FindsNoiseStationaryAndGrowthNot) {
                 10, 0.0, [](double i, double noise) { return 30.0 - i + noise; }, stationary),
             0.01);
   EXPECT_LT(share(
-                10, 0.0, [](double i, double noise) { return std::exp(i) * (1.0 + 0.01 * noise); }, stationary),
+                10, 0.0, [](double i, double noise) { return std::exp(2.0 * i) * (1.0 + 0.01 * noise); }, stationary),
             0.01)
       << "a growth by powers leaves a line a large scatter";
   const auto peak = [](double i, double noise) { return 100.0 - 2.0 * (i - 4.5) * (i - 4.5) + noise; };
