@@ -194,7 +194,7 @@ void readEnsembles(const Deck& deck, FlowCase& flowCase) {
     throw deck.error("stochastic", error.what());
   }
   options.ensemble.seed = flowCase.seed;
-  options.ensemble.startNumberDensity = deck.quantity("stochastic.least_number");
+  options.ensemble.leastNumberDensity = options.ensemble.startNumberDensity = deck.quantity("stochastic.least_number");
   options.ensemble.shareAtOnce = deck.number("stochastic.share_at_once");
   const bool isTwoWay = deck.choice("stochastic.exchange") == "two_way";
   options.exchange = isTwoWay ? EnsembleOperator::Exchange::TwoWay : EnsembleOperator::Exchange::OneWay;

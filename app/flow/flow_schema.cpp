@@ -288,14 +288,14 @@ void addParticles(DeckSchema& schema) {
                        "this over 'stochastic.particles', so that traces of soot do not fill ensembles.")
                .byDefault("1e12 1/m^3")
                .above(0))
-      .add(
-          numberKey("stochastic.share_at_once",
-                    "With sammc: the share of its volume that a particle may take up of small ones in one event, which "
-                    "saves most of the events where new particles are many. Number and mass are as without; the "
-                    "second moment grows too fast by at most half of this. Zero: one by one.")
-              .byDefault("0.05")
-              .atLeast(0)
-              .atMost(0.5))
+      .add(numberKey("stochastic.share_at_once",
+                     "Share of its volume that a particle may take up of small ones in one event, of method sammc: "
+                     "this saves most "
+                     "events where new particles are many. Number and mass are the same; the second moment grows too "
+                     "fast by at most half of the share. Zero: one by one.")
+               .byDefault("0.05")
+               .atLeast(0)
+               .atMost(0.5))
       .add(choiceKey("stochastic.order", {"first", "second"},
                      "Order of the particles' transport in place and time. first: more diffusion by the cells' size, "
                      "fewer operations.")

@@ -43,8 +43,10 @@ struct EnsembleOptions {
   // sammc: the share of its volume that a particle may take up of small ones at once; 0: one by one. Saves most of the
   // events where new particles are many; the growth of the second moment by them is too large by at most half of it.
   double shareAtOnce = 0;
-  // 1/m3, that fewer particles are not resolved: those born where there are as many stand for this over the capacity
-  // (dsmc: that at which a sample that is or becomes empty is full at least; more where more are born at once).
+  // 1/m3, that fewer particles are not resolved: with different weights, those born where there are as many or fewer
+  // stand for this over the capacity. Zero: the first trace of soot is.
+  double leastNumberDensity = 0;
+  // 1/m3: dsmc, at which a sample that is or becomes empty is full at least; more where more are born at once.
   double startNumberDensity = 1e6;
 };
 

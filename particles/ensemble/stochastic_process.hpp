@@ -231,7 +231,7 @@ void StochasticProcess<Method>::jump(const SootMedium& medium, double dt, double
       // A new particle for each numerical one as the number of real ones renews itself, and not too many a step.
       const double n = static_cast<double>(options_.particles);
       method_.setNucleus(nucleus,
-                         std::max({start.number, 20 * inception * stepLength, options_.startNumberDensity}) / n);
+                         std::max({start.number, 20 * inception * stepLength, options_.leastNumberDensity}) / n);
     } else {
       method_.setNucleus(nucleus);
       if (size() == 0 && inception > 0) {

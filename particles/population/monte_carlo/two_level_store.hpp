@@ -312,16 +312,38 @@ class TwoLevelStore {
     blocks_[quantity][at / block] += by;
     totals_[quantity] += by;
   }
+  // What an entry has: whether it is small, how many small ones it takes up at once, and what the sums are made of.
+  struct Bounds {
+    bool isSmall;
+    double bundle;
+    std::array<double, mostQuantities> values;
+  };
+  void boundsOf(std::size_t at, const CollisionKernel::Terms& terms, Bounds& out) const {
+    const Entry& entry = entries_[at];
+    const double weight = rates_.weight(entry), volume = rates_.volume(entry);
+    out.isSmall = smallVolume_ > 0 && volume <= smallVolume_ && weight >= heavyWeight_;
+    out.bundle =
+        smallVolume_ > 0
+            ? std::max(1.0, std::floor(std::min(shareAtOnce_ * volume / smallVolume_, 0.5 * heavyWeight_ / weight)))
+            : 1.0;
+    for (std::size_t r = 0; r < rank_; ++r) {
+      double* of = &out.values[groups * r];
+      const double p = terms.p[r], q = terms.q[r];
+      of[0] = p;
+      of[1] = q;
+      of[2] = p / out.bundle;
+      of[3] = q / out.bundle;
+      of[4] = out.isSmall ? 0.0 : weight * p;
+      of[5] = out.isSmall ? 0.0 : weight * q;
+      of[6] = out.isSmall ? weight * p : 0.0;
+      of[7] = out.isSmall ? weight * q : 0.0;
+    }
+    for (std::size_t process = 0; process < singleProcesses; ++process)
+      if (singleQuantity_[process] != unused)
+        out.values[singleQuantity_[process]] = singleBound(rates_, static_cast<SingleProcess>(process), entry);
+  }
   // `isSame`: nothing but the weight is another.
   void setBounds(std::size_t at, bool isSame) const {
-    const Entry& entry = entries_[at];
-    const double weight = rates_.weight(entry);
-    const bool isSmall = smallVolume_ > 0 && rates_.volume(entry) <= smallVolume_ && weight >= heavyWeight_;
-    const double bundle = smallVolume_ > 0
-                              ? std::max(1.0, std::floor(std::min(shareAtOnce_ * rates_.volume(entry) / smallVolume_,
-                                                                  0.5 * heavyWeight_ / weight)))
-                              : 1.0;
-    const bool isAsBefore = isSame && bundle == bundle_[at];
     CollisionKernel::Terms terms;
     if (isSame) {
       for (std::size_t r = 0; r < rank_; ++r) {
@@ -329,29 +351,14 @@ class TwoLevelStore {
         terms.q[r] = bounds_[groups * r + 1][at];
       }
     } else if (rank_ > 0) {
-      terms = rates_.terms(entry);
+      terms = rates_.terms(entries_[at]);
     }
-    isSmall_[at] = isSmall ? 1 : 0;
-    bundle_[at] = bundle;
-    for (std::size_t r = 0; r < rank_; ++r) {
-      const std::size_t of = groups * r;
-      const double wp = weight * terms.p[r], wq = weight * terms.q[r];
-      if (!isAsBefore) {
-        change(of, at, terms.p[r]);
-        change(of + 1, at, terms.q[r]);
-        change(of + 2, at, terms.p[r] / bundle);
-        change(of + 3, at, terms.q[r] / bundle);
-      }
-      change(of + 4, at, isSmall ? 0.0 : wp);
-      change(of + 5, at, isSmall ? 0.0 : wq);
-      if (smallVolume_ > 0) {
-        change(of + 6, at, isSmall ? wp : 0.0);
-        change(of + 7, at, isSmall ? wq : 0.0);
-      }
-    }
-    for (std::size_t process = 0; process < singleProcesses; ++process)
-      if (singleQuantity_[process] != unused)
-        change(singleQuantity_[process], at, singleBound(rates_, static_cast<SingleProcess>(process), entry));
+    Bounds found;
+    boundsOf(at, terms, found);
+    isSmall_[at] = found.isSmall ? 1 : 0;
+    bundle_[at] = found.bundle;
+    for (std::size_t k = 0; k < quantities_; ++k)
+      if (found.values[k] != bounds_[k][at]) change(k, at, found.values[k]);
   }
   void countChange() {
     if (++changes_ > entries_.size() + leastChanges) sumUp();
@@ -366,10 +373,16 @@ class TwoLevelStore {
     bundle_.assign(n, 1.0);
     findSmall();
     for (std::size_t k = 0; k < quantities_; ++k) {
-      bounds_[k].assign(n, 0.0);
-      blocks_[k].assign((n + block - 1) / block, 0.0);
+      bounds_[k].resize(n);
+      blocks_[k].resize((n + block - 1) / block);
     }
-    for (std::size_t at = 0; at < n; ++at) setBounds(at, false);
+    Bounds found;
+    for (std::size_t at = 0; at < n; ++at) {
+      boundsOf(at, rank_ > 0 ? rates_.terms(entries_[at]) : CollisionKernel::Terms{}, found);
+      isSmall_[at] = found.isSmall ? 1 : 0;
+      bundle_[at] = found.bundle;
+      for (std::size_t k = 0; k < quantities_; ++k) bounds_[k][at] = found.values[k];
+    }
     sumUp();
   }
   // Of entries in order: the limits, of some that leave a tenth to six tenths of the number beyond, with which the
@@ -377,22 +390,32 @@ class TwoLevelStore {
   void findSmall() const {
     smallVolume_ = heavyWeight_ = 0;
     if (!(shareAtOnce_ > 0)) return;
-    double number = 0, upTo = 0, squares = 0, least = worthwhile;
-    for (const Entry& entry : entries_) number += rates_.weight(entry);
+    const std::size_t n = entries_.size();
+    work_.resize(3 * n);
+    double *area = work_.data(), *volume = area + n, *perWeight = volume + n;
+    double number = 0, all = 0, upTo = 0, squares = 0, least = worthwhile;
+    for (std::size_t k = 0; k < n; ++k) {
+      const double weight = rates_.weight(entries_[k]);
+      volume[k] = rates_.volume(entries_[k]);
+      perWeight[k] = 1 / weight;
+      const double d = cubeRoot(volume[k]);
+      area[k] = d * d;
+      all += area[k];
+      number += weight;
+    }
     std::size_t at = 0;
-    for (const double share : {0.4, 0.5, 0.6, 0.7, 0.8, 0.9}) {
-      for (; at < entries_.size() && upTo < share * number; ++at) {
-        upTo += rates_.weight(entries_[at]);
-        squares += rates_.weight(entries_[at]) * rates_.weight(entries_[at]);
+    for (const double share : {0.4, 0.6, 0.75, 0.9}) {
+      for (; at < n && upTo < share * number; ++at) {
+        const double weight = rates_.weight(entries_[at]);
+        upTo += weight;
+        squares += weight * weight;
       }
       if (at == 0) return;
-      const double small = rates_.volume(entries_[at - 1]), heavy = heavyPart * squares / upTo;
-      double all = 0, bundled = 0;
-      for (const Entry& entry : entries_) {
-        const double v = rates_.volume(entry), area = cubeRoot(v) * cubeRoot(v);
-        all += area;
-        bundled += area / std::max(1.0, std::min(shareAtOnce_ * v / small, 0.5 * heavy / rates_.weight(entry)));
-      }
+      const double small = volume[at - 1], heavy = heavyPart * squares / upTo;
+      const double perSmall = shareAtOnce_ / small, half = 0.5 * heavy;
+      double bundled = 0;
+      for (std::size_t k = 0; k < n; ++k)
+        bundled += area[k] / std::max(1.0, std::min(perSmall * volume[k], half * perWeight[k]));
       const double expected = 1 - upTo / number * (1 - bundled / all);
       if (!(expected < least)) continue;
       least = expected;
@@ -442,7 +465,7 @@ class TwoLevelStore {
   mutable std::array<double, mostQuantities> totals_{};
   mutable double smallVolume_ = 0, heavyWeight_ = 0;  // of small entries: the largest, and the least; 0: none are
   mutable std::vector<char> isSmall_;
-  mutable std::vector<double> bundle_;
+  mutable std::vector<double> bundle_, work_;
 };
 
 template <SortedRates Rates>
