@@ -229,7 +229,7 @@ void EnsembleOperator::advance(State& state, double time, double dt) {
   std::vector<int> busy;
   WorkSharing::Items items;
   for (int cell = 0; cell < m.owned; ++cell) {
-    cost_[cell] = 0.0;
+    const double before = std::exchange(cost_[cell], 0.0);
     const bool isEmpty = populations_[cell].size() <= packedHead && arrived_[cell].empty();
     if (isEmpty && !hasPrecursors(gasOf(state, cell, concentrations_))) {
       populations_[cell] = {};
@@ -239,7 +239,9 @@ void EnsembleOperator::advance(State& state, double time, double dt) {
     }
     busy.push_back(cell);
     const std::size_t values = populations_[cell].size() + arrived_[cell].size();
-    items.cost.push_back(costOfCell + costOfLook * static_cast<double>(values) / packedParticle);
+    // What it cost in the last step, or once each particle.
+    items.cost.push_back(before > 0.0 ? before
+                                      : costOfCell + costOfLook * static_cast<double>(values) / packedParticle);
   }
   items.pack = [&](std::size_t i, std::vector<double>& in) { pack(state, busy[i], dt, in); };
   items.advance = [&](std::span<const double> in, std::vector<double>& out) { solve(time, in, out); };

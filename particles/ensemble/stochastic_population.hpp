@@ -13,9 +13,14 @@
 
 namespace lampblack::particles {
 
-inline void requireParticle(const GivenParticle& p) {
-  if (!(p.carbon > 0) || !(p.hydrogen >= 0) || !(p.primaries >= 1) || !(p.number > 0))
-    throw InputError("stochastic soot: a particle needs carbon, a number and at least one primary");
+// `leastHydrogen`: kg. Where almost all hydrogen burns away in a step, the midpoint rule may take a trace too much,
+// which is kept, as atoms are counted, and does not go on.
+inline void requireParticle(const GivenParticle& p, double leastHydrogen) {
+  if (!(p.carbon > 0) || !(p.hydrogen >= leastHydrogen) || !(p.primaries >= 1) || !(p.number > 0))
+    throw InputError(
+        fmt::format("stochastic soot: a particle needs carbon, a number and at least one primary; found {:.17g} kg of "
+                    "carbon, {:.17g} kg of hydrogen, {:.17g} primaries, {:.17g} 1/m^3",
+                    p.carbon, p.hydrogen, p.primaries, p.number));
 }
 
 template <class Method>
@@ -25,7 +30,7 @@ void StochasticProcess<Method>::initialise(std::span<const GivenParticle> popula
         fmt::format("stochastic soot: {} particles, there is room for 1 to {}", population.size(), options_.particles));
   }
   for (const GivenParticle& p : population) {
-    requireParticle(p);
+    requireParticle(p, 0);
     if (!weighted && p.number != population[0].number)
       throw InputError("stochastic soot: particles of equal weight that stand for different numbers");
   }
@@ -124,7 +129,7 @@ void StochasticProcess<Method>::unpack(std::span<const double> values) {
   entries.reserve(state.left() / packedParticle);
   while (state.left() > 0) {
     const auto p = state.next<GivenParticle>();
-    requireParticle(p);
+    requireParticle(p, -0.5 * p.carbon);
     if (!weighted && p.number != memory[0])
       throw InputError("stochastic soot: the saved state is damaged: particles of equal weight differ in it");
     const Particle particle = type_.make(p.carbon, p.hydrogen, p.primaries);

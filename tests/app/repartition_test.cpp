@@ -177,6 +177,24 @@ TEST(Repartition, BalancesABandOfCostlyCellsAndChangesNothingElse) {
   EXPECT_NE(anew.fields, even.fields) << "sums in another order show in the last bits";
 }
 
+// The ensembles of the cells go along, each once.
+TEST(Repartition, TakesEnsemblesAlong) {
+  const test::SharedScratchFolder scratch;
+  const std::vector<std::string> ensembles{"stochastic.particles=40", "stochastic.least_number=1e9 1/m^3",
+                                           "stochastic.exchange=one_way"};
+  const auto with = [&](const std::string& repartition) {
+    std::vector<std::string> all = ensembles;
+    all.push_back(repartition);
+    return settings(all);
+  };
+  const Ran even = run({.folder = scratch.path() / "even", .overrides = with("mesh.repartition=10")});
+  const Ran anew = run({.folder = scratch.path() / "anew", .overrides = with("mesh.repartition=1.2")});
+  EXPECT_EQ(anew.partitions, test::worldSize() > 1 ? 1 : 0);
+  EXPECT_GT(even.history.at("numerical_particles").back(), 100.0);
+  EXPECT_EQ(anew.history.at("numerical_particles"), even.history.at("numerical_particles"));
+  expectSameFields(anew, even);
+}
+
 TEST(Repartition, IntoTheSamePiecesKeepsEveryBit) {
   const test::SharedScratchFolder scratch;
   const auto overrides = settings({"checkpoint.steps=16", "mesh.refinement=1", "time.sweeps=2", "time.tolerance=0.01"});

@@ -120,6 +120,20 @@ TEST_P(PackedSoot, RefusesTheStateOfAnother) {
   }
 }
 
+// What a step of oxidation took too much of the hydrogen comes along.
+TEST_P(PackedSoot, TakesATraceOfHydrogenBelowZero) {
+  const auto soot = makeEnsemble(options(7));
+  soot->advance(flame().state, 0, 3e-4);
+  std::vector<double> state = soot->pack();
+  state[packedHead + 1] = -1e-6 * state[packedHead];
+  const auto other = makeEnsemble(options(7));
+  other->unpack(state);
+  EXPECT_EQ(other->pack(), state);
+  other->advance(flame().state, 0, 3e-4);
+  state[packedHead + 1] = -state[packedHead];
+  EXPECT_THROW(other->unpack(state), InputError);
+}
+
 TEST_P(PackedSoot, HasItsParticlesBehindTheHead) {
   const auto soot = makeEnsemble(options(7));
   EXPECT_EQ(soot->pack().size(), packedHead);
