@@ -3,6 +3,7 @@ about the axis, so that it looks like the flame."""
 
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.colors import LogNorm
 
 from .results import unit_of
 from .shapes import Shapes
@@ -93,6 +94,34 @@ def _plot_flame(results, shapes, pictures):
     pictures.save(figure, "flame")
 
 
+def _plot_aggregates(results, shapes, pictures):
+    """Volume fraction, and where it is a thousandth of the largest or more, what aggregates are made of."""
+    soot, diameter, primaries = (results.field(name) for name in (
+        "soot_volume_fraction", "soot_primary_diameter", "soot_primaries_per_aggregate"))
+    if primaries is None or not np.nanmax(primaries) > 1.001:
+        return
+    there = soot > 1e-3 * soot.max()
+    fraction, unit = scaled_fraction(soot)
+    width, height = _figure_size(results)
+    figure, panels = plt.subplots(1, 3, figsize=(1.9 * width, height + 0.4), sharey=True, layout="constrained")
+    for axes, values, colours, label, norm in (
+        (panels[0], fraction, "magma", f"soot volume fraction, {unit}", None),
+        (panels[1], np.where(there, diameter * 1e9, np.nan), "viridis", "diameter of primary particles, nm", None),
+        (panels[2], np.where(there, primaries, np.nan), "cividis", "primary particles of an aggregate", LogNorm()),
+    ):
+        for side in (1.0, -1.0) if results.touches_axis() else (1.0,):
+            drawn = _cells(axes, results, shapes, values, colours, side)
+            if norm is not None:
+                drawn.set_norm(norm)
+            drawn.set_clim(np.nanmin(values), np.nanmax(values))
+        figure.colorbar(drawn, ax=axes, label=label, location="top")
+        axes.autoscale_view()
+        axes.set_aspect("equal")
+        axes.set_xlabel(f"{results.axis_names()[0]}, mm")
+    panels[0].set_ylabel(f"{results.axis_names()[1]}, mm")
+    pictures.save(figure, "aggregates")
+
+
 def plot_planes(results, pictures):
     if not results.steps:
         pictures.skip("plane pictures", "no step was written")
@@ -101,6 +130,7 @@ def plot_planes(results, pictures):
     shapes = Shapes(results)
     cut = "" if shapes.cut is None else f", z = {shapes.cut * 1e3:.3g} mm"
     _plot_flame(results, shapes, pictures)
+    _plot_aggregates(results, shapes, pictures)
     for name, field, title, colours, is_fraction in PLANES:
         values = results.field(field)
         if values is None:
