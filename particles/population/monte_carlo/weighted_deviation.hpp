@@ -15,8 +15,10 @@ class WeightedDeviation {
     mean_ += step * weight / weight_;
     square_ += weight * step * (x - mean_);
   }
-  // exp of the deviation, where x are logarithms; 1 of nothing.
-  [[nodiscard]] double geometric() const { return weight_ > 0 ? std::exp(std::sqrt(square_ / weight_)) : 1.0; }
+  // exp of the deviation, where x are logarithms; 1 of nothing. Of equal x rounding may leave squares below zero.
+  [[nodiscard]] double geometric() const {
+    return weight_ > 0 && square_ > 0 ? std::exp(std::sqrt(square_ / weight_)) : 1.0;
+  }
 
  private:
   double weight_ = 0, mean_ = 0, square_ = 0;

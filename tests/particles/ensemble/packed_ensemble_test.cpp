@@ -5,6 +5,7 @@
 
 #include "core/errors.hpp"
 #include "core/rooms.hpp"
+#include "particles/population/monte_carlo/weighted_deviation.hpp"
 #include "tests/particles/soot_fixtures.hpp"
 
 namespace lampblack::particles {
@@ -143,6 +144,14 @@ TEST_P(PackedSoot, HasItsParticlesBehindTheHead) {
   double carbon = 0;
   for (const GivenParticle& p : packed) carbon += p.number * p.carbon;
   EXPECT_NEAR(carbon, soot->totals().carbon, 1e-12 * carbon);
+}
+
+TEST(WeightedDeviation, IsOneForParticlesThatAreAllTheSame) {
+  for (int k = 1; k < 500; ++k) {
+    WeightedDeviation one;
+    one.add(std::log(1e-9 + 1e-12 * k), 1e9 / k);
+    EXPECT_NEAR(one.geometric(), 1.0, 1e-6);
+  }
 }
 
 // Particles put behind those of a packed population of different weights are its own, in any order; too many merge.
