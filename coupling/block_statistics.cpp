@@ -73,10 +73,10 @@ double studentQuantile(std::size_t freedom) {
   return std::sqrt(static_cast<double>(freedom)) * std::tan(angle);
 }
 
-std::optional<double> halfInterval(double squares, std::size_t blocks) {
+std::optional<BlockInterval> BlockInterval::of(std::size_t blocks) {
   if (blocks < leastBlocks) return {};
   const auto n = static_cast<double>(blocks);
-  return studentQuantile(blocks - 1) * std::sqrt(std::max(0.0, squares) / (n * (n - 1.0)));
+  return BlockInterval(studentQuantile(blocks - 1) / std::sqrt(n * (n - 1.0)));
 }
 
 BlockMean meanOf(std::span<const double> blocks) {

@@ -2,6 +2,8 @@
 // far the mean of the blocks may be off, and how long the blocks would have to be to know nothing of each other.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -19,9 +21,18 @@ inline constexpr std::size_t leastToBeStationary = 10;
 // interval to both sides has 95 %.
 [[nodiscard]] double studentQuantile(std::size_t freedom);
 
-// Half the width of the 95 % interval of the mean of blocks, from the sum of the squares of their deviations from it.
-// Nothing below leastBlocks.
-[[nodiscard]] std::optional<double> halfInterval(double squares, std::size_t blocks);
+// The 95 % interval of the mean of so many blocks.
+class BlockInterval {
+ public:
+  // Nothing below leastBlocks.
+  [[nodiscard]] static std::optional<BlockInterval> of(std::size_t blocks);
+  // Half its width, from the sum of the squares of the blocks' deviations from their mean.
+  [[nodiscard]] double half(double squares) const { return perRoot_ * std::sqrt(std::max(0.0, squares)); }
+
+ private:
+  explicit BlockInterval(double perRoot) : perRoot_(perRoot) {}
+  double perRoot_;
+};
 
 struct BlockMean {
   double mean = 0.0, squares = 0.0;  // of the deviations from the mean

@@ -90,7 +90,7 @@ class EnsembleOperator : public Operator {
   // Packed, of the owned cells; empty where there is none.
   [[nodiscard]] const std::vector<std::vector<double>>& populations() const { return populations_; }
   [[nodiscard]] bool isGasHeld(double time) const { return options_.holdGas && time >= *options_.holdGas; }
-  // Replaces the population of an owned cell; as Ensemble::initialise. The amounts follow with the next step.
+  // Replaces the population of an owned cell; as Ensemble::initialise.
   void initialise(State& state, int cell, std::span<const GivenParticle> population);
 
  private:

@@ -45,6 +45,7 @@ std::vector<Quantity> EnsembleOperator::historyColumns() const {
           {"soot_resampled", unitOfWhole(context_.mesh, "kg"),
            "soot that came and went with numerical particles since the start, zero in the mean"},
           {"transport_parts", "1", "parts that the particles' transport was divided into"},
+          {"transport_limited", "1", "numerical particles whose probability to move was limited in the last step"},
           // With and without averages, so that a run may go on with them.
           {"soot_averages_since", "s", "when averages of the soot over time started; nan before"},
           {"soot_averaged_blocks", "1", "blocks of time in the averages of the soot"}};
@@ -58,7 +59,7 @@ std::vector<double> EnsembleOperator::historyValues(const State& state) {
   });
   peak_ = peak.value;
   place_ = peak.place;
-  std::array<double, 3> sums{0.0, 0.0, resampled_};
+  std::array<double, 4> sums{0.0, 0.0, resampled_, static_cast<double>(transport_.limited())};
   for (const std::vector<double>& population : populations_) {
     if (population.size() <= packedHead) continue;
     sums[0] += 1.0;
@@ -71,6 +72,7 @@ std::vector<double> EnsembleOperator::historyValues(const State& state) {
           sums[1],
           sums[2],
           static_cast<double>(transport_.parts()),
+          sums[3],
           since.value_or(std::numeric_limits<double>::quiet_NaN()),
           statistics_ ? static_cast<double>(statistics_->blocks()) : 0.0};
 }

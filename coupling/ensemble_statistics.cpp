@@ -120,7 +120,8 @@ std::vector<double> EnsembleStatistics::series(std::size_t total, bool averagedO
 
 void EnsembleStatistics::fields(const Operator::FieldSink& sink) const {
   const auto owned = static_cast<std::size_t>(mesh_.owned);
-  std::vector<double> mean(owned, unknown), interval(owned, unknown);
+  std::vector<double> mean(owned, unknown), halves(owned, unknown);
+  const std::optional<BlockInterval> interval = BlockInterval::of(blocks_);
   for (std::size_t a = 0; a < amounts; ++a) {
     for (std::size_t c = 0; blocks_ > 0 && c < owned; ++c) {
       const double* sums = &sums_[c * width];
@@ -132,14 +133,14 @@ void EnsembleStatistics::fields(const Operator::FieldSink& sink) const {
         mean[c] *= over;
         squares = over * over * (squares - 2.0 * mean[c] * sums[products] + mean[c] * mean[c] * sums[amounts + number]);
       }
-      interval[c] = halfInterval(squares, blocks_).value_or(unknown);
+      if (interval) halves[c] = interval->half(squares);
     }
     const auto& [quantity, of] = amountFields[a];
     if (sink.future || blocks_ > 0) sink({quantity.name + "_mean", quantity.unit, quantity.description}, mean);
-    if (sink.future || blocks_ >= leastBlocks)
+    if (sink.future || interval)
       sink({quantity.name + "_interval", quantity.unit,
             fmt::format("half the width of the 95 % interval of confidence of {}", of)},
-           interval);
+           halves);
   }
   if (!bins_ || (!sink.future && !(sizesTime_ > 0.0))) return;
   std::vector<double> sizes(sizes_.size(), unknown);
@@ -156,14 +157,14 @@ std::vector<std::string> EnsembleStatistics::closingLines() const {
   }
   std::string begin = fmt::format("averages of the soot since t = {:.6g} s{}: {} blocks of {:.4g} ms", *since_,
                                   options_.start ? "" : ", when it was found stationary", blocks_, ms);
-  if (blocks_ < leastBlocks)
-    return {std::move(begin), fmt::format("no intervals of confidence: they take {} blocks", leastBlocks)};
+  const std::optional<BlockInterval> interval = BlockInterval::of(blocks_);
+  if (!interval) return {std::move(begin), fmt::format("no intervals of confidence: they take {} blocks", leastBlocks)};
   const std::array<std::vector<double>, totals> all{series(0, true), series(1, true)};
   std::array<double, totals> relative{};
   double lagOne = 0.0;
   for (std::size_t t = 0; t < totals; ++t) {
     const BlockMean of = meanOf(all[t]);
-    if (of.mean > 0.0) relative[t] = *halfInterval(of.squares, blocks_) / of.mean;
+    if (of.mean > 0.0) relative[t] = interval->half(of.squares) / of.mean;
     if (areCorrelated(all[t])) lagOne = std::max(lagOne, lagOneCorrelation(all[t]));
   }
   std::string within =

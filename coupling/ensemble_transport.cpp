@@ -48,6 +48,7 @@ struct EnsembleTransport::Side {
   std::array<double, classes> diffused{};   // factor of `diffusion`: o
   std::array<double, nodes> diffusion{};    // times d^2, m2: at the nodes
   bool diffuses = false;
+  std::array<bool, classes> isLimited{};  // whether convected or diffused is
 };
 
 struct EnsembleTransport::Leaving {
@@ -152,6 +153,7 @@ void EnsembleTransport::findSides(const Gas& gas, int cell, double dt, double ma
       if (options_.secondOrder && side.beyond >= 0 && present[k] > 0.0) {
         for (int axis = 0; axis < m.dimension; ++axis)
           ratio += slopes[k * m.dimension + axis] * from[axis] / present[k];
+        side.isLimited[k] = ratio < 0.0 || ratio > 2.0;
         ratio = std::clamp(ratio, 0.0, 2.0);
       }
       side.convected[k] = convected * ratio;
@@ -169,6 +171,7 @@ void EnsembleTransport::findSides(const Gas& gas, int cell, double dt, double ma
           // Half of it is taken from what goes each way.
           const double skew =
               0.5 * m.distance[face] * faceSlope(m, face, m.oblique[face], gradients_, classes, k) / present[k];
+          side.isLimited[k] = side.isLimited[k] || std::abs(skew) > 1.0;
           side.diffused[k] = std::clamp(1.0 - (isLow ? skew : -skew), 0.0, 2.0);
         }
     }
@@ -180,6 +183,9 @@ void EnsembleTransport::drawLeaving(int cell, const std::vector<Side>& sides, do
                                     Rows& rows) {
   const Mesh& m = context_.mesh;
   std::array<double, Mesh::mostSides> upTo{};
+  std::array<bool, classes> isLimited{};
+  for (const Side& side : sides)
+    for (std::size_t k = 0; k < isLimited.size(); ++k) isLimited[k] = isLimited[k] || side.isLimited[k];
   std::size_t kept = head;
   for (std::size_t i = head; i < rows.size(); i += packedParticle) {
     const double volume = (rows[i] + rows[i + 1]) / options_.type.density();
@@ -200,6 +206,7 @@ void EnsembleTransport::drawLeaving(int cell, const std::vector<Side>& sides, do
                (side.diffusion[at.node] + at.part * (side.diffusion[at.node + 1] - side.diffusion[at.node]));
       upTo[s] = sum;
     }
+    if (sum > 1.0 || isLimited[k]) ++limited_;
     nextEvenPoint(point);
     const double drawn = sum > 1.0 ? point * sum : point;
     if (drawn >= sum) {
@@ -286,6 +293,7 @@ void EnsembleTransport::advance(const Gas& gas, double dt, std::uint64_t step, s
                                 std::vector<Rows>& arrived) {
   const Mesh& m = context_.mesh;
   gone_.clear();
+  limited_ = 0;
   std::ranges::fill(isFound_, 0);
   parts_ = findParts(gas, dt, populations);
   std::vector<Side> sides;

@@ -62,11 +62,15 @@ class EnsembleTransport {
   [[nodiscard]] const std::vector<GivenParticle>& gone() const { return gone_; }
   // In how many parts the last step was taken, so that no cell gives more than it has.
   [[nodiscard]] int parts() const { return parts_; }
+  // How many numerical particles of this rank's cells moved in the last step, once a part, with a probability that was
+  // limited: r, o or the sum over all faces.
+  [[nodiscard]] std::int64_t limited() const { return limited_; }
 
  private:
-  static constexpr int classes = 12;        // of size
-  static constexpr int smallest = -94;      // log2 of the smallest volume, m3: 0.5 nm
-  static constexpr std::size_t nodes = 37;  // of the tables of diffusivities, a factor of two in volume each
+  static constexpr int classes = 12;    // of size
+  static constexpr int smallest = -94;  // log2 of the smallest volume, m3: 0.5 nm
+  // Of the tables of diffusivities, a factor of two in volume each: up to 1.9 um, beyond which D d^2 stays as it is.
+  static constexpr std::size_t nodes = 37;
   struct Side;
   struct Leaving;
 
@@ -92,6 +96,7 @@ class EnsembleTransport {
   std::vector<Leaving> leaving_;
   std::vector<GivenParticle> gone_;
   int parts_ = 1;
+  std::int64_t limited_ = 0;
 };
 
 }  // namespace lampblack::coupling

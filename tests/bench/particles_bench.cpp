@@ -93,7 +93,13 @@ void sootingGas(benchmark::State& state, EnsembleMethod method) {
   state.counters["jumps/s"] = benchmark::Counter(jumps, benchmark::Counter::kIsRate);
 }
 BENCHMARK_CAPTURE(sootingGas, dsmc, EnsembleMethod::dsmc)->Arg(1000)->Arg(10000);
-BENCHMARK_CAPTURE(sootingGas, sammc, EnsembleMethod::sammc)->Arg(1000)->Arg(10000);
+BENCHMARK_CAPTURE(sootingGas, sammc, EnsembleMethod::sammc)
+    ->Arg(500)
+    ->Arg(1000)
+    ->Arg(2000)
+    ->Arg(4000)
+    ->Arg(8000)
+    ->Arg(10000);
 
 // Accuracy, not time: relative error of number and carbon after two steps of 0.1 ms, at a tolerance of range(0) 1e-5.
 void twoEquationAccuracy(benchmark::State& state) {

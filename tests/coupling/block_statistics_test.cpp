@@ -24,12 +24,12 @@ TEST(BlockStatistics, KnowsStudentsDistribution) {
 }
 
 TEST(BlockStatistics, HasNoIntervalOfFourBlocks) {
-  EXPECT_FALSE(halfInterval(1.0, 4));
+  EXPECT_FALSE(BlockInterval::of(4));
   const std::vector<double> blocks{1.0, 2.0, 3.0, 4.0, 5.0};
   const BlockMean of = meanOf(blocks);
   EXPECT_DOUBLE_EQ(of.mean, 3.0);
   EXPECT_DOUBLE_EQ(of.squares, 10.0);
-  EXPECT_NEAR(halfInterval(of.squares, 5).value(), 2.776 * std::sqrt(10.0 / 20.0), 1e-3);
+  EXPECT_NEAR(BlockInterval::of(5).value().half(of.squares), 2.776 * std::sqrt(10.0 / 20.0), 1e-3);
 }
 
 // Of so many series the share for which `found` is true. A series: `value(i, noise)` for each block.

@@ -11,6 +11,7 @@
 #include "core/kept_state.hpp"
 #include "flow/budget.hpp"
 #include "particles/models/soot_model.hpp"
+#include "tests/coupling/closed_box.hpp"
 #include "tests/every_room.hpp"
 #include "tests/flow/flow_fixture.hpp"
 #include "tests/particles/statistics.hpp"
@@ -43,7 +44,7 @@ EnsembleOperator::Options options(Exchange exchange, double average = 0.0) {
 // A closed vessel of sooting gas, hotter and richer in PAH on one side.
 struct Vessel {
   explicit Vessel(const EnsembleOperator::Options& o, MPI_Comm comm = MPI_COMM_WORLD)
-      : box(spec(), walls(), {}, comm, ethylene()),
+      : box(closedBox(0.004, 6, 5), fourWalls(), {}, comm, ethylene()),
         state(box.state(
             [&](const Vector3& x) {
               const double part = x[0] / 0.004;
@@ -59,19 +60,6 @@ struct Vessel {
         ensembles(box.context, transport, o) {
     transport.initialise(state, dt);
     begin();
-  }
-  static MeshSpec spec() {
-    MeshSpec s;
-    s.vertices = {uniformAxis(0.004, 6), uniformAxis(0.004, 5), {}};
-    for (const BoundaryCondition& wall : walls())
-      s.patches.push_back({wall.name, wall.name[0] == 'x' ? 0 : 1, wall.name.ends_with("max")});
-    return s;
-  }
-  static std::vector<BoundaryCondition> walls() {
-    std::vector<BoundaryCondition> conditions;
-    for (const int axis : {0, 1})
-      for (const bool atMax : {false, true}) conditions.push_back(side(BoundaryKind::Wall, axis, atMax).condition);
-    return conditions;
   }
   void begin() {
     for (Operator* op : std::initializer_list<Operator*>{&transport, &ensembles}) op->endStep(state);

@@ -9,6 +9,7 @@
 
 #include "core/constants.hpp"
 #include "particles/collisions/sphere.hpp"
+#include "tests/coupling/closed_box.hpp"
 #include "tests/every_room.hpp"
 #include "tests/flow/flow_fixture.hpp"
 #include "tests/particles/statistics.hpp"
@@ -25,7 +26,7 @@ double massOf(double d) {
 struct Moving {
   using Velocity = std::function<Vector3(const Vector3&)>;
   explicit Moving(int cells, const Velocity& velocity, MPI_Comm comm = MPI_COMM_WORLD, std::optional<Split> split = {})
-      : box(spec(cells), walls(), split, comm),
+      : box(closedBox(0.01, cells, cells), fourWalls(), split, comm),
         state(box.state([&](const Vector3& x) {
           return Box::Local{velocity(x), 1500.0, Gas::hydrogen().massFractions("N2: 1")};
         })),
@@ -40,19 +41,6 @@ struct Moving {
       state.massFlux[at(face)] =
           state.density[0] * m.area[at(face)] * dot(velocity(m.faceCentre[at(face)]), m.normal[at(face)]);
     state.keepStart();
-  }
-  static MeshSpec spec(int cells) {
-    MeshSpec s;
-    s.vertices = {uniformAxis(0.01, cells), uniformAxis(0.01, cells), {}};
-    for (const BoundaryCondition& wall : walls())
-      s.patches.push_back({wall.name, wall.name[0] == 'x' ? 0 : 1, wall.name.ends_with("max")});
-    return s;
-  }
-  static std::vector<BoundaryCondition> walls() {
-    std::vector<BoundaryCondition> conditions;
-    for (const int axis : {0, 1})
-      for (const bool atMax : {false, true}) conditions.push_back(side(BoundaryKind::Wall, axis, atMax).condition);
-    return conditions;
   }
 
   // `number(x)` per m3 in each cell, as `count` numerical particles of diameters from 2 nm on, each a tenth larger.
@@ -321,8 +309,25 @@ TEST(EnsembleTransport, TakesStepsThatAreTooLongInParts) {
   const double before = m.total(0.0);
   m.step(transport, 0.2, 0);
   EXPECT_GT(transport.parts(), 2);
+  EXPECT_EQ(transport.limited(), 0);
   EXPECT_NEAR(m.total(0.0) / before, 1.0, 1e-13);
   EXPECT_THROW(m.step(transport, 50.0, 1), NumericsError);
+}
+
+// One cell full, its neighbours empty: lines through the values leave what can be at the faces, which is counted.
+TEST(EnsembleTransport, CountsTheParticlesWhoseProbabilityIsLimited) {
+  for (const bool secondOrder : {true, false}) {
+    Moving m(8, [](const Vector3&) { return Vector3{0.1, 0.0, 0.0}; });
+    m.fill(50, [](const Vector3& x) { return x[0] > 0.005 && x[0] < 0.00625 ? 1e15 : 0.1 * x[0]; });
+    EnsembleTransport transport(m.box.context, {{sootDensity, true}, 0.0, false, secondOrder, 9});
+    m.step(transport, 1e-3, 0);
+    double limited = static_cast<double>(transport.limited());
+    MPI_Allreduce(MPI_IN_PLACE, &limited, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    if (secondOrder)
+      EXPECT_GE(limited, 50.0);  // of a column's cell at least
+    else
+      EXPECT_EQ(limited, 0.0);
+  }
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ bool WeightedMethod<Type, Store>::coagulateFractions(RandomStream& random) {
   bool stay = false;  // whether what is left over stays as it is, with less weight
   const bool happened = store_.drawPair(random, first_, second_, [&](const Entry& i, const Entry& j) {
     const double vi = type_.volume(i.particle), vj = type_.volume(j.particle);
-    if constexpr (mergesMany) times = store_.collected();
+    if constexpr (bundles) times = store_.collected();
     // Where i takes up several of j at once, it does so as a whole.
     amount =
         times > 1 ? i.weight : store_.rates().fraction()(vi, vj, i.weight, j.weight) * std::min(i.weight, j.weight);

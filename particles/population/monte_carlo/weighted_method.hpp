@@ -68,7 +68,7 @@ class WeightedMethod {
     }
     std::vector<Entry> entries;
     const double weight = initial.number > 0 ? initial.number / static_cast<double>(capacity_) : 0;
-    if constexpr (mergesMany) {
+    if constexpr (bundles) {
       if (method_ == MonteCarloMethod::sammc && options.fraction == FractionFunction::one)
         store_.setShareAtOnce(options.shareAtOnce);
     }
@@ -151,6 +151,7 @@ class WeightedMethod {
   static constexpr bool mergesMany = requires(Store store) {
     store.mergeDownTo(1, [](const Entry& e, const Entry&) { return e; });
   };
+  static constexpr bool bundles = requires(Store store) { store.collected(); };
   // By which volumes change in a step. Splitting has an error of second order in it, deferment none.
   static constexpr double growthPart = isDeferred<Type> ? 0.3 : 0.05;
 
