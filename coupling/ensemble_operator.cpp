@@ -25,7 +25,6 @@ constexpr std::size_t taskWidth = sizeof(Task) / sizeof(double);
 // And back; then what the gas gets (mol/m3), and the population.
 struct Done {
   double cost, resampled, gainedCarbon, gainedHydrogen;  // kg/m3
-  Ensemble::Totals totals;
 };
 constexpr std::size_t doneWidth = sizeof(Done) / sizeof(double);
 
@@ -79,6 +78,7 @@ EnsembleOperator::EnsembleOperator(const FlowContext& context, const TransportOp
       sharing_(context.mesh.comm, options_.shareWork),
       populations_(static_cast<std::size_t>(context.mesh.owned)),
       arrived_(populations_.size()),
+      waiting_(populations_.size(), 0.0),
       reserve_(populations_.size() * reserveWidth()),
       rate_(reserve_.size()),
       cost_(populations_.size()),
@@ -109,10 +109,12 @@ void EnsembleOperator::initialise(State& state, int cell, std::span<const GivenP
   const auto ensemble = makeEnsemble(own);
   ensemble->initialise(population);
   populations_[cell] = ensemble->pack();
-  setAmounts(state, cell, ensemble->totals());
+  waiting_[cell] = 0.0;
+  setAmounts(state, cell);
 }
 
-void EnsembleOperator::setAmounts(State& state, int cell, const Ensemble::Totals& t) const {
+void EnsembleOperator::setAmounts(State& state, int cell) const {
+  const Ensemble::Totals t = packedTotals(type_, populations_[cell]);
   double* amount = &state.carried[static_cast<std::size_t>(cell) * state.scalars.size()];
   amount[number] = t.number;
   amount[carbon] = t.carbon;
@@ -132,6 +134,16 @@ void EnsembleOperator::setOwed(State& state, int cell) const {
   }
 }
 
+std::vector<double>& EnsembleOperator::openPopulation(int cell) {
+  std::vector<double>& population = populations_[cell];
+  if (population.empty()) {
+    population = blank_;
+    std::ranges::copy(packedOwner(static_cast<std::uint64_t>(context_.mesh.naturalCell[cell])),
+                      &population[packedOwnerAt]);
+  }
+  return population;
+}
+
 void EnsembleOperator::pack(const State& state, int cell, double dt, std::vector<double>& in) {
   const Mesh& m = context_.mesh;
   const ParticleGas gas = gasOf(state, cell, concentrations_);
@@ -140,11 +152,8 @@ void EnsembleOperator::pack(const State& state, int cell, double dt, std::vector
                        static_cast<double>(m.naturalCell[cell]), gas.temperature, gas.pressure, gas.density,
                        gas.viscosity, gas.meanMolecularWeight, dt, static_cast<double>(arrived.size())});
   in.insert(in.end(), concentrations_.begin(), concentrations_.end());
-  const std::vector<double>& population = populations_[cell].empty() ? blank_ : populations_[cell];
-  const std::size_t begin = in.size();
+  const std::vector<double>& population = openPopulation(cell);
   in.insert(in.end(), population.begin(), population.end());
-  if (populations_[cell].empty())
-    std::ranges::copy(packedOwner(static_cast<std::uint64_t>(m.naturalCell[cell])), &in[begin + packedOwnerAt]);
   in.insert(in.end(), arrived.begin(), arrived.end());
 }
 
@@ -170,7 +179,7 @@ void EnsembleOperator::solve(double time, std::span<const double> in, std::vecto
                                     placeText({task.x, task.y, task.z}, context_.mesh.dimension), time, error.what()));
   }
   packDoubles(out, Done{costOfCell + costOfLook * engine_->cost(), taken.resampledCarbon + taken.resampledHydrogen,
-                        taken.carbon, taken.hydrogen, engine_->totals()});
+                        taken.carbon, taken.hydrogen});
   out.insert(out.end(), taken.gas.begin(), taken.gas.begin() + static_cast<std::ptrdiff_t>(species_.size()));
   const std::vector<double> population = engine_->pack();
   out.insert(out.end(), population.begin(), population.end());
@@ -180,10 +189,8 @@ void EnsembleOperator::unpack(State& state, int cell, bool isHeld, std::span<con
   const auto done = PackedDoubles(out).next<Done>();
   const std::span<const double> population = out.subspan(doneWidth + species_.size());
   populations_[cell].assign(population.begin(), population.end());
-  populations_[cell].shrink_to_fit();
   cost_[cell] = done.cost;
   resampled_ += context_.mesh.volume[cell] * done.resampled;
-  setAmounts(state, cell, done.totals);
   if (options_.exchange == Exchange::OneWay) return;
   const double temperature = state.temperature[cell];
   const double heat = done.gainedCarbon * sootCarbonEnthalpy(temperature).first +
@@ -204,10 +211,12 @@ void EnsembleOperator::advance(State& state, double time, double dt) {
   if (options_.sweeps > 1) {
     if (!inStep_) {
       startPopulations_ = populations_;
+      startWaiting_ = waiting_;
       startReserve_ = reserve_;
       startResampled_ = resampled_;
     } else {
       populations_ = startPopulations_;
+      waiting_ = startWaiting_;
       reserve_ = startReserve_;
       resampled_ = startResampled_;
     }
@@ -220,11 +229,8 @@ void EnsembleOperator::advance(State& state, double time, double dt) {
     state.start.density.assign(state.density.begin(), state.density.begin() + m.owned);
   else  // transport and chemistry have paid out of the reserves
     for (std::size_t i = 0; i < reserve_.size(); ++i) reserve_[i] -= dt * rate_[i];
-  for (std::vector<double>& rows : arrived_) rows.clear();
-  transport_.advance(
-      {state, flow_.driftFlux(), flow_.faceDensity(), flow_.properties().viscosity, flow_.properties().molecularWeight},
-      dt, static_cast<std::uint64_t>(steps_), populations_, arrived_);
-  countOutflow();
+  takeOutWaiting();
+  move(state, dt, EnsembleTransport::Half::First);
 
   std::vector<int> busy;
   WorkSharing::Items items;
@@ -233,7 +239,6 @@ void EnsembleOperator::advance(State& state, double time, double dt) {
     const bool isEmpty = populations_[cell].size() <= packedHead && arrived_[cell].empty();
     if (isEmpty && !hasPrecursors(gasOf(state, cell, concentrations_))) {
       populations_[cell] = {};
-      setAmounts(state, cell, {});
       setOwed(state, cell);
       continue;
     }
@@ -252,6 +257,38 @@ void EnsembleOperator::advance(State& state, double time, double dt) {
   imbalances_.after += statistics.imbalanceAfter;
   ++stages_;
   state.updateHalo(context_.halo);
+  for (std::vector<double>& rows : arrived_) rows.clear();
+  move(state, dt, EnsembleTransport::Half::Second);
+  countOutflow();
+  letArrivedWait(state);
+}
+
+void EnsembleOperator::move(const State& state, double dt, EnsembleTransport::Half half) {
+  transport_.advance(
+      {state, flow_.driftFlux(), flow_.faceDensity(), flow_.properties().viscosity, flow_.properties().molecularWeight},
+      dt, static_cast<std::uint64_t>(steps_), half, populations_, arrived_);
+}
+
+void EnsembleOperator::takeOutWaiting() {
+  for (std::size_t cell = 0; cell < populations_.size(); ++cell) {
+    const auto values = static_cast<std::ptrdiff_t>(waiting_[cell]) * static_cast<std::ptrdiff_t>(packedParticle);
+    arrived_[cell].assign(populations_[cell].end() - values, populations_[cell].end());
+    populations_[cell].resize(populations_[cell].size() - static_cast<std::size_t>(values));
+  }
+}
+
+// Collective.
+void EnsembleOperator::letArrivedWait(State& state) {
+  for (int cell = 0; cell < context_.mesh.owned; ++cell) {
+    waiting_[cell] = static_cast<double>(arrived_[cell].size() / packedParticle);
+    if (!arrived_[cell].empty()) {
+      std::vector<double>& population = openPopulation(cell);
+      population.insert(population.end(), arrived_[cell].begin(), arrived_[cell].end());
+    }
+    populations_[cell].shrink_to_fit();
+    setAmounts(state, cell);
+  }
+  context_.halo.update(state.carried, state.carriedCount());
 }
 
 void EnsembleOperator::countOutflow() {
@@ -304,6 +341,7 @@ void EnsembleOperator::endSweep(State& state) {
 void EnsembleOperator::saveOrLoad(StateArchive& archive) {
   if (archive.loading()) inStep_ = false;
   archive.rows("ensembles", populations_);
+  archive.cells("ensemble_waiting", waiting_, 1);
   archive.cells("ensemble_reserve", reserve_, static_cast<int>(reserveWidth()));
   archive.cells("ensemble_cost", cost_, 1);
   std::array<double, 1> counted{resampled_};

@@ -1,9 +1,12 @@
 // Stochastic ensembles of particles in the cells of a flow, one in each owned cell where there is soot or what it could
-// come of: a process of the flow beside transport and chemistry. In each step the particles move between the cells
-// (EnsembleTransport), then each cell's population changes in the gas of the cell (Ensemble), on any rank
-// (WorkSharing); what it takes from the gas and gives to it is booked to the cell, species, mass and enthalpy.
+// come of: a process of the flow beside transport and chemistry. In each step the particles move between the cells for
+// half of its time (EnsembleTransport), then each cell's population changes in the gas of the cell (Ensemble), on any
+// rank (WorkSharing), then the particles move on: seen between the steps, where one process follows the other, a steady
+// state errs by the square of the step. What a population takes from the gas and gives to it is booked to the cell,
+// species, mass and enthalpy.
 //
 // The populations are kept packed, 32 bytes a particle, and are unpacked one after the other into one Ensemble a rank.
+// Those that arrive in the second half of a step stand behind the others until the next step merges them.
 //
 // Coupling. Without `average` the exchange of a step is booked at its end, at once. With it the exchange goes into a
 // reserve of the cell, and the gas's transport and chemistry have what is in the reserve over the time `average` as a
@@ -87,7 +90,7 @@ class EnsembleOperator : public Operator {
   [[nodiscard]] const SootAggregate& particleType() const { return type_; }
   // Averages over time; null without.
   [[nodiscard]] const EnsembleStatistics* statistics() const { return statistics_ ? &*statistics_ : nullptr; }
-  // Packed, of the owned cells; empty where there is none.
+  // Packed, of the owned cells, with what has arrived since; empty where there is none.
   [[nodiscard]] const std::vector<std::vector<double>>& populations() const { return populations_; }
   [[nodiscard]] bool isGasHeld(double time) const { return options_.holdGas && time >= *options_.holdGas; }
   // Replaces the population of an owned cell; as Ensemble::initialise.
@@ -100,7 +103,12 @@ class EnsembleOperator : public Operator {
   void pack(const State& state, int cell, double dt, std::vector<double>& in);
   void solve(double time, std::span<const double> in, std::vector<double>& out) const;
   void unpack(State& state, int cell, bool isHeld, std::span<const double> out);
-  void setAmounts(State& state, int cell, const Ensemble::Totals& totals) const;
+  void setAmounts(State& state, int cell) const;
+  // The packed population of a cell, to put particles behind it.
+  std::vector<double>& openPopulation(int cell);
+  void move(const State& state, double dt, EnsembleTransport::Half half);
+  void takeOutWaiting();
+  void letArrivedWait(State& state);
   void setOwed(State& state, int cell) const;
   void countOutflow();
   void addToStatistics(const State& state);
@@ -116,12 +124,13 @@ class EnsembleOperator : public Operator {
   GasExchange exchange_;
   WorkSharing sharing_;
   std::vector<std::vector<double>> populations_, arrived_;
+  std::vector<double> waiting_;  // how many of the last particles of a population have arrived since it was advanced
   std::vector<double> reserve_;  // of the owned cells
   std::vector<double> rate_;     // what the balance has of it, per s
   std::vector<double> cost_;     // of each owned cell's last advance
   // What several sweeps of a step begin with.
   std::vector<std::vector<double>> startPopulations_;
-  std::vector<double> startReserve_;
+  std::vector<double> startWaiting_, startReserve_;
   double startResampled_ = 0.0;
   bool inStep_ = false;
   double lastStep_ = 0.0;   // s

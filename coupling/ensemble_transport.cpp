@@ -18,8 +18,10 @@
 namespace lampblack::coupling {
 namespace {
 
-constexpr std::uint32_t movesStream = 0x4d4f5645;  // and the parts of a step behind it
-constexpr int mostParts = 200;
+constexpr std::uint32_t movesStream = 0x4d4f5645;  // and the parts of both halves of a step behind it
+constexpr int mostParts = 200;                     // of a half
+
+constexpr double meanWeights = 2.0, mostPieces = 1000.0;
 
 // Where a volume (m3) lies between powers of two, 2^(first + node): straight between them.
 struct Between {
@@ -33,6 +35,13 @@ Between between(double volume, int first, std::size_t nodes) {
   if (node < 0) return {0, 0.0};
   if (node > static_cast<int>(nodes) - 2) return {nodes - 2, 1.0};
   return {static_cast<std::size_t>(node), 2.0 * mantissa - 1.0};
+}
+
+// Numerical particles that stand for more than this go in pieces: twice the mean of all.
+double largestWhole(const std::vector<double>& rows, std::size_t head) {
+  double number = 0.0;
+  for (std::size_t i = head; i < rows.size(); i += packedParticle) number += rows[i + 3];
+  return meanWeights * number * static_cast<double>(packedParticle) / static_cast<double>(rows.size() - head);
 }
 
 GivenParticle particleAt(const double* row) {
@@ -186,6 +195,7 @@ void EnsembleTransport::drawLeaving(int cell, const std::vector<Side>& sides, do
   std::array<bool, classes> isLimited{};
   for (const Side& side : sides)
     for (std::size_t k = 0; k < isLimited.size(); ++k) isLimited[k] = isLimited[k] || side.isLimited[k];
+  const double whole = largestWhole(rows, head);
   std::size_t kept = head;
   for (std::size_t i = head; i < rows.size(); i += packedParticle) {
     const double volume = (rows[i] + rows[i + 1]) / options_.type.density();
@@ -207,21 +217,37 @@ void EnsembleTransport::drawLeaving(int cell, const std::vector<Side>& sides, do
       upTo[s] = sum;
     }
     if (sum > 1.0 || isLimited[k]) ++limited_;
-    nextEvenPoint(point);
-    const double drawn = sum > 1.0 ? point * sum : point;
-    if (drawn >= sum) {
-      if (kept != i) std::copy_n(&rows[i], packedParticle, &rows[kept]);
-      kept += packedParticle;
-      continue;
-    }
-    std::size_t s = 0;
-    while (s + 1 < sides.size() && drawn >= upTo[s]) ++s;
     GivenParticle particle = particleAt(&rows[i]);
-    particle.number *= m.volume[cell];
-    if (sides[s].beyond < 0)
-      gone_.push_back(particle);
-    else
-      leaving_.push_back({m.faceNumber[sides[s].face], sides[s].beyond, particle});
+    const int pieces =
+        particle.number > whole ? static_cast<int>(std::min(mostPieces, std::ceil(particle.number / whole))) : 1;
+    std::array<int, Mesh::mostSides> goes{};
+    int stay = 0;
+    for (int piece = 0; piece < pieces; ++piece) {
+      nextEvenPoint(point);
+      const double drawn = sum > 1.0 ? point * sum : point;
+      if (drawn >= sum) {
+        ++stay;
+        continue;
+      }
+      std::size_t s = 0;
+      while (s + 1 < sides.size() && drawn >= upTo[s]) ++s;
+      ++goes[s];
+    }
+    if (stay > 0) {
+      if (kept != i) std::copy_n(&rows[i], packedParticle, &rows[kept]);
+      if (stay < pieces) rows[kept + 3] = particle.number * stay / pieces;
+      kept += packedParticle;
+    }
+    if (stay == pieces) continue;
+    const double all = particle.number * m.volume[cell];
+    for (std::size_t s = 0; s < sides.size(); ++s) {
+      if (goes[s] == 0) continue;
+      particle.number = all * goes[s] / pieces;
+      if (sides[s].beyond < 0)
+        gone_.push_back(particle);
+      else
+        leaving_.push_back({m.faceNumber[sides[s].face], sides[s].beyond, particle});
+    }
   }
   rows.resize(kept);
 }
@@ -258,15 +284,19 @@ void EnsembleTransport::send(std::vector<Rows>& arrived) {
 }
 
 // Collective. So many that what would leave a cell by the values in it is no more than there is.
-int EnsembleTransport::findParts(const Gas& gas, double dt, const std::vector<Rows>& populations) {
+int EnsembleTransport::findParts(const Gas& gas, double dt, const std::vector<Rows>& populations,
+                                 const std::vector<Rows>& arrived) {
   const Mesh& m = context_.mesh;
   double most = 0.0;
   for (int cell = 0; cell < m.owned; ++cell) {
-    const Rows& rows = populations[cell];
-    if (rows.size() <= packedHead) continue;
     double lightest = std::numeric_limits<double>::infinity();
-    for (std::size_t i = packedHead; i < rows.size(); i += packedParticle)
-      lightest = std::min(lightest, rows[i] + rows[i + 1]);
+    const auto look = [&](const Rows& rows, std::size_t head) {
+      for (std::size_t i = head; i < rows.size(); i += packedParticle)
+        lightest = std::min(lightest, rows[i] + rows[i + 1]);
+    };
+    look(populations[cell], packedHead);
+    look(arrived[cell], 0);
+    if (!std::isfinite(lightest)) continue;
     const double volume = lightest / options_.type.density();
     const Between at = between(volume, smallest, nodes);
     double out = 0.0;
@@ -289,22 +319,27 @@ int EnsembleTransport::findParts(const Gas& gas, double dt, const std::vector<Ro
   return std::max(1, static_cast<int>(std::ceil(most)));
 }
 
-void EnsembleTransport::advance(const Gas& gas, double dt, std::uint64_t step, std::vector<Rows>& populations,
-                                std::vector<Rows>& arrived) {
+void EnsembleTransport::advance(const Gas& gas, double dt, std::uint64_t step, Half half,
+                                std::vector<Rows>& populations, std::vector<Rows>& arrived) {
   const Mesh& m = context_.mesh;
-  gone_.clear();
-  limited_ = 0;
-  std::ranges::fill(isFound_, 0);
-  parts_ = findParts(gas, dt, populations);
+  const bool isFirst = half == Half::First;
+  if (isFirst) {
+    gone_.clear();
+    limited_ = 0;
+    parts_ = 0;
+    std::ranges::fill(isFound_, 0);
+  }
+  const int parts = findParts(gas, 0.5 * dt, populations, arrived);
+  parts_ += parts;
   std::vector<Side> sides;
-  for (int part = 0; part < parts_; ++part) {
-    const double begun = static_cast<double>(part) / parts_;
+  for (int part = 0; part < parts; ++part) {
+    const double begun = 0.5 * ((isFirst ? 0.0 : 1.0) + static_cast<double>(part) / parts);
     findDensities(gas, begun, populations, arrived);
     for (int cell = 0; cell < m.owned; ++cell) {
       if (populations[cell].size() <= packedHead && arrived[cell].empty()) continue;
-      findSides(gas, cell, dt / parts_, massOf(gas, cell, begun), sides);
+      findSides(gas, cell, 0.5 * dt / parts, massOf(gas, cell, begun), sides);
       RandomStream random(options_.seed, static_cast<std::uint64_t>(m.naturalCell[cell]),
-                          movesStream + static_cast<std::uint32_t>(part));
+                          movesStream + static_cast<std::uint32_t>((isFirst ? 0 : mostParts) + part));
       random.seek(step);
       double point = random.uniform();
       if (populations[cell].size() > packedHead) drawLeaving(cell, sides, point, packedHead, populations[cell]);

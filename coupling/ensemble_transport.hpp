@@ -8,7 +8,7 @@
 //
 // as carried scalars do: by upwind convection with the value at the face over that in the cell (r), and by diffusion
 // both ways. r is of second order in place and time: linear in the cell, by the gradient of the particles of like size
-// per mass of gas, at the place from which the gas reaches the face in the middle of the step; it is limited to between
+// per mass of gas, at the place from which the gas reaches the face in the middle of the time; it is limited to between
 // 0 and 2, which no face value of a smooth field exceeds, and to nothing else: a limiter of slopes would bias what is
 // noisy. o corrects diffusion where the step from cell to cell is oblique to the face. Like sizes: volumes within a
 // factor of eight.
@@ -53,14 +53,16 @@ class EnsembleTransport {
   EnsembleTransport(const FlowContext& context, Options options);
   ~EnsembleTransport();
 
-  // Collective. Takes out of each owned cell's population those that leave in dt, and adds to `arrived` of each cell
-  // those that come, with their numbers per volume there. `step`: which step of the run it is.
-  void advance(const Gas& gas, double dt, std::uint64_t step, std::vector<Rows>& populations,
+  enum class Half { First, Second };
+  // Collective. Takes out of each owned cell's population those that leave in one half of a step of dt, and adds to
+  // `arrived` of each cell those that come, with their numbers per volume there. Those that have arrived before may
+  // leave as well. `step`: which step of the run it is.
+  void advance(const Gas& gas, double dt, std::uint64_t step, Half half, std::vector<Rows>& populations,
                std::vector<Rows>& arrived);
 
   // What left through the boundary in the last step, of this rank's cells: numbers per metre depth or radian.
   [[nodiscard]] const std::vector<GivenParticle>& gone() const { return gone_; }
-  // In how many parts the last step was taken, so that no cell gives more than it has.
+  // In how many parts the halves of the last step were taken, so that no cell gives more than it has: two at least.
   [[nodiscard]] int parts() const { return parts_; }
   // How many numerical particles of this rank's cells moved in the last step, once a part, with a probability that was
   // limited: r, o or the sum over all faces.
@@ -83,7 +85,8 @@ class EnsembleTransport {
   [[nodiscard]] double massOf(const Gas& gas, int cell, double part) const;
   void drawLeaving(int cell, const std::vector<Side>& sides, double& point, std::size_t head, Rows& rows);
   void send(std::vector<Rows>& arrived);
-  [[nodiscard]] int findParts(const Gas& gas, double dt, const std::vector<Rows>& populations);
+  [[nodiscard]] int findParts(const Gas& gas, double dt, const std::vector<Rows>& populations,
+                              const std::vector<Rows>& arrived);
 
   const FlowContext& context_;
   Options options_;
@@ -95,7 +98,7 @@ class EnsembleTransport {
   std::vector<char> isFound_;                // whether it is that of this step
   std::vector<Leaving> leaving_;
   std::vector<GivenParticle> gone_;
-  int parts_ = 1;
+  int parts_ = 0;
   std::int64_t limited_ = 0;
 };
 

@@ -10,9 +10,12 @@
 #include <span>
 #include <vector>
 
+#include "core/constants.hpp"
+#include "core/cube_root.hpp"
 #include "core/packed_doubles.hpp"
 #include "core/rooms.hpp"
 #include "particles/ensemble/ensemble.hpp"
+#include "particles/soot/soot_aggregate.hpp"
 
 namespace lampblack::particles {
 
@@ -36,6 +39,24 @@ inline constexpr std::size_t packedHead =
   particles.reserve((state.size() - packedHead) / packedParticle);
   for (PackedDoubles rest(state.subspan(packedHead)); rest.left() > 0;) particles.push_back(rest.next<GivenParticle>());
   return particles;
+}
+
+inline void addTo(Ensemble::Totals& t, const SootAggregate& type, const GivenParticle& p) {
+  const double d = cubeRoot(type.perVolume() * (p.carbon + p.hydrogen) / p.primaries);
+  t.number += p.number;
+  t.carbon += p.number * p.carbon;
+  t.hydrogen += p.number * p.hydrogen;
+  t.primaries += p.number * p.primaries;
+  t.surface += p.number * p.primaries * constants::pi * d * d;
+  t.diameters += p.number * d * SootAggregate::mobilityFactor(p.primaries);
+}
+
+// Ensemble::totals() of a packed one.
+[[nodiscard]] inline Ensemble::Totals packedTotals(const SootAggregate& type, std::span<const double> state) {
+  Ensemble::Totals totals;
+  if (state.size() <= packedHead) return totals;
+  for (PackedDoubles rest(state.subspan(packedHead)); rest.left() > 0;) addTo(totals, type, rest.next<GivenParticle>());
+  return totals;
 }
 
 }  // namespace lampblack::particles

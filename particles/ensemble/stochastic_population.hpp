@@ -145,13 +145,7 @@ template <class Method>
 Ensemble::Totals StochasticProcess<Method>::totals() const {
   Totals t;
   method_.forEachParticle([&](const Particle& p, double w) {
-    const double d = type_.primaryDiameter(p);
-    t.number += w;
-    t.carbon += w * p.carbon;
-    t.hydrogen += w * p.hydrogen;
-    t.primaries += w * p.primaries;
-    t.surface += w * p.primaries * constants::pi * d * d;
-    t.diameters += w * d * SootAggregate::mobilityFactor(p.primaries);
+    addTo(t, type_, {p.carbon, p.hydrogen, p.primaries, w});
   });
   return t;
 }

@@ -138,13 +138,18 @@ TYPED_TEST(WeightedStoreDraws, SinglesComeAtTheirRates) {
 
 // Most of the number in a few small entries, among which large ones that stand for few move: bundles of meetings, whose
 // sum comes at the rate of the pair.
-TEST(TwoLevelStore, BundlesHaveTheRatesOfTheirMeetings) {
+class Bundles : public testing::TestWithParam<double> {};
+// Bounded by the share of the volume, and by that of what the small ones stand for.
+INSTANTIATE_TEST_SUITE_P(Shares, Bundles, testing::Values(0.1, 0.9));
+
+TEST_P(Bundles, HaveTheRatesOfTheirMeetings) {
   const Rates rates;
   TwoLevelStore<Rates> store(rates);
-  store.setShareAtOnce(0.1);
+  const double share = GetParam();
+  store.setShareAtOnce(share);
   std::vector<Entry> entries;
   RandomStream random(13, 0, 0);
-  for (int k = 0; k < 20; ++k) entries.push_back({{1 + 0.05 * k}, 2000 + 100.0 * k});
+  for (int k = 20; k-- > 0;) entries.push_back({{1 + 0.05 * k}, 2000 + 100.0 * k});
   for (int k = 0; k < 60; ++k) entries.push_back({{std::exp(9 * random.uniform())}, std::exp(3 * random.uniform())});
   store.assign(entries);
   std::map<double, std::size_t> index;
@@ -161,7 +166,7 @@ TEST(TwoLevelStore, BundlesHaveTheRatesOfTheirMeetings) {
     taken[pair] += times;
     squares[pair] += times * times;
     if (times > 1) {
-      EXPECT_LE(times * j.particle.volume, 0.1 * i.particle.volume * (1 + 1e-12));
+      EXPECT_LE(times * j.particle.volume, share * i.particle.volume * (1 + 1e-12));
       EXPECT_LE(times * i.weight, 0.5 * j.weight * (1 + 1e-12));
       ++bundled;
     }
@@ -182,6 +187,31 @@ TEST(TwoLevelStore, BundlesHaveTheRatesOfTheirMeetings) {
       if (events > 40) worst = std::max(worst, std::abs(taken[pair] - mean) / std::sqrt(squares[pair]));
     }
   EXPECT_LT(worst, 4.6);  // of some thousand pairs
+}
+
+// Whatever places the two of a pair have, the last ones too.
+TEST(TwoLevelStore, KeepsWhatWasNotDrawn) {
+  RandomStream random(15, 0, 0);
+  for (int k = 0; k < 200; ++k) {
+    TwoLevelStore<Rates> store{Rates()};
+    for (const double v : {3.0, 1.0, 2.0}) store.insert({{v}, 1.0});
+    Entry i, j;
+    while (!store.drawPair(random, i, j)) {
+    }
+    ASSERT_EQ(store.size(), 1U);
+    store.settle();
+    store.forEach(
+        [&](const Entry& left) { EXPECT_EQ(left.particle.volume, 6.0 - i.particle.volume - j.particle.volume); });
+  }
+}
+
+TEST(TwoLevelStore, SettlesInOrderOfVolume) {
+  TwoLevelStore<Rates> store{Rates()};
+  for (const double v : {3.0, 1.0, 2.0}) store.insert({{v}, 1.0});
+  store.settle();
+  std::vector<double> volumes;
+  store.forEach([&](const Entry& e) { volumes.push_back(e.particle.volume); });
+  EXPECT_EQ(volumes, (std::vector{1.0, 2.0, 3.0}));
 }
 
 TEST(TwoLevelStore, MergesTheNearestNeighbours) {
