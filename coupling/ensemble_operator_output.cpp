@@ -44,7 +44,7 @@ std::vector<Quantity> EnsembleOperator::historyColumns() const {
           {"numerical_particles", "1", "numerical particles in all cells"},
           {"soot_resampled", unitOfWhole(context_.mesh, "kg"),
            "soot that came and went with numerical particles since the start, zero in the mean"},
-          {"transport_parts", "1", "parts that the particles' transport was divided into"},
+          {"transport_parts", "1", "parts that the particles' transport was divided into, two at least"},
           {"transport_limited", "1", "numerical particles whose probability to move was limited in the last step"},
           // With and without averages, so that a run may go on with them.
           {"soot_averages_since", "s", "when averages of the soot over time started; nan before"},

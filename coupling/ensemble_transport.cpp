@@ -21,6 +21,7 @@ namespace {
 constexpr std::uint32_t movesStream = 0x4d4f5645;  // and the parts of both halves of a step behind it
 constexpr int mostParts = 200;                     // of a half
 
+// Beyond how many mean weights a numerical particle goes in pieces, and in how many at most.
 constexpr double meanWeights = 2.0, mostPieces = 1000.0;
 
 // Where a volume (m3) lies between powers of two, 2^(first + node): straight between them.
@@ -37,7 +38,7 @@ Between between(double volume, int first, std::size_t nodes) {
   return {static_cast<std::size_t>(node), 2.0 * mantissa - 1.0};
 }
 
-// Numerical particles that stand for more than this go in pieces: twice the mean of all.
+// What a numerical particle that goes as a whole may stand for.
 double largestWhole(const std::vector<double>& rows, std::size_t head) {
   double number = 0.0;
   for (std::size_t i = head; i < rows.size(); i += packedParticle) number += rows[i + 3];
@@ -188,9 +189,34 @@ void EnsembleTransport::findSides(const Gas& gas, int cell, double dt, double ma
   }
 }
 
+// Of a particle: the sums of its probabilities to leave through the sides up to each of them. Returns its class of
+// size.
+int EnsembleTransport::sumChances(const double* row, const std::vector<Side>& sides, std::span<double> upTo) const {
+  const double volume = (row[0] + row[1]) / options_.type.density(), primaries = row[2];
+  const int k = classOf(volume);
+  double d = sphereDiameter(volume), ofMobility = volume;
+  if (primaries > 1.0) {
+    d *= SootAggregate::mobilityFactor(primaries) / std::cbrt(primaries);
+    ofMobility = constants::pi / 6.0 * d * d * d;
+  }
+  const Between at = between(ofMobility, smallest, nodes);
+  const double perSquare = 1.0 / (d * d);
+  double sum = 0.0;
+  for (std::size_t s = 0; s < sides.size(); ++s) {
+    const Side& side = sides[s];
+    sum += side.convected[k];
+    if (side.diffuses)
+      sum += side.diffused[k] * perSquare *
+             (side.diffusion[at.node] + at.part * (side.diffusion[at.node + 1] - side.diffusion[at.node]));
+    upTo[s] = sum;
+  }
+  return k;
+}
+
 void EnsembleTransport::drawLeaving(int cell, const std::vector<Side>& sides, double& point, std::size_t head,
                                     Rows& rows) {
   const Mesh& m = context_.mesh;
+  if (sides.empty()) return;
   std::array<double, Mesh::mostSides> upTo{};
   std::array<bool, classes> isLimited{};
   for (const Side& side : sides)
@@ -198,51 +224,31 @@ void EnsembleTransport::drawLeaving(int cell, const std::vector<Side>& sides, do
   const double whole = largestWhole(rows, head);
   std::size_t kept = head;
   for (std::size_t i = head; i < rows.size(); i += packedParticle) {
-    const double volume = (rows[i] + rows[i + 1]) / options_.type.density();
-    const int k = classOf(volume);
-    double d = sphereDiameter(volume), ofMobility = volume;
-    if (rows[i + 2] > 1.0) {
-      d *= SootAggregate::mobilityFactor(rows[i + 2]) / std::cbrt(rows[i + 2]);
-      ofMobility = constants::pi / 6.0 * d * d * d;
-    }
-    const Between at = between(ofMobility, smallest, nodes);
-    const double perSquare = 1.0 / (d * d);
-    double sum = 0.0;
-    for (std::size_t s = 0; s < sides.size(); ++s) {
-      const Side& side = sides[s];
-      sum += side.convected[k];
-      if (side.diffuses)
-        sum += side.diffused[k] * perSquare *
-               (side.diffusion[at.node] + at.part * (side.diffusion[at.node + 1] - side.diffusion[at.node]));
-      upTo[s] = sum;
-    }
+    const int k = sumChances(&rows[i], sides, upTo);
+    const double sum = upTo[sides.size() - 1];
     if (sum > 1.0 || isLimited[k]) ++limited_;
     GivenParticle particle = particleAt(&rows[i]);
-    const int pieces =
-        particle.number > whole ? static_cast<int>(std::min(mostPieces, std::ceil(particle.number / whole))) : 1;
-    std::array<int, Mesh::mostSides> goes{};
-    int stay = 0;
-    for (int piece = 0; piece < pieces; ++piece) {
+    const double pieces = std::clamp(std::ceil(particle.number / whole), 1.0, mostPieces);
+    std::array<double, Mesh::mostSides> leave{};
+    double stay = pieces;
+    for (int piece = 0; piece < static_cast<int>(pieces); ++piece) {
       nextEvenPoint(point);
       const double drawn = sum > 1.0 ? point * sum : point;
-      if (drawn >= sum) {
-        ++stay;
-        continue;
-      }
+      if (drawn >= sum) continue;
       std::size_t s = 0;
       while (s + 1 < sides.size() && drawn >= upTo[s]) ++s;
-      ++goes[s];
+      leave[s] += 1.0;
+      stay -= 1.0;
     }
-    if (stay > 0) {
+    if (stay > 0.0) {
       if (kept != i) std::copy_n(&rows[i], packedParticle, &rows[kept]);
       if (stay < pieces) rows[kept + 3] = particle.number * stay / pieces;
       kept += packedParticle;
     }
-    if (stay == pieces) continue;
-    const double all = particle.number * m.volume[cell];
+    const double inCell = particle.number * m.volume[cell];
     for (std::size_t s = 0; s < sides.size(); ++s) {
-      if (goes[s] == 0) continue;
-      particle.number = all * goes[s] / pieces;
+      if (!(leave[s] > 0.0)) continue;
+      particle.number = inCell * leave[s] / pieces;
       if (sides[s].beyond < 0)
         gone_.push_back(particle);
       else

@@ -13,8 +13,9 @@
 // noisy. o corrects diffusion where the step from cell to cell is oblique to the face. Like sizes: volumes within a
 // factor of eight.
 //
-// Which particles go is drawn evenly over their order (EvenPoints), by one random number of the cell and step: results
-// do not depend on ranks. docs/theory/ensembles_in_cells.md.
+// Which particles go is drawn evenly over their order (nextEvenPoint), by one random number of the cell and part of the
+// step: results do not depend on ranks. A numerical particle that stands for more than twice the mean goes in pieces,
+// so that the number does not leap. docs/theory/ensembles_in_cells.md.
 #pragma once
 
 #include <cstdint>
@@ -83,6 +84,7 @@ class EnsembleTransport {
   void findSides(const Gas& gas, int cell, double dt, double mass, std::vector<Side>& sides);
   [[nodiscard]] double outflow(const Gas& gas, int face, int cell) const;
   [[nodiscard]] double massOf(const Gas& gas, int cell, double part) const;
+  int sumChances(const double* row, const std::vector<Side>& sides, std::span<double> upTo) const;
   void drawLeaving(int cell, const std::vector<Side>& sides, double& point, std::size_t head, Rows& rows);
   void send(std::vector<Rows>& arrived);
   [[nodiscard]] int findParts(const Gas& gas, double dt, const std::vector<Rows>& populations,
