@@ -205,13 +205,14 @@ TEST(TwoLevelStore, KeepsWhatWasNotDrawn) {
   }
 }
 
-TEST(TwoLevelStore, SettlesInOrderOfVolume) {
+TEST(TwoLevelStore, SettlesInOrderOfVolumeThenWeight) {
   TwoLevelStore<Rates> store{Rates()};
-  for (const double v : {3.0, 1.0, 2.0}) store.insert({{v}, 1.0});
+  for (const auto& [volume, weight] : {std::pair{3.0, 1.0}, {1.0, 5.0}, {2.0, 1.0}, {1.0, 4.0}})
+    store.insert({{volume}, weight});
   store.settle();
-  std::vector<double> volumes;
-  store.forEach([&](const Entry& e) { volumes.push_back(e.particle.volume); });
-  EXPECT_EQ(volumes, (std::vector{1.0, 2.0, 3.0}));
+  std::vector<std::pair<double, double>> found;
+  store.forEach([&](const Entry& e) { found.emplace_back(e.particle.volume, e.weight); });
+  EXPECT_EQ(found, (std::vector<std::pair<double, double>>{{1.0, 4.0}, {1.0, 5.0}, {2.0, 1.0}, {3.0, 1.0}}));
 }
 
 TEST(TwoLevelStore, MergesTheNearestNeighbours) {
