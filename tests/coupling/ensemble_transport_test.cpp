@@ -204,16 +204,16 @@ TEST_P(MeanOfParticles, IsTheFiniteVolumeField) {
 // Diffusion on triangles, where the steps between centres are oblique to the faces: numbers that rise evenly stay, away
 // from the walls.
 TEST(EnsembleTransport, DiffusesAcrossObliqueFacesAsAcrossOthers) {
-  constexpr int repeats = 60;
+  constexpr int repeats = 30;
   const double d = 2e-9, edge = 0.003;
-  const auto rising = [](const Vector3& x) { return 1e16 * (1.0 + 60.0 * x[0] + 30.0 * x[1]); };
+  const auto rising = [](const Vector3& x) { return 1e16 * (0.2 + 120.0 * x[0] + 60.0 * x[1]); };
   MeanOfRepeats numbers;
   std::vector<double> before;
   double diffused = 0.0;
   for (int r = 0; r < repeats; ++r) {
     Moving m(
         10, [](const Vector3&) { return Vector3{}; }, MPI_COMM_WORLD, Split{Cells::Triangles});
-    m.fill(100, rising, 0.0);
+    m.fill(300, rising, 0.0);
     const Mesh& mesh = m.box.mesh;
     std::vector<int> inner;
     for (int c = 0; c < mesh.owned; ++c)
@@ -224,7 +224,7 @@ TEST(EnsembleTransport, DiffusesAcrossObliqueFacesAsAcrossOthers) {
       for (const int c : inner) before.push_back(m.moment(c, 0.0));
     EnsembleTransport transport = m.transport(true, 300 + static_cast<std::uint64_t>(r));
     const CarrierGas gas{1500.0, constants::oneAtmosphere, m.state.density[0], 5e-5, 0.028};
-    const double dt = 2e-8 / brownianDiffusivity(gas, d);  // a fifth of a cell
+    const double dt = 1e-7 / brownianDiffusivity(gas, d);  // 0.3 mm
     m.step(transport, dt, 0);
     EXPECT_EQ(sumOverRanks(static_cast<double>(transport.limited())), 0.0);
     std::vector<double> values;
@@ -236,7 +236,7 @@ TEST(EnsembleTransport, DiffusesAcrossObliqueFacesAsAcrossOthers) {
   const auto score = numbers.against(before);
   report(fmt::format("oblique faces: largest |z| {:.2f}, mean square {:.2f}", score.largest, score.square));
   EXPECT_LT(score.largest, 4.5);
-  EXPECT_LT(score.square, 1.6);
+  EXPECT_LT(score.square, 2.5);  // of neighbours that share faces; 60 without the correction
 }
 
 // Numbers and all moments in the whole of a closed box stay, to round-off, on any number of ranks and on cells of any
