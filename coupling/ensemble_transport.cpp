@@ -215,6 +215,23 @@ int EnsembleTransport::sumChances(const double* row, const std::vector<Side>& si
   return k;
 }
 
+// Of spheres between a node and the next, and of aggregates of that volume, which diffuse less: no sum of chances to
+// leave is above this. D falls with the volume, D d^2 rises.
+void EnsembleTransport::boundChances(const std::vector<Side>& sides, std::span<double, nodes> bounds) {
+  std::ranges::fill(bounds, 0.0);
+  for (std::size_t node = 0; node < nodes; ++node) {
+    const double volume = std::ldexp(1.0, smallest + static_cast<int>(node));
+    const int k = classOf(volume);
+    const double d = sphereDiameter(volume), perSquare = 1.0 / (d * d);
+    for (const Side& side : sides) {
+      bounds[node] += side.convected[k];
+      if (side.diffuses)
+        bounds[node] += side.diffused[k] * perSquare *
+                        std::max(side.diffusion[node], side.diffusion[std::min(node + 1, nodes - 1)]);
+    }
+  }
+}
+
 void EnsembleTransport::drawLeaving(int cell, const std::vector<Side>& sides, double& point, std::size_t head,
                                     Rows& rows) {
   const Mesh& m = context_.mesh;
@@ -224,8 +241,24 @@ void EnsembleTransport::drawLeaving(int cell, const std::vector<Side>& sides, do
   for (const Side& side : sides)
     for (std::size_t k = 0; k < isLimited.size(); ++k) isLimited[k] = isLimited[k] || side.isLimited[k];
   const double whole = largestWhole(rows, head);
+  std::array<double, nodes> bounds;
+  boundChances(sides, bounds);
   std::size_t kept = head;
   for (std::size_t i = head; i < rows.size(); i += packedParticle) {
+    // Most stay, which their bound tells.
+    const double volume = (rows[i] + rows[i + 1]) / options_.type.density();
+    if (const int node = std::ilogb(volume) - smallest;
+        node >= 0 && node < static_cast<int>(nodes) && !(rows[i + 3] > whole)) {
+      double next = point;
+      nextEvenPoint(next);
+      if (next >= bounds[static_cast<std::size_t>(node)]) {
+        point = next;
+        if (isLimited[classOf(volume)]) ++limited_;
+        if (kept != i) std::copy_n(&rows[i], packedParticle, &rows[kept]);
+        kept += packedParticle;
+        continue;
+      }
+    }
     const int k = sumChances(&rows[i], sides, upTo);
     const double sum = upTo[sides.size() - 1];
     if (sum > 1.0 || isLimited[k]) ++limited_;

@@ -85,6 +85,7 @@ class EnsembleTransport {
   [[nodiscard]] double outflow(const Gas& gas, int face, int cell) const;
   [[nodiscard]] double massOf(const Gas& gas, int cell, double part) const;
   int sumChances(const double* row, const std::vector<Side>& sides, std::span<double> upTo) const;
+  static void boundChances(const std::vector<Side>& sides, std::span<double, nodes> bounds);
   void drawLeaving(int cell, const std::vector<Side>& sides, double& point, std::size_t head, Rows& rows);
   void send(std::vector<Rows>& arrived);
   [[nodiscard]] int findParts(const Gas& gas, double dt, const std::vector<Rows>& populations,
