@@ -30,6 +30,10 @@ enum class CollisionKernelType {
   gravitational     // pi/4 (di + dj)^2 |vi - vj| with the settling velocities of Stokes, with slip and buoyancy
 };
 
+// Slip correction of the continuum part: Davies (1945) with the gas's mean free path; or 1 + 1.257 Kn with that of air,
+// Kn = 4.74e-5 (Pa m/K) T/(p d) (Shekar, Smith, Kraft, Wagner 2011, eqs. 37-38).
+enum class SlipLaw { davies, air };
+
 [[nodiscard]] std::string_view nameOf(CollisionKernelType type);  // as messages call it: "free-molecular", ...
 
 struct CollisionKernelOptions {
@@ -38,6 +42,7 @@ struct CollisionKernelOptions {
   CarrierGas gas{};
   double enhancement = 1;  // of free-molecular collisions (van der Waals)
   double shearRate = 0;    // 1/s
+  SlipLaw slip = SlipLaw::davies;
   // Probability that a collision sticks: `efficiency`, times 1 / (1 + (efficiencyDiameter / d)^efficiencyExponent) of
   // the smaller diameter d where efficiencyDiameter is not zero.
   double efficiency = 1;
@@ -98,7 +103,8 @@ class CollisionKernel {
     return options_.efficiency / (1 + std::pow(ratio, options_.efficiencyExponent));
   }
   [[nodiscard]] double slipOver(double diameter) const {  // C/d
-    return slipCorrection(twiceMeanFreePath_ / diameter) / diameter;
+    const double knudsen = twiceMeanFreePath_ / diameter;
+    return (options_.slip == SlipLaw::davies ? slipCorrection(knudsen) : 1 + 1.257 * knudsen) / diameter;
   }
   [[nodiscard]] double reach(const Properties& x, double slipOverDiameter) const {  // d + 2g, or d without Fuchs
     if (options_.type != CollisionKernelType::transitionFuchs) return x.diameter;

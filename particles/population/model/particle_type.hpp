@@ -4,21 +4,30 @@
 #pragma once
 
 #include <concepts>
+#include <utility>
 
+#include "core/random.hpp"
 #include "core/rooms.hpp"
 #include "particles/population/model/collision_kernel.hpp"
 
 namespace lampblack::particles {
 
+//
+// What methods of equal weights ask for; coagulated() as in joined() below.
 template <class Type>
-concept ParticleType = std::copyable<typename Type::Particle> &&
-    requires(const Type type, const typename Type::Particle p, double x, const CollisionKernel kernel) {
+concept CoagulatingType = std::copyable<typename Type::Particle> &&
+    requires(const Type type, const typename Type::Particle p, double x) {
   { type.volume(p) } -> std::convertible_to<double>;             // m3; orders the particles, moments are of it
   { type.mass(p) } -> std::convertible_to<double>;               // kg
   { type.surface(p) } -> std::convertible_to<double>;            // m2
   { type.collisionDiameter(p) } -> std::convertible_to<double>;  // m
   // A particle of this volume, as nucleation and the initial population make it.
   { type.make(x) } -> std::same_as<typename Type::Particle>;
+};
+
+// And those of different weights, and growth and breakage in any.
+template <class Type>
+concept ParticleType = CoagulatingType<Type> && requires(const Type type, const typename Type::Particle p, double x) {
   { type.coagulated(p, p) } -> std::same_as<typename Type::Particle>;
   // The weighted mean of two, conserving every extensive quantity: (w1 p1 + w2 p2) / (w1 + w2).
   { type.mean(p, x, p, x) } -> std::same_as<typename Type::Particle>;
@@ -32,6 +41,19 @@ concept ParticleType = std::copyable<typename Type::Particle> &&
 // which the functions below use: properties(kernel, p) as of now; exists(p), false for what has shrunk to nothing;
 // terms(kernel, p), bounds until the end of the step; orderVolume(p), constant until the end of the step; largest(p, f)
 // of a monotone f(volume) until then.
+
+// Two particles as one. A type whose particles join at a place that is drawn has coagulated(Particle&&, Particle&&,
+// RandomStream&).
+template <class Type>
+[[nodiscard, gnu::always_inline]] inline typename Type::Particle joined(const Type& type, typename Type::Particle& p,
+                                                                        typename Type::Particle& q,
+                                                                        RandomStream& random) {
+  if constexpr (requires { type.coagulated(std::move(p), std::move(q), random); }) {
+    return type.coagulated(std::move(p), std::move(q), random);
+  } else {
+    return type.coagulated(p, q);
+  }
+}
 
 // What the kernel asks for, and no more: a diameter costs a cube root.
 template <class Type>

@@ -14,7 +14,7 @@
 
 namespace lampblack::particles {
 
-template <ParticleType Type>
+template <CoagulatingType Type>
 class EqualRates {
  public:
   using Particle = typename Type::Particle;

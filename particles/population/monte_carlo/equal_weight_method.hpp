@@ -20,7 +20,7 @@
 
 namespace lampblack::particles {
 
-template <ParticleType Type, class Store>
+template <CoagulatingType Type, class Store>
 class EqualWeightMethod {
  public:
   using Entry = typename Store::Entry;
@@ -52,7 +52,7 @@ class EqualWeightMethod {
     if (!sample_.store().drawPair(random, i, j)) return false;
     sample_.taken(i);
     sample_.taken(j);
-    sample_.put(rates().entry(type_.coagulated(i.particle, j.particle)));
+    sample_.put(rates().entry(joined(type_, i.particle, j.particle, random)));
     ++counters_.coagulations;
     if (rates().tunable() && --retuneAfter_ == 0) retune();
     sample_.bringNumberIntoRange(random, counters_);

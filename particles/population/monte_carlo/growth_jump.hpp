@@ -11,7 +11,7 @@
 
 namespace lampblack::particles {
 
-template <ParticleType Type>
+template <CoagulatingType Type>
 class GrowthJump {
  public:
   using Particle = typename Type::Particle;

@@ -1,0 +1,108 @@
+// Trees of primaries as a type of particles (particle_type.hpp): how they are made and joined. They have no mean and no
+// pieces, so that methods that merge particles of different weights, or break them, do not take them: between two
+// trees there is no tree with the mean of all that belongs to them.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <utility>
+
+#include "core/random.hpp"
+#include "core/rooms.hpp"
+#include "particles/population/model/particle_type.hpp"
+#include "particles/trees/tree_shape.hpp"
+
+namespace lampblack::particles {
+
+class PrimaryTrees {
+ public:
+  using Particle = Tree;
+  static constexpr bool moreThanVolume = true;
+
+  PrimaryTrees(const TreeMaterial& material, CollisionSize size)
+      : material_(std::make_shared<TreeMaterial>(material)), pool_(std::make_shared<TreePool>()), size_(size) {}
+
+  [[nodiscard]] const TreeMaterial& material() const { return *material_; }
+  [[nodiscard]] TreePool& pool() const { return *pool_; }
+
+  [[nodiscard]] double volume(const Tree& p) const { return p.head().volume; }
+  [[nodiscard]] double mass(const Tree& p) const { return p.head().volume * material_->density; }
+  [[nodiscard]] double surface(const Tree& p) const { return p.head().surface; }
+  [[nodiscard]] double collisionDiameter(const Tree& p) const { return p.head().collision; }
+  [[nodiscard]] double fractalDimension() const { return material_->fractalDimension; }
+
+  // One primary.
+  [[nodiscard]] Tree make(const TreeUnits& units) const {
+    TreeHead* head = pool_->allocate(1);
+    head->count = 1;
+    *primariesOf(head) = {units, sphereDiameter(material_->volume(units))};
+    measure(*head);
+    return Tree(head);
+  }
+  // One of this volume, composed as a nucleus.
+  [[nodiscard]] Tree make(double volume) const {
+    TreeUnits units = material_->nucleus;
+    const double factor = volume / material_->volume(units);
+    for (double& number : units) number *= factor;
+    return make(units);
+  }
+  // In point contact at a primary of each, drawn uniformly (eq. 35). Those of the smaller tree move.
+  [[nodiscard]] Tree coagulated(Tree&& p, Tree&& q, RandomStream& random) const {
+    for (Tree* one : {&p, &q})
+      if (one->count() > 1 && one->head().time < clock() && shared_->settle) shared_->settle(*one, clock());
+    if (p.count() < q.count()) p.swap(q);
+    const std::size_t n = p.count(), m = q.count();
+    TreeHead& tree = p.own(n + m);
+    const TreeHead& other = q.head();
+    TreePrimary* primaries = primariesOf(&tree);
+    TreeNeck* necks = necksOf(&tree);
+    std::copy_n(q.primaries().data(), m, primaries + n);
+    const auto shift = static_cast<std::uint32_t>(n);
+    for (std::size_t k = 0; k + 1 < m; ++k) {
+      TreeNeck neck = q.necks()[k];
+      for (std::uint32_t* index : {&neck.left, &neck.right, &neck.first, &neck.last}) *index += shift;
+      necks[n + k] = neck;
+    }
+    TreeNeck& contact = necks[n - 1];
+    contact.left = static_cast<std::uint32_t>(random.below(n));
+    contact.right = shift + static_cast<std::uint32_t>(random.below(m));
+    contact.first = 0;
+    contact.last = static_cast<std::uint32_t>(n + m - 1);
+    contact.common =
+        primarySurface(primaries[contact.left].diameter) + primarySurface(primaries[contact.right].diameter);
+    contact.sphere = sphereOfNeck(primaries, contact);
+    tree.count += other.count;
+    for (std::size_t c = 0; c < mostTreeComponents; ++c) tree.units[c] += other.units[c];
+    tree.volume += other.volume;
+    tree.diameters += other.diameters;
+    tree.surfaces += other.surfaces;
+    tree.levels += other.levels + sinteringLevel(contact);
+    tree.sintering += other.sintering;
+    tree.time = clock();
+    tree.rest = 0;
+    shape(tree);
+    // It sinters until trees are looked at again: as it is half-way there.
+    if (shared_->settle && shared_->look > clock()) shared_->settle(p, 0.5 * (clock() + shared_->look));
+    return std::move(p);
+  }
+
+  // Time (s) up to which trees have sintered when they meet, when all are looked at next, and who sinters one.
+  [[nodiscard]] double& clock() const { return shared_->clock; }
+  void lookAt(double time) const { shared_->look = time; }
+  void settleBy(std::function<void(Tree&, double time)> settle) const { shared_->settle = std::move(settle); }
+
+  void measure(TreeHead& tree) const { measureTree(tree, 1 / material_->fractalDimension, size_); }
+  void shape(TreeHead& tree) const { shapeTree(tree, 1 / material_->fractalDimension, size_); }
+
+ private:
+  struct Shared {
+    double clock = 0, look = 0;
+    std::function<void(Tree&, double)> settle;
+  };
+  std::shared_ptr<const TreeMaterial> material_;
+  std::shared_ptr<TreePool> pool_;
+  std::shared_ptr<Shared> shared_ = std::make_shared<Shared>();
+  CollisionSize size_;
+};
+
+}  // namespace lampblack::particles

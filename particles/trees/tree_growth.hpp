@@ -1,0 +1,46 @@
+// Surface reactions and reactions within a particle over a time in which no trees meet (Shekar, Smith, Kraft, Wagner
+// 2011, eqs. 29-32, 57-59), deferred: each tree takes what happens to it in one go. Few events are drawn one by one, with
+// the rates that the sites have after each; many as Poisson numbers for each primary, in steps over which the number of
+// sites hardly changes. Rates of a reaction are for all sites of the tree; the primary is drawn uniformly.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/random.hpp"
+#include "core/rooms.hpp"
+#include "particles/trees/primary_trees.hpp"
+
+namespace lampblack::particles {
+
+class TreeGrowth {
+ public:
+  struct Changes {
+    double reactions = 0, bridges = 0;  // events at the surface, and within
+    std::uint64_t limited = 0;          // within: bounded at zero, and refused as the primary had no pair of sites
+  };
+
+  explicit TreeGrowth(const PrimaryTrees& type) : type_(type) {}
+
+  // 1/s for each site.
+  void setRate(double perSite) { rate_ = perSite; }
+  // Over dt (s). True where the tree has changed: its necks may have to fuse then.
+  bool advance(Tree& tree, double dt, RandomStream& random, Changes& changes);
+
+ private:
+  void oneByOne(TreeHead& tree, TreePrimary* primaries, double left, RandomStream& random, Changes& changes);
+  void inNumbers(TreeHead& tree, TreePrimary* primaries, double dt, RandomStream& random, Changes& changes);
+  [[nodiscard]] double within(const TreeHead& tree, double sites) const;
+  void react(TreeHead& tree, TreePrimary* primaries, std::size_t i, double events, Changes& changes);
+  void condense(TreeHead& tree, TreePrimary* primaries, std::size_t i, double events, Changes& changes);
+  void finish(TreeHead& tree);
+
+  static constexpr double fewEvents = 16, sitesChange = 0.1;
+
+  const PrimaryTrees& type_;
+  double rate_ = 0;
+  bool changed_ = false;
+  std::vector<double> grown_;  // by surface reactions, of each primary
+};
+
+}  // namespace lampblack::particles

@@ -1,0 +1,66 @@
+// What the primaries of a tree are made of and what a gas does to them: a table of components and a few processes, as
+// plain data. Silica from silicic acid is one (Shekar, Smith, Kraft, Wagner 2011); another material is another table.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/rooms.hpp"
+#include "particles/trees/sintering_law.hpp"
+
+namespace lampblack::particles {
+
+inline constexpr std::size_t mostTreeComponents = 3;
+// Numbers of units of each component.
+using TreeUnits = std::array<double, mostTreeComponents>;
+
+struct TreeComponent {
+  std::string name;
+  double weight = 0;                                     // kg/mol
+  std::vector<std::pair<std::string, double>> elements;  // atoms of each in a unit
+};
+
+struct TreeMaterial {
+  std::string name;
+  double density = 0;           // kg/m3
+  double fractalDimension = 3;  // of aggregates, for the diameter of collision
+  std::vector<TreeComponent> components;
+
+  // Species of the gas: what particles are made from, and what they give back.
+  std::string precursor, product;
+  // Inception: `nucleusPrecursors` molecules become a primary of `nucleus` and give `nucleusProducts`. Molecules have
+  // the mass (kg) and the diameter (m) of the collision kernel.
+  TreeUnits nucleus{};
+  double nucleusPrecursors = 2, nucleusProducts = 1, moleculeMass = 0, moleculeDiameter = 0;
+  // Surface reaction of a molecule with a site, a unit of the component `site`: what the primary gains, and the product;
+  // rate constant prefactor T^power exp(-energy/RT) for each site, m3/mol/s and J/mol.
+  std::size_t site = 0;
+  TreeUnits growth{};
+  double growthProducts = 1, prefactor = 0, power = 0, energy = 0;
+  // Two sites become one unit of `bridge` and one molecule of the product, by sintering and within a particle. The last
+  // process keeps the composition (eq. 59 of Shekar et al. 2011) and may be off.
+  std::size_t bridge = 0;
+  bool condenses = true;
+  // How much of the surface that a primary gains by growth its necks gain, 0 to 2 (eq. 30).
+  double smoothing = 1;
+  SinteringLaw sintering;
+
+  [[nodiscard]] double unitMass(std::size_t component) const;  // kg
+  [[nodiscard]] double growthVolume() const;                   // m3, of a surface reaction
+  [[nodiscard]] double volume(const TreeUnits& units) const;   // m3
+  // 1/s for each site, at a concentration (mol/m3) of the precursor.
+  [[nodiscard]] double growthRate(double temperature, double concentration) const;
+};
+
+// Throws InputError for what is not a material: a component without mass, constants below zero, processes that name
+// components that are not there or make atoms of nothing.
+void requireMaterial(const TreeMaterial& material);
+
+// Si, O and OH from Si(OH)4, called H4O4SI (Shekar et al. 2011, eqs. 11, 23, 29, 58; constants of sintering by the same
+// group, as fitted to Seto et al. 1997).
+[[nodiscard]] TreeMaterial silica();
+
+}  // namespace lampblack::particles

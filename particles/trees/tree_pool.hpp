@@ -1,0 +1,78 @@
+// Room for trees: blocks of a few sizes in slabs of one size each, so that a tree that grows or goes leaves a place for
+// the next, and a slab without trees goes back. A block holds a head, then primaries, then necks, one behind the other.
+// Trees of one pool share blocks by counting their holders; not to be used by several threads.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/rooms.hpp"
+#include "particles/trees/tree_material.hpp"
+
+namespace lampblack::particles {
+
+// A sphere of the material.
+struct TreePrimary {
+  TreeUnits units{};
+  double diameter = 0;  // m, of its volume
+};
+
+// Two primaries in contact. Primaries stand in the order of the tree of collisions: the neck behind the k-th primary is
+// the collision that joined primaries `first`..k with k+1..`last`.
+struct TreeNeck {
+  double common = 0;  // m2, C_ij (eq. 8)
+  double sphere = 0;  // m2, of the sphere of both volumes (eq. 43)
+  std::uint32_t left = 0, right = 0;
+  std::uint32_t first = 0, last = 0;
+};
+
+class TreePool;
+
+// What rates ask of a tree, kept up to date (SI): sums over primaries and necks, and what follows from them.
+struct TreeHead {
+  TreePool* pool = nullptr;
+  std::uint32_t holders = 0;
+  std::uint32_t count = 0;  // primaries
+  std::uint32_t capacity = 0;
+  TreeUnits units{};
+  double volume = 0, diameters = 0, surfaces = 0, levels = 0;
+  double surface = 0;    // m2 (eq. 15)
+  double collision = 0;  // m (eq. 17)
+  double sintering = 0;  // m2/s, by which the necks lose surface (eq. A.6)
+  double time = 0;       // s of the population's clock, up to which the necks have sintered
+  double rest = 0;       // s, for which they may wait from there
+};
+
+class TreePool {
+ public:
+  TreePool();
+  ~TreePool();
+  TreePool(const TreePool&) = delete;
+  TreePool& operator=(const TreePool&) = delete;
+
+  // Room for at least so many primaries, with one holder; nothing but pool, holders and capacity is set.
+  TreeHead* allocate(std::size_t primaries);
+  void release(TreeHead* block);
+  [[nodiscard]] std::size_t bytes() const { return bytes_; }  // of all slabs
+
+  static constexpr std::size_t headBytes = (sizeof(TreeHead) + 15) / 16 * 16;
+
+ private:
+  struct Slab;
+  static constexpr std::size_t slabBytes = 64 * 1024;
+  static std::size_t classOf(std::size_t primaries);
+  std::vector<Slab*> open_;  // of each class: slabs with room, linked
+  std::size_t bytes_ = 0;
+};
+
+inline TreePrimary* primariesOf(TreeHead* head) {
+  return reinterpret_cast<TreePrimary*>(reinterpret_cast<std::byte*>(head) + TreePool::headBytes);
+}
+inline TreeNeck* necksOf(TreeHead* head) {
+  return reinterpret_cast<TreeNeck*>(primariesOf(head) + head->capacity);
+}
+
+}  // namespace lampblack::particles

@@ -1,0 +1,96 @@
+// A stochastic population of trees of primaries in a given gas: inception, coagulation, surface reaction, reaction
+// within particles and sintering. Equal weights with doubling and contraction (EqualWeightMethod). The gas is not
+// changed, but what is taken from it and given to it is reported: the same atoms that the particles gain, to round-off.
+//
+// Splitting (Strang 1968): collisions and inception by jumps for half a step, growth for all of it, jumps for half a
+// step, of a length over which the population changes by `splitTolerance`. Sintering is not split off: each tree has the
+// time up to which it has sintered, and is brought up to date where it is looked at, before a collision, before it
+// grows, and as soon as it has changed (TreeSintering). docs/theory/primary_trees.md.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/rooms.hpp"
+#include "particles/collisions/collision_physics.hpp"
+#include "particles/population/model/collision_kernel.hpp"
+#include "particles/population/population_solver.hpp"
+#include "particles/trees/tree_shape.hpp"
+
+namespace lampblack::particles {
+
+struct TreeOptions {
+  TreeMaterial material;
+  std::size_t particles = 8192;  // most numerical ones, at least 8
+  std::uint64_t seed = 1, owner = 0;
+  // Of coagulation and inception; the gas gives its gas.
+  CollisionKernelOptions kernel{.type = CollisionKernelType::transition, .enhancement = 2.2, .slip = SlipLaw::air};
+  CollisionSize size = CollisionSize::primaries;
+  bool coagulation = true;
+  double splitTolerance = 0.05;     // relative change of the population in a splitting step
+  double sinteringTolerance = 1e-3;  // TreeSintering
+  double fullAt = 1e18;              // 1/m3, number density at which the sample is full first
+};
+
+// What happened since the last look, per m3 of the gas of each moment.
+struct TreeExchange {
+  double precursor = 0, product = 0;  // mol/m3, of the gas
+  TreeUnits units{};                  // of the particles, by all processes, 1/m3
+  double inceptions = 0, reactions = 0, condensations = 0, sinteredPairs = 0;  // events, 1/m3
+};
+
+struct TreeCounters {
+  std::uint64_t inceptions = 0, coagulations = 0, fictitious = 0, fused = 0, doublings = 0, removals = 0;
+  std::uint64_t splitSteps = 0;
+  std::uint64_t limited = 0;          // reactions within particles bounded at zero or without two sites
+  std::uint64_t withoutSites = 0;     // necks that sintered by more sites than a primary had
+};
+
+// Sums per m3, means by number (SI).
+struct TreeTotals {
+  double number = 0, volume = 0, mass = 0, surface = 0, primaries = 0, sinteringRate = 0;
+  TreeUnits units{};
+  double sphereDiameter = 0, collisionDiameter = 0, primaryDiameter = 0, sinteringLevel = 1;  // means; level 1: one primary
+  double massSquared = 0;                                             // kg2/m3
+  double collisionDeviation = 1, primaryDeviation = 1;                // geometric, by number
+  double sites = 0;
+  std::size_t largest = 0;  // primaries
+};
+
+class TreePopulation {
+ public:
+  virtual ~TreePopulation() = default;
+
+  // Replaces the population by so many (1/m3) spheres of these units. InputError for what is not a particle.
+  virtual void fill(const TreeUnits& units, double number) = 0;
+  // Over dt (s); the gas has the concentrations of the precursor and the product. NumericsError.
+  virtual void advance(const ParticleGas& gas, double dt) = 0;
+  virtual void dilute(double factor) = 0;  // all numbers per volume
+  [[nodiscard]] virtual TreeExchange takeExchange() = 0;
+  // All trees up to date (those that wait for sintering too).
+  virtual void settle() = 0;
+
+  [[nodiscard]] virtual std::size_t size() const = 0;
+  [[nodiscard]] virtual double weight() const = 0;  // 1/m3 for a numerical particle
+  [[nodiscard]] virtual TreeTotals totals() const = 0;
+  // dN/dlog10(d) (1/m3) in equal bins of log10(d/m).
+  enum class Diameter { collision, sphere, primary };
+  [[nodiscard]] virtual std::vector<double> sizeDistribution(Diameter of, double logMin, double logMax,
+                                                             std::size_t bins) const = 0;
+  [[nodiscard]] virtual std::vector<Tree> trees() const = 0;
+  [[nodiscard]] virtual TreeCounters counters() const = 0;
+  [[nodiscard]] virtual std::size_t bytes() const = 0;  // of what grows with the number of particles and primaries
+
+  // The complete state, as Ensemble::pack().
+  [[nodiscard]] virtual std::vector<double> pack() const = 0;
+  virtual void unpack(std::span<const double> state) = 0;
+};
+
+// Throws InputError.
+[[nodiscard]] std::unique_ptr<TreePopulation> makeTreePopulation(const TreeOptions& options);
+
+}  // namespace lampblack::particles

@@ -1,0 +1,163 @@
+// A population of trees as seen from outside, and as packed.
+#include <algorithm>
+#include <cmath>
+
+#include "core/errors.hpp"
+#include "core/packed_doubles.hpp"
+#include "particles/ensemble/packed_ensemble.hpp"
+#include "particles/ensemble/size_bins.hpp"
+#include "particles/population/monte_carlo/weighted_deviation.hpp"
+#include "particles/trees/tree_process.hpp"
+
+namespace lampblack::particles {
+
+TreeTotals TreeProcess::totals() const {
+  TreeTotals t;
+  if (size() == 0) return t;
+  double levels = 0;
+  WeightedDeviation collision, primary;
+  method_.forEachParticle([&](const Tree& p, double w) {
+    const TreeHead& tree = p.head();
+    const double n = tree.count, mass = tree.volume * options_.material.density, mean = tree.diameters / n;
+    t.number += w;
+    t.volume += w * tree.volume;
+    t.mass += w * mass;
+    t.massSquared += w * mass * mass;
+    t.surface += w * tree.surface;
+    t.primaries += w * n;
+    t.sinteringRate += w * tree.sintering;
+    for (std::size_t c = 0; c < mostTreeComponents; ++c) t.units[c] += w * tree.units[c];
+    t.sphereDiameter += w * sphereDiameter(tree.volume);
+    t.collisionDiameter += w * tree.collision;
+    t.primaryDiameter += w * mean;
+    levels += w * (tree.count > 1 ? tree.levels / (n - 1) : 1);
+    collision.add(std::log(tree.collision), w);
+    primary.add(std::log(mean), w);
+    t.largest = std::max<std::size_t>(t.largest, tree.count);
+  });
+  t.sites = t.units[options_.material.site];
+  for (double* mean : {&t.sphereDiameter, &t.collisionDiameter, &t.primaryDiameter}) *mean /= t.number;
+  t.sinteringLevel = levels / t.number;
+  t.collisionDeviation = collision.geometric();
+  t.primaryDeviation = primary.geometric();
+  return t;
+}
+
+std::vector<double> TreeProcess::sizeDistribution(Diameter of, double logMin, double logMax, std::size_t bins) const {
+  std::vector<double> density(bins, 0.0);
+  const SizeBins all{logMin, logMax, bins};
+  const auto add = [&](double d, double w) {
+    if (const std::size_t bin = all.of(d); bin < bins) density[bin] += w / all.width();
+  };
+  method_.forEachParticle([&](const Tree& p, double w) {
+    if (of == Diameter::collision) add(p.head().collision, w);
+    if (of == Diameter::sphere) add(sphereDiameter(p.head().volume), w);
+    if (of == Diameter::primary)
+      for (const TreePrimary& primary : p.primaries()) add(primary.diameter, w);
+  });
+  return density;
+}
+
+std::vector<Tree> TreeProcess::trees() const {
+  std::vector<Tree> all;
+  method_.forEachParticle([&](const Tree& p, double) { all.push_back(p); });
+  return all;
+}
+
+TreeCounters TreeProcess::counters() const {
+  TreeCounters all = counters_;
+  const PopulationCounters& method = const_cast<Method&>(method_).counters();
+  all.coagulations = method.coagulations;
+  all.doublings = method.doublings;
+  all.removals = method.removals;
+  return all;
+}
+
+namespace {
+
+constexpr double packedTrees = 1;
+
+// Sums as they are: joined trees have added them up in another order than they are measured in.
+struct PackedHead {
+  double count;
+  TreeUnits units;
+  double volume, diameters, surfaces, levels, surface, collision, sintering, time, rest;
+};
+
+}  // namespace
+
+std::vector<double> TreeProcess::pack() const {
+  std::vector<double> state{packedTrees, static_cast<double>(options_.particles)};
+  packDoubles(state, packedOwner(random_.owner()));
+  state.push_back(static_cast<double>(random_.position()));
+  state.push_back(type_.clock());
+  packDoubles(state, exchange_);
+  for (const std::uint64_t count : {counters_.inceptions, counters_.fictitious, counters_.fused, counters_.splitSteps,
+                                    counters_.limited, counters_.withoutSites})
+    state.push_back(static_cast<double>(count));
+  for (const PopulationCounter& counter : populationCounters)
+    state.push_back(static_cast<double>(const_cast<Method&>(method_).counters().*counter.value));
+  packDoubles(state, method_.memory());
+  method_.forEachParticle([&](const Tree& p, double) {
+    const TreeHead& h = p.head();
+    packDoubles(state, PackedHead{static_cast<double>(h.count), h.units, h.volume, h.diameters, h.surfaces, h.levels,
+                                  h.surface, h.collision, h.sintering, h.time, h.rest});
+    for (const TreePrimary& primary : p.primaries()) packDoubles(state, primary.units);
+    for (const TreeNeck& n : p.necks())
+      packDoubles(state, std::array{n.common, static_cast<double>(n.left), static_cast<double>(n.right),
+                                    static_cast<double>(n.first), static_cast<double>(n.last)});
+  });
+  return state;
+}
+
+void TreeProcess::unpack(std::span<const double> values) {
+  PackedDoubles state(values);
+  if (state.next() != packedTrees || state.next() != static_cast<double>(options_.particles))
+    throw InputError("particles: the saved state is not one of as many trees");
+  random_ = RandomStream(options_.seed, ownerOf(state.next<PackedOwner>()), 0x54524545);
+  random_.seek(static_cast<std::uint64_t>(state.next()));
+  type_.clock() = state.next();
+  exchange_ = state.next<TreeExchange>();
+  for (std::uint64_t* count : {&counters_.inceptions, &counters_.fictitious, &counters_.fused, &counters_.splitSteps,
+                               &counters_.limited, &counters_.withoutSites})
+    *count = static_cast<std::uint64_t>(state.next());
+  for (const PopulationCounter& counter : populationCounters)
+    method_.counters().*counter.value = static_cast<std::uint64_t>(state.next());
+  const auto memory = state.next<std::array<double, 2>>();
+  std::vector<Tree> all;
+  const auto index = [](double x) { return static_cast<std::uint32_t>(x); };
+  while (state.left() > 0) {
+    const auto h = state.next<PackedHead>();
+    if (!(h.count >= 1) || h.count > static_cast<double>(state.left()))
+      throw InputError("particles: the saved state is damaged");
+    TreeHead* tree = type_.pool().allocate(static_cast<std::size_t>(h.count));
+    Tree handle(tree);
+    tree->count = index(h.count);
+    for (std::uint32_t i = 0; i < tree->count; ++i) {
+      const auto units = state.next<TreeUnits>();
+      primariesOf(tree)[i] = {units, sphereDiameter(options_.material.volume(units))};
+    }
+    for (std::uint32_t k = 0; k + 1 < tree->count; ++k) {
+      const auto n = state.next<std::array<double, 5>>();
+      TreeNeck neck{n[0], 0, index(n[1]), index(n[2]), index(n[3]), index(n[4])};
+      if (std::max({neck.left, neck.right, neck.first, neck.last}) >= tree->count)
+        throw InputError("particles: the saved state is damaged");
+      neck.sphere = sphereOfNeck(primariesOf(tree), neck);
+      necksOf(tree)[k] = neck;
+    }
+    tree->units = h.units;
+    tree->volume = h.volume;
+    tree->diameters = h.diameters;
+    tree->surfaces = h.surfaces;
+    tree->levels = h.levels;
+    tree->surface = h.surface;
+    tree->collision = h.collision;
+    tree->sintering = h.sintering;
+    tree->time = h.time;
+    tree->rest = h.rest;
+    all.push_back(std::move(handle));
+  }
+  method_.restore(memory, all);
+}
+
+}  // namespace lampblack::particles

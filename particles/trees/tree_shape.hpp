@@ -1,0 +1,79 @@
+// Sizes of primaries, necks and trees (Shekar, Smith, Kraft, Wagner 2011, eqs. 11-20, 42, 43), inline as growth and
+// sintering ask for them all the time. Lengths in m.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/constants.hpp"
+#include "core/cube_root.hpp"
+#include "core/rooms.hpp"
+#include "particles/collisions/sphere.hpp"
+#include "particles/trees/tree.hpp"
+
+namespace lampblack::particles {
+
+// Two equal spheres in point contact have a sphere's surface over theirs of 2^(-1/3), where the sintering level is 0.
+inline constexpr double touching = 0.79370052598409973738;
+// From this level on (eq. 44) two primaries are one.
+inline constexpr double fusedLevel = 0.95;
+// The surface of a neck over the sphere's at which that is so.
+inline constexpr double fusedRatio = 1 / (fusedLevel * (1 - touching) + touching);
+
+// What diameter the number of primaries is raised from in the diameter of collision (eq. 17): their mean (eq. 18), or
+// 6 V/S of the aggregate, by which a sphere that has sintered is a sphere (Lavvas, Sander, Kraft, Imanaka 2011).
+enum class CollisionSize { primaries, volumeToSurface };
+
+[[nodiscard]] inline double primaryVolume(double diameter) { return constants::pi / 6 * diameter * diameter * diameter; }
+[[nodiscard]] inline double primarySurface(double diameter) { return constants::pi * diameter * diameter; }
+
+// Eq. 42, not below zero, where unequal primaries begin above it, and growth leaves rounding.
+[[nodiscard]] inline double sinteringLevel(const TreeNeck& neck) {
+  return std::clamp((neck.sphere / neck.common - touching) / (1 - touching), 0.0, 1.0);
+}
+// The common surface at a level.
+[[nodiscard]] inline double commonSurface(double sphere, double level) {
+  return sphere / (level * (1 - touching) + touching);
+}
+
+// Surface and diameter of collision of a tree from its sums (eqs. 15-19).
+inline void shapeTree(TreeHead& tree, double inverseDimension, CollisionSize size) {
+  if (tree.count == 1) {
+    tree.surface = tree.surfaces;
+    tree.collision = tree.diameters;
+    return;
+  }
+  const double n = tree.count, root = 1 / cubeRoot(n), level = tree.levels / (n - 1);
+  const double sphere = sphereSurface(tree.volume);
+  tree.surface = sphere / (level * (1 - root) + root);
+  // n_r = S^3 / (36 pi V^2) is the ratio of the surfaces to the third power.
+  const double ratio = tree.surface / sphere;
+  const double diameter = size == CollisionSize::primaries ? tree.diameters / n : 6 * tree.volume / tree.surface;
+  tree.collision = diameter * std::pow(ratio, 3 * inverseDimension);
+}
+
+// All sums afresh, from primaries and necks that are up to date.
+inline void measureTree(TreeHead& tree, double inverseDimension, CollisionSize size) {
+  tree.units = {};
+  tree.volume = tree.diameters = tree.surfaces = tree.levels = 0;
+  const TreePrimary* primaries = primariesOf(&tree);
+  for (std::uint32_t i = 0; i < tree.count; ++i) {
+    for (std::size_t c = 0; c < mostTreeComponents; ++c) tree.units[c] += primaries[i].units[c];
+    const double d = primaries[i].diameter;
+    tree.diameters += d;
+    tree.surfaces += primarySurface(d);
+    tree.volume += primaryVolume(d);
+  }
+  const TreeNeck* necks = necksOf(&tree);
+  for (std::uint32_t k = 0; k + 1 < tree.count; ++k) tree.levels += sinteringLevel(necks[k]);
+  shapeTree(tree, inverseDimension, size);
+}
+
+// The sphere of the two primaries of a neck.
+[[nodiscard]] inline double sphereOfNeck(const TreePrimary* primaries, const TreeNeck& neck) {
+  const double l = primaries[neck.left].diameter, r = primaries[neck.right].diameter;
+  const double d = cubeRoot(l * l * l + r * r * r);
+  return primarySurface(d);
+}
+
+}  // namespace lampblack::particles

@@ -1,0 +1,229 @@
+#include "particles/trees/tree_sintering.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lampblack::particles {
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+// 6 V/S of the pair, or the smaller diameter.
+double TreeSintering::sizeOf(const TreePrimary* primaries, const TreeNeck& neck, double common) const {
+  const double l = primaries[neck.left].diameter, r = primaries[neck.right].diameter;
+  if (type_.material().sintering.size == SinteringLaw::Size::smaller) return std::min(l, r);
+  return constants::pi * (l * l * l + r * r * r) / common;
+}
+
+TreeSintering::Course TreeSintering::follow(const TreePrimary* primaries, const TreeNeck& neck, double dt) const {
+  const SinteringLaw& law = type_.material().sintering;
+  const double S = neck.sphere, fused = S * fusedRatio;
+  if (neck.common <= fused) return {neck.common, 0};
+  if (law.size == SinteringLaw::Size::smaller || law.mechanism == SinteringMechanism::constant) {
+    const double tau = law.time(T_, sizeOf(primaries, neck, neck.common));
+    const double time = tau * std::log((neck.common - S) / (fused - S));
+    if (time <= dt) return {fused, time};
+    return {S + (neck.common - S) * std::exp(-dt / tau), never};
+  }
+  // The midpoint rule over steps in the surface: the time is what depends on it.
+  double C = neck.common, time = 0;
+  while (true) {
+    const double down = std::min(step * S, C - fused);
+    const double middle = C - 0.5 * down;
+    const double needs = down * law.time(T_, sizeOf(primaries, neck, middle)) / (middle - S);
+    if (time + needs > dt) return {std::max(C - down * (dt - time) / needs, fused), never};
+    time += needs;
+    C -= down;
+    if (C <= fused * (1 + 1e-14)) return {fused, time};
+  }
+}
+
+// Half of the sites from each (eq. 45); each primary as many as it has.
+void TreeSintering::loseSites(TreePrimary* primaries, const TreeNeck& neck, double sites, Changes& changes) const {
+  if (!(sites > 0)) return;
+  const TreeMaterial& m = type_.material();
+  for (const std::uint32_t i : {neck.left, neck.right}) {
+    TreePrimary& p = primaries[i];
+    const double taken = std::min(0.5 * sites, p.units[m.site]);
+    if (taken < 0.5 * sites) ++changes.limited;
+    p.units[m.site] -= taken;
+    p.units[m.bridge] += 0.5 * taken;
+    p.diameter = sphereDiameter(m.volume(p.units));
+    changes.bridges += 0.5 * taken;
+  }
+}
+
+void TreeSintering::neighbours(Tree& handle, double dt, Changes& changes) {
+  TreeHead& tree = handle.own();
+  TreePrimary* primaries = primariesOf(&tree);
+  TreeNeck* necks = necksOf(&tree);
+  const double density = tree.units[type_.material().site] / tree.surface;  // of sites, kept (Shekar et al. 2011)
+  courses_.clear();
+  left_.assign(tree.count - 1, dt);
+  for (std::uint32_t k = 0; k + 1 < tree.count; ++k) courses_.push_back(follow(primaries, necks[k], dt));
+  const auto bring = [&](std::size_t k, const Course& course) {
+    loseSites(primaries, necks[k], density * (necks[k].common - course.common), changes);
+    necks[k].common = course.common;
+  };
+  while (tree.count > 1) {
+    // The neck that fuses first, in time from the beginning.
+    std::size_t k = 0;
+    double first = never;
+    for (std::size_t n = 0; n < courses_.size(); ++n) {
+      const double time = dt - left_[n] + courses_[n].fuses;
+      if (time < first) {
+        first = time;
+        k = n;
+      }
+    }
+    if (first == never) break;
+    const std::uint32_t a = necks[k].left, b = necks[k].right;
+    // Those beside it up to that time: they go on with other primaries.
+    for (std::uint32_t n = 0; n + 1 < tree.count; ++n) {
+      const TreeNeck& neck = necks[n];
+      if (n == k || !(neck.left == a || neck.left == b || neck.right == a || neck.right == b)) continue;
+      bring(n, follow(primaries, neck, first - (dt - left_[n])));
+      left_[n] = -1;
+    }
+    bring(k, courses_[k]);
+    // Marks travel with their necks.
+    struct State {
+      Course course;
+      double left;
+    };
+    std::vector<State> states;
+    for (std::size_t n = 0; n < courses_.size(); ++n) states.push_back({courses_[n], left_[n]});
+    const std::uint32_t start = necks[k].first, before = b - (static_cast<std::uint32_t>(k) + 1);
+    fuseNeck(tree, k, type_.material());
+    states.erase(states.begin() + static_cast<std::ptrdiff_t>(k));
+    std::rotate(states.begin() + start, states.begin() + static_cast<std::ptrdiff_t>(k),
+                states.begin() + static_cast<std::ptrdiff_t>(k) + before);
+    courses_.clear();
+    left_.clear();
+    for (std::size_t n = 0; n < states.size(); ++n) {
+      const bool stands = states[n].left >= 0;
+      left_.push_back(stands ? states[n].left : dt - first);
+      courses_.push_back(stands ? states[n].course : follow(primaries, necks[n], dt - first));
+    }
+    ++changes.fused;
+  }
+  for (std::uint32_t k = 0; k + 1 < tree.count; ++k) bring(k, courses_[k]);
+}
+
+// Sums over primaries, from which those of any part follow.
+void TreeSintering::sumParts(const TreeHead& tree) {
+  const TreePrimary* primaries = primariesOf(const_cast<TreeHead*>(&tree));
+  volumes_.assign(1, 0.0);
+  surfaces_.assign(1, 0.0);
+  sites_.assign(1, 0.0);
+  for (std::uint32_t i = 0; i < tree.count; ++i) {
+    const TreePrimary& p = primaries[i];
+    volumes_.push_back(volumes_.back() + primaryVolume(p.diameter));
+    surfaces_.push_back(surfaces_.back() + primarySurface(p.diameter));
+    sites_.push_back(sites_.back() + p.units[type_.material().site]);
+  }
+}
+
+void TreeSintering::parts(Tree& handle, double dt, Changes& changes) {
+  const SinteringLaw& law = type_.material().sintering;
+  TreeHead& tree = handle.own();
+  TreePrimary* primaries = primariesOf(&tree);
+  TreeNeck* necks = necksOf(&tree);
+  double remaining = dt;
+  while (tree.count > 1) {
+    fuseAll(tree, changes);
+    if (tree.count == 1 || !(remaining > 0)) return;
+    sumParts(tree);
+    left_.assign(tree.count - 1, 0.0);  // m2/s here
+    double h = remaining;
+    for (std::uint32_t k = 0; k + 1 < tree.count; ++k) {
+      const TreeNeck& neck = necks[k];
+      const bool whole = neck.first == 0 && neck.last + 1 == tree.count;
+      const double V = volumes_[neck.last + 1] - volumes_[neck.first];
+      const double S = whole ? tree.surface : surfaces_[neck.last + 1] - surfaces_[neck.first];
+      const double rate = std::max(0.0, (S - sphereSurface(V)) / law.time(T_, 6 * V / S));
+      left_[k] = rate;
+      if (rate > 0) h = std::min(h, std::max(0.2 * (neck.common - neck.sphere), 0.2 * step * neck.sphere) / rate);
+      if (rate > 0) h = std::min(h, step * neck.sphere / rate);
+    }
+    for (std::uint32_t k = 0; k + 1 < tree.count; ++k) {
+      TreeNeck& neck = necks[k];
+      const double down = std::min(left_[k] * h, neck.common - neck.sphere);
+      if (!(down > 0)) continue;
+      const bool whole = neck.first == 0 && neck.last + 1 == tree.count;
+      const double S = whole ? tree.surface : surfaces_[neck.last + 1] - surfaces_[neck.first];
+      neck.common -= down;
+      loseSites(primaries, neck, (sites_[neck.last + 1] - sites_[neck.first]) * down / S, changes);
+    }
+    remaining = h < remaining ? remaining - h : 0;
+    type_.measure(tree);
+  }
+}
+
+void TreeSintering::fuseAll(TreeHead& tree, Changes& changes) {
+  const TreeNeck* necks = necksOf(&tree);
+  const std::uint32_t count = tree.count;
+  for (std::uint32_t k = 0; k + 1 < tree.count;) {
+    if (necks[k].common > necks[k].sphere * fusedRatio) {
+      ++k;
+      continue;
+    }
+    fuseNeck(tree, k, type_.material());
+    ++changes.fused;
+    k = 0;
+  }
+  if (tree.count != count) type_.measure(tree);
+}
+
+// How long nothing has to be done, and how fast surface goes now.
+void TreeSintering::rest(TreeHead& tree, double time) {
+  const SinteringLaw& law = type_.material().sintering;
+  tree.time = time;
+  tree.sintering = 0;
+  tree.rest = never;
+  if (tree.count == 1 || !law.active()) return;
+  const TreePrimary* primaries = primariesOf(&tree);
+  const TreeNeck* necks = necksOf(&tree);
+  const bool ofParts = law.between == SinteringLaw::Between::parts;
+  if (ofParts) sumParts(tree);
+  double fastest = 0;
+  for (std::uint32_t k = 0; k + 1 < tree.count; ++k) {
+    const TreeNeck& neck = necks[k];
+    double rate = 0;
+    if (ofParts) {
+      const bool whole = neck.first == 0 && neck.last + 1 == tree.count;
+      const double V = volumes_[neck.last + 1] - volumes_[neck.first];
+      const double S = whole ? tree.surface : surfaces_[neck.last + 1] - surfaces_[neck.first];
+      rate = std::max(0.0, (S - sphereSurface(V)) / law.time(T_, 6 * V / S));
+    } else {
+      rate = (neck.common - neck.sphere) / law.time(T_, sizeOf(primaries, neck, neck.common));
+    }
+    tree.sintering += rate;
+    fastest = std::max(fastest, rate / neck.sphere);
+  }
+  tree.rest = fastest > 0 ? tolerance_ / fastest : never;
+}
+
+void TreeSintering::advance(Tree& tree, double time, Changes& changes) {
+  if (tree.count() == 1) return;
+  const SinteringLaw& law = type_.material().sintering;
+  const double dt = std::max(0.0, time - tree.head().time);
+  if (!law.active())
+    fuseAll(tree.own(), changes);
+  else if (law.between == SinteringLaw::Between::parts)
+    parts(tree, dt, changes);
+  else
+    neighbours(tree, dt, changes);
+  TreeHead& head = tree.own();
+  // Primaries have lost sites, and a trace of volume with them.
+  for (std::uint32_t k = 0; k + 1 < head.count; ++k)
+    necksOf(&head)[k].sphere = sphereOfNeck(primariesOf(&head), necksOf(&head)[k]);
+  type_.measure(head);
+  rest(head, std::max(time, head.time));
+  tree.fit();
+}
+
+}  // namespace lampblack::particles

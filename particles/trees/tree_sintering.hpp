@@ -1,0 +1,65 @@
+// Sintering of a tree over a time, by its necks: the surface of each relaxes to that of the sphere of its two primaries
+// (Shekar, Smith, Kraft, Wagner 2011, eqs. 40-43), sites go with the surface (eqs. 45-50), and primaries become one at
+// a level of 0.95 (eqs. 44, 52-55), each at its own time. Between such times the law is linear and integrated exactly
+// where it asks for the smaller primary; by steps of at most `step` of the sphere's surface otherwise.
+//
+// A neck whose primaries are fused with another hands its level on: the paper leaves open what becomes of it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/rooms.hpp"
+#include "particles/trees/primary_trees.hpp"
+
+namespace lampblack::particles {
+
+class TreeSintering {
+ public:
+  struct Changes {
+    double bridges = 0;       // pairs of sites that became a bridge, each with a molecule of the product
+    std::uint64_t fused = 0;  // pairs of primaries
+    std::uint64_t limited = 0;  // times a primary had fewer sites than should have gone
+  };
+
+  // `tolerance`: by what part of the sphere's surface a neck may change before its tree is brought up to date.
+  explicit TreeSintering(const PrimaryTrees& type, double tolerance) : type_(type), tolerance_(tolerance) {}
+
+  void setTemperature(double kelvin) { T_ = kelvin; }
+  // To a time of the clock; also fuses what growth has left at the level of one primary. A tree that is there already
+  // stays.
+  void advance(Tree& tree, double time, Changes& changes);
+  // The same, but for trees that may wait.
+  void advanceLazily(Tree& tree, Changes& changes) {
+    const TreeHead& head = tree.head();
+    if (head.count > 1 && type_.clock() - head.time >= head.rest) advance(tree, type_.clock(), changes);
+  }
+
+  static constexpr double step = 0.005;
+
+ private:
+  struct Course {
+    double common = 0;  // m2 at the end, or where it fuses
+    double fuses = 0;   // s from the beginning; infinite
+  };
+  [[nodiscard]] double sizeOf(const TreePrimary* primaries, const TreeNeck& neck, double common) const;
+  [[nodiscard]] Course follow(const TreePrimary* primaries, const TreeNeck& neck, double dt) const;
+  void neighbours(Tree& tree, double dt, Changes& changes);
+  void parts(Tree& tree, double dt, Changes& changes);
+  void sumParts(const TreeHead& tree);
+  void loseSites(TreePrimary* primaries, const TreeNeck& neck, double sites, Changes& changes) const;
+  void fuseAll(TreeHead& tree, Changes& changes);
+  void rest(TreeHead& tree, double time);
+
+  const PrimaryTrees& type_;
+  double tolerance_, T_ = 0;
+  std::vector<Course> courses_;
+  std::vector<double> left_;                       // s, of each neck
+  std::vector<double> volumes_, surfaces_, sites_;  // sums over the primaries before each
+};
+
+// Makes the two primaries of the k-th neck one, in the place of the left one: its part of the tree goes where the right
+// one stood. Sums are not touched. Levels of other necks stay.
+void fuseNeck(TreeHead& tree, std::size_t k, const TreeMaterial& material);
+
+}  // namespace lampblack::particles
