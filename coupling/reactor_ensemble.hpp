@@ -6,12 +6,12 @@
 
 #include "chemistry/mechanism/mechanism.hpp"
 #include "core/rooms.hpp"
-#include "coupling/split_reactor.hpp"
+#include "coupling/reactor_population.hpp"
 #include "particles/ensemble/ensemble.hpp"
 
 namespace lampblack::coupling {
 
-class ReactorEnsemble final : public SplitParticles {
+class ReactorEnsemble final : public ReactorPopulation {
  public:
   // InputError where the mechanism lacks a species that soot exchanges, and as makeEnsemble().
   ReactorEnsemble(const Mechanism& mechanism, EnsembleOptions options);
@@ -26,6 +26,14 @@ class ReactorEnsemble final : public SplitParticles {
   [[nodiscard]] bool idle(const ParticleGas& gas) const override;
   [[nodiscard]] std::vector<double> save() const override { return population_->pack(); }
   void restore(std::span<const double> state) override { population_->unpack(state); }
+
+  [[nodiscard]] std::string material() const override { return "soot"; }
+  [[nodiscard]] std::vector<Column> columns() const override;
+  [[nodiscard]] std::vector<double> values() const override;
+  [[nodiscard]] std::vector<Distribution> distributions() const override;
+  [[nodiscard]] std::vector<double> distribution(std::size_t k, double logMin, double logMax,
+                                                 std::size_t bins) const override;
+  [[nodiscard]] std::vector<std::pair<std::string, double>> counts() const override { return {}; }
 
  private:
   std::unique_ptr<Ensemble> population_;

@@ -1,20 +1,22 @@
 #include "coupling/reactor_particles.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/constants.hpp"
 
 namespace lampblack::coupling {
 
-ReactorGas::ReactorGas(const Mechanism& mechanism, std::vector<std::size_t> species)
+ReactorGas::ReactorGas(const Mechanism& mechanism, std::vector<std::size_t> species, GasViscosity viscosity)
     : weights_(mechanism.molecularWeights().begin(), mechanism.molecularWeights().end()),
       species_(std::move(species)),
-      transport_(mechanism),
       all_(weights_.size()),
       X_(weights_.size()),
       D_(weights_.size()),
-      seen_(species_.size()) {}
+      seen_(species_.size()) {
+  if (viscosity == GasViscosity::transport) transport_.emplace(mechanism);
+}
 
 const ParticleGas& ReactorGas::at(double T, double p, std::span<const double> concentrations) {
   double moles = 0, mass = 0;  // per m3
@@ -24,7 +26,9 @@ const ParticleGas& ReactorGas::at(double T, double p, std::span<const double> co
   }
   for (std::size_t k = 0; k < weights_.size(); ++k) X_[k] = concentrations[k] / moles;
   for (std::size_t i = 0; i < species_.size(); ++i) seen_[i] = concentrations[species_[i]];
-  gas_ = {{T, p, mass, transport_.mixture(T, p, X_, D_).viscosity, mass / moles}, seen_};
+  const double viscosity =
+      transport_ ? transport_->mixture(T, p, X_, D_).viscosity : 1.458e-6 * T * std::sqrt(T) / (T + 110.4);
+  gas_ = {{T, p, mass, viscosity, mass / moles}, seen_};
   return gas_;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -14,12 +15,17 @@
 
 namespace lampblack::coupling {
 
+// Of the gas as particles see it: from transport data; or that of air by Sutherland's law, 1.458e-6 T^1.5/(T + 110.4)
+// Pa s (U.S. Standard Atmosphere 1976; Kazakov and Frenklach 1998), for mechanisms without.
+enum class GasViscosity { transport, air };
+
 // The gas of a reactor at a state of it: all concentrations, and those that particles see.
 class ReactorGas {
  public:
-  // `species`: of a ParticleGas, by number. The mechanism has to live as long. InputError without transport data, from
-  // which the viscosity comes.
-  ReactorGas(const Mechanism& mechanism, std::vector<std::size_t> species);
+  // `species`: of a ParticleGas, by number. The mechanism has to live as long. InputError without transport data, where
+  // the viscosity comes from them.
+  ReactorGas(const Mechanism& mechanism, std::vector<std::size_t> species,
+             GasViscosity viscosity = GasViscosity::transport);
 
   // What particles see at concentrations (mol/m3) of all species; good until the next call.
   const ParticleGas& at(double T, double p, std::span<const double> concentrations);
@@ -29,7 +35,7 @@ class ReactorGas {
  private:
   std::vector<double> weights_;  // kg/mol
   std::vector<std::size_t> species_;
-  Transport transport_;
+  std::optional<Transport> transport_;
   std::vector<double> all_, X_, D_, seen_;
   ParticleGas gas_;
 };

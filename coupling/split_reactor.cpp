@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "core/constants.hpp"
@@ -19,8 +20,18 @@ constexpr double temperatureScale = 200;
 constexpr double smallestCountedMoleFraction = 1e-9;
 constexpr double smallestPart = 1e-9;  // of the way to the next stop
 constexpr double firstPart = 1e-3;
+// Of the change that is aimed at: where less is expected of a step, it is not prepared to be taken back.
+constexpr double calmPart = 0.1;
 
 }  // namespace
+
+const std::vector<std::string>& SplitParticles::sootElements() {
+  static const std::vector<std::string> elements{"C", "H"};
+  return elements;
+}
+
+ParticlesAtRest::ParticlesAtRest(std::size_t reactors, std::vector<std::string> elements)
+    : reactors_(reactors), elements_(std::move(elements)) {}
 
 void ParticlesAtRest::sources(double, double, std::span<const double>, std::span<const double>, std::span<double> rates,
                               std::span<double>) {
@@ -33,15 +44,18 @@ void ParticlesAtRest::jacobian(double, double, std::span<const double>, std::spa
 }
 
 void ParticlesAtRest::enthalpies(double T, std::span<double> h, std::span<double> slope) {
-  std::tie(h[carbon], slope[carbon]) = sootCarbonEnthalpy(T);
-  std::tie(h[hydrogen], slope[hydrogen]) = sootHydrogenEnthalpy(T);
-  for (std::size_t s = mark; s < size(); ++s) h[s] = slope[s] = 0;
+  for (std::size_t s = 0; s < size(); ++s) {
+    h[s] = slope[s] = 0;
+    if (s >= mark()) continue;
+    if (elements_[s] == "C") std::tie(h[s], slope[s]) = sootCarbonEnthalpy(T);
+    if (elements_[s] == "H") std::tie(h[s], slope[s]) = sootHydrogenEnthalpy(T);
+  }
 }
 
-std::vector<std::vector<double>> ParticlesAtRest::unitElements(const Mechanism& mechanism, std::size_t reactors) {
-  std::vector<std::vector<double>> elements(mark + reactors, std::vector<double>(mechanism.numElements(), 0.0));
-  elements[carbon][mechanism.elementIndex("C")] = elements[hydrogen][mechanism.elementIndex("H")] = 1;
-  return elements;
+std::vector<std::vector<double>> ParticlesAtRest::unitElements(const Mechanism& mechanism) const {
+  std::vector<std::vector<double>> units(size(), std::vector<double>(mechanism.numElements(), 0.0));
+  for (std::size_t e = 0; e < mark(); ++e) units[e][mechanism.elementIndex(elements_[e])] = 1;
+  return units;
 }
 
 SplitReactor::SplitReactor(const Mechanism& mechanism, Gas gas, std::vector<SplitParticles*> particles,
@@ -52,14 +66,15 @@ SplitReactor::SplitReactor(const Mechanism& mechanism, Gas gas, std::vector<Spli
       block_(gas_.system->size() / particles_.size()),
       options_(options),
       integrator_(*gas_.system, options.integrator),
+      atRest_(particles_.size(), particles_.front()->elements()),
       thermo_(mechanism),
-      seen_(mechanism, particles_.front()->species()) {}
+      seen_(mechanism, particles_.front()->species(), particles_.front()->viscosity()) {}
 
 void SplitReactor::start(double x, std::span<const double> y) {
   x_ = x;
   y_.assign(y.begin(), y.end());
   exchanged_.assign(y_.size(), 0.0);
-  h_ = 0;
+  h_ = lastRate_ = 0;
   work_ = {};
 }
 
@@ -71,7 +86,7 @@ const ParticleGas& SplitReactor::gas(std::size_t reactor) {
 
 // The gas over h, and with it what it carries.
 void SplitReactor::react(double h) {
-  const std::size_t mark = mechanism_.numSpecies() + 1 + ParticlesAtRest::mark;
+  const std::size_t mark = mechanism_.numSpecies() + 1 + atRest_.mark();
   std::vector<double> before;
   for (std::size_t r = 0; r < particles_.size(); ++r) {
     double* block = y_.data() + r * block_;
@@ -88,7 +103,7 @@ void SplitReactor::react(double h) {
 }
 
 void SplitReactor::carryParticles(const std::vector<double>& before) {
-  const std::size_t count = particles_.size(), mark = mechanism_.numSpecies() + 1 + ParticlesAtRest::mark;
+  const std::size_t count = particles_.size(), mark = mechanism_.numSpecies() + 1 + atRest_.mark();
   const auto moved = [&](std::size_t from, std::size_t to) { return y_[to * block_ + mark + from]; };
   // All as they were before any others joined them.
   std::vector<std::vector<double>> content(count);
@@ -110,20 +125,20 @@ void SplitReactor::carryParticles(const std::vector<double>& before) {
 double SplitReactor::energy(Gas::Kept kept, const double* block, double T) {
   const std::size_t n = mechanism_.numSpecies();
   const double* amounts = block + n + 1;
-  double h[ParticlesAtRest::count], slope[ParticlesAtRest::count];
+  std::vector<double> h(atRest_.size()), slope(atRest_.size());
   atRest_.enthalpies(T, h, slope);
   const double gas =
       kept == Gas::Kept::enthalpy ? thermo_.enthalpyMass(T, {block, n}) : thermo_.internalEnergyMass(T, {block, n});
-  return gas + amounts[0] * h[0] + amounts[1] * h[1];
+  return std::inner_product(h.begin(), h.begin() + static_cast<std::ptrdiff_t>(atRest_.mark()), amounts, gas);
 }
 
 double SplitReactor::heatCapacity(Gas::Kept kept, const double* block, double T) {
   const std::size_t n = mechanism_.numSpecies();
   const double* amounts = block + n + 1;
-  double h[ParticlesAtRest::count], slope[ParticlesAtRest::count];
+  std::vector<double> h(atRest_.size()), slope(atRest_.size());
   atRest_.enthalpies(T, h, slope);
   const double gas = kept == Gas::Kept::enthalpy ? thermo_.cpMass(T, {block, n}) : thermo_.cvMass(T, {block, n});
-  return gas + amounts[0] * slope[0] + amounts[1] * slope[1];
+  return std::inner_product(slope.begin(), slope.begin() + static_cast<std::ptrdiff_t>(atRest_.mark()), amounts, gas);
 }
 
 double SplitReactor::exchange(std::size_t reactor, double h) {
@@ -134,7 +149,7 @@ double SplitReactor::exchange(std::size_t reactor, double h) {
   double* exchanged = exchanged_.data() + reactor * block_;
   const std::vector<double> before(y, y + block_);
   const double density = gas_.density(y);
-  for (std::size_t i = 0; i <= n + ParticlesAtRest::hydrogen + 1; ++i) y[i] += 0.5 * h * exchanged[i];
+  for (std::size_t i = 0; i <= n + atRest_.mark(); ++i) y[i] += 0.5 * h * exchanged[i];
   for (const std::size_t k : species) y[k] = std::max(y[k], 0.5 * before[k]);
   const double middle = gas_.density(y), volume = 1 / middle;
   particles.dilute(middle / density);
@@ -152,8 +167,7 @@ double SplitReactor::exchange(std::size_t reactor, double h) {
   const double kept = energyIsKept ? energy(held, y, T) : 0;
   for (std::size_t i = 0; i < species.size(); ++i)
     y[species[i]] += taken.gas[i] * mechanism_.molecularWeights()[species[i]] * volume;
-  y[n + 1 + ParticlesAtRest::carbon] += taken.carbon * volume;
-  y[n + 1 + ParticlesAtRest::hydrogen] += taken.hydrogen * volume;
+  for (std::size_t e = 0; e < atRest_.mark(); ++e) y[n + 1 + e] += taken.elements[e] * volume;
   // Nearly linear over the few kelvin of a step.
   for (int iteration = 0; energyIsKept && iteration < 20; ++iteration) {
     const double difference = (kept - energy(held, y, T)) / heatCapacity(held, y, T);
@@ -207,11 +221,18 @@ void SplitReactor::advance(double end) {
     const double h = h_ >= left * (1 - 1e-12) ? left : h_ > 0.5 * left && !options_.fixedStep ? 0.5 * left : h_;
     const std::vector<double> state = y_, exchanged = exchanged_;
     std::vector<std::vector<double>> saved;
-    for (const SplitParticles* particles : particles_) saved.push_back(particles->save());
+    const bool isCalm = options_.fixedStep || (work_.steps > 0 && lastRate_ * h < calmPart * options_.change);
+    if (!isCalm)
+      for (const SplitParticles* particles : particles_) saved.push_back(particles->save());
     const double change = step(h);
     if (!std::isfinite(change))
       throw NumericsError(fmt::format("the step that began at {:.6g} gave values that are not finite", begin));
-    const bool isTooMuch = !options_.fixedStep && change > 2 * options_.change;
+    bool isTooMuch = !options_.fixedStep && change > 2 * options_.change;
+    if (isTooMuch && isCalm) {
+      ++work_.unchecked;
+      isTooMuch = false;
+    }
+    lastRate_ = change / h;
     if (isTooMuch) {
       if (h < smallestPart * std::abs(end))
         throw NumericsError(

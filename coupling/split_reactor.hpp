@@ -16,6 +16,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -28,14 +29,18 @@
 
 namespace lampblack::coupling {
 
-// Particles of carbon and hydrogen that change in a given gas.
+// Particles of some elements, such as carbon and hydrogen, that change in a given gas.
 class SplitParticles {
  public:
   struct Exchange {
-    std::vector<double> gas;          // mol/m3, of the species
-    double carbon = 0, hydrogen = 0;  // kg/m3, gained by the particles: the same atoms
+    std::vector<double> gas;       // mol/m3, of the species
+    std::vector<double> elements;  // kg/m3, gained by the particles: the same atoms
   };
   virtual ~SplitParticles() = default;
+  [[nodiscard]] virtual const std::vector<std::string>& elements() const { return sootElements(); }
+  [[nodiscard]] static const std::vector<std::string>& sootElements();  // C, H
+  // Where the gas's viscosity comes from, as they see it.
+  [[nodiscard]] virtual GasViscosity viscosity() const { return GasViscosity::transport; }
   // Of the mechanism, in the order of the gas that `advance` is given.
   [[nodiscard]] virtual const std::vector<std::size_t>& species() const = 0;
   virtual Exchange advance(const ParticleGas& gas, double dt) = 0;
@@ -56,25 +61,29 @@ class SplitParticles {
   SplitParticles& operator=(const SplitParticles&) = default;
 };
 
-// What the gas carries while it reacts: carbon and hydrogen of the particles (kg/kg), and a mark for each reactor, one
-// in it and zero elsewhere at the beginning of each part of a step, that says where this gas has gone.
+// What the gas carries while it reacts: each element of the particles (kg/kg), and a mark for each reactor, one in it and
+// zero elsewhere at the beginning of each part of a step, that says where this gas has gone.
 class ParticlesAtRest final : public CarriedPhase {
  public:
-  enum Amount : std::size_t { carbon, hydrogen, mark, count };  // of a reactor alone
-  explicit ParticlesAtRest(std::size_t reactors = 1) : reactors_(reactors) {}
-  [[nodiscard]] std::size_t size() const override { return mark + reactors_; }
+  enum SootAmount : std::size_t { carbon, hydrogen };  // of soot, the default
+  explicit ParticlesAtRest(std::size_t reactors = 1,
+                           std::vector<std::string> elements = SplitParticles::sootElements());
+  [[nodiscard]] std::size_t size() const override { return mark() + reactors_; }
+  [[nodiscard]] std::size_t mark() const { return elements_.size(); }  // amount of the first mark
   [[nodiscard]] const std::vector<std::size_t>& exchanged() const override { return none_; }
   void sources(double T, double p, std::span<const double> concentrations, std::span<const double> densities,
                std::span<double> rates, std::span<double> exchange) override;
   void jacobian(double T, double p, std::span<const double> concentrations, std::span<const double> densities,
                 std::span<double> values) override;
+  // Of soot's elements. Those of other materials count as zero: their reactors need a given temperature.
   void enthalpies(double T, std::span<double> h, std::span<double> slope) override;
-  // kg of each element of the mechanism in a unit of each amount.
-  [[nodiscard]] static std::vector<std::vector<double>> unitElements(const Mechanism& mechanism,
-                                                                     std::size_t reactors = 1);
+  [[nodiscard]] static bool hasEnthalpy(const std::string& element) { return element == "C" || element == "H"; }
+  // kg of each element of the mechanism in a unit of each amount. InputError for an element that it lacks.
+  [[nodiscard]] std::vector<std::vector<double>> unitElements(const Mechanism& mechanism) const;
 
  private:
   std::size_t reactors_;
+  std::vector<std::string> elements_;
   std::vector<std::size_t> none_;
 };
 
@@ -98,8 +107,10 @@ class SplitReactor {
     double largestStep = 0;  // 0: no limit. Fixed, with `fixedStep`
     bool fixedStep = false;
   };
+  // A step before which hardly anything changed is not prepared to be taken back, which would take the memory of all
+  // particles again; where it changes too much even so, that is counted as `unchecked`.
   struct Work {
-    long steps = 0, rejected = 0, gasSteps = 0;
+    long steps = 0, rejected = 0, gasSteps = 0, unchecked = 0;
   };
 
   // The particles of each reactor, of one kind. All have to live as long.
@@ -141,6 +152,7 @@ class SplitReactor {
   Thermo thermo_;
   ReactorGas seen_;
   double x_ = 0, h_ = 0;
+  double lastRate_ = 0;  // change in the last step over its length
   std::vector<double> y_;
   std::vector<double> exchanged_;  // change of the unknowns by the particles' last step, a unit of x
   Work work_;

@@ -6,11 +6,13 @@
 
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/temperature_input.hpp"
+#include "app/deck/trees_deck.hpp"
 #include "app/reactor/reactor_case_parts.hpp"
 #include "app/reactor/reactor_particle_output.hpp"
 #include "app/tools/gas_input.hpp"
 #include "core/errors.hpp"
 #include "coupling/reactor_ensemble.hpp"
+#include "coupling/reactor_trees.hpp"
 #include "io/request_limits.hpp"
 
 namespace lampblack::app {
@@ -107,11 +109,57 @@ void refuseRows(const Deck& deck, const std::string& key, const ReactorCase& rea
   if (!reactorCase.output.interval) return;
   const double rows = range / *reactorCase.output.interval;
   std::size_t columns = 6 + reactorCase.output.species.size();
-  if (reactorCase.ensemble) columns = 2 * (columns + 9) * std::max<std::size_t>(reactorCase.network.reactors.size(), 1);
+  if (reactorCase.ensemble) columns = 2 * (columns + 30) * std::max<std::size_t>(reactorCase.network.reactors.size(), 1);
   if (reactorCase.soot) columns += particleColumns(*reactorCase.soot).size();
   const double bytes = sizeof(double) * static_cast<double>(columns);
   requireOutputs(deck, key, "rows of the history", rows, bytes);
   requireMemory(deck, key, fmt::format("a history of {:.3g} rows", rows), rows * bytes);
+}
+
+// One, to find what it lacks.
+void tryPopulation(const Deck& deck, const std::string& section, ReactorCase& reactorCase) {
+  try {
+    const auto trial = reactorCase.ensemble->make(0);
+    const ReactorGas gas(*reactorCase.mechanism, trial->species(), trial->viscosity());
+    reactorCase.ensemble->material = trial->material();
+    reactorCase.ensemble->elements = trial->elements();
+  } catch (const InputError& error) {
+    throw deck.error(section, error.what());
+  }
+}
+
+// What a population of any kind cannot have.
+void refuseWithPopulation(const Deck& deck, const std::string& section, ReactorCase& reactorCase) {
+  if (deck.has("sensitivity") || (deck.isGiven("ignition") && !reactorCase.ignition.empty()))
+    throw deck.error(deck.has("sensitivity") ? "sensitivity" : "ignition",
+                     "ignition delays of a gas with an ensemble are not computed; leave this section out");
+  reactorCase.ignition.clear();
+  if ((reactorCase.type == ReactorType::Stirred || reactorCase.type == ReactorType::Network) && reactorCase.end == 0)
+    throw deck.error(section,
+                     "the steady state of an ensemble is a mean over time: give time.end, of many residence times; the "
+                     "second half is averaged");
+}
+
+void readReactorTrees(const Deck& deck, ReactorCase& reactorCase) {
+  for (const char* other : {"soot", "stochastic"})
+    if (deck.has(other))
+      throw deck.error(other, "particles of the section 'particles' take the place of soot; leave out one of the two");
+  refuseWithPopulation(deck, "particles", reactorCase);
+  if (reactorCase.type == ReactorType::Network)
+    throw deck.error("reactor.type", "particles of the section 'particles' do not go from one reactor to another");
+  if (!reactorCase.profile && (reactorCase.type != ReactorType::Stirred || !reactorCase.network.reactors[0].temperature))
+    throw deck.error("reactor.energy",
+                     "the heat of particles of the section 'particles' is not known: give the temperature, 'isothermal' "
+                     "or 'profile'");
+  TreeRequest request = readTrees(deck);
+  reactorCase.couplingChange = deck.number("particles.coupling_change");
+  reactorCase.ensemble = {request.repeats, request.bins, {}, {},
+                          [mechanism = reactorCase.mechanism, request](std::uint64_t owner) {
+                            TreeOptions own = request.options;
+                            own.owner = owner;
+                            return std::make_unique<ReactorTrees>(*mechanism, own, request.viscosity, request.start);
+                          }};
+  tryPopulation(deck, "particles", reactorCase);
 }
 
 void readReactorEnsemble(const Deck& deck, ReactorCase& reactorCase) {
@@ -120,29 +168,24 @@ void readReactorEnsemble(const Deck& deck, ReactorCase& reactorCase) {
     throw deck.error(
         "soot.model",
         "in a reactor an ensemble takes the place of a model: leave this out, or the section 'stochastic'");
-  if (deck.has("sensitivity") || (deck.isGiven("ignition") && !reactorCase.ignition.empty()))
-    throw deck.error(deck.has("sensitivity") ? "sensitivity" : "ignition",
-                     "ignition delays of a gas with an ensemble are not computed; leave this section out");
-  reactorCase.ignition.clear();
-  if ((reactorCase.type == ReactorType::Stirred || reactorCase.type == ReactorType::Network) && reactorCase.end == 0)
-    throw deck.error("stochastic",
-                     "the steady state of an ensemble is a mean over time: give time.end, of many residence times; the "
-                     "second half is averaged");
+  refuseWithPopulation(deck, "stochastic", reactorCase);
   for (const StirredReactor& reactor : reactorCase.network.reactors)
     if (reactor.name.find('/') != std::string::npos)
       throw deck.error("network.reactors." + reactor.name,
                        "results of ensembles bear the name of the reactor, which may have no '/'");
-  reactorCase.ensemble = readEnsemble(deck, readSootModelOptions(deck, *reactorCase.mechanism));
+  const EnsembleRequest request = readEnsemble(deck, readSootModelOptions(deck, *reactorCase.mechanism));
   reactorCase.couplingChange = deck.number("stochastic.coupling_change");
-  try {
-    const ReactorEnsemble trial(*reactorCase.mechanism, reactorCase.ensemble->soot);
-    const ReactorGas gas(*reactorCase.mechanism, trial.species());
-  } catch (const InputError& error) {
-    throw deck.error("stochastic", error.what());
-  }
+  reactorCase.ensemble = {request.repeats, request.bins, {}, {},
+                          [mechanism = reactorCase.mechanism, options = request.soot](std::uint64_t owner) {
+                            EnsembleOptions own = options;
+                            own.owner = owner;
+                            return std::make_unique<ReactorEnsemble>(*mechanism, own);
+                          }};
+  tryPopulation(deck, "stochastic", reactorCase);
 }
 
 void readParticles(const Deck& deck, ReactorCase& reactorCase) {
+  if (deck.has("particles")) return readReactorTrees(deck, reactorCase);
   if (deck.has("stochastic")) return readReactorEnsemble(deck, reactorCase);
   auto model = readSootModel(deck, *reactorCase.mechanism);
   if (!model) return;

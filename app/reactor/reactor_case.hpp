@@ -16,6 +16,7 @@
 #include "chemistry/reactor/stiff_integrator.hpp"
 #include "core/rooms.hpp"
 #include "coupling/reactor_particles.hpp"
+#include "coupling/reactor_population.hpp"
 #include "io/deck.hpp"
 
 namespace lampblack::app {
@@ -28,6 +29,15 @@ struct ReactorOutput {
   bool massFractions = false;
 };
 
+// Stochastic populations: repeats of the reactor with one each, whose random numbers have an owner each.
+struct ReactorPopulations {
+  std::size_t repeats = 1;
+  EnsemblePathOptions bins;
+  std::string material;
+  std::vector<std::string> elements;
+  PopulationMaker make;
+};
+
 struct ReactorCase {
   std::string title;
   std::shared_ptr<const Mechanism> mechanism;
@@ -38,7 +48,7 @@ struct ReactorCase {
   // Particles that the gas carries and exchanges with; null: none. The second looks at the first.
   std::shared_ptr<CarriedParticles> soot;
   std::shared_ptr<ReactorParticles> particles;
-  std::optional<EnsembleRequest> ensemble;  // in place of these
+  std::optional<ReactorPopulations> ensemble;  // in place of these
   double couplingChange = 0;                // SplitReactor::Options::change
   double sootAtLimit = 1;  // largest volume fraction in the model's largest particles, over the largest of all
 

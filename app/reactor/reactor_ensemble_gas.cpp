@@ -8,7 +8,8 @@ std::size_t numReactors(const ReactorCase& reactorCase) {
   return reactorCase.type == ReactorType::Network ? reactorCase.network.reactors.size() : 1;
 }
 
-EnsembleGas::EnsembleGas(const ReactorCase& reactorCase) : case_(reactorCase), particles_(numReactors(reactorCase)) {
+EnsembleGas::EnsembleGas(const ReactorCase& reactorCase)
+    : case_(reactorCase), particles_(numReactors(reactorCase), reactorCase.ensemble->elements) {
   gas_.timePerUnit = [](const double*) { return 1.0; };
   if (case_.type == ReactorType::PlugFlow)
     carryByPlugFlow();

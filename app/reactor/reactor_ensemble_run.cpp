@@ -1,10 +1,11 @@
-// Ensembles of soot particles in a closed reactor, in stirred ones over time, or in a plug flow: repeats that each are
+// Stochastic populations in a closed reactor, in stirred ones over time, or in a plug flow: repeats that each are
 // a reactor, or a network, of their own.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <utility>
 
 #include "app/reactor/reactor_driver.hpp"
@@ -16,7 +17,7 @@
 #include "core/errors.hpp"
 #include "core/stop_request.hpp"
 #include "coupling/reactor_balance.hpp"
-#include "coupling/reactor_ensemble.hpp"
+#include "coupling/reactor_population.hpp"
 #include "io/progress.hpp"
 #include "io/report.hpp"
 
@@ -34,7 +35,7 @@ bool isOpen(const ReactorCase& reactorCase) {
 // Elements (kg/kg) of what stands in an open reactor as long as all that flows in has the same, and so has the start;
 // empty where they differ.
 std::vector<double> elementsOfInflow(const ReactorCase& reactorCase, const ReactorBalance& balance) {
-  const std::vector<double> none(ParticlesAtRest::mark + numReactors(reactorCase), 0.0);
+  const std::vector<double> none(reactorCase.ensemble->elements.size() + numReactors(reactorCase), 0.0);
   constexpr double same = 1e-14;
   std::vector<double> first;
   const auto agrees = [&](const std::vector<double>& Y) {
@@ -54,6 +55,7 @@ class EnsembleReactorDriver : public ReactorDriver {
  public:
   explicit EnsembleReactorDriver(const ReactorCase& reactorCase)
       : case_(reactorCase),
+        distributions_(reactorCase.ensemble->make(0)->distributions()),
         hasElements_(!isOpen(reactorCase) || !startElements(reactorCase).empty()),
         summary_(columnsOf(reactorCase, hasElements_)),
         history_(summary_.columnsWithErrors()) {}
@@ -77,21 +79,24 @@ class EnsembleReactorDriver : public ReactorDriver {
     for (std::size_t b = 0; b + 1 < edges.size(); ++b) diameter.push_back(std::sqrt(edges[b] * edges[b + 1]));
     const auto bins = static_cast<std::int64_t>(diameter.size());
     results.dataset("/particles/diameter", {bins}, diameter, "m", "middles of the bins of the size distribution");
+    std::int64_t place = 0;
     for (std::size_t r = 0; r < numReactors(case_); ++r) {
-      // Rank 0 alone has rows.
-      const auto part = [&](const std::vector<std::vector<double>>& all) {
-        std::vector<double> values;
-        for (const auto& row : all)
-          values.insert(values.end(), row.begin() + static_cast<std::ptrdiff_t>(r) * bins,
-                        row.begin() + static_cast<std::ptrdiff_t>(r + 1) * bins);
-        return values;
-      };
-      const std::string path = "/particles/" + prefix(case_, r) + "size_distribution";
-      const auto rows = static_cast<std::int64_t>(summary_.distributions().size());
-      results.dataset(path, {rows, bins}, part(summary_.distributions()), "1/m^3",
-                      "dN/dlog10 d of each row of the table, mean of the repeats");
-      results.dataset(path + "_error", {rows, bins}, part(summary_.distributionErrors()), "1/m^3",
-                      "standard error of that mean");
+      for (const ReactorPopulation::Distribution& distribution : distributions_) {
+        // Rank 0 alone has rows.
+        const auto part = [&](const std::vector<std::vector<double>>& all) {
+          std::vector<double> values;
+          for (const auto& row : all)
+            values.insert(values.end(), row.begin() + place * bins, row.begin() + (place + 1) * bins);
+          return values;
+        };
+        const std::string path = "/particles/" + prefix(case_, r) + distribution.name + "size_distribution";
+        const auto rows = static_cast<std::int64_t>(summary_.distributions().size());
+        results.dataset(path, {rows, bins}, part(summary_.distributions()), "1/m^3",
+                        "dN/dlog10 d of each row of the table, mean of the repeats, " + distribution.description);
+        results.dataset(path + "_error", {rows, bins}, part(summary_.distributionErrors()), "1/m^3",
+                        "standard error of that mean");
+        ++place;
+      }
     }
   }
 
@@ -99,6 +104,12 @@ class EnsembleReactorDriver : public ReactorDriver {
     json.field("repeats", static_cast<std::int64_t>(summary_.repeats()));
     json.field("coupling_steps", static_cast<std::int64_t>(work_.steps));
     json.field("coupling_steps_rejected", static_cast<std::int64_t>(work_.rejected));
+    if (work_.unchecked > 0) json.field("coupling_steps_too_long", static_cast<std::int64_t>(work_.unchecked));
+    if (!counts_.empty()) {
+      json.key("counts").beginObject();
+      for (const auto& [name, value] : counts_) json.field(name, value);
+      json.endObject();
+    }
     std::vector<std::size_t> recorded;
     const std::size_t fractions = case_.output.species.size(), places = columnsOfPlace(case_).size();
     const std::size_t width = (summary_.columns().size() - places) / numReactors(case_);
@@ -119,8 +130,8 @@ class EnsembleReactorDriver : public ReactorDriver {
  private:
   // Elements and energy, as they were in the first row or have to be.
   struct Balances {
-    Balances(const Mechanism& mechanism, ParticlesAtRest& particles, std::size_t reactors)
-        : balance(mechanism, particles, ParticlesAtRest::unitElements(mechanism, reactors)), thermo(mechanism) {}
+    Balances(const Mechanism& mechanism, ParticlesAtRest& particles)
+        : balance(mechanism, particles, particles.unitElements(mechanism)), thermo(mechanism) {}
     ReactorBalance balance;
     Thermo thermo;
     std::vector<double> elements;
@@ -129,8 +140,8 @@ class EnsembleReactorDriver : public ReactorDriver {
   };
 
   static std::vector<double> startElements(const ReactorCase& reactorCase) {
-    ParticlesAtRest particles(numReactors(reactorCase));
-    return elementsOfInflow(reactorCase, Balances(*reactorCase.mechanism, particles, numReactors(reactorCase)).balance);
+    ParticlesAtRest particles(numReactors(reactorCase), reactorCase.ensemble->elements);
+    return elementsOfInflow(reactorCase, Balances(*reactorCase.mechanism, particles).balance);
   }
 
   static std::vector<Quantity> columnsOfPlace(const ReactorCase& reactorCase) {
@@ -148,18 +159,12 @@ class EnsembleReactorDriver : public ReactorDriver {
   static std::vector<Quantity> columnsOf(const ReactorCase& reactorCase, bool hasElements) {
     std::vector<Quantity> ofReactor{{"temperature", "K", "gas temperature"},
                                     {"pressure", "Pa", "pressure"},
-                                    {"density", "kg/m^3", "density of gas and particles"},
-                                    {"soot_volume_fraction", "1", "particle volume per volume of gas"},
-                                    {"soot_number_density", "1/m^3", "particles"},
-                                    {"soot_mean_diameter", "m", "of the sphere of mean volume"},
-                                    {"soot_mobility_diameter", "m", "mean mobility diameter"},
-                                    {"soot_geometric_deviation", "1", "of the diameter of mobility, by number"},
-                                    {"soot_surface_area", "m^2/m^3", "surface of all particles"},
-                                    {"soot_carbon", "kg/m^3", "carbon in particles"},
-                                    {"soot_hydrogen", "kg/m^3", "hydrogen in particles"},
-                                    {"soot_mass_exchanged", "kg/m^3",
-                                     "mass of particles by what they exchanged with the gas; differs from carbon and "
-                                     "hydrogen by numerical particles that come and go, zero in the mean"}};
+                                    {"density", "kg/m^3", "density of gas and particles"}};
+    for (const ReactorPopulation::Column& c : reactorCase.ensemble->make(0)->columns())
+      ofReactor.push_back({c.name, c.unit, c.description});
+    ofReactor.push_back({reactorCase.ensemble->material + "_mass_exchanged", "kg/m^3",
+                         "mass of particles by what they exchanged with the gas; differs from theirs by numerical "
+                         "particles that come and go, zero in the mean"});
     if (hasElements)
       ofReactor.push_back({"element_imbalance", "1",
                            isOpen(reactorCase) ? "largest relative difference of an element in gas and particles from "
@@ -181,7 +186,9 @@ class EnsembleReactorDriver : public ReactorDriver {
     std::vector<std::size_t> columns;
     const auto& all = summary_.columns();
     for (std::size_t r = 0; r < numReactors(case_); ++r)
-      for (const char* name : {"temperature", "soot_volume_fraction", "soot_number_density", "soot_mean_diameter"})
+      for (const std::string& name : {std::string("temperature"), case_.ensemble->material + "_volume_fraction",
+                                      case_.ensemble->material + "_number_density",
+                                      case_.ensemble->material + "_mean_diameter"})
         columns.push_back(static_cast<std::size_t>(
             std::find_if(all.begin(), all.end(), [&](const Quantity& c) { return c.name == prefix(case_, r) + name; }) -
             all.begin()));
@@ -202,12 +209,10 @@ class EnsembleReactorDriver : public ReactorDriver {
   void runRepeat(std::size_t index, Progress& progress) {
     const std::size_t reactors = numReactors(case_);
     EnsembleGas gas(case_);
-    std::vector<std::unique_ptr<ReactorEnsemble>> ensembles;
+    std::vector<std::unique_ptr<ReactorPopulation>> ensembles;
     std::vector<SplitParticles*> particles;
     for (std::size_t r = 0; r < reactors; ++r) {
-      EnsembleOptions options = case_.ensemble->soot;
-      options.owner = index * reactors + r;
-      ensembles.push_back(std::make_unique<ReactorEnsemble>(*case_.mechanism, options));
+      ensembles.push_back(case_.ensemble->make(index * reactors + r));
       particles.push_back(ensembles.back().get());
     }
     SplitReactor::Options split;
@@ -215,7 +220,7 @@ class EnsembleReactorDriver : public ReactorDriver {
     split.change = case_.couplingChange;
     SplitReactor reactor(*case_.mechanism, gas.gas(), particles, split);
     reactor.start(0, gas.start());
-    Balances balances(*case_.mechanism, gas.particles(), reactors);
+    Balances balances(*case_.mechanism, gas.particles());
     if (isOpen(case_)) balances.elements = elementsOfInflow(case_, balances.balance);
     EnsembleSummary::Repeat repeat;
     for (const double x : positions_) {
@@ -230,11 +235,14 @@ class EnsembleReactorDriver : public ReactorDriver {
                    {gas.time(reactor.position(), reactor.state()), 1 / gas.gas().timePerUnit(reactor.state().data())});
       repeat.distributions.emplace_back();
       for (std::size_t r = 0; r < reactors; ++r) {
-        const Ensemble& population = ensembles[r]->population();
+        ReactorPopulation& population = *ensembles[r];
+        population.settle();
         append(row, reactor.state(r), gas.gas(), r, population, balances);
         const EnsemblePathOptions& bins = case_.ensemble->bins;
-        const auto sizes = population.sizeDistribution(bins.logDiameterMin, bins.logDiameterMax, bins.bins);
-        repeat.distributions.back().insert(repeat.distributions.back().end(), sizes.begin(), sizes.end());
+        for (std::size_t k = 0; k < distributions_.size(); ++k) {
+          const auto sizes = population.distribution(k, bins.logDiameterMin, bins.logDiameterMax, bins.bins);
+          repeat.distributions.back().insert(repeat.distributions.back().end(), sizes.begin(), sizes.end());
+        }
       }
       repeat.rows.push_back(std::move(row));
       if (stopRequest() != 0) return;
@@ -247,27 +255,30 @@ class EnsembleReactorDriver : public ReactorDriver {
     work_.steps += reactor.work().steps;
     work_.rejected += reactor.work().rejected;
     work_.gasSteps += reactor.work().gasSteps;
+    work_.unchecked += reactor.work().unchecked;
+    for (const auto& ensemble : ensembles) {
+      const auto counts = ensemble->counts();
+      if (counts_.empty())
+        for (const auto& [name, value] : counts) counts_.emplace_back(name, 0.0);
+      for (std::size_t c = 0; c < counts.size(); ++c) counts_[c].second += counts[c].second;
+    }
     summary_.add(std::move(repeat));
   }
 
   // What the row has of a reactor with the unknowns y.
   void append(std::vector<double>& row, std::span<const double> y, const SplitReactor::Gas& gas, std::size_t reactor,
-              const Ensemble& population, Balances& kept) const {
-    const std::size_t n = case_.mechanism->numSpecies();
-    const std::span<const double> Y = y.first(n),
-                                  amounts = y.subspan(n + 1, ParticlesAtRest::mark + numReactors(case_));
+              const ReactorPopulation& population, Balances& kept) const {
+    const std::size_t n = case_.mechanism->numSpecies(), elements = case_.ensemble->elements.size();
+    const std::span<const double> Y = y.first(n), amounts = y.subspan(n + 1, elements + numReactors(case_));
     const double T = y[n], density = gas.density(y.data());
-    const Ensemble::Totals totals = population.totals();
-    const double fraction = population.volumeFraction();
-    row.insert(row.end(),
-               {T, gas.pressure(y.data()), density, fraction, totals.number,
-                totals.number > 0 ? std::cbrt(6 / constants::pi * fraction / totals.number) : 0.0,
-                totals.meanDiameter(), population.geometricDeviation(), totals.surface, totals.carbon, totals.hydrogen,
-                density * (amounts[ParticlesAtRest::carbon] + amounts[ParticlesAtRest::hydrogen])});
+    row.insert(row.end(), {T, gas.pressure(y.data()), density});
+    const std::vector<double> values = population.values();
+    row.insert(row.end(), values.begin(), values.end());
+    row.push_back(density * std::accumulate(amounts.begin(), amounts.begin() + static_cast<std::ptrdiff_t>(elements), 0.0));
     if (hasElements_) {
-      const std::vector<double> elements = kept.balance.elements(Y, amounts);
-      if (kept.elements.empty()) kept.elements = elements;
-      row.push_back(largestImbalance(kept.elements, elements));
+      const std::vector<double> now = kept.balance.elements(Y, amounts);
+      if (kept.elements.empty()) kept.elements = now;
+      row.push_back(largestImbalance(kept.elements, now));
     }
     if (!isOpen(case_) && !case_.profile) {
       const double energy = gas.kept[reactor] == Kept::enthalpy ? kept.balance.enthalpy(T, Y, amounts)
@@ -279,6 +290,8 @@ class EnsembleReactorDriver : public ReactorDriver {
   }
 
   const ReactorCase& case_;
+  std::vector<ReactorPopulation::Distribution> distributions_;
+  std::vector<std::pair<std::string, double>> counts_;  // of all repeats
   bool hasElements_;
   EnsembleSummary summary_;
   ReactorHistory history_;

@@ -1,6 +1,7 @@
 #include "app/deck/ensemble_deck.hpp"
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/temperature_input.hpp"
+#include "app/deck/trees_deck.hpp"
 #include "app/reactor/reactor_case.hpp"
 #include "app/tools/gas_input.hpp"
 
@@ -201,6 +202,7 @@ DeckSchema reactorSchema() {
   addIgnition(schema);
   addSootModelKeys(schema);
   addEnsembles(schema);
+  addTreeKeys(schema);
   schema.section("integrator", Presence::defaulted, "The stiff solver of everything but steady states.")
       .add(numberKey("integrator.relative_tolerance",
                      "Relative tolerance of the stiff solver of the chemistry: smaller is more accurate and slower.")

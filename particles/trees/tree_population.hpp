@@ -40,7 +40,8 @@ struct TreeOptions {
 struct TreeExchange {
   double precursor = 0, product = 0;  // mol/m3, of the gas
   TreeUnits units{};                  // of the particles, by all processes, 1/m3
-  double inceptions = 0, reactions = 0, condensations = 0, sinteredPairs = 0;  // events, 1/m3
+  // Events, 1/m3: of sintering and of reactions within particles, pairs of sites.
+  double inceptions = 0, coagulations = 0, reactions = 0, condensations = 0, sinteredPairs = 0;
 };
 
 struct TreeCounters {

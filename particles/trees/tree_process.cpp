@@ -146,7 +146,9 @@ void TreeProcess::jump(double dt) {
       exchange_.precursor -= m.nucleusPrecursors * weight / constants::avogadro;
       exchange_.product += m.nucleusProducts * weight / constants::avogadro;
       for (std::size_t c = 0; c < mostTreeComponents; ++c) exchange_.units[c] += weight * m.nucleus[c];
-    } else if (!method_.coagulate(random_)) {
+    } else if (method_.coagulate(random_)) {
+      exchange_.coagulations += weight;
+    } else {
       ++counters_.fictitious;
     }
   }

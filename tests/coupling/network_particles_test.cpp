@@ -66,7 +66,7 @@ TEST(NetworkOfToys, IsOfSecondOrderWithARecycle) {
     const auto unknowns = startUnknowns(ethylene(), network, start, system.numCarried());
     march.start(0, unknowns);
     march.advance(end);
-    ReactorBalance balance(ethylene(), atRest, ParticlesAtRest::unitElements(ethylene(), 2));
+    ReactorBalance balance(ethylene(), atRest, atRest.unitElements(ethylene()));
     const auto elements = [&](std::span<const double> at) {
       return balance.elements(at.first(n), at.subspan(n + 1, atRest.size()));
     };

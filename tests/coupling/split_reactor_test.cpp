@@ -60,9 +60,9 @@ class SplitToy : public ::testing::Test {
     // What was booked is what the particles have.
     EXPECT_NEAR(own.density(y.data()) * y[n + 1 + ParticlesAtRest::carbon] / particles.carbon, 1, 1e-7);
     ParticlesAtRest atRest;
-    ReactorBalance balance(ethylene(), atRest, ParticlesAtRest::unitElements(ethylene()));
+    ReactorBalance balance(ethylene(), atRest, atRest.unitElements(ethylene()));
     const std::span<const double> first(start);
-    const auto count0 = ParticlesAtRest::count;
+    const auto count0 = atRest.size();
     if (own.kept[0] == Kept::temperature) return {y[n], y[toy.acetylene], y[n + 1]};
     if (!isOpen) {
       EXPECT_LT(largestImbalance(balance.elements(first.first(n), first.subspan(n + 1, count0)),
@@ -207,10 +207,10 @@ TEST_P(EnsembleInAReactor, AgreesWithSections) {
     number.push_back(ensemble.population().totals().number);
     fraction.push_back(ensemble.population().volumeFraction());
     temperature.push_back(march.state()[n]);
-    ReactorBalance balance(ethylene(), atRest, ParticlesAtRest::unitElements(ethylene()));
+    ReactorBalance balance(ethylene(), atRest, atRest.unitElements(ethylene()));
     const std::vector<double> start = reactor.initialState();
     const auto elements = [&](std::span<const double> at) {
-      return balance.elements(at.first(n), at.subspan(n + 1, ParticlesAtRest::count));
+      return balance.elements(at.first(n), at.subspan(n + 1, atRest.size()));
     };
     EXPECT_LT(largestImbalance(elements(start), elements(march.state())), 1e-13);
   }

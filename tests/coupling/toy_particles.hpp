@@ -80,7 +80,7 @@ class ToySplit final : public SplitParticles {
     const double gained = toy_.b > 0 ? (carbon + 1 / toy_.b) * std::expm1(rate * toy_.b * dt) : rate * dt;
     const double moles = gained / (2 * toy_.carbonWeight);
     carbon += gained;
-    return {{-moles}, gained, 2 * toy_.hydrogenWeight * moles};
+    return {{-moles}, {gained, 2 * toy_.hydrogenWeight * moles}};
   }
   void dilute(double factor) override { carbon *= factor; }
   [[nodiscard]] std::vector<double> content() const override { return save(); }

@@ -1,0 +1,43 @@
+// A stochastic population of any kind in a reactor whose gas it exchanges species with: what a run writes of it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/rooms.hpp"
+#include "coupling/split_reactor.hpp"
+
+namespace lampblack::coupling {
+
+class ReactorPopulation : public SplitParticles {
+ public:
+  struct Column {
+    std::string name, unit, description;
+  };
+  // Names begin with the material: "soot_number_density". Every kind has its volume_fraction, number_density and
+  // mean_diameter, of the sphere of mean volume.
+  [[nodiscard]] virtual std::string material() const = 0;
+  [[nodiscard]] virtual std::vector<Column> columns() const = 0;
+  // Brings up to date what waits: to be called before values are asked for.
+  virtual void settle() {}
+  [[nodiscard]] virtual std::vector<double> values() const = 0;  // SI
+  // Size distributions: the first without a name in results ("size_distribution").
+  struct Distribution {
+    std::string name, description;
+  };
+  [[nodiscard]] virtual std::vector<Distribution> distributions() const = 0;
+  // The k-th, dN/dlog10 d (1/m3) in equal bins of log10(d/m).
+  [[nodiscard]] virtual std::vector<double> distribution(std::size_t k, double logMin, double logMax,
+                                                         std::size_t bins) const = 0;
+  // What was counted, by name.
+  [[nodiscard]] virtual std::vector<std::pair<std::string, double>> counts() const = 0;
+};
+
+// Of a run: each repeat has another owner of random numbers.
+using PopulationMaker = std::function<std::unique_ptr<ReactorPopulation>(std::uint64_t owner)>;
+
+}  // namespace lampblack::coupling

@@ -1,0 +1,180 @@
+#include "coupling/reactor_trees.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/constants.hpp"
+#include "core/errors.hpp"
+
+namespace lampblack::coupling {
+namespace {
+
+// Mole fraction of the precursor below which nothing is born or grows to speak of.
+constexpr double negligiblePrecursor = 1e-15;
+
+}  // namespace
+
+ReactorTrees::ReactorTrees(const Mechanism& mechanism, const TreeOptions& options, GasViscosity viscosity,
+                           const std::optional<Start>& start)
+    : material_(options.material), viscosity_(viscosity), population_(makeTreePopulation(options)) {
+  for (const std::string& name : {material_.precursor, material_.product}) {
+    const auto k = mechanism.findSpecies(name);
+    if (!k)
+      throw InputError(fmt::format(
+          "particles of {} need the species '{}', but the mechanism has no species of this name", material_.name, name));
+    species_.push_back(*k);
+  }
+  for (std::size_t e = 0; e < mechanism.numElements(); ++e)
+    if (mechanism.atoms(species_[0], e) != 0 || mechanism.atoms(species_[1], e) != 0)
+      elements_.push_back(mechanism.elementName(e));
+  for (const std::size_t k : species_) {
+    perMole_.emplace_back();
+    for (const std::string& name : elements_) {
+      const std::size_t e = mechanism.elementIndex(name);
+      perMole_.back().push_back(mechanism.atoms(k, e) * mechanism.atomicWeight(e));
+    }
+  }
+  requireAtoms(mechanism);
+  if (start) population_->fill(start->units, start->number);
+}
+
+// Atoms of units and of the gas's species are the same before and after each process.
+void ReactorTrees::requireAtoms(const Mechanism& mechanism) const {
+  const auto require = [&](const char* process, double precursors, double products, const TreeUnits& gained) {
+    for (const std::string& name : elements_) {
+      const std::size_t e = mechanism.elementIndex(name);
+      double sum = precursors * mechanism.atoms(species_[0], e) - products * mechanism.atoms(species_[1], e);
+      for (std::size_t c = 0; c < material_.components.size(); ++c)
+        for (const auto& [element, atoms] : material_.components[c].elements)
+          if (element == name) sum -= gained[c] * atoms;
+      if (std::abs(sum) > 1e-9)
+        throw InputError(fmt::format("particles of {}: {} makes {:g} atoms of {} of nothing", material_.name, process,
+                                     -sum, name));
+    }
+  };
+  TreeUnits bridge{};
+  bridge[material_.site] -= 2;
+  bridge[material_.bridge] += 1;
+  require("inception", material_.nucleusPrecursors, material_.nucleusProducts, material_.nucleus);
+  require("surface reaction", 1, material_.growthProducts, material_.growth);
+  require("the reaction of two sites", 0, 1, bridge);
+}
+
+SplitParticles::Exchange ReactorTrees::advance(const ParticleGas& gas, double dt) {
+  population_->advance(gas, dt);
+  const TreeExchange taken = population_->takeExchange();
+  for (const auto count : {&TreeExchange::inceptions, &TreeExchange::coagulations, &TreeExchange::reactions,
+                           &TreeExchange::condensations, &TreeExchange::sinteredPairs})
+    total_.*count += taken.*count;
+  Exchange exchange{{taken.precursor, taken.product}, {}};
+  for (std::size_t e = 0; e < elements_.size(); ++e)
+    exchange.elements.push_back(-taken.precursor * perMole_[0][e] - taken.product * perMole_[1][e]);
+  return exchange;
+}
+
+void ReactorTrees::dilute(double factor) {
+  if (factor != 1) population_->dilute(factor);
+}
+
+std::vector<double> ReactorTrees::content() const {
+  throw NumericsError("trees of primaries do not go from one reactor to another");
+}
+
+void ReactorTrees::join(std::span<const double>, double) {
+  throw NumericsError("trees of primaries do not go from one reactor to another");
+}
+
+bool ReactorTrees::idle(const ParticleGas& gas) const {
+  const double moles = gas.pressure / (constants::gasConstant * gas.temperature);
+  return population_->size() == 0 && !(gas.concentrations[0] > negligiblePrecursor * moles);
+}
+
+std::vector<ReactorPopulation::Column> ReactorTrees::columns() const {
+  const std::string name = material_.name + "_";
+  std::vector<Column> all{
+      {name + "volume_fraction", "1", "particle volume per volume of gas"},
+      {name + "number_density", "1/m^3", "particles, the zeroth moment"},
+      {name + "mean_diameter", "m", "of the sphere of mean volume"},
+      {name + "sphere_diameter", "m", "mean diameter of the spheres of the particles' volumes"},
+      {name + "collision_diameter", "m", "mean diameter of collision"},
+      {name + "collision_deviation", "1", "geometric deviation of the diameter of collision, by number"},
+      {name + "surface_area", "m^2/m^3", "surface of all particles"},
+      {name + "mass", "kg/m^3", "mass of all particles"},
+      {name + "mass_squared", "kg^2/m^3", "sum of the squared masses of particles"},
+      {name + "primaries", "1", "primary particles in a particle, mean"},
+      {name + "primary_diameter", "m", "mean over particles of the mean diameter of their primaries"},
+      {name + "primary_deviation", "1", "geometric deviation of the mean primary diameters of particles, by number"},
+      {name + "sintering_level", "1", "mean over particles of their mean sintering level; of one primary 1"},
+      {name + "sintering_rate", "m^2/m^3/s", "surface that goes by sintering"},
+      {name + "largest", "1", "primaries of the particle that has most of them"}};
+  for (const TreeComponent& c : material_.components)
+    all.push_back({name + c.name, "1/m^3", "units of " + c.name + " in all particles"});
+  const std::vector<std::pair<const char*, const char*>> events{
+      {"inceptions", "particles born"},
+      {"coagulations", "collisions of particles"},
+      {"surface_reactions", "molecules that reacted with a site of a surface"},
+      {"condensations", "pairs of sites that reacted within a particle"},
+      {"sintered_pairs", "pairs of sites that reacted as their surface sintered"}};
+  for (const auto& [event, description] : events)
+    all.push_back({name + event, "1/m^3", std::string(description) + ", since the beginning"});
+  all.push_back({name + "numerical_particles", "1", "numerical particles of the sample"});
+  return all;
+}
+
+void ReactorTrees::settle() {
+  population_->settle();
+}
+
+std::vector<double> ReactorTrees::values() const {
+  const TreeTotals t = population_->totals();
+  std::vector<double> values{t.volume,
+                             t.number,
+                             t.number > 0 ? sphereDiameter(t.volume / t.number) : 0.0,
+                             t.sphereDiameter,
+                             t.collisionDiameter,
+                             t.collisionDeviation,
+                             t.surface,
+                             t.mass,
+                             t.massSquared,
+                             t.number > 0 ? t.primaries / t.number : 0.0,
+                             t.primaryDiameter,
+                             t.primaryDeviation,
+                             t.sinteringLevel,
+                             t.sinteringRate,
+                             static_cast<double>(t.largest)};
+  values.insert(values.end(), t.units.begin(), t.units.begin() + static_cast<std::ptrdiff_t>(material_.components.size()));
+  values.insert(values.end(), {total_.inceptions, total_.coagulations, total_.reactions, total_.condensations,
+                               total_.sinteredPairs, static_cast<double>(population_->size())});
+  return values;
+}
+
+std::vector<ReactorPopulation::Distribution> ReactorTrees::distributions() const {
+  return {{"", "by diameter of collision"},
+          {"sphere_", "by diameter of the sphere of the particle's volume"},
+          {"primary_", "of primaries, by their diameter"}};
+}
+
+std::vector<double> ReactorTrees::distribution(std::size_t k, double logMin, double logMax, std::size_t bins) const {
+  using Diameter = TreePopulation::Diameter;
+  return population_->sizeDistribution(std::array{Diameter::collision, Diameter::sphere, Diameter::primary}.at(k), logMin,
+                                       logMax, bins);
+}
+
+std::vector<std::pair<std::string, double>> ReactorTrees::counts() const {
+  const TreeCounters c = population_->counters();
+  const auto value = [](std::uint64_t count) { return static_cast<double>(count); };
+  return {{"inceptions", value(c.inceptions)},
+          {"coagulations", value(c.coagulations)},
+          {"fictitious_collisions", value(c.fictitious)},
+          {"fused_primaries", value(c.fused)},
+          {"doublings", value(c.doublings)},
+          {"removals", value(c.removals)},
+          {"splitting_steps", value(c.splitSteps)},
+          {"condensations_bounded", value(c.limited)},
+          {"sintering_without_sites", value(c.withoutSites)},
+          {"population_bytes", static_cast<double>(population_->bytes())}};
+}
+
+}  // namespace lampblack::coupling

@@ -1,0 +1,63 @@
+// A stochastic population of trees of primaries as the particles of a split reactor.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "chemistry/mechanism/mechanism.hpp"
+#include "core/rooms.hpp"
+#include "coupling/reactor_population.hpp"
+#include "particles/trees/tree_population.hpp"
+
+namespace lampblack::coupling {
+
+class ReactorTrees final : public ReactorPopulation {
+ public:
+  // Spheres that there are from the beginning.
+  struct Start {
+    TreeUnits units{};
+    double number = 0;  // 1/m3
+  };
+  // InputError where the mechanism lacks the precursor, the product or an element, where a process of the material does
+  // not keep the atoms of these species, and as makeTreePopulation().
+  ReactorTrees(const Mechanism& mechanism, const TreeOptions& options, GasViscosity viscosity,
+               const std::optional<Start>& start);
+
+  [[nodiscard]] const TreePopulation& population() const { return *population_; }
+
+  [[nodiscard]] const std::vector<std::string>& elements() const override { return elements_; }
+  [[nodiscard]] GasViscosity viscosity() const override { return viscosity_; }
+  [[nodiscard]] const std::vector<std::size_t>& species() const override { return species_; }
+  Exchange advance(const ParticleGas& gas, double dt) override;
+  void dilute(double factor) override;
+  // Trees stay in their reactor: NumericsError.
+  [[nodiscard]] std::vector<double> content() const override;
+  void join(std::span<const double> content, double share) override;
+  [[nodiscard]] bool idle(const ParticleGas& gas) const override;
+  [[nodiscard]] std::vector<double> save() const override { return population_->pack(); }
+  void restore(std::span<const double> state) override { population_->unpack(state); }
+
+  [[nodiscard]] std::string material() const override { return material_.name; }
+  [[nodiscard]] std::vector<Column> columns() const override;
+  void settle() override;
+  [[nodiscard]] std::vector<double> values() const override;
+  [[nodiscard]] std::vector<Distribution> distributions() const override;
+  [[nodiscard]] std::vector<double> distribution(std::size_t k, double logMin, double logMax,
+                                                 std::size_t bins) const override;
+  [[nodiscard]] std::vector<std::pair<std::string, double>> counts() const override;
+
+ private:
+  void requireAtoms(const Mechanism& mechanism) const;
+
+  TreeMaterial material_;
+  GasViscosity viscosity_;
+  std::unique_ptr<TreePopulation> population_;
+  std::vector<std::size_t> species_;
+  std::vector<std::string> elements_;
+  std::vector<std::vector<double>> perMole_;  // kg of each element in a mole of the precursor and of the product
+  TreeExchange total_;                        // from the beginning
+};
+
+}  // namespace lampblack::coupling
