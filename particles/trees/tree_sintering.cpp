@@ -113,56 +113,6 @@ void TreeSintering::neighbours(Tree& handle, double dt, Changes& changes) {
   for (std::uint32_t k = 0; k + 1 < tree.count; ++k) bring(k, courses_[k]);
 }
 
-// Sums over primaries, from which those of any part follow.
-void TreeSintering::sumParts(const TreeHead& tree) {
-  const TreePrimary* primaries = primariesOf(const_cast<TreeHead*>(&tree));
-  volumes_.assign(1, 0.0);
-  surfaces_.assign(1, 0.0);
-  sites_.assign(1, 0.0);
-  for (std::uint32_t i = 0; i < tree.count; ++i) {
-    const TreePrimary& p = primaries[i];
-    volumes_.push_back(volumes_.back() + primaryVolume(p.diameter));
-    surfaces_.push_back(surfaces_.back() + primarySurface(p.diameter));
-    sites_.push_back(sites_.back() + p.units[type_.material().site]);
-  }
-}
-
-void TreeSintering::parts(Tree& handle, double dt, Changes& changes) {
-  const SinteringLaw& law = type_.material().sintering;
-  TreeHead& tree = handle.own();
-  TreePrimary* primaries = primariesOf(&tree);
-  TreeNeck* necks = necksOf(&tree);
-  double remaining = dt;
-  while (tree.count > 1) {
-    fuseAll(tree, changes);
-    if (tree.count == 1 || !(remaining > 0)) return;
-    sumParts(tree);
-    left_.assign(tree.count - 1, 0.0);  // m2/s here
-    double h = remaining;
-    for (std::uint32_t k = 0; k + 1 < tree.count; ++k) {
-      const TreeNeck& neck = necks[k];
-      const bool whole = neck.first == 0 && neck.last + 1 == tree.count;
-      const double V = volumes_[neck.last + 1] - volumes_[neck.first];
-      const double S = whole ? tree.surface : surfaces_[neck.last + 1] - surfaces_[neck.first];
-      const double rate = std::max(0.0, (S - sphereSurface(V)) / law.time(T_, 6 * V / S));
-      left_[k] = rate;
-      if (rate > 0) h = std::min(h, std::max(0.2 * (neck.common - neck.sphere), 0.2 * step * neck.sphere) / rate);
-      if (rate > 0) h = std::min(h, step * neck.sphere / rate);
-    }
-    for (std::uint32_t k = 0; k + 1 < tree.count; ++k) {
-      TreeNeck& neck = necks[k];
-      const double down = std::min(left_[k] * h, neck.common - neck.sphere);
-      if (!(down > 0)) continue;
-      const bool whole = neck.first == 0 && neck.last + 1 == tree.count;
-      const double S = whole ? tree.surface : surfaces_[neck.last + 1] - surfaces_[neck.first];
-      neck.common -= down;
-      loseSites(primaries, neck, (sites_[neck.last + 1] - sites_[neck.first]) * down / S, changes);
-    }
-    remaining = h < remaining ? remaining - h : 0;
-    type_.measure(tree);
-  }
-}
-
 void TreeSintering::fuseAll(TreeHead& tree, Changes& changes) {
   const TreeNeck* necks = necksOf(&tree);
   const std::uint32_t count = tree.count;
@@ -185,22 +135,14 @@ void TreeSintering::rest(TreeHead& tree, double time) {
   tree.sintering = 0;
   tree.rest = never;
   if (tree.count == 1 || !law.active()) return;
-  const TreePrimary* primaries = primariesOf(&tree);
-  const TreeNeck* necks = necksOf(&tree);
   const bool ofParts = law.between == SinteringLaw::Between::parts;
-  if (ofParts) sumParts(tree);
+  if (ofParts) partRates(tree);
   double fastest = 0;
   for (std::uint32_t k = 0; k + 1 < tree.count; ++k) {
-    const TreeNeck& neck = necks[k];
-    double rate = 0;
-    if (ofParts) {
-      const bool whole = neck.first == 0 && neck.last + 1 == tree.count;
-      const double V = volumes_[neck.last + 1] - volumes_[neck.first];
-      const double S = whole ? tree.surface : surfaces_[neck.last + 1] - surfaces_[neck.first];
-      rate = std::max(0.0, (S - sphereSurface(V)) / law.time(T_, 6 * V / S));
-    } else {
-      rate = (neck.common - neck.sphere) / law.time(T_, sizeOf(primaries, neck, neck.common));
-    }
+    const TreeNeck& neck = necksOf(&tree)[k];
+    const double rate = ofParts ? rates_[k]
+                                : (neck.common - neck.sphere) /
+                                      law.time(T_, sizeOf(primariesOf(&tree), neck, neck.common));
     tree.sintering += rate;
     fastest = std::max(fastest, rate / neck.sphere);
   }

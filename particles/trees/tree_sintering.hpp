@@ -46,7 +46,10 @@ class TreeSintering {
   [[nodiscard]] Course follow(const TreePrimary* primaries, const TreeNeck& neck, double dt) const;
   void neighbours(Tree& tree, double dt, Changes& changes);
   void parts(Tree& tree, double dt, Changes& changes);
-  void sumParts(const TreeHead& tree);
+  std::size_t partRates(TreeHead& tree);
+  [[nodiscard]] double partRate(double volume, double surface) const;
+  [[nodiscard]] bool fuseAtOnce(TreeHead& tree, std::size_t whole, double dt);
+  void losePartSites(TreeHead& tree, Changes& changes);
   void loseSites(TreePrimary* primaries, const TreeNeck& neck, double sites, Changes& changes) const;
   void fuseAll(TreeHead& tree, Changes& changes);
   void rest(TreeHead& tree, double time);
@@ -54,8 +57,9 @@ class TreeSintering {
   const PrimaryTrees& type_;
   double tolerance_, T_ = 0;
   std::vector<Course> courses_;
-  std::vector<double> left_;                       // s, of each neck
+  std::vector<double> left_;                        // s, of each neck
   std::vector<double> volumes_, surfaces_, sites_;  // sums over the primaries before each
+  std::vector<double> rates_, starts_, densities_;  // of each neck: m2/s; m2 at the beginning; sites in a m2
 };
 
 // Makes the two primaries of the k-th neck one, in the place of the left one: its part of the tree goes where the right
