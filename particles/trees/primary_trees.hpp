@@ -35,7 +35,7 @@ class PrimaryTrees {
   [[nodiscard]] Tree make(const TreeUnits& units) const {
     TreeHead* head = pool_->allocate(1);
     head->count = 1;
-    *primariesOf(head) = {units, sphereDiameter(material_->volume(units))};
+    *primariesOf(head) = {units, treeDiameter(material_->volume(units))};
     measure(*head);
     return Tree(head);
   }

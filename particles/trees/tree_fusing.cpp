@@ -16,7 +16,7 @@ void fuseNeck(TreeHead& tree, std::size_t k, const TreeMaterial& material) {
   // The joined primary, and which necks know it.
   TreePrimary joined = primaries[a];
   for (std::size_t c = 0; c < mostTreeComponents; ++c) joined.units[c] += primaries[b].units[c];
-  joined.diameter = sphereDiameter(material.volume(joined.units));
+  joined.diameter = treeDiameter(material.volume(joined.units));
   primaries[a] = joined;
 
   // Right part before b, left part, right part behind b; the same for the necks in between.

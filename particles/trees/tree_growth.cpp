@@ -81,7 +81,7 @@ void TreeGrowth::finish(TreeHead& tree) {
   for (std::size_t i = 0; i < tree.count; ++i) {
     TreePrimary& p = primaries[i];
     grown_[i] *= gain / p.diameter;  // m2
-    p.diameter = sphereDiameter(m.volume(p.units));
+    p.diameter = treeDiameter(m.volume(p.units));
   }
   TreeNeck* necks = necksOf(&tree);
   for (std::uint32_t k = 0; k + 1 < tree.count; ++k) {

@@ -21,12 +21,6 @@ double TreeMaterial::unitMass(std::size_t component) const {
   return components[component].weight / constants::avogadro;
 }
 
-double TreeMaterial::volume(const TreeUnits& units) const {
-  double mass = 0;
-  for (std::size_t c = 0; c < components.size(); ++c) mass += units[c] * unitMass(c);
-  return mass / density;
-}
-
 double TreeMaterial::growthVolume() const {
   return volume(growth);
 }

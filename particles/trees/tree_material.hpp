@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/constants.hpp"
 #include "core/rooms.hpp"
 #include "particles/trees/sintering_law.hpp"
 
@@ -50,7 +51,11 @@ struct TreeMaterial {
 
   [[nodiscard]] double unitMass(std::size_t component) const;  // kg
   [[nodiscard]] double growthVolume() const;                   // m3, of a surface reaction
-  [[nodiscard]] double volume(const TreeUnits& units) const;   // m3
+  [[nodiscard]] double volume(const TreeUnits& units) const {  // m3
+    double sum = 0;
+    for (std::size_t c = 0; c < components.size(); ++c) sum += units[c] * components[c].weight;
+    return sum / (density * constants::avogadro);
+  }
   // 1/s for each site, at a concentration (mol/m3) of the precursor.
   [[nodiscard]] double growthRate(double temperature, double concentration) const;
 };

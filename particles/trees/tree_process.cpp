@@ -86,7 +86,7 @@ double TreeProcess::step(const Sums& s, double remaining) const {
   double longest = std::numeric_limits<double>::infinity();
   if (inception_ > 0) {
     const double v = m.volume(m.nucleus);
-    const CollisionKernel::Properties one{v, v * m.density, sphereDiameter(v)};
+    const CollisionKernel::Properties one{v, v * m.density, treeDiameter(v)};
     longest = newbornStep(options_.splitTolerance, inception_, s.number,
                           growthRate_ * m.nucleus[m.site] * m.growthVolume() / v,
                           options_.coagulation ? kernel_->value(one, one) : 0);

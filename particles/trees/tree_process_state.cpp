@@ -27,7 +27,7 @@ TreeTotals TreeProcess::totals() const {
     t.primaries += w * n;
     t.sinteringRate += w * tree.sintering;
     for (std::size_t c = 0; c < mostTreeComponents; ++c) t.units[c] += w * tree.units[c];
-    t.sphereDiameter += w * sphereDiameter(tree.volume);
+    t.sphereDiameter += w * treeDiameter(tree.volume);
     t.collisionDiameter += w * tree.collision;
     t.primaryDiameter += w * mean;
     levels += w * (tree.count > 1 ? tree.levels / (n - 1) : 1);
@@ -51,7 +51,7 @@ std::vector<double> TreeProcess::sizeDistribution(Diameter of, double logMin, do
   };
   method_.forEachParticle([&](const Tree& p, double w) {
     if (of == Diameter::collision) add(p.head().collision, w);
-    if (of == Diameter::sphere) add(sphereDiameter(p.head().volume), w);
+    if (of == Diameter::sphere) add(treeDiameter(p.head().volume), w);
     if (of == Diameter::primary)
       for (const TreePrimary& primary : p.primaries()) add(primary.diameter, w);
   });
@@ -135,7 +135,7 @@ void TreeProcess::unpack(std::span<const double> values) {
     tree->count = index(h.count);
     for (std::uint32_t i = 0; i < tree->count; ++i) {
       const auto units = state.next<TreeUnits>();
-      primariesOf(tree)[i] = {units, sphereDiameter(options_.material.volume(units))};
+      primariesOf(tree)[i] = {units, treeDiameter(options_.material.volume(units))};
     }
     for (std::uint32_t k = 0; k + 1 < tree->count; ++k) {
       const auto n = state.next<std::array<double, 5>>();

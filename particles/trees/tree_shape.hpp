@@ -24,6 +24,14 @@ inline constexpr double fusedRatio = 1 / (fusedLevel * (1 - touching) + touching
 // 6 V/S of the aggregate, by which a sphere that has sintered is a sphere (Lavvas, Sander, Kraft, Imanaka 2011).
 enum class CollisionSize { primaries, volumeToSurface };
 
+// Volumes of trees are normal numbers by far, and the root is asked for all the time.
+[[nodiscard, gnu::always_inline]] inline double treeDiameter(double volume) {
+  return normalCubeRoot(6 / constants::pi * volume);
+}
+[[nodiscard, gnu::always_inline]] inline double treeSphere(double volume) {  // m2
+  const double d = treeDiameter(volume);
+  return constants::pi * d * d;
+}
 [[nodiscard]] inline double primaryVolume(double diameter) { return constants::pi / 6 * diameter * diameter * diameter; }
 [[nodiscard]] inline double primarySurface(double diameter) { return constants::pi * diameter * diameter; }
 
@@ -44,7 +52,7 @@ inline void shapeTree(TreeHead& tree, double inverseDimension, CollisionSize siz
     return;
   }
   const double n = tree.count, root = 1 / cubeRoot(n), level = tree.levels / (n - 1);
-  const double sphere = sphereSurface(tree.volume);
+  const double sphere = treeSphere(tree.volume);
   tree.surface = sphere / (level * (1 - root) + root);
   // n_r = S^3 / (36 pi V^2) is the ratio of the surfaces to the third power.
   const double ratio = tree.surface / sphere;
@@ -72,7 +80,7 @@ inline void measureTree(TreeHead& tree, double inverseDimension, CollisionSize s
 // The sphere of the two primaries of a neck.
 [[nodiscard]] inline double sphereOfNeck(const TreePrimary* primaries, const TreeNeck& neck) {
   const double l = primaries[neck.left].diameter, r = primaries[neck.right].diameter;
-  const double d = cubeRoot(l * l * l + r * r * r);
+  const double d = normalCubeRoot(l * l * l + r * r * r);
   return primarySurface(d);
 }
 

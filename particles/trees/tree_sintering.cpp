@@ -41,7 +41,13 @@ TreeSintering::Course TreeSintering::follow(const TreePrimary* primaries, const 
   }
 }
 
-// Half of the sites from each (eq. 45); each primary as many as it has.
+void TreeSintering::sizePrimaries(TreeHead& tree) const {
+  TreePrimary* primaries = primariesOf(&tree);
+  for (std::uint32_t i = 0; i < tree.count; ++i)
+    primaries[i].diameter = treeDiameter(type_.material().volume(primaries[i].units));
+}
+
+// Half of the sites from each (eq. 45); each primary as many as it has. Sizes are left to sizePrimaries().
 void TreeSintering::loseSites(TreePrimary* primaries, const TreeNeck& neck, double sites, Changes& changes) const {
   if (!(sites > 0)) return;
   const TreeMaterial& m = type_.material();
@@ -51,7 +57,6 @@ void TreeSintering::loseSites(TreePrimary* primaries, const TreeNeck& neck, doub
     if (taken < 0.5 * sites) ++changes.limited;
     p.units[m.site] -= taken;
     p.units[m.bridge] += 0.5 * taken;
-    p.diameter = sphereDiameter(m.volume(p.units));
     changes.bridges += 0.5 * taken;
   }
 }
@@ -111,6 +116,7 @@ void TreeSintering::neighbours(Tree& handle, double dt, Changes& changes) {
     ++changes.fused;
   }
   for (std::uint32_t k = 0; k + 1 < tree.count; ++k) bring(k, courses_[k]);
+  sizePrimaries(tree);
 }
 
 void TreeSintering::fuseAll(TreeHead& tree, Changes& changes) {
@@ -136,7 +142,8 @@ void TreeSintering::rest(TreeHead& tree, double time) {
   tree.rest = never;
   if (tree.count == 1 || !law.active()) return;
   const bool ofParts = law.between == SinteringLaw::Between::parts;
-  if (ofParts) partRates(tree);
+  if (ofParts && !fresh_) partRates(tree);
+  fresh_ = false;
   double fastest = 0;
   for (std::uint32_t k = 0; k + 1 < tree.count; ++k) {
     const TreeNeck& neck = necksOf(&tree)[k];

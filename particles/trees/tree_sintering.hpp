@@ -51,11 +51,13 @@ class TreeSintering {
   [[nodiscard]] bool fuseAtOnce(TreeHead& tree, std::size_t whole, double dt);
   void losePartSites(TreeHead& tree, Changes& changes);
   void loseSites(TreePrimary* primaries, const TreeNeck& neck, double sites, Changes& changes) const;
+  void sizePrimaries(TreeHead& tree) const;
   void fuseAll(TreeHead& tree, Changes& changes);
   void rest(TreeHead& tree, double time);
 
   const PrimaryTrees& type_;
   double tolerance_, T_ = 0;
+  bool fresh_ = false;  // rates_ are those of the tree that has just changed, hardly
   std::vector<Course> courses_;
   std::vector<double> left_;                        // s, of each neck
   std::vector<double> volumes_, surfaces_, sites_;  // sums over the primaries before each

@@ -22,7 +22,7 @@ double surfaceOf(const TreeHead& tree, double levels, double sphere, double root
 }  // namespace
 
 double TreeSintering::partRate(double volume, double surface) const {
-  const double excess = surface - sphereSurface(volume);
+  const double excess = surface - treeSphere(volume);
   return excess > 0 ? excess / type_.material().sintering.time(T_, 6 * volume / surface) : 0;
 }
 
@@ -38,17 +38,18 @@ std::size_t TreeSintering::partRates(TreeHead& tree) {
     surfaces_.push_back(surfaces_.back() + primarySurface(p.diameter));
     sites_.push_back(sites_.back() + p.units[type_.material().site]);
   }
-  rates_.clear();
-  densities_.clear();
+  const std::size_t count = tree.count - 1;
+  const TreeNeck* necks = necksOf(&tree);
+  rates_.resize(count);
+  densities_.resize(count);
   std::size_t whole = 0;
-  for (std::uint32_t k = 0; k + 1 < tree.count; ++k) {
-    const TreeNeck& neck = necksOf(&tree)[k];
-    const bool isWhole = neck.first == 0 && neck.last + 1 == tree.count;
+  for (std::size_t k = 0; k < count; ++k) {
+    const TreeNeck& neck = necks[k];
+    const bool isWhole = neck.first == 0 && neck.last == count;
     if (isWhole) whole = k;
-    const double V = volumes_[neck.last + 1] - volumes_[neck.first];
     const double S = isWhole ? tree.surface : surfaces_[neck.last + 1] - surfaces_[neck.first];
-    rates_.push_back(partRate(V, S));
-    densities_.push_back((sites_[neck.last + 1] - sites_[neck.first]) / S);
+    rates_[k] = partRate(volumes_[neck.last + 1] - volumes_[neck.first], S);
+    densities_[k] = (sites_[neck.last + 1] - sites_[neck.first]) / S;
   }
   return whole;
 }
@@ -63,7 +64,7 @@ bool TreeSintering::fuseAtOnce(TreeHead& tree, std::size_t whole, double dt) {
     double rate = rates_[k];
     if ((necks[k].common - fused) > rate * instant * dt) continue;
     if (k == whole) {
-      const double root = 1 / cubeRoot(static_cast<double>(tree.count)), sphere = sphereSurface(tree.volume);
+      const double root = 1 / cubeRoot(static_cast<double>(tree.count)), sphere = treeSphere(tree.volume);
       rate = partRate(tree.volume,
                       surfaceOf(tree, tree.levels - sinteringLevel(necks[k]) + fusedLevel, sphere, root));
       if ((necks[k].common - fused) > rate * instant * dt) continue;
@@ -80,6 +81,7 @@ void TreeSintering::losePartSites(TreeHead& tree, Changes& changes) {
     const TreeNeck& neck = necksOf(&tree)[k];
     loseSites(primariesOf(&tree), neck, densities_[k] * (starts_[k] - neck.common), changes);
   }
+  sizePrimaries(tree);
 }
 
 void TreeSintering::parts(Tree& handle, double dt, Changes& changes) {
@@ -89,11 +91,12 @@ void TreeSintering::parts(Tree& handle, double dt, Changes& changes) {
   while (true) {
     fuseAll(tree, changes);
     if (tree.count == 1 || !(remaining > 0)) return;
+    fresh_ = false;
     const std::size_t whole = partRates(tree), count = tree.count - 1;
     starts_.clear();
     for (std::size_t k = 0; k < count; ++k) starts_.push_back(necks[k].common);
     bool isFused = fuseAtOnce(tree, whole, remaining);
-    const double root = 1 / cubeRoot(static_cast<double>(tree.count)), sphere = sphereSurface(tree.volume);
+    const double root = 1 / cubeRoot(static_cast<double>(tree.count)), sphere = treeSphere(tree.volume);
     while (!isFused && remaining > 0) {
       // Change of the sum of levels, 1/s, and what step that and the necks allow.
       const double surface = surfaceOf(tree, tree.levels, sphere, root);
@@ -117,6 +120,7 @@ void TreeSintering::parts(Tree& handle, double dt, Changes& changes) {
         }
         tree.levels += sinteringLevel(necks[k]);
       }
+      fresh_ = h == dt && relative * h < tolerance_ && !isFused;
       remaining = h < remaining ? remaining - h : 0;
     }
     losePartSites(tree, changes);

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <iterator>
 #include <span>
 #include <utility>
 #include <vector>
@@ -59,10 +60,10 @@ class ClassStore {
   template <class EntryOf>
   void insertAll(std::size_t count, EntryOf entryOf) {
     for (std::size_t k = 0; k < count; ++k) {
-      const Entry entry = entryOf(k);
+      Entry entry = entryOf(k);
       const std::size_t slot = slotOf(rates_.volume(entry));
-      classes_[slot].push_back(entry);
       raiseBounds(slot, entry);
+      classes_[slot].push_back(std::move(entry));
     }
     size_ += count;
     for (std::size_t slot = 0; slot < classes_.size(); ++slot) update(slot);
@@ -219,18 +220,27 @@ class ClassStore {
       if (!members.empty()) f(std::span<const Entry>(members));
     }
   }
-  // f may change an entry and drops it by returning false. Bounds and classes are made afresh.
-  template <class F>
-  void transform(F f) {
+  // f may change an entry and drops it by returning false. Bounds and classes are made afresh, after `then` has seen the
+  // entries that stay, as a span.
+  template <class F, class Then>
+  void transform(F f, Then then) {
     std::vector<Entry> entries;
     entries.reserve(size_);
-    for (auto& members : classes_) entries.insert(entries.end(), members.begin(), members.end());
+    for (auto& members : classes_)
+      entries.insert(entries.end(), std::make_move_iterator(members.begin()), std::make_move_iterator(members.end()));
     clear();
     std::size_t kept = 0;
-    for (Entry& entry : entries) {
-      if (f(entry)) entries[kept++] = entry;
+    for (std::size_t k = 0; k < entries.size(); ++k) {
+      if (!f(entries[k])) continue;
+      if (kept != k) entries[kept] = std::move(entries[k]);
+      ++kept;
     }
-    insertAll(kept, [&](std::size_t k) { return entries[k]; });
+    then(std::span<const Entry>(entries.data(), kept));
+    insertAll(kept, [&](std::size_t k) { return std::move(entries[k]); });
+  }
+  template <class F>
+  void transform(F f) {
+    transform(f, [](std::span<const Entry>) {});
   }
 
  private:

@@ -52,8 +52,11 @@ class EqualRates {
   }
 
   [[nodiscard, gnu::always_inline]] Entry entry(const Particle& particle) const {
+    return {particle, entryDiameter(particle)};
+  }
+  [[nodiscard, gnu::always_inline]] double entryDiameter(const Particle& particle) const {
     const bool needed = !changing && kernel_ && kernel_->needsDiameter();
-    return {particle, needed ? type_.collisionDiameter(particle) : 0.0};
+    return needed ? type_.collisionDiameter(particle) : 0.0;
   }
   [[nodiscard]] double volume(const Entry& entry) const { return orderVolume(type_, entry.particle); }
   [[nodiscard]] double weight(const Entry&) const { return 1; }

@@ -136,16 +136,29 @@ class EqualWeightMethod {
   template <class F>
   void changeParticles(F f) {
     const double weight = sample_.weight();
-    sample_.transform([&](Entry& entry) {
+    const auto change = [&](Entry& entry) {
       if (!f(entry.particle, weight)) {
         ++counters_.vanished;
         return false;
       }
-      entry = rates().entry(entry.particle);
+      entry.diameter = rates().entryDiameter(entry.particle);
       return true;
-    });
+    };
+    // One rebuild serves both the change and the majorant that suits it, where the store can tell.
+    const auto tune = [&](std::span<const Entry> entries) {
+      if (!rates().tunable() || entries.empty()) return;
+      sample_.store().rates().tune([&](const auto& g) {
+        for (const Entry& entry : entries) g(entry);
+      });
+    };
+    if constexpr (requires { sample_.store().transform(change, tune); }) {
+      sample_.transform(change, tune);
+      retuneAfter_ = std::max<std::size_t>(size(), 16);
+    } else {
+      sample_.transform(change);
+      if (rates().tunable()) retune();
+    }
     sample_.massChanged();
-    if (rates().tunable()) retune();
   }
   // f(const Particle&, weight).
   template <class F>

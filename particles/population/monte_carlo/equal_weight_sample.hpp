@@ -115,6 +115,13 @@ class EqualWeightSample {
     measure();
   }
 
+  // With then(entries) before they are put in anew.
+  template <class F, class Then>
+  void transform(F f, Then then) {
+    store_.transform(f, then);
+    measure();
+  }
+
   // Whether one particle holds more than 2 N^(-1/3) of the mass, N being the capacity, or half of it if that is less.
   // At the gel point of N merging masses the largest cluster is of the order of N^(2/3) of them (Aldous 1997, for the
   // multiplicative kernel), before it of the order of log N, after it of the order of N: the time at which the share
