@@ -24,8 +24,12 @@ class ReactorEnsemble final : public ReactorPopulation {
   [[nodiscard]] std::vector<double> content() const override;
   void join(std::span<const double> content, double share) override;
   [[nodiscard]] bool idle(const ParticleGas& gas) const override;
-  [[nodiscard]] std::vector<double> save() const override { return population_->pack(); }
-  void restore(std::span<const double> state) override { population_->unpack(state); }
+  [[nodiscard]] std::unique_ptr<State> save() const override {
+    return std::make_unique<PackedSplitState>(population_->pack());
+  }
+  void restore(const State& state) override {
+    population_->unpack(dynamic_cast<const PackedSplitState&>(state).values);
+  }
 
   [[nodiscard]] std::string material() const override { return "soot"; }
   [[nodiscard]] std::vector<Column> columns() const override;

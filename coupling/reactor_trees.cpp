@@ -86,6 +86,19 @@ void ReactorTrees::join(std::span<const double>, double) {
   throw NumericsError("trees of primaries do not go from one reactor to another");
 }
 
+std::unique_ptr<SplitParticles::State> ReactorTrees::save() const {
+  auto saved = std::make_unique<Saved>();
+  saved->population = population_->save();
+  saved->total = total_;
+  return saved;
+}
+
+void ReactorTrees::restore(const State& state) {
+  const auto& saved = dynamic_cast<const Saved&>(state);
+  population_->restore(*saved.population);
+  total_ = saved.total;
+}
+
 bool ReactorTrees::idle(const ParticleGas& gas) const {
   const double moles = gas.pressure / (constants::gasConstant * gas.temperature);
   return population_->size() == 0 && !(gas.concentrations[0] > negligiblePrecursor * moles);

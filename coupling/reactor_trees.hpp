@@ -36,8 +36,8 @@ class ReactorTrees final : public ReactorPopulation {
   [[nodiscard]] std::vector<double> content() const override;
   void join(std::span<const double> content, double share) override;
   [[nodiscard]] bool idle(const ParticleGas& gas) const override;
-  [[nodiscard]] std::vector<double> save() const override { return population_->pack(); }
-  void restore(std::span<const double> state) override { population_->unpack(state); }
+  [[nodiscard]] std::unique_ptr<State> save() const override;
+  void restore(const State& state) override;
 
   [[nodiscard]] std::string material() const override { return material_.name; }
   [[nodiscard]] std::vector<Column> columns() const override;
@@ -49,6 +49,10 @@ class ReactorTrees final : public ReactorPopulation {
   [[nodiscard]] std::vector<std::pair<std::string, double>> counts() const override;
 
  private:
+  struct Saved final : State {
+    std::unique_ptr<TreePopulation::State> population;
+    TreeExchange total;
+  };
   void requireAtoms(const Mechanism& mechanism) const;
 
   TreeMaterial material_;

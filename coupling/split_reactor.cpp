@@ -220,7 +220,7 @@ void SplitReactor::advance(double end) {
     // The last two steps to a stop are alike.
     const double h = h_ >= left * (1 - 1e-12) ? left : h_ > 0.5 * left && !options_.fixedStep ? 0.5 * left : h_;
     const std::vector<double> state = y_, exchanged = exchanged_;
-    std::vector<std::vector<double>> saved;
+    std::vector<std::unique_ptr<SplitParticles::State>> saved;
     const bool isCalm = options_.fixedStep || (work_.steps > 0 && lastRate_ * h < calmPart * options_.change);
     if (!isCalm)
       for (const SplitParticles* particles : particles_) saved.push_back(particles->save());
@@ -242,7 +242,7 @@ void SplitReactor::advance(double end) {
       x_ = begin;
       y_ = state;
       exchanged_ = exchanged;
-      for (std::size_t r = 0; r < saved.size(); ++r) particles_[r]->restore(saved[r]);
+      for (std::size_t r = 0; r < saved.size(); ++r) particles_[r]->restore(*saved[r]);
     } else {
       ++work_.steps;
       x_ = h == left ? stop : begin + h;

@@ -52,13 +52,23 @@ class SplitParticles {
   virtual void join(std::span<const double> content, double share) = 0;
   // There are none, and none can be born of this gas.
   [[nodiscard]] virtual bool idle(const ParticleGas& gas) const = 0;
-  [[nodiscard]] virtual std::vector<double> save() const = 0;
-  virtual void restore(std::span<const double> state) = 0;
+  // All that a step may change, for one that is taken back.
+  struct State {
+    virtual ~State() = default;
+  };
+  [[nodiscard]] virtual std::unique_ptr<State> save() const = 0;
+  virtual void restore(const State& state) = 0;
 
  protected:
   SplitParticles() = default;
   SplitParticles(const SplitParticles&) = default;
   SplitParticles& operator=(const SplitParticles&) = default;
+};
+
+// The state of particles that are packed in numbers.
+struct PackedSplitState final : SplitParticles::State {
+  explicit PackedSplitState(std::vector<double> packed) : values(std::move(packed)) {}
+  std::vector<double> values;
 };
 
 // What the gas carries while it reacts: each element of the particles (kg/kg), and a mark for each reactor, one in it and

@@ -1,5 +1,7 @@
 #include "particles/trees/tree_pool.hpp"
 
+#include <sys/mman.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <new>
@@ -38,13 +40,25 @@ TreePool::TreePool() : open_(capacities().size(), nullptr) {}
 
 // All trees are gone: their owners live shorter.
 TreePool::~TreePool() {
-  for (Slab* slab : open_) {
-    while (slab != nullptr) {
-      Slab* next = slab->behind;
-      std::free(slab);
-      slab = next;
-    }
+  for (void* region : regions_) munmap(region, regionBytes);
+}
+
+// Memory of the system's own, which goes back to it whatever else the program keeps.
+void* TreePool::slabMemory() {
+  if (free_.empty()) {
+    void* region = mmap(nullptr, regionBytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (region == MAP_FAILED) throw std::bad_alloc();
+    regions_.push_back(region);
+    const auto start = reinterpret_cast<std::uintptr_t>(region);
+    const std::uintptr_t first = (start + slabBytes - 1) / slabBytes * slabBytes;
+    for (std::uintptr_t at = first; at + slabBytes <= start + regionBytes; at += slabBytes)
+      free_.push_back(reinterpret_cast<void*>(at));
+    std::reverse(free_.begin(), free_.end());
   }
+  void* memory = free_.back();
+  free_.pop_back();
+  bytes_ += slabBytes;
+  return memory;
 }
 
 std::size_t TreePool::classOf(std::size_t primaries) {
@@ -63,9 +77,7 @@ TreeHead* TreePool::allocate(std::size_t primaries) {
   } else {
     Slab* slab = open_[size];
     if (slab == nullptr) {
-      void* memory = std::aligned_alloc(slabBytes, slabBytes);
-      if (memory == nullptr) throw std::bad_alloc();
-      bytes_ += slabBytes;
+      void* memory = slabMemory();
       slab = new (memory) Slab;
       constexpr std::size_t head = (sizeof(Slab) + 15) / 16 * 16;
       slab->fresh = static_cast<std::byte*>(memory) + head;
@@ -111,7 +123,7 @@ void TreePool::release(TreeHead* head) {
     (slab->before != nullptr ? slab->before->behind : first) = slab->behind;
     if (slab->behind != nullptr) slab->behind->before = slab->before;
     bytes_ -= slabBytes;
-    std::free(slab);
+    free_.push_back(slab);
     return;
   }
   *reinterpret_cast<void**>(head) = slab->freed;

@@ -86,6 +86,12 @@ class TreePopulation {
   [[nodiscard]] virtual TreeCounters counters() const = 0;
   [[nodiscard]] virtual std::size_t bytes() const = 0;  // of what grows with the number of particles and primaries
 
+  // The complete state for one who takes a step back: trees that do not change in it are not copied.
+  struct State {
+    virtual ~State() = default;
+  };
+  [[nodiscard]] virtual std::unique_ptr<State> save() const = 0;
+  virtual void restore(const State& state) = 0;
   // The complete state, as Ensemble::pack().
   [[nodiscard]] virtual std::vector<double> pack() const = 0;
   virtual void unpack(std::span<const double> state) = 0;

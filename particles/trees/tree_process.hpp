@@ -32,10 +32,21 @@ class TreeProcess final : public TreePopulation {
   [[nodiscard]] std::vector<Tree> trees() const override;
   [[nodiscard]] TreeCounters counters() const override;
   [[nodiscard]] std::size_t bytes() const override { return type_.pool().bytes() + method_.bytes(); }
+  [[nodiscard]] std::unique_ptr<State> save() const override;
+  void restore(const State& state) override;
   [[nodiscard]] std::vector<double> pack() const override;
   void unpack(std::span<const double> state) override;
 
  private:
+  struct Saved final : State {
+    std::vector<Tree> trees;
+    std::array<double, 2> memory{};
+    std::uint64_t position = 0;
+    double clock = 0;
+    TreeExchange exchange;
+    TreeCounters counters;
+    PopulationCounters method;
+  };
   struct Sums {  // per m3
     double number = 0, volume = 0, sites = 0, diameters = 0, sintering = 0, surface = 0;
   };

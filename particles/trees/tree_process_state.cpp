@@ -60,6 +60,7 @@ std::vector<double> TreeProcess::sizeDistribution(Diameter of, double logMin, do
 
 std::vector<Tree> TreeProcess::trees() const {
   std::vector<Tree> all;
+  all.reserve(size());
   method_.forEachParticle([&](const Tree& p, double) { all.push_back(p); });
   return all;
 }
@@ -71,6 +72,28 @@ TreeCounters TreeProcess::counters() const {
   all.doublings = method.doublings;
   all.removals = method.removals;
   return all;
+}
+
+std::unique_ptr<TreePopulation::State> TreeProcess::save() const {
+  auto saved = std::make_unique<Saved>();
+  saved->trees = trees();
+  saved->memory = method_.memory();
+  saved->position = random_.position();
+  saved->clock = type_.clock();
+  saved->exchange = exchange_;
+  saved->counters = counters_;
+  saved->method = const_cast<Method&>(method_).counters();
+  return saved;
+}
+
+void TreeProcess::restore(const State& state) {
+  const auto& saved = dynamic_cast<const Saved&>(state);
+  random_.seek(saved.position);
+  type_.clock() = saved.clock;
+  exchange_ = saved.exchange;
+  counters_ = saved.counters;
+  method_.counters() = saved.method;
+  method_.restore(saved.memory, saved.trees);
 }
 
 namespace {

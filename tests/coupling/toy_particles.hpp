@@ -83,11 +83,13 @@ class ToySplit final : public SplitParticles {
     return {{-moles}, {gained, 2 * toy_.hydrogenWeight * moles}};
   }
   void dilute(double factor) override { carbon *= factor; }
-  [[nodiscard]] std::vector<double> content() const override { return save(); }
+  [[nodiscard]] std::vector<double> content() const override { return {carbon}; }
   void join(std::span<const double> content, double share) override { carbon += share * content[0]; }
   [[nodiscard]] bool idle(const ParticleGas&) const override { return false; }
-  [[nodiscard]] std::vector<double> save() const override { return {carbon}; }
-  void restore(std::span<const double> state) override { carbon = state[0]; }
+  [[nodiscard]] std::unique_ptr<State> save() const override {
+    return std::make_unique<PackedSplitState>(std::vector{carbon});
+  }
+  void restore(const State& state) override { carbon = dynamic_cast<const PackedSplitState&>(state).values[0]; }
 
   double carbon = 0;  // kg/m3
 
