@@ -22,8 +22,9 @@ ReactorTrees::ReactorTrees(const Mechanism& mechanism, const TreeOptions& option
   for (const std::string& name : {material_.precursor, material_.product}) {
     const auto k = mechanism.findSpecies(name);
     if (!k)
-      throw InputError(fmt::format(
-          "particles of {} need the species '{}', but the mechanism has no species of this name", material_.name, name));
+      throw InputError(
+          fmt::format("particles of {} need the species '{}', but the mechanism has no species of this name",
+                      material_.name, name));
     species_.push_back(*k);
   }
   for (std::size_t e = 0; e < mechanism.numElements(); ++e)
@@ -50,8 +51,8 @@ void ReactorTrees::requireAtoms(const Mechanism& mechanism) const {
         for (const auto& [element, atoms] : material_.components[c].elements)
           if (element == name) sum -= gained[c] * atoms;
       if (std::abs(sum) > 1e-9)
-        throw InputError(fmt::format("particles of {}: {} makes {:g} atoms of {} of nothing", material_.name, process,
-                                     -sum, name));
+        throw InputError(
+            fmt::format("particles of {}: {} makes {:g} atoms of {} of nothing", material_.name, process, -sum, name));
     }
   };
   TreeUnits bridge{};
@@ -157,7 +158,8 @@ std::vector<double> ReactorTrees::values() const {
                              t.sinteringLevel,
                              t.sinteringRate,
                              static_cast<double>(t.largest)};
-  values.insert(values.end(), t.units.begin(), t.units.begin() + static_cast<std::ptrdiff_t>(material_.components.size()));
+  values.insert(values.end(), t.units.begin(),
+                t.units.begin() + static_cast<std::ptrdiff_t>(material_.components.size()));
   values.insert(values.end(), {total_.inceptions, total_.coagulations, total_.reactions, total_.condensations,
                                total_.sinteredPairs, static_cast<double>(population_->size())});
   return values;
@@ -171,8 +173,8 @@ std::vector<ReactorPopulation::Distribution> ReactorTrees::distributions() const
 
 std::vector<double> ReactorTrees::distribution(std::size_t k, double logMin, double logMax, std::size_t bins) const {
   using Diameter = TreePopulation::Diameter;
-  return population_->sizeDistribution(std::array{Diameter::collision, Diameter::sphere, Diameter::primary}.at(k), logMin,
-                                       logMax, bins);
+  return population_->sizeDistribution(std::array{Diameter::collision, Diameter::sphere, Diameter::primary}.at(k),
+                                       logMin, logMax, bins);
 }
 
 std::vector<std::pair<std::string, double>> ReactorTrees::counts() const {

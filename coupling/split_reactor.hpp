@@ -71,8 +71,8 @@ struct PackedSplitState final : SplitParticles::State {
   std::vector<double> values;
 };
 
-// What the gas carries while it reacts: each element of the particles (kg/kg), and a mark for each reactor, one in it and
-// zero elsewhere at the beginning of each part of a step, that says where this gas has gone.
+// What the gas carries while it reacts: each element of the particles (kg/kg), and a mark for each reactor, one in it
+// and zero elsewhere at the beginning of each part of a step, that says where this gas has gone.
 class ParticlesAtRest final : public CarriedPhase {
  public:
   enum SootAmount : std::size_t { carbon, hydrogen };  // of soot, the default

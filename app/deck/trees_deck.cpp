@@ -13,9 +13,10 @@ namespace {
 
 void addMaterial(DeckSchema& schema) {
   schema
-      .section("particles", Presence::optional,
-               "Particles as trees of primaries that share surface, by Monte Carlo; coupled with the gas both ways. Every "
-               "repeat is a reactor of its own. The temperature has to be given.")
+      .section(
+          "particles", Presence::optional,
+          "Particles as trees of primaries that share surface, by Monte Carlo; coupled with the gas both ways. Every "
+          "repeat is a reactor of its own. The temperature has to be given.")
       .add(choiceKey("particles.material", {"silica"},
                      "What primaries are made of. silica: Si, O and OH from H4O4SI, which is Si(OH)4, giving back H2O "
                      "(Shekar, Smith, Kraft, Wagner 2011). Its constants are those below where they are not given.")
@@ -35,12 +36,13 @@ void addMaterial(DeckSchema& schema) {
       .add(quantityKey("particles.growth_energy", units::molarEnergy, "Activation energy of the surface reaction.")
                .byDefault("0 J/mol")
                .atLeast(0))
-      .add(numberKey("particles.smoothing",
-                     "Surface that the contacts of a primary gain as it grows: 0 none, so that it rounds off, 2 as much "
-                     "as keeps its shape.")
-               .byDefault("1")
-               .atLeast(0)
-               .atMost(2))
+      .add(
+          numberKey("particles.smoothing",
+                    "Surface that the contacts of a primary gain as it grows: 0 none, so that it rounds off, 2 as much "
+                    "as keeps its shape.")
+              .byDefault("1")
+              .atLeast(0)
+              .atMost(2))
       .add(booleanKey("particles.intra_particle",
                       "Whether pairs of OH react within particles, so that these tend to SiO2 (Shekar et al. 2011, eq. "
                       "59, bounded at zero).")
@@ -57,10 +59,11 @@ void addMaterial(DeckSchema& schema) {
 
 void addProcesses(DeckSchema& schema) {
   schema
-      .add(choiceKey("particles.sintering.mechanism",
-                     {"viscous_flow", "grain_boundary", "volume_diffusion", "constant", "none"},
-                     "Characteristic time of sintering: A d, A d^4 T, A d^3 T, each times exp(E/T (1 - d_crit/d)); A; or "
-                     "no sintering.")
+      .add(choiceKey(
+               "particles.sintering.mechanism",
+               {"viscous_flow", "grain_boundary", "volume_diffusion", "constant", "none"},
+               "Characteristic time of sintering: A d, A d^4 T, A d^3 T, each times exp(E/T (1 - d_crit/d)); A; or "
+               "no sintering.")
                .byDefault("viscous_flow"))
       .add(numberKey("particles.sintering.prefactor",
                      "The factor A in SI units: s/m, s/m^4/K, s/m^3/K or s; viscous flow of silica: 1.1e-16 s/m.")
@@ -74,9 +77,10 @@ void addProcesses(DeckSchema& schema) {
                        "Diameter d_crit below which primaries are as liquid.")
                .byDefault("4.4 nm")
                .atLeast(0))
-      .add(choiceKey("particles.sintering.size", {"smaller", "volume_to_surface"},
-                     "The size d in the law: that of the smaller of two neighbours (Shekar et al. 2011), or 6 V/S of what "
-                     "sinters.")
+      .add(choiceKey(
+               "particles.sintering.size", {"smaller", "volume_to_surface"},
+               "The size d in the law: that of the smaller of two neighbours (Shekar et al. 2011), or 6 V/S of what "
+               "sinters.")
                .byDefault("smaller"))
       .add(choiceKey("particles.sintering.between", {"neighbours", "parts"},
                      "What sinters: pairs of neighbours (Shekar et al. 2011, eq. 40); or the two parts of an aggregate "
@@ -94,17 +98,19 @@ void addProcesses(DeckSchema& schema) {
       .add(numberKey("particles.enhancement", "Factor of free-molecular collisions by van der Waals forces.")
                .byDefault("2.2")
                .above(0))
-      .add(choiceKey("particles.slip", {"air", "davies"},
-                     "Slip correction. air: 1 + 1.257 Kn, Kn that of air at the gas's temperature and pressure (Shekar et "
-                     "al. 2011, eqs. 37, 38); davies: Davies (1945), by the gas's mean free path.")
+      .add(choiceKey(
+               "particles.slip", {"air", "davies"},
+               "Slip correction. air: 1 + 1.257 Kn, Kn that of air at the gas's temperature and pressure (Shekar et "
+               "al. 2011, eqs. 37, 38); davies: Davies (1945), by the gas's mean free path.")
                .byDefault("air"))
       .add(choiceKey("particles.viscosity", {"air", "transport"},
                      "Viscosity of the gas. air: Sutherland's law of air, for mechanisms without transport data; "
                      "transport: from these data.")
                .byDefault("air"))
-      .add(choiceKey("particles.collision_size", {"primaries", "volume_to_surface"},
-                     "Length that a power of the number of primaries multiplies to a diameter of collision: mean diameter "
-                     "of primaries (Shekar et al. 2011, eqs. 17, 18), or 6 V/S of the particle.")
+      .add(choiceKey(
+               "particles.collision_size", {"primaries", "volume_to_surface"},
+               "Length that a power of the number of primaries multiplies to a diameter of collision: mean diameter "
+               "of primaries (Shekar et al. 2011, eqs. 17, 18), or 6 V/S of the particle.")
                .byDefault("primaries"));
 }
 
@@ -114,11 +120,12 @@ void addNumbers(DeckSchema& schema) {
                .byDefault("8192")
                .atLeast(8)
                .atMost(100000000))
-      .add(quantityKey("particles.full_at", units::perVolume,
-                       "Number density at which an empty sample is full first; at least the largest that there will be, "
-                       "or particles are removed at random.")
-               .byDefault("1e18 1/m^3")
-               .above(0))
+      .add(
+          quantityKey("particles.full_at", units::perVolume,
+                      "Number density at which an empty sample is full first; at least the largest that there will be, "
+                      "or particles are removed at random.")
+              .byDefault("1e18 1/m^3")
+              .above(0))
       .add(integerKey("particles.repeats", "Number of independent repeats, from which mean and confidence follow.")
                .byDefault("8")
                .atLeast(2)
@@ -127,18 +134,23 @@ void addNumbers(DeckSchema& schema) {
                       "Start of the random numbers: another seed gives another sample, the same seed the same result.")
                .byDefault("1")
                .atLeast(0))
-      .add(numberKey("particles.split_tolerance",
-                     "Largest relative change of the population in a splitting step: smaller is more accurate and slower.")
+      .add(numberKey(
+               "particles.split_tolerance",
+               "Largest relative change of the population in a splitting step: smaller is more accurate and slower.")
                .byDefault("0.05")
                .above(0)
                .atMost(1))
-      .add(numberKey("particles.coupling_change",
-                     "Steps in which gas and particles change in turn are so long that a concentration which the particles "
-                     "see changes by about this part of itself.")
+      .add(numberKey(
+               "particles.coupling_change",
+               "Steps in which gas and particles change in turn are so long that a concentration which the particles "
+               "see changes by about this part of itself.")
                .byDefault("0.05")
                .above(0)
                .atMost(1))
-      .add(integerKey("particles.bins", "Number of bins of the size distributions.").byDefault("60").atLeast(2).atMost(10000))
+      .add(integerKey("particles.bins", "Number of bins of the size distributions.")
+               .byDefault("60")
+               .atLeast(2)
+               .atMost(10000))
       .add(quantityKey("particles.smallest", units::length, "Smallest diameter of the size distributions.")
                .byDefault("0.5 nm")
                .above(0))
@@ -207,8 +219,10 @@ TreeRequest readTrees(const Deck& deck) {
     request.start = {{units[0], units[1], units[2]}, *number};
   }
   request.repeats = deck.integer<std::size_t>("particles.repeats");
-  request.bins = {std::log10(deck.quantity("particles.smallest")), std::log10(deck.quantity("particles.largest")),
-                  deck.integer<std::size_t>("particles.bins"), {}};
+  request.bins = {std::log10(deck.quantity("particles.smallest")),
+                  std::log10(deck.quantity("particles.largest")),
+                  deck.integer<std::size_t>("particles.bins"),
+                  {}};
   if (!(request.bins.logDiameterMax > request.bins.logDiameterMin))
     throw deck.error("particles.largest", "expected more than 'smallest'");
   return request;

@@ -109,7 +109,8 @@ void refuseRows(const Deck& deck, const std::string& key, const ReactorCase& rea
   if (!reactorCase.output.interval) return;
   const double rows = range / *reactorCase.output.interval;
   std::size_t columns = 6 + reactorCase.output.species.size();
-  if (reactorCase.ensemble) columns = 2 * (columns + 30) * std::max<std::size_t>(reactorCase.network.reactors.size(), 1);
+  if (reactorCase.ensemble)
+    columns = 2 * (columns + 30) * std::max<std::size_t>(reactorCase.network.reactors.size(), 1);
   if (reactorCase.soot) columns += particleColumns(*reactorCase.soot).size();
   const double bytes = sizeof(double) * static_cast<double>(columns);
   requireOutputs(deck, key, "rows of the history", rows, bytes);
@@ -147,18 +148,20 @@ void readReactorTrees(const Deck& deck, ReactorCase& reactorCase) {
   refuseWithPopulation(deck, "particles", reactorCase);
   if (reactorCase.type == ReactorType::Network)
     throw deck.error("reactor.type", "particles of the section 'particles' do not go from one reactor to another");
-  if (!reactorCase.profile && (reactorCase.type != ReactorType::Stirred || !reactorCase.network.reactors[0].temperature))
-    throw deck.error("reactor.energy",
-                     "the heat of particles of the section 'particles' is not known: give the temperature, 'isothermal' "
-                     "or 'profile'");
+  if (!reactorCase.profile &&
+      (reactorCase.type != ReactorType::Stirred || !reactorCase.network.reactors[0].temperature))
+    throw deck.error(
+        "reactor.energy",
+        "the heat of particles of the section 'particles' is not known: give the temperature, 'isothermal' "
+        "or 'profile'");
   TreeRequest request = readTrees(deck);
   reactorCase.couplingChange = deck.number("particles.coupling_change");
-  reactorCase.ensemble = {request.repeats, request.bins, {}, {},
-                          [mechanism = reactorCase.mechanism, request](std::uint64_t owner) {
-                            TreeOptions own = request.options;
-                            own.owner = owner;
-                            return std::make_unique<ReactorTrees>(*mechanism, own, request.viscosity, request.start);
-                          }};
+  reactorCase.ensemble = {
+      request.repeats, request.bins, {}, {}, [mechanism = reactorCase.mechanism, request](std::uint64_t owner) {
+        TreeOptions own = request.options;
+        own.owner = owner;
+        return std::make_unique<ReactorTrees>(*mechanism, own, request.viscosity, request.start);
+      }};
   tryPopulation(deck, "particles", reactorCase);
 }
 
@@ -175,7 +178,10 @@ void readReactorEnsemble(const Deck& deck, ReactorCase& reactorCase) {
                        "results of ensembles bear the name of the reactor, which may have no '/'");
   const EnsembleRequest request = readEnsemble(deck, readSootModelOptions(deck, *reactorCase.mechanism));
   reactorCase.couplingChange = deck.number("stochastic.coupling_change");
-  reactorCase.ensemble = {request.repeats, request.bins, {}, {},
+  reactorCase.ensemble = {request.repeats,
+                          request.bins,
+                          {},
+                          {},
                           [mechanism = reactorCase.mechanism, options = request.soot](std::uint64_t owner) {
                             EnsembleOptions own = options;
                             own.owner = owner;

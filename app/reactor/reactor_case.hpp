@@ -49,7 +49,7 @@ struct ReactorCase {
   std::shared_ptr<CarriedParticles> soot;
   std::shared_ptr<ReactorParticles> particles;
   std::optional<ReactorPopulations> ensemble;  // in place of these
-  double couplingChange = 0;                // SplitReactor::Options::change
+  double couplingChange = 0;                   // SplitReactor::Options::change
   double sootAtLimit = 1;  // largest volume fraction in the model's largest particles, over the largest of all
 
   // Closed reactors.

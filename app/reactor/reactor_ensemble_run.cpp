@@ -186,9 +186,9 @@ class EnsembleReactorDriver : public ReactorDriver {
     std::vector<std::size_t> columns;
     const auto& all = summary_.columns();
     for (std::size_t r = 0; r < numReactors(case_); ++r)
-      for (const std::string& name : {std::string("temperature"), case_.ensemble->material + "_volume_fraction",
-                                      case_.ensemble->material + "_number_density",
-                                      case_.ensemble->material + "_mean_diameter"})
+      for (const std::string& name :
+           {std::string("temperature"), case_.ensemble->material + "_volume_fraction",
+            case_.ensemble->material + "_number_density", case_.ensemble->material + "_mean_diameter"})
         columns.push_back(static_cast<std::size_t>(
             std::find_if(all.begin(), all.end(), [&](const Quantity& c) { return c.name == prefix(case_, r) + name; }) -
             all.begin()));
@@ -274,7 +274,8 @@ class EnsembleReactorDriver : public ReactorDriver {
     row.insert(row.end(), {T, gas.pressure(y.data()), density});
     const std::vector<double> values = population.values();
     row.insert(row.end(), values.begin(), values.end());
-    row.push_back(density * std::accumulate(amounts.begin(), amounts.begin() + static_cast<std::ptrdiff_t>(elements), 0.0));
+    row.push_back(density *
+                  std::accumulate(amounts.begin(), amounts.begin() + static_cast<std::ptrdiff_t>(elements), 0.0));
     if (hasElements_) {
       const std::vector<double> now = kept.balance.elements(Y, amounts);
       if (kept.elements.empty()) kept.elements = now;

@@ -31,7 +31,8 @@ struct SinteringLaw {
   [[nodiscard]] bool active() const { return mechanism != SinteringMechanism::none; }
   // s, at a temperature (K) for a size d (m).
   [[nodiscard]] double time(double T, double d) const {
-    const double arrhenius = mechanism == SinteringMechanism::constant ? 1 : std::exp(temperature / T * (1 - critical / d));
+    const double arrhenius =
+        mechanism == SinteringMechanism::constant ? 1 : std::exp(temperature / T * (1 - critical / d));
     switch (mechanism) {
       case SinteringMechanism::viscousFlow:
         return prefactor * d * arrhenius;

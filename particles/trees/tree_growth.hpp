@@ -1,7 +1,7 @@
 // Surface reactions and reactions within a particle over a time in which no trees meet (Shekar, Smith, Kraft, Wagner
-// 2011, eqs. 29-32, 57-59), deferred: each tree takes what happens to it in one go. Few events are drawn one by one, with
-// the rates that the sites have after each; many as Poisson numbers for each primary, in steps over which the number of
-// sites hardly changes. Rates of a reaction are for all sites of the tree; the primary is drawn uniformly.
+// 2011, eqs. 29-32, 57-59), deferred: each tree takes what happens to it in one go. Few events are drawn one by one,
+// with the rates that the sites have after each; many as Poisson numbers for each primary, in steps over which the
+// number of sites hardly changes. Rates of a reaction are for all sites of the tree; the primary is drawn uniformly.
 #pragma once
 
 #include <cstdint>

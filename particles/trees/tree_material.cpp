@@ -34,13 +34,15 @@ void requireMaterial(const TreeMaterial& m) {
   requireTree(!m.components.empty() && m.components.size() <= mostTreeComponents,
               fmt::format("a material has 1 to {} components, not {}", mostTreeComponents, m.components.size()));
   for (const TreeComponent& c : m.components)
-    requireTree(c.weight > 0, fmt::format("the component {} needs a mass above zero, not {:g} kg/mol", c.name, c.weight));
+    requireTree(c.weight > 0,
+                fmt::format("the component {} needs a mass above zero, not {:g} kg/mol", c.name, c.weight));
   requireTree(m.density > 0 && std::isfinite(m.density), "the density needs to be above zero");
   requireTree(m.fractalDimension >= 1 && m.fractalDimension <= 3, "the fractal dimension needs to be in [1, 3]");
   requireTree(m.site < m.components.size() && m.bridge < m.components.size(),
               "sites and bridges need to be components of the material");
   requireTree(m.volume(m.nucleus) > 0, "a nucleus needs mass");
-  for (const double units : m.nucleus) requireTree(units >= 0, "a nucleus may not have less than nothing of a component");
+  for (const double units : m.nucleus)
+    requireTree(units >= 0, "a nucleus may not have less than nothing of a component");
   requireTree(m.moleculeMass > 0 && m.moleculeDiameter > 0, "molecules of the precursor need a mass and a diameter");
   requireTree(m.prefactor >= 0, "the rate constant of the surface reaction may not be below zero");
   requireTree(m.smoothing >= 0 && m.smoothing <= 2, "the smoothing factor needs to be in [0, 2]");

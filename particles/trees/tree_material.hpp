@@ -36,8 +36,8 @@ struct TreeMaterial {
   // the mass (kg) and the diameter (m) of the collision kernel.
   TreeUnits nucleus{};
   double nucleusPrecursors = 2, nucleusProducts = 1, moleculeMass = 0, moleculeDiameter = 0;
-  // Surface reaction of a molecule with a site, a unit of the component `site`: what the primary gains, and the product;
-  // rate constant prefactor T^power exp(-energy/RT) for each site, m3/mol/s and J/mol.
+  // Surface reaction of a molecule with a site, a unit of the component `site`: what the primary gains, and the
+  // product; rate constant prefactor T^power exp(-energy/RT) for each site, m3/mol/s and J/mol.
   std::size_t site = 0;
   TreeUnits growth{};
   double growthProducts = 1, prefactor = 0, power = 0, energy = 0;

@@ -1,6 +1,6 @@
 // Room for trees: blocks of a few sizes in slabs of one size each, so that a tree that grows or goes leaves a place for
-// the next, and a slab without trees is one for any size. A block holds a head, then primaries, then necks, one behind the other.
-// Trees of one pool share blocks by counting their holders; not to be used by several threads.
+// the next, and a slab without trees is one for any size. A block holds a head, then primaries, then necks, one behind
+// the other. Trees of one pool share blocks by counting their holders; not to be used by several threads.
 #pragma once
 
 #include <array>
@@ -65,7 +65,7 @@ class TreePool {
   static constexpr std::size_t slabBytes = 64 * 1024, regionBytes = 64 * slabBytes;
   void* slabMemory();
   static std::size_t classOf(std::size_t primaries);
-  std::vector<Slab*> open_;  // of each class: slabs with room, linked
+  std::vector<Slab*> open_;            // of each class: slabs with room, linked
   std::vector<void*> regions_, free_;  // regions are cut into slabs
   std::size_t bytes_ = 0;
 };

@@ -3,8 +3,8 @@
 // changed, but what is taken from it and given to it is reported: the same atoms that the particles gain, to round-off.
 //
 // Splitting (Strang 1968): collisions and inception by jumps for half a step, growth for all of it, jumps for half a
-// step, of a length over which the population changes by `splitTolerance`. Sintering is not split off: each tree has the
-// time up to which it has sintered, and is brought up to date where it is looked at, before a collision, before it
+// step, of a length over which the population changes by `splitTolerance`. Sintering is not split off: each tree has
+// the time up to which it has sintered, and is brought up to date where it is looked at, before a collision, before it
 // grows, and as soon as it has changed (TreeSintering). docs/theory/primary_trees.md.
 #pragma once
 
@@ -31,7 +31,7 @@ struct TreeOptions {
   CollisionKernelOptions kernel{.type = CollisionKernelType::transition, .enhancement = 2.2, .slip = SlipLaw::air};
   CollisionSize size = CollisionSize::primaries;
   bool coagulation = true;
-  double splitTolerance = 0.05;     // relative change of the population in a splitting step
+  double splitTolerance = 0.05;      // relative change of the population in a splitting step
   double sinteringTolerance = 1e-3;  // TreeSintering
   double fullAt = 1e18;              // 1/m3, number density at which the sample is full first
 };
@@ -47,17 +47,18 @@ struct TreeExchange {
 struct TreeCounters {
   std::uint64_t inceptions = 0, coagulations = 0, fictitious = 0, fused = 0, doublings = 0, removals = 0;
   std::uint64_t splitSteps = 0;
-  std::uint64_t limited = 0;          // reactions within particles bounded at zero or without two sites
-  std::uint64_t withoutSites = 0;     // necks that sintered by more sites than a primary had
+  std::uint64_t limited = 0;       // reactions within particles bounded at zero or without two sites
+  std::uint64_t withoutSites = 0;  // necks that sintered by more sites than a primary had
 };
 
 // Sums per m3, means by number (SI).
 struct TreeTotals {
   double number = 0, volume = 0, mass = 0, surface = 0, primaries = 0, sinteringRate = 0;
   TreeUnits units{};
-  double sphereDiameter = 0, collisionDiameter = 0, primaryDiameter = 0, sinteringLevel = 1;  // means; level 1: one primary
-  double massSquared = 0;                                             // kg2/m3
-  double collisionDeviation = 1, primaryDeviation = 1;                // geometric, by number
+  double sphereDiameter = 0, collisionDiameter = 0, primaryDiameter = 0,
+         sinteringLevel = 1;                            // means; level 1: one primary
+  double massSquared = 0;                               // kg2/m3
+  double collisionDeviation = 1, primaryDeviation = 1;  // geometric, by number
   double sites = 0;
   std::size_t largest = 0;  // primaries
 };

@@ -44,10 +44,12 @@ void TreeProcess::record(const TreeSintering::Changes& changes) {
 }
 
 void TreeProcess::fill(const TreeUnits& units, double number) {
-  const Tree one = type_.make(units);
-  if (!(one.head().volume > 0) || !(number > 0)) throw InputError("particles: an initial particle needs mass and a number");
   for (const double amount : units)
-    if (!(amount >= 0)) throw InputError("particles: an initial particle may not have less than nothing of a component");
+    if (!(amount >= 0))
+      throw InputError("particles: an initial particle may not have less than nothing of a component");
+  if (!(options_.material.volume(units) > 0) || !(number > 0))
+    throw InputError("particles: an initial particle needs mass and a number");
+  const Tree one = type_.make(units);
   const std::vector<Tree> all(options_.particles, one);
   method_.replace(all, number / static_cast<double>(options_.particles), random_);
   exchange_ = {};
@@ -191,7 +193,8 @@ std::unique_ptr<TreePopulation> makeTreePopulation(const TreeOptions& options) {
   requireMaterial(options.material);
   if (options.particles < 8) throw InputError("particles: at least 8 numerical particles are needed");
   if (!(options.splitTolerance > 0) || !(options.splitTolerance <= 1) || !(options.fullAt > 0))
-    throw InputError("particles: the split tolerance needs to be in (0, 1], the number density of a full sample positive");
+    throw InputError(
+        "particles: the split tolerance needs to be in (0, 1], the number density of a full sample positive");
   if (!(options.sinteringTolerance >= 0) || !(options.sinteringTolerance <= 0.1))
     throw InputError("particles: the tolerance of sintering needs to be in [0, 0.1]");
   PopulationModel model;

@@ -32,8 +32,12 @@ enum class CollisionSize { primaries, volumeToSurface };
   const double d = treeDiameter(volume);
   return constants::pi * d * d;
 }
-[[nodiscard]] inline double primaryVolume(double diameter) { return constants::pi / 6 * diameter * diameter * diameter; }
-[[nodiscard]] inline double primarySurface(double diameter) { return constants::pi * diameter * diameter; }
+[[nodiscard]] inline double primaryVolume(double diameter) {
+  return constants::pi / 6 * diameter * diameter * diameter;
+}
+[[nodiscard]] inline double primarySurface(double diameter) {
+  return constants::pi * diameter * diameter;
+}
 
 // Eq. 42, not below zero, where unequal primaries begin above it, and growth leaves rounding.
 [[nodiscard]] inline double sinteringLevel(const TreeNeck& neck) {

@@ -147,9 +147,8 @@ void TreeSintering::rest(TreeHead& tree, double time) {
   double fastest = 0;
   for (std::uint32_t k = 0; k + 1 < tree.count; ++k) {
     const TreeNeck& neck = necksOf(&tree)[k];
-    const double rate = ofParts ? rates_[k]
-                                : (neck.common - neck.sphere) /
-                                      law.time(T_, sizeOf(primariesOf(&tree), neck, neck.common));
+    const double rate =
+        ofParts ? rates_[k] : (neck.common - neck.sphere) / law.time(T_, sizeOf(primariesOf(&tree), neck, neck.common));
     tree.sintering += rate;
     fastest = std::max(fastest, rate / neck.sphere);
   }

@@ -17,8 +17,8 @@ namespace lampblack::particles {
 class TreeSintering {
  public:
   struct Changes {
-    double bridges = 0;       // pairs of sites that became a bridge, each with a molecule of the product
-    std::uint64_t fused = 0;  // pairs of primaries
+    double bridges = 0;         // pairs of sites that became a bridge, each with a molecule of the product
+    std::uint64_t fused = 0;    // pairs of primaries
     std::uint64_t limited = 0;  // times a primary had fewer sites than should have gone
   };
 

@@ -1,7 +1,7 @@
 // Sintering between the parts of a tree: each neck loses surface at the rate of the whole of both parts that it joins,
-// (S - S_sphere) / tau(6 V/S) with their volume V and surface S: that of eq. 15 for the tree itself, for other parts the
-// sum of their primaries. So the rates of all necks but the last collision's are constant until primaries fuse, and that
-// one's is followed by the midpoint rule.
+// (S - S_sphere) / tau(6 V/S) with their volume V and surface S: that of eq. 15 for the tree itself, for other parts
+// the sum of their primaries. So the rates of all necks but the last collision's are constant until primaries fuse, and
+// that one's is followed by the midpoint rule.
 #include <algorithm>
 #include <cmath>
 
@@ -54,8 +54,8 @@ std::size_t TreeSintering::partRates(TreeHead& tree) {
   return whole;
 }
 
-// Necks that need next to no time, by a bound from below of their rates: the size of the tree grows as it sinters, which
-// slows it down, and its excess of surface falls.
+// Necks that need next to no time, by a bound from below of their rates: the size of the tree grows as it sinters,
+// which slows it down, and its excess of surface falls.
 bool TreeSintering::fuseAtOnce(TreeHead& tree, std::size_t whole, double dt) {
   bool any = false;
   TreeNeck* necks = necksOf(&tree);
@@ -65,8 +65,7 @@ bool TreeSintering::fuseAtOnce(TreeHead& tree, std::size_t whole, double dt) {
     if ((necks[k].common - fused) > rate * instant * dt) continue;
     if (k == whole) {
       const double root = 1 / cubeRoot(static_cast<double>(tree.count)), sphere = treeSphere(tree.volume);
-      rate = partRate(tree.volume,
-                      surfaceOf(tree, tree.levels - sinteringLevel(necks[k]) + fusedLevel, sphere, root));
+      rate = partRate(tree.volume, surfaceOf(tree, tree.levels - sinteringLevel(necks[k]) + fusedLevel, sphere, root));
       if ((necks[k].common - fused) > rate * instant * dt) continue;
     }
     necks[k].common = fused;

@@ -119,7 +119,7 @@ class FlowingEnsembles : public ::testing::TestWithParam<EnsembleMethod> {
         std::vector<GivenParticle> given;
         for (std::size_t k = 0; k < 200; ++k) given.push_back({k < 150 ? 1e-22 : 7e-22, 1e-24, 1, number / 200});
         full->initialise(given);
-        ensembles[0]->restore(full->pack());
+        ensembles[0]->restore(PackedSplitState(full->pack()));
       }
       const double mass = ensembles[0]->population().totals().mass();
       ParticlesAtRest atRest(count);

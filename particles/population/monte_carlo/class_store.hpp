@@ -220,8 +220,8 @@ class ClassStore {
       if (!members.empty()) f(std::span<const Entry>(members));
     }
   }
-  // f may change an entry and drops it by returning false. Bounds and classes are made afresh, after `then` has seen the
-  // entries that stay, as a span.
+  // f may change an entry and drops it by returning false. Bounds and classes are made afresh, after `then` has seen
+  // the entries that stay, as a span.
   template <class F, class Then>
   void transform(F f, Then then) {
     std::vector<Entry> entries;

@@ -1,0 +1,238 @@
+// Populations of trees: limits with other solutions, balances, and states.
+#include "particles/trees/tree_population.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/errors.hpp"
+#include "particles/population/monte_carlo/shipped_types.hpp"
+#include "tests/particles/statistics.hpp"
+#include "tests/particles/trees/tree_fixtures.hpp"
+
+namespace lampblack::test {
+namespace {
+
+struct Nitrogen {
+  std::array<double, 2> concentrations{};  // mol/m3, of the precursor and the product
+  [[nodiscard]] ParticleGas gas() const {
+    CarrierGas carrier{1173, 101325, 0, 4.6e-5, 0.028014};
+    carrier.density = carrier.pressure * carrier.meanMolecularWeight / (constants::gasConstant * carrier.temperature);
+    return {carrier, concentrations};
+  }
+};
+
+constexpr double start = 1e16, until = 0.5;  // 1/m3, s
+const TreeUnits sphere{2107, 3960, 398};
+
+TreeOptions optionsOf(SinteringMechanism mechanism, CollisionKernelType kernel) {
+  TreeOptions options;
+  options.material = silica();
+  options.material.sintering.mechanism = mechanism;
+  options.material.sintering.prefactor = 1e-30;
+  options.kernel.type = kernel;
+  options.kernel.slip = SlipLaw::davies;
+  options.particles = 1000;
+  options.size = CollisionSize::volumeToSurface;
+  return options;
+}
+
+// M_0 and M_2 at the end, over repeats.
+struct Moments {
+  std::vector<double> number, squared;
+};
+
+Moments ofTrees(TreeOptions options, int repeats) {
+  Moments moments;
+  const Nitrogen nitrogen;
+  for (int r = 0; r < repeats; ++r) {
+    options.owner = static_cast<std::uint64_t>(r);
+    const auto trees = makeTreePopulation(options);
+    trees->fill(sphere, start);
+    trees->advance(nitrogen.gas(), until);
+    const TreeTotals totals = trees->totals();
+    moments.number.push_back(totals.number);
+    moments.squared.push_back(totals.massSquared);
+  }
+  return moments;
+}
+
+template <class Type>
+Moments ofType(const Type& type, const TreeOptions& trees, int repeats) {
+  Moments moments;
+  PopulationModel model;
+  model.coagulation = trees.kernel;
+  model.coagulation->gas = Nitrogen().gas();
+  const double volume = trees.material.volume(sphere), rho = trees.material.density;
+  InitialPopulation initial;
+  initial.distribution = InitialPopulation::Distribution::monodisperse;
+  initial.number = start;
+  initial.volume = volume;
+  MonteCarloOptions options;
+  options.particles = trees.particles;
+  for (int r = 0; r < repeats; ++r) {
+    options.repeat = static_cast<std::uint64_t>(r);
+    const auto solver = makeMonteCarlo(type, model, initial, options);
+    solver->advance(until);
+    moments.number.push_back(solver->moments()[0]);
+    moments.squared.push_back(solver->moments()[2] * rho * rho);
+  }
+  return moments;
+}
+
+void expectSameLaw(const Moments& a, const Moments& b) {
+  for (const auto moment : {&Moments::number, &Moments::squared}) {
+    const Sample first = summarise(a.*moment), second = summarise(b.*moment);
+    const double z = (first.mean - second.mean) / std::hypot(first.standardError, second.standardError);
+    EXPECT_LT(std::abs(z), zLimit) << first.mean << " and " << second.mean;
+    EXPECT_LT(std::abs(first.mean / second.mean - 1), 0.05);  // that there is a law to tell apart
+  }
+}
+
+class TreesLikeOthers : public testing::TestWithParam<CollisionKernelType> {};
+
+TEST_P(TreesLikeOthers, WithoutSinteringAreFractalAggregatesInLaw) {
+  const TreeOptions options = optionsOf(SinteringMechanism::none, GetParam());
+  const FractalAggregate type(2200, sphereDiameter(options.material.volume(sphere)), 1.8);
+  expectSameLaw(ofTrees(options, 40), ofType(type, options, 40));
+}
+
+// The characteristic time is 1e-30 s, and there are no sites that would go with the surface.
+TEST_P(TreesLikeOthers, ThatCoalesceAreSpheresInLaw) {
+  const TreeOptions options = optionsOf(SinteringMechanism::constant, GetParam());
+  Moments trees;
+  const Nitrogen nitrogen;
+  for (std::uint64_t r = 0; r < 40; ++r) {
+    TreeOptions own = options;
+    own.owner = r;
+    const auto population = makeTreePopulation(own);
+    TreeUnits dry{1, 2, 0};
+    const double factor = options.material.volume(sphere) / options.material.volume(dry);
+    for (double& number : dry) number *= factor;
+    population->fill(dry, start);
+    population->advance(nitrogen.gas(), until);
+    population->settle();
+    EXPECT_EQ(population->totals().largest, 1U);
+    trees.number.push_back(population->totals().number);
+    trees.squared.push_back(population->totals().massSquared);
+  }
+  expectSameLaw(trees, ofType(Sphere(2200), options, 40));
+}
+
+INSTANTIATE_TEST_SUITE_P(Kernels, TreesLikeOthers,
+                         testing::Values(CollisionKernelType::freeMolecular, CollisionKernelType::transition));
+
+// What the gas gives is what particles gain, unit by unit, and the sample has it as long as nothing is removed from it.
+TEST(TreePopulation, BooksEveryUnit) {
+  Nitrogen nitrogen;
+  nitrogen.concentrations = {2e-6, 1e-6};
+  TreeOptions options;
+  options.material = silica();
+  options.particles = 4096;
+  options.fullAt = 1e19;
+  const auto trees = makeTreePopulation(options);
+  TreeExchange all;
+  for (int i = 0; i < 40; ++i) {
+    trees->advance(nitrogen.gas(), 5e-4);
+    const TreeExchange taken = trees->takeExchange();
+    all.precursor += taken.precursor;
+    all.product += taken.product;
+    for (std::size_t c = 0; c < 3; ++c) all.units[c] += taken.units[c];
+  }
+  ASSERT_EQ(trees->counters().removals, 0U);
+  const TreeTotals totals = trees->totals();
+  ASSERT_GT(totals.number, 0);
+  ASSERT_GT(trees->counters().fused, 0U);
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(totals.units[c] / all.units[c], 1, 1e-10);
+  // Si, O and H of Si(OH)4 and H2O.
+  const double NA = constants::avogadro, precursor = -all.precursor * NA, product = all.product * NA;
+  EXPECT_NEAR(all.units[0] / precursor, 1, 1e-12);
+  EXPECT_NEAR((all.units[1] + all.units[2]) / (4 * precursor - product), 1, 1e-12);
+  EXPECT_NEAR(all.units[2] / (4 * precursor - 2 * product), 1, 1e-11);
+}
+
+std::unique_ptr<TreePopulation> populated(const Nitrogen& nitrogen, const TreeOptions& options) {
+  auto trees = makeTreePopulation(options);
+  for (int i = 0; i < 10; ++i) trees->advance(nitrogen.gas(), 2e-3);
+  return trees;
+}
+
+TreeOptions small() {
+  TreeOptions options;
+  options.material = silica();
+  options.material.sintering.critical = 0.6e-9;  // so that there are trees
+  options.particles = 300;
+  return options;
+}
+
+TEST(TreePopulation, GoesOnToTheSameBitsFromAPackedState) {
+  Nitrogen nitrogen;
+  nitrogen.concentrations = {2e-6, 0};
+  const auto first = populated(nitrogen, small());
+  const auto second = makeTreePopulation(small());
+  second->unpack(first->pack());
+  ASSERT_GT(first->totals().largest, 2U);
+  const auto third = makeTreePopulation(small());
+  third->unpack(first->pack());
+  for (TreePopulation* trees : {second.get(), third.get()}) trees->advance(nitrogen.gas(), 2e-3);
+  EXPECT_EQ(second->pack(), third->pack());
+  std::vector<double> damaged = first->pack();
+  damaged.resize(damaged.size() - 3);
+  EXPECT_THROW(third->unpack(damaged), InputError);
+}
+
+TEST(TreePopulation, AStepThatIsTakenBackLeavesNoTrace) {
+  Nitrogen nitrogen;
+  nitrogen.concentrations = {2e-6, 0};
+  const auto trees = populated(nitrogen, small());
+  const auto saved = trees->save();
+  const TreeTotals before = trees->totals();
+  trees->advance(nitrogen.gas(), 2e-3);
+  const std::vector<double> once = (trees->restore(*saved), trees->pack());
+  EXPECT_EQ(trees->totals().units, before.units);
+  trees->advance(nitrogen.gas(), 2e-3);
+  const std::vector<double> then = trees->pack();
+  trees->restore(*saved);
+  trees->advance(nitrogen.gas(), 2e-3);
+  EXPECT_EQ(trees->pack(), then);
+  EXPECT_NE(once, then);
+}
+
+// Rounding over the time into other splitting steps does not change the law: halved steps within the noise.
+TEST(TreePopulation, SplittingConverges) {
+  Nitrogen nitrogen;
+  nitrogen.concentrations = {2e-6, 0};
+  std::vector<Sample> primaries, number;
+  for (const double tolerance : {0.1, 0.02}) {
+    std::vector<double> p, n;
+    for (std::uint64_t r = 0; r < 12; ++r) {
+      TreeOptions options = small();
+      options.splitTolerance = tolerance;
+      options.owner = r;
+      const auto trees = populated(nitrogen, options);
+      const TreeTotals totals = trees->totals();
+      p.push_back(totals.primaries / totals.number);
+      n.push_back(totals.number);
+    }
+    primaries.push_back(summarise(p));
+    number.push_back(summarise(n));
+  }
+  for (const auto& pair : {primaries, number})
+    EXPECT_LT(std::abs(pair[0].mean - pair[1].mean) / std::hypot(pair[0].standardError, pair[1].standardError), zLimit);
+}
+
+TEST(TreePopulation, WrongOptionsSayWhatIsWrong) {
+  TreeOptions options = small();
+  options.particles = 4;
+  EXPECT_THROW((void)makeTreePopulation(options), InputError);
+  options = small();
+  options.splitTolerance = 0;
+  EXPECT_THROW((void)makeTreePopulation(options), InputError);
+  options = small();
+  options.material.components[0].weight = -1;
+  EXPECT_THROW((void)makeTreePopulation(options), InputError);
+  const auto trees = makeTreePopulation(small());
+  EXPECT_THROW(trees->fill({0, 0, 0}, 1e10), InputError);
+  EXPECT_THROW(trees->fill({1, 1, -1}, 1e10), InputError);
+}
+
+}  // namespace
+}  // namespace lampblack::test
