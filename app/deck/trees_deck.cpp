@@ -208,7 +208,7 @@ TreeRequest readTrees(const Deck& deck) {
                                                                         : CollisionSize::volumeToSurface;
   options.particles = deck.integer<std::size_t>("particles.number");
   requireMemory(deck, "particles.number", fmt::format("a sample of {} particles", options.particles),
-                200 * static_cast<double>(options.particles));
+                1000 * static_cast<double>(options.particles));  // some ten primaries each
   options.fullAt = deck.quantity("particles.full_at");
   options.seed = deck.integer<std::uint64_t>("particles.seed");
   options.splitTolerance = deck.number("particles.split_tolerance");

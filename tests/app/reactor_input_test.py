@@ -63,6 +63,20 @@ network:
     - {{from: one, to: two}}
 """
 
+TREES = f"""problem: reactor
+mechanism: {HYDROGEN}
+reactor:
+  type: constant_pressure
+  energy: isothermal
+initial:
+  temperature: 1173 K
+  composition: "N2: 1"
+time:
+  end: 1 ms
+particles:
+  number: 100
+"""
+
 # Name, deck, text to replace, its replacement, what the message says.
 SOOT = f"""problem: reactor
 mechanism: {ETHYLENE}
@@ -104,6 +118,16 @@ SOOT_MISTAKES = [
 ]
 
 MISTAKES = SOOT_MISTAKES + [
+    ("particles without their species", TREES, "number: 100", "number: 200", ["particles", "H4O4SI"]),
+    ("particles of unknown heat", TREES, "energy: isothermal", "energy: adiabatic", ["reactor.energy", "isothermal"]),
+    ("negative sintering", TREES, "number: 100", "sintering: {prefactor: -1}", ["particles.sintering.prefactor"]),
+    ("negative temperature of sintering", TREES, "number: 100", "sintering: {temperature: -1 K}", ["particles.sintering"]),
+    ("particles at the start by half", TREES, "number: 100", "initial: {number: 1e14 1/m^3}", ["particles.initial"]),
+    ("units below zero", TREES, "number: 100", "initial: {number: 1e14 1/m^3, units: [1, -1, 0]}", ["units"]),
+    ("parts by the smaller primary", TREES, "number: 100", "sintering: {between: parts}", ["particles.sintering.size"]),
+    ("particles and soot", TREES, "particles:", "soot: {model: none}\nparticles:", ["soot"]),
+    ("too much smoothing", TREES, "number: 100", "smoothing: 2.5", ["particles.smoothing"]),
+    ("a material without a name", TREES, "number: 100", "material: gold", ["particles.material"]),
     ("no problem", CLOSED, "problem: reactor\n", "", ("problem: this key is missing", "flow, flame1d, reactor")),
     ("misspelt problem", CLOSED, "problem:", "probelm:", ("unknown key 'probelm'", "did you mean 'problem'?")),
     ("unknown problem", CLOSED, "problem: reactor", "problem: reacter", ("expected one of: flow, flame1d, reactor", "did you mean 'reactor'?")),
