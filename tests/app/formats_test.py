@@ -142,6 +142,9 @@ def main(executable: str, *mpiexec: str) -> int:
             "reactor.length=5 mm", "output.spacing=5 mm", "soot.model=none", "stochastic.repeats=2", "stochastic.particles=50",
             "stochastic.bins=5"))
 
+        runs["trees"] = (CASES / "reactor/silica_batch/deck.yaml", *running.settings(
+            "time.end=10 ms", "output.species=[H2O]", "particles.number=50", "particles.repeats=2", "particles.bins=5"))
+
         def compute(run: str) -> None:
             result = program("run", *runs[run], "--out", folder / run, timeout=120)
             assert result.code == 0, f"{run}: {result.err}"
