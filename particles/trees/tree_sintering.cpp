@@ -94,24 +94,18 @@ void TreeSintering::neighbours(Tree& handle, double dt, Changes& changes) {
       left_[n] = -1;
     }
     bring(k, courses_[k]);
-    // Marks travel with their necks.
-    struct State {
-      Course course;
-      double left;
-    };
-    std::vector<State> states;
-    for (std::size_t n = 0; n < courses_.size(); ++n) states.push_back({courses_[n], left_[n]});
-    const std::uint32_t start = necks[k].first, before = b - (static_cast<std::uint32_t>(k) + 1);
+    // What is known of necks travels with them, as fuseNeck() moves them.
+    const auto start = static_cast<std::ptrdiff_t>(necks[k].first), place = static_cast<std::ptrdiff_t>(k);
+    const std::ptrdiff_t behind = place + static_cast<std::ptrdiff_t>(b) - (place + 1);
     fuseNeck(tree, k, type_.material());
-    states.erase(states.begin() + static_cast<std::ptrdiff_t>(k));
-    std::rotate(states.begin() + start, states.begin() + static_cast<std::ptrdiff_t>(k),
-                states.begin() + static_cast<std::ptrdiff_t>(k) + before);
-    courses_.clear();
-    left_.clear();
-    for (std::size_t n = 0; n < states.size(); ++n) {
-      const bool stands = states[n].left >= 0;
-      left_.push_back(stands ? states[n].left : dt - first);
-      courses_.push_back(stands ? states[n].course : follow(primaries, necks[n], dt - first));
+    courses_.erase(courses_.begin() + place);
+    left_.erase(left_.begin() + place);
+    std::rotate(courses_.begin() + start, courses_.begin() + place, courses_.begin() + behind);
+    std::rotate(left_.begin() + start, left_.begin() + place, left_.begin() + behind);
+    for (std::size_t n = 0; n < left_.size(); ++n) {
+      if (left_[n] >= 0) continue;
+      left_[n] = dt - first;
+      courses_[n] = follow(primaries, necks[n], left_[n]);
     }
     ++changes.fused;
   }
