@@ -219,6 +219,40 @@ TEST(TreePopulation, SplittingConverges) {
     EXPECT_LT(std::abs(pair[0].mean - pair[1].mean) / std::hypot(pair[0].standardError, pair[1].standardError), zLimit);
 }
 
+// Eqs. 36-39 of the paper written out, and that the majorant is one, whatever the mixture of its two bounds.
+TEST(TreePopulation, CollidesByTheKernelOfThePaper) {
+  RandomStream random(51, 52, 53);
+  TreeOptions options = small();
+  options.kernel.gas = Nitrogen().gas();
+  CollisionKernel kernel(options.kernel);
+  const CarrierGas& gas = options.kernel.gas;
+  std::vector<CollisionKernel::Properties> all;
+  for (int i = 0; i < 60; ++i) {
+    const double d = 0.5e-9 * std::pow(1e3, random.uniform()), dense = 0.2 + 0.8 * random.uniform();
+    const double v = constants::pi / 6 * d * d * d * dense;
+    all.push_back({v, 2200 * v, d});
+  }
+  for (const bool isTuned : {false, true}) {
+    if (isTuned)
+      kernel.tune([&](const auto& f) {
+        for (const auto& p : all) f(p);
+      });
+    for (const auto& p : all) {
+      for (const auto& q : all) {
+        const auto knudsen = [&](double d) { return 4.74e-5 * gas.temperature / (gas.pressure * d); };
+        const double slip =
+            2 * constants::boltzmann * gas.temperature / (3 * gas.viscosity) *
+            ((1 + 1.257 * knudsen(p.diameter)) / p.diameter + (1 + 1.257 * knudsen(q.diameter)) / q.diameter) *
+            (p.diameter + q.diameter);
+        const double free = 2.2 * std::sqrt(constants::pi * constants::boltzmann * gas.temperature / 2) *
+                            std::sqrt(1 / p.mass + 1 / q.mass) * std::pow(p.diameter + q.diameter, 2);
+        EXPECT_NEAR(kernel.value(p, q) / (slip * free / (slip + free)), 1, 1e-12);
+        EXPECT_LE(kernel.value(p, q), kernel.majorant(kernel.terms(p), kernel.terms(q)) * (1 + 1e-12));
+      }
+    }
+  }
+}
+
 TEST(TreePopulation, WrongOptionsSayWhatIsWrong) {
   TreeOptions options = small();
   options.particles = 4;
