@@ -66,10 +66,10 @@ bool hasTrend(std::span<const double> y, double drift) {
 
 }  // namespace
 
-double studentQuantile(std::size_t freedom) {
+double studentQuantile(std::size_t freedom, double within) {
   freedom = std::min<std::size_t>(freedom, 1000);  // 1.9623 there, 1.9600 of any number
   const double angle =
-      whereIs(0.95, 0.0, 0.5 * constants::pi, [&](double tried) { return studentWithin(tried, freedom); });
+      whereIs(within, 0.0, 0.5 * constants::pi, [&](double tried) { return studentWithin(tried, freedom); });
   return std::sqrt(static_cast<double>(freedom)) * std::tan(angle);
 }
 

@@ -17,9 +17,9 @@ inline constexpr std::size_t leastBlocks = 5;
 // Fewer blocks do not tell whether there is a trend.
 inline constexpr std::size_t leastToBeStationary = 10;
 
-// What Student's t with so many degrees of freedom, one at least, is below in 97.5 of a hundred cases: with it an
-// interval to both sides has 95 %.
-[[nodiscard]] double studentQuantile(std::size_t freedom);
+// What Student's t with so many degrees of freedom, one at least, does not exceed to either side in the part `within`
+// of all cases: with it an interval to both sides has 95 %.
+[[nodiscard]] double studentQuantile(std::size_t freedom, double within = 0.95);
 
 // The 95 % interval of the mean of so many blocks.
 class BlockInterval {

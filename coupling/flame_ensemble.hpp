@@ -9,8 +9,7 @@
 
 #include "core/rooms.hpp"
 #include "coupling/flame_trajectory.hpp"
-#include "particles/ensemble/ensemble.hpp"
-#include "particles/ensemble/ensemble_path.hpp"
+#include "coupling/path_ensemble.hpp"
 
 namespace lampblack::coupling {
 
@@ -21,24 +20,9 @@ struct FlameEnsembleOptions {
   std::vector<FlamePathOptions> paths;
 };
 
-// Mean of the repeats at the points of a path, and the standard error of that mean.
-struct RepeatedValue {
-  std::vector<double> mean, error;
-};
-
-struct FlameEnsemblePath {
+struct FlameEnsemblePath : PathEnsemble {
   FlamePathOptions options;
   FlamePath path;
-  RepeatedValue number;  // 1/m3
-  RepeatedValue volumeFraction;
-  RepeatedValue meanDiameter;  // m, of mobility, by number
-  RepeatedValue geometricDeviation;
-  RepeatedValue primaries;                 // of an aggregate
-  RepeatedValue carbon, hydrogen;          // kg/m3
-  RepeatedValue surface;                   // m2/m3
-  RepeatedValue distribution;              // dN/dlog10(d), 1/m3: bins at the first point, at the second, ...
-  std::vector<EnsembleExchange> exchange;  // means, one an interval
-  double seconds = 0;                      // of all repeats
 };
 
 // Collective. The same on all ranks, to the last bit whatever their number. NumericsError says which repeat failed.

@@ -52,12 +52,17 @@ double travel(const FlamePathPoint& a, const FlamePathPoint& b) {
 
 FlameSootGas flameSootGas(const FlameProfile& profile, const Mechanism& mechanism, double pressure,
                           const SootModelOptions& soot, double thermophoresis) {
+  for (const PahSpecies& pah : soot.pah) static_cast<void>(mechanism.speciesIndex(pah.name));
+  return flameSootGas(profile, mechanism, pressure, sootSpecies(soot), thermophoresis);
+}
+
+FlameSootGas flameSootGas(const FlameProfile& profile, const Mechanism& mechanism, double pressure,
+                          std::span<const std::string> names, double thermophoresis) {
   const std::size_t n = mechanism.numSpecies(), points = profile.points();
   FlameSootGas gas;
   gas.z = profile.z;
   std::vector<std::optional<std::size_t>> species;
-  for (const std::string& name : sootSpecies(soot))
-    species.push_back(species.size() < SootSpecies::fixed ? mechanism.findSpecies(name) : mechanism.speciesIndex(name));
+  for (const std::string& name : names) species.push_back(mechanism.findSpecies(name));
   Transport transport(mechanism);
   const auto weights = mechanism.molecularWeights();
   std::vector<double> X(n), D(n), T(points);

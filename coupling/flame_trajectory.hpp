@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,9 @@ struct FlameSootGas {
 // not there; InputError where it lacks a PAH.
 [[nodiscard]] FlameSootGas flameSootGas(const FlameProfile& profile, const Mechanism& mechanism, double pressure,
                                         const SootModelOptions& soot, double thermophoresis);
+// The same of other species, none of which the mechanism needs to have.
+[[nodiscard]] FlameSootGas flameSootGas(const FlameProfile& profile, const Mechanism& mechanism, double pressure,
+                                        std::span<const std::string> names, double thermophoresis);
 
 struct FlamePathOptions {
   bool fromRight = false;       // from the right end towards smaller z

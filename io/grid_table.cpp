@@ -11,40 +11,9 @@
 #include "core/errors.hpp"
 #include "core/text_file.hpp"
 #include "io/csv.hpp"
+#include "io/table_column.hpp"
 
 namespace lampblack::io {
-namespace {
-
-// "velocity [cm/s]": the name and the unit.
-std::pair<std::string, std::string> nameAndUnit(const std::string& header) {
-  const std::size_t open = header.rfind(" [");
-  if (open == std::string::npos || !header.ends_with(']')) return {header, ""};
-  return {header.substr(0, open), header.substr(open + 2, header.size() - open - 3)};
-}
-
-// Reads a column's fields into SI.
-class Column {
- public:
-  Column(const std::string& name, const std::string& unit, const units::Dimension& dimension) : name_(name) {
-    if (unit.empty() || unit == "1") return;
-    unit_ = units::parseUnit(unit);
-    if (unit_.dimension != dimension)
-      throw InputError(fmt::format("the column '{}' is in {}; expected {}", name, unit, units::describe(dimension)));
-  }
-  [[nodiscard]] double read(const std::string& field, std::size_t line) const {
-    try {
-      return unit_.factor * units::parseNumber(field) + unit_.offset;
-    } catch (const InputError&) {
-      throw InputError(fmt::format("line {}: expected a finite number as '{}', found '{}'", line, name_, field));
-    }
-  }
-
- private:
-  std::string name_;
-  units::Unit unit_;
-};
-
-}  // namespace
 
 GridTable::GridTable(const std::filesystem::path& file, std::vector<Coordinate> coordinates,
                      const DimensionOf& dimensionOf)
@@ -60,7 +29,7 @@ GridTable::GridTable(const std::filesystem::path& file, std::vector<Coordinate> 
       const bool isCoordinate = coordinate != coordinates_.end();
       const auto dimension = isCoordinate ? coordinate->dimension : dimensionOf(name);
       if (!dimension) continue;
-      const Column reader(name, unit, *dimension);
+      const TableColumn reader(name, unit, *dimension);
       std::vector<double> values;
       for (std::size_t row = 0; row < table.rows.size(); ++row)
         values.push_back(reader.read(table.rows[row][column], table.lines[row]));

@@ -31,6 +31,11 @@ void addEnsembleKeys(DeckSchema& schema, const std::string& description, const s
       .add(booleanKey("stochastic.keep_hydrogen",
                       "true: soot keeps the hydrogen of PAH; false: it returns to the gas as H2 when PAH become soot.")
                .byDefault("true"))
+      .add(choiceKey(
+               "stochastic.growth", {"mean", "events"},
+               "How particles grow, take up PAH and are oxidised in a splitting step. mean: all of a size alike, by "
+               "the rates; events: by whole events as often as chance has it, so that particles of few atoms differ.")
+               .byDefault("mean"))
       .add(numberKey(
                "stochastic.split_tolerance",
                "Largest relative change of the population in a splitting step: smaller is more accurate and slower.")
@@ -80,6 +85,7 @@ EnsembleRequest readEnsemble(const Deck& deck, const SootModelOptions& soot) {
   options.coalescing = deck.choice("stochastic.shape") == "spheres";
   options.alphaOfPrimaries = deck.choice("stochastic.active_sites") == "primary";
   options.keepsHydrogen = deck.boolean("stochastic.keep_hydrogen");
+  options.growthByEvents = deck.choice("stochastic.growth") == "events";
   options.splitTolerance = deck.number("stochastic.split_tolerance");
   request.bins = {std::log10(deck.quantity("stochastic.smallest")),
                   std::log10(deck.quantity("stochastic.largest")),
@@ -87,6 +93,8 @@ EnsembleRequest readEnsemble(const Deck& deck, const SootModelOptions& soot) {
                   {}};
   if (!(request.bins.logDiameterMax > request.bins.logDiameterMin))
     throw deck.error("stochastic.largest", "expected more than 'smallest'");
+  if (soot.inceptionBy == InceptionBy::monomers && soot.pah.size() != 1)
+    throw deck.error("soot.pah", "nuclei of monomers need one PAH, of which two molecules make a nucleus");
   if (soot.pah.empty()) throw deck.error("stochastic", "ensembles need PAH that dimerise: name them in soot.pah");
   return request;
 }

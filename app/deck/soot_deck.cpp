@@ -8,6 +8,75 @@
 namespace lampblack::app {
 namespace {
 
+// Of the rate constants of the surface: their keys, and what they are of.
+struct SurfaceRateKey {
+  const char *name, *reaction;
+  RateConstant SurfaceRateConstants::*value;
+};
+constexpr SurfaceRateKey surfaceRateKeys[] = {
+    {"open_by_h", "that H opens a C-H site", &SurfaceRateConstants::openByH},
+    {"close_by_h2", "that H2 closes a radical site", &SurfaceRateConstants::closeByH2},
+    {"open_by_oh", "that OH opens a C-H site", &SurfaceRateConstants::openByOH},
+    {"close_by_h2o", "that H2O closes a radical site", &SurfaceRateConstants::closeByH2O},
+    {"close_by_h", "that H closes a radical site", &SurfaceRateConstants::closeByH},
+    {"growth", "that C2H2 adds two carbon atoms to a radical site", &SurfaceRateConstants::growth},
+    {"oxidation", "that O2 takes two carbon atoms from a radical site", &SurfaceRateConstants::oxidation}};
+
+std::string listOf(const RateConstant& k) {
+  return fmt::format("[{}, {}, {}]", k.A, k.n, k.E);
+}
+
+void addSurfaceRates(DeckSchema& schema) {
+  const std::string s = "soot.surface.", law = ", A T^n exp(-E/(R T)): A in cm^3/mol/s, n, E in kcal/mol.";
+  schema.section(
+      "soot.surface", Presence::defaulted,
+      "Rate constants of the surface of soot; the defaults are those of Appel, Bockhorn and Frenklach (2000).");
+  const SurfaceRateConstants published;
+  for (const SurfaceRateKey& key : surfaceRateKeys)
+    schema.add(numberKey(s + key.name, std::string("Rate constant ") + key.reaction + law)
+                   .list(3)
+                   .byDefault(listOf(published.*key.value)));
+  schema
+      .add(numberKey(s + "close_by_o2", "Rate constant by which O2 counts among what closes radical sites" + law +
+                                            " Absent: as oxidation.")
+               .list(3)
+               .optional())
+      .add(
+          booleanKey(s + "bounded",
+                     "Whether radical sites and C-H sites together are what there is: their ratio r becomes r/(1 + r).")
+              .byDefault("false"));
+}
+
+void addInception(DeckSchema& schema) {
+  schema
+      .add(choiceKey(
+               "soot.inception_by", {"dimers", "monomers"},
+               "What makes a nucleus and condenses. dimers: two dimers of PAH in steady state (Blanquart and Pitsch "
+               "2009); monomers: two molecules of the one PAH, at the rate of all their collisions in the transition "
+               "regime. monomers: only ensembles have them.")
+               .byDefault("dimers"))
+      .add(quantityKey("soot.monomer_mass", units::mass, "Mass of a monomer as it collides; absent: that of its atoms.")
+               .optional()
+               .above(0)
+               .onlyWith("soot.inception_by", {"monomers"}))
+      .add(quantityKey("soot.monomer_diameter", units::length,
+                       "Diameter of a monomer as it collides; absent: of a sphere of the density of soot.")
+               .optional()
+               .above(0)
+               .onlyWith("soot.inception_by", {"monomers"}))
+      .add(booleanKey(
+               "soot.heavy_particles",
+               "true: dimers or monomers meet particles of ensembles as if these were at rest, the limit of heavy "
+               "ones (Celnik, Patterson, Kraft, Wagner 2007); false: by the reduced mass.")
+               .byDefault("false"))
+      .add(choiceKey(
+               "soot.slip", {"davies", "air"},
+               "Slip correction in collisions of ensembles' particles. davies: Davies (1945), by the gas's mean free "
+               "path; air: 1 + 1.257 Kn, Kn that of air at the gas's temperature and pressure (Shekar et al. 2011, "
+               "eqs. 37, 38).")
+               .byDefault("davies"));
+}
+
 void addShared(DeckSchema& schema, const std::vector<SootModelEntry>& models) {
   std::vector<std::string> names;
   std::string words = "Model of the soot that the gas carries. ";
@@ -76,6 +145,8 @@ void addShared(DeckSchema& schema, const std::vector<SootModelEntry>& models) {
                       "Whether soot diffuses by Brownian motion. Ensembles of particles that are followed along paths "
                       "never do.")
                .byDefault("true"));
+  addInception(schema);
+  addSurfaceRates(schema);
 }
 
 // Two aromatic rings or more: ten carbon atoms, as naphthalene, and no more hydrogen than carbon.
@@ -142,6 +213,23 @@ std::vector<PahSpecies> readPahSpecies(const Deck& deck, const Mechanism& mechan
   return list;
 }
 
+namespace {
+
+RateConstant readRate(const Deck& deck, const std::string& key) {
+  const std::vector<double> numbers = deck.numbers(key);
+  if (!(numbers[0] >= 0)) throw deck.error(key, "expected a factor A of zero or more");
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+void readSurfaceRates(const Deck& deck, SurfaceRateConstants& rates) {
+  for (const SurfaceRateKey& key : surfaceRateKeys)
+    rates.*key.value = readRate(deck, std::string("soot.surface.") + key.name);
+  if (deck.has("soot.surface.close_by_o2")) rates.closeByO2 = readRate(deck, "soot.surface.close_by_o2");
+  rates.bounded = deck.boolean("soot.surface.bounded");
+}
+
+}  // namespace
+
 SootModelOptions readSootModelOptions(const Deck& deck, const Mechanism& mechanism, SootModelOptions options) {
   const SootWeights weights = readSootWeights(deck, mechanism);
   options.carbonWeight = weights.carbon;
@@ -151,6 +239,12 @@ SootModelOptions readSootModelOptions(const Deck& deck, const Mechanism& mechani
   options.siteDensity = deck.quantity("soot.site_density");
   options.ohEfficiency = deck.optionalNumber("soot.oh_efficiency").value_or(options.ohEfficiency);
   options.vanDerWaals = deck.number("soot.van_der_waals");
+  options.inceptionBy = deck.choice("soot.inception_by") == "monomers" ? InceptionBy::monomers : InceptionBy::dimers;
+  options.monomerMass = deck.optionalQuantity("soot.monomer_mass").value_or(0);
+  options.monomerDiameter = deck.optionalQuantity("soot.monomer_diameter").value_or(0);
+  options.heavyParticles = deck.boolean("soot.heavy_particles");
+  options.slip = deck.choice("soot.slip") == "air" ? SlipLaw::air : SlipLaw::davies;
+  readSurfaceRates(deck, options.surface);
   options.inception = deck.boolean("soot.inception");
   options.condensation = deck.boolean("soot.condensation");
   options.surfaceGrowth = deck.boolean("soot.growth");
@@ -176,6 +270,9 @@ SootModelOptions readSootModelOptions(const Deck& deck, const Mechanism& mechani
 std::unique_ptr<ParticleModel> readSootModel(const Deck& deck, const Mechanism& mechanism,
                                              const std::vector<SootModelEntry>& models) {
   if (!deck.has("soot") || deck.choice("soot.model") == "none") return nullptr;
+  for (const char* key : {"soot.inception_by", "soot.heavy_particles", "soot.slip"})
+    if (deck.isGiven(key))
+      throw deck.error(key, "only ensembles (section 'stochastic', without 'soot.model') have this; leave it out");
   std::unique_ptr<ParticleModel> model = entryOf(deck, models).read(deck, mechanism);
   for (const std::string& species : model->gasSpecies())
     if (!mechanism.findSpecies(species))

@@ -6,6 +6,8 @@
 #include "app/flame1d/flame_run.hpp"
 #include "app/flow/flow_case.hpp"
 #include "app/flow/flow_run.hpp"
+#include "app/particles_along/along_case.hpp"
+#include "app/particles_along/along_run.hpp"
 #include "app/population_balance/population_case.hpp"
 #include "app/population_balance/population_run.hpp"
 #include "app/reactor/reactor_case.hpp"
@@ -21,6 +23,10 @@ const std::vector<Problem>& problems() {
       {"reactor",
        "Reactors without space: closed at constant pressure or volume, perfectly stirred, plug flow, networks.",
        reactorSchema, prepareReactor},
+      {"particles_along",
+       "Particles along a given gas: its history in a table, or the path through a one-dimensional flame that is there "
+       "already; ensembles or any model of soot.",
+       alongSchema, prepareAlong},
       {"population_balance",
        "A population of particles in a well-stirred volume of gas: Monte Carlo, sectional and moment methods, "
        "compared.",

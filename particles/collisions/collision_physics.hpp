@@ -10,6 +10,10 @@
 
 namespace lampblack::particles {
 
+// Slip correction of the continuum part of a collision kernel: Davies (1945) with the gas's mean free path; or 1
+// + 1.257 Kn with that of air, Kn = 4.74e-5 (Pa m/K) T/(p d) (Shekar, Smith, Kraft, Wagner 2011, eqs. 37-38).
+enum class SlipLaw { davies, air };
+
 // Mean free path of the gas, m (Wang 2025, eq. 7-33).
 [[nodiscard]] inline double meanFreePath(const CarrierGas& gas) {
   return gas.viscosity / gas.pressure *

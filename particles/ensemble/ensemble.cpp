@@ -28,12 +28,15 @@ std::unique_ptr<Ensemble> makeEnsemble(EnsembleOptions options) {
   if (!(options.startNumberDensity > 0) || !(options.splitTolerance > 0) || !(options.splitTolerance <= 1)) {
     throw InputError("stochastic soot: the start number density and the split tolerance need to be positive");
   }
+  if (options.soot.inceptionBy == InceptionBy::monomers && options.soot.pah.size() != 1)
+    throw InputError("stochastic soot: nuclei of monomers need one PAH");
   PopulationModel model;
   if (options.soot.coagulation) {
     // Of some gas, until there is the right one.
     CollisionKernelOptions kernel = options.kernel;
     kernel.gas = {1500, constants::oneAtmosphere, 0.2, 5e-5, 0.028};
     kernel.enhancement = options.soot.vanDerWaals;
+    kernel.slip = options.soot.slip;
     model.coagulation = kernel;
   }
   model.growth.oxidation = 1;  // particles may vanish

@@ -33,13 +33,16 @@ struct EnsembleOptions {
   std::uint64_t seed = 1;
   std::uint64_t owner = 0;  // global trajectory and repeat: makes the random numbers independent of the rank
   SootModelOptions soot;
-  // Of coagulation; the gas gives its gas, and soot.vanDerWaals its enhancement. The kernels with exact solutions are
+  // Of coagulation; the gas gives its gas, and soot its enhancement and slip. The kernels with exact solutions are
   // there for verification.
   CollisionKernelOptions kernel{.type = CollisionKernelType::transition};
   bool coalescing = true;         // spheres; otherwise aggregates of primaries
   bool alphaOfPrimaries = false;  // mu_1 in alpha(T, mu_1) is of the mean primary (Wang 2025, eq. 9-37), not particle
   bool keepsHydrogen = true;      // false: that of PAH returns to the gas as H2 when they are taken up
-  double splitTolerance = 0.01;   // relative change of the population in a splitting step
+  // Growth, condensation and oxidation in whole events, as often as chance has it, not as their mean: where particles
+  // are of few atoms, they then differ by how many events they had.
+  bool growthByEvents = false;
+  double splitTolerance = 0.01;  // relative change of the population in a splitting step
   // sammc: the share of its volume that a particle may take up of small ones at once; 0: one by one. Saves most of the
   // events where new particles are many; the growth of the second moment by them is too large by at most half of it.
   double shareAtOnce = 0;

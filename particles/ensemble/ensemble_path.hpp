@@ -25,18 +25,22 @@ struct EnsemblePathOptions {
   double logDiameterMin = -9.2, logDiameterMax = -6.2;  // bins of log10(d/m)
   std::size_t bins = 60;
   GasDivision division;
+  std::vector<std::size_t> recorded = {};              // points with a record, rising; empty: all
   [[nodiscard]] std::vector<double> binEdges() const;  // m, bins + 1
 };
 
 struct EnsemblePathRecord {
   Ensemble::Totals totals;
   double volumeFraction = 0, geometricDeviation = 1;
-  std::vector<double> distribution;  // dN/dlog10(d), 1/m3
+  double massSquared = 0, massCubed = 0;  // sums over particles: kg2/m3, kg3/m3
+  std::uint64_t coagulations = 0;         // events since the start
+  std::vector<double> distribution;       // dN/dlog10(d), 1/m3
 };
 
 struct EnsemblePathResult {
-  std::vector<EnsemblePathRecord> records;  // one a point; the first before anything has happened
-  std::vector<EnsembleExchange> exchange;   // one an interval
+  std::vector<EnsemblePathRecord> records;  // one a recorded point; at the first before anything has happened
+  std::vector<EnsembleExchange> exchange;   // one between two records
+  PopulationCounters counters;
 };
 
 // Throws InputError without a point or where a divergence is missing, for times that fall, and for species that are

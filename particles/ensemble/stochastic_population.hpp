@@ -153,7 +153,15 @@ Ensemble::Totals StochasticProcess<Method>::totals() const {
 template <class Method>
 double StochasticProcess<Method>::moment(double order) const {
   double sum = 0;
-  method_.forEachParticle([&](const Particle& p, double w) { sum += w * std::pow(type_.volume(p), order); });
+  const auto add = [&](auto power) {
+    method_.forEachParticle([&](const Particle& p, double w) { sum += w * power(type_.volume(p)); });
+  };
+  if (order == 2)
+    add([](double v) { return v * v; });
+  else if (order == 3)
+    add([](double v) { return v * v * v; });
+  else
+    add([order](double v) { return std::pow(v, order); });
   return sum;
 }
 

@@ -131,7 +131,7 @@ double StochasticProcess<Method>::step(const SootMedium& medium, const Sums& s, 
                                        double remaining) const {
   double fastest = std::abs(dilution);
   const double dimers = medium.dimers(s.collisions);
-  if (medium.incepting() && medium.condensing()) {
+  if (medium.incepting() && medium.condensing() && !medium.ofMonomers()) {
     const Particle nucleus = type_.make(2 * medium.dimerCarbon(), 2 * medium.dimerHydrogen(), 1);
     const double rate = medium.inception(s.collisions);
     const double scale = s.collisions + 2 * std::sqrt(medium.dimer().rate * medium.dimer().selfCollision);
@@ -170,6 +170,7 @@ void StochasticProcess<Method>::advance(const ParticleGas& gas, double dilution,
     CollisionKernelOptions kernel = options_.kernel;
     kernel.gas = medium.gas();
     kernel.enhancement = options_.soot.vanDerWaals;
+    kernel.slip = options_.soot.slip;
     kernel_.emplace(kernel);
     method_.setKernel(kernel);
   } else {
@@ -323,7 +324,8 @@ void StochasticProcess<Method>::grow(const SootMedium& medium, double dt, Sums& 
         medium.condensation(medium.dimers(std::max(0.5 * s.collisions, s.collisions + stretch * s.slopes)));
   }
   gather();
-  const SootMoved all = growAll(columns_, type_, medium, flux, dt);
+  const SootMoved all = options_.growthByEvents ? growAllByEvents(columns_, type_, medium, flux, dt, random_)
+                                                : growAll(columns_, type_, medium, flux, dt);
   std::size_t k = 0;
   method_.changeParticles([&](Particle& p, double) {
     p = columns_.particle(k++);

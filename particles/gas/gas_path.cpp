@@ -34,6 +34,10 @@ std::size_t parts(const GasSample& from, const GasSample& to, const GasDivision&
     if (larger > 1e-9) most = std::max(most, std::abs(x - y) / larger / division.relativeStep);  // mol/m3
   };
   const auto considerSpecies = [&](std::size_t k) { consider(from.concentrations[k], to.concentrations[k]); };
+  if (!division.counted.empty()) {
+    for (const std::size_t k : division.counted) considerSpecies(k);
+    return std::clamp(static_cast<std::size_t>(std::ceil(most)), std::size_t{1}, division.most);
+  }
   for (const std::size_t k : {SootSpecies::H, SootSpecies::OH, SootSpecies::O2, SootSpecies::C2H2}) considerSpecies(k);
   for (std::size_t k = SootSpecies::fixed; k < from.concentrations.size(); ++k) considerSpecies(k);
   return std::clamp(static_cast<std::size_t>(std::ceil(most)), std::size_t{1}, division.most);

@@ -22,7 +22,8 @@ struct GasSample {
 struct GasDivision {
   double temperatureStep = 20;
   double relativeStep = 0.1;
-  std::size_t most = 64;  // parts of an interval
+  std::size_t most = 64;                  // parts of an interval
+  std::vector<std::size_t> counted = {};  // concentrations that are looked at; empty: those that matter of SootSpecies
 };
 
 // (1 - w) `from` + w `to`, at the time of `from`.

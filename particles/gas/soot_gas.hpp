@@ -51,6 +51,30 @@ struct AlphaPoint {
   double temperature = 0, alpha = 0;
 };
 
+// A T^n exp(-E/RT), as the papers print it.
+struct RateConstant {
+  double A = 0, n = 0, E = 0;  // cm3/mol/s; -; kcal/mol
+};
+
+// The surface chemistry of soot, with the constants of Appel, Bockhorn and Frenklach (2000).
+struct SurfaceRateConstants {
+  RateConstant openByH{4.2e13, 0, 13.0};         // C-H + H <-> C* + H2
+  RateConstant closeByH2{3.9e12, 0, 11.0};       // its reverse
+  RateConstant openByOH{1.0e10, 0.734, 1.43};    // C-H + OH <-> C* + H2O
+  RateConstant closeByH2O{3.68e8, 1.139, 17.1};  // its reverse
+  RateConstant closeByH{2.0e13, 0, 0};           // C* + H -> C-H
+  RateConstant growth{8.0e7, 1.56, 3.8};         // C* + C2H2
+  RateConstant oxidation{2.2e12, 0, 7.5};        // C* + O2
+  std::optional<RateConstant> closeByO2 = {};    // by O2 in the balance of radical sites; absent: that of `oxidation`
+  // Radical sites over C-H sites: the ratio r of what opens to what closes them; true: r/(1 + r), so that radical
+  // sites and C-H sites together are what there is.
+  bool bounded = false;
+};
+
+// What makes a nucleus: two dimers of PAH in steady state, or two molecules of the one PAH at the concentration that
+// the gas has. The same condense on particles.
+enum class InceptionBy { dimers, monomers };
+
 struct SootModelOptions {
   std::vector<PahSpecies> pah = {};
   double sootDensity = 1850;    // kg/m3 (Wang 2025, chapter 7)
@@ -63,6 +87,14 @@ struct SootModelOptions {
   double vanDerWaals = 2.2;          // enhancement of free-molecular collisions of dimers and particles
   double carbonWeight = 12.011e-3;   // kg/mol; set to the mechanism's so that mass budgets close
   double hydrogenWeight = 1.008e-3;  // kg/mol
+  SurfaceRateConstants surface = {};
+  InceptionBy inceptionBy = InceptionBy::dimers;
+  // Of a monomer as it collides: kg, m; zero: that of its atoms, and of the sphere of soot density.
+  double monomerMass = 0, monomerDiameter = 0;
+  // Dimers or monomers collide with particles as if these were at rest, 1/m in place of 1/m + 1/M (Celnik, Patterson,
+  // Kraft, Wagner 2007).
+  bool heavyParticles = false;
+  SlipLaw slip = SlipLaw::davies;  // of collisions of particles, and of monomers with each other
   bool coagulation = true;
   bool inception = true;     // off: no new particles; with condensation also off no dimers form
   bool condensation = true;  // off: dimers only nucleate

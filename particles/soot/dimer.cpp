@@ -49,7 +49,8 @@ DimerModel::DimerModel(const SootModelOptions& options)
                          freeMolecularKernel(perRootTemperature, mass[i], diameter[i], mass[j], diameter[j]);
     }
   }
-  if (n > 0) smallestNucleus_ = 4 * *std::min_element(carbon_.begin(), carbon_.end());
+  const int molecules = options.inceptionBy == InceptionBy::dimers ? 4 : 2;
+  if (n > 0) smallestNucleus_ = molecules * *std::min_element(carbon_.begin(), carbon_.end());
 }
 
 void DimerModel::lossRates(double temperature, std::span<const double> pah, PahArray& loss) const {

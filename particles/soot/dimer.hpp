@@ -34,7 +34,8 @@ class DimerModel {
   [[nodiscard]] std::size_t size() const { return carbon_.size(); }
   [[nodiscard]] double carbonAtoms(std::size_t i) const { return carbon_[i]; }
   [[nodiscard]] double hydrogenAtoms(std::size_t i) const { return hydrogen_[i]; }
-  // The smallest nucleus: carbon atoms of four molecules of the lightest PAH (1 where no PAH is listed).
+  // The smallest nucleus: carbon atoms of four molecules of the lightest PAH, two where nuclei are of monomers (1 where
+  // no PAH is listed).
   [[nodiscard]] double smallestNucleus() const { return smallestNucleus_; }
   [[nodiscard]] bool consumes() const { return consumes_; }
 

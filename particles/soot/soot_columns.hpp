@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/random.hpp"
 #include "core/rooms.hpp"
 #include "particles/soot/soot_medium.hpp"
 
@@ -43,5 +44,11 @@ struct SootSums {
 // Grows all over dt (s), as SootMedium::grow does one of them; those that are oxidised away are left without carbon.
 [[nodiscard]] SootMoved growAll(SootColumns& all, const SootAggregate& type, const SootMedium& medium,
                                 const SootFluxes& fluxes, double dt);
+
+// The same in whole events, a dimer, two atoms of carbon by C2H2 or O2 or one by OH: of each particle and kind as many
+// as a Poisson number says whose mean is what growAll() would move. A particle that an event leaves with less carbon
+// than the smallest nucleus is oxidised away.
+[[nodiscard]] SootMoved growAllByEvents(SootColumns& all, const SootAggregate& type, const SootMedium& medium,
+                                        const SootFluxes& fluxes, double dt, RandomStream& random);
 
 }  // namespace lampblack::particles

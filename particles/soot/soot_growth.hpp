@@ -22,9 +22,10 @@ struct SootFluxes {
 
 class SootGrowth {
  public:
-  // `dimerCarbon`, `dimerHydrogen`: kg in a dimer; `leastCarbon`: kg, of the smallest particle that burns on.
+  // `dimerCarbon`, `dimerHydrogen`: kg in a dimer; `leastCarbon`: kg, of the smallest particle that burns on;
+  // `inertia`: of particles in collisions with dimers, 1 or 0.
   SootGrowth(const SootFluxes& fluxes, double density, const DimerProduction& dimer, double dimerCarbon,
-             double dimerHydrogen, double leastCarbon)
+             double dimerHydrogen, double leastCarbon, double inertia = 1)
       : gain_(fluxes.alpha * fluxes.growth),
         lossO2_(fluxes.alpha * fluxes.O2),
         lossOH_(fluxes.OH),
@@ -33,7 +34,8 @@ class SootGrowth {
         dimerHydrogen_(dimerHydrogen),
         dimerMass_(dimerCarbon + dimerHydrogen),
         dimerDiameter_(dimer.diameter),
-        leastCarbon_(leastCarbon) {
+        leastCarbon_(leastCarbon),
+        inertia_(inertia) {
     if (!(dimerMass_ > 0)) return;
     condensation_ = dimerMass_ * fluxes.condensation;
     perDimer_ = 1 / dimerMass_;
@@ -94,13 +96,13 @@ class SootGrowth {
  private:
   [[nodiscard, gnu::always_inline]] inline double condensing(double diameter, double perMass) const {
     const double sum = dimerDiameter_ + diameter;
-    return condensation_ * std::sqrt(inverseDimer_ + perMass) * sum * sum;
+    return condensation_ * std::sqrt(inverseDimer_ + inertia_ * perMass) * sum * sum;
   }
 
   double gain_, lossO2_, lossOH_;  // kg carbon/m2/s
   double density_;
   double dimerCarbon_, dimerHydrogen_, dimerMass_, dimerDiameter_;
-  double leastCarbon_;
+  double leastCarbon_, inertia_;
   // All zero without dimers.
   double condensation_ = 0, perDimer_ = 0, dimerFraction_ = 0, inverseDimer_ = 0;
 };

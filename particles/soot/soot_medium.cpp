@@ -10,6 +10,8 @@
 #include "core/constants.hpp"
 #include "core/cube_root.hpp"
 #include "core/errors.hpp"
+#include "particles/collisions/sphere.hpp"
+#include "particles/population/model/collision_kernel.hpp"
 
 namespace lampblack::particles {
 
@@ -24,6 +26,7 @@ SootMedium::SootMedium(const SootModelOptions& options, const DimerModel& dimers
     : options_(options),
       surface_(options, gas.temperature),
       gas_(gas),
+      inertia_(options.heavyParticles ? 0 : 1),
       leastCarbon_(dimers.smallestNucleus() * options.carbonWeight / constants::avogadro * (1 - 1e-9)) {
   using S = SootSpecies;
   if (gas.concentrations.size() != S::fixed + dimers.size())
@@ -31,24 +34,11 @@ SootMedium::SootMedium(const SootModelOptions& options, const DimerModel& dimers
   requirePhysical(gas, "stochastic soot");
   SootSpeciesArray c{};
   for (std::size_t k = 0; k < gas.concentrations.size(); ++k) c[k] = std::max(gas.concentrations[k], 0.0);
-  if (dimers.consumes()) {
-    const std::size_t n = dimers.size();
-    PahArray consumption{};
-    dimers.lossRates(gas.temperature, {&c[S::fixed], n}, consumption);
-    double sum = 0;
-    for (std::size_t i = 0; i < n; ++i) sum += consumption[i] *= c[S::fixed + i];
-    dimer_ = dimers.production(gas.temperature, {consumption.data(), n});
-    if (dimer_.rate > 0) {
-      for (std::size_t i = 0; i < n; ++i) pahOfDimer_[i] = 2 * consumption[i] / sum;
-    }
-  }
   freeMolecular_ = freeMolecularPrefactor(gas.temperature, options.vanDerWaals);
-  if (dimer_.rate > 0) {
-    // By the PAH that are taken, so that atoms are counted to round-off.
-    for (std::size_t i = 0; i < dimers.size(); ++i) {
-      dimerCarbon_ += pahOfDimer_[i] * dimers.carbonAtoms(i) * options.carbonWeight / constants::avogadro;
-      dimerHydrogen_ += pahOfDimer_[i] * dimers.hydrogenAtoms(i) * options.hydrogenWeight / constants::avogadro;
-    }
+  if (dimers.consumes() && options.inceptionBy == InceptionBy::dimers)
+    takeDimers(dimers, {&c[S::fixed], dimers.size()});
+  if (dimers.consumes() && options.inceptionBy == InceptionBy::monomers) takeMonomers(dimers, c[S::fixed]);
+  if (dimerCarbon_ > 0) {
     if (!keepsHydrogen) freedHydrogen_ = std::exchange(dimerHydrogen_, 0.0);
     selfCollision_ = options.inception ? dimer_.selfCollision : 0;
     condensing_ = options.condensation;
@@ -60,7 +50,44 @@ SootMedium::SootMedium(const SootModelOptions& options, const DimerModel& dimers
   surfaceActive_ = growth_ > 0 || O2_ > 0 || OH_ > 0;
 }
 
+void SootMedium::takeDimers(const DimerModel& dimers, std::span<const double> concentrations) {
+  const std::size_t n = dimers.size();
+  PahArray consumption{};
+  dimers.lossRates(gas_.temperature, concentrations, consumption);
+  double sum = 0;
+  for (std::size_t i = 0; i < n; ++i) sum += consumption[i] *= concentrations[i];
+  dimer_ = dimers.production(gas_.temperature, {consumption.data(), n});
+  if (!(dimer_.rate > 0)) return;
+  for (std::size_t i = 0; i < n; ++i) pahOfDimer_[i] = 2 * consumption[i] / sum;
+  // By the PAH that are taken, so that atoms are counted to round-off.
+  for (std::size_t i = 0; i < n; ++i) {
+    dimerCarbon_ += pahOfDimer_[i] * dimers.carbonAtoms(i) * options_.carbonWeight / constants::avogadro;
+    dimerHydrogen_ += pahOfDimer_[i] * dimers.hydrogenAtoms(i) * options_.hydrogenWeight / constants::avogadro;
+  }
+}
+
+void SootMedium::takeMonomers(const DimerModel& dimers, double concentration) {
+  if (dimers.size() != 1) throw std::invalid_argument("soot: nuclei of monomers need one PAH");
+  if (!(concentration > 0)) return;
+  monomers_ = constants::avogadro * concentration;
+  pahOfDimer_[0] = 1;
+  dimerCarbon_ = dimers.carbonAtoms(0) * options_.carbonWeight / constants::avogadro;
+  dimerHydrogen_ = dimers.hydrogenAtoms(0) * options_.hydrogenWeight / constants::avogadro;
+  dimer_.carbon = dimers.carbonAtoms(0);
+  dimer_.hydrogen = dimers.hydrogenAtoms(0);
+  dimer_.mass = options_.monomerMass > 0 ? options_.monomerMass : dimerCarbon_ + dimerHydrogen_;
+  dimer_.diameter =
+      options_.monomerDiameter > 0 ? options_.monomerDiameter : sphereDiameter(dimer_.mass / options_.sootDensity);
+  CollisionKernelOptions kernel{.type = CollisionKernelType::transition};
+  kernel.gas = gas_;
+  kernel.enhancement = options_.vanDerWaals;
+  kernel.slip = options_.slip;
+  const CollisionKernel::Properties one{dimer_.mass / options_.sootDensity, dimer_.mass, dimer_.diameter};
+  dimer_.selfCollision = CollisionKernel(kernel).value(one, one);
+}
+
 double SootMedium::dimers(double collisions) const {
+  if (ofMonomers()) return monomers_;
   const double withParticles = condensing_ ? std::max(collisions, 0.0) : 0;
   if (!(selfCollision_ + withParticles > 0)) return 0;
   return steadyDimers(dimer_.rate, selfCollision_, withParticles);

@@ -1,6 +1,10 @@
 // The gas around a stochastic soot population, digested once for a step of time, and what it does to one particle:
-// condensation of dimers, surface growth, oxidation (Wang 2025, sections 7.2.2, 9.2.2).
+// condensation of dimers, surface growth, oxidation (Wang 2025, sections 7.2.2, 9.2.2). Where nuclei are of monomers
+// (SootModelOptions::inceptionBy), "dimers" are the molecules of the PAH: as many as the gas has, whatever takes them.
 #pragma once
+
+#include <cmath>
+#include <span>
 
 #include "core/rooms.hpp"
 #include "particles/collisions/collision_physics.hpp"
@@ -35,8 +39,9 @@ class SootMedium {
   [[nodiscard]] bool condensing() const { return condensing_; }
   [[nodiscard]] bool surfaceActive() const { return surfaceActive_; }
   [[nodiscard]] const CarrierGas& gas() const { return gas_; }
-  [[nodiscard]] double dimerCarbon() const { return dimerCarbon_; }      // kg in a dimer
-  [[nodiscard]] double dimerHydrogen() const { return dimerHydrogen_; }  // kg in a dimer
+  [[nodiscard]] double dimerCarbon() const { return dimerCarbon_; }                                // kg in a dimer
+  [[nodiscard]] double dimerHydrogen() const { return dimerHydrogen_; }                            // kg in a dimer
+  [[nodiscard]] double carbonAtom() const { return options_.carbonWeight / constants::avogadro; }  // kg
   [[nodiscard]] double freedHydrogen() const { return freedHydrogen_; }  // kg that a dimer gives back as H2
 
   // Collision rate of a dimer with a particle, m3/s, and its derivative by the logarithm of the particle's diameter
@@ -45,12 +50,15 @@ class SootMedium {
     return condensing_ ? condensingCollision(p) : 0;
   }
   [[nodiscard]] double condensingCollision(const SootAggregate::Particle& p) const {  // where condensing()
-    return DimerModel::particleCollision(dimer_, freeMolecular_, SootAggregate::mass(p), p.diameter);
+    const double sum = dimer_.diameter + p.diameter;
+    return freeMolecular_ * std::sqrt(1 / dimer_.mass + inertia_ / SootAggregate::mass(p)) * sum * sum;
   }
   [[nodiscard]] double collisionSlope(const SootAggregate::Particle& p, double collision) const {
-    const double share = dimer_.mass / (SootAggregate::mass(p) + dimer_.mass);
+    const double part = inertia_ * dimer_.mass, share = part / (SootAggregate::mass(p) + part);
     return collision * (2 * p.diameter / (dimer_.diameter + p.diameter) - 1.5 * share);
   }
+  // Whether the number of dimers() is that of the gas's molecules and does not depend on collisions.
+  [[nodiscard]] bool ofMonomers() const { return monomers_ > 0; }
   // Dimers (1/m3) in steady state, `collisions` being the sum of collision() per m3.
   [[nodiscard]] double dimers(double collisions) const;
   // Nuclei per m3 and s.
@@ -63,7 +71,7 @@ class SootMedium {
   [[nodiscard]] double alpha(double meanCarbonAtoms) const { return surface_.alpha(meanCarbonAtoms); }
 
   [[nodiscard]] SootGrowth growth(const SootFluxes& fluxes) const {
-    return {fluxes, options_.sootDensity, dimer_, dimerCarbon_, dimerHydrogen_, leastCarbon_};
+    return {fluxes, options_.sootDensity, dimer_, dimerCarbon_, dimerHydrogen_, leastCarbon_, inertia_};
   }
   // Grows one particle over dt (s) by midpoint steps of the diameter of its primaries; false when it falls below the
   // carbon of the smallest nucleus, all of it then being oxidised. `moved` gets what it took and lost, to round-off.
@@ -71,12 +79,16 @@ class SootMedium {
             SootMoved& moved) const;
 
  private:
+  void takeDimers(const DimerModel& dimers, std::span<const double> concentrations);  // mol/m3
+  void takeMonomers(const DimerModel& dimers, double concentration);
+
   SootModelOptions const& options_;
   SurfaceChemistry surface_;
   DimerProduction dimer_;
   PahArray pahOfDimer_{};
   CarrierGas gas_;
-  double selfCollision_ = 0, freeMolecular_ = 0;
+  double selfCollision_ = 0, freeMolecular_ = 0, monomers_ = 0;
+  double inertia_;  // of particles in collisions with dimers: 1, or 0 where they are as at rest
   double dimerCarbon_ = 0, dimerHydrogen_ = 0, freedHydrogen_ = 0;
   double growth_ = 0, O2_ = 0, OH_ = 0;  // kg carbon/m2/s
   double leastCarbon_;                   // kg

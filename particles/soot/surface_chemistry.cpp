@@ -7,9 +7,9 @@
 namespace lampblack::particles {
 namespace {
 
-// A T^n exp(-E/RT) with A in cm3/mol/s and E in kcal/mol, returned in m3/mol/s.
-double arrhenius(double A, double n, double kcal, double logT, double inverseRT) {
-  return 1e-6 * A * std::exp(n * logT - 1e3 * constants::thermochemicalCalorie * kcal * inverseRT);
+// In m3/mol/s.
+double arrhenius(const RateConstant& k, double logT, double inverseRT) {
+  return 1e-6 * k.A * std::exp(k.n * logT - 1e3 * constants::thermochemicalCalorie * k.E * inverseRT);
 }
 
 // Wang (2025), eqs. 7-47 to 7-49.
@@ -48,17 +48,20 @@ SurfaceChemistry::SurfaceChemistry(const SootModelOptions& options, double tempe
     : sites_(options.siteDensity / constants::avogadro),
       a_(siteSlope(temperature)),
       b_(siteShift(temperature)),
+      bounded_(options.surface.bounded),
       growthOn_(options.surfaceGrowth ? 1 : 0),
       oxidationOn_(options.oxidation ? 1 : 0),
       alpha_(fixedAlpha(options, temperature)) {
   const double logT = std::log(temperature), inverseRT = 1 / (constants::gasConstant * temperature);
-  k1_ = arrhenius(4.2e13, 0, 13.0, logT, inverseRT);
-  k1r_ = arrhenius(3.9e12, 0, 11.0, logT, inverseRT);
-  k2_ = arrhenius(1.0e10, 0.734, 1.43, logT, inverseRT);
-  k2r_ = arrhenius(3.68e8, 1.139, 17.1, logT, inverseRT);
-  k3_ = 2.0e13 * 1e-6;
-  k4_ = arrhenius(8.0e7, 1.56, 3.8, logT, inverseRT);
-  k5_ = arrhenius(2.2e12, 0, 7.5, logT, inverseRT);
+  const SurfaceRateConstants& k = options.surface;
+  k1_ = arrhenius(k.openByH, logT, inverseRT);
+  k1r_ = arrhenius(k.closeByH2, logT, inverseRT);
+  k2_ = arrhenius(k.openByOH, logT, inverseRT);
+  k2r_ = arrhenius(k.closeByH2O, logT, inverseRT);
+  k3_ = arrhenius(k.closeByH, logT, inverseRT);
+  k4_ = arrhenius(k.growth, logT, inverseRT);
+  k5_ = arrhenius(k.oxidation, logT, inverseRT);
+  k5closing_ = k.closeByO2 ? arrhenius(*k.closeByO2, logT, inverseRT) : k5_;
   constexpr double hydroxylWeight = 17.007e-3;  // kg/mol
   ohFlux_ =
       options.ohEfficiency * std::sqrt(constants::gasConstant * temperature / (2 * constants::pi * hydroxylWeight));

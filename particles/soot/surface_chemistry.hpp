@@ -38,16 +38,17 @@ class SurfaceChemistry {
     using S = SootSpecies;
     const double opening = k1_ * c[S::H] + k2_ * c[S::OH];
     const double closing = k1r_ * c[S::H2] + k2r_ * c[S::H2O] + k3_ * c[S::H] + k4_ * c[S::C2H2] +
-                           k5_ * c[S::O2];  // Wang (2025), eq. 7-46
-    const double radicals = closing > 0 ? alpha * sites_ * opening / closing : 0;
+                           k5closing_ * c[S::O2];  // Wang (2025), eq. 7-46
+    const double radicals = closing > 0 ? alpha * sites_ * opening / (bounded_ ? closing + opening : closing) : 0;
     return {growthOn_ * k4_ * radicals, oxidationOn_ * k5_ * radicals, oxidationOn_ * ohFlux_};
   }
 
  private:
-  double k1_, k1r_, k2_, k2r_, k3_, k4_, k5_;  // m3/mol/s
-  double sites_;                               // mol/m2
-  double ohFlux_;                              // m/s, efficiency times a quarter of the mean speed of OH
+  double k1_, k1r_, k2_, k2r_, k3_, k4_, k5_, k5closing_;  // m3/mol/s
+  double sites_;                                           // mol/m2
+  double ohFlux_;                                          // m/s, efficiency times a quarter of the mean speed of OH
   double a_, b_;
+  bool bounded_;
   double growthOn_, oxidationOn_;
   std::optional<double> alpha_;
 };

@@ -30,10 +30,6 @@ enum class CollisionKernelType {
   gravitational     // pi/4 (di + dj)^2 |vi - vj| with the settling velocities of Stokes, with slip and buoyancy
 };
 
-// Slip correction of the continuum part: Davies (1945) with the gas's mean free path; or 1 + 1.257 Kn with that of air,
-// Kn = 4.74e-5 (Pa m/K) T/(p d) (Shekar, Smith, Kraft, Wagner 2011, eqs. 37-38).
-enum class SlipLaw { davies, air };
-
 [[nodiscard]] std::string_view nameOf(CollisionKernelType type);  // as messages call it: "free-molecular", ...
 
 struct CollisionKernelOptions {

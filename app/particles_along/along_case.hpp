@@ -1,0 +1,34 @@
+// What a deck with `problem: particles_along` asks for: a path through a given gas, and the particles on it.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/deck/ensemble_deck.hpp"
+#include "chemistry/mechanism/mechanism.hpp"
+#include "core/rooms.hpp"
+#include "io/deck.hpp"
+#include "particles/ensemble/ensemble_path.hpp"
+#include "particles/models/particle_model.hpp"
+
+namespace lampblack::app {
+
+struct AlongCase {
+  std::string title;
+  std::shared_ptr<const Mechanism> mechanism;
+  ParticlePath path;
+  std::vector<std::size_t> recorded;  // points of the path with a row
+  std::optional<EnsembleRequest> ensemble;
+  std::unique_ptr<ParticleModel> model;  // where there is no ensemble
+  double sootAtLimit = 1;                // as ReactorCase
+};
+
+// All keys such a deck may have.
+DeckSchema alongSchema();
+
+// Reads mechanism, gas and particles. InputError, pointing into the deck.
+AlongCase readAlongCase(const Deck& deck);
+
+}  // namespace lampblack::app

@@ -1,0 +1,160 @@
+#include "app/particles_along/along_output.hpp"
+
+#include <cmath>
+
+#include "coupling/block_statistics.hpp"
+
+namespace lampblack::app {
+namespace {
+
+struct NamedValue {
+  const char *name, *unit, *description;
+  RepeatedValue PathEnsemble::*value;
+};
+constexpr NamedValue namedValues[] = {
+    {"soot_number_density", "1/m^3", "particles", &PathEnsemble::number},
+    {"soot_volume_fraction", "1", "particle volume per volume of gas", &PathEnsemble::volumeFraction},
+    {"soot_mass", "kg/m^3", "mass of particles", &PathEnsemble::mass},
+    {"soot_mean_diameter", "m", "of the sphere of mean volume", &PathEnsemble::volumeDiameter},
+    {"soot_mobility_diameter", "m", "mean mobility diameter, by number", &PathEnsemble::meanDiameter},
+    {"soot_geometric_deviation", "1", "of the diameter of mobility, by number", &PathEnsemble::geometricDeviation},
+    {"soot_surface_area", "m^2/m^3", "surface of all particles", &PathEnsemble::surface},
+    {"soot_primaries", "1", "primary particles in an aggregate", &PathEnsemble::primaries},
+    {"soot_carbon", "kg/m^3", "carbon in particles", &PathEnsemble::carbon},
+    {"soot_hydrogen", "kg/m^3", "hydrogen in particles", &PathEnsemble::hydrogen},
+    {"soot_mass_squared", "kg^2/m^3", "sum of the squares of the masses", &PathEnsemble::massSquared},
+    {"soot_mass_cubed", "kg^3/m^3", "sum of the cubes of the masses", &PathEnsemble::massCubed},
+    {"coagulation_events", "1", "collisions of numerical particles since the start", &PathEnsemble::coagulations}};
+
+struct NamedRate {
+  const char *name, *unit, *description;
+  double EnsembleExchange::*value;
+};
+constexpr NamedRate namedRates[] = {
+    {"nucleation_number", "1/m^3/s", "new particles", &EnsembleExchange::nucleatedNumber},
+    {"oxidation_number", "1/m^3/s", "particles oxidised away", &EnsembleExchange::oxidisedNumber},
+    {"nucleation", "kg/m^3/s", "soot mass from nucleation", &EnsembleExchange::nucleated},
+    {"condensation", "kg/m^3/s", "soot mass from condensation", &EnsembleExchange::condensed},
+    {"growth", "kg/m^3/s", "soot mass from surface growth", &EnsembleExchange::grown},
+    {"oxidation_O2", "kg/m^3/s", "soot mass lost by oxidation by O2", &EnsembleExchange::oxidisedO2},
+    {"oxidation_OH", "kg/m^3/s", "soot mass lost by oxidation by OH", &EnsembleExchange::oxidisedOH},
+    {"dilution_carbon", "kg/m^3/s", "carbon lost by the expansion of the gas", &EnsembleExchange::dilutedCarbon},
+    {"resampled_carbon", "kg/m^3/s", "carbon of numerical particles that come and go, zero in the mean",
+     &EnsembleExchange::resampledCarbon}};
+
+const Quantity gasColumns[] = {{"time", "s", "time"},
+                               {"temperature", "K", "gas temperature"},
+                               {"pressure", "Pa", "pressure"},
+                               {"density", "kg/m^3", "density of the gas"}};
+
+void appendGas(const AlongCase& along, std::size_t row, std::vector<double>& rows) {
+  const GasSample& at = along.path.points[along.recorded[row]];
+  rows.insert(rows.end(), {at.time, at.gas.temperature, at.gas.pressure, at.gas.density});
+}
+
+// A mean, its error, the half widths of its intervals.
+void addColumns(const char* name, const char* unit, const char* description, std::vector<Quantity>& columns) {
+  const std::string text = name;
+  columns.push_back({text, unit, std::string(description) + ", mean of the repeats"});
+  columns.push_back({text + "_error", unit, "standard error of that mean"});
+  columns.push_back({text + "_ci95", unit, "half width of its interval of 95 %"});
+  columns.push_back({text + "_ci999", unit, "half width of its interval of 99.9 %"});
+}
+
+class Intervals {
+ public:
+  explicit Intervals(std::size_t repeats)
+      : narrow_(studentQuantile(repeats - 1, 0.95)), wide_(studentQuantile(repeats - 1, 0.999)) {}
+  void append(double mean, double error, std::vector<double>& rows) const {
+    rows.insert(rows.end(), {mean, error, narrow_ * error, wide_ * error});
+  }
+
+ private:
+  double narrow_, wide_;
+};
+
+}  // namespace
+
+AlongTable historyOf(const AlongCase& along, const PathEnsemble& ensemble) {
+  AlongTable table{{std::begin(gasColumns), std::end(gasColumns)}, {}};
+  for (const NamedValue& v : namedValues) addColumns(v.name, v.unit, v.description, table.columns);
+  const Intervals intervals(along.ensemble->repeats);
+  for (std::size_t row = 0; row < along.recorded.size(); ++row) {
+    appendGas(along, row, table.rows);
+    for (const NamedValue& v : namedValues)
+      intervals.append((ensemble.*v.value).mean[row], (ensemble.*v.value).error[row], table.rows);
+  }
+  return table;
+}
+
+AlongTable historyOf(const AlongCase& along, const ModelAlong& model) {
+  AlongTable table{{std::begin(gasColumns), std::end(gasColumns)}, {}};
+  const std::string material = along.model->material() + "_";
+  for (const auto& p : particlePropertyNames) table.columns.push_back({material + p.name, p.unit, p.description});
+  for (const auto& p : particleProcessNames) table.columns.push_back({material + p.name, p.unit, p.description});
+  for (const ParticleScalar& s : along.model->scalars())
+    table.columns.push_back({material + s.name, s.unit, s.description});
+  for (std::size_t row = 0; row < model.records.size(); ++row) {
+    const ModelRecord& record = model.records[row];
+    appendGas(along, row, table.rows);
+    for (const auto& p : particlePropertyNames) table.rows.push_back(record.properties.*p.value);
+    for (const auto& p : particleProcessNames) table.rows.push_back(record.processes.*p.value);
+    table.rows.insert(table.rows.end(), record.densities.begin(), record.densities.end());
+  }
+  return table;
+}
+
+AlongTable ratesOf(const AlongCase& along, const PathEnsemble& ensemble) {
+  AlongTable table{{{"from", "s", "begin of the interval"}, {"to", "s", "end of the interval"}}, {}};
+  for (const NamedRate& r : namedRates) addColumns(r.name, r.unit, r.description, table.columns);
+  const Intervals intervals(along.ensemble->repeats);
+  for (std::size_t i = 0; i < ensemble.exchange.size(); ++i) {
+    const double from = along.path.points[along.recorded[i]].time, to = along.path.points[along.recorded[i + 1]].time;
+    table.rows.insert(table.rows.end(), {from, to});
+    for (const NamedRate& r : namedRates)
+      intervals.append(ensemble.exchange[i].*r.value / (to - from), ensemble.exchangeError[i].*r.value / (to - from),
+                       table.rows);
+  }
+  return table;
+}
+
+void writeDistributions(ResultsWriter& results, const AlongCase& along, const PathEnsemble& ensemble) {
+  const std::vector<double> edges = along.ensemble->bins.binEdges();
+  std::vector<double> diameter;
+  for (std::size_t b = 0; b + 1 < edges.size(); ++b) diameter.push_back(std::sqrt(edges[b] * edges[b + 1]));
+  const auto bins = static_cast<std::int64_t>(diameter.size()), rows = static_cast<std::int64_t>(along.recorded.size());
+  results.dataset("/particles/bin_edges", {bins + 1}, edges, "m", "diameters between the bins");
+  results.dataset("/particles/diameter", {bins}, diameter, "m", "middles of the bins of the size distribution");
+  results.dataset("/particles/size_distribution", {rows, bins}, ensemble.distribution.mean, "1/m^3",
+                  "dN/dlog10 d of each row of the history, mean of the repeats, by mobility diameter");
+  results.dataset("/particles/size_distribution_error", {rows, bins}, ensemble.distribution.error, "1/m^3",
+                  "standard error of that mean");
+}
+
+void writeDistributions(ResultsWriter& results, const ModelAlong& model) {
+  // Rank 0 alone has records; the others' sizes do not count.
+  std::vector<double> diameter, density;
+  for (const ModelRecord& record : model.records) {
+    diameter = record.sizes.diameter;
+    density.insert(density.end(), record.sizes.density.begin(), record.sizes.density.end());
+  }
+  const auto sizes = static_cast<std::int64_t>(diameter.size()), rows = static_cast<std::int64_t>(model.records.size());
+  results.dataset("/particles/diameter", {sizes}, diameter, "m", "diameters of the size distribution");
+  results.dataset("/particles/size_distribution", {rows, sizes}, density, "1/m^3",
+                  "dN/dlog10 d of each row of the history");
+}
+
+void recordAlong(JsonWriter& json, const AlongTable& history) {
+  const std::size_t n = history.columns.size();
+  for (std::size_t c = 1; c < n; ++c)
+    json.field("final_" + history.columns[c].name, history.rows[history.rows.size() - n + c]);
+}
+
+void recordCounts(JsonWriter& json, const PathEnsemble& ensemble) {
+  json.key("counts").beginObject();
+  for (const PopulationCounter& counter : populationCounters)
+    json.field(counter.name, static_cast<std::int64_t>(ensemble.counters.*counter.value));
+  json.endObject();
+}
+
+}  // namespace lampblack::app

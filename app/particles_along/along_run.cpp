@@ -1,0 +1,145 @@
+#include "app/particles_along/along_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/deck/soot_deck.hpp"
+#include "app/particles_along/along_case.hpp"
+#include "app/particles_along/along_output.hpp"
+#include "core/errors.hpp"
+#include "core/stop_request.hpp"
+#include "io/history.hpp"
+#include "io/report.hpp"
+
+namespace lampblack::app {
+namespace {
+
+class PreparedAlong : public PreparedRun {
+ public:
+  PreparedAlong(MPI_Comm comm, const Deck& deck) : comm_(comm), deck_(deck) {
+    MPI_Comm_rank(comm, &rank_);
+    collectively(comm, [&] { case_ = readAlongCase(deck); });
+  }
+
+  [[nodiscard]] std::string summary() const override {
+    const auto& points = case_.path.points;
+    const std::string what =
+        case_.ensemble
+            ? fmt::format("{} repeats of {} particles", case_.ensemble->repeats, case_.ensemble->soot.particles)
+            : fmt::format("{} with {} scalars", deck_.choice("soot.model"), case_.model->scalars().size());
+    return fmt::format("{}, {:g} to {:g} s, {} rows", what, points.front().time, points.back().time,
+                       case_.recorded.size());
+  }
+
+  void run(const RunOptions& options) override {
+    recordedRun(comm_, deck_, options, case_.ensemble ? case_.ensemble->soot.seed : 0,
+                [&](const RunFolder& folder, const RunInfo& info, RunRecord& record) {
+                  const double begin = MPI_Wtime();
+                  try {
+                    if (case_.ensemble)
+                      runEnsemble(folder, info, record);
+                    else
+                      runModel(folder, info, record);
+                  } catch (const NumericsError&) {
+                    if (const int signal = agreedStopRequest(comm_); signal != 0)
+                      raiseStopped(comm_, signal, "before the end of the path");
+                    throw;
+                  }
+                  const double seconds = MPI_Wtime() - begin;
+                  record.stages = {{"particles", seconds, seconds, seconds}};
+                  record.simulatedTime = case_.path.points.back().time - case_.path.points.front().time;
+                  record.peakMemoryPerRank = peakMemory(comm_);
+                });
+  }
+
+ private:
+  void writeHistory(const RunFolder& folder, ResultsWriter& results, const AlongTable& table) const {
+    HistoryWriter history(comm_, folder.history(), table.columns);
+    history.row(table.rows);
+    history.writeTo(results);
+  }
+
+  void runEnsemble(const RunFolder& folder, const RunInfo& info, RunRecord& record) {
+    const EnsembleRequest& request = *case_.ensemble;
+    const PathEnsemble ensemble =
+        runPathEnsemble(comm_, case_.path, request.soot, request.repeats, request.bins, "stochastic soot");
+    ResultsWriter results(comm_, folder.results(), info);
+    const AlongTable history = historyOf(case_, ensemble), rates = ratesOf(case_, ensemble);
+    writeHistory(folder, results, history);
+    results.table("/rates", rates.columns, rates.rows);
+    writeDistributions(results, case_, ensemble);
+    results.close();
+    record.steps = static_cast<std::int64_t>(ensemble.counters.splitSteps);
+    finish(record, history, [&](JsonWriter& json) {
+      json.field("repeats", static_cast<std::int64_t>(request.repeats));
+      recordCounts(json, ensemble);
+    });
+    if (rank_ == 0)
+      fmt::print(
+          "volume fraction {:.5g} +- {:.2g}, {:.5g} +- {:.2g} particles a cubic metre, {} repeats, {} splitting "
+          "steps, {}\n",
+          ensemble.volumeFraction.mean.back(), ensemble.volumeFraction.error.back(), ensemble.number.mean.back(),
+          ensemble.number.error.back(), request.repeats, ensemble.counters.splitSteps,
+          formatDuration(ensemble.seconds));
+  }
+
+  void runModel(const RunFolder& folder, const RunInfo& info, RunRecord& record) {
+    ModelAlong model;
+    AlongTable history;
+    collectively(comm_, [&] {
+      if (rank_ == 0) model = marchModel(*case_.model, case_.path, case_.recorded);
+      if (rank_ == 0) requireRoom(model);
+    });
+    history = historyOf(case_, model);
+    ResultsWriter results(comm_, folder.results(), info);
+    writeHistory(folder, results, history);
+    int hasSizes = model.records.empty() ? 0 : static_cast<int>(!model.records[0].sizes.diameter.empty());
+    MPI_Bcast(&hasSizes, 1, MPI_INT, 0, comm_);
+    if (hasSizes != 0) writeDistributions(results, model);
+    results.close();
+    record.steps = model.steps;
+    finish(record, history, [](JsonWriter&) {});
+    if (rank_ != 0) return;
+    const ParticleProperties& last = model.records.back().properties;
+    fmt::print("volume fraction {:.5g}, {:.5g} particles a cubic metre, {} steps\n", last.volumeFraction,
+               last.numberDensity, model.steps);
+  }
+
+  void requireRoom(const ModelAlong& model) const {
+    double most = 0, atLimit = 0;
+    for (const ModelRecord& record : model.records) {
+      most = std::max(most, record.properties.volumeFraction);
+      atLimit = std::max(atLimit, case_.model->volumeFractionAtLimit(record.densities));
+    }
+    if (atLimit > case_.sootAtLimit * most)
+      throw NumericsError(
+          fmt::format("a part {:.2g} of the largest volume fraction stands in the largest particles that "
+                      "the model can have; allowed is {:.2g}. {}",
+                      atLimit / most, case_.sootAtLimit, tooFewSections));
+  }
+
+  template <class More>
+  void finish(RunRecord& record, const AlongTable& history, const More& more) const {
+    if (rank_ != 0) return;
+    JsonWriter json;
+    json.beginObject();
+    more(json);
+    recordAlong(json, history);
+    json.endObject();
+    record.resultsJson = json.text();
+  }
+
+  MPI_Comm comm_;
+  const Deck& deck_;
+  int rank_ = 0;
+  AlongCase case_;
+};
+
+}  // namespace
+
+std::unique_ptr<PreparedRun> prepareAlong(MPI_Comm comm, const Deck& deck) {
+  return std::make_unique<PreparedAlong>(comm, deck);
+}
+
+}  // namespace lampblack::app

@@ -1,0 +1,17 @@
+// Runs of a deck with `problem: particles_along`.
+#pragma once
+
+#include <mpi.h>
+
+#include <memory>
+
+#include "app/run/prepared_run.hpp"
+#include "core/rooms.hpp"
+#include "io/deck.hpp"
+
+namespace lampblack::app {
+
+// Collective; see Problem. Repeats of an ensemble are spread over the ranks; a model runs on the first.
+std::unique_ptr<PreparedRun> prepareAlong(MPI_Comm comm, const Deck& deck);
+
+}  // namespace lampblack::app

@@ -1,0 +1,54 @@
+#include "app/deck/soot_deck.hpp"
+#include "app/particles_along/along_case.hpp"
+#include "app/tools/gas_input.hpp"
+
+namespace lampblack::app {
+
+DeckSchema alongSchema() {
+  DeckSchema schema;
+  schema.add(choiceKey("problem", {"particles_along"}, "What is solved."))
+      .add(stringKey("title", "One line for reports and pictures.").byDefault("''"));
+  addMechanismKeys(schema);
+  schema.section("gas", Presence::required, "The gas that the particles meet on their way. Either 'file' or 'flame'.")
+      .add(stringKey("gas.file",
+                     "CSV file with columns time, temperature, pressure and X_<species> (mole fractions), units in "
+                     "brackets, as \"time [ms]\", or in SI; the particles move with the gas. Relative to the deck.")
+               .optional())
+      .add(stringKey(
+               "gas.flame",
+               "Results file (results.h5) of a run with problem: flame1d and the same mechanism; the particles move "
+               "with the gas and by thermophoresis, on the axis of the flame. Relative to the deck.")
+               .optional())
+      .add(choiceKey("gas.side", {"left", "right"}, "The end of the flame that the particles come from.")
+               .byDefault("left"))
+      .add(quantityKey("gas.start", units::length,
+                       "Position of the flame's grid from which on the particles are followed; absent: its end.")
+               .optional()
+               .atLeast(0))
+      .add(quantityKey("gas.slowest", units::velocity,
+                       "Speed of the particles below which a path through a flame ends, near the stagnation plane.")
+               .byDefault("1 mm/s")
+               .above(0))
+      .add(quantityKey("gas.end", units::time, "Time at which the run ends; absent: the last of the gas.").optional())
+      .add(choiceKey("gas.exchange", {"one_way", "two_way"},
+                     "one_way: the gas is as given, whatever particles take from it; two_way is not there yet.")
+               .byDefault("one_way"))
+      .add(choiceKey(
+               "gas.viscosity", {"transport", "air"},
+               "Viscosity of the gas. transport: from the mechanism's transport data; air: Sutherland's law of air.")
+               .byDefault("transport"));
+  addSootModelKeys(schema);
+  addEnsembleKeys(
+      schema,
+      "Ensembles of soot particles in place of soot.model, by repeats of independent random numbers; needs the "
+      "section soot, whose PAH, surface and switches are theirs.");
+  addRepeatKeys(schema);
+  schema.section("output", Presence::defaulted, "Rows of the history.")
+      .add(quantityKey("output.interval", units::time, "Time between rows; absent: a hundredth of the run.")
+               .optional()
+               .above(0))
+      .add(quantityKey("output.times", units::time, "Times with rows besides.").list().optional());
+  return schema;
+}
+
+}  // namespace lampblack::app

@@ -1,0 +1,28 @@
+// A column of numbers in a table of texts: its name, its unit, its fields in SI.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+
+#include "core/rooms.hpp"
+#include "io/units.hpp"
+
+namespace lampblack::io {
+
+// "velocity [cm/s]": the name and the unit, which is empty where there is none.
+[[nodiscard]] std::pair<std::string, std::string> nameAndUnit(const std::string& header);
+
+class TableColumn {
+ public:
+  // InputError where the unit is not of the dimension; without a unit the column is in SI.
+  TableColumn(std::string name, const std::string& unit, const units::Dimension& dimension);
+  // InputError, with the line, for what is not a finite number.
+  [[nodiscard]] double read(const std::string& field, std::size_t line) const;
+
+ private:
+  std::string name_;
+  units::Unit unit_;
+};
+
+}  // namespace lampblack::io

@@ -1,0 +1,97 @@
+// A table of a gas over time: which columns count, in which units, and what is no such table.
+#include "app/particles_along/gas_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include "app/particles_along/along_case.hpp"
+#include "core/errors.hpp"
+#include "core/rooms.hpp"
+#include "tests/app/app_fixture.hpp"
+#include "tests/messages.hpp"
+#include "tests/scratch.hpp"
+
+namespace lampblack::app {
+namespace {
+
+using testing::HasSubstr;
+
+const Mechanism& hydrogen() {
+  static const Mechanism mechanism = Mechanism::fromFile(test::sourcePath("cases/mechanisms/hydrogen_h2o2_10.yaml"));
+  return mechanism;
+}
+
+GasHistory historyOf(const std::string& text) {
+  const test::ScratchFolder folder;
+  return readGasTable(folder.file("gas.csv", text), hydrogen());
+}
+
+std::string refusalOf(const std::string& text) {
+  try {
+    static_cast<void>(historyOf(text));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(GasTable, ColumnsMayStandInAnyOrderAndUnit) {
+  const GasHistory gas = historyOf(
+      "X_O2 [1],p [kPa],place,time [ms],\"X_H2\",temperature [degC],X_XENON\n"
+      "0.25,100,here,1,0.75,26.85,0.5\n0.5,50,there,3,0.5,126.85,0\n");
+  ASSERT_EQ(gas.time.size(), 2u);
+  EXPECT_NEAR(gas.time[1], 3e-3, 1e-18);
+  EXPECT_NEAR(gas.temperature[0], 300, 1e-9);
+  EXPECT_NEAR(gas.temperature[1], 400, 1e-9);
+  EXPECT_NEAR(gas.pressure[1], 5e4, 1e-9);
+  const std::size_t n = hydrogen().numSpecies();
+  ASSERT_EQ(gas.fractions.size(), 2 * n);
+  double sum = 0;
+  for (const double x : gas.fractions) sum += x;
+  EXPECT_EQ(gas.fractions[hydrogen().speciesIndex("H2")], 0.75);
+  EXPECT_EQ(gas.fractions[n + hydrogen().speciesIndex("O2")], 0.5);
+  EXPECT_EQ(sum, 2);  // none else
+}
+
+TEST(GasTable, SaysWhatIsMissingOrWrong) {
+  EXPECT_THAT(refusalOf("T,p,X_H2\n300,1e5,1\n"), HasSubstr("expected a column 'time' or 't'"));
+  EXPECT_THAT(refusalOf("t,p,X_H2\n0,1e5,1\n"),
+              HasSubstr("expected a column 'temperature' or 'T', as \"temperature [K]\""));
+  EXPECT_THAT(refusalOf("t,T,X_H2\n0,300,1\n"), HasSubstr("as \"pressure [Pa]\""));
+  EXPECT_THAT(refusalOf("t,T,p,H2\n0,300,1e5,1\n"), HasSubstr("expected columns of mole fractions"));
+  EXPECT_THAT(refusalOf("t,T,p,X_KRYPTON\n0,300,1e5,1\n"), HasSubstr("expected columns of mole fractions"));
+  EXPECT_THAT(refusalOf("t [m],T,p,X_H2\n0,300,1e5,1\n"), HasSubstr("'t' is in m"));
+  EXPECT_THAT(refusalOf("t,T,p,X_H2\n0,300,1e5,much\n"), HasSubstr("line 2: expected a finite number as 'X_H2'"));
+  EXPECT_THAT(refusalOf("t,T,p,X_H2\n0,300,1e5\n"), HasSubstr("gas.csv"));
+  EXPECT_THAT(refusalOf("t,time,T,p,X_H2\n0,0,300,1e5,1\n"), HasSubstr("two columns are the time"));
+  EXPECT_THAT(refusalOf("t,T,p,X_H2,X_H2\n0,300,1e5,1,1\n"), HasSubstr("two columns are called 'X_H2'"));
+  EXPECT_THAT(refusalOf("t,T,p,X_H2\n"), HasSubstr("no rows"));
+}
+
+// The shipped case, and rows where the deck wants them.
+TEST(AlongCase, TheShippedDeckHasItsRows) {
+  const auto deck = Deck::load(test::sourceFolder / "cases/particles_along/premixed_ethylene_abf/deck.yaml",
+                               {"output.interval=10 ms", "output.times=[4 ms, 20 ms]", "gas.end=25 ms"}, alongSchema());
+  const AlongCase along = readAlongCase(deck);
+  std::vector<double> times;
+  for (const std::size_t point : along.recorded) times.push_back(along.path.points[point].time);
+  ASSERT_EQ(times.size(), 5u);
+  const double expected[] = {0, 4e-3, 10e-3, 20e-3, 25e-3};
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(times[i], expected[i], 1e-15);
+  EXPECT_EQ(along.recorded.back() + 1, along.path.points.size());
+  ASSERT_TRUE(along.ensemble);
+  const SootModelOptions& soot = along.ensemble->soot.soot;
+  EXPECT_EQ(soot.inceptionBy, InceptionBy::monomers);
+  EXPECT_NEAR(soot.monomerMass, 3.2e-25, 1e-39);
+  EXPECT_NEAR(soot.monomerDiameter, 7.11e-10, 1e-22);
+  EXPECT_TRUE(soot.heavyParticles);
+  EXPECT_EQ(soot.slip, SlipLaw::air);
+  EXPECT_NEAR(soot.siteDensity, 2.3e19, 1e6);
+  ASSERT_TRUE(soot.surface.closeByO2);
+  EXPECT_EQ(soot.surface.closeByO2->A, 2.1e12);
+  EXPECT_EQ(soot.surface.closeByO2->E, 7.47);
+  EXPECT_EQ(soot.surface.oxidation.A, 2.2e12);
+  EXPECT_TRUE(soot.surface.bounded);
+}
+
+}  // namespace
+}  // namespace lampblack::app

@@ -1,0 +1,175 @@
+"""Particles along a given gas: the shortened case on any number of ranks, what its files say, models beside ensembles, the
+path through a flame; and what is refused.
+
+Usage: particles_along_test.py EXECUTABLE RANKS MPIEXEC...
+"""
+
+import csv
+import pathlib
+import shutil
+import sys
+import tempfile
+
+import running
+
+h5py, np = running.package("h5py"), running.package("numpy")
+
+CASE = running.SOURCE / "cases/particles_along/premixed_ethylene_abf"
+MECHANISM = running.SOURCE / "cases/mechanisms/ethylene_abf2000_101.yaml"
+SHORT = ("stochastic.particles=256", "stochastic.repeats=3", "gas.end=8 ms", "output.interval=2 ms", "output.times=[5 ms]",
+         "stochastic.split_tolerance=0.05", "stochastic.smallest=0.5 nm")
+GAS = ("time [s],temperature [K],pressure [Pa],X_AR,X_A4,X_H\n0,1700,1e5,0.999,1e-6,1e-4\n0.01,1700,1e5,0.999,1e-6,1e-4\n")
+MODEL = """problem: particles_along
+mechanism: {mechanism}
+gas: {{file: gas.csv}}
+soot: {{model: {model}, pah: [A4]}}
+output: {{interval: 5 ms}}
+"""
+
+# Rows of the gas, keys, and words of the message.
+WRONG_GAS = (("0,1700,1e5,0.999,1e-6,1e-4\n0,1700,1e5,0.999,1e-6,1e-4\n", "the times have to rise"),
+             ("0,1700,1e5,0.999,1e-6,1e-4\n0.01,-3,1e5,0.999,1e-6,1e-4\n", "above 0 K"),
+             ("0,1700,0,0.999,1e-6,1e-4\n0.01,1700,1e5,0.999,1e-6,1e-4\n", "above 0 Pa"),
+             ("0,1700,1e5,0.5,1e-6,1e-4\n0.01,1700,1e5,0.999,1e-6,1e-4\n", "add up to 0.5001"),
+             ("0,1700,1e5,0.999,-1e-3,1e-4\n0.01,1700,1e5,0.999,1e-6,1e-4\n", "mole fraction of A4"),
+             ("0,1700,1e5,0.999,nan,1e-4\n0.01,1700,1e5,0.999,1e-6,1e-4\n", "line 2"))
+WRONG = (("gas.exchange=two_way", "gas.exchange", "not there yet"),
+         ("gas.file=nowhere.csv", "gas.file", "nowhere.csv"),
+         ("gas.flame=gas.csv", "gas", "either 'file'"),
+         ("gas.side=right", "gas.side", "leave it out"),
+         ("gas.end=1 s", "gas.end", "as far as the gas is known"),
+         ("output.times=[30 ms]", "output.times", "outside the run"),
+         ("soot.model=hmom", "soot.model", "takes the place"),
+         ("soot.pah=[A2, A4]", "soot.pah", "one PAH"),
+         ("soot.surface.growth=[1, 2]", "soot.surface.growth", "3"),
+         ("soot.surface.growth=[-1, 2, 3]", "soot.surface.growth", "zero or more"),
+         ("stochastic.growth=never", "stochastic.growth", "events"),
+         ("soot.inception_by=dimers", "soot.monomer_mass", "monomers"))
+
+
+def check_ensembles(program, folder: pathlib.Path) -> None:
+    out = folder / f"out_{program.ranks}"
+    result = program("run", CASE / "deck.yaml", "--out", out, *running.settings(*SHORT), timeout=300)
+    assert result.code == 0, result.err
+    with open(out / "history.csv", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    times = [float(row["time [s]"]) for row in rows]
+    assert np.allclose(times, [0, 2e-3, 4e-3, 5e-3, 6e-3, 8e-3], rtol=1e-12), times
+    with h5py.File(out / "results.h5", "r") as file:
+        history = {name: values[()] for name, values in file["history"].items()}
+        rates = {name: values[()] for name, values in file["rates"].items()}
+        edges, sizes = file["particles/bin_edges"][()], file["particles/size_distribution"][()]
+    number = history["soot_number_density"]
+    assert number[0] == 0 and number[-1] > 1e17, number
+    # Sizes add up to the number; nuclei, the smallest, are 0.878 nm large.
+    widths = np.diff(np.log10(edges))
+    assert np.allclose(sizes @ widths, number, rtol=1e-10)
+    assert np.all(sizes[:, edges[1:] < 0.87e-9] == 0)
+    # Student's t of three repeats: 4.303 and 31.60.
+    error = history["soot_mass_error"][-1]
+    assert error > 0
+    assert abs(history["soot_mass_ci95"][-1] / error / 4.3027 - 1) < 1e-4
+    assert abs(history["soot_mass_ci999"][-1] / error / 31.599 - 1) < 1e-4
+    # Mass: what processes gave and took over each interval is what became of it.
+    gained = sum((rates["to"] - rates["from"]) * sign * rates[name] for name, sign in (
+        ("nucleation", 1), ("condensation", 1), ("growth", 1), ("oxidation_O2", -1), ("oxidation_OH", -1),
+        ("dilution_carbon", -1), ("resampled_carbon", 1)))
+    assert np.allclose(np.cumsum(gained), history["soot_mass"][1:], rtol=1e-9), (gained, history["soot_mass"])
+    assert np.all(rates["nucleation"][2:] > 0) and np.all(rates["oxidation_OH"][2:] > 0)
+    assert history["coagulation_events"][-1] > 100
+
+
+def check_rank_independence(folder: pathlib.Path, executable: str, mpiexec: list) -> None:
+    """The same to the last bit on one rank."""
+    check_ensembles(running.Program(executable, mpiexec, 1), folder)
+    one, two = ((folder / f"out_{ranks}/history.csv").read_bytes() for ranks in (1, 2))
+    assert one == two, "the history depends on the number of ranks"
+
+
+def check_models(program, folder: pathlib.Path) -> None:
+    (folder / "gas.csv").write_text(GAS, encoding="utf-8")
+    for model in ("sectional", "hmom", "two_equation_dimer", "leung"):
+        deck = folder / f"{model}.yaml"
+        deck.write_text(MODEL.format(mechanism=MECHANISM, model=model), encoding="utf-8")
+        result = program("run", deck, "--out", folder / f"{model}_{program.ranks}", timeout=120)
+        assert result.code == 0, f"{model}: {result.err}"
+        with h5py.File(folder / f"{model}_{program.ranks}/results.h5", "r") as file:
+            number = file["history/soot_number_density"][()]
+            assert ("particles" in file) == (model == "sectional")
+        assert number.shape == (3,) and number[0] == 0, number
+        assert (number[-1] > 0) == (model != "leung"), f"{model}: {number}"  # which needs acetylene
+
+
+def check_flame(program, folder: pathlib.Path) -> None:
+    """The path through a burner flame of twenty points: rows in the order of its time, gas as hot as the flame."""
+    flame = folder / "flame.yaml"
+    flame.write_text(f"""problem: flame1d
+mechanism: {MECHANISM.parent}/ethylene_bisetti2012_47.yaml
+flame: {{type: burner, energy: given, length: 6 mm}}
+inlet: {{temperature: 300 K, composition: "C2H4: 0.16, O2: 0.24, N2: 0.6", velocity: 6 cm/s}}
+temperature_profile: {{position: [0 mm, 1 mm, 2 mm, 6 mm], temperature: [300 K, 1500 K, 1700 K, 1600 K]}}
+grid: {{refine: false, initial_points: 20}}
+solver: {{species_tolerance: 1e-8}}
+""", encoding="utf-8")
+    one = running.Program(program.command[-1], [], 1)
+    result = one("run", flame, "--out", folder / "flame", timeout=200)
+    assert result.code == 0, result.err
+    deck = folder / "along.yaml"
+    deck.write_text(f"""problem: particles_along
+mechanism: {MECHANISM.parent}/ethylene_bisetti2012_47.yaml
+gas: {{flame: flame/results.h5}}
+soot: {{model: none, pah: [A2]}}
+stochastic: {{particles: 100, repeats: 2}}
+""", encoding="utf-8")
+    result = program("run", deck, "--out", folder / "along", timeout=200)
+    assert result.code == 0, result.err
+    with h5py.File(folder / "along/results.h5", "r") as file:
+        temperature, number = file["history/temperature"][()], file["history/soot_number_density"][()]
+    assert abs(temperature[0] - 300) < 1 and 1650 < temperature.max() < 1701, temperature
+    assert number[-1] > 0 and len(number) == 101
+    wrong = program("run", deck, "--out", folder / "wrong_flame", *running.settings(f"mechanism={MECHANISM}", "soot.pah=[A4]"))
+    assert wrong.code == 2 and "other species" in wrong.err, wrong.err
+
+
+def check_refusals(program, folder: pathlib.Path) -> list:
+    problems = []
+
+    def refused(result, words, what):
+        if result.code != 2 or result.err.count("lampblack: error") != 1 or any(word not in result.err for word in words):
+            problems.append(f"{what}: exit code {result.code}, expected {words} in\n{result.err}")
+
+    head = GAS.split("\n", maxsplit=1)[0] + "\n"
+    (folder / "bad").mkdir()
+    for i, (rows, words) in enumerate(WRONG_GAS):
+        (folder / f"bad/gas_{i}.csv").write_text(head + rows, encoding="utf-8")
+        result = program("run", CASE / "deck.yaml", "--out", folder / "never", *running.settings(
+            *SHORT, f"gas.file={folder}/bad/gas_{i}.csv"))
+        refused(result, (words, f"gas_{i}.csv"), rows)
+    for setting, key, words in WRONG:
+        result = program("run", CASE / "deck.yaml", "--out", folder / "never", *running.settings(*SHORT, setting))
+        refused(result, (key, words), setting)
+    deck = folder / "hmom_of_monomers.yaml"
+    deck.write_text(MODEL.format(mechanism=MECHANISM, model="hmom").replace("pah: [A4]", "pah: [A4], inception_by: monomers"),
+                    encoding="utf-8")
+    refused(program("run", deck, "--out", folder / "never"), ("soot.inception_by", "only ensembles"), "hmom of monomers")
+    if (folder / "never").exists():
+        problems.append("a refused run left a folder")
+    return problems
+
+
+def main(executable: str, ranks: str, *mpiexec: str) -> int:
+    program = running.Program(executable, list(mpiexec), int(ranks))
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        check_ensembles(program, folder)
+        if program.ranks > 1:
+            check_rank_independence(folder, executable, list(mpiexec))
+        check_models(program, folder)
+        check_flame(program, folder)
+        problems = check_refusals(program, folder)
+        shutil.rmtree(folder / "flame")
+    print("\n".join(problems))
+    return 1 if problems else 0
+
+
+sys.exit(main(*sys.argv[1:]))

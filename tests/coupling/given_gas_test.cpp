@@ -1,0 +1,138 @@
+// A given gas as particles meet it: concentrations, and what its expansion does to their number; any model in it.
+#include "coupling/given_gas.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "chemistry/mechanism/mechanism.hpp"
+#include "core/constants.hpp"
+#include "core/errors.hpp"
+#include "core/rooms.hpp"
+#include "coupling/model_along.hpp"
+#include "coupling/path_ensemble.hpp"
+#include "particles/models/two_equation/dimer_soot.hpp"
+#include "tests/particles/soot_fixtures.hpp"
+#include "tests/source_folder.hpp"
+
+namespace lampblack::coupling {
+namespace {
+
+const Mechanism& ethylene() {
+  static const Mechanism mechanism =
+      Mechanism::fromFile(test::sourcePath("cases/mechanisms/ethylene_abf2000_101.yaml"));
+  return mechanism;
+}
+
+// Two gases that differ in temperature, pressure and weight, as rows.
+GasHistory twoRows() {
+  const Mechanism& m = ethylene();
+  GasHistory history{{1e-3, 3e-3}, {400, 1600}, {2e5, 1e5}, std::vector<double>(2 * m.numSpecies(), 0.0)};
+  const auto X = [&](std::size_t row, const char* name) -> double& {
+    return history.fractions[row * m.numSpecies() + m.speciesIndex(name)];
+  };
+  X(0, "AR") = 0.9;
+  X(0, "H2") = 0.1;
+  X(1, "H2") = 0.6;
+  X(1, "AR") = 0.3;
+  X(1, "A4") = 0.1;
+  return history;
+}
+
+const std::vector<std::string> seen{"H2", "A4", "no such species"};
+
+TEST(GivenPath, ConcentrationsAndDensityAreThoseOfAnIdealGas) {
+  const ParticlePath path = givenPath(ethylene(), twoRows(), seen, GasViscosity::air);
+  const GasSample &first = path.points.front(), &last = path.points.back();
+  const double R = constants::gasConstant, c0 = 2e5 / (R * 400), c1 = 1e5 / (R * 1600);
+  EXPECT_NEAR(first.concentrations[0] / (0.1 * c0), 1, 1e-14);
+  EXPECT_EQ(first.concentrations[1], 0);
+  EXPECT_NEAR(last.concentrations[0] / (0.6 * c1), 1, 1e-14);
+  EXPECT_NEAR(last.concentrations[1] / (0.1 * c1), 1, 1e-14);
+  EXPECT_EQ(last.concentrations[2], 0);
+  // Weights of argon, hydrogen and pyrene, g/mol.
+  EXPECT_NEAR(first.gas.density / (1e-3 * c0 * (0.9 * 39.95 + 0.1 * 2.016)), 1, 1e-4);
+  EXPECT_NEAR(last.gas.density / (1e-3 * c1 * (0.6 * 2.016 + 0.3 * 39.95 + 0.1 * 202.256)), 1, 1e-4);
+  EXPECT_NEAR(last.gas.viscosity / (1.458e-6 * std::pow(1600, 1.5) / (1600 + 110.4)), 1, 1e-14);
+  EXPECT_EQ(first.time, 1e-3);
+  EXPECT_EQ(last.time, 3e-3);
+}
+
+TEST(GivenPath, FractionsAreDividedByTheirSum) {
+  GasHistory history = twoRows();
+  for (double& x : history.fractions) x *= 1.01;
+  const ParticlePath scaled = givenPath(ethylene(), history, seen, GasViscosity::air);
+  const ParticlePath plain = givenPath(ethylene(), twoRows(), seen, GasViscosity::air);
+  EXPECT_NEAR(scaled.points.back().concentrations[0] / plain.points.back().concentrations[0], 1, 1e-14);
+}
+
+// Without collisions and chemistry the number goes with the mass of gas in a volume, whatever changes that, and
+// whatever the points are: the particles per kg of gas stay to round-off.
+TEST(GivenPath, InertParticlesStayAsManyPerMassOfGas) {
+  ParticlePath path = givenPath(ethylene(), twoRows(), sootSpecies(test::jumpsOnly(false, false)), GasViscosity::air);
+  const std::vector<double> times{1e-3, 1.3e-3, 2e-3, 2.0001e-3, 3e-3};
+  const std::vector<std::size_t> at = putPointsAt(path, times);
+  for (const EnsembleMethod method : {EnsembleMethod::dsmc, EnsembleMethod::sammc}) {
+    EnsembleOptions options;
+    options.method = method;
+    options.particles = 32;
+    options.soot = test::jumpsOnly(false, false);
+    const auto soot = makeEnsemble(options);
+    soot->initialise(test::equalSpheres(20, 1e-21, 0, 1e15));
+    EnsemblePathOptions march;
+    march.recorded = at;
+    const EnsemblePathResult result = marchPath(*soot, path, march);
+    ASSERT_EQ(result.records.size(), times.size());
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      EXPECT_EQ(path.points[at[i]].time, times[i]);
+      const double expected = 1e15 * path.points[at[i]].gas.density / path.points[0].gas.density;
+      EXPECT_NEAR(result.records[i].totals.number / expected, 1, i == 0 || i == 4 ? 1e-12 : 1e-4) << i;
+    }
+    EXPECT_LT(result.records.back().totals.number, 0.5e15);  // the gas has grown by more than that
+  }
+}
+
+TEST(GivenPath, SaysWhatCannotBeAGas) {
+  const auto refuses = [](auto spoil) {
+    GasHistory history = twoRows();
+    spoil(history);
+    EXPECT_THROW(static_cast<void>(givenPath(ethylene(), history, seen, GasViscosity::air)), InputError);
+  };
+  refuses([](GasHistory& h) { h.time[1] = h.time[0]; });
+  refuses([](GasHistory& h) { h.time[1] = 0; });
+  refuses([](GasHistory& h) { h.temperature[1] = -5; });
+  refuses([](GasHistory& h) { h.pressure[0] = 0; });
+  refuses([](GasHistory& h) { h.fractions[0] = -0.1; });
+  refuses([](GasHistory& h) { h.fractions[0] += 0.05; });
+  refuses([](GasHistory& h) { h = {}; });
+  ParticlePath path = givenPath(ethylene(), twoRows(), seen, GasViscosity::air);
+  const std::vector<double> late{4e-3};
+  EXPECT_THROW(static_cast<void>(putPointsAt(path, late)), InputError);
+}
+
+// A model in a gas that does not change forgets nothing and takes nothing: twice the time in one piece or in two. And
+// what nucleates goes with inception at the concentration that the gas keeps.
+TEST(ModelAlong, TheGasIsNotUsedUp) {
+  const SootModelOptions soot = test::naphthalene();
+  SootModelOptions options = soot;
+  options.coagulation = options.condensation = options.surfaceGrowth = options.oxidation = false;
+  const DimerSoot model(options);
+  const test::FlameGas gas(1600, 1e-4, 0.03, 1e-5, 0.08, 1e-5, 0.03, {1e-4});
+  ParticlePath path;
+  for (const double t : {0.0, 0.01, 0.02}) path.points.push_back({t, gas.state, gas.concentrations});
+  path.divergence.assign(2, {0, 0});
+  const std::vector<std::size_t> recorded{0, 1, 2};
+  const ModelAlong result = marchModel(model, path, recorded);
+  ASSERT_EQ(result.records.size(), 3u);
+  const double rate = result.records[0].processes.nucleationNumber;
+  ASSERT_GT(rate, 0);
+  EXPECT_NEAR(result.records[1].properties.numberDensity / (0.01 * rate), 1, 1e-3);
+  EXPECT_NEAR(result.records[2].properties.numberDensity / (0.02 * rate), 1, 1e-3);
+  // And expansion at 50 1/s: N' = J - 50 N.
+  path.divergence.assign(2, {50, 50});
+  const ModelAlong diluted = marchModel(model, path, recorded);
+  EXPECT_NEAR(diluted.records[2].properties.numberDensity / (rate * (1 - std::exp(-1.0)) / 50), 1, 0.05);
+}
+
+}  // namespace
+}  // namespace lampblack::coupling
