@@ -53,11 +53,11 @@ double travel(const FlamePathPoint& a, const FlamePathPoint& b) {
 FlameSootGas flameSootGas(const FlameProfile& profile, const Mechanism& mechanism, double pressure,
                           const SootModelOptions& soot, double thermophoresis) {
   for (const PahSpecies& pah : soot.pah) static_cast<void>(mechanism.speciesIndex(pah.name));
-  return flameSootGas(profile, mechanism, pressure, sootSpecies(soot), thermophoresis);
+  return flameGasOf(sootSpecies(soot), profile, mechanism, pressure, thermophoresis);
 }
 
-FlameSootGas flameSootGas(const FlameProfile& profile, const Mechanism& mechanism, double pressure,
-                          std::span<const std::string> names, double thermophoresis) {
+FlameSootGas flameGasOf(std::span<const std::string> names, const FlameProfile& profile, const Mechanism& mechanism,
+                        double pressure, double thermophoresis) {
   const std::size_t n = mechanism.numSpecies(), points = profile.points();
   FlameSootGas gas;
   gas.z = profile.z;

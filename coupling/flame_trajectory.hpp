@@ -37,8 +37,8 @@ struct FlameSootGas {
 [[nodiscard]] FlameSootGas flameSootGas(const FlameProfile& profile, const Mechanism& mechanism, double pressure,
                                         const SootModelOptions& soot, double thermophoresis);
 // The same of other species, none of which the mechanism needs to have.
-[[nodiscard]] FlameSootGas flameSootGas(const FlameProfile& profile, const Mechanism& mechanism, double pressure,
-                                        std::span<const std::string> names, double thermophoresis);
+[[nodiscard]] FlameSootGas flameGasOf(std::span<const std::string> names, const FlameProfile& profile,
+                                      const Mechanism& mechanism, double pressure, double thermophoresis);
 
 struct FlamePathOptions {
   bool fromRight = false;       // from the right end towards smaller z

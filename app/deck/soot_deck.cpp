@@ -67,7 +67,7 @@ void addInception(DeckSchema& schema) {
       .add(booleanKey(
                "soot.heavy_particles",
                "true: dimers or monomers meet particles of ensembles as if these were at rest, the limit of heavy "
-               "ones (Celnik, Patterson, Kraft, Wagner 2007); false: by the reduced mass.")
+               "ones, as the program MOpS does; false: by the reduced mass.")
                .byDefault("false"))
       .add(choiceKey(
                "soot.slip", {"davies", "air"},

@@ -32,7 +32,7 @@ ParticlePath throughFlame(const Deck& deck, const Mechanism& mechanism, const st
   options.start = deck.optionalQuantity("gas.start");
   options.slowest = deck.quantity("gas.slowest");
   ParticlePath path =
-      flamePath(flameSootGas(flame.profile, mechanism, pressure, species, waldmannThermophoresis()), options).path;
+      flamePath(flameGasOf(species, flame.profile, mechanism, pressure, waldmannThermophoresis()), options).path;
   if (path.points.empty())
     throw InputError(fmt::format("{}: particles do not move into the flame from its {} end", file.string(),
                                  deck.choice("gas.side")));

@@ -156,6 +156,12 @@ double StochasticProcess<Method>::step(const SootMedium& medium, const Sums& s, 
     const double gain = (flux.growth + flux.O2 + flux.OH) * constants::pi * d * d +
                         (medium.condensing() ? medium.collision(nucleus) * dimers * medium.dimer().mass : 0);
     const CollisionKernel::Properties one{mass / options_.soot.sootDensity, mass, d};
+    // One event of oxidation ends a nucleus.
+    if (options_.growthByEvents) {
+      const double lost = medium.alpha(dimers_.smallestNucleus()) * flux.O2 / 2 + flux.OH;
+      // Births and ends in turn, at x = rate times step, leave a part x^2/12 too many of what is born and ends.
+      fastest = std::max(fastest, lost * constants::pi * d * d / medium.carbonAtom() / 3);
+    }
     longest = newbornStep(options_.splitTolerance, medium.inception(s.collisions), s.number, gain / (3 * mass),
                           kernel_ ? kernel_->value(one, one) : 0);
   }

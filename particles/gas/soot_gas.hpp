@@ -91,8 +91,8 @@ struct SootModelOptions {
   InceptionBy inceptionBy = InceptionBy::dimers;
   // Of a monomer as it collides: kg, m; zero: that of its atoms, and of the sphere of soot density.
   double monomerMass = 0, monomerDiameter = 0;
-  // Dimers or monomers collide with particles as if these were at rest, 1/m in place of 1/m + 1/M (Celnik, Patterson,
-  // Kraft, Wagner 2007).
+  // Dimers or monomers collide with particles as if these were at rest, 1/m in place of 1/m + 1/M, as the program MOpS
+  // has it.
   bool heavyParticles = false;
   SlipLaw slip = SlipLaw::davies;  // of collisions of particles, and of monomers with each other
   bool coagulation = true;

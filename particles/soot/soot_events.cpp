@@ -8,8 +8,19 @@ namespace lampblack::particles {
 namespace {
 
 constexpr std::size_t particlesAtATime = 128;
-constexpr std::size_t kinds = 4;  // dimers, growth, oxidation by O2, by OH
-using Expected = std::array<std::array<double, particlesAtATime>, kinds>;
+using Expected = std::array<double, 4>;  // numbers of events: dimers, growth, oxidation by O2, by OH
+
+// A step that is too long for a particle says what happens in its beginning.
+[[gnu::always_inline]] inline Expected expected(const SootGrowth& law, double carbon, double hydrogen, double primaries,
+                                                double shape, double d, double dt, double perAtom) {
+  const SootGrowth::Step s = law.step(carbon, hydrogen, primaries, shape, d, dt);
+  const double longer = dt / s.length, each = longer * perAtom;
+  return {longer * s.dimers, 0.5 * each * s.growth, 0.5 * each * s.oxidationO2, each * s.oxidationOH};
+}
+
+[[gnu::always_inline]] inline double sumOf(const Expected& e) {
+  return e[0] + e[1] + e[2] + e[3];
+}
 
 // Of one particle: its events, one after the other.
 class Events {
@@ -54,27 +65,23 @@ class Events {
 SootMoved growAllByEvents(SootColumns& all, const SootAggregate& type, const SootMedium& medium,
                           const SootFluxes& fluxes, double dt, RandomStream& random) {
   const SootGrowth law = medium.growth(fluxes);
-  const double atom = medium.carbonAtom(), least = law.leastCarbon(), perVolume = type.perVolume();
+  const double atom = medium.carbonAtom(), least = law.leastCarbon(), perVolume = type.perVolume(), perAtom = 1 / atom;
   SootMoved sum;
-  Expected expected;
-  std::array<double, particlesAtATime> total, d, shape;
+  double total[particlesAtATime], d[particlesAtATime], shape[particlesAtATime];
   double next = random.exponential(1);  // how far it is to the next event
   for (std::size_t first = 0; first < all.size(); first += particlesAtATime) {
     const std::size_t n = std::min(particlesAtATime, all.size() - first);
     const double *c = &all.carbon[first], *h = &all.hydrogen[first], *primaries = &all.primaries[first];
-    for (std::size_t i = 0; i < n; ++i) d[i] = normalCubeRoot(perVolume * (c[i] + h[i]) / primaries[i]);
-    if (type.coalescing())
-      for (std::size_t i = 0; i < n; ++i) shape[i] = 1;
-    else
-      for (std::size_t i = 0; i < n; ++i) shape[i] = SootAggregate::collisionFactor(primaries[i]);
-    for (std::size_t i = 0; i < n; ++i) {
-      const SootGrowth::Step s = law.step(c[i], h[i], primaries[i], shape[i], d[i], dt);
-      const double longer = dt / s.length;  // of a particle that such a step takes apart
-      expected[0][i] = longer * s.dimers;
-      expected[1][i] = longer * s.growth / (2 * atom);
-      expected[2][i] = longer * s.oxidationO2 / (2 * atom);
-      expected[3][i] = longer * s.oxidationOH / atom;
-      total[i] = expected[0][i] + expected[1][i] + expected[2][i] + expected[3][i];
+    if (type.coalescing()) {
+      const double* diameter = &all.diameter[first];
+      for (std::size_t i = 0; i < n; ++i) total[i] = sumOf(expected(law, c[i], h[i], 1, 1, diameter[i], dt, perAtom));
+    } else {
+      for (std::size_t i = 0; i < n; ++i) {
+        d[i] = normalCubeRoot(perVolume * (c[i] + h[i]) / primaries[i]);
+        shape[i] = SootAggregate::collisionFactor(primaries[i]);
+      }
+      for (std::size_t i = 0; i < n; ++i)
+        total[i] = sumOf(expected(law, c[i], h[i], primaries[i], shape[i], d[i], dt, perAtom));
     }
     for (std::size_t i = 0; i < n; ++i) {
       if (total[i] <= next) {
@@ -82,6 +89,9 @@ SootMoved growAllByEvents(SootColumns& all, const SootAggregate& type, const Soo
         continue;
       }
       const std::size_t k = first + i;
+      const double factor = type.coalescing() ? 1 : shape[i];
+      const Expected kinds =
+          expected(law, c[i], h[i], primaries[i], factor, type.coalescing() ? all.diameter[k] : d[i], dt, perAtom);
       Events events(medium, atom, least, all.weight[k], sum);
       double left = total[i];
       bool stays = true;
@@ -91,12 +101,11 @@ SootMoved growAllByEvents(SootColumns& all, const SootAggregate& type, const Soo
         if (!stays) continue;
         double at = random.uniform() * total[i];
         std::size_t kind = 0;
-        while (kind + 1 < kinds && at >= expected[kind][i]) at -= expected[kind++][i];
+        while (kind + 1 < kinds.size() && at >= kinds[kind]) at -= kinds[kind++];
         stays = events.happens(kind, all.carbon[k], all.hydrogen[k]);
       }
       next -= left;
-      if (stays)
-        all.diameter[k] = shape[i] * cubeRoot(perVolume * (all.carbon[k] + all.hydrogen[k]) / all.primaries[k]);
+      if (stays) all.diameter[k] = factor * cubeRoot(perVolume * (all.carbon[k] + all.hydrogen[k]) / all.primaries[k]);
     }
   }
   return sum;

@@ -16,27 +16,27 @@ def plot_reactor(results, pictures):
     if "temperature" in columns:
         delays = {name: time for name, time in results.ignition_delays().items() if np.isfinite(time)}
         if "position" in columns:
-            factor, unit = _unit(np.max(columns["position"]), (("m", 1.0), ("cm", 1e2), ("mm", 1e3)))
+            factor, unit = unit_of(np.max(columns["position"]), (("m", 1.0), ("cm", 1e2), ("mm", 1e3)))
             _plot_history(columns, columns["position"] * factor, f"z, {unit}", {}, pictures)
-            _plot_particles(columns, columns["position"] * factor, f"z, {unit}", pictures)
+            plot_particles(columns, columns["position"] * factor, f"z, {unit}", pictures)
         else:
             shown = 2.5 * max(delays.values()) if delays else np.max(columns["time"])
-            factor, unit = _unit(shown, (("s", 1.0), ("ms", 1e3), ("us", 1e6), ("ns", 1e9)))
+            factor, unit = unit_of(shown, (("s", 1.0), ("ms", 1e3), ("us", 1e6), ("ns", 1e9)))
             delays = {name: time * factor for name, time in delays.items()}
             _plot_history(columns, columns["time"] * factor, f"time, {unit}", delays, pictures)
-            _plot_particles(columns, columns["time"] * factor, f"time, {unit}", pictures)
+            plot_particles(columns, columns["time"] * factor, f"time, {unit}", pictures)
             _plot_ignition(columns, columns["time"] * factor, f"time, {unit}", delays, pictures)
     elif "time" in columns:
-        factor, unit = _unit(np.max(columns["time"]), (("s", 1.0), ("ms", 1e3), ("us", 1e6), ("ns", 1e9)))
+        factor, unit = unit_of(np.max(columns["time"]), (("s", 1.0), ("ms", 1e3), ("us", 1e6), ("ns", 1e9)))
         for reactor in [name.removesuffix("_temperature") for name in columns if name.endswith("_temperature")]:
             own = {name.removeprefix(f"{reactor}_"): values for name, values in columns.items() if name.startswith(f"{reactor}_")}
             _plot_history(own, columns["time"] * factor, f"time, {unit}", {}, pictures, f"reactor_{reactor}")
-            _plot_particles(own, columns["time"] * factor, f"time, {unit}", pictures, f"particles_{reactor}")
+            plot_particles(own, columns["time"] * factor, f"time, {unit}", pictures, f"particles_{reactor}")
     _plot_reactors(results, pictures)
     _plot_sensitivities(results, pictures)
 
 
-def _unit(largest, units):
+def unit_of(largest, units):
     """Factor and name of the unit in which the largest value is at least one."""
     return next(((factor, name) for name, factor in units if largest * factor >= 1.0), units[-1][::-1])
 
@@ -66,7 +66,7 @@ def _plot_history(columns, axis, label, delays, pictures, picture="reactor"):
     pictures.save(figure, picture)
 
 
-def _plot_particles(columns, axis, label, pictures, picture="particles"):
+def plot_particles(columns, axis, label, pictures, picture="particles"):
     """Volume fraction, number and mean diameter; of ensembles with the standard error of the repeats."""
     shown = [name for name in columns if name.endswith(("_volume_fraction", "_number_density", "_mean_diameter"))]
     if not shown:

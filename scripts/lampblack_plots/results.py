@@ -59,7 +59,8 @@ class Results:
         self.is_reactor = problem == "reactor"
         self.is_population = problem == "population_balance"
         self.is_flame = "flame" in self.file
-        if self.is_reactor or self.is_population or self.is_flame:
+        self.is_along = problem == "particles_along"
+        if self.is_along or self.is_reactor or self.is_population or self.is_flame:
             return
         if "mesh" not in self.file or "cellCentre" not in self.file["mesh"]:
             raise ResultsError(f"{path}: holds no mesh")

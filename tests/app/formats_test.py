@@ -144,6 +144,14 @@ def main(executable: str, *mpiexec: str) -> int:
 
         runs["trees"] = (CASES / "reactor/silica_batch/deck.yaml", *running.settings(
             "time.end=10 ms", "output.species=[H2O]", "particles.number=50", "particles.repeats=2", "particles.bins=5"))
+        along = CASES / "particles_along/premixed_ethylene_abf/deck.yaml"
+        runs["along"] = (along, *running.settings("stochastic.repeats=2", "stochastic.particles=32", "gas.end=4 ms", "output.times=[1 ms]",
+                                                  "output.interval=2 ms"))
+        along_model = folder / "along_model.yaml"
+        along_model.write_text(f"problem: particles_along\nmechanism: {CASES}/mechanisms/ethylene_abf2000_101.yaml\n"
+                               f"gas: {{file: {along.parent}/gas.csv, end: 1 ms}}\nsoot: {{model: sectional, pah: [A4]}}\n"
+                               "output: {interval: 1 ms}\n", encoding="utf-8")
+        runs["along_model"] = (along_model,)
 
         def compute(run: str) -> None:
             result = program("run", *runs[run], "--out", folder / run, timeout=120)
