@@ -68,10 +68,10 @@ GasHistory historyOf(const TextTable& table, const Mechanism& mechanism, std::ve
 }  // namespace
 
 GasHistory readGasTable(const std::filesystem::path& file, const Mechanism& mechanism) {
-  const TextTable table = readCsv(readTextFile(file, "a history of a gas"));
+  const std::string text = readTextFile(file, "a history of a gas");
   std::vector<std::string> unknown;
   try {
-    GasHistory history = historyOf(table, mechanism, unknown);
+    GasHistory history = historyOf(readCsv(text), mechanism, unknown);
     if (!unknown.empty())
       printWarnings({fmt::format("{}: columns of species that the mechanism does not have are left out: {}",
                                  file.string(), fmt::join(unknown, ", "))});
