@@ -35,7 +35,8 @@ class SootGrowth {
         dimerMass_(dimerCarbon + dimerHydrogen),
         dimerDiameter_(dimer.diameter),
         leastCarbon_(leastCarbon),
-        inertia_(inertia) {
+        inertia_(inertia),
+        sixPerDensity_(inertia * (6 / density)) {
     if (!(dimerMass_ > 0)) return;
     condensation_ = dimerMass_ * fluxes.condensation;
     perDimer_ = 1 / dimerMass_;
@@ -59,7 +60,7 @@ class SootGrowth {
     const double mass = carbon + hydrogen, perMass = 1 / mass, fraction = hydrogen * perMass;
     const double loss = lossO2_ + lossOH_;
     // What condenses, kg/s. With the mass goes the cube of the diameter: area = 6 mass / (density d).
-    const double taken = condensing(shape * d, perMass);
+    const double taken = condensing(shape * d, inertia_ * perMass);
     const double v0 =
         2 / density_ * (taken * perMass * d * (density_ / 6) + gain_ - loss / (1 - fraction));  // m/s, of d
     const double speed = std::abs(v0);
@@ -74,7 +75,7 @@ class SootGrowth {
     h = h < 0 ? 0 : h;
     h = h > most ? most : h;
     const double perCarbon = 1 / (1 - h), withCarbon = h * perCarbon;
-    const double condensed = condensing(shape * middle, 6 / density_ * perVolumeThere);
+    const double condensed = condensing(shape * middle, sixPerDensity_ * perVolumeThere);
     const double change = length * 2 / density_ * (condensed * perSurface + gain_ - loss * perCarbon);
     const double centre = d + 0.5 * change;
     // The mass goes with the cube of the diameter, which makes this of the rates at the middle.
@@ -94,15 +95,17 @@ class SootGrowth {
   }
 
  private:
+  // `perMass`: of the particle, times the inertia.
   [[nodiscard, gnu::always_inline]] inline double condensing(double diameter, double perMass) const {
     const double sum = dimerDiameter_ + diameter;
-    return condensation_ * std::sqrt(inverseDimer_ + inertia_ * perMass) * sum * sum;
+    return condensation_ * std::sqrt(inverseDimer_ + perMass) * sum * sum;
   }
 
   double gain_, lossO2_, lossOH_;  // kg carbon/m2/s
   double density_;
   double dimerCarbon_, dimerHydrogen_, dimerMass_, dimerDiameter_;
   double leastCarbon_, inertia_;
+  double sixPerDensity_;  // m3/kg, times the inertia
   // All zero without dimers.
   double condensation_ = 0, perDimer_ = 0, dimerFraction_ = 0, inverseDimer_ = 0;
 };

@@ -92,6 +92,31 @@ TEST(GivenPath, InertParticlesStayAsManyPerMassOfGas) {
   }
 }
 
+// A divergence that is linear in time stays the same line, in pieces.
+TEST(GivenPath, PointsPutInLeaveTheDivergenceAsItIs) {
+  ParticlePath path;
+  for (const double t : {0.0, 1.0, 3.0}) {
+    GasSample& point = path.points.emplace_back();
+    point.time = t;
+    point.gas.temperature = 300 + 100 * t;
+    point.concentrations = {t};
+  }
+  path.divergence = {{10, 20}, {20, 0}};
+  const std::vector<double> times{0.25, 0.5, 1, 2, 2.5};
+  const std::vector<std::size_t> at = putPointsAt(path, times);
+  EXPECT_EQ(at, (std::vector<std::size_t>{1, 2, 3, 4, 5}));
+  ASSERT_EQ(path.points.size(), 7u);
+  const double expected[7] = {10, 12.5, 15, 20, 10, 5, 0};
+  for (std::size_t k = 0; k < 6; ++k) {
+    EXPECT_NEAR(path.divergence[k].first, expected[k], 1e-12) << k;
+    EXPECT_NEAR(path.divergence[k].last, expected[k + 1], 1e-12) << k;
+  }
+  for (const GasSample& point : path.points) {
+    EXPECT_NEAR(point.gas.temperature, 300 + 100 * point.time, 1e-10);
+    EXPECT_NEAR(point.concentrations[0], point.time, 1e-12);
+  }
+}
+
 TEST(GivenPath, SaysWhatCannotBeAGas) {
   const auto refuses = [](auto spoil) {
     GasHistory history = twoRows();
