@@ -47,6 +47,41 @@ TEST(SurfaceChemistry, AlphaOfATableIsStraightInBetweenAndConstantOutside) {
   EXPECT_EQ(SurfaceChemistry(options, 1550).alpha(1e4), 0.3);
 }
 
+// Other constants than the published: each where it belongs, and radical sites bounded by the sites there are.
+TEST(SurfaceChemistry, ConstantsOfTheOptionsTakeThePlaceOfThePublished) {
+  const test::FlameGas gas(1700, 1e-3, 0.03, 1e-4, 0.08, 0.2, 0.03, {});
+  const auto ratesOf = [&](const SurfaceRateConstants& constants) {
+    SootModelOptions options;
+    options.surface = constants;
+    return SurfaceChemistry(options, 1700).rates(gas.concentrations, 0.4);
+  };
+  const SurfaceRates published = ratesOf({});
+  // Radical sites over C-H sites, from the growth: alpha sites r k.
+  const double k4 = 80 * std::pow(1700.0, 1.56) * std::exp(-3.8 / (1.98720425864083e-3 * 1700));
+  const double sites = 0.4 * 2.3e19 / constants::avogadro, r = published.growth / (sites * k4);
+  ASSERT_GT(r, 1e-3);
+  SurfaceRateConstants bounded;
+  bounded.bounded = true;
+  EXPECT_NEAR(ratesOf(bounded).growth / (sites * k4), r / (1 + r), 1e-6 * r);
+  EXPECT_NEAR(ratesOf(bounded).oxidationO2 / published.oxidationO2, 1 / (1 + r), 1e-9);
+  EXPECT_EQ(ratesOf(bounded).oxidationOH, published.oxidationOH);
+  // O2 that closes no site: oxidation at the same constant of more radical sites.
+  SurfaceRateConstants open;
+  open.closeByO2 = RateConstant{0, 0, 0};
+  const double more = ratesOf(open).growth / published.growth;
+  EXPECT_GT(more, 1.05);
+  EXPECT_NEAR(ratesOf(open).oxidationO2 / published.oxidationO2, more, 1e-12);
+  SurfaceRateConstants twice;
+  twice.closeByO2 = RateConstant{4.4e12, 0, 7.5};
+  // 1/growth is linear in what closes.
+  EXPECT_NEAR(1 / ratesOf(twice).growth - 1 / published.growth, 1 / published.growth - 1 / ratesOf(open).growth,
+              1e-9 / published.growth);
+  SurfaceRateConstants growing;
+  growing.growth.A = 0;
+  EXPECT_EQ(ratesOf(growing).growth, 0);
+  EXPECT_GT(ratesOf(growing).oxidationO2, published.oxidationO2);
+}
+
 TEST(SurfaceChemistry, RatesAreThoseOfTheTableWorkedOutInMolesAndCentimetres) {
   const test::FlameGas gas(1700, 1e-3, 0.03, 1e-4, 0.08, 2e-4, 0.03, {});
   const SootModelOptions options;
