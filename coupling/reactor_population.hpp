@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "core/rooms.hpp"
@@ -33,6 +34,15 @@ class ReactorPopulation : public SplitParticles {
   // The k-th, dN/dlog10 d (1/m3) in equal bins of log10(d/m).
   [[nodiscard]] virtual std::vector<double> distribution(std::size_t k, double logMin, double logMax,
                                                          std::size_t bins) const = 0;
+  // Every particle as tables, of kinds that have them; without particles the same tables without rows.
+  struct TableColumn : Column {
+    std::variant<std::vector<double>, std::vector<std::int64_t>> values;  // SI; numbers of rows are whole
+  };
+  struct Table {
+    std::string name;
+    std::vector<TableColumn> columns;
+  };
+  [[nodiscard]] virtual std::vector<Table> tables() const { return {}; }
   // What was counted, by name.
   [[nodiscard]] virtual std::vector<std::pair<std::string, double>> counts() const = 0;
 };

@@ -46,6 +46,8 @@ class ReactorTrees final : public ReactorPopulation {
   [[nodiscard]] std::vector<Distribution> distributions() const override;
   [[nodiscard]] std::vector<double> distribution(std::size_t k, double logMin, double logMax,
                                                  std::size_t bins) const override;
+  // Particles, their primaries, and the necks between these.
+  [[nodiscard]] std::vector<Table> tables() const override;
   [[nodiscard]] std::vector<std::pair<std::string, double>> counts() const override;
 
  private:

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -156,7 +157,33 @@ void addNumbers(DeckSchema& schema) {
                .above(0))
       .add(quantityKey("particles.largest", units::length, "Largest diameter of the size distributions.")
                .byDefault("500 nm")
-               .above(0));
+               .above(0))
+      .add(quantityKey("particles.tables_at", units::time,
+                       "Times at which every particle of the first repeat is written to results.h5, with its primaries "
+                       "and necks; the history has a row there. Some 1000 bytes for a particle of ten primaries.")
+               .list()
+               .optional()
+               .atLeast(0)
+               .onlyWith("reactor.type", {"constant_pressure", "constant_volume", "stirred"}))
+      .add(quantityKey("particles.tables_at_place", units::length, "The same by places along a plug flow.")
+               .list()
+               .optional()
+               .atLeast(0)
+               .onlyWith("reactor.type", {"plug_flow"}));
+}
+
+// Rising, each once, none beyond the end of the run.
+std::vector<double> readTablesAt(const Deck& deck) {
+  const bool plugFlow = deck.choice("reactor.type") == "plug_flow";
+  const std::string key = plugFlow ? "particles.tables_at_place" : "particles.tables_at";
+  const std::string last = plugFlow ? "reactor.length" : "time.end";
+  if (!deck.has(key)) return {};
+  std::vector<double> all = deck.quantities(key);
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  if (const auto end = deck.optionalQuantity(last); end && all.back() > *end)
+    throw deck.error(key, fmt::format("expected at most {}", last));
+  return all;
 }
 
 SinteringMechanism mechanismOf(const std::string& name) {
@@ -225,6 +252,7 @@ TreeRequest readTrees(const Deck& deck) {
                   {}};
   if (!(request.bins.logDiameterMax > request.bins.logDiameterMin))
     throw deck.error("particles.largest", "expected more than 'smallest'");
+  request.tablesAt = readTablesAt(deck);
   return request;
 }
 

@@ -16,6 +16,7 @@ struct TreeRequest {
   std::optional<ReactorTrees::Start> start;
   std::size_t repeats = 1;
   EnsemblePathOptions bins;
+  std::vector<double> tablesAt;  // s (plug flow: m), rising
 };
 
 void addTreeKeys(DeckSchema& schema);

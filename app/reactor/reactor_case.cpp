@@ -156,12 +156,16 @@ void readReactorTrees(const Deck& deck, ReactorCase& reactorCase) {
         "or 'profile'");
   TreeRequest request = readTrees(deck);
   reactorCase.couplingChange = deck.number("particles.coupling_change");
-  reactorCase.ensemble = {
-      request.repeats, request.bins, {}, {}, [mechanism = reactorCase.mechanism, request](std::uint64_t owner) {
-        TreeOptions own = request.options;
-        own.owner = owner;
-        return std::make_unique<ReactorTrees>(*mechanism, own, request.viscosity, request.start);
-      }};
+  reactorCase.ensemble = {request.repeats,
+                          request.bins,
+                          {},
+                          {},
+                          [mechanism = reactorCase.mechanism, request](std::uint64_t owner) {
+                            TreeOptions own = request.options;
+                            own.owner = owner;
+                            return std::make_unique<ReactorTrees>(*mechanism, own, request.viscosity, request.start);
+                          },
+                          request.tablesAt};
   tryPopulation(deck, "particles", reactorCase);
 }
 
@@ -186,7 +190,8 @@ void readReactorEnsemble(const Deck& deck, ReactorCase& reactorCase) {
                             EnsembleOptions own = options;
                             own.owner = owner;
                             return std::make_unique<ReactorEnsemble>(*mechanism, own);
-                          }};
+                          },
+                          {}};
   tryPopulation(deck, "stochastic", reactorCase);
 }
 

@@ -36,6 +36,7 @@ struct ReactorPopulations {
   std::string material;
   std::vector<std::string> elements;
   PopulationMaker make;
+  std::vector<double> tablesAt;  // s (plug flow: m), rising: where every particle of the first repeat is written
 };
 
 struct ReactorCase {

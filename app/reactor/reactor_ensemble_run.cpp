@@ -11,6 +11,7 @@
 #include "app/reactor/reactor_driver.hpp"
 #include "app/reactor/reactor_ensemble_gas.hpp"
 #include "app/reactor/reactor_ensemble_summary.hpp"
+#include "app/reactor/reactor_ensemble_tables.hpp"
 #include "app/reactor/reactor_history.hpp"
 #include "app/reactor/reactor_output.hpp"
 #include "core/constants.hpp"
@@ -58,7 +59,8 @@ class EnsembleReactorDriver : public ReactorDriver {
         distributions_(reactorCase.ensemble->make(0)->distributions()),
         hasElements_(!isOpen(reactorCase) || !startElements(reactorCase).empty()),
         summary_(columnsOf(reactorCase, hasElements_)),
-        history_(summary_.columnsWithErrors()) {}
+        history_(summary_.columnsWithErrors()),
+        tables_(*reactorCase.ensemble, summary_.columns()) {}
 
   void compute(const RunFolder& folder) override {
     const double begin = MPI_Wtime();
@@ -98,6 +100,7 @@ class EnsembleReactorDriver : public ReactorDriver {
         ++place;
       }
     }
+    tables_.write(results);
   }
 
   void record(JsonWriter& json) const override {
@@ -203,6 +206,11 @@ class EnsembleReactorDriver : public ReactorDriver {
     for (std::size_t i = 0; static_cast<double>(i) * interval < end() * (1 - 1e-9); ++i)
       positions.push_back(static_cast<double>(i) * interval);
     positions.push_back(end());
+    // And where tables are wanted.
+    for (const double x : case_.ensemble->tablesAt) {
+      const auto next = std::lower_bound(positions.begin(), positions.end(), x * (1 - 1e-9));
+      if (next == positions.end() || *next > x * (1 + 1e-9)) positions.insert(next, x);
+    }
     return positions;
   }
 
@@ -244,6 +252,7 @@ class EnsembleReactorDriver : public ReactorDriver {
           repeat.distributions.back().insert(repeat.distributions.back().end(), sizes.begin(), sizes.end());
         }
       }
+      if (index == 0) tables_.take(*ensembles[0], row);
       repeat.rows.push_back(std::move(row));
       if (stopRequest() != 0) return;
       const Quantity& place = summary_.columns()[0];
@@ -296,6 +305,7 @@ class EnsembleReactorDriver : public ReactorDriver {
   bool hasElements_;
   EnsembleSummary summary_;
   ReactorHistory history_;
+  EnsembleTables tables_;
   std::vector<double> positions_;
   SplitReactor::Work work_;
   double time_ = 0, seconds_ = 0;

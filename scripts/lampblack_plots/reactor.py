@@ -6,6 +6,7 @@ import numpy as np
 
 from .damage import reading
 from .style import plt
+from .tree_tables import plot_tree_tables
 
 MOST_SPECIES = 8
 MOST_REACTIONS = 15
@@ -34,6 +35,7 @@ def plot_reactor(results, pictures):
             plot_particles(own, columns["time"] * factor, f"time, {unit}", pictures, f"particles_{reactor}")
     _plot_reactors(results, pictures)
     _plot_sensitivities(results, pictures)
+    plot_tree_tables(results, pictures)
 
 
 def unit_of(largest, units):

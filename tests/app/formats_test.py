@@ -143,7 +143,8 @@ def main(executable: str, *mpiexec: str) -> int:
             "stochastic.bins=5"))
 
         runs["trees"] = (CASES / "reactor/silica_batch/deck.yaml", *running.settings(
-            "time.end=10 ms", "output.species=[H2O]", "particles.number=50", "particles.repeats=2", "particles.bins=5"))
+            "time.end=10 ms", "output.species=[H2O]", "particles.number=50", "particles.repeats=2", "particles.bins=5",
+            "particles.tables_at=[10 ms]"))
         along = CASES / "particles_along/premixed_ethylene_abf/deck.yaml"
         runs["along"] = (along, *running.settings("stochastic.repeats=2", "stochastic.particles=32", "gas.end=4 ms", "output.times=[1 ms]",
                                                   "output.interval=2 ms"))

@@ -164,6 +164,43 @@ def test_peaks_and_half_widths_of_known_profiles(work):
     assert is_unimodal(triangle) and not is_unimodal(triangle + 0.5 * np.exp(-((z - 7) ** 2)))
 
 
+def test_reconstructed_aggregates_have_their_necks_and_little_other_overlap(work):
+    sys.path.insert(0, str(ROOT / "scripts"))
+    from lampblack_plots.aggregates import TOUCHING, neck_distance, reconstructed, surface_over_sphere
+
+    assert abs(neck_distance(3.0, 3.0, 0.0) - 6.0) < 1e-6 and neck_distance(3.0, 3.0, 0.999) < 1.0
+    distance = neck_distance(3.0, 2.0, 0.5)
+    assert abs(surface_over_sphere(3.0, 2.0, distance) - 1 / (0.5 * (1 - TOUCHING) + TOUCHING)) < 1e-6
+
+    random, count = np.random.default_rng(3), 40
+    diameters = random.uniform(8.0, 12.0, count)
+    k = np.arange(count - 1)  # one primary after the other
+    necks = {"left": np.array([random.integers(0, i + 1) for i in k]), "right": k + 1, "first": 0 * k, "last": k + 1,
+             "level": random.uniform(0.0, 0.3, count - 1)}
+    places = reconstructed(diameters, necks, random)
+    apart = np.linalg.norm(places[:, None] - places[None], axis=2)
+    wanted = neck_distance(diameters[necks["left"]] / 2, diameters[necks["right"]] / 2, necks["level"])
+    assert np.allclose(apart[necks["left"], necks["right"]], wanted)
+    overlap = 0.5 * (diameters[:, None] + diameters) - apart
+    overlap[necks["left"], necks["right"]] = overlap[necks["right"], necks["left"]] = 0.0
+    assert np.triu(overlap, 1).max() < 0.5 * diameters.min()
+    again = reconstructed(diameters, necks, np.random.default_rng(5))
+    assert np.array_equal(again, reconstructed(diameters, necks, np.random.default_rng(5)))
+
+
+def test_class_means_of_particles_are_those_of_each_class(work):
+    sys.path.insert(0, str(ROOT / "scripts"))
+    from lampblack_plots.tree_tables import class_means
+
+    diameter = np.array([1.0] * 6 + [10.0] * 6 + [100.0] * 2) * 1e-9
+    particles = {"collision_diameter": diameter, "primaries": np.array([1] * 6 + [2, 4] * 3 + [9, 9]), "primary_diameter": diameter / 2,
+                 "sintering_level": np.full(14, 0.5)}
+    middles, counts, means = class_means(particles, classes=3)
+    assert list(counts) == [6, 6] and np.all(np.diff(middles) > 0)  # two particles are too few
+    assert np.allclose(means["primaries"][0], [1, 3]) and np.allclose(means["primaries"][1], [0, 1 / np.sqrt(6)])
+    assert np.allclose(means["primary_diameter"][0], [0.5e-9, 5e-9])
+
+
 if __name__ == "__main__":
     for name, test in list(globals().items()):
         if name.startswith("test_"):
