@@ -179,10 +179,11 @@ std::vector<double> readTablesAt(const Deck& deck) {
   const std::string last = plugFlow ? "reactor.length" : "time.end";
   if (!deck.has(key)) return {};
   std::vector<double> all = deck.quantities(key);
+  if (all.empty()) return all;
   std::sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end()), all.end());
   if (const auto end = deck.optionalQuantity(last); end && all.back() > *end)
-    throw deck.error(key, fmt::format("expected at most {}", last));
+    throw deck.error(key, fmt::format("expected nothing beyond {}", last));
   return all;
 }
 

@@ -6,7 +6,7 @@ from .aggregates import reconstructed
 from .style import plt
 
 PIXELS, SLICES = 420, 120
-GREYS = 64  # a small file
+GREYS = 128  # a small file
 TYPICAL = 4
 SEED = 1
 

@@ -86,7 +86,7 @@ def _plot_joint(figure, axes, particles):
     x, y, w = np.log10(particles["collision_diameter"][several] * 1e9), particles["sintering_level"][several], particles["number"][several]
     density, across, up = np.histogram2d(x, y, 32, ((x.min() - 0.02, x.max() + 0.02), (0, 1)), weights=w)
     density /= np.diff(across)[:, None] * np.diff(up)
-    mesh = axes.pcolormesh(10**across, up, np.where(density > 0, density, np.nan).T, cmap="viridis")
+    mesh = axes.pcolormesh(10**across, up, np.where(density > 0, density, np.nan).T, cmap="viridis", vmin=0)
     _logarithmic(axes)
     figure.colorbar(mesh, ax=axes, label="d$^2$N/dlog$_{10}$ d dlevel, 1/m$^3$")
 

@@ -88,6 +88,9 @@ def main(executable, *mpiexec):
             wrong = compute(program, folder / "wrong", pair)
             assert wrong.code == 2 and "particles.tables_at" in wrong.err, wrong.err
 
+        none = compute(program, folder / "none", "particles.tables_at=[]", "time.end=1 ms", "output.interval=1 ms")
+        assert none.code == 0, none.err
+
         drawn = subprocess.run([running.SOURCE / "scripts/plot", out], capture_output=True, text=True, check=False)
         assert drawn.returncode == 0, drawn.stderr
         for picture in ("micrographs_1", "micrographs_2", "particle_distributions_2", "particle_classes_2"):
