@@ -172,11 +172,18 @@ void addNumbers(DeckSchema& schema) {
                .onlyWith("reactor.type", {"plug_flow"}));
 }
 
+bool isPlugFlow(const Deck& deck) {
+  return deck.choice("reactor.type") == "plug_flow";
+}
+
+std::string tablesKey(const Deck& deck) {
+  return isPlugFlow(deck) ? "particles.tables_at_place" : "particles.tables_at";
+}
+
 // Rising, each once, none beyond the end of the run.
 std::vector<double> readTablesAt(const Deck& deck) {
-  const bool plugFlow = deck.choice("reactor.type") == "plug_flow";
-  const std::string key = plugFlow ? "particles.tables_at_place" : "particles.tables_at";
-  const std::string last = plugFlow ? "reactor.length" : "time.end";
+  const std::string key = tablesKey(deck);
+  const std::string last = isPlugFlow(deck) ? "reactor.length" : "time.end";
   if (!deck.has(key)) return {};
   std::vector<double> all = deck.quantities(key);
   if (all.empty()) return all;
@@ -254,6 +261,9 @@ TreeRequest readTrees(const Deck& deck) {
   if (!(request.bins.logDiameterMax > request.bins.logDiameterMin))
     throw deck.error("particles.largest", "expected more than 'smallest'");
   request.tablesAt = readTablesAt(deck);
+  if (const std::size_t tables = request.tablesAt.size(); tables > 0)
+    requireMemory(deck, tablesKey(deck), fmt::format("{} tables of {} particles", tables, options.particles),
+                  1000 * static_cast<double>(tables) * static_cast<double>(options.particles));
   return request;
 }
 
