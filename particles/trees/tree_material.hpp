@@ -64,8 +64,8 @@ struct TreeMaterial {
 // components that are not there or make atoms of nothing.
 void requireMaterial(const TreeMaterial& material);
 
-// Si, O and OH from Si(OH)4, called H4O4SI (Shekar et al. 2011, eqs. 11, 23, 29, 58; constants of sintering by the same
-// group, as fitted to Seto et al. 1997).
+// Si, O and OH from Si(OH)4, called H4O4SI (Shekar et al. 2011, eqs. 11, 23, 29, 58; constants of sintering: Shekar
+// et al. 2012).
 [[nodiscard]] TreeMaterial silica();
 
 }  // namespace lampblack::particles
