@@ -16,7 +16,7 @@
 namespace lampblack::coupling {
 
 // Of the gas as particles see it: from transport data; or that of air by Sutherland's law, 1.458e-6 T^1.5/(T + 110.4)
-// Pa s: of air, by the law of Sutherland (as in Kazakov and Frenklach 1998), for mechanisms without.
+// Pa s (as in Kazakov and Frenklach 1998), for mechanisms without.
 enum class GasViscosity { transport, air };
 
 // The gas of a reactor at a state of it: all concentrations, and those that particles see.
