@@ -283,9 +283,12 @@ void EnsembleOperator::letArrivedWait(State& state) {
     waiting_[cell] = static_cast<double>(arrived_[cell].size() / packedParticle);
     if (!arrived_[cell].empty()) {
       std::vector<double>& population = openPopulation(cell);
+      population.reserve(population.size() + arrived_[cell].size());
       population.insert(population.end(), arrived_[cell].begin(), arrived_[cell].end());
     }
-    populations_[cell].shrink_to_fit();
+    // Room for half as much again may stay, which the next step needs.
+    if (std::vector<double>& kept = populations_[cell]; kept.capacity() > kept.size() + kept.size() / 2)
+      kept.shrink_to_fit();
     setAmounts(state, cell);
   }
   context_.halo.update(state.carried, state.carriedCount());

@@ -368,8 +368,8 @@ void EnsembleTransport::advance(const Gas& gas, double dt, std::uint64_t step, H
     gone_.clear();
     limited_ = 0;
     parts_ = 0;
-    std::ranges::fill(isFound_, 0);
   }
+  std::ranges::fill(isFound_, 0);  // the ensembles between the halves have changed the gas
   const int parts = findParts(gas, 0.5 * dt, populations, arrived);
   parts_ += parts;
   std::vector<Side> sides;

@@ -98,7 +98,7 @@ class EnsembleTransport {
   std::vector<double> density_, gradients_;  // numbers of each class per mass of gas, 1/kg
   std::vector<double> nothing_;              // at the boundary
   std::vector<double> diffusivity_;          // of local cells: D d^2 at the nodes, m4/s
-  std::vector<char> isFound_;                // whether it is that of this step
+  std::vector<char> isFound_;                // whether it is that of this half of the step
   std::vector<Leaving> leaving_;
   std::vector<GivenParticle> gone_;
   int parts_ = 0;

@@ -59,7 +59,7 @@ PathEnsemble runPathEnsemble(MPI_Comm comm, const ParticlePath& path, const Ense
   PathEnsemble result;
   const double start = MPI_Wtime();
   const std::size_t records = march.recorded.empty() ? path.points.size() : march.recorded.size();
-  const std::size_t bins = march.bins, row = values + bins;
+  const std::size_t bins = march.bins.count, row = values + bins;
   const std::size_t width = records * row + (records - 1) * exchangeWidth + counters;
   // Each repeat is on one rank, zero on the others: sums over the ranks are exact.
   std::vector<double> all(repeats * width, 0.0);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "app/deck/size_bins_deck.hpp"
 #include "io/request_limits.hpp"
 
 namespace lampblack::app {
@@ -41,19 +42,8 @@ void addEnsembleKeys(DeckSchema& schema, const std::string& description, const s
                "Largest relative change of the population in a splitting step: smaller is more accurate and slower.")
                .byDefault("0.01")
                .above(0)
-               .atMost(1))
-      .add(integerKey("stochastic.bins", "Number of bins of the size distribution.")
-               .byDefault("60")
-               .atLeast(2)
-               .atMost(10000))
-      .add(quantityKey("stochastic.smallest", units::length,
-                       "Smallest diameter of the size distribution, the lower end of its bins.")
-               .byDefault("0.5 nm")
-               .above(0))
-      .add(quantityKey("stochastic.largest", units::length,
-                       "Largest diameter of the size distribution, the upper end of its bins.")
-               .byDefault("500 nm")
-               .above(0));
+               .atMost(1));
+  addSizeBinKeys(schema, "stochastic");
 }
 
 void addRepeatKeys(DeckSchema& schema) {
@@ -87,12 +77,7 @@ EnsembleRequest readEnsemble(const Deck& deck, const SootModelOptions& soot) {
   options.keepsHydrogen = deck.boolean("stochastic.keep_hydrogen");
   options.growthByEvents = deck.choice("stochastic.growth") == "events";
   options.splitTolerance = deck.number("stochastic.split_tolerance");
-  request.bins = {std::log10(deck.quantity("stochastic.smallest")),
-                  std::log10(deck.quantity("stochastic.largest")),
-                  deck.integer<std::size_t>("stochastic.bins"),
-                  {}};
-  if (!(request.bins.logDiameterMax > request.bins.logDiameterMin))
-    throw deck.error("stochastic.largest", "expected more than 'smallest'");
+  request.bins = readSizeBins(deck, "stochastic");
   if (soot.inceptionBy == InceptionBy::monomers && soot.pah.size() != 1)
     throw deck.error("soot.pah", "nuclei of monomers need one PAH, of which two molecules make a nucleus");
   if (soot.pah.empty()) throw deck.error("stochastic", "ensembles need PAH that dimerise: name them in soot.pah");

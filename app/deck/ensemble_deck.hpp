@@ -6,14 +6,15 @@
 
 #include "core/rooms.hpp"
 #include "io/deck.hpp"
-#include "particles/ensemble/ensemble_path.hpp"
+#include "particles/ensemble/ensemble.hpp"
+#include "particles/ensemble/size_bins.hpp"
 
 namespace lampblack::app {
 
 struct EnsembleRequest {
   EnsembleOptions soot;
   std::size_t repeats = 1;  // where there is the key
-  EnsemblePathOptions bins;
+  SizeBins bins;
 };
 
 // The section, described for the problem, with the keys that all problems have; `particles`: the default number of

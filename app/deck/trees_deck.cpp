@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "app/deck/size_bins_deck.hpp"
 #include "core/errors.hpp"
 #include "io/request_limits.hpp"
 
@@ -20,7 +21,9 @@ void addMaterial(DeckSchema& schema) {
           "repeat is a reactor of its own. The temperature has to be given.")
       .add(choiceKey("particles.material", {"silica"},
                      "What primaries are made of. silica: Si, O and OH from H4O4SI, which is Si(OH)4, giving back H2O "
-                     "(Shekar, Smith, Kraft, Wagner 2011). Its constants are those below where they are not given.")
+                     "(Shekar, Smith, Kraft, Wagner 2011). Its constants are those below where they are not given; "
+                     "rates of sintering and of the surface reaction "
+                     "as in the input of the program MOpS.")
                .byDefault("silica"))
       .add(quantityKey("particles.density", units::density, "Density of primaries; silica: 2200 kg/m^3.")
                .optional()
@@ -147,17 +150,9 @@ void addNumbers(DeckSchema& schema) {
                "see changes by about this part of itself.")
                .byDefault("0.05")
                .above(0)
-               .atMost(1))
-      .add(integerKey("particles.bins", "Number of bins of the size distributions.")
-               .byDefault("60")
-               .atLeast(2)
-               .atMost(10000))
-      .add(quantityKey("particles.smallest", units::length, "Smallest diameter of the size distributions.")
-               .byDefault("0.5 nm")
-               .above(0))
-      .add(quantityKey("particles.largest", units::length, "Largest diameter of the size distributions.")
-               .byDefault("500 nm")
-               .above(0))
+               .atMost(1));
+  addSizeBinKeys(schema, "particles");
+  schema
       .add(quantityKey("particles.tables_at", units::time,
                        "Times at which every particle of the first repeat is written to results.h5, with its primaries "
                        "and necks; the history has a row there. Some 1000 bytes for a particle of ten primaries.")
@@ -254,12 +249,7 @@ TreeRequest readTrees(const Deck& deck) {
     request.start = {{units[0], units[1], units[2]}, *number};
   }
   request.repeats = deck.integer<std::size_t>("particles.repeats");
-  request.bins = {std::log10(deck.quantity("particles.smallest")),
-                  std::log10(deck.quantity("particles.largest")),
-                  deck.integer<std::size_t>("particles.bins"),
-                  {}};
-  if (!(request.bins.logDiameterMax > request.bins.logDiameterMin))
-    throw deck.error("particles.largest", "expected more than 'smallest'");
+  request.bins = readSizeBins(deck, "particles");
   request.tablesAt = readTablesAt(deck);
   if (const std::size_t tables = request.tablesAt.size(); tables > 0)
     requireMemory(deck, tablesKey(deck), fmt::format("{} tables of {} particles", tables, options.particles),

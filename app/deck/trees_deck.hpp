@@ -6,7 +6,7 @@
 #include "core/rooms.hpp"
 #include "coupling/reactor_trees.hpp"
 #include "io/deck.hpp"
-#include "particles/ensemble/ensemble_path.hpp"
+#include "particles/ensemble/size_bins.hpp"
 
 namespace lampblack::app {
 
@@ -15,7 +15,7 @@ struct TreeRequest {
   GasViscosity viscosity = GasViscosity::transport;
   std::optional<ReactorTrees::Start> start;
   std::size_t repeats = 1;
-  EnsemblePathOptions bins;
+  SizeBins bins;
   std::vector<double> tablesAt;  // s (plug flow: m), rising
 };
 

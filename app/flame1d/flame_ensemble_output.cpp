@@ -38,8 +38,8 @@ void writePath(ResultsWriter& results, std::size_t id, const FlameEnsemblePath& 
   repeated("hydrogen", "kg/m^3", "hydrogen in particles", path.hydrogen);
   repeated("surface", "m^2/m^3", "surface of particles", path.surface);
 
-  const std::size_t bins = options.march.bins;
-  results.dataset(group + "bin_edges", {static_cast<std::int64_t>(bins) + 1}, options.march.binEdges(), "m",
+  const std::size_t bins = options.march.bins.count;
+  results.dataset(group + "bin_edges", {static_cast<std::int64_t>(bins) + 1}, options.march.bins.edges(), "m",
                   "diameters between the bins", 0);
   std::vector<double> at, mean, error;
   for (const double height : heights) {

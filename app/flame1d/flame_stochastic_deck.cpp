@@ -62,7 +62,7 @@ std::optional<StochasticRequest> readStochastic(const Deck& deck, const SootMode
   const EnsembleRequest given = readEnsemble(deck, soot);
   ensemble.soot = given.soot;
   ensemble.repeats = given.repeats;
-  ensemble.march = given.bins;
+  ensemble.march.bins = given.bins;
   FlamePathOptions path;
   path.slowest = deck.quantity("stochastic.slowest");
   path.start = deck.optionalQuantity("stochastic.start");

@@ -6,6 +6,7 @@
 
 #include "app/deck/ensemble_deck.hpp"
 #include "app/deck/radiation_deck.hpp"
+#include "app/deck/size_bins_deck.hpp"
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/temperature_input.hpp"
 #include "app/deck/transport_deck.hpp"
@@ -186,7 +187,7 @@ void readEnsembles(const Deck& deck, FlowCase& flowCase) {
   EnsembleOperator::Options options;
   const EnsembleRequest request = readEnsemble(deck, readSootModelOptions(deck, *flowCase.mechanism, {}));
   options.ensemble = request.soot;
-  options.bins = {request.bins.logDiameterMin, request.bins.logDiameterMax, request.bins.bins};
+  options.bins = request.bins;
   options.sizes = deck.boolean("stochastic.size_distribution");
   try {
     (void)indicesOfSootSpecies(*flowCase.mechanism, options.ensemble.soot);
@@ -258,10 +259,7 @@ void readTrajectories(const Deck& deck, FlowCase& flowCase) {
   options.timeStep = deck.quantity("trajectories.time_step");
   options.particles = deck.integer<int>("trajectories.particles");
   options.splitTolerance = deck.number("trajectories.split_tolerance");
-  options.bins = deck.integer<int>("trajectories.bins");
-  options.smallest = deck.quantity("trajectories.smallest");
-  options.largest = deck.quantity("trajectories.largest");
-  if (options.largest <= options.smallest) throw deck.error("trajectories.largest", "expected more than 'smallest'");
+  options.bins = readSizeBins(deck, "trajectories");
   if (options.timeStep > options.duration)
     throw deck.error("trajectories.time_step", "expected no more than 'duration'");
   for (std::size_t i = 0; i < deck.size("trajectories.start"); ++i)

@@ -76,13 +76,12 @@ struct CheckpointControl {
 };
 
 struct TrajectoryRequest {
-  std::vector<Vector3> starts;           // m, along the mesh's axes
-  double duration = 0.0;                 // s, at most
-  double timeStep = 0.0;                 // s, between samples of the gas
-  int particles = 0;                     // capacity of each ensemble
-  double splitTolerance = 0.01;          // relative change of an ensemble in a splitting step
-  int bins = 0;                          // of the size distribution
-  double smallest = 0.0, largest = 0.0;  // m, diameter range of the bins
+  std::vector<Vector3> starts;   // m, along the mesh's axes
+  double duration = 0.0;         // s, at most
+  double timeStep = 0.0;         // s, between samples of the gas
+  int particles = 0;             // capacity of each ensemble
+  double splitTolerance = 0.01;  // relative change of an ensemble in a splitting step
+  SizeBins bins;
   SootModelOptions soot;
   std::optional<Deck> deck;  // whose lines messages point at
 };

@@ -16,9 +16,9 @@ void refuseTrajectories(const Deck& deck, const TrajectoryRequest& request) {
   const double paths = static_cast<double>(request.starts.size());
   const double steps = request.duration / request.timeStep;
   // A sample of the gas and a record with its distribution, kept for every step until all are written.
-  const double bytes = number * (30 + request.bins);
+  const double bytes = number * static_cast<double>(30 + request.bins.count);
   requireMemory(deck, "trajectories.time_step",
-                fmt::format("{:.3g} time steps along each path, with {} bins,", steps, request.bins),
+                fmt::format("{:.3g} time steps along each path, with {} bins,", steps, request.bins.count),
                 paths * steps * bytes);
   requireOutputs(deck, "trajectories.time_step", "rows of trajectories", paths * steps, bytes);
   // A rank has one ensemble at a time; a particle is a mass, a carbon and a hydrogen number at least.

@@ -3,6 +3,7 @@
 
 #include "app/deck/ensemble_deck.hpp"
 #include "app/deck/radiation_deck.hpp"
+#include "app/deck/size_bins_deck.hpp"
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/temperature_input.hpp"
 #include "app/deck/transport_deck.hpp"
@@ -353,17 +354,9 @@ void addParticles(DeckSchema& schema) {
                      "Largest relative change of an ensemble in a splitting step: smaller is more accurate and slower.")
                .byDefault("0.01")
                .above(0)
-               .atMost(1))
-      .add(integerKey("trajectories.bins", "Number of bins of the size distribution.").byDefault("60").atLeast(2))
-      .add(quantityKey("trajectories.smallest", units::length,
-                       "Smallest diameter of the size distribution, the lower end of its bins.")
-               .byDefault("0.5 nm")
-               .above(0))
-      .add(quantityKey("trajectories.largest", units::length,
-                       "Largest diameter of the size distribution, the upper end of its bins.")
-               .byDefault("200 nm")
-               .above(0))
-      .section("trajectories.start", Presence::required, "Where the ensembles start.")
+               .atMost(1));
+  addSizeBinKeys(schema, "trajectories", "200 nm");
+  schema.section("trajectories.start", Presence::required, "Where the ensembles start.")
       .add(quantityKey("trajectories.start[].r", units::length,
                        "Where a streamline starts: radius of an axisymmetric mesh (in a plane the same as x).")
                .optional()

@@ -56,11 +56,11 @@ void writeTrajectory(ResultsWriter& results, std::size_t id, int owner, const Me
     position.insert(position.end(), trajectory.places[i].begin(), trajectory.places[i].begin() + mesh.dimension);
     distribution.insert(distribution.end(), records[i].distribution.begin(), records[i].distribution.end());
   }
-  const auto bins = static_cast<std::int64_t>(options.bins);
+  const auto bins = static_cast<std::int64_t>(options.bins.count);
   results.dataset(group + "position", {rows, mesh.dimension}, position, "m",
                   fmt::format("coordinates {}", fmt::join(flowcase::axisNames(mesh.geometry, mesh.dimension), ", ")),
                   owner);
-  results.dataset(group + "bin_edges", {bins + 1}, options.binEdges(), "m", "diameters between the bins", owner);
+  results.dataset(group + "bin_edges", {bins + 1}, options.bins.edges(), "m", "diameters between the bins", owner);
   results.dataset(group + "size_distribution", {rows, bins}, distribution, "1/m^3", "dN/dlog10(d)", owner);
 }
 
@@ -193,9 +193,7 @@ void runTrajectories(const FlowContext& context, const FlowCase& flowCase, const
   const PathGas gas(context, state, properties, species);
 
   EnsemblePathOptions march;
-  march.logDiameterMin = std::log10(request.smallest);
-  march.logDiameterMax = std::log10(request.largest);
-  march.bins = static_cast<std::size_t>(request.bins);
+  march.bins = request.bins;
   EnsembleOptions options;
   options.particles = static_cast<std::size_t>(request.particles);
   options.splitTolerance = request.splitTolerance;

@@ -120,9 +120,8 @@ AlongCase readAlongCase(const Deck& deck) {
   along.path.points.resize(along.recorded.back() + 1);
   along.path.divergence.resize(along.recorded.back());
   if (along.ensemble) {
-    along.ensemble->bins.recorded = along.recorded;
     requireMemory(deck, "stochastic.repeats", "what the repeats leave",
-                  8.0 * static_cast<double>(along.ensemble->repeats * rows.size() * (50 + along.ensemble->bins.bins)));
+                  8.0 * static_cast<double>(along.ensemble->repeats * rows.size() * (50 + along.ensemble->bins.count)));
   }
   return along;
 }

@@ -119,7 +119,7 @@ AlongTable ratesOf(const AlongCase& along, const PathEnsemble& ensemble) {
 }
 
 void writeDistributions(ResultsWriter& results, const AlongCase& along, const PathEnsemble& ensemble) {
-  const std::vector<double> edges = along.ensemble->bins.binEdges();
+  const std::vector<double> edges = along.ensemble->bins.edges();
   std::vector<double> diameter;
   for (std::size_t b = 0; b + 1 < edges.size(); ++b) diameter.push_back(std::sqrt(edges[b] * edges[b + 1]));
   const auto bins = static_cast<std::int64_t>(diameter.size()), rows = static_cast<std::int64_t>(along.recorded.size());

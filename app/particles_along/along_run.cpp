@@ -62,8 +62,11 @@ class PreparedAlong : public PreparedRun {
 
   void runEnsemble(const RunFolder& folder, const RunInfo& info, RunRecord& record) {
     const EnsembleRequest& request = *case_.ensemble;
+    EnsemblePathOptions march;
+    march.bins = request.bins;
+    march.recorded = case_.recorded;
     const PathEnsemble ensemble =
-        runPathEnsemble(comm_, case_.path, request.soot, request.repeats, request.bins, "stochastic soot");
+        runPathEnsemble(comm_, case_.path, request.soot, request.repeats, march, "stochastic soot");
     ResultsWriter results(comm_, folder.results(), info);
     const AlongTable history = historyOf(case_, ensemble), rates = ratesOf(case_, ensemble);
     writeHistory(folder, results, history);

@@ -32,7 +32,7 @@ struct ReactorOutput {
 // Stochastic populations: repeats of the reactor with one each, whose random numbers have an owner each.
 struct ReactorPopulations {
   std::size_t repeats = 1;
-  EnsemblePathOptions bins;
+  SizeBins bins;
   std::string material;
   std::vector<std::string> elements;
   PopulationMaker make;

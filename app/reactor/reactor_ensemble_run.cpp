@@ -76,7 +76,7 @@ class EnsembleReactorDriver : public ReactorDriver {
 
   void write(ResultsWriter& results) const override {
     history_.writeTo(results);
-    const std::vector<double> edges = case_.ensemble->bins.binEdges();
+    const std::vector<double> edges = case_.ensemble->bins.edges();
     std::vector<double> diameter;
     for (std::size_t b = 0; b + 1 < edges.size(); ++b) diameter.push_back(std::sqrt(edges[b] * edges[b + 1]));
     const auto bins = static_cast<std::int64_t>(diameter.size());
@@ -125,6 +125,17 @@ class EnsembleReactorDriver : public ReactorDriver {
     summary_.print(shown());
     fmt::print("{} repeats, {} steps of gas and particles in turn, {} taken back, {} of the gas's integrator in {}\n",
                summary_.repeats(), work_.steps, work_.rejected, work_.gasSteps, formatDuration(seconds_));
+    if (work_.unchecked > 0)
+      fmt::print(
+          "note: {} of these steps changed the gas by more than the deck's coupling_change allows and could not "
+          "be taken back; a smaller one helps\n",
+          work_.unchecked);
+    for (const auto& [name, count] : counts_)
+      if (name == "removals" && count > 0)
+        fmt::print(
+            "note: samples were full: {:g} numerical particles were removed at random, which keeps mass in the "
+            "mean only; fewer are with a larger 'particles.number' or 'particles.full_at'\n",
+            count);
   }
 
   long steps() const override { return work_.steps; }
@@ -246,9 +257,9 @@ class EnsembleReactorDriver : public ReactorDriver {
         ReactorPopulation& population = *ensembles[r];
         population.settle();
         append(row, reactor.state(r), gas.gas(), r, population, balances);
-        const EnsemblePathOptions& bins = case_.ensemble->bins;
+        const SizeBins& bins = case_.ensemble->bins;
         for (std::size_t k = 0; k < distributions_.size(); ++k) {
-          const auto sizes = population.distribution(k, bins.logDiameterMin, bins.logDiameterMax, bins.bins);
+          const auto sizes = population.distribution(k, bins.logMin, bins.logMax, bins.count);
           repeat.distributions.back().insert(repeat.distributions.back().end(), sizes.begin(), sizes.end());
         }
       }

@@ -3,7 +3,6 @@
 #include <numeric>
 
 #include "core/errors.hpp"
-#include "particles/ensemble/size_bins.hpp"
 
 namespace lampblack::particles {
 namespace {
@@ -17,15 +16,11 @@ EnsemblePathRecord record(const Ensemble& soot, const EnsemblePathOptions& optio
   r.massCubed = density * density * density * soot.moment(3);
   r.coagulations = soot.counters().coagulations;
   r.geometricDeviation = soot.geometricDeviation();
-  r.distribution = soot.sizeDistribution(options.logDiameterMin, options.logDiameterMax, options.bins);
+  r.distribution = soot.sizeDistribution(options.bins.logMin, options.bins.logMax, options.bins.count);
   return r;
 }
 
 }  // namespace
-
-std::vector<double> EnsemblePathOptions::binEdges() const {
-  return SizeBins{logDiameterMin, logDiameterMax, bins}.edges();
-}
 
 EnsemblePathResult marchPath(Ensemble& soot, const ParticlePath& path, const EnsemblePathOptions& options) {
   const auto& points = path.points;

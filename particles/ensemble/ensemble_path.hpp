@@ -7,6 +7,7 @@
 
 #include "core/rooms.hpp"
 #include "particles/ensemble/ensemble.hpp"
+#include "particles/ensemble/size_bins.hpp"
 #include "particles/gas/gas_path.hpp"
 
 namespace lampblack::particles {
@@ -22,11 +23,9 @@ struct ParticlePath {
 };
 
 struct EnsemblePathOptions {
-  double logDiameterMin = -9.2, logDiameterMax = -6.2;  // bins of log10(d/m)
-  std::size_t bins = 60;
-  GasDivision division;
-  std::vector<std::size_t> recorded = {};              // points with a record, rising; empty: all
-  [[nodiscard]] std::vector<double> binEdges() const;  // m, bins + 1
+  SizeBins bins = {};
+  GasDivision division = {};
+  std::vector<std::size_t> recorded = {};  // points with a record, rising; empty: all
 };
 
 struct EnsemblePathRecord {

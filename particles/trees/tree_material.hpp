@@ -64,7 +64,8 @@ struct TreeMaterial {
 // components that are not there or make atoms of nothing.
 void requireMaterial(const TreeMaterial& material);
 
-// Si, O and OH from Si(OH)4, called H4O4SI (Shekar et al. 2011, eqs. 11, 23, 29, 58; constants of sintering: Shekar
+// Si, O and OH from Si(OH)4, called H4O4SI (Shekar et al. 2011, eqs. 11, 23, 29, 58; rates of sintering and of the
+// surface reaction: what the public code of that group, MOpS, has as input for its tests, not the fitted ones of Shekar
 // et al. 2012).
 [[nodiscard]] TreeMaterial silica();
 

@@ -11,11 +11,6 @@
 #include "particles/gas/soot_gas.hpp"
 
 namespace lampblack::particles {
-namespace {
-
-constexpr std::uint32_t treeStream = 0x54524545;
-
-}  // namespace
 
 TreeProcess::TreeProcess(const TreeOptions& options, const PopulationModel& model, const MonteCarloOptions& monteCarlo)
     : options_(options),

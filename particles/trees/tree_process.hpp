@@ -12,6 +12,9 @@
 
 namespace lampblack::particles {
 
+// Which random numbers of an owner are those of trees.
+inline constexpr std::uint32_t treeStream = 0x54524545;
+
 class TreeProcess final : public TreePopulation {
  public:
   using Method = EqualWeightMethod<PrimaryTrees, ClassStore<EqualRates<PrimaryTrees>>>;

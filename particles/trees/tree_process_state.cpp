@@ -137,7 +137,7 @@ void TreeProcess::unpack(std::span<const double> values) {
   PackedDoubles state(values);
   if (state.next() != packedTrees || state.next() != static_cast<double>(options_.particles))
     throw InputError("particles: the saved state is not one of as many trees");
-  random_ = RandomStream(options_.seed, ownerOf(state.next<PackedOwner>()), 0x54524545);
+  random_ = RandomStream(options_.seed, ownerOf(state.next<PackedOwner>()), treeStream);
   random_.seek(static_cast<std::uint64_t>(state.next()));
   type_.clock() = state.next();
   exchange_ = state.next<TreeExchange>();

@@ -75,9 +75,9 @@ TEST(DeckValues, OfAFlow) {
   EXPECT_DOUBLE_EQ(paths.duration, 2e-3);
   EXPECT_DOUBLE_EQ(paths.timeStep, 20e-6);
   EXPECT_EQ(paths.particles, 128);
-  EXPECT_EQ(paths.bins, 30);
-  EXPECT_DOUBLE_EQ(paths.smallest, 1e-9);
-  EXPECT_DOUBLE_EQ(paths.largest, 100e-9);
+  EXPECT_EQ(paths.bins.count, 30U);
+  EXPECT_DOUBLE_EQ(paths.bins.logMin, -9.0);
+  EXPECT_DOUBLE_EQ(paths.bins.logMax, -7.0);
 }
 
 TEST(DeckValues, OverPlaceAndTime) {

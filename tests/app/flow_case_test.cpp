@@ -1,5 +1,6 @@
 // Decks become the right numbers, and the reference pages know every key.
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 
 #include "core/rooms.hpp"
@@ -116,8 +117,8 @@ TEST(FlowCase, FillsInDefaultsInSi) {
   EXPECT_DOUBLE_EQ(flowCase.chemistry.reactor.relativeTolerance, 1e-6);
   EXPECT_DOUBLE_EQ(test::dimerOptions(flowCase).sootDensity, 1850.0);
   EXPECT_FALSE(test::dimerOptions(flowCase).alpha);
-  EXPECT_DOUBLE_EQ(flowCase.trajectories->smallest, 0.5e-9);
-  EXPECT_DOUBLE_EQ(flowCase.trajectories->largest, 200e-9);
+  EXPECT_DOUBLE_EQ(flowCase.trajectories->bins.logMin, std::log10(0.5e-9));
+  EXPECT_DOUBLE_EQ(flowCase.trajectories->bins.logMax, std::log10(200e-9));
 }
 
 // Every default of the schema has to be one: a deck that only says what it must is a good deck.

@@ -44,7 +44,7 @@ FlameEnsembleOptions smallEnsemble() {
   options.soot.particles = 100;
   options.soot.soot.pah = {{"A2", 10, 8, 2.0e-3}};
   options.repeats = 3;
-  options.march.bins = 20;
+  options.march.bins.count = 20;
   options.paths.resize(1);
   return options;
 }

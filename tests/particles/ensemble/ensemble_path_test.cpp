@@ -65,8 +65,8 @@ TEST(ParticlePath, RecordsHoldDensitiesAndDistributions) {
   for (int k = 0; k < 4; ++k) path.points.push_back(sampleAt(1e-4 * k, gas));
   path.divergence.assign(3, {10, 10});
   const auto soot = makeEnsemble(options);
-  const EnsemblePathOptions bins;
-  const auto records = marchPath(*soot, path, bins).records;
+  const SizeBins bins;
+  const auto records = marchPath(*soot, path, {bins}).records;
   EXPECT_EQ(records[0].totals.number, 0);
   EXPECT_EQ(records[0].geometricDeviation, 1);
   const auto& end = records.back();
@@ -74,9 +74,9 @@ TEST(ParticlePath, RecordsHoldDensitiesAndDistributions) {
   EXPECT_GT(end.volumeFraction, records[1].volumeFraction);
   EXPECT_NEAR(std::accumulate(end.distribution.begin(), end.distribution.end(), 0.0) * 0.05 / end.totals.number, 1,
               1e-9);
-  ASSERT_EQ(bins.binEdges().size(), end.distribution.size() + 1);
-  EXPECT_NEAR(bins.binEdges().front() / 1e-10, std::pow(10.0, 0.8), 1e-9);
-  EXPECT_NEAR(bins.binEdges().back() / 1e-7, std::pow(10.0, 0.8), 1e-9);
+  ASSERT_EQ(bins.edges().size(), end.distribution.size() + 1);
+  EXPECT_NEAR(bins.edges().front() / 1e-10, std::pow(10.0, 0.8), 1e-9);
+  EXPECT_NEAR(bins.edges().back() / 1e-7, std::pow(10.0, 0.8), 1e-9);
 
   EXPECT_EQ(marchPath(*makeEnsemble(options), path).records.back().volumeFraction, end.volumeFraction);
 }
