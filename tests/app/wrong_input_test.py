@@ -139,7 +139,7 @@ MISTAKES = [
           settings=("output.history_steps=4294967296",)),
     Wrong("particles beyond 32 bits", key="trajectories.particles", expected=("at most 2147483647",),
           settings=("trajectories.particles=4294967312",)),
-    Wrong("bins beyond 32 bits", key="trajectories.bins", expected=("at most 2147483647",),
+    Wrong("bins beyond 32 bits", key="trajectories.bins", expected=("from 2 to 10000",),
           settings=("trajectories.bins=4294967312",)),
     Wrong("refinement beyond the memory", key="mesh.refinement", expected=("cells with 47 species needs at least",),
           settings=("mesh.refinement=1e9",)),
