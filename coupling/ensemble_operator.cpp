@@ -6,11 +6,8 @@
 #include <array>
 #include <utility>
 
-#include "core/constants.hpp"
 #include "core/errors.hpp"
-#include "coupling/ensemble_species.hpp"
 #include "particles/collisions/collision_physics.hpp"
-#include "particles/models/soot_model.hpp"
 
 namespace lampblack::coupling {
 namespace {
@@ -22,58 +19,38 @@ struct Task {
 };
 constexpr std::size_t taskWidth = sizeof(Task) / sizeof(double);
 
-// And back; then what the gas gets (mol/m3), and the population.
-struct Done {
-  double cost, resampled, gainedCarbon, gainedHydrogen;  // kg/m3
-};
-constexpr std::size_t doneWidth = sizeof(Done) / sizeof(double);
+// And back come the cost, what the gas gets (mol/m3), what the particles gained of each element and what was resampled
+// of it (kg/m3), and the population.
 
-// Microseconds, about, of a numerical particle that is looked at in a splitting step or of an event; and of a cell.
-// Estimated, to weigh cells against each other and, to a factor of two or so, against the gas.
-constexpr double costOfLook = 0.06, costOfCell = 5.0;
-
-EnsembleTransport::Options transportOptions(const EnsembleOperator::Options& o) {
-  const EnsembleOptions& e = o.ensemble;
-  return {{e.soot.sootDensity, e.coalescing}, waldmannThermophoresis(), o.diffusion, o.secondOrder, e.seed};
-}
+// Microseconds, about, of a cell. Estimated as CellParticles::costOfLook(), to weigh cells against each other and, to a
+// factor of two or so, against the gas.
+constexpr double costOfCell = 5.0;
 
 }  // namespace
 
-std::vector<CarriedScalar> EnsembleOperator::scalars() {
-  return {{"soot_number", "1/m^3", "particles, per volume", 0.0, false},
-          {"soot_carbon", "kg/m^3", "carbon in particles, per volume", 0.0, false},
-          {"soot_hydrogen", "kg/m^3", "hydrogen in particles, per volume", 0.0, false},
-          {"soot_primaries", "1/m^3", "primary particles, per volume", 0.0, false},
-          {"soot_surface", "m^2/m^3", "surface of particles, per volume", 0.0, false},
-          {"soot_mobility_diameters", "m/m^3", "sum of mobility diameters, per volume", 0.0, false},
-          {"soot_owed_carbon", "kg/m^3", "carbon that the gas is still to get from the reserve", 0.0, false},
-          {"soot_owed_hydrogen", "kg/m^3", "hydrogen that the gas is still to get from the reserve", 0.0, false},
-          {"soot_owed_oxygen", "kg/m^3", "oxygen that the gas is still to get from the reserve", 0.0, false}};
-}
-
-std::vector<std::vector<double>> EnsembleOperator::unitElements(const Mechanism& mechanism, Exchange exchange) {
-  std::vector<std::vector<double>> elements(amounts, std::vector<double>(mechanism.numElements(), 0.0));
-  if (exchange == Exchange::OneWay) return elements;  // what such particles have came from nowhere
-  elements[carbon][mechanism.elementIndex("C")] = elements[owedC][mechanism.elementIndex("C")] = 1.0;
-  elements[hydrogen][mechanism.elementIndex("H")] = elements[owedH][mechanism.elementIndex("H")] = 1.0;
-  elements[owedO][mechanism.elementIndex("O")] = 1.0;
+std::vector<std::vector<double>> EnsembleOperator::unitElements(const Mechanism& mechanism,
+                                                                const CellParticles& particles, Exchange exchange) {
+  std::vector<std::vector<double>> elements = particles.unitElements(mechanism);
+  if (exchange == Exchange::OneWay)  // what such particles have came from nowhere
+    for (std::vector<double>& amount : elements) std::ranges::fill(amount, 0.0);
   return elements;
 }
 
-double EnsembleOperator::absorption(const Options& options, double temperature, std::span<const double> amount) {
-  if (options.exchange == Exchange::OneWay) return 0.0;
-  return sootAbsorption(temperature, (amount[carbon] + amount[hydrogen]) / options.ensemble.soot.sootDensity);
+double EnsembleOperator::absorption(const CellParticles& particles, Exchange exchange, double temperature,
+                                    std::span<const double> amounts) {
+  if (exchange == Exchange::OneWay) return 0.0;
+  return particles.absorption(temperature, particles.volumeOf(amounts));
 }
 
-EnsembleOperator::EnsembleOperator(const FlowContext& context, const TransportOperator& flow, Options options)
+EnsembleOperator::EnsembleOperator(const FlowContext& context, const TransportOperator& flow,
+                                   std::shared_ptr<CellParticles> particles, Options options)
     : context_(context),
       flow_(flow),
       options_(std::move(options)),
-      type_(options_.ensemble.soot.sootDensity, options_.ensemble.coalescing),
-      species_(indicesOfSootSpecies(context.mechanism, options_.ensemble.soot)),
-      engine_(makeEnsemble(options_.ensemble)),
-      blank_(engine_->pack()),
-      transport_(context, transportOptions(options_)),
+      particles_(std::move(particles)),
+      amounts_(particles_->amounts()),
+      transport_(context, {particles_->sizes().type, waldmannThermophoresis(), options_.diffusion, options_.secondOrder,
+                           options_.seed, particles_->rows()}),
       exchange_(context),
       sharing_(context.mesh.comm, options_.shareWork),
       populations_(static_cast<std::size_t>(context.mesh.owned)),
@@ -82,20 +59,18 @@ EnsembleOperator::EnsembleOperator(const FlowContext& context, const TransportOp
       reserve_(populations_.size() * reserveWidth()),
       rate_(reserve_.size()),
       cost_(populations_.size()),
-      outflow_(amounts) {
-  for (const std::size_t element :
-       {context.mechanism.elementIndex("C"), context.mechanism.elementIndex("H"), context.mechanism.elementIndex("O")})
-    for (const std::size_t k : species_)
-      massOfAtoms_.push_back(context.mechanism.atoms(k, element) * context.mechanism.atomicWeight(element));
+      outflow_(amounts_.count()),
+      resampled_(amounts_.held),
+      resampledBefore_(amounts_.held) {
   if (options_.statistics)
-    statistics_.emplace(context.mesh, *options_.statistics,
+    statistics_.emplace(context.mesh, particles_->material(), *options_.statistics,
                         options_.sizes ? std::optional(options_.bins) : std::nullopt);
 }
 
 ParticleGas EnsembleOperator::gasOf(const State& state, int cell, std::vector<double>& concentrations) const {
   const auto W = context_.mechanism.molecularWeights();
   concentrations.clear();
-  for (const std::size_t k : species_)
+  for (const std::size_t k : particles_->species())
     concentrations.push_back(state.density[cell] * state.Y[static_cast<std::size_t>(cell) * state.species + k] / W[k]);
   const GasProperties& properties = flow_.properties();
   return {{state.temperature[cell], state.thermodynamicPressure, state.density[cell], properties.viscosity[cell],
@@ -103,44 +78,33 @@ ParticleGas EnsembleOperator::gasOf(const State& state, int cell, std::vector<do
           concentrations};
 }
 
-void EnsembleOperator::initialise(State& state, int cell, std::span<const GivenParticle> population) {
-  EnsembleOptions own = options_.ensemble;
-  own.owner = static_cast<std::uint64_t>(context_.mesh.naturalCell[cell]);
-  const auto ensemble = makeEnsemble(own);
-  ensemble->initialise(population);
-  populations_[cell] = ensemble->pack();
+void EnsembleOperator::initialise(State& state, int cell, std::vector<double> population) {
+  populations_[cell] = std::move(population);
   waiting_[cell] = 0.0;
   setAmounts(state, cell);
 }
 
 void EnsembleOperator::setAmounts(State& state, int cell) const {
-  const Ensemble::Totals t = packedTotals(type_, populations_[cell]);
-  double* amount = &state.carried[static_cast<std::size_t>(cell) * state.scalars.size()];
-  amount[number] = t.number;
-  amount[carbon] = t.carbon;
-  amount[hydrogen] = t.hydrogen;
-  amount[primaries] = t.primaries;
-  amount[surface] = t.surface;
-  amount[diameters] = t.diameters;
+  const std::span<double> amount(&state.carried[static_cast<std::size_t>(cell) * state.scalars.size()],
+                                 amounts_.owedElement(0));
+  std::ranges::fill(amount, 0.0);
+  particles_->addAmounts(populations_[cell], amount);
 }
 
 void EnsembleOperator::setOwed(State& state, int cell) const {
   double* amount = &state.carried[static_cast<std::size_t>(cell) * state.scalars.size()];
   const double* reserve = &reserve_[static_cast<std::size_t>(cell) * reserveWidth()];
-  for (std::size_t element = 0; element < 3; ++element) {
-    double& owed = amount[owedC + element];
+  const std::size_t species = particles_->species().size();
+  for (std::size_t element = 0; element < amounts_.owed; ++element) {
+    double& owed = amount[amounts_.owedElement(element)];
     owed = 0.0;
-    for (std::size_t i = 0; i < species_.size(); ++i) owed += massOfAtoms_[element * species_.size() + i] * reserve[i];
+    for (std::size_t i = 0; i < species; ++i) owed += particles_->massOfAtoms()[element * species + i] * reserve[i];
   }
 }
 
 std::vector<double>& EnsembleOperator::openPopulation(int cell) {
   std::vector<double>& population = populations_[cell];
-  if (population.empty()) {
-    population = blank_;
-    std::ranges::copy(packedOwner(static_cast<std::uint64_t>(context_.mesh.naturalCell[cell])),
-                      &population[packedOwnerAt]);
-  }
+  if (population.empty()) population = particles_->empty(static_cast<std::uint64_t>(context_.mesh.naturalCell[cell]));
   return population;
 }
 
@@ -157,52 +121,49 @@ void EnsembleOperator::pack(const State& state, int cell, double dt, std::vector
   in.insert(in.end(), arrived.begin(), arrived.end());
 }
 
-void EnsembleOperator::solve(double time, std::span<const double> in, std::vector<double>& out) const {
+void EnsembleOperator::solve(double time, std::span<const double> in, std::vector<double>& out) {
   PackedDoubles packed(in);
   const auto task = packed.next<Task>();
+  const std::size_t species = particles_->species().size();
   const ParticleGas gas{{task.temperature, task.pressure, task.density, task.viscosity, task.molecularWeight},
-                        in.subspan(taskWidth, species_.size())};
-  const std::span<const double> rows = in.subspan(taskWidth + species_.size());
+                        in.subspan(taskWidth, species)};
+  const std::span<const double> rows = in.subspan(taskWidth + species);
   const auto arrivedSize = static_cast<std::size_t>(task.arrived);
-  EnsembleExchange taken;
+  CellParticles::Change change;
   try {
-    engine_->unpack(rows.first(rows.size() - arrivedSize));
-    if (arrivedSize > 0) {
-      std::vector<GivenParticle> arrived;
-      for (PackedDoubles left(rows.last(arrivedSize)); left.left() > 0;) arrived.push_back(left.next<GivenParticle>());
-      engine_->join(arrived, 1.0);
-    }
-    engine_->advance(gas, 0.0, task.dt);
-    taken = engine_->takeExchange();
+    particles_->unpack(rows.first(rows.size() - arrivedSize));
+    if (arrivedSize > 0) particles_->join(rows.last(arrivedSize));
+    change = particles_->advance(gas, task.dt);
   } catch (const NumericsError& error) {
     throw NumericsError(fmt::format("the ensemble of cell {:.0f} at {} failed at time {:.6g} s: {}", task.cell,
                                     placeText({task.x, task.y, task.z}, context_.mesh.dimension), time, error.what()));
   }
-  packDoubles(out, Done{costOfCell + costOfLook * engine_->cost(), taken.resampledCarbon + taken.resampledHydrogen,
-                        taken.carbon, taken.hydrogen});
-  out.insert(out.end(), taken.gas.begin(), taken.gas.begin() + static_cast<std::ptrdiff_t>(species_.size()));
-  const std::vector<double> population = engine_->pack();
+  out.push_back(costOfCell + particles_->costOfLook() * particles_->cost());
+  for (const std::vector<double>* values : {&change.gas, &change.elements, &change.resampled})
+    out.insert(out.end(), values->begin(), values->end());
+  const std::vector<double> population = particles_->pack();
   out.insert(out.end(), population.begin(), population.end());
 }
 
 void EnsembleOperator::unpack(State& state, int cell, bool isHeld, std::span<const double> out) {
-  const auto done = PackedDoubles(out).next<Done>();
-  const std::span<const double> population = out.subspan(doneWidth + species_.size());
+  const std::vector<std::size_t>& species = particles_->species();
+  const std::size_t held = amounts_.held;
+  cost_[cell] = out[0];
+  const std::span<const double> change = out.subspan(1, species.size());
+  const std::span<const double> gained = out.subspan(1 + species.size(), held);
+  const std::span<const double> resampled = out.subspan(1 + species.size() + held, held);
+  const std::span<const double> population = out.subspan(1 + species.size() + 2 * held);
   populations_[cell].assign(population.begin(), population.end());
-  cost_[cell] = done.cost;
-  resampled_ += context_.mesh.volume[cell] * done.resampled;
+  for (std::size_t e = 0; e < held; ++e) resampled_[e] += context_.mesh.volume[cell] * resampled[e];
   if (options_.exchange == Exchange::OneWay) return;
-  const double temperature = state.temperature[cell];
-  const double heat = done.gainedCarbon * sootCarbonEnthalpy(temperature).first +
-                      done.gainedHydrogen * sootHydrogenEnthalpy(temperature).first;  // J/m3
-  const std::span<const double> change = out.subspan(doneWidth, species_.size());
+  const double heat = particles_->enthalpy(state.temperature[cell], gained);  // J/m3
   if (!(options_.average > 0.0) && !isHeld) {
-    exchange_.book(state, cell, species_, change, heat);
+    exchange_.book(state, cell, species, change, heat);
     return;
   }
   double* reserve = &reserve_[static_cast<std::size_t>(cell) * reserveWidth()];
-  for (std::size_t i = 0; i < species_.size(); ++i) reserve[i] += change[i];
-  reserve[species_.size()] -= heat;
+  for (std::size_t i = 0; i < species.size(); ++i) reserve[i] += change[i];
+  reserve[species.size()] -= heat;
   setOwed(state, cell);
 }
 
@@ -236,17 +197,16 @@ void EnsembleOperator::advance(State& state, double time, double dt) {
   WorkSharing::Items items;
   for (int cell = 0; cell < m.owned; ++cell) {
     const double before = std::exchange(cost_[cell], 0.0);
-    const bool isEmpty = populations_[cell].size() <= packedHead && arrived_[cell].empty();
-    if (isEmpty && !hasPrecursors(gasOf(state, cell, concentrations_))) {
+    const ParticleRows& rows = particles_->rows();
+    const std::size_t count = rows.count(rows.of(populations_[cell])) + rows.count(arrived_[cell]);
+    if (count == 0 && !particles_->hasPrecursors(gasOf(state, cell, concentrations_))) {
       populations_[cell] = {};
       setOwed(state, cell);
       continue;
     }
     busy.push_back(cell);
-    const std::size_t values = populations_[cell].size() + arrived_[cell].size();
     // What it cost in the last step, or once each particle.
-    items.cost.push_back(before > 0.0 ? before
-                                      : costOfCell + costOfLook * static_cast<double>(values) / packedParticle);
+    items.cost.push_back(before > 0.0 ? before : costOfCell + particles_->costOfLook() * static_cast<double>(count));
   }
   items.pack = [&](std::size_t i, std::vector<double>& in) { pack(state, busy[i], dt, in); };
   items.advance = [&](std::span<const double> in, std::vector<double>& out) { solve(time, in, out); };
@@ -271,7 +231,7 @@ void EnsembleOperator::move(const State& state, double dt, EnsembleTransport::Ha
 
 void EnsembleOperator::takeOutWaiting() {
   for (std::size_t cell = 0; cell < populations_.size(); ++cell) {
-    const auto values = static_cast<std::ptrdiff_t>(waiting_[cell]) * static_cast<std::ptrdiff_t>(packedParticle);
+    const auto values = static_cast<std::ptrdiff_t>(waiting_[cell]);
     arrived_[cell].assign(populations_[cell].end() - values, populations_[cell].end());
     populations_[cell].resize(populations_[cell].size() - static_cast<std::size_t>(values));
   }
@@ -280,7 +240,7 @@ void EnsembleOperator::takeOutWaiting() {
 // Collective.
 void EnsembleOperator::letArrivedWait(State& state) {
   for (int cell = 0; cell < context_.mesh.owned; ++cell) {
-    waiting_[cell] = static_cast<double>(arrived_[cell].size() / packedParticle);
+    waiting_[cell] = static_cast<double>(arrived_[cell].size());
     if (!arrived_[cell].empty()) {
       std::vector<double>& population = openPopulation(cell);
       population.reserve(population.size() + arrived_[cell].size());
@@ -296,24 +256,20 @@ void EnsembleOperator::letArrivedWait(State& state) {
 
 void EnsembleOperator::countOutflow() {
   std::ranges::fill(outflow_, 0.0);
-  for (const GivenParticle& p : transport_.gone()) {
-    outflow_[number] += p.number;
-    outflow_[carbon] += p.number * p.carbon;
-    outflow_[hydrogen] += p.number * p.hydrogen;
-    outflow_[primaries] += p.number * p.primaries;
-  }
+  particles_->rows().forEach(transport_.gone(),
+                             [&](const double* row) { particles_->addAmounts(row, row[packedNumberAt], outflow_); });
 }
 
 void EnsembleOperator::addToStatistics(const State& state) {
   if (!statistics_) return;
   const auto amountsOf = [&](int cell) {
     const double* amount = &state.carried[static_cast<std::size_t>(cell) * state.scalars.size()];
-    return EnsembleStatistics::CellAmounts{amount[number],
-                                           (amount[carbon] + amount[hydrogen]) / options_.ensemble.soot.sootDensity,
-                                           amount[primaries], amount[surface], amount[diameters]};
+    return EnsembleStatistics::CellAmounts{
+        amount[AmountPlaces::number], particles_->volumeOf({amount, amounts_.count()}), amount[amounts_.primaries()],
+        amount[amounts_.surface()], amount[amounts_.diameters()]};
   };
   const auto sizesOf = [&](int cell, std::span<double> sizes) {
-    addSizes(type_, options_.bins, populations_[cell], sizes);
+    addSizes(particles_->sizes(), options_.bins, populations_[cell], sizes);
   };
   statistics_->addStep(stepEnd_, lastStep_, {amountsOf, sizesOf});
 }
@@ -321,7 +277,10 @@ void EnsembleOperator::addToStatistics(const State& state) {
 void EnsembleOperator::endStep(State& state) {
   if (inStep_) {
     ++steps_;
-    for (const auto& watcher : watchers_) watcher(outflow_);
+    std::vector<double> came(amounts_.count());
+    for (std::size_t e = 0; e < amounts_.held; ++e) came[amounts_.element(e)] = resampled_[e] - resampledBefore_[e];
+    for (const Watcher& watcher : watchers_) watcher(came, outflow_);
+    resampledBefore_ = resampled_;
     addToStatistics(state);
   }
   inStep_ = false;
@@ -333,11 +292,12 @@ void EnsembleOperator::endStep(State& state) {
 void EnsembleOperator::endSweep(State& state) {
   if (!(options_.average > 0.0)) return;
   const auto W = context_.mechanism.molecularWeights();
+  const std::vector<std::size_t>& species = particles_->species();
   for (int cell = 0; cell < context_.mesh.owned; ++cell) {
     const auto c = static_cast<std::size_t>(cell);
     const double* rate = &rate_[c * reserveWidth()];
-    for (std::size_t i = 0; i < species_.size(); ++i) state.balance.exchange(c, species_[i], rate[i] * W[species_[i]]);
-    state.balance.enthalpy[c] += rate[species_.size()];
+    for (std::size_t i = 0; i < species.size(); ++i) state.balance.exchange(c, species[i], rate[i] * W[species[i]]);
+    state.balance.enthalpy[c] += rate[species.size()];
   }
 }
 
@@ -347,9 +307,8 @@ void EnsembleOperator::saveOrLoad(StateArchive& archive) {
   archive.cells("ensemble_waiting", waiting_, 1);
   archive.cells("ensemble_reserve", reserve_, static_cast<int>(reserveWidth()));
   archive.cells("ensemble_cost", cost_, 1);
-  std::array<double, 1> counted{resampled_};
-  archive.sums("ensemble_resampled", counted);
-  resampled_ = counted[0];
+  archive.sums("ensemble_resampled", resampled_);
+  if (archive.loading()) resampledBefore_ = resampled_;
   std::vector<double> shared{static_cast<double>(steps_), lastStep_, imbalances_.before, imbalances_.after,
                              static_cast<double>(stages_)};
   archive.shared("ensemble_steps", shared);

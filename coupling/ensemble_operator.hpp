@@ -1,11 +1,12 @@
-// Stochastic ensembles of particles in the cells of a flow, one in each owned cell where there is soot or what it could
-// come of: a process of the flow beside transport and chemistry. In each step the particles move between the cells for
-// half of its time (EnsembleTransport), then each cell's population changes in the gas of the cell (Ensemble), on any
-// rank (WorkSharing), then the particles move on: seen between the steps, where one process follows the other, a steady
-// state errs by the square of the step. What a population takes from the gas and gives to it is booked to the cell,
-// species, mass and enthalpy.
+// Stochastic ensembles of particles in the cells of a flow, one in each owned cell where there are particles or what
+// they could come of: a process of the flow beside transport and chemistry. In each step the particles move between the
+// cells for half of its time (EnsembleTransport), then each cell's population changes in the gas of the cell
+// (CellParticles), on any rank (WorkSharing), then the particles move on: seen between the steps, where one process
+// follows the other, a steady state errs by the square of the step. What a population takes from the gas and gives to
+// it is booked to the cell, species, mass and enthalpy.
 //
-// The populations are kept packed, 32 bytes a particle, and are unpacked one after the other into one Ensemble a rank.
+// The populations are kept packed, those of soot 32 bytes a particle, and are unpacked one after the other into one a
+// rank.
 // Those that arrive in the second half of a step stand behind the others until the next step merges them.
 //
 // Coupling. Without `average` the exchange of a step is booked at its end, at once. With it the exchange goes into a
@@ -25,14 +26,13 @@
 
 #include "core/rooms.hpp"
 #include "core/work_sharing.hpp"
+#include "coupling/cell_particles.hpp"
 #include "coupling/ensemble_sizes.hpp"
 #include "coupling/ensemble_statistics.hpp"
 #include "coupling/ensemble_transport.hpp"
 #include "flow/gas_exchange.hpp"
 #include "flow/operator.hpp"
 #include "flow/transport_operator.hpp"
-#include "particles/ensemble/ensemble.hpp"
-#include "particles/models/particle_model.hpp"
 
 namespace lampblack::coupling {
 
@@ -43,7 +43,6 @@ class EnsembleOperator : public Operator {
     OneWay   // the gas does not know of the particles
   };
   struct Options {
-    EnsembleOptions ensemble;  // `owner` is the cell's permanent number
     Exchange exchange = Exchange::TwoWay;
     double average = 0.0;  // s
     // s, from when on the gas stays as it is: whoever runs the operators advances no other, and what is exchanged stays
@@ -52,22 +51,23 @@ class EnsembleOperator : public Operator {
     bool diffusion = true;
     bool secondOrder = true;
     bool shareWork = true;
-    int sweeps = 1;     // of a step
-    SizeBins bins;      // of size distributions
-    bool sizes = true;  // whether they are fields
+    int sweeps = 1;          // of a step
+    std::uint64_t seed = 1;  // of transport
+    SizeBins bins;           // of size distributions
+    bool sizes = true;       // whether they are fields
     std::optional<EnsembleStatistics::Options> statistics;
   };
-  // What State::carried has of the particles, per m3; the last are atoms in the reserve, which the gas is still to get.
-  enum Amount : std::size_t { number, carbon, hydrogen, primaries, surface, diameters, owedC, owedH, owedO, amounts };
-  [[nodiscard]] static std::vector<CarriedScalar> scalars();
   // kg of each element of the mechanism in a unit of each amount.
-  [[nodiscard]] static std::vector<std::vector<double>> unitElements(const Mechanism& mechanism, Exchange exchange);
+  [[nodiscard]] static std::vector<std::vector<double>> unitElements(const Mechanism& mechanism,
+                                                                     const CellParticles& particles, Exchange exchange);
   // Absorption coefficient (1/m) of particles of these amounts.
-  [[nodiscard]] static double absorption(const Options& options, double temperature, std::span<const double> amounts);
+  [[nodiscard]] static double absorption(const CellParticles& particles, Exchange exchange, double temperature,
+                                         std::span<const double> amounts);
 
-  // `flow` moves the gas, before this operator in every sweep. The amounts stand first in State::carried. InputError
-  // where the mechanism lacks a species.
-  EnsembleOperator(const FlowContext& context, const TransportOperator& flow, Options options);
+  // `flow` moves the gas, before this operator in every sweep. The amounts of the particles (AmountPlaces) stand first
+  // in State::carried.
+  EnsembleOperator(const FlowContext& context, const TransportOperator& flow, std::shared_ptr<CellParticles> particles,
+                   Options options);
 
   [[nodiscard]] const char* name() const override { return "ensembles"; }
   void advance(State& state, double time, double dt) override;
@@ -83,25 +83,26 @@ class EnsembleOperator : public Operator {
   void fields(const State& state, const FieldSink& sink) const override;
   void addCost(const Mesh& mesh, CellCost& cost) const override;
 
-  // Is called at the end of each step: each amount that left through the boundary in it, of this rank's cells, per
-  // metre depth or radian.
-  void watchOutflow(std::function<void(std::span<const double>)> watcher) { watchers_.push_back(std::move(watcher)); }
+  // Is called at the end of each step: each amount that came with numerical particles that come and go, and that left
+  // through the boundary in it, of this rank's cells, per metre depth or radian.
+  using Watcher = std::function<void(std::span<const double> resampled, std::span<const double> gone)>;
+  void watchAmounts(Watcher watcher) { watchers_.push_back(std::move(watcher)); }
   [[nodiscard]] const Options& options() const { return options_; }
-  [[nodiscard]] const SootAggregate& particleType() const { return type_; }
+  [[nodiscard]] const CellParticles& particles() const { return *particles_; }
   // Averages over time; null without.
   [[nodiscard]] const EnsembleStatistics* statistics() const { return statistics_ ? &*statistics_ : nullptr; }
   // Packed, of the owned cells, with what has arrived since; empty where there is none.
   [[nodiscard]] const std::vector<std::vector<double>>& populations() const { return populations_; }
   [[nodiscard]] bool isGasHeld(double time) const { return options_.holdGas && time >= *options_.holdGas; }
-  // Replaces the population of an owned cell; as Ensemble::initialise.
-  void initialise(State& state, int cell, std::span<const GivenParticle> population);
+  // Replaces the population of an owned cell by a packed one.
+  void initialise(State& state, int cell, std::vector<double> population);
 
  private:
   // A reserve: mol/m3 of each exchanged species, then J/m3.
-  [[nodiscard]] std::size_t reserveWidth() const { return species_.size() + 1; }
+  [[nodiscard]] std::size_t reserveWidth() const { return particles_->species().size() + 1; }
   [[nodiscard]] ParticleGas gasOf(const State& state, int cell, std::vector<double>& concentrations) const;
   void pack(const State& state, int cell, double dt, std::vector<double>& in);
-  void solve(double time, std::span<const double> in, std::vector<double>& out) const;
+  void solve(double time, std::span<const double> in, std::vector<double>& out);
   void unpack(State& state, int cell, bool isHeld, std::span<const double> out);
   void setAmounts(State& state, int cell) const;
   // The packed population of a cell, to put particles behind it.
@@ -116,30 +117,29 @@ class EnsembleOperator : public Operator {
   const FlowContext& context_;
   const TransportOperator& flow_;
   Options options_;
-  SootAggregate type_;
-  std::vector<std::size_t> species_;
-  std::unique_ptr<Ensemble> engine_;
-  std::vector<double> blank_;  // a packed population without particles
+  std::shared_ptr<CellParticles> particles_;
+  AmountPlaces amounts_;
   EnsembleTransport transport_;
   GasExchange exchange_;
   WorkSharing sharing_;
   std::vector<std::vector<double>> populations_, arrived_;
-  std::vector<double> waiting_;  // how many of the last particles of a population have arrived since it was advanced
+  std::vector<double> waiting_;  // how many of the last values of a population have arrived since it was advanced
   std::vector<double> reserve_;  // of the owned cells
   std::vector<double> rate_;     // what the balance has of it, per s
   std::vector<double> cost_;     // of each owned cell's last advance
   // What several sweeps of a step begin with.
   std::vector<std::vector<double>> startPopulations_;
   std::vector<double> startWaiting_, startReserve_;
-  double startResampled_ = 0.0;
+  std::vector<double> startResampled_;
   bool inStep_ = false;
-  double lastStep_ = 0.0;   // s
-  double stepEnd_ = 0.0;    // s
-  std::int64_t steps_ = 0;  // since the start
-  std::vector<double> outflow_;
-  std::vector<std::function<void(std::span<const double>)>> watchers_;
-  double resampled_ = 0.0;  // by numerical particles that come and go, since the start, kg per metre depth or radian
-  std::vector<double> massOfAtoms_;  // kg/mol of C, of H, of O in the exchanged species
+  double lastStep_ = 0.0;        // s
+  double stepEnd_ = 0.0;         // s
+  std::int64_t steps_ = 0;       // since the start
+  std::vector<double> outflow_;  // of the step, each amount, per metre depth or radian
+  std::vector<Watcher> watchers_;
+  // Of each element, by numerical particles that come and go: kg per metre depth or radian, since the start and before
+  // this step.
+  std::vector<double> resampled_, resampledBefore_;
   std::vector<double> concentrations_;
   std::optional<EnsembleStatistics> statistics_;
   Imbalance imbalances_{0.0, 0.0};  // sums over the stages

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <numeric>
 
 #include "coupling/ensemble_operator.hpp"
 #include "flow/peak.hpp"
@@ -15,18 +16,18 @@ namespace lampblack::coupling {
 namespace {
 
 // Of the amounts per volume.
-ParticleProperties propertiesOf(std::span<const double> amount, double density) {
-  using A = EnsembleOperator;
+ParticleProperties propertiesOf(std::span<const double> amount, const CellParticles& of) {
+  const AmountPlaces at = of.amounts();
   ParticleProperties p;
-  const double mass = amount[A::carbon] + amount[A::hydrogen], N = amount[A::number];
+  const double N = amount[AmountPlaces::number];
   if (!(N > 0.0)) return p;
   p.numberDensity = N;
-  p.volumeFraction = mass / density;
+  p.volumeFraction = of.volumeOf(amount);
   p.meanDiameter = std::cbrt(6.0 / constants::pi * p.volumeFraction / N);
-  p.surfaceArea = amount[A::surface];
-  p.primaryDiameter = 6.0 * p.volumeFraction / amount[A::surface];
-  p.primariesPerAggregate = amount[A::primaries] / N;
-  p.mobilityDiameter = amount[A::diameters] / N;
+  p.surfaceArea = amount[at.surface()];
+  p.primaryDiameter = 6.0 * p.volumeFraction / amount[at.surface()];
+  p.primariesPerAggregate = amount[at.primaries()] / N;
+  p.mobilityDiameter = amount[at.diameters()] / N;
   p.gyrationDiameter = p.primaryDiameter * SootAggregate::collisionFactor(p.primariesPerAggregate);
   return p;
 }
@@ -39,31 +40,34 @@ std::optional<Operator::Imbalance> EnsembleOperator::imbalance() const {
 }
 
 std::vector<Quantity> EnsembleOperator::historyColumns() const {
-  return {{"peak_soot_volume_fraction", "1", "largest volume fraction of soot"},
+  const std::string& name = particles_->material();
+  return {{"peak_" + name + "_volume_fraction", "1", "largest volume fraction of " + name},
           {"ensembles", "1", "cells with particles"},
           {"numerical_particles", "1", "numerical particles in all cells"},
-          {"soot_resampled", unitOfWhole(context_.mesh, "kg"),
-           "soot that came and went with numerical particles since the start, zero in the mean"},
+          {name + "_resampled", unitOfWhole(context_.mesh, "kg"),
+           name + " that came and went with numerical particles since the start, zero in the mean"},
           {"transport_parts", "1", "parts that the particles' transport was divided into, two at least"},
           {"transport_limited", "1", "numerical particles whose probability to move was limited in the last step"},
           // With and without averages, so that a run may go on with them.
-          {"soot_averages_since", "s", "when averages of the soot over time started; nan before"},
-          {"soot_averaged_blocks", "1", "blocks of time in the averages of the soot"}};
+          {name + "_averages_since", "s", "when averages of the particles over time started; nan before"},
+          {name + "_averaged_blocks", "1", "blocks of time in the averages of the particles"}};
 }
 
 std::vector<double> EnsembleOperator::historyValues(const State& state) {
   const Mesh& m = context_.mesh;
   const Peak peak = peakOf(m, [&](int cell) {
     const double* amount = &state.carried[static_cast<std::size_t>(cell) * state.scalars.size()];
-    return (amount[carbon] + amount[hydrogen]) / options_.ensemble.soot.sootDensity;
+    return particles_->volumeOf({amount, amounts_.count()});
   });
   peak_ = peak.value;
   place_ = peak.place;
-  std::array<double, 4> sums{0.0, 0.0, resampled_, static_cast<double>(transport_.limited())};
+  std::array<double, 4> sums{0.0, 0.0, std::accumulate(resampled_.begin(), resampled_.end(), 0.0),
+                             static_cast<double>(transport_.limited())};
+  const ParticleRows& rows = particles_->rows();
   for (const std::vector<double>& population : populations_) {
-    if (population.size() <= packedHead) continue;
+    if (rows.isEmpty(population)) continue;
     sums[0] += 1.0;
-    sums[1] += static_cast<double>((population.size() - packedHead) / packedParticle);
+    sums[1] += static_cast<double>(rows.count(rows.of(population)));
   }
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, m.comm);
   const std::optional<double> since = statistics_ ? statistics_->since() : std::nullopt;
@@ -82,8 +86,8 @@ std::string EnsembleOperator::status() const {
 }
 
 std::vector<std::string> EnsembleOperator::closingLines() const {
-  std::vector<std::string> lines{fmt::format("peak soot volume fraction {:.4g} ppm at ({:.3f}, {:.3f}) mm", 1e6 * peak_,
-                                             1e3 * place_[0], 1e3 * place_[1])};
+  std::vector<std::string> lines{fmt::format("peak {} volume fraction {:.4g} ppm at ({:.3f}, {:.3f}) mm",
+                                             particles_->material(), 1e6 * peak_, 1e3 * place_[0], 1e3 * place_[1])};
   if (statistics_) std::ranges::copy(statistics_->closingLines(), std::back_inserter(lines));
   return lines;
 }
@@ -91,32 +95,34 @@ std::vector<std::string> EnsembleOperator::closingLines() const {
 void EnsembleOperator::fields(const State& state, const FieldSink& sink) const {
   const auto owned = static_cast<std::size_t>(context_.mesh.owned);
   const std::size_t n = state.scalars.size();
+  const std::string& material = particles_->material();
+  const ParticleRows& rows = particles_->rows();
   std::vector<double> column(owned);
-  for (std::size_t s = 0; s < amounts; ++s) {
+  for (std::size_t s = 0; s < amounts_.count(); ++s) {
     for (std::size_t c = 0; c < owned; ++c) column[c] = state.carried[c * n + s];
     sink({state.scalars[s].name, state.scalars[s].unit, state.scalars[s].description}, column);
   }
   std::vector<ParticleProperties> all;
   for (std::size_t c = 0; c < owned; ++c)
-    all.push_back(propertiesOf({&state.carried[c * n], amounts}, options_.ensemble.soot.sootDensity));
+    all.push_back(propertiesOf({&state.carried[c * n], amounts_.count()}, *particles_));
   for (const ParticlePropertyName& property : particlePropertyNames) {
     for (std::size_t c = 0; c < owned; ++c) column[c] = all[c].*property.value;
-    sink({std::string("soot_") + property.name, property.unit, property.description}, column);
+    sink({material + "_" + property.name, property.unit, property.description}, column);
   }
-  for (std::size_t c = 0; c < owned; ++c)
-    column[c] = populations_[c].size() <= packedHead
-                    ? 0.0
-                    : static_cast<double>((populations_[c].size() - packedHead) / packedParticle);
+  for (std::size_t c = 0; c < owned; ++c) column[c] = static_cast<double>(rows.count(rows.of(populations_[c])));
   sink({"numerical_particles", "1", "numerical particles of the cell's ensemble"}, column);
-  if (const std::string name = "soot_geometric_standard_deviation"; sink.wants(name)) {
-    for (std::size_t c = 0; c < owned; ++c) column[c] = geometricDeviation(type_, populations_[c]);
+  if (const std::string name = material + "_geometric_standard_deviation"; sink.wants(name)) {
+    for (std::size_t c = 0; c < owned; ++c) column[c] = geometricDeviation(particles_->sizes(), populations_[c]);
     sink({name, "1", "of the mobility diameter, by number; 1 where there are no particles"}, column);
   }
-  if (const std::string name = "soot_size_distribution"; options_.sizes && sink.wants(name)) {
+  if (const std::string name = material + "_size_distribution"; options_.sizes && sink.wants(name)) {
     std::vector<double> sizes(owned * options_.bins.count, 0.0);
     for (std::size_t c = 0; c < owned; ++c)
-      addSizes(type_, options_.bins, populations_[c], {&sizes[c * options_.bins.count], options_.bins.count});
-    sink({name, "1/m^3", "dN/dlog10(d) by mobility diameter, in the bins of /soot_sizes/bin_edges"}, sizes);
+      addSizes(particles_->sizes(), options_.bins, populations_[c],
+               {&sizes[c * options_.bins.count], options_.bins.count});
+    sink(
+        {name, "1/m^3", fmt::format("dN/dlog10(d) by mobility diameter, in the bins of /{}_sizes/bin_edges", material)},
+        sizes);
   }
   if (statistics_) statistics_->fields(sink);
 }

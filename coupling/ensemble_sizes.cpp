@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/order_free_sums.hpp"
-#include "particles/ensemble/packed_ensemble.hpp"
 #include "particles/population/monte_carlo/weighted_deviation.hpp"
 
 namespace lampblack::coupling {
@@ -13,23 +12,25 @@ namespace {
 // Numbers of primaries: eight bins a factor of ten, the first with what has not coagulated; the last is without end.
 const SizeBins primaryBins{0.0, 8.0, 64};
 
-SootAggregate::Particle particleOf(const SootAggregate& type, const GivenParticle& p) {
+SootAggregate::Particle particleOf(const SootAggregate& type, const double* row) {
+  const GivenParticle p = particleAt(row);
   return type.make(p.carbon, p.hydrogen, p.primaries);
 }
 
 }  // namespace
 
-void addSizes(const SootAggregate& type, const SizeBins& bins, std::span<const double> population,
-              std::span<double> density) {
-  for (const GivenParticle& p : packedParticles(population))
-    if (const std::size_t bin = bins.of(type.mobilityDiameter(particleOf(type, p))); bin < bins.count)
-      density[bin] += p.number / bins.width();
+void addSizes(const RowSizes& of, const SizeBins& bins, std::span<const double> population, std::span<double> density) {
+  of.rows.forEach(of.rows.of(population), [&](const double* row) {
+    const std::size_t bin = bins.of(of.type.mobilityDiameter(particleOf(of.type, row)));
+    if (bin < bins.count) density[bin] += row[packedNumberAt] / bins.width();
+  });
 }
 
-double geometricDeviation(const SootAggregate& type, std::span<const double> population) {
+double geometricDeviation(const RowSizes& of, std::span<const double> population) {
   WeightedDeviation deviation;
-  for (const GivenParticle& p : packedParticles(population))
-    deviation.add(std::log(type.mobilityDiameter(particleOf(type, p))), p.number);
+  of.rows.forEach(of.rows.of(population), [&](const double* row) {
+    deviation.add(std::log(of.type.mobilityDiameter(particleOf(of.type, row))), row[packedNumberAt]);
+  });
   return deviation.geometric();
 }
 
@@ -53,14 +54,14 @@ std::vector<Quantity> EnsembleRegion::sizeColumns() {
           {"size_distribution", "1/m^3", "dN/dlog10(d), mean over the region"}};
 }
 
-std::vector<double> EnsembleRegion::sizeRows(const SootAggregate& type, const SizeBins& bins,
+std::vector<double> EnsembleRegion::sizeRows(const RowSizes& of, const SizeBins& bins,
                                              std::span<const std::vector<double>> populations) const {
   std::vector<PlacedValue> values;
   std::vector<double> density(bins.count);
   for (const int c : cells_) {
     const auto cell = static_cast<std::size_t>(c);
     std::ranges::fill(density, 0.0);
-    addSizes(type, bins, populations[cell], density);
+    addSizes(of, bins, populations[cell], density);
     for (std::size_t b = 0; b < bins.count; ++b)
       if (density[b] > 0.0) values.push_back({b, mesh_.volume[cell] * density[b]});
   }
@@ -81,7 +82,7 @@ std::vector<Quantity> EnsembleRegion::jointColumns() {
           {"surface_area", "m^2/m^3", "surface of these, mean over the region"}};
 }
 
-std::vector<double> EnsembleRegion::jointRows(const SootAggregate& type, const SizeBins& bins,
+std::vector<double> EnsembleRegion::jointRows(const RowSizes& of, const SizeBins& bins,
                                               std::span<const std::vector<double>> populations) const {
   constexpr std::size_t amounts = 3;
   const std::size_t places = bins.count * primaryBins.count * amounts;
@@ -90,17 +91,18 @@ std::vector<double> EnsembleRegion::jointRows(const SootAggregate& type, const S
   std::vector<std::size_t> touched;
   for (const int c : cells_) {
     touched.clear();
-    for (const GivenParticle& given : packedParticles(populations[static_cast<std::size_t>(c)])) {
-      const SootAggregate::Particle p = particleOf(type, given);
-      const std::size_t size = bins.of(type.primaryDiameter(p));
-      if (size == bins.count) continue;
+    of.rows.forEach(of.rows.of(populations[static_cast<std::size_t>(c)]), [&](const double* row) {
+      const SootAggregate::Particle p = particleOf(of.type, row);
+      const double number = row[packedNumberAt];
+      const std::size_t size = bins.of(of.type.primaryDiameter(p));
+      if (size == bins.count) return;
       const std::size_t primaries = std::min(primaryBins.of(std::max(1.0, p.primaries)), primaryBins.count - 1);
       const std::size_t place = (size * primaryBins.count + primaries) * amounts;
       if (!(ofCell[place] > 0.0)) touched.push_back(place);
-      ofCell[place] += given.number;
-      ofCell[place + 1] += given.number * SootAggregate::mass(p);
-      ofCell[place + 2] += given.number * type.surface(p);
-    }
+      ofCell[place] += number;
+      ofCell[place + 1] += number * SootAggregate::mass(p);
+      ofCell[place + 2] += number * of.type.surface(p);
+    });
     for (const std::size_t place : touched)
       for (std::size_t a = 0; a < amounts; ++a) {
         values.push_back({place + a, mesh_.volume[static_cast<std::size_t>(c)] * ofCell[place + a]});

@@ -18,22 +18,19 @@ constexpr double looksInBlock = 20.0;
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-struct Field {
-  Quantity mean;
-  const char* of;  // in the description of the interval
-};
-const std::array<Field, EnsembleStatistics::amounts> amountFields{
-    {{{"soot_number_density", "1/m^3", "aggregates, mean over time"}, "soot_number_density_mean"},
-     {{"soot_volume_fraction", "1", "particle volume per volume of gas, mean over time"}, "soot_volume_fraction_mean"},
-     {{"soot_primaries", "1/m^3", "primary particles, per volume, mean over time"}, "soot_primaries_mean"},
-     {{"soot_surface_area", "m^2/m^3", "surface of all particles, mean over time"}, "soot_surface_area_mean"},
-     {{"soot_mobility_diameter", "m", "mean mobility diameter: of the mean sum of diameters and the mean number"},
-      "soot_mobility_diameter_mean"}}};
+// Names without the material.
+const std::array<Quantity, EnsembleStatistics::amounts> amountFields{
+    {{"number_density", "1/m^3", "aggregates, mean over time"},
+     {"volume_fraction", "1", "particle volume per volume of gas, mean over time"},
+     {"primaries", "1/m^3", "primary particles, per volume, mean over time"},
+     {"surface_area", "m^2/m^3", "surface of all particles, mean over time"},
+     {"mobility_diameter", "m", "mean mobility diameter: of the mean sum of diameters and the mean number"}}};
 
 }  // namespace
 
-EnsembleStatistics::EnsembleStatistics(const Mesh& mesh, Options options, std::optional<SizeBins> bins)
-    : mesh_(mesh), options_(options), bins_(bins) {
+EnsembleStatistics::EnsembleStatistics(const Mesh& mesh, std::string material, Options options,
+                                       std::optional<SizeBins> bins)
+    : mesh_(mesh), material_(std::move(material)), options_(options), bins_(bins) {
   clear();
 }
 
@@ -135,27 +132,29 @@ void EnsembleStatistics::fields(const Operator::FieldSink& sink) const {
       }
       if (interval) halves[c] = interval->half(squares);
     }
-    const auto& [quantity, of] = amountFields[a];
-    if (sink.future || blocks_ > 0) sink({quantity.name + "_mean", quantity.unit, quantity.description}, mean);
+    const Quantity& quantity = amountFields[a];
+    const std::string name = material_ + "_" + quantity.name;
+    if (sink.future || blocks_ > 0) sink({name + "_mean", quantity.unit, quantity.description}, mean);
     if (sink.future || interval)
-      sink({quantity.name + "_interval", quantity.unit,
-            fmt::format("half the width of the 95 % interval of confidence of {}", of)},
+      sink({name + "_interval", quantity.unit,
+            fmt::format("half the width of the 95 % interval of confidence of {}_mean", name)},
            halves);
   }
   if (!bins_ || (!sink.future && !(sizesTime_ > 0.0))) return;
   std::vector<double> sizes(sizes_.size(), unknown);
   if (sizesTime_ > 0.0) std::ranges::transform(sizes_, sizes.begin(), [this](double x) { return x / sizesTime_; });
-  sink({"soot_size_distribution_mean", "1/m^3", "dN/dlog10(d) by mobility diameter, mean over time"}, sizes);
+  sink({material_ + "_size_distribution_mean", "1/m^3", "dN/dlog10(d) by mobility diameter, mean over time"}, sizes);
 }
 
 std::vector<std::string> EnsembleStatistics::closingLines() const {
   const double ms = 1e3 * options_.block;
   if (!since_) {
-    if (options_.start) return {fmt::format("no averages of the soot: they start at t = {:.6g} s", *options_.start)};
-    return {fmt::format("no averages of the soot: after {} blocks of {:.4g} ms it is not stationary yet",
+    if (options_.start)
+      return {fmt::format("no averages of the {}: they start at t = {:.6g} s", material_, *options_.start)};
+    return {fmt::format("no averages of the {}: after {} blocks of {:.4g} ms it is not stationary yet", material_,
                         series_.size() / totals, ms)};
   }
-  std::string begin = fmt::format("averages of the soot since t = {:.6g} s{}: {} blocks of {:.4g} ms", *since_,
+  std::string begin = fmt::format("averages of the {} since t = {:.6g} s{}: {} blocks of {:.4g} ms", material_, *since_,
                                   options_.start ? "" : ", when it was found stationary", blocks_, ms);
   const std::optional<BlockInterval> interval = BlockInterval::of(blocks_);
   if (!interval) return {std::move(begin), fmt::format("no intervals of confidence: they take {} blocks", leastBlocks)};
@@ -168,15 +167,15 @@ std::vector<std::string> EnsembleStatistics::closingLines() const {
     if (areCorrelated(all[t])) lagOne = std::max(lagOne, lagOneCorrelation(all[t]));
   }
   std::string within =
-      fmt::format("means of the domain's soot volume within {:.2g} %, of its number within {:.2g} % (95 %)",
+      fmt::format("means of the domain's {} volume within {:.2g} %, of its number within {:.2g} % (95 %)", material_,
                   1e2 * relative[0], 1e2 * relative[1]);
   if (!(lagOne > 0.0)) return {std::move(begin), std::move(within)};
   const double time = correlationTime(lagOne) * ms;
   return {
       std::move(begin), std::move(within),
       fmt::format("warning: the blocks of {:.4g} ms are correlated ({:.2f} from one to the next), so that intervals "
-                  "are too narrow: soot forgets in about {:.2g} ms, and blocks of {:.2g} ms would do",
-                  ms, lagOne, time, longBlock * time)};
+                  "are too narrow: {} forgets in about {:.2g} ms, and blocks of {:.2g} ms would do",
+                  ms, lagOne, material_, time, longBlock * time)};
 }
 
 std::vector<double> EnsembleStatistics::kind() const {

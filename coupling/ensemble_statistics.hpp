@@ -38,8 +38,8 @@ class EnsembleStatistics {
     std::function<void(int cell, std::span<double> sizes)> sizes;  // a size distribution
   };
 
-  // `bins` of the size distributions; nothing: they are not averaged.
-  EnsembleStatistics(const Mesh& mesh, Options options, std::optional<SizeBins> bins);
+  // `material`: what names of fields begin with. `bins` of the size distributions; nothing: they are not averaged.
+  EnsembleStatistics(const Mesh& mesh, std::string material, Options options, std::optional<SizeBins> bins);
 
   // A step of the length `dt` has ended at `time`. Collective.
   void addStep(double time, double dt, const Source& source);
@@ -74,6 +74,7 @@ class EnsembleStatistics {
   [[nodiscard]] std::vector<double> series(std::size_t total, bool averagedOnly) const;
 
   const Mesh& mesh_;
+  std::string material_;
   Options options_;
   std::optional<SizeBins> bins_;
   std::optional<double> since_;

@@ -41,14 +41,13 @@ Between between(double volume, int first, std::size_t nodes) {
 }
 
 // What a numerical particle that goes as a whole may stand for.
-double largestWhole(const std::vector<double>& rows, std::size_t head) {
-  double number = 0.0;
-  for (std::size_t i = head; i < rows.size(); i += packedParticle) number += rows[i + 3];
-  return meanWeights * number * static_cast<double>(packedParticle) / static_cast<double>(rows.size() - head);
-}
-
-GivenParticle particleAt(const double* row) {
-  return {row[0], row[1], row[2], row[3]};
+double largestWhole(const ParticleRows& layout, std::span<const double> rows) {
+  double number = 0.0, count = 0.0;
+  layout.forEach(rows, [&](const double* row) {
+    number += row[packedNumberAt];
+    count += 1.0;
+  });
+  return meanWeights * number / count;
 }
 
 }  // namespace
@@ -64,9 +63,9 @@ struct EnsembleTransport::Side {
 };
 
 struct EnsembleTransport::Leaving {
-  std::int64_t face = 0;   // permanent number
-  int cell = 0;            // local, where it comes to
-  GivenParticle particle;  // its number per metre depth or radian
+  std::int64_t face = 0;  // permanent number
+  int cell = 0;           // local, where it comes to
+  std::size_t row = 0;    // in leavingRows_, the number per metre depth or radian
 };
 
 EnsembleTransport::EnsembleTransport(const FlowContext& context, Options options)
@@ -120,12 +119,11 @@ void EnsembleTransport::findDensities(const Gas& gas, double part, const std::ve
   std::ranges::fill(density_, 0.0);
   for (int cell = 0; cell < m.owned; ++cell) {
     double* of = &density_[static_cast<std::size_t>(cell) * classes];
-    const auto add = [&](const Rows& rows, std::size_t head) {
-      for (std::size_t i = head; i < rows.size(); i += packedParticle)
-        of[classOf((rows[i] + rows[i + 1]) / options_.type.density())] += rows[i + 3];
+    const auto add = [&](const double* row) {
+      of[classOf((row[0] + row[1]) / options_.type.density())] += row[packedNumberAt];
     };
-    add(populations[cell], packedHead);
-    add(arrived[cell], 0);
+    options_.rows.forEach(options_.rows.of(populations[cell]), add);
+    options_.rows.forEach(arrived[cell], add);
     const double perMass = m.volume[cell] / massOf(gas, cell, part);
     for (int k = 0; k < classes; ++k) of[k] *= perMass;
   }
@@ -235,35 +233,37 @@ void EnsembleTransport::boundChances(const std::vector<Side>& sides, std::span<d
 void EnsembleTransport::drawLeaving(int cell, const std::vector<Side>& sides, double& point, std::size_t head,
                                     Rows& rows) {
   const Mesh& m = context_.mesh;
-  if (sides.empty()) return;
+  if (sides.empty() || rows.size() <= head) return;
   std::array<double, Mesh::mostSides> upTo{};
   std::array<bool, classes> isLimited{};
   for (const Side& side : sides)
     for (std::size_t k = 0; k < isLimited.size(); ++k) isLimited[k] = isLimited[k] || side.isLimited[k];
-  const double whole = largestWhole(rows, head);
+  const double whole = largestWhole(options_.rows, std::span(rows).subspan(head));
   std::array<double, nodes> bounds;
   boundChances(sides, bounds);
-  std::size_t kept = head;
-  for (std::size_t i = head; i < rows.size(); i += packedParticle) {
+  std::size_t kept = head, next = head;
+  for (std::size_t i = head; i < rows.size(); i = next) {
+    const std::size_t length = options_.rows.lengthOf(&rows[i]);
+    next = i + length;
     // Most stay, which their bound tells.
     const double volume = (rows[i] + rows[i + 1]) / options_.type.density();
     if (const int node = std::ilogb(volume) - smallest;
-        node >= 0 && node < static_cast<int>(nodes) && !(rows[i + 3] > whole)) {
-      double next = point;
-      nextEvenPoint(next);
-      if (next >= bounds[static_cast<std::size_t>(node)]) {
-        point = next;
+        node >= 0 && node < static_cast<int>(nodes) && !(rows[i + packedNumberAt] > whole)) {
+      double drawn = point;
+      nextEvenPoint(drawn);
+      if (drawn >= bounds[static_cast<std::size_t>(node)]) {
+        point = drawn;
         if (isLimited[classOf(volume)]) ++limited_;
-        if (kept != i) std::copy_n(&rows[i], packedParticle, &rows[kept]);
-        kept += packedParticle;
+        if (kept != i) std::copy_n(&rows[i], length, &rows[kept]);
+        kept += length;
         continue;
       }
     }
     const int k = sumChances(&rows[i], sides, upTo);
     const double sum = upTo[sides.size() - 1];
     if (sum > 1.0 || isLimited[k]) ++limited_;
-    GivenParticle particle = particleAt(&rows[i]);
-    const double pieces = std::clamp(std::ceil(particle.number / whole), 1.0, mostPieces);
+    const double number = rows[i + packedNumberAt];
+    const double pieces = std::clamp(std::ceil(number / whole), 1.0, mostPieces);
     std::array<double, Mesh::mostSides> leave{};
     double stay = pieces;
     for (int piece = 0; piece < static_cast<int>(pieces); ++piece) {
@@ -275,19 +275,18 @@ void EnsembleTransport::drawLeaving(int cell, const std::vector<Side>& sides, do
       leave[s] += 1.0;
       stay -= 1.0;
     }
-    if (stay > 0.0) {
-      if (kept != i) std::copy_n(&rows[i], packedParticle, &rows[kept]);
-      if (stay < pieces) rows[kept + 3] = particle.number * stay / pieces;
-      kept += packedParticle;
-    }
-    const double inCell = particle.number * m.volume[cell];
+    const double inCell = number * m.volume[cell];
     for (std::size_t s = 0; s < sides.size(); ++s) {
       if (!(leave[s] > 0.0)) continue;
-      particle.number = inCell * leave[s] / pieces;
-      if (sides[s].beyond < 0)
-        gone_.push_back(particle);
-      else
-        leaving_.push_back({m.faceNumber[sides[s].face], sides[s].beyond, particle});
+      Rows& to = sides[s].beyond < 0 ? gone_ : leavingRows_;
+      if (sides[s].beyond >= 0) leaving_.push_back({m.faceNumber[sides[s].face], sides[s].beyond, to.size()});
+      to.insert(to.end(), &rows[i], &rows[i] + length);
+      to[to.size() - length + packedNumberAt] = inCell * leave[s] / pieces;
+    }
+    if (stay > 0.0) {
+      if (kept != i) std::copy_n(&rows[i], length, &rows[kept]);
+      if (stay < pieces) rows[kept + packedNumberAt] = number * stay / pieces;
+      kept += length;
     }
   }
   rows.resize(kept);
@@ -297,31 +296,37 @@ void EnsembleTransport::drawLeaving(int cell, const std::vector<Side>& sides, do
 // their numbers.
 void EnsembleTransport::send(std::vector<Rows>& arrived) {
   const Mesh& m = context_.mesh;
-  constexpr int width = 2 + packedParticle;
   std::vector<int> ranks;
-  std::vector<double> rows;
+  PackedRows letters;  // face, cell, row
   const auto isOwn = [&](const Leaving& one) { return one.cell < m.owned; };
   for (const Leaving& one : leaving_) {
     if (isOwn(one)) continue;
+    const double* row = &leavingRows_[one.row];
     ranks.push_back(m.haloRank[one.cell - m.owned]);
-    const GivenParticle& p = one.particle;
-    rows.insert(rows.end(), {static_cast<double>(one.face), static_cast<double>(m.naturalCell[one.cell]), p.carbon,
-                             p.hydrogen, p.primaries, p.number});
+    Rows letter{static_cast<double>(one.face), static_cast<double>(m.naturalCell[one.cell])};
+    letter.insert(letter.end(), row, row + options_.rows.lengthOf(row));
+    letters.add(letter);
   }
   std::erase_if(leaving_, [&](const Leaving& one) { return !isOwn(one); });
   const RankExchange exchange(m.comm, ranks);
-  const std::vector<double> came = exchange.there(rows, width);
-  for (std::size_t i = 0; i < came.size(); i += width)
-    leaving_.push_back({static_cast<std::int64_t>(came[i]), m.findOwned(static_cast<std::int64_t>(came[i + 1])),
-                        particleAt(&came[i + 2])});
+  const PackedRows came = exchange.there(letters);
+  const double* letter = came.values.data();
+  for (const std::int64_t length : came.lengths) {
+    leaving_.push_back(
+        {static_cast<std::int64_t>(letter[0]), m.findOwned(static_cast<std::int64_t>(letter[1])), leavingRows_.size()});
+    leavingRows_.insert(leavingRows_.end(), letter + 2, letter + length);
+    letter += length;
+  }
   std::ranges::stable_sort(
       leaving_, [](const Leaving& a, const Leaving& b) { return std::tie(a.cell, a.face) < std::tie(b.cell, b.face); });
   for (const Leaving& one : leaving_) {
-    const GivenParticle& p = one.particle;
-    arrived[one.cell].insert(arrived[one.cell].end(),
-                             {p.carbon, p.hydrogen, p.primaries, p.number / m.volume[one.cell]});
+    const double* row = &leavingRows_[one.row];
+    Rows& to = arrived[one.cell];
+    to.insert(to.end(), row, row + options_.rows.lengthOf(row));
+    to[to.size() - options_.rows.lengthOf(row) + packedNumberAt] = row[packedNumberAt] / m.volume[one.cell];
   }
   leaving_.clear();
+  leavingRows_.clear();
 }
 
 // Collective. So many that what would leave a cell in one by the values in it is no more than mostLeaving of it.
@@ -331,12 +336,9 @@ int EnsembleTransport::findParts(const Gas& gas, double dt, const std::vector<Ro
   double most = 0.0;
   for (int cell = 0; cell < m.owned; ++cell) {
     double lightest = std::numeric_limits<double>::infinity();
-    const auto look = [&](const Rows& rows, std::size_t head) {
-      for (std::size_t i = head; i < rows.size(); i += packedParticle)
-        lightest = std::min(lightest, rows[i] + rows[i + 1]);
-    };
-    look(populations[cell], packedHead);
-    look(arrived[cell], 0);
+    const auto look = [&](const double* row) { lightest = std::min(lightest, row[0] + row[1]); };
+    options_.rows.forEach(options_.rows.of(populations[cell]), look);
+    options_.rows.forEach(arrived[cell], look);
     if (!std::isfinite(lightest)) continue;
     const double volume = lightest / options_.type.density();
     const Between at = between(volume, smallest, nodes);
@@ -377,13 +379,13 @@ void EnsembleTransport::advance(const Gas& gas, double dt, std::uint64_t step, H
     const double begun = 0.5 * ((isFirst ? 0.0 : 1.0) + static_cast<double>(part) / parts);
     findDensities(gas, begun, populations, arrived);
     for (int cell = 0; cell < m.owned; ++cell) {
-      if (populations[cell].size() <= packedHead && arrived[cell].empty()) continue;
+      if (options_.rows.isEmpty(populations[cell]) && arrived[cell].empty()) continue;
       findSides(gas, cell, 0.5 * dt / parts, massOf(gas, cell, begun), sides);
       RandomStream random(options_.seed, static_cast<std::uint64_t>(m.naturalCell[cell]),
                           movesStream + static_cast<std::uint32_t>((isFirst ? 0 : mostParts) + part));
       random.seek(step);
       double point = random.uniform();
-      if (populations[cell].size() > packedHead) drawLeaving(cell, sides, point, packedHead, populations[cell]);
+      drawLeaving(cell, sides, point, options_.rows.head, populations[cell]);
       drawLeaving(cell, sides, point, 0, arrived[cell]);
     }
     send(arrived);

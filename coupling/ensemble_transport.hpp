@@ -27,6 +27,7 @@
 #include "flow/gradient.hpp"
 #include "flow/state.hpp"
 #include "particles/ensemble/packed_ensemble.hpp"
+#include "particles/ensemble/particle_rows.hpp"
 #include "particles/soot/soot_aggregate.hpp"
 
 namespace lampblack::coupling {
@@ -39,6 +40,7 @@ class EnsembleTransport {
     bool diffusion = true;
     bool secondOrder = true;  // false: upwind values, r = 1
     std::uint64_t seed = 1;
+    ParticleRows rows{packedHead};
   };
   // The gas of the step, whose mass fluxes are those that moved it: fields of all local cells and faces.
   struct Gas {
@@ -48,7 +50,7 @@ class EnsembleTransport {
     std::span<const double> viscosity;        // Pa s
     std::span<const double> molecularWeight;  // kg/mol
   };
-  // Particles in rows, as packed ensembles have them, behind `head` values.
+  // Particles in rows, as packed populations have them, behind a head; arrived ones without it.
   using Rows = std::vector<double>;
 
   EnsembleTransport(const FlowContext& context, Options options);
@@ -61,8 +63,8 @@ class EnsembleTransport {
   void advance(const Gas& gas, double dt, std::uint64_t step, Half half, std::vector<Rows>& populations,
                std::vector<Rows>& arrived);
 
-  // What left through the boundary in the last step, of this rank's cells: numbers per metre depth or radian.
-  [[nodiscard]] const std::vector<GivenParticle>& gone() const { return gone_; }
+  // Rows of what left through the boundary in the last step, of this rank's cells: numbers per metre depth or radian.
+  [[nodiscard]] const Rows& gone() const { return gone_; }
   // In how many parts the halves of the last step were taken, so that no cell gives more than it has: two at least.
   [[nodiscard]] int parts() const { return parts_; }
   // How many numerical particles of this rank's cells moved in the last step, once a part, with a probability that was
@@ -100,7 +102,7 @@ class EnsembleTransport {
   std::vector<double> diffusivity_;          // of local cells: D d^2 at the nodes, m4/s
   std::vector<char> isFound_;                // whether it is that of this half of the step
   std::vector<Leaving> leaving_;
-  std::vector<GivenParticle> gone_;
+  Rows leavingRows_, gone_;
   int parts_ = 0;
   std::int64_t limited_ = 0;
 };

@@ -65,6 +65,16 @@ void ReactorTrees::requireAtoms(const Mechanism& mechanism) const {
 
 SplitParticles::Exchange ReactorTrees::advance(const ParticleGas& gas, double dt) {
   population_->advance(gas, dt);
+  return takeExchange();
+}
+
+SplitParticles::Exchange ReactorTrees::advanceAndSettle(const ParticleGas& gas, double dt) {
+  population_->advance(gas, dt);
+  population_->settle();
+  return takeExchange();
+}
+
+SplitParticles::Exchange ReactorTrees::takeExchange() {
   const TreeExchange taken = population_->takeExchange();
   for (const auto count : {&TreeExchange::inceptions, &TreeExchange::coagulations, &TreeExchange::reactions,
                            &TreeExchange::condensations, &TreeExchange::sinteredPairs})
@@ -80,11 +90,14 @@ void ReactorTrees::dilute(double factor) {
 }
 
 std::vector<double> ReactorTrees::content() const {
-  throw NumericsError("trees of primaries do not go from one reactor to another");
+  population_->settle();
+  const std::vector<double> packed = population_->pack();
+  const std::span<const double> rows = treeRows.of(packed);
+  return {rows.begin(), rows.end()};
 }
 
-void ReactorTrees::join(std::span<const double>, double) {
-  throw NumericsError("trees of primaries do not go from one reactor to another");
+void ReactorTrees::join(std::span<const double> content, double share) {
+  population_->join(content, share);
 }
 
 std::unique_ptr<SplitParticles::State> ReactorTrees::save() const {
@@ -100,9 +113,13 @@ void ReactorTrees::restore(const State& state) {
   total_ = saved.total;
 }
 
-bool ReactorTrees::idle(const ParticleGas& gas) const {
+bool ReactorTrees::canBeBorn(const ParticleGas& gas) const {
   const double moles = gas.pressure / (constants::gasConstant * gas.temperature);
-  return population_->size() == 0 && !(gas.concentrations[0] > negligiblePrecursor * moles);
+  return gas.concentrations[0] > negligiblePrecursor * moles;
+}
+
+bool ReactorTrees::idle(const ParticleGas& gas) const {
+  return population_->size() == 0 && !canBeBorn(gas);
 }
 
 std::vector<ReactorPopulation::Column> ReactorTrees::columns() const {

@@ -25,14 +25,17 @@ class ReactorTrees final : public ReactorPopulation {
   ReactorTrees(const Mechanism& mechanism, const TreeOptions& options, GasViscosity viscosity,
                const std::optional<Start>& start);
 
-  [[nodiscard]] const TreePopulation& population() const { return *population_; }
+  [[nodiscard]] TreePopulation& population() const { return *population_; }
+  // Whether particles can be born of this gas.
+  [[nodiscard]] bool canBeBorn(const ParticleGas& gas) const;
 
   [[nodiscard]] const std::vector<std::string>& elements() const override { return elements_; }
   [[nodiscard]] GasViscosity viscosity() const override { return viscosity_; }
   [[nodiscard]] const std::vector<std::size_t>& species() const override { return species_; }
   Exchange advance(const ParticleGas& gas, double dt) override;
+  // All trees are up to date afterwards.
+  Exchange advanceAndSettle(const ParticleGas& gas, double dt);
   void dilute(double factor) override;
-  // Trees stay in their reactor: NumericsError.
   [[nodiscard]] std::vector<double> content() const override;
   void join(std::span<const double> content, double share) override;
   [[nodiscard]] bool idle(const ParticleGas& gas) const override;
@@ -51,6 +54,7 @@ class ReactorTrees final : public ReactorPopulation {
   [[nodiscard]] std::vector<std::pair<std::string, double>> counts() const override;
 
  private:
+  Exchange takeExchange();
   struct Saved final : State {
     std::unique_ptr<TreePopulation::State> population;
     TreeExchange total;

@@ -13,12 +13,8 @@
 namespace lampblack::app {
 namespace {
 
-void addMaterial(DeckSchema& schema) {
-  schema
-      .section(
-          "particles", Presence::optional,
-          "Particles as trees of primaries that share surface, by Monte Carlo; coupled with the gas both ways. Every "
-          "repeat is a reactor of its own. The temperature has to be given.")
+void addMaterial(DeckSchema& schema, const std::string& description) {
+  schema.section("particles", Presence::optional, description)
       .add(choiceKey("particles.material", {"silica"},
                      "What primaries are made of. silica: Si, O and OH from H4O4SI, which is Si(OH)4, giving back H2O "
                      "(Shekar, Smith, Kraft, Wagner 2011). Its constants are those below where they are not given; "
@@ -50,15 +46,7 @@ void addMaterial(DeckSchema& schema) {
       .add(booleanKey("particles.intra_particle",
                       "Whether pairs of OH react within particles, so that these tend to SiO2 (Shekar et al. 2011, eq. "
                       "59, bounded at zero).")
-               .byDefault("true"))
-      .add(quantityKey("particles.initial.number", units::perVolume,
-                       "Number of equal spheres that there are at the start; with particles.initial.units.")
-               .optional()
-               .above(0))
-      .add(numberKey("particles.initial.units", "Units of each component in one of them: Si, O, OH of silica.")
-               .list(3)
-               .optional()
-               .atLeast(0));
+               .byDefault("true"));
 }
 
 void addProcesses(DeckSchema& schema) {
@@ -107,10 +95,6 @@ void addProcesses(DeckSchema& schema) {
                "Slip correction. air: 1 + 1.257 Kn, Kn that of air at the gas's temperature and pressure (Shekar et "
                "al. 2011, eqs. 37, 38); davies: Davies (1945), by the gas's mean free path.")
                .byDefault("air"))
-      .add(choiceKey("particles.viscosity", {"air", "transport"},
-                     "Viscosity of the gas. air: Sutherland's law of air, for mechanisms without transport data; "
-                     "transport: from these data.")
-               .byDefault("air"))
       .add(choiceKey(
                "particles.collision_size", {"primaries", "volume_to_surface"},
                "Length that a power of the number of primaries multiplies to a diameter of collision: mean diameter "
@@ -118,12 +102,34 @@ void addProcesses(DeckSchema& schema) {
                .byDefault("primaries"));
 }
 
-void addNumbers(DeckSchema& schema) {
+void addNumbers(DeckSchema& schema, const std::string& particles) {
   schema
       .add(integerKey("particles.number", "Number of numerical particles: more have less noise and cost more.")
-               .byDefault("8192")
+               .byDefault(particles)
                .atLeast(8)
                .atMost(100000000))
+      .add(numberKey(
+               "particles.split_tolerance",
+               "Largest relative change of the population in a splitting step: smaller is more accurate and slower.")
+               .byDefault("0.05")
+               .above(0)
+               .atMost(1));
+}
+
+void addRuns(DeckSchema& schema) {
+  schema
+      .add(quantityKey("particles.initial.number", units::perVolume,
+                       "Number of equal spheres that there are at the start; with particles.initial.units.")
+               .optional()
+               .above(0))
+      .add(numberKey("particles.initial.units", "Units of each component in one of them: Si, O, OH of silica.")
+               .list(3)
+               .optional()
+               .atLeast(0))
+      .add(choiceKey("particles.viscosity", {"air", "transport"},
+                     "Viscosity of the gas. air: Sutherland's law of air, for mechanisms without transport data; "
+                     "transport: from these data.")
+               .byDefault("air"))
       .add(
           quantityKey("particles.full_at", units::perVolume,
                       "Number density at which an empty sample is full first; at least the largest that there will be, "
@@ -138,12 +144,6 @@ void addNumbers(DeckSchema& schema) {
                       "Start of the random numbers: another seed gives another sample, the same seed the same result.")
                .byDefault("1")
                .atLeast(0))
-      .add(numberKey(
-               "particles.split_tolerance",
-               "Largest relative change of the population in a splitting step: smaller is more accurate and slower.")
-               .byDefault("0.05")
-               .above(0)
-               .atMost(1))
       .add(numberKey(
                "particles.coupling_change",
                "Steps in which gas and particles change in turn are so long that a concentration which the particles "
@@ -199,15 +199,22 @@ SinteringMechanism mechanismOf(const std::string& name) {
 
 }  // namespace
 
-void addTreeKeys(DeckSchema& schema) {
-  addMaterial(schema);
+void addTreeKeys(DeckSchema& schema, const std::string& description, const std::string& particles) {
+  addMaterial(schema, description);
   addProcesses(schema);
-  addNumbers(schema);
+  addNumbers(schema, particles);
 }
 
-TreeRequest readTrees(const Deck& deck) {
-  TreeRequest request;
-  TreeOptions& options = request.options;
+void addTreeReactorKeys(DeckSchema& schema) {
+  addTreeKeys(schema,
+              "Particles as trees of primaries that share surface, by Monte Carlo; coupled with the gas both ways. "
+              "Every repeat is a reactor of its own. The temperature has to be given.",
+              "8192");
+  addRuns(schema);
+}
+
+TreeOptions readTreeOptions(const Deck& deck) {
+  TreeOptions options;
   TreeMaterial& m = options.material = silica();
   if (const auto density = deck.optionalQuantity("particles.density")) m.density = *density;
   if (deck.has("particles.fractal_dimension")) m.fractalDimension = deck.number("particles.fractal_dimension");
@@ -233,15 +240,21 @@ TreeRequest readTrees(const Deck& deck) {
                                                      : CollisionKernelType::continuum;
   options.kernel.enhancement = deck.number("particles.enhancement");
   options.kernel.slip = deck.choice("particles.slip") == "air" ? SlipLaw::air : SlipLaw::davies;
-  request.viscosity = deck.choice("particles.viscosity") == "air" ? GasViscosity::air : GasViscosity::transport;
   options.size = deck.choice("particles.collision_size") == "primaries" ? CollisionSize::primaries
                                                                         : CollisionSize::volumeToSurface;
   options.particles = deck.integer<std::size_t>("particles.number");
   requireMemory(deck, "particles.number", fmt::format("a sample of {} particles", options.particles),
                 1000 * static_cast<double>(options.particles));  // some ten primaries each
+  options.splitTolerance = deck.number("particles.split_tolerance");
+  return options;
+}
+
+TreeRequest readTrees(const Deck& deck) {
+  TreeRequest request;
+  TreeOptions& options = request.options = readTreeOptions(deck);
+  request.viscosity = deck.choice("particles.viscosity") == "air" ? GasViscosity::air : GasViscosity::transport;
   options.fullAt = deck.quantity("particles.full_at");
   options.seed = deck.integer<std::uint64_t>("particles.seed");
-  options.splitTolerance = deck.number("particles.split_tolerance");
   if (deck.has("particles.initial.number") != deck.has("particles.initial.units"))
     throw deck.error("particles.initial", "particles at the start need both 'number' and 'units'");
   if (const auto number = deck.optionalQuantity("particles.initial.number")) {

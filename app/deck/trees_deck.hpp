@@ -1,7 +1,8 @@
-// The section `particles` of a reactor: particles as trees of primaries.
+// The section `particles` of reactors and flows: particles as trees of primaries.
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "core/rooms.hpp"
 #include "coupling/reactor_trees.hpp"
@@ -19,9 +20,15 @@ struct TreeRequest {
   std::vector<double> tablesAt;  // s (plug flow: m), rising
 };
 
-void addTreeKeys(DeckSchema& schema);
+// The section, described for the problem, with the keys that all problems have; `particles`: the default number of
+// numerical particles.
+void addTreeKeys(DeckSchema& schema, const std::string& description, const std::string& particles);
+// With those of a reactor.
+void addTreeReactorKeys(DeckSchema& schema);
 
-// Of a deck with the section. InputError, pointing into the deck.
+// Of a deck with the section, what all problems have. InputError, pointing into the deck.
+[[nodiscard]] TreeOptions readTreeOptions(const Deck& deck);
+// Of a reactor.
 [[nodiscard]] TreeRequest readTrees(const Deck& deck);
 
 }  // namespace lampblack::app

@@ -10,6 +10,7 @@
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/temperature_input.hpp"
 #include "app/deck/transport_deck.hpp"
+#include "app/deck/trees_deck.hpp"
 #include "app/flow/flow_case_parts.hpp"
 #include "app/flow/flow_limits.hpp"
 #include "app/flow/given_fields.hpp"
@@ -19,7 +20,8 @@
 #include "core/errors.hpp"
 #include "coupling/block_statistics.hpp"
 #include "coupling/carried_particles.hpp"
-#include "coupling/ensemble_species.hpp"
+#include "coupling/cell_soot.hpp"
+#include "coupling/cell_trees.hpp"
 #include "flow/carried_operator.hpp"
 
 namespace lampblack::app {
@@ -179,29 +181,60 @@ EnsembleStatistics::Options readStatistics(const Deck& deck, FlowCase& flowCase)
   return options;
 }
 
-void readEnsembles(const Deck& deck, FlowCase& flowCase) {
-  if (!deck.has("soot")) throw deck.error("stochastic", "ensembles need the section 'soot': PAH, surface, switches");
+// What goes wrong is said of the section.
+template <class Make>
+std::shared_ptr<CellParticles> makeCellParticles(const Deck& deck, const char* section, Make make) {
+  try {
+    return make();
+  } catch (const InputError& error) {
+    throw deck.error(section, error.what());
+  }
+}
+
+std::shared_ptr<CellParticles> readCellSoot(const Deck& deck, const FlowCase& flowCase) {
+  if (!deck.has("soot"))
+    throw deck.error("stochastic",
+                     "ensembles need the section 'soot': PAH, surface, switches; or 'particles', of another material");
   if (deck.isGiven("soot.model") && deck.choice("soot.model") != "none")
     throw deck.error("soot.model",
                      "ensembles in the cells take the place of a model: leave this out, or the section 'stochastic'");
+  EnsembleOptions options = readEnsemble(deck, readSootModelOptions(deck, *flowCase.mechanism, {})).soot;
+  options.seed = flowCase.seed;
+  options.leastNumberDensity = options.startNumberDensity = deck.quantity("stochastic.least_number");
+  options.shareAtOnce = deck.number("stochastic.share_at_once");
+  return makeCellParticles(deck, "stochastic",
+                           [&] { return std::make_shared<CellSoot>(*flowCase.mechanism, options); });
+}
+
+std::shared_ptr<CellParticles> readCellTrees(const Deck& deck, const FlowCase& flowCase) {
+  if (!deck.has("stochastic"))
+    throw deck.error("particles",
+                     "in a flow these need the section 'stochastic', which says how the cells hold them: 'stochastic: "
+                     "{exchange: two_way}'");
+  if (deck.has("soot"))
+    throw deck.error("particles", "a flow has either these or soot: leave out one of 'particles' and 'soot'");
+  for (const char* key :
+       {"method", "particles", "shape", "active_sites", "keep_hydrogen", "growth", "split_tolerance", "share_at_once"})
+    if (const std::string full = std::string("stochastic.") + key; deck.isGiven(full))
+      throw deck.error(full, "this is of soot; what trees of primaries are like is said in the section 'particles'");
+  TreeOptions options = readTreeOptions(deck);
+  options.seed = flowCase.seed;
+  options.fullAt = deck.quantity("stochastic.least_number");
+  return makeCellParticles(deck, "particles",
+                           [&] { return std::make_shared<CellTrees>(*flowCase.mechanism, options); });
+}
+
+void readEnsembles(const Deck& deck, FlowCase& flowCase) {
   EnsembleOperator::Options options;
-  const EnsembleRequest request = readEnsemble(deck, readSootModelOptions(deck, *flowCase.mechanism, {}));
-  options.ensemble = request.soot;
-  options.bins = request.bins;
+  flowCase.cellParticles = deck.has("particles") ? readCellTrees(deck, flowCase) : readCellSoot(deck, flowCase);
+  options.seed = flowCase.seed;
+  options.bins = readSizeBins(deck, "stochastic");
   options.sizes = deck.boolean("stochastic.size_distribution");
-  try {
-    (void)indicesOfSootSpecies(*flowCase.mechanism, options.ensemble.soot);
-  } catch (const InputError& error) {
-    throw deck.error("stochastic", error.what());
-  }
-  options.ensemble.seed = flowCase.seed;
-  options.ensemble.leastNumberDensity = options.ensemble.startNumberDensity = deck.quantity("stochastic.least_number");
-  options.ensemble.shareAtOnce = deck.number("stochastic.share_at_once");
   const bool isTwoWay = deck.choice("stochastic.exchange") == "two_way";
   options.exchange = isTwoWay ? EnsembleOperator::Exchange::TwoWay : EnsembleOperator::Exchange::OneWay;
   if (isTwoWay) options.average = deck.quantity("stochastic.average");
   options.holdGas = deck.optionalQuantity("stochastic.hold_gas");
-  options.diffusion = deck.boolean("soot.diffusion");
+  options.diffusion = deck.has("particles") || deck.boolean("soot.diffusion");
   options.secondOrder = deck.choice("stochastic.order") == "second";
   options.shareWork = flowCase.chemistry.shareWork;
   options.sweeps = deck.integer<int>("time.sweeps");
@@ -210,7 +243,7 @@ void readEnsembles(const Deck& deck, FlowCase& flowCase) {
 }
 
 void readSoot(const Deck& deck, FlowCase& flowCase) {
-  if (deck.has("stochastic")) {
+  if (deck.has("stochastic") || deck.has("particles")) {
     readEnsembles(deck, flowCase);
     return;
   }

@@ -121,6 +121,7 @@ struct FlowCase {
   RadiationOptions radiation;
   std::shared_ptr<CarriedModel> carried;               // null: nothing
   std::optional<EnsembleOperator::Options> ensembles;  // in the cells; then nothing else is carried
+  std::shared_ptr<CellParticles> cellParticles;        // of the ensembles
   CarriedOperator::Options carriedOptions;
   std::optional<TrajectoryRequest> trajectories;
   std::vector<std::string> notes;  // what the user should be told before the run

@@ -24,14 +24,15 @@ std::vector<double> distancesFromWalls(const Mesh& mesh, HaloExchange& halo, con
 }
 
 std::vector<CarriedScalar> carriedScalars(const FlowCase& flowCase) {
-  if (flowCase.ensembles) return EnsembleOperator::scalars();
+  if (flowCase.ensembles) return flowCase.cellParticles->scalars();
   return flowCase.carried ? CarriedOperator::scalarsOf(*flowCase.carried) : std::vector<CarriedScalar>{};
 }
 
 RadiationOperator::Absorption particleAbsorption(const FlowCase& flowCase) {
   if (flowCase.ensembles)
-    return [&options = *flowCase.ensembles](double temperature, std::span<const double> amounts) {
-      return EnsembleOperator::absorption(options, temperature, amounts);
+    return [&particles = *flowCase.cellParticles, exchange = flowCase.ensembles->exchange](
+               double temperature, std::span<const double> amounts) {
+      return EnsembleOperator::absorption(particles, exchange, temperature, amounts);
     };
   if (!flowCase.carried) return {};
   return [&model = *flowCase.carried](double temperature, std::span<const double> densities) {
@@ -67,7 +68,7 @@ FlowDomain::FlowDomain(Mesh partitioned, const FlowCase& flowCase, const Thermo&
     operators.push_back(carried.get());
   }
   if (flowCase.ensembles) {
-    ensembles = std::make_unique<EnsembleOperator>(context, flow, *flowCase.ensembles);
+    ensembles = std::make_unique<EnsembleOperator>(context, flow, flowCase.cellParticles, *flowCase.ensembles);
     operators.push_back(ensembles.get());
   }
   if (flowCase.radiation.on) {
@@ -94,15 +95,16 @@ void FlowDomain::beginBudget(const FlowCase& flowCase) {
   if (flowCase.carried)
     for (const CarriedModel::Scalar& scalar : flowCase.carried->scalars()) carriedMass.push_back(scalar.elements);
   if (flowCase.ensembles)
-    carriedMass = EnsembleOperator::unitElements(*flowCase.mechanism, flowCase.ensembles->exchange);
+    carriedMass =
+        EnsembleOperator::unitElements(*flowCase.mechanism, *flowCase.cellParticles, flowCase.ensembles->exchange);
   budget = std::make_unique<Budget>(context, massAndElements(*flowCase.mechanism, carriedMass), state);
   flow.watchBoundary([this](const TransportOperator::BoundaryAmounts& amounts) { budget->addStep(amounts); });
   if (!ensembles) return;
-  ensembles->watchOutflow([this](std::span<const double> amounts) {
-    TransportOperator::BoundaryAmounts gone;
-    gone.carriedOut.assign(amounts.begin(), amounts.end());
-    gone.carriedIn.resize(amounts.size());
-    budget->addStep(gone);
+  ensembles->watchAmounts([this](std::span<const double> resampled, std::span<const double> gone) {
+    TransportOperator::BoundaryAmounts amounts;
+    amounts.carriedOut.assign(gone.begin(), gone.end());
+    amounts.carriedIn.assign(resampled.begin(), resampled.end());
+    budget->addStep(amounts);
   });
 }
 

@@ -69,7 +69,8 @@ void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
   tables_->open(folder);
   if (case_.ensembles) {
     const std::vector<double> edges = case_.ensembles->bins.edges();
-    results.dataset("/soot_sizes/bin_edges", {static_cast<std::int64_t>(edges.size())}, edges, "m",
+    results.dataset(fmt::format("/{}_sizes/bin_edges", case_.cellParticles->material()),
+                    {static_cast<std::int64_t>(edges.size())}, edges, "m",
                     "mobility diameters between the bins of the size distributions");
   }
   if (restart_) {

@@ -7,6 +7,7 @@
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/temperature_input.hpp"
 #include "app/deck/transport_deck.hpp"
+#include "app/deck/trees_deck.hpp"
 #include "app/flow/flow_case.hpp"
 #include "app/flow/flow_case_parts.hpp"
 #include "app/flow/given_fields.hpp"
@@ -262,11 +263,18 @@ void addTimeAndOutput(DeckSchema& schema) {
 
 void addParticles(DeckSchema& schema) {
   addSootModelKeys(schema);
-  addEnsembleKeys(schema,
-                  "Ensembles of soot particles in the cells, in place of soot.model: they move with the gas, by "
-                  "thermophoresis and by diffusion from cell to cell. Needs the section soot, whose PAH, surface and "
-                  "switches are theirs; the random numbers are those of 'seed'.",
-                  "500");
+  addEnsembleKeys(
+      schema,
+      "Ensembles of particles in the cells, in place of soot.model: they move with the gas, by thermophoresis and "
+      "by diffusion from cell to cell. Needs the section soot, whose PAH, surface and switches are theirs, "
+      "or the section particles; the random numbers are those of 'seed'.",
+      "500");
+  addTreeKeys(
+      schema,
+      "Trees of primaries that share surface in the ensembles of the cells, in place of soot. Needs the section "
+      "stochastic, which says how the cells hold them, and a mechanism with the species that the material is "
+      "made from.",
+      "500");
   schema
       .add(choiceKey("stochastic.exchange", {"two_way", "one_way"},
                      "two_way: the gas loses what the particles take, and its heat; one_way: the gas does not know of "
@@ -286,7 +294,7 @@ void addParticles(DeckSchema& schema) {
               .atLeast(0))
       .add(quantityKey("stochastic.least_number", units::perVolume,
                        "Particles per volume that count: where there are fewer, a new numerical particle stands for "
-                       "this over 'stochastic.particles', so that traces of soot do not fill ensembles.")
+                       "this over the largest number of numerical ones, so that traces do not fill ensembles.")
                .byDefault("1e12 1/m^3")
                .above(0))
       .add(numberKey("stochastic.share_at_once",

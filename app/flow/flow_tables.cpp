@@ -24,9 +24,8 @@ Vector3 placeOn(const OutputTables::Line& line, int point) {
 
 // Fields that tables have where the deck names none.
 bool isUsual(const std::string& field) {
-  static const std::set<std::string> usual{"temperature", "velocity", "swirl_velocity",
-                                           "pressure",    "density",  "soot_volume_fraction"};
-  return usual.contains(field) || field.starts_with("X_");
+  static const std::set<std::string> usual{"temperature", "velocity", "swirl_velocity", "pressure", "density"};
+  return usual.contains(field) || field.starts_with("X_") || field.ends_with("_volume_fraction");
 }
 
 // Of the results.
@@ -93,7 +92,7 @@ FlowTables::FlowTables(const FlowContext& context, const FlowCase& flowCase, con
                                                           "no cell of the mesh has its centre in this region"));
     tables_.push_back({"sizes", name, joined(momentColumns, EnsembleRegion::sizeColumns())});
     // Of spheres one follows from the other.
-    if (!flowCase.ensembles->ensemble.coalescing)
+    if (!flowCase.cellParticles->sizes().type.coalescing())
       tables_.push_back({"joint", name, joined(momentColumns, EnsembleRegion::jointColumns())});
   }
 }
@@ -265,10 +264,12 @@ void FlowTables::outputRows(const Moment& moment, const Source& source) {
   if (!source.ensembles) return;
   const EnsembleOperator& of = *source.ensembles;
   for (const EnsembleRegion& region : regions_) {
-    writers_[table++].row(withMoment(moment, region.sizeRows(of.particleType(), of.options().bins, of.populations()),
+    writers_[table++].row(withMoment(moment,
+                                     region.sizeRows(of.particles().sizes(), of.options().bins, of.populations()),
                                      EnsembleRegion::sizeColumns().size()));
-    if (of.particleType().coalescing()) continue;
-    writers_[table++].row(withMoment(moment, region.jointRows(of.particleType(), of.options().bins, of.populations()),
+    if (of.particles().sizes().type.coalescing()) continue;
+    writers_[table++].row(withMoment(moment,
+                                     region.jointRows(of.particles().sizes(), of.options().bins, of.populations()),
                                      EnsembleRegion::jointColumns().size()));
   }
 }

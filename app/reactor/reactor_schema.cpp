@@ -202,7 +202,7 @@ DeckSchema reactorSchema() {
   addIgnition(schema);
   addSootModelKeys(schema);
   addEnsembles(schema);
-  addTreeKeys(schema);
+  addTreeReactorKeys(schema);
   schema.section("integrator", Presence::defaulted, "The stiff solver of everything but steady states.")
       .add(numberKey("integrator.relative_tolerance",
                      "Relative tolerance of the stiff solver of the chemistry: smaller is more accurate and slower.")

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "core/rooms.hpp"
+#include "particles/ensemble/particle_rows.hpp"
 #include "particles/gas/soot_gas.hpp"
 #include "particles/population/model/collision_kernel.hpp"
 #include "particles/population/population_solver.hpp"
@@ -65,11 +66,6 @@ struct EnsembleExchange {
   // hydrogen together always. kg/m3.
   double dilutedCarbon = 0, dilutedHydrogen = 0, resampledCarbon = 0, resampledHydrogen = 0;
   double joinedCarbon = 0, joinedHydrogen = 0;  // by join(), in the mean: kg/m3
-};
-
-// One particle of a given population: kg, number per m3.
-struct GivenParticle {
-  double carbon = 0, hydrogen = 0, primaries = 1, number = 0;
 };
 
 class Ensemble {

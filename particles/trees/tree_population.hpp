@@ -11,12 +11,14 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "core/rooms.hpp"
 #include "particles/collisions/collision_physics.hpp"
+#include "particles/ensemble/particle_rows.hpp"
 #include "particles/population/model/collision_kernel.hpp"
 #include "particles/population/population_solver.hpp"
 #include "particles/trees/tree_shape.hpp"
@@ -63,6 +65,10 @@ struct TreeTotals {
   std::size_t largest = 0;  // primaries
 };
 
+// How trees stand in a packed population (packed_tree.hpp).
+inline constexpr ParticleRows treeRows{16 + sizeof(TreeExchange) / sizeof(double) + std::size(populationCounters),
+                                       true};
+
 class TreePopulation {
  public:
   virtual ~TreePopulation() = default;
@@ -93,9 +99,14 @@ class TreePopulation {
   };
   [[nodiscard]] virtual std::unique_ptr<State> save() const = 0;
   virtual void restore(const State& state) = 0;
-  // The complete state, as Ensemble::pack().
+  // The complete state, as Ensemble::pack(), in rows of treeRows.
   [[nodiscard]] virtual std::vector<double> pack() const = 0;
   virtual void unpack(std::span<const double> state) = 0;
+  // Trees of another population that is settled come in (rows without a head), of each `share` times its number: as
+  // many copies of this sample's own weight as stand for that in the mean.
+  virtual void join(std::span<const double> rows, double share) = 0;
+  // Of the last advance(), as Ensemble::cost().
+  [[nodiscard]] virtual double cost() const = 0;
 };
 
 // Throws InputError.

@@ -60,6 +60,7 @@ TreeProcess::Sums TreeProcess::sums() const {
     s.diameters += tree.collision;
     s.sintering += tree.sintering;
     s.surface += tree.surface;
+    s.primaries += tree.count;
   });
   const double weight = method_.weight();
   s.number = weight * static_cast<double>(size());
@@ -110,10 +111,14 @@ void TreeProcess::advance(const ParticleGas& gas, double dt) {
   const CollisionKernel::Properties molecule{m.moleculeMass / m.density, m.moleculeMass, m.moleculeDiameter};
   inception_ = 0.5 * kernel_->value(molecule, molecule) * molecules * molecules;
   growth_.setRate(growthRate_);
-  if (size() == 0) method_.startAfresh(options_.fullAt / static_cast<double>(options_.particles));
+  if (size() == 0)
+    method_.startAfresh(std::max(options_.fullAt, 2 * inception_ * dt) / static_cast<double>(options_.particles));
   double remaining = dt;
+  cost_ = 0;
   while (remaining > 0) {
-    const double length = step(sums(), remaining);
+    const Sums s = sums();
+    cost_ += s.primaries;
+    const double length = step(s, remaining);
     jump(0.5 * length);
     change(length);
     jump(0.5 * length);
@@ -135,6 +140,7 @@ void TreeProcess::jump(double dt) {
     if (!(total > 0)) break;
     time += random_.exponential(total);
     if (time > dt) break;
+    ++cost_;
     type_.clock() = start + time;
     if (inception > 0 && random_.uniform() * total < inception) {
       method_.nucleate(random_);

@@ -39,6 +39,8 @@ class TreeProcess final : public TreePopulation {
   void restore(const State& state) override;
   [[nodiscard]] std::vector<double> pack() const override;
   void unpack(std::span<const double> state) override;
+  void join(std::span<const double> rows, double share) override;
+  [[nodiscard]] double cost() const override { return cost_; }
 
  private:
   struct Saved final : State {
@@ -52,6 +54,7 @@ class TreeProcess final : public TreePopulation {
   };
   struct Sums {  // per m3
     double number = 0, volume = 0, sites = 0, diameters = 0, sintering = 0, surface = 0;
+    double primaries = 0;  // of the numerical particles
   };
   [[nodiscard]] Sums sums() const;
   [[nodiscard]] double step(const Sums& sums, double remaining) const;
@@ -68,6 +71,7 @@ class TreeProcess final : public TreePopulation {
   std::optional<CollisionKernel> kernel_;
   TreeExchange exchange_;
   TreeCounters counters_;
+  double cost_ = 0;
   double inception_ = 0, growthRate_ = 0;  // 1/m3/s; 1/s for each site
 };
 

@@ -4,9 +4,10 @@
 
 #include "core/errors.hpp"
 #include "core/packed_doubles.hpp"
-#include "particles/ensemble/packed_ensemble.hpp"
+#include "particles/ensemble/particle_rows.hpp"
 #include "particles/ensemble/size_bins.hpp"
 #include "particles/population/monte_carlo/weighted_deviation.hpp"
+#include "particles/trees/packed_tree.hpp"
 #include "particles/trees/tree_process.hpp"
 
 namespace lampblack::particles {
@@ -98,22 +99,17 @@ void TreeProcess::restore(const State& state) {
 
 namespace {
 
-constexpr double packedTrees = 1;
-
-// Sums as they are: joined trees have added them up in another order than they are measured in.
-struct PackedHead {
-  double count;
-  TreeUnits units;
-  double volume, diameters, surfaces, levels, surface, collision, sintering, time, rest;
-};
+constexpr double packedTrees = 2;
 
 }  // namespace
 
 std::vector<double> TreeProcess::pack() const {
-  std::vector<double> state{packedTrees, static_cast<double>(options_.particles)};
+  std::vector<double> state{packedTrees, static_cast<double>(options_.material.components.size()),
+                            static_cast<double>(options_.particles)};
   packDoubles(state, packedOwner(random_.owner()));
   state.push_back(static_cast<double>(random_.position()));
   state.push_back(type_.clock());
+  state.push_back(cost_);
   packDoubles(state, exchange_);
   for (const std::uint64_t count : {counters_.inceptions, counters_.fictitious, counters_.fused, counters_.splitSteps,
                                     counters_.limited, counters_.withoutSites})
@@ -121,25 +117,19 @@ std::vector<double> TreeProcess::pack() const {
   for (const PopulationCounter& counter : populationCounters)
     state.push_back(static_cast<double>(const_cast<Method&>(method_).counters().*counter.value));
   packDoubles(state, method_.memory());
-  method_.forEachParticle([&](const Tree& p, double) {
-    const TreeHead& h = p.head();
-    packDoubles(state, PackedHead{static_cast<double>(h.count), h.units, h.volume, h.diameters, h.surfaces, h.levels,
-                                  h.surface, h.collision, h.sintering, h.time, h.rest});
-    for (const TreePrimary& primary : p.primaries()) packDoubles(state, primary.units);
-    for (const TreeNeck& n : p.necks())
-      packDoubles(state, std::array{n.common, static_cast<double>(n.left), static_cast<double>(n.right),
-                                    static_cast<double>(n.first), static_cast<double>(n.last)});
-  });
+  method_.forEachParticle([&](const Tree& p, double w) { packTree(p, w, options_.material, state); });
   return state;
 }
 
 void TreeProcess::unpack(std::span<const double> values) {
   PackedDoubles state(values);
-  if (state.next() != packedTrees || state.next() != static_cast<double>(options_.particles))
-    throw InputError("particles: the saved state is not one of as many trees");
+  if (state.next() != packedTrees || state.next() != static_cast<double>(options_.material.components.size()) ||
+      state.next() != static_cast<double>(options_.particles))
+    throw InputError("particles: the saved state is not one of as many trees of this material");
   random_ = RandomStream(options_.seed, ownerOf(state.next<PackedOwner>()), treeStream);
   random_.seek(static_cast<std::uint64_t>(state.next()));
   type_.clock() = state.next();
+  cost_ = state.next();
   exchange_ = state.next<TreeExchange>();
   for (std::uint64_t* count : {&counters_.inceptions, &counters_.fictitious, &counters_.fused, &counters_.splitSteps,
                                &counters_.limited, &counters_.withoutSites})
@@ -148,39 +138,21 @@ void TreeProcess::unpack(std::span<const double> values) {
     method_.counters().*counter.value = static_cast<std::uint64_t>(state.next());
   const auto memory = state.next<std::array<double, 2>>();
   std::vector<Tree> all;
-  const auto index = [](double x) { return static_cast<std::uint32_t>(x); };
-  while (state.left() > 0) {
-    const auto h = state.next<PackedHead>();
-    if (!(h.count >= 1) || h.count > static_cast<double>(state.left()))
-      throw InputError("particles: the saved state is damaged");
-    TreeHead* tree = type_.pool().allocate(static_cast<std::size_t>(h.count));
-    Tree handle(tree);
-    tree->count = index(h.count);
-    for (std::uint32_t i = 0; i < tree->count; ++i) {
-      const auto units = state.next<TreeUnits>();
-      primariesOf(tree)[i] = {units, treeDiameter(options_.material.volume(units))};
-    }
-    for (std::uint32_t k = 0; k + 1 < tree->count; ++k) {
-      const auto n = state.next<std::array<double, 5>>();
-      TreeNeck neck{n[0], 0, index(n[1]), index(n[2]), index(n[3]), index(n[4])};
-      if (std::max({neck.left, neck.right, neck.first, neck.last}) >= tree->count)
-        throw InputError("particles: the saved state is damaged");
-      neck.sphere = sphereOfNeck(primariesOf(tree), neck);
-      necksOf(tree)[k] = neck;
-    }
-    tree->units = h.units;
-    tree->volume = h.volume;
-    tree->diameters = h.diameters;
-    tree->surfaces = h.surfaces;
-    tree->levels = h.levels;
-    tree->surface = h.surface;
-    tree->collision = h.collision;
-    tree->sintering = h.sintering;
-    tree->time = h.time;
-    tree->rest = h.rest;
-    all.push_back(std::move(handle));
-  }
+  treeRows.forEach(values.last(state.left()),
+                   [&](const double* row) { all.push_back(unpackTree(row, type_.pool(), options_.material)); });
   method_.restore(memory, all);
+}
+
+void TreeProcess::join(std::span<const double> rows, double share) {
+  std::vector<WeightedParticle<Tree>> coming;
+  treeRows.forEach(rows, [&](const double* row) {
+    Tree tree = unpackTree(row, type_.pool(), options_.material);
+    // Of another clock; its contacts are looked at as soon as they may be.
+    tree.own().time = type_.clock();
+    tree.own().rest = 0;
+    coming.push_back({std::move(tree), share * row[packedNumberAt]});
+  });
+  if (!coming.empty()) method_.join(coming, random_);
 }
 
 }  // namespace lampblack::particles

@@ -40,7 +40,7 @@ def check_wall_limit(program, folder, deck):
         # Half of it is used at least; the start of mpirun is not the program's.
         assert LIMIT / 2 < took < LIMIT + (2 if program.ranks > 1 else 0.5), took
         record = record_of(out)
-        assert record["status"] == "stopped" and record["steps"] > before + 10, record
+        assert record["status"] == "stopped" and record["steps"] > before, record
         before = record["steps"]
         kept = restart_test.datasets(out / "results.h5.part")
         assert kept["history/step"][-1] == before and len(set(kept["history/step"])) == len(kept["history/step"]) == before, "a row a step"

@@ -9,6 +9,7 @@
 
 #include "core/constants.hpp"
 #include "core/kept_state.hpp"
+#include "coupling/cell_soot.hpp"
 #include "flow/budget.hpp"
 #include "particles/models/soot_model.hpp"
 #include "tests/coupling/closed_box.hpp"
@@ -26,11 +27,22 @@ Gas& ethylene() {
   return gas;
 }
 
-EnsembleOperator::Options options(Exchange exchange, double average = 0.0) {
-  EnsembleOperator::Options o;
+struct Options : EnsembleOperator::Options {
+  EnsembleOptions ensemble;
+};
+std::shared_ptr<CellSoot> sootOf(const Options& o) {
+  return std::make_shared<CellSoot>(ethylene().mechanism, o.ensemble);
+}
+
+std::uint64_t numberOf(const Mesh& mesh, int cell) {
+  return static_cast<std::uint64_t>(mesh.naturalCell[at(cell)]);
+}
+
+Options options(Exchange exchange, double average = 0.0) {
+  Options o;
   o.ensemble.method = EnsembleMethod::sammc;
   o.ensemble.particles = 60;
-  o.ensemble.seed = 5;
+  o.ensemble.seed = o.seed = 5;
   o.ensemble.splitTolerance = 0.2;
   o.ensemble.leastNumberDensity = 1e12;
   o.ensemble.soot.pah = {{"A2", 10, 8, 2e-3}};
@@ -43,7 +55,7 @@ EnsembleOperator::Options options(Exchange exchange, double average = 0.0) {
 
 // A closed vessel of sooting gas, hotter and richer in PAH on one side.
 struct Vessel {
-  explicit Vessel(const EnsembleOperator::Options& o, MPI_Comm comm = MPI_COMM_WORLD)
+  explicit Vessel(const Options& o, MPI_Comm comm = MPI_COMM_WORLD)
       : box(closedBox(0.004, 6, 5), fourWalls(), {}, comm, ethylene()),
         state(box.state(
             [&](const Vector3& x) {
@@ -55,9 +67,10 @@ struct Vessel {
                                                        "H2O: 0.04, CO: 0.02, A2: {:.17g}",
                                                        2e-4 * part))};
             },
-            EnsembleOperator::scalars())),
+            sootOf(o)->scalars())),
         transport(box.context, state),
-        ensembles(box.context, transport, o) {
+        soot(sootOf(o)),
+        ensembles(box.context, transport, soot, o) {
     transport.initialise(state, dt);
     begin();
   }
@@ -84,14 +97,13 @@ struct Vessel {
   Box box;
   State state;
   TransportOperator transport;
+  std::shared_ptr<CellSoot> soot;
   EnsembleOperator ensembles;
 };
 
 double contentOf(Vessel& v, const std::string& quantity) {
-  const Budget budget(
-      v.box.context,
-      massAndElements(ethylene().mechanism, EnsembleOperator::unitElements(ethylene().mechanism, Exchange::TwoWay)),
-      v.state);
+  const Budget budget(v.box.context, massAndElements(ethylene().mechanism, v.soot->unitElements(ethylene().mechanism)),
+                      v.state);
   for (const Budget::Line& line : budget.lines(v.state))
     if (line.name == quantity) return line.content;
   return 0.0;
@@ -106,8 +118,8 @@ TEST_P(ExchangeWithGas, KeepsElementsAndGivesTheGasWhatParticlesLeave) {
   std::vector<double> before;
   for (const std::string& name : names) before.push_back(contentOf(v, name));
   for (int s = 0; s < 25; ++s) v.step();
-  const double soot = integral(
-      v.box.mesh, [&](int c) { return v.state.carried[at(c) * v.state.scalars.size() + EnsembleOperator::carbon]; });
+  const double soot =
+      integral(v.box.mesh, [&](int c) { return v.state.carried[at(c) * v.state.scalars.size() + CellSoot::carbon]; });
   EXPECT_GT(soot, 1e-6 * before[1]);
   for (std::size_t k = 0; k < names.size(); ++k)
     EXPECT_NEAR(contentOf(v, names[k]) / before[k], 1.0, 1e-13) << names[k];
@@ -126,8 +138,8 @@ TEST(EnsembleOperator, SmoothsWhatTheGasLosesWithoutChangingIt) {
     const double before = left();
     for (int s = 0; s < 50; ++s) v.step();
     pah.push_back(left() / before);
-    soot.push_back(integral(
-        v.box.mesh, [&](int c) { return v.state.carried[at(c) * v.state.scalars.size() + EnsembleOperator::carbon]; }));
+    soot.push_back(integral(v.box.mesh,
+                            [&](int c) { return v.state.carried[at(c) * v.state.scalars.size() + CellSoot::carbon]; }));
   }
   report(fmt::format("PAH left after 1 ms: {:.4f} at once, {:.4f} over 0.1 ms; soot differs by {:.1e}", pah[0], pah[1],
                      soot[1] / soot[0] - 1.0));
@@ -138,7 +150,7 @@ TEST(EnsembleOperator, SmoothsWhatTheGasLosesWithoutChangingIt) {
 
 // What particles gain is as warm as the gas when they gain it; their own heat on the way is not followed.
 TEST(EnsembleOperator, KeepsTheEnthalpyOfGasAndParticles) {
-  EnsembleOperator::Options still = options(Exchange::TwoWay);
+  Options still = options(Exchange::TwoWay);
   still.diffusion = false;
   Vessel v(still);
   std::ranges::fill(v.state.massFlux, 0.0);
@@ -153,8 +165,8 @@ TEST(EnsembleOperator, KeepsTheEnthalpyOfGasAndParticles) {
     const double gained = integral(v.box.mesh, [&](int c) {
       const double *old = &amounts[at(c) * v.state.scalars.size()],
                    *now = &v.state.carried[at(c) * v.state.scalars.size()];
-      return (now[EnsembleOperator::carbon] - old[EnsembleOperator::carbon]) * sootCarbonEnthalpy(T[at(c)]).first +
-             (now[EnsembleOperator::hydrogen] - old[EnsembleOperator::hydrogen]) * sootHydrogenEnthalpy(T[at(c)]).first;
+      return (now[CellSoot::carbon] - old[CellSoot::carbon]) * sootCarbonEnthalpy(T[at(c)]).first +
+             (now[CellSoot::hydrogen] - old[CellSoot::hydrogen]) * sootHydrogenEnthalpy(T[at(c)]).first;
     });
     EXPECT_NEAR(gasHeat() + gained, before, 1e-12 * std::abs(before));
     moved += std::abs(gained);
@@ -172,8 +184,8 @@ TEST(EnsembleOperator, GivesTheGasTheHeatOfTheReserve) {
     const double* amount = &v.state.carried[at(c) * v.state.scalars.size()];
     const double T = v.state.temperature[at(c)];
     given += average * (v.state.balance.enthalpy[at(c)] - without.state.balance.enthalpy[at(c)]);
-    gained += amount[EnsembleOperator::carbon] * sootCarbonEnthalpy(T).first +
-              amount[EnsembleOperator::hydrogen] * sootHydrogenEnthalpy(T).first;
+    gained += amount[CellSoot::carbon] * sootCarbonEnthalpy(T).first +
+              amount[CellSoot::hydrogen] * sootHydrogenEnthalpy(T).first;
   }
   given = sumOverRanks(given);
   gained = sumOverRanks(gained);
@@ -196,7 +208,7 @@ TEST(EnsembleOperator, OneWayLeavesTheGasAlone) {
 // In a gas that stays as it is the ensembles are the same to the last bit on any number of ranks, with sharing and
 // without.
 TEST(EnsembleOperator, DoesNotDependOnRanksNorSharing) {
-  EnsembleOperator::Options shared = options(Exchange::OneWay), own = shared;
+  Options shared = options(Exchange::OneWay), own = shared;
   own.shareWork = false;
   Vessel alone(own, MPI_COMM_SELF), together(shared), apart(own);
   for (Vessel* v : {&alone, &together, &apart})
@@ -234,13 +246,13 @@ TEST(EnsembleOperator, GoesOnToTheSameBits) {
 
 // The gas stays to the last bit, the balance of atoms too, and a restart has what moves the particles.
 TEST(EnsembleOperator, GoesOnInAGasThatIsHeld) {
-  EnsembleOperator::Options o = options(Exchange::TwoWay, 1e-4);
+  Options o = options(Exchange::TwoWay, 1e-4);
   o.holdGas = 4.5 * Vessel::dt;
   Vessel v(o);
   for (int s = 0; s < 5; ++s) v.step();
   ASSERT_TRUE(v.ensembles.isGasHeld(v.time));
   const std::vector<double> T = v.state.temperature;
-  const double carbon = contentOf(v, "C"), soot = v.state.carried[EnsembleOperator::carbon];
+  const double carbon = contentOf(v, "C"), soot = v.state.carried[CellSoot::carbon];
   const auto hold = [](Vessel& vessel) {
     vessel.ensembles.advance(vessel.state, vessel.time, Vessel::dt);
     vessel.begin();
@@ -252,7 +264,7 @@ TEST(EnsembleOperator, GoesOnInAGasThatIsHeld) {
   for (int s = 0; s < 3; ++s) hold(v);
   EXPECT_EQ(v.state.temperature, T);
   EXPECT_NEAR(contentOf(v, "C") / carbon, 1.0, 1e-13);
-  EXPECT_NE(v.state.carried[EnsembleOperator::carbon], soot);
+  EXPECT_NE(v.state.carried[CellSoot::carbon], soot);
   Vessel other(o);
   kept.giveBack([&](StateArchive& archive) { other.saveOrLoad(archive); });
   other.state.updateHalo(other.box.halo);
@@ -263,8 +275,8 @@ TEST(EnsembleOperator, GoesOnInAGasThatIsHeld) {
 }
 
 TEST(EnsembleOperator, TakesStepsOfSeveralSweepsOnce) {
-  const EnsembleOperator::Options single = options(Exchange::TwoWay, 1e-4);
-  EnsembleOperator::Options o = single;
+  const Options single = options(Exchange::TwoWay, 1e-4);
+  Options o = single;
   o.sweeps = 2;
   Vessel once(single), twice(o);
   for (int s = 0; s < 6; ++s) {
@@ -280,7 +292,7 @@ TEST(EnsembleOperator, TakesStepsOfSeveralSweepsOnce) {
 
 // Other random numbers in every step.
 TEST(EnsembleOperator, DrawsAnewInEveryStep) {
-  EnsembleOperator::Options o = options(Exchange::OneWay);
+  Options o = options(Exchange::OneWay);
   o.ensemble.particles = 400;
   for (bool SootModelOptions::*process :
        {&SootModelOptions::inception, &SootModelOptions::coagulation, &SootModelOptions::condensation,
@@ -293,7 +305,8 @@ TEST(EnsembleOperator, DrawsAnewInEveryStep) {
   std::vector<std::vector<std::vector<double>>> found;
   double moved = 0.0;
   for (int s = 0; s < 2; ++s) {
-    for (int c = 0; c < v.box.mesh.owned; ++c) v.ensembles.initialise(v.state, c, fresh);
+    for (int c = 0; c < v.box.mesh.owned; ++c)
+      v.ensembles.initialise(v.state, c, sootOf(o)->packed(fresh, numberOf(v.box.mesh, c)));
     v.step(false);
     found.emplace_back();
     for (const auto& population : v.ensembles.populations()) {
@@ -319,7 +332,7 @@ TEST(EnsembleOperator, MakesEnsemblesOnlyWhereThereIsSomethingToBecomeSoot) {
 struct Pipe {
   static constexpr int cells = 24;
   static constexpr double length = 0.012, speed = 1.0, dt = 0.4 * length / cells / speed;
-  explicit Pipe(const EnsembleOperator::Options& o)
+  explicit Pipe(const Options& o)
       : N2(ethylene().massFractions("N2: 1")),
         box(Geometry::Planar, {uniformAxis(length, cells), uniformAxis(0.001, 1), {}},
             {opening(BoundaryKind::Inlet, 0, false, speed, 1500.0, N2),
@@ -330,13 +343,14 @@ struct Pipe {
             [&](const Vector3&) {
               return Box::Local{{speed, 0.0}, 1500.0, N2};
             },
-            EnsembleOperator::scalars())),
+            sootOf(o)->scalars())),
         transport(box.context, state),
-        ensembles(box.context, transport, o) {
+        soot(sootOf(o)),
+        ensembles(box.context, transport, soot, o) {
     transport.initialise(state, 1e-5);
   }
-  static EnsembleOperator::Options onlyCoagulating(std::size_t particles, double rate) {
-    EnsembleOperator::Options o = options(Exchange::OneWay);
+  static Options onlyCoagulating(std::size_t particles, double rate) {
+    Options o = options(Exchange::OneWay);
     o.diffusion = false;
     o.ensemble.particles = particles;
     o.ensemble.kernel = {.type = CollisionKernelType::constant, .rate = rate};
@@ -348,7 +362,8 @@ struct Pipe {
   }
   void fill(int upTo, const std::vector<GivenParticle>& fresh) {
     for (int c = 0; c < box.mesh.owned; ++c)
-      if (box.mesh.centre[at(c)][0] < upTo * length / cells) ensembles.initialise(state, c, fresh);
+      if (box.mesh.centre[at(c)][0] < upTo * length / cells)
+        ensembles.initialise(state, c, soot->packed(fresh, numberOf(box.mesh, c)));
   }
   void step() {
     state.keepStart();
@@ -359,6 +374,7 @@ struct Pipe {
   Box box;
   State state;
   TransportOperator transport;
+  std::shared_ptr<CellSoot> soot;
   EnsembleOperator ensembles;
 };
 
@@ -369,13 +385,13 @@ TEST(EnsembleOperator, TellsWhatLeavesThePipe) {
   std::vector<GivenParticle> fresh;
   for (int k = 0; k < 60; ++k) fresh.push_back({1e-23 * (1 + k), 1e-25 * k, 1.0 + k % 3, 1e14 * (1 + k % 5)});
   pipe.fill(Pipe::cells, fresh);
-  using A = EnsembleOperator;
+  using A = CellSoot;
   const auto content = [&](A::Amount amount) {
     return integral(pipe.box.mesh,
                     [&](int c) { return pipe.state.carried[at(c) * pipe.state.scalars.size() + amount]; });
   };
-  std::vector<double> left(A::amounts);
-  pipe.ensembles.watchOutflow([&](std::span<const double> outflow) {
+  std::vector<double> left(pipe.soot->amounts().count());
+  pipe.ensembles.watchAmounts([&](std::span<const double>, std::span<const double> outflow) {
     for (std::size_t k = 0; k < left.size(); ++k) left[k] += outflow[k];
   });
   const auto watched = {A::number, A::carbon, A::hydrogen, A::primaries};
@@ -397,7 +413,7 @@ TEST(EnsembleOperator, TellsWhatLeavesThePipe) {
 TEST(EnsembleOperator, CoagulatesInAPipeAsTheExactSolution) {
   constexpr int cells = Pipe::cells, filled = 4, first = 6;
   constexpr double length = Pipe::length, speed = Pipe::speed, N0 = 1e16, K = 1e-13;
-  const EnsembleOperator::Options o = Pipe::onlyCoagulating(400, K);
+  const Options o = Pipe::onlyCoagulating(400, K);
   Pipe pipe(o);
   const Box& box = pipe.box;
   if (box.mesh.ranks > 2) GTEST_SKIP() << "a row of cells";

@@ -63,13 +63,14 @@ TEST(EnsembleSizes, AreThoseOfTheEnsemble) {
     ensemble->initialise(particlesOf(1, coalescing));
     const std::vector<double> population = ensemble->pack();
     std::vector<double> found(bins.count, 0.0);
-    addSizes(type, bins, population, found);
+    const RowSizes sizes{type, {packedHead}};
+    addSizes(sizes, bins, population, found);
     const std::vector<double> expected = ensemble->sizeDistribution(bins.logMin, bins.logMax, bins.count);
     for (std::size_t b = 0; b < bins.count; ++b) EXPECT_NEAR(found[b], expected[b], 1e-12 * expected[b]) << b;
     const double number = std::accumulate(found.begin(), found.end(), 0.0) * bins.width();
     EXPECT_NEAR(number / ensemble->totals().number, 1.0, 1e-12);
-    EXPECT_NEAR(geometricDeviation(type, population), ensemble->geometricDeviation(), 1e-12);
-    EXPECT_EQ(geometricDeviation(type, {}), 1.0);
+    EXPECT_NEAR(geometricDeviation(sizes, population), ensemble->geometricDeviation(), 1e-12);
+    EXPECT_EQ(geometricDeviation(sizes, {}), 1.0);
   }
 }
 
@@ -77,12 +78,12 @@ TEST(EnsembleSizes, OfARegionAreTheSameBitsOnAnyRanks) {
   const Mesh alone(MPI_COMM_SELF, test::plainBox(12, 9)), shared(MPI_COMM_WORLD, test::plainBox(12, 9));
   const Vector3 from{2e-3, 1e-3, 0.0}, to{8.2e-3, 5.1e-3, 0.0};
   for (const bool coalescing : {true, false}) {
-    const SootAggregate type(density, coalescing);
+    const RowSizes of{SootAggregate(density, coalescing), {packedHead}};
     const auto whole = populations(alone, coalescing), parts = populations(shared, coalescing);
     const EnsembleRegion one(alone, from, to), same(shared, from, to);
-    const std::vector<double> sizes = one.sizeRows(type, bins, whole), joint = one.jointRows(type, bins, whole);
-    EXPECT_EQ(same.sizeRows(type, bins, parts), sizes);
-    EXPECT_EQ(same.jointRows(type, bins, parts), joint);
+    const std::vector<double> sizes = one.sizeRows(of, bins, whole), joint = one.jointRows(of, bins, whole);
+    EXPECT_EQ(same.sizeRows(of, bins, parts), sizes);
+    EXPECT_EQ(same.jointRows(of, bins, parts), joint);
     // Against the particles, one by one.
     double volume = 0.0, number = 0.0, mass = 0.0, surface = 0.0, large = 0.0;
     for (int c = 0; c < alone.owned; ++c) {

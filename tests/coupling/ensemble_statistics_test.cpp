@@ -93,7 +93,7 @@ void run(Statistics& statistics, NoisyCells& cells, Clock& clock, double until) 
 // a twentieth of a block.
 TEST(EnsembleStatistics, IntervalsHaveTheMeanIn95Cases) {
   const Mesh mesh(MPI_COMM_WORLD, test::plainBox(60, 50));
-  Statistics statistics(mesh, {0.0, 1e-3}, {});
+  Statistics statistics(mesh, "soot", {0.0, 1e-3}, {});
   NoisyCells cells(mesh, std::exp(-0.2), 0.2, flat);
   Clock clock;
   run(statistics, cells, clock, 8.05e-3);
@@ -115,7 +115,7 @@ TEST(EnsembleStatistics, IntervalsHaveTheMeanIn95Cases) {
 
 TEST(EnsembleStatistics, MeansAreWeightedWithTheSteps) {
   const Mesh mesh(MPI_COMM_WORLD, test::plainBox(4, 3));
-  Statistics statistics(mesh, {1.0, 2.0}, SizeBins{-9.0, -6.0, 3});
+  Statistics statistics(mesh, "soot", {1.0, 2.0}, SizeBins{-9.0, -6.0, 3});
   double amount = 0.0;
   const Statistics::Source source{
       [&](int) {
@@ -156,7 +156,7 @@ TEST(EnsembleStatistics, StartByThemselvesWhenNothingGrows) {
   const Mesh mesh(MPI_COMM_WORLD, test::plainBox(8, 8));
   constexpr double grows = 12e-3;  // s
   NoisyCells cells(mesh, std::exp(-0.2), 0.2, [](double t) { return 1e15 * std::min(1.0, 0.01 + t / grows); });
-  Statistics statistics(mesh, {{}, 1e-3, 0.0}, {});
+  Statistics statistics(mesh, "soot", {{}, 1e-3, 0.0}, {});
   Clock clock;
   run(statistics, cells, clock, grows);
   EXPECT_FALSE(statistics.since());
@@ -179,7 +179,7 @@ TEST(EnsembleStatistics, StartByThemselvesWhenNothingGrows) {
 TEST(EnsembleStatistics, WaitForVolumeAndNumber) {
   const Mesh mesh(MPI_COMM_WORLD, test::plainBox(4, 3));
   for (const bool numberGrows : {false, true}) {
-    Statistics statistics(mesh, {{}, 1e-3}, {});
+    Statistics statistics(mesh, "soot", {{}, 1e-3}, {});
     Noise noise(1, 0.0);
     double growing = 0.0, steady = 0.0;
     const Statistics::Source source{
@@ -199,7 +199,7 @@ TEST(EnsembleStatistics, WaitForVolumeAndNumber) {
 TEST(EnsembleStatistics, WarnsOfShortBlocks) {
   const Mesh mesh(MPI_COMM_WORLD, test::plainBox(3, 3));
   for (const bool tooShort : {false, true}) {
-    Statistics statistics(mesh, {0.0, tooShort ? 1e-3 : 20e-3}, {});
+    Statistics statistics(mesh, "soot", {0.0, tooShort ? 1e-3 : 20e-3}, {});
     NoisyCells cells(mesh, std::exp(-0.01), 0.2, flat);  // forgets in 1 ms
     Clock clock;
     run(statistics, cells, clock, tooShort ? 30e-3 : 400e-3);
@@ -217,7 +217,7 @@ TEST(EnsembleStatistics, GoOnFromWhatWasSavedToTheSameBits) {
   const NoisyCells::Level level = [](double t) { return 1e15 * (1.0 - std::exp(-t / 2e-3)); };
   // Before they start, and within a block after.
   for (const double middle : {4.33e-3, 33.33e-3}) {
-    Statistics whole(mesh, {{}, 1e-3}, bins);
+    Statistics whole(mesh, "soot", {{}, 1e-3}, bins);
     NoisyCells cells(mesh, 0.5, 0.2, level);
     Clock clock;
     run(whole, cells, clock, middle);
@@ -228,7 +228,7 @@ TEST(EnsembleStatistics, GoOnFromWhatWasSavedToTheSameBits) {
     Clock sameClock = clock;
     run(whole, cells, clock, 45e-3);
     // Other blocks in the deck: those that have begun go on.
-    Statistics rest(mesh, {{}, middle > 30e-3 ? 2e-3 : 1e-3}, bins);
+    Statistics rest(mesh, "soot", {{}, middle > 30e-3 ? 2e-3 : 1e-3}, bins);
     kept.giveBack([&](StateArchive& archive) { Statistics::saveOrLoad(archive, &rest); });
     run(rest, same, sameClock, 45e-3);
     EXPECT_EQ(rest.since(), whole.since());
@@ -268,7 +268,7 @@ class Drawer final : public StateArchive {
 
 TEST(EnsembleStatistics, BeginAnewWhereNoneOrOthersWereSaved) {
   const Mesh mesh(MPI_COMM_WORLD, test::plainBox(4, 3));
-  Statistics begun(mesh, {0.0, 1e-4}, SizeBins{-9.0, -6.0, 4});
+  Statistics begun(mesh, "soot", {0.0, 1e-4}, SizeBins{-9.0, -6.0, 4});
   NoisyCells cells(mesh, 0.5, 0.2, flat);
   Clock clock;
   run(begun, cells, clock, 1e-3);
@@ -278,7 +278,7 @@ TEST(EnsembleStatistics, BeginAnewWhereNoneOrOthersWereSaved) {
   none.isLoading = some.isLoading = true;
   Statistics::saveOrLoad(some, nullptr);  // passed over
   for (const auto& [drawer, bins] : {std::pair{&none, SizeBins{-9.0, -6.0, 4}}, {&some, SizeBins{-9.0, -5.0, 4}}}) {
-    Statistics blank(mesh, {0.0, 2e-4}, bins);
+    Statistics blank(mesh, "soot", {0.0, 2e-4}, bins);
     Statistics::saveOrLoad(*drawer, &blank);
     EXPECT_FALSE(blank.since());
     EXPECT_EQ(blank.block(), 2e-4);

@@ -1,0 +1,63 @@
+#include "coupling/cell_soot.hpp"
+
+#include "coupling/ensemble_species.hpp"
+#include "particles/ensemble/packed_ensemble.hpp"
+#include "particles/models/soot_model.hpp"
+
+namespace lampblack::coupling {
+
+CellSoot::CellSoot(const Mechanism& mechanism, const EnsembleOptions& options)
+    : CellParticles("soot", {"C", "H"}, mechanism, indicesOfSootSpecies(mechanism, options.soot), {"C", "H", "O"},
+                    {SootAggregate(options.soot.sootDensity, options.coalescing), {packedHead, false}}),
+      engine_(makeEnsemble(options)) {
+  blank_ = engine_->pack();
+}
+
+void CellSoot::addAmounts(const double* row, double times, std::span<double> amounts) const {
+  GivenParticle particle = particleAt(row);
+  particle.number = times;
+  Ensemble::Totals t;
+  addTo(t, sizes().type, particle);
+  amounts[number] += t.number;
+  amounts[carbon] += t.carbon;
+  amounts[hydrogen] += t.hydrogen;
+  amounts[primaries] += t.primaries;
+  amounts[surface] += t.surface;
+  amounts[diameters] += t.diameters;
+}
+
+double CellSoot::enthalpy(double temperature, std::span<const double> elements) const {
+  return elements[0] * sootCarbonEnthalpy(temperature).first + elements[1] * sootHydrogenEnthalpy(temperature).first;
+}
+
+double CellSoot::absorption(double temperature, double volumeFraction) const {
+  return sootAbsorption(temperature, volumeFraction);
+}
+
+bool CellSoot::hasPrecursors(const ParticleGas& gas) const {
+  return particles::hasPrecursors(gas);
+}
+
+void CellSoot::join(std::span<const double> rows) {
+  std::vector<GivenParticle> arrived;
+  this->rows().forEach(rows, [&](const double* row) { arrived.push_back(particleAt(row)); });
+  engine_->join(arrived, 1.0);
+}
+
+CellParticles::Change CellSoot::advance(const ParticleGas& gas, double dt) {
+  engine_->advance(gas, 0.0, dt);
+  const EnsembleExchange taken = engine_->takeExchange();
+  return {{taken.gas.begin(), taken.gas.begin() + static_cast<std::ptrdiff_t>(species().size())},
+          {taken.carbon, taken.hydrogen},
+          {taken.resampledCarbon, taken.resampledHydrogen}};
+}
+
+std::vector<double> CellSoot::packed(std::span<const GivenParticle> population, std::uint64_t cell) const {
+  EnsembleOptions own = engine_->options();
+  own.owner = cell;
+  const auto ensemble = makeEnsemble(own);
+  ensemble->initialise(population);
+  return ensemble->pack();
+}
+
+}  // namespace lampblack::coupling

@@ -1,0 +1,93 @@
+#include "coupling/cell_trees.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "core/constants.hpp"
+#include "core/errors.hpp"
+#include "particles/trees/packed_tree.hpp"
+#include "particles/trees/tree_enthalpy.hpp"
+
+namespace lampblack::coupling {
+
+CellTrees::CellTrees(const Mechanism& mechanism, const TreeOptions& options)
+    : CellTrees(mechanism, options, ReactorTrees(mechanism, options, GasViscosity::transport, {})) {}
+
+CellTrees::CellTrees(const Mechanism& mechanism, const TreeOptions& options, ReactorTrees trees)
+    : CellParticles(options.material.name, trees.elements(), mechanism, trees.species(), trees.elements(),
+                    {SootAggregate(options.material.density, false), treeRows}),
+      options_(options),
+      trees_(std::move(trees)),
+      before_(elements().size()) {
+  for (const std::string& element : elements()) {
+    if (!treeEnthalpy(options.material.name, element, 1000.0))
+      throw InputError(fmt::format("particles of {}: the enthalpy of {} in them is not known, which a flow needs",
+                                   options.material.name, element));
+    TreeUnits& mass = elementMass_.emplace_back();
+    for (std::size_t c = 0; c < options.material.components.size(); ++c)
+      for (const auto& [name, atoms] : options.material.components[c].elements)
+        if (name == element)
+          mass[c] += atoms * mechanism.atomicWeight(mechanism.elementIndex(element)) / constants::avogadro;
+  }
+  blank_ = pack();
+}
+
+void CellTrees::addElements(const TreeUnits& units, double number, std::span<double> elements) const {
+  for (std::size_t e = 0; e < elements.size(); ++e)
+    for (std::size_t c = 0; c < units.size(); ++c) elements[e] += number * units[c] * elementMass_[e][c];
+}
+
+void CellTrees::addAmounts(const double* row, double number, std::span<double> amounts) const {
+  const AmountPlaces at = this->amounts();
+  const PackedTreeSums tree = sumsOfPackedTree(row);
+  const GivenParticle particle = particleAt(row);
+  const SootAggregate& type = sizes().type;
+  amounts[AmountPlaces::number] += number;
+  addElements(tree.units, number, amounts.subspan(at.element(0), elements().size()));
+  amounts[at.primaries()] += number * tree.count;
+  amounts[at.surface()] += number * tree.surface;
+  amounts[at.diameters()] += number * type.mobilityDiameter(type.make(particle.carbon, 0.0, particle.primaries));
+}
+
+double CellTrees::enthalpy(double temperature, std::span<const double> elements) const {
+  double sum = 0.0;
+  for (std::size_t e = 0; e < elements.size(); ++e)
+    sum += elements[e] * *treeEnthalpy(material(), this->elements()[e], temperature);
+  return sum;
+}
+
+bool CellTrees::hasPrecursors(const ParticleGas& gas) const {
+  return trees_.canBeBorn(gas);
+}
+
+void CellTrees::unpack(std::span<const double> population) {
+  trees_.population().unpack(population);
+  before_.assign(elements().size(), 0.0);
+  addElements(trees_.population().totals().units, 1.0, before_);
+}
+
+void CellTrees::join(std::span<const double> rows) {
+  this->rows().forEach(
+      rows, [&](const double* row) { addElements(sumsOfPackedTree(row).units, row[packedNumberAt], before_); });
+  trees_.population().join(rows, 1.0);
+}
+
+CellParticles::Change CellTrees::advance(const ParticleGas& gas, double dt) {
+  // What waits to sinter does so before the exchange is looked at, and before particles move on.
+  SplitParticles::Exchange exchange = trees_.advanceAndSettle(gas, dt);
+  Change change{std::move(exchange.gas), std::move(exchange.elements), std::vector<double>(elements().size())};
+  addElements(trees_.population().totals().units, 1.0, change.resampled);
+  for (std::size_t e = 0; e < before_.size(); ++e) change.resampled[e] -= before_[e] + change.elements[e];
+  return change;
+}
+
+std::vector<double> CellTrees::packed(const TreeUnits& units, double number, std::uint64_t cell) const {
+  TreeOptions own = options_;
+  own.owner = cell;
+  const auto population = makeTreePopulation(own);
+  population->fill(units, number);
+  return population->pack();
+}
+
+}  // namespace lampblack::coupling

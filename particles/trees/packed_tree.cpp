@@ -1,0 +1,88 @@
+#include "particles/trees/packed_tree.hpp"
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include "core/errors.hpp"
+#include "core/packed_doubles.hpp"
+#include "particles/trees/tree_shape.hpp"
+
+namespace lampblack::particles {
+namespace {
+
+// Sums as they are: joined trees have added them up in another order than they are measured in.
+struct Sums {
+  double length, count;
+  TreeUnits units;
+  double volume, diameters, surfaces, levels, surface, collision, sintering, time, rest;
+};
+struct Neck {
+  double common, left, right, first, last;
+};
+template <class T>
+constexpr std::size_t valuesOf = sizeof(T) / sizeof(double);
+
+constexpr std::size_t lengthOfRow(std::size_t primaries) {
+  return valuesOf<GivenParticle> + valuesOf<Sums> + primaries * valuesOf<TreeUnits> + (primaries - 1) * valuesOf<Neck>;
+}
+
+InputError damaged() {
+  return InputError("particles: the saved state of trees is damaged");
+}
+
+}  // namespace
+
+void packTree(const Tree& tree, double number, const TreeMaterial& material, std::vector<double>& to) {
+  const TreeHead& h = tree.head();
+  // So many equal spheres have its volume and its surface: S^3 / (36 pi V^2).
+  const double ratio = std::max(1.0, h.surface / treeSphere(h.volume));
+  packDoubles(to, GivenParticle{h.volume * material.density, 0, ratio * ratio * ratio, number});
+  packDoubles(to, Sums{static_cast<double>(lengthOfRow(h.count)), static_cast<double>(h.count), h.units, h.volume,
+                       h.diameters, h.surfaces, h.levels, h.surface, h.collision, h.sintering, h.time, h.rest});
+  for (const TreePrimary& primary : tree.primaries()) packDoubles(to, primary.units);
+  for (const TreeNeck& n : tree.necks())
+    packDoubles(to, Neck{n.common, static_cast<double>(n.left), static_cast<double>(n.right),
+                         static_cast<double>(n.first), static_cast<double>(n.last)});
+}
+
+Tree unpackTree(const double* row, TreePool& pool, const TreeMaterial& material) {
+  PackedDoubles state({row, static_cast<std::size_t>(row[packedParticle])});
+  state.next<GivenParticle>();
+  const auto h = state.next<Sums>();
+  const auto count = static_cast<std::size_t>(h.count);
+  if (!(h.count >= 1) || lengthOfRow(count) != static_cast<std::size_t>(h.length)) throw damaged();
+  const auto index = [](double x) { return static_cast<std::uint32_t>(x); };
+  TreeHead* tree = pool.allocate(count);
+  Tree handle(tree);
+  tree->count = index(h.count);
+  for (std::uint32_t i = 0; i < tree->count; ++i) {
+    const auto units = state.next<TreeUnits>();
+    primariesOf(tree)[i] = {units, treeDiameter(material.volume(units))};
+  }
+  for (std::uint32_t k = 0; k + 1 < tree->count; ++k) {
+    const auto n = state.next<Neck>();
+    TreeNeck neck{n.common, 0, index(n.left), index(n.right), index(n.first), index(n.last)};
+    if (std::max({neck.left, neck.right, neck.first, neck.last}) >= tree->count) throw damaged();
+    neck.sphere = sphereOfNeck(primariesOf(tree), neck);
+    necksOf(tree)[k] = neck;
+  }
+  tree->units = h.units;
+  tree->volume = h.volume;
+  tree->diameters = h.diameters;
+  tree->surfaces = h.surfaces;
+  tree->levels = h.levels;
+  tree->surface = h.surface;
+  tree->collision = h.collision;
+  tree->sintering = h.sintering;
+  tree->time = h.time;
+  tree->rest = h.rest;
+  return handle;
+}
+
+PackedTreeSums sumsOfPackedTree(const double* row) {
+  const auto h = PackedDoubles({row + packedParticle, valuesOf<Sums>}).next<Sums>();
+  return {h.count, h.units, h.surface};
+}
+
+}  // namespace lampblack::particles
