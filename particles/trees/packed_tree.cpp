@@ -46,12 +46,14 @@ void packTree(const Tree& tree, double number, const TreeMaterial& material, std
                          static_cast<double>(n.first), static_cast<double>(n.last)});
 }
 
-Tree unpackTree(const double* row, TreePool& pool, const TreeMaterial& material) {
-  PackedDoubles state({row, static_cast<std::size_t>(row[packedParticle])});
+Tree unpackTree(std::span<const double> rows, TreePool& pool, const TreeMaterial& material) {
+  PackedDoubles state(rows);
   state.next<GivenParticle>();
   const auto h = state.next<Sums>();
+  const auto most = static_cast<double>(rows.size());
+  if (!(h.count >= 1) || !(h.count <= most)) throw damaged();
   const auto count = static_cast<std::size_t>(h.count);
-  if (!(h.count >= 1) || lengthOfRow(count) != static_cast<std::size_t>(h.length)) throw damaged();
+  if (static_cast<double>(lengthOfRow(count)) != h.length || !(h.length <= most)) throw damaged();
   const auto index = [](double x) { return static_cast<std::uint32_t>(x); };
   TreeHead* tree = pool.allocate(count);
   Tree handle(tree);

@@ -2,6 +2,7 @@
 // row's length, its sums, its primaries and its necks.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "core/rooms.hpp"
@@ -12,8 +13,8 @@ namespace lampblack::particles {
 
 // Adds the row of a tree that stands for `number` (1/m3).
 void packTree(const Tree& tree, double number, const TreeMaterial& material, std::vector<double>& to);
-// InputError for what packTree() did not write.
-[[nodiscard]] Tree unpackTree(const double* row, TreePool& pool, const TreeMaterial& material);
+// The tree of the first of these rows. InputError for what packTree() did not write.
+[[nodiscard]] Tree unpackTree(std::span<const double> rows, TreePool& pool, const TreeMaterial& material);
 
 // Sums of a packed tree, without unpacking it.
 struct PackedTreeSums {

@@ -138,15 +138,16 @@ void TreeProcess::unpack(std::span<const double> values) {
     method_.counters().*counter.value = static_cast<std::uint64_t>(state.next());
   const auto memory = state.next<std::array<double, 2>>();
   std::vector<Tree> all;
-  treeRows.forEach(values.last(state.left()),
-                   [&](const double* row) { all.push_back(unpackTree(row, type_.pool(), options_.material)); });
+  for (std::span<const double> rest = values.last(state.left()); !rest.empty();
+       rest = rest.subspan(treeRows.lengthOf(rest.data())))
+    all.push_back(unpackTree(rest, type_.pool(), options_.material));
   method_.restore(memory, all);
 }
 
 void TreeProcess::join(std::span<const double> rows, double share) {
   std::vector<WeightedParticle<Tree>> coming;
   treeRows.forEach(rows, [&](const double* row) {
-    Tree tree = unpackTree(row, type_.pool(), options_.material);
+    Tree tree = unpackTree({row, treeRows.lengthOf(row)}, type_.pool(), options_.material);
     // Of another clock; its contacts are looked at as soon as they may be.
     tree.own().time = type_.clock();
     tree.own().rest = 0;

@@ -8,7 +8,6 @@ from .planes import draw
 from .shapes import Shapes
 from .style import plt, scaled_fraction, shown_time
 
-SIZES = "soot_size_distribution"
 DECADES = 5  # of the distributions that are shown, below the largest
 MOST_FRAMES = 100
 PLACES = 6  # whose distributions stand beside the plane
@@ -26,19 +25,22 @@ class _Sizes:
 
     def __init__(self, results):
         self.results = results
-        self.edges = results.file["soot_sizes/bin_edges"][()] * 1e9  # nm
+        self.edges = results.file[f"{results.material}_sizes/bin_edges"][()] * 1e9  # nm
         self.centres = np.sqrt(self.edges[1:] * self.edges[:-1])
+
+    def name(self):
+        return f"{self.results.material}_size_distribution"
 
     def density(self, step=None, mean=False):
         """dN/dlog10 d in 1/cm^3, a row a cell, or nothing."""
-        values = self.results.field(SIZES + ("_mean" if mean else ""), step)
+        values = self.results.field(self.name() + ("_mean" if mean else ""), step)
         return None if values is None or values.shape[1:] != self.centres.shape else values * 1e-6
 
     def diameter(self, step=None):
         """Mean mobility diameter (nm) and geometric deviation; nan where there are next to no particles."""
-        number = self.results.field("soot_number_density", step)
-        diameter = self.results.field("soot_mobility_diameter", step)
-        deviation = self.results.field("soot_geometric_standard_deviation", step)
+        number = self.results.field(f"{self.results.material}_number_density", step)
+        diameter = self.results.field(f"{self.results.material}_mobility_diameter", step)
+        deviation = self.results.field(f"{self.results.material}_geometric_standard_deviation", step)
         there = number > 1e-4 * max(number.max(), 1e-300)
         return np.where(there, diameter * 1e9, np.nan), np.where(there, deviation, np.nan)
 
@@ -83,7 +85,7 @@ def _plot_centreline(results, sizes, pictures):
 
 def _plot_lines(results, sizes, pictures):
     for name, table in results.file.get("lines", {}).items():
-        columns = sorted(key for key in table if key.startswith(SIZES + "_") and key[len(SIZES) + 1:].isdigit())
+        columns = sorted(key for key in table if key.startswith(sizes.name() + "_") and key[len(sizes.name()) + 1:].isdigit())
         if len(columns) != len(sizes.centres):
             continue
         last = table["step"][()] == table["step"][-1]
@@ -239,16 +241,17 @@ def _plot_regions(results, pictures):
 def _plot_averages(results, pictures):
     """Means over time along the centreline, with their intervals where there are enough blocks."""
     column, z = results.centreline()
-    if results.field("soot_volume_fraction_mean") is None or len(column) < 2:
+    material = results.material
+    if results.field(f"{material}_volume_fraction_mean") is None or len(column) < 2:
         return
     figure, panels = plt.subplots(3, 1, figsize=(6.6, 7.6), sharex=True)
-    for axes, name, label, factor in ((panels[0], "soot_volume_fraction", "soot volume fraction", None),
-                                      (panels[1], "soot_number_density", "soot number, 1/cm$^3$", 1e-6),
-                                      (panels[2], "soot_mobility_diameter", "mean mobility diameter, nm", 1e9)):
-        mean, interval, now = (results.field(name + end) for end in ("_mean", "_interval", ""))
+    for axes, name, label, factor in ((panels[0], "volume_fraction", f"{material} volume fraction", None),
+                                      (panels[1], "number_density", f"{material} number, 1/cm$^3$", 1e-6),
+                                      (panels[2], "mobility_diameter", "mean mobility diameter, nm", 1e9)):
+        mean, interval, now = (results.field(f"{material}_{name}{end}") for end in ("_mean", "_interval", ""))
         scaled, unit = scaled_fraction(mean) if factor is None else (mean * factor, "")
         factor = factor or (scaled.max() / mean.max() if mean.max() > 0 else 1.0)
-        shown = results.field("soot_number_density_mean")[column]
+        shown = results.field(f"{material}_number_density_mean")[column]
         shown = shown > 1e-4 * max(shown.max(), 1e-300)
         middle = np.where(shown, scaled[column], np.nan)
         axes.plot(z * 1e3, np.where(shown, now[column] * factor, np.nan), color="0.6", lw=0.8, label="last step")
@@ -260,22 +263,22 @@ def _plot_averages(results, pictures):
         axes.set_ylim(0.0, None)
     panels[0].legend(fontsize=8)
     panels[-1].set_xlabel(f"{results.axis_names()[1]}, mm")
-    since = results.history().get("soot_averages_since")
+    since = results.history().get(f"{material}_averages_since")
     if since is not None and np.isfinite(since[1][-1]):
         figure.suptitle(f"Centreline, averages from {shown_time(since[1][-1])} to {shown_time(results.time(results.steps[-1]))}")
-    pictures.save(figure, "soot_averages")
+    pictures.save(figure, f"{material}_averages")
 
 
 def plot_ensembles(results, pictures):
     """Nothing, without a word, of flows without ensembles."""
-    if "soot_sizes" not in results.file or not results.steps:
+    if f"{results.material}_sizes" not in results.file or not results.steps:
         return
     sizes = _Sizes(results)
     _plot_averages(results, pictures)
     _plot_regions(results, pictures)
     _plot_lines(results, sizes, pictures)
     if sizes.density() is None:
-        pictures.skip("sizes of the ensembles", f"the results hold no field '{SIZES}'")
+        pictures.skip("sizes of the ensembles", f"the results hold no field '{sizes.name()}'")
         return
     shapes = Shapes(results)
     _plot_centreline(results, sizes, pictures)

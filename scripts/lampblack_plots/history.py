@@ -6,7 +6,7 @@ from .style import plt
 
 MOST_PANELS = 8
 # Shown first where there are more columns than panels.
-FIRST = ("dt", "maximum_temperature", "peak_soot_volume_fraction", "minimum_mass_fraction", "imbalance_after")
+FIRST = ("dt", "maximum_temperature", "peak_soot_volume_fraction", "peak_silica_volume_fraction", "minimum_mass_fraction", "imbalance_after")
 
 
 def _is_error(name):
@@ -14,7 +14,7 @@ def _is_error(name):
 
 
 def _is_shown(name):
-    return name not in ("time", "step", "steps", "soot_averages_since") and not name.endswith(("_content", "_inflow", "_outflow"))
+    return name not in ("time", "step", "steps") and not name.endswith(("_content", "_inflow", "_outflow", "_averages_since"))
 
 
 def plot_history(results, pictures):

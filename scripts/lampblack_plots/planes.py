@@ -14,12 +14,21 @@ STRIP = 20  # longer over wider: drawn without equal axes
 # Name of the picture, field, title, colour map, whether it is a small fraction.
 PLANES = [
     ("temperature", "temperature", "Temperature", "inferno", False),
-    ("C2H2", "X_C2H2", "C$_2$H$_2$ mole fraction", "viridis", True),
-    ("A2", "X_A2", "Naphthalene (A2) mole fraction", "viridis", True),
-    ("soot_volume_fraction", "soot_volume_fraction", "Soot volume fraction", "magma", True),
     ("velocity", "velocity", "Velocity", "cividis", False),
     ("swirl", "swirl_velocity", "Velocity about the axis", "cividis", False),
 ]
+# The same by what the particles are called: of them, and of what they come from.
+PARTICLES = {
+    "soot": [
+        ("C2H2", "X_C2H2", "C$_2$H$_2$ mole fraction", "viridis", True),
+        ("A2", "X_A2", "Naphthalene (A2) mole fraction", "viridis", True),
+        ("soot_volume_fraction", "soot_volume_fraction", "Soot volume fraction", "magma", True),
+    ],
+    "silica": [
+        ("H4O4SI", "X_H4O4SI", "Silicic acid (H4O4SI) mole fraction", "viridis", True),
+        ("silica_volume_fraction", "silica_volume_fraction", "Silica volume fraction", "magma", True),
+    ],
+}
 
 
 def _cells(axes, results, shapes, values, colours, side):
@@ -73,8 +82,8 @@ def _streamlines(axes, results, shapes, velocity):
 
 
 def _plot_flame(results, shapes, pictures):
-    """The flame at a glance: temperature on the left of the axis, soot on the right."""
-    temperature, soot = results.field("temperature"), results.field("soot_volume_fraction")
+    """The flame at a glance: temperature on the left of the axis, particles on the right."""
+    temperature, soot = results.field("temperature"), results.field(f"{results.material}_volume_fraction")
     if temperature is None or soot is None or not results.touches_axis() or not np.all(np.isfinite(soot)):
         return
     soot, unit = scaled_fraction(soot)
@@ -82,7 +91,7 @@ def _plot_flame(results, shapes, pictures):
     figure, axes = plt.subplots(figsize=(width + 3.0, height + 0.4))
     for side, values, colours, label, place in (
         (-1.0, temperature, "inferno", "T, K", "left"),
-        (1.0, soot, "magma", f"soot volume fraction, {unit}", "right"),
+        (1.0, soot, "magma", f"{results.material} volume fraction, {unit}", "right"),
     ):
         drawn = _cells(axes, results, shapes, values, colours, side)
         figure.colorbar(drawn, ax=axes, label=label, location=place, pad=0.12 if place == "left" else 0.02)
@@ -96,8 +105,8 @@ def _plot_flame(results, shapes, pictures):
 
 def _plot_aggregates(results, shapes, pictures):
     """Volume fraction, and where it is a thousandth of the largest or more, what aggregates are made of."""
-    soot, diameter, primaries = (results.field(name) for name in (
-        "soot_volume_fraction", "soot_primary_diameter", "soot_primaries_per_aggregate"))
+    soot, diameter, primaries = (results.field(f"{results.material}_{end}") for end in (
+        "volume_fraction", "primary_diameter", "primaries_per_aggregate"))
     if primaries is None or not np.nanmax(primaries) > 1.001:
         return
     there = soot > 1e-3 * soot.max()
@@ -105,7 +114,7 @@ def _plot_aggregates(results, shapes, pictures):
     width, height = _figure_size(results)
     figure, panels = plt.subplots(1, 3, figsize=(1.9 * width, height + 0.4), sharey=True, layout="constrained")
     for axes, values, colours, label, norm in (
-        (panels[0], fraction, "magma", f"soot volume fraction, {unit}", None),
+        (panels[0], fraction, "magma", f"{results.material} volume fraction, {unit}", None),
         (panels[1], np.where(there, diameter * 1e9, np.nan), "viridis", "diameter of primary particles, nm", None),
         (panels[2], np.where(there, primaries, np.nan), "cividis", "primary particles of an aggregate", LogNorm()),
     ):
@@ -131,7 +140,7 @@ def plot_planes(results, pictures):
     cut = "" if shapes.cut is None else f", z = {shapes.cut * 1e3:.3g} mm"
     _plot_flame(results, shapes, pictures)
     _plot_aggregates(results, shapes, pictures)
-    for name, field, title, colours, is_fraction in PLANES:
+    for name, field, title, colours, is_fraction in PLANES + PARTICLES.get(results.material, []):
         values = results.field(field)
         if values is None:
             pictures.skip(f"{name} picture", f"the results hold no field '{field}'")

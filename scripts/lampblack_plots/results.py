@@ -71,6 +71,11 @@ class Results:
         self.is_plane = int(mesh.attrs["dimension"]) == 2 if "dimension" in mesh.attrs else self.cells.shape[1] <= 4
 
     @property
+    def material(self):
+        """What the particles of a flow are called, as the names of their fields begin: "soot" where there are none."""
+        return next((name.removesuffix("_sizes") for name in self.file if name.endswith("_sizes")), "soot")
+
+    @property
     def steps(self):
         """Names of the steps in order of time."""
         group = self.file.get("steps", {})

@@ -10,8 +10,8 @@
 #include "core/constants.hpp"
 #include "core/kept_state.hpp"
 #include "coupling/cell_soot.hpp"
-#include "flow/budget.hpp"
 #include "particles/models/soot_model.hpp"
+#include "tests/coupling/cell_vessel.hpp"
 #include "tests/coupling/closed_box.hpp"
 #include "tests/every_room.hpp"
 #include "tests/flow/flow_fixture.hpp"
@@ -54,11 +54,11 @@ Options options(Exchange exchange, double average = 0.0) {
 }
 
 // A closed vessel of sooting gas, hotter and richer in PAH on one side.
-struct Vessel {
+struct Vessel : CellVessel {
   explicit Vessel(const Options& o, MPI_Comm comm = MPI_COMM_WORLD)
-      : box(closedBox(0.004, 6, 5), fourWalls(), {}, comm, ethylene()),
-        state(box.state(
-            [&](const Vector3& x) {
+      : CellVessel(
+            ethylene(),
+            [](const Vector3& x) {
               const double part = x[0] / 0.004;
               return Box::Local{
                   {},
@@ -67,47 +67,8 @@ struct Vessel {
                                                        "H2O: 0.04, CO: 0.02, A2: {:.17g}",
                                                        2e-4 * part))};
             },
-            sootOf(o)->scalars())),
-        transport(box.context, state),
-        soot(sootOf(o)),
-        ensembles(box.context, transport, soot, o) {
-    transport.initialise(state, dt);
-    begin();
-  }
-  void begin() {
-    for (Operator* op : std::initializer_list<Operator*>{&transport, &ensembles}) op->endStep(state);
-    for (Operator* op : std::initializer_list<Operator*>{&transport, &ensembles}) op->endSweep(state);
-  }
-  void step(bool withGas = true) {
-    if (withGas)
-      transport.advance(state, time, dt);
-    else
-      state.keepStart();
-    ensembles.advance(state, time, dt);
-    begin();
-    time += dt;
-  }
-  void saveOrLoad(StateArchive& archive) {
-    state.saveOrLoad(archive);
-    transport.saveOrLoad(archive);
-    ensembles.saveOrLoad(archive);
-  }
-  static constexpr double dt = 2e-5;
-  double time = 0.0;
-  Box box;
-  State state;
-  TransportOperator transport;
-  std::shared_ptr<CellSoot> soot;
-  EnsembleOperator ensembles;
+            sootOf(o), o, comm) {}
 };
-
-double contentOf(Vessel& v, const std::string& quantity) {
-  const Budget budget(v.box.context, massAndElements(ethylene().mechanism, v.soot->unitElements(ethylene().mechanism)),
-                      v.state);
-  for (const Budget::Line& line : budget.lines(v.state))
-    if (line.name == quantity) return line.content;
-  return 0.0;
-}
 
 class ExchangeWithGas : public testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(Averages, ExchangeWithGas, testing::Values(0.0, 1e-4));
@@ -116,13 +77,12 @@ TEST_P(ExchangeWithGas, KeepsElementsAndGivesTheGasWhatParticlesLeave) {
   Vessel v(options(Exchange::TwoWay, GetParam()));
   const std::vector<std::string> names{"mass", "C", "H", "O", "N"};
   std::vector<double> before;
-  for (const std::string& name : names) before.push_back(contentOf(v, name));
+  for (const std::string& name : names) before.push_back(v.contentOf(name));
   for (int s = 0; s < 25; ++s) v.step();
   const double soot =
       integral(v.box.mesh, [&](int c) { return v.state.carried[at(c) * v.state.scalars.size() + CellSoot::carbon]; });
   EXPECT_GT(soot, 1e-6 * before[1]);
-  for (std::size_t k = 0; k < names.size(); ++k)
-    EXPECT_NEAR(contentOf(v, names[k]) / before[k], 1.0, 1e-13) << names[k];
+  for (std::size_t k = 0; k < names.size(); ++k) EXPECT_NEAR(v.contentOf(names[k]) / before[k], 1.0, 1e-13) << names[k];
 }
 
 // The gas's PAH goes into the particles, whether it is told at once or smoothed.
@@ -252,7 +212,7 @@ TEST(EnsembleOperator, GoesOnInAGasThatIsHeld) {
   for (int s = 0; s < 5; ++s) v.step();
   ASSERT_TRUE(v.ensembles.isGasHeld(v.time));
   const std::vector<double> T = v.state.temperature;
-  const double carbon = contentOf(v, "C"), soot = v.state.carried[CellSoot::carbon];
+  const double carbon = v.contentOf("C"), soot = v.state.carried[CellSoot::carbon];
   const auto hold = [](Vessel& vessel) {
     vessel.ensembles.advance(vessel.state, vessel.time, Vessel::dt);
     vessel.begin();
@@ -263,7 +223,7 @@ TEST(EnsembleOperator, GoesOnInAGasThatIsHeld) {
   kept.keep([&](StateArchive& archive) { v.saveOrLoad(archive); });
   for (int s = 0; s < 3; ++s) hold(v);
   EXPECT_EQ(v.state.temperature, T);
-  EXPECT_NEAR(contentOf(v, "C") / carbon, 1.0, 1e-13);
+  EXPECT_NEAR(v.contentOf("C") / carbon, 1.0, 1e-13);
   EXPECT_NE(v.state.carried[CellSoot::carbon], soot);
   Vessel other(o);
   kept.giveBack([&](StateArchive& archive) { other.saveOrLoad(archive); });

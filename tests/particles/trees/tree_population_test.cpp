@@ -163,12 +163,15 @@ TreeOptions small() {
   return options;
 }
 
-TEST(TreePopulation, GoesOnToTheSameBitsFromAPackedState) {
+TEST(TreePopulation, ThoseThatUnpackTheSameGoOnToTheSameBits) {
   Nitrogen nitrogen;
   nitrogen.concentrations = {2e-6, 0};
   const auto first = populated(nitrogen, small());
   const auto second = makeTreePopulation(small());
   second->unpack(first->pack());
+  EXPECT_EQ(second->pack().size(), first->pack().size());
+  EXPECT_EQ(second->totals().units, first->totals().units);
+  EXPECT_EQ(second->totals().surface, first->totals().surface);
   ASSERT_GT(first->totals().largest, 2U);
   const auto third = makeTreePopulation(small());
   third->unpack(first->pack());
@@ -177,6 +180,58 @@ TEST(TreePopulation, GoesOnToTheSameBitsFromAPackedState) {
   std::vector<double> damaged = first->pack();
   damaged.resize(damaged.size() - 3);
   EXPECT_THROW(third->unpack(damaged), InputError);
+}
+
+// Trees come with any weights and stand for as many as before in the mean; each stays what it was.
+TEST(TreePopulation, TakesInThoseOfAnother) {
+  Nitrogen nitrogen;
+  nitrogen.concentrations = {2e-6, 0};
+  const auto other = populated(nitrogen, small());
+  other->settle();
+  const std::vector<double> packed = other->pack();
+  const std::span<const double> rows = treeRows.of(packed);
+  EXPECT_EQ(treeRows.count(rows), other->size());
+  constexpr double share = 0.37;
+  const TreeTotals coming = other->totals();
+  std::vector<double> silicon, surface;
+  for (std::uint64_t owner = 1; owner <= 60; ++owner) {
+    TreeOptions options = small();
+    options.owner = owner;
+    options.fullAt = 0.8 * coming.number;
+    const auto trees = makeTreePopulation(options);
+    trees->fill(options.material.nucleus, 0.5 * coming.number);
+    const TreeTotals before = trees->totals();
+    trees->join(rows, share);
+    const TreeTotals after = trees->totals();
+    EXPECT_NEAR((after.number - before.number) / coming.number, share, 1.0 / 300);
+    silicon.push_back((after.units[0] - before.units[0]) / coming.units[0]);
+    surface.push_back((after.surface - before.surface) / coming.surface);
+    EXPECT_EQ(after.largest <= coming.largest, true);
+  }
+  for (const auto* values : {&silicon, &surface}) EXPECT_LT(std::abs(summarise(*values).z(share)), zLimit);
+}
+
+// What moves a tree between cells and how large it is there.
+TEST(TreePopulation, SaysMassAndSizeInFrontOfARow) {
+  Nitrogen nitrogen;
+  nitrogen.concentrations = {2e-6, 0};
+  const auto trees = populated(nitrogen, small());
+  const std::vector<double> packed = trees->pack();
+  double mass = 0, surface = 0, number = 0;
+  treeRows.forEach(treeRows.of(packed), [&](const double* row) {
+    const GivenParticle p = particleAt(row);
+    EXPECT_EQ(p.hydrogen, 0);
+    EXPECT_GE(p.primaries, 1);
+    const double volume = p.carbon / small().material.density;
+    mass += p.number * p.carbon;
+    // So many equal spheres of that volume have the surface.
+    surface += p.number * std::cbrt(36 * constants::pi * p.primaries * volume * volume);
+    number += p.number;
+  });
+  const TreeTotals t = trees->totals();
+  EXPECT_NEAR(mass / t.mass, 1, 1e-12);
+  EXPECT_NEAR(surface / t.surface, 1, 1e-9);
+  EXPECT_NEAR(number / t.number, 1, 1e-12);
 }
 
 TEST(TreePopulation, AStepThatIsTakenBackLeavesNoTrace) {

@@ -1,0 +1,160 @@
+// Trees of primaries in the cells of a flow: silicon and heat of gas and particles together, ranks and work sharing do
+// not show, and a restart goes on to the same bits.
+#include "coupling/cell_trees.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/errors.hpp"
+#include "core/kept_state.hpp"
+#include "particles/trees/tree_enthalpy.hpp"
+#include "tests/coupling/cell_vessel.hpp"
+
+namespace lampblack::test {
+namespace {
+
+Gas& teos() {
+  static Gas gas("methane_teos_29.yaml");
+  return gas;
+}
+
+TreeOptions trees() {
+  TreeOptions o;
+  o.material = silica();
+  o.material.sintering.critical = 0.6e-9;  // so that there are aggregates
+  o.particles = 60;
+  o.seed = 5;
+  o.fullAt = 1e12;
+  o.splitTolerance = 0.2;
+  return o;
+}
+
+EnsembleOperator::Options inCells(double average) {
+  EnsembleOperator::Options o;
+  o.seed = 5;
+  o.average = average;
+  return o;
+}
+
+// Nitrogen with silicic acid, hotter and richer on one side.
+struct Silica : CellVessel {
+  explicit Silica(const EnsembleOperator::Options& o, MPI_Comm comm = MPI_COMM_WORLD)
+      : CellVessel(
+            teos(),
+            [](const Vector3& x) {
+              const double part = x[0] / 0.004;
+              return Box::Local{
+                  {},
+                  1200.0 + 300.0 * part,
+                  teos().massFractions(fmt::format("N2: 0.99, H2O: 0.01, H4O4SI: {:.17g}", 1e-5 + 2e-4 * part))};
+            },
+            std::make_shared<CellTrees>(teos().mechanism, trees()), o, comm) {
+    // What came and went with numerical particles.
+    ensembles.watchAmounts([this](std::span<const double> came, std::span<const double> gone) {
+      for (std::size_t e = 0; e < particles->elements().size(); ++e) {
+        resampled[e] += came[particles->amounts().element(e)];
+        EXPECT_EQ(gone[particles->amounts().element(e)], 0.0);
+      }
+    });
+  }
+  [[nodiscard]] std::size_t elementAt(const std::string& name) const {
+    const auto& all = particles->elements();
+    return static_cast<std::size_t>(std::find(all.begin(), all.end(), name) - all.begin());
+  }
+  [[nodiscard]] double amount(std::size_t place) const {
+    return integral(box.mesh, [&](int c) { return state.carried[at(c) * state.scalars.size() + place]; });
+  }
+  std::array<double, 3> resampled{};
+};
+
+class TreesInCells : public testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(Averages, TreesInCells, testing::Values(0.0, 1e-4));
+
+TEST_P(TreesInCells, KeepSiliconOxygenAndHydrogenOfGasAndParticles) {
+  Silica v(inCells(GetParam()));
+  std::vector<double> before;
+  for (const std::string& name : v.particles->elements()) before.push_back(v.contentOf(name));
+  for (int s = 0; s < 12; ++s) v.step();
+  for (std::size_t e = 0; e < before.size(); ++e) {
+    const double came = sumOverRanks(v.resampled[e]);
+    EXPECT_NEAR((v.contentOf(v.particles->elements()[e]) - came) / before[e], 1.0, 1e-12) << e;
+  }
+  const std::size_t silicon = v.elementAt("Si");
+  EXPECT_GT(v.amount(v.particles->amounts().element(silicon)), 0.05 * before[silicon]) << "silica has formed";
+  EXPECT_GT(v.amount(v.particles->amounts().primaries()), 1.05 * v.amount(AmountPlaces::number)) << "and aggregates";
+  EXPECT_NE(sumOverRanks(v.resampled[silicon]), 0.0);
+}
+
+// The gas gets the heat that its atoms had where they go: in a still vessel, of one gas each cell.
+TEST(TreesInCells, KeepTheEnthalpyOfGasAndParticles) {
+  EnsembleOperator::Options o = inCells(0.0);
+  o.diffusion = false;
+  Silica v(o);
+  const auto enthalpy = [&](int c) { return v.state.density[at(c)] * v.state.enthalpy[at(c)]; };
+  std::vector<double> gas, gained(at(v.box.mesh.owned)), T(v.state.temperature);
+  for (int c = 0; c < v.box.mesh.owned; ++c) gas.push_back(enthalpy(c));
+  const std::vector<double> Y = v.state.Y, density = v.state.density;
+  v.step(false);
+  const std::size_t acid = teos().mechanism.speciesIndex("H4O4SI"), water = teos().mechanism.speciesIndex("H2O");
+  const std::size_t n = teos().mechanism.numSpecies();
+  const auto W = teos().mechanism.molecularWeights();
+  double changed = 0.0;
+  for (int c = 0; c < v.box.mesh.owned; ++c) {
+    const auto moles = [&](std::size_t k) {
+      return (v.state.density[at(c)] * v.state.Y[at(c) * n + k] - density[at(c)] * Y[at(c) * n + k]) / W[k];
+    };
+    // Si of every Si(OH)4 that went, and the hydrogen that did not come back as water.
+    const double silicon = -moles(acid), hydrogen = -4.0 * moles(acid) - 2.0 * moles(water);
+    const double heat = silicon * 28.085e-3 * *treeEnthalpy("silica", "Si", T[at(c)]) +
+                        hydrogen * 1.008e-3 * *treeEnthalpy("silica", "H", T[at(c)]);
+    changed = std::max(changed, std::abs(heat / gas[at(c)]));
+    EXPECT_NEAR(enthalpy(c) + heat, gas[at(c)], 1e-3 * std::abs(heat) + 1e-12 * std::abs(gas[at(c)])) << c;
+  }
+  EXPECT_GT(maxOverRanks(changed), 1e-6);
+}
+
+TEST(TreesInCells, DoNotDependOnRanksNorSharing) {
+  EnsembleOperator::Options shared = inCells(0.0), own = shared;
+  shared.exchange = own.exchange = EnsembleOperator::Exchange::OneWay;
+  own.shareWork = false;
+  Silica alone(own, MPI_COMM_SELF), together(shared), apart(own);
+  for (Silica* v : {&alone, &together, &apart})
+    for (int s = 0; s < 10; ++s) v->step(false);
+  const ParticleRows& rows = together.particles->rows();
+  double several = 0.0;
+  for (int c = 0; c < together.box.mesh.owned; ++c) {
+    const int same = alone.box.mesh.findOwned(together.box.mesh.naturalCell[at(c)]);
+    const auto& population = alone.ensembles.populations()[at(same)];
+    EXPECT_EQ(together.ensembles.populations()[at(c)], population) << c;
+    EXPECT_EQ(apart.ensembles.populations()[at(c)], population) << c;
+    rows.forEach(rows.of(population),
+                 [&](const double* row) { several += particleAt(row).primaries > 1.5 ? 1.0 : 0.0; });
+  }
+  EXPECT_GT(sumOverRanks(several), 5.0) << "rows of several lengths have travelled";
+}
+
+TEST(TreesInCells, GoOnToTheSameBits) {
+  Silica v(inCells(1e-4));
+  for (int s = 0; s < 5; ++s) v.step();
+  KeptState kept(v.box.mesh.owned, v.box.mesh.faces);
+  const double time = v.time;
+  kept.keep([&](StateArchive& archive) { v.saveOrLoad(archive); });
+  for (int s = 0; s < 3; ++s) v.step();
+  const auto populations = v.ensembles.populations();
+  const std::vector<double> carried = v.state.carried;
+  kept.giveBack([&](StateArchive& archive) { v.saveOrLoad(archive); });
+  v.state.updateHalo(v.box.halo);
+  v.time = time;
+  v.begin();
+  for (int s = 0; s < 3; ++s) v.step();
+  EXPECT_EQ(v.ensembles.populations(), populations);
+  EXPECT_EQ(v.state.carried, carried);
+}
+
+TEST(TreesInCells, AreRefusedWhereTheirHeatIsNotKnown) {
+  TreeOptions o = trees();
+  o.material.name = "something else";
+  EXPECT_THROW(CellTrees(teos().mechanism, o), InputError);
+}
+
+}  // namespace
+}  // namespace lampblack::test
