@@ -23,13 +23,16 @@ std::string wordOf(const std::string& element) {
 }  // namespace
 
 CellParticles::CellParticles(std::string material, std::vector<std::string> elements, const Mechanism& mechanism,
-                             std::vector<std::size_t> species, std::vector<std::string> exchangedElements,
-                             const RowSizes& sizes)
+                             std::vector<std::size_t> species, const RowSizes& sizes)
     : material_(std::move(material)),
       elements_(std::move(elements)),
-      exchangedElements_(std::move(exchangedElements)),
+      exchangedElements_(elements_),
       species_(std::move(species)),
       sizes_(sizes) {
+  for (std::size_t e = 0; e < mechanism.numElements(); ++e)
+    if (std::ranges::any_of(species_, [&](std::size_t k) { return mechanism.atoms(k, e) != 0.0; }) &&
+        std::ranges::find(elements_, mechanism.elementName(e)) == elements_.end())
+      exchangedElements_.push_back(mechanism.elementName(e));
   for (const std::string& name : exchangedElements_) {
     const std::size_t e = mechanism.elementIndex(name);
     for (const std::size_t k : species_) massOfAtoms_.push_back(mechanism.atoms(k, e) * mechanism.atomicWeight(e));

@@ -48,7 +48,7 @@ class CellParticles {
 
   // What the particles are called: names of fields begin with it.
   [[nodiscard]] const std::string& material() const { return material_; }
-  // Of the particles, by symbol; and of the species that the gas exchanges with them.
+  // Of the particles, by symbol; and of the species that the gas exchanges with them: theirs, and others behind them.
   [[nodiscard]] const std::vector<std::string>& elements() const { return elements_; }
   [[nodiscard]] const std::vector<std::string>& exchangedElements() const { return exchangedElements_; }
   [[nodiscard]] AmountPlaces amounts() const { return {elements_.size(), exchangedElements_.size()}; }
@@ -94,7 +94,7 @@ class CellParticles {
  protected:
   // InputError where the mechanism lacks an element.
   CellParticles(std::string material, std::vector<std::string> elements, const Mechanism& mechanism,
-                std::vector<std::size_t> species, std::vector<std::string> exchangedElements, const RowSizes& sizes);
+                std::vector<std::size_t> species, const RowSizes& sizes);
   CellParticles(const CellParticles&) = default;
   CellParticles& operator=(const CellParticles&) = default;
 

@@ -6,6 +6,7 @@
 
 #include "core/constants.hpp"
 #include "core/errors.hpp"
+#include "particles/models/soot_model.hpp"
 #include "particles/trees/packed_tree.hpp"
 #include "particles/trees/tree_enthalpy.hpp"
 
@@ -15,7 +16,7 @@ CellTrees::CellTrees(const Mechanism& mechanism, const TreeOptions& options)
     : CellTrees(mechanism, options, ReactorTrees(mechanism, options, GasViscosity::transport, {})) {}
 
 CellTrees::CellTrees(const Mechanism& mechanism, const TreeOptions& options, ReactorTrees trees)
-    : CellParticles(options.material.name, trees.elements(), mechanism, trees.species(), trees.elements(),
+    : CellParticles(options.material.name, trees.elements(), mechanism, trees.species(),
                     {SootAggregate(options.material.density, false), treeRows}),
       options_(options),
       trees_(std::move(trees)),
@@ -55,6 +56,10 @@ double CellTrees::enthalpy(double temperature, std::span<const double> elements)
   for (std::size_t e = 0; e < elements.size(); ++e)
     sum += elements[e] * *treeEnthalpy(material(), this->elements()[e], temperature);
   return sum;
+}
+
+double CellTrees::absorption(double temperature, double volumeFraction) const {
+  return options_.material.soot() != nullptr ? sootAbsorption(temperature, volumeFraction) : 0.0;
 }
 
 bool CellTrees::hasPrecursors(const ParticleGas& gas) const {

@@ -19,8 +19,8 @@ class CellTrees final : public CellParticles {
   using CellParticles::addAmounts;
   void addAmounts(const double* row, double number, std::span<double> amounts) const override;
   [[nodiscard]] double enthalpy(double temperature, std::span<const double> elements) const override;
-  // None: silica is taken to be transparent.
-  [[nodiscard]] double absorption(double, double) const override { return 0.0; }
+  // Of soot; silica is taken to be transparent.
+  [[nodiscard]] double absorption(double temperature, double volumeFraction) const override;
   [[nodiscard]] bool hasPrecursors(const ParticleGas& gas) const override;
   [[nodiscard]] double costOfLook() const override { return 0.25; }
   void unpack(std::span<const double> population) override;

@@ -11,15 +11,19 @@
 namespace lampblack::coupling {
 namespace {
 
-// Mole fraction of the precursor below which nothing is born or grows to speak of.
-constexpr double negligiblePrecursor = 1e-15;
+double atomsOf(const TreeComponent& component, const std::string& element) {
+  double sum = 0;
+  for (const auto& [name, atoms] : component.elements)
+    if (name == element) sum += atoms;
+  return sum;
+}
 
 }  // namespace
 
 ReactorTrees::ReactorTrees(const Mechanism& mechanism, const TreeOptions& options, GasViscosity viscosity,
                            const std::optional<Start>& start)
     : material_(options.material), viscosity_(viscosity), population_(makeTreePopulation(options)) {
-  for (const std::string& name : {material_.precursor, material_.product}) {
+  for (const std::string& name : material_.species()) {
     const auto k = mechanism.findSpecies(name);
     if (!k)
       throw InputError(
@@ -28,8 +32,16 @@ ReactorTrees::ReactorTrees(const Mechanism& mechanism, const TreeOptions& option
     species_.push_back(*k);
   }
   for (std::size_t e = 0; e < mechanism.numElements(); ++e)
-    if (mechanism.atoms(species_[0], e) != 0 || mechanism.atoms(species_[1], e) != 0)
-      elements_.push_back(mechanism.elementName(e));
+    for (const TreeComponent& component : material_.components)
+      if (atomsOf(component, mechanism.elementName(e)) != 0) {
+        elements_.push_back(mechanism.elementName(e));
+        break;
+      }
+  for (const TreeComponent& component : material_.components)
+    for (const auto& [element, atoms] : component.elements)
+      if (atoms != 0 && !mechanism.findElement(element))
+        throw InputError(
+            fmt::format("particles of {} have the element {}, which the mechanism lacks", material_.name, element));
   for (const std::size_t k : species_) {
     perMole_.emplace_back();
     for (const std::string& name : elements_) {
@@ -37,29 +49,28 @@ ReactorTrees::ReactorTrees(const Mechanism& mechanism, const TreeOptions& option
       perMole_.back().push_back(mechanism.atoms(k, e) * mechanism.atomicWeight(e));
     }
   }
-  requireAtoms(mechanism);
+  if (const SiteReactions* reactions = material_.sites()) requireAtoms(mechanism, *reactions);
   if (start) population_->fill(start->units, start->number);
 }
 
 // Atoms of units and of the gas's species are the same before and after each process.
-void ReactorTrees::requireAtoms(const Mechanism& mechanism) const {
+void ReactorTrees::requireAtoms(const Mechanism& mechanism, const SiteReactions& reactions) const {
   const auto require = [&](const char* process, double precursors, double products, const TreeUnits& gained) {
-    for (const std::string& name : elements_) {
-      const std::size_t e = mechanism.elementIndex(name);
+    for (std::size_t e = 0; e < mechanism.numElements(); ++e) {
+      const std::string& name = mechanism.elementName(e);
       double sum = precursors * mechanism.atoms(species_[0], e) - products * mechanism.atoms(species_[1], e);
       for (std::size_t c = 0; c < material_.components.size(); ++c)
-        for (const auto& [element, atoms] : material_.components[c].elements)
-          if (element == name) sum -= gained[c] * atoms;
+        sum -= gained[c] * atomsOf(material_.components[c], name);
       if (std::abs(sum) > 1e-9)
         throw InputError(
             fmt::format("particles of {}: {} makes {:g} atoms of {} of nothing", material_.name, process, -sum, name));
     }
   };
   TreeUnits bridge{};
-  bridge[material_.site] -= 2;
-  bridge[material_.bridge] += 1;
-  require("inception", material_.nucleusPrecursors, material_.nucleusProducts, material_.nucleus);
-  require("surface reaction", 1, material_.growthProducts, material_.growth);
+  bridge[reactions.site] -= 2;
+  bridge[reactions.bridge] += 1;
+  require("inception", reactions.nucleusPrecursors, reactions.nucleusProducts, reactions.nucleus);
+  require("surface reaction", 1, reactions.growthProducts, reactions.growth);
   require("the reaction of two sites", 0, 1, bridge);
 }
 
@@ -76,12 +87,12 @@ SplitParticles::Exchange ReactorTrees::advanceAndSettle(const ParticleGas& gas, 
 
 SplitParticles::Exchange ReactorTrees::takeExchange() {
   const TreeExchange taken = population_->takeExchange();
-  for (const auto count : {&TreeExchange::inceptions, &TreeExchange::coagulations, &TreeExchange::reactions,
-                           &TreeExchange::condensations, &TreeExchange::sinteredPairs})
-    total_.*count += taken.*count;
-  Exchange exchange{{taken.precursor, taken.product}, {}};
-  for (std::size_t e = 0; e < elements_.size(); ++e)
-    exchange.elements.push_back(-taken.precursor * perMole_[0][e] - taken.product * perMole_[1][e]);
+  for (const auto count : {&TreeExchange::inceptions, &TreeExchange::coagulations}) total_.*count += taken.*count;
+  for (const TreeEvent& event : treeEvents(material_)) total_.*event.number += taken.*event.number;
+  Exchange exchange{{taken.gas.begin(), taken.gas.begin() + static_cast<std::ptrdiff_t>(species_.size())},
+                    std::vector<double>(elements_.size(), 0.0)};
+  for (std::size_t k = 0; k < species_.size(); ++k)
+    for (std::size_t e = 0; e < elements_.size(); ++e) exchange.elements[e] -= taken.gas[k] * perMole_[k][e];
   return exchange;
 }
 
@@ -113,11 +124,6 @@ void ReactorTrees::restore(const State& state) {
   total_ = saved.total;
 }
 
-bool ReactorTrees::canBeBorn(const ParticleGas& gas) const {
-  const double moles = gas.pressure / (constants::gasConstant * gas.temperature);
-  return gas.concentrations[0] > negligiblePrecursor * moles;
-}
-
 bool ReactorTrees::idle(const ParticleGas& gas) const {
   return population_->size() == 0 && !canBeBorn(gas);
 }
@@ -142,14 +148,12 @@ std::vector<ReactorPopulation::Column> ReactorTrees::columns() const {
       {name + "largest", "1", "primaries of the particle that has most of them"}};
   for (const TreeComponent& c : material_.components)
     all.push_back({name + c.name, "1/m^3", "units of " + c.name + " in all particles"});
-  const std::vector<std::pair<const char*, const char*>> events{
-      {"inceptions", "particles born"},
-      {"coagulations", "collisions of particles"},
-      {"surface_reactions", "molecules that reacted with a site of a surface"},
-      {"condensations", "pairs of sites that reacted within a particle"},
-      {"sintered_pairs", "pairs of sites that reacted as their surface sintered"}};
-  for (const auto& [event, description] : events)
-    all.push_back({name + event, "1/m^3", std::string(description) + ", since the beginning"});
+  const auto count = [&](const char* event, const std::string& description) {
+    all.push_back({name + event, "1/m^3", description + ", since the beginning"});
+  };
+  count("inceptions", "particles born");
+  count("coagulations", "collisions of particles");
+  for (const TreeEvent& event : treeEvents(material_)) count(event.name, event.description);
   all.push_back({name + "numerical_particles", "1", "numerical particles of the sample"});
   return all;
 }
@@ -177,8 +181,9 @@ std::vector<double> ReactorTrees::values() const {
                              static_cast<double>(t.largest)};
   values.insert(values.end(), t.units.begin(),
                 t.units.begin() + static_cast<std::ptrdiff_t>(material_.components.size()));
-  values.insert(values.end(), {total_.inceptions, total_.coagulations, total_.reactions, total_.condensations,
-                               total_.sinteredPairs, static_cast<double>(population_->size())});
+  values.insert(values.end(), {total_.inceptions, total_.coagulations});
+  for (const TreeEvent& event : treeEvents(material_)) values.push_back(total_.*event.number);
+  values.push_back(static_cast<double>(population_->size()));
   return values;
 }
 
@@ -197,16 +202,22 @@ std::vector<double> ReactorTrees::distribution(std::size_t k, double logMin, dou
 std::vector<std::pair<std::string, double>> ReactorTrees::counts() const {
   const TreeCounters c = population_->counters();
   const auto value = [](std::uint64_t count) { return static_cast<double>(count); };
-  return {{"inceptions", value(c.inceptions)},
-          {"coagulations", value(c.coagulations)},
-          {"fictitious_collisions", value(c.fictitious)},
-          {"fused_primaries", value(c.fused)},
-          {"doublings", value(c.doublings)},
-          {"removals", value(c.removals)},
-          {"splitting_steps", value(c.splitSteps)},
-          {"condensations_bounded", value(c.limited)},
-          {"sintering_without_sites", value(c.withoutSites)},
-          {"population_bytes", static_cast<double>(population_->bytes())}};
+  std::vector<std::pair<std::string, double>> all{{"inceptions", value(c.inceptions)},
+                                                  {"coagulations", value(c.coagulations)},
+                                                  {"fictitious_collisions", value(c.fictitious)},
+                                                  {"fused_primaries", value(c.fused)},
+                                                  {"doublings", value(c.doublings)},
+                                                  {"removals", value(c.removals)},
+                                                  {"splitting_steps", value(c.splitSteps)}};
+  if (material_.sites() != nullptr) {
+    all.emplace_back("condensations_bounded", value(c.limited));
+    all.emplace_back("sintering_without_sites", value(c.withoutSites));
+  } else {
+    all.emplace_back("burnt_particles", value(c.burnt));
+    all.emplace_back("broken_particles", value(c.broken));
+  }
+  all.emplace_back("population_bytes", static_cast<double>(population_->bytes()));
+  return all;
 }
 
 }  // namespace lampblack::coupling

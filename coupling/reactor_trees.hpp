@@ -20,14 +20,14 @@ class ReactorTrees final : public ReactorPopulation {
     TreeUnits units{};
     double number = 0;  // 1/m3
   };
-  // InputError where the mechanism lacks the precursor, the product or an element, where a process of the material does
+  // InputError where the mechanism lacks a species or an element, where a process of a material with sites does
   // not keep the atoms of these species, and as makeTreePopulation().
   ReactorTrees(const Mechanism& mechanism, const TreeOptions& options, GasViscosity viscosity,
                const std::optional<Start>& start);
 
   [[nodiscard]] TreePopulation& population() const { return *population_; }
   // Whether particles can be born of this gas.
-  [[nodiscard]] bool canBeBorn(const ParticleGas& gas) const;
+  [[nodiscard]] bool canBeBorn(const ParticleGas& gas) const { return material_.hasPrecursors(gas); }
 
   [[nodiscard]] const std::vector<std::string>& elements() const override { return elements_; }
   [[nodiscard]] GasViscosity viscosity() const override { return viscosity_; }
@@ -59,14 +59,14 @@ class ReactorTrees final : public ReactorPopulation {
     std::unique_ptr<TreePopulation::State> population;
     TreeExchange total;
   };
-  void requireAtoms(const Mechanism& mechanism) const;
+  void requireAtoms(const Mechanism& mechanism, const SiteReactions& reactions) const;
 
   TreeMaterial material_;
   GasViscosity viscosity_;
   std::unique_ptr<TreePopulation> population_;
   std::vector<std::size_t> species_;
   std::vector<std::string> elements_;
-  std::vector<std::vector<double>> perMole_;  // kg of each element in a mole of the precursor and of the product
+  std::vector<std::vector<double>> perMole_;  // kg of each element in a mole of each species
   TreeExchange total_;                        // from the beginning
 };
 

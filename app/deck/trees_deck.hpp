@@ -27,8 +27,8 @@ void addTreeKeys(DeckSchema& schema, const std::string& description, const std::
 void addTreeReactorKeys(DeckSchema& schema);
 
 // Of a deck with the section, what all problems have. InputError, pointing into the deck.
-[[nodiscard]] TreeOptions readTreeOptions(const Deck& deck);
+[[nodiscard]] TreeOptions readTreeOptions(const Deck& deck, const Mechanism& mechanism);
 // Of a reactor.
-[[nodiscard]] TreeRequest readTrees(const Deck& deck);
+[[nodiscard]] TreeRequest readTrees(const Deck& deck, const Mechanism& mechanism);
 
 }  // namespace lampblack::app

@@ -211,13 +211,15 @@ std::shared_ptr<CellParticles> readCellTrees(const Deck& deck, const FlowCase& f
     throw deck.error("particles",
                      "in a flow these need the section 'stochastic', which says how the cells hold them: 'stochastic: "
                      "{exchange: two_way}'");
-  if (deck.has("soot"))
-    throw deck.error("particles", "a flow has either these or soot: leave out one of 'particles' and 'soot'");
+  if (deck.isGiven("soot.model") && deck.choice("soot.model") != "none")
+    throw deck.error("soot.model", "trees in the cells take the place of a model: leave this out, or 'particles'");
   for (const char* key :
        {"method", "particles", "shape", "active_sites", "keep_hydrogen", "growth", "split_tolerance", "share_at_once"})
     if (const std::string full = std::string("stochastic.") + key; deck.isGiven(full))
       throw deck.error(full, "this is of soot; what trees of primaries are like is said in the section 'particles'");
-  TreeOptions options = readTreeOptions(deck);
+  TreeOptions options = readTreeOptions(deck, *flowCase.mechanism);
+  if (deck.has("soot") && options.material.soot() == nullptr)
+    throw deck.error("soot", "the trees of 'particles' are of another material: leave this out");
   options.seed = flowCase.seed;
   options.fullAt = deck.quantity("stochastic.least_number");
   return makeCellParticles(deck, "particles",

@@ -142,19 +142,13 @@ void refuseWithPopulation(const Deck& deck, const std::string& section, ReactorC
 }
 
 void readReactorTrees(const Deck& deck, ReactorCase& reactorCase) {
-  for (const char* other : {"soot", "stochastic"})
-    if (deck.has(other))
-      throw deck.error(other, "particles of the section 'particles' take the place of soot; leave out one of the two");
+  if (deck.has("stochastic"))
+    throw deck.error("stochastic",
+                     "particles of the section 'particles' take the place of ensembles; leave out one of the two");
   refuseWithPopulation(deck, "particles", reactorCase);
   if (reactorCase.type == ReactorType::Network)
     throw deck.error("reactor.type", "particles of the section 'particles' do not go from one reactor to another");
-  if (!reactorCase.profile &&
-      (reactorCase.type != ReactorType::Stirred || !reactorCase.network.reactors[0].temperature))
-    throw deck.error(
-        "reactor.energy",
-        "the heat of particles of the section 'particles' is not known: give the temperature, 'isothermal' "
-        "or 'profile'");
-  TreeRequest request = readTrees(deck);
+  TreeRequest request = readTrees(deck, *reactorCase.mechanism);
   reactorCase.couplingChange = deck.number("particles.coupling_change");
   reactorCase.ensemble = {request.repeats,
                           request.bins,
@@ -167,6 +161,14 @@ void readReactorTrees(const Deck& deck, ReactorCase& reactorCase) {
                           },
                           request.tablesAt};
   tryPopulation(deck, "particles", reactorCase);
+  const auto& elements = reactorCase.ensemble->elements;
+  const bool isGiven =
+      reactorCase.profile || (reactorCase.type == ReactorType::Stirred && reactorCase.network.reactors[0].temperature);
+  if (!isGiven && !std::all_of(elements.begin(), elements.end(), ParticlesAtRest::hasEnthalpy))
+    throw deck.error("reactor.energy",
+                     fmt::format("the heat of particles of {} is not known: give the temperature, 'isothermal' or "
+                                 "'profile'",
+                                 reactorCase.ensemble->material));
 }
 
 void readReactorEnsemble(const Deck& deck, ReactorCase& reactorCase) {

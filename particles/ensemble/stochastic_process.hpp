@@ -14,9 +14,8 @@
 #include "core/errors.hpp"
 #include "core/random.hpp"
 #include "particles/ensemble/ensemble.hpp"
-#include "particles/ensemble/newborn_step.hpp"
 #include "particles/ensemble/packed_ensemble.hpp"
-#include "particles/soot/soot_columns.hpp"
+#include "particles/soot/soot_steps.hpp"
 
 namespace lampblack::particles {
 
@@ -62,9 +61,7 @@ class StochasticProcess final : public Ensemble {
     double carbon = 0, hydrogen = 0;  // kg/m3
   };
   [[nodiscard]] Atoms atoms() const;
-  // Change of the sum of collisions with dimers by coagulation, 1/s2, as for a population of equal particles.
-  [[nodiscard]] double coagulating(const SootMedium& medium, const Sums& sums) const;
-  [[nodiscard]] double step(const SootMedium& medium, const Sums& sums, double dilution, double remaining) const;
+  [[nodiscard]] SootPopulationLaw law() const;
   // Each takes the sums of the population as it is and leaves those of what it has become.
   void thin(double factor, Sums& now);
   void jump(const SootMedium& medium, double dt, double stepLength, Sums& now);
@@ -114,58 +111,14 @@ typename StochasticProcess<Method>::Atoms StochasticProcess<Method>::atoms() con
 }
 
 template <class Method>
-double StochasticProcess<Method>::coagulating(const SootMedium& medium, const Sums& s) const {
-  if (!kernel_ || !(s.number > 0)) return 0;
-  const double mass = (s.carbon + s.hydrogen) / s.number, d = s.diameters / s.number;
-  const CollisionKernel::Properties mean{mass / options_.soot.sootDensity, mass, d};
-  const double rate = 0.5 * kernel_->value(mean, mean) * s.number * s.number;
-  const Particle one{mass, 0, 1, d};
-  const Particle two{2 * mass, 0, 2, d * (options_.coalescing ? std::cbrt(2.0) : SootAggregate::collisionFactor(2))};
-  return rate * (medium.collision(two) - 2 * medium.collision(one));
-}
-
-// The step over which nothing changes by more than the tolerance: the share of dimers that condense, by inception; the
-// diameters, by growth; the number, by coagulation.
-template <class Method>
-double StochasticProcess<Method>::step(const SootMedium& medium, const Sums& s, double dilution,
-                                       double remaining) const {
-  double fastest = std::abs(dilution);
-  const double dimers = medium.dimers(s.collisions);
-  if (medium.incepting() && medium.condensing() && !medium.ofMonomers()) {
-    const Particle nucleus = type_.make(2 * medium.dimerCarbon(), 2 * medium.dimerHydrogen(), 1);
-    const double rate = medium.inception(s.collisions);
-    const double scale = s.collisions + 2 * std::sqrt(medium.dimer().rate * medium.dimer().selfCollision);
-    fastest = std::max(fastest, rate * medium.collision(nucleus) / scale);
-  }
-  if (s.number > 0) {
-    const SootFluxes flux = medium.fluxes();
-    const double most = (flux.growth + flux.O2 + flux.OH) * s.area + s.collisions * dimers * medium.dimer().mass;
-    fastest = std::max(fastest, most / (3 * (s.carbon + s.hydrogen)));
-    // By itself coagulation needs no steps.
-    if (kernel_ && (medium.condensing() || medium.surfaceActive())) {
-      const double mass = (s.carbon + s.hydrogen) / s.number;
-      const CollisionKernel::Properties mean{mass / options_.soot.sootDensity, mass, s.diameters / s.number};
-      fastest = std::max(fastest, 0.5 * kernel_->value(mean, mean) * s.number);
-    }
-  }
-  double longest = std::numeric_limits<double>::infinity();
-  if (medium.incepting()) {
-    const Particle nucleus = type_.make(2 * medium.dimerCarbon(), 2 * medium.dimerHydrogen(), 1);
-    const SootFluxes flux = medium.fluxes();
-    const double d = nucleus.diameter, mass = SootAggregate::mass(nucleus);
-    const double gain = (flux.growth + flux.O2 + flux.OH) * constants::pi * d * d +
-                        (medium.condensing() ? medium.collision(nucleus) * dimers * medium.dimer().mass : 0);
-    const CollisionKernel::Properties one{mass / options_.soot.sootDensity, mass, d};
-    // One event of oxidation ends a nucleus.
-    if (options_.growthByEvents) {
-      const double lost = medium.alpha(dimers_.smallestNucleus()) * flux.O2 / 2 + flux.OH;
-      // Births and ends in turn, at x = rate times step, leave a part x^2/12 too many of what is born and ends.
-      fastest = std::max(fastest, lost * constants::pi * d * d / medium.carbonAtom() / 3);
-    }
-    longest = newbornStep(options_.splitTolerance, medium.inception(s.collisions), s.number, gain / (3 * mass),
-                          kernel_ ? kernel_->value(one, one) : 0);
-  }
-  return std::min({remaining, fastest > 0 ? options_.splitTolerance / fastest : remaining, longest});
+SootPopulationLaw StochasticProcess<Method>::law() const {
+  return {options_.soot,
+          dimers_,
+          kernel_ ? &*kernel_ : nullptr,
+          options_.coalescing ? std::cbrt(2.0) : SootAggregate::collisionFactor(2),
+          options_.alphaOfPrimaries,
+          options_.growthByEvents,
+          options_.splitTolerance};
 }
 
 template <class Method>
@@ -188,7 +141,7 @@ void StochasticProcess<Method>::advance(const ParticleGas& gas, double dilution,
   Sums now = sums(medium);
   while (remaining > 0 && (size() > 0 || medium.incepting())) {
     cost_ += static_cast<double>(size()) + 1;
-    const double length = step(medium, now, dilution, remaining);
+    const double length = sootStep(law(), medium, now, std::abs(dilution), remaining);
     if (dilution != 0) thin(std::exp(-0.5 * dilution * length), now);
     jump(medium, 0.5 * length, length, now);
     grow(medium, length, now);
@@ -231,9 +184,7 @@ void StochasticProcess<Method>::jump(const SootMedium& medium, double dt, double
   double inception = 0;  // 1/m3/s, of the middle of this step
   if (medium.incepting()) {
     const Particle nucleus = type_.make(nucleusCarbon, nucleusHydrogen, 1);
-    const double first = medium.inception(start.collisions);
-    const double change = first * medium.collision(nucleus) + coagulating(medium, start);
-    inception = medium.inception(std::max(0.0, start.collisions + 0.5 * dt * change));
+    inception = sootInception(law(), medium, start, dt);
     if constexpr (weighted) {
       // A new particle for each numerical one as the number of real ones renews itself, and not too many a step.
       const double n = static_cast<double>(options_.particles);
@@ -300,9 +251,7 @@ void StochasticProcess<Method>::jump(const SootMedium& medium, double dt, double
 // Dimers that became soot.
 template <class Method>
 void StochasticProcess<Method>::recordUptakeOfDimers(const SootMedium& medium, double dimers) {
-  for (std::size_t i = 0; i < dimers_.size(); ++i)
-    exchange_.gas[SootSpecies::fixed + i] -= dimers * medium.pahOfDimer()[i] / constants::avogadro;
-  exchange_.gas[SootSpecies::H2] += 0.5 * dimers * medium.freedHydrogen() / options_.soot.hydrogenWeight;
+  exchangeDimers(medium, options_.soot, dimers, exchange_.gas);
   exchange_.carbon += dimers * medium.dimerCarbon();
   exchange_.hydrogen += dimers * medium.dimerHydrogen();
 }
@@ -310,25 +259,7 @@ void StochasticProcess<Method>::recordUptakeOfDimers(const SootMedium& medium, d
 template <class Method>
 void StochasticProcess<Method>::grow(const SootMedium& medium, double dt, Sums& now) {
   if (size() == 0 || !(medium.condensing() || medium.surfaceActive())) return;
-  const SootModelOptions& soot = options_.soot;
-  const Sums s = now;
-  SootFluxes flux = medium.fluxes();
-  const double counted = options_.alphaOfPrimaries ? s.primaries : s.number;
-  const auto alpha = [&](double carbon) {
-    const double atoms = carbon / counted * constants::avogadro / soot.carbonWeight;
-    return medium.alpha(std::max({atoms, dimers_.smallestNucleus(), 2.0}));
-  };
-  // Both at the middle of the step, to first order: makes the whole second order.
-  const auto surface = [&](double a) { return a * (flux.growth - flux.O2) - flux.OH; };
-  const double half = 0.5 * dt, first = alpha(s.carbon), dimersFirst = medium.dimers(s.collisions);
-  const double condensing = s.collisions * dimersFirst * medium.dimer().mass;
-  const double mass = s.carbon + s.hydrogen, gain = half * (surface(first) * s.area + condensing);
-  flux.alpha = alpha(std::max(0.5 * s.carbon, s.carbon + gain * s.carbon / mass));
-  if (medium.condensing()) {
-    const double stretch = std::clamp(gain / (3 * mass), -0.3, 0.3);  // of the diameters
-    flux.condensation =
-        medium.condensation(medium.dimers(std::max(0.5 * s.collisions, s.collisions + stretch * s.slopes)));
-  }
+  const SootFluxes flux = sootFluxes(law(), medium, now, dt);
   gather();
   const SootMoved all = options_.growthByEvents ? growAllByEvents(columns_, type_, medium, flux, dt, random_)
                                                 : growAll(columns_, type_, medium, flux, dt);
@@ -346,15 +277,7 @@ void StochasticProcess<Method>::grow(const SootMedium& medium, double dt, Sums& 
   exchange_.oxidisedNumber += all.lost;
   exchange_.carbon += all.growth - all.oxidationO2 - all.oxidationOH;
   exchange_.hydrogen -= all.hydrogenO2 + all.hydrogenOH;
-  // See surface_chemistry.hpp for what an event moves.
-  using S = SootSpecies;
-  const double perCarbon = 1 / soot.carbonWeight, perH2 = 0.5 / soot.hydrogenWeight;
-  exchange_.gas[S::C2H2] -= 0.5 * all.growth * perCarbon;
-  exchange_.gas[S::O2] -= 0.5 * all.oxidationO2 * perCarbon;
-  exchange_.gas[S::OH] -= all.oxidationOH * perCarbon;
-  exchange_.gas[S::CO] += (all.oxidationO2 + all.oxidationOH) * perCarbon;
-  exchange_.gas[S::H] += all.oxidationOH * perCarbon;
-  exchange_.gas[S::H2] += 0.5 * all.growth * perCarbon + (all.hydrogenO2 + all.hydrogenOH) * perH2;
+  exchangeSurface(options_.soot, all, exchange_.gas);
 }
 
 }  // namespace lampblack::particles

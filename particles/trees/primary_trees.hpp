@@ -39,11 +39,10 @@ class PrimaryTrees {
     measure(*head);
     return Tree(head);
   }
-  // One of this volume, composed as a nucleus.
+  // One of this volume, as methods ask for; no process makes it.
   [[nodiscard]] Tree make(double volume) const {
-    TreeUnits units = material_->nucleus;
-    const double factor = volume / material_->volume(units);
-    for (double& number : units) number *= factor;
+    TreeUnits units{1};
+    units[0] = volume / material_->volume(units);
     return make(units);
   }
   // In point contact at a primary of each, drawn uniformly (eq. 35). Those of the smaller tree move.

@@ -11,10 +11,11 @@ namespace lampblack::particles {
 
 enum class SinteringMechanism {
   none,
-  viscousFlow,      // A d: silica (Tsantilis, Briesen, Pratsinis 2001; Shekar et al. 2011, eq. 41)
-  grainBoundary,    // A d^4 T: titania (Kobata, Kusakabe, Morooka 1991)
-  volumeDiffusion,  // A d^3 T (Friedlander and Wu 1994)
-  constant          // A
+  viscousFlow,       // A d: silica (Tsantilis, Briesen, Pratsinis 2001; Shekar et al. 2011, eq. 41)
+  grainBoundary,     // A d^4 T: titania (Kobata, Kusakabe, Morooka 1991)
+  surfaceDiffusion,  // A d^4 T
+  volumeDiffusion,   // A d^3 T (Friedlander and Wu 1994)
+  constant           // A
 };
 
 struct SinteringLaw {
@@ -37,6 +38,7 @@ struct SinteringLaw {
       case SinteringMechanism::viscousFlow:
         return prefactor * d * arrhenius;
       case SinteringMechanism::grainBoundary:
+      case SinteringMechanism::surfaceDiffusion:
         return prefactor * d * d * d * d * T * arrhenius;
       case SinteringMechanism::volumeDiffusion:
         return prefactor * d * d * d * T * arrhenius;

@@ -4,21 +4,21 @@
 #include <cmath>
 
 #include "core/poisson.hpp"
+#include "particles/trees/tree_rounding.hpp"
 
 namespace lampblack::particles {
 
 // Rate of the reaction within the tree (eq. 59), below zero where sintering takes more sites than the surface gets.
 double TreeGrowth::within(const TreeHead& tree, double sites) const {
-  if (!type_.material().condenses) return 0;
+  if (!reactions_.condenses) return 0;
   const double bySintering = tree.count > 1 ? 0.5 * sites / tree.surface * tree.sintering : 0;
   return rate_ * sites - bySintering;
 }
 
 void TreeGrowth::react(TreeHead& tree, TreePrimary* primaries, std::size_t i, double events, Changes& changes) {
-  const TreeMaterial& m = type_.material();
   for (std::size_t c = 0; c < mostTreeComponents; ++c) {
-    primaries[i].units[c] += events * m.growth[c];
-    tree.units[c] += events * m.growth[c];
+    primaries[i].units[c] += events * reactions_.growth[c];
+    tree.units[c] += events * reactions_.growth[c];
   }
   grown_[i] += events;
   changes.reactions += events;
@@ -26,7 +26,7 @@ void TreeGrowth::react(TreeHead& tree, TreePrimary* primaries, std::size_t i, do
 }
 
 void TreeGrowth::condense(TreeHead& tree, TreePrimary* primaries, std::size_t i, double events, Changes& changes) {
-  const TreeMaterial& m = type_.material();
+  const SiteReactions& m = reactions_;
   const double possible = std::floor(0.5 * primaries[i].units[m.site]), done = std::min(events, possible);
   if (done < events) changes.limited += static_cast<std::uint64_t>(events - done);
   if (!(done > 0)) return;
@@ -40,7 +40,7 @@ void TreeGrowth::condense(TreeHead& tree, TreePrimary* primaries, std::size_t i,
 
 // The first event is now, `left` (s) is what remains.
 void TreeGrowth::oneByOne(TreeHead& tree, TreePrimary* primaries, double left, RandomStream& random, Changes& changes) {
-  const std::size_t site = type_.material().site;
+  const std::size_t site = reactions_.site;
   while (true) {
     const double surface = rate_ * tree.units[site];
     double total = surface + std::max(0.0, within(tree, tree.units[site]));
@@ -59,7 +59,7 @@ void TreeGrowth::oneByOne(TreeHead& tree, TreePrimary* primaries, double left, R
 }
 
 void TreeGrowth::inNumbers(TreeHead& tree, TreePrimary* primaries, double dt, RandomStream& random, Changes& changes) {
-  const std::size_t site = type_.material().site;
+  const std::size_t site = reactions_.site;
   const double n = tree.count, steps = std::ceil(2 * rate_ * dt / sitesChange), h = dt / steps;
   for (double s = 0; s < steps; ++s) {
     const double sites = tree.units[site], inside = within(tree, sites);
@@ -73,29 +73,9 @@ void TreeGrowth::inNumbers(TreeHead& tree, TreePrimary* primaries, double dt, Ra
   }
 }
 
-// Sizes from units; necks gain surface from what has grown on their primaries (eqs. 30, 31).
-void TreeGrowth::finish(TreeHead& tree) {
-  const TreeMaterial& m = type_.material();
-  TreePrimary* primaries = primariesOf(&tree);
-  const double gain = 2 * m.smoothing * m.growthVolume();
-  for (std::size_t i = 0; i < tree.count; ++i) {
-    TreePrimary& p = primaries[i];
-    grown_[i] *= gain / p.diameter;  // m2
-    p.diameter = treeDiameter(m.volume(p.units));
-  }
-  TreeNeck* necks = necksOf(&tree);
-  for (std::uint32_t k = 0; k + 1 < tree.count; ++k) {
-    TreeNeck& neck = necks[k];
-    neck.sphere = sphereOfNeck(primaries, neck);
-    neck.common = std::max(neck.common + grown_[neck.left] + grown_[neck.right], neck.sphere);
-  }
-  type_.measure(tree);
-  tree.rest = 0;
-}
-
 bool TreeGrowth::advance(Tree& handle, double dt, RandomStream& random, Changes& changes) {
   const TreeHead& seen = handle.head();
-  const double sites = seen.units[type_.material().site];
+  const double sites = seen.units[reactions_.site];
   const double expected = 2 * rate_ * sites * dt;
   if (!(expected > 0)) return false;
   double left = dt;
@@ -110,7 +90,7 @@ bool TreeGrowth::advance(Tree& handle, double dt, RandomStream& random, Changes&
     oneByOne(tree, primariesOf(&tree), left, random, changes);
   else
     inNumbers(tree, primariesOf(&tree), dt, random, changes);
-  if (changed_) finish(tree);
+  if (changed_) roundTree(type_, tree, grown_, type_.material().volume(reactions_.growth));
   return changed_;
 }
 

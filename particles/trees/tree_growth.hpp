@@ -20,7 +20,8 @@ class TreeGrowth {
     std::uint64_t limited = 0;          // within: bounded at zero, and refused as the primary had no pair of sites
   };
 
-  explicit TreeGrowth(const PrimaryTrees& type) : type_(type) {}
+  // Of a material with sites.
+  explicit TreeGrowth(const PrimaryTrees& type) : type_(type), reactions_(*type.material().sites()) {}
 
   // 1/s for each site.
   void setRate(double perSite) { rate_ = perSite; }
@@ -33,11 +34,11 @@ class TreeGrowth {
   [[nodiscard]] double within(const TreeHead& tree, double sites) const;
   void react(TreeHead& tree, TreePrimary* primaries, std::size_t i, double events, Changes& changes);
   void condense(TreeHead& tree, TreePrimary* primaries, std::size_t i, double events, Changes& changes);
-  void finish(TreeHead& tree);
 
   static constexpr double fewEvents = 16, sitesChange = 0.1;
 
   const PrimaryTrees& type_;
+  const SiteReactions& reactions_;
   double rate_ = 0;
   bool changed_ = false;
   std::vector<double> grown_;  // by surface reactions, of each primary

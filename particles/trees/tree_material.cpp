@@ -11,23 +11,41 @@
 namespace lampblack::particles {
 namespace {
 
+// Mole fraction of a precursor below which nothing is born or grows to speak of.
+constexpr double negligiblePrecursor = 1e-15;
+
 void requireTree(bool isMet, const std::string& what) {
   if (!isMet) throw InputError("particles: " + what);
 }
 
+void requireSites(const TreeMaterial& m, const SiteReactions& r) {
+  requireTree(r.site < m.components.size() && r.bridge < m.components.size() && r.site != r.bridge,
+              "sites and bridges need to be two components of the material");
+  requireTree(m.volume(r.nucleus) > 0, "a nucleus needs mass");
+  for (const double units : r.nucleus)
+    requireTree(units >= 0, "a nucleus may not have less than nothing of a component");
+  requireTree(m.volume(r.growth) >= 0, "a surface reaction may not take mass from a particle");
+  requireTree(r.nucleusPrecursors > 0 && r.nucleusProducts >= 0 && r.growthProducts >= 0,
+              "molecules of the precursor need to be more than none, those of the product none or more");
+  requireTree(r.moleculeMass > 0 && r.moleculeDiameter > 0, "molecules of the precursor need a mass and a diameter");
+  requireTree(r.prefactor >= 0 && r.energy >= 0, "the rate constant of the surface reaction may not be below zero");
+}
+
 }  // namespace
 
-double TreeMaterial::unitMass(std::size_t component) const {
-  return components[component].weight / constants::avogadro;
-}
-
-double TreeMaterial::growthVolume() const {
-  return volume(growth);
-}
-
-double TreeMaterial::growthRate(double temperature, double concentration) const {
+double SiteReactions::growthRate(double temperature, double concentration) const {
   const double arrhenius = energy == 0 ? 1 : std::exp(-energy / (constants::gasConstant * temperature));
   return prefactor * (power == 0 ? 1 : std::pow(temperature, power)) * arrhenius * std::max(concentration, 0.0);
+}
+
+std::vector<std::string> TreeMaterial::species() const {
+  if (const SiteReactions* r = sites()) return {r->precursor, r->product};
+  return sootSpecies(soot()->soot);
+}
+
+bool TreeMaterial::hasPrecursors(const ParticleGas& gas) const {
+  if (soot() != nullptr) return particles::hasPrecursors(gas);
+  return gas.concentrations[0] > negligiblePrecursor * gas.pressure / (constants::gasConstant * gas.temperature);
 }
 
 void requireMaterial(const TreeMaterial& m) {
@@ -38,18 +56,17 @@ void requireMaterial(const TreeMaterial& m) {
                 fmt::format("the component {} needs a mass above zero, not {:g} kg/mol", c.name, c.weight));
   requireTree(m.density > 0 && std::isfinite(m.density), "the density needs to be above zero");
   requireTree(m.fractalDimension >= 1 && m.fractalDimension <= 3, "the fractal dimension needs to be in [1, 3]");
-  requireTree(m.site < m.components.size() && m.bridge < m.components.size(),
-              "sites and bridges need to be components of the material");
-  requireTree(m.volume(m.nucleus) > 0, "a nucleus needs mass");
-  for (const double units : m.nucleus)
-    requireTree(units >= 0, "a nucleus may not have less than nothing of a component");
-  requireTree(m.moleculeMass > 0 && m.moleculeDiameter > 0, "molecules of the precursor need a mass and a diameter");
-  requireTree(m.prefactor >= 0, "the rate constant of the surface reaction may not be below zero");
   requireTree(m.smoothing >= 0 && m.smoothing <= 2, "the smoothing factor needs to be in [0, 2]");
   const SinteringLaw& law = m.sintering;
   requireTree(law.prefactor >= 0 && law.temperature >= 0 && law.critical >= 0,
               "constants of sintering may not be below zero");
   requireTree(!law.active() || law.prefactor > 0, "sintering needs a prefactor above zero");
+  if (const SiteReactions* r = m.sites()) requireSites(m, *r);
+  if (const SootReactions* r = m.soot())
+    requireTree(m.density == r->soot.sootDensity && m.components.size() == 2 &&
+                    m.components[SootReactions::carbon].weight == r->soot.carbonWeight &&
+                    m.components[SootReactions::hydrogen].weight == r->soot.hydrogenWeight,
+                "soot has the density and the weights of its processes");
 }
 
 TreeMaterial silica() {
@@ -58,16 +75,28 @@ TreeMaterial silica() {
   m.density = 2200;
   m.fractalDimension = 1.8;
   m.components = {{"Si", 28.08e-3, {{"Si", 1}}}, {"O", 16.00e-3, {{"O", 1}}}, {"OH", 17.01e-3, {{"O", 1}, {"H", 1}}}};
-  m.precursor = "H4O4SI";
-  m.product = "H2O";
-  m.nucleus = {2, 1, 6};
-  m.moleculeMass = 9.981e-26;
-  m.moleculeDiameter = 0.32e-9;
-  m.site = 2;
-  m.bridge = 1;
-  m.growth = {1, 1, 2};
-  m.prefactor = 1e7;
   m.sintering = {SinteringMechanism::viscousFlow, 1.1e-16, 1.2e5, 4.4e-9};
+  SiteReactions r;
+  r.precursor = "H4O4SI";
+  r.product = "H2O";
+  r.nucleus = {2, 1, 6};
+  r.moleculeMass = 9.981e-26;
+  r.moleculeDiameter = 0.32e-9;
+  r.site = 2;
+  r.bridge = 1;
+  r.growth = {1, 1, 2};
+  r.prefactor = 1e7;
+  m.reactions = r;
+  return m;
+}
+
+TreeMaterial sootMaterial(const SootReactions& reactions) {
+  TreeMaterial m;
+  m.name = "soot";
+  m.density = reactions.soot.sootDensity;
+  m.fractalDimension = 1.8;
+  m.components = {{"C", reactions.soot.carbonWeight, {{"C", 1}}}, {"H", reactions.soot.hydrogenWeight, {{"H", 1}}}};
+  m.reactions = reactions;
   return m;
 }
 

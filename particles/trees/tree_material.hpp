@@ -1,15 +1,18 @@
 // What the primaries of a tree are made of and what a gas does to them: a table of components and a few processes, as
-// plain data. Silica from silicic acid is one (Shekar, Smith, Kraft, Wagner 2011); another material is another table.
+// plain data. Silica from silicic acid is one (Shekar, Smith, Kraft, Wagner 2011), soot another; a material whose sites
+// react with one precursor is another table of the first kind.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "core/constants.hpp"
 #include "core/rooms.hpp"
+#include "particles/gas/soot_gas.hpp"
 #include "particles/trees/sintering_law.hpp"
 
 namespace lampblack::particles {
@@ -24,12 +27,8 @@ struct TreeComponent {
   std::vector<std::pair<std::string, double>> elements;  // atoms of each in a unit
 };
 
-struct TreeMaterial {
-  std::string name;
-  double density = 0;           // kg/m3
-  double fractalDimension = 3;  // of aggregates, for the diameter of collision
-  std::vector<TreeComponent> components;
-
+// One precursor in the gas, whose molecules make primaries and react with sites on their surface.
+struct SiteReactions {
   // Species of the gas: what particles are made from, and what they give back.
   std::string precursor, product;
   // Inception: `nucleusPrecursors` molecules become a primary of `nucleus` and give `nucleusProducts`. Molecules have
@@ -45,28 +44,61 @@ struct TreeMaterial {
   // process keeps the composition (eq. 59 of Shekar et al. 2011) and may be off.
   std::size_t bridge = 0;
   bool condenses = true;
+
+  // 1/s for each site, at a concentration (mol/m3) of the precursor.
+  [[nodiscard]] double growthRate(double temperature, double concentration) const;
+};
+
+// Carbon and hydrogen, by the processes that all populations of soot have: nuclei of PAH, condensation of PAH, growth
+// by acetylene, oxidation by O2 and OH (SootMedium).
+struct SootReactions {
+  SootModelOptions soot;
+  bool alphaOfPrimaries = false;  // as EnsembleOptions
+  bool keepsHydrogen = true;
+  // What a primary leaves behind that has burnt away: the parts that it held together go apart, as aggregates that burn
+  // were seen to (Neoh, Howard, Sarofim 1985); or all that touched it touches the neighbour it shared most surface
+  // with.
+  bool breaksUp = true;
+
+  enum Component : std::size_t { carbon, hydrogen };
+};
+
+struct TreeMaterial {
+  std::string name;
+  double density = 0;           // kg/m3
+  double fractalDimension = 3;  // of aggregates, for the diameter of collision
+  std::vector<TreeComponent> components;
   // How much of the surface that a primary gains by growth its necks gain, 0 to 2 (eq. 30).
   double smoothing = 1;
   SinteringLaw sintering;
+  std::variant<SiteReactions, SootReactions> reactions;
 
-  [[nodiscard]] double unitMass(std::size_t component) const;  // kg
-  [[nodiscard]] double growthVolume() const;                   // m3, of a surface reaction
+  [[nodiscard]] const SiteReactions* sites() const { return std::get_if<SiteReactions>(&reactions); }
+  [[nodiscard]] const SootReactions* soot() const { return std::get_if<SootReactions>(&reactions); }
+  // For who changes a shipped material; throws std::bad_variant_access for another.
+  [[nodiscard]] SiteReactions& siteReactions() { return std::get<SiteReactions>(reactions); }
+
+  // Species of the gas by name, in the order in which particles see them.
+  [[nodiscard]] std::vector<std::string> species() const;
+  // Whether a gas, with these species, has what particles are born of, to speak of.
+  [[nodiscard]] bool hasPrecursors(const ParticleGas& gas) const;
   [[nodiscard]] double volume(const TreeUnits& units) const {  // m3
     double sum = 0;
     for (std::size_t c = 0; c < components.size(); ++c) sum += units[c] * components[c].weight;
     return sum / (density * constants::avogadro);
   }
-  // 1/s for each site, at a concentration (mol/m3) of the precursor.
-  [[nodiscard]] double growthRate(double temperature, double concentration) const;
 };
 
 // Throws InputError for what is not a material: a component without mass, constants below zero, processes that name
-// components that are not there or make atoms of nothing.
+// components that are not there or make particles of nothing.
 void requireMaterial(const TreeMaterial& material);
 
 // Si, O and OH from Si(OH)4, called H4O4SI (Shekar et al. 2011, eqs. 11, 23, 29, 58; rates of sintering and of the
 // surface reaction: what the public code of that group, MOpS, has as input for its tests, not the fitted ones of Shekar
 // et al. 2012).
 [[nodiscard]] TreeMaterial silica();
+
+// C and H with the density and weights of these options; aggregates of the fractal dimension 1.8, which do not sinter.
+[[nodiscard]] TreeMaterial sootMaterial(const SootReactions& reactions);
 
 }  // namespace lampblack::particles

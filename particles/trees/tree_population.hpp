@@ -1,6 +1,7 @@
-// A stochastic population of trees of primaries in a given gas: inception, coagulation, surface reaction, reaction
-// within particles and sintering. Equal weights with doubling and contraction (EqualWeightMethod). The gas is not
-// changed, but what is taken from it and given to it is reported: the same atoms that the particles gain, to round-off.
+// A stochastic population of trees of primaries in a given gas: inception, coagulation, sintering, and what the
+// material asks for: reactions of sites (TreeSites), or condensation, growth and oxidation of soot (TreeSoot). Equal
+// weights with doubling and contraction (EqualWeightMethod). The gas is not changed, but what is taken from it and
+// given to it is reported: the same atoms that the particles gain, to round-off.
 //
 // Splitting (Strang 1968): collisions and inception by jumps for half a step, growth for all of it, jumps for half a
 // step, of a length over which the population changes by `splitTolerance`. Sintering is not split off: each tree has
@@ -40,17 +41,30 @@ struct TreeOptions {
 
 // What happened since the last look, per m3 of the gas of each moment.
 struct TreeExchange {
-  double precursor = 0, product = 0;  // mol/m3, of the gas
-  TreeUnits units{};                  // of the particles, by all processes, 1/m3
-  // Events, 1/m3: of sintering and of reactions within particles, pairs of sites.
-  double inceptions = 0, coagulations = 0, reactions = 0, condensations = 0, sinteredPairs = 0;
+  SootSpeciesArray gas{};  // mol/m3, of the material's species
+  TreeUnits units{};       // of the particles, by all processes, 1/m3
+  // Events, 1/m3.
+  double inceptions = 0, coagulations = 0;
+  // Of materials with sites; of sintering and of reactions within particles, pairs of sites.
+  double reactions = 0, condensations = 0, sinteredPairs = 0;
+  // Of soot: dimers that condensed, additions of C2H2, attacks by O2 and by OH; primaries and whole particles that
+  // burnt away, and particles that broke as one of their primaries did.
+  double dimers = 0, grown = 0, oxidisedO2 = 0, oxidisedOH = 0, burntPrimaries = 0, burnt = 0, broken = 0;
 };
+
+// The events that a material has.
+struct TreeEvent {
+  double TreeExchange::*number;
+  const char *name, *description;
+};
+[[nodiscard]] std::vector<TreeEvent> treeEvents(const TreeMaterial& material);
 
 struct TreeCounters {
   std::uint64_t inceptions = 0, coagulations = 0, fictitious = 0, fused = 0, doublings = 0, removals = 0;
   std::uint64_t splitSteps = 0;
-  std::uint64_t limited = 0;       // reactions within particles bounded at zero or without two sites
-  std::uint64_t withoutSites = 0;  // necks that sintered by more sites than a primary had
+  std::uint64_t limited = 0;            // reactions within particles bounded at zero or without two sites
+  std::uint64_t withoutSites = 0;       // necks that sintered by more sites than a primary had
+  std::uint64_t burnt = 0, broken = 0;  // particles that burnt away, and that broke as one of their primaries did
 };
 
 // Sums per m3, means by number (SI).
@@ -61,12 +75,11 @@ struct TreeTotals {
          sinteringLevel = 1;                            // means; level 1: one primary
   double massSquared = 0;                               // kg2/m3
   double collisionDeviation = 1, primaryDeviation = 1;  // geometric, by number
-  double sites = 0;
-  std::size_t largest = 0;  // primaries
+  std::size_t largest = 0;                              // primaries
 };
 
 // How trees stand in a packed population (packed_tree.hpp).
-inline constexpr ParticleRows treeRows{16 + sizeof(TreeExchange) / sizeof(double) + std::size(populationCounters),
+inline constexpr ParticleRows treeRows{18 + sizeof(TreeExchange) / sizeof(double) + std::size(populationCounters),
                                        true};
 
 class TreePopulation {
@@ -75,7 +88,7 @@ class TreePopulation {
 
   // Replaces the population by so many (1/m3) spheres of these units. InputError for what is not a particle.
   virtual void fill(const TreeUnits& units, double number) = 0;
-  // Over dt (s); the gas has the concentrations of the precursor and the product. NumericsError.
+  // Over dt (s); the gas has the concentrations of the material's species, in their order. NumericsError.
   virtual void advance(const ParticleGas& gas, double dt) = 0;
   virtual void dilute(double factor) = 0;  // all numbers per volume
   [[nodiscard]] virtual TreeExchange takeExchange() = 0;

@@ -2,15 +2,23 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
+#include <vector>
 
 #include "core/errors.hpp"
-#include "particles/ensemble/newborn_step.hpp"
 #include "particles/gas/soot_gas.hpp"
 
 namespace lampblack::particles {
+
+namespace {
+
+std::variant<TreeSites, TreeSoot> reactionsOf(const PrimaryTrees& type) {
+  if (type.material().soot() != nullptr) return TreeSoot(type);
+  return TreeSites(type);
+}
+
+}  // namespace
 
 TreeProcess::TreeProcess(const TreeOptions& options, const PopulationModel& model, const MonteCarloOptions& monteCarlo)
     : options_(options),
@@ -18,8 +26,7 @@ TreeProcess::TreeProcess(const TreeOptions& options, const PopulationModel& mode
       random_(options.seed, options.owner, treeStream),
       method_(type_, model, InitialPopulation{}, monteCarlo, random_),
       sintering_(type_, options.sinteringTolerance),
-      growth_(type_) {
-  method_.setNucleus(type_.make(options_.material.nucleus));
+      reactions_(reactionsOf(type_)) {
   type_.settleBy([this](Tree& tree, double time) {
     TreeSintering::Changes changes;
     sintering_.advance(tree, time, changes);
@@ -28,12 +35,8 @@ TreeProcess::TreeProcess(const TreeOptions& options, const PopulationModel& mode
 }
 
 void TreeProcess::record(const TreeSintering::Changes& changes) {
-  const TreeMaterial& m = options_.material;
-  const double weight = method_.weight();
-  exchange_.product += weight * changes.bridges / constants::avogadro;
-  exchange_.sinteredPairs += weight * changes.bridges;
-  exchange_.units[m.site] -= 2 * weight * changes.bridges;
-  exchange_.units[m.bridge] += weight * changes.bridges;
+  std::visit([&](auto& reactions) { reactions.bookSintering(method_.weight(), changes.bridges, exchange_); },
+             reactions_);
   counters_.fused += changes.fused;
   counters_.withoutSites += changes.limited;
 }
@@ -50,51 +53,15 @@ void TreeProcess::fill(const TreeUnits& units, double number) {
   exchange_ = {};
 }
 
-TreeProcess::Sums TreeProcess::sums() const {
-  Sums s;
-  const std::size_t site = options_.material.site;
-  method_.forEachParticle([&](const Tree& p, double) {
-    const TreeHead& tree = p.head();
-    s.volume += tree.volume;
-    s.sites += tree.units[site];
-    s.diameters += tree.collision;
-    s.sintering += tree.sintering;
-    s.surface += tree.surface;
-    s.primaries += tree.count;
-  });
-  const double weight = method_.weight();
-  s.number = weight * static_cast<double>(size());
-  for (double* sum : {&s.volume, &s.sites, &s.diameters, &s.sintering, &s.surface}) *sum *= weight;
-  return s;
-}
-
-// The step over which neither growth changes the volume, nor coagulation the number, by more than the tolerance; and
-// those born in it hardly do either.
-double TreeProcess::step(const Sums& s, double remaining) const {
-  const TreeMaterial& m = options_.material;
-  double fastest = 0;
-  if (s.number > 0) {
-    fastest = growthRate_ * s.sites * m.growthVolume() / s.volume;
-    if (kernel_ && options_.coagulation) {
-      const double v = s.volume / s.number;
-      const CollisionKernel::Properties mean{v, v * m.density, s.diameters / s.number};
-      fastest = std::max(fastest, 0.5 * kernel_->value(mean, mean) * s.number);
-    }
-  }
-  double longest = std::numeric_limits<double>::infinity();
-  if (inception_ > 0) {
-    const double v = m.volume(m.nucleus);
-    const CollisionKernel::Properties one{v, v * m.density, treeDiameter(v)};
-    longest = newbornStep(options_.splitTolerance, inception_, s.number,
-                          growthRate_ * m.nucleus[m.site] * m.growthVolume() / v,
-                          options_.coagulation ? kernel_->value(one, one) : 0);
-  }
-  return std::min({remaining, fastest > 0 ? options_.splitTolerance / fastest : remaining, longest});
+template <class Reactions>
+typename Reactions::Sums TreeProcess::sums(const Reactions& reactions) const {
+  typename Reactions::Sums all;
+  method_.forEachParticle([&](const Tree& p, double weight) { reactions.add(all, p.head(), weight); });
+  return all;
 }
 
 void TreeProcess::advance(const ParticleGas& gas, double dt) {
   if (!(dt > 0)) return;
-  const TreeMaterial& m = options_.material;
   requirePhysical(gas, "particles");
   CollisionKernelOptions kernel = options_.kernel;
   kernel.gas = gas;
@@ -106,36 +73,46 @@ void TreeProcess::advance(const ParticleGas& gas, double dt) {
     if (options_.coagulation) method_.setKernel(kernel);
   }
   sintering_.setTemperature(gas.temperature);
-  const double precursor = std::max(gas.concentrations[0], 0.0), molecules = precursor * constants::avogadro;
-  growthRate_ = m.growthRate(gas.temperature, precursor);
-  const CollisionKernel::Properties molecule{m.moleculeMass / m.density, m.moleculeMass, m.moleculeDiameter};
-  inception_ = 0.5 * kernel_->value(molecule, molecule) * molecules * molecules;
-  growth_.setRate(growthRate_);
-  if (size() == 0)
-    method_.startAfresh(std::max(options_.fullAt, 2 * inception_ * dt) / static_cast<double>(options_.particles));
-  double remaining = dt;
+  if (size() == 0) method_.startAfresh(options_.fullAt / static_cast<double>(options_.particles));
   cost_ = 0;
-  while (remaining > 0) {
-    const Sums s = sums();
-    cost_ += s.primaries;
-    const double length = step(s, remaining);
-    jump(0.5 * length);
-    change(length);
-    jump(0.5 * length);
-    ++counters_.splitSteps;
-    remaining = length < remaining ? remaining - length : 0;
-  }
+  std::visit(
+      [&](auto& reactions) {
+        reactions.see(gas, *kernel_);
+        if (const TreeUnits nucleus = reactions.nucleus(); options_.material.volume(nucleus) > 0)
+          method_.setNucleus(type_.make(nucleus));
+        march(reactions, dt);
+      },
+      reactions_);
   if (random_.position() >> 33U != 0) throw NumericsError("particles: the random stream is used up");
 }
 
-void TreeProcess::jump(double dt) {
-  const TreeMaterial& m = options_.material;
+template <class Reactions>
+void TreeProcess::march(Reactions& reactions, double dt) {
+  const CollisionKernel* kernel = options_.coagulation ? &*kernel_ : nullptr;
+  double remaining = dt;
+  while (remaining > 0) {
+    typename Reactions::Sums now = sums(reactions);
+    cost_ += static_cast<double>(size());
+    const double length = reactions.step(now, kernel, options_.splitTolerance, remaining);
+    jump(reactions, now, 0.5 * length);
+    if constexpr (Reactions::dependsOnSums) now = sums(reactions);
+    change(reactions, now, length);
+    if constexpr (Reactions::dependsOnSums) now = sums(reactions);
+    jump(reactions, now, 0.5 * length);
+    ++counters_.splitSteps;
+    remaining = length < remaining ? remaining - length : 0;
+  }
+}
+
+template <class Reactions>
+void TreeProcess::jump(Reactions& reactions, const typename Reactions::Sums& sums, double dt) {
   const double start = type_.clock();
+  const double births = reactions.inception(sums, dt);  // 1/m3/s
   type_.lookAt(start + dt);
   double time = 0;
   while (true) {
     const double coagulation = options_.coagulation ? method_.coagulationRate() : 0;
-    const double weight = method_.nucleusWeight(), inception = inception_ / weight;
+    const double weight = method_.nucleusWeight(), inception = births / weight;
     const double total = coagulation + inception;
     if (!(total > 0)) break;
     time += random_.exponential(total);
@@ -146,9 +123,7 @@ void TreeProcess::jump(double dt) {
       method_.nucleate(random_);
       ++counters_.inceptions;
       exchange_.inceptions += weight;
-      exchange_.precursor -= m.nucleusPrecursors * weight / constants::avogadro;
-      exchange_.product += m.nucleusProducts * weight / constants::avogadro;
-      for (std::size_t c = 0; c < mostTreeComponents; ++c) exchange_.units[c] += weight * m.nucleus[c];
+      reactions.bookBirth(weight, exchange_);
     } else if (method_.coagulate(random_)) {
       exchange_.coagulations += weight;
     } else {
@@ -158,26 +133,26 @@ void TreeProcess::jump(double dt) {
   type_.clock() = start + dt;
 }
 
-void TreeProcess::change(double dt) {
+template <class Reactions>
+void TreeProcess::change(Reactions& reactions, const typename Reactions::Sums& sums, double dt) {
   if (size() == 0) return;
-  const TreeMaterial& m = options_.material;
   TreeSintering::Changes sintered;
-  TreeGrowth::Changes grown;
+  reactions.begin(sums, dt);
+  const double weight = method_.weight();
   method_.changeParticles([&](Tree& tree, double) {
     sintering_.advanceLazily(tree, sintered);
-    if (growthRate_ > 0 && growth_.advance(tree, dt, random_, grown)) sintering_.advanceLazily(tree, sintered);
-    return true;
+    if (!reactions.isActive()) return true;
+    const TreeFate fate = reactions.grow(tree, random_);
+    if (fate == TreeFate::changed) sintering_.advanceLazily(tree, sintered);
+    return fate != TreeFate::gone;
   });
   record(sintered);
-  const double weight = method_.weight();
-  exchange_.reactions += weight * grown.reactions;
-  exchange_.condensations += weight * grown.bridges;
-  exchange_.precursor -= weight * grown.reactions / constants::avogadro;
-  exchange_.product += weight * (m.growthProducts * grown.reactions + grown.bridges) / constants::avogadro;
-  for (std::size_t c = 0; c < mostTreeComponents; ++c) exchange_.units[c] += weight * grown.reactions * m.growth[c];
-  exchange_.units[m.site] -= 2 * weight * grown.bridges;
-  exchange_.units[m.bridge] += weight * grown.bridges;
-  counters_.limited += grown.limited;
+  reactions.bookGrowth(weight, exchange_, counters_);
+  if constexpr (requires { reactions.takeFragments(); }) {
+    std::vector<WeightedParticle<Tree>> fragments;
+    for (Tree& part : reactions.takeFragments()) fragments.push_back({std::move(part), weight});
+    if (!fragments.empty()) method_.join(fragments, random_);
+  }
 }
 
 void TreeProcess::settle() {
@@ -188,6 +163,21 @@ void TreeProcess::settle() {
     return true;
   });
   record(changes);
+}
+
+std::vector<TreeEvent> treeEvents(const TreeMaterial& material) {
+  using E = TreeExchange;
+  if (material.soot() == nullptr)
+    return {{&E::reactions, "surface_reactions", "molecules that reacted with a site of a surface"},
+            {&E::condensations, "condensations", "pairs of sites that reacted within a particle"},
+            {&E::sinteredPairs, "sintered_pairs", "pairs of sites that reacted as their surface sintered"}};
+  return {{&E::dimers, "condensations", "dimers or monomers of PAH that condensed on a particle"},
+          {&E::grown, "growth_reactions", "molecules of C2H2 that a surface took up"},
+          {&E::oxidisedO2, "oxidations_by_o2", "molecules of O2 that oxidised a surface"},
+          {&E::oxidisedOH, "oxidations_by_oh", "molecules of OH that oxidised a surface"},
+          {&E::burntPrimaries, "burnt_primaries", "primaries that burnt away"},
+          {&E::burnt, "burnt_particles", "particles that burnt away"},
+          {&E::broken, "broken_particles", "particles that broke as one of their primaries had burnt away"}};
 }
 
 std::unique_ptr<TreePopulation> makeTreePopulation(const TreeOptions& options) {

@@ -2,13 +2,15 @@
 #pragma once
 
 #include <optional>
+#include <variant>
 
 #include "core/rooms.hpp"
 #include "particles/population/monte_carlo/class_store.hpp"
 #include "particles/population/monte_carlo/equal_weight_method.hpp"
-#include "particles/trees/tree_growth.hpp"
 #include "particles/trees/tree_population.hpp"
 #include "particles/trees/tree_sintering.hpp"
+#include "particles/trees/tree_sites.hpp"
+#include "particles/trees/tree_soot.hpp"
 
 namespace lampblack::particles {
 
@@ -52,14 +54,15 @@ class TreeProcess final : public TreePopulation {
     TreeCounters counters;
     PopulationCounters method;
   };
-  struct Sums {  // per m3
-    double number = 0, volume = 0, sites = 0, diameters = 0, sintering = 0, surface = 0;
-    double primaries = 0;  // of the numerical particles
-  };
-  [[nodiscard]] Sums sums() const;
-  [[nodiscard]] double step(const Sums& sums, double remaining) const;
-  void jump(double dt);
-  void change(double dt);
+  // Of the material's reactions, TreeSites or TreeSoot.
+  template <class Reactions>
+  void march(Reactions& reactions, double dt);
+  template <class Reactions>
+  [[nodiscard]] typename Reactions::Sums sums(const Reactions& reactions) const;
+  template <class Reactions>
+  void jump(Reactions& reactions, const typename Reactions::Sums& sums, double dt);
+  template <class Reactions>
+  void change(Reactions& reactions, const typename Reactions::Sums& sums, double dt);
   void record(const TreeSintering::Changes& changes);
 
   TreeOptions options_;
@@ -67,12 +70,11 @@ class TreeProcess final : public TreePopulation {
   RandomStream random_;
   Method method_;
   TreeSintering sintering_;
-  TreeGrowth growth_;
+  std::variant<TreeSites, TreeSoot> reactions_;
   std::optional<CollisionKernel> kernel_;
   TreeExchange exchange_;
   TreeCounters counters_;
   double cost_ = 0;
-  double inception_ = 0, growthRate_ = 0;  // 1/m3/s; 1/s for each site
 };
 
 }  // namespace lampblack::particles

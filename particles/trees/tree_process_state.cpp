@@ -36,7 +36,6 @@ TreeTotals TreeProcess::totals() const {
     primary.add(std::log(mean), w);
     t.largest = std::max<std::size_t>(t.largest, tree.count);
   });
-  t.sites = t.units[options_.material.site];
   for (double* mean : {&t.sphereDiameter, &t.collisionDiameter, &t.primaryDiameter}) *mean /= t.number;
   t.sinteringLevel = levels / t.number;
   t.collisionDeviation = collision.geometric();
@@ -112,7 +111,7 @@ std::vector<double> TreeProcess::pack() const {
   state.push_back(cost_);
   packDoubles(state, exchange_);
   for (const std::uint64_t count : {counters_.inceptions, counters_.fictitious, counters_.fused, counters_.splitSteps,
-                                    counters_.limited, counters_.withoutSites})
+                                    counters_.limited, counters_.withoutSites, counters_.burnt, counters_.broken})
     state.push_back(static_cast<double>(count));
   for (const PopulationCounter& counter : populationCounters)
     state.push_back(static_cast<double>(const_cast<Method&>(method_).counters().*counter.value));
@@ -132,7 +131,7 @@ void TreeProcess::unpack(std::span<const double> values) {
   cost_ = state.next();
   exchange_ = state.next<TreeExchange>();
   for (std::uint64_t* count : {&counters_.inceptions, &counters_.fictitious, &counters_.fused, &counters_.splitSteps,
-                               &counters_.limited, &counters_.withoutSites})
+                               &counters_.limited, &counters_.withoutSites, &counters_.burnt, &counters_.broken})
     *count = static_cast<std::uint64_t>(state.next());
   for (const PopulationCounter& counter : populationCounters)
     method_.counters().*counter.value = static_cast<std::uint64_t>(state.next());

@@ -50,7 +50,7 @@ void TreeSintering::sizePrimaries(TreeHead& tree) const {
 // Half of the sites from each (eq. 45); each primary as many as it has. Sizes are left to sizePrimaries().
 void TreeSintering::loseSites(TreePrimary* primaries, const TreeNeck& neck, double sites, Changes& changes) const {
   if (!(sites > 0)) return;
-  const TreeMaterial& m = type_.material();
+  const SiteReactions& m = *type_.material().sites();
   for (const std::uint32_t i : {neck.left, neck.right}) {
     TreePrimary& p = primaries[i];
     const double taken = std::min(0.5 * sites, p.units[m.site]);
@@ -65,7 +65,9 @@ void TreeSintering::neighbours(Tree& handle, double dt, Changes& changes) {
   TreeHead& tree = handle.own();
   TreePrimary* primaries = primariesOf(&tree);
   TreeNeck* necks = necksOf(&tree);
-  const double density = tree.units[type_.material().site] / tree.surface;  // of sites, kept (Shekar et al. 2011)
+  const SiteReactions* sites = type_.material().sites();
+  // Of sites, kept (Shekar et al. 2011).
+  const double density = sites != nullptr ? tree.units[sites->site] / tree.surface : 0;
   courses_.clear();
   left_.assign(tree.count - 1, dt);
   for (std::uint32_t k = 0; k + 1 < tree.count; ++k) courses_.push_back(follow(primaries, necks[k], dt));

@@ -32,11 +32,12 @@ std::size_t TreeSintering::partRates(TreeHead& tree) {
   volumes_.assign(1, 0.0);
   surfaces_.assign(1, 0.0);
   sites_.assign(1, 0.0);
+  const SiteReactions* sites = type_.material().sites();
   for (std::uint32_t i = 0; i < tree.count; ++i) {
     const TreePrimary& p = primaries[i];
     volumes_.push_back(volumes_.back() + primaryVolume(p.diameter));
     surfaces_.push_back(surfaces_.back() + primarySurface(p.diameter));
-    sites_.push_back(sites_.back() + p.units[type_.material().site]);
+    sites_.push_back(sites_.back() + (sites != nullptr ? p.units[sites->site] : 0));
   }
   const std::size_t count = tree.count - 1;
   const TreeNeck* necks = necksOf(&tree);

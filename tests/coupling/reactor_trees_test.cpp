@@ -78,7 +78,7 @@ TEST(ReactorTrees, AMechanismWithoutThePrecursorSaysSo) {
 
 TEST(ReactorTrees, AProcessThatMakesAtomsIsRefused) {
   TreeOptions options = treeOptions();
-  options.material.nucleus = {2, 2, 6};
+  options.material.siteReactions().nucleus = {2, 2, 6};
   EXPECT_NE(messageOf(siliconMechanism(), options).find("inception makes 1 atoms of O"), std::string::npos)
       << messageOf(siliconMechanism(), options);
 }

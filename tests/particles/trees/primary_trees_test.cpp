@@ -131,7 +131,7 @@ TEST(PrimaryTrees, AMaterialThatIsNoneSaysWhatIsWrong) {
   EXPECT_NE(message([](TreeMaterial& m) { m.sintering.temperature = -1; }).find("sintering"), std::string::npos);
   EXPECT_NE(message([](TreeMaterial& m) { m.smoothing = 3; }).find("smoothing"), std::string::npos);
   EXPECT_NE(message([](TreeMaterial& m) { m.density = 0; }).find("density"), std::string::npos);
-  EXPECT_NE(message([](TreeMaterial& m) { m.site = 5; }).find("sites"), std::string::npos);
+  EXPECT_NE(message([](TreeMaterial& m) { m.siteReactions().site = 5; }).find("sites"), std::string::npos);
 }
 
 }  // namespace

@@ -69,7 +69,7 @@ TEST(TreeGrowth, FewSitesAreNeverBelowZero) {
   growth.setRate(1);
   int dead = 0;
   for (int repeat = 0; repeat < 500; ++repeat) {
-    Tree tree = type.make(silica().nucleus);
+    Tree tree = type.make(silica().sites()->nucleus);
     TreeGrowth::Changes changes;
     for (int i = 0; i < 20; ++i) (void)growth.advance(tree, 0.5, random, changes);
     EXPECT_GE(tree.head().units[2], 0);
@@ -82,7 +82,7 @@ TEST(TreeGrowth, FewSitesAreNeverBelowZero) {
 TEST(TreeGrowth, NecksGainByWhatGrowsOnTheirPrimaries) {
   TreeMaterial material = silica();
   material.smoothing = 1.5;
-  material.condenses = false;
+  material.siteReactions().condenses = false;
   const PrimaryTrees type(material, CollisionSize::primaries);
   RandomStream random(41, 42, 43);
   Tree tree = joinedTree(type, {5e-9, 6e-9, 7e-9}, random);
@@ -96,7 +96,7 @@ TEST(TreeGrowth, NecksGainByWhatGrowsOnTheirPrimaries) {
     double gain = 0;
     for (const std::uint32_t i : {was.left, was.right}) {
       const double events = tree.primaries()[i].units[0] - before.primaries()[i].units[0];
-      gain += events * material.volume(material.growth) * 2 * 1.5 / before.primaries()[i].diameter;
+      gain += events * material.volume(material.sites()->growth) * 2 * 1.5 / before.primaries()[i].diameter;
     }
     EXPECT_GT(gain, 0);
     EXPECT_NEAR((tree.necks()[k].common - was.common) / gain, 1, 1e-6);  // a difference of numbers 1e4 times as large

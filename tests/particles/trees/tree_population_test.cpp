@@ -5,6 +5,7 @@
 
 #include "core/errors.hpp"
 #include "particles/population/monte_carlo/shipped_types.hpp"
+#include "tests/particles/soot_fixtures.hpp"
 #include "tests/particles/statistics.hpp"
 #include "tests/particles/trees/tree_fixtures.hpp"
 
@@ -12,7 +13,7 @@ namespace lampblack::test {
 namespace {
 
 struct Nitrogen {
-  std::array<double, 2> concentrations{};  // mol/m3, of the precursor and the product
+  std::vector<double> concentrations = {0, 0};  // mol/m3, of the precursor and the product
   [[nodiscard]] ParticleGas gas() const {
     CarrierGas carrier{1173, 101325, 0, 4.6e-5, 0.028014};
     carrier.density = carrier.pressure * carrier.meanMolecularWeight / (constants::gasConstant * carrier.temperature);
@@ -22,6 +23,14 @@ struct Nitrogen {
 
 constexpr double start = 1e16, until = 0.5;  // 1/m3, s
 const TreeUnits sphere{2107, 3960, 398};
+
+// Soot to which nothing happens but collisions, and a sphere of it of about that volume.
+TreeMaterial inertSoot() {
+  SootReactions reactions;
+  reactions.soot = jumpsOnly(true, false);
+  return sootMaterial(reactions);
+}
+const TreeUnits soot{9500, 1000, 0};
 
 TreeOptions optionsOf(SinteringMechanism mechanism, CollisionKernelType kernel) {
   TreeOptions options;
@@ -40,13 +49,14 @@ struct Moments {
   std::vector<double> number, squared;
 };
 
-Moments ofTrees(TreeOptions options, int repeats) {
+Moments ofTrees(TreeOptions options, int repeats, const TreeUnits& units = sphere) {
   Moments moments;
-  const Nitrogen nitrogen;
+  Nitrogen nitrogen;
+  nitrogen.concentrations.resize(options.material.species().size());
   for (int r = 0; r < repeats; ++r) {
     options.owner = static_cast<std::uint64_t>(r);
     const auto trees = makeTreePopulation(options);
-    trees->fill(sphere, start);
+    trees->fill(units, start);
     trees->advance(nitrogen.gas(), until);
     const TreeTotals totals = trees->totals();
     moments.number.push_back(totals.number);
@@ -56,12 +66,12 @@ Moments ofTrees(TreeOptions options, int repeats) {
 }
 
 template <class Type>
-Moments ofType(const Type& type, const TreeOptions& trees, int repeats) {
+Moments ofType(const Type& type, const TreeOptions& trees, int repeats, const TreeUnits& units = sphere) {
   Moments moments;
   PopulationModel model;
   model.coagulation = trees.kernel;
   model.coagulation->gas = Nitrogen().gas();
-  const double volume = trees.material.volume(sphere), rho = trees.material.density;
+  const double volume = trees.material.volume(units), rho = trees.material.density;
   InitialPopulation initial;
   initial.distribution = InitialPopulation::Distribution::monodisperse;
   initial.number = start;
@@ -93,6 +103,13 @@ TEST_P(TreesLikeOthers, WithoutSinteringAreFractalAggregatesInLaw) {
   const TreeOptions options = optionsOf(SinteringMechanism::none, GetParam());
   const FractalAggregate type(2200, sphereDiameter(options.material.volume(sphere)), 1.8);
   expectSameLaw(ofTrees(options, 40), ofType(type, options, 40));
+}
+
+TEST_P(TreesLikeOthers, OfSootAreFractalAggregatesInLaw) {
+  TreeOptions options = optionsOf(SinteringMechanism::none, GetParam());
+  options.material = inertSoot();
+  const FractalAggregate type(1850, sphereDiameter(options.material.volume(soot)), 1.8);
+  expectSameLaw(ofTrees(options, 40, soot), ofType(type, options, 40, soot));
 }
 
 // The characteristic time is 1e-30 s, and there are no sites that would go with the surface.
@@ -133,8 +150,7 @@ TEST(TreePopulation, BooksEveryUnit) {
   for (int i = 0; i < 40; ++i) {
     trees->advance(nitrogen.gas(), 5e-4);
     const TreeExchange taken = trees->takeExchange();
-    all.precursor += taken.precursor;
-    all.product += taken.product;
+    for (std::size_t k = 0; k < 2; ++k) all.gas[k] += taken.gas[k];
     for (std::size_t c = 0; c < 3; ++c) all.units[c] += taken.units[c];
   }
   ASSERT_EQ(trees->counters().removals, 0U);
@@ -143,7 +159,7 @@ TEST(TreePopulation, BooksEveryUnit) {
   ASSERT_GT(trees->counters().fused, 0U);
   for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(totals.units[c] / all.units[c], 1, 1e-10);
   // Si, O and H of Si(OH)4 and H2O.
-  const double NA = constants::avogadro, precursor = -all.precursor * NA, product = all.product * NA;
+  const double NA = constants::avogadro, precursor = -all.gas[0] * NA, product = all.gas[1] * NA;
   EXPECT_NEAR(all.units[0] / precursor, 1, 1e-12);
   EXPECT_NEAR((all.units[1] + all.units[2]) / (4 * precursor - product), 1, 1e-12);
   EXPECT_NEAR(all.units[2] / (4 * precursor - 2 * product), 1, 1e-11);
@@ -199,7 +215,7 @@ TEST(TreePopulation, TakesInThoseOfAnother) {
     options.owner = owner;
     options.fullAt = 0.8 * coming.number;
     const auto trees = makeTreePopulation(options);
-    trees->fill(options.material.nucleus, 0.5 * coming.number);
+    trees->fill(options.material.sites()->nucleus, 0.5 * coming.number);
     const TreeTotals before = trees->totals();
     trees->join(rows, share);
     const TreeTotals after = trees->totals();

@@ -1,0 +1,35 @@
+#include "particles/trees/tree_rounding.hpp"
+
+#include <algorithm>
+
+namespace lampblack::particles {
+
+void roundTree(const PrimaryTrees& type, TreeHead& tree, std::vector<double>& change, double piece) {
+  const TreeMaterial& m = type.material();
+  TreePrimary* primaries = primariesOf(&tree);
+  TreeNeck* necks = necksOf(&tree);
+  const double gain = 2 * m.smoothing * piece;
+  bool shrinks = false;
+  for (std::size_t i = 0; i < tree.count; ++i) {
+    TreePrimary& p = primaries[i];
+    const double volume = m.volume(p.units);
+    const double before = p.diameter;
+    const bool isLess = change[i] < 0;
+    shrinks = shrinks || isLess;
+    change[i] = isLess ? 0 : change[i] * (gain / before);  // m2
+    p.diameter = volume > 0 ? treeDiameter(volume) : 0;
+  }
+  for (std::uint32_t k = 0; k + 1 < tree.count; ++k) {
+    TreeNeck& neck = necks[k];
+    if (!(primaries[neck.left].diameter > 0) && !(primaries[neck.right].diameter > 0)) continue;
+    const double sphere = sphereOfNeck(primaries, neck);
+    // At the same level where something has shrunk, and the sphere is smaller.
+    if (shrinks && sphere < neck.sphere) neck.common *= sphere / neck.sphere;
+    neck.sphere = sphere;
+    neck.common = std::max(neck.common + change[neck.left] + change[neck.right], neck.sphere);
+  }
+  type.measure(tree);
+  tree.rest = 0;
+}
+
+}  // namespace lampblack::particles

@@ -1,0 +1,67 @@
+// A population of trees whose material has sites, in a gas with its precursor: what is born, how sites react, how long
+// a step of splitting may be, and what the gas gives and gets. Inside of TreeProcess.
+#pragma once
+
+#include "core/rooms.hpp"
+#include "particles/population/model/collision_kernel.hpp"
+#include "particles/trees/tree_growth.hpp"
+#include "particles/trees/tree_population.hpp"
+
+namespace lampblack::particles {
+
+enum class TreeFate { same, changed, gone };
+
+class TreeSites {
+ public:
+  // Per m3, of a population.
+  struct Sums {
+    double number = 0, volume = 0, sites = 0, diameters = 0;
+  };
+  // Whether what happens to a population depends on sums over it in more than the length of a step.
+  static constexpr bool dependsOnSums = false;
+
+  explicit TreeSites(const PrimaryTrees& type) : type_(type), reactions_(*type.material().sites()), growth_(type) {}
+
+  void add(Sums& sums, const TreeHead& tree, double weight) const {
+    sums.number += weight;
+    sums.volume += weight * tree.volume;
+    sums.sites += weight * tree.units[reactions_.site];
+    sums.diameters += weight * tree.collision;
+  }
+  // `kernel`: of collisions in this gas, also where particles do not coagulate.
+  void see(const ParticleGas& gas, const CollisionKernel& kernel);
+  // Nuclei per m3 and s in the middle of a time dt, and their units.
+  [[nodiscard]] double inception(const Sums&, double) const { return inception_; }
+  [[nodiscard]] TreeUnits nucleus() const { return reactions_.nucleus; }
+  // The step (s) in which neither growth changes the volume, nor coagulation the number, by more than the tolerance;
+  // and what is born in it hardly does either. `kernel`: null without coagulation.
+  [[nodiscard]] double step(const Sums& sums, const CollisionKernel* kernel, double tolerance, double remaining) const;
+
+  // A time of growth: begin() once, then grow() for each tree.
+  void begin(const Sums&, double dt) {
+    dt_ = dt;
+    grown_ = {};
+  }
+  [[nodiscard]] bool isActive() const { return rate_ > 0; }
+  TreeFate grow(Tree& tree, RandomStream& random) {
+    return growth_.advance(tree, dt_, random, grown_) ? TreeFate::changed : TreeFate::same;
+  }
+
+  // What one birth, all growth since begin(), and pairs of sites that sintered did, times the weight (1/m3).
+  void bookBirth(double weight, TreeExchange& exchange) const;
+  void bookGrowth(double weight, TreeExchange& exchange, TreeCounters& counters) const;
+  void bookSintering(double weight, double pairs, TreeExchange& exchange) const;
+
+ private:
+  // The species of the gas.
+  enum : std::size_t { precursor, product };
+  void bookPairs(double number, TreeExchange& exchange) const;
+
+  const PrimaryTrees& type_;
+  const SiteReactions& reactions_;
+  TreeGrowth growth_;
+  TreeGrowth::Changes grown_;
+  double inception_ = 0, rate_ = 0, dt_ = 0;  // 1/m3/s; 1/s for each site; s
+};
+
+}  // namespace lampblack::particles

@@ -1,0 +1,71 @@
+// A population of trees of soot in a gas: nuclei of PAH, condensation, growth and oxidation in whole events, deferred
+// over a step of splitting, by the laws of all populations of soot (SootMedium, soot_steps.hpp). Inside of TreeProcess.
+//
+// A tree grows as so many equal primaries as have its volume and surface: n_r = S^3/(36 pi V^2) of the diameter 6 V/S
+// (Shekar, Smith, Kraft, Wagner 2011, eq. 19), which are a sphere's where it is one. What happens to it happens to a
+// primary by its part of their surface.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/rooms.hpp"
+#include "particles/soot/soot_events.hpp"
+#include "particles/soot/soot_steps.hpp"
+#include "particles/trees/tree_sites.hpp"
+
+namespace lampblack::particles {
+
+class TreeSoot {
+ public:
+  using Sums = SootSums;
+  static constexpr bool dependsOnSums = true;
+
+  explicit TreeSoot(const PrimaryTrees& type);
+
+  void add(Sums& sums, const TreeHead& tree, double weight) const;
+  void see(const ParticleGas& gas, const CollisionKernel&);
+  [[nodiscard]] double inception(const Sums& sums, double dt) const;
+  [[nodiscard]] TreeUnits nucleus() const;
+  [[nodiscard]] double step(const Sums& sums, const CollisionKernel* kernel, double tolerance, double remaining);
+
+  void begin(const Sums& sums, double dt);
+  [[nodiscard]] bool isActive() const { return medium_->condensing() || medium_->surfaceActive(); }
+  TreeFate grow(Tree& tree, RandomStream& random);
+  // Those that a burnt primary held to the trees that grew since this was asked for last.
+  [[nodiscard]] std::vector<Tree> takeFragments() { return std::exchange(fragments_, {}); }
+
+  void bookBirth(double weight, TreeExchange& exchange) const;
+  void bookGrowth(double weight, TreeExchange& exchange, TreeCounters& counters) const;
+  void bookSintering(double, double, TreeExchange&) const {}  // no sites go with the surface
+
+ private:
+  [[nodiscard]] SootPopulationLaw law(double tolerance) const;
+  [[nodiscard]] SootAggregate::Particle asSphere(const TreeHead& tree) const;
+  void happens(TreePrimary& primary, std::size_t kind, double times);
+  void oneByOne(TreeHead& tree, const SootEventNumbers& expected, double left, RandomStream& random);
+  void inNumbers(TreeHead& tree, const SootEventNumbers& expected, RandomStream& random);
+  TreeFate withoutBurnt(Tree& tree);
+
+  static constexpr double fewEvents = 8;
+
+  const PrimaryTrees& type_;
+  const SootReactions& reactions_;
+  DimerModel dimers_;
+  double carbonAtom_, hydrogenAtom_;  // kg
+  std::optional<SootMedium> medium_;
+  const CollisionKernel* kernel_ = nullptr;  // null: no coagulation
+  double joined_;
+  // Of the time of growth.
+  double dt_ = 0;
+  std::optional<SootGrowth> growth_;
+  SootMoved moved_;
+  std::uint64_t burntPrimaries_ = 0, burnt_ = 0, broken_ = 0;
+  double events_[sootEvents] = {};
+  std::vector<Tree> fragments_;
+  std::vector<double> surfaces_, change_;  // m2, sums up to each primary; m3, of each
+};
+
+}  // namespace lampblack::particles
