@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdint>
+#include <span>
 #include <type_traits>
 
 #include "core/constants.hpp"
 #include "core/errors.hpp"
+#include "core/repeats.hpp"
 #include "core/stop_request.hpp"
 
 namespace lampblack::coupling {
@@ -50,9 +53,6 @@ void summarise(const double* first, std::size_t count, std::size_t stride, doubl
 
 PathEnsemble runPathEnsemble(MPI_Comm comm, const ParticlePath& path, const EnsembleOptions& options,
                              std::size_t repeats, const EnsemblePathOptions& march, const std::string& what) {
-  int rank = 0, ranks = 1;
-  MPI_Comm_rank(comm, &rank);
-  MPI_Comm_size(comm, &ranks);
   collectively(comm, [&] {
     if (repeats < 2) throw InputError("stochastic soot: at least 2 repeats are needed");
   });
@@ -61,23 +61,19 @@ PathEnsemble runPathEnsemble(MPI_Comm comm, const ParticlePath& path, const Ense
   const std::size_t records = march.recorded.empty() ? path.points.size() : march.recorded.size();
   const std::size_t bins = march.bins.count, row = values + bins;
   const std::size_t width = records * row + (records - 1) * exchangeWidth + counters;
-  // Each repeat is on one rank, zero on the others: sums over the ranks are exact.
-  std::vector<double> all(repeats * width, 0.0);
-  collectively(comm, [&] {
-    for (std::size_t r = static_cast<std::size_t>(rank); r < repeats; r += static_cast<std::size_t>(ranks)) {
-      if (const int signal = stopRequest(); signal != 0)
-        throw NumericsError("stochastic soot: stopped by " + signalName(signal));
-      EnsembleOptions own = options;
-      own.owner = options.owner + r;
-      try {
-        const auto soot = makeEnsemble(own);
-        pack(marchPath(*soot, path, march), bins, &all[r * width]);
-      } catch (const NumericsError& error) {
-        throw NumericsError(fmt::format("{}, repeat {}: {}", what, r, error.what()));
-      }
+  std::vector<double> all = gatherRepeats(comm, 0, repeats, width, [&](std::uint64_t r, std::span<double> record) {
+    if (const int signal = stopRequest(); signal != 0)
+      throw NumericsError("stochastic soot: stopped by " + signalName(signal));
+    EnsembleOptions own = options;
+    own.owner = options.owner + r;
+    try {
+      const auto soot = makeEnsemble(own);
+      pack(marchPath(*soot, path, march), bins, record.data());
+    } catch (const NumericsError& error) {
+      throw NumericsError(fmt::format("{}, repeat {}: {}", what, r, error.what()));
     }
   });
-  MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_SUM, comm);
+  shareRepeats(comm, all, repeats * width);
   RepeatedValue* const named[values] = {
       &result.number,      &result.volumeFraction, &result.meanDiameter, &result.geometricDeviation,
       &result.primaries,   &result.carbon,         &result.hydrogen,     &result.surface,

@@ -53,7 +53,7 @@ std::vector<ReactorPopulation::Column> ReactorEnsemble::columns() const {
           {"soot_hydrogen", "kg/m^3", "hydrogen in particles"}};
 }
 
-std::vector<double> ReactorEnsemble::values() const {
+std::vector<double> ReactorEnsemble::values(const ParticleGas&) const {
   const Ensemble::Totals totals = population_->totals();
   const double fraction = population_->volumeFraction();
   return {fraction,

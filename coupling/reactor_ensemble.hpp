@@ -33,7 +33,7 @@ class ReactorEnsemble final : public ReactorPopulation {
 
   [[nodiscard]] std::string material() const override { return "soot"; }
   [[nodiscard]] std::vector<Column> columns() const override;
-  [[nodiscard]] std::vector<double> values() const override;
+  [[nodiscard]] std::vector<double> values(const ParticleGas& gas) const override;
   [[nodiscard]] std::vector<Distribution> distributions() const override;
   [[nodiscard]] std::vector<double> distribution(std::size_t k, double logMin, double logMax,
                                                  std::size_t bins) const override;

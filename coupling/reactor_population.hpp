@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <variant>
@@ -25,7 +26,8 @@ class ReactorPopulation : public SplitParticles {
   [[nodiscard]] virtual std::vector<Column> columns() const = 0;
   // Brings up to date what waits: to be called before values are asked for.
   virtual void settle() {}
-  [[nodiscard]] virtual std::vector<double> values() const = 0;  // SI
+  // SI, in a gas of species(), which rates depend on.
+  [[nodiscard]] virtual std::vector<double> values(const ParticleGas& gas) const = 0;
   // Size distributions: the first without a name in results ("size_distribution").
   struct Distribution {
     std::string name, description;
@@ -34,6 +36,15 @@ class ReactorPopulation : public SplitParticles {
   // The k-th, dN/dlog10 d (1/m3) in equal bins of log10(d/m).
   [[nodiscard]] virtual std::vector<double> distribution(std::size_t k, double logMin, double logMax,
                                                          std::size_t bins) const = 0;
+  // The same of numbers from zero to one, dN/dx (1/m3) in equal bins, of kinds of particles that have such.
+  [[nodiscard]] virtual std::vector<Distribution> shares() const { return {}; }
+  [[nodiscard]] virtual std::vector<double> shareDistribution(std::size_t, std::size_t) const { return {}; }
+  // What particles may be sorted into classes by, and what may be averaged over those of a class; of kinds that can.
+  [[nodiscard]] virtual std::vector<Column> classedBy() const { return {}; }
+  [[nodiscard]] virtual std::vector<Column> classAverages() const { return {}; }
+  // Of each class below, between and above the rising edges: number (1/m3), then for each average its sum over the
+  // particles times their number.
+  [[nodiscard]] virtual std::vector<double> classSums(std::size_t, std::span<const double>) const { return {}; }
   // Every particle as tables, of kinds that have them; without particles the same tables without rows.
   struct TableColumn : Column {
     std::variant<std::vector<double>, std::vector<std::int64_t>> values;  // SI; numbers of rows are whole

@@ -18,11 +18,17 @@ double atomsOf(const TreeComponent& component, const std::string& element) {
   return sum;
 }
 
+// Pairs drawn for the rate of coagulation: it has an error of a hundredth of the kernel's deviation.
+constexpr std::size_t pairsForRate = 10000;
+
 }  // namespace
 
 ReactorTrees::ReactorTrees(const Mechanism& mechanism, const TreeOptions& options, GasViscosity viscosity,
                            const std::optional<Start>& start)
-    : material_(options.material), viscosity_(viscosity), population_(makeTreePopulation(options)) {
+    : material_(options.material),
+      functionals_(options.material),
+      viscosity_(viscosity),
+      population_(makeTreePopulation(options)) {
   for (const std::string& name : material_.species()) {
     const auto k = mechanism.findSpecies(name);
     if (!k)
@@ -87,7 +93,6 @@ SplitParticles::Exchange ReactorTrees::advanceAndSettle(const ParticleGas& gas, 
 
 SplitParticles::Exchange ReactorTrees::takeExchange() {
   const TreeExchange taken = population_->takeExchange();
-  for (const auto count : {&TreeExchange::inceptions, &TreeExchange::coagulations}) total_.*count += taken.*count;
   for (const TreeEvent& event : treeEvents(material_)) total_.*event.number += taken.*event.number;
   Exchange exchange{{taken.gas.begin(), taken.gas.begin() + static_cast<std::ptrdiff_t>(species_.size())},
                     std::vector<double>(elements_.size(), 0.0)};
@@ -140,20 +145,28 @@ std::vector<ReactorPopulation::Column> ReactorTrees::columns() const {
       {name + "surface_area", "m^2/m^3", "surface of all particles"},
       {name + "mass", "kg/m^3", "mass of all particles"},
       {name + "mass_squared", "kg^2/m^3", "sum of the squared masses of particles"},
+      {name + "mass_cubed", "kg^3/m^3", "sum of the cubed masses of particles"},
       {name + "primaries", "1", "primary particles in a particle, mean"},
       {name + "primary_diameter", "m", "mean over particles of the mean diameter of their primaries"},
       {name + "primary_deviation", "1", "geometric deviation of the mean primary diameters of particles, by number"},
       {name + "sintering_level", "1", "mean over particles of their mean sintering level; of one primary 1"},
       {name + "sintering_rate", "m^2/m^3/s", "surface that goes by sintering"},
-      {name + "largest", "1", "primaries of the particle that has most of them"}};
+      {name + "largest", "1", "primaries of the particle that has most of them"},
+      {name + "mobility_diameter", "m", "mean diameter of mobility, that of soot's aggregates"}};
+  if (functionals_.hasRatio()) {
+    const Column& ratio = functionals_.column(TreeFunctionals::elementRatio);
+    all.push_back({name + ratio.name, ratio.unit, "mean over particles: " + ratio.description});
+  }
   for (const TreeComponent& c : material_.components)
     all.push_back({name + c.name, "1/m^3", "units of " + c.name + " in all particles"});
-  const auto count = [&](const char* event, const std::string& description) {
-    all.push_back({name + event, "1/m^3", description + ", since the beginning"});
-  };
-  count("inceptions", "particles born");
-  count("coagulations", "collisions of particles");
-  for (const TreeEvent& event : treeEvents(material_)) count(event.name, event.description);
+  for (const TreeEvent& event : treeEvents(material_))
+    all.push_back({name + event.names, "1/m^3", std::string(event.description) + ", since the beginning"});
+  for (const TreeEvent& event : treeEvents(material_)) {
+    if (event.name == nullptr) continue;
+    all.push_back({name + event.name + "_rate", "1/m^3/s", std::string(event.description) + ", by the law"});
+    all.push_back(
+        {name + event.name + "_events", "1", std::string(event.description) + ", in the sample since the beginning"});
+  }
   all.push_back({name + "numerical_particles", "1", "numerical particles of the sample"});
   return all;
 }
@@ -162,8 +175,15 @@ void ReactorTrees::settle() {
   population_->settle();
 }
 
-std::vector<double> ReactorTrees::values() const {
+std::vector<double> ReactorTrees::values(const ParticleGas& gas) const {
   const TreeTotals t = population_->totals();
+  double massCubed = 0, mobility = 0, ratios = 0;
+  population_->forEachTree([&](const Tree& tree, double number) {
+    const double mass = tree.head().volume * material_.density;
+    massCubed += number * mass * mass * mass;
+    mobility += number * functionals_.of(tree.head(), TreeFunctionals::mobilityDiameter);
+    if (functionals_.hasRatio()) ratios += number * functionals_.of(tree.head(), TreeFunctionals::elementRatio);
+  });
   std::vector<double> values{t.volume,
                              t.number,
                              t.number > 0 ? sphereDiameter(t.volume / t.number) : 0.0,
@@ -173,43 +193,43 @@ std::vector<double> ReactorTrees::values() const {
                              t.surface,
                              t.mass,
                              t.massSquared,
+                             massCubed,
                              t.number > 0 ? t.primaries / t.number : 0.0,
                              t.primaryDiameter,
                              t.primaryDeviation,
                              t.sinteringLevel,
                              t.sinteringRate,
-                             static_cast<double>(t.largest)};
+                             static_cast<double>(t.largest),
+                             t.number > 0 ? mobility / t.number : 0.0};
+  if (functionals_.hasRatio()) values.push_back(t.number > 0 ? ratios / t.number : 0.0);
   values.insert(values.end(), t.units.begin(),
                 t.units.begin() + static_cast<std::ptrdiff_t>(material_.components.size()));
-  values.insert(values.end(), {total_.inceptions, total_.coagulations});
+  const TreeRates rates = population_->rates(gas, pairsForRate);
+  const TreeCounters counters = population_->counters();
   for (const TreeEvent& event : treeEvents(material_)) values.push_back(total_.*event.number);
+  for (const TreeEvent& event : treeEvents(material_))
+    if (event.name != nullptr)
+      values.insert(values.end(), {rates.*event.rate, static_cast<double>(counters.*event.count)});
   values.push_back(static_cast<double>(population_->size()));
   return values;
-}
-
-std::vector<ReactorPopulation::Distribution> ReactorTrees::distributions() const {
-  return {{"", "by diameter of collision"},
-          {"sphere_", "by diameter of the sphere of the particle's volume"},
-          {"primary_", "of primaries, by their diameter"}};
-}
-
-std::vector<double> ReactorTrees::distribution(std::size_t k, double logMin, double logMax, std::size_t bins) const {
-  using Diameter = TreePopulation::Diameter;
-  return population_->sizeDistribution(std::array{Diameter::collision, Diameter::sphere, Diameter::primary}.at(k),
-                                       logMin, logMax, bins);
 }
 
 std::vector<std::pair<std::string, double>> ReactorTrees::counts() const {
   const TreeCounters c = population_->counters();
   const auto value = [](std::uint64_t count) { return static_cast<double>(count); };
-  std::vector<std::pair<std::string, double>> all{{"inceptions", value(c.inceptions)},
-                                                  {"coagulations", value(c.coagulations)},
-                                                  {"fictitious_collisions", value(c.fictitious)},
-                                                  {"fused_primaries", value(c.fused)},
-                                                  {"doublings", value(c.doublings)},
-                                                  {"removals", value(c.removals)},
-                                                  {"splitting_steps", value(c.splitSteps)}};
+  std::vector<std::pair<std::string, double>> all{
+      {"inceptions", value(c.inceptions)},
+      {"coagulations", value(c.coagulations)},
+      {"fictitious_collisions", value(c.fictitious)},
+      {"collision_pairs", value(c.coagulations + c.fictitious)},
+      {"collision_pairs_above_majorant", 0.0},  // the first ends the run (checkBound)
+      {"fused_primaries", value(c.fused)},
+      {"doublings", value(c.doublings)},
+      {"removals", value(c.removals)},
+      {"splitting_steps", value(c.splitSteps)}};
   if (material_.sites() != nullptr) {
+    all.emplace_back("surface_reactions", value(c.reactions));
+    all.emplace_back("condensations", value(c.condensations));
     all.emplace_back("condensations_bounded", value(c.limited));
     all.emplace_back("sintering_without_sites", value(c.withoutSites));
   } else {

@@ -3,12 +3,14 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "chemistry/mechanism/mechanism.hpp"
 #include "core/rooms.hpp"
 #include "coupling/reactor_population.hpp"
+#include "coupling/tree_functionals.hpp"
 #include "particles/trees/tree_population.hpp"
 
 namespace lampblack::coupling {
@@ -45,10 +47,17 @@ class ReactorTrees final : public ReactorPopulation {
   [[nodiscard]] std::string material() const override { return material_.name; }
   [[nodiscard]] std::vector<Column> columns() const override;
   void settle() override;
-  [[nodiscard]] std::vector<double> values() const override;
+  [[nodiscard]] std::vector<double> values(const ParticleGas& gas) const override;
   [[nodiscard]] std::vector<Distribution> distributions() const override;
   [[nodiscard]] std::vector<double> distribution(std::size_t k, double logMin, double logMax,
                                                  std::size_t bins) const override;
+  // Of the sintering level and the ratio of elements.
+  [[nodiscard]] std::vector<Distribution> shares() const override;
+  [[nodiscard]] std::vector<double> shareDistribution(std::size_t k, std::size_t bins) const override;
+  // By diameter of collision and by number of primaries; averages of all functionals.
+  [[nodiscard]] std::vector<Column> classedBy() const override;
+  [[nodiscard]] std::vector<Column> classAverages() const override;
+  [[nodiscard]] std::vector<double> classSums(std::size_t by, std::span<const double> edges) const override;
   // Particles, their primaries, and the necks between these.
   [[nodiscard]] std::vector<Table> tables() const override;
   [[nodiscard]] std::vector<std::pair<std::string, double>> counts() const override;
@@ -62,6 +71,7 @@ class ReactorTrees final : public ReactorPopulation {
   void requireAtoms(const Mechanism& mechanism, const SiteReactions& reactions) const;
 
   TreeMaterial material_;
+  TreeFunctionals functionals_;
   GasViscosity viscosity_;
   std::unique_ptr<TreePopulation> population_;
   std::vector<std::size_t> species_;

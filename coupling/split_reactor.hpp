@@ -137,11 +137,11 @@ class SplitReactor {
   [[nodiscard]] std::span<const double> state(std::size_t reactor) const {
     return std::span(y_).subspan(reactor * block_, block_);
   }
+  // The gas of a reactor as its particles see it, until the next call.
+  [[nodiscard]] const ParticleGas& gas(std::size_t reactor);
   [[nodiscard]] const Work& work() const { return work_; }
 
  private:
-  // The gas of a reactor as its particles see it.
-  [[nodiscard]] const ParticleGas& gas(std::size_t reactor);
   double step(double h);
   void react(double h);
   // The particles to where the marks say that their gas is. Densities (kg/m3) at the beginning of the part.

@@ -1,6 +1,7 @@
 #include "io/csv.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/errors.hpp"
 
@@ -25,10 +26,21 @@ std::string csvLine(const std::vector<std::string>& fields) {
   return line + '\n';
 }
 
+std::string csvRows(std::span<const double> rows, std::size_t width) {
+  std::string lines;
+  for (std::size_t i = 0; i < rows.size(); i += width)
+    lines += fmt::format("{}\n", fmt::join(rows.subspan(i, width), ","));
+  return lines;
+}
+
 std::string csvHeader(const std::vector<Quantity>& columns) {
   std::vector<std::string> names;
   for (const Quantity& column : columns) names.push_back(fmt::format("{} [{}]", column.name, column.unit));
   return csvLine(names);
+}
+
+std::string csvTable(const std::vector<Quantity>& columns, std::span<const double> rows) {
+  return csvHeader(columns) + csvRows(rows, columns.size());
 }
 
 std::string csvText(const TextTable& table) {

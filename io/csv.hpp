@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,9 @@ std::string csvLine(const std::vector<std::string>& fields);
 // "time [s],X_C5H5O(1,3) [1]", the second in quotes.
 std::string csvHeader(const std::vector<Quantity>& columns);
 std::string csvText(const TextTable& table);
+// Numbers, row-major: a row a line, in the shortest digits that give the number back; under their quantities.
+std::string csvRows(std::span<const double> rows, std::size_t width);
+std::string csvTable(const std::vector<Quantity>& columns, std::span<const double> rows);
 
 // Lines that begin with # and a byte-order mark are skipped. InputError where a row has another number of fields than
 // the first line.

@@ -1,8 +1,5 @@
 #include "io/history.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <cerrno>
 #include <stdexcept>
 
@@ -38,10 +35,7 @@ void HistoryWriter::row(std::span<const double> values) {
     const std::size_t width = columns_.size();
     if (values.size() % width != 0) throw std::logic_error("a row of the history does not fit its columns");
     rows_.insert(rows_.end(), values.begin(), values.end());
-    std::string lines;
-    for (std::size_t i = 0; i < values.size(); i += width)
-      lines += fmt::format("{}\n", fmt::join(values.subspan(i, width), ","));
-    write(lines);
+    write(csvRows(values, width));
   });
 }
 

@@ -109,6 +109,29 @@ void addRuns(DeckSchema& schema) {
                .onlyWith("reactor.type", {"plug_flow"}));
 }
 
+void addClasses(DeckSchema& schema) {
+  schema
+      .add(quantityKey("particles.classes.collision_diameter", units::length,
+                       "Diameters of collision between which particles are classes with averages of their own: "
+                       "classes_collision_diameter.csv, such as [50 nm, 200 nm] for three classes.")
+               .list()
+               .optional()
+               .above(0))
+      .add(numberKey("particles.classes.primaries",
+                     "Numbers of primaries between which particles are classes with averages of their own: "
+                     "classes_primaries.csv; a particle of as many belongs to the class above.")
+               .list()
+               .optional()
+               .above(0));
+}
+
+// Ends of classes, rising.
+std::vector<double> risingEdges(const Deck& deck, const std::string& key, std::vector<double> edges) {
+  for (std::size_t k = 1; k < edges.size(); ++k)
+    if (!(edges[k] > edges[k - 1])) throw deck.error(key, "expected numbers that rise");
+  return edges;
+}
+
 bool isPlugFlow(const Deck& deck) {
   return deck.choice("reactor.type") == "plug_flow";
 }
@@ -146,6 +169,7 @@ void addTreeReactorKeys(DeckSchema& schema) {
               "temperature has to be given.",
               "8192");
   addRuns(schema);
+  addClasses(schema);
 }
 
 TreeOptions readTreeOptions(const Deck& deck, const Mechanism& mechanism) {
@@ -197,6 +221,10 @@ TreeRequest readTrees(const Deck& deck, const Mechanism& mechanism) {
   request.repeats = deck.integer<std::size_t>("particles.repeats");
   request.bins = readSizeBins(deck, "particles");
   request.tablesAt = readTablesAt(deck);
+  if (const std::string key = "particles.classes.collision_diameter"; deck.has(key))
+    request.classesByDiameter = risingEdges(deck, key, deck.quantities(key));
+  if (const std::string key = "particles.classes.primaries"; deck.has(key))
+    request.classesByPrimaries = risingEdges(deck, key, deck.numbers(key));
   if (const std::size_t tables = request.tablesAt.size(); tables > 0)
     requireMemory(deck, tablesKey(deck), fmt::format("{} tables of {} particles", tables, options.particles),
                   1000 * static_cast<double>(tables) * static_cast<double>(options.particles));

@@ -18,6 +18,8 @@ struct TreeRequest {
   std::size_t repeats = 1;
   SizeBins bins;
   std::vector<double> tablesAt;  // s (plug flow: m), rising
+  // Edges of classes, rising, in the order of ReactorTrees::classedBy(); of none no averages are wanted.
+  std::vector<double> classesByDiameter, classesByPrimaries;
 };
 
 // The section, described for the problem, with the keys that all problems have; `particles`: the default number of

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "coupling/block_statistics.hpp"
+#include "app/run/repeat_columns.hpp"
 
 namespace lampblack::app {
 namespace {
@@ -52,33 +52,12 @@ void appendGas(const AlongCase& along, std::size_t row, std::vector<double>& row
   rows.insert(rows.end(), {at.time, at.gas.temperature, at.gas.pressure, at.gas.density});
 }
 
-// A mean, its error, the half widths of its intervals.
-void addColumns(const char* name, const char* unit, const char* description, std::vector<Quantity>& columns) {
-  const std::string text = name;
-  columns.push_back({text, unit, std::string(description) + ", mean of the repeats"});
-  columns.push_back({text + "_error", unit, "standard error of that mean"});
-  columns.push_back({text + "_ci95", unit, "half width of its interval of 95 %"});
-  columns.push_back({text + "_ci999", unit, "half width of its interval of 99.9 %"});
-}
-
-class Intervals {
- public:
-  explicit Intervals(std::size_t repeats)
-      : narrow_(studentQuantile(repeats - 1, 0.95)), wide_(studentQuantile(repeats - 1, 0.999)) {}
-  void append(double mean, double error, std::vector<double>& rows) const {
-    rows.insert(rows.end(), {mean, error, narrow_ * error, wide_ * error});
-  }
-
- private:
-  double narrow_, wide_;
-};
-
 }  // namespace
 
 AlongTable historyOf(const AlongCase& along, const PathEnsemble& ensemble) {
   AlongTable table{{std::begin(gasColumns), std::end(gasColumns)}, {}};
-  for (const NamedValue& v : namedValues) addColumns(v.name, v.unit, v.description, table.columns);
-  const Intervals intervals(along.ensemble->repeats);
+  for (const NamedValue& v : namedValues) addRepeatColumns({v.name, v.unit, v.description}, table.columns);
+  const RepeatIntervals intervals(along.ensemble->repeats);
   for (std::size_t row = 0; row < along.recorded.size(); ++row) {
     appendGas(along, row, table.rows);
     for (const NamedValue& v : namedValues)
@@ -106,8 +85,8 @@ AlongTable historyOf(const AlongCase& along, const ModelAlong& model) {
 
 AlongTable ratesOf(const AlongCase& along, const PathEnsemble& ensemble) {
   AlongTable table{{{"from", "s", "begin of the interval"}, {"to", "s", "end of the interval"}}, {}};
-  for (const NamedRate& r : namedRates) addColumns(r.name, r.unit, r.description, table.columns);
-  const Intervals intervals(along.ensemble->repeats);
+  for (const NamedRate& r : namedRates) addRepeatColumns({r.name, r.unit, r.description}, table.columns);
+  const RepeatIntervals intervals(along.ensemble->repeats);
   for (std::size_t i = 0; i < ensemble.exchange.size(); ++i) {
     const double from = along.path.points[along.recorded[i]].time, to = along.path.points[along.recorded[i + 1]].time;
     table.rows.insert(table.rows.end(), {from, to});

@@ -24,16 +24,6 @@ void addCounters(PopulationCounters& sum, const PopulationCounters& more) {
 
 }  // namespace
 
-double RunningMean::mean() const {
-  return count_ > 0 ? mean_ : missing;
-}
-
-double RunningMean::standardError() const {
-  if (count_ < 2) return missing;
-  const auto n = static_cast<double>(count_);
-  return std::sqrt(squares_ / (n - 1) / n);
-}
-
 MethodAccumulator::MethodAccumulator(const PopulationCase& populationCase, const PopulationMethod& method,
                                      const PopulationStatistics& frame, const RepeatRecord::Shape& shape)
     : case_(populationCase),

@@ -4,25 +4,9 @@
 #include "app/population_balance/population_repeat.hpp"
 #include "app/population_balance/population_statistics.hpp"
 #include "core/rooms.hpp"
+#include "core/running_mean.hpp"
 
 namespace lampblack::app {
-
-// Mean and scatter of numbers that come one by one (Welford 1962).
-class RunningMean {
- public:
-  void add(double value) {
-    ++count_;
-    const double away = value - mean_;
-    mean_ += away / static_cast<double>(count_);
-    squares_ += away * (value - mean_);
-  }
-  [[nodiscard]] double mean() const;           // NaN of nothing
-  [[nodiscard]] double standardError() const;  // NaN of fewer than two
-
- private:
-  std::size_t count_ = 0;
-  double mean_ = 0, squares_ = 0;
-};
 
 class MethodAccumulator {
  public:

@@ -5,19 +5,18 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <span>
 
 #include "app/population_balance/population_accumulator.hpp"
 #include "app/population_balance/population_repeat.hpp"
 #include "app/run/warnings.hpp"
 #include "core/errors.hpp"
+#include "core/repeats.hpp"
 #include "core/stop_request.hpp"
 #include "core/timers.hpp"
 
 namespace lampblack::app {
 namespace {
-
-// Numbers of repeats that are gathered at a time; bounds the memory and the size of a message.
-constexpr std::size_t gathered = std::size_t{1} << 24;
 
 struct Ranks {
   MPI_Comm comm;
@@ -57,43 +56,6 @@ ExactReference makeReference(const PopulationCase& populationCase, const ExactSo
     reference.number.push_back(std::move(number));
   }
   return reference;
-}
-
-// The records of the repeats [first, end), each from the rank that runs it, in their order on rank 0. `owner` of the
-// first; the following ones go round.
-std::vector<double> runBatch(const Ranks& ranks, const PopulationCase& populationCase, const PopulationMethod& method,
-                             std::uint64_t first, std::uint64_t end, int owner, std::optional<double> gelation,
-                             const RepeatRecord::Shape& shape, PopulationProgress& progress, double& seconds) {
-  const std::size_t width = shape.size(), total = end - first;
-  const auto size = static_cast<std::size_t>(ranks.size);
-  const auto offset = [&](int rank) { return static_cast<std::size_t>((rank - owner + ranks.size) % ranks.size); };
-  const auto count = [&](int rank) { return offset(rank) < total ? (total - offset(rank) - 1) / size + 1 : 0; };
-  std::vector<double> mine(count(ranks.rank) * width);
-  const double begin = MPI_Wtime();
-  collectively(ranks.comm, [&] {
-    for (std::size_t i = 0; i < count(ranks.rank); ++i)
-      runRepeat(populationCase, method, first + offset(ranks.rank) + i * size, gelation, shape, progress,
-                std::span(mine).subspan(i * width, width));
-    seconds += MPI_Wtime() - begin;
-  });
-  std::vector<int> counts, starts;
-  int sum = 0;
-  for (int r = 0; r < ranks.size; ++r) {
-    counts.push_back(static_cast<int>(count(r) * width));
-    starts.push_back(sum);
-    sum += counts.back();
-  }
-  std::vector<double> all(ranks.rank == 0 ? total * width : 0), ordered(all.size());
-  MPI_Gatherv(mine.data(), static_cast<int>(mine.size()), MPI_DOUBLE, all.data(), counts.data(), starts.data(),
-              MPI_DOUBLE, 0, ranks.comm);
-  if (ranks.rank != 0) return {};
-  for (std::size_t i = 0; i < total; ++i) {
-    const auto source = static_cast<std::size_t>((owner + static_cast<int>(i % size)) % ranks.size);
-    const auto from = all.begin() + starts[source] + static_cast<std::ptrdiff_t>(i / size * width);
-    std::copy(from, from + static_cast<std::ptrdiff_t>(width),
-              ordered.begin() + static_cast<std::ptrdiff_t>(i * width));
-  }
-  return ordered;
 }
 
 // The records of the methods that are run once, spread over the ranks; by the number of the method, on rank 0.
@@ -148,7 +110,7 @@ PopulationStatistics runPopulation(MPI_Comm comm, const PopulationCase& populati
   const std::optional<double> gelation = solution ? solution->gelationTime() : std::nullopt;
   const RepeatRecord::Shape shape{made.rows.size(), made.bins.times.size(),
                                   made.bins.edges.empty() ? 0 : made.bins.edges.size() - 1};
-  const std::uint64_t most = std::max<std::uint64_t>(gathered / shape.size(), static_cast<std::uint64_t>(ranks.size));
+  const std::uint64_t most = repeatsAtATime(comm, shape.size());
   std::vector<double> seconds(populationCase.methods.size(), 0.0);
   PopulationProgress progress(comm, populationCase);
   const auto once = runOnce(ranks, populationCase, gelation, shape, progress, seconds);
@@ -165,9 +127,12 @@ PopulationStatistics runPopulation(MPI_Comm comm, const PopulationCase& populati
     const std::uint64_t repeats = method.deterministic() ? 0 : populationCase.repeats;
     for (std::uint64_t first = 0; first < repeats; first += most) {
       const std::uint64_t end = std::min(repeats, first + most);
-      const auto owner = static_cast<int>(first % static_cast<std::uint64_t>(ranks.size));
       const std::vector<double> records =
-          runBatch(ranks, populationCase, method, first, end, owner, gelation, shape, progress, seconds[m]);
+          gatherRepeats(comm, first, end, shape.size(), [&](std::uint64_t repeat, std::span<double> record) {
+            const double begin = MPI_Wtime();
+            runRepeat(populationCase, method, repeat, gelation, shape, progress, record);
+            seconds[m] += MPI_Wtime() - begin;
+          });
       int gelled = 0;
       for (std::size_t at = 0; at < records.size(); at += shape.size()) {
         const RepeatRecord record(shape, std::span(records).subspan(at, shape.size()));

@@ -159,7 +159,10 @@ void readReactorTrees(const Deck& deck, ReactorCase& reactorCase) {
                             own.owner = owner;
                             return std::make_unique<ReactorTrees>(*mechanism, own, request.viscosity, request.start);
                           },
-                          request.tablesAt};
+                          request.tablesAt,
+                          {}};
+  if (!request.classesByDiameter.empty()) reactorCase.ensemble->classes.push_back({0, request.classesByDiameter});
+  if (!request.classesByPrimaries.empty()) reactorCase.ensemble->classes.push_back({1, request.classesByPrimaries});
   tryPopulation(deck, "particles", reactorCase);
   const auto& elements = reactorCase.ensemble->elements;
   const bool isGiven =
@@ -193,6 +196,7 @@ void readReactorEnsemble(const Deck& deck, ReactorCase& reactorCase) {
                             own.owner = owner;
                             return std::make_unique<ReactorEnsemble>(*mechanism, own);
                           },
+                          {},
                           {}};
   tryPopulation(deck, "stochastic", reactorCase);
 }

@@ -37,6 +37,12 @@ struct ReactorPopulations {
   std::vector<std::string> elements;
   PopulationMaker make;
   std::vector<double> tablesAt;  // s (plug flow: m), rising: where every particle of the first repeat is written
+  // Classes of particles for averages: by which of ReactorPopulation::classedBy(), and the edges between them.
+  struct Classes {
+    std::size_t by = 0;
+    std::vector<double> edges;
+  };
+  std::vector<Classes> classes;
 };
 
 struct ReactorCase {

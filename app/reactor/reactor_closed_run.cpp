@@ -21,7 +21,7 @@ namespace {
 // A change of temperature (K) below which nobody would speak of ignition.
 constexpr double kIgnited = 50;
 
-class ClosedReactorDriver : public ReactorDriver {
+class ClosedReactorDriver : public ReactorOfOneRank {
  public:
   explicit ClosedReactorDriver(const ReactorCase& reactorCase)
       : case_(reactorCase),

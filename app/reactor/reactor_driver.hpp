@@ -1,4 +1,5 @@
-// One kind of reactor run. Rank 0 computes; then all ranks write together, and rank 0 says what came out.
+// One kind of reactor run. It is computed, by rank 0 or by all; then all ranks write together, and rank 0 says what
+// came out.
 #pragma once
 
 #include <mpi.h>
@@ -6,6 +7,7 @@
 #include <memory>
 
 #include "app/reactor/reactor_case.hpp"
+#include "core/errors.hpp"
 #include "core/rooms.hpp"
 #include "io/json.hpp"
 #include "io/results_writer.hpp"
@@ -17,8 +19,8 @@ class ReactorDriver {
  public:
   virtual ~ReactorDriver() = default;
 
-  // On rank 0 alone: solves and writes the files of text. NumericsError.
-  virtual void compute(const RunFolder& folder) = 0;
+  // Collective: solves and writes the files of text. NumericsError on all ranks.
+  virtual void run(MPI_Comm comm, const RunFolder& folder) = 0;
   // Collective: the tables of the results file.
   virtual void write(ResultsWriter& results) const = 0;
   // On rank 0: fields of the record's object "results", and the summary on the console.
@@ -31,6 +33,21 @@ class ReactorDriver {
   ReactorDriver() = default;
   ReactorDriver(const ReactorDriver&) = default;
   ReactorDriver& operator=(const ReactorDriver&) = default;
+};
+
+// What one rank solves.
+class ReactorOfOneRank : public ReactorDriver {
+ public:
+  void run(MPI_Comm comm, const RunFolder& folder) final {
+    int rank = 0;
+    MPI_Comm_rank(comm, &rank);
+    collectively(comm, [&] {
+      if (rank == 0) compute(folder);
+    });
+  }
+
+ protected:
+  virtual void compute(const RunFolder& folder) = 0;
 };
 
 // The drivers refer to the case, which has to live as long.

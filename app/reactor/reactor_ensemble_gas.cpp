@@ -2,11 +2,9 @@
 
 #include <cmath>
 
-namespace lampblack::app {
+#include "app/reactor/reactor_ensemble_columns.hpp"
 
-std::size_t numReactors(const ReactorCase& reactorCase) {
-  return reactorCase.type == ReactorType::Network ? reactorCase.network.reactors.size() : 1;
-}
+namespace lampblack::app {
 
 EnsembleGas::EnsembleGas(const ReactorCase& reactorCase)
     : case_(reactorCase), particles_(numReactors(reactorCase), reactorCase.ensemble->elements) {

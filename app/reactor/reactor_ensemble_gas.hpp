@@ -13,9 +13,6 @@
 
 namespace lampblack::app {
 
-// One, but for a network.
-[[nodiscard]] std::size_t numReactors(const ReactorCase& reactorCase);
-
 class EnsembleGas {
  public:
   // The case has to live as long.

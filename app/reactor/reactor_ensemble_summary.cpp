@@ -2,86 +2,76 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <string>
+#include <utility>
 
 namespace lampblack::app {
 
+EnsembleSummary::EnsembleSummary(std::vector<Quantity> columns, const ReactorRepeatShape& shape,
+                                 const std::vector<std::size_t>& late)
+    : columns_(std::move(columns)),
+      shape_(shape),
+      values_(shape.rows * shape.columns),
+      densities_(shape.rows * shape.densities) {
+  for (const std::size_t column : late) late_.push_back({column, {}, {}});
+}
+
 std::vector<Quantity> EnsembleSummary::columnsWithErrors() const {
-  std::vector<Quantity> all = columns_;
-  for (std::size_t c = 1; c < columns_.size(); ++c)
-    all.push_back({columns_[c].name + "_error", columns_[c].unit, "standard error of the mean of the repeats"});
+  std::vector<Quantity> all{columns_[0]};
+  for (std::size_t c = 1; c < columns_.size(); ++c) addRepeatColumns(columns_[c], all);
   return all;
 }
 
-// Mean of the repeats and its standard error.
-template <typename Value>
-std::pair<double, double> EnsembleSummary::meanAndError(const Value& value) const {
-  const auto count = static_cast<double>(repeats_.size());
-  double mean = 0, sum = 0;
-  for (const Repeat& repeat : repeats_) mean += value(repeat) / count;
-  for (const Repeat& repeat : repeats_) sum += std::pow(value(repeat) - mean, 2);
-  return {mean, std::sqrt(sum / (count * (count - 1)))};
-}
-
-EnsembleSummary::Late EnsembleSummary::late(std::size_t column) const {
-  const std::size_t rows = repeats_[0].rows.size(), half = rows / 2, quarter = rows - half / 2;
-  const auto over = [&](std::size_t first, std::size_t last) {
-    return meanAndError([&](const Repeat& r) {
-      double sum = 0;
-      for (std::size_t i = first; i < last; ++i) sum += r.rows[i][column];
-      return sum / static_cast<double>(last - first);
-    });
-  };
-  const auto [mean, error] = over(half, rows);
-  return {column, mean, error, over(quarter, rows).first - over(half, quarter).first};
-}
-
-void EnsembleSummary::summarise(const std::vector<std::size_t>& late) {
-  if (repeats_.size() < 2) return;
-  for (std::size_t i = 0; i < repeats_[0].rows.size(); ++i) {
-    std::vector<double> means, errors, distribution, distributionErrors;
-    for (std::size_t c = 0; c < columns_.size(); ++c) {
-      const auto [mean, error] = meanAndError([&](const Repeat& r) { return r.rows[i][c]; });
-      means.push_back(mean);
-      if (c > 0) errors.push_back(error);
-    }
-    means.insert(means.end(), errors.begin(), errors.end());
-    rows_.push_back(std::move(means));
-    for (std::size_t b = 0; b < repeats_[0].distributions[i].size(); ++b) {
-      const auto [mean, error] = meanAndError([&](const Repeat& r) { return r.distributions[i][b]; });
-      distribution.push_back(mean);
-      distributionErrors.push_back(error);
-    }
-    distributions_.push_back(std::move(distribution));
-    distributionErrors_.push_back(std::move(distributionErrors));
+void EnsembleSummary::add(const ReactorRepeatNumbers<const double>& repeat) {
+  ++repeats_;
+  for (std::size_t row = 0; row < shape_.rows; ++row) {
+    const auto columns = repeat.columns(row), densities = repeat.densities(row);
+    for (std::size_t c = 0; c < columns.size(); ++c) values_[row * shape_.columns + c].add(columns[c]);
+    for (std::size_t b = 0; b < densities.size(); ++b) densities_[row * shape_.densities + b].add(densities[b]);
   }
-  for (const std::size_t column : late) late_.push_back(this->late(column));
+  const std::size_t rows = shape_.rows, half = rows / 2, quarter = rows - half / 2;
+  for (Late& late : late_) {
+    const auto over = [&](std::size_t first, std::size_t end) {
+      double sum = 0;
+      for (std::size_t row = first; row < end; ++row) sum += repeat.columns(row)[late.column];
+      return sum / static_cast<double>(end - first);
+    };
+    late.mean.add(over(half, rows));
+    late.drift.add(over(quarter, rows) - over(half, quarter));
+  }
+}
+
+std::vector<double> EnsembleSummary::row(std::size_t row) const {
+  const RepeatIntervals intervals(repeats_);
+  std::vector<double> values{place(row)};
+  for (std::size_t c = 1; c < columns_.size(); ++c) {
+    const RunningMean& value = values_[row * shape_.columns + c];
+    intervals.append(value.mean(), value.standardError(), values);
+  }
+  return values;
 }
 
 void EnsembleSummary::record(JsonWriter& json, const std::vector<std::size_t>& recorded) const {
-  if (rows_.empty()) return;
-  const std::size_t n = columns_.size();
-  for (const std::size_t c : recorded) {
-    json.field("final_" + columns_[c].name, rows_.back()[c]);
-    json.field("final_" + columns_[c].name + "_error", rows_.back()[n - 1 + c]);
-  }
+  if (!has()) return;
+  for (const std::size_t c : recorded)
+    json.field("final_" + columns_[c].name, last(c).mean())
+        .field("final_" + columns_[c].name + "_error", last(c).standardError());
   for (const Late& late : late_) {
     const std::string& name = columns_[late.column].name;
-    json.field("late_mean_" + name, late.mean)
-        .field("late_mean_" + name + "_error", late.error)
-        .field("late_drift_" + name, late.drift);
+    json.field("late_mean_" + name, late.mean.mean())
+        .field("late_mean_" + name + "_error", late.mean.standardError())
+        .field("late_drift_" + name, late.drift.mean());
   }
 }
 
 void EnsembleSummary::print(const std::vector<std::size_t>& shown) const {
-  if (rows_.empty()) return;
+  if (!has()) return;
   for (const std::size_t c : shown)
-    fmt::print("{:<24} {:.6g} +- {:.2g} {}\n", columns_[c].name, rows_.back()[c], rows_.back()[columns_.size() - 1 + c],
+    fmt::print("{:<24} {:.6g} +- {:.2g} {}\n", columns_[c].name, last(c).mean(), last(c).standardError(),
                columns_[c].unit);
   for (const Late& late : late_)
     fmt::print("second half: {:<24} {:.6g} +- {:.2g}, its last quarter less the one before {:.2g}\n",
-               columns_[late.column].name, late.mean, late.error, late.drift);
+               columns_[late.column].name, late.mean.mean(), late.mean.standardError(), late.drift.mean());
 }
 
 }  // namespace lampblack::app

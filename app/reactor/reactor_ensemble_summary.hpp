@@ -1,56 +1,59 @@
-// What the repeats of a run with ensembles come to: means of their rows and size distributions with the standard errors
-// of these, and means over the late part of the time where something steady is looked for.
+// What the repeats of a run with ensembles come to: means of their rows and distributions with standard errors, and
+// means over the late part of the time where something steady is looked for.
 #pragma once
 
 #include <cstddef>
-#include <utility>
 #include <vector>
 
+#include "app/reactor/reactor_ensemble_columns.hpp"
+#include "app/run/repeat_columns.hpp"
 #include "core/rooms.hpp"
-#include "io/history.hpp"
+#include "core/running_mean.hpp"
 #include "io/json.hpp"
 
 namespace lampblack::app {
 
 class EnsembleSummary {
  public:
-  // A repeat: its rows, and at each of them the size distributions of all reactors, one behind the other.
-  struct Repeat {
-    std::vector<std::vector<double>> rows, distributions;
-  };
-  // The mean of a column over the second half of the rows, and its last quarter less the one before.
-  struct Late {
-    std::size_t column = 0;
-    double mean = 0, error = 0, drift = 0;
-  };
-
-  // Columns of a repeat's rows; the first has no error.
-  explicit EnsembleSummary(std::vector<Quantity> columns) : columns_(std::move(columns)) {}
+  // The first of the columns has no error. `late`: those whose mean over the second half of the rows is told, and by
+  // what its last quarter exceeds the one before.
+  EnsembleSummary(std::vector<Quantity> columns, const ReactorRepeatShape& shape, const std::vector<std::size_t>& late);
 
   [[nodiscard]] const std::vector<Quantity>& columns() const { return columns_; }
-  // The same and their errors: those of rows().
+  // The same and their errors: those of row().
   [[nodiscard]] std::vector<Quantity> columnsWithErrors() const;
 
-  void add(Repeat repeat) { repeats_.push_back(std::move(repeat)); }
-  [[nodiscard]] std::size_t repeats() const { return repeats_.size(); }
-  // Of two repeats or more, all of the same number of rows; nothing otherwise. `late`: columns to average in time.
-  void summarise(const std::vector<std::size_t>& late);
+  // In the order of the repeats.
+  void add(const ReactorRepeatNumbers<const double>& repeat);
+  [[nodiscard]] std::size_t repeats() const { return repeats_; }
 
-  [[nodiscard]] const std::vector<std::vector<double>>& rows() const { return rows_; }
-  [[nodiscard]] const std::vector<std::vector<double>>& distributions() const { return distributions_; }
-  [[nodiscard]] const std::vector<std::vector<double>>& distributionErrors() const { return distributionErrors_; }
+  // There is something to tell of two repeats or more.
+  [[nodiscard]] bool has() const { return repeats_ >= 2; }
+  [[nodiscard]] std::size_t rows() const { return has() ? shape_.rows : 0; }
+  [[nodiscard]] double place(std::size_t row) const { return values_[row * shape_.columns].mean(); }
+  [[nodiscard]] std::vector<double> row(std::size_t row) const;
+  // Of a row, the bins of all distributions of all reactors.
+  [[nodiscard]] const RunningMean& density(std::size_t row, std::size_t bin) const {
+    return densities_[row * shape_.densities + bin];
+  }
+
   // The given columns at the end, and the late means.
   void record(JsonWriter& json, const std::vector<std::size_t>& recorded) const;
   void print(const std::vector<std::size_t>& shown) const;
 
  private:
-  template <typename Value>
-  std::pair<double, double> meanAndError(const Value& value) const;
-  [[nodiscard]] Late late(std::size_t column) const;
+  struct Late {
+    std::size_t column = 0;
+    RunningMean mean, drift;
+  };
+  [[nodiscard]] const RunningMean& last(std::size_t column) const {
+    return values_[(shape_.rows - 1) * shape_.columns + column];
+  }
 
   std::vector<Quantity> columns_;
-  std::vector<Repeat> repeats_;
-  std::vector<std::vector<double>> rows_, distributions_, distributionErrors_;
+  ReactorRepeatShape shape_;
+  std::size_t repeats_ = 0;
+  std::vector<RunningMean> values_, densities_;  // of the first row, of the second, ...
   std::vector<Late> late_;
 };
 

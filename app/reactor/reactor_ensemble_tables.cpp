@@ -10,11 +10,11 @@
 
 namespace lampblack::app {
 
-void EnsembleTables::take(const ReactorPopulation& population, const std::vector<double>& row) {
+void EnsembleTables::take(const ReactorPopulation& population, std::span<const double> row) {
   if (taken_.size() == populations_.tablesAt.size()) return;
   const double wanted = populations_.tablesAt[taken_.size()];
   if (row[0] < wanted * (1 - 1e-9)) return;
-  taken_.push_back({row, population.tables()});
+  taken_.push_back({{row.begin(), row.end()}, population.tables()});
 }
 
 void EnsembleTables::write(ResultsWriter& results) const {

@@ -2,6 +2,7 @@
 // the order of the deck's rising list.
 #pragma once
 
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -20,7 +21,7 @@ class EnsembleTables {
 
   // Offers the population as it stands at a row of its repeat, which begins with the place: kept if a table is wanted
   // there.
-  void take(const ReactorPopulation& population, const std::vector<double>& row);
+  void take(const ReactorPopulation& population, std::span<const double> row);
   // Collective; rank 0 has the values. Tables of moments that were not reached have no rows.
   void write(ResultsWriter& results) const;
 

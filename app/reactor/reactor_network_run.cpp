@@ -24,7 +24,7 @@ std::vector<Quantity> stirredColumns(const ReactorCase& reactorCase) {
   return columns;
 }
 
-class StirredTransientDriver : public ReactorDriver {
+class StirredTransientDriver : public ReactorOfOneRank {
  public:
   explicit StirredTransientDriver(const ReactorCase& reactorCase)
       : case_(reactorCase),
@@ -80,7 +80,7 @@ class StirredTransientDriver : public ReactorDriver {
   double temperature_ = 0, seconds_ = 0;
 };
 
-class SteadyNetworkDriver : public ReactorDriver {
+class SteadyNetworkDriver : public ReactorOfOneRank {
  public:
   explicit SteadyNetworkDriver(const ReactorCase& reactorCase)
       : case_(reactorCase), particles_(reactorCase, ReactorParticleOutput::Kept::nothing) {}

@@ -21,7 +21,7 @@ std::vector<Quantity> plugFlowColumns(const ReactorCase& reactorCase) {
   return columns;
 }
 
-class PlugFlowDriver : public ReactorDriver {
+class PlugFlowDriver : public ReactorOfOneRank {
  public:
   explicit PlugFlowDriver(const ReactorCase& reactorCase)
       : case_(reactorCase),

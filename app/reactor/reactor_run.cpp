@@ -49,9 +49,9 @@ class PreparedReactor : public PreparedRun {
     MPI_Comm_rank(comm_, &rank);
     recordedRun(comm_, deck_, options, 0, [&](const RunFolder& folder, const RunInfo& info, RunRecord& record) {
       const double begin = MPI_Wtime();
+      driver_->run(comm_, folder);
       collectively(comm_, [&] {
         if (rank != 0) return;
-        driver_->compute(folder);
         JsonWriter json;
         json.beginObject();
         driver_->record(json);

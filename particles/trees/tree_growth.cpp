@@ -8,7 +8,6 @@
 
 namespace lampblack::particles {
 
-// Rate of the reaction within the tree (eq. 59), below zero where sintering takes more sites than the surface gets.
 double TreeGrowth::within(const TreeHead& tree, double sites) const {
   if (!reactions_.condenses) return 0;
   const double bySintering = tree.count > 1 ? 0.5 * sites / tree.surface * tree.sintering : 0;

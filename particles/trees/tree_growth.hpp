@@ -25,13 +25,15 @@ class TreeGrowth {
 
   // 1/s for each site.
   void setRate(double perSite) { rate_ = perSite; }
+  // 1/s, of the reaction within a tree with so many sites (eq. 59): below zero where sintering takes more sites than
+  // the surface gets.
+  [[nodiscard]] double within(const TreeHead& tree, double sites) const;
   // Over dt (s). True where the tree has changed: its necks may have to fuse then.
   bool advance(Tree& tree, double dt, RandomStream& random, Changes& changes);
 
  private:
   void oneByOne(TreeHead& tree, TreePrimary* primaries, double left, RandomStream& random, Changes& changes);
   void inNumbers(TreeHead& tree, TreePrimary* primaries, double dt, RandomStream& random, Changes& changes);
-  [[nodiscard]] double within(const TreeHead& tree, double sites) const;
   void react(TreeHead& tree, TreePrimary* primaries, std::size_t i, double events, Changes& changes);
   void condense(TreeHead& tree, TreePrimary* primaries, std::size_t i, double events, Changes& changes);
 

@@ -12,6 +12,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <iterator>
 #include <memory>
 #include <span>
@@ -52,20 +53,30 @@ struct TreeExchange {
   double dimers = 0, grown = 0, oxidisedO2 = 0, oxidisedOH = 0, burntPrimaries = 0, burnt = 0, broken = 0;
 };
 
-// The events that a material has.
-struct TreeEvent {
-  double TreeExchange::*number;
-  const char *name, *description;
-};
-[[nodiscard]] std::vector<TreeEvent> treeEvents(const TreeMaterial& material);
-
 struct TreeCounters {
   std::uint64_t inceptions = 0, coagulations = 0, fictitious = 0, fused = 0, doublings = 0, removals = 0;
   std::uint64_t splitSteps = 0;
-  std::uint64_t limited = 0;            // reactions within particles bounded at zero or without two sites
-  std::uint64_t withoutSites = 0;       // necks that sintered by more sites than a primary had
+  std::uint64_t reactions = 0, condensations = 0;  // at surfaces; within particles, of pairs of sites
+  std::uint64_t limited = 0;                       // reactions within particles bounded at zero or without two sites
+  std::uint64_t withoutSites = 0;                  // necks that sintered by more sites than a primary had
   std::uint64_t burnt = 0, broken = 0;  // particles that burnt away, and that broke as one of their primaries did
 };
+
+// How often a process happens in a gas, 1/m3/s: as TreeExchange counts it. Of soot births and collisions alone.
+struct TreeRates {
+  double inceptions = 0, coagulations = 0, reactions = 0, condensations = 0;
+};
+
+// The events of a material: what they are called, one and many; where their rate and their number in the sample are
+// told, the first is null otherwise.
+struct TreeEvent {
+  double TreeExchange::*number;
+  const char *names, *description;
+  const char* name = nullptr;
+  double TreeRates::*rate = nullptr;
+  std::uint64_t TreeCounters::*count = nullptr;
+};
+[[nodiscard]] std::vector<TreeEvent> treeEvents(const TreeMaterial& material);
 
 // Sums per m3, means by number (SI).
 struct TreeTotals {
@@ -79,7 +90,7 @@ struct TreeTotals {
 };
 
 // How trees stand in a packed population (packed_tree.hpp).
-inline constexpr ParticleRows treeRows{18 + sizeof(TreeExchange) / sizeof(double) + std::size(populationCounters),
+inline constexpr ParticleRows treeRows{20 + sizeof(TreeExchange) / sizeof(double) + std::size(populationCounters),
                                        true};
 
 class TreePopulation {
@@ -98,6 +109,11 @@ class TreePopulation {
   [[nodiscard]] virtual std::size_t size() const = 0;
   [[nodiscard]] virtual double weight() const = 0;  // 1/m3 for a numerical particle
   [[nodiscard]] virtual TreeTotals totals() const = 0;
+  // Of the population as it is. Coagulation is that of so many pairs drawn at random, times the number of all: its
+  // expectation is exact.
+  [[nodiscard]] virtual TreeRates rates(const ParticleGas& gas, std::size_t pairs) const = 0;
+  // f(tree, number), 1/m3.
+  virtual void forEachTree(const std::function<void(const Tree&, double)>& f) const = 0;
   // dN/dlog10(d) (1/m3) in equal bins of log10(d/m).
   enum class Diameter { collision, sphere, primary };
   [[nodiscard]] virtual std::vector<double> sizeDistribution(Diameter of, double logMin, double logMax,

@@ -167,17 +167,27 @@ void TreeProcess::settle() {
 
 std::vector<TreeEvent> treeEvents(const TreeMaterial& material) {
   using E = TreeExchange;
+  using R = TreeRates;
+  using C = TreeCounters;
+  std::vector<TreeEvent> events{
+      {&E::inceptions, "inceptions", "particles born", "inception", &R::inceptions, &C::inceptions},
+      {&E::coagulations, "coagulations", "collisions of particles", "coagulation", &R::coagulations, &C::coagulations}};
+  const auto add = [&](std::initializer_list<TreeEvent> all) { events.insert(events.end(), all); };
   if (material.soot() == nullptr)
-    return {{&E::reactions, "surface_reactions", "molecules that reacted with a site of a surface"},
-            {&E::condensations, "condensations", "pairs of sites that reacted within a particle"},
-            {&E::sinteredPairs, "sintered_pairs", "pairs of sites that reacted as their surface sintered"}};
-  return {{&E::dimers, "condensations", "dimers or monomers of PAH that condensed on a particle"},
-          {&E::grown, "growth_reactions", "molecules of C2H2 that a surface took up"},
-          {&E::oxidisedO2, "oxidations_by_o2", "molecules of O2 that oxidised a surface"},
-          {&E::oxidisedOH, "oxidations_by_oh", "molecules of OH that oxidised a surface"},
-          {&E::burntPrimaries, "burnt_primaries", "primaries that burnt away"},
-          {&E::burnt, "burnt_particles", "particles that burnt away"},
-          {&E::broken, "broken_particles", "particles that broke as one of their primaries had burnt away"}};
+    add({{&E::reactions, "surface_reactions", "molecules that reacted with a site of a surface", "surface_reaction",
+          &R::reactions, &C::reactions},
+         {&E::condensations, "condensations", "pairs of sites that reacted within a particle", "condensation",
+          &R::condensations, &C::condensations},
+         {&E::sinteredPairs, "sintered_pairs", "pairs of sites that reacted as their surface sintered"}});
+  else
+    add({{&E::dimers, "condensations", "dimers or monomers of PAH that condensed on a particle"},
+         {&E::grown, "growth_reactions", "molecules of C2H2 that a surface took up"},
+         {&E::oxidisedO2, "oxidations_by_o2", "molecules of O2 that oxidised a surface"},
+         {&E::oxidisedOH, "oxidations_by_oh", "molecules of OH that oxidised a surface"},
+         {&E::burntPrimaries, "burnt_primaries", "primaries that burnt away"},
+         {&E::burnt, "burnt_particles", "particles that burnt away"},
+         {&E::broken, "broken_particles", "particles that broke as one of their primaries had burnt away"}});
+  return events;
 }
 
 std::unique_ptr<TreePopulation> makeTreePopulation(const TreeOptions& options) {

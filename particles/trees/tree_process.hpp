@@ -15,7 +15,7 @@
 namespace lampblack::particles {
 
 // Which random numbers of an owner are those of trees.
-inline constexpr std::uint32_t treeStream = 0x54524545;
+inline constexpr std::uint32_t treeStream = 0x54524545, treePairStream = 0x54524550;
 
 class TreeProcess final : public TreePopulation {
  public:
@@ -32,6 +32,8 @@ class TreeProcess final : public TreePopulation {
   [[nodiscard]] std::size_t size() const override { return method_.size(); }
   [[nodiscard]] double weight() const override { return method_.weight(); }
   [[nodiscard]] TreeTotals totals() const override;
+  [[nodiscard]] TreeRates rates(const ParticleGas& gas, std::size_t pairs) const override;
+  void forEachTree(const std::function<void(const Tree&, double)>& f) const override { method_.forEachParticle(f); }
   [[nodiscard]] std::vector<double> sizeDistribution(Diameter of, double logMin, double logMax,
                                                      std::size_t bins) const override;
   [[nodiscard]] std::vector<Tree> trees() const override;

@@ -110,8 +110,9 @@ std::vector<double> TreeProcess::pack() const {
   state.push_back(type_.clock());
   state.push_back(cost_);
   packDoubles(state, exchange_);
-  for (const std::uint64_t count : {counters_.inceptions, counters_.fictitious, counters_.fused, counters_.splitSteps,
-                                    counters_.limited, counters_.withoutSites, counters_.burnt, counters_.broken})
+  for (const std::uint64_t count :
+       {counters_.inceptions, counters_.fictitious, counters_.fused, counters_.splitSteps, counters_.reactions,
+        counters_.condensations, counters_.limited, counters_.withoutSites, counters_.burnt, counters_.broken})
     state.push_back(static_cast<double>(count));
   for (const PopulationCounter& counter : populationCounters)
     state.push_back(static_cast<double>(const_cast<Method&>(method_).counters().*counter.value));
@@ -130,8 +131,9 @@ void TreeProcess::unpack(std::span<const double> values) {
   type_.clock() = state.next();
   cost_ = state.next();
   exchange_ = state.next<TreeExchange>();
-  for (std::uint64_t* count : {&counters_.inceptions, &counters_.fictitious, &counters_.fused, &counters_.splitSteps,
-                               &counters_.limited, &counters_.withoutSites, &counters_.burnt, &counters_.broken})
+  for (std::uint64_t* count :
+       {&counters_.inceptions, &counters_.fictitious, &counters_.fused, &counters_.splitSteps, &counters_.reactions,
+        &counters_.condensations, &counters_.limited, &counters_.withoutSites, &counters_.burnt, &counters_.broken})
     *count = static_cast<std::uint64_t>(state.next());
   for (const PopulationCounter& counter : populationCounters)
     method_.counters().*counter.value = static_cast<std::uint64_t>(state.next());

@@ -54,6 +54,8 @@ void TreeSites::bookGrowth(double weight, TreeExchange& exchange, TreeCounters& 
   exchange.gas[product] += reactions_.growthProducts * reactions / constants::avogadro;
   for (std::size_t c = 0; c < mostTreeComponents; ++c) exchange.units[c] += reactions * reactions_.growth[c];
   bookPairs(weight * grown_.bridges, exchange);
+  counters.reactions += static_cast<std::uint64_t>(grown_.reactions);
+  counters.condensations += static_cast<std::uint64_t>(grown_.bridges);
   counters.limited += grown_.limited;
 }
 

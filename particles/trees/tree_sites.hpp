@@ -47,6 +47,13 @@ class TreeSites {
     return growth_.advance(tree, dt_, random, grown_) ? TreeFate::changed : TreeFate::same;
   }
 
+  // What happens to `number` trees (1/m3).
+  void addRates(TreeRates& rates, const TreeHead& tree, double number) const {
+    const double sites = tree.units[reactions_.site];
+    rates.reactions += number * rate_ * sites;
+    rates.condensations += number * std::max(0.0, growth_.within(tree, sites));
+  }
+
   // What one birth, all growth since begin(), and pairs of sites that sintered did, times the weight (1/m3).
   void bookBirth(double weight, TreeExchange& exchange) const;
   void bookGrowth(double weight, TreeExchange& exchange, TreeCounters& counters) const;

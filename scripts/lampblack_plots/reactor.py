@@ -45,7 +45,7 @@ def unit_of(largest, units):
 
 def _main_species(columns):
     """The fractions that are largest and that change."""
-    names = [name for name in columns if name.startswith(("X_", "Y_")) and not name.endswith("_error")]
+    names = [name for name in columns if name.startswith(("X_", "Y_")) and not name.endswith(("_error", "_ci95", "_ci999"))]
     moving = [name for name in names if np.ptp(columns[name]) > 0.02 * np.max(np.abs(columns[name]), initial=1e-300)]
     return sorted(moving or names, key=lambda name: -np.max(columns[name]))[:MOST_SPECIES]
 

@@ -150,6 +150,23 @@ TEST(TreesInCells, GoOnToTheSameBits) {
   EXPECT_EQ(v.state.carried, carried);
 }
 
+// Before they move on, all have sintered to the end of the step.
+TEST(TreesInCells, AreUpToDateAfterAStep) {
+  Silica v(inCells(0.0));
+  for (int s = 0; s < 12; ++s) v.step();
+  double waited = 0.0;
+  for (int c = 0; c < v.box.mesh.owned; ++c) {
+    const std::vector<double> population = v.ensembles.populations()[at(c)];
+    if (v.particles->rows().isEmpty(population)) continue;
+    const auto own = makeTreePopulation(trees());
+    own->unpack(population);
+    const double before = own->totals().surface;
+    own->settle();
+    waited += std::abs(own->totals().surface / before - 1.0);
+  }
+  EXPECT_EQ(waited, 0.0);
+}
+
 TEST(TreesInCells, AreRefusedWhereTheirHeatIsNotKnown) {
   TreeOptions o = trees();
   o.material.name = "something else";

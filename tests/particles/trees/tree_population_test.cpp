@@ -227,6 +227,29 @@ TEST(TreePopulation, TakesInThoseOfAnother) {
   for (const auto* values : {&silicon, &surface}) EXPECT_LT(std::abs(summarise(*values).z(share)), zLimit);
 }
 
+// Whatever the clocks of the two say: nothing happens to a tree between them.
+TEST(TreePopulation, TakesInTreesThatHaveSinteredUntilNow) {
+  Nitrogen nitrogen;
+  nitrogen.concentrations = {2e-6, 0};
+  const auto other = populated(nitrogen, small());
+  other->settle();
+  const double surface = other->totals().surface;
+  ASSERT_GT(other->totals().primaries, 1.01 * other->totals().number);
+  const std::vector<double> packed = other->pack();
+  nitrogen.concentrations = {0, 0};
+  TreeOptions options = small();
+  options.fullAt = other->totals().number;
+  for (const double waited : {0.0, 10.0}) {
+    const auto trees = makeTreePopulation(options);
+    trees->advance(nitrogen.gas(), waited);
+    trees->join(treeRows.of(packed), 1.0);
+    const double joined = trees->totals().surface;
+    trees->settle();
+    EXPECT_EQ(trees->totals().surface, joined) << waited;
+    EXPECT_NEAR(joined / surface, 1, 0.1);
+  }
+}
+
 // What moves a tree between cells and how large it is there.
 TEST(TreePopulation, SaysMassAndSizeInFrontOfARow) {
   Nitrogen nitrogen;

@@ -1,0 +1,54 @@
+// One repeat of a reactor, or a network, with stochastic particles.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "app/reactor/reactor_ensemble_columns.hpp"
+#include "app/reactor/reactor_ensemble_gas.hpp"
+#include "chemistry/thermo/thermo.hpp"
+#include "core/rooms.hpp"
+#include "coupling/reactor_balance.hpp"
+#include "coupling/reactor_population.hpp"
+
+namespace lampblack::app {
+
+// Whether what stands in an open reactor has to have the elements of all that flows in, as these agree and so does the
+// start; closed reactors keep theirs.
+[[nodiscard]] bool hasElementBalance(const ReactorCase& reactorCase);
+
+class EnsembleRepeat {
+ public:
+  // Called at each row with its number and place; false stops the repeat.
+  using AtRow = std::function<bool(std::size_t row, double x)>;
+
+  // The case has to live as long.
+  EnsembleRepeat(const ReactorCase& reactorCase, std::uint64_t repeat);
+
+  // Rows at these places into numbers of this shape. NumericsError.
+  void run(std::span<const double> places, const ReactorRepeatNumbers<double>& numbers, const AtRow& atRow);
+  [[nodiscard]] const ReactorPopulation& population(std::size_t reactor) const { return *populations_[reactor]; }
+
+ private:
+  void fill(std::size_t row, const ReactorRepeatNumbers<double>& numbers);
+  void appendReactor(std::size_t reactor, std::vector<double>& columns);
+
+  const ReactorCase& case_;
+  std::uint64_t repeat_;
+  EnsembleGas gas_;
+  std::vector<std::unique_ptr<ReactorPopulation>> populations_;
+  std::optional<SplitReactor> reactor_;
+  ReactorBalance balance_;
+  Thermo thermo_;
+  bool hasElements_;
+  // Elements and energy, as they were in the first row or have to be.
+  std::vector<double> elements_;
+  std::optional<double> energy_;
+};
+
+}  // namespace lampblack::app
