@@ -149,6 +149,15 @@ void readReactorTrees(const Deck& deck, ReactorCase& reactorCase) {
   if (reactorCase.type == ReactorType::Network)
     throw deck.error("reactor.type", "particles of the section 'particles' do not go from one reactor to another");
   TreeRequest request = readTrees(deck, *reactorCase.mechanism);
+  const bool isGiven =
+      reactorCase.profile || (reactorCase.type == ReactorType::Stirred && reactorCase.network.reactors[0].temperature);
+  for (const TreeComponent& component : request.options.material.components)
+    for (const auto& [element, atoms] : component.elements)
+      if (!isGiven && !ParticlesAtRest::hasEnthalpy(element))
+        throw deck.error("reactor.energy",
+                         fmt::format("the heat of particles of {} is not known: give the temperature, 'isothermal' or "
+                                     "'profile'",
+                                     request.options.material.name));
   reactorCase.couplingChange = deck.number("particles.coupling_change");
   reactorCase.ensemble = {request.repeats,
                           request.bins,
@@ -164,14 +173,6 @@ void readReactorTrees(const Deck& deck, ReactorCase& reactorCase) {
   if (!request.classesByDiameter.empty()) reactorCase.ensemble->classes.push_back({0, request.classesByDiameter});
   if (!request.classesByPrimaries.empty()) reactorCase.ensemble->classes.push_back({1, request.classesByPrimaries});
   tryPopulation(deck, "particles", reactorCase);
-  const auto& elements = reactorCase.ensemble->elements;
-  const bool isGiven =
-      reactorCase.profile || (reactorCase.type == ReactorType::Stirred && reactorCase.network.reactors[0].temperature);
-  if (!isGiven && !std::all_of(elements.begin(), elements.end(), ParticlesAtRest::hasEnthalpy))
-    throw deck.error("reactor.energy",
-                     fmt::format("the heat of particles of {} is not known: give the temperature, 'isothermal' or "
-                                 "'profile'",
-                                 reactorCase.ensemble->material));
 }
 
 void readReactorEnsemble(const Deck& deck, ReactorCase& reactorCase) {

@@ -77,6 +77,26 @@ particles:
   number: 100
 """
 
+OWN_TREES = TREES.replace(str(HYDROGEN), str(ETHYLENE)) + """  material: table
+  density: 1800 kg/m^3
+  table:
+    name: own
+    components:
+      - {name: CH, weight: 13.019 g/mol, elements: [C, H], atoms: [1, 1]}
+      - {name: C2, weight: 24.022 g/mol, elements: [C], atoms: [2]}
+    precursor: C2H2
+    product: H2
+    molecule_mass: 4.3e-26 kg
+    molecule_diameter: 0.4 nm
+    nucleus: [2, 1]
+    site: CH
+    bridge: C2
+    growth: [2, 0]
+    growth_products: 0
+"""
+
+SOOT_TREES = TREES.replace(str(HYDROGEN), str(ETHYLENE)) + "  material: soot\nsoot:\n  pah: [A2]\n"
+
 # Name, deck, text to replace, its replacement, what the message says.
 SOOT = f"""problem: reactor
 mechanism: {ETHYLENE}
@@ -127,6 +147,23 @@ MISTAKES = SOOT_MISTAKES + [
     ("parts by the smaller primary", TREES, "number: 100", "sintering: {between: parts}", ["particles.sintering.size"]),
     ("particles and soot", TREES, "particles:", "soot: {model: none}\nparticles:", ["soot"]),
     ("too much smoothing", TREES, "number: 100", "smoothing: 2.5", ["particles.smoothing"]),
+    ("a component without mass", OWN_TREES, "24.022 g/mol", "0 g/mol", ["particles.table.components[1].weight"]),
+    ("a component of too few atoms", OWN_TREES, "[C, H], atoms: [1, 1]", "[C, H], atoms: [1]", ["components[0].atoms", "1 numbers for 2 elements"]),
+    ("a nucleus of other components", OWN_TREES, "nucleus: [2, 1]", "nucleus: [2, 1, 0]", ["particles.table.nucleus", "3 numbers for 2 components"]),
+    ("a nucleus of nothing", OWN_TREES, "nucleus: [2, 1]", "nucleus: [4, 0]", ["inception makes 2 atoms of H of nothing"]),
+    ("a site that is no component", OWN_TREES, "site: CH", "site: CD", ["particles.table.site", "no component 'CD'"]),
+    ("sites that are bridges", OWN_TREES, "bridge: C2", "bridge: CH", ["two components"]),
+    ("a species that is not there", OWN_TREES, "precursor: C2H2", "precursor: TICL4", ["need the species 'TICL4'"]),
+    ("a negative rate", OWN_TREES, "density: 1800", "growth_rate: -1 cm^3/mol/s\n  density: 1800", ["particles.growth_rate"]),
+    ("a table without one", TREES, "number: 100", "material: table", ["particles.material", "needs the section 'particles.table'"]),
+    ("a table beside a material", OWN_TREES, "material: table", "material: silica", ["particles.table: 'particles.material: silica' does not have this"]),
+    ("soot without its section", TREES.replace(str(HYDROGEN), str(ETHYLENE)), "number: 100", "material: soot", ["particles.material", "needs the section 'soot'"]),
+    ("soot with a model", SOOT_TREES, "pah: [A2]", "model: hmom", ["soot.model: trees of primaries take the place"]),
+    ("soot of two densities", SOOT_TREES, "number: 100", "density: 1800 kg/m^3", ["particles.density: of soot this is 'soot.density'"]),
+    ("sites of soot", SOOT_TREES, "number: 100", "growth_rate: 1 cm^3/mol/s", ["particles.growth_rate: 'particles.material: soot' does not have this"]),
+    ("sintering of soot by nothing", SOOT_TREES, "number: 100", "sintering: {mechanism: constant}", ["particles.sintering", "needs the key 'prefactor'"]),
+    ("units of soot", SOOT_TREES, "number: 100", "initial: {number: 1e14 1/m^3, units: [1, 1, 0]}", ["particles.initial.units", "3 numbers for 2 components of soot"]),
+    ("soot of nothing", SOOT_TREES, "number: 100", "initial: {number: 1e14 1/m^3, units: [0, 0]}", ["an initial particle needs mass"]),
     ("a material without a name", TREES, "number: 100", "material: gold", ["particles.material"]),
     ("no problem", CLOSED, "problem: reactor\n", "", ("problem: this key is missing", "flow, flame1d, reactor")),
     ("misspelt problem", CLOSED, "problem:", "probelm:", ("unknown key 'probelm'", "did you mean 'problem'?")),

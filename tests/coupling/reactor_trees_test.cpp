@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "chemistry/reactor/closed_reactor.hpp"
+#include "chemistry/reactor/plug_flow.hpp"
+#include "chemistry/reactor/reactor_network.hpp"
 #include "core/errors.hpp"
 #include "coupling/reactor_balance.hpp"
 #include "tests/coupling/toy_particles.hpp"
@@ -81,6 +83,143 @@ TEST(ReactorTrees, AProcessThatMakesAtomsIsRefused) {
   options.material.siteReactions().nucleus = {2, 2, 6};
   EXPECT_NE(messageOf(siliconMechanism(), options).find("inception makes 1 atoms of O"), std::string::npos)
       << messageOf(siliconMechanism(), options);
+}
+
+TreeOptions sootOptions(bool reacts) {
+  const Mechanism& mechanism = test::ethylene();
+  SootReactions reactions;
+  reactions.soot.pah = {{"A2", 10, 8, 2e-3}};
+  reactions.soot.sootDensity = 1800;
+  reactions.soot.carbonWeight = mechanism.atomicWeight(mechanism.elementIndex("C"));
+  reactions.soot.hydrogenWeight = mechanism.atomicWeight(mechanism.elementIndex("H"));
+  for (bool* process : {&reactions.soot.inception, &reactions.soot.condensation, &reactions.soot.surfaceGrowth,
+                        &reactions.soot.oxidation, &reactions.soot.coagulation})
+    *process = reacts;
+  TreeOptions options;
+  options.material = sootMaterial(reactions);
+  options.particles = 2000;
+  options.fullAt = 2e20;
+  options.size = CollisionSize::volumeToSurface;
+  options.coagulation = reacts;
+  return options;
+}
+
+using Kept = SplitReactor::Gas::Kept;
+
+// Soot in each kind of reactor: what a closed reactor, or a duct, holds of every element and of energy stays, and what
+// an open one holds is what flows in, where it began with that.
+class SootTreesInReactors : public testing::Test {
+ protected:
+  const Mechanism& mechanism = test::ethylene();
+  const std::size_t n = mechanism.numSpecies();
+  const GasState gas = test::gasOf(mechanism, 1900, "C2H2: 0.06, A1: 0.01, O2: 0.005, N2: 0.925");
+  ReactorTrees trees{mechanism, sootOptions(true), GasViscosity::transport, std::nullopt};
+  ParticlesAtRest atRest{1, trees.elements()};
+  ReactorBalance balance{mechanism, atRest, atRest.unitElements(mechanism)};
+
+  static SplitReactor::Options splitting() {
+    SplitReactor::Options options;
+    options.integrator = {1e-7, 1e-14, 0, 1000000};
+    options.change = 0.2;
+    return options;
+  }
+  std::vector<double> elements(std::span<const double> y) const {
+    return balance.elements(y.first(n), y.subspan(n + 1, atRest.size()));
+  }
+  // From `start` to `end`: elements as at the start, energy too where it is kept.
+  void expectKept(OdeSystem& system, SplitReactor::Gas own, const std::vector<double>& start, double end) {
+    own.system = &system;
+    SplitReactor split(mechanism, own, trees, splitting());
+    split.start(0, start);
+    split.advance(end);
+    const auto y = split.state();
+    EXPECT_LT(largestImbalance(elements(start), elements(y)), 1e-12);
+    const auto energy = [&](std::span<const double> at) {
+      const auto amounts = at.subspan(n + 1, atRest.size());
+      return own.kept[0] == Kept::enthalpy ? balance.enthalpy(at[n], at.first(n), amounts)
+                                           : balance.internalEnergy(at[n], at.first(n), amounts);
+    };
+    if (isClosed) {
+      EXPECT_NEAR(energy(y), energy(start), 1e-6 * 2e6);  // cp T is about 2e6 J/kg
+    }
+    // What was booked is what the sample has.
+    ASSERT_EQ(trees.population().counters().removals, 0U);
+    const TreeTotals totals = trees.population().totals();
+    ASSERT_GT(totals.largest, 2U);
+    for (std::size_t c = 0; c < 2; ++c) {
+      const TreeComponent component = sootMaterial({}).components[c];
+      const auto at = static_cast<std::size_t>(
+          std::find(trees.elements().begin(), trees.elements().end(), component.name) - trees.elements().begin());
+      const double weight = mechanism.atomicWeight(mechanism.elementIndex(component.name));
+      const double booked = own.density(y.data()) * y[n + 1 + at] / weight * constants::avogadro;
+      EXPECT_NEAR(totals.units[c] / booked, 1, 1e-6) << component.name;
+    }
+  }
+  bool isClosed = true;
+};
+
+TEST_F(SootTreesInReactors, ClosedOnesKeepElementsAndEnergy) {
+  ClosedReactor reactor(mechanism, gas, ReactorSystem::Held::Density, std::nullopt, &atRest);
+  SplitReactor::Gas own;
+  own.density = [&](const double* y) { return reactor.density(y); };
+  own.pressure = [&](const double* y) { return reactor.pressure(y); };
+  own.timePerUnit = [](const double*) { return 1.0; };
+  own.kept = {Kept::internalEnergy};
+  expectKept(reactor, own, reactor.initialState(), 1e-3);
+}
+
+TEST_F(SootTreesInReactors, PlugFlowKeepsElementsAndEnergy) {
+  PlugFlow flow(mechanism, gas, 3.0, 2e-2, std::nullopt, &atRest);
+  SplitReactor::Gas own;
+  own.density = [&](const double* y) { return flow.density(y); };
+  own.pressure = [&](const double*) { return gas.pressure; };
+  own.timePerUnit = [&](const double* y) { return 1 / flow.velocity(y); };
+  expectKept(flow, own, flow.initialState(), 2e-2);
+}
+
+TEST_F(SootTreesInReactors, AStirredOneHoldsWhatFlowsIn) {
+  isClosed = false;
+  const StirredReactor vessel{"r", 1e-4, {}, {}, 0, 0};
+  const ReactorNetwork network{gas.pressure, {vessel}, {{0, 2e-2, gas.temperature, gas.Y}}, {}};
+  NetworkSystem system(mechanism, network, &atRest);
+  SplitReactor::Gas own;
+  own.density = [&](const double* y) { return system.density(y); };
+  own.pressure = [&](const double*) { return gas.pressure; };
+  own.timePerUnit = [](const double*) { return 1.0; };
+  expectKept(system, own, startUnknowns(mechanism, network, {false, gas}, system.numCarried()), 3e-3);
+}
+
+// Particles to which nothing happens leave a stirred reactor with what flows out, and thin out with the gas of a duct.
+TEST_F(SootTreesInReactors, ParticlesLeaveWithTheGas) {
+  ReactorTrees inert(mechanism, sootOptions(false), GasViscosity::transport, ReactorTrees::Start{{1e5, 1e4}, 1e16});
+  const GasState nitrogen = test::gasOf(mechanism, 1000, "N2: 1");
+  const StirredReactor vessel{"r", 1e-4, {}, 1000, 0, 0};
+  const double massFlow = 2e-2;
+  const ReactorNetwork network{nitrogen.pressure, {vessel}, {{0, massFlow, nitrogen.temperature, nitrogen.Y}}, {}};
+  NetworkSystem system(mechanism, network, &atRest);
+  SplitReactor::Gas own;
+  own.system = &system;
+  own.density = [&](const double* y) { return system.density(y); };
+  own.pressure = [&](const double*) { return nitrogen.pressure; };
+  own.timePerUnit = [](const double*) { return 1.0; };
+  own.kept = {Kept::temperature};
+  const auto start = startUnknowns(mechanism, network, {false, nitrogen}, system.numCarried());
+  SplitReactor split(mechanism, own, inert, splitting());
+  split.start(0, start);
+  const double residence = system.density(start.data()) * 1e-4 / massFlow;
+  split.advance(1.7 * residence);
+  EXPECT_NEAR(inert.population().totals().number / (1e16 * std::exp(-1.7)), 1, 1e-5);
+
+  ReactorTrees carried(mechanism, sootOptions(false), GasViscosity::transport, ReactorTrees::Start{{1e5, 1e4}, 1e16});
+  PlugFlow flow(mechanism, nitrogen, 3.0, 1.0, TemperatureProfile({0, 1}, {1000, 1600}), &atRest);
+  own.system = &flow;
+  own.density = [&](const double* y) { return flow.density(y); };
+  own.timePerUnit = [&](const double* y) { return 1 / flow.velocity(y); };
+  SplitReactor along(mechanism, own, carried, splitting());
+  along.start(0, flow.initialState());
+  along.advance(0.5);
+  EXPECT_NEAR(along.state()[n], 1300, 1e-6);
+  EXPECT_NEAR(carried.population().totals().number / (1e16 * 1000 / 1300), 1, 1e-9);
 }
 
 }  // namespace

@@ -1,0 +1,131 @@
+#include "app/deck/trees_deck.hpp"
+
+#include <gtest/gtest.h>
+
+#include "app/deck/soot_deck.hpp"
+#include "app/reactor/reactor_case.hpp"
+#include "tests/flow/flame/streams.hpp"
+#include "tests/messages.hpp"
+
+namespace lampblack::app {
+namespace {
+
+TreeRequest requestOf(const std::string& mechanism, const std::string& particles, const std::string& rest = "") {
+  const std::string text =
+      "problem: reactor\nmechanism: m.yaml\nreactor: {type: constant_pressure}\ntime: {end: 1 s}\n" + rest +
+      "particles:\n" + particles;
+  return readTrees(Deck::parse(text, "deck.yaml", {}, reactorSchema()), shippedMechanism(mechanism));
+}
+
+constexpr double rounding = 1e-15;
+void expectUnits(const TreeUnits& one, const TreeUnits& other) {
+  for (std::size_t c = 0; c < one.size(); ++c) EXPECT_EQ(one[c], other[c]);
+}
+
+// The shipped material as a table of the deck's own.
+TEST(TreesDeck, SilicaAsATableIsSilica) {
+  const std::string table = R"(
+  material: table
+  density: 2200 kg/m^3
+  fractal_dimension: 1.8
+  growth_rate: 1e13 cm^3/mol/s
+  sintering: {mechanism: viscous_flow, prefactor: 1.1e-16, temperature: 1.2e5 K, critical_diameter: 4.4 nm}
+  table:
+    name: silica
+    components:
+      - {name: Si, weight: 28.08 g/mol, elements: [Si], atoms: [1]}
+      - {name: O, weight: 16 g/mol, elements: [O], atoms: [1]}
+      - {name: OH, weight: 17.01 g/mol, elements: [O, H], atoms: [1, 1]}
+    precursor: H4O4SI
+    product: H2O
+    molecule_mass: 9.981e-26 kg
+    molecule_diameter: 0.32 nm
+    nucleus: [2, 1, 6]
+    site: OH
+    bridge: O
+    growth: [1, 1, 2]
+)";
+  const TreeMaterial own = requestOf("silica_teos_29.yaml", table).options.material;
+  const TreeMaterial deck = requestOf("silica_teos_29.yaml", "  material: silica\n").options.material;
+  for (const TreeMaterial& shipped : {silica(), deck}) {
+    EXPECT_EQ(own.name, shipped.name);
+    EXPECT_EQ(own.density, shipped.density);
+    EXPECT_EQ(own.fractalDimension, shipped.fractalDimension);
+    EXPECT_EQ(own.smoothing, shipped.smoothing);
+    ASSERT_EQ(own.components.size(), shipped.components.size());
+    for (std::size_t c = 0; c < 3; ++c) {
+      EXPECT_EQ(own.components[c].name, shipped.components[c].name);
+      EXPECT_NEAR(own.components[c].weight / shipped.components[c].weight, 1, rounding);
+      EXPECT_EQ(own.components[c].elements, shipped.components[c].elements);
+    }
+    EXPECT_EQ(own.sintering.mechanism, shipped.sintering.mechanism);
+    EXPECT_EQ(own.sintering.prefactor, shipped.sintering.prefactor);
+    EXPECT_EQ(own.sintering.temperature, shipped.sintering.temperature);
+    EXPECT_NEAR(own.sintering.critical / shipped.sintering.critical, 1, rounding);
+    const SiteReactions &a = *own.sites(), &b = *shipped.sites();
+    EXPECT_EQ(own.species(), shipped.species());
+    EXPECT_EQ(a.site, b.site);
+    EXPECT_EQ(a.bridge, b.bridge);
+    EXPECT_EQ(a.condenses, b.condenses);
+    expectUnits(a.nucleus, b.nucleus);
+    expectUnits(a.growth, b.growth);
+    for (const auto value :
+         {&SiteReactions::nucleusPrecursors, &SiteReactions::nucleusProducts, &SiteReactions::moleculeMass,
+          &SiteReactions::growthProducts, &SiteReactions::power, &SiteReactions::energy})
+      EXPECT_EQ(a.*value, b.*value);
+    EXPECT_NEAR(a.moleculeDiameter / b.moleculeDiameter, 1, rounding);
+    EXPECT_NEAR(a.prefactor / b.prefactor, 1, rounding);
+  }
+}
+
+TEST(TreesDeck, SootTakesItsPhysicsFromTheSectionOfSoot) {
+  const std::string soot =
+      "soot: {pah: [A2, A4], density: 1700 kg/m^3, van_der_waals: 2, slip: air, oxidation: false}\n";
+  const TreeRequest request = requestOf("ethylene_abf2000_101.yaml", "  material: soot\n", soot);
+  const TreeOptions& options = request.options;
+  const TreeMaterial& m = options.material;
+  ASSERT_NE(m.soot(), nullptr);
+  EXPECT_EQ(m.density, 1700);
+  EXPECT_EQ(m.soot()->soot.pah[1].carbon, 16);
+  EXPECT_FALSE(m.soot()->soot.oxidation);
+  EXPECT_TRUE(m.soot()->breaksUp && m.soot()->keepsHydrogen && !m.soot()->alphaOfPrimaries);
+  EXPECT_EQ(options.kernel.enhancement, 2);
+  EXPECT_EQ(options.kernel.slip, SlipLaw::air);
+  EXPECT_EQ(options.size, CollisionSize::volumeToSurface);
+  EXPECT_EQ(request.viscosity, GasViscosity::transport);
+  EXPECT_TRUE(options.coagulation);
+  EXPECT_FALSE(m.sintering.active());
+  const SootReactions other =
+      *requestOf("ethylene_abf2000_101.yaml",
+                 "  {material: soot, burnt_primaries: join, keep_hydrogen: false, active_sites: primary}\n", soot)
+           .options.material.soot();
+  EXPECT_TRUE(!other.breaksUp && !other.keepsHydrogen && other.alphaOfPrimaries);
+}
+
+TEST(TreesDeck, SilicaKeepsItsOwnDefaults) {
+  const TreeRequest request = requestOf("silica_teos_29.yaml", "  material: silica\n");
+  EXPECT_EQ(request.options.size, CollisionSize::primaries);
+  EXPECT_EQ(request.viscosity, GasViscosity::air);
+  EXPECT_EQ(request.options.kernel.slip, SlipLaw::air);
+  EXPECT_EQ(request.options.material.sintering.mechanism, SinteringMechanism::viscousFlow);
+}
+
+// Published: Kobata, Kusakabe, Morooka (1991), of 10 nm at 1500 K.
+TEST(TreesDeck, TitaniaSintersByGrainBoundaryDiffusion) {
+  const SinteringLaw law =
+      requestOf("silica_teos_29.yaml",
+                "  sintering: {mechanism: grain_boundary, prefactor: 7.4e16, temperature: 3.1e4 K, "
+                "critical_diameter: 0 nm}\n")
+          .options.material.sintering;
+  EXPECT_NEAR(law.time(1500, 1e-8) / (7.4e16 * 1e-32 * 1500 * std::exp(31000.0 / 1500)), 1, 1e-12);
+  for (const auto& [name, power] : {std::pair{"surface_diffusion", 4}, std::pair{"volume_diffusion", 3},
+                                    std::pair{"viscous_flow", 1}, std::pair{"constant", 0}}) {
+    const SinteringLaw other = requestOf("silica_teos_29.yaml", std::string("  sintering: {mechanism: ") + name +
+                                                                    ", prefactor: 2, temperature: 0 K}\n")
+                                   .options.material.sintering;
+    EXPECT_NEAR(other.time(900, 4e-9) / other.time(900, 2e-9), std::pow(2.0, power), 1e-9) << name;
+  }
+}
+
+}  // namespace
+}  // namespace lampblack::app
