@@ -96,6 +96,7 @@ void readPlugFlow(const Deck& deck, ReactorCase& reactorCase) {
   }
   requireLowMach(deck, deck.has("inlet.velocity") ? "inlet.velocity" : "inlet.mass_flow", thermo,
                  reactorCase.massFlux / density, inlet.temperature, inlet.Y);
+  reactorcase::readUpstream(deck, reactorCase);
   reactorCase.output.interval = deck.optionalQuantity("output.spacing");
   checkInterval(deck, "output.spacing", reactorCase, reactorCase.length, "reactor.length");
 }

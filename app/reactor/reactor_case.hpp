@@ -65,7 +65,10 @@ struct ReactorCase {
   std::vector<IgnitionCriterion> ignition;
   std::vector<std::size_t> sensitivities;  // reactions
 
-  // Plug flow.
+  // Plug flow. With a stirred reactor before the duct, `inlet` is what flows into that one; populations have
+  // `upstreamTime` (s) in it.
+  std::optional<ReactorNetwork> upstream;
+  double upstreamTime = 0;
   GasState inlet;
   double massFlux = 0.0, length = 0.0;  // kg/m2/s, m
 

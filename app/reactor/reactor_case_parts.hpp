@@ -13,5 +13,7 @@ void readSensitivity(const Deck& deck, ReactorCase& reactorCase);
 // A stirred reactor (the sections reactor and inlet) and a network (the section network).
 void readStirred(const Deck& deck, ReactorCase& reactorCase);
 void readNetwork(const Deck& deck, ReactorCase& reactorCase);
+// The stirred reactor before a duct, where there is one; the inlet is known.
+void readUpstream(const Deck& deck, ReactorCase& reactorCase);
 
 }  // namespace lampblack::app::reactorcase

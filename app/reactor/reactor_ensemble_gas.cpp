@@ -6,11 +6,11 @@
 
 namespace lampblack::app {
 
-EnsembleGas::EnsembleGas(const ReactorCase& reactorCase)
+EnsembleGas::EnsembleGas(const ReactorCase& reactorCase, const std::optional<GasState>& inlet)
     : case_(reactorCase), particles_(numReactors(reactorCase), reactorCase.ensemble->elements) {
   gas_.timePerUnit = [](const double*) { return 1.0; };
   if (case_.type == ReactorType::PlugFlow)
-    carryByPlugFlow();
+    carryByPlugFlow(inlet ? *inlet : case_.inlet);
   else if (case_.type == ReactorType::Stirred || case_.type == ReactorType::Network)
     carryByNetwork();
   else
@@ -20,11 +20,11 @@ EnsembleGas::EnsembleGas(const ReactorCase& reactorCase)
   gas_.nextStop = [this](double x) { return case_.profile->nextKink(x).value_or(INFINITY); };
 }
 
-void EnsembleGas::carryByPlugFlow() {
-  plugFlow_.emplace(*case_.mechanism, case_.inlet, case_.massFlux, case_.length, case_.profile, &particles_);
+void EnsembleGas::carryByPlugFlow(const GasState& inlet) {
+  plugFlow_.emplace(*case_.mechanism, inlet, case_.massFlux, case_.length, case_.profile, &particles_);
   start_ = plugFlow_->initialState();
   gas_.system = &*plugFlow_;
-  gas_.pressure = [p = case_.inlet.pressure](const double*) { return p; };
+  gas_.pressure = [p = inlet.pressure](const double*) { return p; };
   gas_.density = [this](const double* y) { return plugFlow_->density(y); };
   gas_.timePerUnit = [this](const double* y) { return 1 / plugFlow_->velocity(y); };
 }

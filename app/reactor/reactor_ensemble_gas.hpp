@@ -15,8 +15,8 @@ namespace lampblack::app {
 
 class EnsembleGas {
  public:
-  // The case has to live as long.
-  explicit EnsembleGas(const ReactorCase& reactorCase);
+  // The case has to live as long. `inlet`: of a plug flow, where it is not that of the case.
+  explicit EnsembleGas(const ReactorCase& reactorCase, const std::optional<GasState>& inlet = std::nullopt);
   EnsembleGas(const EnsembleGas&) = delete;
   EnsembleGas& operator=(const EnsembleGas&) = delete;
 
@@ -29,7 +29,7 @@ class EnsembleGas {
   }
 
  private:
-  void carryByPlugFlow();
+  void carryByPlugFlow(const GasState& inlet);
   void carryByNetwork();
   void carryByClosedReactor();
 

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "app/reactor/reactor_output.hpp"
+#include "app/reactor/reactor_upstream.hpp"
 #include "core/errors.hpp"
 
 namespace lampblack::app {
@@ -32,6 +33,26 @@ std::vector<double> elementsOfInflow(const ReactorCase& reactorCase, const React
   return first;
 }
 
+std::vector<std::unique_ptr<ReactorPopulation>> makePopulations(const ReactorCase& reactorCase, std::uint64_t repeat) {
+  const std::size_t reactors = numReactors(reactorCase);
+  std::vector<std::unique_ptr<ReactorPopulation>> all;
+  for (std::size_t r = 0; r < reactors; ++r) all.push_back(reactorCase.ensemble->make(repeat * reactors + r));
+  return all;
+}
+
+SplitReactor::Options splitOptions(const ReactorCase& reactorCase) {
+  SplitReactor::Options split;
+  split.integrator = reactorCase.integrator;
+  split.change = reactorCase.couplingChange;
+  return split;
+}
+
+// What a plug flow begins with behind another reactor, with these particles.
+std::optional<GasState> inletOf(const ReactorCase& reactorCase, SplitParticles& particles) {
+  if (!reactorCase.upstream) return {};
+  return settledUpstream(reactorCase, particles, splitOptions(reactorCase));
+}
+
 std::vector<SplitParticles*> pointersTo(const std::vector<std::unique_ptr<ReactorPopulation>>& populations) {
   std::vector<SplitParticles*> all;
   for (const auto& population : populations) all.push_back(population.get());
@@ -50,16 +71,12 @@ bool hasElementBalance(const ReactorCase& reactorCase) {
 EnsembleRepeat::EnsembleRepeat(const ReactorCase& reactorCase, std::uint64_t repeat)
     : case_(reactorCase),
       repeat_(repeat),
-      gas_(reactorCase),
+      populations_(makePopulations(reactorCase, repeat)),
+      gas_(reactorCase, inletOf(reactorCase, *populations_[0])),
       balance_(*reactorCase.mechanism, gas_.particles(), gas_.particles().unitElements(*reactorCase.mechanism)),
       thermo_(*reactorCase.mechanism),
       hasElements_(hasElementBalance(reactorCase)) {
-  const std::size_t reactors = numReactors(case_);
-  for (std::size_t r = 0; r < reactors; ++r) populations_.push_back(case_.ensemble->make(repeat * reactors + r));
-  SplitReactor::Options split;
-  split.integrator = case_.integrator;
-  split.change = case_.couplingChange;
-  reactor_.emplace(*case_.mechanism, gas_.gas(), pointersTo(populations_), split);
+  reactor_.emplace(*case_.mechanism, gas_.gas(), pointersTo(populations_), splitOptions(case_));
   reactor_->start(0, gas_.start());
   if (isOpen(case_)) elements_ = elementsOfInflow(case_, balance_);
 }

@@ -40,8 +40,8 @@ class EnsembleRepeat {
 
   const ReactorCase& case_;
   std::uint64_t repeat_;
-  EnsembleGas gas_;
   std::vector<std::unique_ptr<ReactorPopulation>> populations_;
+  EnsembleGas gas_;
   std::optional<SplitReactor> reactor_;
   ReactorBalance balance_;
   Thermo thermo_;

@@ -5,6 +5,7 @@
 #include "app/reactor/reactor_history.hpp"
 #include "app/reactor/reactor_output.hpp"
 #include "app/reactor/reactor_particle_output.hpp"
+#include "app/reactor/reactor_upstream.hpp"
 #include "chemistry/reactor/plug_flow.hpp"
 #include "io/report.hpp"
 
@@ -31,7 +32,8 @@ class PlugFlowDriver : public ReactorOfOneRank {
 
   void compute(const RunFolder& folder) override {
     const double begin = MPI_Wtime();
-    PlugFlow flow(*case_.mechanism, case_.inlet, case_.massFlux, case_.length, case_.profile, case_.particles.get());
+    const GasState inlet = case_.upstream ? steadyUpstream(case_, case_.particles.get()) : case_.inlet;
+    PlugFlow flow(*case_.mechanism, inlet, case_.massFlux, case_.length, case_.profile, case_.particles.get());
     StiffIntegrator integrator(flow, case_.integrator);
     integrator.start(0.0, flow.initialState(), case_.length);
     history_.open(folder.history());

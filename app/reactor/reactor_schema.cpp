@@ -64,10 +64,25 @@ void addReactor(DeckSchema& schema) {
               .above(0)
               .onlyWith(typeKey, {"plug_flow"}));
   addVesselKeys(schema, "reactor", "stirred");
+  schema
+      .section("upstream", Presence::optional,
+               "A perfectly stirred reactor that the stream passes before it enters the duct: its steady state is what "
+               "enters, with its particles.",
+               {{typeKey, {"plug_flow"}}})
+      .add(temperatureKey("upstream.temperature",
+                          "Temperature at which this reactor is held; absent: it follows from the energy equation.")
+               .optional())
+      .add(numberKey("upstream.residence_times",
+                     "For populations of particles by Monte Carlo: number of residence times in it, from the steady "
+                     "state of the gas alone, until the stream enters the duct.")
+               .byDefault("8")
+               .above(0));
+  addVesselKeys(schema, "upstream", "plug_flow");
   schema.section("inlet", Presence::optional, "The stream that comes in.", {{typeKey, {"stirred", "plug_flow"}}})
       .add(temperatureKey("inlet.temperature", "Temperature of the gas."))
       .add(quantityKey("inlet.mass_flow", units::massFlow,
-                       "Mass flow into the reactor: a stirred one with reactor.volume, plug flow with reactor.area.")
+                       "Mass flow into the reactor: a stirred one with reactor.volume, plug flow with reactor.area, also with "
+                       "upstream.volume.")
                .optional()
                .above(0))
       .add(quantityKey("inlet.velocity", units::velocity, "Velocity of the stream at the inlet, in place of mass_flow.")

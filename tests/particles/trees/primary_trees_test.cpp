@@ -132,6 +132,19 @@ TEST(PrimaryTrees, AMaterialThatIsNoneSaysWhatIsWrong) {
   EXPECT_NE(message([](TreeMaterial& m) { m.smoothing = 3; }).find("smoothing"), std::string::npos);
   EXPECT_NE(message([](TreeMaterial& m) { m.density = 0; }).find("density"), std::string::npos);
   EXPECT_NE(message([](TreeMaterial& m) { m.siteReactions().site = 5; }).find("sites"), std::string::npos);
+  EXPECT_NE(message([](TreeMaterial& m) { m.siteReactions().energy = -1; }).find("rate constant"), std::string::npos);
+  EXPECT_NE(message([](TreeMaterial& m) { m.siteReactions().growth = {-1, 0, 0}; }).find("take mass"),
+            std::string::npos);
+  const auto ofSoot = [&](auto change) {
+    return message([&](TreeMaterial& m) {
+      m = sootMaterial({});
+      change(m);
+    });
+  };
+  EXPECT_EQ(ofSoot([](TreeMaterial&) {}), "");
+  for (const std::size_t c : {0U, 1U})
+    EXPECT_NE(ofSoot([&](TreeMaterial& m) { m.components[c].weight *= 1.01; }).find("soot has"), std::string::npos);
+  EXPECT_NE(ofSoot([](TreeMaterial& m) { m.density = 2200; }).find("soot has"), std::string::npos);
 }
 
 }  // namespace

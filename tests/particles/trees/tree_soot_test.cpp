@@ -157,6 +157,77 @@ TEST(TreesOfSoot, GrowAndBurnAsTheLawOfSootSays) {
   expectMeanGrowth(condensing, 1, 2e-4);
 }
 
+// Sums over trees of one primary are those over spheres, however either adds them up.
+TEST(TreesOfSoot, SumsAreThoseOfSpheres) {
+  const FlameGas gas(1700, 1e-3, 0.03, 1e-5, 0.08, 2e-4, 0.03, {2e-5, 3e-6, 2e-6});
+  const SootModelOptions soot = threePah();
+  TreeOptions options = sootTrees(soot);
+  options.kernel.gas = gas.state;
+  const PrimaryTrees type(options.material, options.size);
+  const SootAggregate spheres(soot.sootDensity, true);
+  const DimerModel dimers(soot);
+  const SootMedium medium(soot, dimers, gas.state, true);
+  TreeSoot reactions(type);
+  reactions.see(gas.state, CollisionKernel(options.kernel));
+  SootColumns columns;
+  columns.resize(5);
+  SootSums sums;
+  for (std::size_t k = 0; k < 5; ++k) {
+    const TreeUnits units{100 * std::pow(3.0, k), 30, 0};
+    const double weight = 1e15 * static_cast<double>(k + 1);
+    columns.set(k, spheres.make(units[0] * medium.carbonAtom(), units[1] * soot.hydrogenWeight / constants::avogadro, 1),
+                weight);
+    reactions.add(sums, type.make(units).head(), weight);
+  }
+  const SootSums expected = sumsOf(columns, spheres, medium);
+  for (const auto sum : {&SootSums::number, &SootSums::carbon, &SootSums::hydrogen, &SootSums::primaries,
+                         &SootSums::area, &SootSums::diameters, &SootSums::collisions, &SootSums::slopes})
+    EXPECT_NEAR(sums.*sum / (expected.*sum), 1, 1e-12);
+}
+
+// Primaries that burn away in the middle of a step: what comes after does not happen, and all their atoms are gone.
+TEST(TreesOfSoot, NothingHappensToWhatHasBurnt) {
+  const FlameGas gas(1800, 0, 0, 5e-3, 0.1, 0.01, 0, {2e-5, 3e-6, 2e-6});
+  TreeOptions options = sootTrees(threePah());
+  options.kernel.gas = gas.state;
+  const PrimaryTrees type(options.material, options.size);
+  RandomStream random(81, 82, 83);
+  TreeSoot reactions(type);
+  reactions.see(gas.state, CollisionKernel(options.kernel));
+  const TreeUnits units{42, 20, 0};
+  for (const double dt : {1e-6, 2e-5}) {  // one by one, and in numbers
+    int gone = 0;
+    double burntPrimaries = 0;
+    for (int repeat = 0; repeat < 300; ++repeat) {
+      Tree tree = type.make(units);
+      for (int i = 1; i < 6; ++i) tree = type.coagulated(std::move(tree), type.make(units), random);
+      SootSums sums;
+      reactions.add(sums, tree.head(), 1e12);
+      reactions.begin(sums, dt);
+      const TreeFate fate = reactions.grow(tree, random);
+      TreeUnits left{};
+      double primaries = 0;
+      const auto count = [&](const Tree& one) {
+        for (std::size_t c = 0; c < 2; ++c) left[c] += one.head().units[c];
+        primaries += static_cast<double>(one.count());
+      };
+      for (const Tree& part : reactions.takeFragments()) count(part);
+      if (fate != TreeFate::gone) count(tree);
+      TreeExchange exchange;
+      TreeCounters counters;
+      reactions.bookGrowth(1, exchange, counters);
+      for (std::size_t c = 0; c < 2; ++c) EXPECT_NEAR(6 * units[c] + exchange.units[c], left[c], 1e-9);
+      EXPECT_EQ(6 - exchange.burntPrimaries, primaries);
+      gone += fate == TreeFate::gone;
+      burntPrimaries += exchange.burntPrimaries;
+    }
+    EXPECT_GT(burntPrimaries, 300);
+    if (dt > 1e-5) {
+      EXPECT_GT(gone, 0);
+    }
+  }
+}
+
 // A primary has its part of the surface.
 TEST(TreesOfSoot, EventsHappenToPrimariesByTheirSurface) {
   const FlameGas gas(1700, 1e-3, 0.03, 0, 0.08, 0, 0.03, {0, 0, 0});
@@ -169,9 +240,9 @@ TEST(TreesOfSoot, EventsHappenToPrimariesByTheirSurface) {
   TreeSoot reactions(type);
   reactions.see(gas.state, CollisionKernel(options.kernel));
   reactions.add(sums, tree.head(), 1e12);
-  for (const double dt : {3e-6, 1e-4}) {  // few, and in numbers
+  for (const double dt : {5e-7, 1e-4}) {  // few, and in numbers
     double large = 0, small = 0;
-    for (int repeat = 0; repeat < 2000; ++repeat) {
+    for (int repeat = 0; repeat < 4000; ++repeat) {
       Tree own = tree;
       reactions.begin(sums, dt);
       (void)reactions.grow(own, random);
