@@ -162,22 +162,24 @@ void readUpstream(const Deck& deck, ReactorCase& reactorCase) {
   if (!deck.has("upstream")) return;
   StirredReactor vessel = readVessel(deck, "upstream", "upstream");
   if (deck.has("upstream.temperature"))
-    vessel.temperature =
-        readTemperature(deck, "upstream.temperature", *reactorCase.mechanism, TemperatureUse::reactor);
+    vessel.temperature = readTemperature(deck, "upstream.temperature", *reactorCase.mechanism, TemperatureUse::reactor);
   refuseHeatLoss(deck, "upstream", vessel);
   const auto massFlow = deck.optionalQuantity("inlet.mass_flow");
   if (!massFlow && (vessel.volume || vessel.conductance > 0))
-    throw deck.error("inlet", "a stirred reactor before the duct that has a volume, or loses heat, needs the key "
-                              "'mass_flow'");
+    throw deck.error("inlet",
+                     "a stirred reactor before the duct that has a volume, or loses heat, needs the key "
+                     "'mass_flow'");
   if (deck.choice("reactor.energy") == "isothermal" && !deck.has("reactor.temperature"))
-    throw deck.error("reactor.energy", "behind a stirred reactor an isothermal duct needs the key 'reactor.temperature'");
+    throw deck.error("reactor.energy",
+                     "behind a stirred reactor an isothermal duct needs the key 'reactor.temperature'");
   const GasState& inlet = reactorCase.inlet;
   reactorCase.upstream = {inlet.pressure, {vessel}, {{0, massFlow.value_or(1.0), inlet.temperature, inlet.Y}}, {}};
   // Enough for any population: with a volume, the residence time is that of the cold gas at most.
   const double residence =
-      vessel.residenceTime ? *vessel.residenceTime
-                           : *vessel.volume * Thermo(*reactorCase.mechanism)
-                                                  .density(inlet.temperature, inlet.pressure, inlet.Y) / *massFlow;
+      vessel.residenceTime
+          ? *vessel.residenceTime
+          : *vessel.volume * Thermo(*reactorCase.mechanism).density(inlet.temperature, inlet.pressure, inlet.Y) /
+                *massFlow;
   reactorCase.upstreamTime = deck.number("upstream.residence_times") * residence;
 }
 

@@ -80,9 +80,10 @@ void addReactor(DeckSchema& schema) {
   addVesselKeys(schema, "upstream", "plug_flow");
   schema.section("inlet", Presence::optional, "The stream that comes in.", {{typeKey, {"stirred", "plug_flow"}}})
       .add(temperatureKey("inlet.temperature", "Temperature of the gas."))
-      .add(quantityKey("inlet.mass_flow", units::massFlow,
-                       "Mass flow into the reactor: a stirred one with reactor.volume, plug flow with reactor.area, also with "
-                       "upstream.volume.")
+      .add(quantityKey(
+               "inlet.mass_flow", units::massFlow,
+               "Mass flow into the reactor: a stirred one with reactor.volume, plug flow with reactor.area, also with "
+               "upstream.volume.")
                .optional()
                .above(0))
       .add(quantityKey("inlet.velocity", units::velocity, "Velocity of the stream at the inlet, in place of mass_flow.")

@@ -26,7 +26,9 @@ GasState settledUpstream(const ReactorCase& reactorCase, SplitParticles& particl
   const std::span<const double> y = reactor.state();
   const std::size_t n = before.mechanism->numSpecies();
   const auto amounts = y.subspan(n + 1, gas.particles().mark());
-  return {y[n], before.network.pressure, {y.begin(), y.begin() + static_cast<std::ptrdiff_t>(n)},
+  return {y[n],
+          before.network.pressure,
+          {y.begin(), y.begin() + static_cast<std::ptrdiff_t>(n)},
           {amounts.begin(), amounts.end()}};
 }
 

@@ -133,7 +133,9 @@ TEST(PrimaryTrees, AMaterialThatIsNoneSaysWhatIsWrong) {
   EXPECT_NE(message([](TreeMaterial& m) { m.density = 0; }).find("density"), std::string::npos);
   EXPECT_NE(message([](TreeMaterial& m) { m.siteReactions().site = 5; }).find("sites"), std::string::npos);
   EXPECT_NE(message([](TreeMaterial& m) { m.siteReactions().energy = -1; }).find("rate constant"), std::string::npos);
-  EXPECT_NE(message([](TreeMaterial& m) { m.siteReactions().growth = {-1, 0, 0}; }).find("take mass"),
+  EXPECT_NE(message([](TreeMaterial& m) {
+              m.siteReactions().growth = {-1, 0, 0};
+            }).find("take mass"),
             std::string::npos);
   const auto ofSoot = [&](auto change) {
     return message([&](TreeMaterial& m) {

@@ -175,7 +175,8 @@ TEST(TreesOfSoot, SumsAreThoseOfSpheres) {
   for (std::size_t k = 0; k < 5; ++k) {
     const TreeUnits units{100 * std::pow(3.0, k), 30, 0};
     const double weight = 1e15 * static_cast<double>(k + 1);
-    columns.set(k, spheres.make(units[0] * medium.carbonAtom(), units[1] * soot.hydrogenWeight / constants::avogadro, 1),
+    columns.set(k,
+                spheres.make(units[0] * medium.carbonAtom(), units[1] * soot.hydrogenWeight / constants::avogadro, 1),
                 weight);
     reactions.add(sums, type.make(units).head(), weight);
   }
