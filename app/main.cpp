@@ -7,10 +7,12 @@
 #include <functional>
 #include <iostream>
 #include <new>
+#include <optional>
 #include <sstream>
 
 #include "app/run/build_info.hpp"
 #include "app/run/problem.hpp"
+#include "app/run/rank_launcher.hpp"
 #include "app/study/sweep_command.hpp"
 #include "app/study/sweep_study.hpp"
 #include "app/tools/gas_command.hpp"
@@ -18,7 +20,7 @@
 #include "app/tools/replay_command.hpp"
 #include "core/errors.hpp"
 #include "core/long_lines.hpp"
-#include "core/petsc.hpp"
+#include "core/parallel_session.hpp"
 #include "core/stop_request.hpp"
 #include "core/system_error.hpp"
 #include "io/request_limits.hpp"
@@ -41,14 +43,13 @@ struct Arguments {
   std::string restart;    // a checkpoint; empty: the newest
   bool restarts = false;  // --restart was given
   bool json = false;
+  int ranks = 0;  // 0: not given
 };
 
 void check(const Arguments& arguments) {
   const Deck deck = Deck::load(arguments.deck, arguments.overrides, deckKinds(), PETSC_COMM_WORLD);
   const auto prepared = problemOf(deck).prepare(PETSC_COMM_WORLD, deck);
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  if (rank != 0) return;
+  if (placeOfProcess().rank != 0) return;
   std::cout << arguments.deck << " is a valid deck: " << prepared->summary() << ".\n";
   for (const std::string& line : prepared->details()) std::cout << line << "\n";
 }
@@ -77,9 +78,7 @@ void reference(const Arguments& arguments) {
 // Ends the run with the message of the failure. An error that all ranks raised together is told by rank 0; one that
 // only this rank knows of ends the others at once.
 int fail(const char* kind, const std::exception& error, int code) {
-  int rank = 0, ranks = 1;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  MPI_Comm_size(PETSC_COMM_WORLD, &ranks);
+  const auto [rank, ranks] = placeOfProcess();
   const bool everywhere = ranks == 1 || isCollective(error);
   if (rank == 0 || !everywhere) {
     std::cout.flush();
@@ -94,9 +93,9 @@ void sayNoMore() {
   if (std::freopen("/dev/null", "w", stderr) == nullptr) return;  // then it does
 }
 
-int execute(const std::function<void()>& command) {
+int execute(const std::function<void()>& work) {
   try {
-    command();
+    work();
     return 0;
   } catch (const InputError& error) {
     return fail("", error, exitInput);
@@ -113,6 +112,16 @@ int execute(const std::function<void()>& command) {
   }
 }
 
+// Help and mistakes of the command line alike are told once.
+int say(const CLI::App& app, const CLI::ParseError& error) {
+  std::ostringstream out, message;
+  const int status = app.exit(error, out, message) == 0 ? 0 : exitInput;
+  if (placeOfProcess().rank != 0) return status;
+  std::cout << out.str() << std::flush;
+  if (!message.str().empty()) std::cerr << "lampblack: " << message.str() << std::flush;
+  return status;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -120,7 +129,7 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", buildVersion() + " (" + buildGitHash() + ")");
   app.require_subcommand(1);
   Arguments arguments;
-  std::function<void()> command;
+  Command command;
 
   CLI::App* runCommand = app.add_subcommand("run", "Run a deck.");
   runCommand->add_option("deck", arguments.deck, "Input deck (YAML).")->required();
@@ -135,43 +144,45 @@ int main(int argc, char** argv) {
           ->expected(0, 1);
   runCommand->callback([&, restart] {
     arguments.restarts = restart->count() > 0;
-    command = [&] { run(arguments); };
+    command = {[&] { run(arguments); }, true};
   });
 
   CLI::App* checkCommand = app.add_subcommand("check", "Read everything a deck names and run nothing.");
   checkCommand->add_option("deck", arguments.deck, "Input deck (YAML).")->required();
   checkCommand->add_option("--set", arguments.overrides, "Override a key: a.b=c.")->allow_extra_args(false);
-  checkCommand->callback([&] { command = [&] { check(arguments); }; });
+  checkCommand->callback([&] { command = {[&] { check(arguments); }, true}; });
 
   CLI::App* referenceCommand = app.add_subcommand("deck-reference", "Print all keys of a deck.");
   referenceCommand->add_flag("--json-schema", arguments.json, "As a JSON schema for editors.");
-  referenceCommand->callback([&] { command = [&] { reference(arguments); }; });
+  referenceCommand->callback([&] { command = {[&] { reference(arguments); }}; });
 
   addGasCommand(app, command);
   addMechanismCommand(app, command);
   addReplayCommand(app, command);
   addSweepCommand(app, command);
+  for (CLI::App* subcommand : {runCommand, app.get_subcommand("sweep")})
+    subcommand->add_option("--ranks", arguments.ranks, "MPI ranks; they are started by mpirun.")
+        ->check(CLI::PositiveNumber);
 
-  // PETSc reads its own options from the environment and from a file, not from our command line.
-  if (PetscInitializeNoArguments() != 0) return exitBug;
-  checkPetsc(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr));
-  countMachines(PETSC_COMM_WORLD);
+  // Where a launcher started several of this process, only the first rank speaks; alone, MPI starts when it is needed.
+  std::optional<ParallelSession> session;
+  const auto start = [&] { session.emplace(); };
+  if (const int code = startedByLauncher() ? execute(start) : 0; code != 0) return code;
   watchForSignals();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    // Help and mistakes alike are told once.
-    std::ostringstream out, message;
-    const int status = app.exit(error, out, message) == 0 ? 0 : exitInput;
-    int rank = 0;
-    MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-    if (rank == 0) {
-      std::cout << out.str() << std::flush;
-      if (!message.str().empty()) std::cerr << "lampblack: " << message.str() << std::flush;
-    }
-    return PetscFinalize() == 0 ? status : exitBug;
+    return say(app, error);
   }
-  const int code = execute(command);
+  const int code = execute([&] {
+    if (needsLauncher(arguments.ranks)) runOnRanks(arguments.ranks, {argv, static_cast<std::size_t>(argc)});
+    if (command.needsMpi && !session) start();
+    if (session) {
+      checkRanks(PETSC_COMM_WORLD, arguments.ranks);
+      countMachines(PETSC_COMM_WORLD);
+    }
+    command.work();
+  });
   if (code != 0) sayNoMore();
-  return PetscFinalize() == 0 ? code : exitBug;
+  return code;
 }

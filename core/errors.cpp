@@ -63,6 +63,12 @@ void raiseCollectively(MPI_Comm comm, const std::exception_ptr& error) {
 }
 
 void raiseFirst(MPI_Comm comm, const std::exception_ptr& error, std::int64_t order) {
+  int started = 0;
+  MPI_Initialized(&started);
+  if (started == 0) {  // a process by itself, in a command that needs no MPI
+    if (error) std::rethrow_exception(error);
+    return;
+  }
   int rank = 0;
   int size = 1;
   MPI_Comm_rank(comm, &rank);

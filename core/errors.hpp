@@ -24,7 +24,8 @@ class NumericsError : public std::runtime_error {
 };
 
 // Collective. If any rank passes an exception, every rank throws the one of the lowest such rank, with its message and,
-// for InputError and NumericsError, its type (std::runtime_error otherwise). Does nothing when no rank failed.
+// for InputError and NumericsError, its type (std::runtime_error otherwise). Does nothing when no rank failed. Before
+// MPI starts, the process is the only rank.
 void raiseCollectively(MPI_Comm comm, const std::exception_ptr& error);
 
 // Whether this error was raised on all ranks together, by raiseCollectively or collectively.

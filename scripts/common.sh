@@ -21,9 +21,6 @@ allow_mpi_as_root() {
 # Parallel jobs of a build: two, or as many as LAMPBLACK_JOBS says.
 jobs() { echo "${LAMPBLACK_JOBS:-2}"; }
 
-# Processors this process may use. nproc would take OMP_NUM_THREADS for an answer.
-processors() { env -u OMP_NUM_THREADS -u OMP_THREAD_LIMIT nproc; }
-
 # Linear algebra libraries start a thread a core in each rank; here each rank is one thread.
 export OMP_NUM_THREADS="${OMP_NUM_THREADS:-1}" OPENBLAS_NUM_THREADS="${OPENBLAS_NUM_THREADS:-1}"
 

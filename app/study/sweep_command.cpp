@@ -150,7 +150,7 @@ void sweep(const SweepArguments& arguments) {
 
 }  // namespace
 
-void addSweepCommand(CLI::App& app, std::function<void()>& command) {
+void addSweepCommand(CLI::App& app, Command& command) {
   const auto arguments = std::make_shared<SweepArguments>();
   CLI::App* subcommand = app.add_subcommand("sweep", "Run a study: many decks, or many variants of one, and a table.");
   subcommand->add_option("study", arguments->study, "Study (YAML).")->required();
@@ -161,7 +161,7 @@ void addSweepCommand(CLI::App& app, std::function<void()>& command) {
       ->default_val("results/study");
   subcommand->add_flag("--force", arguments->force, "Replace an earlier study in that folder.");
   subcommand->add_flag("--check", arguments->check, "Read the study and its decks, name the runs, and run nothing.");
-  subcommand->callback([arguments, &command] { command = [arguments] { sweep(*arguments); }; });
+  subcommand->callback([arguments, &command] { command = {[arguments] { sweep(*arguments); }, true}; });
 }
 
 }  // namespace lampblack::app

@@ -2,8 +2,7 @@
 // end.
 #pragma once
 
-#include <functional>
-
+#include "app/run/command.hpp"
 #include "core/rooms.hpp"
 
 namespace CLI {
@@ -13,6 +12,6 @@ class App;
 namespace lampblack::app {
 
 // Adds the subcommand to the command line; when it is chosen, parsing sets `command` to what has to run.
-void addSweepCommand(CLI::App& app, std::function<void()>& command);
+void addSweepCommand(CLI::App& app, Command& command);
 
 }  // namespace lampblack::app

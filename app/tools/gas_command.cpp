@@ -1,7 +1,6 @@
 #include "app/tools/gas_command.hpp"
 
 #include <fmt/format.h>
-#include <petscsys.h>
 
 #include <CLI/CLI.hpp>
 #include <cmath>
@@ -20,6 +19,7 @@
 #include "app/tools/gas_report.hpp"
 #include "chemistry/thermo/thermo.hpp"
 #include "core/errors.hpp"
+#include "core/parallel_session.hpp"
 #include "io/units.hpp"
 
 namespace lampblack::app {
@@ -131,11 +131,9 @@ Answer answer(const GasArguments& arguments) {
 
 void runGas(const GasArguments& arguments) {
   Answer result;
-  collectively(PETSC_COMM_WORLD, [&] { result = answer(arguments); });
+  collectively(MPI_COMM_WORLD, [&] { result = answer(arguments); });
   printWarnings(result.warnings);
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  if (rank != 0) return;
+  if (placeOfProcess().rank != 0) return;
   // A reader that has seen enough ("| head") ends the program quietly; PETSc would call it a crash.
   std::signal(SIGPIPE, SIG_DFL);
   std::cout << result.text << std::flush;
@@ -143,7 +141,7 @@ void runGas(const GasArguments& arguments) {
 
 }  // namespace
 
-void addGasCommand(CLI::App& app, std::function<void()>& command) {
+void addGasCommand(CLI::App& app, Command& command) {
   const auto arguments = std::make_shared<GasArguments>();
   CLI::App* gas = app.add_subcommand("gas", "Properties, rates and equilibrium of a gas.");
   gas->add_option("mechanism", arguments->files.mechanism, "Mechanism: YAML by its ending, else CHEMKIN.")->required();
@@ -166,7 +164,7 @@ void addGasCommand(CLI::App& app, std::function<void()>& command) {
   gas->add_flag("--json", arguments->json, "One JSON object (docs/formats.md) in place of tables.");
   gas->add_flag("--all", arguments->tables.allSpecies, "Tables: every species, also those that are not there.");
   gas->add_flag("--reactions", arguments->tables.reactions, "Tables: the rate constants too.");
-  gas->callback([arguments, &command] { command = [arguments] { runGas(*arguments); }; });
+  gas->callback([arguments, &command] { command = {[arguments] { runGas(*arguments); }}; });
 }
 
 }  // namespace lampblack::app

@@ -1,8 +1,7 @@
 // `lampblack gas`: thermodynamics, rates and transport properties of a gas at one state, or at the equilibrium of it.
 #pragma once
 
-#include <functional>
-
+#include "app/run/command.hpp"
 #include "core/rooms.hpp"
 
 namespace CLI {
@@ -12,6 +11,6 @@ class App;
 namespace lampblack::app {
 
 // Adds the subcommand to the command line; when it is chosen, parsing sets `command` to what has to run.
-void addGasCommand(CLI::App& app, std::function<void()>& command);
+void addGasCommand(CLI::App& app, Command& command);
 
 }  // namespace lampblack::app

@@ -1,7 +1,6 @@
 #include "app/tools/mechanism_command.hpp"
 
 #include <fmt/format.h>
-#include <petscsys.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -17,6 +16,7 @@
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/mechanism/mechanism_writer.hpp"
 #include "core/errors.hpp"
+#include "core/parallel_session.hpp"
 
 namespace lampblack::app {
 namespace {
@@ -76,11 +76,10 @@ std::string summary(const Mechanism& mechanism) {
 }
 
 void runMechanism(const MechanismArguments& arguments) {
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  const int rank = placeOfProcess().rank;
   std::vector<std::string> warnings;
   std::string text;
-  collectively(PETSC_COMM_WORLD, [&] {
+  collectively(MPI_COMM_WORLD, [&] {
     checkOutput(arguments);
     const Mechanism mechanism = readMechanism(arguments.files);
     warnings = mechanism.warnings();
@@ -96,7 +95,7 @@ void runMechanism(const MechanismArguments& arguments) {
 
 }  // namespace
 
-void addMechanismCommand(CLI::App& app, std::function<void()>& command) {
+void addMechanismCommand(CLI::App& app, Command& command) {
   const auto arguments = std::make_shared<MechanismArguments>();
   CLI::App* mechanism = app.add_subcommand("mechanism", "Check a mechanism and convert CHEMKIN files to YAML.");
   mechanism->add_option("mechanism", arguments->files.mechanism, "CHEMKIN mechanism (chem.inp), or YAML by its ending.")
@@ -105,7 +104,7 @@ void addMechanismCommand(CLI::App& app, std::function<void()>& command) {
   mechanism->add_option("transport", arguments->files.transport, "CHEMKIN transport data (tran.dat).");
   mechanism->add_option("--phase", arguments->files.phase, "Phase of a YAML file; without it the first ideal gas.");
   mechanism->add_option("-o,--output", arguments->output, "YAML file to write; without it, check and summarise only.");
-  mechanism->callback([arguments, &command] { command = [arguments] { runMechanism(*arguments); }; });
+  mechanism->callback([arguments, &command] { command = {[arguments] { runMechanism(*arguments); }}; });
 }
 
 }  // namespace lampblack::app

@@ -1,8 +1,7 @@
 // `lampblack mechanism`: checks and summarises a mechanism file, and converts CHEMKIN files to YAML.
 #pragma once
 
-#include <functional>
-
+#include "app/run/command.hpp"
 #include "core/rooms.hpp"
 
 namespace CLI {
@@ -12,6 +11,6 @@ class App;
 namespace lampblack::app {
 
 // Adds the subcommand to the command line; when it is chosen, parsing sets `command` to what has to run.
-void addMechanismCommand(CLI::App& app, std::function<void()>& command);
+void addMechanismCommand(CLI::App& app, Command& command);
 
 }  // namespace lampblack::app

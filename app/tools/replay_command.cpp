@@ -1,7 +1,6 @@
 #include "app/tools/replay_command.hpp"
 
 #include <fmt/format.h>
-#include <petscsys.h>
 
 #include <CLI/CLI.hpp>
 #include <memory>
@@ -9,6 +8,7 @@
 
 #include "chemistry/reactor/reactor_replay.hpp"
 #include "core/errors.hpp"
+#include "core/parallel_session.hpp"
 
 namespace lampblack::app {
 namespace {
@@ -56,16 +56,12 @@ void replay(const std::string& path, bool print) {
 
 }  // namespace
 
-void addReplayCommand(CLI::App& app, std::function<void()>& command) {
+void addReplayCommand(CLI::App& app, Command& command) {
   const auto file = std::make_shared<std::string>();
   CLI::App* subcommand = app.add_subcommand("replay", "Advance a cell again whose chemistry failed in a run.");
   subcommand->add_option("file", *file, "failed_cell_<number>.yaml of that run.")->required();
   subcommand->callback([file, &command] {
-    command = [file] {
-      int rank = 0;
-      MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-      collectively(PETSC_COMM_WORLD, [&] { replay(*file, rank == 0); });
-    };
+    command = {[file] { collectively(MPI_COMM_WORLD, [&] { replay(*file, placeOfProcess().rank == 0); }); }};
   });
 }
 

@@ -1,8 +1,7 @@
 // `lampblack replay`: advances a cell that failed in a run once more, step by step before the user's eyes.
 #pragma once
 
-#include <functional>
-
+#include "app/run/command.hpp"
 #include "core/rooms.hpp"
 
 namespace CLI {
@@ -12,6 +11,6 @@ class App;
 namespace lampblack::app {
 
 // Adds the subcommand to the command line; when it is chosen, parsing sets `command` to what has to run.
-void addReplayCommand(CLI::App& app, std::function<void()>& command);
+void addReplayCommand(CLI::App& app, Command& command);
 
 }  // namespace lampblack::app

@@ -263,11 +263,10 @@ def check_full_disk(program, folder, deck):
     (former,) = (out / "checkpoint").glob("step_*.h5")
     before = former.read_bytes()
     limit = len(before) - 1
-    with tempfile.TemporaryDirectory() as session:
-        done = subprocess.run([*program.command, "run", str(deck), *options, *running.settings("checkpoint.steps=3", "time.end=8 us"), "--out",
-                               str(out), "--restart"], env=running.environment(session), stdin=subprocess.DEVNULL,
-                              capture_output=True, text=True, check=False,
-                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
+    done = subprocess.run([*program.command, "run", str(deck), *options, *running.settings("checkpoint.steps=3", "time.end=8 us"),
+                           "--out", str(out), "--restart"], env=running.environment(), stdin=subprocess.DEVNULL,
+                          capture_output=True, text=True, check=False,
+                          preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
     assert done.returncode == 0 and "no checkpoint at step" in done.stderr and "disk full: " in done.stderr, done
     assert former.read_bytes() == before and checkpoints(out) == [former.name], checkpoints(out)
     assert not [file.name for file in out.rglob("*") if file.name.endswith(".part")]

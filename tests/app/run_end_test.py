@@ -33,9 +33,9 @@ repeats: 4
 PREFIX = "lampblack: disk full: "
 
 
-def environment(session=""):
+def environment():
     """Open MPI keeps what ranks share in memory in files of some MB: not here, where the size of files is limited."""
-    return dict(running.environment(session), PMIX_MCA_gds="hash", OMPI_MCA_btl="self,tcp", OMPI_MCA_btl_tcp_if_include="lo")
+    return dict(running.environment(), PMIX_MCA_gds="hash", OMPI_MCA_btl="self,tcp", OMPI_MCA_btl_tcp_if_include="lo")
 
 
 class Cases:
@@ -86,10 +86,9 @@ def leftovers(folder):
 def disk_full(program, arguments, out, preparation):
     """One run on too small a disk; what is wrong about its end, or nothing, and its exit code."""
     try:
-        with tempfile.TemporaryDirectory() as session:
-            done = subprocess.run([*program.command, *map(str, arguments), "--out", str(out)],
-                                  env=environment(session if program.ranks == 1 else ""), stdin=subprocess.DEVNULL,
-                                  capture_output=True, text=True, preexec_fn=preparation, timeout=100, check=False)
+        done = subprocess.run([*program.command, *map(str, arguments), "--out", str(out)], env=environment(),
+                              stdin=subprocess.DEVNULL, capture_output=True, text=True, preexec_fn=preparation, timeout=100,
+                              check=False)
     except subprocess.TimeoutExpired:
         return "hangs", None
     lines = done.stderr.splitlines()

@@ -10,7 +10,6 @@ import re
 import shutil
 import subprocess
 import sys
-import tempfile
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 MECHANISM = "ethylene_bisetti2012_47.yaml"
@@ -32,19 +31,14 @@ class Result:
     err: str
 
 
-def environment(session: str = "") -> dict:
+def environment() -> dict:
     """Open MPI refuses to run as root unless told twice; each rank is one thread.
 
     Tests start the program some hundred times, on one machine: there is no need to look for a cluster's network, which
     takes 0.2 s of a start, nor to wait 2 s, after a rank ended with an exit code, for ranks that have ended already.
-    `session` is a folder for the run of one rank without mpirun: it has no daemon of Open MPI beside it then, which takes
-    0.15 s of a start and speaks up where a signal ends a run. All such processes believe that they are the same job, and
-    would take away each other's files in one folder.
     """
     env = dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
     env.update(OMPI_MCA_pml="ob1", OMPI_MCA_odls_base_sigkill_timeout="0")
-    if session:
-        env.update(OMPI_MCA_ess_singleton_isolated="1", OMPI_MCA_orte_tmpdir_base=session)
     if os.geteuid() == 0:
         env.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
     return env
@@ -61,13 +55,11 @@ class Program:
 
     def __call__(self, *arguments, timeout: float = 60) -> Result:
         """Runs it. A run that hangs ends after `timeout` seconds, without an exit code."""
-        with tempfile.TemporaryDirectory() as session:
-            env = environment(session if self.ranks == 1 else "")
-            try:
-                done = subprocess.run([*self.command, *map(str, arguments)], env=env, stdin=subprocess.DEVNULL,
-                                      capture_output=True, text=True, errors="replace", timeout=timeout, check=False)
-            except subprocess.TimeoutExpired:
-                return Result(None, "", f"still running after {timeout} s")
+        try:
+            done = subprocess.run([*self.command, *map(str, arguments)], env=environment(), stdin=subprocess.DEVNULL,
+                                  capture_output=True, text=True, errors="replace", timeout=timeout, check=False)
+        except subprocess.TimeoutExpired:
+            return Result(None, "", f"still running after {timeout} s")
         return Result(done.returncode, done.stdout, done.stderr)
 
 

@@ -1,0 +1,23 @@
+// Runs on several ranks without a script: this program starts itself again under mpirun.
+#pragma once
+
+#include <mpi.h>
+
+#include <span>
+
+#include "core/rooms.hpp"
+
+namespace lampblack::app {
+
+// Whether this process has to become several: it was asked for more than one rank and is no rank of a launcher itself.
+bool needsLauncher(int ranks);
+
+// This process becomes mpirun with that many ranks of this very command line. mpirun is LAMPBLACK_MPIRUN where that is
+// set, else the one of PATH, else that of the build. InputError where there is none.
+[[noreturn]] void runOnRanks(int ranks, std::span<char* const> commandLine);
+
+// InputError where the ranks that a launcher started are not as many as --ranks says; a launcher of another MPI starts
+// ranks that do not know of each other. `ranks` of zero: --ranks was not given.
+void checkRanks(MPI_Comm comm, int ranks);
+
+}  // namespace lampblack::app

@@ -1,0 +1,132 @@
+"""How the program starts: what starts MPI and what does not, no daemon beside a run of one rank, and runs that start their
+own ranks.
+
+Usage: start_test.py EXECUTABLE MPIEXEC...
+"""
+
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+import running
+
+METHANE = str(running.SOURCE / "cases/mechanisms/methane_gri30_53.yaml")
+IGNITION = str(running.SOURCE / "cases/reactor/ignition_hydrogen/deck.yaml")
+SHORT = running.settings("time.end=0.1 ms")
+
+
+def plain_environment(**more) -> dict:
+    """As a user has it: nothing of Open MPI is set."""
+    env = {name: value for name, value in os.environ.items() if not name.startswith(("OMPI_", "PMIX_", "PRTE_", "HWLOC_"))}
+    return dict(env, **more)
+
+
+# Of runs under mpirun: no search for a cluster's network, no waiting for ranks that have ended already.
+HASTE = {"OMPI_MCA_pml": "ob1", "OMPI_MCA_odls_base_sigkill_timeout": "0"}
+
+
+def run(*command, **more):
+    return subprocess.run(list(map(str, command)), env=plain_environment(**more), stdin=subprocess.DEVNULL, capture_output=True,
+                          text=True, timeout=60, check=False)
+
+
+def components(*command, **more) -> str:
+    """What Open MPI loads while the command runs, as the dynamic linker says it."""
+    with tempfile.TemporaryDirectory() as folder:
+        run(*command, LD_DEBUG="files", LD_DEBUG_OUTPUT=f"{folder}/log", **more)
+        return "\n".join(path.read_text(errors="replace") for path in pathlib.Path(folder).iterdir())
+
+
+def check_what_starts_mpi(executable):
+    for arguments in (["--version"], ["--help"], ["run", "--help"], ["--nonsense"], ["deck-reference"],
+                      ["gas", METHANE, "--T", "1500", "--X", "CH4:1"], ["mechanism", METHANE]):
+        assert "mca_" not in components(executable, *arguments), f"{arguments} starts MPI"
+    loaded = components(executable, "check", IGNITION)
+    assert "mca_pml_ob1" in loaded, "MPI does not start where it is needed, or is not seen"
+    assert "mca_btl_tcp" not in loaded, "a single rank looks for a network"
+    assert "mca_btl_tcp" in components(executable, "check", IGNITION, OMPI_MCA_btl="self,tcp"), "the user's choice is lost"
+
+
+def processes_of_session(session: int) -> list:
+    found = []
+    for path in pathlib.Path("/proc").glob("[0-9]*/stat"):
+        try:
+            name, _, rest = path.read_text().rpartition(")")
+        except OSError:
+            continue
+        if int(rest.split()[3]) == session:
+            found.append(name.partition("(")[2])
+    return found
+
+
+def check_no_daemon(executable, folder):
+    """While one rank runs there is no other process, and two of them at once do not disturb each other."""
+    runs = [subprocess.Popen([executable, "run", IGNITION, "--out", str(folder / name), *running.settings("output.interval=1 ns")],
+                             env=plain_environment(), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                             start_new_session=True, text=True) for name in ("one", "two")]
+    try:
+        for process, name in zip(runs, ("one", "two")):
+            until = time.monotonic() + 30
+            while not (folder / name / "run.json").exists() and time.monotonic() < until:
+                time.sleep(0.01)
+            found = processes_of_session(process.pid)
+            assert found == ["lampblack"], f"processes of a run of one rank: {found}"
+    finally:
+        for process in runs:
+            process.send_signal(signal.SIGTERM)
+    for process in runs:
+        said = process.communicate(timeout=30)[1]
+        assert process.returncode == 128 + signal.SIGTERM and said.startswith("lampblack: stopped by SIGTERM"), said
+
+
+def check_ranks(executable, folder):
+    """Runs start their own ranks; what cannot be is said once."""
+    done = run(executable, "run", IGNITION, *SHORT, "--out", folder / "ranks", "--ranks", "2", **HASTE)
+    assert done.returncode == 0, done
+    assert json.loads((folder / "ranks/run.json").read_text())["ranks"] == 2
+    done = run(executable, "run", IGNITION, *SHORT, "--out", folder / "alone", "--ranks=1")
+    assert done.returncode == 0 and json.loads((folder / "alone/run.json").read_text())["ranks"] == 1, done
+    # The exit code and message of the ranks are those of the command.
+    done = run(executable, "run", IGNITION, "--set", "pressure=0", "--ranks", "2", "--out", folder / "wrong", **HASTE)
+    assert done.returncode == 2 and "pressure" in done.stderr and done.stderr.count("lampblack: ") == 1, done
+    many = len(os.sched_getaffinity(0)) + 1
+    done = run(executable, "run", IGNITION, *SHORT, "--out", folder / "many", "--ranks", many, **HASTE)
+    assert done.returncode == 0 and "they will take turns" in done.stdout, done
+    done = run(executable, "run", IGNITION, "--ranks", "0")
+    assert done.returncode == 2 and "--ranks" in done.stderr, done
+
+
+def check_launchers(executable, mpiexec, folder):
+    env = dict(HASTE, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+    done = run(*mpiexec, "2", "--oversubscribe", executable, "run", IGNITION, "--ranks", "3", "--out", folder / "three", **env)
+    assert done.returncode == 2 and done.stderr.count("the launcher made a run of 2 rank(s)") == 1, done
+    done = run(executable, "run", IGNITION, "--ranks", "2", LAMPBLACK_MPIRUN="nowhere")
+    assert done.returncode == 2 and "LAMPBLACK_MPIRUN: there is no program 'nowhere'" in done.stderr, done
+    # The launcher of another MPI: each process believes that it is alone.
+    other = folder / "other_mpirun"
+    other.write_text('#!/bin/sh\nwhile [ "$1" != run ]; do last="$1"; command="$command $1"; shift; done\nexec "$last" "$@"\n')
+    other.chmod(0o755)
+    done = run(executable, "run", IGNITION, "--ranks", "2", "--out", folder / "other", LAMPBLACK_MPIRUN=other)
+    assert done.returncode == 2 and "of another MPI" in done.stderr and not (folder / "other").exists(), done
+    # One rank under a launcher is a rank of the launcher.
+    done = run(*mpiexec, "1", executable, "run", IGNITION, *SHORT, "--out", folder / "launched", **env)
+    assert done.returncode == 0, done
+
+
+def main(executable, *mpiexec):
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        check_what_starts_mpi(executable)
+        check_no_daemon(executable, folder)
+        check_ranks(executable, folder)
+        check_launchers(executable, mpiexec, folder)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))
