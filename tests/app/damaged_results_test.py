@@ -19,11 +19,11 @@ import running
 import small_decks
 
 SCRIPTS = running.SOURCE / "scripts"
-sys.path.insert(0, str(SCRIPTS))
+sys.path.insert(0, str(running.SOURCE / "python"))
 h5py = running.package("h5py")
 np = running.package("numpy")
 for module in ("flame", "flame_study", "planes", "population", "reactor", "sizes"):  # once for all children
-    running.package(f"lampblack_plots.{module}")
+    running.package(f"lampblack.plots.{module}")
 
 POPULATION = small_decks.population("dsmc: {type: dsmc, particles: 50}", repeats=2, outputs=5, bins=10, times=[1])
 FLAME = small_decks.free_flame("hydrogen_h2o2_10.yaml", "H2", slope=0.5, curve=0.8)

@@ -105,8 +105,8 @@ def species_with_comma(program, folder):
                     "ignition.species=['H2O2(1,3)']", "sensitivity.reactions=['1']")
     head, rows = rows_of(out / "history.csv")
     assert "X_H2O2(1,3) [1]" in head and all(len(row) == len(head) for row in rows), head
-    sys.path.insert(0, str(running.SOURCE / "scripts"))
-    from lampblack_plots.results import Results  # noqa: PLC0415
+    sys.path.insert(0, str(running.SOURCE / "python"))
+    from lampblack.results import Results  # noqa: PLC0415
     with h5py.File(out / "results.h5", "r") as file:
         written = {name: file["history"][name][()] for name in file["history"]}
     (out / "results.h5").rename(out / "away.h5")

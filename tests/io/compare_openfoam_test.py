@@ -58,8 +58,8 @@ def write_run(folder, fields):
 
 
 def compared(*words):
-    done = subprocess.run([sys.executable, "-m", "lampblack_plots.openfoam", *map(str, words)], capture_output=True, text=True,
-                          env={**os.environ, "PYTHONPATH": str(SCRIPTS)})
+    done = subprocess.run([sys.executable, "-m", "lampblack.plots.openfoam", *map(str, words)], capture_output=True, text=True,
+                          env={**os.environ, "PYTHONPATH": str(SCRIPTS.parent / "python")})
     return done.returncode, done.stdout, done.stderr
 
 

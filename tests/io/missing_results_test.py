@@ -13,6 +13,7 @@ except ImportError:
     sys.exit(77)
 
 SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
+PYTHON = SCRIPTS.parent / "python"
 # Each with what follows the folder of results, and what it is to say where there is no such folder.
 COMMANDS = [
     ("compare_sections", (), "expected the folder of a run or its results.h5"),
@@ -42,14 +43,14 @@ def main():
 
         def crash():
             """A library that crashes on a file takes its own process along, not what the script says."""
-            script = "import os, sys; from lampblack_plots.damage import guarded; sys.exit(guarded(os.abort))"
-            done = subprocess.run([sys.executable, "-c", script, damaged], capture_output=True, text=True, check=False, cwd=SCRIPTS)
+            script = "import os, sys; from lampblack.damage import guarded; sys.exit(guarded(os.abort))"
+            done = subprocess.run([sys.executable, "-c", script, damaged], capture_output=True, text=True, check=False, cwd=PYTHON)
             assert (done.returncode, done.stderr) == (
                 2, f"{damaged}: damaged: the library that reads it crashed (SIGABRT)\n"), done
 
         crash()
-        script = "import os, sys; from lampblack_plots.damage import guarded; sys.exit(guarded(lambda: os.kill(os.getpid(), 9)))"
-        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False, cwd=SCRIPTS)
+        script = "import os, sys; from lampblack.damage import guarded; sys.exit(guarded(lambda: os.kill(os.getpid(), 9)))"
+        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False, cwd=PYTHON)
         assert (done.returncode, done.stderr) == (-9, ""), done  # not the file's fault
         with concurrent.futures.ThreadPoolExecutor(2) as pool:
             return 1 if any(list(pool.map(problem, [(c, folder) for c in COMMANDS for folder in (missing, damaged)]))) else 0

@@ -85,8 +85,8 @@ def test_pictures_are_made_and_missing_fields_named(work):
 
 
 def test_units_are_read_as_text(work):
-    sys.path.insert(0, str(ROOT / "scripts"))
-    from lampblack_plots.results import Results, unit_of
+    sys.path.insert(0, str(ROOT / "python"))
+    from lampblack.results import Results, unit_of
 
     synthetic_results(work / "run")
     results = Results(work / "run")
@@ -113,11 +113,11 @@ def test_reference_is_found_beside_the_deck_and_compared(work):
     reference.write_text("\n".join(rows) + "\n", encoding="utf-8")
     (work / "flame" / "run.json").write_text(json.dumps({"deck_path": str(case / "deck.yaml")}), encoding="utf-8")
 
-    sys.path.insert(0, str(ROOT / "scripts"))
-    from lampblack_plots.profiles import plot_profiles
-    from lampblack_plots.reference import find_references
-    from lampblack_plots.results import Results
-    from lampblack_plots.style import Pictures
+    sys.path.insert(0, str(ROOT / "python"))
+    from lampblack.plots.profiles import plot_profiles
+    from lampblack.reference import find_references
+    from lampblack.results import Results
+    from lampblack.plots.style import Pictures
 
     results, pictures = Results(work / "flame"), Pictures(work / "pictures")
     assert find_references(results) == [reference]
@@ -135,8 +135,8 @@ def test_reference_is_found_beside_the_deck_and_compared(work):
 
 
 def test_series_are_runs_that_differ_in_one_thing(work):
-    sys.path.insert(0, str(ROOT / "scripts"))
-    from lampblack_plots.flame_series import series_of
+    sys.path.insert(0, str(ROOT / "python"))
+    from lampblack.flame_series import series_of
 
     def a_run(oxygen, velocity):
         flat = {"right.composition": f"O2: {oxygen}, N2: {1 - oxygen}", "left.velocity": velocity, "right.velocity": velocity,
@@ -151,8 +151,8 @@ def test_series_are_runs_that_differ_in_one_thing(work):
 
 
 def test_peaks_and_half_widths_of_known_profiles(work):
-    sys.path.insert(0, str(ROOT / "scripts"))
-    from lampblack_plots.flame_peaks import half_widths, is_unimodal, lopsidedness, peak
+    sys.path.insert(0, str(ROOT / "python"))
+    from lampblack.plots.flame_peaks import half_widths, is_unimodal, lopsidedness, peak
 
     z = np.linspace(0, 10, 101)
     height, place = peak(z, np.maximum(0, 5 - (z - 4.03) ** 2))
@@ -165,8 +165,8 @@ def test_peaks_and_half_widths_of_known_profiles(work):
 
 
 def test_reconstructed_aggregates_have_their_necks_and_little_other_overlap(work):
-    sys.path.insert(0, str(ROOT / "scripts"))
-    from lampblack_plots.aggregates import TOUCHING, neck_distance, reconstructed, surface_over_sphere
+    sys.path.insert(0, str(ROOT / "python"))
+    from lampblack.plots.aggregates import TOUCHING, neck_distance, reconstructed, surface_over_sphere
 
     assert abs(neck_distance(3.0, 3.0, 0.0) - 6.0) < 1e-6 and neck_distance(3.0, 3.0, 0.999) < 1.0
     distance = neck_distance(3.0, 2.0, 0.5)
@@ -189,8 +189,8 @@ def test_reconstructed_aggregates_have_their_necks_and_little_other_overlap(work
 
 
 def test_class_means_of_particles_are_those_of_each_class(work):
-    sys.path.insert(0, str(ROOT / "scripts"))
-    from lampblack_plots.tree_tables import class_means
+    sys.path.insert(0, str(ROOT / "python"))
+    from lampblack.plots.tree_tables import class_means
 
     diameter = np.array([1.0] * 6 + [10.0] * 6 + [100.0] * 2) * 1e-9
     particles = {"collision_diameter": diameter, "primaries": np.array([1] * 6 + [2, 4] * 3 + [9, 9]), "primary_diameter": diameter / 2,

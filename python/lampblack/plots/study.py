@@ -4,7 +4,7 @@ import csv
 
 import numpy as np
 
-from .damage import reading
+from ..damage import reading
 from .style import plt
 
 BOUND = 3.3  # 99.9 % of a normal distribution

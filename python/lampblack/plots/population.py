@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .results import unit_of
+from ..results import unit_of
 from .style import plt
 
 SECTIONS = ("sectional", "qmom", "momic")

@@ -4,7 +4,7 @@ import numpy as np
 
 from .flame import APART, FlameData, plot_gas
 from .flame_peaks import peak, shape
-from .results import Results
+from ..results import Results
 from .style import plt, scaled_fraction
 
 DENSITIES = {"leung": 2000.0, "moss_brookes": 1800.0, "sectional": 1800.0}  # of docs/deck.md, where the deck names none

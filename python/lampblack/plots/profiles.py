@@ -1,6 +1,6 @@
 """Profiles along the centreline, with reference profiles over them."""
 
-from .reference import read_reference
+from ..reference import read_reference
 from .style import plt, shown_time
 
 # Field, column of the reference, label, factor to the unit shown, logarithmic.

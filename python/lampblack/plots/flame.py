@@ -3,7 +3,7 @@ several flames in one picture."""
 
 import numpy as np
 
-from .results import Results, text_of
+from ..results import Results, text_of
 from .style import plt, scaled_fraction
 
 MOST_MAJOR, MOST_MINOR, MOST_SIZES = 8, 10, 7

@@ -6,8 +6,8 @@ import sys
 
 import numpy as np
 
-from .damage import ResultsError, guarded, reading
-from .results import Results
+from ..damage import ResultsError, guarded, reading
+from ..results import Results
 
 SPECIES = ["CH4", "O2", "CO2", "CO", "OH"]
 

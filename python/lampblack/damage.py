@@ -29,8 +29,8 @@ def _cause(error):
     """The reason in a line: HDF5's can be several."""
     words = " ".join(str(error).split())
     place = traceback.extract_tb(error.__traceback__)[-1]
-    ours = [frame for frame in traceback.extract_tb(error.__traceback__) if "lampblack_plots" in frame.filename
-            or pathlib.Path(frame.filename).parent.name == "scripts"]
+    ours = [frame for frame in traceback.extract_tb(error.__traceback__) if pathlib.Path(__file__).parent in
+            pathlib.Path(frame.filename).parents or pathlib.Path(frame.filename).parent.name == "scripts"]
     place = ours[-1] if ours else place
     return f"{type(error).__name__}: {words[:200]}, at line {place.lineno} of {pathlib.Path(place.filename).name}"
 

@@ -4,10 +4,10 @@ import json
 
 import numpy as np
 
-from .damage import reading
+from ..damage import reading
 from .flame import APART, plot_together
 from .flame_figures import plot_series
-from .flame_series import read_runs, series_of
+from ..flame_series import read_runs, series_of
 from .style import plt, scaled_fraction
 from .study import read_table
 

@@ -5,7 +5,7 @@ import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import LogNorm
 
-from .results import unit_of
+from ..results import unit_of
 from .shapes import Shapes
 from .style import plt, scaled_fraction, shown_time
 

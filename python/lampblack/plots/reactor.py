@@ -4,7 +4,7 @@ import csv
 
 import numpy as np
 
-from .damage import reading
+from ..damage import reading
 from .style import plt
 from .tree_tables import plot_tree_tables
 

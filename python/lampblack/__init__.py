@@ -1,0 +1,1 @@
+"""Reading results of Lampblack, and pictures of them (`lampblack.plots`)."""

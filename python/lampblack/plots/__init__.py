@@ -1,0 +1,1 @@
+"""Pictures of runs and studies; `python3 -m lampblack.plots --help`."""

@@ -1,1 +1,0 @@
-"""Reading results of Lampblack and making pictures of them."""
