@@ -15,8 +15,10 @@
 #include "app/run/rank_launcher.hpp"
 #include "app/study/sweep_command.hpp"
 #include "app/study/sweep_study.hpp"
+#include "app/tools/cases_command.hpp"
 #include "app/tools/gas_command.hpp"
 #include "app/tools/mechanism_command.hpp"
+#include "app/tools/plot_command.hpp"
 #include "app/tools/replay_command.hpp"
 #include "core/errors.hpp"
 #include "core/long_lines.hpp"
@@ -160,6 +162,9 @@ int main(int argc, char** argv) {
   addMechanismCommand(app, command);
   addReplayCommand(app, command);
   addSweepCommand(app, command);
+  addPlotCommand(app, command);
+  addCasesCommand(app, command);
+  addWhereCommand(app, command);
   for (CLI::App* subcommand : {runCommand, app.get_subcommand("sweep")})
     subcommand->add_option("--ranks", arguments.ranks, "MPI ranks; they are started by mpirun.")
         ->check(CLI::PositiveNumber);

@@ -1,4 +1,5 @@
-# Everything Lampblack builds on; all of it is packaged by Debian 12 (scripts/packages.txt lists the packages).
+# Everything the rooms build on; all of it is packaged by Debian 12 (scripts/packages.txt lists the packages). The installed
+# package (find_package(Lampblack)) looks for the same by this file.
 find_package(MPI REQUIRED COMPONENTS CXX)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET PETSc)
@@ -7,6 +8,9 @@ pkg_check_modules(MUPARSER REQUIRED IMPORTED_TARGET muparser)
 find_package(SUNDIALS REQUIRED)
 find_package(yaml-cpp REQUIRED)
 find_package(fmt REQUIRED)
-find_package(CLI11 REQUIRED)
 find_package(LAPACK REQUIRED)
 find_path(RANDOM123_INCLUDE_DIR Random123/philox.h REQUIRED)
+if(NOT TARGET Random123)
+  add_library(Random123 INTERFACE IMPORTED)
+  target_include_directories(Random123 INTERFACE "${RANDOM123_INCLUDE_DIR}")
+endif()

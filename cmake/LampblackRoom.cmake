@@ -8,12 +8,17 @@
 function(lampblack_room room)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE;PRECOMPILED" ${ARGN})
   add_library(lampblack_${room} STATIC ${ARG_SOURCES})
-  target_include_directories(lampblack_${room} PUBLIC ${CMAKE_SOURCE_DIR})
-  target_link_libraries(lampblack_${room} PUBLIC ${ARG_PUBLIC} PRIVATE lampblack_options ${ARG_PRIVATE})
+  target_include_directories(lampblack_${room} PUBLIC $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}>
+                                                      $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/lampblack>)
+  target_compile_features(lampblack_${room} PUBLIC cxx_std_20)
+  target_link_libraries(lampblack_${room} PUBLIC ${ARG_PUBLIC} PRIVATE $<BUILD_INTERFACE:lampblack_options> ${ARG_PRIVATE})
   if(LAMPBLACK_UNITY)
     set_target_properties(lampblack_${room} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
     # GCC takes the sources for headers, whose classes would have members of types without a name outside.
     target_compile_options(lampblack_${room} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   endif()
   lampblack_precompile(lampblack_${room} HEADERS ${ARG_PRECOMPILED})
+  if(NOT room STREQUAL "app")  # the program's own
+    lampblack_install_room(${room})
+  endif()
 endfunction()

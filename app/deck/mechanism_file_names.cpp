@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "app/run/shipped_files.hpp"
 #include "chemistry/chemkin/chemkin_reader.hpp"
 #include "core/errors.hpp"
 
@@ -30,7 +31,7 @@ Mechanism readMechanism(const MechanismFileNames& files) {
         fmt::format("{} is YAML, which holds thermodynamic and transport data itself; expected no further "
                     "file, found '{}'",
                     files.mechanism, files.thermo));
-  return Mechanism::fromFile(files.mechanism, files.phase);
+  return Mechanism::fromFile(findMechanism({}, files.mechanism), files.phase);
 }
 
 }  // namespace lampblack::app

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/run/shipped_files.hpp"
 #include "app/run/warnings.hpp"
 #include "chemistry/thermo/sound_speed.hpp"
 #include "chemistry/thermo/thermo.hpp"
@@ -96,14 +97,18 @@ std::vector<double> readMixture(const Deck& deck, const std::string& section, co
 }
 
 void addMechanismKeys(DeckSchema& schema) {
-  schema.add(stringKey("mechanism", "Mechanism file in Cantera's YAML format, relative to the deck."))
+  schema
+      .add(stringKey("mechanism",
+                     "Mechanism file in Cantera's YAML format, relative to the deck; or the name of one that ships "
+                     "(`lampblack where mechanisms`)."))
       .add(stringKey("phase", "Name of the phase of the mechanism file; without it the first ideal gas.").optional());
 }
 
 std::shared_ptr<const Mechanism> readMechanism(const Deck& deck) {
   return deck.at("mechanism", [&] {
-    auto mechanism = std::make_shared<const Mechanism>(Mechanism::fromFile(
-        deck.resolvePath(deck.string("mechanism")).string(), deck.optionalString("phase").value_or("")));
+    auto mechanism = std::make_shared<const Mechanism>(
+        Mechanism::fromFile(findMechanism(deck.resolvePath(""), deck.string("mechanism")).string(),
+                            deck.optionalString("phase").value_or("")));
     printWarnings(mechanism->warnings());
     return mechanism;
   });

@@ -1,0 +1,59 @@
+#include "app/run/shipped_files.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <vector>
+
+#include "core/errors.hpp"
+#include "core/nearest_name.hpp"
+#include "core/system_error.hpp"
+
+namespace lampblack::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path sharedFolder() {
+  if (const char* chosen = std::getenv("LAMPBLACK_SHARE"); chosen != nullptr) return chosen;
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  return error ? fs::path() : (program.parent_path() / LAMPBLACK_SHARE_FROM_PROGRAM).lexically_normal();
+}
+
+std::vector<std::string> namesIn(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) names.push_back(entry.path().filename());
+  return names;
+}
+
+}  // namespace
+
+fs::path shippedIfThere(const std::string& part) {
+  const fs::path folder = sharedFolder() / part;
+  std::error_code error;
+  return fs::is_directory(folder, error) ? folder : fs::path();
+}
+
+fs::path shipped(const std::string& part) {
+  if (const fs::path folder = shippedIfThere(part); !folder.empty()) return folder;
+  throw SystemError(
+      fmt::format("{}: there is no such folder; what ships with the program lies there. Install Lampblack again, or "
+                  "name the folder "
+                  "above it in LAMPBLACK_SHARE",
+                  (sharedFolder() / part).string()));
+}
+
+fs::path findMechanism(const fs::path& folder, const std::string& name) {
+  const fs::path file = folder / name;
+  std::error_code error;
+  if (fs::exists(file, error) || fs::path(name).has_parent_path()) return file;
+  const fs::path mechanisms = shippedIfThere("cases/mechanisms");
+  if (mechanisms.empty()) return file;
+  if (fs::exists(mechanisms / name, error)) return mechanisms / name;
+  throw InputError(fmt::format("{}: there is no such file, and none of the mechanisms in {} is called '{}'{}",
+                               file.string(), mechanisms.string(), name, didYouMean(name, namesIn(mechanisms))));
+}
+
+}  // namespace lampblack::app
