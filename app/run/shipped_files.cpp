@@ -52,8 +52,8 @@ fs::path findMechanism(const fs::path& folder, const std::string& name) {
   const fs::path mechanisms = shippedIfThere("cases/mechanisms");
   if (mechanisms.empty()) return file;
   if (fs::exists(mechanisms / name, error)) return mechanisms / name;
-  throw InputError(fmt::format("{}: there is no such file, and none of the mechanisms in {} is called '{}'{}",
-                               file.string(), mechanisms.string(), name, didYouMean(name, namesIn(mechanisms))));
+  throw InputError(fmt::format("{}: there is no such file; expected a mechanism, and none of that name is in {}{}",
+                               file.string(), mechanisms.string(), didYouMean(name, namesIn(mechanisms))));
 }
 
 }  // namespace lampblack::app
