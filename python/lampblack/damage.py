@@ -8,9 +8,7 @@ import tempfile
 import traceback
 import warnings
 
-
-class ResultsError(Exception):
-    """The file or folder does not hold results that can be read; the message says so to the user."""
+from .errors import ResultsError
 
 
 _read = []

@@ -8,16 +8,14 @@ import pathlib
 import h5py
 import numpy as np
 
-from .damage import ResultsError, reading
+from .arrays import Array, Table, array_of, table_of, table_of_csv, text_of
+from .damage import reading
+from .distributions import distributions_of
+from .errors import ResultsError
 
 
 # Other names that mechanisms use for the same species.
 ALIASES = {"A1": ["A1", "C6H6"], "A2": ["A2", "C10H8"], "A4": ["A4", "C16H10"]}
-
-
-def text_of(value):
-    """h5py gives texts of fixed length as bytes."""
-    return value.decode("utf-8") if isinstance(value, bytes) else str(value)
 
 
 def unit_of(dataset):
@@ -43,6 +41,8 @@ def opened(path, what):
 
 
 class Results:
+    """A run's results; `file` is results.h5 itself, opened by h5py."""
+
     def __init__(self, folder):
         self.folder = pathlib.Path(folder)
         candidates = [self.folder / "results.h5", self.folder / "results.h5.part"]
@@ -99,9 +99,9 @@ class Results:
         by_lower = {key.lower(): key for key in group}
         for candidate in names:
             if candidate in group:
-                return group[candidate][()]
+                return array_of(group[candidate])
             if candidate.lower() in by_lower:
-                return group[by_lower[candidate.lower()]][()]
+                return array_of(group[by_lower[candidate.lower()]])
         return None
 
     def centreline(self):
@@ -167,19 +167,49 @@ class Results:
         return next(csv.reader([names])), {name: group[name][()] for name in group}
 
     def history(self):
-        """Columns of the history as {name: (unit, values)}, from the results file or else from history.csv."""
+        """The rows of the history, from the results file or else from history.csv; none where there is no history."""
         group = self.file.get("history")
         if group is not None:
-            return {name: (unit_of(group[name]), group[name][()]) for name in group}
+            return table_of(group)
         path = self.folder / "history.csv"
-        if not path.is_file():
-            return {}
-        lines = list(csv.reader(reading(path).read_text(encoding="utf-8").splitlines()))
-        if len(lines) < 2:
-            return {}
-        rows = [[float(x) for x in line] for line in lines[1:] if len(line) == len(lines[0])]
-        columns = {}
-        for c, head in enumerate(lines[0]):
-            name, _, unit = head.partition(" [")
-            columns[name] = (unit.rstrip("]"), np.array([row[c] for row in rows]))
-        return columns
+        return table_of_csv(path) if path.is_file() else Table({})
+
+    def profile(self):
+        """Of a one-dimensional flame: what /flame has at its points, species as X_<name> and Y_<name>, soot as soot_<name>; the
+        columns of profile.csv, and mass fractions."""
+        if not self.is_flame:
+            raise ResultsError(f"{self.folder}: these are not the results of a one-dimensional flame")
+        flame = self.file["flame"]
+        points = flame["z"].shape[0]
+        columns = dict(table_of(flame))
+        for group, prefix in (("X", "X_"), ("Y", "Y_"), ("soot", "soot_"), ("soot/processes", "soot_")):
+            for name, dataset in flame.get(group, {}).items():
+                if getattr(dataset, "shape", None) == (points,):
+                    columns[prefix + name] = array_of(dataset, prefix + name)
+        return Table(columns)
+
+    def cell_table(self, step=None):
+        """Of a flow: the centres of the cells and all fields of a step (the last one)."""
+        if not self.steps:
+            raise ResultsError(f"{self.folder}: these results have no fields of a flow")
+        axes = self.axis_names() if self.is_plane else ("x", "y", "z")
+        columns = {name: Array(self.centres[:, i], name, "m", "centre of the cell") for i, name in enumerate(axes)}
+        return Table({**columns, **table_of(self.fields(step or self.steps[-1]))})
+
+    def table(self, name):
+        """Any group of results.h5 as a table ('probes/tip', 'rates', 'methods/dsmc/history'), or a CSV file of the folder."""
+        group = self.file.get(name)
+        if group is not None and hasattr(group, "keys"):
+            return table_of(group)
+        path = self.folder / name
+        if path.is_file() and path.suffix == ".csv":
+            return table_of_csv(path)
+        raise ResultsError(f"{self.folder}: there is no table '{name}', neither a group of results.h5 nor a CSV file")
+
+    def distributions(self):
+        """Size distributions by name (`Distribution`)."""
+        return distributions_of(self)
+
+    def numbers(self):
+        """The results that are single numbers: the object "results" of run.json."""
+        return self.record().get("results", {})

@@ -103,6 +103,15 @@ def check_run(user):
     assert not list(user.temporary.glob("lampblack.*")), "a run left its session's folder"
 
 
+def check_python(user):
+    """The package finds the program it came with, not the one of PATH."""
+    user.env["PYTHONPATH"] = user("lampblack", "where", "python").stdout.strip()
+    script = ("import lampblack, lampblack.program as p\nprint(p.executable())\n"
+              "print(lampblack.run('free_hydrogen/deck.yaml', set={'grid.slope': 0.5, 'grid.curve': 0.8}, out='by python').profile().rows)")
+    program, rows = user("/usr/bin/python3", "-c", script).stdout.splitlines()
+    assert program == str(user.program) and int(rows) > 10
+
+
 def check_completion(user, prefix):
     script = prefix / "share/bash-completion/completions/lampblack"
     for line, expected in (("che", ["check"]), ("--ver", ["--version"]), ("run --se", ["--set"]), ("run --ran", ["--ranks"]),
@@ -135,6 +144,7 @@ def main(build, cmake):
         check_cases(user, prefix)
         check_mechanisms(user)
         check_run(user)
+        check_python(user)
         check_completion(user, prefix)
         check_own_program(user, prefix, cmake)
     return 0

@@ -37,7 +37,8 @@ def main():
         from ..reference import ProfileError, find_references, read_reference
         from ..results import Results, ResultsError
         from .sizes import plot_sizes
-        from .study import is_study, plot_study
+        from ..study import is_study
+        from .study import plot_study
         from .style import Pictures
     except ImportError as error:
         print(f"{error}. Pictures need numpy, h5py and matplotlib (Debian: python3-h5py python3-matplotlib).", file=sys.stderr)

@@ -11,7 +11,7 @@ RATES = (("nucleation", "inception"), ("condensation", "condensation"), ("growth
 
 
 def plot_along(results, pictures):
-    columns = {name: values for name, (_, values) in results.history().items()}
+    columns = results.history()
     factor, unit = unit_of(np.max(np.abs(columns["time"])), (("s", 1.0), ("ms", 1e3), ("us", 1e6), ("ns", 1e9)))
     axis, label = columns["time"] * factor, f"time, {unit}"
     plot_particles(columns, axis, label, pictures)

@@ -264,8 +264,8 @@ def _plot_averages(results, pictures):
     panels[0].legend(fontsize=8)
     panels[-1].set_xlabel(f"{results.axis_names()[1]}, mm")
     since = results.history().get(f"{material}_averages_since")
-    if since is not None and np.isfinite(since[1][-1]):
-        figure.suptitle(f"Centreline, averages from {shown_time(since[1][-1])} to {shown_time(results.time(results.steps[-1]))}")
+    if since is not None and np.isfinite(since[-1]):
+        figure.suptitle(f"Centreline, averages from {shown_time(since[-1])} to {shown_time(results.time(results.steps[-1]))}")
     pictures.save(figure, f"{material}_averages")
 
 

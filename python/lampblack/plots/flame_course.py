@@ -36,7 +36,7 @@ def plot_course(results, pictures):
     if group is None or group["time"].shape[0] < 2:
         return
     time, z = group["time"][()] * 1e3, group["z"][()] * 1e3
-    history = {name: values for name, (_, values) in results.history().items()}
+    history = results.history()
     with_soot = "soot_volume_fraction" in group
     figure, panels = plt.subplots(3 if with_soot else 2, 1, figsize=(7.0, 8.4 if with_soot else 6.0), sharex=True)
     panels[0].plot(time, history["maximum_temperature"][: len(time)], color="tab:red")

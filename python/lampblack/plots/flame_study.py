@@ -9,7 +9,7 @@ from .flame import APART, plot_together
 from .flame_figures import plot_series
 from ..flame_series import read_runs, series_of
 from .style import plt, scaled_fraction
-from .study import read_table
+from ..study import read_table
 
 # What is drawn over a varied number, where the runs have it.
 SHOWN = [

@@ -19,10 +19,10 @@ def _is_shown(name):
 
 def plot_history(results, pictures):
     columns = results.history()
-    if "time" not in columns or len(columns["time"][1]) < 2:
+    if "time" not in columns or len(columns["time"]) < 2:
         pictures.skip("history", "there is none, or it has fewer than two rows")
         return
-    time = columns["time"][1] * 1e3
+    time = columns["time"] * 1e3
     errors = {name: column for name, column in columns.items() if _is_error(name)}
     others = [name for name in columns if name not in errors and _is_shown(name)]
     others.sort(key=lambda name: FIRST.index(name) if name in FIRST else len(FIRST))
@@ -37,12 +37,12 @@ def plot_history(results, pictures):
     rows = (count + width - 1) // width
     figure, panels = plt.subplots(rows, width, figsize=(4.8 * width, 2.3 * rows), squeeze=False, sharex=True)
     places = list(panels.flat)
-    for axes, (name, (unit, values)) in zip(places, shown.items()):
+    for axes, values in zip(places, shown.values()):
         axes.plot(time, values, color="tab:blue")
-        axes.set_ylabel(f"{name}, {unit}" if unit not in ("", "1") else name)
+        axes.set_ylabel(values.label)
     if errors:
         axes = places[len(shown)]
-        for name, (_, values) in errors.items():
+        for name, values in errors.items():
             size = np.abs(values)
             axes.semilogy(time, np.where(size > 0, size, np.nan), label=name, lw=1.0)
         axes.set_ylabel("errors, absolute")

@@ -13,7 +13,7 @@ MOST_REACTIONS = 15
 
 
 def plot_reactor(results, pictures):
-    columns = {name: values for name, (_, values) in results.history().items()}
+    columns = results.history()
     if "temperature" in columns:
         delays = {name: time for name, time in results.ignition_delays().items() if np.isfinite(time)}
         if "position" in columns:

@@ -1,26 +1,12 @@
 """Pictures of a study: z-scores and errors of all its runs, and errors against the number of particles."""
 
-import csv
-
 import numpy as np
 
-from ..damage import reading
+from ..study import read_table
 from .style import plt
 
 BOUND = 3.3  # 99.9 % of a normal distribution
 MARKS = "osv^D<>ph*PX"
-
-
-def is_study(folder):
-    return (folder / "study.json").is_file()
-
-
-def read_table(path):
-    """Rows of a CSV table as dictionaries; units in brackets are cut off the names."""
-    if not path.is_file():
-        return []
-    with open(reading(path), newline="", encoding="utf-8") as file:
-        return [{key.split(" [")[0]: value for key, value in row.items()} for row in csv.DictReader(file)]
 
 
 def number(row, name):
