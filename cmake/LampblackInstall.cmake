@@ -28,6 +28,7 @@ function(lampblack_install_program program)
           PATTERN "__pycache__" EXCLUDE)
   install(FILES "${CMAKE_SOURCE_DIR}/packaging/completion.bash" RENAME lampblack
           DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions")
+  install(FILES "${CMAKE_SOURCE_DIR}/packaging/lampblack.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1")
   install(FILES "${CMAKE_SOURCE_DIR}/README.md" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
   install(DIRECTORY "${CMAKE_SOURCE_DIR}/docs/" DESTINATION "${CMAKE_INSTALL_DOCDIR}/docs")
 endfunction()

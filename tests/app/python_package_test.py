@@ -73,6 +73,8 @@ def check_reactor(folder):
     rows = len(along.history()["time"])
     assert distribution.density.shape == distribution.error.shape == (rows, len(distribution.sizes))
     assert distribution.edges.shape == (len(distribution.sizes) + 1,) and distribution.sizes.unit == "m"
+    assert np.allclose(distribution.sizes**2, distribution.edges[1:] * distribution.edges[:-1], rtol=1e-12)
+    assert distribution.along.name == "time" and np.array_equal(distribution.along, along.history()["time"])
     assert np.array_equal(distribution.at(distribution.along[3]), distribution.density[3])
     decades = np.diff(np.log10(distribution.edges))
     number = (distribution.density * decades).sum(axis=1)
@@ -87,6 +89,7 @@ def check_population(folder):
     assert set(distributions) == set(run.file["methods"])
     mmc = distributions["mmc"]
     assert mmc.along.unit == "s" and mmc.sizes.unit == "m^3" and mmc.density.unit == "1/m^3"
+    assert np.allclose(mmc.sizes**2, mmc.edges[1:] * mmc.edges[:-1], rtol=1e-12)
     # Bins of width one: their numbers add up to M0.
     assert abs(mmc.at(5.0).sum() / run.table("methods/mmc/history")["M0"][-1] - 1) < 1e-6
 
@@ -109,7 +112,8 @@ def check_sweep(folder):
     table = study.table
     assert list(table["inlet.equivalence_ratio"]) == [1.0, 1.5] and list(table["status"]) == ["done", "done"] and not study.failed
     for name, speed in zip(study, table["flame_speed_m_per_s"]):
-        assert study[name].profile()["velocity"][0] == speed
+        assert study[name].profile()["velocity"][0] == speed and study[name].record()["deck"]["grid"]["slope"] == 0.5
+    assert ["initial" in study[name].record()["deck"] for name in study] == [False, True], "no chain of flames"
     assert list(lampblack.open(folder / "sweep")) == list(study)
     # A flame that is wrong among others: an error, unless it is allowed.
     vary = {"inlet.equivalence_ratio": [1.0], "grid.maximum_points": [12, 400]}
@@ -159,6 +163,10 @@ def check_errors(folder):
 
 def check_tables(folder):
     """pandas and xarray, where they are; without h5py the package and its errors can still be had."""
+    (folder / "some.csv").write_text('name,"X_C5H5O(1,3) [1]",time [s]\na,0.5,\nb,,2\nc,0.2\n')
+    some = table_of_csv(folder / "some.csv")  # an empty field is not known, a row that is not whole is left out
+    assert list(some["name"]) == ["a", "b"] and some["X_C5H5O(1,3)"][0] == 0.5 and np.isnan(some["X_C5H5O(1,3)"][1])
+    assert np.isnan(some["time"][0]) and some.units == {"name": "", "X_C5H5O(1,3)": "1", "time": "s"}
     table = lampblack.open(folder / "flame").profile()
     try:
         frame = table.to_pandas()
