@@ -53,10 +53,11 @@ def distributions_of(results):
     for name, method in file.get("methods", {}).items():
         if "distribution" in method and method["distribution/number"].size:
             found[name] = _of_group(method["distribution"], "number", edges="bin_edges", along="time", error="number_error")
-    if results.steps and "soot_size_distribution" in results.fields(results.steps[-1]):
-        edges = array_of(file["soot_sizes/bin_edges"])
-        density = results.fields(results.steps[-1])["soot_size_distribution"]
-        found["soot"] = Distribution(_middles(edges), array_of(density), None, edges)
+    cells = f"{results.material}_size_distribution"
+    if results.steps and cells in results.fields(results.steps[-1]):
+        edges = array_of(file[f"{results.material}_sizes/bin_edges"])
+        density = results.fields(results.steps[-1])[cells]
+        found[results.material] = Distribution(_middles(edges), array_of(density), None, edges)
     return found
 
 
