@@ -70,6 +70,9 @@ else()
     lampblack_external(HDF5 hdf5::hdf5)
   endif()
 endif()
+if(TARGET External::HDF5 AND HDF5_VERSION VERSION_GREATER_EQUAL 1.12)
+  target_compile_definitions(External::HDF5 INTERFACE H5_USE_110_API)  # what is written for 1.10 means that
+endif()
 lampblack_need(HDF5 1.10 "${HDF5_VERSION}" "Debian: libhdf5-openmpi-dev; elsewhere: a parallel HDF5, its prefix in HDF5_ROOT")
 
 if(PKG_CONFIG_FOUND)

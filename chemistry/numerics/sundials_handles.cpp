@@ -1,6 +1,5 @@
 #include "chemistry/numerics/sundials_handles.hpp"
 
-#include <cvodes/cvodes.h>
 #include <fmt/format.h>
 
 #include "core/errors.hpp"
@@ -13,7 +12,11 @@ void CvodeDeleter::operator()(void* memory) const {
 
 Context makeContext() {
   SUNContext context = nullptr;
+#if SUNDIALS_VERSION_MAJOR >= 7
+  check(SUNContext_Create(SUN_COMM_NULL, &context), "SUNContext_Create");
+#else
   check(SUNContext_Create(nullptr, &context), "SUNContext_Create");
+#endif
   return Context(context);
 }
 

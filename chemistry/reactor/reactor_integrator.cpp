@@ -24,18 +24,17 @@ ReactorIntegrator::ReactorIntegrator(ReactorSystem& system)
   N_VConst(1.0, tolerances_.get());
   check(CVodeSVtolerances(memory, 1.0, tolerances_.get()), "CVodeSVtolerances");
   check(CVodeSetUserData(memory, this), "CVodeSetUserData");
-  check(CVodeSetErrHandlerFn(memory, keepMessage, this), "CVodeSetErrHandlerFn");
+  sundials::keepErrors<keepMessage>(memory, context_.get(), this);
   linearSolver_.attach(memory);
 }
 
-int ReactorIntegrator::rates(realtype /*t*/, N_Vector y, N_Vector f, void* data) {
+int ReactorIntegrator::rates(sunrealtype /*t*/, N_Vector y, N_Vector f, void* data) {
   auto& self = *static_cast<ReactorIntegrator*>(data);
   return self.system_.rates(N_VGetArrayPointer(y), N_VGetArrayPointer(f)) ? 0 : 1;
 }
 
-void ReactorIntegrator::keepMessage(int code, const char* /*module*/, const char* function, char* message, void* data) {
-  auto& self = *static_cast<ReactorIntegrator*>(data);
-  if (code >= 0) return;
+void ReactorIntegrator::keepMessage(const char* function, const char* message, void* integrator) {
+  auto& self = *static_cast<ReactorIntegrator*>(integrator);
   self.reason_ = fmt::format("{}: {}", function, message);
   if (!self.system_.refusal().empty())
     self.reason_ += fmt::format(" (the last state refused has {})", self.system_.refusal());
@@ -67,7 +66,7 @@ bool ReactorIntegrator::advance(const Interval& interval, Work& work, const Watc
 
 bool ReactorIntegrator::run(const Interval& interval, const Watcher& watcher) {
   void* memory = cvode_.get();
-  realtype reached = 0;
+  sunrealtype reached = 0;
   if (!watcher) return CVode(memory, interval.duration, y_.get(), &reached, CV_NORMAL) >= 0;
   for (int steps = 0; reached < interval.duration; ++steps) {
     if (steps == interval.maxSteps) {

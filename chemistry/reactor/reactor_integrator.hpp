@@ -50,8 +50,8 @@ class ReactorIntegrator {
 
  private:
   bool run(const Interval& interval, const Watcher& watcher);
-  static int rates(realtype t, N_Vector y, N_Vector f, void* data);
-  static void keepMessage(int code, const char* module, const char* function, char* message, void* data);
+  static int rates(sunrealtype t, N_Vector y, N_Vector f, void* data);
+  static void keepMessage(const char* function, const char* message, void* integrator);
 
   ReactorSystem& system_;
   std::string reason_;

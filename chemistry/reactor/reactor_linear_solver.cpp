@@ -24,7 +24,7 @@ ReactorLinearSolver::ReactorLinearSolver(ReactorSystem& system, SUNContext conte
   solver_->ops->free = [](SUNLinearSolver solver) {
     solver->content = nullptr;
     SUNLinSolFreeEmpty(solver);
-    return int{SUNLS_SUCCESS};
+    return int{sundials::succeeded};
   };
 }
 
@@ -33,8 +33,8 @@ void ReactorLinearSolver::attach(void* cvodeMemory) {
   sundials::check(CVodeSetLinSysFn(cvodeMemory, linearSystem), "CVodeSetLinSysFn");
 }
 
-int ReactorLinearSolver::linearSystem(realtype /*t*/, N_Vector y, N_Vector /*f*/, SUNMatrix A, booleantype jacobianOk,
-                                      booleantype* current, realtype gamma, void* /*data*/, N_Vector w1,
+int ReactorLinearSolver::linearSystem(sunrealtype /*t*/, N_Vector y, N_Vector /*f*/, SUNMatrix A, sunbooleantype jacobianOk,
+                                      sunbooleantype* current, sunrealtype gamma, void* /*data*/, N_Vector w1,
                                       N_Vector /*w2*/, N_Vector /*w3*/) {
   auto& self = *static_cast<ReactorLinearSolver*>(A->content);
   self.gamma_ = gamma;
@@ -45,17 +45,17 @@ int ReactorLinearSolver::linearSystem(realtype /*t*/, N_Vector y, N_Vector /*f*/
 
 int ReactorLinearSolver::setUp(SUNLinearSolver solver, SUNMatrix /*A*/) {
   auto& self = *static_cast<ReactorLinearSolver*>(solver->content);
-  return self.newton_.factorise(self.gamma_) ? SUNLS_SUCCESS : SUNLS_LUFACT_FAIL;
+  return self.newton_.factorise(self.gamma_) ? sundials::succeeded : SUNLS_LUFACT_FAIL;
 }
 
 int ReactorLinearSolver::solve(SUNLinearSolver solver, SUNMatrix /*A*/, N_Vector x, N_Vector b,
-                               realtype /*tolerance*/) {
+                               sunrealtype /*tolerance*/) {
   auto& self = *static_cast<ReactorLinearSolver*>(solver->content);
   const double* from = N_VGetArrayPointer(b);
   double* to = N_VGetArrayPointer(x);
   if (from != to) std::copy_n(from, self.system_.size(), to);
   self.newton_.solve(to);
-  return SUNLS_SUCCESS;
+  return sundials::succeeded;
 }
 
 }  // namespace lampblack::chemistry

@@ -50,15 +50,15 @@ struct StiffIntegrator::Impl {
 
   void reinitialise(double time, std::span<const double> start, double endTime);
 
-  static int rates(realtype t, N_Vector y, N_Vector f, void* data);
-  static int linearSystem(realtype t, N_Vector y, N_Vector f, SUNMatrix A, booleantype jacobianOk, booleantype* current,
-                          realtype gamma, void* data, N_Vector w1, N_Vector w2, N_Vector w3);
-  static int sensitivityRates(int count, realtype t, N_Vector y, N_Vector f, N_Vector* s, N_Vector* sDot, void* data,
+  static int rates(sunrealtype t, N_Vector y, N_Vector f, void* data);
+  static int linearSystem(sunrealtype t, N_Vector y, N_Vector f, SUNMatrix A, sunbooleantype jacobianOk, sunbooleantype* current,
+                          sunrealtype gamma, void* data, N_Vector w1, N_Vector w2, N_Vector w3);
+  static int sensitivityRates(int count, sunrealtype t, N_Vector y, N_Vector f, N_Vector* s, N_Vector* sDot, void* data,
                               N_Vector w1, N_Vector w2);
   static int errorWeights(N_Vector y, N_Vector weights, void* data);
   static int setUp(SUNLinearSolver solver, SUNMatrix A);
-  static int solve(SUNLinearSolver solver, SUNMatrix A, N_Vector x, N_Vector b, realtype tolerance);
-  static void keepMessage(int code, const char* module, const char* function, char* message, void* data);
+  static int solve(SUNLinearSolver solver, SUNMatrix A, N_Vector x, N_Vector b, sunrealtype tolerance);
+  static void keepMessage(const char* function, const char* message, void* integrator);
 
   OdeSystem& system;
   Options options;
@@ -79,14 +79,14 @@ struct StiffIntegrator::Impl {
   sundials::Cvode cvode;
 };
 
-int StiffIntegrator::Impl::rates(realtype t, N_Vector y, N_Vector f, void* data) {
+int StiffIntegrator::Impl::rates(sunrealtype t, N_Vector y, N_Vector f, void* data) {
   auto& self = *static_cast<Impl*>(data);
   return self.system.rates(t, N_VGetArrayPointer(y), N_VGetArrayPointer(f)) ? 0 : 1;
 }
 
 // I - gamma J straight into the storage of the LU; the SUNMatrix is a formality of the interface.
-int StiffIntegrator::Impl::linearSystem(realtype t, N_Vector y, N_Vector /*f*/, SUNMatrix /*A*/, booleantype jacobianOk,
-                                        booleantype* current, realtype gamma, void* data, N_Vector w1, N_Vector /*w2*/,
+int StiffIntegrator::Impl::linearSystem(sunrealtype t, N_Vector y, N_Vector /*f*/, SUNMatrix /*A*/, sunbooleantype jacobianOk,
+                                        sunbooleantype* current, sunrealtype gamma, void* data, N_Vector w1, N_Vector /*w2*/,
                                         N_Vector /*w3*/) {
   auto& self = *static_cast<Impl*>(data);
   const std::size_t ld = self.lu.leadingDimension();
@@ -102,7 +102,7 @@ int StiffIntegrator::Impl::linearSystem(realtype t, N_Vector y, N_Vector /*f*/, 
 }
 
 // ds/dt = J s + df/dp for all parameters at once.
-int StiffIntegrator::Impl::sensitivityRates(int count, realtype t, N_Vector y, N_Vector /*f*/, N_Vector* s,
+int StiffIntegrator::Impl::sensitivityRates(int count, sunrealtype t, N_Vector y, N_Vector /*f*/, N_Vector* s,
                                             N_Vector* sDot, void* data, N_Vector w1, N_Vector /*w2*/) {
   auto& self = *static_cast<Impl*>(data);
   const std::size_t n = self.n, ld = self.lu.leadingDimension();
@@ -141,22 +141,21 @@ int StiffIntegrator::Impl::errorWeights(N_Vector y, N_Vector weights, void* data
 }
 
 int StiffIntegrator::Impl::setUp(SUNLinearSolver solver, SUNMatrix /*A*/) {
-  return static_cast<Impl*>(solver->content)->lu.factorise() ? SUNLS_SUCCESS : SUNLS_LUFACT_FAIL;
+  return static_cast<Impl*>(solver->content)->lu.factorise() ? sundials::succeeded : SUNLS_LUFACT_FAIL;
 }
 
 int StiffIntegrator::Impl::solve(SUNLinearSolver solver, SUNMatrix /*A*/, N_Vector x, N_Vector b,
-                                 realtype /*tolerance*/) {
+                                 sunrealtype /*tolerance*/) {
   auto& self = *static_cast<Impl*>(solver->content);
   const double* from = N_VGetArrayPointer(b);
   double* to = N_VGetArrayPointer(x);
   if (from != to) std::copy_n(from, self.n, to);
   self.lu.solve(to);
-  return SUNLS_SUCCESS;
+  return sundials::succeeded;
 }
 
-void StiffIntegrator::Impl::keepMessage(int code, const char* /*module*/, const char* function, char* message,
-                                        void* data) {
-  if (code < 0) static_cast<Impl*>(data)->reason = fmt::format("{}: {}", function, message);
+void StiffIntegrator::Impl::keepMessage(const char* function, const char* message, void* integrator) {
+  static_cast<Impl*>(integrator)->reason = fmt::format("{}: {}", function, message);
 }
 
 StiffIntegrator::Impl::Impl(OdeSystem& systemIn, const Options& optionsIn)
@@ -186,7 +185,7 @@ StiffIntegrator::Impl::Impl(OdeSystem& systemIn, const Options& optionsIn)
   linearSolver->ops->free = [](SUNLinearSolver solver) {
     solver->content = nullptr;
     SUNLinSolFreeEmpty(solver);
-    return int{SUNLS_SUCCESS};
+    return int{sundials::succeeded};
   };
   cvode.reset(CVodeCreate(CV_BDF, context.get()));
   check(cvode.get(), "CVodeCreate");
@@ -197,7 +196,7 @@ StiffIntegrator::Impl::Impl(OdeSystem& systemIn, const Options& optionsIn)
   else
     check(CVodeSVtolerances(memory, options.relativeTolerance, tolerances.get()), "CVodeSVtolerances");
   check(CVodeSetUserData(memory, this), "CVodeSetUserData");
-  check(CVodeSetErrHandlerFn(memory, keepMessage, this), "CVodeSetErrHandlerFn");
+  sundials::keepErrors<keepMessage>(memory, context.get(), this);
   check(CVodeSetLinearSolver(memory, linearSolver.get(), matrix.get()), "CVodeSetLinearSolver");
   check(CVodeSetLinSysFn(memory, linearSystem), "CVodeSetLinSysFn");
   check(CVodeSetMaxErrTestFails(memory, 20), "CVodeSetMaxErrTestFails");
@@ -251,7 +250,7 @@ void StiffIntegrator::stopAt(double time) {
 
 void StiffIntegrator::step() {
   auto& self = *impl_;
-  realtype reached = time_;
+  sunrealtype reached = time_;
   const double before = time_;
   int flag = CV_TOO_MUCH_WORK;
   if (self.steps++ < self.options.maximumSteps)

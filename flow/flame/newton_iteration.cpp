@@ -45,7 +45,11 @@ void NewtonIteration::createSolver() {
   SNESLineSearch lineSearch = nullptr;
   checkPetsc(SNESGetLineSearch(snes_.get(), &lineSearch));
   checkPetsc(SNESLineSearchSetType(lineSearch, SNESLINESEARCHSHELL));
+#if PETSC_VERSION_GE(3, 21, 0)
+  checkPetsc(SNESLineSearchShellSetApply(lineSearch, searchCallback, this));
+#else
   checkPetsc(SNESLineSearchShellSetUserFunc(lineSearch, searchCallback, this));
+#endif
 }
 
 void NewtonIteration::steady(std::span<double> x, NewtonReport& report) {

@@ -7,6 +7,8 @@ import numpy as np
 
 from .damage import reading
 
+trapezoid = getattr(np, "trapezoid", None) or np.trapz  # its name since numpy 2
+
 
 class Array(np.ndarray):
     """Numbers with `name`, `unit` (SI, '1' for plain numbers) and `description`, which parts of it keep. What is computed from it

@@ -123,7 +123,7 @@ def main(executable, ranks, *mpiexec):
         if program.ranks > 1:
             # With what mpirun has to say.
             loud = running.Program(executable, list(mpiexec), int(ranks))
-            loud.command.remove("-q")
+            loud.command = [word for word in loud.command if word != "-q"]
             check_lost_rank(loud, folder, deck)
     print("stops: all in order")
 

@@ -2,6 +2,7 @@
 
 import concurrent.futures
 import dataclasses
+import functools
 import hashlib
 import importlib
 import os
@@ -44,12 +45,19 @@ def environment() -> dict:
     return env
 
 
+@functools.lru_cache
+def quietly(mpirun: str) -> tuple:
+    """The option that keeps mpirun from remarks about a rank's exit code, which are no message of ours. Open MPI 5 has none."""
+    version = subprocess.run([mpirun, "--version"], capture_output=True, text=True, check=False).stdout
+    return ("-q",) if "(Open MPI) 4" in version else ()
+
+
 class Program:
     """The executable on a number of ranks; `mpiexec` is ready for that number to follow ("mpirun -n")."""
 
     def __init__(self, executable: str, mpiexec: list, ranks: int):
-        # One rank does without mpirun. Quiet: mpirun's own remarks about a rank's exit code are no message of ours.
-        launcher = [mpiexec[0], "-q", *mpiexec[1:], str(ranks), "--oversubscribe"] if ranks > 1 else []
+        # One rank does without mpirun.
+        launcher = [mpiexec[0], *quietly(mpiexec[0]), *mpiexec[1:], str(ranks), "--oversubscribe"] if ranks > 1 else []
         self.command = [*launcher, executable]
         self.ranks = ranks
 

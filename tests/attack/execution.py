@@ -11,7 +11,12 @@ import pathlib
 import resource
 import signal
 import subprocess
+import sys
 import time
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "app"))
+
+import running  # noqa: E402
 
 GIGABYTE = 1 << 30
 LIBC = ctypes.CDLL(None)
@@ -177,5 +182,5 @@ class Program:
         self.mpirun = mpirun
 
     def command(self, ranks: int, *arguments) -> list:
-        launcher = [self.mpirun, "-q", "-n", str(ranks), "--oversubscribe"] if ranks > 1 else []
+        launcher = [self.mpirun, *running.quietly(self.mpirun), "-n", str(ranks), "--oversubscribe"] if ranks > 1 else []
         return [*launcher, str(self.executable), *map(str, arguments)]

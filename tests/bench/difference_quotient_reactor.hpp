@@ -43,7 +43,7 @@ class DifferenceQuotientReactor {
     y[state.Y.size()] = state.T;
     check(CVodeReInit(memory, 0.0, y_.get()), "CVodeReInit");
     check(CVodeSetStopTime(memory, dt), "CVodeSetStopTime");
-    realtype reached = 0;
+    sunrealtype reached = 0;
     check(CVode(memory, dt, y_.get(), &reached, CV_NORMAL), "CVode");
     std::copy_n(y, state.Y.size(), state.Y.begin());
     state.T = y[state.Y.size()];
@@ -53,7 +53,7 @@ class DifferenceQuotientReactor {
   }
 
  private:
-  static int rhs(realtype /*t*/, N_Vector y, N_Vector f, void* data) {
+  static int rhs(sunrealtype /*t*/, N_Vector y, N_Vector f, void* data) {
     auto& self = *static_cast<DifferenceQuotientReactor*>(data);
     return self.system_.rates(N_VGetArrayPointer(y), N_VGetArrayPointer(f)) ? 0 : 1;
   }

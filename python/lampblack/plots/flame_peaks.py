@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from ..arrays import trapezoid
+
 
 def peak(z, values):
     """The largest magnitude and its place, by the parabola through the three highest points."""
@@ -57,7 +59,7 @@ def shape(flame, soot_density):
     if created is None or mass is None or np.max(created) <= 0 or np.max(mass) <= 0:
         return None
     nucleus = np.trapezoid(mass, flame.z) / np.trapezoid(created, flame.z) if hasattr(np, "trapezoid") else (
-        np.trapz(mass, flame.z) / np.trapz(created, flame.z))
+        trapezoid(mass, flame.z) / trapezoid(created, flame.z))
     diameter = (6 * nucleus / (np.pi * soot_density)) ** (1 / 3)
     number = np.maximum((soot["mean_diameter"] / diameter) ** 3, 1)
     mobility = diameter * number**0.45
