@@ -33,9 +33,9 @@ void ReactorLinearSolver::attach(void* cvodeMemory) {
   sundials::check(CVodeSetLinSysFn(cvodeMemory, linearSystem), "CVodeSetLinSysFn");
 }
 
-int ReactorLinearSolver::linearSystem(sunrealtype /*t*/, N_Vector y, N_Vector /*f*/, SUNMatrix A, sunbooleantype jacobianOk,
-                                      sunbooleantype* current, sunrealtype gamma, void* /*data*/, N_Vector w1,
-                                      N_Vector /*w2*/, N_Vector /*w3*/) {
+int ReactorLinearSolver::linearSystem(sunrealtype /*t*/, N_Vector y, N_Vector /*f*/, SUNMatrix A,
+                                      sunbooleantype jacobianOk, sunbooleantype* current, sunrealtype gamma,
+                                      void* /*data*/, N_Vector w1, N_Vector /*w2*/, N_Vector /*w3*/) {
   auto& self = *static_cast<ReactorLinearSolver*>(A->content);
   self.gamma_ = gamma;
   *current = jacobianOk == SUNFALSE ? SUNTRUE : SUNFALSE;

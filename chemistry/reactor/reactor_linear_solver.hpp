@@ -23,8 +23,9 @@ class ReactorLinearSolver {
   const NewtonMatrix& matrix() const { return newton_; }
 
  private:
-  static int linearSystem(sunrealtype t, N_Vector y, N_Vector f, SUNMatrix A, sunbooleantype jacobianOk, sunbooleantype* current,
-                          sunrealtype gamma, void* data, N_Vector w1, N_Vector w2, N_Vector w3);
+  static int linearSystem(sunrealtype t, N_Vector y, N_Vector f, SUNMatrix A, sunbooleantype jacobianOk,
+                          sunbooleantype* current, sunrealtype gamma, void* data, N_Vector w1, N_Vector w2,
+                          N_Vector w3);
   static int setUp(SUNLinearSolver solver, SUNMatrix A);
   static int solve(SUNLinearSolver solver, SUNMatrix A, N_Vector x, N_Vector b, sunrealtype tolerance);
 

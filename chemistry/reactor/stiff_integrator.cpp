@@ -51,8 +51,9 @@ struct StiffIntegrator::Impl {
   void reinitialise(double time, std::span<const double> start, double endTime);
 
   static int rates(sunrealtype t, N_Vector y, N_Vector f, void* data);
-  static int linearSystem(sunrealtype t, N_Vector y, N_Vector f, SUNMatrix A, sunbooleantype jacobianOk, sunbooleantype* current,
-                          sunrealtype gamma, void* data, N_Vector w1, N_Vector w2, N_Vector w3);
+  static int linearSystem(sunrealtype t, N_Vector y, N_Vector f, SUNMatrix A, sunbooleantype jacobianOk,
+                          sunbooleantype* current, sunrealtype gamma, void* data, N_Vector w1, N_Vector w2,
+                          N_Vector w3);
   static int sensitivityRates(int count, sunrealtype t, N_Vector y, N_Vector f, N_Vector* s, N_Vector* sDot, void* data,
                               N_Vector w1, N_Vector w2);
   static int errorWeights(N_Vector y, N_Vector weights, void* data);
@@ -85,9 +86,9 @@ int StiffIntegrator::Impl::rates(sunrealtype t, N_Vector y, N_Vector f, void* da
 }
 
 // I - gamma J straight into the storage of the LU; the SUNMatrix is a formality of the interface.
-int StiffIntegrator::Impl::linearSystem(sunrealtype t, N_Vector y, N_Vector /*f*/, SUNMatrix /*A*/, sunbooleantype jacobianOk,
-                                        sunbooleantype* current, sunrealtype gamma, void* data, N_Vector w1, N_Vector /*w2*/,
-                                        N_Vector /*w3*/) {
+int StiffIntegrator::Impl::linearSystem(sunrealtype t, N_Vector y, N_Vector /*f*/, SUNMatrix /*A*/,
+                                        sunbooleantype jacobianOk, sunbooleantype* current, sunrealtype gamma,
+                                        void* data, N_Vector w1, N_Vector /*w2*/, N_Vector /*w3*/) {
   auto& self = *static_cast<Impl*>(data);
   const std::size_t ld = self.lu.leadingDimension();
   *current = jacobianOk == SUNFALSE ? SUNTRUE : SUNFALSE;

@@ -49,7 +49,7 @@ def environment() -> dict:
 def quietly(mpirun: str) -> tuple:
     """The option that keeps mpirun from remarks about a rank's exit code, which are no message of ours. Open MPI 5 has none."""
     version = subprocess.run([mpirun, "--version"], capture_output=True, text=True, check=False).stdout
-    return ("-q",) if "(Open MPI) 4" in version else ()
+    return ("-q",) if re.search(r"\((Open MPI|OpenRTE)\) [1-4]\.", version) else ()  # as mpirun and as mpiexec
 
 
 class Program:

@@ -1,5 +1,5 @@
-// A model of soot of one's own: carbon that acetylene becomes, C2H2 -> 2 C(s) + H2, at a rate of first order, A exp(-Ta/T). A gas of
-// constant temperature and pressure carries it for a millisecond.
+// A model of soot of one's own: carbon that acetylene becomes, C2H2 -> 2 C(s) + H2, at a rate of first order, A
+// exp(-Ta/T). A gas of constant temperature and pressure carries it for a millisecond.
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -53,11 +53,13 @@ int main() try {
   std::vector<double> densities{0}, concentrations{0.1, 0};  // kg/m3; mol/m3 of C2H2 and H2
   const double begin = concentrations[0], time = 1e-3;       // s
   model.advance(gas, time, densities, concentrations);
-  std::printf("soot %.6e kg/m3, volume fraction %.4e\n", densities[0], model.properties({gas, concentrations}, densities).volumeFraction);
+  std::printf("soot %.6e kg/m3, volume fraction %.4e\n", densities[0],
+              model.properties({gas, concentrations}, densities).volumeFraction);
   std::printf("C2H2 left %.6f of it, by the law %.6f\n", concentrations[0] / begin,
               std::exp(-AcetyleneSoot::A * std::exp(-AcetyleneSoot::Ta / gas.temperature) * time));
   std::printf("carbon that is missing: %.1e of it\n",
-              (2 * AcetyleneSoot::carbonAtom * (begin - concentrations[0]) - densities[0]) / (2 * AcetyleneSoot::carbonAtom * begin));
+              (2 * AcetyleneSoot::carbonAtom * (begin - concentrations[0]) - densities[0]) /
+                  (2 * AcetyleneSoot::carbonAtom * begin));
   return 0;
 } catch (const std::exception& error) {
   return std::fprintf(stderr, "%s\n", error.what()), 1;
