@@ -114,10 +114,8 @@ class TreePopulation {
   [[nodiscard]] virtual TreeRates rates(const ParticleGas& gas, std::size_t pairs) const = 0;
   // f(tree, number), 1/m3.
   virtual void forEachTree(const std::function<void(const Tree&, double)>& f) const = 0;
-  // dN/dlog10(d) (1/m3) in equal bins of log10(d/m).
-  enum class Diameter { collision, sphere, primary };
-  [[nodiscard]] virtual std::vector<double> sizeDistribution(Diameter of, double logMin, double logMax,
-                                                             std::size_t bins) const = 0;
+  // dN/dlog10(d) (1/m3) of primaries in equal bins of log10(d/m).
+  [[nodiscard]] virtual std::vector<double> primarySizes(double logMin, double logMax, std::size_t bins) const = 0;
   [[nodiscard]] virtual std::vector<Tree> trees() const = 0;
   [[nodiscard]] virtual TreeCounters counters() const = 0;
   [[nodiscard]] virtual std::size_t bytes() const = 0;  // of what grows with the number of particles and primaries

@@ -34,8 +34,7 @@ class TreeProcess final : public TreePopulation {
   [[nodiscard]] TreeTotals totals() const override;
   [[nodiscard]] TreeRates rates(const ParticleGas& gas, std::size_t pairs) const override;
   void forEachTree(const std::function<void(const Tree&, double)>& f) const override { method_.forEachParticle(f); }
-  [[nodiscard]] std::vector<double> sizeDistribution(Diameter of, double logMin, double logMax,
-                                                     std::size_t bins) const override;
+  [[nodiscard]] std::vector<double> primarySizes(double logMin, double logMax, std::size_t bins) const override;
   [[nodiscard]] std::vector<Tree> trees() const override;
   [[nodiscard]] TreeCounters counters() const override;
   [[nodiscard]] std::size_t bytes() const override { return type_.pool().bytes() + method_.bytes(); }

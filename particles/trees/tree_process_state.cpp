@@ -7,6 +7,7 @@
 #include "particles/ensemble/particle_rows.hpp"
 #include "particles/ensemble/size_bins.hpp"
 #include "particles/population/monte_carlo/weighted_deviation.hpp"
+#include "particles/soot/soot_aggregate.hpp"
 #include "particles/trees/packed_tree.hpp"
 #include "particles/trees/tree_process.hpp"
 
@@ -43,17 +44,12 @@ TreeTotals TreeProcess::totals() const {
   return t;
 }
 
-std::vector<double> TreeProcess::sizeDistribution(Diameter of, double logMin, double logMax, std::size_t bins) const {
+std::vector<double> TreeProcess::primarySizes(double logMin, double logMax, std::size_t bins) const {
   std::vector<double> density(bins, 0.0);
   const SizeBins all{logMin, logMax, bins};
-  const auto add = [&](double d, double w) {
-    if (const std::size_t bin = all.of(d); bin < bins) density[bin] += w / all.width();
-  };
   method_.forEachParticle([&](const Tree& p, double w) {
-    if (of == Diameter::collision) add(p.head().collision, w);
-    if (of == Diameter::sphere) add(treeDiameter(p.head().volume), w);
-    if (of == Diameter::primary)
-      for (const TreePrimary& primary : p.primaries()) add(primary.diameter, w);
+    for (const TreePrimary& primary : p.primaries())
+      if (const std::size_t bin = all.of(primary.diameter); bin < bins) density[bin] += w / all.width();
   });
   return density;
 }

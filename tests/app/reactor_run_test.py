@@ -193,6 +193,32 @@ def ensembles_in_networks(program, folder):
         assert two[f"{name}_soot_volume_fraction"][-1] > 0 and np.max(two[f"{name}_element_imbalance"]) < 1e-12, name
 
 
+def behind_a_stirred_reactor(program, folder):
+    """What enters a duct behind a stirred reactor is what the stirred reactor alone has, soot included; populations arrive."""
+    _, stirred, _ = run(program, "reactor/stirred_soot", folder)
+    inlet = "{temperature: 300 K, composition: 'C2H4: 0.106, O2: 0.17, N2: 0.724', velocity: 1 m/s}"
+    text = (f"problem: reactor\nmechanism: {CASES}/mechanisms/ethylene_abf2000_101.yaml\npressure: 1 atm\n"
+            f"reactor: {{type: plug_flow, length: 1 mm}}\nupstream: {{residence_time: 5 ms}}\ninlet: {inlet}\n"
+            "integrator: {relative_tolerance: 1e-6}\noutput: {spacing: 1 mm, species: [A2]}\n")
+    rows = {}
+    for name, more in (("hmom", "soot: {model: hmom, pah: [A2], density: 1800 kg/m^3}\n"),
+                       ("trees", "soot: {pah: [A2], density: 1800 kg/m^3}\n"
+                                 "particles: {material: soot, number: 64, repeats: 2, full_at: 1e14 1/m^3, coupling_change: 0.5}\n")):
+        deck = folder / f"{name}.yaml"
+        deck.write_text(text + more, encoding="utf-8")
+        result = program("run", deck, "--out", folder / name, timeout=300)
+        assert result.code == 0, result.err
+        head, all_rows = rows_of(folder / name / "history.csv")
+        rows[name] = {column.split(" [")[0]: float(value) for column, value in zip(head, all_rows[0], strict=True)}
+    reactor = stirred["reactors"]["reactor"]
+    assert abs(rows["hmom"]["temperature"] / reactor["temperature_K"] - 1) < 1e-6, (rows["hmom"], reactor)
+    for name in ("volume_fraction", "number_density"):
+        assert abs(rows["hmom"][f"soot_{name}"] / reactor[f"soot_{name}"] - 1) < 1e-4, (name, rows["hmom"], reactor)
+    # Another model of the same soot: as many within a factor of three, in the same gas.
+    assert abs(rows["trees"]["temperature"] - reactor["temperature_K"]) < 1, rows["trees"]
+    assert 1 / 3 < rows["trees"]["soot_number_density"] / rows["hmom"]["soot_number_density"] < 3, rows
+
+
 def too_few_sections(program, folder):
     """Soot that outgrows its sections: one message, exit code 3."""
     result = program("run", CASES / "reactor/closed_soot/deck.yaml", "--out", folder / "out",
@@ -204,7 +230,7 @@ def main(executable, ranks, *mpiexec):
     program = running.Program(executable, list(mpiexec), int(ranks))
     tests = [ignition, network, soot, ensembles_in_networks, too_few_sections]
     if program.ranks == 1:  # what the first rank does alone, beyond a sample
-        tests += [regular_output, transient, species_with_comma]
+        tests += [regular_output, transient, species_with_comma, behind_a_stirred_reactor]
     for test in tests:
         with tempfile.TemporaryDirectory() as folder:
             test(program, pathlib.Path(folder))

@@ -15,7 +15,9 @@ except ImportError:
 SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
 PYTHON = SCRIPTS.parent / "python"
 # Each with what follows the folder of results, and what it is to say where there is no such folder.
+MEASURED = SCRIPTS.parent / "cases/reactor/psr_pfr_ethylene/reference/psd_exit.csv"
 COMMANDS = [
+    ("compare_sizes", ("--measured", MEASURED, "--where", "equivalence_ratio=2"), "expected the folder of a run or its results.h5"),
     ("compare_sections", (), "expected the folder of a run or its results.h5"),
     ("compare_flame", ("none.csv",), "expected the folder of a run or its results.h5"),
     ("compare_premixed_soot", (), "expected that of a study or of a run"),
