@@ -7,7 +7,6 @@
 #include "particles/ensemble/particle_rows.hpp"
 #include "particles/ensemble/size_bins.hpp"
 #include "particles/population/monte_carlo/weighted_deviation.hpp"
-#include "particles/soot/soot_aggregate.hpp"
 #include "particles/trees/packed_tree.hpp"
 #include "particles/trees/tree_process.hpp"
 
