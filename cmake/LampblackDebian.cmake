@@ -19,14 +19,14 @@ set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_COMPONENT_LAMPBLACK_DESCRIPTION
 "Soot in reacting flows, from one input deck
- Reacting flows in two and three dimensions, one-dimensional flames and
- reactors with detailed chemistry and transport, and the soot or other
- particles that they make: moments, sections, or stochastic ensembles in
- every cell, coupled both ways.")
+Reacting flows in two and three dimensions, one-dimensional flames and
+reactors with detailed chemistry and transport, and the soot or other
+particles that they make: moments, sections, or stochastic ensembles in
+every cell, coupled both ways.")
 set(CPACK_COMPONENT_LAMPBLACK-DEV_DESCRIPTION
 "Soot in reacting flows: libraries and headers
- Static libraries, headers and a CMake package for programs of one's own
- with the chemistry, particles and flow of Lampblack.")
+Static libraries, headers and a CMake package for programs of one's own
+with the chemistry, particles and flow of Lampblack.")
 
 # Libraries are found by dpkg-shlibdeps; mpirun and python3 are run.
 set(CPACK_DEBIAN_LAMPBLACK_PACKAGE_NAME lampblack)
