@@ -254,11 +254,11 @@ ReactorCase readReactorCase(const Deck& deck) {
     reactorCase.end = deck.optionalQuantity("time.end").value_or(0.0);
     if (reactorCase.end == 0)
       refuseTimes(deck);
-    else if (!deck.has("stochastic"))
-      throw deck.error(
-          "time.end",
-          "the steady state of a network is computed; only with ensembles, the section 'stochastic', is it "
-          "followed in time");
+    else if (!deck.has("stochastic") && !deck.has("particles"))
+      throw deck.error("time.end",
+                       "the steady state of a network is computed; only with populations, the sections 'stochastic' or "
+                       "'particles', is "
+                       "it followed in time");
     else
       checkInterval(deck, "output.interval", reactorCase, reactorCase.end, "time.end");
   }

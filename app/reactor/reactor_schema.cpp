@@ -207,7 +207,7 @@ DeckSchema reactorSchema() {
   schema
       .add(quantityKey("time.end", units::time,
                        "Simulated time of a closed reactor. A stirred reactor with it is a transient, without it the "
-                       "steady state is searched; a network has it with ensembles, where it is needed.")
+                       "steady state is searched; a network has it with populations, where it is needed.")
                .optional()
                .above(0)
                .onlyWith(typeKey, inTime))

@@ -217,6 +217,8 @@ def behind_a_stirred_reactor(program, folder):
     # Another model of the same soot: as many within a factor of three, in the same gas.
     assert abs(rows["trees"]["temperature"] - reactor["temperature_K"]) < 1, rows["trees"]
     assert 1 / 3 < rows["trees"]["soot_number_density"] / rows["hmom"]["soot_number_density"] < 3, rows
+    # What the gas was told that they took comes with them: their mass but for the noise of the sample.
+    assert 0.5 < rows["trees"]["soot_mass_exchanged"] / rows["trees"]["soot_mass"] < 2, rows["trees"]
 
 
 def too_few_sections(program, folder):

@@ -222,5 +222,40 @@ TEST_F(SootTreesInReactors, ParticlesLeaveWithTheGas) {
   EXPECT_NEAR(carried.population().totals().number / (1e16 * 1000 / 1300), 1, 1e-9);
 }
 
+// From one reactor to the next: of equal residence times tau, the second holds t/tau exp(-t/tau) of what there was in
+// the first; of its sample, one numerical particle more or less a step, as many as it has by then.
+TEST_F(SootTreesInReactors, ParticlesFlowFromReactorToReactor) {
+  TreeOptions options = sootOptions(false);
+  options.fullAt = 1e16;
+  const double units = 1e5, number = 1e16;
+  ReactorTrees first(mechanism, options, GasViscosity::transport, ReactorTrees::Start{{units, 0.1 * units}, number});
+  options.owner = 1;
+  ReactorTrees second(mechanism, options, GasViscosity::transport, std::nullopt);
+  const GasState nitrogen = test::gasOf(mechanism, 1000, "N2: 1");
+  const double massFlow = 2e-2, residence = 1e-3;
+  const auto vessel = [&](const char* name) { return StirredReactor{name, {}, residence, 1000, 0, 0}; };
+  const ReactorNetwork network{
+      nitrogen.pressure, {vessel("a"), vessel("b")}, {{0, massFlow, 1000, nitrogen.Y}}, {{0, 1, massFlow}}};
+  ParticlesAtRest both(2, first.elements());
+  NetworkSystem system(mechanism, network, &both);
+  SplitReactor::Gas own;
+  own.system = &system;
+  own.density = [&](const double* y) { return system.density(y); };
+  own.pressure = [&](const double*) { return nitrogen.pressure; };
+  own.timePerUnit = [](const double*) { return 1.0; };
+  own.kept = {Kept::temperature, Kept::temperature};
+  SplitReactor::Options options2 = splitting();
+  options2.fixedStep = true;
+  options2.largestStep = 0.1 * residence;
+  SplitReactor split(mechanism, own, {&first, &second}, options2);
+  split.start(0, startUnknowns(mechanism, network, {false, nitrogen}, system.numCarried()));
+  for (const double t : {0.5, 1.0, 2.0}) {
+    split.advance(t * residence);
+    EXPECT_NEAR(first.population().totals().number / (number * std::exp(-t)), 1, 1e-5);
+    EXPECT_NEAR(second.population().totals().number / (number * t * std::exp(-t)), 1, 0.02);
+  }
+  EXPECT_NEAR(second.population().totals().units[0] / second.population().totals().number, units, 1e-6 * units);
+}
+
 }  // namespace
 }  // namespace lampblack::coupling
