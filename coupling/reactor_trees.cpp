@@ -101,6 +101,13 @@ SplitParticles::Exchange ReactorTrees::takeExchange() {
   return exchange;
 }
 
+std::optional<double> ReactorTrees::rateOf(std::size_t i, const ParticleGas& gas) const {
+  const SiteReactions* reactions = material_.sites();
+  if (i != 0 || reactions == nullptr) return std::nullopt;
+  const TreeRates rates = population_->rates(gas, 0);
+  return -(reactions->nucleusPrecursors * rates.inceptions + rates.reactions) / constants::avogadro;
+}
+
 void ReactorTrees::dilute(double factor) {
   if (factor != 1) population_->dilute(factor);
 }

@@ -37,6 +37,8 @@ class ReactorTrees final : public ReactorPopulation {
   Exchange advance(const ParticleGas& gas, double dt) override;
   // All trees are up to date afterwards.
   Exchange advanceAndSettle(const ParticleGas& gas, double dt);
+  // Of the precursor of a material with sites.
+  [[nodiscard]] std::optional<double> rateOf(std::size_t i, const ParticleGas& gas) const override;
   void dilute(double factor) override;
   [[nodiscard]] std::vector<double> content() const override;
   void join(std::span<const double> content, double share) override;

@@ -9,7 +9,6 @@
 
 #include "core/constants.hpp"
 #include "core/errors.hpp"
-#include "particles/models/soot_model.hpp"
 
 namespace lampblack::coupling {
 namespace {
@@ -30,34 +29,6 @@ const std::vector<std::string>& SplitParticles::sootElements() {
   return elements;
 }
 
-ParticlesAtRest::ParticlesAtRest(std::size_t reactors, std::vector<std::string> elements)
-    : reactors_(reactors), elements_(std::move(elements)) {}
-
-void ParticlesAtRest::sources(double, double, std::span<const double>, std::span<const double>, std::span<double> rates,
-                              std::span<double>) {
-  std::fill(rates.begin(), rates.end(), 0.0);
-}
-
-void ParticlesAtRest::jacobian(double, double, std::span<const double>, std::span<const double>,
-                               std::span<double> values) {
-  std::fill(values.begin(), values.end(), 0.0);
-}
-
-void ParticlesAtRest::enthalpies(double T, std::span<double> h, std::span<double> slope) {
-  for (std::size_t s = 0; s < size(); ++s) {
-    h[s] = slope[s] = 0;
-    if (s >= mark()) continue;
-    if (elements_[s] == "C") std::tie(h[s], slope[s]) = sootCarbonEnthalpy(T);
-    if (elements_[s] == "H") std::tie(h[s], slope[s]) = sootHydrogenEnthalpy(T);
-  }
-}
-
-std::vector<std::vector<double>> ParticlesAtRest::unitElements(const Mechanism& mechanism) const {
-  std::vector<std::vector<double>> units(size(), std::vector<double>(mechanism.numElements(), 0.0));
-  for (std::size_t e = 0; e < mark(); ++e) units[e][mechanism.elementIndex(elements_[e])] = 1;
-  return units;
-}
-
 SplitReactor::SplitReactor(const Mechanism& mechanism, Gas gas, std::vector<SplitParticles*> particles,
                            const Options& options)
     : mechanism_(mechanism),
@@ -68,12 +39,17 @@ SplitReactor::SplitReactor(const Mechanism& mechanism, Gas gas, std::vector<Spli
       integrator_(*gas_.system, options.integrator),
       atRest_(particles_.size(), particles_.front()->elements()),
       thermo_(mechanism),
-      seen_(mechanism, particles_.front()->species(), particles_.front()->viscosity()) {}
+      seen_(mechanism, particles_.front()->species(), particles_.front()->viscosity()) {
+  if (gas_.expected != nullptr && particles_.size() > 1)
+    throw InputError("the exchange of several reactors is not predicted: couple them by splitting");
+}
 
 void SplitReactor::start(double x, std::span<const double> y) {
   x_ = x;
   y_.assign(y.begin(), y.end());
   exchanged_.assign(y_.size(), 0.0);
+  expected_.assign(particles_.front()->species().size(), {});
+  means_.clear();
   h_ = lastRate_ = 0;
   work_ = {};
 }
@@ -141,6 +117,24 @@ double SplitReactor::heatCapacity(Gas::Kept kept, const double* block, double T)
   return std::inner_product(slope.begin(), slope.begin() + static_cast<std::ptrdiff_t>(atRest_.mark()), amounts, gas);
 }
 
+void SplitReactor::book(std::size_t reactor, std::span<const double> gas, std::span<const double> elements) {
+  const std::size_t n = mechanism_.numSpecies();
+  const auto& species = particles_[reactor]->species();
+  double* y = y_.data() + reactor * block_;
+  double& T = y[n];
+  const Gas::Kept held = gas_.kept[reactor];
+  const bool energyIsKept = held != Gas::Kept::temperature;
+  const double kept = energyIsKept ? energy(held, y, T) : 0;
+  for (std::size_t i = 0; i < species.size(); ++i) y[species[i]] += gas[i] * mechanism_.molecularWeights()[species[i]];
+  for (std::size_t e = 0; e < elements.size(); ++e) y[n + 1 + e] += elements[e];
+  // Nearly linear over the few kelvin of a step.
+  for (int iteration = 0; energyIsKept && iteration < 20; ++iteration) {
+    const double difference = (kept - energy(held, y, T)) / heatCapacity(held, y, T);
+    T += difference;
+    if (std::abs(difference) <= 1e-13 * T) break;
+  }
+}
+
 double SplitReactor::exchange(std::size_t reactor, double h) {
   const std::size_t n = mechanism_.numSpecies();
   SplitParticles& particles = *particles_[reactor];
@@ -154,35 +148,45 @@ double SplitReactor::exchange(std::size_t reactor, double h) {
   const double middle = gas_.density(y), volume = 1 / middle;
   particles.dilute(middle / density);
   const ParticleGas& seen = gas(reactor);
-  const double negligible = smallestCountedMoleFraction * seen.pressure / (constants::gasConstant * seen.temperature);
-  const auto taken = particles.advance(seen, h * gas_.timePerUnit(y));
+  const double smallest = negligible(reactor);
+  auto taken = particles.advance(seen, h * gas_.timePerUnit(y));
   double change = 0;
   for (std::size_t i = 0; i < species.size(); ++i)
-    change = std::max(change, std::abs(taken.gas[i]) / (std::abs(seen.concentrations[i]) + negligible));
+    change = std::max(change, std::abs(taken.gas[i]) / (std::abs(seen.concentrations[i]) + smallest));
 
   std::copy(before.begin(), before.end(), y);
-  double& T = y[n];
-  const Gas::Kept held = gas_.kept[reactor];
-  const bool energyIsKept = held != Gas::Kept::temperature;
-  const double kept = energyIsKept ? energy(held, y, T) : 0;
-  for (std::size_t i = 0; i < species.size(); ++i)
-    y[species[i]] += taken.gas[i] * mechanism_.molecularWeights()[species[i]] * volume;
-  for (std::size_t e = 0; e < atRest_.mark(); ++e) y[n + 1 + e] += taken.elements[e] * volume;
-  // Nearly linear over the few kelvin of a step.
-  for (int iteration = 0; energyIsKept && iteration < 20; ++iteration) {
-    const double difference = (kept - energy(held, y, T)) / heatCapacity(held, y, T);
-    T += difference;
-    if (std::abs(difference) <= 1e-13 * T) break;
-  }
+  for (std::vector<double>* perVolume : {&taken.gas, &taken.elements})
+    for (double& amount : *perVolume) amount *= volume;
+  book(reactor, taken.gas, taken.elements);
   particles.dilute(gas_.density(y) / middle);
   for (std::size_t i = 0; i < block_; ++i) exchanged[i] = (y[i] - before[i]) / h;
   return change;
 }
 
+double SplitReactor::negligible(std::size_t reactor) const {
+  const double* block = y_.data() + reactor * block_;
+  return smallestCountedMoleFraction * gas_.pressure(block) / (constants::gasConstant * block[mechanism_.numSpecies()]);
+}
+
+double SplitReactor::change(std::size_t reactor, double T, std::span<const double> before,
+                            std::span<const double> after) const {
+  const double smallest = negligible(reactor);
+  double largest = std::abs(y_[reactor * block_ + mechanism_.numSpecies()] - T) / temperatureScale;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const double part = std::abs(after[i] - before[i]) / (std::max(after[i], before[i]) + smallest);
+    if (!std::isfinite(part)) return part;
+    largest = std::max(largest, part);
+  }
+  return largest;
+}
+
 // One step from x_; the largest change in it.
 double SplitReactor::step(double h) {
+  return gas_.expected != nullptr ? predictedStep(h) : splitStep(h);
+}
+
+double SplitReactor::splitStep(double h) {
   const std::size_t n = mechanism_.numSpecies(), count = particles_.size();
-  const auto& species = particles_.front()->species();
   std::vector<double> T, changes;
   std::vector<std::vector<double>> first;
   std::vector<bool> idle;
@@ -198,14 +202,11 @@ double SplitReactor::step(double h) {
   double all = 0;
   for (std::size_t r = 0; r < count; ++r) {
     const ParticleGas& last = gas(r);
-    const double negligible = smallestCountedMoleFraction * last.pressure / (constants::gasConstant * last.temperature);
     if (idle[r] && particles_[r]->idle(last)) continue;
-    double change = std::max(changes[r], std::abs(y_[r * block_ + n] - T[r]) / temperatureScale);
-    for (std::size_t i = 0; i < species.size(); ++i)
-      change = std::max(change, std::abs(last.concentrations[i] - first[r][i]) /
-                                    (std::max(last.concentrations[i], first[r][i]) + negligible));
-    if (!std::isfinite(change)) return change;
-    all = std::max(all, change);
+    for (const double part : {changes[r], change(r, T[r], first[r], last.concentrations)}) {
+      if (!std::isfinite(part)) return part;
+      all = std::max(all, part);
+    }
   }
   return all;
 }
@@ -219,7 +220,9 @@ void SplitReactor::advance(double end) {
     if (options_.largestStep > 0) h_ = std::min(h_, options_.largestStep);
     // The last two steps to a stop are alike.
     const double h = h_ >= left * (1 - 1e-12) ? left : h_ > 0.5 * left && !options_.fixedStep ? 0.5 * left : h_;
-    const std::vector<double> state = y_, exchanged = exchanged_;
+    const std::vector<double> state = y_, exchanged = exchanged_, means = means_;
+    const auto known = known_;
+    const std::vector<ExchangeInGas::Rate> expected = expected_;
     std::vector<std::unique_ptr<SplitParticles::State>> saved;
     const bool isCalm = options_.fixedStep || (work_.steps > 0 && lastRate_ * h < calmPart * options_.change);
     if (!isCalm)
@@ -242,6 +245,9 @@ void SplitReactor::advance(double end) {
       x_ = begin;
       y_ = state;
       exchanged_ = exchanged;
+      expected_ = expected;
+      means_ = means;
+      known_ = known;
       for (std::size_t r = 0; r < saved.size(); ++r) particles_[r]->restore(*saved[r]);
     } else {
       ++work_.steps;

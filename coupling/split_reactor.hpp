@@ -11,10 +11,17 @@
 // many of which particles are there now. Those that went from one reactor to another join the particles there.
 //
 // The step follows from what changes in it; a step in which more changes than twice the aim is taken back.
+//
+// Or by a predictor and a corrector, where the particles' species live shorter than the population changes: the gas
+// reacts over the step together with the exchange that the step before leads to expect (ExchangeInGas), the particles
+// change in the mean of this gas over the step, and the gas gets the difference of what they exchanged to what was
+// expected. Of second order as well, and a step may be much longer than a species lives (after Celnik, Patterson,
+// Kraft, Wagner 2009, who take the particles' rates at the beginning and at the end of a step).
 #pragma once
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -25,6 +32,8 @@
 #include "chemistry/reactor/stiff_integrator.hpp"
 #include "chemistry/thermo/thermo.hpp"
 #include "core/rooms.hpp"
+#include "coupling/exchange_in_gas.hpp"
+#include "coupling/particles_at_rest.hpp"
 #include "coupling/reactor_particles.hpp"
 
 namespace lampblack::coupling {
@@ -44,6 +53,9 @@ class SplitParticles {
   // Of the mechanism, in the order of the gas that `advance` is given.
   [[nodiscard]] virtual const std::vector<std::size_t>& species() const = 0;
   virtual Exchange advance(const ParticleGas& gas, double dt) = 0;
+  // mol/m3/s, at which they gain of the i-th species now: of kinds that know it, and of species for which they do. What
+  // the last step exchanged is expected of the next otherwise, with its noise.
+  [[nodiscard]] virtual std::optional<double> rateOf(std::size_t, const ParticleGas&) const { return std::nullopt; }
   // Multiplies all amounts per volume.
   virtual void dilute(double factor) = 0;
   // What there is, as join() of others of the same kind takes it.
@@ -71,32 +83,6 @@ struct PackedSplitState final : SplitParticles::State {
   std::vector<double> values;
 };
 
-// What the gas carries while it reacts: each element of the particles (kg/kg), and a mark for each reactor, one in it
-// and zero elsewhere at the beginning of each part of a step, that says where this gas has gone.
-class ParticlesAtRest final : public CarriedPhase {
- public:
-  enum SootAmount : std::size_t { carbon, hydrogen };  // of soot, the default
-  explicit ParticlesAtRest(std::size_t reactors = 1,
-                           std::vector<std::string> elements = SplitParticles::sootElements());
-  [[nodiscard]] std::size_t size() const override { return mark() + reactors_; }
-  [[nodiscard]] std::size_t mark() const { return elements_.size(); }  // amount of the first mark
-  [[nodiscard]] const std::vector<std::size_t>& exchanged() const override { return none_; }
-  void sources(double T, double p, std::span<const double> concentrations, std::span<const double> densities,
-               std::span<double> rates, std::span<double> exchange) override;
-  void jacobian(double T, double p, std::span<const double> concentrations, std::span<const double> densities,
-                std::span<double> values) override;
-  // Of soot's elements. Those of other materials count as zero: their reactors need a given temperature.
-  void enthalpies(double T, std::span<double> h, std::span<double> slope) override;
-  [[nodiscard]] static bool hasEnthalpy(const std::string& element) { return element == "C" || element == "H"; }
-  // kg of each element of the mechanism in a unit of each amount. InputError for an element that it lacks.
-  [[nodiscard]] std::vector<std::vector<double>> unitElements(const Mechanism& mechanism) const;
-
- private:
-  std::size_t reactors_;
-  std::vector<std::string> elements_;
-  std::vector<std::size_t> none_;
-};
-
 class SplitReactor {
  public:
   // The gas's equations, which carry ParticlesAtRest, in the unknowns (Y, T, carbon, hydrogen, marks, ...) of each
@@ -108,6 +94,8 @@ class SplitReactor {
     enum class Kept { temperature, enthalpy, internalEnergy };
     std::vector<Kept> kept{Kept::enthalpy};
     std::function<double(double x)> nextStop;  // a kink of the equations behind x; may be empty
+    // For the predictor and corrector: the phase that the equations carry, of one reactor. Splitting otherwise.
+    ExchangeInGas* expected = nullptr;
   };
   struct Options {
     StiffIntegrator::Options integrator;
@@ -143,11 +131,22 @@ class SplitReactor {
 
  private:
   double step(double h);
+  double splitStep(double h);
+  double predictedStep(double h);
+  double correctedStep(double h);
+  void expectExchange();
+  [[nodiscard]] std::vector<std::optional<double>> knownRates(const std::vector<double>& concentrations);
   void react(double h);
   // The particles to where the marks say that their gas is. Densities (kg/m3) at the beginning of the part.
   void carryParticles(const std::vector<double>& before);
   // The particles of a reactor over h; the largest part of a concentration that they take or give.
   double exchange(std::size_t reactor, double h);
+  // Adds moles (mol/kg) to the gas and kg/kg to the particles' elements; what is held stays.
+  void book(std::size_t reactor, std::span<const double> gas, std::span<const double> elements);
+  // The largest change of a temperature (by its scale) and of concentrations that particles see.
+  [[nodiscard]] double change(std::size_t reactor, double T, std::span<const double> before,
+                              std::span<const double> after) const;
+  [[nodiscard]] double negligible(std::size_t reactor) const;  // mol/m3
   // Of gas and particles with the unknowns `block`.
   [[nodiscard]] double energy(Gas::Kept kept, const double* block, double T);
   [[nodiscard]] double heatCapacity(Gas::Kept kept, const double* block, double T);
@@ -164,7 +163,12 @@ class SplitReactor {
   double x_ = 0, h_ = 0;
   double lastRate_ = 0;  // change in the last step over its length
   std::vector<double> y_;
-  std::vector<double> exchanged_;  // change of the unknowns by the particles' last step, a unit of x
+  // Of the particles' last step: the change of the unknowns by it, a unit of x; or what is expected of the next, and
+  // the mean concentrations, and the particles' own rates over these.
+  std::vector<double> exchanged_;
+  std::vector<ExchangeInGas::Rate> expected_;
+  std::vector<double> means_;
+  std::vector<std::optional<double>> known_;
   Work work_;
 };
 

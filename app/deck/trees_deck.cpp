@@ -26,6 +26,12 @@ void addProcesses(DeckSchema& schema) {
       .add(choiceKey("particles.kernel", {"transition", "free_molecular", "continuum"},
                      "Collision rates: harmonic mean of the two limits, or one of them.")
                .byDefault("transition"))
+      .add(choiceKey(
+               "particles.inception", {"coagulation", "free_molecular"},
+               "Collision rate of two molecules that become a particle: coagulation, by the kernel of particles with "
+               "their enhancement; free_molecular, without enhancement (Shekar et al. 2011, eq. 25).")
+               .byDefault("coagulation")
+               .onlyWith("particles.material", {"silica", "table"}))
       .add(numberKey("particles.enhancement",
                      "Factor of free-molecular collisions by van der Waals forces; of soot it is soot.van_der_waals.")
                .byDefault("2.2")
@@ -85,14 +91,7 @@ void addRuns(DeckSchema& schema) {
       .add(integerKey("particles.seed",
                       "Start of the random numbers: another seed gives another sample, the same seed the same result.")
                .byDefault("1")
-               .atLeast(0))
-      .add(numberKey(
-               "particles.coupling_change",
-               "Steps in which gas and particles change in turn are so long that a concentration which the particles "
-               "see changes by about this part of itself.")
-               .byDefault("0.05")
-               .above(0)
-               .atMost(1));
+               .atLeast(0));
   addSizeBinKeys(schema, "particles");
   schema
       .add(quantityKey("particles.tables_at", units::time,
@@ -182,6 +181,8 @@ TreeOptions readTreeOptions(const Deck& deck, const Mechanism& mechanism) {
   options.kernel.type = kernel == "transition"       ? CollisionKernelType::transition
                         : kernel == "free_molecular" ? CollisionKernelType::freeMolecular
                                                      : CollisionKernelType::continuum;
+  if (soot == nullptr)
+    options.material.siteReactions().freeMolecularInception = deck.choice("particles.inception") == "free_molecular";
   options.kernel.enhancement = soot != nullptr ? soot->soot.vanDerWaals : deck.number("particles.enhancement");
   options.kernel.slip = soot != nullptr                          ? soot->soot.slip
                         : deck.choice("particles.slip") == "air" ? SlipLaw::air

@@ -125,6 +125,7 @@ void tryPopulation(const Deck& deck, const std::string& section, ReactorCase& re
     const ReactorGas gas(*reactorCase.mechanism, trial->species(), trial->viscosity());
     reactorCase.ensemble->material = trial->material();
     reactorCase.ensemble->elements = trial->elements();
+    reactorCase.ensemble->species = trial->species();
   } catch (const InputError& error) {
     throw deck.error(section, error.what());
   }
@@ -140,6 +141,13 @@ void refuseWithPopulation(const Deck& deck, const std::string& section, ReactorC
     throw deck.error(section,
                      "the steady state of an ensemble is a mean over time: give time.end, of many residence times; the "
                      "second half is averaged");
+}
+
+bool readPredicted(const Deck& deck, const std::string& section, const ReactorCase& reactorCase) {
+  const bool predicted = deck.choice(section + ".coupling") == "predictor_corrector";
+  if (predicted && reactorCase.type == ReactorType::Network)
+    throw deck.error(section + ".coupling", "in a network gas and particles are coupled by splitting alone");
+  return predicted;
 }
 
 void readReactorTrees(const Deck& deck, ReactorCase& reactorCase) {
@@ -164,6 +172,8 @@ void readReactorTrees(const Deck& deck, ReactorCase& reactorCase) {
                           request.bins,
                           {},
                           {},
+                          {},
+                          readPredicted(deck, "particles", reactorCase),
                           [mechanism = reactorCase.mechanism, request](std::uint64_t owner) {
                             TreeOptions own = request.options;
                             own.owner = owner;
@@ -193,6 +203,8 @@ void readReactorEnsemble(const Deck& deck, ReactorCase& reactorCase) {
                           request.bins,
                           {},
                           {},
+                          {},
+                          readPredicted(deck, "stochastic", reactorCase),
                           [mechanism = reactorCase.mechanism, options = request.soot](std::uint64_t owner) {
                             EnsembleOptions own = options;
                             own.owner = owner;

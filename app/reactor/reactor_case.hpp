@@ -35,6 +35,8 @@ struct ReactorPopulations {
   SizeBins bins;
   std::string material;
   std::vector<std::string> elements;
+  std::vector<std::size_t> species;  // that they exchange
+  bool predicted = false;            // coupled by predictor and corrector, or by splitting
   PopulationMaker make;
   std::vector<double> tablesAt;  // s (plug flow: m), rising: where every particle of the first repeat is written
   // Classes of particles for averages: by which of ReactorPopulation::classedBy(), and the edges between them.

@@ -1,13 +1,21 @@
 #include "app/reactor/reactor_ensemble_gas.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "app/reactor/reactor_ensemble_columns.hpp"
 
 namespace lampblack::app {
 
-EnsembleGas::EnsembleGas(const ReactorCase& reactorCase, const std::optional<GasState>& inlet)
-    : case_(reactorCase), particles_(numReactors(reactorCase), reactorCase.ensemble->elements) {
+EnsembleGas::EnsembleGas(const ReactorCase& reactorCase, const std::optional<GasState>& inlet) : case_(reactorCase) {
+  const ReactorPopulations& populations = *case_.ensemble;
+  if (populations.predicted) {
+    auto exchange = std::make_unique<ExchangeInGas>(*case_.mechanism, populations.elements, populations.species);
+    gas_.expected = exchange.get();
+    particles_ = std::move(exchange);
+  } else {
+    particles_ = std::make_unique<ParticlesAtRest>(numReactors(case_), populations.elements);
+  }
   gas_.timePerUnit = [](const double*) { return 1.0; };
   if (case_.type == ReactorType::PlugFlow)
     carryByPlugFlow(inlet ? *inlet : case_.inlet);
@@ -21,7 +29,7 @@ EnsembleGas::EnsembleGas(const ReactorCase& reactorCase, const std::optional<Gas
 }
 
 void EnsembleGas::carryByPlugFlow(const GasState& inlet) {
-  plugFlow_.emplace(*case_.mechanism, inlet, case_.massFlux, case_.length, case_.profile, &particles_);
+  plugFlow_.emplace(*case_.mechanism, inlet, case_.massFlux, case_.length, case_.profile, particles_.get());
   start_ = plugFlow_->initialState();
   gas_.system = &*plugFlow_;
   gas_.pressure = [p = inlet.pressure](const double*) { return p; };
@@ -30,8 +38,8 @@ void EnsembleGas::carryByPlugFlow(const GasState& inlet) {
 }
 
 void EnsembleGas::carryByNetwork() {
-  network_.emplace(*case_.mechanism, case_.network, &particles_);
-  start_ = startUnknowns(*case_.mechanism, case_.network, case_.start, particles_.size());
+  network_.emplace(*case_.mechanism, case_.network, particles_.get());
+  start_ = startUnknowns(*case_.mechanism, case_.network, case_.start, particles_->size());
   gas_.system = &*network_;
   gas_.pressure = [p = case_.network.pressure](const double*) { return p; };
   gas_.density = [this](const double* block) { return network_->density(block); };
@@ -44,7 +52,8 @@ void EnsembleGas::carryByNetwork() {
 void EnsembleGas::carryByClosedReactor() {
   const bool pressure = case_.type == ReactorType::ConstantPressure;
   closed_.emplace(*case_.mechanism, case_.initial,
-                  pressure ? ReactorSystem::Held::Pressure : ReactorSystem::Held::Density, case_.profile, &particles_);
+                  pressure ? ReactorSystem::Held::Pressure : ReactorSystem::Held::Density, case_.profile,
+                  particles_.get());
   start_ = closed_->initialState();
   gas_.system = &*closed_;
   gas_.pressure = [this](const double* y) { return closed_->pressure(y); };

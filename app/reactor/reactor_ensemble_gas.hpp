@@ -2,6 +2,7 @@
 // stirred reactors, one or a network.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -22,7 +23,7 @@ class EnsembleGas {
 
   [[nodiscard]] const SplitReactor::Gas& gas() const { return gas_; }
   [[nodiscard]] const std::vector<double>& start() const { return start_; }
-  [[nodiscard]] ParticlesAtRest& particles() { return particles_; }
+  [[nodiscard]] ParticlesAtRest& particles() { return *particles_; }
   // s, where the unknowns are y at x
   [[nodiscard]] double time(double x, std::span<const double> y) const {
     return plugFlow_ ? plugFlow_->residenceTime(y.data()) : x;
@@ -34,7 +35,7 @@ class EnsembleGas {
   void carryByClosedReactor();
 
   const ReactorCase& case_;
-  ParticlesAtRest particles_;
+  std::unique_ptr<ParticlesAtRest> particles_;
   std::optional<ClosedReactor> closed_;
   std::optional<PlugFlow> plugFlow_;
   std::optional<NetworkSystem> network_;

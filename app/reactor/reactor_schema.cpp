@@ -172,18 +172,32 @@ void addIgnition(DeckSchema& schema) {
                .byDefault("[all]"));
 }
 
+// How stochastic particles and their gas go on together.
+void addCouplingKeys(DeckSchema& schema, const std::string& section) {
+  schema
+      .add(choiceKey(
+               section + ".coupling", {"splitting", "predictor_corrector"},
+               "How gas and particles go on together, both of second order. splitting: half a step of the gas, the "
+               "particles, half a step of the gas (Strang 1968); predictor_corrector: the gas with the exchange that "
+               "is expected, the particles in its mean, the difference, for species that live shorter than a step; "
+               "not in networks.")
+               .byDefault("splitting"))
+      .add(numberKey(
+               section + ".coupling_change",
+               "Steps of the coupling are so long that a concentration which the particles see changes by about this "
+               "part of itself, or the temperature by this part of 200 K.")
+               .byDefault("0.05")
+               .above(0)
+               .atMost(1));
+}
+
 void addEnsembles(DeckSchema& schema) {
   addEnsembleKeys(
       schema,
       "Ensembles of soot particles in place of soot.model, coupled with the gas both ways: every repeat is a "
       "reactor, or a network, of its own. Needs the section soot, whose PAH, surface and switches are theirs.");
   addRepeatKeys(schema);
-  schema.add(numberKey("stochastic.coupling_change",
-                       "Steps in which gas and particles change in turn are so long that a concentration which the "
-                       "particles see changes by about this part of itself, or the temperature by this part of 200 K.")
-                 .byDefault("0.05")
-                 .above(0)
-                 .atMost(1));
+  addCouplingKeys(schema, "stochastic");
 }
 
 }  // namespace
@@ -219,6 +233,7 @@ DeckSchema reactorSchema() {
   addSootModelKeys(schema);
   addEnsembles(schema);
   addTreeReactorKeys(schema);
+  addCouplingKeys(schema, "particles");
   schema.section("integrator", Presence::defaulted, "The stiff solver of everything but steady states.")
       .add(numberKey("integrator.relative_tolerance",
                      "Relative tolerance of the stiff solver of the chemistry: smaller is more accurate and slower.")

@@ -33,6 +33,13 @@ void requireSites(const TreeMaterial& m, const SiteReactions& r) {
 
 }  // namespace
 
+double SiteReactions::inceptionKernel(const CollisionKernel& coagulation, double density) const {
+  const CollisionKernel::Properties molecule{moleculeMass / density, moleculeMass, moleculeDiameter};
+  if (!freeMolecularInception) return coagulation.value(molecule, molecule);
+  const double T = coagulation.options().gas.temperature;
+  return 4 * std::sqrt(constants::pi * constants::boltzmann * T / moleculeMass) * moleculeDiameter * moleculeDiameter;
+}
+
 double SiteReactions::growthRate(double temperature, double concentration) const {
   const double arrhenius = energy == 0 ? 1 : std::exp(-energy / (constants::gasConstant * temperature));
   return prefactor * (power == 0 ? 1 : std::pow(temperature, power)) * arrhenius * std::max(concentration, 0.0);

@@ -35,6 +35,9 @@ struct SiteReactions {
   // the mass (kg) and the diameter (m) of the collision kernel.
   TreeUnits nucleus{};
   double nucleusPrecursors = 2, nucleusProducts = 1, moleculeMass = 0, moleculeDiameter = 0;
+  // By the free-molecular kernel without enhancement (Shekar, Smith, Kraft, Wagner 2011, eq. 25) in place of that of
+  // coagulation.
+  bool freeMolecularInception = false;
   // Surface reaction of a molecule with a site, a unit of the component `site`: what the primary gains, and the
   // product; rate constant prefactor T^power exp(-energy/RT) for each site, m3/mol/s and J/mol.
   std::size_t site = 0;
@@ -47,6 +50,8 @@ struct SiteReactions {
 
   // 1/s for each site, at a concentration (mol/m3) of the precursor.
   [[nodiscard]] double growthRate(double temperature, double concentration) const;
+  // Two molecules, m3/s; `coagulation`: the kernel of particles in this gas, `density` (kg/m3) that of the material.
+  [[nodiscard]] double inceptionKernel(const CollisionKernel& coagulation, double density) const;
 };
 
 // Carbon and hydrogen, by the processes that all populations of soot have: nuclei of PAH, condensation of PAH, growth

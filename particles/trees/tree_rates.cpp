@@ -16,7 +16,7 @@ TreeRates TreeProcess::rates(const ParticleGas& gas, std::size_t pairs) const {
   const CollisionKernel kernel(options);
   TreeRates rates;
   std::vector<CollisionKernel::Properties> all;
-  all.reserve(size());
+  all.reserve(pairs > 0 ? size() : 0);
   std::visit(
       [&](auto reactions) {  // a copy, which sees this gas
         reactions.see(gas, kernel);
@@ -24,7 +24,7 @@ TreeRates TreeProcess::rates(const ParticleGas& gas, std::size_t pairs) const {
         forEachTree([&](const Tree& tree, double number) {
           const TreeHead& head = tree.head();
           if constexpr (requires { reactions.addRates(rates, head, number); }) reactions.addRates(rates, head, number);
-          all.push_back({head.volume, head.volume * options_.material.density, head.collision});
+          if (pairs > 0) all.push_back({head.volume, head.volume * options_.material.density, head.collision});
         });
       },
       reactions_);

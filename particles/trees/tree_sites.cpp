@@ -13,9 +13,7 @@ void TreeSites::see(const ParticleGas& gas, const CollisionKernel& kernel) {
   const double molecules = concentration * constants::avogadro;
   rate_ = r.growthRate(gas.temperature, concentration);
   growth_.setRate(rate_);
-  const CollisionKernel::Properties molecule{r.moleculeMass / type_.material().density, r.moleculeMass,
-                                             r.moleculeDiameter};
-  inception_ = 0.5 * kernel.value(molecule, molecule) * molecules * molecules;
+  inception_ = 0.5 * r.inceptionKernel(kernel, type_.material().density) * molecules * molecules;
 }
 
 double TreeSites::step(const Sums& s, const CollisionKernel* kernel, double tolerance, double remaining) const {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 #include <span>
 #include <string>
 #include <tuple>
@@ -82,6 +83,10 @@ class ToySplit final : public SplitParticles {
     carbon += gained;
     return {{-moles}, {gained, 2 * toy_.hydrogenWeight * moles}};
   }
+  [[nodiscard]] std::optional<double> rateOf(std::size_t, const ParticleGas& gas) const override {
+    if (!knowsItsRate) return std::nullopt;
+    return -toy_.k(gas.temperature) * gas.concentrations[0] * (1 + toy_.b * carbon);
+  }
   void dilute(double factor) override { carbon *= factor; }
   [[nodiscard]] std::vector<double> content() const override { return {carbon}; }
   void join(std::span<const double> content, double share) override { carbon += share * content[0]; }
@@ -92,6 +97,7 @@ class ToySplit final : public SplitParticles {
   void restore(const State& state) override { carbon = dynamic_cast<const PackedSplitState&>(state).values[0]; }
 
   double carbon = 0;  // kg/m3
+  bool knowsItsRate = false;
 
  private:
   Toy toy_;

@@ -161,6 +161,23 @@ TEST(TreeRates, AreThoseOfTheLawsSummedOverTreesAndPairs) {
   EXPECT_EQ(population.rates(gas, 100).coagulations, population.rates(gas, 100).coagulations);
 }
 
+TEST(TreeRates, InceptionWithoutEnhancementIsThatOfTheFreeMolecularKernel) {
+  TreeOptions options;
+  options.material = silica();
+  options.material.siteReactions().freeMolecularInception = true;
+  Sample sample;
+  const double molecules = 1e-4 * constants::avogadro, m = options.material.sites()->moleculeMass,
+               d = options.material.sites()->moleculeDiameter;
+  const double k = 4 * std::sqrt(constants::pi * constants::boltzmann * 1173 / m) * d * d;
+  EXPECT_NEAR(makeTreePopulation(options)->rates(sample.gas(1e-4), 0).inceptions / (0.5 * k * molecules * molecules), 1,
+              1e-12);
+  // The transition kernel of molecules is the free-molecular one but for some thousandths.
+  options.material.siteReactions().freeMolecularInception = false;
+  options.kernel.enhancement = 1;
+  EXPECT_NEAR(makeTreePopulation(options)->rates(sample.gas(1e-4), 0).inceptions / (0.5 * k * molecules * molecules), 1,
+              0.02);
+}
+
 TEST(TreeRates, EventsOfTheSampleAreThoseOfTheGasByItsWeight) {
   Sample sample;
   // Born of the gas, too few to fill the sample: it is neither doubled nor contracted.
