@@ -13,6 +13,7 @@
 #include "core/constants.hpp"
 #include "core/rooms.hpp"
 #include "particles/gas/soot_gas.hpp"
+#include "particles/population/model/collision_kernel.hpp"
 #include "particles/trees/sintering_law.hpp"
 
 namespace lampblack::particles {

@@ -84,6 +84,31 @@ TEST_P(TreesInCells, KeepSiliconOxygenAndHydrogenOfGasAndParticles) {
   EXPECT_NE(sumOverRanks(v.resampled[silicon]), 0.0);
 }
 
+// What a cell says of its trees: their number, surface and diameters, as their rows have them.
+TEST(TreesInCells, AddUpToTheAmountsOfTheirCell) {
+  Silica v(inCells(0.0));
+  for (int s = 0; s < 8; ++s) v.step();
+  const AmountPlaces places = v.particles->amounts();
+  double trees = 0.0;
+  for (int c = 0; c < v.box.mesh.owned; ++c) {
+    double number = 0.0, surface = 0.0, diameters = 0.0;
+    v.particles->rows().forEach(v.particles->rows().of(v.ensembles.populations()[at(c)]), [&](const double* row) {
+      const GivenParticle p = particleAt(row);
+      const double volume = p.carbon / silica().density;
+      const double primary = std::cbrt(6.0 / constants::pi * volume / p.primaries);
+      number += p.number;
+      surface += p.number * p.primaries * constants::pi * primary * primary;
+      diameters += p.number * primary * SootAggregate::mobilityFactor(p.primaries);
+    });
+    const double* amount = &v.state.carried[at(c) * v.state.scalars.size()];
+    EXPECT_NEAR(amount[AmountPlaces::number], number, 1e-12 * number) << c;
+    EXPECT_NEAR(amount[places.surface()], surface, 1e-9 * surface) << c;
+    EXPECT_NEAR(amount[places.diameters()], diameters, 1e-9 * diameters) << c;
+    trees += number;
+  }
+  EXPECT_GT(sumOverRanks(trees), 0.0);
+}
+
 // The gas gets the heat that its atoms had where they go: in a still vessel, of one gas each cell.
 TEST(TreesInCells, KeepTheEnthalpyOfGasAndParticles) {
   EnsembleOperator::Options o = inCells(0.0);
