@@ -87,6 +87,8 @@ def check_mechanisms(user):
     (user.folder / "hydrogen_h2o2_10.yaml").unlink()
     deck.write_text(text)
     assert "there is no such file" in user("lampblack", "check", deck, code=2).stderr
+    deck.write_text(text.replace("../../mechanisms/", "./"))  # a path, not a name of what ships
+    assert "./hydrogen_h2o2_10.yaml: there is no such file" in user("lampblack", "check", deck, code=2).stderr
     deck.write_text(text.replace("../../mechanisms/hydrogen_h2o2_10", "hydrogen_h202_10"))
     told = user("lampblack", "check", deck, code=2).stderr
     assert "own.yaml:4:12: mechanism: " in told and "did you mean 'hydrogen_h2o2_10.yaml'" in told, told

@@ -52,36 +52,43 @@ def check_what_starts_mpi(executable):
     assert "mca_btl_tcp" in components(executable, "check", IGNITION, OMPI_MCA_btl="self,tcp"), "the user's choice is lost"
 
 
-def processes_of_session(session: int) -> list:
+def processes_beside(process: int) -> list:
+    """Names of the processes of its session, and of its children elsewhere: Open MPI's daemon makes a session of its own."""
     found = []
     for path in pathlib.Path("/proc").glob("[0-9]*/stat"):
         try:
             name, _, rest = path.read_text().rpartition(")")
         except OSError:
             continue
-        if int(rest.split()[3]) == session:
+        parent, session = int(rest.split()[1]), int(rest.split()[3])
+        if process in (parent, session):
             found.append(name.partition("(")[2])
     return found
 
 
 def check_no_daemon(executable, folder):
-    """While one rank runs there is no other process, and two of them at once do not disturb each other."""
+    """While one rank runs there is no other process, and two of them at once have folders of their own, which go with them."""
+    temporary = folder / "tmp"
+    temporary.mkdir()
     runs = [subprocess.Popen([executable, "run", IGNITION, "--out", str(folder / name), *running.settings("output.interval=1 ns")],
-                             env=plain_environment(), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
-                             start_new_session=True, text=True) for name in ("one", "two")]
+                             env=plain_environment(TMPDIR=str(temporary)), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                             stderr=subprocess.PIPE, start_new_session=True, text=True) for name in ("one", "two")]
     try:
         for process, name in zip(runs, ("one", "two")):
             until = time.monotonic() + 30
             while not (folder / name / "run.json").exists() and time.monotonic() < until:
                 time.sleep(0.01)
-            found = processes_of_session(process.pid)
+            found = processes_beside(process.pid)
             assert found == ["lampblack"], f"processes of a run of one rank: {found}"
+        folders = {path.name for path in temporary.iterdir()}
+        assert folders <= {f"lampblack.{os.geteuid()}.{process.pid}" for process in runs}, folders
     finally:
         for process in runs:
             process.send_signal(signal.SIGTERM)
     for process in runs:
         said = process.communicate(timeout=30)[1]
         assert process.returncode == 128 + signal.SIGTERM and said.startswith("lampblack: stopped by SIGTERM"), said
+    assert not list(temporary.iterdir()), "a run left a folder of its session"
 
 
 def check_ranks(executable, folder):
