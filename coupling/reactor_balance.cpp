@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace lampblack::coupling {
@@ -42,9 +43,11 @@ double ReactorBalance::internalEnergy(double T, std::span<const double> Y, std::
 }
 
 double largestImbalance(std::span<const double> first, std::span<const double> second) {
+  constexpr double roundOff = 1e-15;
+  const double least = roundOff * std::accumulate(first.begin(), first.end(), 0.0);
   double largest = 0;
   for (std::size_t e = 0; e < first.size(); ++e)
-    if (first[e] > 0) largest = std::max(largest, std::abs(second[e] / first[e] - 1));
+    if (first[e] > least) largest = std::max(largest, std::abs(second[e] / first[e] - 1));
   return largest;
 }
 

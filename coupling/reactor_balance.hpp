@@ -33,7 +33,8 @@ class ReactorBalance {
   std::vector<double> h_, slope_;
 };
 
-// The largest difference of an element between the two, relative to what `first` has of it.
+// The largest difference of an element between the two, relative to what `first` has of it; of elements that are more
+// than round-off in the whole, as a solver leaves a trace of those that are not there.
 [[nodiscard]] double largestImbalance(std::span<const double> first, std::span<const double> second);
 
 // What comes into a reactor of a steady network less what leaves it.

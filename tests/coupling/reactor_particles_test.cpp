@@ -181,5 +181,11 @@ INSTANTIATE_TEST_SUITE_P(Models, EveryModel,
                          ::testing::Values("two_equation_dimer", "leung", "moss_brookes", "hmom", "momic",
                                            "sectional"));
 
+TEST(ReactorBalance, TracesOfWhatIsNotThereDoNotCount) {
+  const std::vector<double> first{0.7, 1e-5, 1e-25, 0};
+  EXPECT_NEAR(largestImbalance(first, std::vector<double>{0.7, 1.001e-5, 1e-17, 1e-20}), 1e-3, 1e-9);
+  EXPECT_EQ(largestImbalance(first, first), 0);
+}
+
 }  // namespace
 }  // namespace lampblack::coupling
