@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/poisson.hpp"
+#include "particles/trees/tree_sites.hpp"
 #include "tests/particles/statistics.hpp"
 #include "tests/particles/trees/tree_fixtures.hpp"
 
@@ -102,6 +103,32 @@ TEST(TreeGrowth, NecksGainByWhatGrowsOnTheirPrimaries) {
     EXPECT_NEAR((tree.necks()[k].common - was.common) / gain, 1, 1e-6);  // a difference of numbers 1e4 times as large
   }
   expectTree(type, tree);
+}
+
+// A splitting step is as long as volume by growth, or number by coagulation, takes to change by the tolerance.
+TEST(TreeSites, StepsFollowWhatChangesFastest) {
+  const TreeMaterial material = silica();
+  const PrimaryTrees type(material, CollisionSize::primaries);
+  CollisionKernelOptions options{.type = CollisionKernelType::freeMolecular};
+  options.gas = {1173, 101325, 0.3, 4.6e-5, 0.028};
+  const CollisionKernel kernel(options);
+  const std::array<double, 2> concentrations{1e-9, 0};
+  ParticleGas gas{options.gas, concentrations};
+  TreeSites sites(type);
+  sites.see(gas, kernel);
+  TreeSites::Sums sums;
+  const Tree one = type.make(TreeUnits{2000, 4000, 400});
+  const double number = 1e16, v = one.head().volume;
+  sites.add(sums, one.head(), number);
+  constexpr double tolerance = 0.03, long_ = 1e9;
+  const double rate = 1e7 * 1e-9;  // 1/s for each site
+  const double growth = rate * 400 * material.volume({1, 1, 2}) / v;
+  EXPECT_NEAR(sites.step(sums, nullptr, tolerance, long_) * growth / tolerance, 1, 1e-12);
+  const CollisionKernel::Properties p{v, 2200 * v, one.head().collision};
+  const double collisions = 0.5 * kernel.value(p, p) * number;
+  ASSERT_GT(collisions, growth);
+  EXPECT_NEAR(sites.step(sums, &kernel, tolerance, long_) * collisions / tolerance, 1, 1e-12);
+  EXPECT_EQ(sites.step(sums, &kernel, tolerance, 1e-9), 1e-9);
 }
 
 }  // namespace
