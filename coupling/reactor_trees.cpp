@@ -233,6 +233,7 @@ std::vector<std::pair<std::string, double>> ReactorTrees::counts() const {
       {"fused_primaries", value(c.fused)},
       {"doublings", value(c.doublings)},
       {"removals", value(c.removals)},
+      {"samples_never_full", population_->size() > 0 && !population_->wasFull() ? 1.0 : 0.0},
       {"splitting_steps", value(c.splitSteps)}};
   if (material_.sites() != nullptr) {
     all.emplace_back("surface_reactions", value(c.reactions));

@@ -81,8 +81,7 @@ double SplitReactor::correctedStep(double h) {
   // The particles, in the middle of the gas: its mean composition and temperature, and the mean concentrations over the
   // step of what they exchange. Half of their volume's change, and of what flows out, is before.
   std::vector<double> middle(block_), means(species.size());
-  for (std::size_t i = 0; i <= n; ++i) middle[i] = 0.5 * (before[i] + y_[i]);
-  for (std::size_t i = n + 1; i < block_; ++i) middle[i] = 0.5 * (before[i] + y_[i]);
+  for (std::size_t i = 0; i < block_; ++i) middle[i] = 0.5 * (before[i] + y_[i]);
   const std::span<const double> amounts = std::span<const double>(y_).subspan(n + 1);
   for (std::size_t i = 0; i < species.size(); ++i) means[i] = expected.meanConcentration(amounts, i);
   const double density = gas_.density(middle.data()), left = std::sqrt(amounts[expected.mark()]);

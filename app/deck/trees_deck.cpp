@@ -80,8 +80,9 @@ void addRuns(DeckSchema& schema) {
                .optional())
       .add(
           quantityKey("particles.full_at", units::perVolume,
-                      "Number density at which an empty sample is full first; at least the largest that there will be, "
-                      "or particles are removed at random.")
+                      "Number density at which an empty sample is full first: about the largest that there will be. "
+                      "Far above it the sample stays small and scatters, which the report tells; far below, particles "
+                      "are removed at random, which is right in the mean.")
               .byDefault("1e18 1/m^3")
               .above(0))
       .add(integerKey("particles.repeats", "Number of independent repeats, from which mean and confidence follow.")

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -49,6 +50,14 @@ std::vector<double> EnsembleSummary::row(std::size_t row) const {
     intervals.append(value.mean(), value.standardError(), values);
   }
   return values;
+}
+
+double EnsembleSummary::largest(const std::string& column) const {
+  double most = 0;
+  for (std::size_t c = 0; c < columns_.size(); ++c)
+    for (std::size_t row = 0; columns_[c].name == column && row < shape_.rows; ++row)
+      most = std::max(most, values_[row * shape_.columns + c].mean());
+  return most;
 }
 
 void EnsembleSummary::record(JsonWriter& json, const std::vector<std::size_t>& recorded) const {

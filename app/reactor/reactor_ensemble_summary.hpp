@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "app/reactor/reactor_ensemble_columns.hpp"
@@ -37,6 +38,8 @@ class EnsembleSummary {
     return densities_[row * shape_.densities + bin];
   }
 
+  // Of the mean of the repeats of a column, over the rows; zero where there is no such column.
+  [[nodiscard]] double largest(const std::string& column) const;
   // The given columns at the end, and the late means.
   void record(JsonWriter& json, const std::vector<std::size_t>& recorded) const;
   void print(const std::vector<std::size_t>& shown) const;

@@ -108,6 +108,8 @@ class TreePopulation {
 
   [[nodiscard]] virtual std::size_t size() const = 0;
   [[nodiscard]] virtual double weight() const = 0;  // 1/m3 for a numerical particle
+  // Whether the sample was full once (three quarters), so that it is kept so: it is not doubled before.
+  [[nodiscard]] virtual bool wasFull() const = 0;
   [[nodiscard]] virtual TreeTotals totals() const = 0;
   // Of the population as it is. Coagulation is that of so many pairs drawn at random, times the number of all: its
   // expectation is exact.

@@ -31,6 +31,7 @@ class TreeProcess final : public TreePopulation {
 
   [[nodiscard]] std::size_t size() const override { return method_.size(); }
   [[nodiscard]] double weight() const override { return method_.weight(); }
+  [[nodiscard]] bool wasFull() const override { return method_.memory()[1] != 0; }
   [[nodiscard]] TreeTotals totals() const override;
   [[nodiscard]] TreeRates rates(const ParticleGas& gas, std::size_t pairs) const override;
   void forEachTree(const std::function<void(const Tree&, double)>& f) const override { method_.forEachParticle(f); }

@@ -100,6 +100,20 @@ def check_events(history):
     assert np.all(np.abs(step / middle - 1) < 0.5), step / middle
 
 
+def check_starved(executable, mpiexec, folder):
+    """A sample that begins far too small for what is born is told of, and one that has room is not."""
+    program = running.Program(executable, mpiexec, 1)
+    for full_at, told in (("1e20 1/m^3", True), ("1e18 1/m^3", False)):
+        out = folder / f"full_{told}"
+        result = program("run", DECK, "--out", out, *running.settings(
+            "time.end=40 ms", "output.interval=10 ms", "particles.number=64", "particles.repeats=2", f"particles.full_at={full_at}"), timeout=100)
+        assert result.code == 0, result.err
+        assert ("2 samples were never three quarters full" in result.out) == told, result.out
+        assert ("'particles.full_at' near the largest number density" in result.out) == told, result.out
+        counts = json.loads((out / "run.json").read_text(encoding="utf-8"))["results"]["counts"]
+        assert counts["samples_never_full"] == (2 if told else 0) and counts["collision_pairs_above_majorant"] == 0, counts
+
+
 def main(executable, *mpiexec):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
@@ -114,6 +128,7 @@ def main(executable, *mpiexec):
         check_distributions(out, history)
         check_classes(out, history)
         check_events(history)
+        check_starved(executable, list(mpiexec), folder)
         for setting, *words in WRONG:
             result = running.Program(executable, list(mpiexec), 1)("check", DECK, "--set", setting)
             assert result.code == 2 and all(word in result.err for word in words), f"{setting}: {result.code} {result.err}"

@@ -89,6 +89,14 @@ TEST(TreeFunctionals, DistributionsHaveAllParticlesOrPrimaries) {
   }
 }
 
+TEST(TreeFunctionals, SinglePrimariesAreInTheLastBinOfLevels) {
+  Sample sample;
+  double single = 0;
+  sample.trees->population().forEachTree([&](const Tree& t, double number) { single += t.count() == 1 ? number : 0; });
+  ASSERT_GT(single, 0);
+  EXPECT_GE(sample.trees->shareDistribution(0, 40).back() / 40, single * (1 - 1e-12));
+}
+
 TEST(TreeFunctionals, ClassesAddUpToTheMeansOfAll) {
   Sample sample;
   const TreeTotals totals = sample.trees->population().totals();
@@ -159,6 +167,18 @@ TEST(TreeRates, AreThoseOfTheLawsSummedOverTreesAndPairs) {
   EXPECT_LT(error, 0.02);
   // To look changes nothing.
   EXPECT_EQ(population.rates(gas, 100).coagulations, population.rates(gas, 100).coagulations);
+}
+
+TEST(TreeRates, ThePrecursorGoesToNucleiAndSurfaces) {
+  Sample sample;
+  const ParticleGas gas = sample.gas(3e-6);
+  const TreeRates rates = sample.trees->population().rates(gas, 0);
+  ASSERT_GT(rates.inceptions, 0);
+  ASSERT_GT(rates.reactions, 0);
+  const auto rate = sample.trees->rateOf(0, gas);
+  ASSERT_TRUE(rate);
+  EXPECT_NEAR(*rate / (-(2 * rates.inceptions + rates.reactions) / constants::avogadro), 1, 1e-12);
+  EXPECT_FALSE(sample.trees->rateOf(1, gas)) << "what sintering gives back is not known beforehand";
 }
 
 TEST(TreeRates, InceptionWithoutEnhancementIsThatOfTheFreeMolecularKernel) {
