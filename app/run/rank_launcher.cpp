@@ -76,6 +76,8 @@ std::vector<std::string> launch(int ranks) {
   // Between SIGTERM and SIGKILL mpirun leaves the ranks a quarter of a second, too little to keep what they have.
   setUnlessSet("OMPI_MCA_odls_base_sigkill_timeout", "5");
   setUnlessSet("PRTE_MCA_odls_base_sigkill_timeout", "5");
+  // Open MPI 5 looks for a network between ranks of one machine, and says on standard error where it finds none.
+  if (OMPI_MAJOR_VERSION >= 5 && !inAllocation()) setUnlessSet("OMPI_MCA_btl", "^tcp");
   std::vector<std::string> words{mpirun};
   if (OMPI_MAJOR_VERSION < 5) words.push_back("--quiet");  // about exit codes, which are the program's to explain
   words.insert(words.end(), {"-n", std::to_string(ranks)});

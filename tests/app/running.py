@@ -40,6 +40,8 @@ def environment() -> dict:
     """
     env = dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
     env.update(OMPI_MCA_pml="ob1", OMPI_MCA_odls_base_sigkill_timeout="0")
+    if shutil.which("mpirun") and not quietly("mpirun"):
+        env.update(OMPI_MCA_btl="^tcp")  # Open MPI 5 says where it finds no network
     if os.geteuid() == 0:
         env.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
     return env
