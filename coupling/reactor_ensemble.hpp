@@ -24,6 +24,7 @@ class ReactorEnsemble final : public ReactorPopulation {
   [[nodiscard]] std::vector<double> content() const override;
   void join(std::span<const double> content, double share) override;
   [[nodiscard]] bool idle(const ParticleGas& gas) const override;
+  [[nodiscard]] std::uint64_t removals() const override { return population_->counters().removals; }
   [[nodiscard]] std::unique_ptr<State> save() const override {
     return std::make_unique<PackedSplitState>(population_->pack());
   }

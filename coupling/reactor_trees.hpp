@@ -43,6 +43,7 @@ class ReactorTrees final : public ReactorPopulation {
   [[nodiscard]] std::vector<double> content() const override;
   void join(std::span<const double> content, double share) override;
   [[nodiscard]] bool idle(const ParticleGas& gas) const override;
+  [[nodiscard]] std::uint64_t removals() const override { return population_->counters().removals; }
   [[nodiscard]] std::unique_ptr<State> save() const override;
   void restore(const State& state) override;
 

@@ -26,8 +26,7 @@ std::vector<ReactorPopulation::Distribution> ReactorTrees::distributions() const
 }
 
 std::vector<double> ReactorTrees::distribution(std::size_t k, double logMin, double logMax, std::size_t bins) const {
-  if (k >= sizeFunctionals.size())
-    return population_->primarySizes(logMin, logMax, bins);
+  if (k >= sizeFunctionals.size()) return population_->primarySizes(logMin, logMax, bins);
   const SizeBins all{logMin, logMax, bins};
   std::vector<double> density(bins, 0.0);
   population_->forEachTree([&](const Tree& tree, double number) {

@@ -211,6 +211,12 @@ double SplitReactor::splitStep(double h) {
   return all;
 }
 
+std::uint64_t SplitReactor::allRemovals() const {
+  std::uint64_t all = 0;
+  for (const SplitParticles* particles : particles_) all += particles->removals();
+  return all;
+}
+
 void SplitReactor::advance(double end) {
   while (x_ < end) {
     double stop = end;
@@ -227,11 +233,12 @@ void SplitReactor::advance(double end) {
     const bool isCalm = options_.fixedStep || (work_.steps > 0 && lastRate_ * h < calmPart * options_.change);
     if (!isCalm)
       for (const SplitParticles* particles : particles_) saved.push_back(particles->save());
+    const std::uint64_t removals = allRemovals();
     const double change = step(h);
     if (!std::isfinite(change))
       throw NumericsError(fmt::format("the step that began at {:.6g} gave values that are not finite", begin));
     bool isTooMuch = !options_.fixedStep && change > 2 * options_.change;
-    if (isTooMuch && isCalm) {
+    if (isTooMuch && (isCalm || allRemovals() != removals)) {
       ++work_.unchecked;
       isTooMuch = false;
     }

@@ -10,7 +10,8 @@
 // mark for every reactor: after a part of a step they say what part of its mass was where at the beginning, and so how
 // many of which particles are there now. Those that went from one reactor to another join the particles there.
 //
-// The step follows from what changes in it; a step in which more changes than twice the aim is taken back.
+// The step follows from what changes in it; a step in which more changes than twice the aim is taken back, unless
+// numerical particles have gone at random in it.
 //
 // Or by a predictor and a corrector, where the particles' species live shorter than the population changes: the gas
 // reacts over the step together with the exchange that the step before leads to expect (ExchangeInGas), the particles
@@ -19,6 +20,7 @@
 // Kraft, Wagner 2009, who take the particles' rates at the beginning and at the end of a step).
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -64,6 +66,8 @@ class SplitParticles {
   virtual void join(std::span<const double> content, double share) = 0;
   // There are none, and none can be born of this gas.
   [[nodiscard]] virtual bool idle(const ParticleGas& gas) const = 0;
+  // How many numerical particles have gone at random, to make room, since the beginning.
+  [[nodiscard]] virtual std::uint64_t removals() const { return 0; }
   // All that a step may change, for one that is taken back.
   struct State {
     virtual ~State() = default;
@@ -106,7 +110,9 @@ class SplitReactor {
     bool fixedStep = false;
   };
   // A step before which hardly anything changed is not prepared to be taken back, which would take the memory of all
-  // particles again; where it changes too much even so, that is counted as `unchecked`.
+  // particles again. Nor is one taken back in which numerical particles have gone at random: what they stood for is
+  // right in the mean over all outcomes, not over those that change the gas little. Where such a step changes too much,
+  // that is counted as `unchecked`.
   struct Work {
     long steps = 0, rejected = 0, gasSteps = 0, unchecked = 0;
   };
@@ -131,6 +137,7 @@ class SplitReactor {
 
  private:
   double step(double h);
+  [[nodiscard]] std::uint64_t allRemovals() const;
   double splitStep(double h);
   double predictedStep(double h);
   double correctedStep(double h);

@@ -78,13 +78,12 @@ void addRuns(DeckSchema& schema) {
                      "Viscosity of the gas. air: Sutherland's law of air, for mechanisms without transport data; "
                      "transport: from these data. Absent: transport for soot, air for other materials.")
                .optional())
-      .add(
-          quantityKey("particles.full_at", units::perVolume,
-                      "Number density at which an empty sample is full first: about the largest that there will be. "
-                      "Far above it the sample stays small and scatters, which the report tells; far below, particles "
-                      "are removed at random, which is right in the mean.")
-              .byDefault("1e18 1/m^3")
-              .above(0))
+      .add(quantityKey("particles.full_at", units::perVolume,
+                       "Number density at which an empty sample is full first: about the largest that there will be. "
+                       "Far above it the sample stays small and scatters, which the report tells; far below, particles "
+                       "are removed at random, which is right in the mean.")
+               .byDefault("1e18 1/m^3")
+               .above(0))
       .add(integerKey("particles.repeats", "Number of independent repeats, from which mean and confidence follow.")
                .byDefault("8")
                .atLeast(2)

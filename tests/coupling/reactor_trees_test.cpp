@@ -7,8 +7,10 @@
 #include "chemistry/reactor/plug_flow.hpp"
 #include "chemistry/reactor/reactor_network.hpp"
 #include "core/errors.hpp"
+#include "coupling/exchange_in_gas.hpp"
 #include "coupling/reactor_balance.hpp"
 #include "tests/coupling/toy_particles.hpp"
+#include "tests/particles/statistics.hpp"
 
 namespace lampblack::coupling {
 namespace {
@@ -71,6 +73,47 @@ TEST(ReactorTrees, KeepsSiliconOxygenAndHydrogenToRoundOff) {
     const double booked = reactor.density(y.data()) * y[n + 1 + at] / mechanism.atomicWeight(silicon);
     EXPECT_NEAR(trees.population().totals().units[0] / (booked * constants::avogadro), 1, 1e-6);
   }
+}
+
+// Where few numerical trees stand for many, those that go at random to make room take much along or little: in the mean
+// nothing, for no step is taken back that they have gone in.
+TEST(ReactorTrees, SmallSamplesHaveWhatTheGasLost) {
+  const Mechanism& mechanism = siliconMechanism();
+  const GasState gas = test::gasOf(mechanism, 1173, "C8H20O4SI: 2.5e-4, N2: 0.99975");
+  const std::size_t n = mechanism.numSpecies();
+  std::vector<double> ratios;
+  double removals = 0;
+  for (std::uint64_t owner = 0; owner < 80; ++owner) {
+    TreeOptions own = treeOptions();
+    own.particles = 64;
+    own.fullAt = 4e18;
+    own.material.siteReactions().freeMolecularInception = true;
+    own.owner = owner;
+    ReactorTrees trees(mechanism, own, GasViscosity::air, std::nullopt);
+    ExchangeInGas inGas(mechanism, trees.elements(), trees.species());
+    ClosedReactor reactor(mechanism, gas, ReactorSystem::Held::Pressure, TemperatureProfile(1173), &inGas);
+    SplitReactor::Gas split;
+    split.system = &reactor;
+    split.density = [&](const double* y) { return reactor.density(y); };
+    split.pressure = [&](const double* y) { return reactor.pressure(y); };
+    split.timePerUnit = [](const double*) { return 1.0; };
+    split.expected = &inGas;
+    split.kept = {SplitReactor::Gas::Kept::temperature};
+    SplitReactor::Options options;
+    options.integrator = {1e-5, 1e-13, 0, 1000000};
+    options.change = 0.1;
+    SplitReactor both(mechanism, split, trees, options);
+    both.start(0, reactor.initialState());
+    both.advance(0.025);
+    const auto y = both.state();
+    double exchanged = 0;
+    for (std::size_t e = 0; e < trees.elements().size(); ++e) exchanged += reactor.density(y.data()) * y[n + 1 + e];
+    ratios.push_back(trees.population().totals().mass / exchanged);
+    removals += static_cast<double>(trees.removals());
+  }
+  EXPECT_GT(removals, 80 * 64);
+  const test::Sample mean = test::summarise(ratios);
+  EXPECT_LT(std::abs(mean.z(1.0)), test::zLimit) << mean.mean << " +- " << mean.standardError;
 }
 
 TEST(ReactorTrees, AMechanismWithoutThePrecursorSaysSo) {
