@@ -1,6 +1,7 @@
 #include "coupling/tree_functionals.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/constants.hpp"
 #include "particles/soot/soot_aggregate.hpp"
@@ -20,6 +21,7 @@ TreeFunctionals::TreeFunctionals(const TreeMaterial& material)
     for (const auto& [element, atoms] : component.elements)
       if (std::find(elements.begin(), elements.end(), element) == elements.end()) elements.push_back(element);
   if (elements.size() < 2) return;
+  if (material.soot() != nullptr) std::swap(elements[0], elements[1]);  // soot may have no hydrogen
   columns_.push_back({elements[0] + "_to_" + elements[1], "1",
                       "atoms of " + elements[0] + " over those of " + elements[1] + " in the particle"});
   for (const TreeComponent& component : material.components) {

@@ -25,7 +25,7 @@ class TreeFunctionals {
     primaries,
     primaryDiameter,  // mean of the particle
     sinteringLevel,   // mean of the particle; of one primary 1
-    elementRatio      // atoms of the material's first element over those of its second, as Si:O
+    elementRatio      // atoms of the material's first element over those of its second, as Si:O; of soot H:C
   };
 
   explicit TreeFunctionals(const TreeMaterial& material);

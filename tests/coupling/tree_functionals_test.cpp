@@ -129,6 +129,16 @@ TEST(TreeFunctionals, ClassesAddUpToTheMeansOfAll) {
   EXPECT_NEAR(byPrimaries[0] / single, 1, 1e-12);
 }
 
+// Soot may have lost all its hydrogen: its ratio is over carbon.
+TEST(TreeFunctionals, TheRatioOfSootIsFinite) {
+  const TreeMaterial soot = sootMaterial({});
+  const TreeFunctionals functionals(soot);
+  EXPECT_EQ(functionals.column(TreeFunctionals::elementRatio).name, "H_to_C");
+  const PrimaryTrees type(soot, CollisionSize::volumeToSurface);
+  EXPECT_EQ(functionals.of(type.make(TreeUnits{100, 0, 0}).head(), TreeFunctionals::elementRatio), 0);
+  EXPECT_NEAR(functionals.of(type.make(TreeUnits{100, 25, 0}).head(), TreeFunctionals::elementRatio), 0.25, 1e-15);
+}
+
 TEST(TreeRates, AreThoseOfTheLawsSummedOverTreesAndPairs) {
   Sample sample;
   const ParticleGas gas = sample.gas(3e-8);
