@@ -81,9 +81,10 @@ TEST(ReactorTrees, SmallSamplesHaveWhatTheGasLost) {
   const Mechanism& mechanism = siliconMechanism();
   const GasState gas = test::gasOf(mechanism, 1173, "C8H20O4SI: 2.5e-4, N2: 0.99975");
   const std::size_t n = mechanism.numSpecies();
+  constexpr std::uint64_t repeats = 160;
   std::vector<double> ratios;
   double removals = 0;
-  for (std::uint64_t owner = 0; owner < 80; ++owner) {
+  for (std::uint64_t owner = 0; owner < repeats; ++owner) {
     TreeOptions own = treeOptions();
     own.particles = 64;
     own.fullAt = 4e18;
@@ -111,9 +112,11 @@ TEST(ReactorTrees, SmallSamplesHaveWhatTheGasLost) {
     ratios.push_back(trees.population().totals().mass / exchanged);
     removals += static_cast<double>(trees.removals());
   }
-  EXPECT_GT(removals, 80 * 64);
-  const test::Sample mean = test::summarise(ratios);
-  EXPECT_LT(std::abs(mean.z(1.0)), test::zLimit) << mean.mean << " +- " << mean.standardError;
+  EXPECT_GT(removals, repeats * 64);
+  // Few samples have most of the mass, so that the scatter of these says little: that of 2000 was 0.80, their mean
+  // 1.018 +- 0.018. With such steps taken back the mean is 1.6.
+  constexpr double scatter = 0.80;
+  EXPECT_NEAR(test::summarise(ratios).mean, 1.0, 4 * scatter / std::sqrt(double{repeats}));
 }
 
 TEST(ReactorTrees, AMechanismWithoutThePrecursorSaysSo) {

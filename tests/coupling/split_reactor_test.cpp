@@ -126,6 +126,33 @@ TEST_P(EveryCoupling, ClosedReactorsAreOfSecondOrder) {
   }
 }
 
+// A step that changes too much is taken back, but not one in which numerical particles went at random: that would
+// choose among what chance has it.
+TEST_P(EveryCoupling, NoStepWithRemovalsIsTakenBack) {
+  for (const bool loses : {false, true}) {
+    ClosedReactor reactor(ethylene(), gas, Held::Pressure, std::nullopt, &phase());
+    SplitReactor::Gas own;
+    couple(own);
+    own.system = &reactor;
+    own.density = [&](const double* y) { return reactor.density(y); };
+    own.pressure = [&](const double* y) { return reactor.pressure(y); };
+    own.timePerUnit = [](const double*) { return 1.0; };
+    own.kept = {Kept::enthalpy};
+    ToySplit particles(toy);
+    particles.losesSome = loses;
+    particles.burstAt = 1e-3;
+    SplitReactor::Options options;
+    options.integrator = {1e-6, 1e-12, 0, 1000000};
+    options.change = 0.03;
+    SplitReactor both(ethylene(), own, particles, options);
+    both.start(0, reactor.initialState());
+    both.advance(2e-4);
+    ASSERT_GT(particles.carbon, particles.burstAt);
+    EXPECT_EQ(both.work().rejected > 0, !loses);
+    EXPECT_EQ(both.work().unchecked > 0, loses);
+  }
+}
+
 TEST_P(EveryCoupling, PlugFlowIsOfSecondOrder) {
   ToyPhase exact(toy);
   PlugFlow whole(ethylene(), gas, 3.0, 4e-3, std::nullopt, &exact);

@@ -77,10 +77,12 @@ class ToySplit final : public SplitParticles {
   explicit ToySplit(const Toy& toy) : toy_(toy), species_{toy.acetylene} {}
   [[nodiscard]] const std::vector<std::size_t>& species() const override { return species_; }
   Exchange advance(const ParticleGas& gas, double dt) override {
-    const double rate = 2 * toy_.carbonWeight * toy_.k(gas.temperature) * gas.concentrations[0];
+    const double faster = carbon > burstAt ? 30 : 1;
+    const double rate = faster * 2 * toy_.carbonWeight * toy_.k(gas.temperature) * gas.concentrations[0];
     const double gained = toy_.b > 0 ? (carbon + 1 / toy_.b) * std::expm1(rate * toy_.b * dt) : rate * dt;
     const double moles = gained / (2 * toy_.carbonWeight);
     carbon += gained;
+    if (losesSome) ++lost;
     return {{-moles}, {gained, 2 * toy_.hydrogenWeight * moles}};
   }
   [[nodiscard]] std::optional<double> rateOf(std::size_t, const ParticleGas& gas) const override {
@@ -90,6 +92,7 @@ class ToySplit final : public SplitParticles {
   void dilute(double factor) override { carbon *= factor; }
   [[nodiscard]] std::vector<double> content() const override { return {carbon}; }
   void join(std::span<const double> content, double share) override { carbon += share * content[0]; }
+  [[nodiscard]] std::uint64_t removals() const override { return lost; }
   [[nodiscard]] bool idle(const ParticleGas&) const override { return false; }
   [[nodiscard]] std::unique_ptr<State> save() const override {
     return std::make_unique<PackedSplitState>(std::vector{carbon});
@@ -98,6 +101,9 @@ class ToySplit final : public SplitParticles {
 
   double carbon = 0;  // kg/m3
   bool knowsItsRate = false;
+  double burstAt = INFINITY;  // kg/m3, from where on they grow 30 times as fast
+  bool losesSome = false;     // numerical particles, in each step
+  std::uint64_t lost = 0;
 
  private:
   Toy toy_;
