@@ -33,6 +33,13 @@ CellParticles::CellParticles(std::string material, std::vector<std::string> elem
     if (std::ranges::any_of(species_, [&](std::size_t k) { return mechanism.atoms(k, e) != 0.0; }) &&
         std::ranges::find(elements_, mechanism.elementName(e)) == elements_.end())
       exchangedElements_.push_back(mechanism.elementName(e));
+  const auto enthalpies = elementEnthalpies(elements_);
+  if (!enthalpies)
+    throw InputError(
+        fmt::format("the heat of particles of {} is not known, which a flow needs: the program has that of "
+                    "soot (C, H) and of silica (Si, O, H)",
+                    material_));
+  enthalpies_ = *enthalpies;
   for (const std::string& name : exchangedElements_) {
     const std::size_t e = mechanism.elementIndex(name);
     for (const std::size_t k : species_) massOfAtoms_.push_back(mechanism.atoms(k, e) * mechanism.atomicWeight(e));
@@ -62,6 +69,12 @@ std::vector<std::vector<double>> CellParticles::unitElements(const Mechanism& me
   for (std::size_t e = 0; e < exchangedElements_.size(); ++e)
     all[at.owedElement(e)][mechanism.elementIndex(exchangedElements_[e])] = 1.0;
   return all;
+}
+
+double CellParticles::enthalpy(double temperature, std::span<const double> elements) const {
+  double sum = 0.0;
+  for (std::size_t e = 0; e < elements.size(); ++e) sum += elements[e] * enthalpies_[e](temperature).first;
+  return sum;
 }
 
 double CellParticles::volumeOf(std::span<const double> amounts) const {

@@ -16,6 +16,7 @@
 #include "core/rooms.hpp"
 #include "coupling/ensemble_sizes.hpp"
 #include "flow/state.hpp"
+#include "particles/models/element_enthalpies.hpp"
 
 namespace lampblack::coupling {
 
@@ -72,7 +73,7 @@ class CellParticles {
   // Of one particle, times `number`.
   virtual void addAmounts(const double* row, double number, std::span<double> amounts) const = 0;
   // J/m3 of so many kg/m3 of each element.
-  [[nodiscard]] virtual double enthalpy(double temperature, std::span<const double> elements) const = 0;
+  [[nodiscard]] double enthalpy(double temperature, std::span<const double> elements) const;
   // Absorption coefficient, 1/m.
   [[nodiscard]] virtual double absorption(double temperature, double volumeFraction) const = 0;
   // Whether particles can be born of this gas.
@@ -92,7 +93,7 @@ class CellParticles {
   [[nodiscard]] virtual std::vector<double> pack() const = 0;
 
  protected:
-  // InputError where the mechanism lacks an element.
+  // InputError where the mechanism lacks an element, and for elements whose heat in particles is not known.
   CellParticles(std::string material, std::vector<std::string> elements, const Mechanism& mechanism,
                 std::vector<std::size_t> species, const RowSizes& sizes);
   CellParticles(const CellParticles&) = default;
@@ -105,6 +106,7 @@ class CellParticles {
   std::vector<std::string> elements_, exchangedElements_;
   std::vector<std::size_t> species_;
   std::vector<double> massOfAtoms_;
+  std::vector<ElementEnthalpy> enthalpies_;
   RowSizes sizes_;
 };
 

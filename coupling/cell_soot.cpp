@@ -26,10 +26,6 @@ void CellSoot::addAmounts(const double* row, double times, std::span<double> amo
   amounts[diameters] += t.diameters;
 }
 
-double CellSoot::enthalpy(double temperature, std::span<const double> elements) const {
-  return elements[0] * sootCarbonEnthalpy(temperature).first + elements[1] * sootHydrogenEnthalpy(temperature).first;
-}
-
 double CellSoot::absorption(double temperature, double volumeFraction) const {
   return sootAbsorption(temperature, volumeFraction);
 }

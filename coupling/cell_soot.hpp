@@ -20,7 +20,6 @@ class CellSoot final : public CellParticles {
 
   using CellParticles::addAmounts;
   void addAmounts(const double* row, double number, std::span<double> amounts) const override;
-  [[nodiscard]] double enthalpy(double temperature, std::span<const double> elements) const override;
   [[nodiscard]] double absorption(double temperature, double volumeFraction) const override;
   [[nodiscard]] bool hasPrecursors(const ParticleGas& gas) const override;
   void unpack(std::span<const double> population) override { engine_->unpack(population); }

@@ -1,14 +1,10 @@
 #include "coupling/cell_trees.hpp"
 
-#include <fmt/format.h>
-
 #include <utility>
 
 #include "core/constants.hpp"
-#include "core/errors.hpp"
 #include "particles/models/soot_model.hpp"
 #include "particles/trees/packed_tree.hpp"
-#include "particles/trees/tree_enthalpy.hpp"
 
 namespace lampblack::coupling {
 
@@ -22,9 +18,6 @@ CellTrees::CellTrees(const Mechanism& mechanism, const TreeOptions& options, Rea
       trees_(std::move(trees)),
       before_(elements().size()) {
   for (const std::string& element : elements()) {
-    if (!treeEnthalpy(options.material.name, element, 1000.0))
-      throw InputError(fmt::format("particles of {}: the enthalpy of {} in them is not known, which a flow needs",
-                                   options.material.name, element));
     TreeUnits& mass = elementMass_.emplace_back();
     for (std::size_t c = 0; c < options.material.components.size(); ++c)
       for (const auto& [name, atoms] : options.material.components[c].elements)
@@ -39,6 +32,11 @@ void CellTrees::addElements(const TreeUnits& units, double number, std::span<dou
     for (std::size_t c = 0; c < units.size(); ++c) elements[e] += number * units[c] * elementMass_[e][c];
 }
 
+void CellTrees::addContent(std::span<double> elements) const {
+  trees_.population().forEachTree(
+      [&](const Tree& tree, double number) { addElements(tree.head().units, number, elements); });
+}
+
 void CellTrees::addAmounts(const double* row, double number, std::span<double> amounts) const {
   const AmountPlaces at = this->amounts();
   const PackedTreeSums tree = sumsOfPackedTree(row);
@@ -49,13 +47,6 @@ void CellTrees::addAmounts(const double* row, double number, std::span<double> a
   amounts[at.primaries()] += number * tree.count;
   amounts[at.surface()] += number * tree.surface;
   amounts[at.diameters()] += number * type.mobilityDiameter(type.make(particle.carbon, 0.0, particle.primaries));
-}
-
-double CellTrees::enthalpy(double temperature, std::span<const double> elements) const {
-  double sum = 0.0;
-  for (std::size_t e = 0; e < elements.size(); ++e)
-    sum += elements[e] * *treeEnthalpy(material(), this->elements()[e], temperature);
-  return sum;
 }
 
 double CellTrees::absorption(double temperature, double volumeFraction) const {
@@ -69,7 +60,7 @@ bool CellTrees::hasPrecursors(const ParticleGas& gas) const {
 void CellTrees::unpack(std::span<const double> population) {
   trees_.population().unpack(population);
   before_.assign(elements().size(), 0.0);
-  addElements(trees_.population().totals().units, 1.0, before_);
+  addContent(before_);
 }
 
 void CellTrees::join(std::span<const double> rows) {
@@ -82,7 +73,7 @@ CellParticles::Change CellTrees::advance(const ParticleGas& gas, double dt) {
   // What waits to sinter does so before the exchange is looked at, and before particles move on.
   SplitParticles::Exchange exchange = trees_.advanceAndSettle(gas, dt);
   Change change{std::move(exchange.gas), std::move(exchange.elements), std::vector<double>(elements().size())};
-  addElements(trees_.population().totals().units, 1.0, change.resampled);
+  addContent(change.resampled);
   for (std::size_t e = 0; e < before_.size(); ++e) change.resampled[e] -= before_[e] + change.elements[e];
   return change;
 }

@@ -13,12 +13,11 @@ namespace lampblack::coupling {
 
 class CellTrees final : public CellParticles {
  public:
-  // InputError as ReactorTrees, and for a material whose heat is not known.
+  // InputError as ReactorTrees.
   CellTrees(const Mechanism& mechanism, const TreeOptions& options);
 
   using CellParticles::addAmounts;
   void addAmounts(const double* row, double number, std::span<double> amounts) const override;
-  [[nodiscard]] double enthalpy(double temperature, std::span<const double> elements) const override;
   // Of soot; silica is taken to be transparent.
   [[nodiscard]] double absorption(double temperature, double volumeFraction) const override;
   [[nodiscard]] bool hasPrecursors(const ParticleGas& gas) const override;
@@ -36,6 +35,7 @@ class CellTrees final : public CellParticles {
   CellTrees(const Mechanism& mechanism, const TreeOptions& options, ReactorTrees trees);
   // kg/m3 of each element in so many units.
   void addElements(const TreeUnits& units, double number, std::span<double> elements) const;
+  void addContent(std::span<double> elements) const;  // of the population that is here
 
   TreeOptions options_;
   ReactorTrees trees_;

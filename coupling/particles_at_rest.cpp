@@ -4,12 +4,12 @@
 #include <tuple>
 #include <utility>
 
-#include "particles/models/soot_model.hpp"
-
 namespace lampblack::coupling {
 
 ParticlesAtRest::ParticlesAtRest(std::size_t reactors, std::vector<std::string> elements)
-    : reactors_(reactors), elements_(std::move(elements)) {}
+    : reactors_(reactors),
+      elements_(std::move(elements)),
+      enthalpies_(elementEnthalpies(elements_).value_or(std::vector<ElementEnthalpy>{})) {}
 
 void ParticlesAtRest::sources(double, double, std::span<const double>, std::span<const double>, std::span<double> rates,
                               std::span<double>) {
@@ -24,9 +24,7 @@ void ParticlesAtRest::jacobian(double, double, std::span<const double>, std::spa
 void ParticlesAtRest::enthalpies(double T, std::span<double> h, std::span<double> slope) {
   for (std::size_t s = 0; s < size(); ++s) {
     h[s] = slope[s] = 0;
-    if (s >= mark()) continue;
-    if (elements_[s] == "C") std::tie(h[s], slope[s]) = sootCarbonEnthalpy(T);
-    if (elements_[s] == "H") std::tie(h[s], slope[s]) = sootHydrogenEnthalpy(T);
+    if (s < enthalpies_.size()) std::tie(h[s], slope[s]) = enthalpies_[s](T);
   }
 }
 

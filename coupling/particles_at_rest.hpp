@@ -9,6 +9,7 @@
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/reactor/carried_phase.hpp"
 #include "core/rooms.hpp"
+#include "particles/models/element_enthalpies.hpp"
 
 namespace lampblack::coupling {
 
@@ -26,15 +27,16 @@ class ParticlesAtRest : public CarriedPhase {
                std::span<double> rates, std::span<double> exchange) override;
   void jacobian(double T, double p, std::span<const double> concentrations, std::span<const double> densities,
                 std::span<double> values) override;
-  // Of soot's elements. Those of other materials count as zero: their reactors need a given temperature.
+  // Of the elements; where the heat of particles of these is not known (elementEnthalpies()) they count as zero: their
+  // reactors need a given temperature.
   void enthalpies(double T, std::span<double> h, std::span<double> slope) override;
-  [[nodiscard]] static bool hasEnthalpy(const std::string& element) { return element == "C" || element == "H"; }
   // kg of each element of the mechanism in a unit of each amount. InputError for an element that it lacks.
   [[nodiscard]] std::vector<std::vector<double>> unitElements(const Mechanism& mechanism) const;
 
  private:
   std::size_t reactors_;
   std::vector<std::string> elements_;
+  std::vector<ElementEnthalpy> enthalpies_;  // of the elements; empty where they are not known
   std::vector<std::size_t> none_;
 };
 

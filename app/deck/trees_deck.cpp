@@ -164,8 +164,8 @@ void addTreeKeys(DeckSchema& schema, const std::string& description, const std::
 void addTreeReactorKeys(DeckSchema& schema) {
   addTreeKeys(schema,
               "Particles as trees of primaries that share surface, by Monte Carlo; coupled with the gas both ways. "
-              "Every repeat is a reactor of its own. Without the heat of the material, known for soot only, the "
-              "temperature has to be given.",
+              "Every repeat is a reactor of its own. Without the heat of the material, known for soot and "
+              "silica, the temperature has to be given.",
               "8192");
   addRuns(schema);
   addClasses(schema);

@@ -14,6 +14,7 @@
 #include "coupling/reactor_ensemble.hpp"
 #include "coupling/reactor_trees.hpp"
 #include "io/request_limits.hpp"
+#include "particles/models/element_enthalpies.hpp"
 
 namespace lampblack::app {
 namespace {
@@ -160,13 +161,6 @@ void readReactorTrees(const Deck& deck, ReactorCase& reactorCase) {
   TreeRequest request = readTrees(deck, *reactorCase.mechanism);
   const bool isGiven =
       reactorCase.profile || (reactorCase.type == ReactorType::Stirred && reactorCase.network.reactors[0].temperature);
-  for (const TreeComponent& component : request.options.material.components)
-    for (const auto& [element, atoms] : component.elements)
-      if (!isGiven && !ParticlesAtRest::hasEnthalpy(element))
-        throw deck.error("reactor.energy",
-                         fmt::format("the heat of particles of {} is not known: give the temperature, 'isothermal' or "
-                                     "'profile'",
-                                     request.options.material.name));
   reactorCase.couplingChange = deck.number("particles.coupling_change");
   reactorCase.ensemble = {request.repeats,
                           request.bins,
@@ -184,6 +178,11 @@ void readReactorTrees(const Deck& deck, ReactorCase& reactorCase) {
   if (!request.classesByDiameter.empty()) reactorCase.ensemble->classes.push_back({0, request.classesByDiameter});
   if (!request.classesByPrimaries.empty()) reactorCase.ensemble->classes.push_back({1, request.classesByPrimaries});
   tryPopulation(deck, "particles", reactorCase);
+  if (!isGiven && !elementEnthalpies(reactorCase.ensemble->elements))
+    throw deck.error("reactor.energy",
+                     fmt::format("the heat of particles of {} is not known: give the temperature, 'isothermal' or "
+                                 "'profile'",
+                                 reactorCase.ensemble->material));
 }
 
 void readReactorEnsemble(const Deck& deck, ReactorCase& reactorCase) {

@@ -14,6 +14,12 @@
 
 namespace lampblack::test {
 
+// A gas that soots.
+inline Gas& ethylene() {
+  static Gas gas("ethylene_bisetti2012_47.yaml");
+  return gas;
+}
+
 struct CellVessel {
   CellVessel(Gas& gas, const std::function<Box::Local(const Vector3&)>& start, std::shared_ptr<CellParticles> kind,
              const EnsembleOperator::Options& o, MPI_Comm comm = MPI_COMM_WORLD)

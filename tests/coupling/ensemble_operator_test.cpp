@@ -22,11 +22,6 @@ namespace {
 
 using Exchange = EnsembleOperator::Exchange;
 
-Gas& ethylene() {
-  static Gas gas("ethylene_bisetti2012_47.yaml");
-  return gas;
-}
-
 struct Options : EnsembleOperator::Options {
   EnsembleOptions ensemble;
 };

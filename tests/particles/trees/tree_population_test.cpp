@@ -222,7 +222,7 @@ TEST(TreePopulation, TakesInThoseOfAnother) {
     EXPECT_NEAR((after.number - before.number) / coming.number, share, 1.0 / 300);
     silicon.push_back((after.units[0] - before.units[0]) / coming.units[0]);
     surface.push_back((after.surface - before.surface) / coming.surface);
-    EXPECT_EQ(after.largest <= coming.largest, true);
+    EXPECT_LE(after.largest, coming.largest);
   }
   for (const auto* values : {&silicon, &surface}) EXPECT_LT(std::abs(summarise(*values).z(share)), zLimit);
 }
