@@ -156,10 +156,14 @@ void TreeProcess::change(Reactions& reactions, const typename Reactions::Sums& s
 }
 
 void TreeProcess::settle() {
-  if (size() == 0) return;
+  const auto waits = [&](const Tree& tree) { return tree.count() > 1 && tree.head().time < type_.clock(); };
+  // Where none does, nothing is rebuilt.
+  bool isAnyWaiting = false;
+  method_.forEachParticle([&](const Tree& tree, double) { isAnyWaiting = isAnyWaiting || waits(tree); });
+  if (!isAnyWaiting) return;
   TreeSintering::Changes changes;
   method_.changeParticles([&](Tree& tree, double) {
-    if (tree.count() > 1 && tree.head().time < type_.clock()) sintering_.advance(tree, type_.clock(), changes);
+    if (waits(tree)) sintering_.advance(tree, type_.clock(), changes);
     return true;
   });
   record(changes);

@@ -160,6 +160,24 @@ TEST(EnsembleOperator, OneWayLeavesTheGasAlone) {
   EXPECT_GT(integral(v.box.mesh, [&](int c) { return v.state.carried[at(c) * v.state.scalars.size()]; }), 0.0);
 }
 
+// Particles of equal weight come and go where they are resampled: with what is told of that nothing is missing.
+TEST(EnsembleOperator, TellsWhatEqualWeightsTakeAndBring) {
+  Options o = options(Exchange::TwoWay);
+  o.ensemble.method = EnsembleMethod::dsmc;
+  o.ensemble.startNumberDensity = 1e12;
+  Vessel v(o);
+  double carbon = 0.0, hydrogen = 0.0;
+  v.ensembles.watchAmounts([&](std::span<const double> came, std::span<const double>) {
+    carbon += came[CellSoot::carbon];
+    hydrogen += came[CellSoot::hydrogen];
+  });
+  const double C = v.contentOf("C"), H = v.contentOf("H");
+  for (int s = 0; s < 12; ++s) v.step();
+  EXPECT_NE(sumOverRanks(carbon), 0.0);
+  EXPECT_NEAR((v.contentOf("C") - sumOverRanks(carbon)) / C, 1.0, 1e-12);
+  EXPECT_NEAR((v.contentOf("H") - sumOverRanks(hydrogen)) / H, 1.0, 1e-12);
+}
+
 // In a gas that stays as it is the ensembles are the same to the last bit on any number of ranks, with sharing and
 // without.
 TEST(EnsembleOperator, DoesNotDependOnRanksNorSharing) {
