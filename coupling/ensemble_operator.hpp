@@ -6,8 +6,7 @@
 // it is booked to the cell, species, mass and enthalpy.
 //
 // The populations are kept packed, those of soot 32 bytes a particle, and are unpacked one after the other into one a
-// rank.
-// Those that arrive in the second half of a step stand behind the others until the next step merges them.
+// rank. Those that arrive in the second half of a step stand behind the others until the next step merges them.
 //
 // Coupling. Without `average` the exchange of a step is booked at its end, at once. With it the exchange goes into a
 // reserve of the cell, and the gas's transport and chemistry have what is in the reserve over the time `average` as a

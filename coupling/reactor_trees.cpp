@@ -27,6 +27,7 @@ ReactorTrees::ReactorTrees(const Mechanism& mechanism, const TreeOptions& option
                            const std::optional<Start>& start)
     : material_(options.material),
       functionals_(options.material),
+      events_(treeEvents(options.material)),
       viscosity_(viscosity),
       population_(makeTreePopulation(options)) {
   for (const std::string& name : material_.species()) {
@@ -93,7 +94,7 @@ SplitParticles::Exchange ReactorTrees::advanceAndSettle(const ParticleGas& gas, 
 
 SplitParticles::Exchange ReactorTrees::takeExchange() {
   const TreeExchange taken = population_->takeExchange();
-  for (const TreeEvent& event : treeEvents(material_)) total_.*event.number += taken.*event.number;
+  for (const TreeEvent& event : events_) total_.*event.number += taken.*event.number;
   Exchange exchange{{taken.gas.begin(), taken.gas.begin() + static_cast<std::ptrdiff_t>(species_.size())},
                     std::vector<double>(elements_.size(), 0.0)};
   for (std::size_t k = 0; k < species_.size(); ++k)
@@ -166,9 +167,9 @@ std::vector<ReactorPopulation::Column> ReactorTrees::columns() const {
   }
   for (const TreeComponent& c : material_.components)
     all.push_back({name + c.name, "1/m^3", "units of " + c.name + " in all particles"});
-  for (const TreeEvent& event : treeEvents(material_))
+  for (const TreeEvent& event : events_)
     all.push_back({name + event.names, "1/m^3", std::string(event.description) + ", since the beginning"});
-  for (const TreeEvent& event : treeEvents(material_)) {
+  for (const TreeEvent& event : events_) {
     if (event.name == nullptr) continue;
     all.push_back({name + event.name + "_rate", "1/m^3/s", std::string(event.description) + ", by the law"});
     all.push_back(
@@ -213,8 +214,8 @@ std::vector<double> ReactorTrees::values(const ParticleGas& gas) const {
                 t.units.begin() + static_cast<std::ptrdiff_t>(material_.components.size()));
   const TreeRates rates = population_->rates(gas, pairsForRate);
   const TreeCounters counters = population_->counters();
-  for (const TreeEvent& event : treeEvents(material_)) values.push_back(total_.*event.number);
-  for (const TreeEvent& event : treeEvents(material_))
+  for (const TreeEvent& event : events_) values.push_back(total_.*event.number);
+  for (const TreeEvent& event : events_)
     if (event.name != nullptr)
       values.insert(values.end(), {rates.*event.rate, static_cast<double>(counters.*event.count)});
   values.push_back(static_cast<double>(population_->size()));

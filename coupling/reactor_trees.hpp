@@ -75,6 +75,7 @@ class ReactorTrees final : public ReactorPopulation {
 
   TreeMaterial material_;
   TreeFunctionals functionals_;
+  std::vector<TreeEvent> events_;
   GasViscosity viscosity_;
   std::unique_ptr<TreePopulation> population_;
   std::vector<std::size_t> species_;

@@ -236,7 +236,7 @@ void readEnsembles(const Deck& deck, FlowCase& flowCase) {
   options.exchange = isTwoWay ? EnsembleOperator::Exchange::TwoWay : EnsembleOperator::Exchange::OneWay;
   if (isTwoWay) options.average = deck.quantity("stochastic.average");
   options.holdGas = deck.optionalQuantity("stochastic.hold_gas");
-  options.diffusion = deck.has("particles") || deck.boolean("soot.diffusion");
+  options.diffusion = !deck.has("soot") || deck.boolean("soot.diffusion");
   options.secondOrder = deck.choice("stochastic.order") == "second";
   options.shareWork = flowCase.chemistry.shareWork;
   options.sweeps = deck.integer<int>("time.sweeps");

@@ -95,6 +95,25 @@ OWN_TREES = TREES.replace(str(HYDROGEN), str(ETHYLENE)) + """  material: table
     growth_products: 0
 """
 
+# Particles of nitrogen, whose heat nobody knows.
+FROZEN_TREES = TREES + """  material: table
+  density: 1027 kg/m^3
+  table:
+    name: frozen
+    components:
+      - {name: site, weight: 28.014 g/mol, elements: [N], atoms: [2]}
+      - {name: bulk, weight: 28.014 g/mol, elements: [N], atoms: [2]}
+    precursor: N2
+    product: N2
+    molecule_mass: 4.65e-26 kg
+    molecule_diameter: 0.4 nm
+    nucleus: [1, 0]
+    site: site
+    bridge: bulk
+    growth: [1, 0]
+    growth_products: 0
+"""
+
 SOOT_TREES = TREES.replace(str(HYDROGEN), str(ETHYLENE)) + "  material: soot\nsoot:\n  pah: [A2]\n"
 
 # Name, deck, text to replace, its replacement, what the message says.
@@ -139,7 +158,7 @@ SOOT_MISTAKES = [
 
 MISTAKES = SOOT_MISTAKES + [
     ("particles without their species", TREES, "number: 100", "number: 200", ["particles", "H4O4SI"]),
-    ("particles of unknown heat", TREES, "energy: isothermal", "energy: adiabatic", ["reactor.energy", "isothermal"]),
+    ("particles of unknown heat", FROZEN_TREES, "energy: isothermal", "energy: adiabatic", ["reactor.energy", "isothermal"]),
     ("negative sintering", TREES, "number: 100", "sintering: {prefactor: -1}", ["particles.sintering.prefactor"]),
     ("negative temperature of sintering", TREES, "number: 100", "sintering: {temperature: -1 K}", ["particles.sintering"]),
     ("particles at the start by half", TREES, "number: 100", "initial: {number: 1e14 1/m^3}", ["particles.initial"]),
