@@ -39,31 +39,31 @@ TEST(WeightedErrors, SayWhatAMethodCannotDo) {
   PopulationModel breaking = coagulating();
   breaking.breakage = BreakageOptions{1, 0, 2, BreakageOptions::Daughters::equal};
   for (const auto method : {MonteCarloMethod::wfmc, MonteCarloMethod::samwfmc}) {
-    EXPECT_THROW(makeMonteCarlo(nucleating, monodisperse(), with(method)), InputError);
-    EXPECT_THROW(makeMonteCarlo(breaking, monodisperse(), with(method)), InputError);
+    EXPECT_THROW((void)makeMonteCarlo(nucleating, monodisperse(), with(method)), InputError);
+    EXPECT_THROW((void)makeMonteCarlo(breaking, monodisperse(), with(method)), InputError);
   }
   for (const auto method : {MonteCarloMethod::mmc, MonteCarloMethod::swa}) {
     auto options = with(method);
     options.fraction = FractionFunction::hyperbolic;
-    EXPECT_THROW(makeMonteCarlo(coagulating(), monodisperse(), options), InputError);
+    EXPECT_THROW((void)makeMonteCarlo(coagulating(), monodisperse(), options), InputError);
   }
 }
 
 TEST(WeightedErrors, WeightsAndConstantsHaveARange) {
   auto options = with(MonteCarloMethod::sammc);
   options.nucleusWeight = -1;
-  EXPECT_THROW(makeMonteCarlo(coagulating(), monodisperse(), options), InputError);
+  EXPECT_THROW((void)makeMonteCarlo(coagulating(), monodisperse(), options), InputError);
   options = with(MonteCarloMethod::samwfmc);
   options.fraction = FractionFunction::constant;
   for (const double c : {0.0, -1.0, 1.01}) {
     options.fractionConstant = c;
-    EXPECT_THROW(makeMonteCarlo(coagulating(), monodisperse(), options), InputError);
+    EXPECT_THROW((void)makeMonteCarlo(coagulating(), monodisperse(), options), InputError);
   }
   options = with(MonteCarloMethod::sammc);
   options.particles = 1;
-  EXPECT_THROW(makeMonteCarlo(coagulating(), monodisperse(), options), InputError);
+  EXPECT_THROW((void)makeMonteCarlo(coagulating(), monodisperse(), options), InputError);
   // Nothing to take the weight of a nucleus from.
-  EXPECT_THROW(makeMonteCarlo(coagulating(), {}, with(MonteCarloMethod::sammc)), InputError);
+  EXPECT_THROW((void)makeMonteCarlo(coagulating(), {}, with(MonteCarloMethod::sammc)), InputError);
 }
 
 // The multiplicative kernel gels at tau = A N0 v0^2 t = 1. M_2/M_1 = 1 / (1 - tau) reaches the bound of the criterion,
