@@ -55,7 +55,7 @@ class StochasticProcess final : public Ensemble {
 
  private:
   using Sums = SootSums;
-  void gather() const;  // all particles to columns_
+  void gather() const;  // all particles to columns_, unless they stand there as they are and in their order
   [[nodiscard]] Sums sums(const SootMedium& medium) const;
   struct Atoms {
     double carbon = 0, hydrogen = 0;  // kg/m3
@@ -84,11 +84,14 @@ class StochasticProcess final : public Ensemble {
   bool planned_ = false;
   double cost_ = 0;
   mutable std::optional<CollisionKernel> kernel_;  // for equal particles
-  mutable SootColumns columns_;                    // room for them
+  mutable SootColumns columns_;                    // of the particles, while gathered_
+  mutable bool gathered_ = false;
 };
 
 template <class Method>
 void StochasticProcess<Method>::gather() const {
+  if (gathered_) return;
+  gathered_ = true;
   columns_.resize(size());
   std::size_t k = 0;
   method_.forEachParticle([&](const Particle& p, double w) { columns_.set(k++, p, w); });
@@ -138,6 +141,7 @@ void StochasticProcess<Method>::advance(const ParticleGas& gas, double dilution,
   cost_ = 0;
   const auto eventsBefore = counters().events() + counters().fictitious;
   double remaining = dt;
+  gathered_ = false;
   Sums now = sums(medium);
   while (remaining > 0 && (size() > 0 || medium.incepting())) {
     cost_ += static_cast<double>(size()) + 1;
@@ -174,6 +178,8 @@ void StochasticProcess<Method>::thin(double factor, Sums& now) {
   for (const auto sum : {&Sums::number, &Sums::carbon, &Sums::hydrogen, &Sums::primaries, &Sums::area, &Sums::diameters,
                          &Sums::collisions, &Sums::slopes})
     now.*sum *= factor;
+  if (gathered_)
+    for (double& weight : columns_.weight) weight *= factor;
 }
 
 template <class Method>
@@ -238,7 +244,10 @@ void StochasticProcess<Method>::jump(const SootMedium& medium, double dt, double
     else
       ++method_.counters().fictitious;
   }
-  if (isChanged) now = sums(medium);
+  if (isChanged) {
+    gathered_ = false;
+    now = sums(medium);
+  }
   exchange_.resampledCarbon += now.carbon - start.carbon - nucleatedCarbon;
   exchange_.resampledHydrogen += now.hydrogen - start.hydrogen - nucleatedHydrogen;
   if (nucleated > 0) {
@@ -268,7 +277,9 @@ void StochasticProcess<Method>::grow(const SootMedium& medium, double dt, Sums& 
     p = columns_.particle(k++);
     return p.carbon > 0;
   });
-  now = sums(medium);
+  gathered_ = false;  // their order in the store may be another one
+  if (all.lost > 0) columns_.dropBurnt();
+  now = sumsOf(columns_, type_, medium);
   recordUptakeOfDimers(medium, all.dimers);
   exchange_.condensed += all.dimers * (medium.dimerCarbon() + medium.dimerHydrogen());
   exchange_.grown += all.growth;

@@ -44,12 +44,19 @@ class EqualRates {
   // Of the same type; entries have to be put in anew.
   void setKernel(const CollisionKernelOptions& options) { kernel_.emplace(options); }
   // Makes the majorant the best one for these entries, forEach(f) calling f(entry) or f(entry, number); only where all
-  // of them are put in anew after it.
+  // of them are put in anew after it. Any majorant holds: of many entries it is enough to look at each `stride`-th.
   template <class ForEach>
-  void tune(ForEach&& forEach) {
-    kernel_->tune(
-        [&](const auto& f) { forEach([&](const Entry& entry, double number = 1) { f(properties(entry), number); }); });
+  void tune(ForEach&& forEach, std::size_t stride = 1) {
+    std::size_t wait = 1;
+    kernel_->tune([&](const auto& f) {
+      forEach([&](const Entry& entry, double number = 1) {
+        if (--wait > 0) return;
+        wait = stride;
+        f(properties(entry), number);
+      });
+    });
   }
+  [[nodiscard]] static std::size_t tuningStride(std::size_t entries) { return 1 + entries / 1024; }
 
   [[nodiscard, gnu::always_inline]] Entry entry(const Particle& particle) const {
     return {particle, entryDiameter(particle)};
