@@ -277,9 +277,8 @@ void StochasticProcess<Method>::grow(const SootMedium& medium, double dt, Sums& 
     p = columns_.particle(k++);
     return p.carbon > 0;
   });
-  gathered_ = false;  // their order in the store may be another one
-  if (all.lost > 0) columns_.dropBurnt();
-  now = sumsOf(columns_, type_, medium);
+  gathered_ = false;  // some may be gone, and the order in the store another one
+  now = sums(medium);
   recordUptakeOfDimers(medium, all.dimers);
   exchange_.condensed += all.dimers * (medium.dimerCarbon() + medium.dimerHydrogen());
   exchange_.grown += all.growth;

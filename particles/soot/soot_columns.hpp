@@ -31,13 +31,6 @@ struct SootColumns {
   [[nodiscard]] SootAggregate::Particle particle(std::size_t k) const {
     return {carbon[k], hydrogen[k], primaries[k], diameter[k]};
   }
-  // Drops those without carbon.
-  void dropBurnt() {
-    std::size_t kept = 0;
-    for (std::size_t k = 0; k < size(); ++k)
-      if (carbon[k] > 0) set(kept++, particle(k), weight[k]);
-    resize(kept);
-  }
 };
 
 // Of a whole population, per m3.
