@@ -49,7 +49,8 @@ def install(build, cmake, work) -> pathlib.Path:
     first, prefix = work / "first", work / "moved here"
     subprocess.run([cmake, "--install", build, "--prefix", str(first)], check=True, stdout=subprocess.DEVNULL)
     for file in [*first.rglob("*.cmake"), *first.rglob("*.hpp")]:
-        assert str(running.SOURCE) not in file.read_text(), f"{file} names the sources"
+        named = re.search(rf"(?<![\w/}}]){re.escape(str(running.SOURCE))}(?![\w-])", file.read_text())
+        assert not named, f"{file} names the sources"
     first.rename(prefix)
     return prefix
 

@@ -45,11 +45,13 @@ def components(*command, **more) -> str:
 def check_what_starts_mpi(executable):
     for arguments in (["--version"], ["--help"], ["run", "--help"], ["--nonsense"], ["deck-reference"],
                       ["gas", METHANE, "--T", "1500", "--X", "CH4:1"], ["mechanism", METHANE]):
-        assert "mca_" not in components(executable, *arguments), f"{arguments} starts MPI"
-    loaded = components(executable, "check", IGNITION)
-    assert "mca_pml_ob1" in loaded, "MPI does not start where it is needed, or is not seen"
-    assert "mca_btl_tcp" not in loaded, "a single rank looks for a network"
-    assert "mca_btl_tcp" in components(executable, "check", IGNITION, OMPI_MCA_btl="self,tcp"), "the user's choice is lost"
+        # Where it started, it would end for want of a component of this name.
+        started = run(executable, *arguments, OMPI_MCA_pml="none_such")
+        assert "none_such" not in started.stderr and "mca_" not in components(executable, *arguments), f"{arguments} starts MPI"
+    assert run(executable, "check", IGNITION, OMPI_MCA_pml="none_such").returncode != 0, "MPI does not start, or is not seen"
+    assert "mca_btl_tcp" not in components(executable, "check", IGNITION), "a single rank looks for a network"
+    chosen = run(executable, "check", IGNITION, OMPI_MCA_btl="none_such")
+    assert chosen.returncode != 0, "the user's choice is lost"
 
 
 def processes_beside(process: int) -> list:
