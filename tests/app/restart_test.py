@@ -161,7 +161,7 @@ def check_requests(program, folder, deck):
     wait_for(lambda: not (out / "checkpoint-now").exists() and len(checkpoints(out)) == 2, process, "second checkpoint")
     first = checkpoints(out)
     os.kill(rank, signal.SIGTERM)
-    _, told = process.communicate(timeout=60)
+    told = running.without_launcher(process.communicate(timeout=60)[1])
     assert process.returncode == 128 + signal.SIGTERM and len(told.splitlines()) == 1, told
     assert f"--restart goes on from {out}/checkpoint/{checkpoints(out)[-1]}" in told, told
     assert len(checkpoints(out)) == 2 and checkpoints(out)[0] == first[1], "the last two are kept"

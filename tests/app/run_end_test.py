@@ -91,11 +91,12 @@ def disk_full(program, arguments, out, preparation):
                               check=False)
     except subprocess.TimeoutExpired:
         return "hangs", None
-    lines = done.stderr.splitlines()
+    told = running.without_launcher(done.stderr)
+    lines = told.splitlines()
     if done.returncode == 0:
-        return ("says something and ends well: " + done.stderr if lines else ""), 0
+        return ("says something and ends well: " + told if lines else ""), 0
     if done.returncode != 3 or len(lines) != 1 or not lines[0].startswith(PREFIX):
-        return f"ends with {done.returncode}: {done.stderr}", done.returncode
+        return f"ends with {done.returncode}: {told}", done.returncode
     for file in [*out.rglob("results.h5"), *out.rglob("results.h5.part")]:
         try:
             read_all(file)
@@ -211,7 +212,7 @@ def check_signal(program, arguments, problem, out, number):
         os.kill(rank, number)
     said, told = process.communicate(timeout=100)
     assert process.returncode == 128 + number, f"{problem} ends with {process.returncode}: {told}{said[-2000:]}"
-    lines = told.splitlines()
+    lines = running.without_launcher(told).splitlines()
     name = signal.Signals(number).name
     assert len(lines) == 1 and lines[0].startswith(f"lampblack: stopped by {name}"), f"{problem}: {told}"
     assert not leftovers(out), f"{problem} leaves {leftovers(out)}"
