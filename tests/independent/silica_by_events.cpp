@@ -290,7 +290,7 @@ int sinter_frozen(Particle& p, int n, double dt, std::mt19937_64& random) {
   const double s = sphere(p.nodes[neck.a].v + p.nodes[neck.b].v), rate = loss(p, n), quantum = 1e-3 * s;
   double lost = rate * dt;
   if (options.quanta && lost < 2 * neck.common)
-    lost = quantum * std::poisson_distribution<long>(std::max(lost / quantum, 1e-300))(random);
+    lost = quantum * static_cast<double>(std::poisson_distribution<long>(std::max(lost / quantum, 1e-300))(random));
   lost = std::min(lost, std::max(neck.common - s, 0.0));
   const double asked = 0.5 * neck.sites * lost / neck.s;
   neck.common -= lost;
@@ -573,6 +573,9 @@ class Sample {
       std::swap(p.nodes.back().a, p.nodes.back().b);
     }
     put_in_order(p, p.root());
+    derive(p);
+    if (p.nodes.back().level > fused)
+      fuse(p, p.root());  // a small primary on a large one, at once and with all its sites
   }
 
   const Gas& gas_;
