@@ -117,7 +117,11 @@ void addSintering(DeckSchema& schema) {
       .add(choiceKey(s + "between", {"neighbours", "parts"},
                      "What sinters: pairs of neighbours (Shekar et al. 2011, eq. 40); or the two parts of an aggregate "
                      "that a collision joined, with the whole volume and surface of both, as the program MOpS does.")
-               .byDefault("neighbours"));
+               .byDefault("neighbours"))
+      .add(choiceKey(s + "inner_parts", {"sphere", "nothing"},
+                     "Between parts: what the surface of those within an aggregate goes towards, that of the sphere of "
+                     "their volume, or nothing, as the program MOpS computes it.")
+               .byDefault("sphere"));
 }
 
 SinteringMechanism mechanismOf(const std::string& name) {
@@ -139,6 +143,9 @@ SinteringLaw readSintering(const Deck& deck, SinteringLaw law) {
   law.size = deck.choice(s + "size") == "smaller" ? SinteringLaw::Size::smaller : SinteringLaw::Size::volumeToSurface;
   law.between =
       deck.choice(s + "between") == "neighbours" ? SinteringLaw::Between::neighbours : SinteringLaw::Between::parts;
+  law.innerSpheres = deck.choice(s + "inner_parts") == "sphere";
+  if (!law.innerSpheres && law.between == SinteringLaw::Between::neighbours)
+    throw deck.error(s + "inner_parts", "only where 'between' is 'parts' do parts within an aggregate sinter");
   if (law.between == SinteringLaw::Between::parts && law.size == SinteringLaw::Size::smaller)
     throw deck.error(s + "size", "parts of an aggregate sinter by 'volume_to_surface'");
   if (law.active() && !(law.prefactor > 0))

@@ -28,6 +28,9 @@ struct SinteringLaw {
   // What sinters: each pair of neighbours (eq. 40). Or the two parts of the aggregate that a collision joined, with
   // volume, surface and size of both whole parts, as in MOpS, where the tree is that of the collisions.
   enum class Between { neighbours, parts } between = Between::neighbours;
+  // Parts within an aggregate lose their surface towards their sphere's; or towards none, as the public source of MOpS
+  // has it, where they have no sphere.
+  bool innerSpheres = true;
 
   [[nodiscard]] bool active() const { return mechanism != SinteringMechanism::none; }
   // s, at a temperature (K) for a size d (m).

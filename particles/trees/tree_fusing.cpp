@@ -55,6 +55,9 @@ void fuseNeck(TreeHead& tree, std::size_t k, const TreeMaterial& material) {
       const double level = sinteringLevel(neck);
       neck.sphere = sphereOfNeck(primaries, neck);
       neck.common = commonSurface(neck.sphere, level);
+      // Of a small primary and one that has grown the level in point contact is above that of equals.
+      const bool isBurnt = !(primaries[neck.left].diameter > 0 && primaries[neck.right].diameter > 0);
+      if (!isBurnt) neck.common = std::min(neck.common, touchingSurface(primaries, neck));
     }
   }
 }

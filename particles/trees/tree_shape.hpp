@@ -81,6 +81,10 @@ inline void measureTree(TreeHead& tree, double inverseDimension, CollisionSize s
   shapeTree(tree, inverseDimension, size);
 }
 
+// The most that a neck can have: both primaries in point contact (eq. 9).
+[[nodiscard]] inline double touchingSurface(const TreePrimary* primaries, const TreeNeck& neck) {
+  return primarySurface(primaries[neck.left].diameter) + primarySurface(primaries[neck.right].diameter);
+}
 // The sphere of the two primaries of a neck.
 [[nodiscard]] inline double sphereOfNeck(const TreePrimary* primaries, const TreeNeck& neck) {
   const double l = primaries[neck.left].diameter, r = primaries[neck.right].diameter;

@@ -11,33 +11,74 @@ constexpr double never = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-// 6 V/S of the pair, or the smaller diameter.
-double TreeSintering::sizeOf(const TreePrimary* primaries, const TreeNeck& neck, double common) const {
-  const double l = primaries[neck.left].diameter, r = primaries[neck.right].diameter;
-  if (type_.material().sintering.size == SinteringLaw::Size::smaller) return std::min(l, r);
-  return constants::pi * (l * l * l + r * r * r) / common;
+TreeSintering::TreeSintering(const PrimaryTrees& type, double tolerance) : type_(type), tolerance_(tolerance) {
+  const TreeMaterial& m = type.material();
+  const SiteReactions* sites = m.sites();
+  if (sites == nullptr) return;
+  TreeUnits site{};
+  site[sites->site] = 1;
+  site[sites->bridge] = -0.5;
+  volumeOfSite_ = m.volume(site);
 }
 
-TreeSintering::Course TreeSintering::follow(const TreePrimary* primaries, const TreeNeck& neck, double dt) const {
+TreeSintering::Shrinking TreeSintering::shrinking(const TreePrimary* primaries, const TreeNeck& neck,
+                                                  double density) const {
+  const double S = neck.sphere, C = neck.common;
+  if (!(density > 0) || C <= S * fusedRatio) return {S * fusedRatio, 0, 0};
+  const std::size_t site = type_.material().sites()->site;
+  const TreePrimary &l = primaries[neck.left], &r = primaries[neck.right];
+  const double volume = primaryVolume(l.diameter) + primaryVolume(r.diameter);
+  const auto fusedAt = [&](double slope) { return fusedRatio * (S - slope * C) / (1 - fusedRatio * slope); };
+  constexpr double most = 0.5;  // of a slope; that of a nucleus of silica is 0.2
+  Shrinking s;
+  s.volume = density * volumeOfSite_;
+  s.sphere = std::min(2.0 / 3 * S / volume * s.volume, most);
+  s.fused = fusedAt(s.sphere);
+  for (int i = 0; i < 2; ++i) {
+    const double surface = C - s.fused, each = 0.5 * density * surface;
+    s.volume = volumeOfSite_ * (std::min(each, l.units[site]) + std::min(each, r.units[site])) / surface;
+    s.sphere = std::min((S - treeSphere(volume - s.volume * surface)) / surface, most);
+    s.fused = fusedAt(s.sphere);
+  }
+  return s;
+}
+
+// 6 V/S of the pair, or the smaller diameter.
+double TreeSintering::sizeOf(const TreePrimary* primaries, const TreeNeck& neck, double common, double sphere) const {
+  if (type_.material().sintering.size == SinteringLaw::Size::smaller)
+    return std::min(primaries[neck.left].diameter, primaries[neck.right].diameter);
+  return std::sqrt(sphere / constants::pi) * (sphere / common);
+}
+
+TreeSintering::Course TreeSintering::follow(const TreePrimary* primaries, const TreeNeck& neck, double density,
+                                            double dt) const {
   const SinteringLaw& law = type_.material().sintering;
-  const double S = neck.sphere, fused = S * fusedRatio;
-  if (neck.common <= fused) return {neck.common, 0};
+  if (neck.common <= neck.sphere * fusedRatio) return {neck.common, neck.sphere, 0};
+  const Shrinking shrinks = shrinking(primaries, neck, density);
+  const double fused = shrinks.fused;
+  const auto sphereAt = [&](double common) { return neck.sphere - shrinks.sphere * (neck.common - common); };
   if (law.size == SinteringLaw::Size::smaller || law.mechanism == SinteringMechanism::constant) {
-    const double tau = law.time(T_, sizeOf(primaries, neck, neck.common));
-    const double time = tau * std::log((neck.common - S) / (fused - S));
-    if (time <= dt) return {fused, time};
-    return {S + (neck.common - S) * std::exp(-dt / tau), never};
+    // The surface goes towards where it would be the sphere's, which goes with it.
+    const double tau = law.time(T_, sizeOf(primaries, neck, neck.common, neck.sphere)) / (1 - shrinks.sphere);
+    const double target = (neck.sphere - shrinks.sphere * neck.common) / (1 - shrinks.sphere);
+    const double time = tau * std::log((neck.common - target) / (fused - target));
+    if (time <= dt) return {fused, sphereAt(fused), time};
+    const double common = target + (neck.common - target) * std::exp(-dt / tau);
+    return {common, sphereAt(common), never};
   }
   // The midpoint rule over steps in the surface: the time is what depends on it.
   double C = neck.common, time = 0;
   while (true) {
-    const double down = std::min(step * S, C - fused);
-    const double middle = C - 0.5 * down;
-    const double needs = down * law.time(T_, sizeOf(primaries, neck, middle)) / (middle - S);
-    if (time + needs > dt) return {std::max(C - down * (dt - time) / needs, fused), never};
+    const double down = std::min(step * neck.sphere, C - fused);
+    const double middle = C - 0.5 * down, S = sphereAt(middle);
+    const double needs = down * law.time(T_, sizeOf(primaries, neck, middle, S)) / (middle - S);
+    if (time + needs > dt) {
+      const double common = std::max(C - down * (dt - time) / needs, fused);
+      return {common, sphereAt(common), never};
+    }
     time += needs;
     C -= down;
-    if (C <= fused * (1 + 1e-14)) return {fused, time};
+    if (C <= fused * (1 + 1e-14)) return {fused, sphereAt(fused), time};
   }
 }
 
@@ -70,10 +111,11 @@ void TreeSintering::neighbours(Tree& handle, double dt, Changes& changes) {
   const double density = sites != nullptr ? tree.units[sites->site] / tree.surface : 0;
   courses_.clear();
   left_.assign(tree.count - 1, dt);
-  for (std::uint32_t k = 0; k + 1 < tree.count; ++k) courses_.push_back(follow(primaries, necks[k], dt));
+  for (std::uint32_t k = 0; k + 1 < tree.count; ++k) courses_.push_back(follow(primaries, necks[k], density, dt));
   const auto bring = [&](std::size_t k, const Course& course) {
     loseSites(primaries, necks[k], density * (necks[k].common - course.common), changes);
     necks[k].common = course.common;
+    necks[k].sphere = course.sphere;
   };
   while (tree.count > 1) {
     // The neck that fuses first, in time from the beginning.
@@ -92,7 +134,7 @@ void TreeSintering::neighbours(Tree& handle, double dt, Changes& changes) {
     for (std::uint32_t n = 0; n + 1 < tree.count; ++n) {
       const TreeNeck& neck = necks[n];
       if (n == k || !(neck.left == a || neck.left == b || neck.right == a || neck.right == b)) continue;
-      bring(n, follow(primaries, neck, first - (dt - left_[n])));
+      bring(n, follow(primaries, neck, density, first - (dt - left_[n])));
       left_[n] = -1;
     }
     bring(k, courses_[k]);
@@ -107,7 +149,7 @@ void TreeSintering::neighbours(Tree& handle, double dt, Changes& changes) {
     for (std::size_t n = 0; n < left_.size(); ++n) {
       if (left_[n] >= 0) continue;
       left_[n] = dt - first;
-      courses_[n] = follow(primaries, necks[n], left_[n]);
+      courses_[n] = follow(primaries, necks[n], density, left_[n]);
     }
     ++changes.fused;
   }
@@ -143,8 +185,9 @@ void TreeSintering::rest(TreeHead& tree, double time) {
   double fastest = 0;
   for (std::uint32_t k = 0; k + 1 < tree.count; ++k) {
     const TreeNeck& neck = necksOf(&tree)[k];
-    const double rate =
-        ofParts ? rates_[k] : (neck.common - neck.sphere) / law.time(T_, sizeOf(primariesOf(&tree), neck, neck.common));
+    const double rate = ofParts ? rates_[k]
+                                : (neck.common - neck.sphere) /
+                                      law.time(T_, sizeOf(primariesOf(&tree), neck, neck.common, neck.sphere));
     tree.sintering += rate;
     fastest = std::max(fastest, rate / neck.sphere);
   }
@@ -162,7 +205,7 @@ void TreeSintering::advance(Tree& tree, double time, Changes& changes) {
   else
     neighbours(tree, dt, changes);
   TreeHead& head = tree.own();
-  // Primaries have lost sites, and a trace of volume with them.
+  // Primaries have lost sites, and volume with them.
   for (std::uint32_t k = 0; k + 1 < head.count; ++k)
     necksOf(&head)[k].sphere = sphereOfNeck(primariesOf(&head), necksOf(&head)[k]);
   type_.measure(head);

@@ -3,7 +3,11 @@
 // a level of 0.95 (eqs. 44, 52-55), each at its own time. Between such times the law is linear and integrated exactly
 // where it asks for the smaller primary; by steps of at most `step` of the sphere's surface otherwise.
 //
-// A neck whose primaries are fused with another hands its level on: the paper leaves open what becomes of it.
+// Sites that go take mass along, so that the sphere shrinks as its neck does (eqs. 40, 43, 45 together, in the limit of
+// small steps): by a straight line in the common surface, exact at both of its ends.
+//
+// A neck whose primaries are fused with another hands its level on, as far as point contact allows: the paper leaves
+// open what becomes of it.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +27,7 @@ class TreeSintering {
   };
 
   // `tolerance`: by what part of the sphere's surface a neck may change before its tree is brought up to date.
-  explicit TreeSintering(const PrimaryTrees& type, double tolerance) : type_(type), tolerance_(tolerance) {}
+  explicit TreeSintering(const PrimaryTrees& type, double tolerance);
 
   void setTemperature(double kelvin) { T_ = kelvin; }
   // To a time of the clock; also fuses what growth has left at the level of one primary. A tree that is there already
@@ -39,11 +43,18 @@ class TreeSintering {
 
  private:
   struct Course {
-    double common = 0;  // m2 at the end, or where it fuses
-    double fuses = 0;   // s from the beginning; infinite
+    double common = 0, sphere = 0;  // m2 at the end, or where it fuses
+    double fuses = 0;               // s from the beginning; infinite
   };
-  [[nodiscard]] double sizeOf(const TreePrimary* primaries, const TreeNeck& neck, double common) const;
-  [[nodiscard]] Course follow(const TreePrimary* primaries, const TreeNeck& neck, double dt) const;
+  // What goes with the surface of a neck: where its primaries are one, m2, and the sphere's surface and the volume that
+  // a m2 takes along.
+  struct Shrinking {
+    double fused = 0, sphere = 0, volume = 0;
+  };
+  // `density`: sites in a m2.
+  [[nodiscard]] Shrinking shrinking(const TreePrimary* primaries, const TreeNeck& neck, double density) const;
+  [[nodiscard]] double sizeOf(const TreePrimary* primaries, const TreeNeck& neck, double common, double sphere) const;
+  [[nodiscard]] Course follow(const TreePrimary* primaries, const TreeNeck& neck, double density, double dt) const;
   void neighbours(Tree& tree, double dt, Changes& changes);
   void parts(Tree& tree, double dt, Changes& changes);
   std::size_t partRates(TreeHead& tree);
@@ -57,11 +68,13 @@ class TreeSintering {
 
   const PrimaryTrees& type_;
   double tolerance_, T_ = 0;
-  bool fresh_ = false;  // rates_ are those of the tree that has just changed, hardly
+  double volumeOfSite_ = 0;  // m3 that a site takes along as it becomes half a bridge
+  bool fresh_ = false;       // rates_ are those of the tree that has just changed, hardly
   std::vector<Course> courses_;
   std::vector<double> left_;                        // s, of each neck
   std::vector<double> volumes_, surfaces_, sites_;  // sums over the primaries before each
   std::vector<double> rates_, starts_, densities_;  // of each neck: m2/s; m2 at the beginning; sites in a m2
+  std::vector<Shrinking> shrinkings_;
 };
 
 // Makes the two primaries of the k-th neck one, in the place of the left one: its part of the tree goes where the right

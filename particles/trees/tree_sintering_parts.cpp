@@ -1,7 +1,7 @@
 // Sintering between the parts of a tree: each neck loses surface at the rate of the whole of both parts that it joins,
 // (S - S_sphere) / tau(6 V/S) with their volume V and surface S: that of eq. 15 for the tree itself, for other parts
-// the sum of their primaries. So the rates of all necks but the last collision's are constant until primaries fuse, and
-// that one's is followed by the midpoint rule.
+// the sum of their primaries (and, where the law says so, without S_sphere). So the rates of all necks but the last
+// collision's are constant until primaries fuse, and that one's is followed by the midpoint rule.
 #include <algorithm>
 #include <cmath>
 
@@ -14,6 +14,12 @@ namespace {
 constexpr double instant = 1e-3;
 // By which the surface of a tree changes in a step. The characteristic time changes by fifty times as much.
 constexpr double surfaceStep = 0.01;
+
+// To where its primaries are one, for fuseAll() to see.
+void fuseAt(TreeNeck& neck, double common) {
+  neck.common = common;
+  neck.sphere = common / fusedRatio * (1 + 1e-12);
+}
 
 double surfaceOf(const TreeHead& tree, double levels, double sphere, double root) {
   return sphere / (levels / (tree.count - 1.0) * (1 - root) + root);
@@ -49,7 +55,9 @@ std::size_t TreeSintering::partRates(TreeHead& tree) {
     const bool isWhole = neck.first == 0 && neck.last == count;
     if (isWhole) whole = k;
     const double S = isWhole ? tree.surface : surfaces_[neck.last + 1] - surfaces_[neck.first];
-    rates_[k] = partRate(volumes_[neck.last + 1] - volumes_[neck.first], S);
+    const double V = volumes_[neck.last + 1] - volumes_[neck.first];
+    const SinteringLaw& law = type_.material().sintering;
+    rates_[k] = isWhole || law.innerSpheres ? partRate(V, S) : S / law.time(T_, 6 * V / S);
     densities_[k] = (sites_[neck.last + 1] - sites_[neck.first]) / S;
   }
   return whole;
@@ -61,7 +69,7 @@ bool TreeSintering::fuseAtOnce(TreeHead& tree, std::size_t whole, double dt) {
   bool any = false;
   TreeNeck* necks = necksOf(&tree);
   for (std::size_t k = 0; k + 1 < tree.count; ++k) {
-    const double fused = necks[k].sphere * fusedRatio;
+    const double fused = shrinkings_[k].fused;
     double rate = rates_[k];
     if ((necks[k].common - fused) > rate * instant * dt) continue;
     if (k == whole) {
@@ -69,7 +77,7 @@ bool TreeSintering::fuseAtOnce(TreeHead& tree, std::size_t whole, double dt) {
       rate = partRate(tree.volume, surfaceOf(tree, tree.levels - sinteringLevel(necks[k]) + fusedLevel, sphere, root));
       if ((necks[k].common - fused) > rate * instant * dt) continue;
     }
-    necks[k].common = fused;
+    fuseAt(necks[k], fused);
     any = true;
   }
   return any;
@@ -82,6 +90,12 @@ void TreeSintering::losePartSites(TreeHead& tree, Changes& changes) {
     loseSites(primariesOf(&tree), neck, densities_[k] * (starts_[k] - neck.common), changes);
   }
   sizePrimaries(tree);
+  for (std::uint32_t k = 0; k + 1 < tree.count; ++k) {
+    TreeNeck& neck = necksOf(&tree)[k];
+    const bool isFused = neck.common <= neck.sphere * fusedRatio;
+    neck.sphere = sphereOfNeck(primariesOf(&tree), neck);
+    if (isFused) fuseAt(neck, neck.sphere * fusedRatio);
+  }
 }
 
 void TreeSintering::parts(Tree& handle, double dt, Changes& changes) {
@@ -94,28 +108,37 @@ void TreeSintering::parts(Tree& handle, double dt, Changes& changes) {
     fresh_ = false;
     const std::size_t whole = partRates(tree), count = tree.count - 1;
     starts_.clear();
-    for (std::size_t k = 0; k < count; ++k) starts_.push_back(necks[k].common);
+    shrinkings_.clear();
+    for (std::size_t k = 0; k < count; ++k) {
+      starts_.push_back(necks[k].common);
+      shrinkings_.push_back(shrinking(primariesOf(&tree), necks[k], densities_[k]));
+    }
     bool isFused = fuseAtOnce(tree, whole, remaining);
-    const double root = 1 / cubeRoot(static_cast<double>(tree.count)), sphere = treeSphere(tree.volume);
+    const double root = 1 / cubeRoot(static_cast<double>(tree.count));
     while (!isFused && remaining > 0) {
+      const double sphere = treeSphere(tree.volume);
       // Change of the sum of levels, 1/s, and what step that and the necks allow.
       const double surface = surfaceOf(tree, tree.levels, sphere, root);
       rates_[whole] = partRate(tree.volume, surface);
-      double h = remaining, rise = 0;
+      double h = remaining, rise = 0, loss = 0;  // m3/s
       for (std::size_t k = 0; k < count; ++k) {
         const double C = necks[k].common;
-        if (rates_[k] > 0) h = std::min(h, (C - necks[k].sphere * fusedRatio) / rates_[k]);
-        rise += rates_[k] * necks[k].sphere / (C * C * (1 - touching));
+        if (rates_[k] > 0) h = std::min(h, (C - shrinkings_[k].fused) / rates_[k]);
+        rise += rates_[k] * (necks[k].sphere - shrinkings_[k].sphere * C) / (C * C * (1 - touching));
+        loss += rates_[k] * shrinkings_[k].volume;
       }
       const double relative = surface / sphere * (1 - root) / static_cast<double>(count) * rise;  // of the surface, 1/s
       if (relative * h > surfaceStep) h = surfaceStep / relative;
-      rates_[whole] = partRate(tree.volume, surfaceOf(tree, tree.levels + 0.5 * h * rise, sphere, root));
+      const double volume = tree.volume - 0.5 * h * loss;
+      rates_[whole] = partRate(volume, surfaceOf(tree, tree.levels + 0.5 * h * rise, treeSphere(volume), root));
       tree.levels = 0;
       for (std::size_t k = 0; k < count; ++k) {
-        const double fused = necks[k].sphere * fusedRatio;
-        necks[k].common -= rates_[k] * h;
+        const double fused = shrinkings_[k].fused, gone = rates_[k] * h;
+        necks[k].common -= gone;
+        necks[k].sphere -= shrinkings_[k].sphere * gone;
+        tree.volume -= shrinkings_[k].volume * gone;
         if (necks[k].common - fused < 1e-6 * fused) {
-          necks[k].common = fused;
+          fuseAt(necks[k], fused);
           isFused = true;
         }
         tree.levels += sinteringLevel(necks[k]);

@@ -49,6 +49,7 @@ TEST(PrimaryTrees, StayTreesHoweverTheyJoinAndFuse) {
   RandomStream random(5, 6, 7);
   const TreeMaterial material = silica();
   const PrimaryTrees type(material, CollisionSize::primaries);
+  int capped = 0;
   for (int round = 0; round < 200; ++round) {
     std::vector<Tree> parts;
     for (int i = 0; i < 12; ++i) parts.push_back(type.make(spherical(material, 4e-9 * (1 + random.uniform()))));
@@ -73,11 +74,22 @@ TEST(PrimaryTrees, StayTreesHoweverTheyJoinAndFuse) {
         for (const TreeNeck& neck : parts[j].necks()) after.push_back(sinteringLevel(neck));
         std::sort(levels.begin(), levels.end());
         std::sort(after.begin(), after.end());
-        for (std::size_t n = 0; n < after.size(); ++n) EXPECT_NEAR(after[n], levels[n], 1e-12);
+        // Handed on, or raised to that of point contact, which is above it where sizes differ more.
+        for (const TreeNeck& neck : parts[j].necks()) {
+          if (neck.common > touchingSurface(parts[j].primaries().data(), neck) * (1 - 1e-12)) {
+            ++capped;
+            continue;
+          }
+          const auto handed = std::lower_bound(levels.begin(), levels.end(), sinteringLevel(neck) - 1e-12);
+          ASSERT_NE(handed, levels.end());
+          EXPECT_NEAR(*handed, sinteringLevel(neck), 1e-12);
+        }
+        for (std::size_t n = 0; n < after.size(); ++n) EXPECT_GE(after[n], levels[n] - 1e-12);
       }
     }
     expectTree(type, parts[0]);
   }
+  EXPECT_GT(capped, 100);
 }
 
 TEST(PrimaryTrees, CopiesShareTheirPrimariesUntilOneChanges) {

@@ -34,7 +34,8 @@ class BurntTrees : public testing::Test {
     TreeHead& head = tree.own();
     for (std::uint32_t k = 0; k + 1 < head.count; ++k) {
       TreeNeck& neck = necksOf(&head)[k];
-      neck.common = commonSurface(neck.sphere, 0.9 * random.uniform());
+      neck.common =
+          std::min(commonSurface(neck.sphere, 0.9 * random.uniform()), touchingSurface(primariesOf(&head), neck));
     }
     type.measure(head);
     return tree;

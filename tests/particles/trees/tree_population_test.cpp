@@ -240,13 +240,19 @@ TEST(TreePopulation, TakesInTreesThatHaveSinteredUntilNow) {
   TreeOptions options = small();
   options.fullAt = other->totals().number;
   for (const double waited : {0.0, 10.0}) {
-    const auto trees = makeTreePopulation(options);
-    trees->advance(nitrogen.gas(), waited);
-    trees->join(treeRows.of(packed), 1.0);
-    const double joined = trees->totals().surface;
-    trees->settle();
-    EXPECT_EQ(trees->totals().surface, joined) << waited;
-    EXPECT_NEAR(joined / surface, 1, 0.1);
+    std::vector<double> share;
+    for (std::uint64_t owner = 1; owner <= 400; ++owner) {
+      options.owner = owner;
+      const auto trees = makeTreePopulation(options);
+      trees->advance(nitrogen.gas(), waited);
+      trees->join(treeRows.of(packed), 1.0);
+      const double joined = trees->totals().surface;
+      trees->settle();
+      EXPECT_EQ(trees->totals().surface, joined) << waited;
+      share.push_back(joined / surface);
+    }
+    EXPECT_LT(std::abs(summarise(share).z(1)), zLimit);
+    EXPECT_LT(summarise(share).standardError, 0.05);
   }
 }
 
