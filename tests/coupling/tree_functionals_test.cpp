@@ -77,7 +77,7 @@ TEST(TreeFunctionals, DistributionsHaveAllParticlesOrPrimaries) {
   const TreeTotals totals = sample.trees->population().totals();
   const auto sizes = sample.trees->distributions();
   for (std::size_t k = 0; k < sizes.size(); ++k) {
-    const auto density = sample.trees->distribution(k, -9.2, -6.2, 60);
+    const auto density = sample.trees->distribution(k, -9.4, -6.4, 60);
     const double number = 0.05 * std::accumulate(density.begin(), density.end(), 0.0);
     const bool ofPrimaries = sizes[k].name == "primary_";
     EXPECT_NEAR(number / (ofPrimaries ? totals.primaries : totals.number), 1, 1e-12) << sizes[k].name;

@@ -76,7 +76,9 @@ TEST(PrimaryTrees, StayTreesHoweverTheyJoinAndFuse) {
         std::sort(after.begin(), after.end());
         // Handed on, or raised to that of point contact, which is above it where sizes differ more.
         for (const TreeNeck& neck : parts[j].necks()) {
-          if (neck.common > touchingSurface(parts[j].primaries().data(), neck) * (1 - 1e-12)) {
+          const double most = touchingSurface(parts[j].primaries().data(), neck);
+          EXPECT_LE(neck.common / most, 1 + 1e-12);
+          if (neck.common > most * (1 - 1e-12)) {
             ++capped;
             continue;
           }

@@ -218,8 +218,9 @@ TEST(TreeSintering, SitesBecomeBridgesAndProduct) {
 struct PlainPair {
   double C, sites, volume;
 
-  void step(double tau, double volumeOfSite, double dt) {
+  void step(const SinteringLaw& law, double volumeOfSite, double dt) {
     const auto slope = [&](const PlainPair& p) {
+      const double tau = law.time(T, 6 * p.volume / p.C);
       const double down = (p.C - std::cbrt(36 * constants::pi) * std::pow(p.volume, 2.0 / 3)) / tau;
       return PlainPair{-down, -p.sites / p.C * down, -p.sites / p.C * down * volumeOfSite};
     };
@@ -233,12 +234,16 @@ struct PlainPair {
 TEST(TreeSintering, TheSphereLosesTheMassOfTheSites) {
   RandomStream random(1, 2, 3);
   TreeMaterial material = silica();
-  material.sintering = {SinteringMechanism::constant, 1, 0, 0};
+  using Law = SinteringLaw;
+  const Law constant{SinteringMechanism::constant, 1, 0, 0, Law::Size::smaller, Law::Between::neighbours};
+  const Law ofPairs{SinteringMechanism::grainBoundary, 4e33, 0, 0, Law::Size::volumeToSurface,
+                    Law::Between::neighbours};
+  Law constantOfParts = constant, ofParts = ofPairs;
+  constantOfParts.size = Law::Size::volumeToSurface;
+  constantOfParts.between = ofParts.between = Law::Between::parts;
   const double volumeOfSite = (17.01e-3 - 16.0e-3 / 2) / (material.density * constants::avogadro);
-  for (const auto between : {SinteringLaw::Between::neighbours, SinteringLaw::Between::parts}) {
-    material.sintering.between = between;
-    material.sintering.size =
-        between == SinteringLaw::Between::parts ? SinteringLaw::Size::volumeToSurface : SinteringLaw::Size::smaller;
+  for (const Law& law : {constant, ofPairs, constantOfParts, ofParts}) {
+    material.sintering = law;
     const PrimaryTrees type(material, CollisionSize::primaries);
     const Tree nucleus = type.make({2, 1, 6});
     Tree tree = type.coagulated(Tree(nucleus), Tree(nucleus), random);
@@ -247,7 +252,7 @@ TEST(TreeSintering, TheSphereLosesTheMassOfTheSites) {
     sintering.setTemperature(T);
     TreeSintering::Changes changes;
     for (int part = 0; part < 3; ++part) {
-      for (int i = 0; i < 2000; ++i) plain.step(1, volumeOfSite, 0.4 / 2000);
+      for (int i = 0; i < 2000; ++i) plain.step(law, volumeOfSite, 0.4 / 2000);
       type.clock() += 0.4;
       sintering.advance(tree, type.clock(), changes);
       ASSERT_EQ(tree.count(), 2U);
