@@ -33,8 +33,6 @@ EnsemblePathResult marchPath(Ensemble& soot, const ParticlePath& path, const Ens
     std::iota(recorded.begin(), recorded.end(), std::size_t{0});
   }
   if (recorded.back() >= points.size()) throw InputError("path of soot: a record is wanted beyond its last point");
-  GasDivision division = options.division;
-  if (division.counted.empty()) division.counted = countedSpecies(soot.options().soot);
   EnsemblePathResult result;
   result.records.reserve(recorded.size());
   result.exchange.reserve(recorded.size() - 1);
@@ -48,7 +46,7 @@ EnsemblePathResult marchPath(Ensemble& soot, const ParticlePath& path, const Ens
   reached(0);
   for (std::size_t k = 0; k + 1 < points.size(); ++k) {
     checkInterval(points[k], points[k + 1], species);
-    marchInterval(points[k], points[k + 1], division, [&](const ParticleGas& gas, double w, double dt) {
+    marchInterval(points[k], points[k + 1], options.division, [&](const ParticleGas& gas, double w, double dt) {
       soot.advance(gas, path.divergence[k].at(w), dt);
     });
     reached(k + 1);

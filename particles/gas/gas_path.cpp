@@ -33,16 +33,14 @@ std::size_t parts(const GasSample& from, const GasSample& to, const GasDivision&
     const double larger = std::max(std::abs(x), std::abs(y));
     if (larger > 1e-9) most = std::max(most, std::abs(x - y) / larger / division.relativeStep);  // mol/m3
   };
-  for (const std::size_t k : division.counted) consider(from.concentrations[k], to.concentrations[k]);
+  const auto considerSpecies = [&](std::size_t k) { consider(from.concentrations[k], to.concentrations[k]); };
+  if (!division.counted.empty()) {
+    for (const std::size_t k : division.counted) considerSpecies(k);
+    return std::clamp(static_cast<std::size_t>(std::ceil(most)), std::size_t{1}, division.most);
+  }
+  for (const std::size_t k : {SootSpecies::H, SootSpecies::OH, SootSpecies::O2, SootSpecies::C2H2}) considerSpecies(k);
+  for (std::size_t k = SootSpecies::fixed; k < from.concentrations.size(); ++k) considerSpecies(k);
   return std::clamp(static_cast<std::size_t>(std::ceil(most)), std::size_t{1}, division.most);
-}
-
-std::vector<std::size_t> countedSpecies(const SootModelOptions& soot) {
-  std::vector<std::size_t> counted = {SootSpecies::OH};
-  const bool isWithoutSites = soot.alpha && *soot.alpha == 0;
-  if (!isWithoutSites) counted.insert(counted.end(), {SootSpecies::H, SootSpecies::O2, SootSpecies::C2H2});
-  for (std::size_t k = 0; k < soot.pah.size(); ++k) counted.push_back(SootSpecies::fixed + k);
-  return counted;
 }
 
 }  // namespace lampblack::particles

@@ -23,11 +23,8 @@ struct GasDivision {
   double temperatureStep = 20;
   double relativeStep = 0.1;
   std::size_t most = 64;                  // parts of an interval
-  std::vector<std::size_t> counted = {};  // concentrations that are looked at; marchPath(): empty for soot's
+  std::vector<std::size_t> counted = {};  // concentrations that are looked at; empty: those that matter of SootSpecies
 };
-
-// Concentrations of SootSpecies that change the rates of this soot. Without active sites that is OH and PAH.
-[[nodiscard]] std::vector<std::size_t> countedSpecies(const SootModelOptions& soot);
 
 // (1 - w) `from` + w `to`, at the time of `from`.
 [[nodiscard]] GasSample mixed(const GasSample& from, const GasSample& to, double w);

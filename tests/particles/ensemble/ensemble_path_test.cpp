@@ -81,29 +81,6 @@ TEST(ParticlePath, RecordsHoldDensitiesAndDistributions) {
   EXPECT_EQ(marchPath(*makeEnsemble(options), path).records.back().volumeFraction, end.volumeFraction);
 }
 
-// O2 falls to a tenth: parts of the way are counted for it but where no site is active, so that it does nothing.
-TEST(ParticlePath, GasIsDividedByWhatChangesTheRates) {
-  GasSample from = sampleAt(0, test::FlameGas(1700, 1e-3, 0.03, 1e-4, 0.08, 1e-4, 0.03, {2e-5}));
-  GasSample to = from;
-  to.time = 1e-3;
-  from.concentrations[SootSpecies::O2] = 0.1;
-  to.concentrations[SootSpecies::O2] = 0.01;
-  SootModelOptions soot = test::naphthalene();
-  const auto partsOf = [&] {
-    GasDivision division;
-    division.counted = countedSpecies(soot);
-    return parts(from, to, division);
-  };
-  soot.alpha.reset();
-  EXPECT_EQ(partsOf(), 9U);
-  soot.alpha = 0.0;
-  EXPECT_EQ(partsOf(), 1U);
-  to.concentrations[SootSpecies::fixed] *= 0.65;
-  EXPECT_EQ(partsOf(), 4U);
-  to.concentrations[SootSpecies::OH] *= 0.45;
-  EXPECT_EQ(partsOf(), 6U);
-}
-
 TEST(ParticlePath, MeaninglessPathsAreRefused) {
   const test::FlameGas gas(1700, 0, 0, 0, 0, 0, 0, {1e-6});
   EnsembleOptions options;
