@@ -57,7 +57,7 @@ def quietly(mpirun: str) -> tuple:
 def without_launcher(err: str) -> str:
     """Standard error without what the launcher of Open MPI 5 says of a rank's exit code, for which it knows no silence."""
     kept = re.sub(r"^-{60,}\n(?:(?!-{60,}).*\n)*?.*prterun(?:.*\n)*?-{60,}\n", "", err, flags=re.MULTILINE)
-    return re.sub(r"^\[[^\]]*\] PMIX ERROR: .*\n", "", kept, flags=re.MULTILINE)
+    return re.sub(r"^(\[[^\]]*\] PMIX ERROR: |\[warn\] Epoll ).*\n", "", kept, flags=re.MULTILINE)
 
 
 class Program:
