@@ -3,12 +3,15 @@
 #include <algorithm>
 
 #include "core/cube_root.hpp"
+#include "core/poisson.hpp"
 #include "particles/soot/soot_columns.hpp"
 
 namespace lampblack::particles {
 namespace {
 
 constexpr std::size_t particlesAtATime = 128;
+// Of one particle; more are drawn as numbers of each kind.
+constexpr double manyEvents = 64;
 
 }  // namespace
 
@@ -37,7 +40,8 @@ SootMoved growAllByEvents(SootColumns& all, const SootAggregate& type, const Soo
         total[i] = sumOf(expectedEvents(law, c[i], h[i], primaries[i], shape[i], d[i], dt, perAtom));
     }
     for (std::size_t i = 0; i < n; ++i) {
-      if (total[i] <= next) {
+      const bool areMany = total[i] > manyEvents;
+      if (total[i] <= next && !areMany) {
         next -= total[i];
         continue;
       }
@@ -46,16 +50,23 @@ SootMoved growAllByEvents(SootColumns& all, const SootAggregate& type, const Soo
       const SootEventNumbers kinds = expectedEvents(law, c[i], h[i], primaries[i], factor,
                                                     type.coalescing() ? all.diameter[k] : d[i], dt, perAtom);
       SootEvents events(medium, least, all.weight[k], sum);
-      double left = total[i];
       bool stays = true;
-      while (next < left) {
-        left -= next;
-        next = random.exponential(1);
-        if (!stays) continue;
-        const std::size_t kind = eventAt(kinds, random.uniform() * total[i]);
-        stays = events.happens(kind, all.carbon[k], all.hydrogen[k]);
+      if (areMany) {  // its piece of the line is left out
+        for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
+          const double times = poisson(random, kinds[kind]);
+          if (times > 0 && stays) stays = events.happens(kind, all.carbon[k], all.hydrogen[k], times);
+        }
+      } else {
+        double left = total[i];
+        while (next < left) {
+          left -= next;
+          next = random.exponential(1);
+          if (!stays) continue;
+          const std::size_t kind = eventAt(kinds, random.uniform() * total[i]);
+          stays = events.happens(kind, all.carbon[k], all.hydrogen[k]);
+        }
+        next -= left;
       }
-      next -= left;
       if (stays) all.diameter[k] = factor * cubeRoot(perVolume * (all.carbon[k] + all.hydrogen[k]) / all.primaries[k]);
     }
   }

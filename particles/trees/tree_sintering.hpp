@@ -4,8 +4,8 @@
 // where it asks for the smaller primary; by steps of at most `step` of the sphere's surface otherwise.
 //
 // Sites that go take mass along, so that the sphere shrinks as its neck does (eqs. 40, 43, 45 together, in the limit of
-// small steps): by a straight line in the common surface, exact at both of its ends. What a primary loses at one neck its
-// others see when the tree is brought up to date, which `tolerance` says how often.
+// small steps): by a straight line in the common surface, exact at both of its ends. What a primary loses at one neck
+// its others see when the tree is brought up to date, which `tolerance` says how often.
 //
 // A neck whose primaries are fused with another hands its level on, as far as point contact allows: the paper leaves
 // open what becomes of it.

@@ -126,21 +126,25 @@ TEST(GrowthByEvents, IsAPoissonNumberOfTheRatesMean) {
   soot->initialise(test::equalSpheres(4000, start, 0, 1e12));
   const SootMedium medium(options.soot, DimerModel(options.soot), gas.state, false);
   const SootAggregate type(1800, true);
-  const double rate = medium.collision(type.make(start, 0, 1)) * medium.dimers(0), dt = 3 / rate;
-  soot->advance(gas.state, 0, dt);
-  double sum = 0, squares = 0;
-  const auto particles = soot->particles();
-  ASSERT_EQ(particles.size(), 4000u);
-  for (const GivenParticle& p : particles) {
-    const double molecules = (p.carbon - start) / (16 * atom);
-    EXPECT_NEAR(molecules, std::round(molecules), 1e-4);
-    sum += molecules;
-    squares += molecules * molecules;
+  const double rate = medium.collision(type.make(start, 0, 1)) * medium.dimers(0);
+  const std::vector<double> packed = soot->pack();
+  for (const double expected : {3.0, 300.0}) {  // one by one, and drawn as a number
+    soot->unpack(packed);
+    soot->advance(gas.state, 0, expected / rate);
+    double sum = 0, squares = 0;
+    const auto particles = soot->particles();
+    ASSERT_EQ(particles.size(), 4000u);
+    for (const GivenParticle& p : particles) {
+      const double molecules = (p.carbon - start) / (16 * atom);
+      EXPECT_NEAR(molecules, std::round(molecules), 1e-4);
+      sum += molecules;
+      squares += molecules * molecules;
+    }
+    const double mean = sum / 4000, variance = squares / 4000 - mean * mean;
+    // Standard errors: sqrt(m/4000) of the mean m, sqrt((m + 2 m^2)/4000) of the variance; 4.5 of them.
+    EXPECT_NEAR(mean, expected, 4.5 * std::sqrt(expected / 4000));
+    EXPECT_NEAR(variance, expected, 4.5 * std::sqrt(expected * (1 + 2 * expected) / 4000));
   }
-  const double mean = sum / 4000, variance = squares / 4000 - mean * mean;
-  // Standard errors: sqrt(3/4000) of the mean, sqrt((3 + 2 9)/4000) of the variance; 4.5 of them.
-  EXPECT_NEAR(mean, 3, 4.5 * std::sqrt(3.0 / 4000));
-  EXPECT_NEAR(variance, 3, 4.5 * std::sqrt(21.0 / 4000));
 }
 
 // All four kinds at once, of small particles over a short time: means as growth by the mean has them.
