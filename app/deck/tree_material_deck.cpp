@@ -118,10 +118,11 @@ void addSintering(DeckSchema& schema) {
                      "What sinters: pairs of neighbours (Shekar et al. 2011, eq. 40); or the two parts of an aggregate "
                      "that a collision joined, with the whole volume and surface of both, as the program MOpS does.")
                .byDefault("neighbours"))
-      .add(choiceKey(s + "inner_parts", {"sphere", "nothing"},
-                     "Between parts: what the surface of those within an aggregate goes towards, that of the sphere of "
-                     "their volume, or nothing, as the program MOpS computes it.")
-               .byDefault("sphere"));
+      .add(
+          choiceKey(s + "inner_parts", {"sphere", "nothing"},
+                    "What the surface of parts within an aggregate goes towards where parts sinter: that of the sphere "
+                    "of their volume; or nothing, as the program MOpS computes it.")
+              .byDefault("sphere"));
 }
 
 SinteringMechanism mechanismOf(const std::string& name) {
