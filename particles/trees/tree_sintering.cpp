@@ -27,7 +27,8 @@ TreeSintering::Shrinking TreeSintering::shrinking(const TreePrimary* primaries, 
   if (!(density > 0) || C <= S * fusedRatio) return {S * fusedRatio, 0, 0};
   const std::size_t site = type_.material().sites()->site;
   const TreePrimary &l = primaries[neck.left], &r = primaries[neck.right];
-  const double volume = primaryVolume(l.diameter) + primaryVolume(r.diameter);
+  // Of the neck's own sphere: diameters are behind it while a tree is brought up to date.
+  const double volume = primaryVolume(std::sqrt(S / constants::pi));
   const auto fusedAt = [&](double slope) { return fusedRatio * (S - slope * C) / (1 - fusedRatio * slope); };
   constexpr double most = 0.5;  // of a slope; that of a nucleus of silica is 0.2
   Shrinking s;
@@ -36,8 +37,9 @@ TreeSintering::Shrinking TreeSintering::shrinking(const TreePrimary* primaries, 
   s.fused = fusedAt(s.sphere);
   for (int i = 0; i < 2; ++i) {
     const double surface = C - s.fused, each = 0.5 * density * surface;
+    if (!(surface > 1e-9 * C)) break;
     s.volume = volumeOfSite_ * (std::min(each, l.units[site]) + std::min(each, r.units[site])) / surface;
-    s.sphere = std::min((S - treeSphere(volume - s.volume * surface)) / surface, most);
+    s.sphere = std::clamp((S - treeSphere(volume - s.volume * surface)) / surface, 0.0, most);
     s.fused = fusedAt(s.sphere);
   }
   return s;

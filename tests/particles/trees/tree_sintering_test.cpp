@@ -276,6 +276,38 @@ TEST(TreeSintering, TheSphereLosesTheMassOfTheSites) {
   }
 }
 
+// However long a look is: sites go, none come, and sizes stay those of units.
+TEST(TreeSintering, LongLooksOfSmallPrimariesLoseSitesOnly) {
+  RandomStream random(7, 8, 9);
+  TreeMaterial material = silica();
+  for (const auto between : {SinteringLaw::Between::neighbours, SinteringLaw::Between::parts}) {
+    material.sintering.between = between;
+    for (int round = 0; round < 2000; ++round) {
+      material.sintering.size = between == SinteringLaw::Between::parts || round % 2 == 0
+                                    ? SinteringLaw::Size::volumeToSurface
+                                    : SinteringLaw::Size::smaller;
+      const PrimaryTrees type(material, CollisionSize::primaries);
+      const auto primary = [&] {
+        const double n = std::pow(500, random.uniform()), sites = 8 * random.uniform();
+        return type.make({2 * n, 2 * n, sites * std::pow(n, 2.0 / 3)});
+      };
+      Tree tree = primary();
+      for (std::uint64_t more = 1 + random.below(8); more > 0; --more)
+        tree = type.coagulated(std::move(tree), primary(), random);
+      const double before = tree.head().units[2];
+      TreeSintering sintering(type, 0);
+      sintering.setTemperature(T);
+      TreeSintering::Changes changes;
+      type.clock() = std::pow(10, -20 + 20 * random.uniform());
+      sintering.advance(tree, type.clock(), changes);
+      ASSERT_GE(tree.head().units[2], 0);
+      ASSERT_NEAR(tree.head().units[2] + 2 * changes.bridges, before, 1e-9 * before);
+      expectTree(type, tree);
+      for (const TreeNeck& neck : tree.necks()) ASSERT_GE(neck.common, 0.9 * neck.sphere);
+    }
+  }
+}
+
 // Three equal primaries in a row: at first the inner neck loses the excess of the pair's surface over its sphere's, or
 // all of it, in the time of 6 V/S.
 TEST(TreeSintering, PartsWithinHaveASphereOrNone) {
