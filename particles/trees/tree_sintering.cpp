@@ -30,7 +30,9 @@ TreeSintering::Shrinking TreeSintering::shrinking(const TreePrimary* primaries, 
   // Of the neck's own sphere: diameters are behind it while a tree is brought up to date.
   const double volume = primaryVolume(std::sqrt(S / constants::pi));
   const auto fusedAt = [&](double slope) { return fusedRatio * (S - slope * C) / (1 - fusedRatio * slope); };
-  constexpr double most = 0.5;  // of a slope; that of a nucleus of silica is 0.2
+  // Of a slope: of a pair that is all sites S goes with V^(2/3). A nucleus of silica has 0.2. Only the first guess of a
+  // pair with fewer sites than its tree can be beyond.
+  constexpr double most = 2.0 / 3;
   Shrinking s;
   s.volume = density * volumeOfSite_;
   s.sphere = std::min(2.0 / 3 * S / volume * s.volume, most);

@@ -1,7 +1,8 @@
 // Sintering of a tree over a time, by its necks: the surface of each relaxes to that of the sphere of its two primaries
 // (Shekar, Smith, Kraft, Wagner 2011, eqs. 40-43), sites go with the surface (eqs. 45-50), and primaries become one at
 // a level of 0.95 (eqs. 44, 52-55), each at its own time. Between such times the law is linear and integrated exactly
-// where it asks for the smaller primary; by steps of at most `step` of the sphere's surface otherwise.
+// where it asks for the smaller primary, at its size when a look begins; by steps of at most `step` of the sphere's
+// surface otherwise.
 //
 // Sites that go take mass along, so that the sphere shrinks as its neck does (eqs. 40, 43, 45 together, in the limit of
 // small steps): by a straight line in the common surface, exact at both of its ends. What a primary loses at one neck

@@ -44,9 +44,10 @@ class EqualRates {
   // Of the same type; entries have to be put in anew.
   void setKernel(const CollisionKernelOptions& options) { kernel_.emplace(options); }
   // Makes the majorant the best one for these entries, forEach(f) calling f(entry) or f(entry, number); only where all
-  // of them are put in anew after it. Any majorant holds: of many entries it is enough to look at each `stride`-th.
+  // of them are put in anew after it. Any majorant holds: of so many entries some thousand are enough to look at.
   template <class ForEach>
-  void tune(ForEach&& forEach, std::size_t stride = 1) {
+  void tune(ForEach&& forEach, std::size_t entries = 0) {
+    const std::size_t stride = 1 + entries / 1024;
     std::size_t wait = 1;
     kernel_->tune([&](const auto& f) {
       forEach([&](const Entry& entry, double number = 1) {
@@ -56,7 +57,6 @@ class EqualRates {
       });
     });
   }
-  [[nodiscard]] static std::size_t tuningStride(std::size_t entries) { return 1 + entries / 1024; }
 
   [[nodiscard, gnu::always_inline]] Entry entry(const Particle& particle) const {
     return {particle, entryDiameter(particle)};

@@ -147,9 +147,11 @@ class EqualWeightMethod {
     // One rebuild serves both the change and the majorant that suits it, where the store can tell.
     const auto tune = [&](std::span<const Entry> entries) {
       if (!rates().tunable() || entries.empty()) return;
-      sample_.store().rates().tune([&](const auto& g) {
-        for (std::size_t k = 0; k < entries.size(); k += EqualRates<Type>::tuningStride(entries.size())) g(entries[k]);
-      });
+      sample_.store().rates().tune(
+          [&](const auto& g) {
+            for (const Entry& entry : entries) g(entry);
+          },
+          entries.size());
     };
     if constexpr (requires { sample_.store().transform(change, tune); }) {
       sample_.transform(change, tune);
@@ -266,7 +268,7 @@ class EqualWeightMethod {
     retuneAfter_ = std::max<std::size_t>(size(), 16);
     if (!rates().tunable() || size() == 0) return;
     Store& store = sample_.store();
-    store.rates().tune([&](const auto& f) { store.forEach(f); }, EqualRates<Type>::tuningStride(size()));
+    store.rates().tune([&](const auto& f) { store.forEach(f); }, size());
     store.transform([](const Entry&) { return true; });
   }
 
