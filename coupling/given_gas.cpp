@@ -16,7 +16,9 @@ constexpr double largestDeparture = 0.02;  // of the sum of the fractions from o
 constexpr double mostNegative = -1e-6;     // of a fraction: below that it is no error of a transient
 constexpr double densityStep = 0.02;       // of its logarithm between two points
 
-void require(const Mechanism& mechanism, const GasHistory& history) {
+}  // namespace
+
+void requireHistory(const Mechanism& mechanism, const GasHistory& history) {
   const std::size_t n = mechanism.numSpecies();
   if (history.time.empty()) throw InputError("the history of the gas has no rows");
   for (std::size_t i = 0; i < history.time.size(); ++i) {
@@ -42,6 +44,18 @@ void require(const Mechanism& mechanism, const GasHistory& history) {
   }
 }
 
+std::vector<double> concentrationsOf(const GasHistory& history, std::size_t row, std::size_t species) {
+  const std::span<const double> X = std::span(history.fractions).subspan(row * species, species);
+  double sum = 0;
+  for (const double x : X) sum += std::max(x, 0.0);
+  const double total = history.pressure[row] / (constants::gasConstant * history.temperature[row]);
+  std::vector<double> c(species);
+  for (std::size_t k = 0; k < species; ++k) c[k] = total * std::max(X[k], 0.0) / sum;
+  return c;
+}
+
+namespace {
+
 // The mean between two points whose density changes from one to the other: exact for inert particles.
 ParticlePath::Divergence expansion(const GasSample& from, const GasSample& to) {
   const double mean = std::log(from.gas.density / to.gas.density) / (to.time - from.time);
@@ -58,7 +72,7 @@ GasSample between(const GasSample& from, const GasSample& to, double w) {
 
 ParticlePath givenPath(const Mechanism& mechanism, const GasHistory& history, std::span<const std::string> species,
                        GasViscosity viscosity) {
-  require(mechanism, history);
+  requireHistory(mechanism, history);
   const std::size_t n = mechanism.numSpecies();
   std::vector<std::size_t> all(n);
   for (std::size_t k = 0; k < n; ++k) all[k] = k;
@@ -66,16 +80,11 @@ ParticlePath givenPath(const Mechanism& mechanism, const GasHistory& history, st
   std::vector<std::optional<std::size_t>> seen;
   for (const std::string& name : species) seen.push_back(mechanism.findSpecies(name));
   ParticlePath path;
-  std::vector<double> c(n);
   for (std::size_t i = 0; i < history.time.size(); ++i) {
-    const std::span<const double> X = std::span(history.fractions).subspan(i * n, n);
-    double sum = 0;
-    for (const double x : X) sum += std::max(x, 0.0);
-    const double T = history.temperature[i], p = history.pressure[i], total = p / (constants::gasConstant * T);
-    for (std::size_t k = 0; k < n; ++k) c[k] = total * std::max(X[k], 0.0) / sum;
+    const std::vector<double> c = concentrationsOf(history, i, n);
     GasSample next;
     next.time = history.time[i];
-    next.gas = gas.at(T, p, c);
+    next.gas = gas.at(history.temperature[i], history.pressure[i], c);
     for (const auto& k : seen) next.concentrations.push_back(k ? c[*k] : 0.0);
     if (path.points.empty()) {
       path.points.push_back(std::move(next));
@@ -92,6 +101,24 @@ ParticlePath givenPath(const Mechanism& mechanism, const GasHistory& history, st
     }
   }
   return path;
+}
+
+GasHistory historyAlong(const ParticlePath& path) {
+  GasHistory history;
+  for (const GasSample& point : path.points) {
+    history.time.push_back(point.time);
+    history.temperature.push_back(point.gas.temperature);
+    history.pressure.push_back(point.gas.pressure);
+    double sum = 0;
+    for (const double c : point.concentrations) sum += c;
+    for (const double c : point.concentrations) history.fractions.push_back(c / sum);
+  }
+  for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
+    const ParticlePath::Divergence& divergence = path.divergence[i];
+    history.thinning.push_back(0.5 * (divergence.first + divergence.last) -
+                               expansion(path.points[i], path.points[i + 1]).first);
+  }
+  return history;
 }
 
 std::vector<std::size_t> putPointsAt(ParticlePath& path, std::span<const double> times) {

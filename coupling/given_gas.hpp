@@ -19,14 +19,25 @@ namespace lampblack::coupling {
 struct GasHistory {
   std::vector<double> time, temperature, pressure;  // s, rising; K; Pa
   std::vector<double> fractions;                    // mole fractions of all species of the mechanism, a row a time
+  // 1/s, between a row and the next: rate at which particles become fewer per kg of gas, as they move otherwise; empty:
+  // they move with it.
+  std::vector<double> thinning = {};
 };
+
+// InputError for no row, times that do not rise, temperatures and pressures that are not positive, fractions below
+// -1e-6, and sums that are not one within 2 %.
+void requireHistory(const Mechanism& mechanism, const GasHistory& history);
+// mol/m3, of all `species` at a row, whose fractions are divided by their sum.
+[[nodiscard]] std::vector<double> concentrationsOf(const GasHistory& history, std::size_t row, std::size_t species);
 
 // Between the given times concentrations, temperature and pressure are straight lines. Each row of fractions is divided
 // by its sum. `species`: those that the particles see, in their order; a name that the mechanism lacks has none in the
-// gas. InputError for no row, times that do not rise, temperatures and pressures that are not positive, fractions below
-// -1e-6, and sums that are not one within 2 %.
+// gas. InputError as requireHistory().
 [[nodiscard]] ParticlePath givenPath(const Mechanism& mechanism, const GasHistory& history,
                                      std::span<const std::string> species, GasViscosity viscosity);
+
+// The history of a gas that is known along a path, of all species of the mechanism in their order.
+[[nodiscard]] GasHistory historyAlong(const ParticlePath& path);
 
 // Puts points at these times (s, rising, within the path) where it has none; returns which points they are.
 [[nodiscard]] std::vector<std::size_t> putPointsAt(ParticlePath& path, std::span<const double> times);

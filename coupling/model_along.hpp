@@ -1,5 +1,5 @@
-// A ParticleModel, sections or moments, along a path through a gas that is known and does not change by what the
-// particles take.
+// A ParticleModel, sections or moments, along a path through a gas that is known and changes by what the particles take
+// of some species alone.
 #pragma once
 
 #include <cstddef>
@@ -17,6 +17,7 @@ struct ModelRecord {
   ParticleProperties properties;
   ParticleProcesses processes;
   SizeDistribution sizes;
+  std::vector<double> depleted;  // mol/m3, what the gas has of these species
 };
 
 struct ModelAlong {
@@ -24,10 +25,12 @@ struct ModelAlong {
   long steps = 0;                    // of the model's integrator
 };
 
-// From no particles. `recorded`: points of the path, rising. In each constant state of the gas (`division`) particles
+// From no particles. `recorded`: points of the path, rising. `depleted`: species of the model, of which the gas makes as
+// much as the path says or loses as large a part (gas_along.hpp); all others are as the path has them. In each constant state of the gas (`division`) particles
 // are diluted for half of it, change, and are diluted for the other half: second order. InputError as marchPath();
 // NumericsError where the model's integrator fails.
 [[nodiscard]] ModelAlong marchModel(const ParticleModel& model, const ParticlePath& path,
-                                    std::span<const std::size_t> recorded, GasDivision division = {});
+                                    std::span<const std::size_t> recorded,
+                                    std::span<const std::size_t> depleted = {}, GasDivision division = {});
 
 }  // namespace lampblack::coupling

@@ -57,7 +57,7 @@ void SplitReactor::start(double x, std::span<const double> y) {
 const ParticleGas& SplitReactor::gas(std::size_t reactor) {
   const std::size_t n = mechanism_.numSpecies();
   const double* block = y_.data() + reactor * block_;
-  return seen_.atComposition(block[n], gas_.pressure(block), {block, n});
+  return seen_.atComposition(block[n], gas_.pressure(x_, block), {block, n});
 }
 
 // The gas over h, and with it what it carries.
@@ -67,15 +67,15 @@ void SplitReactor::react(double h) {
   for (std::size_t r = 0; r < particles_.size(); ++r) {
     double* block = y_.data() + r * block_;
     for (std::size_t s = 0; s < particles_.size(); ++s) block[mark + s] = r == s ? 1 : 0;
-    before.push_back(gas_.density(block));
+    before.push_back(gas_.density(x_, block));
   }
   const double end = x_ + h;
   integrator_.start(x_, y_, end);
   while (integrator_.time() < end) integrator_.step();
   work_.gasSteps += integrator_.statistics().steps;
   y_.assign(integrator_.state().begin(), integrator_.state().end());
-  carryParticles(before);
   x_ = end;
+  carryParticles(before);
 }
 
 void SplitReactor::carryParticles(const std::vector<double>& before) {
@@ -87,7 +87,7 @@ void SplitReactor::carryParticles(const std::vector<double>& before) {
     for (std::size_t to = 0; to < count && content[from].empty(); ++to)
       if (to != from && moved(from, to) > 0) content[from] = particles_[from]->content();
   for (std::size_t to = 0; to < count; ++to) {
-    const double density = gas_.density(y_.data() + to * block_);
+    const double density = gas_.density(x_, y_.data() + to * block_);
     particles_[to]->dilute(density * moved(to, to) / before[to]);
     for (std::size_t from = 0; from < count; ++from) {
       // Below zero by the solver's error where nothing flows yet.
@@ -142,30 +142,34 @@ double SplitReactor::exchange(std::size_t reactor, double h) {
   double* y = y_.data() + reactor * block_;
   double* exchanged = exchanged_.data() + reactor * block_;
   const std::vector<double> before(y, y + block_);
-  const double density = gas_.density(y);
+  const double density = gas_.density(x_, y);
   for (std::size_t i = 0; i <= n + atRest_.mark(); ++i) y[i] += 0.5 * h * exchanged[i];
   for (const std::size_t k : species) y[k] = std::max(y[k], 0.5 * before[k]);
-  const double middle = gas_.density(y), volume = 1 / middle;
+  const double middle = gas_.density(x_, y), volume = 1 / middle;
   particles.dilute(middle / density);
   const ParticleGas& seen = gas(reactor);
   const double smallest = negligible(reactor);
   auto taken = particles.advance(seen, h * gas_.timePerUnit(y));
   double change = 0;
-  for (std::size_t i = 0; i < species.size(); ++i)
-    change = std::max(change, std::abs(taken.gas[i]) / (std::abs(seen.concentrations[i]) + smallest));
+  for (std::size_t i = 0; i < species.size(); ++i) {
+    if (isHeld(species[i]))
+      taken.gas[i] = 0;
+    else
+      change = std::max(change, std::abs(taken.gas[i]) / (std::abs(seen.concentrations[i]) + smallest));
+  }
 
   std::copy(before.begin(), before.end(), y);
   for (std::vector<double>* perVolume : {&taken.gas, &taken.elements})
     for (double& amount : *perVolume) amount *= volume;
   book(reactor, taken.gas, taken.elements);
-  particles.dilute(gas_.density(y) / middle);
+  particles.dilute(gas_.density(x_, y) / middle);
   for (std::size_t i = 0; i < block_; ++i) exchanged[i] = (y[i] - before[i]) / h;
   return change;
 }
 
 double SplitReactor::negligible(std::size_t reactor) const {
   const double* block = y_.data() + reactor * block_;
-  return smallestCountedMoleFraction * gas_.pressure(block) / (constants::gasConstant * block[mechanism_.numSpecies()]);
+  return smallestCountedMoleFraction * gas_.pressure(x_, block) / (constants::gasConstant * block[mechanism_.numSpecies()]);
 }
 
 double SplitReactor::change(std::size_t reactor, double T, std::span<const double> before,

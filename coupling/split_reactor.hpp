@@ -13,6 +13,8 @@
 // The step follows from what changes in it; a step in which more changes than twice the aim is taken back, unless
 // numerical particles have gone at random in it.
 //
+// The gas may be given (GasAlong): species that are held are as its equations say, whatever particles exchange of them.
+//
 // Or by a predictor and a corrector, where the particles' species live shorter than the population changes: the gas
 // reacts over the step together with the exchange that the step before leads to expect (ExchangeInGas), the particles
 // change in the mean of this gas over the step, and the gas gets the difference of what they exchanged to what was
@@ -93,11 +95,14 @@ class SplitReactor {
   // reactor over time or place; functions of these of one reactor; and what is held, a value a reactor.
   struct Gas {
     OdeSystem* system = nullptr;
-    std::function<double(const double*y)> density, pressure;  // kg/m3 of gas and particles, Pa
-    std::function<double(const double* y)> timePerUnit;       // s, of the independent variable
+    // kg/m3 of gas and particles, and Pa, in the state y at x.
+    std::function<double(double x, const double* y)> density, pressure;
+    std::function<double(const double* y)> timePerUnit;  // s, of the independent variable
     enum class Kept { temperature, enthalpy, internalEnergy };
     std::vector<Kept> kept{Kept::enthalpy};
     std::function<double(double x)> nextStop;  // a kink of the equations behind x; may be empty
+    // Of all species: those that stay as the equations have them, whatever particles take; empty: none.
+    std::vector<bool> held;
     // For the predictor and corrector: the phase that the equations carry, of one reactor. Splitting otherwise.
     ExchangeInGas* expected = nullptr;
   };
@@ -150,6 +155,7 @@ class SplitReactor {
   double exchange(std::size_t reactor, double h);
   // Adds moles (mol/kg) to the gas and kg/kg to the particles' elements; what is held stays.
   void book(std::size_t reactor, std::span<const double> gas, std::span<const double> elements);
+  [[nodiscard]] bool isHeld(std::size_t species) const { return !gas_.held.empty() && gas_.held[species]; }
   // The largest change of a temperature (by its scale) and of concentrations that particles see.
   [[nodiscard]] double change(std::size_t reactor, double T, std::span<const double> before,
                               std::span<const double> after) const;

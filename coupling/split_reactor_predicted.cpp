@@ -57,7 +57,7 @@ double SplitReactor::correctedStep(double h) {
   const auto& species = particles.species();
   ExchangeInGas& expected = *gas_.expected;
   const std::vector<double> before = y_;
-  const double firstDensity = gas_.density(y_.data());
+  const double firstDensity = gas_.density(x_, y_.data());
   const ParticleGas& first = gas(0);
   const bool isIdle = particles.idle(first);
   const std::vector<double> start(first.concentrations.begin(), first.concentrations.end());
@@ -71,7 +71,7 @@ double SplitReactor::correctedStep(double h) {
   expected.expect(expected_, duration);
   std::fill(y_.begin() + static_cast<std::ptrdiff_t>(n + 1 + expected.mark()), y_.end(), 0.0);
   y_[n + 1 + expected.mark()] = 1;
-  const double end = x_ + h;
+  const double end = x_ + h, centre = x_ + 0.5 * h;
   integrator_.start(x_, y_, end);
   while (integrator_.time() < end) integrator_.step();
   work_.gasSteps += integrator_.statistics().steps;
@@ -84,9 +84,9 @@ double SplitReactor::correctedStep(double h) {
   for (std::size_t i = 0; i < block_; ++i) middle[i] = 0.5 * (before[i] + y_[i]);
   const std::span<const double> amounts = std::span<const double>(y_).subspan(n + 1);
   for (std::size_t i = 0; i < species.size(); ++i) means[i] = expected.meanConcentration(amounts, i);
-  const double density = gas_.density(middle.data()), left = std::sqrt(amounts[expected.mark()]);
+  const double density = gas_.density(centre, middle.data()), left = std::sqrt(amounts[expected.mark()]);
   particles.dilute(density / firstDensity * left);
-  ParticleGas seen = seen_.atComposition(middle[n], gas_.pressure(middle.data()), {middle.data(), n});
+  ParticleGas seen = seen_.atComposition(middle[n], gas_.pressure(centre, middle.data()), {middle.data(), n});
   seen.concentrations = means;
   duration = h * gas_.timePerUnit(middle.data());
   const SplitParticles::Exchange taken = particles.advance(seen, duration);
@@ -96,11 +96,11 @@ double SplitReactor::correctedStep(double h) {
   for (std::size_t e = 0; e < elementsBooked.size(); ++e) elementsBooked[e] = taken.elements[e] / density * left;
   for (std::size_t i = 0; i < species.size(); ++i) {
     const double known = expected.added(amounts, i);
-    gasBooked[i] = taken.gas[i] / density * left - known;
+    gasBooked[i] = isHeld(species[i]) ? 0 : taken.gas[i] / density * left - known;
     for (std::size_t e = 0; e < elementsBooked.size(); ++e) elementsBooked[e] += known * expected.perMole(i, e);
   }
   book(0, gasBooked, elementsBooked);
-  particles.dilute(gas_.density(y_.data()) / density * left);
+  particles.dilute(gas_.density(x_, y_.data()) / density * left);
 
   for (std::size_t i = 0; i < species.size(); ++i) {
     const double rate = taken.gas[i] / duration;
@@ -114,7 +114,7 @@ double SplitReactor::correctedStep(double h) {
   const auto now = knownRates(means_);
   double largest = changed;
   for (std::size_t i = 0; i < now.size(); ++i)
-    if (now[i] && *known_[i] != 0)
+    if (now[i] && *known_[i] != 0 && !isHeld(species[i]))
       largest = std::max(largest, std::abs(*now[i] - *known_[i]) / std::max(std::abs(*now[i]), std::abs(*known_[i])));
   means_ = means;
   expectExchange();

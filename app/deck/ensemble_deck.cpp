@@ -59,6 +59,24 @@ void addRepeatKeys(DeckSchema& schema) {
                .atLeast(0));
 }
 
+void addCouplingKeys(DeckSchema& schema, const std::string& section) {
+  schema
+      .add(choiceKey(
+               section + ".coupling", {"splitting", "predictor_corrector"},
+               "How gas and particles go on together, both of second order. splitting: half a step of the gas, the "
+               "particles, half a step of the gas (Strang 1968); predictor_corrector: the gas with the exchange that "
+               "is expected, the particles in its mean, the difference, for species that live shorter than a step; "
+               "not in networks.")
+               .byDefault("splitting"))
+      .add(numberKey(
+               section + ".coupling_change",
+               "Steps of the coupling are so long that a concentration which the particles see changes by about this "
+               "part of itself, or the temperature by this part of 200 K.")
+               .byDefault("0.05")
+               .above(0)
+               .atMost(1));
+}
+
 EnsembleRequest readEnsemble(const Deck& deck, const SootModelOptions& soot) {
   EnsembleRequest request;
   if (deck.has("stochastic.repeats")) request.repeats = deck.integer<std::size_t>("stochastic.repeats");

@@ -22,6 +22,8 @@ struct EnsembleRequest {
 void addEnsembleKeys(DeckSchema& schema, const std::string& description, const std::string& particles = "2000");
 // Those of problems whose ensembles are repeated: how often, and with which random numbers.
 void addRepeatKeys(DeckSchema& schema);
+// Of a section of stochastic particles, also of trees: how they and their gas go on together.
+void addCouplingKeys(DeckSchema& schema, const std::string& section);
 
 // Of a deck with the section. `soot`: what the section `soot` says of PAH, surface and switches. InputError, pointing
 // into the deck.

@@ -63,6 +63,7 @@ void addNumbers(DeckSchema& schema, const std::string& particles) {
                .atMost(1));
 }
 
+// Of the runs of all problems that repeat them.
 void addRuns(DeckSchema& schema) {
   schema
       .add(quantityKey("particles.initial.number", units::perVolume,
@@ -74,10 +75,6 @@ void addRuns(DeckSchema& schema) {
                .list()
                .optional()
                .atLeast(0))
-      .add(choiceKey("particles.viscosity", {"air", "transport"},
-                     "Viscosity of the gas. air: Sutherland's law of air, for mechanisms without transport data; "
-                     "transport: from these data. Absent: transport for soot, air for other materials.")
-               .optional())
       .add(quantityKey("particles.full_at", units::perVolume,
                        "Number density at which an empty sample is full first: about the largest that there will be. "
                        "Far above it the sample stays small and scatters, which the report tells; far below, particles "
@@ -93,19 +90,15 @@ void addRuns(DeckSchema& schema) {
                .byDefault("1")
                .atLeast(0));
   addSizeBinKeys(schema, "particles");
-  schema
-      .add(quantityKey("particles.tables_at", units::time,
-                       "Times at which every particle of the first repeat is written to results.h5, with its primaries "
-                       "and necks; the history has a row there. Some 1000 bytes for a particle of ten primaries.")
-               .list()
-               .optional()
-               .atLeast(0)
-               .onlyWith("reactor.type", {"constant_pressure", "constant_volume", "stirred"}))
-      .add(quantityKey("particles.tables_at_place", units::length, "The same by places along a plug flow.")
-               .list()
-               .optional()
-               .atLeast(0)
-               .onlyWith("reactor.type", {"plug_flow"}));
+}
+
+DeckKey tablesAt() {
+  return quantityKey("particles.tables_at", units::time,
+                     "Times at which every particle of the first repeat is written to results.h5, with its primaries "
+                     "and necks; the history has a row there. Some 1000 bytes for a particle of ten primaries.")
+      .list()
+      .optional()
+      .atLeast(0);
 }
 
 void addClasses(DeckSchema& schema) {
@@ -131,8 +124,12 @@ std::vector<double> risingEdges(const Deck& deck, const std::string& key, std::v
   return edges;
 }
 
+bool isAlong(const Deck& deck) {
+  return deck.choice("problem") == "particles_along";
+}
+
 bool isPlugFlow(const Deck& deck) {
-  return deck.choice("reactor.type") == "plug_flow";
+  return !isAlong(deck) && deck.choice("reactor.type") == "plug_flow";
 }
 
 std::string tablesKey(const Deck& deck) {
@@ -142,7 +139,7 @@ std::string tablesKey(const Deck& deck) {
 // Rising, each once, none beyond the end of the run.
 std::vector<double> readTablesAt(const Deck& deck) {
   const std::string key = tablesKey(deck);
-  const std::string last = isPlugFlow(deck) ? "reactor.length" : "time.end";
+  const std::string last = isPlugFlow(deck) ? "reactor.length" : isAlong(deck) ? "gas.end" : "time.end";
   if (!deck.has(key)) return {};
   std::vector<double> all = deck.quantities(key);
   if (all.empty()) return all;
@@ -167,6 +164,27 @@ void addTreeReactorKeys(DeckSchema& schema) {
               "Every repeat is a reactor of its own. Without the heat of the material, known for soot and "
               "silica, the temperature has to be given.",
               "8192");
+  schema
+      .add(choiceKey("particles.viscosity", {"air", "transport"},
+                     "Viscosity of the gas. air: Sutherland's law of air, for mechanisms without transport data; "
+                     "transport: from these data. Absent: transport for soot, air for other materials.")
+               .optional())
+      .add(tablesAt().onlyWith("reactor.type", {"constant_pressure", "constant_volume", "stirred"}))
+      .add(quantityKey("particles.tables_at_place", units::length, "The same by places along a plug flow.")
+               .list()
+               .optional()
+               .atLeast(0)
+               .onlyWith("reactor.type", {"plug_flow"}));
+  addRuns(schema);
+  addClasses(schema);
+}
+
+void addTreeAlongKeys(DeckSchema& schema) {
+  addTreeKeys(schema,
+              "Particles as trees of primaries that share surface, by Monte Carlo, by repeats of independent random "
+              "numbers.",
+              "8192");
+  schema.add(tablesAt());
   addRuns(schema);
   addClasses(schema);
 }
@@ -203,7 +221,8 @@ TreeRequest readTrees(const Deck& deck, const Mechanism& mechanism) {
   TreeRequest request;
   TreeOptions& options = request.options = readTreeOptions(deck, mechanism);
   const bool isSoot = options.material.soot() != nullptr;
-  request.viscosity = deck.optionalString("particles.viscosity").value_or(isSoot ? "transport" : "air") == "air"
+  const std::string viscosity = isAlong(deck) ? "gas.viscosity" : "particles.viscosity";
+  request.viscosity = deck.optionalString(viscosity).value_or(isSoot ? "transport" : "air") == "air"
                           ? GasViscosity::air
                           : GasViscosity::transport;
   options.fullAt = deck.quantity("particles.full_at");

@@ -1,4 +1,4 @@
-// The section `particles` of reactors and flows: particles as trees of primaries.
+// The section `particles` of reactors, flows and along a given gas: particles as trees of primaries.
 #pragma once
 
 #include <optional>
@@ -27,10 +27,12 @@ struct TreeRequest {
 void addTreeKeys(DeckSchema& schema, const std::string& description, const std::string& particles);
 // With those of a reactor.
 void addTreeReactorKeys(DeckSchema& schema);
+// With those of particles along a given gas.
+void addTreeAlongKeys(DeckSchema& schema);
 
 // Of a deck with the section, what all problems have. InputError, pointing into the deck.
 [[nodiscard]] TreeOptions readTreeOptions(const Deck& deck, const Mechanism& mechanism);
-// Of a reactor.
+// Of a reactor or along a given gas.
 [[nodiscard]] TreeRequest readTrees(const Deck& deck, const Mechanism& mechanism);
 
 }  // namespace lampblack::app

@@ -6,8 +6,10 @@
 #include <cmath>
 
 #include "app/deck/soot_deck.hpp"
+#include "app/deck/trees_deck.hpp"
 #include "app/flame1d/flame_file.hpp"
 #include "app/particles_along/gas_table.hpp"
+#include "app/reactor/reactor_case_parts.hpp"
 #include "app/tools/gas_input.hpp"
 #include "core/errors.hpp"
 #include "coupling/ensemble_species.hpp"
@@ -19,6 +21,28 @@ namespace lampblack::app {
 namespace {
 
 constexpr std::size_t defaultRows = 100;
+// Of what the gas has of depleted species, a linear problem between rows.
+constexpr double relativeTolerance = 1e-8, absoluteTolerance = 1e-15;
+constexpr long mostSteps = 1000000;
+
+std::string gasKey(const Deck& deck) {
+  return deck.has("gas.flame") ? "gas.flame" : "gas.file";
+}
+
+bool isTwoWay(const Deck& deck) {
+  return deck.choice("gas.exchange") == "two_way";
+}
+
+void checkGas(const Deck& deck) {
+  if (deck.has("gas.file") == deck.has("gas.flame"))
+    throw deck.error("gas", "expected either 'file', the history of a gas, or 'flame', the results of a flame");
+  if (!deck.has("gas.flame")) {
+    for (const char* key : {"gas.side", "gas.start", "gas.slowest"})
+      if (deck.isGiven(key)) throw deck.error(key, "this is of a path through a flame ('gas.flame'); leave it out");
+  } else if (deck.optionalString("gas.viscosity") == "air") {
+    throw deck.error("gas.viscosity", "that of a flame comes from its transport data; leave this out");
+  }
+}
 
 ParticlePath throughFlame(const Deck& deck, const Mechanism& mechanism, const std::vector<std::string>& species) {
   const std::filesystem::path file = deck.resolvePath(deck.string("gas.flame"));
@@ -40,29 +64,30 @@ ParticlePath throughFlame(const Deck& deck, const Mechanism& mechanism, const st
 }
 
 ParticlePath readPath(const Deck& deck, const Mechanism& mechanism, const std::vector<std::string>& species) {
-  if (deck.has("gas.file") == deck.has("gas.flame"))
-    throw deck.error("gas", "expected either 'file', the history of a gas, or 'flame', the results of a flame");
-  if (deck.choice("gas.exchange") == "two_way")
-    throw deck.error("gas.exchange", "particles that change a given gas are not there yet; expected one_way");
-  const bool ofFlame = deck.has("gas.flame");
-  if (!ofFlame)
-    for (const char* key : {"gas.side", "gas.start", "gas.slowest"})
-      if (deck.isGiven(key)) throw deck.error(key, "this is of a path through a flame ('gas.flame'); leave it out");
-  if (ofFlame && deck.choice("gas.viscosity") == "air")
-    throw deck.error("gas.viscosity", "that of a flame comes from its transport data; leave this out");
-  try {
-    if (ofFlame) return throughFlame(deck, mechanism, species);
+  return deck.at(gasKey(deck), [&] {
+    if (deck.has("gas.flame")) return throughFlame(deck, mechanism, species);
     const GasHistory history = readGasTable(deck.resolvePath(deck.string("gas.file")), mechanism);
-    return givenPath(mechanism, history, species,
-                     deck.choice("gas.viscosity") == "air" ? GasViscosity::air : GasViscosity::transport);
-  } catch (const InputError& error) {
-    throw deck.error(ofFlame ? "gas.flame" : "gas.file", error.what());
-  }
+    const bool isAir = deck.optionalString("gas.viscosity") == "air";
+    return givenPath(mechanism, history, species, isAir ? GasViscosity::air : GasViscosity::transport);
+  });
 }
 
-// Times of the rows; the path ends with the last.
-std::vector<double> readRows(const Deck& deck, ParticlePath& path) {
-  const double begin = path.points.front().time, last = path.points.back().time;
+// Of all species.
+GasHistory readHistory(const Deck& deck, const Mechanism& mechanism) {
+  return deck.at(gasKey(deck), [&] {
+    if (deck.has("gas.file")) {
+      GasHistory history = readGasTable(deck.resolvePath(deck.string("gas.file")), mechanism);
+      requireHistory(mechanism, history);
+      return history;
+    }
+    std::vector<std::string> species;
+    for (std::size_t k = 0; k < mechanism.numSpecies(); ++k) species.push_back(mechanism.speciesName(k));
+    return historyAlong(throughFlame(deck, mechanism, species));
+  });
+}
+
+// Times of the rows, the last one of which ends the run, of a gas that is known from `begin` to `last`.
+std::vector<double> readRows(const Deck& deck, double begin, double last) {
   const double end = deck.optionalQuantity("gas.end").value_or(last);
   if (!(end > begin) || end > last)
     throw deck.error(
@@ -87,7 +112,8 @@ std::vector<double> readRows(const Deck& deck, ParticlePath& path) {
 }
 
 void readParticles(const Deck& deck, AlongCase& along) {
-  if (!deck.has("soot")) throw deck.error("soot", "particles need the section 'soot'");
+  if (!deck.has("soot"))
+    throw deck.error("soot", "particles need the section 'soot', or 'particles' for trees of primaries");
   if (!deck.has("stochastic")) {
     along.model = readSootModel(deck, *along.mechanism);
     if (!along.model) throw deck.error("soot.model", "expected a model, or the section 'stochastic' for ensembles");
@@ -97,6 +123,8 @@ void readParticles(const Deck& deck, AlongCase& along) {
   if (deck.isGiven("soot.model") && deck.choice("soot.model") != "none")
     throw deck.error("soot.model",
                      "an ensemble takes the place of a model: leave this out, or the section 'stochastic'");
+  for (const char* key : {"stochastic.coupling", "stochastic.coupling_change"})
+    if (deck.isGiven(key)) throw deck.error(key, "with gas.exchange: one_way nothing is coupled; leave this out");
   along.ensemble = readEnsemble(deck, readSootModelOptions(deck, *along.mechanism));
   try {
     static_cast<void>(indicesOfSootSpecies(*along.mechanism, along.ensemble->soot.soot));
@@ -106,16 +134,75 @@ void readParticles(const Deck& deck, AlongCase& along) {
   }
 }
 
+std::vector<std::string> precursorsOf(const Deck& deck, const Mechanism& mechanism) {
+  if (deck.has("particles")) return readTreeOptions(deck, mechanism).material.precursors();
+  return sootPrecursors(readSootModelOptions(deck, mechanism));
+}
+
+// Trees, or ensembles that deplete the gas.
+ReactorCase readCoupled(const Deck& deck, const AlongCase& along) {
+  const Mechanism& mechanism = *along.mechanism;
+  ReactorCase coupled;
+  coupled.title = along.title;
+  coupled.mechanism = along.mechanism;
+  coupled.type = ReactorType::GivenGas;
+  coupled.integrator = {relativeTolerance, absoluteTolerance, 0.0, mostSteps};
+  const auto history = std::make_shared<GasHistory>(readHistory(deck, mechanism));
+  coupled.history = history;
+  coupled.rows = readRows(deck, history->time.front(), history->time.back());
+  coupled.end = coupled.rows.back();
+  if (isTwoWay(deck)) {
+    if (deck.has("gas.depleted")) {
+      coupled.depleted = readSpeciesList(deck, "gas.depleted", mechanism);
+    } else {
+      for (const std::string& name : precursorsOf(deck, mechanism))
+        coupled.depleted.push_back(deck.at("gas.exchange", [&] { return mechanism.speciesIndex(name); }));
+    }
+  }
+  coupled.output.species = coupled.depleted;
+  if (deck.has("particles"))
+    reactorcase::readTreePopulations(deck, coupled);
+  else
+    reactorcase::readEnsemblePopulations(deck, coupled);
+  const auto& seen = coupled.ensemble->species;
+  for (const std::size_t k : coupled.depleted)
+    if (std::ranges::find(seen, k) == seen.end())
+      throw deck.error("gas.depleted",
+                       fmt::format("particles exchange nothing of {}; leave it out", mechanism.speciesName(k)));
+  return coupled;
+}
+
+// Of the model's species, by their number in it.
+std::vector<std::size_t> readDepleted(const Deck& deck, const ParticleModel& model) {
+  if (!isTwoWay(deck)) return {};
+  if (!deck.has("gas.depleted")) return model.precursors();
+  std::vector<std::size_t> depleted;
+  const auto& seen = model.gasSpecies();
+  for (const std::string& name : deck.strings("gas.depleted")) {
+    const auto at = std::ranges::find(seen, name);
+    if (at == seen.end())
+      throw deck.error("gas.depleted", fmt::format("particles exchange nothing of {}; leave it out", name));
+    depleted.push_back(static_cast<std::size_t>(at - seen.begin()));
+  }
+  return depleted;
+}
+
 }  // namespace
 
 AlongCase readAlongCase(const Deck& deck) {
   AlongCase along;
   along.title = deck.string("title");
   along.mechanism = readMechanism(deck);
+  checkGas(deck);
+  if (deck.has("particles") || (deck.has("stochastic") && isTwoWay(deck))) {
+    along.coupled = readCoupled(deck, along);
+    return along;
+  }
   readParticles(deck, along);
+  if (along.model) along.depleted = readDepleted(deck, *along.model);
   along.path = readPath(deck, *along.mechanism,
                         along.ensemble ? sootSpecies(along.ensemble->soot.soot) : along.model->gasSpecies());
-  const std::vector<double> rows = readRows(deck, along.path);
+  const std::vector<double> rows = readRows(deck, along.path.points.front().time, along.path.points.back().time);
   along.recorded = putPointsAt(along.path, rows);
   along.path.points.resize(along.recorded.back() + 1);
   along.path.divergence.resize(along.recorded.back());

@@ -1,4 +1,6 @@
-// What a deck with `problem: particles_along` asks for: a path through a given gas, and the particles on it.
+// What a deck with `problem: particles_along` asks for: a path through a given gas, and the particles on it. Ensembles
+// that leave the gas as it is and models are marched along the path; trees, and ensembles that deplete it, are coupled
+// with it as with the gas of a reactor.
 #pragma once
 
 #include <memory>
@@ -7,6 +9,7 @@
 #include <vector>
 
 #include "app/deck/ensemble_deck.hpp"
+#include "app/reactor/reactor_case.hpp"
 #include "chemistry/mechanism/mechanism.hpp"
 #include "core/rooms.hpp"
 #include "io/deck.hpp"
@@ -18,10 +21,13 @@ namespace lampblack::app {
 struct AlongCase {
   std::string title;
   std::shared_ptr<const Mechanism> mechanism;
+  std::optional<ReactorCase> coupled;  // then nothing of the following
+
   ParticlePath path;
   std::vector<std::size_t> recorded;  // points of the path with a row
   std::optional<EnsembleRequest> ensemble;
   std::unique_ptr<ParticleModel> model;  // where there is no ensemble
+  std::vector<std::size_t> depleted;     // of the model's species
   double sootAtLimit = 1;                // as ReactorCase
 };
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "app/run/repeat_columns.hpp"
+#include "core/constants.hpp"
 
 namespace lampblack::app {
 namespace {
@@ -73,12 +74,19 @@ AlongTable historyOf(const AlongCase& along, const ModelAlong& model) {
   for (const auto& p : particleProcessNames) table.columns.push_back({material + p.name, p.unit, p.description});
   for (const ParticleScalar& s : along.model->scalars())
     table.columns.push_back({material + s.name, s.unit, s.description});
+  for (const std::size_t k : along.depleted) {
+    const std::string& name = along.model->gasSpecies()[k];
+    table.columns.push_back({"X_" + name, "1", "mole fraction of " + name});
+  }
   for (std::size_t row = 0; row < model.records.size(); ++row) {
     const ModelRecord& record = model.records[row];
     appendGas(along, row, table.rows);
     for (const auto& p : particlePropertyNames) table.rows.push_back(record.properties.*p.value);
     for (const auto& p : particleProcessNames) table.rows.push_back(record.processes.*p.value);
     table.rows.insert(table.rows.end(), record.densities.begin(), record.densities.end());
+    const CarrierGas& gas = along.path.points[along.recorded[row]].gas;
+    for (const double c : record.depleted)
+      table.rows.push_back(c * constants::gasConstant * gas.temperature / gas.pressure);
   }
   return table;
 }

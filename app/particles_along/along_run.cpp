@@ -7,6 +7,7 @@
 #include "app/deck/soot_deck.hpp"
 #include "app/particles_along/along_case.hpp"
 #include "app/particles_along/along_output.hpp"
+#include "app/reactor/reactor_driver.hpp"
 #include "core/errors.hpp"
 #include "core/stop_request.hpp"
 #include "io/history.hpp"
@@ -19,10 +20,17 @@ class PreparedAlong : public PreparedRun {
  public:
   PreparedAlong(MPI_Comm comm, const Deck& deck) : comm_(comm), deck_(deck) {
     MPI_Comm_rank(comm, &rank_);
-    collectively(comm, [&] { case_ = readAlongCase(deck); });
+    collectively(comm, [&] {
+      case_ = readAlongCase(deck);
+      if (case_.coupled) driver_ = ensembleReactorDriver(*case_.coupled);
+    });
   }
 
   [[nodiscard]] std::string summary() const override {
+    if (case_.coupled)
+      return fmt::format("{} repeats of {}, {:g} to {:g} s, {} rows", case_.coupled->ensemble->repeats,
+                         case_.coupled->ensemble->material, case_.coupled->rows.front(), case_.coupled->end,
+                         case_.coupled->rows.size());
     const auto& points = case_.path.points;
     const std::string what =
         case_.ensemble
@@ -33,6 +41,12 @@ class PreparedAlong : public PreparedRun {
   }
 
   void run(const RunOptions& options) override {
+    if (case_.coupled) {
+      recordedRun(comm_, deck_, options, 0, [&](const RunFolder& folder, const RunInfo& info, RunRecord& record) {
+        runDriver(comm_, *driver_, folder, info, record);
+      });
+      return;
+    }
     recordedRun(comm_, deck_, options, case_.ensemble ? case_.ensemble->soot.seed : 0,
                 [&](const RunFolder& folder, const RunInfo& info, RunRecord& record) {
                   const double begin = MPI_Wtime();
@@ -91,7 +105,7 @@ class PreparedAlong : public PreparedRun {
     ModelAlong model;
     AlongTable history;
     collectively(comm_, [&] {
-      if (rank_ == 0) model = marchModel(*case_.model, case_.path, case_.recorded);
+      if (rank_ == 0) model = marchModel(*case_.model, case_.path, case_.recorded, case_.depleted);
       if (rank_ == 0) requireRoom(model);
     });
     history = historyOf(case_, model);
@@ -137,6 +151,7 @@ class PreparedAlong : public PreparedRun {
   const Deck& deck_;
   int rank_ = 0;
   AlongCase case_;
+  std::unique_ptr<ReactorDriver> driver_;  // where particles and gas are coupled
 };
 
 }  // namespace

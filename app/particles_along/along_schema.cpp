@@ -1,4 +1,6 @@
+#include "app/deck/ensemble_deck.hpp"
 #include "app/deck/soot_deck.hpp"
+#include "app/deck/trees_deck.hpp"
 #include "app/particles_along/along_case.hpp"
 #include "app/tools/gas_input.hpp"
 
@@ -31,18 +33,28 @@ DeckSchema alongSchema() {
                .above(0))
       .add(quantityKey("gas.end", units::time, "Time at which the run ends; absent: the last of the gas.").optional())
       .add(choiceKey("gas.exchange", {"one_way", "two_way"},
-                     "one_way: the gas is as given, whatever particles take from it; two_way is not there yet.")
+                     "one_way: the gas is as given, whatever particles take from it; two_way: the species of "
+                     "gas.depleted are what particles leave of them, temperature and pressure as given.")
                .byDefault("one_way"))
-      .add(choiceKey(
-               "gas.viscosity", {"transport", "air"},
-               "Viscosity of the gas. transport: from the mechanism's transport data; air: Sutherland's law of air.")
-               .byDefault("transport"));
+      .add(stringKey("gas.depleted",
+                     "Species that particles deplete: the gas makes as much of them as given, or loses as large a "
+                     "part. Absent: the precursors, such as the PAH of soot.")
+               .list()
+               .optional()
+               .onlyWith("gas.exchange", {"two_way"}))
+      .add(choiceKey("gas.viscosity", {"transport", "air"},
+                     "Viscosity of the gas. transport: from the mechanism's transport data; air: Sutherland's law of "
+                     "air. Absent: transport, for trees of other materials than soot air.")
+               .optional());
   addSootModelKeys(schema);
   addEnsembleKeys(
       schema,
       "Ensembles of soot particles in place of soot.model, by repeats of independent random numbers; needs the "
       "section soot, whose PAH, surface and switches are theirs.");
   addRepeatKeys(schema);
+  addCouplingKeys(schema, "stochastic");
+  addTreeAlongKeys(schema);
+  addCouplingKeys(schema, "particles");
   schema.section("output", Presence::defaulted, "Rows of the history.")
       .add(quantityKey("output.interval", units::time, "Time between rows; absent: a hundredth of the run.")
                .optional()

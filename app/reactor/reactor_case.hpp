@@ -15,13 +15,15 @@
 #include "chemistry/reactor/reactor_network.hpp"
 #include "chemistry/reactor/stiff_integrator.hpp"
 #include "core/rooms.hpp"
+#include "coupling/given_gas.hpp"
 #include "coupling/reactor_particles.hpp"
 #include "coupling/reactor_population.hpp"
 #include "io/deck.hpp"
 
 namespace lampblack::app {
 
-enum class ReactorType { ConstantPressure, ConstantVolume, Stirred, PlugFlow, Network };
+// The last is no reactor: a gas whose history is given (problem: particles_along).
+enum class ReactorType { ConstantPressure, ConstantVolume, Stirred, PlugFlow, Network, GivenGas };
 
 struct ReactorOutput {
   std::optional<double> interval;    // s (plug flow: m) between rows; every step otherwise
@@ -66,6 +68,11 @@ struct ReactorCase {
   double end = 0.0;  // s; stirred: of a transient, 0 where the steady state is wanted
   std::vector<IgnitionCriterion> ignition;
   std::vector<std::size_t> sensitivities;  // reactions
+
+  // A given gas: what particles deplete of it, and the times of rows.
+  std::shared_ptr<const GasHistory> history;
+  std::vector<std::size_t> depleted;
+  std::vector<double> rows;  // s, rising
 
   // Plug flow. With a stirred reactor before the duct, `inlet` is what flows into that one; populations have
   // `upstreamTime` (s) in it.

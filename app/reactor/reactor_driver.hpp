@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "app/reactor/reactor_case.hpp"
+#include "app/run/recorded_run.hpp"
 #include "core/errors.hpp"
 #include "core/rooms.hpp"
 #include "io/json.hpp"
@@ -49,6 +50,9 @@ class ReactorOfOneRank : public ReactorDriver {
  protected:
   virtual void compute(const RunFolder& folder) = 0;
 };
+
+// Collective, of a recorded run: computes, writes the results and says what came out.
+void runDriver(MPI_Comm comm, ReactorDriver& driver, const RunFolder& folder, const RunInfo& info, RunRecord& record);
 
 // The drivers refer to the case, which has to live as long.
 std::unique_ptr<ReactorDriver> closedReactorDriver(const ReactorCase& reactorCase);

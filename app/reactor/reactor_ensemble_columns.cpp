@@ -19,6 +19,14 @@ std::string reactorPrefix(const ReactorCase& reactorCase, std::size_t reactor) {
   return reactorCase.type == ReactorType::Network ? reactorCase.network.reactors[reactor].name + "_" : "";
 }
 
+double beginOf(const ReactorCase& reactorCase) {
+  return reactorCase.type == ReactorType::GivenGas ? reactorCase.rows.front() : 0;
+}
+
+bool keepsEnergy(const ReactorCase& reactorCase) {
+  return !isOpen(reactorCase) && !reactorCase.profile && reactorCase.type != ReactorType::GivenGas;
+}
+
 double endOf(const ReactorCase& reactorCase) {
   return reactorCase.type == ReactorType::PlugFlow ? reactorCase.length : reactorCase.end;
 }
@@ -44,7 +52,7 @@ std::vector<Quantity> ensembleColumns(const ReactorCase& reactorCase, bool hasEl
                          isOpen(reactorCase) ? "largest relative difference of an element in gas and particles from "
                                                "what flows in"
                                              : "largest relative change of an element in gas and particles"});
-  if (!isOpen(reactorCase) && !reactorCase.profile)
+  if (keepsEnergy(reactorCase))
     ofReactor.push_back({"energy_imbalance", "1", "change of the energy of gas and particles over cp T"});
   for (auto& column : speciesColumns(*reactorCase.mechanism, reactorCase.output))
     ofReactor.push_back(std::move(column));

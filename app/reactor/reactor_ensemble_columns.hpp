@@ -23,7 +23,10 @@ inline constexpr std::size_t shareBins = 50;
 // Of the names of a reactor's columns: a network has several of each.
 [[nodiscard]] std::string reactorPrefix(const ReactorCase& reactorCase, std::size_t reactor);
 // s, of a plug flow m.
+[[nodiscard]] double beginOf(const ReactorCase& reactorCase);
 [[nodiscard]] double endOf(const ReactorCase& reactorCase);
+// Whether gas and particles together keep their energy.
+[[nodiscard]] bool keepsEnergy(const ReactorCase& reactorCase);
 
 // Of the place and what goes with it, which rows begin with; of the whole row, `hasElements` with the balance of
 // elements.

@@ -21,6 +21,8 @@ EnsembleGas::EnsembleGas(const ReactorCase& reactorCase, const std::optional<Gas
     carryByPlugFlow(inlet ? *inlet : case_.inlet);
   else if (case_.type == ReactorType::Stirred || case_.type == ReactorType::Network)
     carryByNetwork();
+  else if (case_.type == ReactorType::GivenGas)
+    carryByGivenGas();
   else
     carryByClosedReactor();
   if (!case_.profile) return;
@@ -32,8 +34,8 @@ void EnsembleGas::carryByPlugFlow(const GasState& inlet) {
   plugFlow_.emplace(*case_.mechanism, inlet, case_.massFlux, case_.length, case_.profile, particles_.get());
   start_ = plugFlow_->initialState();
   gas_.system = &*plugFlow_;
-  gas_.pressure = [p = inlet.pressure](const double*) { return p; };
-  gas_.density = [this](const double* y) { return plugFlow_->density(y); };
+  gas_.pressure = [p = inlet.pressure](double, const double*) { return p; };
+  gas_.density = [this](double, const double* y) { return plugFlow_->density(y); };
   gas_.timePerUnit = [this](const double* y) { return 1 / plugFlow_->velocity(y); };
 }
 
@@ -41,12 +43,23 @@ void EnsembleGas::carryByNetwork() {
   network_.emplace(*case_.mechanism, case_.network, particles_.get());
   start_ = startUnknowns(*case_.mechanism, case_.network, case_.start, particles_->size());
   gas_.system = &*network_;
-  gas_.pressure = [p = case_.network.pressure](const double*) { return p; };
-  gas_.density = [this](const double* block) { return network_->density(block); };
+  gas_.pressure = [p = case_.network.pressure](double, const double*) { return p; };
+  gas_.density = [this](double, const double* block) { return network_->density(block); };
   gas_.kept.clear();
   using Kept = SplitReactor::Gas::Kept;
   for (const StirredReactor& reactor : case_.network.reactors)
     gas_.kept.push_back(reactor.temperature ? Kept::temperature : Kept::enthalpy);
+}
+
+void EnsembleGas::carryByGivenGas() {
+  along_.emplace(*case_.mechanism, *case_.history, case_.depleted, particles_.get());
+  start_ = along_->initialState();
+  gas_.system = &*along_;
+  gas_.pressure = [this](double t, const double*) { return along_->pressure(t); };
+  gas_.density = [this](double t, const double* y) { return along_->density(t, y); };
+  gas_.kept = {SplitReactor::Gas::Kept::temperature};
+  gas_.nextStop = [this](double t) { return along_->nextRow(t); };
+  gas_.held = along_->held();
 }
 
 void EnsembleGas::carryByClosedReactor() {
@@ -56,8 +69,8 @@ void EnsembleGas::carryByClosedReactor() {
                   particles_.get());
   start_ = closed_->initialState();
   gas_.system = &*closed_;
-  gas_.pressure = [this](const double* y) { return closed_->pressure(y); };
-  gas_.density = [this](const double* y) { return closed_->density(y); };
+  gas_.pressure = [this](double, const double* y) { return closed_->pressure(y); };
+  gas_.density = [this](double, const double* y) { return closed_->density(y); };
   if (!pressure) gas_.kept = {SplitReactor::Gas::Kept::internalEnergy};
 }
 

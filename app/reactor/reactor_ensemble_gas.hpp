@@ -1,5 +1,5 @@
 // The equations of the gas of a case whose particles are ensembles, for one repeat: a closed reactor, a plug flow, or
-// stirred reactors, one or a network.
+// stirred reactors, one or a network; or a gas whose history is given.
 #pragma once
 
 #include <memory>
@@ -10,6 +10,7 @@
 #include "app/reactor/reactor_case.hpp"
 #include "chemistry/reactor/plug_flow.hpp"
 #include "core/rooms.hpp"
+#include "coupling/gas_along.hpp"
 #include "coupling/split_reactor.hpp"
 
 namespace lampblack::app {
@@ -33,12 +34,14 @@ class EnsembleGas {
   void carryByPlugFlow(const GasState& inlet);
   void carryByNetwork();
   void carryByClosedReactor();
+  void carryByGivenGas();
 
   const ReactorCase& case_;
   std::unique_ptr<ParticlesAtRest> particles_;
   std::optional<ClosedReactor> closed_;
   std::optional<PlugFlow> plugFlow_;
   std::optional<NetworkSystem> network_;
+  std::optional<GasAlong> along_;
   SplitReactor::Gas gas_;
   std::vector<double> start_;
 };

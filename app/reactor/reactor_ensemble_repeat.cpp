@@ -62,6 +62,7 @@ std::vector<SplitParticles*> pointersTo(const std::vector<std::unique_ptr<Reacto
 }  // namespace
 
 bool hasElementBalance(const ReactorCase& reactorCase) {
+  if (reactorCase.type == ReactorType::GivenGas) return false;
   if (!isOpen(reactorCase)) return true;
   ParticlesAtRest particles(numReactors(reactorCase), reactorCase.ensemble->elements);
   const ReactorBalance balance(*reactorCase.mechanism, particles, particles.unitElements(*reactorCase.mechanism));
@@ -77,7 +78,7 @@ EnsembleRepeat::EnsembleRepeat(const ReactorCase& reactorCase, std::uint64_t rep
       thermo_(*reactorCase.mechanism),
       hasElements_(hasElementBalance(reactorCase)) {
   reactor_.emplace(*case_.mechanism, gas_.gas(), pointersTo(populations_), splitOptions(case_));
-  reactor_->start(0, gas_.start());
+  reactor_->start(beginOf(case_), gas_.start());
   if (isOpen(case_)) elements_ = elementsOfInflow(case_, balance_);
 }
 
@@ -140,8 +141,8 @@ void EnsembleRepeat::appendReactor(std::size_t reactor, std::vector<double>& row
   const SplitReactor::Gas& gas = gas_.gas();
   const std::size_t n = case_.mechanism->numSpecies(), elements = case_.ensemble->elements.size();
   const std::span<const double> Y = y.first(n), amounts = y.subspan(n + 1, elements + populations_.size());
-  const double T = y[n], density = gas.density(y.data());
-  row.insert(row.end(), {T, gas.pressure(y.data()), density});
+  const double x = reactor_->position(), T = y[n], density = gas.density(x, y.data());
+  row.insert(row.end(), {T, gas.pressure(x, y.data()), density});
   const std::vector<double> values = populations_[reactor]->values(reactor_->gas(reactor));
   row.insert(row.end(), values.begin(), values.end());
   row.push_back(density *
@@ -151,7 +152,7 @@ void EnsembleRepeat::appendReactor(std::size_t reactor, std::vector<double>& row
     if (elements_.empty()) elements_ = now;
     row.push_back(largestImbalance(elements_, now));
   }
-  if (!isOpen(case_) && !case_.profile) {
+  if (keepsEnergy(case_)) {
     const double energy =
         gas.kept[reactor] == Kept::enthalpy ? balance_.enthalpy(T, Y, amounts) : balance_.internalEnergy(T, Y, amounts);
     if (!energy_) energy_ = energy;

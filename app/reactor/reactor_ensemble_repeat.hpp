@@ -19,7 +19,7 @@
 namespace lampblack::app {
 
 // Whether what stands in an open reactor has to have the elements of all that flows in, as these agree and so does the
-// start; closed reactors keep theirs.
+// start; closed reactors keep theirs, and a given gas has no balance.
 [[nodiscard]] bool hasElementBalance(const ReactorCase& reactorCase);
 
 class EnsembleRepeat {

@@ -34,9 +34,13 @@ std::vector<double> rowPlaces(const ReactorCase& reactorCase) {
   const double end = endOf(reactorCase);
   const double interval = reactorCase.output.interval.value_or(end / static_cast<double>(defaultRows));
   std::vector<double> places;
-  for (std::size_t i = 0; static_cast<double>(i) * interval < end * (1 - 1e-9); ++i)
-    places.push_back(static_cast<double>(i) * interval);
-  places.push_back(end);
+  if (reactorCase.type == ReactorType::GivenGas) {
+    places = reactorCase.rows;
+  } else {
+    for (std::size_t i = 0; static_cast<double>(i) * interval < end * (1 - 1e-9); ++i)
+      places.push_back(static_cast<double>(i) * interval);
+    places.push_back(end);
+  }
   // And where tables are wanted.
   for (const double x : reactorCase.ensemble->tablesAt) {
     const auto next = std::lower_bound(places.begin(), places.end(), x * (1 - 1e-9));

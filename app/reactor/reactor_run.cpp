@@ -24,6 +24,8 @@ std::unique_ptr<ReactorDriver> driverOf(const ReactorCase& reactorCase) {
       return reactorCase.end > 0 ? stirredTransientDriver(reactorCase) : steadyNetworkDriver(reactorCase);
     case ReactorType::Network:
       return steadyNetworkDriver(reactorCase);
+    case ReactorType::GivenGas:  // that of particles along a gas, with populations alone
+      break;
   }
   return nullptr;
 }
@@ -45,34 +47,8 @@ class PreparedReactor : public PreparedRun {
   }
 
   void run(const RunOptions& options) override {
-    int rank = 0;
-    MPI_Comm_rank(comm_, &rank);
     recordedRun(comm_, deck_, options, 0, [&](const RunFolder& folder, const RunInfo& info, RunRecord& record) {
-      const double begin = MPI_Wtime();
-      driver_->run(comm_, folder);
-      collectively(comm_, [&] {
-        if (rank != 0) return;
-        JsonWriter json;
-        json.beginObject();
-        driver_->record(json);
-        json.endObject();
-        record.resultsJson = json.text();
-        record.steps = driver_->steps();
-        record.simulatedTime = driver_->simulatedTime();
-        const double seconds = MPI_Wtime() - begin;
-        record.stages = {{"integration", seconds, seconds, seconds}};
-      });
-      ResultsWriter results(comm_, folder.results(), info);
-      driver_->write(results);
-      record.peakMemoryPerRank = peakMemory(comm_);
-      if (const int signal = agreedStopRequest(comm_); signal != 0) {
-        results.closePartial();
-        raiseStopped(comm_, signal,
-                     fmt::format("at t = {:.6g} s: the rows until then are in {} and {}", driver_->simulatedTime(),
-                                 folder.history().string(), folder.partialResults().string()));
-      }
-      results.close();
-      if (rank == 0) driver_->print();
+      runDriver(comm_, *driver_, folder, info, record);
     });
   }
 
@@ -84,6 +60,36 @@ class PreparedReactor : public PreparedRun {
 };
 
 }  // namespace
+
+void runDriver(MPI_Comm comm, ReactorDriver& driver, const RunFolder& folder, const RunInfo& info, RunRecord& record) {
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  const double begin = MPI_Wtime();
+  driver.run(comm, folder);
+  collectively(comm, [&] {
+    if (rank != 0) return;
+    JsonWriter json;
+    json.beginObject();
+    driver.record(json);
+    json.endObject();
+    record.resultsJson = json.text();
+    record.steps = driver.steps();
+    record.simulatedTime = driver.simulatedTime();
+    const double seconds = MPI_Wtime() - begin;
+    record.stages = {{"integration", seconds, seconds, seconds}};
+  });
+  ResultsWriter results(comm, folder.results(), info);
+  driver.write(results);
+  record.peakMemoryPerRank = peakMemory(comm);
+  if (const int signal = agreedStopRequest(comm); signal != 0) {
+    results.closePartial();
+    raiseStopped(comm, signal,
+                 fmt::format("at t = {:.6g} s: the rows until then are in {} and {}", driver.simulatedTime(),
+                             folder.history().string(), folder.partialResults().string()));
+  }
+  results.close();
+  if (rank == 0) driver.print();
+}
 
 std::unique_ptr<PreparedRun> prepareReactor(MPI_Comm comm, const Deck& deck) {
   return std::make_unique<PreparedReactor>(comm, deck);

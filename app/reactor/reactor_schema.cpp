@@ -172,25 +172,6 @@ void addIgnition(DeckSchema& schema) {
                .byDefault("[all]"));
 }
 
-// How stochastic particles and their gas go on together.
-void addCouplingKeys(DeckSchema& schema, const std::string& section) {
-  schema
-      .add(choiceKey(
-               section + ".coupling", {"splitting", "predictor_corrector"},
-               "How gas and particles go on together, both of second order. splitting: half a step of the gas, the "
-               "particles, half a step of the gas (Strang 1968); predictor_corrector: the gas with the exchange that "
-               "is expected, the particles in its mean, the difference, for species that live shorter than a step; "
-               "not in networks.")
-               .byDefault("splitting"))
-      .add(numberKey(
-               section + ".coupling_change",
-               "Steps of the coupling are so long that a concentration which the particles see changes by about this "
-               "part of itself, or the temperature by this part of 200 K.")
-               .byDefault("0.05")
-               .above(0)
-               .atMost(1));
-}
-
 void addEnsembles(DeckSchema& schema) {
   addEnsembleKeys(
       schema,

@@ -38,7 +38,7 @@ void ReactorSystem::finishExcess(double T, double* temperatureColumn) {
 bool ReactorSystem::finishRates(const double* y, double* f) {
   const std::size_t n = weights_.size();
   const double volume = 1.0 / density_;
-  for (std::size_t k = 0; k < n; ++k) f[k] = wdot_[k] * weights_[k] * volume + source_[k] - conditions_.removal * y[k];
+  for (std::size_t k = 0; k < n; ++k) f[k] = wdot_[k] * weights_[k] * volume + source_[k] - (conditions_.removal + loss_[k]) * y[k];
   const bool given = conditions_.energy == Energy::GivenTemperature;
   if (carried_ != nullptr && !addCarriedRates(y, f)) return false;
   if (!given) speciesEnergies(y[n]);
@@ -65,7 +65,13 @@ bool ReactorSystem::jacobian(const double* y, double* f, double* J, std::size_t 
   if (!prepare(y)) return false;
   const std::size_t n = weights_.size();
   try {
-    kinetics_.netProductionRatesAndJacobian(y[n], c_, wdot_, {J, ld * n}, byT_, ld);
+    if (conditions_.reacts) {
+      kinetics_.netProductionRatesAndJacobian(y[n], c_, wdot_, {J, ld * n}, byT_, ld);
+    } else {
+      std::fill_n(J, ld * n, 0.0);
+      std::fill(wdot_.begin(), wdot_.end(), 0.0);
+      std::fill(byT_.begin(), byT_.end(), 0.0);
+    }
   } catch (const NumericsError& error) {
     return refuse(error.what());
   }
@@ -91,9 +97,9 @@ bool ReactorSystem::jacobian(const double* y, double* f, double* J, std::size_t 
   for (std::size_t s = 0; s < count; ++s) {
     double* column = J + (n + 1 + s) * ld;
     column[n] = -inverseCapacity_ * (heating(column) + carriedCapacity_[s] * f[n]);
-    column[n + 1 + s] -= conditions_.removal;
+    column[n + 1 + s] -= conditions_.removal + conditions_.carriedRemoval;
   }
-  for (std::size_t k = 0; k < n; ++k) J[k + k * ld] -= conditions_.removal;
+  for (std::size_t k = 0; k < n; ++k) J[k + k * ld] -= conditions_.removal + loss_[k];
   return accept(f);
 }
 
@@ -117,7 +123,11 @@ bool ReactorSystem::sparseJacobian(const double* y, double* f, SparseJacobian& J
   J.temperatureColumn.resize(n + 1);
   J.product.resize(n + 1);
   try {
-    kinetics_.netProductionRatesAndSparseJacobian(y[n], c_, wdot_, J.species, common_, byT_);
+    if (conditions_.reacts) {
+      kinetics_.netProductionRatesAndSparseJacobian(y[n], c_, wdot_, J.species, common_, byT_);
+    } else {
+      for (auto* zero : {&J.species, &wdot_, &common_, &byT_}) std::fill(zero->begin(), zero->end(), 0.0);
+    }
   } catch (const NumericsError& error) {
     return refuse(error.what());
   }
@@ -154,7 +164,7 @@ void ReactorSystem::sparseColumns(SparseJacobian& J) const {
       const auto k = static_cast<std::size_t>(entries.row[e]);
       const double value = J.species[e] * inverse * W[k];
       sum += energy[k] * value;
-      J.species[e] = k == j ? value - conditions_.removal : value;
+      J.species[e] = k == j ? value - conditions_.removal - loss_[j] : value;
     }
     J.temperatureRow[j] = sum;
   }

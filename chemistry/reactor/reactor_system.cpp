@@ -22,7 +22,7 @@ ReactorSystem::ReactorSystem(const Mechanism& mechanism, CarriedPhase* carried, 
     inverseWeights_.push_back(1.0 / W);
     gasConstants_.push_back(constants::gasConstant / W);
   }
-  for (auto* work : {&source_, &c_, &wdot_, &energy_, &capacity_, &capacitySlope_, &excess_, &byT_, &common_})
+  for (auto* work : {&source_, &loss_, &c_, &wdot_, &energy_, &capacity_, &capacitySlope_, &excess_, &byT_, &common_})
     work->assign(weights_.size(), 0.0);
   if (carried_ == nullptr) return;
   for (auto* work : {&carriedSource_, &carriedDensity_, &carriedRates_, &carriedEnergy_, &carriedCapacity_})
@@ -43,9 +43,11 @@ void ReactorSystem::setConditions(const Conditions& conditions) {
     std::fill(source_.begin(), source_.end(), 0.0);
   else
     std::copy(conditions.source.begin(), conditions.source.end(), source_.begin());
+  std::fill(loss_.begin(), loss_.end(), 0.0);
+  std::copy(conditions.loss.begin(), conditions.loss.end(), loss_.begin());
   std::fill(carriedSource_.begin(), carriedSource_.end(), 0.0);
   std::copy(conditions.carriedSource.begin(), conditions.carriedSource.end(), carriedSource_.begin());
-  conditions_.source = conditions_.carriedSource = {};
+  conditions_.source = conditions_.carriedSource = conditions_.loss = {};
 }
 
 void ReactorSystem::setConditions(double pressure, std::span<const double> source, double heating) {
@@ -105,7 +107,10 @@ bool ReactorSystem::chemicalRates(const double* y, double* f) {
   if (!prepare(y)) return false;
   const std::size_t n = weights_.size();
   try {
-    kinetics_.netProductionRates(y[n], c_, wdot_);
+    if (conditions_.reacts)
+      kinetics_.netProductionRates(y[n], c_, wdot_);
+    else
+      std::fill(wdot_.begin(), wdot_.end(), 0.0);
   } catch (const NumericsError& error) {
     return refuse(error.what());
   }
@@ -139,7 +144,7 @@ bool ReactorSystem::rates(const double* y, double* f) {
   if (!chemicalRates(y, f)) return false;
   const std::size_t n = weights_.size();
   const double removal = conditions_.removal;
-  for (std::size_t k = 0; k < n; ++k) f[k] += source_[k] - removal * y[k];
+  for (std::size_t k = 0; k < n; ++k) f[k] += source_[k] - (removal + loss_[k]) * y[k];
   if (carried_ != nullptr && !addCarriedRates(y, f)) return false;
   if (conditions_.energy == Energy::Conserved) speciesEnergies(y[n]);
   f[n] = temperatureSlope(y, f);

@@ -1,10 +1,10 @@
 // The equations of a well-mixed reactor of constant pressure or constant density in the unknowns (Y_1..Y_N, T), and
 // their analytic Jacobian:
-//   dY_k/dt = W_k wdot_k / rho + S_k - r Y_k
+//   dY_k/dt = W_k wdot_k / rho + S_k - r Y_k - l_k Y_k
 //   constant pressure:  cp dT/dt = q - r h - sum_k h_k dY_k/dt      (dh/dt = q - r h)
 //   constant density:   cv dT/dt = q - r u - sum_k u_k dY_k/dt      (du/dt = q - r u)
 // with a constant source S_k, a removal rate r and a heating q, all zero in a closed adiabatic reactor. Where the
-// temperature is given, dT/dt is a given number instead.
+// temperature is given, dT/dt is a given number instead, and species may be lost at rates l_k of their own.
 //
 // A source alone (r = q = 0) brings the enthalpy (energy) that keeps the mixture's. A perfectly stirred reactor of
 // residence time tau and constant pressure has S = Y_in/tau, r = 1/tau, q = h_in/tau; losses to a wall lower q.
@@ -40,8 +40,12 @@ class ReactorSystem {
     double temperatureRate = 0;                  // dT/dt, K/s, where the temperature is given
     std::span<const double> source;              // S, 1/s, a value a species; copied; may be empty
     std::span<const double> carriedSource = {};  // the same of a carried phase
-    double removal = 0;                          // r, 1/s
-    double heating = 0;                          // q, J/kg/s
+    // l, 1/s, a value a species; copied; may be empty. What is lost takes no energy along: of given temperature only.
+    std::span<const double> loss = {};
+    double carriedRemoval = 0;  // the same of all that is carried, beside r
+    double removal = 0;         // r, 1/s
+    double heating = 0;         // q, J/kg/s
+    bool reacts = true;         // false: without wdot
   };
 
   // J in parts, the sum of a sparse matrix with a full last row and column and of a product of two vectors:
@@ -111,7 +115,7 @@ class ReactorSystem {
   double leastFraction_;
   std::vector<double> weights_, inverseWeights_;
   Conditions conditions_;
-  std::vector<double> source_;
+  std::vector<double> source_, loss_;
   double density_ = 0, pressure_ = 0, meanWeight_ = 0;
   std::vector<double> c_, wdot_;
   double inverseCapacity_ = 0;  // 1/(mixture's heat capacity); 0 where the temperature is given

@@ -41,6 +41,12 @@ std::vector<std::string> sootSpecies(const SootModelOptions& options) {
   return names;
 }
 
+std::vector<std::string> sootPrecursors(const SootModelOptions& options) {
+  std::vector<std::string> names;
+  for (const PahSpecies& pah : options.pah) names.push_back(pah.name);
+  return names;
+}
+
 bool hasPrecursors(const ParticleGas& gas) {
   double pah = 0;
   for (std::size_t i = SootSpecies::fixed; i < gas.concentrations.size(); ++i)

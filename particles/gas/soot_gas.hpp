@@ -104,6 +104,8 @@ struct SootModelOptions {
 
 // Names of the species, as mechanisms call them.
 [[nodiscard]] std::vector<std::string> sootSpecies(const SootModelOptions& options);
+// Of the PAH alone.
+[[nodiscard]] std::vector<std::string> sootPrecursors(const SootModelOptions& options);
 
 // Whether a gas has PAH to speak of: a mole fraction of 1e-15 or more. `gas`: the species of sootSpecies().
 [[nodiscard]] bool hasPrecursors(const ParticleGas& gas);

@@ -50,6 +50,11 @@ std::vector<std::string> TreeMaterial::species() const {
   return sootSpecies(soot()->soot);
 }
 
+std::vector<std::string> TreeMaterial::precursors() const {
+  if (const SiteReactions* r = sites()) return {r->precursor};
+  return sootPrecursors(soot()->soot);
+}
+
 bool TreeMaterial::hasPrecursors(const ParticleGas& gas) const {
   if (soot() != nullptr) return particles::hasPrecursors(gas);
   return gas.concentrations[0] > negligiblePrecursor * gas.pressure / (constants::gasConstant * gas.temperature);

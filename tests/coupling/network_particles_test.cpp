@@ -26,8 +26,8 @@ using Kept = SplitReactor::Gas::Kept;
 SplitReactor::Gas gasOfNetwork(NetworkSystem& system, std::vector<Kept> kept) {
   SplitReactor::Gas own;
   own.system = &system;
-  own.density = [&system](const double* block) { return system.density(block); };
-  own.pressure = [&system](const double*) { return system.network().pressure; };
+  own.density = [&system](double, const double* block) { return system.density(block); };
+  own.pressure = [&system](double, const double*) { return system.network().pressure; };
   own.timePerUnit = [](const double*) { return 1.0; };
   own.kept = std::move(kept);
   return own;

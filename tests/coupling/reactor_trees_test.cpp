@@ -47,8 +47,8 @@ TEST(ReactorTrees, KeepsSiliconOxygenAndHydrogenToRoundOff) {
     ClosedReactor reactor(mechanism, gas, held, TemperatureProfile(1173), &atRest);
     SplitReactor::Gas own;
     own.system = &reactor;
-    own.density = [&](const double* y) { return reactor.density(y); };
-    own.pressure = [&](const double* y) { return reactor.pressure(y); };
+    own.density = [&](double, const double* y) { return reactor.density(y); };
+    own.pressure = [&](double, const double* y) { return reactor.pressure(y); };
     own.timePerUnit = [](const double*) { return 1.0; };
     own.kept = {SplitReactor::Gas::Kept::temperature};
     SplitReactor::Options options;
@@ -85,8 +85,8 @@ TEST(ReactorTrees, KeepTheEnergyOfGasAndSilica) {
   ClosedReactor reactor(mechanism, gas, ReactorSystem::Held::Pressure, std::nullopt, &atRest);
   SplitReactor::Gas own;
   own.system = &reactor;
-  own.density = [&](const double* y) { return reactor.density(y); };
-  own.pressure = [&](const double* y) { return reactor.pressure(y); };
+  own.density = [&](double, const double* y) { return reactor.density(y); };
+  own.pressure = [&](double, const double* y) { return reactor.pressure(y); };
   own.timePerUnit = [](const double*) { return 1.0; };
   own.kept = {SplitReactor::Gas::Kept::enthalpy};
   SplitReactor::Options options;
@@ -134,8 +134,8 @@ TEST(ReactorTrees, SmallSamplesHaveWhatTheGasLost) {
     ClosedReactor reactor(mechanism, gas, ReactorSystem::Held::Pressure, TemperatureProfile(1173), &inGas);
     SplitReactor::Gas split;
     split.system = &reactor;
-    split.density = [&](const double* y) { return reactor.density(y); };
-    split.pressure = [&](const double* y) { return reactor.pressure(y); };
+    split.density = [&](double, const double* y) { return reactor.density(y); };
+    split.pressure = [&](double, const double* y) { return reactor.pressure(y); };
     split.timePerUnit = [](const double*) { return 1.0; };
     split.expected = &inGas;
     split.kept = {SplitReactor::Gas::Kept::temperature};
@@ -246,8 +246,8 @@ class SootTreesInReactors : public testing::Test {
 TEST_F(SootTreesInReactors, ClosedOnesKeepElementsAndEnergy) {
   ClosedReactor reactor(mechanism, gas, ReactorSystem::Held::Density, std::nullopt, &atRest);
   SplitReactor::Gas own;
-  own.density = [&](const double* y) { return reactor.density(y); };
-  own.pressure = [&](const double* y) { return reactor.pressure(y); };
+  own.density = [&](double, const double* y) { return reactor.density(y); };
+  own.pressure = [&](double, const double* y) { return reactor.pressure(y); };
   own.timePerUnit = [](const double*) { return 1.0; };
   own.kept = {Kept::internalEnergy};
   expectKept(reactor, own, reactor.initialState(), 1e-3);
@@ -256,8 +256,8 @@ TEST_F(SootTreesInReactors, ClosedOnesKeepElementsAndEnergy) {
 TEST_F(SootTreesInReactors, PlugFlowKeepsElementsAndEnergy) {
   PlugFlow flow(mechanism, gas, 3.0, 2e-2, std::nullopt, &atRest);
   SplitReactor::Gas own;
-  own.density = [&](const double* y) { return flow.density(y); };
-  own.pressure = [&](const double*) { return gas.pressure; };
+  own.density = [&](double, const double* y) { return flow.density(y); };
+  own.pressure = [&](double, const double*) { return gas.pressure; };
   own.timePerUnit = [&](const double* y) { return 1 / flow.velocity(y); };
   expectKept(flow, own, flow.initialState(), 2e-2);
 }
@@ -268,8 +268,8 @@ TEST_F(SootTreesInReactors, AStirredOneHoldsWhatFlowsIn) {
   const ReactorNetwork network{gas.pressure, {vessel}, {{0, 2e-2, gas.temperature, gas.Y}}, {}};
   NetworkSystem system(mechanism, network, &atRest);
   SplitReactor::Gas own;
-  own.density = [&](const double* y) { return system.density(y); };
-  own.pressure = [&](const double*) { return gas.pressure; };
+  own.density = [&](double, const double* y) { return system.density(y); };
+  own.pressure = [&](double, const double*) { return gas.pressure; };
   own.timePerUnit = [](const double*) { return 1.0; };
   expectKept(system, own, startUnknowns(mechanism, network, {false, gas}, system.numCarried()), 3e-3);
 }
@@ -284,8 +284,8 @@ TEST_F(SootTreesInReactors, ParticlesLeaveWithTheGas) {
   NetworkSystem system(mechanism, network, &atRest);
   SplitReactor::Gas own;
   own.system = &system;
-  own.density = [&](const double* y) { return system.density(y); };
-  own.pressure = [&](const double*) { return nitrogen.pressure; };
+  own.density = [&](double, const double* y) { return system.density(y); };
+  own.pressure = [&](double, const double*) { return nitrogen.pressure; };
   own.timePerUnit = [](const double*) { return 1.0; };
   own.kept = {Kept::temperature};
   const auto start = startUnknowns(mechanism, network, {false, nitrogen}, system.numCarried());
@@ -298,7 +298,7 @@ TEST_F(SootTreesInReactors, ParticlesLeaveWithTheGas) {
   ReactorTrees carried(mechanism, sootOptions(false), GasViscosity::transport, ReactorTrees::Start{{1e5, 1e4}, 1e16});
   PlugFlow flow(mechanism, nitrogen, 3.0, 1.0, TemperatureProfile({0, 1}, {1000, 1600}), &atRest);
   own.system = &flow;
-  own.density = [&](const double* y) { return flow.density(y); };
+  own.density = [&](double, const double* y) { return flow.density(y); };
   own.timePerUnit = [&](const double* y) { return 1 / flow.velocity(y); };
   SplitReactor along(mechanism, own, carried, splitting());
   along.start(0, flow.initialState());
@@ -325,8 +325,8 @@ TEST_F(SootTreesInReactors, ParticlesFlowFromReactorToReactor) {
   NetworkSystem system(mechanism, network, &both);
   SplitReactor::Gas own;
   own.system = &system;
-  own.density = [&](const double* y) { return system.density(y); };
-  own.pressure = [&](const double*) { return nitrogen.pressure; };
+  own.density = [&](double, const double* y) { return system.density(y); };
+  own.pressure = [&](double, const double*) { return nitrogen.pressure; };
   own.timePerUnit = [](const double*) { return 1.0; };
   own.kept = {Kept::temperature, Kept::temperature};
   SplitReactor::Options options2 = splitting();

@@ -118,8 +118,8 @@ TEST_P(EveryCoupling, ClosedReactorsAreOfSecondOrder) {
     ClosedReactor reactor(ethylene(), gas, held, std::nullopt, &phase());
     SplitReactor::Gas own;
     couple(own);
-    own.density = [&](const double* y) { return reactor.density(y); };
-    own.pressure = [&](const double* y) { return reactor.pressure(y); };
+    own.density = [&](double, const double* y) { return reactor.density(y); };
+    own.pressure = [&](double, const double* y) { return reactor.pressure(y); };
     own.timePerUnit = [](const double*) { return 1.0; };
     own.kept = {held == Held::Pressure ? Kept::enthalpy : Kept::internalEnergy};
     expectSecondOrder(reactor, own, reactor.initialState(), 2e-4, reference(whole, whole.initialState(), 2e-4));
@@ -134,8 +134,8 @@ TEST_P(EveryCoupling, NoStepWithRemovalsIsTakenBack) {
     SplitReactor::Gas own;
     couple(own);
     own.system = &reactor;
-    own.density = [&](const double* y) { return reactor.density(y); };
-    own.pressure = [&](const double* y) { return reactor.pressure(y); };
+    own.density = [&](double, const double* y) { return reactor.density(y); };
+    own.pressure = [&](double, const double* y) { return reactor.pressure(y); };
     own.timePerUnit = [](const double*) { return 1.0; };
     own.kept = {Kept::enthalpy};
     ToySplit particles(toy);
@@ -159,8 +159,8 @@ TEST_P(EveryCoupling, PlugFlowIsOfSecondOrder) {
   PlugFlow flow(ethylene(), gas, 3.0, 4e-3, std::nullopt, &phase());
   SplitReactor::Gas own;
   couple(own);
-  own.density = [&](const double* y) { return flow.density(y); };
-  own.pressure = [&](const double*) { return gas.pressure; };
+  own.density = [&](double, const double* y) { return flow.density(y); };
+  own.pressure = [&](double, const double*) { return gas.pressure; };
   own.timePerUnit = [&](const double* y) { return 1 / flow.velocity(y); };
   expectSecondOrder(flow, own, flow.initialState(), 4e-3, reference(whole, whole.initialState(), 4e-3));
 }
@@ -174,8 +174,8 @@ TEST_P(EveryCoupling, AStirredReactorIsOfSecondOrder) {
   NetworkSystem system(ethylene(), network, &phase());
   SplitReactor::Gas own;
   couple(own);
-  own.density = [&](const double* y) { return system.density(y); };
-  own.pressure = [&](const double*) { return gas.pressure; };
+  own.density = [&](double, const double* y) { return system.density(y); };
+  own.pressure = [&](double, const double*) { return gas.pressure; };
   own.timePerUnit = [](const double*) { return 1.0; };
   const auto start = [&](const NetworkSystem& of) {
     return startUnknowns(ethylene(), network, {false, gas}, of.numCarried());
@@ -228,8 +228,8 @@ TEST_P(EnsembleInAReactor, AgreesWithSections) {
     ClosedReactor reactor(ethylene(), gas, Held::Pressure, std::nullopt, &atRest);
     SplitReactor::Gas own;
     own.system = &reactor;
-    own.density = [&](const double* at) { return reactor.density(at); };
-    own.pressure = [&](const double*) { return gas.pressure; };
+    own.density = [&](double, const double* at) { return reactor.density(at); };
+    own.pressure = [&](double, const double*) { return gas.pressure; };
     own.timePerUnit = [](const double*) { return 1.0; };
     EnsembleOptions stochastic;
     stochastic.method = GetParam();

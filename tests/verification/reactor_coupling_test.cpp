@@ -37,8 +37,8 @@ class CoupledToy {
                           predicted ? static_cast<CarriedPhase*>(&inGas) : &atRest);
     SplitReactor::Gas own;
     own.system = &reactor;
-    own.density = [&](const double* y) { return reactor.density(y); };
-    own.pressure = [&](const double* y) { return reactor.pressure(y); };
+    own.density = [&](double, const double* y) { return reactor.density(y); };
+    own.pressure = [&](double, const double* y) { return reactor.pressure(y); };
     own.timePerUnit = [](const double*) { return 1.0; };
     own.expected = predicted ? &inGas : nullptr;
     SplitReactor::Options options;
