@@ -54,7 +54,8 @@ double GasAlong::mixed(const std::vector<double>& values, const Place& place) co
 
 double GasAlong::fraction(const Place& place, std::size_t k) const {
   const std::size_t n = mechanism_.numSpecies(), at = place.row * n + k;
-  const double own = place.share == 0 ? partial_[at] : (1 - place.share) * partial_[at] + place.share * partial_[at + n];
+  const double own =
+      place.share == 0 ? partial_[at] : (1 - place.share) * partial_[at] + place.share * partial_[at + n];
   return own / mixed(density_, place);
 }
 

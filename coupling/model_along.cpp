@@ -72,7 +72,8 @@ class DepletedSpecies {
     halves_.clear();
     for (std::size_t i = 0; i < species_.size(); ++i) {
       const std::size_t k = species_[i];
-      const double first = given(mixed(from, to, w - 0.5 * share), k), last = given(mixed(from, to, w + 0.5 * share), k);
+      const double first = given(mixed(from, to, w - 0.5 * share), k),
+                   last = given(mixed(from, to, w + 0.5 * share), k);
       halves_.push_back(last < first ? std::sqrt(std::max(last, 0.0) / first) : 1.0);
       concentrations[k] = amounts_[i] * halves_[i] * density;
       supply[k] = std::max(last - first, 0.0) * density / dt;
@@ -93,7 +94,9 @@ class DepletedSpecies {
   }
 
  private:
-  [[nodiscard]] static double given(const GasSample& at, std::size_t k) { return at.concentrations[k] / at.gas.density; }
+  [[nodiscard]] static double given(const GasSample& at, std::size_t k) {
+    return at.concentrations[k] / at.gas.density;
+  }
 
   std::vector<std::size_t> species_;
   std::vector<double> amounts_, halves_;  // mol/kg

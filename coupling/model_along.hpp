@@ -25,12 +25,12 @@ struct ModelAlong {
   long steps = 0;                    // of the model's integrator
 };
 
-// From no particles. `recorded`: points of the path, rising. `depleted`: species of the model, of which the gas makes as
-// much as the path says or loses as large a part (gas_along.hpp); all others are as the path has them. In each constant state of the gas (`division`) particles
-// are diluted for half of it, change, and are diluted for the other half: second order. InputError as marchPath();
-// NumericsError where the model's integrator fails.
+// From no particles. `recorded`: points of the path, rising. `depleted`: species of the model, of which the gas makes
+// as much as the path says or loses as large a part (gas_along.hpp); all others are as the path has them. In each
+// constant state of the gas (`division`) particles are diluted for half of it, change, and are diluted for the other
+// half: second order. InputError as marchPath(); NumericsError where the model's integrator fails.
 [[nodiscard]] ModelAlong marchModel(const ParticleModel& model, const ParticlePath& path,
-                                    std::span<const std::size_t> recorded,
-                                    std::span<const std::size_t> depleted = {}, GasDivision division = {});
+                                    std::span<const std::size_t> recorded, std::span<const std::size_t> depleted = {},
+                                    GasDivision division = {});
 
 }  // namespace lampblack::coupling

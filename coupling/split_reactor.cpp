@@ -169,7 +169,8 @@ double SplitReactor::exchange(std::size_t reactor, double h) {
 
 double SplitReactor::negligible(std::size_t reactor) const {
   const double* block = y_.data() + reactor * block_;
-  return smallestCountedMoleFraction * gas_.pressure(x_, block) / (constants::gasConstant * block[mechanism_.numSpecies()]);
+  return smallestCountedMoleFraction * gas_.pressure(x_, block) /
+         (constants::gasConstant * block[mechanism_.numSpecies()]);
 }
 
 double SplitReactor::change(std::size_t reactor, double T, std::span<const double> before,

@@ -96,7 +96,7 @@ class SplitReactor {
   struct Gas {
     OdeSystem* system = nullptr;
     // kg/m3 of gas and particles, and Pa, in the state y at x.
-    std::function<double(double x, const double* y)> density, pressure;
+    std::function<double(double x, const double*y)> density, pressure;
     std::function<double(const double* y)> timePerUnit;  // s, of the independent variable
     enum class Kept { temperature, enthalpy, internalEnergy };
     std::vector<Kept> kept{Kept::enthalpy};

@@ -1,4 +1,5 @@
-// Populations of a reactor or along a given gas: trees of the section `particles`, ensembles of the section `stochastic`.
+// Populations of a reactor or along a given gas: trees of the section `particles`, ensembles of the section
+// `stochastic`.
 #include <fmt/format.h>
 
 #include "app/deck/soot_deck.hpp"
@@ -55,9 +56,8 @@ void readTreePopulations(const Deck& deck, ReactorCase& reactorCase) {
   if (reactorCase.type == ReactorType::Network)
     throw deck.error("reactor.type", "particles of the section 'particles' do not go from one reactor to another");
   TreeRequest request = readTrees(deck, *reactorCase.mechanism);
-  const bool isGiven =
-      reactorCase.profile || reactorCase.type == ReactorType::GivenGas ||
-      (reactorCase.type == ReactorType::Stirred && reactorCase.network.reactors[0].temperature);
+  const bool isGiven = reactorCase.profile || reactorCase.type == ReactorType::GivenGas ||
+                       (reactorCase.type == ReactorType::Stirred && reactorCase.network.reactors[0].temperature);
   reactorCase.couplingChange = deck.number("particles.coupling_change");
   reactorCase.ensemble = {request.repeats,
                           request.bins,
@@ -85,9 +85,8 @@ void readTreePopulations(const Deck& deck, ReactorCase& reactorCase) {
 void readEnsemblePopulations(const Deck& deck, ReactorCase& reactorCase) {
   if (!deck.has("soot")) throw deck.error("stochastic", "ensembles need the section 'soot': PAH, surface, switches");
   if (deck.isGiven("soot.model") && deck.choice("soot.model") != "none")
-    throw deck.error(
-        "soot.model",
-        "an ensemble takes the place of a model: leave this out, or the section 'stochastic'");
+    throw deck.error("soot.model",
+                     "an ensemble takes the place of a model: leave this out, or the section 'stochastic'");
   refuseWithPopulation(deck, "stochastic", reactorCase);
   for (const StirredReactor& reactor : reactorCase.network.reactors)
     if (reactor.name.find('/') != std::string::npos)

@@ -23,8 +23,8 @@ bool ReactorSystem::addCarriedRates(const double* y, double* f) {
   }
   const double volume = 1.0 / density_;
   for (std::size_t s = 0; s < count; ++s)
-    f[n + 1 + s] = carriedRates_[s] * volume + carriedSource_[s] -
-                   (conditions_.removal + conditions_.carriedRemoval) * z[s];
+    f[n + 1 + s] =
+        carriedRates_[s] * volume + carriedSource_[s] - (conditions_.removal + conditions_.carriedRemoval) * z[s];
   const auto& species = carried_->exchanged();
   for (std::size_t i = 0; i < species.size(); ++i) f[species[i]] += exchange_[i] * weights_[species[i]] * volume;
   if (conditions_.energy == Energy::Conserved) carried_->enthalpies(y[n], carriedEnergy_, carriedCapacity_);

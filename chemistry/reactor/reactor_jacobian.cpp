@@ -38,7 +38,8 @@ void ReactorSystem::finishExcess(double T, double* temperatureColumn) {
 bool ReactorSystem::finishRates(const double* y, double* f) {
   const std::size_t n = weights_.size();
   const double volume = 1.0 / density_;
-  for (std::size_t k = 0; k < n; ++k) f[k] = wdot_[k] * weights_[k] * volume + source_[k] - (conditions_.removal + loss_[k]) * y[k];
+  for (std::size_t k = 0; k < n; ++k)
+    f[k] = wdot_[k] * weights_[k] * volume + source_[k] - (conditions_.removal + loss_[k]) * y[k];
   const bool given = conditions_.energy == Energy::GivenTemperature;
   if (carried_ != nullptr && !addCarriedRates(y, f)) return false;
   if (!given) speciesEnergies(y[n]);

@@ -167,5 +167,71 @@ TEST(ModelAlong, TheGasIsNotUsedUp) {
   }
 }
 
+// Of a gas that is the same but for its PAH: what particles take of it is missing, atom for atom, where it is given as
+// constant; and without particles it stays what is given, rising and falling.
+TEST(ModelAlong, DepletedSpeciesAreWhatParticlesLeave) {
+  SootModelOptions options = test::naphthalene();
+  options.coagulation = options.surfaceGrowth = options.oxidation = false;
+  const DimerSoot model(options);
+  const test::FlameGas gas(1600, 1e-4, 0.03, 1e-5, 0.08, 1e-5, 0.03, {3e-5});
+  ParticlePath path;
+  for (std::size_t i = 0; i <= 20; ++i)
+    path.points.push_back({0.001 * static_cast<double>(i), gas.state, gas.concentrations});
+  path.divergence.assign(20, {0, 0});
+  const std::vector<std::size_t> recorded{0, 10, 20}, pah = model.precursors();
+  ASSERT_EQ(pah, std::vector<std::size_t>{SootSpecies::fixed});
+  const double given = gas.concentrations[SootSpecies::fixed];
+  const ModelAlong result = marchModel(model, path, recorded, pah);
+  const ModelAlong undepleted = marchModel(model, path, recorded);
+  ASSERT_LT(result.records[2].depleted[0], 0.9 * given);
+  ASSERT_GT(result.records[2].depleted[0], 0.0);
+  EXPECT_LT(result.records[2].properties.volumeFraction, undepleted.records[2].properties.volumeFraction);
+  for (const std::size_t i : {1, 2}) {
+    // This soot keeps the hydrogen of its PAH, C10H8.
+    const double mass = result.records[i].properties.volumeFraction * options.sootDensity;
+    EXPECT_NEAR(mass / (0.12817 * (given - result.records[i].depleted[0])), 1, 1e-4) << i;
+  }
+  // Twice as long parts change little: second order.
+  ParticlePath coarse = path;
+  coarse.points = {path.points[0], path.points[10], path.points[20]};
+  coarse.divergence.assign(2, {0, 0});
+  const std::vector<std::size_t> ends{0, 1, 2};
+  EXPECT_NEAR(marchModel(model, coarse, ends, pah).records[2].depleted[0] / result.records[2].depleted[0], 1, 5e-3);
+  // Without inception nothing is taken, whatever is given.
+  SootModelOptions idle = options;
+  idle.pah[0].stickingCoefficient = 0;
+  for (std::size_t i = 0; i <= 20; ++i) {
+    const double x = static_cast<double>(i) / 20;
+    path.points[i].concentrations[SootSpecies::fixed] = given * (i < 10 ? 0.1 + x : 0.6 - (x - 0.5));
+    path.points[i].gas.density *= 1 + x;
+  }
+  const ModelAlong none = marchModel(DimerSoot(idle), path, recorded, pah);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR(none.records[i].depleted[0] / path.points[recorded[i]].concentrations[SootSpecies::fixed], 1, 1e-3)
+        << i;
+}
+
+// A path through all species becomes the history that it was, and thins particles by what their divergence has beyond
+// the gas's.
+TEST(HistoryAlong, IsWhatThePathCameFrom) {
+  const Mechanism& m = ethylene();
+  std::vector<std::string> all;
+  for (std::size_t k = 0; k < m.numSpecies(); ++k) all.push_back(m.speciesName(k));
+  ParticlePath path = givenPath(m, twoRows(), all, GasViscosity::air);
+  for (ParticlePath::Divergence& divergence : path.divergence) {
+    divergence.first += 10;
+    divergence.last += 30;
+  }
+  const GasHistory history = historyAlong(path);
+  ASSERT_EQ(history.time.size(), path.points.size());
+  EXPECT_EQ(history.temperature.back(), 1600);
+  EXPECT_EQ(history.pressure.front(), 2e5);
+  const std::size_t n = m.numSpecies();
+  for (const std::size_t row : {std::size_t{0}, history.time.size() - 1})
+    for (std::size_t k = 0; k < n; ++k)
+      EXPECT_NEAR(history.fractions[row * n + k], twoRows().fractions[(row > 0 ? n : 0) + k], 1e-12) << k;
+  for (const double thinning : history.thinning) EXPECT_NEAR(thinning, 20, 1e-8);
+}
+
 }  // namespace
 }  // namespace lampblack::coupling

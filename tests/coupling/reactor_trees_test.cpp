@@ -236,7 +236,7 @@ class SootTreesInReactors : public testing::Test {
       const auto at = static_cast<std::size_t>(
           std::find(trees.elements().begin(), trees.elements().end(), component.name) - trees.elements().begin());
       const double weight = mechanism.atomicWeight(mechanism.elementIndex(component.name));
-      const double booked = own.density(y.data()) * y[n + 1 + at] / weight * constants::avogadro;
+      const double booked = own.density(0, y.data()) * y[n + 1 + at] / weight * constants::avogadro;
       EXPECT_NEAR(totals.units[c] / booked, 1, 1e-6) << component.name;
     }
   }

@@ -58,7 +58,7 @@ class SplitToy : public ::testing::Test {
     }
     const auto y = reactor.state();
     // What was booked is what the particles have.
-    EXPECT_NEAR(own.density(y.data()) * y[n + 1 + ParticlesAtRest::carbon] / particles.carbon, 1, 1e-7);
+    EXPECT_NEAR(own.density(0, y.data()) * y[n + 1 + ParticlesAtRest::carbon] / particles.carbon, 1, 1e-7);
     ParticlesAtRest atRest;
     ReactorBalance balance(ethylene(), atRest, atRest.unitElements(ethylene()));
     const std::span<const double> first(start);
