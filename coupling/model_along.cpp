@@ -83,11 +83,6 @@ class DepletedSpecies {
     for (std::size_t i = 0; i < species_.size(); ++i)
       amounts_[i] = std::max(concentrations[species_[i]], 0.0) / density * halves_[i];
   }
-  // Without particles.
-  void pass(std::span<const double> supply, double dt, double density) {
-    for (std::size_t i = 0; i < species_.size(); ++i)
-      amounts_[i] = amounts_[i] * halves_[i] * halves_[i] + supply[species_[i]] * dt / density;
-  }
   // mol/m3, of all species where the path gives `all`.
   void putInto(std::vector<double>& all, double density) const {
     for (std::size_t i = 0; i < species_.size(); ++i) all[species_[i]] = amounts_[i] * density;
@@ -143,12 +138,12 @@ ModelAlong marchModel(const ParticleModel& model, const ParticlePath& path, std:
       const std::span<double> ofSpecies = std::span(supply).subspan(scalars);
       left.begin(from, to, w, dt / (to.time - from.time), dt, gas.density, concentrations, ofSpecies);
       if (model.idle(ParticleGas{gas, concentrations}, densities)) {
-        left.pass(ofSpecies, dt, gas.density);
+        for (const std::size_t i : depleted) concentrations[i] += ofSpecies[i] * dt;
       } else {
         const std::span<const double> brought = depleted.empty() ? std::span<const double>() : supply;
         result.steps += held.advance(gas, dt, densities, concentrations, brought).steps;
-        left.end(concentrations, gas.density);
       }
+      left.end(concentrations, gas.density);
       dilute(half);
     });
     reached(k + 1);

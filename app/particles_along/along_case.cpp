@@ -164,6 +164,10 @@ ReactorCase readCoupled(const Deck& deck, const AlongCase& along) {
     reactorcase::readTreePopulations(deck, coupled);
   else
     reactorcase::readEnsemblePopulations(deck, coupled);
+  for (const double t : coupled.ensemble->tablesAt)
+    if (t < coupled.rows.front() || t > coupled.end)
+      throw deck.error("particles.tables_at",
+                       fmt::format("{:g} s is outside the run, {:g} to {:g} s", t, coupled.rows.front(), coupled.end));
   const auto& seen = coupled.ensemble->species;
   for (const std::size_t k : coupled.depleted)
     if (std::ranges::find(seen, k) == seen.end())

@@ -15,6 +15,7 @@ import running
 h5py, np = running.package("h5py"), running.package("numpy")
 
 CASE = running.SOURCE / "cases/particles_along/premixed_ethylene_abf"
+SILICA = running.SOURCE / "cases/particles_along/silica_teos"
 MECHANISM = running.SOURCE / "cases/mechanisms/ethylene_abf2000_101.yaml"
 SHORT = ("stochastic.particles=256", "stochastic.repeats=3", "gas.end=8 ms", "output.interval=2 ms", "output.times=[5 ms]",
          "stochastic.split_tolerance=0.05", "stochastic.smallest=0.5 nm")
@@ -33,7 +34,8 @@ WRONG_GAS = (("0,1700,1e5,0.999,1e-6,1e-4\n0,1700,1e5,0.999,1e-6,1e-4\n", "the t
              ("0,1700,1e5,0.5,1e-6,1e-4\n0.01,1700,1e5,0.999,1e-6,1e-4\n", "add up to 0.5001"),
              ("0,1700,1e5,0.999,-1e-3,1e-4\n0.01,1700,1e5,0.999,1e-6,1e-4\n", "mole fraction of A4"),
              ("0,1700,1e5,0.999,nan,1e-4\n0.01,1700,1e5,0.999,1e-6,1e-4\n", "line 2"))
-WRONG = (("gas.exchange=two_way", "gas.exchange", "not there yet"),
+WRONG = (("stochastic.coupling_change=0.1", "stochastic.coupling_change", "one_way"),
+         ("gas.depleted=[A4]", "gas.depleted", "two_way"),
          ("gas.file=nowhere.csv", "gas.file", "nowhere.csv"),
          ("gas.flame=gas.csv", "gas", "either 'file'"),
          ("gas.side=right", "gas.side", "leave it out"),
@@ -100,6 +102,46 @@ def check_models(program, folder: pathlib.Path) -> None:
         assert (number[-1] > 0) == (model != "leung"), f"{model}: {number}"  # which needs acetylene
 
 
+def check_depletion(program, folder: pathlib.Path) -> None:
+    """What an ensemble and a model leave of their PAH: less than given, the same of both, by two ways of coupling."""
+    left, given = {}, {}
+    for name, more in (("hmom", ""), ("ensemble", "stochastic: {particles: 1000, repeats: 3}\n")):
+        deck = folder / f"depleted_{name}.yaml"
+        deck.write_text(f"problem: particles_along\nmechanism: {MECHANISM}\ngas: {{file: {CASE}/gas.csv, exchange: two_way, end: 16 ms}}\n"
+                        f"soot: {{model: {'none' if more else 'hmom'}, pah: [A4]}}\noutput: {{interval: 4 ms}}\n{more}", encoding="utf-8")
+        result = program("run", deck, "--out", folder / f"depleted_{name}_{program.ranks}", timeout=120)
+        assert result.code == 0, f"{name}: {result.err}"
+        with h5py.File(folder / f"depleted_{name}_{program.ranks}/results.h5", "r") as file:
+            left[name] = file["history/X_A4"][()]
+    with open(CASE / "gas.csv", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    time = next(name for name in rows[0] if name.startswith("time"))
+    pah = next(name for name in rows[0] if name.startswith("X_A4"))
+    given = np.interp(16e-3, [float(row[time]) for row in rows], [float(row[pah]) for row in rows])
+    assert left["hmom"].shape == (5,) and left["hmom"][0] > 0, left
+    assert 0.7 * given < left["hmom"][-1] < 0.9 * given, (left, given)
+    assert np.allclose(left["ensemble"], left["hmom"], rtol=2e-3), left
+
+
+def check_trees(program, folder: pathlib.Path) -> None:
+    """Silica along the gas of a reactor without particles is what it is in the reactor with them."""
+    short = ("particles.number=128", "particles.repeats=12", "particles.tables_at=[]")
+    along, reactor = folder / f"along_{program.ranks}", folder / f"reactor_{program.ranks}"
+    result = program("run", SILICA / "deck.yaml", "--out", along, *running.settings(*short, "gas.end=60 ms"), timeout=200)
+    assert result.code == 0, result.err
+    result = program("run", running.SOURCE / "cases/reactor/silica_batch/deck.yaml", "--out", reactor, *running.settings(
+        *short[:2], "time.end=60 ms", "output.interval=20 ms", "particles.seed=7"), timeout=200)
+    assert result.code == 0, result.err
+    with h5py.File(along / "results.h5", "r") as one, h5py.File(reactor / "results.h5", "r") as two:
+        for name in ("silica_number_density", "silica_volume_fraction", "silica_surface_area", "X_H4O4SI"):
+            mean, error = (tuple(file[f"history/{column}"][1:] for file in (one, two)) for column in (name, f"{name}_error"))
+            z = (mean[0] - mean[1]) / np.hypot(*error)
+            assert np.all(np.abs(z) < 4), f"{name}: {mean} are {z} joint errors apart"
+            assert np.all(np.hypot(*error) < 0.1 * mean[1]), f"{name}: {error} of {mean}"
+        given = 4.8e-6
+        assert one["history/X_H4O4SI"][2] < 0.05 * given, one["history/X_H4O4SI"][()]
+
+
 def check_flame(program, folder: pathlib.Path) -> None:
     """The path through a burner flame of twenty points: rows in the order of its time, gas as hot as the flame."""
     flame = folder / "flame.yaml"
@@ -127,6 +169,19 @@ stochastic: {{particles: 100, repeats: 2}}
         temperature, number = file["history/temperature"][()], file["history/soot_number_density"][()]
     assert abs(temperature[0] - 300) < 1 and 1650 < temperature.max() < 1701, temperature
     assert number[-1] > 0 and len(number) == 101
+    # As trees they are as many, but for their noise; nothing but coagulation and dilution tells spheres of them apart.
+    trees = folder / "trees.yaml"
+    trees.write_text(f"""problem: particles_along
+mechanism: {MECHANISM.parent}/ethylene_bisetti2012_47.yaml
+gas: {{flame: flame/results.h5}}
+soot: {{model: none, pah: [A2]}}
+particles: {{material: soot, number: 200, repeats: 2, full_at: 1e16 1/m^3}}
+""", encoding="utf-8")
+    result = program("run", trees, "--out", folder / "trees", timeout=200)
+    assert result.code == 0, result.err
+    with h5py.File(folder / "trees/results.h5", "r") as file:
+        assert np.allclose(file["history/temperature"][()], temperature, rtol=1e-6)
+        assert 0.4 < file["history/soot_number_density"][-1] / number[-1] < 2.5, (file["history/soot_number_density"][-1], number[-1])
     wrong = program("run", deck, "--out", folder / "wrong_flame", *running.settings(f"mechanism={MECHANISM}", "soot.pah=[A4]"))
     assert wrong.code == 2 and "other species" in wrong.err, wrong.err
 
@@ -150,6 +205,13 @@ def check_refusals(program, folder: pathlib.Path) -> list:
     for setting, key, words in WRONG:
         result = program("run", CASE / "deck.yaml", "--out", folder / "never", *running.settings(*SHORT, setting))
         refused(result, (key, words), setting)
+    for what, words in (("[A9]", "A9"), ("[CH4]", "CH4")):
+        result = program("run", CASE / "deck.yaml", "--out", folder / "never", *running.settings(
+            *SHORT, "gas.exchange=two_way", f"gas.depleted={what}"))
+        refused(result, ("gas.depleted", words), f"depleted {what}")
+    for setting, words in (("particles.tables_at=[1 s]", "outside the run"), ("particles.material=gold", "particles.material")):
+        result = program("run", SILICA / "deck.yaml", "--out", folder / "never", *running.settings(setting))
+        refused(result, (setting.split("=", maxsplit=1)[0], words), setting)
     deck = folder / "hmom_of_monomers.yaml"
     deck.write_text(MODEL.format(mechanism=MECHANISM, model="hmom").replace("pah: [A4]", "pah: [A4], inception_by: monomers"),
                     encoding="utf-8")
@@ -167,6 +229,8 @@ def main(executable: str, ranks: str, *mpiexec: str) -> int:
         if program.ranks > 1:
             check_rank_independence(folder, executable, list(mpiexec))
         check_models(program, folder)
+        check_depletion(program, folder)
+        check_trees(program, folder)
         check_flame(program, folder)
         problems = check_refusals(program, folder)
         shutil.rmtree(folder / "flame")

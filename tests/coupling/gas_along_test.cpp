@@ -50,6 +50,18 @@ std::vector<double> advanced(GasAlong& gas, double end) {
   return y;
 }
 
+SplitReactor::Gas couplingOf(GasAlong& gas) {
+  SplitReactor::Gas own;
+  own.system = &gas;
+  own.density = [&](double t, const double* y) { return gas.density(t, y); };
+  own.pressure = [&](double t, const double*) { return gas.pressure(t); };
+  own.timePerUnit = [](const double*) { return 1.0; };
+  own.kept = {SplitReactor::Gas::Kept::temperature};
+  own.nextStop = [&](double t) { return gas.nextRow(t); };
+  own.held = gas.held();
+  return own;
+}
+
 // Mass fraction that a mole fraction of acetylene in nitrogen is.
 double massFraction(double x) {
   const auto W = mechanism().molecularWeights();
@@ -125,6 +137,7 @@ TEST(GasAlong, DerivativesAreThoseOfTheRates) {
   test::ToyPhase phase(toy);
   GasHistory history = historyOf({0, 1e-3, 2e-3}, {1e-4, 3e-4, 1e-4});
   history.thinning = {30, -20};
+  history.temperature = {1500, 1600, 1400};
   GasAlong gas(mechanism(), history, {acetylene()}, &phase);
   const std::size_t size = gas.size(), n = mechanism().numSpecies();
   for (const double t : {0.3e-3, 1.6e-3}) {
@@ -133,6 +146,7 @@ TEST(GasAlong, DerivativesAreThoseOfTheRates) {
     ASSERT_TRUE(gas.jacobian(t, y.data(), f.data(), J.data(), size));
     ASSERT_TRUE(gas.rates(t, y.data(), g.data()));
     for (std::size_t i = 0; i < size; ++i) EXPECT_NEAR(f[i], g[i], 1e-12 * std::abs(f[i])) << i;
+    EXPECT_NEAR(f[n], t < 1e-3 ? 1e5 : -2e5, 1e-6);
     for (std::size_t j = 0; j < size; ++j) {
       std::vector<double> moved = y;
       const double step = j == n ? 1e-3 : 1e-6 * std::max(std::abs(y[j]), 1e-3);
@@ -145,11 +159,12 @@ TEST(GasAlong, DerivativesAreThoseOfTheRates) {
   }
 }
 
-// Splitting and the predictor come to what the stiff solver says of gas and particles together.
+// Splitting and the predictor come to what the stiff solver says of gas and particles together, to second order.
 TEST(GasAlong, SplittingComesToTheWhole) {
   const test::Toy toy(mechanism(), 2000, 0, 2e4);
   GasHistory history = historyOf({0, 1e-3, 2e-3}, {1e-4, 4e-4, 2e-4});
   history.temperature = {1500, 1600, 1400};
+  history.pressure = {1e5, 1.4e5, 0.8e5};
   history.thinning = {40, 40};
   test::ToyPhase phase(toy);
   GasAlong whole(mechanism(), history, {acetylene()}, &phase);
@@ -158,26 +173,51 @@ TEST(GasAlong, SplittingComesToTheWhole) {
   const double carbon = y[n + 1] * test::ToyPhase::unit * whole.density(2e-3, y.data());
   ASSERT_GT(carbon, 0.1 * toy.carbonWeight * 1e-4 * 8);  // a good part of what there was
   for (const bool predicted : {false, true}) {
+    std::vector<double> errors;
+    for (const int steps : {40, 80, 160}) {
+      test::ToySplit particles(toy);
+      ParticlesAtRest atRest;
+      ExchangeInGas exchange(mechanism(), {"C", "H"}, {acetylene()});
+      GasAlong gas(mechanism(), history, {acetylene()}, predicted ? &exchange : &atRest);
+      SplitReactor::Gas own = couplingOf(gas);
+      if (predicted) own.expected = &exchange;
+      SplitReactor::Options options;
+      options.integrator = {1e-9, 1e-16, 0, 1000000};
+      options.largestStep = 2e-3 / steps;
+      options.fixedStep = true;
+      SplitReactor split(mechanism(), own, particles, options);
+      split.start(0, gas.initialState());
+      split.advance(2e-3);
+      errors.push_back(std::abs(split.state()[acetylene()] / y[acetylene()] - 1) +
+                       std::abs(particles.carbon / carbon - 1));
+    }
+    EXPECT_LT(errors[2], predicted ? 1e-3 : 2e-2) << predicted;
+    for (const std::size_t i : {0, 1}) {
+      EXPECT_GT(errors[i] / errors[i + 1], 3.5) << predicted << ", " << errors[i + 1];
+      EXPECT_LT(errors[i] / errors[i + 1], 5) << predicted << ", " << errors[i + 1];
+    }
+  }
+}
+
+// Species that are held stay what they are in both couplings, and what particles take of them, here a thousand times
+// what there is, shortens no steps.
+TEST(GasAlong, WhatIsTakenOfHeldSpeciesCostsNoSteps) {
+  const test::Toy toy(mechanism(), 1e6, 0, 0);
+  const GasHistory history = historyOf({0, 1e-3}, {2e-4, 2e-4});
+  for (const bool predicted : {false, true}) {
     test::ToySplit particles(toy);
     ParticlesAtRest atRest;
     ExchangeInGas exchange(mechanism(), {"C", "H"}, {acetylene()});
-    GasAlong gas(mechanism(), history, {acetylene()}, predicted ? &exchange : &atRest);
-    SplitReactor::Gas own;
-    own.system = &gas;
-    own.density = [&](double t, const double* at) { return gas.density(t, at); };
-    own.pressure = [&](double t, const double*) { return gas.pressure(t); };
-    own.timePerUnit = [](const double*) { return 1.0; };
-    own.kept = {SplitReactor::Gas::Kept::temperature};
-    own.nextStop = [&](double t) { return gas.nextRow(t); };
-    own.held = gas.held();
+    GasAlong gas(mechanism(), history, {}, predicted ? &exchange : &atRest);
+    SplitReactor::Gas own = couplingOf(gas);
     if (predicted) own.expected = &exchange;
-    SplitReactor::Options options;
-    options.change = 0.02;
-    SplitReactor split(mechanism(), own, particles, options);
+    SplitReactor split(mechanism(), own, particles, {});
     split.start(0, gas.initialState());
-    split.advance(2e-3);
-    EXPECT_NEAR(split.state()[acetylene()] / y[acetylene()], 1, 2e-3) << predicted;
-    EXPECT_NEAR(particles.carbon / carbon, 1, 2e-3) << predicted;
+    split.advance(1e-3);
+    EXPECT_NEAR(split.state()[acetylene()] / massFraction(2e-4), 1, 1e-12) << predicted;
+    const double c = 2e-4 * 101325 / (constants::gasConstant * 1500);
+    EXPECT_NEAR(particles.carbon / (2 * toy.carbonWeight * 1e6 * c * 1e-3), 1, 1e-6) << predicted;
+    EXPECT_LT(split.work().steps, 30) << predicted;
   }
 }
 
@@ -191,17 +231,9 @@ TEST(GasAlong, InertParticlesStayAsManyPerMassOfGas) {
   particles.carbon = 1e-6;
   ParticlesAtRest atRest;
   GasAlong gas(mechanism(), history, {}, &atRest);
-  SplitReactor::Gas own;
-  own.system = &gas;
-  own.density = [&](double t, const double* at) { return gas.density(t, at); };
-  own.pressure = [&](double t, const double*) { return gas.pressure(t); };
-  own.timePerUnit = [](const double*) { return 1.0; };
-  own.kept = {SplitReactor::Gas::Kept::temperature};
-  own.nextStop = [&](double t) { return gas.nextRow(t); };
-  own.held = gas.held();
   SplitReactor::Options options;
   options.integrator = {1e-10, 1e-16, 0, 1000000};
-  SplitReactor split(mechanism(), own, particles, options);
+  SplitReactor split(mechanism(), couplingOf(gas), particles, options);
   const std::vector<double> start = gas.initialState();
   const double first = gas.density(1e-3, start.data());
   split.start(1e-3, start);

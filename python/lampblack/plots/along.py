@@ -1,9 +1,11 @@
-"""Pictures of particles along a given gas: what there is of them over time, what each process does, sizes at some times."""
+"""Pictures of particles along a given gas: what there is of them over time, what they leave of species that they deplete, what
+each process does, sizes at some times, trees as micrographs."""
 
 import numpy as np
 
 from .reactor import plot_particles, unit_of
 from .style import plt
+from .tree_tables import plot_tree_tables
 
 MOST_TIMES = 6
 RATES = (("nucleation", "inception"), ("condensation", "condensation"), ("growth", "surface growth"),
@@ -15,8 +17,24 @@ def plot_along(results, pictures):
     factor, unit = unit_of(np.max(np.abs(columns["time"])), (("s", 1.0), ("ms", 1e3), ("us", 1e6), ("ns", 1e9)))
     axis, label = columns["time"] * factor, f"time, {unit}"
     plot_particles(columns, axis, label, pictures)
+    _plot_depleted(columns, axis, label, pictures)
     _plot_rates(results, factor, label, pictures)
     _plot_sizes(results, axis, unit, pictures)
+    plot_tree_tables(results, pictures)
+
+
+def _plot_depleted(columns, axis, label, pictures):
+    names = [name for name in columns if name.startswith("X_") and not name.endswith(("_error", "_ci95", "_ci999"))]
+    if not names:
+        return
+    figure, axes = plt.subplots(figsize=(6.4, 4.4))
+    for name in names:
+        axes.semilogy(axis, np.where(columns[name] > 0, columns[name], np.nan), label=name[2:])
+    axes.set_ylim(bottom=1e-6 * max(np.max(columns[name]) for name in names))
+    axes.set_xlabel(label)
+    axes.set_ylabel("mole fraction that particles leave")
+    axes.legend(fontsize=8)
+    pictures.save(figure, "depleted")
 
 
 def _plot_rates(results, factor, label, pictures):
