@@ -64,7 +64,7 @@ void RandomStream::generate() {
     c2[g] = Lanes::all(owner_ >> 32);
     c3[g] = Lanes::all(purpose_);
   }
-  std::uint32_t k0 = key_[0], k1 = key_[1];
+  std::uint32_t k0 = key_[0], k1 = key_[1] ^ (static_cast<std::uint32_t>(first >> 32U) << 16U);
   for (int round = 0; round < rounds; ++round) {
     const Lanes key0 = Lanes::all(k0), key1 = Lanes::all(k1);
     for (std::size_t g = 0; g < groups; ++g) {

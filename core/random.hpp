@@ -57,7 +57,8 @@ class RandomStream {
   }
 
   // Fills the buffer that position_ is in. One Philox call gives two 64-bit words. The counter holds 32 bits of block
-  // number low and owner and purpose above: 2^33 words a stream, ample for one owner and purpose.
+  // number low and owner and purpose above; after each 2^33 words another key goes on, whose upper 16 bits differ: 2^49
+  // words a stream, months of drawing. (Seeds below 2^48 have keys of their own.)
   void generate();
 
   std::array<std::uint32_t, 2> key_;

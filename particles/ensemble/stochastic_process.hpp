@@ -156,7 +156,6 @@ void StochasticProcess<Method>::advance(const ParticleGas& gas, double dilution,
   }
   if constexpr (weighted) method_.mergeExcess();
   cost_ += static_cast<double>(counters().events() + counters().fictitious - eventsBefore);
-  if (random_.position() >> 33 != 0) throw NumericsError("stochastic soot: the random stream is used up");
 }
 
 template <class Method>

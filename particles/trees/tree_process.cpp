@@ -83,7 +83,6 @@ void TreeProcess::advance(const ParticleGas& gas, double dt) {
         march(reactions, dt);
       },
       reactions_);
-  if (random_.position() >> 33U != 0) throw NumericsError("particles: the random stream is used up");
 }
 
 template <class Reactions>

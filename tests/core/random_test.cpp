@@ -64,15 +64,18 @@ TEST(RandomStream, WordsAreThoseOfRandom123BlockByBlock) {
   const std::uint64_t seed = 0x0123456789abcdefULL, owner = 0xfedcba9876543210ULL;
   const std::uint32_t purpose = 0xa5a5a5a5;
   RandomStream stream(seed, owner, purpose);
-  // From the start, and across the block at which half of the counter's first word is used up.
-  for (const std::uint64_t start : {std::uint64_t{0}, (std::uint64_t{1} << 33) - 64, (std::uint64_t{1} << 32) - 5}) {
+  // From the start, across the block at which half of the counter's first word is used up, and across those at which
+  // all of it is, where the key changes.
+  for (const std::uint64_t start : {std::uint64_t{0}, (std::uint64_t{1} << 32) - 5, (std::uint64_t{1} << 33) - 32,
+                                    (std::uint64_t{3} << 33) - 7}) {
     stream.seek(start);
     for (std::uint64_t position = start; position < start + 64; ++position) {
       const r123::Philox4x32::ctr_type counter{{static_cast<std::uint32_t>(position / 2),
                                                 static_cast<std::uint32_t>(owner),
                                                 static_cast<std::uint32_t>(owner >> 32), purpose}};
-      const auto words =
-          r123::Philox4x32{}(counter, {{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)}});
+      const auto round = static_cast<std::uint32_t>(position >> 33);
+      const auto words = r123::Philox4x32{}(
+          counter, {{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32) ^ (round << 16)}});
       const std::size_t k = 2 * (position % 2);
       ASSERT_EQ(stream.bits(), words[k] | (static_cast<std::uint64_t>(words[k + 1]) << 32)) << position;
     }
