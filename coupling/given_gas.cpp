@@ -97,6 +97,10 @@ ParticlePath givenPath(const Mechanism& mechanism, const GasHistory& history, st
       const double w = static_cast<double>(part) / static_cast<double>(parts);
       GasSample to = part < parts ? between(from, next, w) : next;
       path.divergence.push_back(expansion(path.points.back(), to));
+      if (!history.thinning.empty()) {
+        path.divergence.back().first += history.thinning[i - 1];
+        path.divergence.back().last += history.thinning[i - 1];
+      }
       path.points.push_back(std::move(to));
     }
   }

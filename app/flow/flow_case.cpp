@@ -295,6 +295,7 @@ void readTrajectories(const Deck& deck, FlowCase& flowCase) {
   options.particles = deck.integer<int>("trajectories.particles");
   options.splitTolerance = deck.number("trajectories.split_tolerance");
   options.bins = readSizeBins(deck, "trajectories");
+  options.gasTables = deck.boolean("trajectories.gas_tables");
   if (options.timeStep > options.duration)
     throw deck.error("trajectories.time_step", "expected no more than 'duration'");
   for (std::size_t i = 0; i < deck.size("trajectories.start"); ++i)

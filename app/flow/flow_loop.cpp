@@ -113,7 +113,7 @@ void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
   if (case_.trajectories) {
     const Timers::Scope scope(timers_, "trajectories");
     try {
-      runTrajectories(domain_->context, case_, domain_->state, domain_->flow.properties(), results);
+      runTrajectories(domain_->context, case_, domain_->state, domain_->flow.properties(), results, &*folder_);
     } catch (const NumericsError&) {
       failure = std::current_exception();
     }

@@ -362,7 +362,11 @@ void addParticles(DeckSchema& schema) {
                      "Largest relative change of an ensemble in a splitting step: smaller is more accurate and slower.")
                .byDefault("0.01")
                .above(0)
-               .atMost(1));
+               .atMost(1))
+      .add(booleanKey("trajectories.gas_tables",
+                      "Whether the gas of each path, all of its species, is written to tables/streamline_<number>.csv, "
+                      "which gas.file of a deck with problem: particles_along reads.")
+               .byDefault("false"));
   addSizeBinKeys(schema, "trajectories", "200 nm");
   schema.section("trajectories.start", Presence::required, "Where the ensembles start.")
       .add(quantityKey("trajectories.start[].r", units::length,

@@ -15,8 +15,10 @@
 #include "core/errors.hpp"
 #include "core/first_error.hpp"
 #include "core/rank_exchange.hpp"
+#include "coupling/given_gas.hpp"
 #include "flow/path_gas.hpp"
 #include "flow/streamline.hpp"
+#include "io/csv.hpp"
 #include "particles/collisions/collision_physics.hpp"
 #include "particles/ensemble/ensemble_path.hpp"
 
@@ -27,6 +29,7 @@ namespace {
 struct Trajectory {
   std::vector<Vector3> places;  // m
   ParticlePath path;
+  std::string gasTable;  // of all species; empty: not wanted
   std::vector<EnsemblePathRecord> records;
 };
 
@@ -62,6 +65,37 @@ void writeTrajectory(ResultsWriter& results, std::size_t id, int owner, const Me
                   owner);
   results.dataset(group + "bin_edges", {bins + 1}, options.bins.edges(), "m", "diameters between the bins", owner);
   results.dataset(group + "size_distribution", {rows, bins}, distribution, "1/m^3", "dN/dlog10(d)", owner);
+}
+
+// Of a path whose gas has all species.
+std::string gasTableOf(const Mechanism& mechanism, const ParticlePath& path) {
+  std::vector<Quantity> columns{
+      {"time", "s", "time along the path"},
+      {"temperature", "K", "gas temperature"},
+      {"pressure", "Pa", "pressure"},
+      {"thinning", "1/s", "rate at which particles become fewer per kg of gas until the next row"}};
+  const std::size_t n = mechanism.numSpecies();
+  for (std::size_t k = 0; k < n; ++k)
+    columns.push_back({"X_" + mechanism.speciesName(k), "1", "mole fraction of " + mechanism.speciesName(k)});
+  const GasHistory history = historyAlong(path);
+  std::vector<double> rows;
+  for (std::size_t i = 0; i < history.time.size(); ++i) {
+    const double thinning = i < history.thinning.size() ? history.thinning[i] : 0;
+    rows.insert(rows.end(), {history.time[i], history.temperature[i], history.pressure[i], thinning});
+    const auto X = history.fractions.begin() + static_cast<std::ptrdiff_t>(i * n);
+    rows.insert(rows.end(), X, X + static_cast<std::ptrdiff_t>(n));
+  }
+  return csvTable(columns, rows);
+}
+
+// The path as particles see it that know these species.
+ParticlePath pathOf(ParticlePath all, const std::vector<std::size_t>& species) {
+  for (GasSample& point : all.points) {
+    std::vector<double> seen;
+    for (const std::size_t k : species) seen.push_back(point.concentrations[k]);
+    point.concentrations = std::move(seen);
+  }
+  return all;
 }
 
 // The rank of each path, the longest first, each to the rank with the least to do (Graham 1969).
@@ -183,14 +217,20 @@ void requireStartsInside(const FlowContext& context, const TrajectoryRequest& re
 }
 
 void runTrajectories(const FlowContext& context, const FlowCase& flowCase, const State& state,
-                     const GasProperties& properties, ResultsWriter& results) {
+                     const GasProperties& properties, ResultsWriter& results, const RunFolder* folder) {
   const TrajectoryRequest& request = *flowCase.trajectories;
   const Mesh& m = context.mesh;
   std::vector<std::size_t> species;
   for (const std::string& name : sootSpecies(request.soot)) species.push_back(context.mechanism.speciesIndex(name));
   const Streamlines streamlines(context, state, properties, waldmannThermophoresis());
   const TracedPaths traced = streamlines.trace(request.starts, request.timeStep, request.duration);
-  const PathGas gas(context, state, properties, species);
+  const bool hasTables = request.gasTables && folder != nullptr;
+  std::vector<std::size_t> carried = species;
+  if (hasTables) {
+    carried.resize(context.mechanism.numSpecies());
+    std::iota(carried.begin(), carried.end(), std::size_t{0});
+  }
+  const PathGas gas(context, state, properties, carried);
 
   EnsemblePathOptions march;
   march.bins = request.bins;
@@ -210,6 +250,10 @@ void runTrajectories(const FlowContext& context, const FlowCase& flowCase, const
       if (owners[id] != m.rank) continue;
       Trajectory& one = trajectories[id];
       points.fill(id, request.timeStep, one);
+      if (hasTables) {
+        one.gasTable = gasTableOf(context.mechanism, one.path);
+        one.path = pathOf(std::move(one.path), species);
+      }
       options.owner = id;
       try {
         one.records = marchPath(*makeEnsemble(options), one.path, march).records;
@@ -219,6 +263,13 @@ void runTrajectories(const FlowContext& context, const FlowCase& flowCase, const
     }
   });
   warnOfEnds(request, context, traced.ends);
+  if (hasTables)
+    collectively(m.comm, [&] {
+      folder->makeTableFolder();
+      for (std::size_t id = 0; id < trajectories.size(); ++id)
+        if (owners[id] == m.rank)
+          writeFileAtomically(folder->table(fmt::format("streamline_{}", id)), trajectories[id].gasTable);
+    });
   for (std::size_t id = 0; id < trajectories.size(); ++id)
     writeTrajectory(results, id, owners[id], m, trajectories[id], march);
 }

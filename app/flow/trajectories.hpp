@@ -7,6 +7,7 @@
 #include "flow/state.hpp"
 #include "flow/transport_operator.hpp"
 #include "io/results_writer.hpp"
+#include "io/run_folder.hpp"
 
 namespace lampblack::app {
 
@@ -16,8 +17,8 @@ void requireStartsInside(const FlowContext& context, const TrajectoryRequest& re
 
 // Collective. Traces the deck's trajectories through the state's flow, marches an ensemble along each (each on one
 // rank, with the longest first; its random numbers depend on the seed and its number alone) and writes them under
-// /trajectories.
+// /trajectories; the gas tables that the deck asks for into the folder, if there is one.
 void runTrajectories(const FlowContext& context, const FlowCase& flowCase, const State& state,
-                     const GasProperties& properties, ResultsWriter& results);
+                     const GasProperties& properties, ResultsWriter& results, const RunFolder* folder = nullptr);
 
 }  // namespace lampblack::app

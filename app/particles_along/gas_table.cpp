@@ -20,6 +20,7 @@ struct Known {
   const char *name, *symbol;
   units::Dimension dimension;
   std::vector<double> GasHistory::*values;
+  bool isNeeded = true;
 };
 
 std::vector<double> read(const TextTable& table, std::size_t column, const TableColumn& reader) {
@@ -32,7 +33,8 @@ std::vector<double> read(const TextTable& table, std::size_t column, const Table
 GasHistory historyOf(const TextTable& table, const Mechanism& mechanism, std::vector<std::string>& unknown) {
   const Known known[] = {{"time", "t", units::time, &GasHistory::time},
                          {"temperature", "T", units::temperature, &GasHistory::temperature},
-                         {"pressure", "p", units::pressure, &GasHistory::pressure}};
+                         {"pressure", "p", units::pressure, &GasHistory::pressure},
+                         {"thinning", "thinning", units::frequency, &GasHistory::thinning, false}};
   GasHistory history;
   const std::size_t rows = table.rows.size(), species = mechanism.numSpecies();
   if (rows == 0) throw InputError("the table has no rows");
@@ -58,9 +60,10 @@ GasHistory historyOf(const TextTable& table, const Mechanism& mechanism, std::ve
     for (std::size_t row = 0; row < rows; ++row) history.fractions[row * species + *k] = values[row];
   }
   for (const Known& one : known)
-    if ((history.*one.values).empty())
+    if (one.isNeeded && (history.*one.values).empty())
       throw InputError(fmt::format("expected a column '{}' or '{}', as \"{} [{}]\"", one.name, one.symbol, one.name,
                                    one.name[0] == 't' ? (one.symbol[0] == 't' ? "s" : "K") : "Pa"));
+  if (!history.thinning.empty()) history.thinning.pop_back();  // behind the last row there is nothing
   if (!hasAny) throw InputError("expected columns of mole fractions, \"X_H2 [1]\", of species that the mechanism has");
   return history;
 }

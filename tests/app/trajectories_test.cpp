@@ -8,8 +8,11 @@
 
 #include "app/flow/flow_mesh.hpp"
 #include "app/flow/flow_output.hpp"
+#include "app/particles_along/gas_table.hpp"
 #include "core/errors.hpp"
 #include "core/rooms.hpp"
+#include "coupling/given_gas.hpp"
+#include "particles/ensemble/ensemble_path.hpp"
 #include "tests/app/app_fixture.hpp"
 #include "tests/core/mpi_support.hpp"
 #include "tests/messages.hpp"
@@ -64,6 +67,47 @@ TEST(Trajectories, TwoThatStartAtOnePlaceHaveRandomNumbersOfTheirOwn) {
     const Datasets twins = readTrajectories(folder.path() / "twins.h5");
     EXPECT_EQ(twins.at("0/temperature"), twins.at("1/temperature")) << "the same path";
     EXPECT_NE(twins.at("0/number_density"), twins.at("1/number_density")) << "but not the same random numbers";
+  }
+}
+
+// The table of a path's gas gives a path again on which the same particles come to the same: of the whole of it, gas
+// and what thins particles.
+TEST(Trajectories, TheTableOfTheGasIsThePath) {
+  const test::SharedScratchFolder scratch;
+  const RunFolder folder = RunFolder::prepare(scratch.path() / "run", false, MPI_COMM_WORLD);
+  test::Flame flame(MPI_COMM_WORLD, test::sootingGas);
+  TrajectoryRequest& request = *flame.flowCase.trajectories;
+  request.starts = {{1e-3, 4.5e-3}, {2e-3, 4.2e-3}};
+  request.duration = 10e-3;
+  request.gasTables = true;
+  request.particles = 20000;
+  ResultsWriter results(MPI_COMM_WORLD, folder.results(), {}, meshOutput(flame.mesh));
+  runTrajectories(flame.context, flame.flowCase, flame.state, flame.properties, results, &folder);
+  results.close();
+  MPI_Barrier(MPI_COMM_WORLD);
+  if (test::worldRank() != 0) return;
+  const Datasets all = readTrajectories(folder.results());
+  for (const std::size_t id : {0, 1}) {
+    const GasHistory gas = readGasTable(folder.table("streamline_" + std::to_string(id)), flame.context.mechanism);
+    const std::string name = std::to_string(id) + "/";
+    ASSERT_EQ(gas.time.size(), all.at(name + "time").size());
+    ASSERT_EQ(gas.thinning.size() + 1, gas.time.size());
+    for (std::size_t i = 0; i < gas.time.size(); ++i) {
+      EXPECT_NEAR(gas.temperature[i], all.at(name + "temperature")[i], 1e-9);
+      EXPECT_NEAR(gas.pressure[i] / flame.flowCase.pressure, 1, 1e-12);
+    }
+    const ParticlePath path =
+        givenPath(flame.context.mechanism, gas, sootSpecies(request.soot), GasViscosity::transport);
+    EnsembleOptions options;
+    options.particles = static_cast<std::size_t>(request.particles);
+    options.splitTolerance = request.splitTolerance;
+    options.seed = flame.flowCase.seed;
+    options.owner = id;
+    options.soot = request.soot;
+    const EnsemblePathResult again = marchPath(*makeEnsemble(options), path);
+    const double number = all.at(name + "number_density").back();
+    ASSERT_GT(number, 0);
+    EXPECT_NEAR(again.records.back().totals.number / number, 1, 0.05) << id;
   }
 }
 

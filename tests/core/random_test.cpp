@@ -66,8 +66,8 @@ TEST(RandomStream, WordsAreThoseOfRandom123BlockByBlock) {
   RandomStream stream(seed, owner, purpose);
   // From the start, across the block at which half of the counter's first word is used up, and across those at which
   // all of it is, where the key changes.
-  for (const std::uint64_t start : {std::uint64_t{0}, (std::uint64_t{1} << 32) - 5, (std::uint64_t{1} << 33) - 32,
-                                    (std::uint64_t{3} << 33) - 7}) {
+  for (const std::uint64_t start :
+       {std::uint64_t{0}, (std::uint64_t{1} << 32) - 5, (std::uint64_t{1} << 33) - 32, (std::uint64_t{3} << 33) - 7}) {
     stream.seek(start);
     for (std::uint64_t position = start; position < start + 64; ++position) {
       const r123::Philox4x32::ctr_type counter{{static_cast<std::uint32_t>(position / 2),
