@@ -80,7 +80,7 @@ TEST(Trajectories, TheTableOfTheGasIsThePath) {
   request.starts = {{1e-3, 4.5e-3}, {2e-3, 4.2e-3}};
   request.duration = 10e-3;
   request.gasTables = true;
-  request.particles = 20000;
+  request.particles = 6000;
   ResultsWriter results(MPI_COMM_WORLD, folder.results(), {}, meshOutput(flame.mesh));
   runTrajectories(flame.context, flame.flowCase, flame.state, flame.properties, results, &folder);
   results.close();
