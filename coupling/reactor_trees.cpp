@@ -244,6 +244,7 @@ std::vector<std::pair<std::string, double>> ReactorTrees::counts() const {
   } else {
     all.emplace_back("burnt_particles", value(c.burnt));
     all.emplace_back("broken_particles", value(c.broken));
+    if (material_.soot()->fragmentation.active) all.emplace_back("fragmentations", value(c.fragmentations));
   }
   all.emplace_back("population_bytes", static_cast<double>(population_->bytes()));
   return all;

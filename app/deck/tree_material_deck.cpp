@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/deck/fragmentation_deck.hpp"
 #include "app/deck/soot_deck.hpp"
 #include "app/tools/gas_input.hpp"
 
@@ -45,6 +46,11 @@ void addReactions(DeckSchema& schema) {
                      "together go apart (as Neoh, Howard, Sarofim 1985 saw); join: they touch its closest neighbour.")
                .byDefault("break")
                .onlyWith(materialKey, soot));
+  auto [breaks, factor] =
+      fragmentationKeys("particles",
+                        "Whether oxidation breaks aggregates at their necks, also where no primary has "
+                        "burnt away: into the two parts of a neck, which is drawn.");
+  schema.add(breaks.onlyWith(materialKey, soot)).add(factor.onlyWith(materialKey, soot));
 }
 
 void addTable(DeckSchema& schema) {
@@ -171,6 +177,7 @@ TreeMaterial readSoot(const Deck& deck, const Mechanism& mechanism) {
   reactions.alphaOfPrimaries = deck.choice("particles.active_sites") == "primary";
   reactions.keepsHydrogen = deck.boolean("particles.keep_hydrogen");
   reactions.breaksUp = deck.choice("particles.burnt_primaries") == "break";
+  reactions.fragmentation = readFragmentation(deck, "particles");
   return sootMaterial(reactions);
 }
 

@@ -45,7 +45,8 @@ class SootGrowth {
   }
 
   [[nodiscard]] double leastCarbon() const { return leastCarbon_; }
-  [[nodiscard]] double shareO2() const {  // of what oxidation takes
+  [[nodiscard]] double oxidation() const { return lossO2_ + lossOH_; }  // kg carbon/m2/s
+  [[nodiscard]] double shareO2() const {                                // of what oxidation takes
     return lossO2_ > 0 ? lossO2_ / (lossO2_ + lossOH_) : 0;
   }
 

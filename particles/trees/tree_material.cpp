@@ -74,11 +74,15 @@ void requireMaterial(const TreeMaterial& m) {
               "constants of sintering may not be below zero");
   requireTree(!law.active() || law.prefactor > 0, "sintering needs a prefactor above zero");
   if (const SiteReactions* r = m.sites()) requireSites(m, *r);
-  if (const SootReactions* r = m.soot())
+  if (const SootReactions* r = m.soot()) {
+    requireTree(
+        r->fragmentation.factor >= 0 && std::isfinite(r->fragmentation.factor) && r->fragmentation.fractalDimension > 0,
+        "the factor of fragmentation may not be below zero, its fractal dimension needs to be above");
     requireTree(m.density == r->soot.sootDensity && m.components.size() == 2 &&
                     m.components[SootReactions::carbon].weight == r->soot.carbonWeight &&
                     m.components[SootReactions::hydrogen].weight == r->soot.hydrogenWeight,
                 "soot has the density and the weights of its processes");
+  }
 }
 
 TreeMaterial silica() {

@@ -14,6 +14,7 @@
 #include "core/rooms.hpp"
 #include "particles/gas/soot_gas.hpp"
 #include "particles/population/model/collision_kernel.hpp"
+#include "particles/soot/soot_fragmentation.hpp"
 #include "particles/trees/sintering_law.hpp"
 
 namespace lampblack::particles {
@@ -65,6 +66,8 @@ struct SootReactions {
   // were seen to (Neoh, Howard, Sarofim 1985); or all that touched it touches the neighbour it shared most surface
   // with.
   bool breaksUp = true;
+  // By attack of the necks: of a tree with as many primaries of 6 V/S as have its surface (equalPrimaries).
+  SootFragmentation fragmentation;
 
   enum Component : std::size_t { carbon, hydrogen };
 };

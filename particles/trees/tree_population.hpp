@@ -51,6 +51,7 @@ struct TreeExchange {
   // Of soot: dimers that condensed, additions of C2H2, attacks by O2 and by OH; primaries and whole particles that
   // burnt away, and particles that broke as one of their primaries did.
   double dimers = 0, grown = 0, oxidisedO2 = 0, oxidisedOH = 0, burntPrimaries = 0, burnt = 0, broken = 0;
+  double fragmentations = 0;  // necks that oxidation broke
 };
 
 struct TreeCounters {
@@ -60,11 +61,13 @@ struct TreeCounters {
   std::uint64_t limited = 0;                       // reactions within particles bounded at zero or without two sites
   std::uint64_t withoutSites = 0;                  // necks that sintered by more sites than a primary had
   std::uint64_t burnt = 0, broken = 0;  // particles that burnt away, and that broke as one of their primaries did
+  std::uint64_t fragmentations = 0;     // necks that oxidation broke
 };
 
-// How often a process happens in a gas, 1/m3/s: as TreeExchange counts it. Of soot births and collisions alone.
+// How often a process happens in a gas, 1/m3/s: as TreeExchange counts it. Of soot births, collisions and necks that
+// break alone.
 struct TreeRates {
-  double inceptions = 0, coagulations = 0, reactions = 0, condensations = 0;
+  double inceptions = 0, coagulations = 0, reactions = 0, condensations = 0, fragmentations = 0;
 };
 
 // The events of a material: what they are called, one and many; where their rate and their number in the sample are
@@ -90,7 +93,7 @@ struct TreeTotals {
 };
 
 // How trees stand in a packed population (packed_tree.hpp).
-inline constexpr ParticleRows treeRows{20 + sizeof(TreeExchange) / sizeof(double) + std::size(populationCounters),
+inline constexpr ParticleRows treeRows{21 + sizeof(TreeExchange) / sizeof(double) + std::size(populationCounters),
                                        true};
 
 class TreePopulation {

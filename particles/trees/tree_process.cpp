@@ -190,6 +190,9 @@ std::vector<TreeEvent> treeEvents(const TreeMaterial& material) {
          {&E::burntPrimaries, "burnt_primaries", "primaries that burnt away"},
          {&E::burnt, "burnt_particles", "particles that burnt away"},
          {&E::broken, "broken_particles", "particles that broke as one of their primaries had burnt away"}});
+  if (material.soot() != nullptr && material.soot()->fragmentation.active)
+    add({{&E::fragmentations, "fragmentations", "necks of particles that oxidation broke", "fragmentation",
+          &R::fragmentations, &C::fragmentations}});
   return events;
 }
 

@@ -93,7 +93,7 @@ void TreeProcess::restore(const State& state) {
 
 namespace {
 
-constexpr double packedTrees = 2;
+constexpr double packedTrees = 3;
 
 }  // namespace
 
@@ -107,7 +107,8 @@ std::vector<double> TreeProcess::pack() const {
   packDoubles(state, exchange_);
   for (const std::uint64_t count :
        {counters_.inceptions, counters_.fictitious, counters_.fused, counters_.splitSteps, counters_.reactions,
-        counters_.condensations, counters_.limited, counters_.withoutSites, counters_.burnt, counters_.broken})
+        counters_.condensations, counters_.limited, counters_.withoutSites, counters_.burnt, counters_.broken,
+        counters_.fragmentations})
     state.push_back(static_cast<double>(count));
   for (const PopulationCounter& counter : populationCounters)
     state.push_back(static_cast<double>(const_cast<Method&>(method_).counters().*counter.value));
@@ -126,9 +127,9 @@ void TreeProcess::unpack(std::span<const double> values) {
   type_.clock() = state.next();
   cost_ = state.next();
   exchange_ = state.next<TreeExchange>();
-  for (std::uint64_t* count :
-       {&counters_.inceptions, &counters_.fictitious, &counters_.fused, &counters_.splitSteps, &counters_.reactions,
-        &counters_.condensations, &counters_.limited, &counters_.withoutSites, &counters_.burnt, &counters_.broken})
+  for (std::uint64_t* count : {&counters_.inceptions, &counters_.fictitious, &counters_.fused, &counters_.splitSteps,
+                               &counters_.reactions, &counters_.condensations, &counters_.limited,
+                               &counters_.withoutSites, &counters_.burnt, &counters_.broken, &counters_.fragmentations})
     *count = static_cast<std::uint64_t>(state.next());
   for (const PopulationCounter& counter : populationCounters)
     method_.counters().*counter.value = static_cast<std::uint64_t>(state.next());

@@ -20,7 +20,9 @@ TreeRates TreeProcess::rates(const ParticleGas& gas, std::size_t pairs) const {
   std::visit(
       [&](auto reactions) {  // a copy, which sees this gas
         reactions.see(gas, kernel);
-        rates.inceptions = reactions.inception(sums(reactions), 0);
+        const auto present = sums(reactions);
+        rates.inceptions = reactions.inception(present, 0);
+        reactions.begin(present, 0);
         forEachTree([&](const Tree& tree, double number) {
           const TreeHead& head = tree.head();
           if constexpr (requires { reactions.addRates(rates, head, number); }) reactions.addRates(rates, head, number);

@@ -64,6 +64,11 @@ inline void shapeTree(TreeHead& tree, double inverseDimension, CollisionSize siz
   tree.collision = diameter * std::pow(ratio, 3 * inverseDimension);
 }
 
+// How many equal primaries of 6 V/S in point contact have its volume and surface, n_r = S^3 / (36 pi V^2) (eq. 19).
+[[nodiscard]] inline double equalPrimaries(const TreeHead& tree) {
+  return tree.volume / primaryVolume(6 * tree.volume / tree.surface);
+}
+
 // All sums afresh, from primaries and necks that are up to date.
 inline void measureTree(TreeHead& tree, double inverseDimension, CollisionSize size) {
   tree.units = {};

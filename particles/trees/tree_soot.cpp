@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "core/poisson.hpp"
 #include "particles/trees/tree_burning.hpp"
@@ -17,7 +18,8 @@ TreeSoot::TreeSoot(const PrimaryTrees& type)
       dimers_(reactions_.soot),
       carbonAtom_(reactions_.soot.carbonWeight / constants::avogadro),
       hydrogenAtom_(reactions_.soot.hydrogenWeight / constants::avogadro),
-      joined_(type.material().sintering.active() ? std::cbrt(2.0) : std::pow(2.0, 1 / type.fractalDimension())) {}
+      joined_(type.material().sintering.active() ? std::cbrt(2.0) : std::pow(2.0, 1 / type.fractalDimension())),
+      fragmentation_(type) {}
 
 SootPopulationLaw TreeSoot::law(double tolerance) const {
   return {reactions_.soot, dimers_, kernel_, joined_, reactions_.alphaOfPrimaries, true, tolerance};
@@ -36,6 +38,7 @@ void TreeSoot::add(Sums& sums, const TreeHead& tree, double weight) const {
   sums.primaries += weight * tree.count;
   sums.area += weight * tree.surface;
   sums.diameters += weight * tree.collision;
+  sums.breaking += weight * fragmentation_.perOxidation(tree);
   if (!medium_->condensing()) return;
   const double rate = medium_->condensingCollision(p);
   sums.collisions += weight * rate;
@@ -59,14 +62,17 @@ TreeUnits TreeSoot::nucleus() const {
 
 double TreeSoot::step(const Sums& sums, const CollisionKernel* kernel, double tolerance, double remaining) {
   kernel_ = kernel;
-  return sootStep(law(tolerance), *medium_, sums, 0, remaining);
+  // The number may not change by more in a step by what breaks, either.
+  const SootFluxes flux = medium_->fluxes();
+  const double breaking = sums.number > 0 ? (flux.O2 + flux.OH) * sums.breaking / sums.number : 0;
+  return sootStep(law(tolerance), *medium_, sums, breaking, remaining);
 }
 
 void TreeSoot::begin(const Sums& sums, double dt) {
   dt_ = dt;
   growth_.emplace(medium_->growth(sootFluxes(law(1), *medium_, sums, dt)));
   moved_ = {};
-  burntPrimaries_ = burnt_ = broken_ = 0;
+  burntPrimaries_ = burnt_ = broken_ = fragmentations_ = 0;
   std::fill(std::begin(events_), std::end(events_), 0.0);
 }
 
@@ -114,9 +120,36 @@ void TreeSoot::inNumbers(TreeHead& tree, const SootEventNumbers& expected, Rando
   }
 }
 
-TreeFate TreeSoot::grow(Tree& handle, RandomStream& random) {
+void TreeSoot::breakUp(Tree& tree, RandomStream& random, std::vector<Tree>& parts) {
+  fragmentations_ += fragmentation_.breakUp(tree, growth_->oxidation(), 0.5 * dt_, random, parts);
+}
+
+TreeFate TreeSoot::grow(Tree& tree, RandomStream& random) {
+  if (!fragmentation_.isActive() || !(growth_->oxidation() > 0)) return react(tree, random);
+  const std::uint64_t before = fragmentations_;
+  const std::size_t first = fragments_.size();
+  pieces_.clear();
+  breakUp(tree, random, pieces_);
+  pieces_.push_back(std::move(tree));
+  bool isSame = true;
+  for (Tree& piece : pieces_) {
+    const TreeFate fate = react(piece, random);
+    isSame = isSame && fate == TreeFate::same;
+    if (fate != TreeFate::gone) fragments_.push_back(std::move(piece));
+  }
+  // All that is left of the tree stands there now, with what burnt primaries held.
+  pieces_.clear();
+  for (std::size_t k = first; k < fragments_.size(); ++k) breakUp(fragments_[k], random, pieces_);
+  std::move(pieces_.begin(), pieces_.end(), std::back_inserter(fragments_));
+  if (fragments_.size() == first) return TreeFate::gone;
+  tree = std::move(fragments_.back());
+  fragments_.pop_back();
+  return isSame && fragmentations_ == before ? TreeFate::same : TreeFate::changed;
+}
+
+TreeFate TreeSoot::react(Tree& handle, RandomStream& random) {
   const TreeHead& seen = handle.head();
-  const double d = 6 * seen.volume / seen.surface, equal = seen.volume / primaryVolume(d);
+  const double d = 6 * seen.volume / seen.surface, equal = equalPrimaries(seen);
   const SootAggregate::Particle p = asSphere(seen);
   const SootEventNumbers expected =
       expectedEvents(*growth_, p.carbon, p.hydrogen, equal, seen.collision / d, d, dt_, 1 / carbonAtom_);
@@ -182,6 +215,8 @@ void TreeSoot::bookGrowth(double weight, TreeExchange& exchange, TreeCounters& c
   exchange.broken += weight * static_cast<double>(broken_);
   counters.burnt += burnt_;
   counters.broken += broken_;
+  exchange.fragmentations += weight * static_cast<double>(fragmentations_);
+  counters.fragmentations += fragmentations_;
 }
 
 }  // namespace lampblack::particles

@@ -3,7 +3,8 @@
 //
 // A tree grows as so many equal primaries as have its volume and surface: n_r = S^3/(36 pi V^2) of the diameter 6 V/S
 // (Shekar, Smith, Kraft, Wagner 2011, eq. 19), which are a sphere's where it is one. What happens to it happens to a
-// primary by its part of their surface.
+// primary by its part of their surface. It breaks at its necks (TreeFragmentation) for half of the step before that and
+// for half of it after.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +15,16 @@
 #include "core/rooms.hpp"
 #include "particles/soot/soot_events.hpp"
 #include "particles/soot/soot_steps.hpp"
+#include "particles/trees/tree_fragmentation.hpp"
 #include "particles/trees/tree_sites.hpp"
 
 namespace lampblack::particles {
 
 class TreeSoot {
  public:
-  using Sums = SootSums;
+  struct Sums : SootSums {
+    double breaking = 0;  // 1/m3/s for each kg/m2/s of oxidation: how often trees break at their necks
+  };
   static constexpr bool dependsOnSums = true;
 
   explicit TreeSoot(const PrimaryTrees& type);
@@ -34,7 +38,12 @@ class TreeSoot {
   void begin(const Sums& sums, double dt);
   [[nodiscard]] bool isActive() const { return medium_->condensing() || medium_->surfaceActive(); }
   TreeFate grow(Tree& tree, RandomStream& random);
-  // Those that a burnt primary held to the trees that grew since this was asked for last.
+  // In a time of growth, what happens to `number` trees (1/m3).
+  void addRates(TreeRates& rates, const TreeHead& tree, double number) const {
+    rates.fragmentations += number * growth_->oxidation() * fragmentation_.perOxidation(tree);
+  }
+  // What trees that grew since this was asked for last have lost: parts that a burnt primary held, and sides of necks
+  // that broke.
   [[nodiscard]] std::vector<Tree> takeFragments() { return std::exchange(fragments_, {}); }
 
   void bookBirth(double weight, TreeExchange& exchange) const;
@@ -47,7 +56,9 @@ class TreeSoot {
   void happens(TreePrimary& primary, std::size_t kind, double times);
   void oneByOne(TreeHead& tree, const SootEventNumbers& expected, double left, RandomStream& random);
   void inNumbers(TreeHead& tree, const SootEventNumbers& expected, RandomStream& random);
+  TreeFate react(Tree& tree, RandomStream& random);
   TreeFate withoutBurnt(Tree& tree);
+  void breakUp(Tree& tree, RandomStream& random, std::vector<Tree>& parts);
 
   static constexpr double fewEvents = 8;
 
@@ -58,13 +69,14 @@ class TreeSoot {
   std::optional<SootMedium> medium_;
   const CollisionKernel* kernel_ = nullptr;  // null: no coagulation
   double joined_;
+  TreeFragmentation fragmentation_;
   // Of the time of growth.
   double dt_ = 0;
   std::optional<SootGrowth> growth_;
   SootMoved moved_;
-  std::uint64_t burntPrimaries_ = 0, burnt_ = 0, broken_ = 0;
+  std::uint64_t burntPrimaries_ = 0, burnt_ = 0, broken_ = 0, fragmentations_ = 0;
   double events_[sootEvents] = {};
-  std::vector<Tree> fragments_;
+  std::vector<Tree> fragments_, pieces_;
   std::vector<double> surfaces_, change_;  // m2, sums up to each primary; m3, of each
 };
 

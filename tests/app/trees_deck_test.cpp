@@ -95,11 +95,16 @@ TEST(TreesDeck, SootTakesItsPhysicsFromTheSectionOfSoot) {
   EXPECT_EQ(request.viscosity, GasViscosity::transport);
   EXPECT_TRUE(options.coagulation);
   EXPECT_FALSE(m.sintering.active());
+  EXPECT_FALSE(m.soot()->fragmentation.active);
+  EXPECT_EQ(m.soot()->fragmentation.factor, 1e5);
   const SootReactions other =
       *requestOf("ethylene_abf2000_101.yaml",
-                 "  {material: soot, burnt_primaries: join, keep_hydrogen: false, active_sites: primary}\n", soot)
+                 "  {material: soot, burnt_primaries: join, keep_hydrogen: false, active_sites: primary,\n"
+                 "   fragmentation: true, fragmentation_factor: 3e4}\n",
+                 soot)
            .options.material.soot();
-  EXPECT_TRUE(!other.breaksUp && !other.keepsHydrogen && other.alphaOfPrimaries);
+  EXPECT_TRUE(!other.breaksUp && !other.keepsHydrogen && other.alphaOfPrimaries && other.fragmentation.active);
+  EXPECT_EQ(other.fragmentation.factor, 3e4);
 }
 
 TEST(TreesDeck, SilicaKeepsItsOwnDefaults) {

@@ -204,6 +204,7 @@ TEST(TreesInCells, OfSootKeepCarbonHydrogenAndOxygen) {
   const Mechanism& mechanism = ethylene().mechanism;
   reactions.soot.carbonWeight = mechanism.atomicWeight(mechanism.elementIndex("C"));
   reactions.soot.hydrogenWeight = mechanism.atomicWeight(mechanism.elementIndex("H"));
+  reactions.fragmentation = {true, 1e7};
   TreeOptions o = trees();
   o.material = sootMaterial(reactions);
   CellVessel v(

@@ -180,6 +180,7 @@ TreeOptions sootOptions(bool reacts) {
   for (bool* process : {&reactions.soot.inception, &reactions.soot.condensation, &reactions.soot.surfaceGrowth,
                         &reactions.soot.oxidation, &reactions.soot.coagulation})
     *process = reacts;
+  reactions.fragmentation = {reacts, 1e9};  // so that some break
   TreeOptions options;
   options.material = sootMaterial(reactions);
   options.particles = 2000;
@@ -251,6 +252,20 @@ TEST_F(SootTreesInReactors, ClosedOnesKeepElementsAndEnergy) {
   own.timePerUnit = [](const double*) { return 1.0; };
   own.kept = {Kept::internalEnergy};
   expectKept(reactor, own, reactor.initialState(), 1e-3);
+  // Where necks may break, it is told how many did.
+  const auto columns = trees.columns();
+  const std::vector<double> concentrations(trees.species().size(), 1e-3);
+  const std::vector<double> values = trees.values({1900, gas.pressure, 0.17, 6e-5, 0.028, concentrations});
+  ASSERT_EQ(columns.size(), values.size());
+  const auto at = [&](const std::string& name) {
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      if (columns[k].name == name) return values[k];
+    ADD_FAILURE() << name;
+    return 0.0;
+  };
+  EXPECT_GT(at("soot_fragmentations"), 0);
+  EXPECT_GT(at("soot_fragmentation_rate"), 0);
+  EXPECT_EQ(at("soot_fragmentation_events"), static_cast<double>(trees.population().counters().fragmentations));
 }
 
 TEST_F(SootTreesInReactors, PlugFlowKeepsElementsAndEnergy) {

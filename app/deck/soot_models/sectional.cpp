@@ -1,3 +1,4 @@
+#include "app/deck/fragmentation_deck.hpp"
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/soot_models/soot_models.hpp"
 #include "particles/models/sectional/sectional_soot.hpp"
@@ -7,6 +8,8 @@ namespace {
 
 void addSectionalKeys(DeckSchema& schema) {
   const std::string s = "soot.sectional.";
+  const auto [breaking, factor] =
+      fragmentationKeys("soot.sectional", "Whether oxidation breaks aggregates into halves.");
   schema
       .section("soot.sectional", Presence::defaulted, "Constants of the model sectional.",
                {{"soot.model", {"sectional", "none"}}})
@@ -64,12 +67,8 @@ void addSectionalKeys(DeckSchema& schema) {
                      "Collision kernel of coagulation: transition: for particles of all sizes; free_molecular: for "
                      "particles smaller than the mean free path.")
                .byDefault("transition"))
-      .add(booleanKey(s + "fragmentation", "Whether oxidation breaks aggregates into halves.").byDefault("false"))
-      .add(numberKey(s + "fragmentation_factor",
-                     "Factor A of the rate of break-up, A w n_p^(1/1.8), with w the carbon oxidised per area and time "
-                     "and n_p the primary particles; in m^2/kg.")
-               .byDefault("1e5")
-               .atLeast(0))
+      .add(breaking)
+      .add(factor)
       .add(booleanKey(s + "carbonisation",
                       "true: soot keeps the hydrogen of PAH and loses it slowly (carbonisation); false: the hydrogen "
                       "leaves as H2 when PAH become soot.")
@@ -107,8 +106,7 @@ std::unique_ptr<ParticleModel> readSectional(const Deck& deck, const Mechanism& 
   if (deck.choice(key("growth_scheme")) == "limited")
     options.growthScheme = SectionalSootOptions::GrowthScheme::limited;
   if (deck.choice(key("kernel")) == "free_molecular") options.kernel = CollisionKernelType::freeMolecular;
-  options.fragmentation = deck.boolean(key("fragmentation"));
-  options.fragmentationFactor = deck.number(key("fragmentation_factor"));
+  options.fragmentation = readFragmentation(deck, "soot.sectional");
   options.carbonisation = deck.boolean(key("carbonisation"));
   options.carbonisationRate = deck.quantity(key("carbonisation_rate"));
   options.carbonisationEnergy = deck.quantity(key("carbonisation_energy"));

@@ -50,10 +50,10 @@ void check(const SectionalSootOptions& options) {
           "soot: sections coagulate by the transition or the free-molecular kernel");
   require(options.soot.sootDensity > 0, "soot: the density of soot has to be above zero");
   require(options.nucleationFactor >= 0 && options.condensationEfficiency >= 0 && options.coalescenceDiameter >= 0 &&
-              options.nucleusCarbon >= 0 && options.fragmentationFactor >= 0 && options.carbonisationRate >= 0,
+              options.nucleusCarbon >= 0 && options.fragmentation.factor >= 0 && options.carbonisationRate >= 0,
           "soot: factors, rates and sizes of the sections may not be negative");
-  require(options.fractalDimension > 0, "soot: the fractal dimension has to be above zero");
-  require(!(options.fragmentation && options.aggregation == SectionalSootOptions::Aggregation::spheres),
+  require(options.fragmentation.fractalDimension > 0, "soot: the fractal dimension has to be above zero");
+  require(!(options.fragmentation.active && options.aggregation == SectionalSootOptions::Aggregation::spheres),
           "soot: spheres cannot break up; fragmentation needs aggregates");
 }
 
@@ -132,15 +132,6 @@ SectionPairs::Gas SectionalSoot::Impl::collisionGas(const ParticleGas& gas) cons
           continuumPrefactor(gas.temperature, gas.viscosity), options.kernel == CollisionKernelType::transition};
 }
 
-std::array<double, 2> SectionalSoot::Impl::breaking(double n) const {
-  if (!options.fragmentation || n <= 1) return {0, 0};
-  const double exponent = 1 / options.fractalDimension;
-  const double value = options.fragmentationFactor * std::pow(n, exponent), slope = exponent * value / n;
-  if (n >= 2) return {value, slope};
-  const double t = n - 1, ramp = t * t * (3 - 2 * t), rampSlope = 6 * t * (1 - t);
-  return {value * ramp, slope * ramp + value * rampSlope};
-}
-
 void SectionalSoot::Impl::prepareSections(std::span<const double> densities) {
   State& s = state;
   s.number = s.carbon = 0;
@@ -177,7 +168,7 @@ void SectionalSoot::Impl::prepare(const ParticleGas& gas, std::span<const double
     const bool last = i + 1 == sections;
     s.up.perAggregate[i] = last ? 0 : growing * shapes.area[i] + s.uptake.condensation[i];
     s.down.perAggregate[i] = oxidising * shapes.area[i];
-    s.breaking[i] = i < halves.below ? 0 : oxidising * breaking(shapes.primariesEach[i])[0];
+    s.breaking[i] = i < halves.below ? 0 : oxidising * options.fragmentation.perOxidation(shapes.primariesEach[i])[0];
     const double here = shapes.area[i] * s.aggregates[i];
     area += here;
     if (!last) growingArea += here;

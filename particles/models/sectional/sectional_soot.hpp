@@ -13,6 +13,7 @@
 #include "particles/gas/soot_gas.hpp"
 #include "particles/models/soot_model.hpp"
 #include "particles/population/model/collision_kernel.hpp"
+#include "particles/soot/soot_fragmentation.hpp"
 
 namespace lampblack::particles {
 
@@ -49,10 +50,8 @@ struct SectionalSootOptions {
   GrowthScheme growthScheme = GrowthScheme::upwind;
   CollisionKernelType kernel = CollisionKernelType::transition;  // or freeMolecular
 
-  // Break-up of aggregates by oxidation: see docs/theory/soot_models.md. Off by default, as in Wang (2025).
-  bool fragmentation = false;
-  double fragmentationFactor = 1e5;  // m2/kg: of the rate of break-up to that of oxidation per area
-  double fractalDimension = 1.8;     // of the exponent of n_p in the rate of break-up
+  // Break-up of aggregates by oxidation, into halves. Off by default, as in Wang (2025).
+  SootFragmentation fragmentation;
 
   // Loss of the hydrogen that PAH brought, A exp(-E/RT) (Dobbins 2002). Off by default, as in Wang (2025).
   bool carbonisation = false;

@@ -53,8 +53,6 @@ struct SectionalSoot::Impl : SootSpecies {
   // Number whose mean size is mu_1, 1/m3.
   [[nodiscard]] double sizeNumber() const;
   [[nodiscard]] SectionPairs::Gas collisionGas(const ParticleGas& gas) const;
-  // Rates of break-up of an aggregate, 1/s per (kg/m2/s) of oxidised carbon, and by n_p.
-  [[nodiscard]] std::array<double, 2> breaking(double primariesEach) const;
   void prepareSections(std::span<const double> densities);                  // what does not depend on the gas
   void prepare(const ParticleGas& gas, std::span<const double> densities);  // throws NumericsError
   void sources(std::span<double> rates, std::span<double> exchange);

@@ -88,7 +88,8 @@ void SectionalSoot::Impl::addSections(Assembly& a) {
       a.addFlux(c, i, s.down, false, oxidising * dArea);
       events[byO2 * ld + c] += s.surface.oxidationO2 * dArea;
       events[byOH * ld + c] += s.surface.oxidationOH * dArea;
-      const double more = i < halves.below ? 0 : oxidising * breaking(shapes.primariesEach[i])[1] * byDensity;
+      const double more =
+          i < halves.below ? 0 : oxidising * options.fragmentation.perOxidation(shapes.primariesEach[i])[1] * byDensity;
       a.addBreaking(c, i, s.breaking[i] * N1 + more * N, s.breaking[i] * P1 + more * P);
       if (!spheres) a.addPrimaries(c, i, P1 - N1 * primaryRatio(i));
     };
@@ -119,8 +120,8 @@ void SectionalSoot::Impl::addSurface(Assembly& a, std::size_t c, const Surface& 
     const double here = shapes.area[i] * s.aggregates[i];
     if (i + 1 < sections) a.addFlux(c, i, s.up, true, growing * here);
     a.addFlux(c, i, s.down, false, oxidising * here);
-    if (i >= halves.below && options.fragmentation) {
-      const double broken = oxidising * breaking(shapes.primariesEach[i])[0];
+    if (i >= halves.below && options.fragmentation.active) {
+      const double broken = oxidising * options.fragmentation.perOxidation(shapes.primariesEach[i])[0];
       a.addBreaking(c, i, broken * s.aggregates[i], broken * s.primaries[i]);
     }
     if (i + 1 == sections) a.events[growth * a.ld + c] += by.growth * area;

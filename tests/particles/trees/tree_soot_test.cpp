@@ -122,7 +122,7 @@ void expectMeanGrowth(const FlameGas& gas, std::size_t primaries, double dt) {
   // A population of this one tree, in a gas whose rates are then those of the population.
   std::vector<double> change, each;
   const double n = static_cast<double>(primaries);
-  SootSums sums;
+  TreeSoot::Sums sums;
   TreeSoot reactions(type);
   CollisionKernel kernel(options.kernel);
   reactions.see(gas.state, kernel);
@@ -171,7 +171,7 @@ TEST(TreesOfSoot, SumsAreThoseOfSpheres) {
   reactions.see(gas.state, CollisionKernel(options.kernel));
   SootColumns columns;
   columns.resize(5);
-  SootSums sums;
+  TreeSoot::Sums sums;
   for (std::size_t k = 0; k < 5; ++k) {
     const TreeUnits units{100 * std::pow(3.0, k), 30, 0};
     const double weight = 1e15 * static_cast<double>(k + 1);
@@ -202,7 +202,7 @@ TEST(TreesOfSoot, NothingHappensToWhatHasBurnt) {
     for (int repeat = 0; repeat < 300; ++repeat) {
       Tree tree = type.make(units);
       for (int i = 1; i < 6; ++i) tree = type.coagulated(std::move(tree), type.make(units), random);
-      SootSums sums;
+      TreeSoot::Sums sums;
       reactions.add(sums, tree.head(), 1e12);
       reactions.begin(sums, dt);
       const TreeFate fate = reactions.grow(tree, random);
@@ -237,7 +237,7 @@ TEST(TreesOfSoot, EventsHappenToPrimariesByTheirSurface) {
   const PrimaryTrees type(options.material, options.size);
   RandomStream random(74, 75, 76);
   const Tree tree = type.coagulated(type.make(TreeUnits{8000, 800, 0}), type.make(TreeUnits{1000, 100, 0}), random);
-  SootSums sums;
+  TreeSoot::Sums sums;
   TreeSoot reactions(type);
   reactions.see(gas.state, CollisionKernel(options.kernel));
   reactions.add(sums, tree.head(), 1e12);

@@ -47,7 +47,7 @@ inline SectionalSootOptions pyrene() {
 inline SectionalSootOptions twoPahWithEverything() {
   SectionalSootOptions options = pyrene();
   options.soot.pah = {{"A3", 14, 10, 1.5e-2}, {"A4", 16, 10, 2.5e-2}};
-  options.fragmentation = options.carbonisation = true;
+  options.fragmentation.active = options.carbonisation = true;
   return options;
 }
 

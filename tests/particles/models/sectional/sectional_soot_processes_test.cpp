@@ -137,7 +137,7 @@ TEST(SectionalSoot, BreakUpKeepsCarbonAndPrimariesAndMakesOneOfOne) {
     options.soot.oxidation = true;
     const SectionGas gas(1800, {1e-3, 0.02, 3e-3, 0.1, 0.02, 1e-5, 0.1, 0});
     const SectionalSoot without(options);
-    options.fragmentation = true;
+    options.fragmentation.active = true;
     const SectionalSoot model(options);
     const auto y = randomState(model, 5);
     auto f = sourcesOf(model, gas.gas, y);

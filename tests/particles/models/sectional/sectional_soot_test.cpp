@@ -39,7 +39,7 @@ class SectionalElements : public ::testing::TestWithParam<std::tuple<Nucleation,
     wanted.factor = std::get<3>(GetParam());
     wanted.growthScheme =
         wanted.factor < 2 ? SectionalSootOptions::GrowthScheme::limited : SectionalSootOptions::GrowthScheme::upwind;
-    wanted.fragmentation = wanted.aggregation == Aggregation::aggregates;
+    wanted.fragmentation.active = wanted.aggregation == Aggregation::aggregates;
     return wanted;
   }
 };
@@ -214,7 +214,7 @@ TEST(SectionalSoot, WrongOptionsAreNamed) {
   fails([](auto& o) { o.kernel = CollisionKernelType::additive; }, "kernel");
   fails(
       [](auto& o) {
-        o.fragmentation = true;
+        o.fragmentation.active = true;
         o.aggregation = Aggregation::spheres;
       },
       "spheres");
