@@ -25,10 +25,10 @@ inline TreeOptions breakingSoot(double factor) {
 inline constexpr TreeUnits unitsOfEach{400000, 20000, 0};
 
 // Equal primaries in a row, in point contact: what it breaks into are rows again.
-inline Tree chain(const PrimaryTrees& type, std::size_t count) {
+inline Tree chain(const PrimaryTrees& type, std::size_t count, const TreeUnits& each = unitsOfEach) {
   RandomStream random(1, 2, 3);
-  Tree tree = type.make(unitsOfEach);
-  for (std::size_t i = 1; i < count; ++i) tree = type.coagulated(std::move(tree), type.make(unitsOfEach), random);
+  Tree tree = type.make(each);
+  for (std::size_t i = 1; i < count; ++i) tree = type.coagulated(std::move(tree), type.make(each), random);
   TreeHead& head = tree.own();
   for (std::uint32_t k = 0; k + 1 < head.count; ++k) {
     necksOf(&head)[k].left = k;

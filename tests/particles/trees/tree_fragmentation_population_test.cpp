@@ -25,10 +25,10 @@ double oxidationOf(const TreeOptions& options, const FlameGas& gas) {
 
 // Equal rows, as a population that is full or has room.
 std::unique_ptr<TreePopulation> rows(TreeOptions options, std::size_t primaries, std::size_t count, double number,
-                                     bool isFull = true) {
+                                     bool isFull = true, const TreeUnits& each = unitsOfEach) {
   auto trees = makeTreePopulation(options);
   const PrimaryTrees type(options.material, options.size);
-  const Tree row = chain(type, primaries);
+  const Tree row = chain(type, primaries, each);
   std::vector<double> packed;
   for (std::size_t k = 0; k < count; ++k) packTree(row, number / static_cast<double>(count), options.material, packed);
   // A sample of that weight is there already.
@@ -43,23 +43,28 @@ std::unique_ptr<TreePopulation> rows(TreeOptions options, std::size_t primaries,
 }
 
 TEST(FragmentationOfTrees, RatesOfAPopulationAreThoseOfSections) {
-  const Burning gas;
   TreeOptions options = breakingSoot(1e5);
   options.particles = 64;
   SectionalSootOptions sectional;
   sectional.soot = options.material.soot()->soot;
   sectional.fragmentation = {true, 1e5};
   const SectionalSoot sections(sectional);
-  for (const std::size_t n : {2U, 9U}) {
-    const auto trees = rows(options, n, 32, 1e15);
-    const TreeRates rates = trees->rates(gas.state, 0);
-    std::vector<double> densities(sections.scalars().size());
-    densities[30] = 1e15;
-    densities[sections.sections() + 30] = 1e15 * static_cast<double>(n);
-    EXPECT_NEAR(rates.fragmentations / sections.processes(gas.state, densities).fragmentationNumber, 1, 1e-9);
-    const double exact = 1e15 * oxidationOf(options, gas) * 1e5 * std::pow(static_cast<double>(n), 1 / 1.8);
-    EXPECT_NEAR(rates.fragmentations / exact, 1, 1e-9);
-  }
+  constexpr std::size_t section = 18;
+  const double atoms = sections.pivots()[section] * constants::avogadro / sectional.soot.carbonWeight;
+  const FlameGas byBoth(1800, 1e-3, 0.03, 1e-3, 0.1, 0.01, 0, {0, 0, 0});  // O2 by active sites, of the mean particle
+  const Burning byOH;
+  for (const FlameGas* gas : {static_cast<const FlameGas*>(&byOH), &byBoth})
+    for (const std::size_t n : {2U, 9U}) {
+      const TreeUnits each{atoms / static_cast<double>(n), 0, 0};
+      const double rate = rows(options, n, 32, 1e15, true, each)->rates(gas->state, 0).fragmentations;
+      std::vector<double> densities(sections.scalars().size());
+      densities[section] = 1e15;
+      densities[sections.sections() + section] = 1e15 * static_cast<double>(n);
+      EXPECT_NEAR(rate / sections.processes(gas->state, densities).fragmentationNumber, 1, 1e-9);
+      if (gas != &byOH) continue;
+      const double exact = 1e15 * oxidationOf(options, *gas) * 1e5 * std::pow(static_cast<double>(n), 1 / 1.8);
+      EXPECT_NEAR(rate / exact, 1, 1e-9);
+    }
 }
 
 TEST(FragmentationOfTrees, TheNumberOfAPopulationFollowsTheExactMean) {
@@ -71,6 +76,8 @@ TEST(FragmentationOfTrees, TheNumberOfAPopulationFollowsTheExactMean) {
   ASSERT_GT(oxidation, 0);
   const double exposure = 6e-9;  // hardly anything burns in it: 3e-12 m
   options.particles = 1000;
+  const double exact = meanNumber(n, exposure, factor);
+  ASSERT_GT(exact, 2);
   for (const std::size_t count : {64U, 600U}) {  // with room for all, and with a sample that overflows
     std::vector<double> numbers, booked;
     bool isFull = false;
@@ -85,6 +92,11 @@ TEST(FragmentationOfTrees, TheNumberOfAPopulationFollowsTheExactMean) {
       EXPECT_EQ(exchange.burntPrimaries, 0);
       isFull = isFull || trees->counters().removals > 0;
       EXPECT_GT(trees->counters().fragmentations, 0U);
+      // As short steps as the number asks for, growth and oxidation having none to speak of.
+      EXPECT_GT(static_cast<double>(trees->counters().splitSteps), 0.9 * std::log(exact) / 0.05);
+      const auto other = makeTreePopulation(options);
+      other->unpack(trees->pack());
+      EXPECT_EQ(other->counters().fragmentations, trees->counters().fragmentations);
       if (trees->counters().removals == 0) {
         EXPECT_NEAR(numbers.back(), booked.back(), 1e-9);
         EXPECT_NEAR(totals.primaries, static_cast<double>(n) * number, 1e-9 * static_cast<double>(n) * number);
@@ -92,8 +104,6 @@ TEST(FragmentationOfTrees, TheNumberOfAPopulationFollowsTheExactMean) {
       }
     }
     EXPECT_EQ(isFull, count == 600U);
-    const double exact = meanNumber(n, exposure, factor);
-    ASSERT_GT(exact, 2);
     for (const auto* sample : {&numbers, &booked}) {
       EXPECT_LT(std::abs(summarise(*sample).z(exact)), zLimit) << summarise(*sample).mean << " and " << exact;
       EXPECT_LT(summarise(*sample).standardError, 0.02 * exact);

@@ -264,6 +264,11 @@ TEST(TreesOfSoot, BooksEveryAtom) {
   const FlameGas burning(1800, 1e-3, 0, 1e-3, 0.1, 0.02, 0, {0, 0, 0});
   for (const bool breaksUp : {true, false}) {
     TreeOptions options = sootTrees(threePah(), breaksUp);
+    if (!breaksUp) {
+      SootReactions reactions = *options.material.soot();
+      reactions.fragmentation = {true, 1e5};
+      options.material.reactions = reactions;
+    }
     options.particles = 4096;
     options.fullAt = 4e18;
     const auto trees = makeTreePopulation(options);
@@ -290,6 +295,11 @@ TEST(TreesOfSoot, BooksEveryAtom) {
       EXPECT_NEAR(all.units[1], hydrogen * constants::avogadro, 1e-11 * whole);
       EXPECT_NEAR(oxygen * constants::avogadro, 0, 1e-11 * whole);
       for (std::size_t c = 0; c < 2; ++c) EXPECT_NEAR(totals.units[c], all.units[c], 1e-9 * whole);
+      // A neck that breaks makes one particle two, and all others are as many as they were.
+      if (!breaksUp) {
+        EXPECT_NEAR(totals.number, all.inceptions - all.coagulations - all.burnt + all.fragmentations,
+                    1e-9 * all.inceptions);
+      }
     };
     follow(sooting, 5e-4, 6);
     const double whole = trees->totals().units[0], number = trees->totals().number;
@@ -304,6 +314,7 @@ TEST(TreesOfSoot, BooksEveryAtom) {
     follow(burning, 1e-4, 200);
     EXPECT_EQ(trees->size(), 0U);
     EXPECT_EQ(all.broken > 0, breaksUp);
+    EXPECT_EQ(all.fragmentations > 0, !breaksUp);
     EXPECT_GT(all.burnt, 0);
     expectBooked(whole);
   }
