@@ -147,7 +147,7 @@ def main(executable: str, *mpiexec: str) -> int:
             "particles.tables_at=[10 ms]", "particles.classes={collision_diameter: [1 nm], primaries: [2]}"))
         runs["soot_trees"] = (CASES / "reactor/plug_flow_soot/deck.yaml", *running.settings(
             "reactor.length=5 mm", "output.spacing=5 mm", "soot.model=none", "particles.material=soot", "particles.repeats=2",
-            "particles.number=50", "particles.bins=5"))
+            "particles.number=50", "particles.bins=5", "particles.fragmentation=true"))
         along = CASES / "particles_along/premixed_ethylene_abf/deck.yaml"
         runs["along"] = (along, *running.settings("stochastic.repeats=2", "stochastic.particles=32", "gas.end=4 ms", "output.times=[1 ms]",
                                                   "output.interval=2 ms"))
