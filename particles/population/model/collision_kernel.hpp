@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <string_view>
 
 #include "particles/collisions/collision_physics.hpp"
@@ -74,6 +75,7 @@ class CollisionKernel {
   [[nodiscard]] bool exact() const;
 
   [[nodiscard]] Terms terms(const Properties& particle) const;
+  [[nodiscard]] Terms largestTerms(std::span<const Properties> particles) const;  // each of them; zero of none
   [[nodiscard]] double value(const Properties& i, const Properties& j) const;
   [[nodiscard]] double majorant(const Terms& i, const Terms& j) const {
     double sum = 0;
@@ -111,6 +113,7 @@ class CollisionKernel {
   }
   [[nodiscard]] double collisionRate(const Properties& i, const Properties& j) const;  // value without efficiency
   void mix(double freeMolecularShare);
+  [[nodiscard]] Terms transitionTerms(const Properties& particle) const;  // with or without Fuchs
 
   CollisionKernelOptions options_;
   std::size_t rank_ = 1;

@@ -1,6 +1,9 @@
 // Values and majorants of CollisionKernel, inline as they are in the innermost loops. Included by collision_kernel.hpp.
 #pragma once
 
+#include <span>
+
+#include "chemistry/transport/lanes.hpp"
 #include "core/rooms.hpp"
 #include "particles/population/model/collision_kernel.hpp"
 
@@ -42,6 +45,17 @@ inline double CollisionKernel::value(const Properties& i, const Properties& j) c
   return efficiency(i, j) * collisionRate(i, j);
 }
 
+[[gnu::always_inline]] inline CollisionKernel::Terms CollisionKernel::transitionTerms(const Properties& x) const {
+  // Both are the harmonic mean H of F and C' with C' <= k (Ci/di + Cj/dj) (ei + ej), e = d + 2g (g = 0 without
+  // Fuchs), since sqrt(gi^2 + gj^2) <= gi + gj; H = min over t of t^2 F + (1 - t)^2 C', so that any t gives a bound
+  // by the bounds of the two limits. The factors t^2 and (1 - t)^2 are in the scales.
+  const double d = x.diameter, root = 1 / std::sqrt(x.mass), square = freeMolecularScale_ * d * d;
+  if (continuumScale_ == 0) return {{square * root, square, 0}, {1, root, 0}};
+  const double slipOverDiameter = slipOver(d), e = reach(x, slipOverDiameter);
+  const double slip = continuumScale_ * slipOverDiameter;
+  return {{square * root + slip * e, square, slip}, {1, root, e}};
+}
+
 inline CollisionKernel::Terms CollisionKernel::terms(const Properties& x) const {
   const double d = x.diameter;
   switch (options_.type) {
@@ -62,16 +76,8 @@ inline CollisionKernel::Terms CollisionKernel::terms(const Properties& x) const 
       return {{slip * d, slip}, {1, d}};
     }
     case CollisionKernelType::transition:
-    case CollisionKernelType::transitionFuchs: {
-      // Both are the harmonic mean H of F and C' with C' <= k (Ci/di + Cj/dj) (ei + ej), e = d + 2g (g = 0 without
-      // Fuchs), since sqrt(gi^2 + gj^2) <= gi + gj; H = min over t of t^2 F + (1 - t)^2 C', so that any t gives a bound
-      // by the bounds of the two limits. The factors t^2 and (1 - t)^2 are in the scales.
-      const double root = 1 / std::sqrt(x.mass), square = freeMolecularScale_ * d * d;
-      if (continuumScale_ == 0) return {{square * root, square, 0}, {1, root, 0}};
-      const double slipOverDiameter = slipOver(d), e = reach(x, slipOverDiameter);
-      const double slip = continuumScale_ * slipOverDiameter;
-      return {{square * root + slip * e, square, slip}, {1, root, e}};
-    }
+    case CollisionKernelType::transitionFuchs:
+      return transitionTerms(x);
     case CollisionKernelType::shear:  // exact: di^3 + dj^3 + 3 di^2 dj + 3 di dj^2
       return {{scale_ * d * d * d, 3 * scale_ * d * d}, {1, d}};
     case CollisionKernelType::gravitational: {  // |vi - vj| <= |vi| + |vj|
@@ -80,6 +86,51 @@ inline CollisionKernel::Terms CollisionKernel::terms(const Properties& x) const 
     }
   }
   return {};
+}
+
+// The largest of a_i and zero.
+inline double largestOf(const double* a, std::size_t n) {
+  chemistry::Lanes most{};
+  std::size_t i = 0;
+  for (; i + chemistry::laneCount <= n; i += chemistry::laneCount) {
+    const chemistry::Lanes v = chemistry::loadLanes(a + i);
+    most = v > most ? v : most;
+  }
+  double largest = 0;
+  for (std::size_t k = 0; k < chemistry::laneCount; ++k) largest = std::max(largest, most[k]);
+  for (; i < n; ++i) largest = std::max(largest, a[i]);
+  return largest;
+}
+
+inline CollisionKernel::Terms CollisionKernel::largestTerms(std::span<const Properties> particles) const {
+  Terms most;
+  if (options_.type != CollisionKernelType::transition) {
+    for (const Properties& x : particles) {
+      const Terms one = terms(x);
+      for (std::size_t r = 0; r < rank_; ++r) {
+        most.p[r] = std::max(most.p[r], one.p[r]);
+        most.q[r] = std::max(most.q[r], one.q[r]);
+      }
+    }
+    return most;
+  }
+  constexpr std::size_t atATime = 64;
+  double values[2 * largestRank][atATime];
+  for (std::size_t first = 0; first < particles.size(); first += atATime) {
+    const std::size_t n = std::min(atATime, particles.size() - first);
+    for (std::size_t k = 0; k < n; ++k) {
+      const Terms one = transitionTerms(particles[first + k]);
+      for (std::size_t r = 0; r < largestRank; ++r) {
+        values[r][k] = one.p[r];
+        values[largestRank + r][k] = one.q[r];
+      }
+    }
+    for (std::size_t r = 0; r < largestRank; ++r) {
+      most.p[r] = std::max(most.p[r], largestOf(values[r], n));
+      most.q[r] = std::max(most.q[r], largestOf(values[largestRank + r], n));
+    }
+  }
+  return most;
 }
 
 template <class ForEach>

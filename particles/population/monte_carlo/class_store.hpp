@@ -41,7 +41,7 @@ class ClassStore {
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] std::size_t bytes() const {
     std::size_t sum = slots_.capacity() * sizeof(slots_[0]) + sums_.bytes() + bounds_.capacity() * sizeof(bounds_[0]) +
-                      classes_.capacity() * sizeof(classes_[0]);
+                      classes_.capacity() * sizeof(classes_[0]) + moving_.capacity() * sizeof(moving_[0]);
     for (const auto& members : classes_) sum += members.capacity() * sizeof(Entry);
     return sum;
   }
@@ -73,6 +73,16 @@ class ClassStore {
     for (std::size_t k = 0; k < copies; ++k) classes_[slot].push_back(entry);
     size_ += copies;
     raiseBounds(slot, entry);
+    update(slot);
+  }
+
+  // Of which the terms are known.
+  [[gnu::always_inline]] void insert(const Entry& entry, const CollisionKernel::Terms& terms) {
+    const std::size_t slot = slotOf(rates_.volume(entry));
+    classes_[slot].push_back(entry);
+    ++size_;
+    raiseBounds(slot, terms);
+    raiseSingleBounds(slot, entry);
     update(slot);
   }
 
@@ -143,41 +153,10 @@ class ClassStore {
     return members.back();
   }
   // A second copy of every entry.
-  void duplicate() {
-    for (std::size_t slot = 0; slot < classes_.size(); ++slot) {
-      auto& members = classes_[slot];
-      const std::size_t count = members.size();
-      members.reserve(2 * count);
-      for (std::size_t k = 0; k < count; ++k) members.push_back(Entry(members[k]));
-      update(slot);
-    }
-    size_ *= 2;
-  }
+  void duplicate();
   // Keeps size() / 2 entries (rounded down): every subset of so many has the same probability. Each entry is kept or
   // not by the toss of a coin, the larger of the two parts stays, and of that so many are taken as it is too large.
-  void discardHalf(RandomStream& random) {
-    const std::size_t keep = size_ / 2;
-    std::vector<std::uint64_t> coins((size_ + 63) / 64);
-    std::size_t heads = 0;
-    for (auto& coin : coins) coin = random.bits();
-    if (size_ % 64 != 0) coins.back() &= (std::uint64_t{1} << (size_ % 64)) - 1;
-    for (const auto coin : coins) heads += static_cast<std::size_t>(std::popcount(coin));
-    const std::uint64_t flip = 2 * heads < size_ ? ~std::uint64_t{0} : 0;
-    std::size_t entry = 0;
-    for (auto& members : classes_) {
-      std::size_t kept = 0;
-      for (std::size_t k = 0; k < members.size(); ++k, ++entry) {
-        members[kept] = members[k];
-        kept += ((coins[entry / 64] ^ flip) >> (entry % 64)) & 1;
-      }
-      members.erase(members.begin() + static_cast<std::ptrdiff_t>(kept), members.end());
-      const auto slot = static_cast<std::size_t>(&members - classes_.data());
-      update(slot);
-      if (members.empty() || members.size() < members.capacity() / 4) release(slot);
-    }
-    size_ = flip != 0 ? size_ - heads : heads;
-    while (size_ > keep) remove(uniformPlace(random));
-  }
+  void discardHalf(RandomStream& random);
 
   // For a method that draws from several stores (hybrid_method.hpp). Components of the bounds: 0 is one for each entry,
   // 1 + r is p_r, 1 + rank + r is q_r, and one for each single process that is active.
@@ -223,25 +202,19 @@ class ClassStore {
   // f may change an entry and drops it by returning false. Bounds and classes are made afresh, after `then` has seen
   // the entries that stay, as a span.
   template <class F, class Then>
-  void transform(F f, Then then) {
-    std::vector<Entry> entries;
-    entries.reserve(size_);
-    for (auto& members : classes_)
-      entries.insert(entries.end(), std::make_move_iterator(members.begin()), std::make_move_iterator(members.end()));
-    clear();
-    std::size_t kept = 0;
-    for (std::size_t k = 0; k < entries.size(); ++k) {
-      if (!f(entries[k])) continue;
-      if (kept != k) entries[kept] = std::move(entries[k]);
-      ++kept;
-    }
-    then(std::span<const Entry>(entries.data(), kept));
-    insertAll(kept, [&](std::size_t k) { return std::move(entries[k]); });
-  }
+  void transform(F f, Then then);
   template <class F>
   void transform(F f) {
     transform(f, [](std::span<const Entry>) {});
   }
+  // The same for some of the entries only, `which`: their places in the order of forEach(), each once, ascending.
+  // f(Entry&, k) -> bool, of the one at the place which[k]. The bounds of what is left hold, but may be wider than
+  // those made afresh.
+  template <class F>
+  void transformSome(std::span<const std::uint32_t> which, F f);
+  // Bounds as the entries have them, when rates() are others than before, and what a store has that was made of these
+  // entries in their order.
+  void refresh();
 
  private:
   static constexpr int mantissaBits = 2;  // four classes for each factor of two in volume
@@ -259,8 +232,11 @@ class ClassStore {
   }
 
   // Always inline: the compiler thinks the whole too large, and the calls would cost a third of an event.
+  [[nodiscard, gnu::always_inline]] static std::uint64_t keyOf(double volume) {
+    return std::bit_cast<std::uint64_t>(volume) >> (52 - mantissaBits);
+  }
   [[nodiscard, gnu::always_inline]] std::size_t slotOf(double volume) {
-    const std::uint64_t key = std::bit_cast<std::uint64_t>(volume) >> (52 - mantissaBits);
+    const std::uint64_t key = keyOf(volume);
     const std::uint64_t k = key - firstKey_;
     if (k < slots_.size() && slots_[k] != none) return slots_[k];
     return newSlot(key);
@@ -283,26 +259,30 @@ class ClassStore {
     return slot;
   }
 
-  [[gnu::always_inline]] void raiseBounds(std::size_t slot, const Entry& entry) {
-    SumTree::Lanes* bounds = &bounds_[slot * sums_.blocks()];
-    const auto raise = [&](std::size_t component, double value) {
-      // Hardly ever, and no store otherwise: update() is going to load all bounds at once.
-      auto& x = bounds[component / SumTree::lanes].x;
-      if (value > x[component % SumTree::lanes]) [[unlikely]]
-        x[component % SumTree::lanes] = value;
-    };
-    raise(0, 1);
-    if (rank_ > 0) {
-      const CollisionKernel::Terms terms = rates_.terms(entry);
-      for (std::size_t r = 0; r < rank_; ++r) {
-        raise(1 + r, terms.p[r]);
-        raise(1 + rank_ + r, terms.q[r]);
-      }
+  // No store hardly ever: update() is going to load all bounds at once.
+  [[gnu::always_inline]] void raise(std::size_t slot, std::size_t component, double value) {
+    auto& x = bounds_[slot * sums_.blocks() + component / SumTree::lanes].x;
+    if (value > x[component % SumTree::lanes]) [[unlikely]]
+      x[component % SumTree::lanes] = value;
+  }
+  [[gnu::always_inline]] void raiseBounds(std::size_t slot, const CollisionKernel::Terms& terms) {
+    raise(slot, 0, 1);
+    for (std::size_t r = 0; r < rank_; ++r) {
+      raise(slot, 1 + r, terms.p[r]);
+      raise(slot, 1 + rank_ + r, terms.q[r]);
     }
-    if (components_ > 1 + 2 * rank_) {
-      for (std::size_t k = 0; k < singleProcesses; ++k) {
-        if (single_[k] > 0) raise(single_[k], singleBound(rates_, static_cast<SingleProcess>(k), entry));
-      }
+  }
+  [[gnu::always_inline]] void raiseBounds(std::size_t slot, const Entry& entry) {
+    if (rank_ > 0)
+      raiseBounds(slot, rates_.terms(entry));
+    else
+      raise(slot, 0, 1);
+    raiseSingleBounds(slot, entry);
+  }
+  [[gnu::always_inline]] void raiseSingleBounds(std::size_t slot, const Entry& entry) {
+    if (components_ == 1 + 2 * rank_) return;
+    for (std::size_t k = 0; k < singleProcesses; ++k) {
+      if (single_[k] > 0) raise(slot, single_[k], singleBound(rates_, static_cast<SingleProcess>(k), entry));
     }
   }
   [[gnu::always_inline]] void update(std::size_t slot) {
@@ -332,19 +312,7 @@ class ClassStore {
     update(at.slot);
     if (members.empty() || members.size() < members.capacity() / 4) release(at.slot);
   }
-  // A population that grows leaves empty classes behind: their memory goes back, and their bounds.
-  void release(std::size_t slot) {
-    auto& members = classes_[slot];
-    if (members.empty()) {
-      SumTree::Lanes* bounds = &bounds_[slot * sums_.blocks()];
-      std::fill(bounds, bounds + sums_.blocks(), SumTree::Lanes{});
-    }
-    if (members.capacity() <= 64) return;
-    std::vector<Entry> smaller;
-    smaller.reserve(members.capacity() / 2);
-    smaller.assign(members.begin(), members.end());
-    members.swap(smaller);
-  }
+  void release(std::size_t slot);
 
   Rates rates_;
   std::size_t rank_, components_ = 1, size_ = 0;
@@ -353,7 +321,11 @@ class ClassStore {
   std::vector<std::uint16_t> slots_;  // of the keys from firstKey_ on
   std::vector<std::vector<Entry>> classes_;
   std::vector<SumTree::Lanes> bounds_;  // of each class: 1, p_r, q_r, single rates
+  std::vector<Entry> moving_;           // from one class to another, in transformSome()
   SumTree sums_;
 };
 
 }  // namespace lampblack::particles
+
+#include "core/rooms.hpp"
+#include "particles/population/monte_carlo/class_store_changes.hpp"

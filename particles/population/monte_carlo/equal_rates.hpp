@@ -3,7 +3,10 @@
 // weight changes.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <optional>
+#include <span>
 
 #include "core/rooms.hpp"
 #include "particles/population/model/particle_type.hpp"
@@ -74,6 +77,22 @@ class EqualRates {
       return kernelTerms(*kernel_, type_, entry.particle);
     else
       return kernel_->terms(properties(entry));
+  }
+  // The largest of each over many.
+  [[nodiscard]] CollisionKernel::Terms largestTerms(std::span<const Entry> entries) const requires(!changing) {
+    constexpr std::size_t atATime = 128;
+    std::array<CollisionKernel::Properties, atATime> some;
+    CollisionKernel::Terms most;
+    for (std::size_t first = 0; first < entries.size(); first += atATime) {
+      const std::size_t n = std::min(atATime, entries.size() - first);
+      for (std::size_t k = 0; k < n; ++k) some[k] = properties(entries[first + k]);
+      const CollisionKernel::Terms these = kernel_->largestTerms({some.data(), n});
+      for (std::size_t r = 0; r < rank(); ++r) {
+        most.p[r] = std::max(most.p[r], these.p[r]);
+        most.q[r] = std::max(most.q[r], these.q[r]);
+      }
+    }
+    return most;
   }
   [[nodiscard]] double pair(const Entry& i, const Entry& j) const {
     if (changing && !(exists(type_, i.particle) && exists(type_, j.particle))) return 0;

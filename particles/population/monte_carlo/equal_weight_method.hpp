@@ -37,6 +37,7 @@ class EqualWeightMethod {
     if (model.nucleation) {
       nucleusVolume_ = model.nucleation->volume;
       nucleus_ = rates().entry(type_.make(nucleusVolume_));
+      findNucleusTerms();
     }
     for (const double v : initialVolumes(initial, options.particles, random)) sample_.put(rates().entry(type.make(v)));
     retune();
@@ -106,7 +107,10 @@ class EqualWeightMethod {
   void nucleate(RandomStream& random) {
     // Particles that change carry the time they are of.
     if constexpr (EqualRates<Type>::changing) nucleus_ = rates().entry(type_.make(nucleusVolume_));
-    sample_.put(*nucleus_);
+    if constexpr (knowsTerms)
+      sample_.putAgain(*nucleus_, nucleusTerms_);
+    else
+      sample_.put(*nucleus_);
     ++counters_.nucleations;
     sample_.massChanged();
     sample_.bringNumberIntoRange(random, counters_);
@@ -134,32 +138,22 @@ class EqualWeightMethod {
   // For populations in a gas that changes and that grow by laws of their own. f(Particle&, weight) -> bool changes a
   // particle, false drops it.
   template <class F>
-  void changeParticles(F f) {
-    const double weight = sample_.weight();
-    const auto change = [&](Entry& entry) {
-      if (!f(entry.particle, weight)) {
+  void changeParticles(F f);
+  // The same for some of them only, `which`: their places in the order of forEachParticle(), ascending. f(Particle&, k)
+  // -> bool, of the one at the place which[k]. The majorant stays the one that there is.
+  template <class F>
+  void changeSome(std::span<const std::uint32_t> which, F f) requires requires(Store& store) {
+    store.transformSome(which, [](Entry&, std::size_t) { return true; });
+  }
+  {
+    sample_.transformSome(which, [&](Entry& entry, std::size_t k) {
+      if (!f(entry.particle, k)) {
         ++counters_.vanished;
         return false;
       }
       entry.diameter = rates().entryDiameter(entry.particle);
       return true;
-    };
-    // One rebuild serves both the change and the majorant that suits it, where the store can tell.
-    const auto tune = [&](std::span<const Entry> entries) {
-      if (!rates().tunable() || entries.empty()) return;
-      sample_.store().rates().tune(
-          [&](const auto& g) {
-            for (const Entry& entry : entries) g(entry);
-          },
-          entries.size());
-    };
-    if constexpr (requires { sample_.store().transform(change, tune); }) {
-      sample_.transform(change, tune);
-      retuneAfter_ = std::max<std::size_t>(size(), 16);
-    } else {
-      sample_.transform(change);
-      if (rates().tunable()) retune();
-    }
+    });
     sample_.massChanged();
   }
   // f(const Particle&, weight).
@@ -167,6 +161,8 @@ class EqualWeightMethod {
   void forEachParticle(F f) const {
     sample_.store().forEach([&](const Entry& entry) { f(entry.particle, sample_.weight()); });
   }
+  // Events tell what they change, until null comes (EqualWeightSample::watch).
+  void watch(SampleChanges<typename Type::Particle>* changes) { sample_.watch(changes); }
   // Of the type there was; rebuilds.
   void setKernel(const CollisionKernelOptions& kernel) {
     sample_.store().rates().setKernel(kernel);
@@ -174,13 +170,15 @@ class EqualWeightMethod {
       retune();
     else
       rebuild();
+    findNucleusTerms();
   }
   // The store as made of its particles alone, without a trace of the events there were.
-  void rebuild() {
-    sample_.store().transform([](const Entry&) { return true; });
-  }
+  void rebuild() { store_operations::refresh(sample_.store()); }
   // What nucleate() puts in.
-  void setNucleus(const typename Type::Particle& nucleus) { nucleus_ = rates().entry(nucleus); }
+  void setNucleus(const typename Type::Particle& nucleus) {
+    nucleus_ = rates().entry(nucleus);
+    findNucleusTerms();
+  }
   // Replaces all particles; each stands for `weight` (1/m3).
   template <class Particles>
   void replace(const Particles& particles, double weight, RandomStream& random) {
@@ -190,18 +188,7 @@ class EqualWeightMethod {
   }
   // Takes in particles that stand for `number` (1/m3) real ones each: copies of the weight that all have, as many in
   // the mean. Where these were more than twice as many as there is room for, the sample shrinks first.
-  void join(const std::vector<WeightedParticle<typename Type::Particle>>& coming, RandomStream& random) {
-    double number = static_cast<double>(size()) * sample_.weight();
-    for (const auto& one : coming) number += one.number;
-    const double room = static_cast<double>(sample_.capacity());
-    if (number > 2 * room * sample_.weight()) thin(number / room, random);
-    const auto copies = systematicCopies(
-        coming.size(), [&](std::size_t k) { return coming[k].number / sample_.weight(); }, random);
-    for (std::size_t k = 0; k < coming.size(); ++k)
-      if (copies[k] > 0) sample_.put(rates().entry(coming[k].particle), copies[k]);
-    sample_.massChanged();
-    sample_.bringNumberIntoRange(random, counters_);
-  }
+  void join(const std::vector<WeightedParticle<typename Type::Particle>>& coming, RandomStream& random);
   // What a population in a gas keeps besides its particles and counters so that it goes on as it would have: for how
   // many real ones (1/m3) each stands, and whether the sample was full.
   [[nodiscard]] std::array<double, 2> memory() const { return {sample_.weight(), sample_.filled() ? 1.0 : 0.0}; }
@@ -240,22 +227,19 @@ class EqualWeightMethod {
   // By which volumes change in a step. Splitting has an error of second order in it, deferment none.
   static constexpr double growthPart = EqualRates<Type>::changing ? 0.3 : 0.05;
 
+  // Whether what a nucleus adds to the majorant is the same until the majorant is another one.
+  static constexpr bool knowsTerms =
+      !EqualRates<Type>::changing && requires(Store & store, const Entry& entry, const CollisionKernel::Terms& terms) {
+    store.insert(entry, terms);
+  };
+  void findNucleusTerms() {
+    if constexpr (knowsTerms)
+      if (nucleus_ && rates().rank() > 0) nucleusTerms_ = rates().terms(*nucleus_);
+  }
   [[nodiscard]] const auto& rates() const { return sample_.store().rates(); }
 
   // To a larger weight.
-  void thin(double weight, RandomStream& random) {
-    std::vector<typename Type::Particle> kept;
-    sample_.store().forEach([&](const Entry& entry) { kept.push_back(entry.particle); });
-    const double part = sample_.weight() / weight;
-    const auto copies = systematicCopies(
-        kept.size(), [&](std::size_t) { return part; }, random);
-    std::size_t left = 0;
-    for (std::size_t k = 0; k < kept.size(); ++k)
-      if (copies[k] > 0) kept[left++] = kept[k];
-    counters_.removals += kept.size() - left;
-    sample_.replace(weight, sample_.filled(), left, [&](std::size_t k) { return rates().entry(kept[k]); });
-    retune();
-  }
+  void thin(double weight, RandomStream& random);
 
   void lose(const Entry& gone, RandomStream& random) {
     sample_.taken(gone);
@@ -269,27 +253,13 @@ class EqualWeightMethod {
     if (!rates().tunable() || size() == 0) return;
     Store& store = sample_.store();
     store.rates().tune([&](const auto& f) { store.forEach(f); }, size());
-    store.transform([](const Entry&) { return true; });
+    findNucleusTerms();
+    store_operations::refresh(store);
   }
 
   // The step over which growth changes the mean logarithm of the volumes, or that of a nucleus, by `growthPart`.
   // Without other processes growth is exact, however long the step.
-  void measureGrowth() {
-    growthStep_ = std::numeric_limits<double>::infinity();
-    if (!growth_.active() || growth_.treatment == GrowthOptions::Treatment::jumps) return;
-    if (alone_ && !(growth_.step > 0)) return;
-    const auto rateOf = [&](const typename Type::Particle& p) {
-      return std::abs(rates().growthJump().speed(p)) / type_.volume(p);
-    };
-    GrowthPace pace;
-    if (nucleus_) pace.nucleus = rateOf(nucleus_->particle);
-    if (size() > 0) {
-      const double n = static_cast<double>(size());
-      sample_.store().forEach([&](const Entry& entry) { pace.population += rateOf(entry.particle) / n; });
-      pace.jumpsOfEach = (2 * coagulationRate() + breakageRate() + depositionRate()) / n;
-    }
-    growthStep_ = particles::growthStep(growth_, growthPart, pace);
-  }
+  void measureGrowth();
 
   Type type_;
   std::optional<BreakageOptions> breakage_;
@@ -299,8 +269,12 @@ class EqualWeightMethod {
   double growthStep_ = 0;
   double nucleusVolume_ = 0;  // m3
   std::optional<Entry> nucleus_;
+  CollisionKernel::Terms nucleusTerms_;
   EqualWeightSample<Store> sample_;
   PopulationCounters counters_;
 };
 
 }  // namespace lampblack::particles
+
+#include "core/rooms.hpp"
+#include "particles/population/monte_carlo/equal_weight_changes.hpp"

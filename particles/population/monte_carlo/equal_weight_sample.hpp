@@ -18,6 +18,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -39,10 +42,46 @@ struct SampleRange {
   return {capacity, capacity};
 }
 
+// What events took out of a sample and put into it, for who keeps sums over it: the sum of a property over its
+// particles is `factor` times what it was, and `copies` times that of each of `particles`.
+template <class Particle>
+struct SampleChanges {
+  std::vector<Particle> particles;
+  std::vector<double> copies;  // negative: taken out
+  double factor = 1;
+  std::size_t again = 0;  // one more than the place of the particle that is put in again and again
+
+  void clear() {
+    particles.clear();
+    copies.clear();
+    factor = 1;
+    again = 0;
+  }
+  void addAgain(const Particle& particle) {
+    if (again > 0) {
+      copies[again - 1] += 1;
+    } else {
+      add(particle, 1);
+      again = copies.size();
+    }
+  }
+  void add(const Particle& particle, double count) {
+    particles.push_back(particle);
+    copies.push_back(count);
+  }
+  void doubled() {
+    factor *= 2;
+    for (double& count : copies) count *= 2;
+  }
+};
+
 template <class Store>
 class EqualWeightSample {
  public:
   using Entry = typename Store::Entry;
+  using Particle = decltype(Entry::particle);
+  // Whether particles may be copied for who watches.
+  static constexpr bool watchable = std::is_trivially_copyable_v<Particle>;
 
   EqualWeightSample(Store store, MonteCarloMethod method, double weight, std::size_t capacity)
       : store_(std::move(store)),
@@ -63,13 +102,26 @@ class EqualWeightSample {
   [[nodiscard]] std::size_t size() const { return store_.size(); }
   [[nodiscard]] std::size_t capacity() const { return capacity_; }
 
+  // Events tell `changes` what they do, until null comes. Not of constantVolume, which discards many at once.
+  void watch(SampleChanges<Particle>* changes) {
+    changes_ = changes;
+    noted_ = tracked_ || changes_ != nullptr;
+  }
+
   // Bookkeeping of what an event takes out and puts in.
   [[gnu::always_inline]] void put(const Entry& entry, std::size_t copies = 1) {
     store_operations::insert(store_, entry, copies);
-    if (tracked_) changed(entry, static_cast<double>(copies));
+    if (noted_) changed(entry, static_cast<double>(copies));
+  }
+  // Of one that is put in again and again, of which the terms are known.
+  [[gnu::always_inline]] void putAgain(const Entry& entry, const CollisionKernel::Terms& terms) {
+    store_.insert(entry, terms);
+    if constexpr (watchable)
+      if (changes_ != nullptr) changes_->addAgain(entry.particle);
+    if (tracked_) track(entry, 1);
   }
   [[gnu::always_inline]] void taken(const Entry& entry) {
-    if (tracked_) changed(entry, -1);
+    if (noted_) changed(entry, -1);
   }
   // To be called after an event that changes the mass, and after growth.
   void massChanged() {
@@ -114,6 +166,12 @@ class EqualWeightSample {
     store_.transform(f);
     measure();
   }
+  // f(Entry&, k) -> bool, as transformSome() of a store that has it.
+  template <class F>
+  void transformSome(std::span<const std::uint32_t> which, F f) {
+    store_.transformSome(which, f);
+    measure();
+  }
 
   // With then(entries) before they are put in anew.
   template <class F, class Then>
@@ -137,6 +195,11 @@ class EqualWeightSample {
  private:
   [[nodiscard]] double volumeOf(const Entry& entry) const { return store_.rates().type().volume(entry.particle); }
   void changed(const Entry& entry, double copies) {
+    if constexpr (watchable)
+      if (changes_ != nullptr) changes_->add(entry.particle, copies);
+    if (tracked_) track(entry, copies);
+  }
+  void track(const Entry& entry, double copies) {
     const double v = volumeOf(entry);
     volume_.add(copies * v);
     largest_ = std::max(largest_, v);
@@ -153,7 +216,7 @@ class EqualWeightSample {
     const std::size_t before = size();
     for (; size() < capacity_; ++counters.copies) {
       const Entry copy = store_operations::copyUniform(store_, random);
-      if (tracked_) changed(copy, 1);
+      if (noted_) changed(copy, 1);
     }
     removeDownTo(capacity_, random, counters);
     if (keepsMass_)
@@ -183,6 +246,7 @@ class EqualWeightSample {
     store_operations::duplicate(store_);
     weight_ *= 0.5;
     ++counters.doublings;
+    if (changes_ != nullptr) changes_->doubled();
     measure();
   }
   void removeDownTo(std::size_t count, RandomStream& random, PopulationCounters& counters) {
@@ -197,9 +261,11 @@ class EqualWeightSample {
   std::size_t fullAt_;
   double weight_;  // 1/m3
   bool gels_;
-  bool tracked_;     // whether the volume of all is kept
-  double gelShare_;  // of the mass in one particle
-  double mass_ = 0;  // M_1, where keepsMass_
+  bool tracked_;                                // whether the volume of all is kept
+  bool noted_ = tracked_;                       // whether that, or somebody watches
+  SampleChanges<Particle>* changes_ = nullptr;  // of who watches
+  double gelShare_;                             // of the mass in one particle
+  double mass_ = 0;                             // M_1, where keepsMass_
   bool filled_ = false;
   CompensatedSum volume_;       // m3, of all particles
   mutable double largest_ = 0;  // m3, at least that of the largest particle

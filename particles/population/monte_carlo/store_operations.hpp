@@ -20,6 +20,16 @@ template <class Store>
   }
 }
 
+// The store as made of its entries alone, in their order, by the rates as they are now.
+template <class Store>
+void refresh(Store& store) {
+  if constexpr (requires { store.refresh(); }) {
+    store.refresh();
+  } else {
+    store.transform([](const auto&) { return true; });
+  }
+}
+
 // A second copy of every entry.
 template <class Store>
 void duplicate(Store& store) {

@@ -33,6 +33,33 @@ void tuneFor(CollisionKernel& kernel, const std::vector<Properties>& particles) 
   });
 }
 
+TEST(Majorants, LargestTermsAreTheLargestOfEach) {
+  for (const auto type : test::allKernels) {
+    for (const SlipLaw slip : {SlipLaw::davies, SlipLaw::air}) {
+      CollisionKernelOptions options = test::kernelOptions(type);
+      options.slip = slip;
+      CollisionKernel kernel(options);
+      for (const int count : {0, 1, 7, 64, 65, 301}) {
+        const std::vector<Properties> particles = population(count, 2);
+        if (count > 64) tuneFor(kernel, particles);
+        CollisionKernel::Terms most;
+        for (const Properties& x : particles) {
+          const auto terms = kernel.terms(x);
+          for (std::size_t r = 0; r < kernel.rank(); ++r) {
+            most.p[r] = std::max(most.p[r], terms.p[r]);
+            most.q[r] = std::max(most.q[r], terms.q[r]);
+          }
+        }
+        const auto found = kernel.largestTerms(particles);
+        for (std::size_t r = 0; r < kernel.rank(); ++r) {
+          EXPECT_NEAR(found.p[r], most.p[r], 1e-14 * most.p[r]) << nameOf(type) << " " << count;
+          EXPECT_NEAR(found.q[r], most.q[r], 1e-14 * most.q[r]) << nameOf(type) << " " << count;
+        }
+      }
+    }
+  }
+}
+
 // Pressures from free molecular to continuum for all sizes; densities of particles below and above that of the gas.
 TEST(Majorants, AreNeverBelowTheKernelAndEqualWhereExact) {
   for (const auto type : test::allKernels) {

@@ -237,6 +237,89 @@ TEST(ClassStore, TransformChangesAndDropsAndMakesBoundsAfresh) {
   EXPECT_EQ(store.pairRate(), 0);
 }
 
+// Some entries stay in their class, some go to another one, there or not, and some are dropped: the others are as they
+// were, bounds hold, and what is made afresh is as of a store into which the entries came in that order.
+TEST_P(ClassStoreOfRank, ChangesSomeEntriesAndLeavesTheOthers) {
+  RandomStream random(19, 0, 1);
+  Store store(TestRates{GetParam(), true});
+  for (const double v : someVolumes(400, random)) store.insert({v});
+  for (int round = 0; round < 20; ++round) {
+    std::vector<std::uint32_t> which;
+    std::vector<double> expected;
+    std::vector<double> after;
+    std::uint32_t place = 0;
+    store.forEach([&](const TestRates::Entry& e) {
+      const double u = random.uniform();
+      if (u < 0.4) {
+        which.push_back(place);
+        after.push_back(u < 0.02 ? -e.volume : e.volume * (u < 0.2 ? 1.0001 : u < 0.3 ? 1.7 : 0.5));
+      } else {
+        expected.push_back(e.volume);
+      }
+      ++place;
+    });
+    std::vector<int> seen(which.size(), 0);
+    store.transformSome(which, [&](TestRates::Entry& e, std::size_t k) {
+      ++seen[k];
+      EXPECT_LT(std::abs(std::log(e.volume / std::abs(after[k]))), 0.7);  // the one that was meant
+      if (after[k] < 0) return false;
+      e.volume = after[k];
+      return true;
+    });
+    EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), static_cast<std::ptrdiff_t>(which.size()));
+    for (const double v : after)
+      if (v > 0) expected.push_back(v);
+    std::sort(expected.begin(), expected.end());
+    ASSERT_EQ(volumes(store), expected);
+    ASSERT_EQ(store.size(), expected.size());
+    std::vector<TestRates::Entry> entries;
+    store.forEach([&](const TestRates::Entry& e) { entries.push_back(e); });
+    Store other(TestRates{GetParam(), true});
+    other.insertAll(entries.size(), [&](std::size_t k) { return entries[k]; });
+    EXPECT_GE(store.pairRate(), other.pairRate() * (1 - 1e-12));
+    EXPECT_LE(store.pairRate(), other.pairRate() * 1.4);
+    TestRates::Entry i, j;
+    for (int k = 0; k < 200; ++k)
+      if (store.drawPair(random, i, j)) {  // of a bound that does not hold it would complain
+        store.insert(i);
+        store.insert(j);
+      }
+    entries.clear();
+    store.forEach([&](const TestRates::Entry& e) { entries.push_back(e); });
+    other.clear();
+    other.insertAll(entries.size(), [&](std::size_t k) { return entries[k]; });
+    store.refresh();
+    EXPECT_EQ(store.pairRate(), other.pairRate());
+    EXPECT_EQ(store.classes(), other.classes());
+    for (const auto process : {SingleProcess::breakage, SingleProcess::deposition})
+      EXPECT_EQ(store.singleRate(process), other.singleRate(process));
+    RandomStream one(23, 0, 1), two(23, 0, 1);
+    for (int k = 0; k < 50; ++k) {
+      TestRates::Entry a, b, c, d;
+      ASSERT_EQ(store.drawPair(one, a, b), other.drawPair(two, c, d));
+      ASSERT_EQ(a.volume, c.volume);
+      ASSERT_EQ(b.volume, d.volume);
+    }
+  }
+}
+
+// Bounds of other rates than before.
+TEST(ClassStore, IsRefreshedForOtherRates) {
+  RandomStream random(29, 0, 1);
+  Store store(TestRates{2, false}), other(TestRates{2, false});
+  for (const double v : someVolumes(100, random)) store.insert({v});
+  store.rates().scale = other.rates().scale = 3;
+  store.refresh();
+  std::vector<TestRates::Entry> entries;
+  store.forEach([&](const TestRates::Entry& e) { entries.push_back(e); });
+  other.insertAll(entries.size(), [&](std::size_t k) { return entries[k]; });
+  EXPECT_EQ(store.pairRate(), other.pairRate());
+  store.rates().scale = other.rates().scale = 1;  // smaller ones, too
+  store.refresh();
+  other.refresh();
+  EXPECT_EQ(store.pairRate(), other.pairRate());
+}
+
 // Coalescing 64:1 leaves classes behind; a sphere may take at most 64 bytes.
 TEST(ClassStore, MemoryFollowsTheNumberOfEntries) {
   RandomStream random(11, 0, 1);

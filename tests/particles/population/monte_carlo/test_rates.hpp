@@ -18,6 +18,7 @@ struct TestRates {
   static constexpr bool weighted = false;
   std::size_t kernelRank = 1;
   bool singles = true;
+  double scale = 1;  // of all rates of pairs
 
   [[nodiscard]] double volume(const Entry& e) const { return e.volume; }
   [[nodiscard]] double weight(const Entry&) const { return 1; }
@@ -26,19 +27,19 @@ struct TestRates {
     CollisionKernel::Terms terms;
     const double v = e.volume;
     if (kernelRank == 1) {
-      terms.p[0] = v;
+      terms.p[0] = scale * v;
       terms.q[0] = 1;
     } else {
-      terms.p = {std::pow(v, 1.0 / 6), std::pow(v, 2.0 / 3), 0};
+      terms.p = {scale * std::pow(v, 1.0 / 6), scale * std::pow(v, 2.0 / 3), 0};
       terms.q = {1, std::pow(v, -0.5), 0};
     }
     return terms;
   }
   [[nodiscard]] double weightFactor() const { return 1; }
   [[nodiscard]] double pair(const Entry& a, const Entry& b) const {
-    if (kernelRank == 1) return a.volume + b.volume;
+    if (kernelRank == 1) return scale * (a.volume + b.volume);
     const double reach = std::cbrt(a.volume) + std::cbrt(b.volume);
-    return 0.5 * reach * reach * std::sqrt(1 / a.volume + 1 / b.volume);
+    return scale * 0.5 * reach * reach * std::sqrt(1 / a.volume + 1 / b.volume);
   }
   [[nodiscard]] double single(SingleProcess process, const Entry& e) const {
     if (process == SingleProcess::breakage) return std::pow(e.volume, 1.8);
