@@ -29,14 +29,18 @@ inline constexpr std::size_t packedHead =
   return particles;
 }
 
-inline void addTo(Ensemble::Totals& t, const SootAggregate& type, const GivenParticle& p) {
-  const double d = cubeRoot(type.perVolume() * (p.carbon + p.hydrogen) / p.primaries);
+// `d`: the diameter of the primaries, m.
+inline void addTo(Ensemble::Totals& t, const GivenParticle& p, double d) {
   t.number += p.number;
   t.carbon += p.number * p.carbon;
   t.hydrogen += p.number * p.hydrogen;
   t.primaries += p.number * p.primaries;
   t.surface += p.number * p.primaries * constants::pi * d * d;
   t.diameters += p.number * d * SootAggregate::mobilityFactor(p.primaries);
+}
+
+inline void addTo(Ensemble::Totals& t, const SootAggregate& type, const GivenParticle& p) {
+  addTo(t, p, cubeRoot(type.perVolume() * (p.carbon + p.hydrogen) / p.primaries));
 }
 
 // Ensemble::totals() of a packed one.

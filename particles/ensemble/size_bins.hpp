@@ -15,8 +15,9 @@ struct SizeBins {
 
   [[nodiscard]] double width() const { return (logMax - logMin) / static_cast<double>(count); }
   // That of a diameter (m); `count` outside.
-  [[nodiscard]] std::size_t of(double diameter) const {
-    const double x = (std::log10(diameter) - logMin) / width();
+  [[nodiscard]] std::size_t of(double diameter) const { return ofLog(std::log10(diameter)); }
+  [[nodiscard]] std::size_t ofLog(double logDiameter) const {  // log10(d/m)
+    const double x = (logDiameter - logMin) / width();
     return x >= 0 && x < static_cast<double>(count) ? static_cast<std::size_t>(x) : count;
   }
   [[nodiscard]] double edge(std::size_t bin) const {  // m, its lower one

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <numbers>
 #include <tuple>
 
+#include "chemistry/numerics/vector_math.hpp"
 #include "core/packed_doubles.hpp"
 #include "core/rooms.hpp"
 #include "particles/ensemble/size_bins.hpp"
@@ -145,7 +147,7 @@ template <class Method>
 Ensemble::Totals StochasticProcess<Method>::totals() const {
   Totals t;
   method_.forEachParticle([&](const Particle& p, double w) {
-    addTo(t, type_, {p.carbon, p.hydrogen, p.primaries, w});
+    addTo(t, {p.carbon, p.hydrogen, p.primaries, w}, type_.coalescing() ? p.diameter : type_.primaryDiameter(p));
   });
   return t;
 }
@@ -166,12 +168,33 @@ double StochasticProcess<Method>::moment(double order) const {
 }
 
 template <class Method>
+template <class F>
+void StochasticProcess<Method>::forEachLogDiameter(F f) const {
+  constexpr std::size_t atATime = 128;
+  double diameter[atATime], weight[atATime];
+  std::size_t n = 0;
+  const auto flush = [&] {
+    chemistry::vectormath::log(diameter, diameter, n);
+    f(diameter, weight, n);
+    n = 0;
+  };
+  method_.forEachParticle([&](const Particle& p, double w) {
+    diameter[n] = type_.coalescing() ? p.diameter : type_.mobilityDiameter(p);
+    weight[n] = w;
+    if (++n == atATime) flush();
+  });
+  if (n > 0) flush();
+}
+
+template <class Method>
 std::vector<double> StochasticProcess<Method>::sizeDistribution(double logMin, double logMax, std::size_t bins) const {
   std::vector<double> density(bins, 0);
   const SizeBins all{logMin, logMax, bins};
   const double width = all.width();
-  method_.forEachParticle([&](const Particle& p, double w) {
-    if (const std::size_t bin = all.of(type_.mobilityDiameter(p)); bin < bins) density[bin] += w / width;
+  forEachLogDiameter([&](const double* logs, const double* weights, std::size_t n) {
+    for (std::size_t k = 0; k < n; ++k)
+      if (const std::size_t bin = all.ofLog(std::numbers::log10e * logs[k]); bin < bins)
+        density[bin] += weights[k] / width;
   });
   return density;
 }
@@ -179,7 +202,8 @@ std::vector<double> StochasticProcess<Method>::sizeDistribution(double logMin, d
 template <class Method>
 double StochasticProcess<Method>::geometricDeviation() const {
   WeightedDeviation deviation;
-  method_.forEachParticle([&](const Particle& p, double w) { deviation.add(std::log(type_.mobilityDiameter(p)), w); });
+  forEachLogDiameter(
+      [&](const double* logs, const double* weights, std::size_t n) { deviation.add(logs, weights, n); });
   return deviation.geometric();
 }
 

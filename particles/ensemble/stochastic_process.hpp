@@ -15,6 +15,8 @@
 #include "core/random.hpp"
 #include "particles/ensemble/ensemble.hpp"
 #include "particles/ensemble/packed_ensemble.hpp"
+#include "particles/population/monte_carlo/equal_weight_sample.hpp"
+#include "particles/soot/soot_events.hpp"
 #include "particles/soot/soot_steps.hpp"
 
 namespace lampblack::particles {
@@ -56,7 +58,13 @@ class StochasticProcess final : public Ensemble {
  private:
   using Sums = SootSums;
   void gather() const;  // all particles to columns_, unless they stand there as they are and in their order
+  // Some after the other in columns_, which f(place of the first one) may change.
+  template <class F>
+  void forEachBatch(F f) const;
   [[nodiscard]] Sums sums(const SootMedium& medium) const;
+  // f(logDiameters, weights, count): of mobility, ln(d/m), of some particles after the other.
+  template <class F>
+  void forEachLogDiameter(F f) const;
   struct Atoms {
     double carbon = 0, hydrogen = 0;  // kg/m3
   };
@@ -65,11 +73,19 @@ class StochasticProcess final : public Ensemble {
   // Each takes the sums of the population as it is and leaves those of what it has become.
   void thin(double factor, Sums& now);
   void jump(const SootMedium& medium, double dt, double stepLength, Sums& now);
+  void takeChanges(const SootMedium& medium, double before, Sums& now);
   void grow(const SootMedium& medium, double dt, Sums& now);
+  [[nodiscard]] bool growsSome() const { return changesSome && options_.growthByEvents; }
+  SootMoved growEach(const SootMedium& medium, const SootFluxes& flux, double dt, Sums& now);
+  SootMoved growSome(const SootMedium& medium, const SootFluxes& flux, double dt, Sums& now);
   void planNucleus(double weight) { nucleusAfter_ = weight * random_.uniform(); }
   void recordUptakeOfDimers(const SootMedium& medium, double dimers);
 
   static constexpr bool weighted = requires(Method method, const Particle& p) { method.setNucleus(p, 1.0); };
+  // Whether a method can change some particles without looking at the others.
+  static constexpr bool changesSome = requires(Method method, std::vector<std::uint32_t> which) {
+    method.changeSome(which, [](Particle&, std::size_t) { return true; });
+  };
   using PackedEntry = std::conditional_t<weighted, typename Method::Entry, Particle>;
 
   EnsembleOptions options_;
@@ -86,22 +102,11 @@ class StochasticProcess final : public Ensemble {
   mutable std::optional<CollisionKernel> kernel_;  // for equal particles
   mutable SootColumns columns_;                    // of the particles, while gathered_
   mutable bool gathered_ = false;
+  SootColumns changedColumns_;       // of the particles in changes_
+  SampleChanges<Particle> changes_;  // by events, while they are being drawn
+  std::vector<Particle> grown_;      // those that had an event of growth, and their places
+  std::vector<std::uint32_t> changed_, changedOfBatch_;
 };
-
-template <class Method>
-void StochasticProcess<Method>::gather() const {
-  if (gathered_) return;
-  gathered_ = true;
-  columns_.resize(size());
-  std::size_t k = 0;
-  method_.forEachParticle([&](const Particle& p, double w) { columns_.set(k++, p, w); });
-}
-
-template <class Method>
-SootSums StochasticProcess<Method>::sums(const SootMedium& medium) const {
-  gather();
-  return sumsOf(columns_, type_, medium);
-}
 
 template <class Method>
 typename StochasticProcess<Method>::Atoms StochasticProcess<Method>::atoms() const {
@@ -174,9 +179,7 @@ void StochasticProcess<Method>::thin(double factor, Sums& now) {
   for (double* number : {&reached_, &nucleusAfter_}) *number *= factor;
   exchange_.dilutedCarbon += now.carbon * (1 - factor);
   exchange_.dilutedHydrogen += now.hydrogen * (1 - factor);
-  for (const auto sum : {&Sums::number, &Sums::carbon, &Sums::hydrogen, &Sums::primaries, &Sums::area, &Sums::diameters,
-                         &Sums::collisions, &Sums::slopes})
-    now.*sum *= factor;
+  for (const auto sum : Sums::all) now.*sum *= factor;
   if (gathered_)
     for (double& weight : columns_.weight) weight *= factor;
 }
@@ -211,17 +214,23 @@ void StochasticProcess<Method>::jump(const SootMedium& medium, double dt, double
       planned_ = true;
     }
   }
+  [[maybe_unused]] const double weightBefore = method_.nucleusWeight();
+  if constexpr (!weighted) {
+    changes_.clear();
+    method_.watch(&changes_);
+  }
   double nucleatedCarbon = 0, nucleatedHydrogen = 0, nucleated = 0;
   double time = 0;
+  double wait = kernel_ ? random_.exponential(1) : 0;  // of the integral of the rate of coagulation, to its next event
   while (true) {
     const double coagulation = kernel_ ? method_.coagulationRate() : 0;
-    const double next =
-        coagulation > 0 ? time + random_.exponential(coagulation) : std::numeric_limits<double>::infinity();
+    const double next = coagulation > 0 ? time + wait / coagulation : std::numeric_limits<double>::infinity();
     const double end = std::min(next, dt);
     if (inception > 0) {
       const double due = time + std::max(0.0, nucleusAfter_ - reached_) / inception;
       if (due < end) {
         reached_ = nucleusAfter_;
+        wait = std::max(0.0, wait - coagulation * (due - time));
         time = due;
         const double weight = method_.nucleusWeight();
         method_.nucleate(random_);
@@ -238,14 +247,19 @@ void StochasticProcess<Method>::jump(const SootMedium& medium, double dt, double
     }
     if (next >= dt) break;
     time = next;
+    wait = random_.exponential(1);
     if (method_.coagulate(random_))
       isChanged = true;
     else
       ++method_.counters().fictitious;
   }
+  if constexpr (!weighted) method_.watch(nullptr);
   if (isChanged) {
     gathered_ = false;
-    now = sums(medium);
+    if constexpr (weighted)
+      now = sums(medium);
+    else
+      takeChanges(medium, weightBefore, now);
   }
   exchange_.resampledCarbon += now.carbon - start.carbon - nucleatedCarbon;
   exchange_.resampledHydrogen += now.hydrogen - start.hydrogen - nucleatedHydrogen;
@@ -264,32 +278,8 @@ void StochasticProcess<Method>::recordUptakeOfDimers(const SootMedium& medium, d
   exchange_.hydrogen += dimers * medium.dimerHydrogen();
 }
 
-template <class Method>
-void StochasticProcess<Method>::grow(const SootMedium& medium, double dt, Sums& now) {
-  if (size() == 0 || !(medium.condensing() || medium.surfaceActive())) return;
-  const SootFluxes flux = sootFluxes(law(), medium, now, dt);
-  gather();
-  const SootMoved all = options_.growthByEvents ? growAllByEvents(columns_, type_, medium, flux, dt, random_)
-                                                : growAll(columns_, type_, medium, flux, dt);
-  std::size_t k = 0;
-  method_.changeParticles([&](Particle& p, double) {
-    p = columns_.particle(k++);
-    return p.carbon > 0;
-  });
-  gathered_ = false;  // some may be gone, and the order in the store another one
-  now = sums(medium);
-  recordUptakeOfDimers(medium, all.dimers);
-  exchange_.condensed += all.dimers * (medium.dimerCarbon() + medium.dimerHydrogen());
-  exchange_.grown += all.growth;
-  exchange_.oxidisedO2 += all.oxidationO2 + all.hydrogenO2;
-  exchange_.oxidisedOH += all.oxidationOH + all.hydrogenOH;
-  exchange_.oxidisedNumber += all.lost;
-  exchange_.carbon += all.growth - all.oxidationO2 - all.oxidationOH;
-  exchange_.hydrogen -= all.hydrogenO2 + all.hydrogenOH;
-  exchangeSurface(options_.soot, all, exchange_.gas);
-}
-
 }  // namespace lampblack::particles
 
 #include "core/rooms.hpp"
+#include "particles/ensemble/stochastic_growth.hpp"
 #include "particles/ensemble/stochastic_population.hpp"

@@ -53,11 +53,12 @@ SootSums sums(const SootColumns& all, const SootAggregate& type, const SootMediu
     if (!condensing) return;
     for (std::size_t i = 0; i < n; ++i) {
       const SootAggregate::Particle p{c[i], h[i], primaries[i], diameter[i]};
-      const double rate = medium.condensingCollision(p);
-      rates[i] = w[i] * rate;
-      slopes[i] = w[i] * medium.collisionSlope(p, rate);
+      rates[i] = w[i] * medium.condensingCollision(p);
     }
     s.collisions += chemistry::sumOf(rates, n);
+    if (medium.ofMonomers()) return;
+    for (std::size_t i = 0; i < n; ++i)
+      slopes[i] = medium.collisionSlope({c[i], h[i], primaries[i], diameter[i]}, rates[i]);
     s.slopes += chemistry::sumOf(slopes, n);
   });
   return s;

@@ -2,7 +2,9 @@
 // instructions. SootMedium does the same one by one.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "core/random.hpp"
@@ -21,12 +23,25 @@ struct SootColumns {
   void resize(std::size_t n) {
     for (auto* column : {&carbon, &hydrogen, &primaries, &diameter, &weight}) column->resize(n);
   }
-  void set(std::size_t k, const SootAggregate::Particle& p, double w) {
-    carbon[k] = p.carbon;
-    hydrogen[k] = p.hydrogen;
-    primaries[k] = p.primaries;
-    diameter[k] = p.diameter;
-    weight[k] = w;
+  // Where they are, until there are more or fewer.
+  struct Row {
+    double *carbon, *hydrogen, *primaries, *diameter, *weight;
+    void set(std::size_t k, const SootAggregate::Particle& p, double w) const {
+      carbon[k] = p.carbon;
+      hydrogen[k] = p.hydrogen;
+      primaries[k] = p.primaries;
+      diameter[k] = p.diameter;
+      weight[k] = w;
+    }
+  };
+  [[nodiscard]] Row row() { return {carbon.data(), hydrogen.data(), primaries.data(), diameter.data(), weight.data()}; }
+  void set(std::size_t k, const SootAggregate::Particle& p, double w) { row().set(k, p, w); }
+  // The last one takes its place.
+  void remove(std::size_t k) {
+    for (auto* column : {&carbon, &hydrogen, &primaries, &diameter, &weight}) {
+      (*column)[k] = column->back();
+      column->pop_back();
+    }
   }
   [[nodiscard]] SootAggregate::Particle particle(std::size_t k) const {
     return {carbon[k], hydrogen[k], primaries[k], diameter[k]};
@@ -36,8 +51,18 @@ struct SootColumns {
 // Of a whole population, per m3.
 struct SootSums {
   double number = 0, carbon = 0, hydrogen = 0, primaries = 0, area = 0, diameters = 0;
-  double collisions = 0, slopes = 0;  // with dimers, 1/s, and their change with the logarithm of all diameters
+  // With dimers, 1/s, and their change with the logarithm of all diameters: zero where it does not change dimers().
+  double collisions = 0, slopes = 0;
+
+  static const std::array<double SootSums::*, 8> all;
+  void add(const SootSums& other);
 };
+inline constexpr std::array<double SootSums::*, 8> SootSums::all{
+    &SootSums::number, &SootSums::carbon,    &SootSums::hydrogen,   &SootSums::primaries,
+    &SootSums::area,   &SootSums::diameters, &SootSums::collisions, &SootSums::slopes};
+inline void SootSums::add(const SootSums& other) {
+  for (const auto sum : all) this->*sum += other.*sum;
+}
 
 [[nodiscard]] SootSums sumsOf(const SootColumns& all, const SootAggregate& type, const SootMedium& medium);
 
@@ -47,7 +72,7 @@ struct SootSums {
 
 // The same in whole events, a dimer, two atoms of carbon by C2H2 or O2 or one by OH: of each particle and kind as many
 // as a Poisson number says whose mean is what growAll() would move. A particle that an event leaves with less carbon
-// than the smallest nucleus is oxidised away.
+// than the smallest nucleus is oxidised away. Some particles after the other: GrowthByEvents.
 [[nodiscard]] SootMoved growAllByEvents(SootColumns& all, const SootAggregate& type, const SootMedium& medium,
                                         const SootFluxes& fluxes, double dt, RandomStream& random);
 

@@ -1,7 +1,9 @@
 #include "particles/soot/soot_events.hpp"
 
 #include <algorithm>
+#include <span>
 
+#include "chemistry/transport/lanes.hpp"
 #include "core/cube_root.hpp"
 #include "core/poisson.hpp"
 #include "particles/soot/soot_columns.hpp"
@@ -11,66 +13,163 @@ namespace {
 
 constexpr std::size_t particlesAtATime = 128;
 // Of one particle; more are drawn as numbers of each kind.
-constexpr double manyEvents = 64;
+constexpr double manyEvents = 8;
+
+// Some particles of which each had events, and how many of each kind.
+struct Some {
+  std::size_t count = 0;
+  std::uint32_t place[particlesAtATime];
+  std::uint64_t few[particlesAtATime];  // 16 bits for each kind
+  double number[sootEvents][particlesAtATime];
+  double carbon[particlesAtATime], hydrogen[particlesAtATime], diameter[particlesAtATime];
+};
+
+// `number` of those that have few events.
+void unpack(Some& some, std::span<const std::uint32_t> many) {
+  double kept[sootEvents][particlesAtATime];
+  for (std::size_t m = 0; m < many.size(); ++m)
+    for (std::size_t kind = 0; kind < sootEvents; ++kind) kept[kind][m] = some.number[kind][many[m]];
+  for (std::size_t kind = 0; kind < sootEvents; ++kind)
+    for (std::size_t j = 0; j < some.count; ++j)
+      some.number[kind][j] = static_cast<double>((some.few[j] >> (16U * kind)) & 0xffffU);
+  for (std::size_t m = 0; m < many.size(); ++m)
+    for (std::size_t kind = 0; kind < sootEvents; ++kind) some.number[kind][many[m]] = kept[kind][m];
+}
+
+// The events of one particle where their order matters: any order is as likely as any other. False when nothing is
+// left.
+bool happenInTurn(SootEvents& events, SootEventNumbers numbers, RandomStream& random, double& carbon,
+                  double& hydrogen) {
+  for (double left = sumOf(numbers); left > 0; --left) {
+    const std::size_t kind = eventAt(numbers, left > 1 ? random.uniform() * left : 0.5);
+    --numbers[kind];
+    if (!events.happens(kind, carbon, hydrogen)) return false;
+  }
+  return true;
+}
+
+// All events of all of them.
+void happen(Some& some, const SootColumns& all, const SootMedium& medium, double least, RandomStream& random,
+            SootMoved& sum) {
+  const double atom = medium.carbonAtom(), dimerCarbon = medium.dimerCarbon(), dimerHydrogen = medium.dimerHydrogen();
+  using Row = double[particlesAtATime];
+  Row inTurn, dimers, growth, byO2, byOH, hydrogenO2, hydrogenOH;
+  const std::size_t n = some.count;
+  for (std::size_t j = 0; j < n; ++j) {
+    const double w = all.weight[some.place[j]], c = some.carbon[j], h = some.hydrogen[j];
+    const double grown = 2 * some.number[growthEvent][j] * atom;
+    const double O2 = 2 * some.number[oxidationByO2Event][j] * atom, OH = some.number[oxidationByOHEvent][j] * atom;
+    const bool risky = O2 + OH > 0 && c - (O2 + OH) < least;
+    inTurn[j] = risky ? 1 : 0;
+    // What comes in comes first; hydrogen leaves with its carbon.
+    const double most = c + some.number[dimerEvent][j] * dimerCarbon + grown;
+    const double full = h + some.number[dimerEvent][j] * dimerHydrogen, share = full / most;
+    some.carbon[j] = risky ? c : most - O2 - OH;
+    some.hydrogen[j] = risky ? h : full - share * (O2 + OH);
+    const double counted = risky ? 0 : w;
+    dimers[j] = counted * some.number[dimerEvent][j];
+    growth[j] = counted * grown;
+    byO2[j] = counted * O2;
+    byOH[j] = counted * OH;
+    hydrogenO2[j] = counted * share * O2;
+    hydrogenOH[j] = counted * share * OH;
+  }
+  sum.dimers += chemistry::sumOf(dimers, n);
+  sum.growth += chemistry::sumOf(growth, n);
+  sum.oxidationO2 += chemistry::sumOf(byO2, n);
+  sum.oxidationOH += chemistry::sumOf(byOH, n);
+  sum.hydrogenO2 += chemistry::sumOf(hydrogenO2, n);
+  sum.hydrogenOH += chemistry::sumOf(hydrogenOH, n);
+  for (std::size_t j = 0; j < n; ++j) {
+    if (inTurn[j] == 0) continue;
+    SootEvents events(medium, least, all.weight[some.place[j]], sum);
+    happenInTurn(events, {some.number[0][j], some.number[1][j], some.number[2][j], some.number[3][j]}, random,
+                 some.carbon[j], some.hydrogen[j]);
+  }
+}
 
 }  // namespace
 
-// The events of all particles are one Poisson process on a line: the expected numbers of one particle after the other.
-// Numbers in pieces of the line are independent, so that only events cost random numbers, not particles.
-SootMoved growAllByEvents(SootColumns& all, const SootAggregate& type, const SootMedium& medium,
-                          const SootFluxes& fluxes, double dt, RandomStream& random) {
-  const SootGrowth law = medium.growth(fluxes);
-  const double least = law.leastCarbon(), perVolume = type.perVolume(), perAtom = 1 / medium.carbonAtom();
-  SootMoved sum;
-  double total[particlesAtATime], d[particlesAtATime], shape[particlesAtATime];
-  double next = random.exponential(1);  // how far it is to the next event
+void GrowthByEvents::grow(SootColumns& all, std::vector<std::uint32_t>& changed) {
+  const SootGrowth law = law_;
+  const double least = law.leastCarbon(), perVolume = type_.perVolume(), perAtom = 1 / medium_.carbonAtom(), dt = dt_;
+  changed.clear();
+  double expected[sootEvents][particlesAtATime], total[particlesAtATime];
+  double d[particlesAtATime], shape[particlesAtATime];
+  Some some;
+  std::uint32_t many[particlesAtATime];  // which of them have their numbers already
+  const bool spheres = type_.coalescing();
+  RandomStream& random = random_;
+  double next = next_;
   for (std::size_t first = 0; first < all.size(); first += particlesAtATime) {
     const std::size_t n = std::min(particlesAtATime, all.size() - first);
     const double *c = &all.carbon[first], *h = &all.hydrogen[first], *primaries = &all.primaries[first];
-    if (type.coalescing()) {
+    const auto expect = [&](std::size_t i, double count, double factor, double diameter) {
+      const SootEventNumbers e = expectedEvents(law, c[i], h[i], count, factor, diameter, dt, perAtom);
+      for (std::size_t kind = 0; kind < sootEvents; ++kind) expected[kind][i] = e[kind];
+      total[i] = sumOf(e);
+    };
+    if (spheres) {
       const double* diameter = &all.diameter[first];
-      for (std::size_t i = 0; i < n; ++i)
-        total[i] = sumOf(expectedEvents(law, c[i], h[i], 1, 1, diameter[i], dt, perAtom));
+      for (std::size_t i = 0; i < n; ++i) expect(i, 1, 1, diameter[i]);
     } else {
       for (std::size_t i = 0; i < n; ++i) {
         d[i] = normalCubeRoot(perVolume * (c[i] + h[i]) / primaries[i]);
         shape[i] = SootAggregate::collisionFactor(primaries[i]);
       }
-      for (std::size_t i = 0; i < n; ++i)
-        total[i] = sumOf(expectedEvents(law, c[i], h[i], primaries[i], shape[i], d[i], dt, perAtom));
+      for (std::size_t i = 0; i < n; ++i) expect(i, primaries[i], shape[i], d[i]);
     }
+    some.count = 0;
+    std::size_t manyOnes = 0;
     for (std::size_t i = 0; i < n; ++i) {
       const bool areMany = total[i] > manyEvents;
       if (total[i] <= next && !areMany) {
         next -= total[i];
         continue;
       }
-      const std::size_t k = first + i;
-      const double factor = type.coalescing() ? 1 : shape[i];
-      const SootEventNumbers kinds = expectedEvents(law, c[i], h[i], primaries[i], factor,
-                                                    type.coalescing() ? all.diameter[k] : d[i], dt, perAtom);
-      SootEvents events(medium, least, all.weight[k], sum);
-      bool stays = true;
+      const std::size_t k = first + i, j = some.count++;
+      some.place[j] = static_cast<std::uint32_t>(k);
+      some.carbon[j] = all.carbon[k];
+      some.hydrogen[j] = all.hydrogen[k];
       if (areMany) {  // its piece of the line is left out
-        for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
-          const double times = poisson(random, kinds[kind]);
-          if (times > 0 && stays) stays = events.happens(kind, all.carbon[k], all.hydrogen[k], times);
-        }
-      } else {
-        double left = total[i];
-        while (next < left) {
-          left -= next;
-          next = random.exponential(1);
-          if (!stays) continue;
-          const std::size_t kind = eventAt(kinds, random.uniform() * total[i]);
-          stays = events.happens(kind, all.carbon[k], all.hydrogen[k]);
-        }
-        next -= left;
+        many[manyOnes++] = static_cast<std::uint32_t>(j);
+        for (std::size_t kind = 0; kind < sootEvents; ++kind) some.number[kind][j] = poisson(random, expected[kind][i]);
+        continue;
       }
-      if (stays) all.diameter[k] = factor * cubeRoot(perVolume * (all.carbon[k] + all.hydrogen[k]) / all.primaries[k]);
+      const double one = expected[0][i], two = one + expected[1][i], three = two + expected[2][i];
+      double left = total[i];
+      std::uint64_t few = 0;
+      while (next < left) {
+        left -= next;
+        next = gaps_.next(random);
+        const double at = random.uniform() * total[i];
+        few += std::uint64_t{1} << (16U * ((at >= one) + (at >= two) + (at >= three)));
+      }
+      next -= left;
+      some.few[j] = few;
     }
+    unpack(some, {many, manyOnes});
+    happen(some, all, medium_, least, random, moved_);
+    for (std::size_t j = 0; j < some.count; ++j)
+      some.diameter[j] = perVolume * (some.carbon[j] + some.hydrogen[j]) / all.primaries[some.place[j]];
+    for (std::size_t j = 0; j < some.count; ++j) some.diameter[j] = normalCubeRoot(some.diameter[j]);
+    for (std::size_t j = 0; j < some.count; ++j) {
+      const std::size_t k = some.place[j];
+      all.carbon[k] = some.carbon[j];
+      all.hydrogen[k] = some.hydrogen[j];
+      all.diameter[k] = spheres ? some.diameter[j] : shape[k - first] * some.diameter[j];
+    }
+    changed.insert(changed.end(), some.place, some.place + some.count);
   }
-  return sum;
+  next_ = next;
+}
+
+SootMoved growAllByEvents(SootColumns& all, const SootAggregate& type, const SootMedium& medium,
+                          const SootFluxes& fluxes, double dt, RandomStream& random) {
+  GrowthByEvents growth(type, medium, fluxes, dt, random);
+  std::vector<std::uint32_t> changed;
+  growth.grow(all, changed);
+  return growth.moved();
 }
 
 }  // namespace lampblack::particles

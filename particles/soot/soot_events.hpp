@@ -4,8 +4,13 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
+#include "chemistry/numerics/vector_math.hpp"
+#include "core/random.hpp"
 #include "core/rooms.hpp"
+#include "particles/soot/soot_columns.hpp"
 #include "particles/soot/soot_medium.hpp"
 
 namespace lampblack::particles {
@@ -71,6 +76,56 @@ class SootEvents {
   const SootMedium& medium_;
   double atom_, least_, weight_;
   SootMoved& sum_;
+};
+
+// Exponentially distributed numbers with the mean of one, made many at a time.
+class ExponentialGaps {
+ public:
+  [[gnu::always_inline]] double next(RandomStream& random) {
+    if (used_ == gaps_.size()) [[unlikely]]
+      make(random);
+    return gaps_[used_++];
+  }
+
+ private:
+  void make(RandomStream& random) {
+    for (double& gap : gaps_) gap = random.uniform();
+    for (double& gap : gaps_) gap = -chemistry::vectormath::logOne(gap);
+    used_ = 0;
+  }
+
+  std::array<double, 64> gaps_{};
+  std::size_t used_ = gaps_.size();
+};
+
+// Growth of a population over a time dt (s) in whole events, some of its particles after the other. The events of all
+// are one Poisson process on a line: the expected numbers of one particle after the other. Numbers in pieces of the
+// line are independent, so that only events cost random numbers, not particles.
+class GrowthByEvents {
+ public:
+  GrowthByEvents(const SootAggregate& type, const SootMedium& medium, const SootFluxes& fluxes, double dt,
+                 RandomStream& random)
+      : type_(type),
+        medium_(medium),
+        law_(medium.growth(fluxes)),
+        dt_(dt),
+        random_(random),
+        next_(gaps_.next(random)) {}
+
+  // The particles that come next. `changed`: the places among them of those that had an event, ascending; who is left
+  // without carbon is oxidised away.
+  void grow(SootColumns& some, std::vector<std::uint32_t>& changed);
+  [[nodiscard]] const SootMoved& moved() const { return moved_; }  // of all so far
+
+ private:
+  const SootAggregate& type_;
+  const SootMedium& medium_;
+  SootGrowth law_;
+  double dt_;
+  RandomStream& random_;
+  ExponentialGaps gaps_;
+  double next_;  // how far it is to the next event
+  SootMoved moved_;
 };
 
 }  // namespace lampblack::particles

@@ -77,13 +77,16 @@ TEST(Monomers, CondenseByTheirOwnMassOrTheReducedOne) {
   }
 }
 
+class MonomersBy : public testing::TestWithParam<EnsembleMethod> {};
+INSTANTIATE_TEST_SUITE_P(Methods, MonomersBy, testing::Values(EnsembleMethod::dsmc, EnsembleMethod::sammc));
+
 // Both ways of growth: numbers as born, two molecules each, and all atoms from the gas.
-TEST(Monomers, NucleiAreOfTwoAndAtomsAreKept) {
+TEST_P(MonomersBy, NucleiAreOfTwoAndAtomsAreKept) {
   const test::FlameGas gas = gasOf(2e-7);
   for (const bool events : {false, true})
     for (const bool keepsHydrogen : {false, true}) {
       EnsembleOptions options;
-      options.method = EnsembleMethod::sammc;
+      options.method = GetParam();
       options.particles = 500;
       options.growthByEvents = events;
       options.keepsHydrogen = keepsHydrogen;
@@ -112,10 +115,10 @@ TEST(Monomers, NucleiAreOfTwoAndAtomsAreKept) {
 
 // Molecules that condense on large particles: as many as a Poisson number of the mean that the rate says, variance and
 // all.
-TEST(GrowthByEvents, IsAPoissonNumberOfTheRatesMean) {
+TEST_P(MonomersBy, EventsOfGrowthArePoissonNumbersOfTheRatesMean) {
   const test::FlameGas gas = gasOf(1e-7);
   EnsembleOptions options;
-  options.method = EnsembleMethod::sammc;
+  options.method = GetParam();
   options.particles = 4000;
   options.growthByEvents = true;
   options.keepsHydrogen = false;
@@ -128,7 +131,7 @@ TEST(GrowthByEvents, IsAPoissonNumberOfTheRatesMean) {
   const SootAggregate type(1800, true);
   const double rate = medium.collision(type.make(start, 0, 1)) * medium.dimers(0);
   const std::vector<double> packed = soot->pack();
-  for (const double expected : {3.0, 300.0}) {  // one by one, and drawn as a number
+  for (const double expected : {0.4, 3.0, 12.0, 300.0}) {  // one by one, and drawn as a number
     soot->unpack(packed);
     soot->advance(gas.state, 0, expected / rate);
     double sum = 0, squares = 0;
@@ -178,10 +181,10 @@ TEST(GrowthByEvents, HasTheMeansOfGrowthByTheMean) {
 }
 
 // A particle of the smallest nucleus that loses an atom is gone, with all its atoms; nothing is left below it.
-TEST(GrowthByEvents, WhatFallsBelowTheNucleusIsGoneWithItsAtoms) {
+TEST_P(MonomersBy, WhatFallsBelowTheNucleusIsGoneWithItsAtoms) {
   const test::FlameGas gas(T, 0, 0.05, 1e-4, 0.1, 0, 0, {0});
   EnsembleOptions options;
-  options.method = EnsembleMethod::swa;
+  options.method = GetParam();
   options.particles = 3000;
   options.growthByEvents = true;
   options.soot = pyrene();
@@ -197,6 +200,14 @@ TEST(GrowthByEvents, WhatFallsBelowTheNucleusIsGoneWithItsAtoms) {
   const double gone = 1 - std::exp(-0.5);
   EXPECT_NEAR(x.oxidisedNumber / 1e15, gone, 4.5 * std::sqrt(gone * (1 - gone) / 3000));
   EXPECT_NEAR(x.oxidisedOH / (x.oxidisedNumber * nucleus), 1, 1e-10);
+  // Who is gone counts no more for the length of the next step: of the volume each may change a part 3e-4, and they
+  // lose a 32nd in the time 1/rate.
+  options.splitTolerance = 1e-4;
+  const auto stepwise = makeEnsemble(options);
+  stepwise->initialise(test::equalSpheres(3000, nucleus, 0, 1e15));
+  stepwise->advance(gas.state, 0, 0.5 / rate);
+  EXPECT_GT(stepwise->counters().splitSteps, 40u);
+  EXPECT_LT(stepwise->counters().splitSteps, 70u);
 }
 
 TEST(Monomers, NeedOnePah) {

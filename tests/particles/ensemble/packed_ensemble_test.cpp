@@ -18,7 +18,7 @@ const test::FlameGas& flame() {
 
 struct Choice {
   EnsembleMethod method;
-  bool coalescing, coagulation;
+  bool coalescing, coagulation, events = false;
 };
 
 class PackedSoot : public testing::TestWithParam<Choice> {
@@ -32,6 +32,7 @@ class PackedSoot : public testing::TestWithParam<Choice> {
     o.owner = owner;
     o.soot = test::threePah();
     o.soot.coagulation = GetParam().coagulation;
+    o.growthByEvents = GetParam().events;
     o.splitTolerance = 0.05;
     return o;
   }
@@ -42,7 +43,9 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Choice{EnsembleMethod::dsmc, true, true}, Choice{EnsembleMethod::dsmc, false, true},
                     Choice{EnsembleMethod::dsmc, true, false}, Choice{EnsembleMethod::sammc, true, true},
                     Choice{EnsembleMethod::sammc, false, true}, Choice{EnsembleMethod::sammc, true, false},
-                    Choice{EnsembleMethod::swa, true, true}, Choice{EnsembleMethod::swa, false, true}));
+                    Choice{EnsembleMethod::swa, true, true}, Choice{EnsembleMethod::swa, false, true},
+                    Choice{EnsembleMethod::dsmc, true, true, true}, Choice{EnsembleMethod::dsmc, false, true, true},
+                    Choice{EnsembleMethod::dsmc, true, false, true}, Choice{EnsembleMethod::sammc, true, true, true}));
 
 TEST_P(PackedSoot, GoesOnToTheSameBits) {
   const auto one = makeEnsemble(options(7));
@@ -152,6 +155,21 @@ TEST(WeightedDeviation, IsOneForParticlesThatAreAllTheSame) {
     one.add(std::log(1e-9 + 1e-12 * k), 1e9 / k);
     EXPECT_NEAR(one.geometric(), 1.0, 1e-6);
   }
+}
+
+TEST(WeightedDeviation, OfManyAtATimeIsThatOfOneByOne) {
+  RandomStream random(3, 0, 1);
+  std::vector<double> x, weights;
+  for (int k = 0; k < 301; ++k) {
+    x.push_back(-20 + 0.1 * random.uniform());
+    weights.push_back(1e15 * random.uniform());
+  }
+  WeightedDeviation each, some;
+  for (std::size_t k = 0; k < x.size(); ++k) each.add(x[k], weights[k]);
+  some.add(x.data(), weights.data(), 0);
+  for (const auto& [first, n] : {std::pair{0, 128}, {128, 1}, {129, 172}}) some.add(&x[first], &weights[first], n);
+  EXPECT_NEAR(std::log(some.geometric()), std::log(each.geometric()), 1e-12 * std::log(each.geometric()));
+  EXPECT_GT(each.geometric(), 1.02);
 }
 
 // Particles put behind those of a packed population of different weights are its own, in any order; too many merge.
