@@ -100,7 +100,7 @@ TEST(TreesOfSoot, ThatCoalesceAreTheSpheresOfAnEnsemble) {
   spheres.particles = trees.particles;
   spheres.growthByEvents = true;
   spheres.splitTolerance = trees.splitTolerance;
-  expectSameSoot(ofTrees(trees, gas, dt, 30), ofSpheres(spheres, gas, dt, 30));
+  expectSameSoot(ofTrees(trees, gas, dt, 40), ofSpheres(spheres, gas, dt, 40));
 }
 
 // The expected events of an aggregate of equal spheres in point contact are those of as many spheres of its
