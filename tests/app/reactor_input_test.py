@@ -149,7 +149,7 @@ SOOT_MISTAKES = [
     ("ensemble without soot", STIRRED, "inlet:", "stochastic: {repeats: 2}\ninlet:",
      ("stochastic: ensembles need the section 'soot'",)),
     ("ensemble and model", SOOT, "pah: [A2]", "model: hmom\nstochastic: {repeats: 2}",
-     ("soot.model: in a reactor an ensemble takes the place of a model",)),
+     ("soot.model: an ensemble takes the place of a model",)),
     ("steady ensemble", SOOT, "pah: [A2]", "pah: [A2]\nstochastic: {repeats: 2}",
      ("stochastic: the steady state of an ensemble is a mean over time",)),
     ("key of flames", SOOT, "pah: [A2]", "pah: [A2]\nstochastic: {coupled: two_way}", ("stochastic.coupled",)),
