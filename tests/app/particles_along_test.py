@@ -125,12 +125,12 @@ def check_depletion(program, folder: pathlib.Path) -> None:
 
 def check_trees(program, folder: pathlib.Path) -> None:
     """Silica along the gas of a reactor without particles is what it is in the reactor with them."""
-    short = ("particles.number=128", "particles.repeats=12", "particles.tables_at=[]")
+    short = ("particles.number=128", "particles.repeats=8", "particles.tables_at=[]")
     along, reactor = folder / f"along_{program.ranks}", folder / f"reactor_{program.ranks}"
-    result = program("run", SILICA / "deck.yaml", "--out", along, *running.settings(*short, "gas.end=60 ms"), timeout=200)
+    result = program("run", SILICA / "deck.yaml", "--out", along, *running.settings(*short, "gas.end=40 ms"), timeout=200)
     assert result.code == 0, result.err
     result = program("run", running.SOURCE / "cases/reactor/silica_batch/deck.yaml", "--out", reactor, *running.settings(
-        *short[:2], "time.end=60 ms", "output.interval=20 ms", "particles.seed=7"), timeout=200)
+        *short[:2], "time.end=40 ms", "output.interval=20 ms", "particles.seed=7"), timeout=200)
     assert result.code == 0, result.err
     with h5py.File(along / "results.h5", "r") as one, h5py.File(reactor / "results.h5", "r") as two:
         for name in ("silica_number_density", "silica_volume_fraction", "silica_surface_area", "X_H4O4SI"):
