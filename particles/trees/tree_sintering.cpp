@@ -8,6 +8,8 @@ namespace lampblack::particles {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
+// Of a pair's volume: the slope of its sphere is constant to a ninth of the square of that.
+constexpr double negligibleLoss = 1e-2;
 
 }  // namespace
 
@@ -37,6 +39,9 @@ TreeSintering::Shrinking TreeSintering::shrinking(const TreePrimary* primaries, 
   s.volume = density * volumeOfSite_;
   s.sphere = std::min(2.0 / 3 * S / volume * s.volume, most);
   s.fused = fusedAt(s.sphere);
+  // Of next to no mass, of sites that both have, that is it.
+  const double fewest = std::min(l.units[site], r.units[site]);
+  if (s.volume * (C - s.fused) < negligibleLoss * volume && 0.5 * density * (C - s.fused) <= fewest) return s;
   for (int i = 0; i < 2; ++i) {
     const double surface = C - s.fused, each = 0.5 * density * surface;
     if (!(surface > 1e-9 * C)) break;
