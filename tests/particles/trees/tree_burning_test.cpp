@@ -23,13 +23,7 @@ class BurntTrees : public testing::Test {
     std::vector<Tree> trees;
     for (std::size_t i = 0; i < count; ++i)
       trees.push_back(type.make(spherical(type.material(), 2e-9 + 1e-11 * static_cast<double>(i))));
-    while (trees.size() > 1) {
-      std::swap(trees[random.below(trees.size())], trees.back());
-      Tree one = std::move(trees.back());
-      trees.pop_back();
-      Tree& other = trees[random.below(trees.size())];
-      other = type.coagulated(std::move(other), std::move(one), random);
-    }
+    joinAtRandom(type, trees, random);
     Tree tree = std::move(trees[0]);
     TreeHead& head = tree.own();
     for (std::uint32_t k = 0; k + 1 < head.count; ++k) {

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "particles/trees/primary_trees.hpp"
@@ -27,6 +28,17 @@ inline Tree joinedTree(const PrimaryTrees& type, const std::vector<double>& diam
   for (std::size_t i = 1; i < diameters.size(); ++i)
     tree = type.coagulated(std::move(tree), type.make(spherical(type.material(), diameters[i])), random);
   return tree;
+}
+
+// All trees become the first, any two at a time.
+inline void joinAtRandom(const PrimaryTrees& type, std::vector<Tree>& trees, RandomStream& random) {
+  while (trees.size() > 1) {
+    std::swap(trees[random.below(trees.size())], trees.back());
+    Tree one = std::move(trees.back());
+    trees.pop_back();
+    Tree& other = trees[random.below(trees.size())];
+    other = type.coagulated(std::move(other), std::move(one), random);
+  }
 }
 
 // That all primaries hang together by as few necks as can be, that ranges are nested, and that sums are those of parts.

@@ -22,13 +22,7 @@ TEST(FragmentationOfTrees, TheTwoSidesOfANeckKeepAllThereIs) {
     const std::size_t n = 2 + random.below(20);
     for (std::size_t i = 0; i < n; ++i)
       trees.push_back(type.make(TreeUnits{1000 + 10 * static_cast<double>(i), 100 + static_cast<double>(i), 0}));
-    while (trees.size() > 1) {
-      std::swap(trees[random.below(trees.size())], trees.back());
-      Tree one = std::move(trees.back());
-      trees.pop_back();
-      Tree& other = trees[random.below(trees.size())];
-      other = type.coagulated(std::move(other), std::move(one), random);
-    }
+    joinAtRandom(type, trees, random);
     TreeHead& head = trees[0].own();
     for (std::uint32_t k = 0; k + 1 < n; ++k)
       necksOf(&head)[k].common = commonSurface(necksOf(&head)[k].sphere, 0.2 + 0.6 * random.uniform());
