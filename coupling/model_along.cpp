@@ -80,8 +80,7 @@ class DepletedSpecies {
     }
   }
   void end(std::span<const double> concentrations, double density) {
-    for (std::size_t i = 0; i < species_.size(); ++i)
-      amounts_[i] = concentrations[species_[i]] / density * halves_[i];
+    for (std::size_t i = 0; i < species_.size(); ++i) amounts_[i] = concentrations[species_[i]] / density * halves_[i];
   }
   // mol/m3, of all species where the path gives `all`.
   void putInto(std::vector<double>& all, double density) const {

@@ -182,6 +182,12 @@ particles: {{material: soot, number: 200, repeats: 2, full_at: 1e16 1/m^3}}
     with h5py.File(folder / "trees/results.h5", "r") as file:
         assert np.allclose(file["history/temperature"][()], temperature, rtol=1e-6)
         assert 0.4 < file["history/soot_number_density"][-1] / number[-1] < 2.5, (file["history/soot_number_density"][-1], number[-1])
+    # What they leave of their precursor is what the flame has, or less.
+    result = program("run", trees, "--out", folder / "trees_two_way", *running.settings("gas.exchange=two_way"), timeout=200)
+    assert result.code == 0, result.err
+    with h5py.File(folder / "flame/results.h5", "r") as flame, h5py.File(folder / "trees_two_way/results.h5", "r") as file:
+        left, most = file["history/X_A2"][()], np.max(flame["flame/X/A2"][()])
+    assert 0 < np.max(left) < 1.001 * most, (left, most)
     wrong = program("run", deck, "--out", folder / "wrong_flame", *running.settings(f"mechanism={MECHANISM}", "soot.pah=[A4]"))
     assert wrong.code == 2 and "other species" in wrong.err, wrong.err
 
