@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "chemistry/mechanism/mechanism.hpp"
+#include "core/modules.hpp"
 #include "core/particle_gas.hpp"
-#include "core/rooms.hpp"
 #include "coupling/ensemble_sizes.hpp"
 #include "flow/state.hpp"
 #include "particles/models/element_enthalpies.hpp"

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/cell_particles.hpp"
 #include "particles/ensemble/ensemble.hpp"
 

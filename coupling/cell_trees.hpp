@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/cell_particles.hpp"
 #include "coupling/reactor_trees.hpp"
 

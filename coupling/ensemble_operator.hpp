@@ -23,7 +23,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "core/work_sharing.hpp"
 #include "coupling/cell_particles.hpp"
 #include "coupling/ensemble_sizes.hpp"

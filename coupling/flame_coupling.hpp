@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "chemistry/mechanism/mechanism.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/flame_ensemble.hpp"
 #include "flow/carried_model.hpp"
 #include "flow/flame/flame_solver.hpp"

@@ -13,7 +13,7 @@
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/reactor/ode_system.hpp"
 #include "chemistry/reactor/reactor_system.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/given_gas.hpp"
 
 namespace lampblack::coupling {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "chemistry/mechanism/mechanism.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/reactor_particles.hpp"
 #include "particles/ensemble/ensemble_path.hpp"
 

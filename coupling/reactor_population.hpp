@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/split_reactor.hpp"
 
 namespace lampblack::coupling {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "chemistry/mechanism/mechanism.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/reactor_population.hpp"
 #include "coupling/tree_functionals.hpp"
 #include "particles/trees/tree_population.hpp"

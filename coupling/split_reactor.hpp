@@ -35,7 +35,7 @@
 #include "chemistry/reactor/ode_system.hpp"
 #include "chemistry/reactor/stiff_integrator.hpp"
 #include "chemistry/thermo/thermo.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/exchange_in_gas.hpp"
 #include "coupling/particles_at_rest.hpp"
 #include "coupling/reactor_particles.hpp"

@@ -12,7 +12,7 @@
 #include "chemistry/transport/transport.hpp"
 #include "core/halo_exchange.hpp"
 #include "core/mesh.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/boundary.hpp"
 #include "flow/boundary_values.hpp"
 #include "flow/transport_model.hpp"

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/modules.hpp"
 #include "core/quantity.hpp"
-#include "core/rooms.hpp"
 #include "core/state_archive.hpp"
 #include "flow/state.hpp"
 

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/deck_node.hpp"
 #include "io/deck_schema.hpp"
 

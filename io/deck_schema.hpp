@@ -23,7 +23,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/units.hpp"
 
 namespace lampblack::io {

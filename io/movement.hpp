@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "core/modules.hpp"
 #include "core/packed_rows.hpp"
-#include "core/rooms.hpp"
 #include "io/block_exchange.hpp"
 
 namespace lampblack::io {

@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/block_exchange.hpp"
 #include "io/disk_space.hpp"
 #include "io/hdf5_file.hpp"

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/folder_lock.hpp"
 
 namespace lampblack::io {

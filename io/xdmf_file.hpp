@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/xdmf.hpp"
 
 namespace lampblack::io {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/reactor_trees.hpp"
 #include "io/deck.hpp"
 #include "particles/ensemble/size_bins.hpp"

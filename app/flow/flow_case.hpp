@@ -9,7 +9,7 @@
 
 #include "chemistry/mechanism/mechanism.hpp"
 #include "core/mesh.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/ensemble_operator.hpp"
 #include "flow/boundary.hpp"
 #include "flow/carried_model.hpp"

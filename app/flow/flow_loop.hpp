@@ -21,7 +21,7 @@
 #include "app/flow/wall_limit.hpp"
 #include "core/kept_state.hpp"
 #include "core/mesh_quality.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "core/timers.hpp"
 #include "flow/peak.hpp"
 #include "io/progress.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::app {
 

@@ -11,7 +11,7 @@
 #include "app/deck/ensemble_deck.hpp"
 #include "app/reactor/reactor_case.hpp"
 #include "chemistry/mechanism/mechanism.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/deck.hpp"
 #include "particles/ensemble/ensemble_path.hpp"
 #include "particles/models/particle_model.hpp"

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "app/particles_along/along_case.hpp"
+#include "core/modules.hpp"
 #include "core/quantity.hpp"
-#include "core/rooms.hpp"
 #include "coupling/model_along.hpp"
 #include "coupling/path_ensemble.hpp"
 #include "io/json.hpp"

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "chemistry/mechanism/mechanism.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/given_gas.hpp"
 
 namespace lampblack::app {

@@ -3,7 +3,7 @@
 
 #include "app/population_balance/population_repeat.hpp"
 #include "app/population_balance/population_statistics.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "core/running_mean.hpp"
 
 namespace lampblack::app {

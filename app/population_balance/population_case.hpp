@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/deck.hpp"
 #include "particles/population/exact_solutions/exact_solution.hpp"
 #include "particles/population/model/components.hpp"

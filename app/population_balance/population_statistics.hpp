@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "app/population_balance/population_case.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/report.hpp"
 
 namespace lampblack::app {

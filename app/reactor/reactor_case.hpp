@@ -14,7 +14,7 @@
 #include "chemistry/reactor/network_solver.hpp"
 #include "chemistry/reactor/reactor_network.hpp"
 #include "chemistry/reactor/stiff_integrator.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/given_gas.hpp"
 #include "coupling/reactor_particles.hpp"
 #include "coupling/reactor_population.hpp"

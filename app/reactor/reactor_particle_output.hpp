@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/reactor/reactor_case.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/reactor_balance.hpp"
 #include "io/json.hpp"
 #include "io/results_writer.hpp"

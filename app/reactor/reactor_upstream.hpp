@@ -3,7 +3,7 @@
 #pragma once
 
 #include "app/reactor/reactor_case.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/split_reactor.hpp"
 
 namespace lampblack::app {

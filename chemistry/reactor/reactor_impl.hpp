@@ -14,7 +14,7 @@
 #include "chemistry/reactor/reactor_lanes.hpp"
 #include "chemistry/reactor/reactor_rosenbrock.hpp"
 #include "chemistry/reactor/reactor_system.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

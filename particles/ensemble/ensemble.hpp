@@ -18,7 +18,7 @@
 #include <span>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/ensemble/particle_rows.hpp"
 #include "particles/gas/soot_gas.hpp"
 #include "particles/population/model/collision_kernel.hpp"

@@ -1,7 +1,7 @@
 // StochasticProcess: how its population grows, and the sums over it. Included by stochastic_process.hpp.
 #pragma once
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/ensemble/stochastic_process.hpp"
 #include "particles/soot/soot_events.hpp"
 

@@ -1,4 +1,4 @@
-// Inside of makeEnsemble(): the processes of soot in a population of any Monte Carlo method. Not for other rooms.
+// Inside of makeEnsemble(): the processes of soot in a population of any Monte Carlo method. Not for other modules.
 #pragma once
 
 #include <fmt/format.h>
@@ -280,6 +280,6 @@ void StochasticProcess<Method>::recordUptakeOfDimers(const SootMedium& medium, d
 
 }  // namespace lampblack::particles
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/ensemble/stochastic_growth.hpp"
 #include "particles/ensemble/stochastic_population.hpp"

@@ -11,8 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/modules.hpp"
 #include "core/particle_gas.hpp"
-#include "core/rooms.hpp"
 
 namespace lampblack::particles {
 

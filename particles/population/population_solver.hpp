@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/model/population_model.hpp"
 
 namespace lampblack::particles {

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/modules.hpp"
 #include "core/random.hpp"
-#include "core/rooms.hpp"
 #include "particles/soot/soot_medium.hpp"
 
 namespace lampblack::particles {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "chemistry/numerics/vector_math.hpp"
+#include "core/modules.hpp"
 #include "core/random.hpp"
-#include "core/rooms.hpp"
 #include "particles/soot/soot_columns.hpp"
 #include "particles/soot/soot_medium.hpp"
 

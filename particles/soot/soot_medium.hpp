@@ -6,7 +6,7 @@
 #include <cmath>
 #include <span>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/collisions/collision_physics.hpp"
 #include "particles/gas/soot_gas.hpp"
 #include "particles/soot/dimer.hpp"

@@ -3,7 +3,7 @@
 // Shared by populations of spheres and aggregates (Ensemble) and of trees of primaries. docs/theory/stochastic_soot.md.
 #pragma once
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/model/collision_kernel.hpp"
 #include "particles/soot/soot_columns.hpp"
 

@@ -7,8 +7,8 @@
 #include <memory>
 #include <utility>
 
+#include "core/modules.hpp"
 #include "core/random.hpp"
-#include "core/rooms.hpp"
 #include "particles/population/model/particle_type.hpp"
 #include "particles/trees/tree_shape.hpp"
 

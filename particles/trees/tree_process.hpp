@@ -1,10 +1,10 @@
-// Inside of makeTreePopulation(). Not for other rooms.
+// Inside of makeTreePopulation(). Not for other modules.
 #pragma once
 
 #include <optional>
 #include <variant>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/monte_carlo/class_store.hpp"
 #include "particles/population/monte_carlo/equal_weight_method.hpp"
 #include "particles/trees/tree_population.hpp"

@@ -2,7 +2,7 @@
 // a step of splitting may be, and what the gas gives and gets. Inside of TreeProcess.
 #pragma once
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/model/collision_kernel.hpp"
 #include "particles/trees/tree_growth.hpp"
 #include "particles/trees/tree_population.hpp"

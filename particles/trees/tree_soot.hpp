@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/soot/soot_events.hpp"
 #include "particles/soot/soot_steps.hpp"
 #include "particles/trees/tree_fragmentation.hpp"

@@ -5,7 +5,7 @@
 
 #include "app/particles_along/along_case.hpp"
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "tests/app/app_fixture.hpp"
 #include "tests/messages.hpp"
 #include "tests/scratch.hpp"

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "tests/source_folder.hpp"
 
 namespace lampblack::app {

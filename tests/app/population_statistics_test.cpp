@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "app/population_balance/population_accumulator.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::app {
 namespace {

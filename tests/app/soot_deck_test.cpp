@@ -8,7 +8,7 @@
 
 #include "core/constants.hpp"
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/carried_particles.hpp"
 #include "particles/collisions/collision_physics.hpp"
 #include "particles/models/moments/hmom.hpp"

@@ -10,7 +10,7 @@
 #include "app/flow/flow_output.hpp"
 #include "app/particles_along/gas_table.hpp"
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/given_gas.hpp"
 #include "particles/ensemble/ensemble_path.hpp"
 #include "tests/app/app_fixture.hpp"

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/wall_clock.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::app {
 namespace {

@@ -13,7 +13,7 @@
 #include "particles/models/soot_model.hpp"
 #include "tests/coupling/cell_vessel.hpp"
 #include "tests/coupling/closed_box.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/flow/flow_fixture.hpp"
 #include "tests/particles/statistics.hpp"
 

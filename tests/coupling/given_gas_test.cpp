@@ -8,7 +8,7 @@
 #include "chemistry/mechanism/mechanism.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/model_along.hpp"
 #include "coupling/path_ensemble.hpp"
 #include "particles/models/two_equation/dimer_soot.hpp"

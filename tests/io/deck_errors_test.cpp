@@ -2,7 +2,7 @@
 #include <ctime>
 #include <filesystem>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "tests/io/sample_deck.hpp"
 
 namespace lampblack::io {

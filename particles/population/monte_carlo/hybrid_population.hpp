@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/monte_carlo/class_store.hpp"
 #include "particles/population/monte_carlo/equal_rates.hpp"
 #include "particles/population/monte_carlo/hybrid_numbers.hpp"

@@ -15,8 +15,8 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "core/modules.hpp"
 #include "core/random.hpp"
-#include "core/rooms.hpp"
 #include "particles/population/gelation_error.hpp"
 #include "particles/population/model/nucleation_schedule.hpp"
 #include "particles/population/monte_carlo/monte_carlo_options.hpp"

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/population_solver.hpp"
 
 namespace lampblack::particles {

@@ -16,8 +16,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/modules.hpp"
 #include "core/random.hpp"
-#include "core/rooms.hpp"
 #include "particles/population/monte_carlo/bundle_limits.hpp"
 #include "particles/population/monte_carlo/factored_sums.hpp"
 #include "particles/population/monte_carlo/neighbour_merger.hpp"

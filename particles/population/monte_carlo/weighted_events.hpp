@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/monte_carlo/weighted_method.hpp"
 
 namespace lampblack::particles {

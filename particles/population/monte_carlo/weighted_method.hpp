@@ -216,5 +216,5 @@ class WeightedMethod {
 
 }  // namespace lampblack::particles
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/monte_carlo/weighted_events.hpp"

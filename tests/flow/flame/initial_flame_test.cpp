@@ -13,7 +13,7 @@
 
 #include "core/errors.hpp"
 #include "flow/flame/stream_mixture.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/flow/flame/initial_flame_checks.hpp"
 #include "tests/messages.hpp"
 

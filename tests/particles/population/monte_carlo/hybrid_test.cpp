@@ -5,7 +5,7 @@
 
 #include "../../statistics.hpp"
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/gelation_error.hpp"
 #include "particles/population/model/sphere.hpp"
 #include "particles/population/monte_carlo/hybrid_solver.hpp"

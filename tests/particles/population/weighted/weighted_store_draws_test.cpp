@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "particles/population/monte_carlo/two_level_store.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/particles/population/weighted/weighted_test_rates.hpp"
 
 namespace lampblack::test {
