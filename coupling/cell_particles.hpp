@@ -89,7 +89,7 @@ class CellParticles {
   // Of the last advance(): particles looked at, and events, as Ensemble::cost(); and about how long one of these takes
   // (microseconds).
   [[nodiscard]] virtual double cost() const = 0;
-  [[nodiscard]] virtual double costOfLook() const = 0;
+  [[nodiscard]] virtual double costPerParticle() const = 0;
   [[nodiscard]] virtual std::vector<double> pack() const = 0;
 
  protected:

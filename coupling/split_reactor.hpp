@@ -146,15 +146,15 @@ class SplitReactor {
   double splitStep(double h);
   double predictedStep(double h);
   double correctedStep(double h);
-  void expectExchange();
-  [[nodiscard]] std::vector<std::optional<double>> knownRates(const std::vector<double>& concentrations);
+  void predictExchange();
+  [[nodiscard]] std::vector<std::optional<double>> currentRates(const std::vector<double>& concentrations);
   void react(double h);
   // The particles to where the marks say that their gas is. Densities (kg/m3) at the beginning of the part.
-  void carryParticles(const std::vector<double>& before);
+  void moveParticles(const std::vector<double>& before);
   // The particles of a reactor over h; the largest part of a concentration that they take or give.
   double exchange(std::size_t reactor, double h);
   // Adds moles (mol/kg) to the gas and kg/kg to the particles' elements; what is held stays.
-  void book(std::size_t reactor, std::span<const double> gas, std::span<const double> elements);
+  void recordExchange(std::size_t reactor, std::span<const double> gas, std::span<const double> elements);
   [[nodiscard]] bool isHeld(std::size_t species) const { return !gas_.held.empty() && gas_.held[species]; }
   // The largest change of a temperature (by its scale) and of concentrations that particles see.
   [[nodiscard]] double change(std::size_t reactor, double T, std::span<const double> before,

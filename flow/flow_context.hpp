@@ -98,7 +98,7 @@ struct FlowContext {
 };
 
 // Of what is integrated over a mesh: "N/rad", "N/m" or "N".
-inline std::string unitOfWhole(const Mesh& mesh, const std::string& unit) {
+inline std::string integralUnit(const Mesh& mesh, const std::string& unit) {
   return unit + (mesh.axisymmetric() ? "/rad" : mesh.dimension == 2 ? "/m" : "");
 }
 

@@ -111,7 +111,7 @@ void readConfiguration(const Deck& deck, FlameCase& flame) {
     requireTemperatureOfInlet(deck, problem);
   }
   if (problem.type == FlameType::Free)
-    if (const std::string reason = whyItCannotBurn(*flame.mechanism, problem); !reason.empty())
+    if (const std::string reason = inertReason(*flame.mechanism, problem); !reason.empty())
       throw deck.error("inlet", reason + "; a free flame has to burn");
 }
 

@@ -201,7 +201,7 @@ std::shared_ptr<CellParticles> readCellSoot(const Deck& deck, const FlowCase& fl
   EnsembleOptions options = readEnsemble(deck, readSootModelOptions(deck, *flowCase.mechanism, {})).soot;
   options.seed = flowCase.seed;
   options.leastNumberDensity = options.startNumberDensity = deck.quantity("stochastic.least_number");
-  options.shareAtOnce = deck.number("stochastic.share_at_once");
+  options.bundledGrowth = deck.number("stochastic.share_at_once");
   return makeCellParticles(deck, "stochastic",
                            [&] { return std::make_shared<CellSoot>(*flowCase.mechanism, options); });
 }
@@ -235,7 +235,7 @@ void readEnsembles(const Deck& deck, FlowCase& flowCase) {
   const bool isTwoWay = deck.choice("stochastic.exchange") == "two_way";
   options.exchange = isTwoWay ? EnsembleOperator::Exchange::TwoWay : EnsembleOperator::Exchange::OneWay;
   if (isTwoWay) options.average = deck.quantity("stochastic.average");
-  options.holdGas = deck.optionalQuantity("stochastic.hold_gas");
+  options.frozenFrom = deck.optionalQuantity("stochastic.hold_gas");
   options.diffusion = !deck.has("soot") || deck.boolean("soot.diffusion");
   options.secondOrder = deck.choice("stochastic.order") == "second";
   options.shareWork = flowCase.chemistry.shareWork;

@@ -201,7 +201,7 @@ void requireStartsInside(const FlowContext& context, const TrajectoryRequest& re
   const auto item = [](std::size_t i) { return fmt::format("trajectories.start[{}]", i); };
   for (std::size_t i = 0; i < request.starts.size(); ++i) {
     if (found.naturalCell[i] >= 0) continue;
-    const std::string where = whereMeshIs(m, request.starts[i]);
+    const std::string where = meshExtentText(m, request.starts[i]);
     raiseTogether(m.comm, request.deck->error(item(i), fmt::format("the start at {} lies outside the mesh: {}",
                                                                    placeText(request.starts[i], m.dimension), where)));
   }

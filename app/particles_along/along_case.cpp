@@ -207,7 +207,7 @@ AlongCase readAlongCase(const Deck& deck) {
   along.path = readPath(deck, *along.mechanism,
                         along.ensemble ? sootSpecies(along.ensemble->soot.soot) : along.model->gasSpecies());
   const std::vector<double> rows = readRows(deck, along.path.points.front().time, along.path.points.back().time);
-  along.recorded = putPointsAt(along.path, rows);
+  along.recorded = insertPoints(along.path, rows);
   along.path.points.resize(along.recorded.back() + 1);
   along.path.divergence.resize(along.recorded.back());
   if (along.ensemble) {

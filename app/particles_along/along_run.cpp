@@ -106,7 +106,7 @@ class PreparedAlong : public PreparedRun {
     AlongTable history;
     collectively(comm_, [&] {
       if (rank_ == 0) model = marchModel(*case_.model, case_.path, case_.recorded, case_.depleted);
-      if (rank_ == 0) requireRoom(model);
+      if (rank_ == 0) requireSizeRangeCovered(model);
     });
     history = historyOf(case_, model);
     ResultsWriter results(comm_, folder.results(), info);
@@ -123,7 +123,7 @@ class PreparedAlong : public PreparedRun {
                last.numberDensity, model.steps);
   }
 
-  void requireRoom(const ModelAlong& model) const {
+  void requireSizeRangeCovered(const ModelAlong& model) const {
     double most = 0, atLimit = 0;
     for (const ModelRecord& record : model.records) {
       most = std::max(most, record.properties.volumeFraction);

@@ -22,7 +22,7 @@
 
 namespace lampblack::app {
 
-// The last is no reactor: a gas whose history is given (problem: particles_along).
+// Kinds of reactors. GivenGas: the history of the gas is prescribed (problem: prescribed_gas).
 enum class ReactorType { ConstantPressure, ConstantVolume, Stirred, PlugFlow, Network, GivenGas };
 
 struct ReactorOutput {

@@ -102,7 +102,7 @@ void ReactorParticleOutput::print() const {
   fmt::print("\n");
 }
 
-void ReactorParticleOutput::requireRoom() const {
+void ReactorParticleOutput::requireSizeRangeCovered() const {
   if (!balance_ || mostAtLimit_ <= case_.sootAtLimit * most_) return;
   throw NumericsError(fmt::format(
       "a part {:.2g} of the largest volume fraction of {} stands in the largest particles that the model can have; "

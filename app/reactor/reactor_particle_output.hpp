@@ -40,7 +40,7 @@ class ReactorParticleOutput {
   void record(JsonWriter& json) const;
   void print() const;
   // NumericsError where more of the particles than allowed are as large as the model can have.
-  void requireRoom() const;
+  void requireSizeRangeCovered() const;
 
  private:
   [[nodiscard]] bool keepsElements() const { return kept_ != Kept::nothing; }

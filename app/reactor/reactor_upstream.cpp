@@ -12,7 +12,7 @@ GasState steadyUpstream(const ReactorCase& reactorCase, CarriedPhase* carried) {
   return state;
 }
 
-GasState settledUpstream(const ReactorCase& reactorCase, SplitParticles& particles,
+GasState upstreamWithPopulation(const ReactorCase& reactorCase, SplitParticles& particles,
                          const SplitReactor::Options& options) {
   ReactorCase before = reactorCase;
   before.type = ReactorType::Stirred;

@@ -72,7 +72,7 @@ struct ConstantPressureReactor::Impl {
                  Result& result);
   void advanceByBdf(Cell& cell, double dt, double firstStep, int number, const Observer& observer, Result& result);
   bool accept(Cell& cell, std::span<double> out);
-  [[noreturn]] void giveUp(const Cell& cell, double dt) const;
+  [[noreturn]] void throwFailure(const Cell& cell, double dt) const;
 
   // reactor_batch.cpp
   void beginAll(std::span<const Cell> cells, double dt);

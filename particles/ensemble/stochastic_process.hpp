@@ -76,8 +76,8 @@ class StochasticProcess final : public Ensemble {
   void takeChanges(const SootMedium& medium, double before, Sums& now);
   void grow(const SootMedium& medium, double dt, Sums& now);
   [[nodiscard]] bool growsSome() const { return changesSome && options_.growthByEvents; }
-  SootMoved growEach(const SootMedium& medium, const SootFluxes& flux, double dt, Sums& now);
-  SootMoved growSome(const SootMedium& medium, const SootFluxes& flux, double dt, Sums& now);
+  SootTransfer growEach(const SootMedium& medium, const SootFluxes& flux, double dt, Sums& now);
+  SootTransfer growSome(const SootMedium& medium, const SootFluxes& flux, double dt, Sums& now);
   void planNucleus(double weight) { nucleusAfter_ = weight * random_.uniform(); }
   void recordUptakeOfDimers(const SootMedium& medium, double dimers);
 

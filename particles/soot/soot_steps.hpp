@@ -42,6 +42,6 @@ struct SootPopulationLaw {
 // What the gas gives (negative) and gets, mol/m3, for dimers that became soot (1/m3) and for what surface reactions
 // moved (surface_chemistry.hpp).
 void exchangeDimers(const SootMedium& medium, const SootModelOptions& soot, double dimers, SootSpeciesArray& gas);
-void exchangeSurface(const SootModelOptions& soot, const SootMoved& moved, SootSpeciesArray& gas);
+void exchangeSurface(const SootModelOptions& soot, const SootTransfer& moved, SootSpeciesArray& gas);
 
 }  // namespace lampblack::particles

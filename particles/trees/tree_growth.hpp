@@ -32,8 +32,8 @@ class TreeGrowth {
   bool advance(Tree& tree, double dt, RandomStream& random, Changes& changes);
 
  private:
-  void oneByOne(TreeHead& tree, TreePrimary* primaries, double left, RandomStream& random, Changes& changes);
-  void inNumbers(TreeHead& tree, TreePrimary* primaries, double dt, RandomStream& random, Changes& changes);
+  void applySingleEvents(TreeHead& tree, TreePrimary* primaries, double left, RandomStream& random, Changes& changes);
+  void applyPoissonNumbers(TreeHead& tree, TreePrimary* primaries, double dt, RandomStream& random, Changes& changes);
   void react(TreeHead& tree, TreePrimary* primaries, std::size_t i, double events, Changes& changes);
   void condense(TreeHead& tree, TreePrimary* primaries, std::size_t i, double events, Changes& changes);
 
