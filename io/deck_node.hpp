@@ -53,6 +53,9 @@ std::string foundText(const DeckNode& node);
 InputError deckError(const DeckSource& source, const DeckLocation& at, const std::string& key,
                      const std::string& message);
 
+// The same place in a few words, for notes of one line: "file:line", "--set a.b" or the file.
+std::string deckPlace(const DeckSource& source, const DeckLocation& at);
+
 // Reads the file text of `source`, a map at the top. InputError for bad YAML, repeated keys, aliases, several
 // documents.
 DeckNode parseDeck(const DeckSource& source);

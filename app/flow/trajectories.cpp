@@ -73,15 +73,15 @@ std::string gasTableOf(const Mechanism& mechanism, const ParticlePath& path) {
       {"time", "s", "time along the path"},
       {"temperature", "K", "gas temperature"},
       {"pressure", "Pa", "pressure"},
-      {"thinning", "1/s", "rate at which particles become fewer per kg of gas until the next row"}};
+      {"number_loss_rate", "1/s", "rate at which particles per kg of gas become fewer, until the next row"}};
   const std::size_t n = mechanism.numSpecies();
   for (std::size_t k = 0; k < n; ++k)
     columns.push_back({"X_" + mechanism.speciesName(k), "1", "mole fraction of " + mechanism.speciesName(k)});
   const GasHistory history = historyAlong(path);
   std::vector<double> rows;
   for (std::size_t i = 0; i < history.time.size(); ++i) {
-    const double thinning = i < history.thinning.size() ? history.thinning[i] : 0;
-    rows.insert(rows.end(), {history.time[i], history.temperature[i], history.pressure[i], thinning});
+    const double lossRate = i < history.numberLossRate.size() ? history.numberLossRate[i] : 0;
+    rows.insert(rows.end(), {history.time[i], history.temperature[i], history.pressure[i], lossRate});
     const auto X = history.fractions.begin() + static_cast<std::ptrdiff_t>(i * n);
     rows.insert(rows.end(), X, X + static_cast<std::ptrdiff_t>(n));
   }

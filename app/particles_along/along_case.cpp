@@ -37,7 +37,7 @@ void checkGas(const Deck& deck) {
   if (deck.has("gas.file") == deck.has("gas.flame"))
     throw deck.error("gas", "expected either 'file', the history of a gas, or 'flame', the results of a flame");
   if (!deck.has("gas.flame")) {
-    for (const char* key : {"gas.side", "gas.start", "gas.slowest"})
+    for (const char* key : {"gas.side", "gas.start", "gas.minimum_velocity"})
       if (deck.isGiven(key)) throw deck.error(key, "this is of a path through a flame ('gas.flame'); leave it out");
   } else if (deck.optionalString("gas.viscosity") == "air") {
     throw deck.error("gas.viscosity", "that of a flame comes from its transport data; leave this out");
@@ -54,7 +54,7 @@ ParticlePath throughFlame(const Deck& deck, const Mechanism& mechanism, const st
   FlamePathOptions options;
   options.fromRight = deck.choice("gas.side") == "right";
   options.start = deck.optionalQuantity("gas.start");
-  options.slowest = deck.quantity("gas.slowest");
+  options.slowest = deck.quantity("gas.minimum_velocity");
   ParticlePath path =
       flamePath(flameGasOf(species, flame.profile, mechanism, pressure, waldmannThermophoresis()), options).path;
   if (path.points.empty())

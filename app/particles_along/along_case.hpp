@@ -1,4 +1,4 @@
-// What a deck with `problem: particles_along` asks for: a path through a given gas, and the particles on it. Ensembles
+// What a deck with `problem: prescribed_gas` asks for: a path through a given gas, and the particles on it. Ensembles
 // that leave the gas as it is and models are marched along the path; trees, and ensembles that deplete it, are coupled
 // with it as with the gas of a reactor.
 #pragma once

@@ -1,4 +1,4 @@
-// Runs of a deck with `problem: particles_along`.
+// Runs of a deck with `problem: prescribed_gas`.
 #pragma once
 
 #include <mpi.h>

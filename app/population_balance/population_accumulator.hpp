@@ -28,7 +28,7 @@ class MethodAccumulator {
   MethodStatistics made_;
 };
 
-// What the deviations say of the claims of a method; sets `bias` and `verdict`.
+// Compares the deviations with the moments that have to be unbiased; sets `bias` and `verdict`.
 void judge(const PopulationCase& populationCase, const PopulationMethod& method, MethodStatistics& statistics);
 
 }  // namespace lampblack::app

@@ -36,7 +36,7 @@ void judge(const PopulationCase& populationCase, const PopulationMethod& method,
   }
   const bool nothingKnown = !known(0) && !known(1) && !known(2) && !known(3);
   if (nothingKnown) {
-    const std::string mass = conserved ? fault(1, method.claims[1]) : "";
+    const std::string mass = conserved ? fault(1, method.unbiased[1]) : "";
     statistics.bias = mass.empty() ? BiasVerdict::none : BiasVerdict::biased;
     statistics.verdict = mass.empty() ? "no exact solution" : mass;
     return;
@@ -54,13 +54,13 @@ void judge(const PopulationCase& populationCase, const PopulationMethod& method,
     return;
   }
   std::vector<std::string> faults, others;
-  bool claims = false;
+  bool anyUnbiased = false;
   for (std::size_t k = 0; k < 4; ++k) {
-    claims = claims || method.claims[k];
-    if (const std::string found = fault(k, method.claims[k]); !found.empty())
-      (method.claims[k] ? faults : others).push_back(found);
+    anyUnbiased = anyUnbiased || method.unbiased[k];
+    if (const std::string found = fault(k, method.unbiased[k]); !found.empty())
+      (method.unbiased[k] ? faults : others).push_back(found);
   }
-  if (!claims) {
+  if (!anyUnbiased) {
     statistics.bias = others.empty() ? BiasVerdict::noBiasSeen : BiasVerdict::biasedAsKnown;
     statistics.verdict =
         others.empty() ? "known as biased, none seen" : fmt::format("biased, as known: {}", fmt::join(others, ", "));

@@ -140,12 +140,12 @@ class EnsembleReactorDriver : public ReactorDriver {
     if (const double removals = count("removals"); removals > 0)
       fmt::print(
           "note: samples were full: {:g} numerical particles were removed at random, which keeps mass in the "
-          "mean only; fewer are with a larger 'particles.number' or 'particles.full_at'\n",
+          "mean only; fewer are with a larger 'particles.number' or 'particles.expected_number'\n",
           removals);
     if (const double starved = count("samples_never_full"); starved > 0)
       fmt::print(
           "note: {:g} samples were never three quarters full, so that they were not doubled as particles became few: "
-          "noise grows with time; 'particles.full_at' near the largest number density that there is, {:.2g} 1/m^3 in a "
+          "noise grows with time; 'particles.expected_number' near the largest number density that there is, {:.2g} 1/m^3 in a "
           "row, fills them\n",
           starved, summary_.largest(case_.ensemble->material + "_number_density"));
   }

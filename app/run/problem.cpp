@@ -23,8 +23,8 @@ const std::vector<Problem>& problems() {
       {"reactor",
        "Reactors without space: closed at constant pressure or volume, perfectly stirred, plug flow, networks.",
        reactorSchema, prepareReactor},
-      {"particles_along",
-       "Particles along a given gas: its history in a table, or the path through a one-dimensional flame that is there "
+      {"prescribed_gas",
+       "Particles in a prescribed gas: its history in a table, or the path through a one-dimensional flame that is there "
        "already; ensembles or any model of soot.",
        alongSchema, prepareAlong},
       {"population_balance",

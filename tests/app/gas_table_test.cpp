@@ -52,6 +52,21 @@ TEST(GasTable, ColumnsMayStandInAnyOrderAndUnit) {
   EXPECT_EQ(sum, 2);  // none else
 }
 
+// The rate stands between a row and the next; the column may have its former name, with a note.
+TEST(GasTable, HasTheNumberLossRateByEitherName) {
+  for (const bool isFormer : {false, true}) {
+    const std::string name = isFormer ? "thinning" : "number_loss_rate";
+    testing::internal::CaptureStderr();
+    const GasHistory gas = historyOf("t,T,p,X_H2," + name + " [1/s]\n0,300,1e5,1,20\n1,300,1e5,1,0\n");
+    const std::string told = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(gas.numberLossRate, std::vector<double>{20}) << name;
+    EXPECT_EQ(told.find("the column thinning is called number_loss_rate since version 0.2") != std::string::npos, isFormer)
+        << told;
+  }
+  EXPECT_THAT(refusalOf("t,T,p,X_H2,thinning,number_loss_rate\n0,300,1e5,1,2,2\n"),
+              HasSubstr("two columns are the number_loss_rate ('number_loss_rate' or 'thinning'); leave one out"));
+}
+
 TEST(GasTable, SaysWhatIsMissingOrWrong) {
   EXPECT_THAT(refusalOf("T,p,X_H2\n300,1e5,1\n"), HasSubstr("expected a column 'time' or 't'"));
   EXPECT_THAT(refusalOf("t,p,X_H2\n0,1e5,1\n"),

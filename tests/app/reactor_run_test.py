@@ -203,7 +203,7 @@ def behind_a_stirred_reactor(program, folder):
     rows = {}
     for name, more in (("hmom", "soot: {model: hmom, pah: [A2], density: 1800 kg/m^3}\n"),
                        ("trees", "soot: {pah: [A2], density: 1800 kg/m^3}\n"
-                                 "particles: {material: soot, number: 64, repeats: 2, full_at: 1e14 1/m^3, coupling_change: 0.5}\n")):
+                                 "particles: {material: soot, number: 64, repeats: 2, expected_number: 1e14 1/m^3, coupling_change: 0.5}\n")):
         deck = folder / f"{name}.yaml"
         deck.write_text(text + more, encoding="utf-8")
         result = program("run", deck, "--out", folder / name, timeout=300)

@@ -27,10 +27,6 @@ TEST(DeckErrors, AMisspeltRequiredKeyIsMisspeltRatherThanMissing) {
   EXPECT_THAT(messageOf(sampleWith("problem: flow", "probelm: flow")), HasSubstr("did you mean 'problem'?"));
 }
 
-TEST(DeckErrors, AFormerNameOfAChoiceSaysTheNewOne) {
-  EXPECT_THAT(messageOf(sampleWith("type: inlet", "type: entrance")), HasSubstr("'entrance' is called 'inlet' now"));
-}
-
 TEST(DeckErrors, AKeyThatIsRightElsewhereSaysWhere) {
   EXPECT_THAT(messageOf(test::sampleText + "cells: 3\n"), HasSubstr("did you mean 'mesh.z[].cells'?"));
 }
