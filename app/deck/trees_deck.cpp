@@ -181,7 +181,7 @@ void addTreeReactorKeys(DeckSchema& schema) {
   addClasses(schema);
 }
 
-void addTreeAlongKeys(DeckSchema& schema) {
+void addTreePrescribedGasKeys(DeckSchema& schema) {
   addTreeKeys(schema,
               "Particles as trees of primaries that share surface, by Monte Carlo, by repeats of independent random "
               "numbers.",

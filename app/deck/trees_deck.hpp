@@ -28,7 +28,7 @@ void addTreeKeys(DeckSchema& schema, const std::string& description, const std::
 // With those of a reactor.
 void addTreeReactorKeys(DeckSchema& schema);
 // With those of particles along a given gas.
-void addTreeAlongKeys(DeckSchema& schema);
+void addTreePrescribedGasKeys(DeckSchema& schema);
 
 // Of a deck with the section, what all problems have. InputError, pointing into the deck.
 [[nodiscard]] TreeOptions readTreeOptions(const Deck& deck, const Mechanism& mechanism);

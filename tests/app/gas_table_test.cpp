@@ -1,9 +1,9 @@
 // A table of a gas over time: which columns count, in which units, and what is no such table.
-#include "app/particles_along/gas_table.hpp"
+#include "app/prescribed_gas/gas_table.hpp"
 
 #include <gtest/gtest.h>
 
-#include "app/particles_along/along_case.hpp"
+#include "app/prescribed_gas/prescribed_gas_case.hpp"
 #include "core/errors.hpp"
 #include "core/modules.hpp"
 #include "tests/app/app_fixture.hpp"
@@ -83,10 +83,10 @@ TEST(GasTable, SaysWhatIsMissingOrWrong) {
 }
 
 // The shipped case, and rows where the deck wants them.
-TEST(AlongCase, TheShippedDeckHasItsRows) {
+TEST(PrescribedGasCase, TheShippedDeckHasItsRows) {
   const auto deck = Deck::load(test::sourceFolder / "cases/particles_along/premixed_ethylene_abf/deck.yaml",
-                               {"output.interval=10 ms", "output.times=[4 ms, 20 ms]", "gas.end=25 ms"}, alongSchema());
-  const AlongCase along = readAlongCase(deck);
+                               {"output.interval=10 ms", "output.times=[4 ms, 20 ms]", "gas.end=25 ms"}, prescribedGasSchema());
+  const PrescribedGasCase along = readPrescribedGasCase(deck);
   std::vector<double> times;
   for (const std::size_t point : along.recorded) times.push_back(along.path.points[point].time);
   ASSERT_EQ(times.size(), 5u);

@@ -8,7 +8,7 @@
 
 #include "app/flow/flow_mesh.hpp"
 #include "app/flow/flow_output.hpp"
-#include "app/particles_along/gas_table.hpp"
+#include "app/prescribed_gas/gas_table.hpp"
 #include "core/errors.hpp"
 #include "core/modules.hpp"
 #include "coupling/given_gas.hpp"

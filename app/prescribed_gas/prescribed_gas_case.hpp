@@ -18,7 +18,7 @@
 
 namespace lampblack::app {
 
-struct AlongCase {
+struct PrescribedGasCase {
   std::string title;
   std::shared_ptr<const Mechanism> mechanism;
   std::optional<ReactorCase> coupled;  // then nothing of the following
@@ -32,9 +32,9 @@ struct AlongCase {
 };
 
 // All keys such a deck may have.
-DeckSchema alongSchema();
+DeckSchema prescribedGasSchema();
 
 // Reads mechanism, gas and particles. InputError, pointing into the deck.
-AlongCase readAlongCase(const Deck& deck);
+PrescribedGasCase readPrescribedGasCase(const Deck& deck);
 
 }  // namespace lampblack::app

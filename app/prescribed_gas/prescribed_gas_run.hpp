@@ -12,6 +12,6 @@
 namespace lampblack::app {
 
 // Collective; see Problem. Repeats of an ensemble are spread over the ranks; a model runs on the first.
-std::unique_ptr<PreparedRun> prepareAlong(MPI_Comm comm, const Deck& deck);
+std::unique_ptr<PreparedRun> preparePrescribedGas(MPI_Comm comm, const Deck& deck);
 
 }  // namespace lampblack::app

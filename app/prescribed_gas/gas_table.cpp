@@ -1,4 +1,4 @@
-#include "app/particles_along/gas_table.hpp"
+#include "app/prescribed_gas/gas_table.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

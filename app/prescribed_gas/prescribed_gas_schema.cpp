@@ -1,12 +1,12 @@
 #include "app/deck/ensemble_deck.hpp"
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/trees_deck.hpp"
-#include "app/particles_along/along_case.hpp"
+#include "app/prescribed_gas/prescribed_gas_case.hpp"
 #include "app/tools/gas_input.hpp"
 
 namespace lampblack::app {
 
-DeckSchema alongSchema() {
+DeckSchema prescribedGasSchema() {
   DeckSchema schema;
   schema.add(choiceKey("problem", {"prescribed_gas"}, "What is solved.").formerly("particles_along", "prescribed_gas"))
       .add(stringKey("title", "One line for reports and pictures.").byDefault("''"));
@@ -58,7 +58,7 @@ DeckSchema alongSchema() {
       "section soot, whose PAH, surface and switches are theirs.");
   addRepeatKeys(schema);
   addCouplingKeys(schema, "stochastic");
-  addTreeAlongKeys(schema);
+  addTreePrescribedGasKeys(schema);
   addCouplingKeys(schema, "particles");
   schema.section("output", Presence::defaulted, "Rows of the history.")
       .add(quantityKey("output.interval", units::time, "Time between rows; absent: a hundredth of the run.")

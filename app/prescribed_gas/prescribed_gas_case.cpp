@@ -1,4 +1,4 @@
-#include "app/particles_along/along_case.hpp"
+#include "app/prescribed_gas/prescribed_gas_case.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/trees_deck.hpp"
 #include "app/flame1d/flame_file.hpp"
-#include "app/particles_along/gas_table.hpp"
+#include "app/prescribed_gas/gas_table.hpp"
 #include "app/reactor/reactor_case_parts.hpp"
 #include "app/tools/gas_input.hpp"
 #include "core/errors.hpp"
@@ -111,7 +111,7 @@ std::vector<double> readRows(const Deck& deck, double begin, double last) {
   return rows;
 }
 
-void readParticles(const Deck& deck, AlongCase& along) {
+void readParticles(const Deck& deck, PrescribedGasCase& along) {
   if (!deck.has("soot"))
     throw deck.error("soot", "particles need the section 'soot', or 'particles' for trees of primaries");
   if (!deck.has("stochastic")) {
@@ -140,7 +140,7 @@ std::vector<std::string> precursorsOf(const Deck& deck, const Mechanism& mechani
 }
 
 // Trees, or ensembles that deplete the gas.
-ReactorCase readCoupled(const Deck& deck, const AlongCase& along) {
+ReactorCase readCoupled(const Deck& deck, const PrescribedGasCase& along) {
   const Mechanism& mechanism = *along.mechanism;
   ReactorCase coupled;
   coupled.title = along.title;
@@ -193,8 +193,8 @@ std::vector<std::size_t> readDepleted(const Deck& deck, const ParticleModel& mod
 
 }  // namespace
 
-AlongCase readAlongCase(const Deck& deck) {
-  AlongCase along;
+PrescribedGasCase readPrescribedGasCase(const Deck& deck) {
+  PrescribedGasCase along;
   along.title = deck.string("title");
   along.mechanism = readMechanism(deck);
   checkGas(deck);
