@@ -50,7 +50,7 @@ void judge(const PopulationCase& populationCase, const PopulationMethod& method,
     return;
   }
   if (statistics.repeats.size() < 2) {
-    statistics.verdict = "one repeat says nothing of bias";
+    statistics.verdict = "bias unknown: one repeat only";
     return;
   }
   std::vector<std::string> faults, others;
@@ -63,13 +63,13 @@ void judge(const PopulationCase& populationCase, const PopulationMethod& method,
   if (!anyUnbiased) {
     statistics.bias = others.empty() ? BiasVerdict::noBiasSeen : BiasVerdict::biasedAsKnown;
     statistics.verdict =
-        others.empty() ? "known as biased, none seen" : fmt::format("biased, as known: {}", fmt::join(others, ", "));
+        others.empty() ? "bias expected, none found" : fmt::format("biased, as expected: {}", fmt::join(others, ", "));
   } else if (!faults.empty()) {
     statistics.bias = BiasVerdict::biased;
     statistics.verdict = fmt::format("biased: {}", fmt::join(faults, ", "));
   } else {
     statistics.bias = BiasVerdict::noBias;
-    statistics.verdict = others.empty() ? "no bias" : fmt::format("no bias; not claimed: {}", fmt::join(others, ", "));
+    statistics.verdict = others.empty() ? "no bias" : fmt::format("no bias; not required: {}", fmt::join(others, ", "));
   }
 }
 

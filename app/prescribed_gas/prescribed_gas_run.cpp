@@ -131,8 +131,8 @@ class PreparedPrescribedGas : public PreparedRun {
     }
     if (atLimit > case_.sootAtLimit * most)
       throw NumericsError(
-          fmt::format("a part {:.2g} of the largest volume fraction stands in the largest particles that "
-                      "the model can have; allowed is {:.2g}. {}",
+          fmt::format("a fraction {:.2g} of the largest volume fraction is in the largest particles of the model; "
+                      "the limit is {:.2g}. {}",
                       atLimit / most, case_.sootAtLimit, tooFewSections));
   }
 

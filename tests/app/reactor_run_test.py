@@ -225,7 +225,7 @@ def too_few_sections(program, folder):
     """Soot that outgrows its sections: one message, exit code 3."""
     result = program("run", CASES / "reactor/closed_soot/deck.yaml", "--out", folder / "out",
                      *running.settings("soot.model=sectional", "soot.sectional.sections=6"))
-    assert result.code == 3 and "stands in the largest particles" in result.err and "soot.sectional.sections" in result.err, result.err
+    assert result.code == 3 and "is in the largest particles of the model; the limit is" in result.err and "soot.sectional.sections" in result.err, result.err
 
 
 def main(executable, ranks, *mpiexec):
