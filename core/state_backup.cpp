@@ -90,7 +90,7 @@ void StateBackup::restore(const Owners& owners) {
 }
 
 void StateBackup::rearrange(int ownedCells, int faces, const Move& moveCells, const Move& moveFaces,
-                          const MoveRows& moveRows) {
+                            const MoveRows& moveRows) {
   for (std::size_t i = 0; i < count_; ++i) {
     Piece& piece = pieces_[i];
     if (piece.of == Piece::Of::Cells) piece.kept.values = moveCells(piece.kept.values, piece.width);

@@ -22,8 +22,8 @@ constexpr std::size_t taskWidth = sizeof(Task) / sizeof(double);
 // And back come the cost, what the gas gets (mol/m3), what the particles gained of each element and what was resampled
 // of it (kg/m3), and the population.
 
-// Microseconds, about, of a cell. Estimated as CellParticles::costPerParticle(), to weigh cells against each other and, to a
-// factor of two or so, against the gas.
+// Microseconds, about, of a cell. Estimated as CellParticles::costPerParticle(), to weigh cells against each other and,
+// to a factor of two or so, against the gas.
 constexpr double costOfCell = 5.0;
 
 }  // namespace
@@ -206,7 +206,8 @@ void EnsembleOperator::advance(State& state, double time, double dt) {
     }
     busy.push_back(cell);
     // What it cost in the last step, or once each particle.
-    items.cost.push_back(before > 0.0 ? before : costOfCell + particles_->costPerParticle() * static_cast<double>(count));
+    items.cost.push_back(before > 0.0 ? before
+                                      : costOfCell + particles_->costPerParticle() * static_cast<double>(count));
   }
   items.pack = [&](std::size_t i, std::vector<double>& in) { pack(state, busy[i], dt, in); };
   items.advance = [&](std::span<const double> in, std::vector<double>& out) { solve(time, in, out); };

@@ -120,7 +120,7 @@ GasHistory historyAlong(const ParticlePath& path) {
   for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
     const ParticlePath::Divergence& divergence = path.divergence[i];
     history.numberLossRate.push_back(0.5 * (divergence.first + divergence.last) -
-                               expansion(path.points[i], path.points[i + 1]).first);
+                                     expansion(path.points[i], path.points[i + 1]).first);
   }
   return history;
 }

@@ -172,8 +172,8 @@ std::vector<ReactorPopulation::Column> ReactorTrees::columns() const {
   for (const TreeEvent& event : events_) {
     if (event.singular == nullptr) continue;
     all.push_back({name + event.singular + "_rate", "1/m^3/s", std::string(event.description) + ", by the law"});
-    all.push_back(
-        {name + event.singular + "_events", "1", std::string(event.description) + ", in the sample since the beginning"});
+    all.push_back({name + event.singular + "_events", "1",
+                   std::string(event.description) + ", in the sample since the beginning"});
   }
   all.push_back({name + "numerical_particles", "1", "numerical particles of the sample"});
   return all;

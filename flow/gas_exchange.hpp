@@ -17,7 +17,8 @@ class GasExchange {
 
   // Adds `change` (mol/m3) of the species (by number in the mechanism) to the gas of an owned cell at constant volume,
   // and removes `heat` (J/m3). A change of zero leaves every bit as it is.
-  void recordExchange(State& state, int cell, std::span<const std::size_t> species, std::span<const double> change, double heat);
+  void recordExchange(State& state, int cell, std::span<const std::size_t> species, std::span<const double> change,
+                      double heat);
 
  private:
   const FlowContext& context_;

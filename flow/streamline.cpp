@@ -229,7 +229,7 @@ TracedPaths Streamlines::trace(std::span<const Vector3> starts, double timeStep,
     });
     alive = static_cast<std::int64_t>(leaving.size());
     MPI_Allreduce(MPI_IN_PLACE, &alive, 1, MPI_INT64_T, MPI_SUM, m.comm);
-    if (alive > 0) here = RankExchange(m.comm, ranks).there(leaving, 1);
+    if (alive > 0) here = RankExchange(m.comm, ranks).send(leaving, 1);
   }
   shareEnds(m, traced);
   return traced;

@@ -52,8 +52,9 @@ class FormerNames {
     }
     const int oldOverride = old->at.overrideIndex, otherOverride = other->at.overrideIndex;
     if (oldOverride == otherOverride)
-      throw deckError(source_, old->nameAt, joinedPath(path, former),
-                      fmt::format("this is the former name of '{}', which is given too; leave '{}' out", present, former));
+      throw deckError(
+          source_, old->nameAt, joinedPath(path, former),
+          fmt::format("this is the former name of '{}', which is given too; leave '{}' out", present, former));
     if (oldOverride > otherOverride) {
       old->name = present;
       std::swap(*old, *other);
@@ -74,8 +75,9 @@ class FormerNames {
   }
 
   void note(const DeckLocation& at, const std::string& former, const std::string& present) {
-    notes_.push_back(fmt::format("{}: {} is called {} since version {}; write the new name, as version {} does not read the old one",
-                                 deckPlace(source_, at), former, present, presentNamesBegin, formerNamesEnd));
+    notes_.push_back(
+        fmt::format("{}: {} is called {} since version {}; write the new name, as version {} does not read the old one",
+                    deckPlace(source_, at), former, present, presentNamesBegin, formerNamesEnd));
   }
 
   const DeckSource& source_;
@@ -106,10 +108,13 @@ std::vector<std::string> namesOfKind(const DeckKind& kind, const std::string& ke
 
 std::string formerNameText(const DeckKey& key) {
   std::vector<std::string> parts;
-  for (const std::string& former : key.formerNames) parts.push_back(fmt::format("`{}` is a former name of this key", former));
+  for (const std::string& former : key.formerNames)
+    parts.push_back(fmt::format("`{}` is a former name of this key", former));
   for (const auto& [former, present] : key.formerChoices)
     parts.push_back(fmt::format("`{}` is a former name of `{}`", former, present));
-  return parts.empty() ? "" : fmt::format("{}; version {} does not read former names.", fmt::join(parts, "; "), formerNamesEnd);
+  return parts.empty()
+             ? ""
+             : fmt::format("{}; version {} does not read former names.", fmt::join(parts, "; "), formerNamesEnd);
 }
 
 }  // namespace lampblack::io

@@ -173,7 +173,8 @@ bool formerlyNamed(const DeckKey& key, const DeckKey& other) {
 DeckSchema& DeckSchema::add(DeckKey key) {
   for (const DeckKey& other : keys_) {
     if (formerlyNamed(key, other) || formerlyNamed(other, key))
-      throw std::logic_error(fmt::format("deck keys '{}' and '{}': one has the former name of the other", key.path, other.path));
+      throw std::logic_error(
+          fmt::format("deck keys '{}' and '{}': one has the former name of the other", key.path, other.path));
     if (other.path == key.path || other.path.starts_with(key.path + ".") || other.path.starts_with(key.path + "[") ||
         key.path.starts_with(other.path + ".") || key.path.starts_with(other.path + "[")) {
       throw std::logic_error(fmt::format("deck key '{}' clashes with '{}'", key.path, other.path));

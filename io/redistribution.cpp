@@ -7,7 +7,7 @@
 namespace lampblack::io {
 
 Redistribution::Redistribution(MPI_Comm comm, std::span<const std::int64_t> from, std::span<const std::int64_t> to,
-                   std::int64_t total)
+                               std::int64_t total)
     : comm_(comm),
       arrivals_(static_cast<std::int64_t>(to.size())),
       leaving_(std::make_shared<BlockExchange>(comm, from, total)),
@@ -32,8 +32,8 @@ PackedRows Redistribution::operator()(const PackedRows& rows) const {
     places.push_back(static_cast<std::size_t>(goals[i + 1]));
   }
   const RankExchange exchange(comm_, ranks);
-  places = exchange.there(places, 1);
-  return scattered(exchange.there(rows), places);
+  places = exchange.send(places, 1);
+  return scattered(exchange.send(rows), places);
 }
 
 }  // namespace lampblack::io

@@ -18,7 +18,8 @@ namespace lampblack::io {
 class Redistribution {
  public:
   // Global numbers of what this rank has and of what it will have, of 0..total-1.
-  Redistribution(MPI_Comm comm, std::span<const std::int64_t> from, std::span<const std::int64_t> to, std::int64_t total);
+  Redistribution(MPI_Comm comm, std::span<const std::int64_t> from, std::span<const std::int64_t> to,
+                 std::int64_t total);
 
   // `width` values for each present number; returns the values of the new numbers.
   [[nodiscard]] std::vector<double> operator()(const std::vector<double>& values, int width) const;

@@ -98,7 +98,7 @@ struct ResultsWriter::Implementation {
       throw std::logic_error(fmt::format("'{}' cannot name a field", name));
     }
     resultswriter::requireOnAllRanks(comm, components > 0 && values.size() % static_cast<std::size_t>(components) == 0,
-                         fmt::format("field '{}' does not have its components for each cell", name));
+                                     fmt::format("field '{}' does not have its components for each cell", name));
     std::vector<T> padded;
     if (components == 2) {
       padded.assign(values.size() / 2 * 3, T{0});
@@ -120,7 +120,7 @@ struct ResultsWriter::Implementation {
     MPI_Bcast(dims.data(), count, MPI_INT64_T, fromRank, comm);
     const std::int64_t size = std::accumulate(dims.begin(), dims.end(), std::int64_t{1}, std::multiplies<>());
     resultswriter::requireOnAllRanks(comm, rank != fromRank || static_cast<std::int64_t>(data.size()) == size,
-                         fmt::format("dataset '{}' does not have as many values as its shape says", name));
+                                     fmt::format("dataset '{}' does not have as many values as its shape says", name));
     const std::int64_t rows = rank != fromRank ? 0 : dims.empty() ? 1 : dims[0];
     file.write(name, dims, 0, rows, data.data());
     describe(name, unit, description);

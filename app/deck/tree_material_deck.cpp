@@ -157,7 +157,8 @@ SinteringLaw readSintering(const Deck& deck, SinteringLaw law) {
   if (law.between == SinteringLaw::Between::parts && law.size == SinteringLaw::Size::smaller)
     throw deck.error(s + "size", "parts of an aggregate sinter by 'volume_to_surface'");
   if (law.active() && !(law.prefactor > 0))
-    throw deck.error("particles.sintering", "this mechanism needs the key 'prefactor', and most an 'activation_temperature'");
+    throw deck.error("particles.sintering",
+                     "this mechanism needs the key 'prefactor', and most an 'activation_temperature'");
   return law;
 }
 

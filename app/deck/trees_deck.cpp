@@ -75,10 +75,11 @@ void addRuns(DeckSchema& schema) {
                .list()
                .optional()
                .atLeast(0))
-      .add(quantityKey("particles.expected_number", units::perVolume,
-                       "Expected largest number density: an empty sample is full when it first reaches this density. A value "
-                       "far too large leaves the sample small and noisy, which the report says; with a value far too "
-                       "small particles are removed at random, which is right in the mean.")
+      .add(quantityKey(
+               "particles.expected_number", units::perVolume,
+               "Expected largest number density: an empty sample is full when it first reaches this density. A value "
+               "far too large leaves the sample small and noisy, which the report says; with a value far too "
+               "small particles are removed at random, which is right in the mean.")
                .formerly("full_at")
                .byDefault("1e18 1/m^3")
                .above(0))

@@ -19,9 +19,9 @@
 #include "app/flow/flow_output.hpp"
 #include "app/flow/flow_tables.hpp"
 #include "app/flow/wall_limit.hpp"
-#include "core/state_backup.hpp"
 #include "core/mesh_quality.hpp"
 #include "core/modules.hpp"
+#include "core/state_backup.hpp"
 #include "core/timers.hpp"
 #include "flow/peak.hpp"
 #include "io/progress.hpp"
@@ -110,7 +110,8 @@ class FlowLoop {
   void restoreStepStart(double time, std::int64_t steps);
 
   // Saves the last good state and throws the failure with the steps tried (s).
-  [[noreturn]] void endAfterFailure(Outputs& outputs, const std::exception_ptr& failure, const std::vector<double>& tried);
+  [[noreturn]] void endAfterFailure(Outputs& outputs, const std::exception_ptr& failure,
+                                    const std::vector<double>& tried);
 
   HistoryRow observe();
   // Writes the present state as a row of the history and of its tables.
@@ -158,7 +159,7 @@ class FlowLoop {
   std::int64_t steps_ = 0;
   std::int64_t written_ = -1;  // the last step in the results
   std::int64_t retried_ = 0;   // steps that failed and were tried again
-  StateBackup backup_;             // the start of the step
+  StateBackup backup_;         // the start of the step
   WallLimit wallLimit_;
   double stepBegan_ = 0.0;  // s, secondsSinceStart()
   Requests requests_;

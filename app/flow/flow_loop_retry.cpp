@@ -14,7 +14,8 @@
 namespace lampblack::app {
 namespace {
 
-constexpr const char* stepBackup = "step backup";  // stage: copying the state at the start of a step, and the checks after it
+constexpr const char* stepBackup =
+    "step backup";  // stage: copying the state at the start of a step, and the checks after it
 
 constexpr double smaller = 0.25;       // of the step that has failed; a power of two, which rounds nothing
 constexpr double shortest = 1e-9;      // of the first step: no chemistry and no flow that is resolved needs less

@@ -153,7 +153,7 @@ class PointsOnPaths {
       gas.append(point.place, sent);
       ranks.push_back(owners[static_cast<std::size_t>(point.path)]);
     }
-    numbers_ = RankExchange(context.mesh.comm, ranks).there(sent, static_cast<int>(width_));
+    numbers_ = RankExchange(context.mesh.comm, ranks).send(sent, static_cast<int>(width_));
     for (std::size_t i = 0; i < numbers_.size(); i += width_) rows_.push_back(&numbers_[i]);
     std::ranges::sort(rows_, [](const double* a, const double* b) {
       return std::pair{a[0], a[1]} < std::pair{b[0], b[1]};

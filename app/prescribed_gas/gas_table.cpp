@@ -49,7 +49,8 @@ GasHistory historyOf(const TextTable& table, const Mechanism& mechanism, std::ve
     for (const Known& one : known) {
       if (name != one.name && name != one.symbol) continue;
       if (!(history.*one.values).empty())
-        throw InputError(fmt::format("two columns are the {} ('{}' or '{}'); leave one out", one.name, one.name, one.symbol));
+        throw InputError(
+            fmt::format("two columns are the {} ('{}' or '{}'); leave one out", one.name, one.name, one.symbol));
       history.*one.values = read(table, column, TableColumn(name, unit, one.dimension));
     }
     if (!name.starts_with("X_")) continue;
@@ -82,9 +83,10 @@ GasHistory readGasTable(const std::filesystem::path& file, const Mechanism& mech
     GasHistory history = historyOf(table, mechanism, unknown);
     for (const std::string& column : table.columns)
       if (nameAndUnit(column).first == formerLossRate)
-        printWarnings({fmt::format("{}: the column {} is called number_loss_rate since version {}; write the new name, as "
-                                   "version {} does not read the old one",
-                                   file.string(), formerLossRate, presentNamesBegin, formerNamesEnd)});
+        printWarnings(
+            {fmt::format("{}: the column {} is called number_loss_rate since version {}; write the new name, as "
+                         "version {} does not read the old one",
+                         file.string(), formerLossRate, presentNamesBegin, formerNamesEnd)});
     if (!unknown.empty())
       printWarnings({fmt::format("{}: columns of species that the mechanism does not have are left out: {}",
                                  file.string(), fmt::join(unknown, ", "))});

@@ -12,14 +12,13 @@ DeckSchema prescribedGasSchema() {
       .add(stringKey("title", "One line for reports and pictures.").byDefault("''"));
   addMechanismKeys(schema);
   schema.section("gas", Presence::required, "The gas that the particles meet on their way. Either 'file' or 'flame'.")
-      .add(
-          stringKey(
-              "gas.file",
-              "CSV file with columns time, temperature, pressure and X_<species> (mole fractions), units in "
-              "brackets, as \"time [ms]\", or in SI; the particles move with the gas, but for a column number_loss_rate (1/s), "
-              "the rate at which particles per kg of gas become fewer. "
-              "Tables of a flow's streamlines are such (trajectories.gas_tables). Relative to the deck.")
-              .optional())
+      .add(stringKey("gas.file",
+                     "CSV file with columns time, temperature, pressure and X_<species> (mole fractions), units in "
+                     "brackets, as \"time [ms]\", or in SI; the particles move with the gas, but for a column "
+                     "number_loss_rate (1/s), "
+                     "the rate at which particles per kg of gas become fewer. "
+                     "Tables of a flow's streamlines are such (trajectories.gas_tables). Relative to the deck.")
+               .optional())
       .add(stringKey(
                "gas.flame",
                "Results file (results.h5) of a run with problem: flame1d and the same mechanism; the particles move "

@@ -126,9 +126,10 @@ class EnsembleReactorDriver : public ReactorDriver {
 
   void print() const override {
     summary_.print(shown());
-    fmt::print("{} repeats, {} coupling steps of gas and particles, {} rejected, {} integrator steps of the gas in {}\n",
-               summary_.repeats(), whole(Shape::steps), whole(Shape::rejected), whole(Shape::gasSteps),
-               formatDuration(seconds_));
+    fmt::print(
+        "{} repeats, {} coupling steps of gas and particles, {} rejected, {} integrator steps of the gas in {}\n",
+        summary_.repeats(), whole(Shape::steps), whole(Shape::rejected), whole(Shape::gasSteps),
+        formatDuration(seconds_));
     if (work_[Shape::unchecked] > 0)
       fmt::print(
           "note: {} of these steps changed the gas by more than the deck's coupling_change allows and could not "

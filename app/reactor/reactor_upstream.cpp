@@ -13,7 +13,7 @@ GasState steadyUpstream(const ReactorCase& reactorCase, CarriedPhase* carried) {
 }
 
 GasState upstreamWithPopulation(const ReactorCase& reactorCase, SplitParticles& particles,
-                         const SplitReactor::Options& options) {
+                                const SplitReactor::Options& options) {
   ReactorCase before = reactorCase;
   before.type = ReactorType::Stirred;
   before.network = *reactorCase.upstream;

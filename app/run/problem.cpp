@@ -6,10 +6,10 @@
 #include "app/flame1d/flame_run.hpp"
 #include "app/flow/flow_case.hpp"
 #include "app/flow/flow_run.hpp"
-#include "app/prescribed_gas/prescribed_gas_case.hpp"
-#include "app/prescribed_gas/prescribed_gas_run.hpp"
 #include "app/population_balance/population_case.hpp"
 #include "app/population_balance/population_run.hpp"
+#include "app/prescribed_gas/prescribed_gas_case.hpp"
+#include "app/prescribed_gas/prescribed_gas_run.hpp"
 #include "app/reactor/reactor_case.hpp"
 #include "app/reactor/reactor_run.hpp"
 
@@ -24,7 +24,8 @@ const std::vector<Problem>& problems() {
        "Reactors without space: closed at constant pressure or volume, perfectly stirred, plug flow, networks.",
        reactorSchema, prepareReactor},
       {"prescribed_gas",
-       "Particles in a prescribed gas: its history in a table, or the path through a one-dimensional flame that is there "
+       "Particles in a prescribed gas: its history in a table, or the path through a one-dimensional flame that is "
+       "there "
        "already; ensembles or any model of soot.",
        prescribedGasSchema, preparePrescribedGas},
       {"population_balance",

@@ -1,5 +1,5 @@
-// The physics of Brownian collisions in a gas, from the free-molecular to the continuum regime: every kernel of the module
-// is put together from these. Inline: they sit in the innermost loops.
+// The physics of Brownian collisions in a gas, from the free-molecular to the continuum regime: every kernel of the
+// module is put together from these. Inline: they sit in the innermost loops.
 #pragma once
 
 #include <cmath>

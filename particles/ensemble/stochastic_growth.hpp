@@ -65,10 +65,11 @@ void StochasticProcess<Method>::takeChanges(const SootMedium& medium, double bef
 
 // All particles change.
 template <class Method>
-SootTransfer StochasticProcess<Method>::growEach(const SootMedium& medium, const SootFluxes& flux, double dt, Sums& now) {
+SootTransfer StochasticProcess<Method>::growEach(const SootMedium& medium, const SootFluxes& flux, double dt,
+                                                 Sums& now) {
   gather();
   const SootTransfer all = options_.growthByEvents ? growAllByEvents(columns_, type_, medium, flux, dt, random_)
-                                                : growAll(columns_, type_, medium, flux, dt);
+                                                   : growAll(columns_, type_, medium, flux, dt);
   std::size_t k = 0;
   method_.changeParticles([&](Particle& p, double) {
     p = columns_.particle(k++);
@@ -81,7 +82,8 @@ SootTransfer StochasticProcess<Method>::growEach(const SootMedium& medium, const
 
 // In whole events, which only some have.
 template <class Method>
-SootTransfer StochasticProcess<Method>::growSome(const SootMedium& medium, const SootFluxes& flux, double dt, Sums& now) {
+SootTransfer StochasticProcess<Method>::growSome(const SootMedium& medium, const SootFluxes& flux, double dt,
+                                                 Sums& now) {
   GrowthByEvents growth(type_, medium, flux, dt, random_);
   if constexpr (changesSome) {
     changed_.clear();

@@ -66,7 +66,7 @@ SootSums sums(const SootColumns& all, const SootAggregate& type, const SootMediu
 
 template <bool Spheres>
 SootTransfer grow(SootColumns& all, const SootAggregate& type, const SootMedium& medium, const SootFluxes& fluxes,
-               double dt) {
+                  double dt) {
   const SootGrowth law = medium.growth(fluxes);
   const double perVolume = type.perVolume(), least = law.leastCarbon(), share = law.shareO2();
   SootTransfer sum;
@@ -95,8 +95,9 @@ SootTransfer grow(SootColumns& all, const SootAggregate& type, const SootMedium&
       moved[4][i] = w[i] * (s.hydrogenO2 + share * H);
       moved[5][i] = w[i] * (s.hydrogenOH + (1 - share) * H);
     }
-    constexpr double SootTransfer::*parts[6] = {&SootTransfer::dimers,      &SootTransfer::growth,     &SootTransfer::oxidationO2,
-                                             &SootTransfer::oxidationOH, &SootTransfer::hydrogenO2, &SootTransfer::hydrogenOH};
+    constexpr double SootTransfer::*parts[6] = {&SootTransfer::dimers,      &SootTransfer::growth,
+                                                &SootTransfer::oxidationO2, &SootTransfer::oxidationOH,
+                                                &SootTransfer::hydrogenO2,  &SootTransfer::hydrogenOH};
     if (chemistry::sumOf(rest, n) > 0) {
       // More than one step: one by one.
       for (std::size_t i = 0; i < n; ++i) {
@@ -129,7 +130,7 @@ SootSums sumsOf(const SootColumns& all, const SootAggregate& type, const SootMed
 }
 
 SootTransfer growAll(SootColumns& all, const SootAggregate& type, const SootMedium& medium, const SootFluxes& fluxes,
-                  double dt) {
+                     double dt) {
   return type.coalescing() ? grow<true>(all, type, medium, fluxes, dt) : grow<false>(all, type, medium, fluxes, dt);
 }
 

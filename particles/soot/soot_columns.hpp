@@ -68,12 +68,12 @@ inline void SootSums::add(const SootSums& other) {
 
 // Grows all over dt (s), as SootMedium::grow does one of them; those that are oxidised away are left without carbon.
 [[nodiscard]] SootTransfer growAll(SootColumns& all, const SootAggregate& type, const SootMedium& medium,
-                                const SootFluxes& fluxes, double dt);
+                                   const SootFluxes& fluxes, double dt);
 
 // The same in whole events, a dimer, two atoms of carbon by C2H2 or O2 or one by OH: of each particle and kind as many
 // as a Poisson number says whose mean is what growAll() would move. A particle that an event leaves with less carbon
 // than the smallest nucleus is oxidised away. Some particles after the other: GrowthByEvents.
 [[nodiscard]] SootTransfer growAllByEvents(SootColumns& all, const SootAggregate& type, const SootMedium& medium,
-                                        const SootFluxes& fluxes, double dt, RandomStream& random);
+                                           const SootFluxes& fluxes, double dt, RandomStream& random);
 
 }  // namespace lampblack::particles

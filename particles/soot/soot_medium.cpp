@@ -16,8 +16,9 @@
 namespace lampblack::particles {
 
 void SootTransfer::add(double weight, const SootTransfer& other) {
-  for (const auto part : {&SootTransfer::dimers, &SootTransfer::growth, &SootTransfer::oxidationO2, &SootTransfer::oxidationOH,
-                          &SootTransfer::hydrogenO2, &SootTransfer::hydrogenOH, &SootTransfer::lost})
+  for (const auto part :
+       {&SootTransfer::dimers, &SootTransfer::growth, &SootTransfer::oxidationO2, &SootTransfer::oxidationOH,
+        &SootTransfer::hydrogenO2, &SootTransfer::hydrogenOH, &SootTransfer::lost})
     this->*part += weight * other.*part;
 }
 

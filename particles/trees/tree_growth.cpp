@@ -38,7 +38,8 @@ void TreeGrowth::condense(TreeHead& tree, TreePrimary* primaries, std::size_t i,
 }
 
 // The first event is now, `left` (s) is what remains.
-void TreeGrowth::applySingleEvents(TreeHead& tree, TreePrimary* primaries, double left, RandomStream& random, Changes& changes) {
+void TreeGrowth::applySingleEvents(TreeHead& tree, TreePrimary* primaries, double left, RandomStream& random,
+                                   Changes& changes) {
   const std::size_t site = reactions_.site;
   while (true) {
     const double surface = rate_ * tree.units[site];
@@ -57,7 +58,8 @@ void TreeGrowth::applySingleEvents(TreeHead& tree, TreePrimary* primaries, doubl
   }
 }
 
-void TreeGrowth::applyPoissonNumbers(TreeHead& tree, TreePrimary* primaries, double dt, RandomStream& random, Changes& changes) {
+void TreeGrowth::applyPoissonNumbers(TreeHead& tree, TreePrimary* primaries, double dt, RandomStream& random,
+                                     Changes& changes) {
   const std::size_t site = reactions_.site;
   const double n = tree.count, steps = std::ceil(2 * rate_ * dt / sitesChange), h = dt / steps;
   for (double s = 0; s < steps; ++s) {

@@ -3,8 +3,8 @@
 //
 // A tree grows as so many equal primaries as have its volume and surface: n_r = S^3/(36 pi V^2) of the diameter 6 V/S
 // (Shekar, Smith, Kraft, Wagner 2011, eq. 19), which are a sphere's where it is one. An event
-// of the tree acts on a primary with the probability of its share of the surface. The tree breaks at its necks (TreeFragmentation) for half of the step before that and
-// for half of it after.
+// of the tree acts on a primary with the probability of its share of the surface. The tree breaks at its necks
+// (TreeFragmentation) for half of the step before that and for half of it after.
 #pragma once
 
 #include <cstdint>

@@ -23,7 +23,8 @@ void expectFormerNamesAreRead(const std::string& text, const Names& names) {
     ASSERT_NE(at, std::string::npos) << present;
     former.replace(at, present.size(), before);
   }
-  const Deck now = Deck::parse(text, "deck.yaml", {}, deckKinds()), old = Deck::parse(former, "deck.yaml", {}, deckKinds());
+  const Deck now = Deck::parse(text, "deck.yaml", {}, deckKinds()),
+             old = Deck::parse(former, "deck.yaml", {}, deckKinds());
   EXPECT_TRUE(now.notes().empty()) << now.notes().front();
   EXPECT_EQ(old.notes().size(), names.size());
   EXPECT_EQ(old.resolved(), now.resolved());

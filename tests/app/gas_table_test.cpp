@@ -60,7 +60,8 @@ TEST(GasTable, HasTheNumberLossRateByEitherName) {
     const GasHistory gas = historyOf("t,T,p,X_H2," + name + " [1/s]\n0,300,1e5,1,20\n1,300,1e5,1,0\n");
     const std::string told = testing::internal::GetCapturedStderr();
     EXPECT_EQ(gas.numberLossRate, std::vector<double>{20}) << name;
-    EXPECT_EQ(told.find("the column thinning is called number_loss_rate since version 0.2") != std::string::npos, isFormer)
+    EXPECT_EQ(told.find("the column thinning is called number_loss_rate since version 0.2") != std::string::npos,
+              isFormer)
         << told;
   }
   EXPECT_THAT(refusalOf("t,T,p,X_H2,thinning,number_loss_rate\n0,300,1e5,1,2,2\n"),
@@ -84,8 +85,9 @@ TEST(GasTable, SaysWhatIsMissingOrWrong) {
 
 // The shipped case, and rows where the deck wants them.
 TEST(PrescribedGasCase, TheShippedDeckHasItsRows) {
-  const auto deck = Deck::load(test::sourceFolder / "cases/particles_along/premixed_ethylene_abf/deck.yaml",
-                               {"output.interval=10 ms", "output.times=[4 ms, 20 ms]", "gas.end=25 ms"}, prescribedGasSchema());
+  const auto deck =
+      Deck::load(test::sourceFolder / "cases/particles_along/premixed_ethylene_abf/deck.yaml",
+                 {"output.interval=10 ms", "output.times=[4 ms, 20 ms]", "gas.end=25 ms"}, prescribedGasSchema());
   const PrescribedGasCase along = readPrescribedGasCase(deck);
   std::vector<double> times;
   for (const std::size_t point : along.recorded) times.push_back(along.path.points[point].time);

@@ -18,7 +18,11 @@ DeckSchema schema() {
   made.add(choiceKey("problem", {"gas"}, "Kind.").formerly("air", "gas"))
       .add(quantityKey("particles.frozen_gas", units::time, "Time.").optional().formerly("hold_gas").formerly("hold"))
       .add(integerKey("particles.count", "Number.").byDefault("1"))
-      .add(choiceKey("methods.*.moments", {"M0", "M1"}, "Moments.").list().optional().formerly("claims").formerly("m1", "M1"))
+      .add(choiceKey("methods.*.moments", {"M0", "M1"}, "Moments.")
+               .list()
+               .optional()
+               .formerly("claims")
+               .formerly("m1", "M1"))
       .add(integerKey("points[].cells", "Cells.").optional().formerly("segments"))
       .add(numberKey("points[].ratio", "Ratio.").optional().onlyWith("problem", {"gas"}));
   return made;
@@ -58,9 +62,10 @@ TEST(FormerNames, AreReadAsThePresentOnesWithANoteEach) {
   EXPECT_EQ(deck.integer("points[0].cells"), 7);
   const auto& notes = deck.notes();
   ASSERT_EQ(notes.size(), 5u);
-  EXPECT_EQ(notes[0],
-            "deck.yaml:1: 'problem: air' is called 'problem: gas' since version 0.2; write the new name, as version 0.3 "
-            "does not read the old one");
+  EXPECT_EQ(
+      notes[0],
+      "deck.yaml:1: 'problem: air' is called 'problem: gas' since version 0.2; write the new name, as version 0.3 "
+      "does not read the old one");
   EXPECT_THAT(notes[1], HasSubstr("deck.yaml:3: particles.hold_gas is called particles.frozen_gas since version 0.2"));
   EXPECT_THAT(notes[2], HasSubstr("deck.yaml:5: methods.one.claims is called methods.one.moments"));
   EXPECT_THAT(notes[3], HasSubstr("deck.yaml:5: 'methods.one.moments: m1' is called 'methods.one.moments: M1'"));
@@ -68,7 +73,8 @@ TEST(FormerNames, AreReadAsThePresentOnesWithANoteEach) {
 }
 
 TEST(FormerNames, TheResolvedDeckHasThePresentNames) {
-  const Deck old = deckOf("problem: air\nparticles: {hold: 1 s}\n"), present = deckOf("problem: gas\nparticles: {frozen_gas: 1 s}\n");
+  const Deck old = deckOf("problem: air\nparticles: {hold: 1 s}\n"),
+             present = deckOf("problem: gas\nparticles: {frozen_gas: 1 s}\n");
   EXPECT_EQ(old.resolved(), present.resolved());
   EXPECT_EQ(old.resolvedJson(), present.resolvedJson());
   EXPECT_THAT(Deck::parse(old.resolved(), "again.yaml", {}, schema()).notes(), IsEmpty());
@@ -78,13 +84,15 @@ TEST(FormerNames, MayStandInOverrides) {
   const Deck deck = deckOf("problem: gas\n", {"particles.hold_gas=3 s", "methods.a={claims: [M1]}"});
   EXPECT_EQ(deck.quantity("particles.frozen_gas"), 3);
   EXPECT_EQ(deck.strings("methods.a.moments"), std::vector<std::string>{"M1"});
-  EXPECT_THAT(deck.notes(), ElementsAre(HasSubstr("--set particles.hold_gas: particles.hold_gas is called particles.frozen_gas"),
-                                        HasSubstr("--set methods.a: methods.a.claims is called methods.a.moments")));
+  EXPECT_THAT(deck.notes(),
+              ElementsAre(HasSubstr("--set particles.hold_gas: particles.hold_gas is called particles.frozen_gas"),
+                          HasSubstr("--set methods.a: methods.a.claims is called methods.a.moments")));
 }
 
 // As of one name given twice: what comes later holds, whichever name each has.
 TEST(FormerNames, AnOverrideHoldsOverTheOtherName) {
-  const std::string old = "problem: gas\nparticles: {count: 2, hold_gas: 1 s}\n", present = "problem: gas\nparticles: {frozen_gas: 1 s, count: 2}\n";
+  const std::string old = "problem: gas\nparticles: {count: 2, hold_gas: 1 s}\n",
+                    present = "problem: gas\nparticles: {frozen_gas: 1 s, count: 2}\n";
   for (const auto& [text, overrides, value] :
        {std::tuple{old, std::vector<std::string>{"particles.frozen_gas=2 s"}, 2.0},
         std::tuple{present, std::vector<std::string>{"particles.hold_gas=2 s"}, 2.0},
@@ -99,11 +107,14 @@ TEST(FormerNames, AnOverrideHoldsOverTheOtherName) {
 
 TEST(FormerNames, BothNamesInOneDeckAreAnError) {
   const std::string both = refusalOf("problem: gas\nparticles:\n  frozen_gas: 1 s\n  hold_gas: 2 s\n");
-  EXPECT_THAT(both, HasSubstr("deck.yaml:4:3: particles.hold_gas: this is the former name of 'frozen_gas', which is given "
-                              "too; leave 'hold_gas' out"));
+  EXPECT_THAT(both,
+              HasSubstr("deck.yaml:4:3: particles.hold_gas: this is the former name of 'frozen_gas', which is given "
+                        "too; leave 'hold_gas' out"));
   EXPECT_THAT(both, HasSubstr("hold_gas: 2 s"));
-  EXPECT_THAT(refusalOf("problem: gas\n", {"particles={hold_gas: 1 s, frozen_gas: 2 s}"}), HasSubstr("leave 'hold_gas' out"));
-  EXPECT_THAT(refusalOf("problem: gas\nparticles: {hold: 1 s, hold_gas: 2 s}\n"), HasSubstr("former name of 'frozen_gas'"));
+  EXPECT_THAT(refusalOf("problem: gas\n", {"particles={hold_gas: 1 s, frozen_gas: 2 s}"}),
+              HasSubstr("leave 'hold_gas' out"));
+  EXPECT_THAT(refusalOf("problem: gas\nparticles: {hold: 1 s, hold_gas: 2 s}\n"),
+              HasSubstr("former name of 'frozen_gas'"));
 }
 
 TEST(FormerNames, MistakesNameThePresentKey) {
@@ -127,8 +138,10 @@ TEST(FormerNames, OfAKindOfDecksChooseTheKind) {
 
 TEST(FormerNames, StandInTheReferenceAndInTheJsonSchema) {
   const std::string page = markdownReference(schema()), json = jsonSchema(schema());
-  EXPECT_THAT(page, HasSubstr("| Time. `hold_gas` is a former name of this key; `hold` is a former name of this key; version 0.3 "
-                              "does not read former names. |"));
+  EXPECT_THAT(
+      page,
+      HasSubstr("| Time. `hold_gas` is a former name of this key; `hold` is a former name of this key; version 0.3 "
+                "does not read former names. |"));
   EXPECT_THAT(page, HasSubstr("`air` is a former name of `gas`; version 0.3 does not read former names."));
   EXPECT_THAT(page, Not(HasSubstr("| `particles.hold_gas` |")));
   EXPECT_THAT(json, HasSubstr("\"hold_gas\": {"));

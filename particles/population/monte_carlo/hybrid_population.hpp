@@ -38,7 +38,9 @@ class HybridPopulation {
   [[nodiscard]] std::size_t particles() const { return store_.size(); }
   [[nodiscard]] std::uint64_t countedParticles() const { return numbers_.all(); }
   [[nodiscard]] std::size_t sizes() const { return numbers_.threshold(); }
-  [[nodiscard]] double size() const { return static_cast<double>(countedParticles()) + static_cast<double>(particles()); }
+  [[nodiscard]] double size() const {
+    return static_cast<double>(countedParticles()) + static_cast<double>(particles());
+  }
   [[nodiscard]] std::size_t bytes() const { return store_.bytes() + numbers_.bytes(); }
 
   // A particle becomes a number where it is of a whole number of units.

@@ -42,8 +42,8 @@ class TwoLevelStore {
   [[nodiscard]] std::size_t size() const { return entries_.size() - holes_; }
   [[nodiscard]] std::size_t bytes() const { return entries_.capacity() * sizeof(Entry) + sums_.bytes(); }
   [[nodiscard]] const Rates& rates() const { return rates_; }
-  // The share of its volume that a particle may gain from small particles in one event; zero: no bundles. Only where a pair coagulates at
-  // the larger of its weights.
+  // The share of its volume that a particle may gain from small particles in one event; zero: no bundles. Only where a
+  // pair coagulates at the larger of its weights.
   void setBundledGrowth(double share) { bundledGrowth_ = share; }
   // How many of the second particle each of the first takes up in the event that was drawn last.
   [[nodiscard]] double collected() const { return collected_; }

@@ -67,8 +67,9 @@ void compare(bool coalescing, const test::FlameGas& gas, double dt, bool someLos
   }
   EXPECT_EQ(lost, someLost);
   EXPECT_EQ(stayed, someStay);
-  for (const auto part : {&SootTransfer::dimers, &SootTransfer::growth, &SootTransfer::oxidationO2, &SootTransfer::oxidationOH,
-                          &SootTransfer::hydrogenO2, &SootTransfer::hydrogenOH, &SootTransfer::lost})
+  for (const auto part :
+       {&SootTransfer::dimers, &SootTransfer::growth, &SootTransfer::oxidationO2, &SootTransfer::oxidationOH,
+        &SootTransfer::hydrogenO2, &SootTransfer::hydrogenOH, &SootTransfer::lost})
     expectNear(moved.*part, expected.*part, expected.*part);
   // Atoms: what the particles gained is what was moved.
   const double gross = moved.growth + moved.oxidationO2 + moved.oxidationOH + moved.dimers * medium.dimerCarbon();
