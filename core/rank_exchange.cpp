@@ -73,7 +73,7 @@ PackedRows RankExchange::send(const PackedRows& rows) const {
 }
 
 PackedRows RankExchange::reply(const PackedRows& rows) const {
-  const std::vector<std::int64_t> lengths = back(rows.lengths, 1);
+  const std::vector<std::int64_t> lengths = reply(rows.lengths, 1);
   PackedRows answers;
   for (const std::size_t item : order_) answers.lengths.push_back(lengths[item]);
   passRows(rows, receiveCounts_, answers, sendCounts_);
