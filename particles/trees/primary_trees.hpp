@@ -48,7 +48,7 @@ class PrimaryTrees {
   // In point contact at a primary of each, drawn uniformly (eq. 35). Those of the smaller tree move.
   [[nodiscard]] Tree coagulated(Tree&& p, Tree&& q, RandomStream& random) const {
     for (Tree* one : {&p, &q})
-      if (one->count() > 1 && one->head().time < clock() && shared_->sinter) shared_->applyDeferred(*one, clock());
+      if (one->count() > 1 && one->head().time < clock() && shared_->sinter) shared_->sinter(*one, clock());
     if (p.count() < q.count()) p.swap(q);
     const std::size_t n = p.count(), m = q.count();
     TreeHead& tree = p.own(n + m);
@@ -82,7 +82,7 @@ class PrimaryTrees {
     shape(tree);
     // The joined tree sinters until the next update, at the rate it has half-way there.
     if (shared_->sinter && shared_->nextUpdate > clock())
-      shared_->applyDeferred(p, 0.5 * (clock() + shared_->nextUpdate));
+      shared_->sinter(p, 0.5 * (clock() + shared_->nextUpdate));
     return std::move(p);
   }
 
