@@ -95,7 +95,7 @@ def main(folder):
         check_study(folder)
         return
     record = json.loads((folder / "run.json").read_text(encoding="utf-8"))
-    kinds = {"reactor": check_reactor, "particles_along": check_reactor, "population_balance": check_population, "flame1d": check_flame}
+    kinds = {"reactor": check_reactor, "prescribed_gas": check_reactor, "particles_along": check_reactor, "population_balance": check_population, "flame1d": check_flame}
     kinds.get(record["deck"]["problem"], check_flow)(folder)
 
 

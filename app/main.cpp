@@ -13,6 +13,7 @@
 #include "app/run/build_info.hpp"
 #include "app/run/problem.hpp"
 #include "app/run/rank_launcher.hpp"
+#include "app/run/warnings.hpp"
 #include "app/study/sweep_command.hpp"
 #include "app/study/sweep_study.hpp"
 #include "app/tools/cases_command.hpp"
@@ -50,6 +51,7 @@ struct Arguments {
 
 void check(const Arguments& arguments) {
   const Deck deck = Deck::load(arguments.deck, arguments.overrides, deckKinds(), PETSC_COMM_WORLD);
+  printWarnings(deck.notes());
   const auto prepared = problemOf(deck).prepare(PETSC_COMM_WORLD, deck);
   if (placeOfProcess().rank != 0) return;
   std::cout << arguments.deck << " is a valid deck: " << prepared->summary() << ".\n";
@@ -58,6 +60,7 @@ void check(const Arguments& arguments) {
 
 void run(const Arguments& arguments) {
   const Deck deck = Deck::load(arguments.deck, arguments.overrides, deckKinds(), PETSC_COMM_WORLD);
+  printWarnings(deck.notes());
   const Problem& problem = problemOf(deck);
   collectively(PETSC_COMM_WORLD, [&] {
     if (arguments.restarts && !problem.restarts)

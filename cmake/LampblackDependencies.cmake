@@ -1,4 +1,4 @@
-# Everything the rooms build on, with the least versions that are tested: Debian 12 has all of it (scripts/packages.txt), elsewhere it
+# Everything the modules build on, with the least versions that are tested: Debian 12 has all of it (scripts/packages.txt), elsewhere it
 # comes from pkg-config, CMake packages (CMAKE_PREFIX_PATH) or PETSC_DIR and PETSC_ARCH (docs/installing.md). What is missing is told
 # at once. The installed package (find_package(Lampblack)) looks for the same by this file.
 #

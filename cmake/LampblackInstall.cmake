@@ -39,17 +39,17 @@ function(lampblack_install_program program)
   install(DIRECTORY "${CMAKE_SOURCE_DIR}/docs/" DESTINATION "${CMAKE_INSTALL_DOCDIR}/docs")
 endfunction()
 
-# A room: its library as Lampblack::<room>, its headers as "<room>/<header>.hpp".
-function(lampblack_install_room room)
+# A module: its library as Lampblack::<module>, its headers as "<module>/<header>.hpp".
+function(lampblack_install_module module)
   set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME lampblack-dev)
-  set_target_properties(lampblack_${room} PROPERTIES EXPORT_NAME ${room})
-  add_library(Lampblack::${room} ALIAS lampblack_${room})
-  install(TARGETS lampblack_${room} EXPORT LampblackTargets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
-  install(DIRECTORY "${CMAKE_SOURCE_DIR}/${room}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/lampblack"
+  set_target_properties(lampblack_${module} PROPERTIES EXPORT_NAME ${module})
+  add_library(Lampblack::${module} ALIAS lampblack_${module})
+  install(TARGETS lampblack_${module} EXPORT LampblackTargets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+  install(DIRECTORY "${CMAKE_SOURCE_DIR}/${module}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/lampblack"
           FILES_MATCHING PATTERN "*.hpp")
 endfunction()
 
-# find_package(Lampblack): the rooms, and the libraries they need, found as this build found them.
+# find_package(Lampblack): the modules, and the libraries they need, found as this build found them.
 function(lampblack_install_package)
   set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME lampblack-dev)
   configure_package_config_file("${CMAKE_SOURCE_DIR}/cmake/LampblackConfig.cmake.in" "${CMAKE_BINARY_DIR}/LampblackConfig.cmake"

@@ -104,7 +104,7 @@ FoundCells findCells(const Mesh& mesh, std::span<const Vector3> places) {
   return found;
 }
 
-std::string whereMeshIs(const Mesh& mesh, const Vector3& place) {
+std::string meshExtentText(const Mesh& mesh, const Vector3& place) {
   std::array<double, 6> ends;
   ends.fill(-std::numeric_limits<double>::infinity());
   for (const Vector3& vertex : mesh.vertex)

@@ -23,6 +23,6 @@ FoundCells findCells(const Mesh& mesh, std::span<const Vector3> places);
 // Collective. Where the mesh is, for a place that is not in it, in words: "the mesh reaches from (0, 0) to (1, 2) m",
 // and where the place is between these "..., but has no cell there; the nearest has its centre
 // at (0.5, 1) m".
-std::string whereMeshIs(const Mesh& mesh, const Vector3& place);
+std::string meshExtentText(const Mesh& mesh, const Vector3& place);
 
 }  // namespace lampblack

@@ -65,15 +65,15 @@ void RankExchange::passRows(const PackedRows& sent, const std::vector<std::size_
   pass(sent.values.data(), valuesOfRanks(from, sent.lengths), received.values.data(), coming, sizeof(double));
 }
 
-PackedRows RankExchange::there(const PackedRows& rows) const {
+PackedRows RankExchange::send(const PackedRows& rows) const {
   PackedRows result;
-  result.lengths = there(rows.lengths, 1);
+  result.lengths = send(rows.lengths, 1);
   passRows(gathered(rows, order_), sendCounts_, result, receiveCounts_);
   return result;
 }
 
-PackedRows RankExchange::back(const PackedRows& rows) const {
-  const std::vector<std::int64_t> lengths = back(rows.lengths, 1);
+PackedRows RankExchange::reply(const PackedRows& rows) const {
+  const std::vector<std::int64_t> lengths = reply(rows.lengths, 1);
   PackedRows answers;
   for (const std::size_t item : order_) answers.lengths.push_back(lengths[item]);
   passRows(rows, receiveCounts_, answers, sendCounts_);

@@ -1,5 +1,5 @@
-// Values that travel to other ranks, and answers that travel back. Who sends how much to whom is found once, for as
-// many exchanges as there are.
+// Sends values to other ranks and replies to the senders. The pattern of messages is found once and serves any number
+// of exchanges.
 #pragma once
 
 #include <mpi.h>
@@ -19,16 +19,16 @@ namespace lampblack {
 
 class RankExchange {
  public:
-  // Collective. The rank that each of this rank's items goes to.
+  // Collective. `destinations`: the rank that receives each item of this rank.
   RankExchange(MPI_Comm comm, std::span<const int> destinations);
 
   [[nodiscard]] std::size_t items() const { return order_.size(); }  // of this rank
-  [[nodiscard]] std::size_t received() const { return received_; }   // items that came from all ranks
+  [[nodiscard]] std::size_t received() const { return received_; }   // items from all ranks
 
-  // Collective. `values`: `width` for each of this rank's items. Returns those that came here, by the rank they came
-  // from, and in its order.
+  // Collective. `values`: `width` for each item of this rank. Returns the values received, in the order of the sending
+  // ranks and of the items of each.
   template <std::ranges::contiguous_range Values, typename T = std::ranges::range_value_t<Values>>
-  [[nodiscard]] std::vector<T> there(const Values& values, int width) const {
+  [[nodiscard]] std::vector<T> send(const Values& values, int width) const {
     const auto w = static_cast<std::size_t>(width);
     checkSize(std::ranges::size(values), items() * w);
     std::vector<T> sent(items() * w), result(received_ * w);
@@ -38,9 +38,9 @@ class RankExchange {
     return result;
   }
 
-  // Collective. `values`: `width` for each item that came here. Returns those for this rank's items.
+  // Collective. `values`: `width` for each item received. Returns the values for the items of this rank.
   template <std::ranges::contiguous_range Values, typename T = std::ranges::range_value_t<Values>>
-  [[nodiscard]] std::vector<T> back(const Values& values, int width) const {
+  [[nodiscard]] std::vector<T> reply(const Values& values, int width) const {
     const auto w = static_cast<std::size_t>(width);
     checkSize(std::ranges::size(values), received_ * w);
     std::vector<T> answers(items() * w), result(answers.size());
@@ -50,9 +50,9 @@ class RankExchange {
     return result;
   }
 
-  // Collective. The same of rows of any lengths, one for each item.
-  [[nodiscard]] PackedRows there(const PackedRows& rows) const;
-  [[nodiscard]] PackedRows back(const PackedRows& rows) const;
+  // Collective. The same for rows of any lengths, one for each item.
+  [[nodiscard]] PackedRows send(const PackedRows& rows) const;
+  [[nodiscard]] PackedRows reply(const PackedRows& rows) const;
 
  private:
   template <typename T>
@@ -95,8 +95,8 @@ std::vector<T> ask(MPI_Comm comm, const Shares& shares, std::span<const std::int
     const RankExchange exchange(comm, owners);
     std::vector<T> answers;
     answers.reserve(exchange.received());
-    for (const std::int64_t number : exchange.there(some, 1)) answers.push_back(answer(number));
-    answers = exchange.back(answers, 1);
+    for (const std::int64_t number : exchange.send(some, 1)) answers.push_back(answer(number));
+    answers = exchange.reply(answers, 1);
     ordered.insert(ordered.end(), answers.begin(), answers.end());
   }
   return ordered;

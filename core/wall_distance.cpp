@@ -222,11 +222,11 @@ void searchAll(const Mesh& m, const WallTree& tree, std::vector<double>& distanc
       asked.push_back(distances[slot(cell)]);
     }
     const RankExchange exchange(m.comm, ranks);
-    const std::vector<double> here = exchange.there(asked, static_cast<int>(width));
+    const std::vector<double> here = exchange.send(asked, static_cast<int>(width));
     std::vector<double> answers;
     for (std::size_t i = 0; i < here.size(); i += width)
       answers.push_back(tree.nearest({here[i], here[i + 1], here[i + 2]}, here[i + 3]));
-    answers = exchange.back(answers, 1);
+    answers = exchange.reply(answers, 1);
     for (std::size_t i = 0; i < some.size(); ++i) {
       double& distance = distances[slot(some[i].first)];
       distance = std::min(distance, answers[i]);

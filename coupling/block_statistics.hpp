@@ -8,7 +8,7 @@
 #include <optional>
 #include <span>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::coupling {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "chemistry/mechanism/mechanism.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/carried_model.hpp"
 #include "particles/models/particle_model.hpp"
 

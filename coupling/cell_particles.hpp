@@ -1,6 +1,6 @@
-// What kind of stochastic particles stand in the cells of a flow: how one cell's population changes in the gas of the
-// cell, what it is made of, and what the gas exchanges with it. EnsembleOperator moves the particles between the cells
-// and books what they exchange, whatever their kind.
+// A kind of stochastic particles in the cells of a flow: the change of the population of a cell in its gas, the
+// elements of the particles, and the exchange with the gas. EnsembleOperator moves the particles between cells and adds
+// the exchange to the gas, for any kind.
 //
 // The populations of all cells are kept packed by their owner (ParticleRows) and are unpacked, one after the other,
 // into the one that this object advances.
@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "chemistry/mechanism/mechanism.hpp"
+#include "core/modules.hpp"
 #include "core/particle_gas.hpp"
-#include "core/rooms.hpp"
 #include "coupling/ensemble_sizes.hpp"
 #include "flow/state.hpp"
 #include "particles/models/element_enthalpies.hpp"
@@ -37,7 +37,7 @@ struct AmountPlaces {
 
 class CellParticles {
  public:
-  // What has happened to the population of a cell, per m3.
+  // Transferred amounts of an advance() of a cell, per m3.
   struct Change {
     std::vector<double> gas;       // mol, of the species: gained by the gas
     std::vector<double> elements;  // kg of each element, gained by the particles: the same atoms
@@ -47,7 +47,7 @@ class CellParticles {
 
   virtual ~CellParticles() = default;
 
-  // What the particles are called: names of fields begin with it.
+  // Material of the particles: the prefix of the names of fields.
   [[nodiscard]] const std::string& material() const { return material_; }
   // Of the particles, by symbol; and of the species that the gas exchanges with them: theirs, and others behind them.
   [[nodiscard]] const std::vector<std::string>& elements() const { return elements_; }
@@ -60,7 +60,7 @@ class CellParticles {
   [[nodiscard]] const RowSizes& sizes() const { return sizes_; }
   [[nodiscard]] const ParticleRows& rows() const { return sizes_.rows; }
 
-  // What State::carried has of them.
+  // The scalars of State::carried.
   [[nodiscard]] std::vector<CarriedScalar> scalars() const;
   // kg of each element of the mechanism in a unit of each amount.
   [[nodiscard]] std::vector<std::vector<double>> unitElements(const Mechanism& mechanism) const;
@@ -76,20 +76,20 @@ class CellParticles {
   [[nodiscard]] double enthalpy(double temperature, std::span<const double> elements) const;
   // Absorption coefficient, 1/m.
   [[nodiscard]] virtual double absorption(double temperature, double volumeFraction) const = 0;
-  // Whether particles can be born of this gas.
+  // Whether there can be inception in this gas.
   [[nodiscard]] virtual bool hasPrecursors(const ParticleGas& gas) const = 0;
 
   // A packed population without particles of the cell with this permanent number, which keys its random numbers.
   [[nodiscard]] std::vector<double> empty(std::uint64_t cell) const;
-  // The population that is here from now on; then others that arrive in it (rows without a head).
+  // Replaces the population; join() then adds particles that arrive (rows without a head).
   virtual void unpack(std::span<const double> population) = 0;
   virtual void join(std::span<const double> rows) = 0;
   // Over dt (s). NumericsError.
   virtual Change advance(const ParticleGas& gas, double dt) = 0;
-  // Of the last advance(): particles looked at, and events, as Ensemble::cost(); and about how long one of these takes
+  // Of the last advance(): number of particles visited and of events, as Ensemble::cost(); and the time for each, about
   // (microseconds).
   [[nodiscard]] virtual double cost() const = 0;
-  [[nodiscard]] virtual double costOfLook() const = 0;
+  [[nodiscard]] virtual double costPerParticle() const = 0;
   [[nodiscard]] virtual std::vector<double> pack() const = 0;
 
  protected:

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/cell_particles.hpp"
 #include "particles/ensemble/ensemble.hpp"
 
@@ -26,7 +26,7 @@ class CellSoot final : public CellParticles {
   void join(std::span<const double> rows) override;
   Change advance(const ParticleGas& gas, double dt) override;
   [[nodiscard]] double cost() const override { return engine_->cost(); }
-  [[nodiscard]] double costOfLook() const override { return 0.06; }
+  [[nodiscard]] double costPerParticle() const override { return 0.06; }
   [[nodiscard]] std::vector<double> pack() const override { return engine_->pack(); }
 
   // Packed, of the given particles; as Ensemble::initialise().

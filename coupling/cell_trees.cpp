@@ -71,7 +71,7 @@ void CellTrees::join(std::span<const double> rows) {
 
 CellParticles::Change CellTrees::advance(const ParticleGas& gas, double dt) {
   // What waits to sinter does so before the exchange is looked at, and before particles move on.
-  SplitParticles::Exchange exchange = trees_.advanceAndSettle(gas, dt);
+  SplitParticles::Exchange exchange = trees_.advanceAndApplyDeferred(gas, dt);
   Change change{std::move(exchange.gas), std::move(exchange.elements), std::vector<double>(elements().size())};
   addContent(change.resampled);
   for (std::size_t e = 0; e < before_.size(); ++e) change.resampled[e] -= before_[e] + change.elements[e];

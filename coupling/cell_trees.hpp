@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/cell_particles.hpp"
 #include "coupling/reactor_trees.hpp"
 
@@ -21,7 +21,7 @@ class CellTrees final : public CellParticles {
   // Of soot; silica is taken to be transparent.
   [[nodiscard]] double absorption(double temperature, double volumeFraction) const override;
   [[nodiscard]] bool hasPrecursors(const ParticleGas& gas) const override;
-  [[nodiscard]] double costOfLook() const override { return 0.25; }
+  [[nodiscard]] double costPerParticle() const override { return 0.25; }
   void unpack(std::span<const double> population) override;
   void join(std::span<const double> rows) override;
   Change advance(const ParticleGas& gas, double dt) override;

@@ -22,8 +22,8 @@ constexpr std::size_t taskWidth = sizeof(Task) / sizeof(double);
 // And back come the cost, what the gas gets (mol/m3), what the particles gained of each element and what was resampled
 // of it (kg/m3), and the population.
 
-// Microseconds, about, of a cell. Estimated as CellParticles::costOfLook(), to weigh cells against each other and, to a
-// factor of two or so, against the gas.
+// Microseconds, about, of a cell. Estimated as CellParticles::costPerParticle(), to weigh cells against each other and,
+// to a factor of two or so, against the gas.
 constexpr double costOfCell = 5.0;
 
 }  // namespace
@@ -138,7 +138,7 @@ void EnsembleOperator::solve(double time, std::span<const double> in, std::vecto
     throw NumericsError(fmt::format("the ensemble of cell {:.0f} at {} failed at time {:.6g} s: {}", task.cell,
                                     placeText({task.x, task.y, task.z}, context_.mesh.dimension), time, error.what()));
   }
-  out.push_back(costOfCell + particles_->costOfLook() * particles_->cost());
+  out.push_back(costOfCell + particles_->costPerParticle() * particles_->cost());
   for (const std::vector<double>* values : {&change.gas, &change.elements, &change.resampled})
     out.insert(out.end(), values->begin(), values->end());
   const std::vector<double> population = particles_->pack();
@@ -158,7 +158,7 @@ void EnsembleOperator::unpack(State& state, int cell, bool isHeld, std::span<con
   if (options_.exchange == Exchange::OneWay) return;
   const double heat = particles_->enthalpy(state.temperature[cell], gained);  // J/m3
   if (!(options_.average > 0.0) && !isHeld) {
-    exchange_.book(state, cell, species, change, heat);
+    exchange_.recordExchange(state, cell, species, change, heat);
     return;
   }
   double* reserve = &reserve_[static_cast<std::size_t>(cell) * reserveWidth()];
@@ -185,12 +185,12 @@ void EnsembleOperator::advance(State& state, double time, double dt) {
   inStep_ = true;
   lastStep_ = dt;
   stepEnd_ = time + dt;
-  const bool isHeld = isGasHeld(time);
+  const bool isHeld = isGasFrozen(time);
   if (isHeld)
     state.start.density.assign(state.density.begin(), state.density.begin() + m.owned);
   else  // transport and chemistry have paid out of the reserves
     for (std::size_t i = 0; i < reserve_.size(); ++i) reserve_[i] -= dt * rate_[i];
-  takeOutWaiting();
+  separateArrivals();
   move(state, dt, EnsembleTransport::Half::First);
 
   std::vector<int> busy;
@@ -206,7 +206,8 @@ void EnsembleOperator::advance(State& state, double time, double dt) {
     }
     busy.push_back(cell);
     // What it cost in the last step, or once each particle.
-    items.cost.push_back(before > 0.0 ? before : costOfCell + particles_->costOfLook() * static_cast<double>(count));
+    items.cost.push_back(before > 0.0 ? before
+                                      : costOfCell + particles_->costPerParticle() * static_cast<double>(count));
   }
   items.pack = [&](std::size_t i, std::vector<double>& in) { pack(state, busy[i], dt, in); };
   items.advance = [&](std::span<const double> in, std::vector<double>& out) { solve(time, in, out); };
@@ -220,7 +221,7 @@ void EnsembleOperator::advance(State& state, double time, double dt) {
   for (std::vector<double>& rows : arrived_) rows.clear();
   move(state, dt, EnsembleTransport::Half::Second);
   countOutflow();
-  letArrivedWait(state);
+  storeArrivals(state);
 }
 
 void EnsembleOperator::move(const State& state, double dt, EnsembleTransport::Half half) {
@@ -229,7 +230,7 @@ void EnsembleOperator::move(const State& state, double dt, EnsembleTransport::Ha
       dt, static_cast<std::uint64_t>(steps_), half, populations_, arrived_);
 }
 
-void EnsembleOperator::takeOutWaiting() {
+void EnsembleOperator::separateArrivals() {
   for (std::size_t cell = 0; cell < populations_.size(); ++cell) {
     const auto values = static_cast<std::ptrdiff_t>(waiting_[cell]);
     arrived_[cell].assign(populations_[cell].end() - values, populations_[cell].end());
@@ -238,7 +239,7 @@ void EnsembleOperator::takeOutWaiting() {
 }
 
 // Collective.
-void EnsembleOperator::letArrivedWait(State& state) {
+void EnsembleOperator::storeArrivals(State& state) {
   for (int cell = 0; cell < context_.mesh.owned; ++cell) {
     waiting_[cell] = static_cast<double>(arrived_[cell].size());
     if (!arrived_[cell].empty()) {

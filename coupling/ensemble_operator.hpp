@@ -23,7 +23,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "core/work_sharing.hpp"
 #include "coupling/cell_particles.hpp"
 #include "coupling/ensemble_sizes.hpp"
@@ -44,9 +44,9 @@ class EnsembleOperator : public Operator {
   struct Options {
     Exchange exchange = Exchange::TwoWay;
     double average = 0.0;  // s
-    // s, from when on the gas stays as it is: whoever runs the operators advances no other, and what is exchanged stays
-    // in the reserve.
-    std::optional<double> holdGas = {};
+    // s. From this time on the gas is frozen: the caller advances no other operator, and the exchange stays in the
+    // reserve.
+    std::optional<double> frozenFrom = {};
     bool diffusion = true;
     bool secondOrder = true;
     bool shareWork = true;
@@ -92,7 +92,7 @@ class EnsembleOperator : public Operator {
   [[nodiscard]] const EnsembleStatistics* statistics() const { return statistics_ ? &*statistics_ : nullptr; }
   // Packed, of the owned cells, with what has arrived since; empty where there is none.
   [[nodiscard]] const std::vector<std::vector<double>>& populations() const { return populations_; }
-  [[nodiscard]] bool isGasHeld(double time) const { return options_.holdGas && time >= *options_.holdGas; }
+  [[nodiscard]] bool isGasFrozen(double time) const { return options_.frozenFrom && time >= *options_.frozenFrom; }
   // Replaces the population of an owned cell by a packed one.
   void initialise(State& state, int cell, std::vector<double> population);
 
@@ -107,8 +107,10 @@ class EnsembleOperator : public Operator {
   // The packed population of a cell, to put particles behind it.
   std::vector<double>& openPopulation(int cell);
   void move(const State& state, double dt, EnsembleTransport::Half half);
-  void takeOutWaiting();
-  void letArrivedWait(State& state);
+  // Moves the particles that arrived in the previous step out of the populations.
+  void separateArrivals();
+  // Puts the particles that arrived behind the populations. Collective.
+  void storeArrivals(State& state);
   void setOwed(State& state, int cell) const;
   void countOutflow();
   void addToStatistics(const State& state);

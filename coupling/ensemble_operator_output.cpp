@@ -44,7 +44,7 @@ std::vector<Quantity> EnsembleOperator::historyColumns() const {
   return {{"peak_" + name + "_volume_fraction", "1", "largest volume fraction of " + name},
           {"ensembles", "1", "cells with particles"},
           {"numerical_particles", "1", "numerical particles in all cells"},
-          {name + "_resampled", unitOfWhole(context_.mesh, "kg"),
+          {name + "_resampled", integralUnit(context_.mesh, "kg"),
            name + " that came and went with numerical particles since the start, zero in the mean"},
           {"transport_parts", "1", "parts that the particles' transport was divided into, two at least"},
           {"transport_limited", "1", "numerical particles whose probability to move was limited in the last step"},

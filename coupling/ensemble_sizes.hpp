@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/mesh.hpp"
+#include "core/modules.hpp"
 #include "core/quantity.hpp"
-#include "core/rooms.hpp"
 #include "particles/ensemble/particle_rows.hpp"
 #include "particles/ensemble/size_bins.hpp"
 #include "particles/soot/soot_aggregate.hpp"

@@ -174,7 +174,7 @@ std::vector<std::string> EnsembleStatistics::closingLines() const {
   return {
       std::move(begin), std::move(within),
       fmt::format("warning: the blocks of {:.4g} ms are correlated ({:.2f} from one to the next), so that intervals "
-                  "are too narrow: {} forgets in about {:.2g} ms, and blocks of {:.2g} ms would do",
+                  "are too narrow: the correlation time of {} is about {:.2g} ms; choose blocks of {:.2g} ms",
                   ms, lagOne, material_, time, longBlock * time)};
 }
 

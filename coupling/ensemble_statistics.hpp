@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "core/mesh.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "core/state_archive.hpp"
 #include "flow/operator.hpp"
 #include "particles/ensemble/size_bins.hpp"

@@ -309,7 +309,7 @@ void EnsembleTransport::send(std::vector<Rows>& arrived) {
   }
   std::erase_if(leaving_, [&](const Leaving& one) { return !isOwn(one); });
   const RankExchange exchange(m.comm, ranks);
-  const PackedRows came = exchange.there(letters);
+  const PackedRows came = exchange.send(letters);
   const double* letter = came.values.data();
   for (const std::int64_t length : came.lengths) {
     leaving_.push_back(

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "chemistry/mechanism/mechanism.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/particles_at_rest.hpp"
 
 namespace lampblack::coupling {

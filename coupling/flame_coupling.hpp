@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "chemistry/mechanism/mechanism.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/flame_ensemble.hpp"
 #include "flow/carried_model.hpp"
 #include "flow/flame/flame_solver.hpp"
@@ -73,7 +73,7 @@ struct FlameCoupling {
 };
 
 // Collective. `solver` solves the flame with `transfer` (may be null); `start` is its solution without any exchange.
-// FlameFailure as of the solver; a flame that does not settle comes back with converged = false.
+// FlameFailure as of the solver; `converged` is false where the iteration does not converge.
 [[nodiscard]] FlameCoupling coupleFlame(MPI_Comm comm, const Mechanism& mechanism, double pressure, FlameSolver& solver,
                                         CarriedModel* transfer, FlameSolution start,
                                         const FlameCouplingOptions& options,

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/flame_trajectory.hpp"
 #include "coupling/path_ensemble.hpp"
 

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "chemistry/mechanism/mechanism.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/flame/flame_profile.hpp"
 #include "particles/ensemble/ensemble_path.hpp"
 #include "particles/gas/soot_gas.hpp"

@@ -102,13 +102,13 @@ void GasAlong::setConditions(const Place& place, double t) {
   std::fill(loss_.begin(), loss_.end(), 0.0);
   if (row + 1 < history_.time.size()) {
     const double length = history_.time[row + 1] - history_.time[row];
-    const double density = mixed(density_, place), thinning = (density_[row + 1] - density_[row]) / length;
+    const double density = mixed(density_, place), densitySlope = (density_[row + 1] - density_[row]) / length;
     conditions.temperatureRate = (history_.temperature[row + 1] - history_.temperature[row]) / length;
-    if (!history_.thinning.empty()) conditions.carriedRemoval = history_.thinning[row];
+    if (!history_.numberLossRate.empty()) conditions.carriedRemoval = history_.numberLossRate[row];
     for (std::size_t k = 0; k < n; ++k) {
       const double first = partial_[row * n + k], last = partial_[(row + 1) * n + k];
       const double Y = fraction(place, k);
-      slope_[k] = ((last - first) / length - Y * thinning) / density;
+      slope_[k] = ((last - first) / length - Y * densitySlope) / density;
       if (!held_[k] && slope_[k] < 0)
         loss_[k] = -slope_[k] / std::max(Y, smallestShare * std::max(first / density_[row], last / density_[row + 1]));
     }

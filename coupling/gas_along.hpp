@@ -1,6 +1,6 @@
-// A gas whose history is given, as the equations of a split reactor: temperature, pressure and mass fractions go along
-// straight lines of the concentrations between the rows, whatever particles take, but for the species that they
-// deplete. Of these the gas has Y per kg where the history has Y_g, and
+// A gas with a prescribed history, as the equations of a split reactor. Between the rows of the history concentrations,
+// temperature and pressure are straight lines. Particles change only the species that they deplete: with Y_g the mass
+// fraction of the history, the mass fraction Y of such a species obeys
 //   dY/dt = dY_g/dt + exchange              where Y_g rises: the gas makes as much as it is said to,
 //   dY/dt = (Y/Y_g) dY_g/dt + exchange      where it falls: it loses the same part of what there is.
 // Without exchange Y is Y_g. docs/theory/particles_along.md.
@@ -13,7 +13,7 @@
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/reactor/ode_system.hpp"
 #include "chemistry/reactor/reactor_system.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/given_gas.hpp"
 
 namespace lampblack::coupling {
@@ -24,13 +24,13 @@ class GasAlong final : public OdeSystem {
   GasAlong(const Mechanism& mechanism, const GasHistory& history, const std::vector<std::size_t>& depleted,
            CarriedPhase* carried);
 
-  // (Y, T, amounts of the carried phase) at the first row.
+  // Initial state (Y, T, amounts of the carried phase), at the first row.
   [[nodiscard]] std::vector<double> initialState() const;
   [[nodiscard]] double density(double t, const double* y) const;  // kg/m3
   [[nodiscard]] double pressure(double t) const;                  // Pa
   // The next row behind t; infinity behind the last.
   [[nodiscard]] double nextRow(double t) const;
-  // Of all species: those that are as the history has them.
+  // For every species, whether its mass fraction is that of the history.
   [[nodiscard]] const std::vector<bool>& held() const { return held_; }
 
   [[nodiscard]] std::size_t size() const override { return system_.size(); }

@@ -97,9 +97,9 @@ ParticlePath givenPath(const Mechanism& mechanism, const GasHistory& history, st
       const double w = static_cast<double>(part) / static_cast<double>(parts);
       GasSample to = part < parts ? between(from, next, w) : next;
       path.divergence.push_back(expansion(path.points.back(), to));
-      if (!history.thinning.empty()) {
-        path.divergence.back().first += history.thinning[i - 1];
-        path.divergence.back().last += history.thinning[i - 1];
+      if (!history.numberLossRate.empty()) {
+        path.divergence.back().first += history.numberLossRate[i - 1];
+        path.divergence.back().last += history.numberLossRate[i - 1];
       }
       path.points.push_back(std::move(to));
     }
@@ -119,13 +119,13 @@ GasHistory historyAlong(const ParticlePath& path) {
   }
   for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
     const ParticlePath::Divergence& divergence = path.divergence[i];
-    history.thinning.push_back(0.5 * (divergence.first + divergence.last) -
-                               expansion(path.points[i], path.points[i + 1]).first);
+    history.numberLossRate.push_back(0.5 * (divergence.first + divergence.last) -
+                                     expansion(path.points[i], path.points[i + 1]).first);
   }
   return history;
 }
 
-std::vector<std::size_t> putPointsAt(ParticlePath& path, std::span<const double> times) {
+std::vector<std::size_t> insertPoints(ParticlePath& path, std::span<const double> times) {
   ParticlePath result;
   std::vector<std::size_t> at;
   std::size_t next = 0;

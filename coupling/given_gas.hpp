@@ -1,6 +1,6 @@
 // The path of particles through a gas whose history is given: temperature, pressure and composition over time. The
 // particles move with the gas, so that their number per mass of gas stays as it is while the gas expands:
-//   d ln N/dt = d ln rho/dt + what happens to them,
+//   d ln N/dt = d ln rho/dt + particle processes,
 // rho the density of the mixture. docs/theory/particles_along.md.
 #pragma once
 
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "chemistry/mechanism/mechanism.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/reactor_particles.hpp"
 #include "particles/ensemble/ensemble_path.hpp"
 
@@ -19,9 +19,9 @@ namespace lampblack::coupling {
 struct GasHistory {
   std::vector<double> time, temperature, pressure;  // s, rising; K; Pa
   std::vector<double> fractions;                    // mole fractions of all species of the mechanism, a row a time
-  // 1/s, between a row and the next: rate at which particles become fewer per kg of gas, as they move otherwise; empty:
-  // they move with it.
-  std::vector<double> thinning = {};
+  // 1/s, between a row and the next: rate at which the number of particles per kg of gas falls because the particles
+  // drift against the gas. Empty: the particles move with the gas.
+  std::vector<double> numberLossRate = {};
 };
 
 // InputError for no row, times that do not rise, temperatures and pressures that are not positive, fractions below
@@ -40,6 +40,6 @@ void requireHistory(const Mechanism& mechanism, const GasHistory& history);
 [[nodiscard]] GasHistory historyAlong(const ParticlePath& path);
 
 // Puts points at these times (s, rising, within the path) where it has none; returns which points they are.
-[[nodiscard]] std::vector<std::size_t> putPointsAt(ParticlePath& path, std::span<const double> times);
+[[nodiscard]] std::vector<std::size_t> insertPoints(ParticlePath& path, std::span<const double> times);
 
 }  // namespace lampblack::coupling

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/ensemble/ensemble_path.hpp"
 #include "particles/models/particle_model.hpp"
 

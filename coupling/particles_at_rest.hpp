@@ -8,7 +8,7 @@
 
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/reactor/carried_phase.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/models/element_enthalpies.hpp"
 
 namespace lampblack::coupling {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/ensemble/ensemble.hpp"
 #include "particles/ensemble/ensemble_path.hpp"
 

@@ -8,7 +8,7 @@
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/reactor/network_solver.hpp"
 #include "chemistry/thermo/thermo.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/reactor_particles.hpp"
 
 namespace lampblack::coupling {

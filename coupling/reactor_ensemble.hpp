@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "chemistry/mechanism/mechanism.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/reactor_population.hpp"
 #include "particles/ensemble/ensemble.hpp"
 

@@ -10,7 +10,7 @@
 #include "chemistry/reactor/carried_phase.hpp"
 #include "chemistry/thermo/thermo.hpp"
 #include "chemistry/transport/transport.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/carried_particles.hpp"
 
 namespace lampblack::coupling {

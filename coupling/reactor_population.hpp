@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/split_reactor.hpp"
 
 namespace lampblack::coupling {
@@ -24,8 +24,8 @@ class ReactorPopulation : public SplitParticles {
   // mean_diameter, of the sphere of mean volume.
   [[nodiscard]] virtual std::string material() const = 0;
   [[nodiscard]] virtual std::vector<Column> columns() const = 0;
-  // Brings up to date what waits: to be called before values are asked for.
-  virtual void settle() {}
+  // Applies deferred processes up to the present time. Has to be called before values().
+  virtual void applyDeferred() {}
   // SI, in a gas of species(), which rates depend on.
   [[nodiscard]] virtual std::vector<double> values(const ParticleGas& gas) const = 0;
   // Size distributions: the first without a name in results ("size_distribution").

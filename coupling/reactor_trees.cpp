@@ -86,9 +86,9 @@ SplitParticles::Exchange ReactorTrees::advance(const ParticleGas& gas, double dt
   return takeExchange();
 }
 
-SplitParticles::Exchange ReactorTrees::advanceAndSettle(const ParticleGas& gas, double dt) {
+SplitParticles::Exchange ReactorTrees::advanceAndApplyDeferred(const ParticleGas& gas, double dt) {
   population_->advance(gas, dt);
-  population_->settle();
+  population_->applyDeferred();
   return takeExchange();
 }
 
@@ -114,7 +114,7 @@ void ReactorTrees::dilute(double factor) {
 }
 
 std::vector<double> ReactorTrees::content() const {
-  population_->settle();
+  population_->applyDeferred();
   const std::vector<double> packed = population_->pack();
   const std::span<const double> rows = treeRows.of(packed);
   return {rows.begin(), rows.end()};
@@ -168,19 +168,19 @@ std::vector<ReactorPopulation::Column> ReactorTrees::columns() const {
   for (const TreeComponent& c : material_.components)
     all.push_back({name + c.name, "1/m^3", "units of " + c.name + " in all particles"});
   for (const TreeEvent& event : events_)
-    all.push_back({name + event.names, "1/m^3", std::string(event.description) + ", since the beginning"});
+    all.push_back({name + event.plural, "1/m^3", std::string(event.description) + ", since the beginning"});
   for (const TreeEvent& event : events_) {
-    if (event.name == nullptr) continue;
-    all.push_back({name + event.name + "_rate", "1/m^3/s", std::string(event.description) + ", by the law"});
-    all.push_back(
-        {name + event.name + "_events", "1", std::string(event.description) + ", in the sample since the beginning"});
+    if (event.singular == nullptr) continue;
+    all.push_back({name + event.singular + "_rate", "1/m^3/s", std::string(event.description) + ", by the law"});
+    all.push_back({name + event.singular + "_events", "1",
+                   std::string(event.description) + ", in the sample since the beginning"});
   }
   all.push_back({name + "numerical_particles", "1", "numerical particles of the sample"});
   return all;
 }
 
-void ReactorTrees::settle() {
-  population_->settle();
+void ReactorTrees::applyDeferred() {
+  population_->applyDeferred();
 }
 
 std::vector<double> ReactorTrees::values(const ParticleGas& gas) const {
@@ -216,7 +216,7 @@ std::vector<double> ReactorTrees::values(const ParticleGas& gas) const {
   const TreeCounters counters = population_->counters();
   for (const TreeEvent& event : events_) values.push_back(total_.*event.number);
   for (const TreeEvent& event : events_)
-    if (event.name != nullptr)
+    if (event.singular != nullptr)
       values.insert(values.end(), {rates.*event.rate, static_cast<double>(counters.*event.count)});
   values.push_back(static_cast<double>(population_->size()));
   return values;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "chemistry/mechanism/mechanism.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/reactor_population.hpp"
 #include "coupling/tree_functionals.hpp"
 #include "particles/trees/tree_population.hpp"
@@ -35,8 +35,8 @@ class ReactorTrees final : public ReactorPopulation {
   [[nodiscard]] GasViscosity viscosity() const override { return viscosity_; }
   [[nodiscard]] const std::vector<std::size_t>& species() const override { return species_; }
   Exchange advance(const ParticleGas& gas, double dt) override;
-  // All trees are up to date afterwards.
-  Exchange advanceAndSettle(const ParticleGas& gas, double dt);
+  // advance(), then the deferred sintering of all trees.
+  Exchange advanceAndApplyDeferred(const ParticleGas& gas, double dt);
   // Of the precursor of a material with sites.
   [[nodiscard]] std::optional<double> rateOf(std::size_t i, const ParticleGas& gas) const override;
   void dilute(double factor) override;
@@ -49,7 +49,7 @@ class ReactorTrees final : public ReactorPopulation {
 
   [[nodiscard]] std::string material() const override { return material_.name; }
   [[nodiscard]] std::vector<Column> columns() const override;
-  void settle() override;
+  void applyDeferred() override;
   [[nodiscard]] std::vector<double> values(const ParticleGas& gas) const override;
   [[nodiscard]] std::vector<Distribution> distributions() const override;
   [[nodiscard]] std::vector<double> distribution(std::size_t k, double logMin, double logMax,

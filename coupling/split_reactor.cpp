@@ -75,10 +75,10 @@ void SplitReactor::react(double h) {
   work_.gasSteps += integrator_.statistics().steps;
   y_.assign(integrator_.state().begin(), integrator_.state().end());
   x_ = end;
-  carryParticles(before);
+  moveParticles(before);
 }
 
-void SplitReactor::carryParticles(const std::vector<double>& before) {
+void SplitReactor::moveParticles(const std::vector<double>& before) {
   const std::size_t count = particles_.size(), mark = mechanism_.numSpecies() + 1 + atRest_.mark();
   const auto moved = [&](std::size_t from, std::size_t to) { return y_[to * block_ + mark + from]; };
   // All as they were before any others joined them.
@@ -117,7 +117,7 @@ double SplitReactor::heatCapacity(Gas::Kept kept, const double* block, double T)
   return std::inner_product(slope.begin(), slope.begin() + static_cast<std::ptrdiff_t>(atRest_.mark()), amounts, gas);
 }
 
-void SplitReactor::book(std::size_t reactor, std::span<const double> gas, std::span<const double> elements) {
+void SplitReactor::recordExchange(std::size_t reactor, std::span<const double> gas, std::span<const double> elements) {
   const std::size_t n = mechanism_.numSpecies();
   const auto& species = particles_[reactor]->species();
   double* y = y_.data() + reactor * block_;
@@ -161,7 +161,7 @@ double SplitReactor::exchange(std::size_t reactor, double h) {
   std::copy(before.begin(), before.end(), y);
   for (std::vector<double>* perVolume : {&taken.gas, &taken.elements})
     for (double& amount : *perVolume) amount *= volume;
-  book(reactor, taken.gas, taken.elements);
+  recordExchange(reactor, taken.gas, taken.elements);
   particles.dilute(gas_.density(x_, y) / middle);
   for (std::size_t i = 0; i < block_; ++i) exchanged[i] = (y[i] - before[i]) / h;
   return change;

@@ -1,25 +1,25 @@
-// A reactor whose particles stand in no Newton matrix, such as an ensemble: gas and particles in turn, by symmetric
-// splitting (Strang 1968). In each step the gas reacts for the first half with the particles at rest, the particles
-// change for all of it in a gas that does not change, and the gas reacts for the second half. The gas that they see is
-// that of the middle of their own exchange, by what they exchanged in the step before, which keeps the second order.
-// What the particles exchange with the gas is booked at once: elements and energy are those of both together, to
-// round-off in that part, to the tolerance of the stiff solver in the other. While the gas reacts, particles take part
-// with their heat, expand with it, and leave with what flows out.
+// A reactor whose particles are not unknowns of the Newton matrix, such as an ensemble: symmetric splitting of gas and
+// particles (Strang 1968). In each step the gas reacts for the first half with the particles at rest, the particles
+// change for the whole step in a constant gas, and the gas reacts for the second half. The constant gas is that of the
+// middle of the exchange, predicted by the exchange of the step before, which keeps the second order. The exchange is
+// added to the gas at once. Elements and energy of gas and particles together are conserved: to round-off in the
+// exchange, to the tolerance of the stiff solver in the reactions. While the gas reacts, particles take part with their
+// heat, expand with the gas, and leave with the outflow.
 //
-// The equations may be those of a network of reactors, each with particles of its own. Each reactor's gas carries a
-// mark for every reactor: after a part of a step they say what part of its mass was where at the beginning, and so how
-// many of which particles are there now. Those that went from one reactor to another join the particles there.
+// The equations may be those of a network of reactors, each with its own particles. The gas of each reactor carries a
+// mark for every reactor. After a part of a step the marks say which part of the mass came from which reactor, and so
+// how many particles each reactor gets from each other.
 //
-// The step follows from what changes in it; a step in which more changes than twice the aim is taken back, unless
-// numerical particles have gone at random in it.
+// The length of a step follows from the changes in it. A step with more than twice the aimed change is rejected, unless
+// numerical particles were removed at random in it.
 //
-// The gas may be given (GasAlong): species that are held are as its equations say, whatever particles exchange of them.
+// The gas may be prescribed (GasAlong): species that are held follow the equations, whatever the particles exchange.
 //
-// Or by a predictor and a corrector, where the particles' species live shorter than the population changes: the gas
-// reacts over the step together with the exchange that the step before leads to expect (ExchangeInGas), the particles
-// change in the mean of this gas over the step, and the gas gets the difference of what they exchanged to what was
-// expected. Of second order as well, and a step may be much longer than a species lives (after Celnik, Patterson,
-// Kraft, Wagner 2009, who take the particles' rates at the beginning and at the end of a step).
+// Predictor and corrector, for species that live shorter than the population changes: the gas reacts over the step
+// together with the predicted exchange (ExchangeInGas), the particles change in the mean of this gas over the step, and
+// the gas gets the difference between the actual and the predicted exchange. Of second order as well, and a step may be
+// much longer than a species lives (after Celnik, Patterson, Kraft, Wagner 2009, who take the particles' rates at the
+// beginning and at the end of a step).
 #pragma once
 
 #include <cstdint>
@@ -35,7 +35,7 @@
 #include "chemistry/reactor/ode_system.hpp"
 #include "chemistry/reactor/stiff_integrator.hpp"
 #include "chemistry/thermo/thermo.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/exchange_in_gas.hpp"
 #include "coupling/particles_at_rest.hpp"
 #include "coupling/reactor_particles.hpp"
@@ -52,25 +52,25 @@ class SplitParticles {
   virtual ~SplitParticles() = default;
   [[nodiscard]] virtual const std::vector<std::string>& elements() const { return sootElements(); }
   [[nodiscard]] static const std::vector<std::string>& sootElements();  // C, H
-  // Where the gas's viscosity comes from, as they see it.
+  // The source of the viscosity of the gas.
   [[nodiscard]] virtual GasViscosity viscosity() const { return GasViscosity::transport; }
   // Of the mechanism, in the order of the gas that `advance` is given.
   [[nodiscard]] virtual const std::vector<std::size_t>& species() const = 0;
   virtual Exchange advance(const ParticleGas& gas, double dt) = 0;
-  // mol/m3/s, at which they gain of the i-th species now: of kinds that know it, and of species for which they do. What
-  // the last step exchanged is expected of the next otherwise, with its noise.
+  // Rate (mol/m3/s) at which the particles gain the i-th species, where a law gives the rate. Without a value the
+  // exchange of the last step, which is noisy, predicts the next one.
   [[nodiscard]] virtual std::optional<double> rateOf(std::size_t, const ParticleGas&) const { return std::nullopt; }
   // Multiplies all amounts per volume.
   virtual void dilute(double factor) = 0;
-  // What there is, as join() of others of the same kind takes it.
+  // The population, as join() of another object of the same type takes it.
   [[nodiscard]] virtual std::vector<double> content() const = 0;
   // Particles of another reactor come in: `share` times its amounts per volume.
   virtual void join(std::span<const double> content, double share) = 0;
-  // There are none, and none can be born of this gas.
+  // Whether there are no particles and no inception in this gas.
   [[nodiscard]] virtual bool idle(const ParticleGas& gas) const = 0;
-  // How many numerical particles have gone at random, to make room, since the beginning.
+  // Number of numerical particles removed at random, to limit their number, since the beginning.
   [[nodiscard]] virtual std::uint64_t removals() const { return 0; }
-  // All that a step may change, for one that is taken back.
+  // Everything that a step may change, for restore() after a rejected step.
   struct State {
     virtual ~State() = default;
   };
@@ -114,10 +114,10 @@ class SplitReactor {
     double largestStep = 0;  // 0: no limit. Fixed, with `fixedStep`
     bool fixedStep = false;
   };
-  // A step before which hardly anything changed is not prepared to be taken back, which would take the memory of all
-  // particles again. Nor is one taken back in which numerical particles have gone at random: what they stood for is
-  // right in the mean over all outcomes, not over those that change the gas little. Where such a step changes too much,
-  // that is counted as `unchecked`.
+  // A step after one with hardly any change cannot be rejected: the particles are not copied, which saves memory. A
+  // step in which numerical particles were removed at random is not rejected either: removal is right in the mean over
+  // all outcomes, not over those that change the gas little. Such steps with too large a change are counted as
+  // `unchecked`.
   struct Work {
     long steps = 0, rejected = 0, gasSteps = 0, unchecked = 0;
   };
@@ -146,15 +146,15 @@ class SplitReactor {
   double splitStep(double h);
   double predictedStep(double h);
   double correctedStep(double h);
-  void expectExchange();
-  [[nodiscard]] std::vector<std::optional<double>> knownRates(const std::vector<double>& concentrations);
+  void predictExchange();
+  [[nodiscard]] std::vector<std::optional<double>> currentRates(const std::vector<double>& concentrations);
   void react(double h);
   // The particles to where the marks say that their gas is. Densities (kg/m3) at the beginning of the part.
-  void carryParticles(const std::vector<double>& before);
+  void moveParticles(const std::vector<double>& before);
   // The particles of a reactor over h; the largest part of a concentration that they take or give.
   double exchange(std::size_t reactor, double h);
   // Adds moles (mol/kg) to the gas and kg/kg to the particles' elements; what is held stays.
-  void book(std::size_t reactor, std::span<const double> gas, std::span<const double> elements);
+  void recordExchange(std::size_t reactor, std::span<const double> gas, std::span<const double> elements);
   [[nodiscard]] bool isHeld(std::size_t species) const { return !gas_.held.empty() && gas_.held[species]; }
   // The largest change of a temperature (by its scale) and of concentrations that particles see.
   [[nodiscard]] double change(std::size_t reactor, double T, std::span<const double> before,

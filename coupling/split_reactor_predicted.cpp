@@ -28,7 +28,7 @@ double SplitReactor::predictedStep(double h) {
 }
 
 // 1/s, by which the particles take or give species in proportion to these concentrations, of those where they know it.
-std::vector<std::optional<double>> SplitReactor::knownRates(const std::vector<double>& concentrations) {
+std::vector<std::optional<double>> SplitReactor::currentRates(const std::vector<double>& concentrations) {
   ParticleGas now = gas(0);
   std::vector<double> seen = concentrations;
   for (double& c : seen) c = std::max(c, negligible(0));
@@ -42,8 +42,8 @@ std::vector<std::optional<double>> SplitReactor::knownRates(const std::vector<do
 }
 
 // What the particles know takes the place of what the last step exchanged.
-void SplitReactor::expectExchange() {
-  known_ = knownRates(means_);
+void SplitReactor::predictExchange() {
+  known_ = currentRates(means_);
   for (std::size_t i = 0; i < known_.size(); ++i) {
     if (!known_[i]) continue;
     const double rate = *known_[i];
@@ -63,7 +63,7 @@ double SplitReactor::correctedStep(double h) {
   const std::vector<double> start(first.concentrations.begin(), first.concentrations.end());
   if (means_.empty()) {
     means_ = start;
-    expectExchange();
+    predictExchange();
   }
 
   // The gas, with the exchange as it is expected.
@@ -99,7 +99,7 @@ double SplitReactor::correctedStep(double h) {
     gasBooked[i] = isHeld(species[i]) ? 0 : taken.gas[i] / density * left - known;
     for (std::size_t e = 0; e < elementsBooked.size(); ++e) elementsBooked[e] += known * expected.perMole(i, e);
   }
-  book(0, gasBooked, elementsBooked);
+  recordExchange(0, gasBooked, elementsBooked);
   particles.dilute(gas_.density(x_, y_.data()) / density * left);
 
   for (std::size_t i = 0; i < species.size(); ++i) {
@@ -111,13 +111,13 @@ double SplitReactor::correctedStep(double h) {
   const bool wasIdle = isIdle && particles.idle(gas(0));
   const double changed = std::min(change(0, before[n], means_, means), change(0, before[n], start, means));
   // And by how much the particles' rates have moved as they changed.
-  const auto now = knownRates(means_);
+  const auto now = currentRates(means_);
   double largest = changed;
   for (std::size_t i = 0; i < now.size(); ++i)
     if (now[i] && *known_[i] != 0 && !isHeld(species[i]))
       largest = std::max(largest, std::abs(*now[i] - *known_[i]) / std::max(std::abs(*now[i]), std::abs(*known_[i])));
   means_ = means;
-  expectExchange();
+  predictExchange();
   return wasIdle ? 0 : largest;
 }
 

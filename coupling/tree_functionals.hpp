@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/reactor_population.hpp"
 #include "particles/trees/tree_material.hpp"
 #include "particles/trees/tree_pool.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/gas_variation.hpp"
 
 namespace lampblack::flow {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/mesh.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::flow {
 

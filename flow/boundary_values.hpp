@@ -5,7 +5,7 @@
 
 #include "chemistry/thermo/thermo.hpp"
 #include "core/mesh.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/boundary.hpp"
 
 namespace lampblack::flow {

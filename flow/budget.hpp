@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/state.hpp"
 #include "flow/transport_operator.hpp"

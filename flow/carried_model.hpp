@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "core/modules.hpp"
 #include "core/particle_gas.hpp"
 #include "core/quantity.hpp"
-#include "core/rooms.hpp"
 
 namespace lampblack::flow {
 

@@ -154,7 +154,7 @@ void CarriedOperator::take(State& state, int cell, double dt, std::span<const do
   std::copy_n(after.begin(), scalars_, densities(state, cell).begin());
 
   for (std::size_t i = scalars_; i < values_.size(); ++i) values_[i] = after[i] - values_[i];
-  exchange_.book(state, cell, species, std::span(values_).subspan(scalars_), given);
+  exchange_.recordExchange(state, cell, species, std::span(values_).subspan(scalars_), given);
 }
 
 void CarriedOperator::setDiffusivities(State& state, int cell, double viscosity) {

@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
+#include "core/modules.hpp"
 #include "core/particle_gas.hpp"
-#include "core/rooms.hpp"
 #include "core/work_sharing.hpp"
 #include "flow/carried_model.hpp"
 #include "flow/flow_context.hpp"

@@ -36,9 +36,8 @@ std::vector<double> CarriedOperator::historyValues(const State& state) {
   const double part = peak_ > 0.0 ? atLimit / peak_ : 0.0;
   if (part > options_.allowedAtLimit)
     raiseTogether(m.comm,
-                  NumericsError(fmt::format("a part {:.2g} of the largest volume fraction of {} stands in the largest "
-                                            "particles that the model can have; "
-                                            "allowed is {:.2g}. {}",
+                  NumericsError(fmt::format("a fraction {:.2g} of the largest volume fraction of {} is in the largest "
+                                            "particles of the model; the limit is {:.2g}. {}",
                                             part, model_.material(), options_.allowedAtLimit, options_.advice)));
   return {peak_, part, steps};
 }

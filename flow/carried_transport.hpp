@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/face_state.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/implicit_diffusion.hpp"

@@ -9,7 +9,7 @@
 #include "core/errors.hpp"
 #include "core/first_error.hpp"
 #include "core/mesh.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::flow {
 

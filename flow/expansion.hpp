@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "core/state_archive.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/gas_properties.hpp"

@@ -15,7 +15,7 @@
 #include <span>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "core/state_archive.hpp"
 #include "flow/flow_context.hpp"
 

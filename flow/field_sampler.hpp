@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/cell_finder.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/gradient.hpp"
 

@@ -1,7 +1,7 @@
 // Whether a state has become something else than numbers, and where; and where time stands still.
 #pragma once
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/state.hpp"
 

@@ -12,7 +12,7 @@
 #include "chemistry/transport/transport.hpp"
 #include "core/halo_exchange.hpp"
 #include "core/mesh.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/boundary.hpp"
 #include "flow/boundary_values.hpp"
 #include "flow/transport_model.hpp"
@@ -98,7 +98,7 @@ struct FlowContext {
 };
 
 // Of what is integrated over a mesh: "N/rad", "N/m" or "N".
-inline std::string unitOfWhole(const Mesh& mesh, const std::string& unit) {
+inline std::string integralUnit(const Mesh& mesh, const std::string& unit) {
   return unit + (mesh.axisymmetric() ? "/rad" : mesh.dimension == 2 ? "/m" : "");
 }
 

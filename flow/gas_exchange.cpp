@@ -2,8 +2,8 @@
 
 namespace lampblack::flow {
 
-void GasExchange::book(State& state, int cell, std::span<const std::size_t> species, std::span<const double> change,
-                       double heat) {
+void GasExchange::recordExchange(State& state, int cell, std::span<const std::size_t> species,
+                                 std::span<const double> change, double heat) {
   const auto n = static_cast<std::size_t>(state.species);
   double* Y = &state.Y[static_cast<std::size_t>(cell) * n];
   const auto W = context_.mechanism.molecularWeights();

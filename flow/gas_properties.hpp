@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "chemistry/transport/multicomponent_transport.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/state.hpp"
 

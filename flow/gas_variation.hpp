@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "chemistry/thermo/thermo.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "core/vector3.hpp"
 
 namespace lampblack::flow {

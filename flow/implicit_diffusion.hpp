@@ -9,7 +9,7 @@
 
 #include "core/halo_exchange.hpp"
 #include "core/mesh.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::flow {
 

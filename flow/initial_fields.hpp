@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/gas_variation.hpp"
 #include "flow/state.hpp"

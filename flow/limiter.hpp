@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/upwind.hpp"
 
 namespace lampblack::flow {

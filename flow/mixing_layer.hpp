@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/state.hpp"
 

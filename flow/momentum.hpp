@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/face_velocity.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/implicit_diffusion.hpp"

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/state.hpp"
 
 namespace lampblack::flow {

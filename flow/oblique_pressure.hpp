@@ -10,9 +10,9 @@
 #include <span>
 #include <vector>
 
+#include "core/modules.hpp"
 #include "core/petsc.hpp"
 #include "core/petsc_callbacks.hpp"
-#include "core/rooms.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/gradient.hpp"
 

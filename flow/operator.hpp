@@ -1,5 +1,5 @@
-// One physical process of a flow: what advances the state, and what it has to say of itself. The run strings operators
-// together and writes what they tell, without knowing which they are.
+// One physical process of a flow: advances the state, and gives columns, fields and lines for the results. A run is a
+// sequence of operators and does not depend on their types.
 #pragma once
 
 #include <concepts>
@@ -11,27 +11,27 @@
 #include <utility>
 #include <vector>
 
+#include "core/modules.hpp"
 #include "core/quantity.hpp"
-#include "core/rooms.hpp"
 #include "core/state_archive.hpp"
 #include "flow/state.hpp"
 
 namespace lampblack::flow {
 
-// What the owned cells cost, in about microseconds of one processor, as operators count it.
+// Cost of the owned cells, about microseconds of one processor, as counted by the operators.
 struct CellCost {
-  std::vector<double> own;     // what the rank that owns the cell has to do itself
-  std::vector<double> shared;  // what work sharing spreads over the ranks, whoever owns the cell
+  std::vector<double> own;     // work of the rank that owns the cell
+  std::vector<double> shared;  // work that work sharing distributes over all ranks
   explicit CellCost(int owned) : own(static_cast<std::size_t>(owned)), shared(own.size()) {}
 };
 
 class Operator {
  public:
-  // Busiest rank's cost over the mean: as the mesh is partitioned, and with work sharing, means over the stages so far.
+  // Load imbalance: cost of the busiest rank over the mean, without and with work sharing; means over all stages.
   struct Imbalance {
     double before = 1.0, after = 1.0;
   };
-  // Takes one field: a value for each owned cell, or as many for each as it has components.
+  // Receives one field: for each owned cell as many values as the field has components.
   struct FieldSink {
     template <typename Take>
     requires std::invocable<Take, const Quantity&, std::span<const double>> FieldSink(Take taker)
@@ -39,9 +39,9 @@ class Operator {
     void operator()(const Quantity& field, std::span<const double> values) const { take(field, values); }
 
     std::function<void(const Quantity&, std::span<const double>)> take;
-    // Whether a field counts: what costs is not worked out for nobody.
+    // Whether a field is used; an operator does not compute unused costly fields.
     std::function<bool(const std::string& name)> wants = [](const std::string&) { return true; };
-    // Whether fields are wanted too that are not known yet, as NaN: a table has its columns from the start.
+    // Whether fields that are not known yet are given too, as NaN: a table has its columns from the start.
     bool future = false;
   };
 
@@ -51,27 +51,28 @@ class Operator {
   // A step is one sweep or several of deferred correction: in each, all operators advance from the beginning of the
   // step to its end. Collective.
   virtual void advance(State& state, double time, double dt) = 0;
-  // Called when all operators have made a sweep, of the transport first, which clears State::balance: adds the mean
-  // rates that the next sweep's transport takes as its sources. Also before the first step, and after loading.
+  // Adds the mean rates that the transport of the next sweep takes as sources to State::balance. Called after each
+  // sweep of all operators, before the first step, and after loading; the transport is called first and clears the
+  // balance.
   virtual void endSweep(State&) {}
-  // Called when the step's last sweep has ended, before endSweep(), before the first step, and after loading: the state
-  // is what the next step begins with.
+  // The state is the start of the next step. Called after the last sweep of a step (before endSweep()), before the
+  // first step, and after loading.
   virtual void endStep(State&) {}
-  // What the operator keeps from step to step besides the state: with both, the next step is the same to the last bit.
-  // Between two steps. Collective.
+  // Saves or loads the data that the operator keeps between two steps, besides the state. With both, the next step is
+  // the same to the last bit. Collective.
   virtual void saveOrLoad(StateArchive&) {}
-  // s, that `advance` may be asked for in this state. Collective.
+  // Largest step (s) that `advance` allows in this state. Collective.
   [[nodiscard]] virtual double largestStep(const State&) { return std::numeric_limits<double>::infinity(); }
 
-  // Adds what each owned cell has cost in the last step. Counted, not timed, so that it is the same in every run.
+  // Adds the cost of each owned cell in the last step. Costs are counted, not timed: every run has the same.
   virtual void addCost(const Mesh&, CellCost&) const {}
 
-  // What a row of the history has of it, and the values now: of the state, or since the last row. Collective.
+  // Columns of the history, and their present values: of the state, or since the last row. Collective.
   [[nodiscard]] virtual std::vector<Quantity> historyColumns() const { return {}; }
   [[nodiscard]] virtual std::vector<double> historyValues(const State&) { return {}; }
-  // Of the last row, for the line that tells how far the run is: "fv 0.1 ppm"; may be empty.
+  // Text for the line of progress, "fv 0.1 ppm", of the last row of the history; may be empty.
   [[nodiscard]] virtual std::string status() const { return {}; }
-  // Of the last row, for the report at the end: a line each.
+  // Lines of the closing report, of the last row of the history.
   [[nodiscard]] virtual std::vector<std::string> closingLines() const { return {}; }
   [[nodiscard]] virtual std::optional<Imbalance> imbalance() const { return {}; }
 

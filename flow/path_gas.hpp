@@ -4,9 +4,9 @@
 
 #include <vector>
 
+#include "core/modules.hpp"
 #include "core/particle_gas.hpp"
 #include "core/place_in_cell.hpp"
-#include "core/rooms.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/gas_properties.hpp"
 #include "flow/state.hpp"

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/gradient.hpp"
 

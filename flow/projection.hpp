@@ -11,8 +11,8 @@
 #include <span>
 #include <vector>
 
+#include "core/modules.hpp"
 #include "core/petsc.hpp"
-#include "core/rooms.hpp"
 #include "core/state_archive.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/oblique_pressure.hpp"

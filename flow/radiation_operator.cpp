@@ -39,7 +39,7 @@ void RadiationOperator::endSweep(State& state) {
 }
 
 std::vector<Quantity> RadiationOperator::historyColumns() const {
-  return {{"radiated_power", unitOfWhole(context_.mesh, "W"), "heat lost by radiation, per radian or metre of depth"}};
+  return {{"radiated_power", integralUnit(context_.mesh, "W"), "heat lost by radiation, per radian or metre of depth"}};
 }
 
 std::vector<double> RadiationOperator::historyValues(const State&) {

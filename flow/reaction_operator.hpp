@@ -16,7 +16,7 @@
 
 #include "chemistry/reactor/reactor.hpp"
 #include "chemistry/reactor/reactor_failure.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "core/work_sharing.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/operator.hpp"

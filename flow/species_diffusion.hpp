@@ -15,7 +15,7 @@
 #include <span>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/detailed_diffusion.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/gas_properties.hpp"

@@ -7,7 +7,7 @@
 
 #include "core/halo_exchange.hpp"
 #include "core/mesh.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "core/state_archive.hpp"
 
 namespace lampblack::flow {

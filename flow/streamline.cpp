@@ -77,7 +77,7 @@ VertexField::Source divergenceOf(const FlowContext& context, const VertexField::
 }
 
 // A path on its way, as it travels.
-struct Traveller {
+struct TracedParticle {
   std::int64_t path, step, cell, crossings;  // `cell`: permanent number
   bool isHalfWay;                            // within the step
   Vector3 begin;                             // m, of the step
@@ -90,7 +90,7 @@ class Tracer {
       : context_(context), mesh_(context.mesh), lines_(lines), timeStep_(timeStep), steps_(steps), traced_(traced) {}
 
   // Goes on until the path ends, or leaves this rank's cells: then true, and `rank` has the next.
-  bool leaves(Traveller& path, int& rank) {
+  bool leaves(TracedParticle& path, int& rank) {
     int cell = mesh_.findOwned(path.cell);
     for (;;) {
       const CellExit exit = exitOf(mesh_, cell, path.from, path.to);
@@ -117,7 +117,7 @@ class Tracer {
 
  private:
   // At the end of a piece: the point it is, and the next piece. False where the path's time is over.
-  bool stepOn(Traveller& path, int cell) {
+  bool stepOn(TracedParticle& path, int cell) {
     path.crossings = 0;
     const PlaceInCell place = placeInCell(mesh_, cell, path.from);
     const Vector3 velocity = lines_.velocityAt(place);
@@ -136,7 +136,7 @@ class Tracer {
   }
 
   // Along a symmetry it goes on; elsewhere on the boundary it ends.
-  bool slides(Traveller& path, int face) {
+  bool slides(TracedParticle& path, int face) {
     if (context_.boundaryOf(face).kind == BoundaryKind::Symmetry) {
       const Vector3& normal = mesh_.normal[face];
       path.to = difference(path.to, scaled(normal, dot(difference(path.to, path.from), normal)));
@@ -148,7 +148,7 @@ class Tracer {
     return false;
   }
 
-  void countCrossing(Traveller& path) const {
+  void countCrossing(TracedParticle& path) const {
     if (++path.crossings <= 4 * mesh_.totalCells + 100) return;
     throw NumericsError(fmt::format("a path of particles at {} finds no way through the cells there",
                                     placeText(path.from, mesh_.dimension)));
@@ -162,19 +162,19 @@ class Tracer {
   TracedPaths& traced_;
 };
 
-std::vector<Traveller> travellersFrom(const Mesh& mesh, std::span<const Vector3> starts) {
+std::vector<TracedParticle> particlesFrom(const Mesh& mesh, std::span<const Vector3> starts) {
   const FoundCells found = findCells(mesh, starts);
-  std::vector<Traveller> travellers;
+  std::vector<TracedParticle> particles;
   for (std::size_t i = 0; i < starts.size(); ++i) {
     if (found.naturalCell[i] < 0)
       raiseTogether(mesh.comm,
                     InputError(fmt::format("a path cannot start at {}: {}", placeText(starts[i], mesh.dimension),
-                                           whereMeshIs(mesh, starts[i]))));
+                                           meshExtentText(mesh, starts[i]))));
     if (found.cell[i] >= 0)
-      travellers.push_back(
+      particles.push_back(
           {static_cast<std::int64_t>(i), 0, found.naturalCell[i], 0, false, starts[i], starts[i], starts[i]});
   }
-  return travellers;
+  return particles;
 }
 
 // Of each path from the rank that knows it, to all.
@@ -216,12 +216,12 @@ TracedPaths Streamlines::trace(std::span<const Vector3> starts, double timeStep,
   const auto steps = static_cast<std::int64_t>(std::ceil(duration / timeStep - 1e-9));
   TracedPaths traced{{}, std::vector<PathEnd>(starts.size())};
   Tracer tracer(context_, *this, timeStep, steps, traced);
-  std::vector<Traveller> here = travellersFrom(m, starts);
+  std::vector<TracedParticle> here = particlesFrom(m, starts);
   for (std::int64_t alive = 1; alive > 0;) {
-    std::vector<Traveller> leaving;
+    std::vector<TracedParticle> leaving;
     std::vector<int> ranks;
     collectively(m.comm, [&] {
-      for (Traveller& path : here)
+      for (TracedParticle& path : here)
         if (int rank = 0; tracer.leaves(path, rank)) {
           leaving.push_back(path);
           ranks.push_back(rank);
@@ -229,7 +229,7 @@ TracedPaths Streamlines::trace(std::span<const Vector3> starts, double timeStep,
     });
     alive = static_cast<std::int64_t>(leaving.size());
     MPI_Allreduce(MPI_IN_PLACE, &alive, 1, MPI_INT64_T, MPI_SUM, m.comm);
-    if (alive > 0) here = RankExchange(m.comm, ranks).there(leaving, 1);
+    if (alive > 0) here = RankExchange(m.comm, ranks).send(leaving, 1);
   }
   shareEnds(m, traced);
   return traced;

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "core/cell_finder.hpp"
+#include "core/modules.hpp"
 #include "core/place_in_cell.hpp"
-#include "core/rooms.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/gas_properties.hpp"
 #include "flow/state.hpp"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/mesh.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/state.hpp"
 
 namespace lampblack::flow {

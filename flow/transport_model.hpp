@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "chemistry/transport/transport.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::flow {
 

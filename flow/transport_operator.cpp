@@ -340,8 +340,8 @@ std::vector<Quantity> TransportOperator::historyColumns() const {
           {"continuity_error", "1/s", "largest error of the projected velocity's divergence"},
           {"pressure_iterations", "1", "of the pressure solve"},
           {"species_iterations", "1", "of the implicit species diffusion"},
-          {"kinetic_energy", unitOfWhole(context_.mesh, "J"), "integral of half the density times velocity squared"},
-          {"enstrophy", unitOfWhole(context_.mesh, "kg/s^2"), "integral of half the density times vorticity squared"}};
+          {"kinetic_energy", integralUnit(context_.mesh, "J"), "integral of half the density times velocity squared"},
+          {"enstrophy", integralUnit(context_.mesh, "kg/s^2"), "integral of half the density times vorticity squared"}};
 }
 
 std::vector<double> TransportOperator::historyValues(const State& state) {

@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/boundary_totals.hpp"
 #include "flow/carried_transport.hpp"
 #include "flow/expansion.hpp"

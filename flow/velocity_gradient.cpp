@@ -77,7 +77,7 @@ void VelocityGradient::findOpposites() {
 // Cells at an outlet that have no face on the other side, such as triangles, know two slopes along it and none across:
 // what leaves along their own gradient would feed itself, along their neighbours' it would where much leaves. It leaves
 // as it is.
-void VelocityGradient::settleOutlets() {
+void VelocityGradient::setOutletGradients() {
   if (!hasOpenCorners_) return;
   const Mesh& m = context_.mesh;
   const auto entries = static_cast<std::ptrdiff_t>(dimension_ * dimension_);
@@ -118,7 +118,7 @@ void VelocityGradient::setBoundary(std::span<const double> velocity) {
 
 void VelocityGradient::compute(std::span<const double> velocity) {
   byLeastSquares_.compute(velocity, boundary_, dimension_, gradient_, known_);
-  settleOutlets();
+  setOutletGradients();
 }
 
 double VelocityGradient::dilatation(int cell, std::span<const double> velocity) const {

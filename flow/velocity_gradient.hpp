@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/gradient.hpp"
 
@@ -45,7 +45,7 @@ class VelocityGradient {
 
  private:
   void findOpposites();
-  void settleOutlets();
+  void setOutletGradients();
   [[nodiscard]] bool isOpenCorner(int face) const;
   [[nodiscard]] Vector3 slopesAlong(int cell, const Vector3& normal) const;
   [[nodiscard]] Vector3 slopesBetween(int face, const Vector3& normal) const;

@@ -201,7 +201,7 @@ class VertexSums {
         ranks.push_back(static_cast<int>(mesh_.vertexNumber[across_[i].vertex] % mesh_.ranks));
       }
       const RankExchange exchange(mesh_.comm, ranks);
-      const std::vector<double> came = exchange.there(rows, static_cast<int>(width_));
+      const std::vector<double> came = exchange.send(rows, static_cast<int>(width_));
       std::vector<double> sums(exchange.received() * components_);
       eachVertex(came, [&](std::span<const double* const> ofOne) {
         for (std::size_t k = 0; k < components_; ++k) {
@@ -210,7 +210,7 @@ class VertexSums {
             sums[static_cast<std::size_t>(row - came.data()) / width_ * components_ + k] = value;
         }
       });
-      sums = exchange.back(sums, source_.components);
+      sums = exchange.reply(sums, source_.components);
       for (std::size_t i = begin; i < next; ++i)
         for (std::size_t k = 0; k < components_; ++k)
           result[across_[i].vertex * components_ + k] = sums[(i - begin) * components_ + k];

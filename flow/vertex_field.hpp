@@ -13,8 +13,8 @@
 #include <span>
 #include <vector>
 
+#include "core/modules.hpp"
 #include "core/place_in_cell.hpp"
-#include "core/rooms.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/gradient.hpp"
 

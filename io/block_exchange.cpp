@@ -47,7 +47,7 @@ BlockExchange::BlockExchange(MPI_Comm comm, std::span<const std::int64_t> global
   first_ = blockStart(total, holders, block);
   if (blockStart(ranks, holders, block) == rank) count_ = blockStart(total, holders, block + 1) - first_;
 
-  positions_ = ranks_.there(globalNumbers, 1);
+  positions_ = ranks_.send(globalNumbers, 1);
   std::vector<int> given(static_cast<std::size_t>(count_), 0);
   for (std::int64_t& position : positions_) {
     position -= first_;
@@ -83,16 +83,16 @@ std::vector<T> BlockExchange::pick(std::span<const T> block, int width) const {
 }
 
 std::vector<double> BlockExchange::toBlock(std::span<const double> values, int width) const {
-  return place(ranks_.there(values, width), width);
+  return place(ranks_.send(values, width), width);
 }
 std::vector<std::int64_t> BlockExchange::toBlock(std::span<const std::int64_t> values, int width) const {
-  return place(ranks_.there(values, width), width);
+  return place(ranks_.send(values, width), width);
 }
 std::vector<double> BlockExchange::fromBlock(std::span<const double> block, int width) const {
-  return ranks_.back(pick(block, width), width);
+  return ranks_.reply(pick(block, width), width);
 }
 std::vector<std::int64_t> BlockExchange::fromBlock(std::span<const std::int64_t> block, int width) const {
-  return ranks_.back(pick(block, width), width);
+  return ranks_.reply(pick(block, width), width);
 }
 
 }  // namespace lampblack::io

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "core/modules.hpp"
 #include "core/rank_exchange.hpp"
-#include "core/rooms.hpp"
 
 namespace lampblack::io {
 

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "core/state_archive.hpp"
 #include "io/block_exchange.hpp"
 #include "io/hdf5_file.hpp"

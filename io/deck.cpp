@@ -7,6 +7,7 @@
 
 #include "core/text_file.hpp"
 #include "io/deck_check.hpp"
+#include "io/deck_former_names.hpp"
 
 namespace lampblack::io {
 namespace {
@@ -51,6 +52,7 @@ Deck::Deck(std::string text, const std::filesystem::path& path, const std::vecto
   root_ = parseDeck(*source);
   for (std::size_t i = 0; i < overrides.size(); ++i) applyOverride(root_, *source, i);
   schema_ = std::make_shared<DeckSchema>(choose(*source, root_));
+  notes_ = replaceFormerNames(*source, *schema_, root_);
   values_ = checkDeck(*source, root_, *schema_);
   for (std::size_t i = 0; i < values_.size(); ++i) index_.emplace(values_[i].path, i);
 }

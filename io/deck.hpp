@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/deck_node.hpp"
 #include "io/deck_schema.hpp"
 
@@ -106,6 +106,8 @@ class Deck {
   [[nodiscard]] std::string resolved() const;
   [[nodiscard]] std::string resolvedJson() const;
 
+  // What the deck should say otherwise: a note for each former name of a key or choice.
+  [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
   [[nodiscard]] const std::filesystem::path& path() const { return source_->path; }
   // A file named in the deck: relative names start from the deck's folder.
   [[nodiscard]] std::filesystem::path resolvePath(const std::string& name) const;
@@ -130,7 +132,8 @@ class Deck {
 
   std::shared_ptr<const DeckSource> source_;
   std::shared_ptr<const DeckSchema> schema_;
-  DeckNode root_;
+  DeckNode root_;  // with the present names of keys and choices
+  std::vector<std::string> notes_;
   std::vector<DeckValue> values_;  // in the order of the schema
   std::map<std::string, std::size_t, std::less<>> index_;
 };

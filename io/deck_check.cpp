@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "core/nearest_name.hpp"
 #include "io/deck_conditions.hpp"
+#include "io/deck_former_names.hpp"
 #include "io/deck_value.hpp"
 
 namespace lampblack::io {
@@ -52,9 +55,13 @@ class Checker {
     std::vector<std::string> here;
     for (const SchemaNode& child : schema.children) here.push_back(child.name);
     std::string hint = didYouMean(node.name, here);
+    if (const std::string present = presentName(schema, node.name); hint.empty() && !present.empty())
+      hint = fmt::format("; did you mean '{}'?", present);
     if (hint.empty()) {  // perhaps it is right elsewhere
       for (const DeckKey& key : schema_.keys()) {
-        if (key.path.ends_with("." + node.name) || key.path == node.name) {
+        const bool isFormer =
+            std::find(key.formerNames.begin(), key.formerNames.end(), node.name) != key.formerNames.end();
+        if (key.path.ends_with("." + node.name) || key.path == node.name || isFormer) {
           hint = fmt::format("; did you mean '{}'?", key.path);
           break;
         }
@@ -139,7 +146,8 @@ const DeckKind& chooseKind(const DeckSource& source, const DeckNode& root, const
                     fmt::format("this key is missing; expected one of: {}", fmt::join(names, ", ")));
   }
   for (const DeckKind& kind : kinds.kinds)
-    if (node->kind == DeckNode::Kind::scalar && node->text == kind.name) return kind;
+    for (const std::string& name : namesOfKind(kind, kinds.key))
+      if (node->kind == DeckNode::Kind::scalar && node->text == name) return kind;
   throw deckError(source, node->at.line > 0 || node->at.overrideIndex >= 0 ? node->at : node->nameAt, kinds.key,
                   fmt::format("expected one of: {}; found {}{}", fmt::join(names, ", "), foundText(*node),
                               didYouMean(node->text, names)));

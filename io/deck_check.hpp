@@ -1,7 +1,7 @@
 // Checks a deck's tree against a schema and reads every value.
 #pragma once
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/deck.hpp"
 
 namespace lampblack::io {

@@ -1,7 +1,7 @@
 // Keys and sections that count only with some choices of another key (DeckKey::onlyWith).
 #pragma once
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/deck.hpp"
 
 namespace lampblack::io {

@@ -105,4 +105,12 @@ InputError deckError(const DeckSource& source, const DeckLocation& at, const std
                                 excerpt(lineOf(source.text, at.line), std::to_string(at.line), at.column, at.length)));
 }
 
+std::string deckPlace(const DeckSource& source, const DeckLocation& at) {
+  if (at.overrideIndex >= 0) {
+    const std::string& text = source.overrides.at(static_cast<std::size_t>(at.overrideIndex));
+    return fmt::format("--set {}", shortened(text.substr(0, text.find('='))));
+  }
+  return at.line == 0 ? source.path.string() : fmt::format("{}:{}", source.path.string(), at.line);
+}
+
 }  // namespace lampblack::io

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::io {
 
@@ -52,6 +52,9 @@ std::string foundText(const DeckNode& node);
 // An InputError "file:line:column: key: message" (or "--set a.b=c: ...") with the line and a caret under the place.
 InputError deckError(const DeckSource& source, const DeckLocation& at, const std::string& key,
                      const std::string& message);
+
+// The same place in a few words, for notes of one line: "file:line", "--set a.b" or the file.
+std::string deckPlace(const DeckSource& source, const DeckLocation& at);
 
 // Reads the file text of `source`, a map at the top. InputError for bad YAML, repeated keys, aliases, several
 // documents.

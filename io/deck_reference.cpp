@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "io/deck_former_names.hpp"
 #include "io/deck_schema.hpp"
 #include "io/json.hpp"
 
@@ -57,6 +58,11 @@ std::string meaning(const std::string& doc, const std::vector<DeckCondition>& co
   return condition.empty() ? doc : doc + " " + condition;
 }
 
+std::string meaning(const DeckKey& key) {
+  const std::string former = formerNameText(key);
+  return meaning(key.doc, key.conditions) + (former.empty() ? "" : " " + former);
+}
+
 // `level`: of the headings.
 void writeMarkdown(const Node& node, int level, std::string& out) {
   std::string rows;
@@ -66,7 +72,7 @@ void writeMarkdown(const Node& node, int level, std::string& out) {
                                  : child.key->presence == Presence::optional ? "-"
                                                                              : "**required**";
     rows += fmt::format("| `{}` | {} | {} | {} |\n", cell(child.path), cell(typeText(*child.key)), cell(standard),
-                        cell(meaning(child.key->doc, child.key->conditions)));
+                        cell(meaning(*child.key)));
   }
   const bool top = node.path.empty();
   if (!rows.empty() || node.section != nullptr) {
@@ -103,6 +109,11 @@ void writeItem(const DeckKey& key, JsonWriter& json) {
     case KeyType::choice:
       json.key("enum").beginArray();
       for (const std::string& choice : key.choices) json.value(choice);
+      for (const auto& [former, present] : key.formerChoices) json.value(former);
+      json.endArray();
+      if (key.formerChoices.empty()) break;
+      json.key("x-former").beginArray();
+      for (const auto& [former, present] : key.formerChoices) json.value(former);
       json.endArray();
       break;
   }
@@ -111,9 +122,11 @@ void writeItem(const DeckKey& key, JsonWriter& json) {
   if (key.maximum) json.field(key.maximum->exclusive ? "exclusiveMaximum" : "maximum", key.maximum->value);
 }
 
-void writeKey(const DeckKey& key, JsonWriter& json) {
+// `isFormer`: under a former name.
+void writeKey(const DeckKey& key, JsonWriter& json, bool isFormer = false) {
   json.beginObject();
-  json.field("description", fmt::format("{} Expected: {}.", meaning(key.doc, key.conditions), expectation(key)));
+  json.field("description", fmt::format("{} Expected: {}.", meaning(key), expectation(key)));
+  if (isFormer) json.field("deprecated", true);
   if (key.isList) {
     json.field("type", "array");
     if (key.count) {
@@ -157,6 +170,11 @@ void writeSchema(const Node& node, JsonWriter& json) {
     if (child.name == "*") continue;
     json.key(child.name);
     writeSchema(child, json);
+    if (child.key == nullptr) continue;
+    for (const std::string& former : child.key->formerNames) {
+      json.key(former);
+      writeKey(*child.key, json, true);
+    }
   }
   json.endObject();
   json.key("required").beginArray();
@@ -214,13 +232,22 @@ std::string jsonSchema(const DeckKinds& kinds) {
   writeTitle(json);
   json.field("type", "object");
   json.key("properties").beginObject().key(kinds.key).beginObject().key("enum").beginArray();
-  for (const DeckKind& kind : kinds.kinds) json.value(kind.name);
+  for (const DeckKind& kind : kinds.kinds)
+    for (const std::string& name : namesOfKind(kind, kinds.key)) json.value(name);
   json.endArray().endObject().endObject();
   json.key("required").beginArray().value(kinds.key).endArray();
   json.key("allOf").beginArray();
   for (const DeckKind& kind : kinds.kinds) {
     json.beginObject().key("if").beginObject().key("properties").beginObject().key(kinds.key).beginObject();
-    json.field("const", kind.name).endObject().endObject().endObject();
+    const std::vector<std::string> names = namesOfKind(kind, kinds.key);
+    if (names.size() == 1) {
+      json.field("const", kind.name);
+    } else {
+      json.key("enum").beginArray();
+      for (const std::string& name : names) json.value(name);
+      json.endArray();
+    }
+    json.endObject().endObject().endObject();
     json.key("then");
     writeSchema(kind.schema.tree(), json);
     json.endObject();

@@ -56,6 +56,11 @@ DeckKey& DeckKey::list(std::size_t n) {
   return *this;
 }
 
+DeckKey& DeckKey::formerly(std::string before) {
+  formerNames.push_back(std::move(before));
+  return *this;
+}
+
 DeckKey& DeckKey::formerly(std::string before, std::string now) {
   formerChoices.emplace_back(std::move(before), std::move(now));
   return *this;
@@ -154,8 +159,22 @@ const DeckSchema::Node* DeckSchema::Node::child(const std::string& childName) co
   return nullptr;
 }
 
+namespace {
+
+// Whether a former name of `key` is the path of `other`.
+bool formerlyNamed(const DeckKey& key, const DeckKey& other) {
+  const std::string section = key.path.substr(0, key.path.rfind('.') + 1);  // with its dot; empty at the top level
+  return std::any_of(key.formerNames.begin(), key.formerNames.end(),
+                     [&](const std::string& name) { return section + name == other.path; });
+}
+
+}  // namespace
+
 DeckSchema& DeckSchema::add(DeckKey key) {
   for (const DeckKey& other : keys_) {
+    if (formerlyNamed(key, other) || formerlyNamed(other, key))
+      throw std::logic_error(
+          fmt::format("deck keys '{}' and '{}': one has the former name of the other", key.path, other.path));
     if (other.path == key.path || other.path.starts_with(key.path + ".") || other.path.starts_with(key.path + "[") ||
         key.path.starts_with(other.path + ".") || key.path.starts_with(other.path + "[")) {
       throw std::logic_error(fmt::format("deck key '{}' clashes with '{}'", key.path, other.path));

@@ -23,7 +23,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/units.hpp"
 
 namespace lampblack::io {
@@ -63,7 +63,10 @@ class DeckKey {
   DeckKey& below(double si);
   DeckKey& list();                   // a list of any length of this type
   DeckKey& list(std::size_t count);  // a list of exactly `count`, for instance a vector
-  // A choice that had another name once: a deck with that name is told the new one.
+  // A former name of this key, without the path of its section (io/deck_former_names.hpp). A deck with the former name
+  // is read as if it had the present one, and a note says what to write.
+  DeckKey& formerly(std::string before);
+  // The same of a choice: `before` is the former name of the choice `now`.
   DeckKey& formerly(std::string before, std::string now);
   // The key counts only with these choices of another key; said twice, both have to hold.
   DeckKey& onlyWith(std::string otherKey, std::vector<std::string> otherChoices);
@@ -73,6 +76,7 @@ class DeckKey {
   std::string doc;
   units::Dimension dimension;
   std::vector<std::string> choices;
+  std::vector<std::string> formerNames;
   std::vector<std::pair<std::string, std::string>> formerChoices;  // before, now
   Presence presence = Presence::required;
   std::string defaultText;
@@ -112,7 +116,7 @@ struct DeckSection {
 
 class DeckSchema {
  public:
-  // std::logic_error for a path declared twice, or a key that is also a section.
+  // std::logic_error for a path declared twice, a key that is also a section, and a former name that is another key.
   DeckSchema& add(DeckKey key);
   DeckSchema& section(std::string path, Presence presence, std::string doc, std::vector<DeckCondition> onlyWith = {});
   DeckSchema& add(const DeckSchema& other);  // everything another schema declares
@@ -141,7 +145,7 @@ class DeckSchema {
 };
 
 // Decks of several kinds, told apart by the choice at one key of the top level ("problem"). The schema of each kind
-// declares that key too, with its own name as the only choice.
+// declares that key too, with its own name as the only choice; former names of a kind are those of the choice.
 struct DeckKind {
   std::string name;
   std::string doc;  // one line

@@ -97,8 +97,6 @@ void readScalar(const DeckKey& key, const std::string& text, DeckValue& value) {
           return;
         }
       }
-      for (const auto& [before, now] : key.formerChoices)
-        if (text == before) throw InputError(fmt::format("'{}' is called '{}' now", before, now));
       throw InputError(mismatch().what() + didYouMean(text, key.choices));
   }
 }

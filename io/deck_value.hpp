@@ -1,7 +1,7 @@
 // One value of a deck read as what its key says it is.
 #pragma once
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/deck.hpp"
 
 namespace lampblack::io {

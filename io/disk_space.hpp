@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "core/system_error.hpp"
 
 namespace lampblack::io {

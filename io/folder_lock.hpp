@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::io {
 

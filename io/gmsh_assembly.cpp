@@ -299,7 +299,7 @@ void GmshAssembly::pairPeriodic() {
     pairs.insert(pairs.end(), {a, b});
   }
   share_.periodic = {};
-  const std::vector<std::int64_t> mine = RankExchange(comm_, destinations).there(pairs, 2);
+  const std::vector<std::int64_t> mine = RankExchange(comm_, destinations).send(pairs, 2);
   for (std::size_t i = 0; i < mine.size(); i += 2) block_.periodic.emplace_back(mine[i], mine[i + 1]);
   std::ranges::sort(block_.periodic);
   block_.periodic.erase(std::unique(block_.periodic.begin(), block_.periodic.end()), block_.periodic.end());

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/mesh_block.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/gmsh_shares.hpp"
 
 namespace lampblack::io {

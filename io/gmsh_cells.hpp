@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/mesh_block.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::io {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/gmsh_stream.hpp"
 
 namespace lampblack::io {

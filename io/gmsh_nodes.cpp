@@ -31,8 +31,8 @@ GmshNodeDirectory::GmshNodeDirectory(MPI_Comm comm, std::span<const std::int64_t
   const RankExchange exchange(comm, ranksOfTags(comm, tags));
   std::vector<std::int64_t> positions(tags.size());
   std::iota(positions.begin(), positions.end(), first);
-  const std::vector<std::int64_t> theirTags = exchange.there(tags, 1);
-  const std::vector<std::int64_t> theirPositions = exchange.there(positions, 1);
+  const std::vector<std::int64_t> theirTags = exchange.send(tags, 1);
+  const std::vector<std::int64_t> theirPositions = exchange.send(positions, 1);
   collectively(comm, [&] {
     entries_.reserve(theirTags.size());
     for (std::size_t i = 0; i < theirTags.size(); ++i) entries_.emplace_back(theirTags[i], theirPositions[i]);
@@ -47,12 +47,12 @@ GmshNodeDirectory::GmshNodeDirectory(MPI_Comm comm, std::span<const std::int64_t
 
 std::vector<std::int64_t> GmshNodeDirectory::positionsOf(std::span<const std::int64_t> tags) const {
   const RankExchange exchange(comm_, ranksOfTags(comm_, tags));
-  std::vector<std::int64_t> answers = exchange.there(tags, 1);
+  std::vector<std::int64_t> answers = exchange.send(tags, 1);
   for (std::int64_t& value : answers) {
     const auto found = std::ranges::lower_bound(entries_, value, {}, [](const auto& entry) { return entry.first; });
     value = found != entries_.end() && found->first == value ? found->second : -1;
   }
-  return exchange.back(answers, 1);
+  return exchange.reply(answers, 1);
 }
 
 }  // namespace lampblack::io

@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "core/mesh_block.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::io {
 

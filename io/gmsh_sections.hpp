@@ -8,7 +8,7 @@
 #include <map>
 #include <string>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/gmsh_groups.hpp"
 #include "io/gmsh_shares.hpp"
 #include "io/gmsh_stream.hpp"

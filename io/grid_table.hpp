@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/units.hpp"
 
 namespace lampblack::io {

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/file_storage.hpp"
 #include "io/hdf5_handle.hpp"
 

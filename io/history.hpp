@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/results_writer.hpp"
 
 namespace lampblack::io {

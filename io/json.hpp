@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::io {
 

@@ -79,8 +79,8 @@ std::vector<double> OrderedRows::toPiece(std::int64_t portion, std::span<const s
     places.push_back(part.place);
     sent.add(std::span(rows[part.row]).subspan(part.from, part.count));
   }
-  places = exchange.there(places, 1);
-  const PackedRows came = exchange.there(sent);
+  places = exchange.send(places, 1);
+  const PackedRows came = exchange.send(sent);
   std::vector<double> values(static_cast<std::size_t>(count(portion)));
   const double* read = came.values.data();
   for (std::size_t i = 0; i < places.size(); read += came.lengths[i++])
@@ -94,10 +94,10 @@ void OrderedRows::fromPiece(std::int64_t portion, std::span<const double> values
   const RankExchange exchange = exchangeOf(comm_, parts);
   std::vector<std::size_t> wanted;  // place and count of each part
   for (const Part& part : parts) wanted.insert(wanted.end(), {part.place, part.count});
-  wanted = exchange.there(wanted, 2);
+  wanted = exchange.send(wanted, 2);
   PackedRows answers;
   for (std::size_t i = 0; i < wanted.size(); i += 2) answers.add(values.subspan(wanted[i], wanted[i + 1]));
-  const PackedRows came = exchange.back(answers);
+  const PackedRows came = exchange.reply(answers);
   const double* read = came.values.data();
   for (const Part& part : parts) {
     std::copy_n(read, part.count, rows[part.row].data() + part.from);

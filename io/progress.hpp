@@ -9,7 +9,7 @@
 #include <iosfwd>
 #include <string>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/time_left.hpp"
 
 namespace lampblack::io {

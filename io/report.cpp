@@ -53,9 +53,9 @@ std::string formatReport(const ClosingReport& report) {
   text += stageRow("other", other, other, other, report.wallTime);
   text += stageRow("total", report.wallTime, report.wallTime, report.wallTime, report.wallTime);
   if (!report.imbalances.empty()) {
-    text += "\nBusiest rank over average   before sharing   after\n";
+    text += "\nLoad imbalance, busiest rank / average:  without sharing    with\n";
     for (const Imbalance& imbalance : report.imbalances) {
-      text += fmt::format("  {:<24} {:>15.2f} {:>7.2f}\n", imbalance.what, imbalance.before, imbalance.after);
+      text += fmt::format("  {:<38} {:>15.2f} {:>7.2f}\n", imbalance.what, imbalance.before, imbalance.after);
     }
   }
   const double cellSteps = static_cast<double>(report.cells) * static_cast<double>(report.steps);

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::io {
 
@@ -18,7 +18,7 @@ struct StageTime {
   double maximum = 0.0;
 };
 
-// Busiest rank over average rank, before and after work sharing: 1 is even.
+// Load imbalance: cost of the busiest rank over the average of all ranks, without and with work sharing. 1: balanced.
 struct Imbalance {
   std::string what;  // "chemistry"
   double before = 1.0;

@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/deck.hpp"
 
 namespace lampblack::io {

@@ -14,16 +14,16 @@ ResultsWriter::ResultsWriter(MPI_Comm comm, std::filesystem::path path, const Ru
                              const FileStorage& storage) {
   const std::size_t n = mesh.globalCell.size();
   const int corners = mesh.corners;
-  agree(comm, isTopology(mesh.dimension, corners), "a mesh to write has cells of a kind that there is not");
-  agree(comm,
-        mesh.connectivity.size() == n * static_cast<std::size_t>(corners) && mesh.cellVolume.size() == n &&
-            mesh.cellCentre.size() == 3 * n && (mesh.owner.empty() || mesh.owner.size() == n) &&
-            mesh.vertexCoordinates.size() == 3 * mesh.globalVertex.size(),
-        "the arrays of a mesh to write do not fit each other");
+  requireOnAllRanks(comm, isTopology(mesh.dimension, corners), "a mesh to write has cells of a kind that there is not");
+  requireOnAllRanks(comm,
+                    mesh.connectivity.size() == n * static_cast<std::size_t>(corners) && mesh.cellVolume.size() == n &&
+                        mesh.cellCentre.size() == 3 * n && (mesh.owner.empty() || mesh.owner.size() == n) &&
+                        mesh.vertexCoordinates.size() == 3 * mesh.globalVertex.size(),
+                    "the arrays of a mesh to write do not fit each other");
   self_ = std::make_unique<Implementation>(comm, std::move(path), mesh, storage);
-  agree(comm, self_->cells.coversOnce(), "a mesh to write has to have each cell on exactly one rank");
+  requireOnAllRanks(comm, self_->cells.coversOnce(), "a mesh to write has to have each cell on exactly one rank");
   const BlockExchange vertices(comm, mesh.globalVertex, mesh.totalVertices, storage.writers);
-  agree(comm, vertices.covers(), "a mesh to write has to have each vertex on a rank");
+  requireOnAllRanks(comm, vertices.covers(), "a mesh to write has to have each vertex on a rank");
 
   self_->describeRun(run);
   hdf5::ParallelFile& file = self_->file;
@@ -70,7 +70,8 @@ ResultsWriter::~ResultsWriter() {
 
 void ResultsWriter::renumber(std::span<const std::int64_t> globalCell) {
   self_->cells = BlockExchange(self_->comm, globalCell, self_->cells.total(), self_->storage.writers);
-  agree(self_->comm, self_->cells.coversOnce(), "a mesh to write has to have each cell on exactly one rank");
+  requireOnAllRanks(self_->comm, self_->cells.coversOnce(),
+                    "a mesh to write has to have each cell on exactly one rank");
 }
 
 void ResultsWriter::beginStep(std::int64_t step, double time) {
@@ -102,8 +103,8 @@ void ResultsWriter::endStep() {
 void ResultsWriter::table(const std::string& path, const std::vector<Quantity>& columns, std::span<const double> rows) {
   if (columns.empty()) throw std::logic_error("a table has no columns");
   const std::size_t width = columns.size();
-  agree(self_->comm, self_->rank != 0 || rows.size() % width == 0,
-        fmt::format("table '{}' does not have whole rows", path));
+  requireOnAllRanks(self_->comm, self_->rank != 0 || rows.size() % width == 0,
+                    fmt::format("table '{}' does not have whole rows", path));
   const std::size_t count = rows.size() / width;
   self_->file.group(path);
   std::vector<double> column(count);

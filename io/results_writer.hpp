@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "core/errors.hpp"
+#include "core/modules.hpp"
 #include "core/quantity.hpp"
-#include "core/rooms.hpp"
 #include "io/file_storage.hpp"
 
 namespace lampblack::io {

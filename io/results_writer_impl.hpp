@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/block_exchange.hpp"
 #include "io/disk_space.hpp"
 #include "io/hdf5_file.hpp"
@@ -33,7 +33,7 @@ inline std::string fromRankZero(std::string text, MPI_Comm comm) {
 }
 
 // The same decision on all ranks, so that a mistake of one ends in the same error on all of them.
-inline void agree(MPI_Comm comm, bool good, const std::string& otherwise) {
+inline void requireOnAllRanks(MPI_Comm comm, bool good, const std::string& otherwise) {
   int flag = good ? 1 : 0;
   MPI_Allreduce(MPI_IN_PLACE, &flag, 1, MPI_INT, MPI_MIN, comm);
   if (flag == 0) throw std::logic_error(otherwise);
@@ -97,8 +97,8 @@ struct ResultsWriter::Implementation {
     if (name.empty() || name.find_first_of("/:") != std::string::npos) {
       throw std::logic_error(fmt::format("'{}' cannot name a field", name));
     }
-    resultswriter::agree(comm, components > 0 && values.size() % static_cast<std::size_t>(components) == 0,
-                         fmt::format("field '{}' does not have its components for each cell", name));
+    resultswriter::requireOnAllRanks(comm, components > 0 && values.size() % static_cast<std::size_t>(components) == 0,
+                                     fmt::format("field '{}' does not have its components for each cell", name));
     std::vector<T> padded;
     if (components == 2) {
       padded.assign(values.size() / 2 * 3, T{0});
@@ -119,8 +119,8 @@ struct ResultsWriter::Implementation {
     dims.resize(static_cast<std::size_t>(count));
     MPI_Bcast(dims.data(), count, MPI_INT64_T, fromRank, comm);
     const std::int64_t size = std::accumulate(dims.begin(), dims.end(), std::int64_t{1}, std::multiplies<>());
-    resultswriter::agree(comm, rank != fromRank || static_cast<std::int64_t>(data.size()) == size,
-                         fmt::format("dataset '{}' does not have as many values as its shape says", name));
+    resultswriter::requireOnAllRanks(comm, rank != fromRank || static_cast<std::int64_t>(data.size()) == size,
+                                     fmt::format("dataset '{}' does not have as many values as its shape says", name));
     const std::int64_t rows = rank != fromRank ? 0 : dims.empty() ? 1 : dims[0];
     file.write(name, dims, 0, rows, data.data());
     describe(name, unit, description);

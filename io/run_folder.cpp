@@ -122,7 +122,7 @@ RunFolder RunFolder::prepare(const fs::path& path, bool force, MPI_Comm comm) {
   return {path, prepareTogether(path, force ? Earlier::replaced : Earlier::refused, comm)};
 }
 
-RunFolder RunFolder::goOn(const fs::path& path, MPI_Comm comm) {
+RunFolder RunFolder::resume(const fs::path& path, MPI_Comm comm) {
   return {path, prepareTogether(path, Earlier::continued, comm)};
 }
 

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/folder_lock.hpp"
 
 namespace lampblack::io {
@@ -22,7 +22,7 @@ class RunFolder {
   // (those named below and no others) are removed.
   static RunFolder prepare(const std::filesystem::path& path, bool force, MPI_Comm comm);
   // Collective. The same for a run that goes on from a checkpoint of this folder, and keeps the checkpoints.
-  static RunFolder goOn(const std::filesystem::path& path, MPI_Comm comm);
+  static RunFolder resume(const std::filesystem::path& path, MPI_Comm comm);
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   [[nodiscard]] std::filesystem::path results() const { return path_ / "results.h5"; }

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/report.hpp"
 
 namespace lampblack::io {

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/units.hpp"
 
 namespace lampblack::io {

@@ -39,7 +39,7 @@ int writeOver(int file, std::string_view tail, std::string_view text, std::int64
 
 }  // namespace
 
-bool XdmfFile::isAsLeft() const {
+bool XdmfFile::isUnchanged() const {
   std::error_code error;
   const auto size = std::filesystem::file_size(path_, error);
   return !error && end_ > 0 && size == static_cast<std::uintmax_t>(end_);
@@ -47,7 +47,7 @@ bool XdmfFile::isAsLeft() const {
 
 std::size_t XdmfFile::update(const std::string& file, const std::vector<XdmfStep>& steps) {
   std::string text;
-  if (file != file_ || steps.size() < told_ || !isAsLeft()) {
+  if (file != file_ || steps.size() < told_ || !isUnchanged()) {
     text = xdmfText(file, mesh_, steps);
     writeFileAtomically(path_, text);
     end_ = static_cast<std::int64_t>(text.size());

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/xdmf.hpp"
 
 namespace lampblack::io {
@@ -30,7 +30,7 @@ class XdmfFile {
   std::size_t update(const std::string& file, const std::vector<XdmfStep>& steps);
 
  private:
-  [[nodiscard]] bool isAsLeft() const;
+  [[nodiscard]] bool isUnchanged() const;
 
   std::filesystem::path path_;
   XdmfMesh mesh_;

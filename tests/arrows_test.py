@@ -1,6 +1,6 @@
-"""No #include goes against the arrows of docs/architecture.md: from room to room, nor between the folders of a room.
+"""No #include goes against the arrows of docs/architecture.md: from module to module, nor between the folders of a module.
 
-A template or an inline function of a forbidden room needs no library, so that linking alone does not find it. What a room
+A template or an inline function of a forbidden module needs no library, so that linking alone does not find it. What a module
 may know is what its CMakeLists.txt links; the page's column "knows" has to say the same. The order of the folders of
 chemistry and particles is that of the page.
 
@@ -14,31 +14,31 @@ from pathlib import Path
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]', re.M)
 
 
-def rooms_linked(root):
-    """Room -> rooms it links, from lampblack_room(...) of each folder."""
+def modules_linked(root):
+    """Module -> modules it links, from lampblack_module(...) of each folder."""
     linked = {}
     for file in sorted(root.glob("*/CMakeLists.txt")):
-        call = re.search(r"lampblack_room\((\w+)(.*?)\)", re.sub(r"#.*", "", file.read_text()), re.S)
+        call = re.search(r"lampblack_module\((\w+)(.*?)\)", re.sub(r"#.*", "", file.read_text()), re.S)
         if call:
             linked[call[1]] = set(re.findall(r"\blampblack_(\w+)", call[2]))
     return linked
 
 
-def rooms_on_page(page, rooms):
-    """Room -> rooms it knows, from the first table of the page."""
+def modules_on_page(page, modules):
+    """Module -> modules it knows, from the first table of the page."""
     known = {}
     for name, knows in re.findall(r"^\| `(\w+)/` \| ([^|]*) \|", page, re.M):
-        if name in rooms:
-            known[name] = rooms - {name} if knows.strip() == "all" else set(re.findall(r"`(\w+)`", knows))
+        if name in modules:
+            known[name] = modules - {name} if knows.strip() == "all" else set(re.findall(r"`(\w+)`", knows))
     return known
 
 
-# Rooms with folders that the page lists, each building on those before it.
+# Modules with folders that the page lists, each building on those before it.
 ORDERED = ("chemistry", "particles")
 
 
-def folders_on_page(page, room):
-    return re.findall(rf"^\| `{room}/(\w+)/` \|", page, re.M)
+def folders_on_page(page, module):
+    return re.findall(rf"^\| `{module}/(\w+)/` \|", page, re.M)
 
 
 def includes(root, folder):
@@ -50,35 +50,35 @@ def includes(root, folder):
 
 def wrong_arrows(root):
     page = (root / "docs/architecture.md").read_text()
-    linked = rooms_linked(root)
-    known = rooms_on_page(page, set(linked))
+    linked = modules_linked(root)
+    known = modules_on_page(page, set(linked))
     wrong = []
-    for room in linked:
-        if known.get(room) != linked[room]:
-            wrong.append(f"docs/architecture.md says that {room} knows {sorted(known.get(room, []))}, "
-                         f"{room}/CMakeLists.txt that it links {sorted(linked[room])}")
-        for file, target in includes(root, room):
+    for module in linked:
+        if known.get(module) != linked[module]:
+            wrong.append(f"docs/architecture.md says that {module} knows {sorted(known.get(module, []))}, "
+                         f"{module}/CMakeLists.txt that it links {sorted(linked[module])}")
+        for file, target in includes(root, module):
             other = target.split("/")[0]
-            if ".." in target or (other in linked and other != room and other not in linked[room]):
-                wrong.append(f"{file}: {room} may not know {target}")
-    for room in (room for room in ORDERED if room in linked):
-        order = folders_on_page(page, room)
+            if ".." in target or (other in linked and other != module and other not in linked[module]):
+                wrong.append(f"{file}: {module} may not know {target}")
+    for module in (module for module in ORDERED if module in linked):
+        order = folders_on_page(page, module)
         for place, folder in enumerate(order):
-            for file, target in includes(root, f"{room}/{folder}"):
-                later = [f for f in order[place + 1:] if target.startswith(f"{room}/{f}/")]
+            for file, target in includes(root, f"{module}/{folder}"):
+                later = [f for f in order[place + 1:] if target.startswith(f"{module}/{f}/")]
                 if later:
-                    wrong.append(f"{file}: {target} builds on {room}/{folder}, not the other way round")
-        present = {path.name for path in (root / room).iterdir() if path.is_dir()}
+                    wrong.append(f"{file}: {target} builds on {module}/{folder}, not the other way round")
+        present = {path.name for path in (root / module).iterdir() if path.is_dir()}
         if present != set(order):
-            wrong.append(f"docs/architecture.md has the folders {sorted(order)} of {room}, there are {sorted(present)}")
+            wrong.append(f"docs/architecture.md has the folders {sorted(order)} of {module}, there are {sorted(present)}")
     return wrong
 
 
 def toy(root):
-    """A house of two rooms with one include against each kind of arrow, and some that may be."""
+    """A source tree of two modules with one include against each kind of arrow, and some that may be."""
     files = {
-        "core/CMakeLists.txt": "lampblack_room(core SOURCES a.cpp PUBLIC MPI::MPI_CXX)",
-        "chemistry/CMakeLists.txt": "lampblack_room(chemistry SOURCES b.cpp PUBLIC lampblack_core)",
+        "core/CMakeLists.txt": "lampblack_module(core SOURCES a.cpp PUBLIC MPI::MPI_CXX)",
+        "chemistry/CMakeLists.txt": "lampblack_module(chemistry SOURCES b.cpp PUBLIC lampblack_core)",
         "core/a.hpp": '#include <vector>\n#include "chemistry/thermo/b.hpp"\ntemplate <class T> T twice(T x);',
         "core/c.hpp": '#include "../chemistry/thermo/b.hpp"',
         "core/d.hpp": '  #  include <chemistry/thermo/b.hpp>',
@@ -106,7 +106,7 @@ def check_the_checker():
 def main():
     check_the_checker()
     root = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).resolve().parents[1]
-    assert len(rooms_linked(root)) >= 6, "the rooms are not where this test looks for them"
+    assert len(modules_linked(root)) >= 6, "the modules are not where this test looks for them"
     wrong = wrong_arrows(root)
     for line in wrong:
         print(line)

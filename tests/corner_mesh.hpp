@@ -8,7 +8,7 @@
 #include "core/box_mesh.hpp"
 #include "core/grading.hpp"
 #include "core/mesh_block.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/world.hpp"
 
 namespace lampblack::test {

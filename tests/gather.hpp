@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/mesh.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 

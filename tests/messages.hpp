@@ -4,7 +4,7 @@
 #include <exception>
 #include <string>
 
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 

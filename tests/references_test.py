@@ -12,10 +12,10 @@ import tempfile
 import unicodedata
 from pathlib import Path
 
-ROOMS = "app chemistry core coupling flow io particles tests"
+MODULES = "app chemistry core coupling flow io particles tests"
 # Not the mechanisms: their heads are full references, which go where the file goes.
 PLACES = ["docs/theory/**/*.md", "docs/verification.md", "README.md", "cases/**/*.md", "cases/[!m]*/**/*.yaml",
-          "scripts/**/*", *(f"{room}/**/*.[ch]pp" for room in ROOMS.split())]
+          "scripts/**/*", *(f"{module}/**/*.[ch]pp" for module in MODULES.split())]
 ENTRY = re.compile(r"^- \[([A-Za-z]+?)(\d{4})([a-z]?)\] (.+)$", re.M)
 NAME = r"(?:(?:von|van|Van|Le|de) )?[A-Z][a-zé-íóöøüß]+(?:[A-Z][a-z]+)?(?:-[A-Z][a-z]+)?"
 CITATION = re.compile(rf"({NAME}(?:(?:, and |, | and |,? & ){NAME})*)(?: et al\.| with others)?(?:'s?|,)? "

@@ -8,7 +8,7 @@
 #include <string>
 #include <system_error>
 
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 

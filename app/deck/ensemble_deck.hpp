@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/deck.hpp"
 #include "particles/ensemble/ensemble.hpp"
 #include "particles/ensemble/size_bins.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/deck.hpp"
 #include "particles/soot/soot_fragmentation.hpp"
 

@@ -1,7 +1,7 @@
 // The section `radiation` of flames and flows.
 #pragma once
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/radiation.hpp"
 #include "io/deck.hpp"
 #include "io/deck_schema.hpp"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/deck.hpp"
 #include "particles/ensemble/size_bins.hpp"
 

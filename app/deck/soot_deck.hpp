@@ -7,7 +7,7 @@
 #include "app/deck/soot_models/soot_models.hpp"
 #include "chemistry/mechanism/mechanism.hpp"
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/deck.hpp"
 #include "particles/gas/soot_gas.hpp"
 #include "particles/models/particle_model.hpp"

@@ -7,7 +7,7 @@
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/reactor/temperature_profile.hpp"
 #include "chemistry/thermo/temperature_range.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/deck.hpp"
 
 namespace lampblack::app {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "chemistry/mechanism/mechanism.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/transport_model.hpp"
 #include "io/deck.hpp"
 #include "io/deck_schema.hpp"

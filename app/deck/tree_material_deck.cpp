@@ -106,9 +106,10 @@ void addSintering(DeckSchema& schema) {
                      "default; titania by grain_boundary: 7.4e16 s/m^4/K (Kobata, Kusakabe, Morooka 1991).")
                .optional()
                .above(0))
-      .add(quantityKey(s + "temperature", units::temperature,
+      .add(quantityKey(s + "activation_temperature", units::temperature,
                        "Activation energy E of sintering over the gas constant; silica: 1.2e5 K, its default; titania "
                        "by grain_boundary: 3.1e4 K; absent with other materials: 0 K.")
+               .formerly("temperature")
                .optional()
                .atLeast(0))
       .add(quantityKey(s + "critical_diameter", units::length,
@@ -145,7 +146,7 @@ SinteringLaw readSintering(const Deck& deck, SinteringLaw law) {
   const std::string s = "particles.sintering.";
   if (const auto name = deck.optionalString(s + "mechanism")) law.mechanism = mechanismOf(*name);
   law.prefactor = deck.optionalNumber(s + "prefactor").value_or(law.prefactor);
-  law.temperature = deck.optionalQuantity(s + "temperature").value_or(law.temperature);
+  law.temperature = deck.optionalQuantity(s + "activation_temperature").value_or(law.temperature);
   law.critical = deck.optionalQuantity(s + "critical_diameter").value_or(law.critical);
   law.size = deck.choice(s + "size") == "smaller" ? SinteringLaw::Size::smaller : SinteringLaw::Size::volumeToSurface;
   law.between =
@@ -156,7 +157,8 @@ SinteringLaw readSintering(const Deck& deck, SinteringLaw law) {
   if (law.between == SinteringLaw::Between::parts && law.size == SinteringLaw::Size::smaller)
     throw deck.error(s + "size", "parts of an aggregate sinter by 'volume_to_surface'");
   if (law.active() && !(law.prefactor > 0))
-    throw deck.error("particles.sintering", "this mechanism needs the key 'prefactor', and most a 'temperature'");
+    throw deck.error("particles.sintering",
+                     "this mechanism needs the key 'prefactor', and most an 'activation_temperature'");
   return law;
 }
 

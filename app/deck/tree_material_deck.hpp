@@ -2,7 +2,7 @@
 #pragma once
 
 #include "chemistry/mechanism/mechanism.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/deck.hpp"
 #include "particles/trees/tree_material.hpp"
 

@@ -75,10 +75,12 @@ void addRuns(DeckSchema& schema) {
                .list()
                .optional()
                .atLeast(0))
-      .add(quantityKey("particles.full_at", units::perVolume,
-                       "Number density at which an empty sample is full first: about the largest that there will be. "
-                       "Far above it the sample stays small and scatters, which the report tells; far below, particles "
-                       "are removed at random, which is right in the mean.")
+      .add(quantityKey(
+               "particles.expected_number", units::perVolume,
+               "Expected largest number density: an empty sample is full when it first reaches this density. A value "
+               "far too large leaves the sample small and noisy, which the report says; with a value far too "
+               "small particles are removed at random, which is right in the mean.")
+               .formerly("full_at")
                .byDefault("1e18 1/m^3")
                .above(0))
       .add(integerKey("particles.repeats", "Number of independent repeats, from which mean and confidence follow.")
@@ -125,7 +127,7 @@ std::vector<double> risingEdges(const Deck& deck, const std::string& key, std::v
 }
 
 bool isAlong(const Deck& deck) {
-  return deck.choice("problem") == "particles_along";
+  return deck.choice("problem") == "prescribed_gas";
 }
 
 bool isPlugFlow(const Deck& deck) {
@@ -180,7 +182,7 @@ void addTreeReactorKeys(DeckSchema& schema) {
   addClasses(schema);
 }
 
-void addTreeAlongKeys(DeckSchema& schema) {
+void addTreePrescribedGasKeys(DeckSchema& schema) {
   addTreeKeys(schema,
               "Particles as trees of primaries that share surface, by Monte Carlo, by repeats of independent random "
               "numbers.",
@@ -226,7 +228,7 @@ TreeRequest readTrees(const Deck& deck, const Mechanism& mechanism) {
   request.viscosity = deck.optionalString(viscosity).value_or(isSoot ? "transport" : "air") == "air"
                           ? GasViscosity::air
                           : GasViscosity::transport;
-  options.fullAt = deck.quantity("particles.full_at");
+  options.fullAt = deck.quantity("particles.expected_number");
   options.seed = deck.integer<std::uint64_t>("particles.seed");
   if (deck.has("particles.initial.number") != deck.has("particles.initial.units"))
     throw deck.error("particles.initial", "particles at the start need both 'number' and 'units'");

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/reactor_trees.hpp"
 #include "io/deck.hpp"
 #include "particles/ensemble/size_bins.hpp"
@@ -28,7 +28,7 @@ void addTreeKeys(DeckSchema& schema, const std::string& description, const std::
 // With those of a reactor.
 void addTreeReactorKeys(DeckSchema& schema);
 // With those of particles along a given gas.
-void addTreeAlongKeys(DeckSchema& schema);
+void addTreePrescribedGasKeys(DeckSchema& schema);
 
 // Of a deck with the section, what all problems have. InputError, pointing into the deck.
 [[nodiscard]] TreeOptions readTreeOptions(const Deck& deck, const Mechanism& mechanism);

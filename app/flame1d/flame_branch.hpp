@@ -10,7 +10,7 @@
 
 #include "app/flame1d/flame_case.hpp"
 #include "app/flame1d/flame_soot_output.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/flame/flame_fields.hpp"
 #include "io/results_writer.hpp"
 

@@ -111,7 +111,7 @@ void readConfiguration(const Deck& deck, FlameCase& flame) {
     requireTemperatureOfInlet(deck, problem);
   }
   if (problem.type == FlameType::Free)
-    if (const std::string reason = whyItCannotBurn(*flame.mechanism, problem); !reason.empty())
+    if (const std::string reason = inertReason(*flame.mechanism, problem); !reason.empty())
       throw deck.error("inlet", reason + "; a free flame has to burn");
 }
 
@@ -212,8 +212,8 @@ void requirePaths(const Deck& deck, const FlameCase& flame) {
     fastest = std::max(
         fastest, stream.massFlux / Thermo(*flame.mechanism).density(stream.temperature, problem.pressure, stream.Y));
   }
-  if (const double slowest = deck.quantity("stochastic.slowest"); slowest >= fastest)
-    throw deck.error("stochastic.slowest",
+  if (const double slowest = deck.quantity("stochastic.minimum_velocity"); slowest >= fastest)
+    throw deck.error("stochastic.minimum_velocity",
                      fmt::format("expected less than {:.4g} m/s, with which the gas comes in, found {:g} m/s: no "
                                  "ensemble would be left",
                                  fastest, slowest));

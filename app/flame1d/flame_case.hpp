@@ -9,7 +9,7 @@
 
 #include "app/flame1d/flame_stochastic_deck.hpp"
 #include "chemistry/mechanism/mechanism.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/carried_particles.hpp"
 #include "flow/flame/flame_continuation.hpp"
 #include "flow/flame/flame_problem.hpp"

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/flame_ensemble.hpp"
 #include "io/results_writer.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/flame/initial_flame.hpp"
 #include "io/results_writer.hpp"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/flame1d/flame_case.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/flame/flame_profile.hpp"
 #include "io/history.hpp"
 #include "io/results_writer.hpp"

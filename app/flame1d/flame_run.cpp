@@ -111,7 +111,8 @@ Attempt solve(MPI_Comm comm, FlameCase& flame, const std::vector<FlameProfile>& 
       std::ranges::all_of(attempt.stochastic->paths,
                           [](const FlameEnsemblePath& path) { return path.path.path.points.empty(); }))
     attempt.failure =
-        "no ensemble: nowhere do particles move into the flame faster than 'stochastic.slowest'; a smaller value, or a "
+        "no ensemble: nowhere do particles move into the flame faster than 'stochastic.minimum_velocity'; a smaller "
+        "value, or a "
         "'stochastic.start' inside the flame";
   return attempt;
 }

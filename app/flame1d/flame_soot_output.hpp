@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/carried_particles.hpp"
 #include "flow/flame/flame_fields.hpp"
 #include "io/results_writer.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/flame1d/flame_stochastic_deck.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/flame_coupling.hpp"
 #include "io/json.hpp"
 #include "io/results_writer.hpp"

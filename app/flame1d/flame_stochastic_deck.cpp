@@ -14,17 +14,19 @@ void addStochasticKeys(DeckSchema& schema) {
                   "section soot, whose PAH, surface and switches are theirs.");
   addRepeatKeys(schema);
   schema
-      .add(choiceKey("stochastic.coupled", {"decoupled", "two_way"},
+      .add(choiceKey("stochastic.coupling", {"decoupled", "two_way"},
                      "decoupled: the flame as solved with soot.model, whose exchange with the gas stands for the "
                      "ensemble's; two_way: iterated until the gas sees what the ensemble exchanges.")
+               .formerly("coupled")
                .byDefault("decoupled"))
       .add(quantityKey("stochastic.start", units::length,
                        "Distance at which paths start, from the end of the domain that particles come from; absent: at "
                        "that end.")
                .optional()
                .atLeast(0))
-      .add(quantityKey("stochastic.slowest", units::velocity,
+      .add(quantityKey("stochastic.minimum_velocity", units::velocity,
                        "A path ends where the particles are slower than this, near the stagnation plane.")
+               .formerly("slowest")
                .byDefault("1 mm/s")
                .above(0))
       .add(quantityKey("stochastic.heights", units::length, "Positions at which size distributions are written.")
@@ -33,27 +35,27 @@ void addStochasticKeys(DeckSchema& schema) {
       .add(integerKey("stochastic.iterations", "Largest number of iterations between gas and ensemble.")
                .byDefault("10")
                .atLeast(1)
-               .onlyWith("stochastic.coupled", {"two_way"}))
+               .onlyWith("stochastic.coupling", {"two_way"}))
       .add(numberKey("stochastic.relaxation",
                      "Weight of the new exchange between gas and ensemble in an iteration, the rest being the old one: "
                      "smaller is steadier and slower.")
                .byDefault("0.7")
                .above(0)
                .atMost(1)
-               .onlyWith("stochastic.coupled", {"two_way"}))
+               .onlyWith("stochastic.coupling", {"two_way"}))
       .add(numberKey("stochastic.tolerance",
                      "The iteration has converged where volume fraction, temperature and acetylene change relatively "
                      "by less than this.")
                .byDefault("0.01")
                .above(0)
-               .onlyWith("stochastic.coupled", {"two_way"}));
+               .onlyWith("stochastic.coupling", {"two_way"}));
 }
 
 std::optional<StochasticRequest> readStochastic(const Deck& deck, const SootModelOptions& soot, double length,
                                                 bool bothSides) {
   if (!deck.has("stochastic")) return std::nullopt;
   StochasticRequest request;
-  request.twoWay = deck.choice("stochastic.coupled") == "two_way";
+  request.twoWay = deck.choice("stochastic.coupling") == "two_way";
   FlameCouplingOptions& coupling = request.coupling;
   coupling.iterations = deck.integer<std::size_t>("stochastic.iterations");
   coupling.relaxation = deck.number("stochastic.relaxation");
@@ -64,7 +66,7 @@ std::optional<StochasticRequest> readStochastic(const Deck& deck, const SootMode
   ensemble.repeats = given.repeats;
   ensemble.march.bins = given.bins;
   FlamePathOptions path;
-  path.slowest = deck.quantity("stochastic.slowest");
+  path.slowest = deck.quantity("stochastic.minimum_velocity");
   path.start = deck.optionalQuantity("stochastic.start");
   if (path.start && *path.start >= length)
     throw deck.error("stochastic.start", fmt::format("expected less than the flame's length of {:g} m", length));

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/flame_coupling.hpp"
 #include "io/deck.hpp"
 

@@ -36,7 +36,7 @@ void CellCosts::adopt(int ranks, std::vector<double> weights) {
   ranks_ = ranks;
 }
 
-void CellCosts::wasTried(bool hasHelped) {
+void CellCosts::recordRepartition(bool hasHelped) {
   lastTry_ = steps_;
   if (hasHelped) ++partitions_;
   patience_ = hasHelped ? averagedSteps : 2 * patience_;

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "core/state_archive.hpp"
 #include "flow/operator.hpp"
 
@@ -34,7 +34,7 @@ class CellCosts {
   // Whether it is time to look at the imbalance: some steps after the last partition, or after one that would not have
   // helped, more and more of them then.
   [[nodiscard]] bool isDue() const { return steps_ - lastTry_ >= patience_; }
-  void wasTried(bool hasHelped);
+  void recordRepartition(bool hasHelped);
   [[nodiscard]] std::int64_t partitions() const { return partitions_; }  // since the run's start
 
   void saveOrLoad(StateArchive& archive);

@@ -200,8 +200,8 @@ std::shared_ptr<CellParticles> readCellSoot(const Deck& deck, const FlowCase& fl
                      "ensembles in the cells take the place of a model: leave this out, or the section 'stochastic'");
   EnsembleOptions options = readEnsemble(deck, readSootModelOptions(deck, *flowCase.mechanism, {})).soot;
   options.seed = flowCase.seed;
-  options.leastNumberDensity = options.startNumberDensity = deck.quantity("stochastic.least_number");
-  options.shareAtOnce = deck.number("stochastic.share_at_once");
+  options.leastNumberDensity = options.startNumberDensity = deck.quantity("stochastic.minimum_number_density");
+  options.bundledGrowth = deck.number("stochastic.bundled_growth");
   return makeCellParticles(deck, "stochastic",
                            [&] { return std::make_shared<CellSoot>(*flowCase.mechanism, options); });
 }
@@ -214,14 +214,14 @@ std::shared_ptr<CellParticles> readCellTrees(const Deck& deck, const FlowCase& f
   if (deck.isGiven("soot.model") && deck.choice("soot.model") != "none")
     throw deck.error("soot.model", "trees in the cells take the place of a model: leave this out, or 'particles'");
   for (const char* key :
-       {"method", "particles", "shape", "active_sites", "keep_hydrogen", "growth", "split_tolerance", "share_at_once"})
+       {"method", "particles", "shape", "active_sites", "keep_hydrogen", "growth", "split_tolerance", "bundled_growth"})
     if (const std::string full = std::string("stochastic.") + key; deck.isGiven(full))
       throw deck.error(full, "this is of soot; what trees of primaries are like is said in the section 'particles'");
   TreeOptions options = readTreeOptions(deck, *flowCase.mechanism);
   if (deck.has("soot") && options.material.soot() == nullptr)
     throw deck.error("soot", "the trees of 'particles' are of another material: leave this out");
   options.seed = flowCase.seed;
-  options.fullAt = deck.quantity("stochastic.least_number");
+  options.fullAt = deck.quantity("stochastic.minimum_number_density");
   return makeCellParticles(deck, "particles",
                            [&] { return std::make_shared<CellTrees>(*flowCase.mechanism, options); });
 }
@@ -234,8 +234,8 @@ void readEnsembles(const Deck& deck, FlowCase& flowCase) {
   options.sizes = deck.boolean("stochastic.size_distribution");
   const bool isTwoWay = deck.choice("stochastic.exchange") == "two_way";
   options.exchange = isTwoWay ? EnsembleOperator::Exchange::TwoWay : EnsembleOperator::Exchange::OneWay;
-  if (isTwoWay) options.average = deck.quantity("stochastic.average");
-  options.holdGas = deck.optionalQuantity("stochastic.hold_gas");
+  if (isTwoWay) options.average = deck.quantity("stochastic.averaging_time");
+  options.frozenFrom = deck.optionalQuantity("stochastic.frozen_gas");
   options.diffusion = !deck.has("soot") || deck.boolean("soot.diffusion");
   options.secondOrder = deck.choice("stochastic.order") == "second";
   options.shareWork = flowCase.chemistry.shareWork;

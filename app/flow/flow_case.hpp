@@ -9,7 +9,7 @@
 
 #include "chemistry/mechanism/mechanism.hpp"
 #include "core/mesh.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/ensemble_operator.hpp"
 #include "flow/boundary.hpp"
 #include "flow/carried_model.hpp"
@@ -83,7 +83,7 @@ struct TrajectoryRequest {
   double splitTolerance = 0.01;  // relative change of an ensemble in a splitting step
   SizeBins bins;
   SootModelOptions soot;
-  bool gasTables = false;    // the gas of each path as a table for particles_along
+  bool gasTables = false;    // the gas of each path as a table for prescribed_gas
   std::optional<Deck> deck;  // whose lines messages point at
 };
 

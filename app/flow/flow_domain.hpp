@@ -7,7 +7,7 @@
 
 #include "app/flow/flow_case.hpp"
 #include "core/halo_exchange.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/ensemble_operator.hpp"
 #include "flow/budget.hpp"
 #include "flow/carried_operator.hpp"

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "app/flow/flow_case.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::app {
 

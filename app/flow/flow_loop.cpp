@@ -20,15 +20,15 @@ FlowLoop::FlowLoop(MPI_Comm comm, FlowCase flowCase)
       thermo_(*case_.mechanism),
       transport_(*case_.mechanism, case_.transport.averaged()),
       domain_(std::make_unique<FlowDomain>(makeMesh(comm, case_), case_, thermo_, transport_,
-                                           keepingFailedCells(case_.chemistry))),
+                                           withFailedCellFiles(case_.chemistry))),
       operators_(domain_->operators),
       quality_(domain_->mesh),
       costs_(domain_->mesh),
       repartitions_(case_.repartition.has_value() && domain_->mesh.ranks > 1),
-      kept_(domain_->mesh.owned, domain_->mesh.faces),
+      backup_(domain_->mesh.owned, domain_->mesh.faces),
       wallLimit_(case_.time.wallLimit) {
   domain_->setStart(case_);
-  beginNext();
+  beginNextStep();
   domain_->beginBudget(case_);
   tables_ = std::make_unique<FlowTables>(domain_->context, case_, tableSource());
   if (case_.trajectories) requireStartsInside(domain_->context, *case_.trajectories);
@@ -46,15 +46,15 @@ void FlowLoop::load(const WholeCheckpoint& checkpoint) {
   const bool hasOtherRanks = stored.ranks() != domain_->mesh.ranks;
   const std::vector<double>& weights = hasOtherRanks ? stored.weights() : stored.present();
   if (domain_->mesh.ranks > 1 && !areEven(comm_, weights)) {
-    install(partitionedBy(weights));
+    replaceMesh(partitionedBy(weights));
     reader.renumber(stateNumbers(domain_->mesh));
   }
   saveOrLoad(reader, earlierRows_);
   tables_->load(reader);
   if (hasOtherRanks) costs_.adopt(domain_->mesh.ranks, costs_.weights());
-  beginFromLoaded();
+  resumeFromLoadedState();
   restart_ = checkpoint;
-  wallLimit_.checkpointTook(secondsSinceStart() - start);  // reading it; writing is no faster
+  wallLimit_.recordCheckpoint(secondsSinceStart() - start);  // reading it; writing is no faster
 }
 
 void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
@@ -79,17 +79,17 @@ void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
   } else {
     output(results);
   }
-  agree(checkpoints);
+  checkStateAndRequests(checkpoints);
   while (time_ < case_.time.end * (1.0 - 1e-12)) {
-    if (wishes_.signal != 0 || wishes_.wallLimit) stop(outputs);
-    if (wishes_.checkpoint) {
-      wishes_.checkpoint = false;
+    if (requests_.signal != 0 || requests_.wallLimit) stop(outputs);
+    if (requests_.checkpoint) {
+      requests_.checkpoint = false;
       progress.finish();
       const std::string problem = writeCheckpoint(outputs);
       if (!problem.empty()) printWarnings({problem});
     }
     stepBegan_ = secondsSinceStart();
-    stepOrRetry(chooseStep(dt_, std::min(nextOutput_, case_.time.end)), outputs);
+    stepWithRetries(chooseStep(dt_, std::min(nextOutput_, case_.time.end)), outputs);
     const bool due = time_ >= nextOutput_ * (1.0 - 1e-12) || time_ >= case_.time.end * (1.0 - 1e-12);
     if (due || steps_ % case_.output.historySteps == 0) {
       const HistoryRow row = writeRow(history);
@@ -100,7 +100,7 @@ void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
       nextOutput_ += case_.output.interval;
     }
     repartitionIfUneven(outputs);
-    wallLimit_.stepTook(secondsSinceStart() - stepBegan_);
+    wallLimit_.recordStep(secondsSinceStart() - stepBegan_);
   }
   progress.finish();
   if (case_.checkpoint.atEnd) {
@@ -136,19 +136,19 @@ double FlowLoop::chooseStep(double previous, double until) {
 }
 
 // What the operators tell of the state: the rates of the last sweep, and that a step begins here.
-void FlowLoop::beginNext() {
+void FlowLoop::beginNextStep() {
   for (Operator* op : operators_) op->endStep(domain_->state);
   for (Operator* op : operators_) op->endSweep(domain_->state);
 }
 
-void FlowLoop::beginFromLoaded() {
+void FlowLoop::resumeFromLoadedState() {
   domain_->state.updateHalo(domain_->halo);
-  beginNext();
+  beginNextStep();
 }
 
 void FlowLoop::step(double dt) {
   const EnsembleOperator* ensembles = domain_->ensembles.get();
-  const bool isHeld = ensembles != nullptr && ensembles->isGasHeld(time_);
+  const bool isHeld = ensembles != nullptr && ensembles->isGasFrozen(time_);
   for (int sweep = 0; sweep < case_.flow.sweeps; ++sweep) {
     for (Operator* op : operators_) {
       if (isHeld && op != ensembles) continue;
@@ -158,7 +158,7 @@ void FlowLoop::step(double dt) {
     if (sweep + 1 < case_.flow.sweeps)
       for (Operator* op : operators_) op->endSweep(domain_->state);
   }
-  beginNext();
+  beginNextStep();
   time_ += dt;
   ++steps_;
 }

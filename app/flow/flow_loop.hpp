@@ -1,4 +1,4 @@
-// One run of a flow: the operators of a step, and everything that watches them.
+// One run of a flow: time steps, retries of failed steps, output, checkpoints and repartitioning.
 #pragma once
 
 #include <mpi.h>
@@ -19,9 +19,9 @@
 #include "app/flow/flow_output.hpp"
 #include "app/flow/flow_tables.hpp"
 #include "app/flow/wall_limit.hpp"
-#include "core/kept_state.hpp"
 #include "core/mesh_quality.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
+#include "core/state_backup.hpp"
 #include "core/timers.hpp"
 #include "flow/peak.hpp"
 #include "io/progress.hpp"
@@ -36,7 +36,7 @@ class FlowLoop {
   FlowLoop(const FlowLoop&) = delete;
   FlowLoop& operator=(const FlowLoop&) = delete;
 
-  // Takes everything from a checkpoint. InputError where it is another run's; nothing is written.
+  // Reads the state from a checkpoint; writes nothing. InputError where the checkpoint belongs to another run.
   void load(const WholeCheckpoint& checkpoint);
 
   [[nodiscard]] std::int64_t cells() const { return domain_->mesh.totalCells; }
@@ -51,19 +51,19 @@ class FlowLoop {
 
   void run(const RunFolder& folder, const RunInfo& info);
 
-  // Between two steps: partitions the mesh by these weights of the owned cells and goes on there. Collective.
+  // Between two steps: partitions the mesh by these weights of the owned cells and moves the state. Collective.
   void repartition(const std::vector<double>& weights);
   // The mesh as it is partitioned now.
   [[nodiscard]] const Mesh& mesh() const { return domain_->mesh; }
   [[nodiscard]] const CellCosts& costs() const { return costs_; }
 
-  // How far the run has come.
+  // Writes numbers of steps and the time reached into the record.
   void count(RunRecord& record) const;
 
   void report(double wallTime, RunRecord& record);
 
  private:
-  // What a run writes while it goes on.
+  // Output of a run in progress.
   struct Outputs {
     const RunFolder& folder;
     ResultsWriter results;
@@ -71,45 +71,50 @@ class FlowLoop {
     Progress progress;
     FlowCheckpoints checkpoints;
   };
-  struct Wishes {
-    int signal = 0;  // that asks the run to stop
+  // Requests that all ranks have agreed on.
+  struct Requests {
+    int signal = 0;  // the signal to stop; 0: none
     bool checkpoint = false, wallLimit = false;
   };
 
-  ReactionOperator::Options keepingFailedCells(ReactionOperator::Options options);
+  ReactionOperator::Options withFailedCellFiles(ReactionOperator::Options options);
 
   double chooseStep(double previous, double until);
 
-  void beginNext();
-  // After loading.
-  void beginFromLoaded();
+  void beginNextStep();
+  // The same after the state was loaded.
+  void resumeFromLoadedState();
 
   void step(double dt);
 
-  // One that fails is taken back and tried again, smaller; where nothing helps, NumericsError with the last good state
-  // on disk.
-  void stepOrRetry(double dt, Outputs& outputs);
+  // A step that fails is repeated from its start with a shorter dt (s). NumericsError where the last retry fails; the
+  // last good state is then on disk.
+  void stepWithRetries(double dt, Outputs& outputs);
 
-  // The mesh in pieces of equal weight, of which each owned cell of the present one has what is given.
+  // The mesh, partitioned by the weights of the owned cells.
   Mesh partitionedBy(const std::vector<double>& weights);
-  // Goes over to this mesh, with everything blank.
-  void install(Mesh mesh);
-  // Where the deck asks for it and the ranks' costs have become uneven, partitions the mesh by them and goes on there.
+  // Replaces the mesh; the state is then not set.
+  void replaceMesh(Mesh mesh);
+  // Partitions the mesh by the measured costs, where the deck asks for it and the costs of the ranks are uneven.
   void repartitionIfUneven(Outputs& outputs);
   void moveTo(Mesh mesh, const std::vector<double>& weights);
 
-  // What ranks agree on after a step, in one reduction; NumericsError where a value of the state is not finite.
-  void agree(FlowCheckpoints& checkpoints);
+  // After a step: gathers the requests of all ranks in one reduction. NumericsError where a value of the state is not
+  // finite.
+  void checkStateAndRequests(FlowCheckpoints& checkpoints);
 
-  // State, operators and budget: what a step changes.
+  // Everything a step changes: state, operators and budget.
   void saveOrLoadParts(StateArchive& archive);
 
-  void takeBack(double time, std::int64_t steps);
+  // Restores the state at the start of the step.
+  void restoreStepStart(double time, std::int64_t steps);
 
-  [[noreturn]] void giveUp(Outputs& outputs, const std::exception_ptr& failure, const std::vector<double>& tried);
+  // Saves the last good state and throws the failure with the steps tried (s).
+  [[noreturn]] void endAfterFailure(Outputs& outputs, const std::exception_ptr& failure,
+                                    const std::vector<double>& tried);
 
   HistoryRow observe();
-  // What the state is now, as a row of the history and of the tables that go with it.
+  // Writes the present state as a row of the history and of its tables.
   HistoryRow writeRow(HistoryWriter& history);
   [[nodiscard]] FlowTables::Source tableSource() {
     return {domain_->state, domain_->flow, operators_, domain_->ensembles.get()};
@@ -120,16 +125,16 @@ class FlowLoop {
   // All that the next step, its outputs and the report depend on.
   void saveOrLoad(StateArchive& archive, std::vector<double>& history);
 
-  // What the run had written before: its results and history are whole again.
+  // Restores the results and the history that the restarted run had written.
   void restore(ResultsWriter& results, HistoryWriter& history);
 
-  // What kept it from being written, or nothing: a run does not end because its checkpoint has no room.
+  // Returns the reason why the checkpoint could not be written, or nothing. The run continues on a full disk.
   std::string writeCheckpoint(Outputs& outputs);
 
-  // Writes a checkpoint, keeps the last state in the results too, and says where.
-  std::string keepLast(Outputs& outputs);
+  // Writes a checkpoint and the last state in the results; returns the text that says where.
+  std::string saveLastState(Outputs& outputs);
 
-  // With both kept, raises Stopped.
+  // saveLastState(), then throws Stopped.
   [[noreturn]] void stop(Outputs& outputs);
 
   void output(ResultsWriter& results);
@@ -154,10 +159,10 @@ class FlowLoop {
   std::int64_t steps_ = 0;
   std::int64_t written_ = -1;  // the last step in the results
   std::int64_t retried_ = 0;   // steps that failed and were tried again
-  KeptState kept_;             // the start of the step
+  StateBackup backup_;         // the start of the step
   WallLimit wallLimit_;
   double stepBegan_ = 0.0;  // s, secondsSinceStart()
-  Wishes wishes_;
+  Requests requests_;
   HistoryRow last_;
   Peak peakTemperature_;
 };

@@ -13,7 +13,7 @@
 #include "app/run/warnings.hpp"
 #include "core/errors.hpp"
 #include "io/block_exchange.hpp"
-#include "io/movement.hpp"
+#include "io/redistribution.hpp"
 
 namespace lampblack::app {
 
@@ -22,16 +22,16 @@ Mesh FlowLoop::partitionedBy(const std::vector<double>& weights) {
   return makeMesh(comm_, case_, BlockExchange(comm_, numbers.cells, numbers.totalCells).toBlock(weights, 1));
 }
 
-void FlowLoop::install(Mesh mesh) {
+void FlowLoop::replaceMesh(Mesh mesh) {
   domain_.reset();  // before there is another
   domain_ =
-      std::make_unique<FlowDomain>(std::move(mesh), case_, thermo_, transport_, keepingFailedCells(case_.chemistry));
+      std::make_unique<FlowDomain>(std::move(mesh), case_, thermo_, transport_, withFailedCellFiles(case_.chemistry));
   domain_->beginBudget(case_);
   operators_ = domain_->operators;
   operators_.insert(operators_.end(), added_.begin(), added_.end());
   tables_->moveTo(domain_->context);
   costs_ = CellCosts(domain_->mesh);
-  kept_ = KeptState(domain_->mesh.owned, domain_->mesh.faces);
+  backup_ = StateBackup(domain_->mesh.owned, domain_->mesh.faces);
 }
 
 void FlowLoop::repartitionIfUneven(Outputs& outputs) {
@@ -56,14 +56,14 @@ void FlowLoop::repartitionIfUneven(Outputs& outputs) {
     return;
   }
   const StateNumbers from = stateNumbers(domain_->mesh), to = stateNumbers(*next);
-  const Movement movement(comm_, from.cells, to.cells, to.totalCells);
+  const Redistribution movement(comm_, from.cells, to.cells, to.totalCells);
   CellCost cost(next->owned);
   cost.own = movement(costs_.average().own, 1);
   cost.shared = movement(costs_.average().shared, 1);
   const double after = imbalanceOf(comm_, cost);
   // Pieces have at least a cell; one dear cell has nothing to be balanced with.
   const bool helps = after - 1.0 < 0.75 * (before - 1.0);
-  costs_.wasTried(helps);
+  costs_.recordRepartition(helps);
   if (!helps) return;
   moveTo(std::move(*next), costs_.weights());
   outputs.results.renumber(to.cells);
@@ -80,19 +80,19 @@ void FlowLoop::moveTo(Mesh mesh, const std::vector<double>& weights) {
     saveOrLoadParts(archive);
     costs_.saveOrLoad(archive);
   };
-  KeptState moving(domain_->mesh.owned, domain_->mesh.faces);
-  moving.keep(owners);
+  StateBackup moving(domain_->mesh.owned, domain_->mesh.faces);
+  moving.save(owners);
   std::vector<double> moved;
   {
     const StateNumbers from = stateNumbers(domain_->mesh), to = stateNumbers(mesh);
-    const Movement ofCells(comm_, from.cells, to.cells, to.totalCells);
-    const Movement ofFaces(comm_, from.faces, to.faces, to.totalFaces);
+    const Redistribution ofCells(comm_, from.cells, to.cells, to.totalCells);
+    const Redistribution ofFaces(comm_, from.faces, to.faces, to.totalFaces);
     moved = ofCells(weights, 1);
     moving.rearrange(mesh.owned, mesh.faces, ofCells, ofFaces, ofCells);
   }
-  install(std::move(mesh));
-  moving.giveBack(owners);
-  beginFromLoaded();
+  replaceMesh(std::move(mesh));
+  moving.restore(owners);
+  resumeFromLoadedState();
   costs_.adopt(domain_->mesh.ranks, std::move(moved));
 }
 

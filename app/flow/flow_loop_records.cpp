@@ -154,7 +154,7 @@ void FlowLoop::restore(ResultsWriter& results, HistoryWriter& history) {
   const double start = secondsSinceStart();
   for (const auto& file : restart_->outputs) results.loadSteps(file);
   const auto count = static_cast<double>(std::max<std::size_t>(results.stepCount(), 1));
-  wallLimit_.outputTook((secondsSinceStart() - start) / count);
+  wallLimit_.recordOutput((secondsSinceStart() - start) / count);
   history.row(earlierRows_);
   earlierRows_.clear();
 }
@@ -171,11 +171,11 @@ std::string FlowLoop::writeCheckpoint(Outputs& outputs) {
   } catch (const SystemError& error) {
     return fmt::format("no checkpoint at step {}: {}", steps_, error.what());
   }
-  wallLimit_.checkpointTook(secondsSinceStart() - start);
+  wallLimit_.recordCheckpoint(secondsSinceStart() - start);
   return "";
 }
 
-std::string FlowLoop::keepLast(Outputs& outputs) {
+std::string FlowLoop::saveLastState(Outputs& outputs) {
   std::string checkpoint = writeCheckpoint(outputs);
   if (checkpoint.empty()) checkpoint = fmt::format("--restart goes on from {}", outputs.checkpoints.last().string());
   if (written_ != steps_) {
@@ -189,8 +189,8 @@ std::string FlowLoop::keepLast(Outputs& outputs) {
 }
 
 void FlowLoop::stop(Outputs& outputs) {
-  const std::string where = fmt::format("at t = {:.6g} s, step {}: {}", time_, steps_, keepLast(outputs));
-  if (wishes_.signal != 0) raiseStopped(comm_, wishes_.signal, where);
+  const std::string where = fmt::format("at t = {:.6g} s, step {}: {}", time_, steps_, saveLastState(outputs));
+  if (requests_.signal != 0) raiseStopped(comm_, requests_.signal, where);
   raiseStopped(comm_, fmt::format("time.wall_limit of {}", formatDuration(case_.time.wallLimit.value_or(0.0))), where);
 }
 
@@ -200,10 +200,10 @@ void FlowLoop::output(ResultsWriter& results) {
   written_ = steps_;
   writeFields(results, domain_->context, case_, domain_->state, operators_, steps_, time_);
   tables_->outputRows({steps_, time_}, tableSource());
-  wallLimit_.outputTook(secondsSinceStart() - start);
+  wallLimit_.recordOutput(secondsSinceStart() - start);
 }
 
-ReactionOperator::Options FlowLoop::keepingFailedCells(ReactionOperator::Options options) {
+ReactionOperator::Options FlowLoop::withFailedCellFiles(ReactionOperator::Options options) {
   options.keepFailed = [this](std::int64_t cell, const FailedCell& failed) {
     return keepFailedCell(folder_.value(), *case_.mechanism, cell, failed);
   };

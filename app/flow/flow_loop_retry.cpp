@@ -1,4 +1,4 @@
-// A step of a flow's run that may fail: the way back, smaller steps, and the end where they do not help.
+// A step of a flow that may fail: backup of the state, retries with shorter steps, and the end where they fail too.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -14,7 +14,8 @@
 namespace lampblack::app {
 namespace {
 
-constexpr const char* wayBack = "way back";  // stage: what it takes to be able to go back from a step
+constexpr const char* stepBackup =
+    "step backup";  // stage: copying the state at the start of a step, and the checks after it
 
 constexpr double smaller = 0.25;       // of the step that has failed; a power of two, which rounds nothing
 constexpr double shortest = 1e-9;      // of the first step: no chemistry and no flow that is resolved needs less
@@ -22,36 +23,36 @@ constexpr std::int64_t mostTold = 20;  // failures with their reasons; the histo
 
 }  // namespace
 
-void FlowLoop::agree(FlowCheckpoints& checkpoints) {
+void FlowLoop::checkStateAndRequests(FlowCheckpoints& checkpoints) {
   bool finite = true;
   {
-    const Timers::Scope scope(timers_, wayBack);
+    const Timers::Scope scope(timers_, stepBackup);
     finite = isFinite(domain_->mesh, domain_->state);
   }
   const bool limit = wallLimit_.isNear(secondsSinceStart());
   std::array<int, 3> found{checkpoints.wants(steps_) ? 1 : 0, limit ? 1 : 0, finite ? 0 : 1};
-  wishes_.signal = agreedStopRequest(comm_, found);
-  if (found[0] != 0) wishes_.checkpoint = true;
-  if (found[1] != 0) wishes_.wallLimit = true;
+  requests_.signal = agreedStopRequest(comm_, found);
+  if (found[0] != 0) requests_.checkpoint = true;
+  if (found[1] != 0) requests_.wallLimit = true;
   if (found[2] != 0) raiseNotFinite(domain_->context, domain_->state);
 }
 
-void FlowLoop::takeBack(double time, std::int64_t steps) {
-  kept_.giveBack([this](StateArchive& archive) { saveOrLoadParts(archive); });
+void FlowLoop::restoreStepStart(double time, std::int64_t steps) {
+  backup_.restore([this](StateArchive& archive) { saveOrLoadParts(archive); });
   time_ = time;
   steps_ = steps;
-  beginFromLoaded();
+  resumeFromLoadedState();
 }
 
-void FlowLoop::stepOrRetry(double dt, Outputs& outputs) {
+void FlowLoop::stepWithRetries(double dt, Outputs& outputs) {
   if (dt < shortest * case_.time.firstStep) try {
       raiseStandstill(domain_->mesh, domain_->state, dt);
     } catch (const NumericsError&) {
-      giveUp(outputs, std::current_exception(), {dt});
+      endAfterFailure(outputs, std::current_exception(), {dt});
     }
   {
-    const Timers::Scope scope(timers_, wayBack);
-    kept_.keep([this](StateArchive& archive) { saveOrLoadParts(archive); });
+    const Timers::Scope scope(timers_, stepBackup);
+    backup_.save([this](StateArchive& archive) { saveOrLoadParts(archive); });
   }
   const double time = time_;
   const std::int64_t steps = steps_;
@@ -63,8 +64,8 @@ void FlowLoop::stepOrRetry(double dt, Outputs& outputs) {
     std::string reason;  // of what a smaller step may mend
     try {
       step(dt);
-      wallLimit_.stepTook(secondsSinceStart() - stepBegan_);
-      agree(outputs.checkpoints);
+      wallLimit_.recordStep(secondsSinceStart() - stepBegan_);
+      checkStateAndRequests(outputs.checkpoints);
       dt_ = dt;
       costs_.addStep(domain_->mesh, operators_);
       return;
@@ -76,9 +77,9 @@ void FlowLoop::stepOrRetry(double dt, Outputs& outputs) {
       if (!ofAllRanks(error)) throw;
       failure = std::current_exception();
     }
-    takeBack(time, steps);
+    restoreStepStart(time, steps);
     tried.push_back(dt);
-    if (reason.empty() || static_cast<int>(tried.size()) > case_.time.retries) giveUp(outputs, failure, tried);
+    if (reason.empty() || static_cast<int>(tried.size()) > case_.time.retries) endAfterFailure(outputs, failure, tried);
     ++retried_;
     if (retried_ > mostTold) continue;
     outputs.progress.finish();
@@ -90,11 +91,11 @@ void FlowLoop::stepOrRetry(double dt, Outputs& outputs) {
   }
 }
 
-void FlowLoop::giveUp(Outputs& outputs, const std::exception_ptr& failure, const std::vector<double>& tried) {
+void FlowLoop::endAfterFailure(Outputs& outputs, const std::exception_ptr& failure, const std::vector<double>& tried) {
   std::string kept;
   outputs.progress.finish();
   try {
-    kept = keepLast(outputs);
+    kept = saveLastState(outputs);
   } catch (const SystemError& error) {
     kept = fmt::format("the last state could not be kept: {}", error.what());
   }

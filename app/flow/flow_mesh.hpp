@@ -6,7 +6,7 @@
 #include <span>
 
 #include "app/flow/flow_case.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::app {
 

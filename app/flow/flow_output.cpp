@@ -128,7 +128,7 @@ std::vector<Quantity> historyColumns(const Mesh& mesh, const std::vector<Operato
   for (const Operator* op : operators)
     for (Quantity& column : op->historyColumns()) columns.push_back(std::move(column));
   for (const Budget::Line& line : budget) {
-    const std::string unit = unitOfWhole(mesh, "kg");
+    const std::string unit = integralUnit(mesh, "kg");
     columns.push_back({line.name + "_content", unit, line.name + " in the domain"});
     columns.push_back({line.name + "_inflow", unit, line.name + " that came in since the start"});
     columns.push_back({line.name + "_outflow", unit, line.name + " that left since the start"});

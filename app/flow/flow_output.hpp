@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/flow/flow_case.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/budget.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/operator.hpp"

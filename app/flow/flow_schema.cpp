@@ -280,28 +280,32 @@ void addParticles(DeckSchema& schema) {
                      "two_way: the gas loses what the particles take, and its heat; one_way: the gas does not know of "
                      "the particles.")
                .byDefault("two_way"))
-      .add(quantityKey("stochastic.average", units::time,
-                       "Time over which the gas gets what the particles exchange with it: longer is smoother, atoms "
-                       "and heat are kept in either case. Zero: at once.")
+      .add(quantityKey("stochastic.averaging_time", units::time,
+                       "Time over which the exchange between particles and gas is averaged before the gas gets it: "
+                       "longer is smoother; atoms and heat are conserved in either case. Zero: no average.")
+               .formerly("average")
                .byDefault("0.2 ms")
                .atLeast(0)
                .onlyWith("stochastic.exchange", {"two_way"}))
       .add(
-          quantityKey("stochastic.hold_gas", units::time,
-                      "From this time on the gas stays as it is and only the particles go on, which costs less where a "
-                      "flame is steady; what they exchange is counted, but the gas does not get it. Absent: never.")
+          quantityKey("stochastic.frozen_gas", units::time,
+                      "Time from which on the gas is frozen and only the particles change, which costs less where a "
+                      "flame is steady. The exchange with the gas is counted, but not given to the gas. Absent: never.")
+              .formerly("hold_gas")
               .optional()
               .atLeast(0))
-      .add(quantityKey("stochastic.least_number", units::perVolume,
-                       "Particles per volume that count: where there are fewer, a new numerical particle stands for "
-                       "this over the largest number of numerical ones, so that traces do not fill ensembles.")
+      .add(quantityKey("stochastic.minimum_number_density", units::perVolume,
+                       "Smallest number density that is resolved. Where there are fewer particles, a new numerical "
+                       "particle stands for this density divided by the largest number of numerical particles, so that "
+                       "traces do not fill ensembles.")
+               .formerly("least_number")
                .byDefault("1e12 1/m^3")
                .above(0))
-      .add(numberKey("stochastic.share_at_once",
-                     "Share of its volume that a particle may take up of small ones in one event, of method sammc: "
-                     "this saves most "
-                     "events where new particles are many. Number and mass are the same; the second moment grows too "
-                     "fast by at most half of the share. Zero: one by one.")
+      .add(numberKey("stochastic.bundled_growth",
+                     "Growth in bundles, of method sammc: share of its volume that a particle may gain from small "
+                     "particles in one event. Bundles save most events where new particles are many. Number and mass "
+                     "are exact; the second moment grows too fast by at most half of the share. Zero: no bundles.")
+               .formerly("share_at_once")
                .byDefault("0.05")
                .atLeast(0)
                .atMost(0.5))
@@ -365,7 +369,7 @@ void addParticles(DeckSchema& schema) {
                .atMost(1))
       .add(booleanKey("trajectories.gas_tables",
                       "Whether the gas of each path, all of its species, is written to tables/streamline_<number>.csv, "
-                      "which gas.file of a deck with problem: particles_along reads.")
+                      "which gas.file of a deck with problem: prescribed_gas reads.")
                .byDefault("false"));
   addSizeBinKeys(schema, "trajectories", "200 nm");
   schema.section("trajectories.start", Presence::required, "Where the ensembles start.")

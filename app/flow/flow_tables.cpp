@@ -117,7 +117,7 @@ void FlowTables::requireInside(const FieldSampler& sampler, const std::function<
   const int outside = sampler.firstOutside();
   if (outside < 0) return;
   const Vector3& place = sampler.places()[outside];
-  const std::string where = whereMeshIs(context_->mesh, place);
+  const std::string where = meshExtentText(context_->mesh, place);
   raiseTogether(
       context_->mesh.comm,
       case_.output.tables.deck->error(keyOf(outside), fmt::format("{} at {} is outside the mesh: {}", what,
@@ -160,7 +160,7 @@ std::vector<Quantity> FlowTables::columnsOf(const std::vector<Quantity>& first) 
 }
 
 std::vector<Quantity> FlowTables::boundaryColumns() const {
-  const auto unit = [this](const char* of) { return unitOfWhole(context_->mesh, of); };
+  const auto unit = [this](const char* of) { return integralUnit(context_->mesh, of); };
   std::vector<Quantity> columns = momentColumns;
   columns.push_back({"area", unit("m^2"), "of the boundary"});
   columns.push_back({"mass_flow", unit("kg/s"), "of gas that comes in through it, mean of the step"});

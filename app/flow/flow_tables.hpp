@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "app/flow/flow_case.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/ensemble_operator.hpp"
 #include "coupling/ensemble_sizes.hpp"
 #include "flow/field_sampler.hpp"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/flow/flow_case_parts.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/initial_fields.hpp"
 #include "io/deck.hpp"
 

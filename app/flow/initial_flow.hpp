@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/flow/flow_case_parts.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/initial_fields.hpp"
 #include "io/deck.hpp"
 

@@ -73,15 +73,15 @@ std::string gasTableOf(const Mechanism& mechanism, const ParticlePath& path) {
       {"time", "s", "time along the path"},
       {"temperature", "K", "gas temperature"},
       {"pressure", "Pa", "pressure"},
-      {"thinning", "1/s", "rate at which particles become fewer per kg of gas until the next row"}};
+      {"number_loss_rate", "1/s", "rate at which particles per kg of gas become fewer, until the next row"}};
   const std::size_t n = mechanism.numSpecies();
   for (std::size_t k = 0; k < n; ++k)
     columns.push_back({"X_" + mechanism.speciesName(k), "1", "mole fraction of " + mechanism.speciesName(k)});
   const GasHistory history = historyAlong(path);
   std::vector<double> rows;
   for (std::size_t i = 0; i < history.time.size(); ++i) {
-    const double thinning = i < history.thinning.size() ? history.thinning[i] : 0;
-    rows.insert(rows.end(), {history.time[i], history.temperature[i], history.pressure[i], thinning});
+    const double lossRate = i < history.numberLossRate.size() ? history.numberLossRate[i] : 0;
+    rows.insert(rows.end(), {history.time[i], history.temperature[i], history.pressure[i], lossRate});
     const auto X = history.fractions.begin() + static_cast<std::ptrdiff_t>(i * n);
     rows.insert(rows.end(), X, X + static_cast<std::ptrdiff_t>(n));
   }
@@ -153,7 +153,7 @@ class PointsOnPaths {
       gas.append(point.place, sent);
       ranks.push_back(owners[static_cast<std::size_t>(point.path)]);
     }
-    numbers_ = RankExchange(context.mesh.comm, ranks).there(sent, static_cast<int>(width_));
+    numbers_ = RankExchange(context.mesh.comm, ranks).send(sent, static_cast<int>(width_));
     for (std::size_t i = 0; i < numbers_.size(); i += width_) rows_.push_back(&numbers_[i]);
     std::ranges::sort(rows_, [](const double* a, const double* b) {
       return std::pair{a[0], a[1]} < std::pair{b[0], b[1]};
@@ -201,7 +201,7 @@ void requireStartsInside(const FlowContext& context, const TrajectoryRequest& re
   const auto item = [](std::size_t i) { return fmt::format("trajectories.start[{}]", i); };
   for (std::size_t i = 0; i < request.starts.size(); ++i) {
     if (found.naturalCell[i] >= 0) continue;
-    const std::string where = whereMeshIs(m, request.starts[i]);
+    const std::string where = meshExtentText(m, request.starts[i]);
     raiseTogether(m.comm, request.deck->error(item(i), fmt::format("the start at {} lies outside the mesh: {}",
                                                                    placeText(request.starts[i], m.dimension), where)));
   }

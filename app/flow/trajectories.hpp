@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/flow/flow_case.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/state.hpp"
 #include "flow/transport_operator.hpp"

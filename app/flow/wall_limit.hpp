@@ -1,11 +1,11 @@
-// When a run has to stop so that its results and a checkpoint are on disk before its wall time is over: judged by what
-// its longest step, its outputs and its last checkpoint took.
+// Decides when a run has to stop so that its results and a checkpoint are on disk before its wall time is over, from
+// the durations of its longest step, its outputs and its last checkpoint.
 #pragma once
 
 #include <algorithm>
 #include <optional>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::app {
 
@@ -14,13 +14,13 @@ class WallLimit {
   // s; nothing: no limit.
   explicit WallLimit(std::optional<double> limit) : limit_(limit) {}
 
-  // All of them in s. A step with what belongs to it, but for checkpoints.
-  void stepTook(double seconds) { longestStep_ = std::max(longestStep_.value_or(0.0), seconds); }
-  void outputTook(double seconds) { longestOutput_ = std::max(longestOutput_, seconds); }
-  void checkpointTook(double seconds) { lastCheckpoint_ = seconds; }
+  // Durations, s. A step includes its outputs, but not its checkpoints.
+  void recordStep(double seconds) { longestStep_ = std::max(longestStep_.value_or(0.0), seconds); }
+  void recordOutput(double seconds) { longestOutput_ = std::max(longestOutput_, seconds); }
+  void recordCheckpoint(double seconds) { lastCheckpoint_ = seconds; }
 
-  // Whether a further step could be one too many, `elapsed` after the start. Not before a step was made, so that runs
-  // that go on from each other come to an end.
+  // Whether a further step could exceed the limit, `elapsed` (s) after the start. False before the first step, so that
+  // each of several runs in sequence makes progress.
   [[nodiscard]] bool isNear(double elapsed) const {
     if (!limit_ || !longestStep_) return false;
     // No step or file takes just as long as those before it, and files have to be closed, and the program to end.

@@ -11,6 +11,7 @@
 #include "app/population_balance/population_case.hpp"
 #include "app/population_balance/population_statistics.hpp"
 #include "app/run/problem.hpp"
+#include "app/run/warnings.hpp"
 #include "app/study/sweep_table.hpp"
 #include "core/stop_request.hpp"
 #include "io/run_folder.hpp"
@@ -183,6 +184,7 @@ MeanErrors meanErrors(std::span<const double> mean, std::span<const double> stan
 
 void checkConvergence(MPI_Comm comm, const Deck& study, const ConvergenceOptions& options) {
   const Deck deck = Deck::load(options.deck, options.overrides, deckKinds(), comm);
+  printWarnings(deck.notes());
   collectively(comm, [&] {
     const PopulationCase all = caseOf(deck);
     const auto checkMethod = [&](const std::string& key, const std::string& name) {

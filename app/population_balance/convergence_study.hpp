@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "app/population_balance/convergence_options.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/deck.hpp"
 
 namespace lampblack::app {

@@ -3,7 +3,7 @@
 
 #include "app/population_balance/population_repeat.hpp"
 #include "app/population_balance/population_statistics.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "core/running_mean.hpp"
 
 namespace lampblack::app {
@@ -28,7 +28,7 @@ class MethodAccumulator {
   MethodStatistics made_;
 };
 
-// What the deviations say of the claims of a method; sets `bias` and `verdict`.
+// Compares the deviations with the moments that have to be unbiased; sets `bias` and `verdict`.
 void judge(const PopulationCase& populationCase, const PopulationMethod& method, MethodStatistics& statistics);
 
 }  // namespace lampblack::app

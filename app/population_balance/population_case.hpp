@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/deck.hpp"
 #include "particles/population/exact_solutions/exact_solution.hpp"
 #include "particles/population/model/components.hpp"
@@ -32,7 +32,7 @@ struct PopulationMethod {
   std::string name;  // the deck's
   std::string type;  // "sammc"
   std::variant<MonteCarloOptions, SectionalOptions, MomentOptions> options;
-  std::array<bool, 4> claims{true, true, true, true};  // moments the method claims to have no bias in
+  std::array<bool, 4> unbiased{true, true, true, true};  // of the moments M0 to M3, those that have to show no bias
   bool conservesMass = true;  // M1 claimed: to round-off where the processes conserve it; otherwise in the mean
 
   [[nodiscard]] bool deterministic() const { return !std::holds_alternative<MonteCarloOptions>(options); }

@@ -94,11 +94,11 @@ void checkParticles(const Deck& deck, const PopulationCase& made) {
 
 void checkMethod(const Deck& deck, const PopulationCase& made, const PopulationMethod& method) {
   const std::string section = "methods." + method.name;
-  const std::vector<std::string> claims = deck.strings(section + ".claims");
-  for (std::size_t i = 1; i < claims.size(); ++i)
-    if (std::find(claims.begin(), claims.begin() + static_cast<std::ptrdiff_t>(i), claims[i]) !=
-        claims.begin() + static_cast<std::ptrdiff_t>(i))
-      throw deck.error(section + ".claims", fmt::format("{} is named twice", claims[i]));
+  const std::vector<std::string> moments = deck.strings(section + ".unbiased_moments");
+  for (std::size_t i = 1; i < moments.size(); ++i)
+    if (std::find(moments.begin(), moments.begin() + static_cast<std::ptrdiff_t>(i), moments[i]) !=
+        moments.begin() + static_cast<std::ptrdiff_t>(i))
+      throw deck.error(section + ".unbiased_moments", fmt::format("{} is named twice", moments[i]));
   const auto* sections = std::get_if<SectionalOptions>(&method.options);
   const bool spread = made.initial.distribution != InitialPopulation::Distribution::none;
   if (sections != nullptr && spread && made.initial.volume < sections->smallest)

@@ -147,9 +147,9 @@ std::vector<PopulationMethod> readMethods(const Deck& deck, const PopulationCase
       method.options = readMoments(deck, section, type);
     else
       method.options = readMonteCarlo(deck, section, type, populationCase);
-    method.claims.fill(false);
-    for (const std::string& moment : deck.strings(section + ".claims"))
-      method.claims[static_cast<std::size_t>(moment[1] - '0')] = true;
+    method.unbiased.fill(false);
+    for (const std::string& moment : deck.strings(section + ".unbiased_moments"))
+      method.unbiased[static_cast<std::size_t>(moment[1] - '0')] = true;
     const auto mass = deck.optionalString(section + ".mass");
     method.conservesMass = mass ? *mass == "conserved" : keepsMass(method, populationCase.model);
     methods.push_back(std::move(method));

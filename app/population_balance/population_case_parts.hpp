@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/population_balance/population_case.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/units.hpp"
 
 namespace lampblack::app::populationcase {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "app/population_balance/population_statistics.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/json.hpp"
 #include "io/results_writer.hpp"
 

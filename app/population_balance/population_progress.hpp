@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "app/population_balance/population_case.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/progress.hpp"
 
 namespace lampblack::app {

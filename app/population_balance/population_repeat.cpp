@@ -54,7 +54,7 @@ void runRepeat(const PopulationCase& populationCase, const PopulationMethod& met
   const auto tail = numbers.subspan(shape.times * shape.bins);
   try {
     const std::unique_ptr<PopulationSolver> solver = makeSolver(populationCase, method, repeat);
-    solver->watchBy([&] {
+    solver->setCallback([&] {
       if (stopRequest() != 0) throw Cut{};
       progress.at(method, repeat, solver->time());
     });

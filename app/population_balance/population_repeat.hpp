@@ -10,7 +10,7 @@
 
 #include "app/population_balance/population_case.hpp"
 #include "app/population_balance/population_progress.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::app {
 

@@ -244,8 +244,9 @@ void addMethods(DeckSchema& schema) {
                      "Equal weights: dsmc, constant_volume (stepwise), constant_number_mass, constant_number_number; "
                      "different weights: mmc, wfmc, samwfmc, sammc, swa; hybrid: small particles as numbers; sections "
                      "and moments: sectional, qmom, momic."))
-      .add(choiceKey(at + ".claims", {"M0", "M1", "M2", "M3"},
+      .add(choiceKey(at + ".unbiased_moments", {"M0", "M1", "M2", "M3"},
                      "Moments in which the method has to show no bias; [] where it is known to have one.")
+               .formerly("claims")
                .list()
                .byDefault("[M0, M1, M2, M3]"))
       .add(choiceKey(at + ".mass", {"conserved", "mean"},

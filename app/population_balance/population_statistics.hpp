@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "app/population_balance/population_case.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/report.hpp"
 
 namespace lampblack::app {
@@ -28,8 +28,8 @@ enum class BiasVerdict {
   none,           // nothing to compare with: one run only, no exact solution, or gelled
   noBias,         // every moment claimed is within the scatter of the mean
   biased,         // one at least is not
-  biasedAsKnown,  // the method claims nothing, and shows why
-  noBiasSeen      // the method claims nothing, yet shows no bias
+  biasedAsKnown,  // no moment has to be unbiased, and one shows a bias
+  noBiasSeen      // no moment has to be unbiased, and none shows a bias
 };
 
 struct RepeatResult {

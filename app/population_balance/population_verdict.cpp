@@ -36,7 +36,7 @@ void judge(const PopulationCase& populationCase, const PopulationMethod& method,
   }
   const bool nothingKnown = !known(0) && !known(1) && !known(2) && !known(3);
   if (nothingKnown) {
-    const std::string mass = conserved ? fault(1, method.claims[1]) : "";
+    const std::string mass = conserved ? fault(1, method.unbiased[1]) : "";
     statistics.bias = mass.empty() ? BiasVerdict::none : BiasVerdict::biased;
     statistics.verdict = mass.empty() ? "no exact solution" : mass;
     return;
@@ -50,26 +50,26 @@ void judge(const PopulationCase& populationCase, const PopulationMethod& method,
     return;
   }
   if (statistics.repeats.size() < 2) {
-    statistics.verdict = "one repeat says nothing of bias";
+    statistics.verdict = "bias unknown: one repeat only";
     return;
   }
   std::vector<std::string> faults, others;
-  bool claims = false;
+  bool anyUnbiased = false;
   for (std::size_t k = 0; k < 4; ++k) {
-    claims = claims || method.claims[k];
-    if (const std::string found = fault(k, method.claims[k]); !found.empty())
-      (method.claims[k] ? faults : others).push_back(found);
+    anyUnbiased = anyUnbiased || method.unbiased[k];
+    if (const std::string found = fault(k, method.unbiased[k]); !found.empty())
+      (method.unbiased[k] ? faults : others).push_back(found);
   }
-  if (!claims) {
+  if (!anyUnbiased) {
     statistics.bias = others.empty() ? BiasVerdict::noBiasSeen : BiasVerdict::biasedAsKnown;
     statistics.verdict =
-        others.empty() ? "known as biased, none seen" : fmt::format("biased, as known: {}", fmt::join(others, ", "));
+        others.empty() ? "bias expected, none found" : fmt::format("biased, as expected: {}", fmt::join(others, ", "));
   } else if (!faults.empty()) {
     statistics.bias = BiasVerdict::biased;
     statistics.verdict = fmt::format("biased: {}", fmt::join(faults, ", "));
   } else {
     statistics.bias = BiasVerdict::noBias;
-    statistics.verdict = others.empty() ? "no bias" : fmt::format("no bias; not claimed: {}", fmt::join(others, ", "));
+    statistics.verdict = others.empty() ? "no bias" : fmt::format("no bias; not required: {}", fmt::join(others, ", "));
   }
 }
 

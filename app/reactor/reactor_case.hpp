@@ -14,7 +14,7 @@
 #include "chemistry/reactor/network_solver.hpp"
 #include "chemistry/reactor/reactor_network.hpp"
 #include "chemistry/reactor/stiff_integrator.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/given_gas.hpp"
 #include "coupling/reactor_particles.hpp"
 #include "coupling/reactor_population.hpp"
@@ -22,7 +22,7 @@
 
 namespace lampblack::app {
 
-// The last is no reactor: a gas whose history is given (problem: particles_along).
+// Kinds of reactors. GivenGas: the history of the gas is prescribed (problem: prescribed_gas).
 enum class ReactorType { ConstantPressure, ConstantVolume, Stirred, PlugFlow, Network, GivenGas };
 
 struct ReactorOutput {

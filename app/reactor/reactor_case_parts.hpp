@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/reactor/reactor_case.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::app::reactorcase {
 

@@ -56,7 +56,7 @@ class ClosedReactorDriver : public ReactorOfOneRank {
     endPressure_ = reactor.pressure(integrator.state().data());
     reached_ = integrator.time();
     seconds_ = MPI_Wtime() - begin;
-    particles_.requireRoom();
+    particles_.requireSizeRangeCovered();
     if (case_.sensitivities.empty() || reached_ < case_.end) return;
     reactor.setParameters(case_.sensitivities);
     Progress progress(MPI_COMM_SELF, 0, 1, Progress::logInterval);

@@ -9,7 +9,7 @@
 #include "app/reactor/reactor_case.hpp"
 #include "app/run/recorded_run.hpp"
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/json.hpp"
 #include "io/results_writer.hpp"
 #include "io/run_folder.hpp"

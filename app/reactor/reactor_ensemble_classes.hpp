@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/reactor/reactor_ensemble_columns.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "core/running_mean.hpp"
 #include "io/results_writer.hpp"
 #include "io/run_folder.hpp"

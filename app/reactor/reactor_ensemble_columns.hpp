@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "app/reactor/reactor_case.hpp"
+#include "core/modules.hpp"
 #include "core/quantity.hpp"
-#include "core/rooms.hpp"
 
 namespace lampblack::app {
 

@@ -6,7 +6,7 @@
 
 #include "app/reactor/reactor_case.hpp"
 #include "app/reactor/reactor_ensemble_summary.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/results_writer.hpp"
 #include "io/run_folder.hpp"
 

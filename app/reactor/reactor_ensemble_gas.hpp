@@ -9,7 +9,7 @@
 
 #include "app/reactor/reactor_case.hpp"
 #include "chemistry/reactor/plug_flow.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/gas_along.hpp"
 #include "coupling/split_reactor.hpp"
 

@@ -50,7 +50,7 @@ SplitReactor::Options splitOptions(const ReactorCase& reactorCase) {
 // What a plug flow begins with behind another reactor, with these particles.
 std::optional<GasState> inletOf(const ReactorCase& reactorCase, SplitParticles& particles) {
   if (!reactorCase.upstream) return {};
-  return settledUpstream(reactorCase, particles, splitOptions(reactorCase));
+  return upstreamWithPopulation(reactorCase, particles, splitOptions(reactorCase));
 }
 
 std::vector<SplitParticles*> pointersTo(const std::vector<std::unique_ptr<ReactorPopulation>>& populations) {
@@ -121,7 +121,7 @@ void EnsembleRepeat::fill(std::size_t row, const ReactorRepeatNumbers<double>& n
   };
   for (std::size_t r = 0; r < populations_.size(); ++r) {
     ReactorPopulation& population = *populations_[r];
-    population.settle();
+    population.applyDeferred();
     appendReactor(r, columns);
     const SizeBins& bins = asked.bins;
     for (std::size_t k = 0; k < population.distributions().size(); ++k)

@@ -12,7 +12,7 @@
 #include "app/reactor/reactor_ensemble_columns.hpp"
 #include "app/reactor/reactor_ensemble_gas.hpp"
 #include "chemistry/thermo/thermo.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/reactor_balance.hpp"
 #include "coupling/reactor_population.hpp"
 

@@ -126,13 +126,14 @@ class EnsembleReactorDriver : public ReactorDriver {
 
   void print() const override {
     summary_.print(shown());
-    fmt::print("{} repeats, {} steps of gas and particles in turn, {} taken back, {} of the gas's integrator in {}\n",
-               summary_.repeats(), whole(Shape::steps), whole(Shape::rejected), whole(Shape::gasSteps),
-               formatDuration(seconds_));
+    fmt::print(
+        "{} repeats, {} coupling steps of gas and particles, {} rejected, {} integrator steps of the gas in {}\n",
+        summary_.repeats(), whole(Shape::steps), whole(Shape::rejected), whole(Shape::gasSteps),
+        formatDuration(seconds_));
     if (work_[Shape::unchecked] > 0)
       fmt::print(
           "note: {} of these steps changed the gas by more than the deck's coupling_change allows and could not "
-          "be taken back; a smaller one helps\n",
+          "be rejected; choose a smaller coupling_change\n",
           whole(Shape::unchecked));
     if (const double pairs = count("collision_pairs"); pairs > 0)
       fmt::print("{:g} of {:g} pairs of particles above the majorant\n", count("collision_pairs_above_majorant"),
@@ -140,13 +141,13 @@ class EnsembleReactorDriver : public ReactorDriver {
     if (const double removals = count("removals"); removals > 0)
       fmt::print(
           "note: samples were full: {:g} numerical particles were removed at random, which keeps mass in the "
-          "mean only; fewer are with a larger 'particles.number' or 'particles.full_at'\n",
+          "mean only; choose a larger 'particles.number' or 'particles.expected_number'\n",
           removals);
     if (const double starved = count("samples_never_full"); starved > 0)
       fmt::print(
           "note: {:g} samples were never three quarters full, so that they were not doubled as particles became few: "
-          "noise grows with time; 'particles.full_at' near the largest number density that there is, {:.2g} 1/m^3 in a "
-          "row, fills them\n",
+          "noise grows with time; choose 'particles.expected_number' near the largest number density, {:.2g} 1/m^3 "
+          "in this run\n",
           starved, summary_.largest(case_.ensemble->material + "_number_density"));
   }
 

@@ -8,7 +8,7 @@
 
 #include "app/reactor/reactor_ensemble_columns.hpp"
 #include "app/run/repeat_columns.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "core/running_mean.hpp"
 #include "io/json.hpp"
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "app/reactor/reactor_case.hpp"
+#include "core/modules.hpp"
 #include "core/quantity.hpp"
-#include "core/rooms.hpp"
 #include "io/results_writer.hpp"
 
 namespace lampblack::app {

@@ -10,7 +10,7 @@
 
 #include "chemistry/reactor/stiff_integrator.hpp"
 #include "chemistry/reactor/temperature_profile.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/history.hpp"
 
 namespace lampblack::app {

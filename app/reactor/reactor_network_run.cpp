@@ -52,7 +52,7 @@ class StirredTransientDriver : public ReactorOfOneRank {
     reached_ = integrator.time();
     temperature_ = integrator.state()[n];
     seconds_ = MPI_Wtime() - begin;
-    particles_.requireRoom();
+    particles_.requireSizeRangeCovered();
   }
 
   void write(ResultsWriter& results) const override {
@@ -89,7 +89,7 @@ class SteadyNetworkDriver : public ReactorOfOneRank {
     const double begin = MPI_Wtime();
     solve();
     makeRows();
-    particles_.requireRoom();
+    particles_.requireSizeRangeCovered();
     seconds_ = MPI_Wtime() - begin;
     std::string text = "name," + csvHeader(columns());
     for (std::size_t r = 0; r < reactors_.size(); ++r) {

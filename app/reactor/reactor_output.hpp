@@ -8,7 +8,7 @@
 
 #include "app/reactor/reactor_case.hpp"
 #include "chemistry/reactor/ignition_sensitivity.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/results_writer.hpp"
 #include "io/run_folder.hpp"
 

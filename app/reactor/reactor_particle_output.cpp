@@ -97,16 +97,16 @@ void ReactorParticleOutput::print() const {
   fmt::print("{}: volume fraction {:.4g}, {:.4g} particles a cubic metre of mean diameter {:.4g} nm\n",
              case_.soot->material(), last_.volumeFraction, last_.numberDensity, 1e9 * last_.meanDiameter);
   if (!keepsElements()) return;
-  fmt::print("elements are kept to {:.1e}", elementImbalance_);
+  fmt::print("elements are conserved to {:.1e}", elementImbalance_);
   if (keepsEnergy()) fmt::print(", energy to {:.1e}", energyImbalance_);
   fmt::print("\n");
 }
 
-void ReactorParticleOutput::requireRoom() const {
+void ReactorParticleOutput::requireSizeRangeCovered() const {
   if (!balance_ || mostAtLimit_ <= case_.sootAtLimit * most_) return;
   throw NumericsError(fmt::format(
-      "a part {:.2g} of the largest volume fraction of {} stands in the largest particles that the model can have; "
-      "allowed is {:.2g}. {}",
+      "a fraction {:.2g} of the largest volume fraction of {} is in the largest particles of the model; the limit is "
+      "{:.2g}. {}",
       mostAtLimit_ / most_, case_.soot->material(), case_.sootAtLimit, tooFewSections));
 }
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/reactor/reactor_case.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/reactor_balance.hpp"
 #include "io/json.hpp"
 #include "io/results_writer.hpp"
@@ -40,7 +40,7 @@ class ReactorParticleOutput {
   void record(JsonWriter& json) const;
   void print() const;
   // NumericsError where more of the particles than allowed are as large as the model can have.
-  void requireRoom() const;
+  void requireSizeRangeCovered() const;
 
  private:
   [[nodiscard]] bool keepsElements() const { return kept_ != Kept::nothing; }

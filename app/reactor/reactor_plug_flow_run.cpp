@@ -53,7 +53,7 @@ class PlugFlowDriver : public ReactorOfOneRank {
     velocity_ = flow.velocity(integrator.state().data());
     time_ = flow.residenceTime(integrator.state().data());
     seconds_ = MPI_Wtime() - begin;
-    particles_.requireRoom();
+    particles_.requireSizeRangeCovered();
   }
 
   void write(ResultsWriter& results) const override {

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "app/run/prepared_run.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/deck.hpp"
 
 namespace lampblack::app {

@@ -12,8 +12,8 @@ GasState steadyUpstream(const ReactorCase& reactorCase, CarriedPhase* carried) {
   return state;
 }
 
-GasState settledUpstream(const ReactorCase& reactorCase, SplitParticles& particles,
-                         const SplitReactor::Options& options) {
+GasState upstreamWithPopulation(const ReactorCase& reactorCase, SplitParticles& particles,
+                                const SplitReactor::Options& options) {
   ReactorCase before = reactorCase;
   before.type = ReactorType::Stirred;
   before.network = *reactorCase.upstream;

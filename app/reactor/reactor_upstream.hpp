@@ -3,16 +3,17 @@
 #pragma once
 
 #include "app/reactor/reactor_case.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/split_reactor.hpp"
 
 namespace lampblack::app {
 
-// Of a plug flow with such a reactor: its steady state, with what the gas carries (null: nothing). NumericsError.
+// The steady state of the stirred reactor in front of a plug flow. `carried`: the phase that the gas carries; null:
+// none. NumericsError.
 [[nodiscard]] GasState steadyUpstream(const ReactorCase& reactorCase, CarriedPhase* carried);
-// The same with a population, which is that of the end: from the steady state of the gas alone over the time that the
-// case gives it to settle.
-[[nodiscard]] GasState settledUpstream(const ReactorCase& reactorCase, SplitParticles& particles,
-                                       const SplitReactor::Options& options);
+// The state of the stirred reactor with a population, at ReactorCase::upstreamTime after the steady state of the gas
+// alone. NumericsError.
+[[nodiscard]] GasState upstreamWithPopulation(const ReactorCase& reactorCase, SplitParticles& particles,
+                                              const SplitReactor::Options& options);
 
 }  // namespace lampblack::app

@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::app {
 

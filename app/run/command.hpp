@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::app {
 

@@ -7,7 +7,7 @@
 
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/reactor/reactor_failure.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/run_folder.hpp"
 
 namespace lampblack::app {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/run/recorded_run.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::app {
 

@@ -6,10 +6,10 @@
 #include "app/flame1d/flame_run.hpp"
 #include "app/flow/flow_case.hpp"
 #include "app/flow/flow_run.hpp"
-#include "app/particles_along/along_case.hpp"
-#include "app/particles_along/along_run.hpp"
 #include "app/population_balance/population_case.hpp"
 #include "app/population_balance/population_run.hpp"
+#include "app/prescribed_gas/prescribed_gas_case.hpp"
+#include "app/prescribed_gas/prescribed_gas_run.hpp"
 #include "app/reactor/reactor_case.hpp"
 #include "app/reactor/reactor_run.hpp"
 
@@ -23,10 +23,11 @@ const std::vector<Problem>& problems() {
       {"reactor",
        "Reactors without space: closed at constant pressure or volume, perfectly stirred, plug flow, networks.",
        reactorSchema, prepareReactor},
-      {"particles_along",
-       "Particles along a given gas: its history in a table, or the path through a one-dimensional flame that is there "
+      {"prescribed_gas",
+       "Particles in a prescribed gas: its history in a table, or the path through a one-dimensional flame that is "
+       "there "
        "already; ensembles or any model of soot.",
-       alongSchema, prepareAlong},
+       prescribedGasSchema, preparePrescribedGas},
       {"population_balance",
        "A population of particles in a well-stirred volume of gas: Monte Carlo, sectional and moment methods, "
        "compared.",

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "app/run/prepared_run.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/deck.hpp"
 
 namespace lampblack::app {

@@ -39,7 +39,7 @@ void recordedRun(MPI_Comm comm, const Deck& deck, const RunOptions& options, std
   const double start = MPI_Wtime();
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
-  const RunFolder folder = goesOnHere(options) ? RunFolder::goOn(options.folder, comm)
+  const RunFolder folder = goesOnHere(options) ? RunFolder::resume(options.folder, comm)
                                                : RunFolder::prepare(options.folder, options.force, comm);
 
   RunRecord record;

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/deck.hpp"
 #include "io/results_writer.hpp"
 #include "io/run_folder.hpp"

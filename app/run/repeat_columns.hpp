@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/modules.hpp"
 #include "core/quantity.hpp"
-#include "core/rooms.hpp"
 
 namespace lampblack::app {
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::app {
 

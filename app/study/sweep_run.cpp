@@ -5,8 +5,10 @@
 #include <cstdio>
 #include <memory>
 #include <new>
+#include <set>
 
 #include "app/run/problem.hpp"
+#include "app/run/warnings.hpp"
 #include "core/errors.hpp"
 #include "core/stop_request.hpp"
 #include "core/system_error.hpp"
@@ -133,8 +135,11 @@ void requireThatOneCanBegin(const SweepStudy& study) {
 }  // namespace
 
 void checkDecks(MPI_Comm comm, const SweepStudy& study) {
+  std::set<std::string> told;
   for (const SweepRun& run : study.runs) {
     const Deck deck = Deck::load(run.deck, run.overrides, deckKinds(), comm);
+    for (const std::string& note : deck.notes())
+      if (told.insert(note).second) printWarnings({note});
     if (const std::string name = deck.choice("problem"); study.chain > 1 && name != "flame1d")
       collectively(comm, [&] {
         throw InputError(

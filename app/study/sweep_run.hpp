@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/study/sweep_study.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::app {
 

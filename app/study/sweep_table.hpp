@@ -9,7 +9,7 @@
 
 #include "app/study/sweep_run.hpp"
 #include "app/study/sweep_study.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/csv.hpp"
 
 namespace lampblack::app {

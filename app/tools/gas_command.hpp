@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/run/command.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace CLI {
 class App;

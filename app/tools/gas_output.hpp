@@ -4,7 +4,7 @@
 #include <string>
 
 #include "app/tools/gas_report.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::app {
 

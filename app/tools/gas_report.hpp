@@ -1,4 +1,4 @@
-// What `lampblack gas` says of a gas at one state, gathered from the models of the chemistry room.
+// What `lampblack gas` says of a gas at one state, gathered from the models of the chemistry module.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,7 @@
 
 #include "app/tools/gas_transport.hpp"
 #include "chemistry/mechanism/mechanism.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::app {
 

@@ -7,7 +7,7 @@
 
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/transport/collision_integrals.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::app {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "chemistry/mechanism/reaction.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

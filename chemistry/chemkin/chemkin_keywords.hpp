@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

@@ -9,7 +9,7 @@
 #include "chemistry/chemkin/chemkin_reaction_lines.hpp"
 #include "chemistry/chemkin/chemkin_text.hpp"
 #include "chemistry/mechanism/reaction.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

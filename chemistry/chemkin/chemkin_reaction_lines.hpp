@@ -9,7 +9,7 @@
 
 #include "chemistry/chemkin/chemkin_equation.hpp"
 #include "chemistry/chemkin/chemkin_text.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

@@ -7,7 +7,7 @@
 
 #include "chemistry/chemkin/chemkin_text.hpp"
 #include "chemistry/mechanism/mechanism.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

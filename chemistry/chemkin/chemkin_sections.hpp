@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "chemistry/chemkin/chemkin_text.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

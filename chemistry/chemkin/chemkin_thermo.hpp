@@ -11,7 +11,7 @@
 
 #include "chemistry/chemkin/chemkin_text.hpp"
 #include "chemistry/mechanism/species.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

@@ -4,7 +4,7 @@
 
 #include "chemistry/kinetics/batch_jacobian_view.hpp"
 #include "chemistry/kinetics/batch_kinetics_constants.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 namespace {

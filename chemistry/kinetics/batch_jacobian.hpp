@@ -15,7 +15,7 @@
 #include "chemistry/kinetics/batch_jacobian_view.hpp"
 #include "chemistry/kinetics/kinetics_jacobian_table.hpp"
 #include "chemistry/kinetics/kinetics_tables.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

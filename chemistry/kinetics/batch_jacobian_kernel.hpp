@@ -9,7 +9,7 @@
 #include "chemistry/kinetics/batch_falloff_slopes.hpp"
 #include "chemistry/kinetics/batch_jacobian_view.hpp"
 #include "chemistry/kinetics/batch_kinetics_kernel.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 namespace {

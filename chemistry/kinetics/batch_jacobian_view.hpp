@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "chemistry/kinetics/batch_kinetics_view.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

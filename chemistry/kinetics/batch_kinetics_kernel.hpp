@@ -10,7 +10,7 @@
 #include "chemistry/kinetics/batch_kinetics_constants.hpp"
 #include "chemistry/kinetics/batch_kinetics_simd.hpp"
 #include "chemistry/kinetics/batch_kinetics_view.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 namespace {

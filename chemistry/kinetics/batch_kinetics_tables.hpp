@@ -11,7 +11,7 @@
 #include "chemistry/kinetics/batch_kinetics_view.hpp"
 #include "chemistry/kinetics/kinetics_tables.hpp"
 #include "chemistry/mechanism/mechanism.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "chemistry/kinetics/batch_kinetics_view.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

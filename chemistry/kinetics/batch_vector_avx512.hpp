@@ -5,7 +5,7 @@
 #include <immintrin.h>
 
 #include "chemistry/kinetics/batch_kinetics_simd.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

@@ -8,7 +8,7 @@
 
 #include "chemistry/kinetics/batch_kinetics_view.hpp"
 #include "chemistry/numerics/aligned_vector.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

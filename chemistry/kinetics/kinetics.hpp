@@ -25,7 +25,7 @@
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/numerics/sparse_pattern.hpp"
 #include "chemistry/thermo/species_thermo.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

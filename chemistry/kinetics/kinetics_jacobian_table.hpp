@@ -13,7 +13,7 @@
 
 #include "chemistry/kinetics/kinetics_tables.hpp"
 #include "chemistry/numerics/sparse_pattern.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

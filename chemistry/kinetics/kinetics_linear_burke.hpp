@@ -12,7 +12,7 @@
 #include "chemistry/kinetics/kinetics_falloff.hpp"
 #include "chemistry/kinetics/kinetics_pressure.hpp"
 #include "chemistry/kinetics/kinetics_tables.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "chemistry/kinetics/kinetics_tables.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

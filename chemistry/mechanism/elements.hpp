@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "chemistry/mechanism/reaction.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

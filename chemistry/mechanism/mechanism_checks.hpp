@@ -7,7 +7,7 @@
 
 #include "chemistry/mechanism/reaction.hpp"
 #include "chemistry/mechanism/species.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

@@ -31,7 +31,7 @@ class MechanismReader {
     readElements();
     readSpeciesEntries();
     for (const auto& rule : reactionRules(files_, phase_)) addReactions(rule);
-    settleColliders();
+    resolveColliders();
     std::string description;
     if (const YAML::Node text = files_.main().root["description"]; text.IsDefined())
       description = yaml_.text(text, "description");
@@ -189,7 +189,7 @@ class MechanismReader {
 
   // What the phase wants done about a collider that acts by its own reaction and by that with M. Left alone, it is a
   // warning of the mechanism.
-  void settleColliders() {
+  void resolveColliders() {
     const auto* node = phase_.find("explicit-third-body-duplicates");
     if (node == nullptr || isWord(node, "warn")) return;
     const auto& rule = yaml_.text(*node, phase_.what());

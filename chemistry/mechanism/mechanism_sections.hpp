@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "chemistry/mechanism/yaml_access.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

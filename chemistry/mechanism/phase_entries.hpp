@@ -9,7 +9,7 @@
 
 #include "chemistry/mechanism/mechanism_sections.hpp"
 #include "chemistry/mechanism/yaml_access.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

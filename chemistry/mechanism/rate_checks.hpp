@@ -4,7 +4,7 @@
 #include <string>
 
 #include "chemistry/mechanism/reaction.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

@@ -6,7 +6,7 @@
 
 #include "chemistry/mechanism/reaction.hpp"
 #include "chemistry/mechanism/yaml_access.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

@@ -5,7 +5,7 @@
 
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/mechanism/reaction.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "chemistry/mechanism/mechanism_units.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "chemistry/numerics/block_tile_targets.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 namespace {

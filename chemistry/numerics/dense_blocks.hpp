@@ -11,7 +11,7 @@
 
 #include "chemistry/numerics/aligned_vector.hpp"
 #include "chemistry/numerics/block_tile_targets.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

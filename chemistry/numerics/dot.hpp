@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

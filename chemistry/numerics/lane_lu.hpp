@@ -8,7 +8,7 @@
 
 #include "chemistry/numerics/elimination.hpp"
 #include "chemistry/numerics/lane_lu_view.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "chemistry/numerics/lane_lu_view.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 namespace {

@@ -15,7 +15,7 @@
 
 #include "chemistry/numerics/dense_lu.hpp"
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "chemistry/numerics/sundials_handles.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry::sundials {
 

@@ -10,7 +10,7 @@
 
 #include "chemistry/numerics/aligned_vector.hpp"
 #include "chemistry/numerics/elimination.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

@@ -11,7 +11,7 @@
 #include <memory>
 #include <type_traits>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry::sundials {
 

@@ -10,7 +10,7 @@
 
 #include "chemistry/reactor/closed_reactor.hpp"
 #include "chemistry/reactor/ignition.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

@@ -10,7 +10,7 @@
 #include "chemistry/numerics/dense_lu.hpp"
 #include "chemistry/numerics/sparse_lu.hpp"
 #include "chemistry/reactor/reactor_system.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <string>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

@@ -49,7 +49,7 @@ void ConstantPressureReactor::Impl::checkInput(const Cell& cell, double dt) cons
   for (const double value : cell.source) good = good && std::isfinite(value);
   good = good && std::isfinite(cell.heating);
   good = good && std::abs(sum - 1) < 1e-3;
-  if (!good) giveUp(cell, dt);
+  if (!good) throwFailure(cell, dt);
 }
 
 // Explicit trapezoid where the chemistry is negligible at both ends; see Options::negligibleChange.
@@ -169,7 +169,7 @@ bool ConstantPressureReactor::Impl::accept(Cell& cell, std::span<double> out) {
   return true;
 }
 
-void ConstantPressureReactor::Impl::giveUp(const Cell& cell, double dt) const {
+void ConstantPressureReactor::Impl::throwFailure(const Cell& cell, double dt) const {
   std::string composition;
   for (std::size_t k = 0; k < n; ++k)
     if (!(std::abs(cell.Y[k]) <= 1e-6))
@@ -250,7 +250,7 @@ void ConstantPressureReactor::Impl::advanceByBdf(Cell& cell, double dt, double f
   }
   cell.initialStep = firstStep;
   reason = fmt::format("{} (first attempt: {})", reason, firstReason);
-  giveUp(cell, dt);
+  throwFailure(cell, dt);
 }
 
 }  // namespace lampblack::chemistry

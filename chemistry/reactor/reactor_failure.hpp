@@ -8,7 +8,7 @@
 
 #include "chemistry/reactor/reactor.hpp"
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

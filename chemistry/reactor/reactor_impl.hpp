@@ -14,7 +14,7 @@
 #include "chemistry/reactor/reactor_lanes.hpp"
 #include "chemistry/reactor/reactor_rosenbrock.hpp"
 #include "chemistry/reactor/reactor_system.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 
@@ -72,7 +72,7 @@ struct ConstantPressureReactor::Impl {
                  Result& result);
   void advanceByBdf(Cell& cell, double dt, double firstStep, int number, const Observer& observer, Result& result);
   bool accept(Cell& cell, std::span<double> out);
-  [[noreturn]] void giveUp(const Cell& cell, double dt) const;
+  [[noreturn]] void throwFailure(const Cell& cell, double dt) const;
 
   // reactor_batch.cpp
   void beginAll(std::span<const Cell> cells, double dt);

@@ -8,7 +8,7 @@
 #include "chemistry/numerics/sundials_handles.hpp"
 #include "chemistry/reactor/reactor_linear_solver.hpp"
 #include "chemistry/reactor/reactor_system.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

@@ -49,19 +49,19 @@ struct ReactorLanes::Impl {
       : tables(mechanism, leastFraction), target(targetOf(instructions)) {}
 
   // A reactor on its way in a lane.
-  struct Traveller {
+  struct LaneStep {
     Reactor* reactor = nullptr;
     double reached = 0, stepSize = 0;
     bool isRejected = false, isLast = false;
   };
 
   void load(const Reactor& reactor, std::size_t lane) const;
-  bool prepareStep(Traveller& traveller, std::size_t lane, const Tolerance& tolerance) const;
-  bool finishStep(Traveller& traveller, std::size_t lane) const;
+  bool prepareStep(LaneStep& laneStep, std::size_t lane, const Tolerance& tolerance) const;
+  bool finishStep(LaneStep& laneStep, std::size_t lane) const;
 
   ReactorLanesTables tables;
   ReactorLanesTarget target;
-  std::array<Traveller, kLanes> travellers;
+  std::array<LaneStep, kLanes> laneSteps;
 };
 
 void ReactorLanes::Impl::load(const Reactor& reactor, std::size_t lane) const {
@@ -74,47 +74,47 @@ void ReactorLanes::Impl::load(const Reactor& reactor, std::size_t lane) const {
 }
 
 // As RosenbrockSolver: false where no more steps may be taken.
-bool ReactorLanes::Impl::prepareStep(Traveller& traveller, std::size_t lane, const Tolerance& tolerance) const {
-  Reactor& reactor = *traveller.reactor;
+bool ReactorLanes::Impl::prepareStep(LaneStep& laneStep, std::size_t lane, const Tolerance& tolerance) const {
+  Reactor& reactor = *laneStep.reactor;
   const double dt = reactor.duration;
-  reactor.nextStep = traveller.stepSize;
+  reactor.nextStep = laneStep.stepSize;
   if (reactor.steps + reactor.rejected >= tolerance.maximumSteps ||
-      traveller.stepSize < RosenbrockSolver::smallestStep * dt) {
+      laneStep.stepSize < RosenbrockSolver::smallestStep * dt) {
     reactor.outcome = Reactor::Outcome::TooManySteps;
     return false;
   }
-  traveller.isLast = traveller.reached + traveller.stepSize >= dt * (1 - RosenbrockSolver::roundOff);
-  if (traveller.isLast) traveller.stepSize = dt - traveller.reached;
-  tables.work().stepSize[lane] = traveller.stepSize;
+  laneStep.isLast = laneStep.reached + laneStep.stepSize >= dt * (1 - RosenbrockSolver::roundOff);
+  if (laneStep.isLast) laneStep.stepSize = dt - laneStep.reached;
+  tables.work().stepSize[lane] = laneStep.stepSize;
   return true;
 }
 
 // False where the reactor leaves the lane.
-bool ReactorLanes::Impl::finishStep(Traveller& traveller, std::size_t lane) const {
+bool ReactorLanes::Impl::finishStep(LaneStep& laneStep, std::size_t lane) const {
   const ReactorLanesWork& work = tables.work();
-  Reactor& reactor = *traveller.reactor;
+  Reactor& reactor = *laneStep.reactor;
   const double sum = work.errorSum[lane];
   if (work.isGood[lane] != 1 || !std::isfinite(sum)) {
     reactor.outcome = Reactor::Outcome::Left;
     return false;
   }
   const auto unknowns = static_cast<double>(reactor.state.size());
-  const auto next = RosenbrockSolver::nextStep(traveller.stepSize, std::sqrt(sum / unknowns), traveller.isRejected);
-  traveller.isRejected = next.isRejected;
+  const auto next = RosenbrockSolver::nextStep(laneStep.stepSize, std::sqrt(sum / unknowns), laneStep.isRejected);
+  laneStep.isRejected = next.isRejected;
   reactor.nextStep = next.size;
   if (next.isRejected) {
     ++reactor.rejected;
   } else {
     ++reactor.steps;
-    if (traveller.isLast) {
+    if (laneStep.isLast) {
       take(work.end, lane, reactor.state);
       reactor.outcome = Reactor::Outcome::Arrived;
       return false;
     }
-    traveller.reached += traveller.stepSize;
+    laneStep.reached += laneStep.stepSize;
     for (std::size_t i = lane; i < reactor.state.size() * kLanes; i += kLanes) work.y[i] = work.end[i];
   }
-  traveller.stepSize = next.size;
+  laneStep.stepSize = next.size;
   return true;
 }
 
@@ -153,28 +153,28 @@ void ReactorLanes::advance(std::span<Reactor> reactors, const Tolerance& toleran
   auto& self = *impl_;
   const double smallest = tolerance.absolute / tolerance.relative;
   std::size_t next = 0;
-  const auto enter = [&](Impl::Traveller& traveller, std::size_t lane) {
-    traveller = {};
+  const auto enter = [&](Impl::LaneStep& laneStep, std::size_t lane) {
+    laneStep = {};
     if (next == reactors.size()) return;
-    traveller.reactor = &reactors[next++];
-    Reactor& reactor = *traveller.reactor;
+    laneStep.reactor = &reactors[next++];
+    Reactor& reactor = *laneStep.reactor;
     reactor.steps = reactor.rejected = 0;
-    traveller.stepSize = reactor.firstStep > 0 ? std::min(reactor.firstStep, reactor.duration) : reactor.duration;
+    laneStep.stepSize = reactor.firstStep > 0 ? std::min(reactor.firstStep, reactor.duration) : reactor.duration;
     self.load(reactor, lane);
   };
-  for (std::size_t lane = 0; lane < kLanes; ++lane) enter(self.travellers[lane], lane);
+  for (std::size_t lane = 0; lane < kLanes; ++lane) enter(self.laneSteps[lane], lane);
   for (;;) {
     bool anyone = false;
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      auto& traveller = self.travellers[lane];
-      while (traveller.reactor != nullptr && !self.prepareStep(traveller, lane, tolerance)) enter(traveller, lane);
-      anyone = anyone || traveller.reactor != nullptr;
+      auto& laneStep = self.laneSteps[lane];
+      while (laneStep.reactor != nullptr && !self.prepareStep(laneStep, lane, tolerance)) enter(laneStep, lane);
+      anyone = anyone || laneStep.reactor != nullptr;
     }
     if (!anyone) return;
     self.target.step(self.tables.view(), self.tables.work(), {tolerance.relative, smallest, 1.0});
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      auto& traveller = self.travellers[lane];
-      if (traveller.reactor != nullptr && !self.finishStep(traveller, lane)) enter(traveller, lane);
+      auto& laneStep = self.laneSteps[lane];
+      if (laneStep.reactor != nullptr && !self.finishStep(laneStep, lane)) enter(laneStep, lane);
     }
   }
 }

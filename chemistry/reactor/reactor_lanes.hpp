@@ -14,7 +14,7 @@
 
 #include "chemistry/kinetics/batch_kinetics.hpp"
 #include "chemistry/mechanism/mechanism.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

@@ -8,7 +8,7 @@
 #include "chemistry/kinetics/batch_kinetics_kernel.hpp"
 #include "chemistry/numerics/lane_lu_kernel.hpp"
 #include "chemistry/reactor/reactor_lanes_view.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 namespace {

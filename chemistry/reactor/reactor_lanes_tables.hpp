@@ -12,7 +12,7 @@
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/numerics/lane_lu.hpp"
 #include "chemistry/reactor/reactor_lanes_view.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

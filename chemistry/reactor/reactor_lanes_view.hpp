@@ -8,7 +8,7 @@
 #include "chemistry/kinetics/batch_jacobian_view.hpp"
 #include "chemistry/kinetics/batch_kinetics_view.hpp"
 #include "chemistry/numerics/lane_lu_view.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

@@ -5,7 +5,7 @@
 #include "chemistry/numerics/sundials_handles.hpp"
 #include "chemistry/reactor/newton_matrix.hpp"
 #include "chemistry/reactor/reactor_system.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

@@ -10,7 +10,7 @@
 #include "chemistry/reactor/closed_reactor.hpp"
 #include "chemistry/reactor/ode_system.hpp"
 #include "chemistry/reactor/reactor_system.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

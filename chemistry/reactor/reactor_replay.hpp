@@ -6,7 +6,7 @@
 
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/reactor/reactor_failure.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

@@ -10,7 +10,7 @@
 #include "chemistry/reactor/newton_matrix.hpp"
 #include "chemistry/reactor/reactor_integrator.hpp"
 #include "chemistry/reactor/reactor_system.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

@@ -24,7 +24,7 @@
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/reactor/carried_phase.hpp"
 #include "chemistry/thermo/thermo.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

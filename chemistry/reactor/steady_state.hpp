@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "chemistry/reactor/ode_system.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

@@ -11,7 +11,7 @@
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/thermo/equilibrium_path.hpp"
 #include "chemistry/thermo/species_thermo.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "chemistry/thermo/equilibrium_components.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

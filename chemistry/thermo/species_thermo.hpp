@@ -10,7 +10,7 @@
 
 #include "chemistry/mechanism/species.hpp"
 #include "chemistry/numerics/aligned_vector.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

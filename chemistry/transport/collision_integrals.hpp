@@ -3,7 +3,7 @@
 #pragma once
 
 #include "chemistry/transport/cubic_spline.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

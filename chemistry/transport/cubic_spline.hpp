@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

@@ -8,7 +8,7 @@
 
 #include "chemistry/transport/transport.hpp"
 #include "core/constants.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

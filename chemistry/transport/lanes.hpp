@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstring>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 // GCC warns that such values pass differently between functions compiled for different processors; these pass between
 // functions of one program only, all compiled alike.

@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry::monchickMason {
 

@@ -14,7 +14,7 @@
 
 #include "chemistry/transport/pair_polynomials.hpp"
 #include "chemistry/transport/pure_gas.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

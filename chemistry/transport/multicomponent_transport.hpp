@@ -17,7 +17,7 @@
 #include "chemistry/transport/multicomponent_pairs.hpp"
 #include "chemistry/transport/pure_gas.hpp"
 #include "chemistry/transport/transport.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

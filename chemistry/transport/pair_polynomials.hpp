@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "chemistry/transport/lanes.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

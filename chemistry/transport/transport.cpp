@@ -9,7 +9,7 @@
 #include "chemistry/numerics/dot.hpp"
 #include "chemistry/transport/fit_points.hpp"
 #include "chemistry/transport/lanes.hpp"
-#include "chemistry/transport/transport_room.hpp"
+#include "chemistry/transport/transport_margin.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 
@@ -44,11 +44,11 @@ void multiplyBlocks(const double* M, std::size_t n, std::size_t ld, const std::a
 }  // namespace
 
 void Transport::requireInRange(double T) {
-  if (!(T >= transportroom::coldest && T <= transportroom::hottest))
+  if (!(T >= transportmargin::coldest && T <= transportmargin::hottest))
     throw NumericsError(
         fmt::format("transport properties at {:.6g} K; they are known from {} to {} K, and used from {} "
                     "to {} K",
-                    T, minTemperature, maxTemperature, transportroom::coldest, transportroom::hottest));
+                    T, minTemperature, maxTemperature, transportmargin::coldest, transportmargin::hottest));
 }
 
 Transport::Basis Transport::basis(double T) const {

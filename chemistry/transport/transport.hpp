@@ -14,7 +14,7 @@
 #include "chemistry/thermo/species_thermo.hpp"
 #include "chemistry/transport/collision_integrals.hpp"
 #include "chemistry/transport/pair_polynomials.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 

@@ -13,7 +13,7 @@
 
 #include "chemistry/numerics/aligned_vector.hpp"
 #include "chemistry/numerics/dense_blocks.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::flow {
 

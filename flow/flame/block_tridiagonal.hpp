@@ -18,7 +18,7 @@
 #include <memory>
 #include <span>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::flow {
 

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/flame/block_sweep.hpp"
 #include "flow/flame/block_tridiagonal.hpp"
 

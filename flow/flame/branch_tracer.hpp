@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/flame/loaded_system.hpp"
 #include "flow/flame/newton_solver.hpp"
 

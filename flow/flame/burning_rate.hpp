@@ -2,7 +2,7 @@
 #pragma once
 
 #include "chemistry/mechanism/mechanism.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/flame/flame_problem.hpp"
 
 namespace lampblack::flow {

@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/flame/flame_profile.hpp"
 
 namespace lampblack::flow {

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "chemistry/mechanism/mechanism.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/carried_model.hpp"
 #include "flow/flame/block_tridiagonal.hpp"
 #include "flow/flame/flame_problem.hpp"

@@ -1,4 +1,4 @@
-// Inside of FlameEquations: what residual, Newton matrix and budgets share. Not for other rooms.
+// Inside of FlameEquations: what residual, Newton matrix and budgets share. Not for other modules.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "chemistry/kinetics/kinetics.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/flame/flame_equations.hpp"
 #include "flow/flame/flame_gas.hpp"
 

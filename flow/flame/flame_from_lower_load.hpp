@@ -10,7 +10,7 @@
 #include <optional>
 #include <string>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/flame/flame_solver.hpp"
 #include "flow/flame/initial_flame.hpp"
 

@@ -1,4 +1,4 @@
-// Inside of FlameEquations: the gas at the points of a flame and between them, in flat arrays. Not for other rooms.
+// Inside of FlameEquations: the gas at the points of a flame and between them, in flat arrays. Not for other modules.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 #include "chemistry/thermo/species_thermo.hpp"
 #include "chemistry/transport/multicomponent_transport.hpp"
 #include "chemistry/transport/transport.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/carried_model.hpp"
 #include "flow/flame/flame_equations.hpp"
 #include "flow/flame/flame_problem.hpp"

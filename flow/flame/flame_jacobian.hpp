@@ -1,11 +1,11 @@
 // Inside of FlameEquations: the Newton matrix, from derivatives of the fluxes through a face and of the sources at a
-// point, with transport coefficients frozen but for their growth with temperature. Not for other rooms.
+// point, with transport coefficients frozen but for their growth with temperature. Not for other modules.
 #pragma once
 
 #include <cstddef>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/flame/flame_equations_data.hpp"
 
 namespace lampblack::flow {

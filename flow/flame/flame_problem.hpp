@@ -12,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/radiation.hpp"
 #include "flow/transport_model.hpp"
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::flow {
 

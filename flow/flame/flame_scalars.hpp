@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/flame/block_tridiagonal.hpp"
 #include "flow/flame/flame_equations.hpp"
 

@@ -1,4 +1,4 @@
-// Inside of FlameSolver: what its stages and its grids share. Not for other rooms.
+// Inside of FlameSolver: what its stages and its grids share. Not for other modules.
 #pragma once
 
 #include <functional>
@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/flame/flame_solver.hpp"
 #include "flow/flame/flame_stability.hpp"
 

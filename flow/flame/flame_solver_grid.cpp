@@ -112,7 +112,7 @@ void FlameSolver::Data::refine(FlameEquations& equations, NewtonSolver& solver, 
     steady(equations, solver, pass == 0 ? name : fmt::format("{}, grid {}", name, pass + 1));
     if (!options.refine) return;
     if (widen()) continue;
-    const auto giveUp = [&](const std::string& reason) {
+    const auto stopRefinement = [&](const std::string& reason) {
       FlameStage stage = solution.stages.back();
       stage.newton.reason = reason;
       solution.stages.pop_back();
@@ -122,11 +122,11 @@ void FlameSolver::Data::refine(FlameEquations& equations, NewtonSolver& solver, 
     try {
       change = refineForAllButFlux(seenByGrid(solution.profile, carried), options.grid, anchorPoint());
     } catch (const NumericsError& error) {
-      giveUp(error.what());
+      stopRefinement(error.what());
     }
     if (!change.changed()) return;
     if (pass + 1 == options.maximumGrids)
-      giveUp(fmt::format("the grid still changes after {} refinements", options.maximumGrids));
+      stopRefinement(fmt::format("the grid still changes after {} refinements", options.maximumGrids));
     solution.profile = onGrid(solution.profile, change.z);
   }
 }

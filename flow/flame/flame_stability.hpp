@@ -23,7 +23,7 @@
 #include <span>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/flame/flame_equations.hpp"
 
 namespace lampblack::flow {

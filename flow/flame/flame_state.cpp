@@ -31,7 +31,7 @@ FlameState stateOf(const Mechanism& mechanism, const FlameProblem& problem, cons
   // A temperature that is given says nothing about what burns.
   const bool warm = isWarm(problem, solution.profile);
   if (problem.given || !warm) {
-    if (!whyItCannotBurn(mechanism, problem).empty()) return FlameState::Inert;
+    if (!inertReason(mechanism, problem).empty()) return FlameState::Inert;
     if (!warm) return FlameState::Out;
   }
   return solution.growthRate ? FlameState::UnstableBranch : FlameState::Burning;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "chemistry/transport/transport_room.hpp"
+#include "chemistry/transport/transport_margin.hpp"
 #include "flow/flame/flame_equations_data.hpp"
 
 namespace lampblack::flow {
@@ -19,8 +19,8 @@ void FlameEquations::bounds(std::span<double> lower, std::span<double> upper) co
   for (std::size_t i = 0; i < d.points(); ++i) {
     double* low = &lower[i * d.width()];
     double* high = &upper[i * d.width()];
-    low[FlameLayout::temperature] = transportroom::coldest;
-    high[FlameLayout::temperature] = transportroom::hottest;
+    low[FlameLayout::temperature] = transportmargin::coldest;
+    high[FlameLayout::temperature] = transportmargin::hottest;
     for (std::size_t k = 0; k < d.species(); ++k) {
       low[FlameLayout::firstSpecies + k] = -1e-3;  // what differences at a front may undershoot by
       high[FlameLayout::firstSpecies + k] = 1 + 1e-3;

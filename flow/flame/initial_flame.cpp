@@ -233,7 +233,7 @@ FlameProfile initialFlame(const Mechanism& mechanism, const FlameProblem& proble
   if (problem.type == FlameType::Counterflow && !problem.right)
     throw InputError("flame: a counterflow needs a stream at the right end");
   InitialFlameOptions possible = options;
-  if (problem.type != FlameType::Free && !whyItCannotBurn(mechanism, problem).empty()) possible.cold = true;
+  if (problem.type != FlameType::Free && !inertReason(mechanism, problem).empty()) possible.cold = true;
   Start start(mechanism, problem, scalars, possible);
   switch (problem.type) {
     case FlameType::Wall:

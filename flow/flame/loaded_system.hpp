@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/flame/newton_system.hpp"
 
 namespace lampblack::flow {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::flow {
 

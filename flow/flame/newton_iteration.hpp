@@ -14,9 +14,9 @@
 #include <string>
 #include <vector>
 
+#include "core/modules.hpp"
 #include "core/petsc.hpp"
 #include "core/petsc_callbacks.hpp"
-#include "core/rooms.hpp"
 #include "flow/flame/newton_solver.hpp"
 #include "flow/flame/newton_system.hpp"
 

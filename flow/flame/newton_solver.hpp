@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/flame/newton_system.hpp"
 
 namespace lampblack::flow {

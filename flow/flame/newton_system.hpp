@@ -8,7 +8,7 @@
 #include <span>
 #include <string>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::flow {
 

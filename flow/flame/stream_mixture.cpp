@@ -148,7 +148,7 @@ double StreamMixture::at(double share, std::span<double> Y) const {
   return thermo_.temperatureFromEnthalpy(share * leftEnthalpy_ + (1 - share) * rightEnthalpy_, Y, hottest_);
 }
 
-std::string whyItCannotBurn(const Mechanism& mechanism, const FlameProblem& problem) {
+std::string inertReason(const Mechanism& mechanism, const FlameProblem& problem) {
   try {
     if (problem.right)
       static_cast<void>(StreamMixture::counterflow(mechanism, problem.left, *problem.right, problem.pressure));

@@ -10,7 +10,7 @@
 
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/thermo/thermo.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/flame/flame_problem.hpp"
 
 namespace lampblack::flow {
@@ -57,6 +57,6 @@ class StreamMixture {
 };
 
 // Why the streams of a flame cannot burn ("the stream has no fuel"); empty where they can.
-[[nodiscard]] std::string whyItCannotBurn(const Mechanism& mechanism, const FlameProblem& problem);
+[[nodiscard]] std::string inertReason(const Mechanism& mechanism, const FlameProblem& problem);
 
 }  // namespace lampblack::flow

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/flame/newton_solver.hpp"
 #include "flow/flame/unsteady_system.hpp"
 

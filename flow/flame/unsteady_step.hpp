@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "core/modules.hpp"
 #include "core/petsc_callbacks.hpp"
-#include "core/rooms.hpp"
 #include "flow/flame/newton_system.hpp"
 #include "flow/flame/unsteady_system.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <span>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/flame/loaded_system.hpp"
 
 namespace lampblack::flow {

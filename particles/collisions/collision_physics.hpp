@@ -1,12 +1,12 @@
 // The physics of Brownian collisions in a gas, from the free-molecular to the continuum regime: every kernel of the
-// room is put together from these. Inline: they sit in the innermost loops.
+// module is put together from these. Inline: they sit in the innermost loops.
 #pragma once
 
 #include <cmath>
 
 #include "core/constants.hpp"
+#include "core/modules.hpp"
 #include "core/particle_gas.hpp"
-#include "core/rooms.hpp"
 
 namespace lampblack::particles {
 

@@ -5,7 +5,7 @@
 
 #include "core/constants.hpp"
 #include "core/cube_root.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::particles {
 

@@ -23,7 +23,7 @@ std::unique_ptr<Ensemble> make(EnsembleOptions options, const PopulationModel& m
 
 std::unique_ptr<Ensemble> makeEnsemble(EnsembleOptions options) {
   if (options.particles < 8) throw InputError("stochastic soot: at least 8 numerical particles are needed");
-  if (!(options.shareAtOnce >= 0) || !(options.shareAtOnce < 1))
+  if (!(options.bundledGrowth >= 0) || !(options.bundledGrowth < 1))
     throw InputError("stochastic soot: the share of a particle that is taken up at once has to be in [0, 1)");
   if (!(options.startNumberDensity > 0) || !(options.splitTolerance > 0) || !(options.splitTolerance <= 1)) {
     throw InputError("stochastic soot: the start number density and the split tolerance need to be positive");
@@ -44,7 +44,7 @@ std::unique_ptr<Ensemble> makeEnsemble(EnsembleOptions options) {
   monteCarlo.particles = options.particles;
   monteCarlo.expectedNumber = options.startNumberDensity;
   monteCarlo.nucleusWeight = 1;
-  monteCarlo.shareAtOnce = options.shareAtOnce;
+  monteCarlo.bundledGrowth = options.bundledGrowth;
   switch (options.method) {
     case EnsembleMethod::dsmc:
       monteCarlo.method = MonteCarloMethod::dsmc;

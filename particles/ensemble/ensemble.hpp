@@ -18,7 +18,7 @@
 #include <span>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/ensemble/particle_rows.hpp"
 #include "particles/gas/soot_gas.hpp"
 #include "particles/population/model/collision_kernel.hpp"
@@ -46,7 +46,7 @@ struct EnsembleOptions {
   double splitTolerance = 0.01;  // relative change of the population in a splitting step
   // sammc: the share of its volume that a particle may take up of small ones at once; 0: one by one. Saves most of the
   // events where new particles are many; the growth of the second moment by them is too large by at most half of it.
-  double shareAtOnce = 0;
+  double bundledGrowth = 0;
   // 1/m3, that fewer particles are not resolved: with different weights, those born where there are as many or fewer
   // stand for this over the capacity. Zero: the first trace of soot is.
   double leastNumberDensity = 0;

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/ensemble/ensemble.hpp"
 #include "particles/ensemble/size_bins.hpp"
 #include "particles/gas/gas_path.hpp"

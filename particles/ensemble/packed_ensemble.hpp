@@ -11,8 +11,8 @@
 
 #include "core/constants.hpp"
 #include "core/cube_root.hpp"
+#include "core/modules.hpp"
 #include "core/packed_doubles.hpp"
-#include "core/rooms.hpp"
 #include "particles/ensemble/ensemble.hpp"
 #include "particles/soot/soot_aggregate.hpp"
 

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <span>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::particles {
 

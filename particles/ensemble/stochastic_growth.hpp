@@ -1,7 +1,7 @@
 // StochasticProcess: how its population grows, and the sums over it. Included by stochastic_process.hpp.
 #pragma once
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/ensemble/stochastic_process.hpp"
 #include "particles/soot/soot_events.hpp"
 
@@ -65,10 +65,11 @@ void StochasticProcess<Method>::takeChanges(const SootMedium& medium, double bef
 
 // All particles change.
 template <class Method>
-SootMoved StochasticProcess<Method>::growEach(const SootMedium& medium, const SootFluxes& flux, double dt, Sums& now) {
+SootTransfer StochasticProcess<Method>::growEach(const SootMedium& medium, const SootFluxes& flux, double dt,
+                                                 Sums& now) {
   gather();
-  const SootMoved all = options_.growthByEvents ? growAllByEvents(columns_, type_, medium, flux, dt, random_)
-                                                : growAll(columns_, type_, medium, flux, dt);
+  const SootTransfer all = options_.growthByEvents ? growAllByEvents(columns_, type_, medium, flux, dt, random_)
+                                                   : growAll(columns_, type_, medium, flux, dt);
   std::size_t k = 0;
   method_.changeParticles([&](Particle& p, double) {
     p = columns_.particle(k++);
@@ -81,7 +82,8 @@ SootMoved StochasticProcess<Method>::growEach(const SootMedium& medium, const So
 
 // In whole events, which only some have.
 template <class Method>
-SootMoved StochasticProcess<Method>::growSome(const SootMedium& medium, const SootFluxes& flux, double dt, Sums& now) {
+SootTransfer StochasticProcess<Method>::growSome(const SootMedium& medium, const SootFluxes& flux, double dt,
+                                                 Sums& now) {
   GrowthByEvents growth(type_, medium, flux, dt, random_);
   if constexpr (changesSome) {
     changed_.clear();
@@ -109,7 +111,7 @@ template <class Method>
 void StochasticProcess<Method>::grow(const SootMedium& medium, double dt, Sums& now) {
   if (size() == 0 || !(medium.condensing() || medium.surfaceActive())) return;
   const SootFluxes flux = sootFluxes(law(), medium, now, dt);
-  const SootMoved all = growsSome() ? growSome(medium, flux, dt, now) : growEach(medium, flux, dt, now);
+  const SootTransfer all = growsSome() ? growSome(medium, flux, dt, now) : growEach(medium, flux, dt, now);
   recordUptakeOfDimers(medium, all.dimers);
   exchange_.condensed += all.dimers * (medium.dimerCarbon() + medium.dimerHydrogen());
   exchange_.grown += all.growth;

@@ -6,8 +6,8 @@
 #include <tuple>
 
 #include "chemistry/numerics/vector_math.hpp"
+#include "core/modules.hpp"
 #include "core/packed_doubles.hpp"
-#include "core/rooms.hpp"
 #include "particles/ensemble/size_bins.hpp"
 #include "particles/ensemble/stochastic_process.hpp"
 #include "particles/population/monte_carlo/systematic_sample.hpp"

@@ -1,4 +1,4 @@
-// Inside of makeEnsemble(): the processes of soot in a population of any Monte Carlo method. Not for other rooms.
+// Inside of makeEnsemble(): the processes of soot in a population of any Monte Carlo method. Not for other modules.
 #pragma once
 
 #include <fmt/format.h>
@@ -76,8 +76,8 @@ class StochasticProcess final : public Ensemble {
   void takeChanges(const SootMedium& medium, double before, Sums& now);
   void grow(const SootMedium& medium, double dt, Sums& now);
   [[nodiscard]] bool growsSome() const { return changesSome && options_.growthByEvents; }
-  SootMoved growEach(const SootMedium& medium, const SootFluxes& flux, double dt, Sums& now);
-  SootMoved growSome(const SootMedium& medium, const SootFluxes& flux, double dt, Sums& now);
+  SootTransfer growEach(const SootMedium& medium, const SootFluxes& flux, double dt, Sums& now);
+  SootTransfer growSome(const SootMedium& medium, const SootFluxes& flux, double dt, Sums& now);
   void planNucleus(double weight) { nucleusAfter_ = weight * random_.uniform(); }
   void recordUptakeOfDimers(const SootMedium& medium, double dimers);
 
@@ -280,6 +280,6 @@ void StochasticProcess<Method>::recordUptakeOfDimers(const SootMedium& medium, d
 
 }  // namespace lampblack::particles
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/ensemble/stochastic_growth.hpp"
 #include "particles/ensemble/stochastic_population.hpp"

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/gas/soot_gas.hpp"
 
 namespace lampblack::particles {

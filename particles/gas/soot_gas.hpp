@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/collisions/collision_physics.hpp"
 
 namespace lampblack::particles {

@@ -8,7 +8,7 @@
 
 #include "core/constants.hpp"
 #include "core/cube_root.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/collisions/collision_physics.hpp"
 #include "particles/models/soot_model.hpp"
 #include "particles/soot/soot_oxidation.hpp"

@@ -1,7 +1,6 @@
-// What every model of particles that a gas can carry looks like from outside: a few (or many) scalars per volume of
-// gas, their sources, and what they exchange with the gas. The same object serves a one-dimensional flame, a reactor
-// and a flow cell; it knows neither mesh nor mechanism. Exchange conserves every element to round-off: those of the
-// scalars plus those of the gas species do not change.
+// The interface of every particle model that a gas can carry: scalars per volume of gas, their sources, and the
+// exchange with the gas. The same object serves a one-dimensional flame, a reactor and a flow cell; a model depends on
+// neither mesh nor mechanism. The exchange conserves every element of scalars and gas species together, to round-off.
 #pragma once
 
 #include <array>
@@ -11,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/modules.hpp"
 #include "core/particle_gas.hpp"
-#include "core/rooms.hpp"
 
 namespace lampblack::particles {
 
@@ -32,7 +31,7 @@ struct ParticleScalar {
   [[nodiscard]] double massOf(std::string_view element) const;
 };
 
-// What is measured or plotted, at one point.
+// Measurable properties at one point.
 struct ParticleProperties {
   double numberDensity = 0;          // 1/m3, of aggregates
   double volumeFraction = 0;         // m3/m3
@@ -96,23 +95,23 @@ struct SizeDistribution {
 
 class ParticleModel {
  public:
-  // Of a scalar's typical amount (ParticleScalar::scale): less than this does not matter.
+  // Share of the typical amount of a scalar (ParticleScalar::scale) below which the scalar is negligible.
   static constexpr double smallestShare = 1e-5;
 
   virtual ~ParticleModel() = default;
 
-  // What the particles are of, "soot": results files put it before the names of scalars and properties.
+  // Material of the particles, "soot": the prefix of the names of scalars and properties in results files.
   [[nodiscard]] virtual std::string material() const = 0;
-  // Gas species by their usual mechanism names, whose concentrations matter or that are exchanged: those of a
-  // ParticleGas, in this order.
+  // Gas species that the model depends on or exchanges, by their usual names in mechanisms. A ParticleGas has their
+  // concentrations in this order.
   [[nodiscard]] virtual const std::vector<std::string>& gasSpecies() const = 0;
-  // Where in `gasSpecies` those stand without which no particle is ever born.
+  // Indices in `gasSpecies` of the species without which there is no inception.
   [[nodiscard]] virtual std::vector<std::size_t> precursors() const = 0;
   [[nodiscard]] virtual const std::vector<ParticleScalar>& scalars() const = 0;
 
-  // Sums over the scalars whose profiles decide how fine a grid has to be: weights of all scalars' densities, each sum
-  // of order one per kg of gas where there are particles. Empty: every scalar by itself. Sections travel as waves of
-  // their own, but what is asked of them are moments.
+  // Weighted sums of the scalars whose profiles control the refinement of a grid: weights of all densities, such that
+  // each sum is of order one per kg of gas where there are particles. Empty: every scalar by itself. Sectional models
+  // give moments in place of sections.
   [[nodiscard]] virtual std::vector<std::vector<double>> gridSums() const { return {}; }
 
   // `densities`: of the scalars, per m3; negative ones (and negative concentrations) count as zero. `rates`: of the
@@ -135,9 +134,9 @@ class ParticleModel {
   // within 0.002 % (sections) to 0.13 % (MOMIC) of that at 1e-6 (docs/verification.md).
   void setAdvanceTolerance(double relative) { advanceTolerance_ = relative; }
 
-  // Whether there are no particles to speak of: a volume fraction below 1e-21.
+  // Whether the volume fraction is below 1e-21.
   [[nodiscard]] bool isNegligible(std::span<const double> densities) const;
-  // Whether there are none and nothing that could make one: precursors below a mole fraction of 1e-15.
+  // Whether there are neither particles (isNegligible()) nor precursors, which are below a mole fraction of 1e-15.
   [[nodiscard]] bool idle(const ParticleGas& gas, std::span<const double> densities) const;
 
   // Brownian diffusivity of each scalar, m2/s. All scalars move by thermophoresis with thermophoresis().
@@ -153,14 +152,15 @@ class ParticleModel {
 
   [[nodiscard]] virtual ParticleProperties properties(const ParticleGas& gas,
                                                       std::span<const double> densities) const = 0;
-  // m3/m3, for radiation. The default asks `properties` in some hot gas; models override it where that costs.
+  // m3/m3, for radiation. The default calls `properties` in a hot gas; models override the default where that is
+  // costly.
   [[nodiscard]] virtual double volumeFraction(std::span<const double> densities) const;
-  // The part of it in particles as large as the model can have, which grow no more: where it counts, the model has too
-  // few sections. Zero where there is no such limit.
+  // The volume fraction (m3/m3) of particles of the largest size of the model, which cannot grow. A large value means
+  // too few sections. Zero for models without such a size.
   [[nodiscard]] virtual double volumeFractionAtLimit(std::span<const double> densities) const;
   [[nodiscard]] virtual ParticleProcesses processes(const ParticleGas& gas,
                                                     std::span<const double> densities) const = 0;
-  // Empty where the model has none; else at the same diameters for all densities, also where there are no particles.
+  // Empty for models without a distribution. The diameters are the same for all densities.
   [[nodiscard]] virtual SizeDistribution sizeDistribution(std::span<const double> densities) const;
 
  private:

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/models/particle_model.hpp"
 
 namespace lampblack::particles {

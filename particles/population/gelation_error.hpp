@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::particles {
 

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/model/population_model.hpp"
 
 namespace lampblack::particles {
@@ -58,10 +58,10 @@ class PopulationSolver {
 
   // From time() to `end` (s). Throws NumericsError; gelation() of what is thrown then says so, see GelationError.
   virtual void advance(double end) = 0;
-  // `watch` is called every so often on the way (each step, or some hundred events), at most some milliseconds apart
-  // for samples and sections of common sizes. What it throws ends advance(), in the middle of whatever was going on:
-  // such a solver is of no more use.
-  void watchBy(std::function<void()> watch) { watch_ = std::move(watch); }
+  // advance() calls `callback` after each step or some hundred events: at most some milliseconds apart for samples and
+  // sections of common sizes. An exception of the callback ends advance() in an incomplete state: the solver cannot be
+  // used further.
+  void setCallback(std::function<void()> callback) { callback_ = std::move(callback); }
   [[nodiscard]] virtual double time() const = 0;
 
   // M_0 to M_3, M_k being the sum of v^k per m3 (m^(3k-3)).
@@ -76,12 +76,12 @@ class PopulationSolver {
   [[nodiscard]] virtual const PopulationCounters& counters() const = 0;
 
  protected:
-  void lookUp() const {
-    if (watch_) watch_();
+  void runCallback() const {
+    if (callback_) callback_();
   }
 
  private:
-  std::function<void()> watch_;
+  std::function<void()> callback_;
 };
 
 }  // namespace lampblack::particles

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/collisions/collision_physics.hpp"
 #include "particles/gas/soot_gas.hpp"
 

@@ -11,7 +11,7 @@
 
 #include "core/constants.hpp"
 #include "core/cube_root.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/model/particle_type.hpp"
 
 namespace lampblack::particles {

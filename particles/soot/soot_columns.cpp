@@ -65,11 +65,11 @@ SootSums sums(const SootColumns& all, const SootAggregate& type, const SootMediu
 }
 
 template <bool Spheres>
-SootMoved grow(SootColumns& all, const SootAggregate& type, const SootMedium& medium, const SootFluxes& fluxes,
-               double dt) {
+SootTransfer grow(SootColumns& all, const SootAggregate& type, const SootMedium& medium, const SootFluxes& fluxes,
+                  double dt) {
   const SootGrowth law = medium.growth(fluxes);
   const double perVolume = type.perVolume(), least = law.leastCarbon(), share = law.shareO2();
-  SootMoved sum;
+  SootTransfer sum;
   forEachBlock(all.size(), [&](std::size_t first, std::size_t n) {
     double *c = &all.carbon[first], *h = &all.hydrogen[first], *diameter = &all.diameter[first];
     const double *primaries = &all.primaries[first], *w = &all.weight[first];
@@ -95,14 +95,15 @@ SootMoved grow(SootColumns& all, const SootAggregate& type, const SootMedium& me
       moved[4][i] = w[i] * (s.hydrogenO2 + share * H);
       moved[5][i] = w[i] * (s.hydrogenOH + (1 - share) * H);
     }
-    constexpr double SootMoved::*parts[6] = {&SootMoved::dimers,      &SootMoved::growth,     &SootMoved::oxidationO2,
-                                             &SootMoved::oxidationOH, &SootMoved::hydrogenO2, &SootMoved::hydrogenOH};
+    constexpr double SootTransfer::*parts[6] = {&SootTransfer::dimers,      &SootTransfer::growth,
+                                                &SootTransfer::oxidationO2, &SootTransfer::oxidationOH,
+                                                &SootTransfer::hydrogenO2,  &SootTransfer::hydrogenOH};
     if (chemistry::sumOf(rest, n) > 0) {
       // More than one step: one by one.
       for (std::size_t i = 0; i < n; ++i) {
         if (rest[i] == 0) continue;
         SootAggregate::Particle p{c[i], h[i], primaries[i], diameter[i]};
-        SootMoved one;
+        SootTransfer one;
         const bool left = medium.grow(type, fluxes, dt, p, one);
         carbon[i] = left ? p.carbon : 0;
         hydrogen[i] = left ? p.hydrogen : 0;
@@ -128,8 +129,8 @@ SootSums sumsOf(const SootColumns& all, const SootAggregate& type, const SootMed
   return type.coalescing() ? sums<true>(all, type, medium) : sums<false>(all, type, medium);
 }
 
-SootMoved growAll(SootColumns& all, const SootAggregate& type, const SootMedium& medium, const SootFluxes& fluxes,
-                  double dt) {
+SootTransfer growAll(SootColumns& all, const SootAggregate& type, const SootMedium& medium, const SootFluxes& fluxes,
+                     double dt) {
   return type.coalescing() ? grow<true>(all, type, medium, fluxes, dt) : grow<false>(all, type, medium, fluxes, dt);
 }
 

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/modules.hpp"
 #include "core/random.hpp"
-#include "core/rooms.hpp"
 #include "particles/soot/soot_medium.hpp"
 
 namespace lampblack::particles {
@@ -67,13 +67,13 @@ inline void SootSums::add(const SootSums& other) {
 [[nodiscard]] SootSums sumsOf(const SootColumns& all, const SootAggregate& type, const SootMedium& medium);
 
 // Grows all over dt (s), as SootMedium::grow does one of them; those that are oxidised away are left without carbon.
-[[nodiscard]] SootMoved growAll(SootColumns& all, const SootAggregate& type, const SootMedium& medium,
-                                const SootFluxes& fluxes, double dt);
+[[nodiscard]] SootTransfer growAll(SootColumns& all, const SootAggregate& type, const SootMedium& medium,
+                                   const SootFluxes& fluxes, double dt);
 
 // The same in whole events, a dimer, two atoms of carbon by C2H2 or O2 or one by OH: of each particle and kind as many
 // as a Poisson number says whose mean is what growAll() would move. A particle that an event leaves with less carbon
 // than the smallest nucleus is oxidised away. Some particles after the other: GrowthByEvents.
-[[nodiscard]] SootMoved growAllByEvents(SootColumns& all, const SootAggregate& type, const SootMedium& medium,
-                                        const SootFluxes& fluxes, double dt, RandomStream& random);
+[[nodiscard]] SootTransfer growAllByEvents(SootColumns& all, const SootAggregate& type, const SootMedium& medium,
+                                           const SootFluxes& fluxes, double dt, RandomStream& random);
 
 }  // namespace lampblack::particles

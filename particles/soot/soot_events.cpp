@@ -15,8 +15,8 @@ constexpr std::size_t particlesAtATime = 128;
 // Of one particle; more are drawn as numbers of each kind.
 constexpr double manyEvents = 8;
 
-// Some particles of which each had events, and how many of each kind.
-struct Some {
+// A batch of particles that each had at least one event. `number`: events of each kind.
+struct EventBatch {
   std::size_t count = 0;
   std::uint32_t place[particlesAtATime];
   std::uint64_t few[particlesAtATime];  // 16 bits for each kind
@@ -25,49 +25,49 @@ struct Some {
 };
 
 // `number` of those that have few events.
-void unpack(Some& some, std::span<const std::uint32_t> many) {
+void unpack(EventBatch& batch, std::span<const std::uint32_t> many) {
   double kept[sootEvents][particlesAtATime];
   for (std::size_t m = 0; m < many.size(); ++m)
-    for (std::size_t kind = 0; kind < sootEvents; ++kind) kept[kind][m] = some.number[kind][many[m]];
+    for (std::size_t kind = 0; kind < sootEvents; ++kind) kept[kind][m] = batch.number[kind][many[m]];
   for (std::size_t kind = 0; kind < sootEvents; ++kind)
-    for (std::size_t j = 0; j < some.count; ++j)
-      some.number[kind][j] = static_cast<double>((some.few[j] >> (16U * kind)) & 0xffffU);
+    for (std::size_t j = 0; j < batch.count; ++j)
+      batch.number[kind][j] = static_cast<double>((batch.few[j] >> (16U * kind)) & 0xffffU);
   for (std::size_t m = 0; m < many.size(); ++m)
-    for (std::size_t kind = 0; kind < sootEvents; ++kind) some.number[kind][many[m]] = kept[kind][m];
+    for (std::size_t kind = 0; kind < sootEvents; ++kind) batch.number[kind][many[m]] = kept[kind][m];
 }
 
-// The events of one particle where their order matters: any order is as likely as any other. False when nothing is
-// left.
-bool happenInTurn(SootEvents& events, SootEventNumbers numbers, RandomStream& random, double& carbon,
-                  double& hydrogen) {
+// Applies the events of one particle in a random order, where their order matters. All orders are equally likely. False
+// where the particle is oxidised away.
+bool applyInRandomOrder(SootEvents& events, SootEventNumbers numbers, RandomStream& random, double& carbon,
+                        double& hydrogen) {
   for (double left = sumOf(numbers); left > 0; --left) {
     const std::size_t kind = eventAt(numbers, left > 1 ? random.uniform() * left : 0.5);
     --numbers[kind];
-    if (!events.happens(kind, carbon, hydrogen)) return false;
+    if (!events.applyEvents(kind, carbon, hydrogen)) return false;
   }
   return true;
 }
 
-// All events of all of them.
-void happen(Some& some, const SootColumns& all, const SootMedium& medium, double least, RandomStream& random,
-            SootMoved& sum) {
+// Applies all events of all particles of the batch. `sum`: transferred amounts, times the weight of the particle.
+void applyAllEvents(EventBatch& batch, const SootColumns& all, const SootMedium& medium, double least,
+                    RandomStream& random, SootTransfer& sum) {
   const double atom = medium.carbonAtom(), dimerCarbon = medium.dimerCarbon(), dimerHydrogen = medium.dimerHydrogen();
   using Row = double[particlesAtATime];
   Row inTurn, dimers, growth, byO2, byOH, hydrogenO2, hydrogenOH;
-  const std::size_t n = some.count;
+  const std::size_t n = batch.count;
   for (std::size_t j = 0; j < n; ++j) {
-    const double w = all.weight[some.place[j]], c = some.carbon[j], h = some.hydrogen[j];
-    const double grown = 2 * some.number[growthEvent][j] * atom;
-    const double O2 = 2 * some.number[oxidationByO2Event][j] * atom, OH = some.number[oxidationByOHEvent][j] * atom;
+    const double w = all.weight[batch.place[j]], c = batch.carbon[j], h = batch.hydrogen[j];
+    const double grown = 2 * batch.number[growthEvent][j] * atom;
+    const double O2 = 2 * batch.number[oxidationByO2Event][j] * atom, OH = batch.number[oxidationByOHEvent][j] * atom;
     const bool risky = O2 + OH > 0 && c - (O2 + OH) < least;
     inTurn[j] = risky ? 1 : 0;
     // What comes in comes first; hydrogen leaves with its carbon.
-    const double most = c + some.number[dimerEvent][j] * dimerCarbon + grown;
-    const double full = h + some.number[dimerEvent][j] * dimerHydrogen, share = full / most;
-    some.carbon[j] = risky ? c : most - O2 - OH;
-    some.hydrogen[j] = risky ? h : full - share * (O2 + OH);
+    const double most = c + batch.number[dimerEvent][j] * dimerCarbon + grown;
+    const double full = h + batch.number[dimerEvent][j] * dimerHydrogen, share = full / most;
+    batch.carbon[j] = risky ? c : most - O2 - OH;
+    batch.hydrogen[j] = risky ? h : full - share * (O2 + OH);
     const double counted = risky ? 0 : w;
-    dimers[j] = counted * some.number[dimerEvent][j];
+    dimers[j] = counted * batch.number[dimerEvent][j];
     growth[j] = counted * grown;
     byO2[j] = counted * O2;
     byOH[j] = counted * OH;
@@ -82,9 +82,9 @@ void happen(Some& some, const SootColumns& all, const SootMedium& medium, double
   sum.hydrogenOH += chemistry::sumOf(hydrogenOH, n);
   for (std::size_t j = 0; j < n; ++j) {
     if (inTurn[j] == 0) continue;
-    SootEvents events(medium, least, all.weight[some.place[j]], sum);
-    happenInTurn(events, {some.number[0][j], some.number[1][j], some.number[2][j], some.number[3][j]}, random,
-                 some.carbon[j], some.hydrogen[j]);
+    SootEvents events(medium, least, all.weight[batch.place[j]], sum);
+    applyInRandomOrder(events, {batch.number[0][j], batch.number[1][j], batch.number[2][j], batch.number[3][j]}, random,
+                       batch.carbon[j], batch.hydrogen[j]);
   }
 }
 
@@ -96,7 +96,7 @@ void GrowthByEvents::grow(SootColumns& all, std::vector<std::uint32_t>& changed)
   changed.clear();
   double expected[sootEvents][particlesAtATime], total[particlesAtATime];
   double d[particlesAtATime], shape[particlesAtATime];
-  Some some;
+  EventBatch batch;
   std::uint32_t many[particlesAtATime];  // which of them have their numbers already
   const bool spheres = type_.coalescing();
   RandomStream& random = random_;
@@ -119,7 +119,7 @@ void GrowthByEvents::grow(SootColumns& all, std::vector<std::uint32_t>& changed)
       }
       for (std::size_t i = 0; i < n; ++i) expect(i, primaries[i], shape[i], d[i]);
     }
-    some.count = 0;
+    batch.count = 0;
     std::size_t manyOnes = 0;
     for (std::size_t i = 0; i < n; ++i) {
       const bool areMany = total[i] > manyEvents;
@@ -127,13 +127,14 @@ void GrowthByEvents::grow(SootColumns& all, std::vector<std::uint32_t>& changed)
         next -= total[i];
         continue;
       }
-      const std::size_t k = first + i, j = some.count++;
-      some.place[j] = static_cast<std::uint32_t>(k);
-      some.carbon[j] = all.carbon[k];
-      some.hydrogen[j] = all.hydrogen[k];
+      const std::size_t k = first + i, j = batch.count++;
+      batch.place[j] = static_cast<std::uint32_t>(k);
+      batch.carbon[j] = all.carbon[k];
+      batch.hydrogen[j] = all.hydrogen[k];
       if (areMany) {  // its piece of the line is left out
         many[manyOnes++] = static_cast<std::uint32_t>(j);
-        for (std::size_t kind = 0; kind < sootEvents; ++kind) some.number[kind][j] = poisson(random, expected[kind][i]);
+        for (std::size_t kind = 0; kind < sootEvents; ++kind)
+          batch.number[kind][j] = poisson(random, expected[kind][i]);
         continue;
       }
       const double one = expected[0][i], two = one + expected[1][i], three = two + expected[2][i];
@@ -146,26 +147,26 @@ void GrowthByEvents::grow(SootColumns& all, std::vector<std::uint32_t>& changed)
         few += std::uint64_t{1} << (16U * ((at >= one) + (at >= two) + (at >= three)));
       }
       next -= left;
-      some.few[j] = few;
+      batch.few[j] = few;
     }
-    unpack(some, {many, manyOnes});
-    happen(some, all, medium_, least, random, moved_);
-    for (std::size_t j = 0; j < some.count; ++j)
-      some.diameter[j] = perVolume * (some.carbon[j] + some.hydrogen[j]) / all.primaries[some.place[j]];
-    for (std::size_t j = 0; j < some.count; ++j) some.diameter[j] = normalCubeRoot(some.diameter[j]);
-    for (std::size_t j = 0; j < some.count; ++j) {
-      const std::size_t k = some.place[j];
-      all.carbon[k] = some.carbon[j];
-      all.hydrogen[k] = some.hydrogen[j];
-      all.diameter[k] = spheres ? some.diameter[j] : shape[k - first] * some.diameter[j];
+    unpack(batch, {many, manyOnes});
+    applyAllEvents(batch, all, medium_, least, random, moved_);
+    for (std::size_t j = 0; j < batch.count; ++j)
+      batch.diameter[j] = perVolume * (batch.carbon[j] + batch.hydrogen[j]) / all.primaries[batch.place[j]];
+    for (std::size_t j = 0; j < batch.count; ++j) batch.diameter[j] = normalCubeRoot(batch.diameter[j]);
+    for (std::size_t j = 0; j < batch.count; ++j) {
+      const std::size_t k = batch.place[j];
+      all.carbon[k] = batch.carbon[j];
+      all.hydrogen[k] = batch.hydrogen[j];
+      all.diameter[k] = spheres ? batch.diameter[j] : shape[k - first] * batch.diameter[j];
     }
-    changed.insert(changed.end(), some.place, some.place + some.count);
+    changed.insert(changed.end(), batch.place, batch.place + batch.count);
   }
   next_ = next;
 }
 
-SootMoved growAllByEvents(SootColumns& all, const SootAggregate& type, const SootMedium& medium,
-                          const SootFluxes& fluxes, double dt, RandomStream& random) {
+SootTransfer growAllByEvents(SootColumns& all, const SootAggregate& type, const SootMedium& medium,
+                             const SootFluxes& fluxes, double dt, RandomStream& random) {
   GrowthByEvents growth(type, medium, fluxes, dt, random);
   std::vector<std::uint32_t> changed;
   growth.grow(all, changed);

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "chemistry/numerics/vector_math.hpp"
+#include "core/modules.hpp"
 #include "core/random.hpp"
-#include "core/rooms.hpp"
 #include "particles/soot/soot_columns.hpp"
 #include "particles/soot/soot_medium.hpp"
 
@@ -41,15 +41,15 @@ using SootEventNumbers = std::array<double, sootEvents>;
   return kind;
 }
 
-// Of one particle, or one primary: its events, one after the other. What moves is added up, times the weight.
+// Applies events to one particle or one primary. The transferred amounts are summed in `sum`, times the weight.
 class SootEvents {
  public:
-  SootEvents(const SootMedium& medium, double least, double weight, SootMoved& sum)
+  SootEvents(const SootMedium& medium, double least, double weight, SootTransfer& sum)
       : medium_(medium), atom_(medium.carbonAtom()), least_(least), weight_(weight), sum_(sum) {}
 
-  // kg, for as many events of a kind. False where nothing is left of it: with less carbon than the smallest nucleus it
-  // is oxidised away, which is counted as `lost`.
-  bool happens(std::size_t kind, double& carbon, double& hydrogen, double times = 1) {
+  // Applies `times` events of one kind to the masses of carbon and hydrogen (kg). False where the particle is oxidised
+  // away: with less carbon than the smallest nucleus. Such particles are counted as `lost`.
+  bool applyEvents(std::size_t kind, double& carbon, double& hydrogen, double times = 1) {
     if (kind == dimerEvent) {
       carbon += times * medium_.dimerCarbon();
       hydrogen += times * medium_.dimerHydrogen();
@@ -75,7 +75,7 @@ class SootEvents {
  private:
   const SootMedium& medium_;
   double atom_, least_, weight_;
-  SootMoved& sum_;
+  SootTransfer& sum_;
 };
 
 // Exponentially distributed numbers with the mean of one, made many at a time.
@@ -98,7 +98,7 @@ class ExponentialGaps {
   std::size_t used_ = gaps_.size();
 };
 
-// Growth of a population over a time dt (s) in whole events, some of its particles after the other. The events of all
+// Growth of a population over a time dt (s) in whole events, one group of particles after the other. The events of all
 // are one Poisson process on a line: the expected numbers of one particle after the other. Numbers in pieces of the
 // line are independent, so that only events cost random numbers, not particles.
 class GrowthByEvents {
@@ -114,8 +114,8 @@ class GrowthByEvents {
 
   // The particles that come next. `changed`: the places among them of those that had an event, ascending; who is left
   // without carbon is oxidised away.
-  void grow(SootColumns& some, std::vector<std::uint32_t>& changed);
-  [[nodiscard]] const SootMoved& moved() const { return moved_; }  // of all so far
+  void grow(SootColumns& columns, std::vector<std::uint32_t>& changed);
+  [[nodiscard]] const SootTransfer& moved() const { return moved_; }  // of all so far
 
  private:
   const SootAggregate& type_;
@@ -125,7 +125,7 @@ class GrowthByEvents {
   RandomStream& random_;
   ExponentialGaps gaps_;
   double next_;  // how far it is to the next event
-  SootMoved moved_;
+  SootTransfer moved_;
 };
 
 }  // namespace lampblack::particles

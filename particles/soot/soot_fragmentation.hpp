@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::particles {
 

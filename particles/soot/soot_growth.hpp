@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/constants.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/collisions/collision_physics.hpp"
 #include "particles/soot/dimer.hpp"
 
@@ -53,7 +53,7 @@ class SootGrowth {
   struct Step {
     double length;            // s; shorter than asked for where the diameter would change by more than a half
     double carbon, hydrogen;  // kg, of the particle at the end
-    double dimers, growth, oxidationO2, oxidationOH, hydrogenO2, hydrogenOH;  // as SootMoved
+    double dimers, growth, oxidationO2, oxidationOH, hydrogenO2, hydrogenOH;  // as SootTransfer
   };
   // By the midpoint rule for the diameter of the primaries, `d` at the start; `shape`: collision diameter over it.
   [[nodiscard, gnu::always_inline]] inline Step step(double carbon, double hydrogen, double n, double shape, double d,

@@ -15,9 +15,10 @@
 
 namespace lampblack::particles {
 
-void SootMoved::add(double weight, const SootMoved& other) {
-  for (const auto part : {&SootMoved::dimers, &SootMoved::growth, &SootMoved::oxidationO2, &SootMoved::oxidationOH,
-                          &SootMoved::hydrogenO2, &SootMoved::hydrogenOH, &SootMoved::lost})
+void SootTransfer::add(double weight, const SootTransfer& other) {
+  for (const auto part :
+       {&SootTransfer::dimers, &SootTransfer::growth, &SootTransfer::oxidationO2, &SootTransfer::oxidationOH,
+        &SootTransfer::hydrogenO2, &SootTransfer::hydrogenOH, &SootTransfer::lost})
     this->*part += weight * other.*part;
 }
 
@@ -102,7 +103,7 @@ SootFluxes SootMedium::fluxes() const {
 }
 
 bool SootMedium::grow(const SootAggregate& type, const SootFluxes& fluxes, double dt, SootAggregate::Particle& p,
-                      SootMoved& moved) const {
+                      SootTransfer& moved) const {
   const SootGrowth law = growth(fluxes);
   const double shape = SootAggregate::collisionFactor(p.primaries), before = p.carbon;
   double rest = dt;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <span>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/collisions/collision_physics.hpp"
 #include "particles/gas/soot_gas.hpp"
 #include "particles/soot/dimer.hpp"
@@ -17,13 +17,13 @@
 namespace lampblack::particles {
 
 // Soot mass (kg) that processes moved; in a population per m3. Oxidation is positive here.
-struct SootMoved {
+struct SootTransfer {
   double dimers = 0;                        // number of dimers that condensed
   double growth = 0;                        // carbon
   double oxidationO2 = 0, oxidationOH = 0;  // carbon
   double hydrogenO2 = 0, hydrogenOH = 0;    // hydrogen that left with it
   double lost = 0;                          // particles that were oxidised away
-  void add(double weight, const SootMoved& other);
+  void add(double weight, const SootTransfer& other);
 };
 
 class SootMedium {
@@ -76,7 +76,7 @@ class SootMedium {
   // Grows one particle over dt (s) by midpoint steps of the diameter of its primaries; false when it falls below the
   // carbon of the smallest nucleus, all of it then being oxidised. `moved` gets what it took and lost, to round-off.
   bool grow(const SootAggregate& type, const SootFluxes& fluxes, double dt, SootAggregate::Particle& p,
-            SootMoved& moved) const;
+            SootTransfer& moved) const;
 
  private:
   void takeDimers(const DimerModel& dimers, std::span<const double> concentrations);  // mol/m3

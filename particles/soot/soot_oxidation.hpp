@@ -2,7 +2,7 @@
 // what of oxidation takes whole particles, for all models that do not know the sizes.
 #pragma once
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::particles {
 

@@ -104,7 +104,7 @@ void exchangeDimers(const SootMedium& medium, const SootModelOptions& soot, doub
   gas[SootSpecies::H2] += 0.5 * dimers * medium.freedHydrogen() / soot.hydrogenWeight;
 }
 
-void exchangeSurface(const SootModelOptions& soot, const SootMoved& all, SootSpeciesArray& gas) {
+void exchangeSurface(const SootModelOptions& soot, const SootTransfer& all, SootSpeciesArray& gas) {
   using S = SootSpecies;
   const double perCarbon = 1 / soot.carbonWeight, perH2 = 0.5 / soot.hydrogenWeight;
   gas[S::C2H2] -= 0.5 * all.growth * perCarbon;

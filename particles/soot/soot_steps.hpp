@@ -3,7 +3,7 @@
 // Shared by populations of spheres and aggregates (Ensemble) and of trees of primaries. docs/theory/stochastic_soot.md.
 #pragma once
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/model/collision_kernel.hpp"
 #include "particles/soot/soot_columns.hpp"
 
@@ -42,6 +42,6 @@ struct SootPopulationLaw {
 // What the gas gives (negative) and gets, mol/m3, for dimers that became soot (1/m3) and for what surface reactions
 // moved (surface_chemistry.hpp).
 void exchangeDimers(const SootMedium& medium, const SootModelOptions& soot, double dimers, SootSpeciesArray& gas);
-void exchangeSurface(const SootModelOptions& soot, const SootMoved& moved, SootSpeciesArray& gas);
+void exchangeSurface(const SootModelOptions& soot, const SootTransfer& moved, SootSpeciesArray& gas);
 
 }  // namespace lampblack::particles

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <span>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/gas/soot_gas.hpp"
 
 namespace lampblack::particles {

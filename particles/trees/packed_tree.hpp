@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/ensemble/particle_rows.hpp"
 #include "particles/trees/tree.hpp"
 

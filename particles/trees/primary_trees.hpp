@@ -7,8 +7,8 @@
 #include <memory>
 #include <utility>
 
+#include "core/modules.hpp"
 #include "core/random.hpp"
-#include "core/rooms.hpp"
 #include "particles/population/model/particle_type.hpp"
 #include "particles/trees/tree_shape.hpp"
 
@@ -48,7 +48,7 @@ class PrimaryTrees {
   // In point contact at a primary of each, drawn uniformly (eq. 35). Those of the smaller tree move.
   [[nodiscard]] Tree coagulated(Tree&& p, Tree&& q, RandomStream& random) const {
     for (Tree* one : {&p, &q})
-      if (one->count() > 1 && one->head().time < clock() && shared_->settle) shared_->settle(*one, clock());
+      if (one->count() > 1 && one->head().time < clock() && shared_->sinter) shared_->sinter(*one, clock());
     if (p.count() < q.count()) p.swap(q);
     const std::size_t n = p.count(), m = q.count();
     TreeHead& tree = p.own(n + m);
@@ -80,23 +80,26 @@ class PrimaryTrees {
     tree.time = clock();
     tree.rest = 0;
     shape(tree);
-    // It sinters until trees are looked at again: as it is half-way there.
-    if (shared_->settle && shared_->look > clock()) shared_->settle(p, 0.5 * (clock() + shared_->look));
+    // The joined tree sinters until the next update, at the rate it has half-way there.
+    if (shared_->sinter && shared_->nextUpdate > clock())
+      shared_->sinter(p, 0.5 * (clock() + shared_->nextUpdate));
     return std::move(p);
   }
 
-  // Time (s) up to which trees have sintered when they meet, when all are looked at next, and who sinters one.
+  // Time (s) up to which trees have sintered when they collide.
   [[nodiscard]] double& clock() const { return shared_->clock; }
-  void lookAt(double time) const { shared_->look = time; }
-  void settleBy(std::function<void(Tree&, double time)> settle) const { shared_->settle = std::move(settle); }
+  // Time (s) at which all trees are brought up to date next.
+  void setNextUpdate(double time) const { shared_->nextUpdate = time; }
+  // The function that sinters a tree up to a time (s).
+  void setSintering(std::function<void(Tree&, double time)> sinter) const { shared_->sinter = std::move(sinter); }
 
   void measure(TreeHead& tree) const { measureTree(tree, 1 / material_->fractalDimension, size_); }
   void shape(TreeHead& tree) const { shapeTree(tree, 1 / material_->fractalDimension, size_); }
 
  private:
   struct Shared {
-    double clock = 0, look = 0;
-    std::function<void(Tree&, double)> settle;
+    double clock = 0, nextUpdate = 0;
+    std::function<void(Tree&, double)> sinter;
   };
   std::shared_ptr<const TreeMaterial> material_;
   std::shared_ptr<TreePool> pool_;

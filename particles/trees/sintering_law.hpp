@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::particles {
 

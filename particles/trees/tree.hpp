@@ -5,7 +5,7 @@
 #include <span>
 #include <utility>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/trees/tree_pool.hpp"
 
 namespace lampblack::particles {

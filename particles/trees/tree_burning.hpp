@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/trees/primary_trees.hpp"
 
 namespace lampblack::particles {

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/modules.hpp"
 #include "core/random.hpp"
-#include "core/rooms.hpp"
 #include "particles/trees/primary_trees.hpp"
 
 namespace lampblack::particles {

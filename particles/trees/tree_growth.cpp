@@ -38,7 +38,8 @@ void TreeGrowth::condense(TreeHead& tree, TreePrimary* primaries, std::size_t i,
 }
 
 // The first event is now, `left` (s) is what remains.
-void TreeGrowth::oneByOne(TreeHead& tree, TreePrimary* primaries, double left, RandomStream& random, Changes& changes) {
+void TreeGrowth::applySingleEvents(TreeHead& tree, TreePrimary* primaries, double left, RandomStream& random,
+                                   Changes& changes) {
   const std::size_t site = reactions_.site;
   while (true) {
     const double surface = rate_ * tree.units[site];
@@ -57,7 +58,8 @@ void TreeGrowth::oneByOne(TreeHead& tree, TreePrimary* primaries, double left, R
   }
 }
 
-void TreeGrowth::inNumbers(TreeHead& tree, TreePrimary* primaries, double dt, RandomStream& random, Changes& changes) {
+void TreeGrowth::applyPoissonNumbers(TreeHead& tree, TreePrimary* primaries, double dt, RandomStream& random,
+                                     Changes& changes) {
   const std::size_t site = reactions_.site;
   const double n = tree.count, steps = std::ceil(2 * rate_ * dt / sitesChange), h = dt / steps;
   for (double s = 0; s < steps; ++s) {
@@ -86,9 +88,9 @@ bool TreeGrowth::advance(Tree& handle, double dt, RandomStream& random, Changes&
   grown_.assign(tree.count, 0.0);
   changed_ = false;
   if (expected <= fewEvents)
-    oneByOne(tree, primariesOf(&tree), left, random, changes);
+    applySingleEvents(tree, primariesOf(&tree), left, random, changes);
   else
-    inNumbers(tree, primariesOf(&tree), dt, random, changes);
+    applyPoissonNumbers(tree, primariesOf(&tree), dt, random, changes);
   if (changed_) roundTree(type_, tree, grown_, type_.material().volume(reactions_.growth));
   return changed_;
 }

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/modules.hpp"
 #include "core/random.hpp"
-#include "core/rooms.hpp"
 #include "particles/trees/primary_trees.hpp"
 
 namespace lampblack::particles {
@@ -32,8 +32,8 @@ class TreeGrowth {
   bool advance(Tree& tree, double dt, RandomStream& random, Changes& changes);
 
  private:
-  void oneByOne(TreeHead& tree, TreePrimary* primaries, double left, RandomStream& random, Changes& changes);
-  void inNumbers(TreeHead& tree, TreePrimary* primaries, double dt, RandomStream& random, Changes& changes);
+  void applySingleEvents(TreeHead& tree, TreePrimary* primaries, double left, RandomStream& random, Changes& changes);
+  void applyPoissonNumbers(TreeHead& tree, TreePrimary* primaries, double dt, RandomStream& random, Changes& changes);
   void react(TreeHead& tree, TreePrimary* primaries, std::size_t i, double events, Changes& changes);
   void condense(TreeHead& tree, TreePrimary* primaries, std::size_t i, double events, Changes& changes);
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/constants.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/gas/soot_gas.hpp"
 #include "particles/population/model/collision_kernel.hpp"
 #include "particles/soot/soot_fragmentation.hpp"

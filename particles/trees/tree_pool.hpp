@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/trees/tree_material.hpp"
 
 namespace lampblack::particles {

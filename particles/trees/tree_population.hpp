@@ -18,7 +18,7 @@
 #include <span>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/collisions/collision_physics.hpp"
 #include "particles/ensemble/particle_rows.hpp"
 #include "particles/population/model/collision_kernel.hpp"
@@ -40,7 +40,7 @@ struct TreeOptions {
   double fullAt = 1e18;              // 1/m3, number density at which the sample is full first
 };
 
-// What happened since the last look, per m3 of the gas of each moment.
+// Events and transferred amounts since the previous takeExchange(), per m3 of the gas at the time of each event.
 struct TreeExchange {
   SootSpeciesArray gas{};  // mol/m3, of the material's species
   TreeUnits units{};       // of the particles, by all processes, 1/m3
@@ -64,18 +64,18 @@ struct TreeCounters {
   std::uint64_t fragmentations = 0;     // necks that oxidation broke
 };
 
-// How often a process happens in a gas, 1/m3/s: as TreeExchange counts it. Of soot births, collisions and necks that
-// break alone.
+// Rates of events in a gas, 1/m3/s, counted as in TreeExchange. Of soot: inception, coagulation and fragmentation only.
 struct TreeRates {
   double inceptions = 0, coagulations = 0, reactions = 0, condensations = 0, fragmentations = 0;
 };
 
-// The events of a material: what they are called, one and many; where their rate and their number in the sample are
-// told, the first is null otherwise.
+// One kind of event of a material, as results list it. `plural` and `description` name the number of events per m3.
+// `singular` names the rate; null where a material has no rate of this event. `count`: number in the sample; may be
+// null.
 struct TreeEvent {
   double TreeExchange::*number;
-  const char *names, *description;
-  const char* name = nullptr;
+  const char *plural, *description;
+  const char* singular = nullptr;
   double TreeRates::*rate = nullptr;
   std::uint64_t TreeCounters::*count = nullptr;
 };
@@ -106,8 +106,8 @@ class TreePopulation {
   virtual void advance(const ParticleGas& gas, double dt) = 0;
   virtual void dilute(double factor) = 0;  // all numbers per volume
   [[nodiscard]] virtual TreeExchange takeExchange() = 0;
-  // All trees up to date (those that wait for sintering too).
-  virtual void settle() = 0;
+  // Applies deferred sintering to all trees, up to the present time.
+  virtual void applyDeferred() = 0;
 
   [[nodiscard]] virtual std::size_t size() const = 0;
   [[nodiscard]] virtual double weight() const = 0;  // 1/m3 for a numerical particle
@@ -125,7 +125,7 @@ class TreePopulation {
   [[nodiscard]] virtual TreeCounters counters() const = 0;
   [[nodiscard]] virtual std::size_t bytes() const = 0;  // of what grows with the number of particles and primaries
 
-  // The complete state for one who takes a step back: trees that do not change in it are not copied.
+  // The complete state, for restore() after a rejected step. Trees that do not change are not copied.
   struct State {
     virtual ~State() = default;
   };

@@ -27,7 +27,7 @@ TreeProcess::TreeProcess(const TreeOptions& options, const PopulationModel& mode
       method_(type_, model, InitialPopulation{}, monteCarlo, random_),
       sintering_(type_, options.sinteringTolerance),
       reactions_(reactionsOf(type_)) {
-  type_.settleBy([this](Tree& tree, double time) {
+  type_.setSintering([this](Tree& tree, double time) {
     TreeSintering::Changes changes;
     sintering_.advance(tree, time, changes);
     record(changes);
@@ -35,7 +35,7 @@ TreeProcess::TreeProcess(const TreeOptions& options, const PopulationModel& mode
 }
 
 void TreeProcess::record(const TreeSintering::Changes& changes) {
-  std::visit([&](auto& reactions) { reactions.bookSintering(method_.weight(), changes.bridges, exchange_); },
+  std::visit([&](auto& reactions) { reactions.recordSintering(method_.weight(), changes.bridges, exchange_); },
              reactions_);
   counters_.fused += changes.fused;
   counters_.withoutSites += changes.limited;
@@ -77,7 +77,7 @@ void TreeProcess::advance(const ParticleGas& gas, double dt) {
   cost_ = 0;
   std::visit(
       [&](auto& reactions) {
-        reactions.see(gas, *kernel_);
+        reactions.setGas(gas, *kernel_);
         if (const TreeUnits nucleus = reactions.nucleus(); options_.material.volume(nucleus) > 0)
           method_.setNucleus(type_.make(nucleus));
         march(reactions, dt);
@@ -107,7 +107,7 @@ template <class Reactions>
 void TreeProcess::jump(Reactions& reactions, const typename Reactions::Sums& sums, double dt) {
   const double start = type_.clock();
   const double births = reactions.inception(sums, dt);  // 1/m3/s
-  type_.lookAt(start + dt);
+  type_.setNextUpdate(start + dt);
   double time = 0;
   while (true) {
     const double coagulation = options_.coagulation ? method_.coagulationRate() : 0;
@@ -122,7 +122,7 @@ void TreeProcess::jump(Reactions& reactions, const typename Reactions::Sums& sum
       method_.nucleate(random_);
       ++counters_.inceptions;
       exchange_.inceptions += weight;
-      reactions.bookBirth(weight, exchange_);
+      reactions.recordInception(weight, exchange_);
     } else if (method_.coagulate(random_)) {
       exchange_.coagulations += weight;
     } else {
@@ -146,7 +146,7 @@ void TreeProcess::change(Reactions& reactions, const typename Reactions::Sums& s
     return fate != TreeFate::gone;
   });
   record(sintered);
-  reactions.bookGrowth(weight, exchange_, counters_);
+  reactions.recordGrowth(weight, exchange_, counters_);
   if constexpr (requires { reactions.takeFragments(); }) {
     std::vector<WeightedParticle<Tree>> fragments;
     for (Tree& part : reactions.takeFragments()) fragments.push_back({std::move(part), weight});
@@ -154,7 +154,7 @@ void TreeProcess::change(Reactions& reactions, const typename Reactions::Sums& s
   }
 }
 
-void TreeProcess::settle() {
+void TreeProcess::applyDeferred() {
   const auto waits = [&](const Tree& tree) { return tree.count() > 1 && tree.head().time < type_.clock(); };
   // Where none does, nothing is rebuilt.
   bool isAnyWaiting = false;

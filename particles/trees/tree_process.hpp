@@ -1,10 +1,10 @@
-// Inside of makeTreePopulation(). Not for other rooms.
+// Inside of makeTreePopulation(). Not for other modules.
 #pragma once
 
 #include <optional>
 #include <variant>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/monte_carlo/class_store.hpp"
 #include "particles/population/monte_carlo/equal_weight_method.hpp"
 #include "particles/trees/tree_population.hpp"
@@ -27,7 +27,7 @@ class TreeProcess final : public TreePopulation {
   void advance(const ParticleGas& gas, double dt) override;
   void dilute(double factor) override { method_.dilute(factor); }
   [[nodiscard]] TreeExchange takeExchange() override { return std::exchange(exchange_, {}); }
-  void settle() override;
+  void applyDeferred() override;
 
   [[nodiscard]] std::size_t size() const override { return method_.size(); }
   [[nodiscard]] double weight() const override { return method_.weight(); }

@@ -19,7 +19,7 @@ TreeRates TreeProcess::rates(const ParticleGas& gas, std::size_t pairs) const {
   all.reserve(pairs > 0 ? size() : 0);
   std::visit(
       [&](auto reactions) {  // a copy, which sees this gas
-        reactions.see(gas, kernel);
+        reactions.setGas(gas, kernel);
         const auto present = sums(reactions);
         rates.inceptions = reactions.inception(present, 0);
         reactions.begin(present, 0);

@@ -7,7 +7,7 @@
 
 #include "core/constants.hpp"
 #include "core/cube_root.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/collisions/sphere.hpp"
 #include "particles/trees/tree.hpp"
 

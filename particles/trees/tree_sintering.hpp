@@ -15,7 +15,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/trees/primary_trees.hpp"
 
 namespace lampblack::particles {

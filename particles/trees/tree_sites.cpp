@@ -7,7 +7,7 @@
 
 namespace lampblack::particles {
 
-void TreeSites::see(const ParticleGas& gas, const CollisionKernel& kernel) {
+void TreeSites::setGas(const ParticleGas& gas, const CollisionKernel& kernel) {
   const SiteReactions& r = reactions_;
   const double concentration = std::max(gas.concentrations[precursor], 0.0);
   const double molecules = concentration * constants::avogadro;
@@ -38,31 +38,31 @@ double TreeSites::step(const Sums& s, const CollisionKernel* kernel, double tole
   return std::min({remaining, fastest > 0 ? tolerance / fastest : remaining, longest});
 }
 
-void TreeSites::bookBirth(double weight, TreeExchange& exchange) const {
+void TreeSites::recordInception(double weight, TreeExchange& exchange) const {
   exchange.gas[precursor] -= reactions_.nucleusPrecursors * weight / constants::avogadro;
   exchange.gas[product] += reactions_.nucleusProducts * weight / constants::avogadro;
   for (std::size_t c = 0; c < mostTreeComponents; ++c) exchange.units[c] += weight * reactions_.nucleus[c];
 }
 
-void TreeSites::bookGrowth(double weight, TreeExchange& exchange, TreeCounters& counters) const {
+void TreeSites::recordGrowth(double weight, TreeExchange& exchange, TreeCounters& counters) const {
   const double reactions = weight * grown_.reactions;
   exchange.reactions += reactions;
   exchange.condensations += weight * grown_.bridges;
   exchange.gas[precursor] -= reactions / constants::avogadro;
   exchange.gas[product] += reactions_.growthProducts * reactions / constants::avogadro;
   for (std::size_t c = 0; c < mostTreeComponents; ++c) exchange.units[c] += reactions * reactions_.growth[c];
-  bookPairs(weight * grown_.bridges, exchange);
+  recordPairs(weight * grown_.bridges, exchange);
   counters.reactions += static_cast<std::uint64_t>(grown_.reactions);
   counters.condensations += static_cast<std::uint64_t>(grown_.bridges);
   counters.limited += grown_.limited;
 }
 
-void TreeSites::bookSintering(double weight, double pairs, TreeExchange& exchange) const {
+void TreeSites::recordSintering(double weight, double pairs, TreeExchange& exchange) const {
   exchange.sinteredPairs += weight * pairs;
-  bookPairs(weight * pairs, exchange);
+  recordPairs(weight * pairs, exchange);
 }
 
-void TreeSites::bookPairs(double number, TreeExchange& exchange) const {
+void TreeSites::recordPairs(double number, TreeExchange& exchange) const {
   exchange.gas[product] += number / constants::avogadro;
   exchange.units[reactions_.site] -= 2 * number;
   exchange.units[reactions_.bridge] += number;

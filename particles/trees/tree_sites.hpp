@@ -2,7 +2,7 @@
 // a step of splitting may be, and what the gas gives and gets. Inside of TreeProcess.
 #pragma once
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/model/collision_kernel.hpp"
 #include "particles/trees/tree_growth.hpp"
 #include "particles/trees/tree_population.hpp"
@@ -17,7 +17,7 @@ class TreeSites {
   struct Sums {
     double number = 0, volume = 0, sites = 0, diameters = 0;
   };
-  // Whether what happens to a population depends on sums over it in more than the length of a step.
+  // Whether the processes depend on sums over the population, besides the length of a step.
   static constexpr bool dependsOnSums = false;
 
   explicit TreeSites(const PrimaryTrees& type) : type_(type), reactions_(*type.material().sites()), growth_(type) {}
@@ -28,8 +28,8 @@ class TreeSites {
     sums.sites += weight * tree.units[reactions_.site];
     sums.diameters += weight * tree.collision;
   }
-  // `kernel`: of collisions in this gas, also where particles do not coagulate.
-  void see(const ParticleGas& gas, const CollisionKernel& kernel);
+  // Sets the gas. `kernel`: of collisions in this gas, also where particles do not coagulate.
+  void setGas(const ParticleGas& gas, const CollisionKernel& kernel);
   // Nuclei per m3 and s in the middle of a time dt, and their units.
   [[nodiscard]] double inception(const Sums&, double) const { return inception_; }
   [[nodiscard]] TreeUnits nucleus() const { return reactions_.nucleus; }
@@ -47,22 +47,23 @@ class TreeSites {
     return growth_.advance(tree, dt_, random, grown_) ? TreeFate::changed : TreeFate::same;
   }
 
-  // What happens to `number` trees (1/m3).
+  // Adds the event rates of `number` trees (1/m3).
   void addRates(TreeRates& rates, const TreeHead& tree, double number) const {
     const double sites = tree.units[reactions_.site];
     rates.reactions += number * rate_ * sites;
     rates.condensations += number * std::max(0.0, growth_.within(tree, sites));
   }
 
-  // What one birth, all growth since begin(), and pairs of sites that sintered did, times the weight (1/m3).
-  void bookBirth(double weight, TreeExchange& exchange) const;
-  void bookGrowth(double weight, TreeExchange& exchange, TreeCounters& counters) const;
-  void bookSintering(double weight, double pairs, TreeExchange& exchange) const;
+  // Add the transferred amounts of one inception, of all growth since begin(), and of `pairs` of sites that sintered,
+  // times the weight (1/m3).
+  void recordInception(double weight, TreeExchange& exchange) const;
+  void recordGrowth(double weight, TreeExchange& exchange, TreeCounters& counters) const;
+  void recordSintering(double weight, double pairs, TreeExchange& exchange) const;
 
  private:
   // The species of the gas.
   enum : std::size_t { precursor, product };
-  void bookPairs(double number, TreeExchange& exchange) const;
+  void recordPairs(double number, TreeExchange& exchange) const;
 
   const PrimaryTrees& type_;
   const SiteReactions& reactions_;

@@ -45,7 +45,7 @@ void TreeSoot::add(Sums& sums, const TreeHead& tree, double weight) const {
   sums.slopes += weight * medium_->collisionSlope(p, rate);
 }
 
-void TreeSoot::see(const ParticleGas& gas, const CollisionKernel&) {
+void TreeSoot::setGas(const ParticleGas& gas, const CollisionKernel&) {
   medium_.emplace(reactions_.soot, dimers_, gas, reactions_.keepsHydrogen);
 }
 
@@ -77,19 +77,19 @@ void TreeSoot::begin(const Sums& sums, double dt) {
 }
 
 // What a burnt primary had is gone, and nothing else happens to it.
-void TreeSoot::happens(TreePrimary& primary, std::size_t kind, double times) {
+void TreeSoot::applyEvents(TreePrimary& primary, std::size_t kind, double times) {
   double carbon = primary.units[Component::carbon] * carbonAtom_;
   double hydrogen = primary.units[Component::hydrogen] * hydrogenAtom_;
   if (!(carbon > 0)) return;
   SootEvents events(*medium_, growth_->leastCarbon(), 1, moved_);
   events_[kind] += times;
-  if (!events.happens(kind, carbon, hydrogen, times)) ++burntPrimaries_;
+  if (!events.applyEvents(kind, carbon, hydrogen, times)) ++burntPrimaries_;
   primary.units[Component::carbon] = carbon / carbonAtom_;
   primary.units[Component::hydrogen] = hydrogen / hydrogenAtom_;
 }
 
 // The first event is due where `left` of the expected numbers are still to come.
-void TreeSoot::oneByOne(TreeHead& tree, const SootEventNumbers& expected, double left, RandomStream& random) {
+void TreeSoot::applySingleEvents(TreeHead& tree, const SootEventNumbers& expected, double left, RandomStream& random) {
   TreePrimary* primaries = primariesOf(&tree);
   const double total = sumOf(expected);
   if (tree.count > 1) {
@@ -104,18 +104,18 @@ void TreeSoot::oneByOne(TreeHead& tree, const SootEventNumbers& expected, double
       const auto at = std::upper_bound(surfaces_.begin(), surfaces_.end(), random.uniform() * surfaces_.back());
       i = std::min<std::size_t>(static_cast<std::size_t>(at - surfaces_.begin()), tree.count - 1);
     }
-    happens(primaries[i], kind, 1);
+    applyEvents(primaries[i], kind, 1);
     left -= random.exponential(1);
   } while (left > 0);
 }
 
-void TreeSoot::inNumbers(TreeHead& tree, const SootEventNumbers& expected, RandomStream& random) {
+void TreeSoot::applyPoissonNumbers(TreeHead& tree, const SootEventNumbers& expected, RandomStream& random) {
   TreePrimary* primaries = primariesOf(&tree);
   for (std::size_t i = 0; i < tree.count; ++i) {
     const double part = primarySurface(primaries[i].diameter) / tree.surfaces;
     for (std::size_t kind = 0; kind < expected.size(); ++kind) {
       const double times = poisson(random, part * expected[kind]);
-      if (times > 0) happens(primaries[i], kind, times);
+      if (times > 0) applyEvents(primaries[i], kind, times);
     }
   }
 }
@@ -165,9 +165,9 @@ TreeFate TreeSoot::react(Tree& handle, RandomStream& random) {
   for (std::size_t i = 0; i < tree.count; ++i) change_.push_back(-type_.material().volume(primaries[i].units));
   const std::uint64_t before = burntPrimaries_;
   if (areFew)
-    oneByOne(tree, expected, left, random);
+    applySingleEvents(tree, expected, left, random);
   else
-    inNumbers(tree, expected, random);
+    applyPoissonNumbers(tree, expected, random);
   for (std::size_t i = 0; i < tree.count; ++i) change_[i] += type_.material().volume(primaries[i].units);
   const std::size_t burnt = burntPrimaries_ - before;
   if (burnt == tree.count) {
@@ -191,14 +191,14 @@ TreeFate TreeSoot::withoutBurnt(Tree& tree) {
   return TreeFate::changed;
 }
 
-void TreeSoot::bookBirth(double weight, TreeExchange& exchange) const {
+void TreeSoot::recordInception(double weight, TreeExchange& exchange) const {
   exchangeDimers(*medium_, reactions_.soot, 2 * weight, exchange.gas);
   const TreeUnits units = nucleus();
   for (std::size_t c = 0; c < mostTreeComponents; ++c) exchange.units[c] += weight * units[c];
 }
 
-void TreeSoot::bookGrowth(double weight, TreeExchange& exchange, TreeCounters& counters) const {
-  SootMoved all;
+void TreeSoot::recordGrowth(double weight, TreeExchange& exchange, TreeCounters& counters) const {
+  SootTransfer all;
   all.add(weight, moved_);
   exchangeDimers(*medium_, reactions_.soot, all.dimers, exchange.gas);
   exchangeSurface(reactions_.soot, all, exchange.gas);

@@ -2,9 +2,9 @@
 // over a step of splitting, by the laws of all populations of soot (SootMedium, soot_steps.hpp). Inside of TreeProcess.
 //
 // A tree grows as so many equal primaries as have its volume and surface: n_r = S^3/(36 pi V^2) of the diameter 6 V/S
-// (Shekar, Smith, Kraft, Wagner 2011, eq. 19), which are a sphere's where it is one. What happens to it happens to a
-// primary by its part of their surface. It breaks at its necks (TreeFragmentation) for half of the step before that and
-// for half of it after.
+// (Shekar, Smith, Kraft, Wagner 2011, eq. 19), which are a sphere's where it is one. An event
+// of the tree acts on a primary with the probability of its share of the surface. The tree breaks at its necks
+// (TreeFragmentation) for half of the step before that and for half of it after.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/soot/soot_events.hpp"
 #include "particles/soot/soot_steps.hpp"
 #include "particles/trees/tree_fragmentation.hpp"
@@ -30,7 +30,7 @@ class TreeSoot {
   explicit TreeSoot(const PrimaryTrees& type);
 
   void add(Sums& sums, const TreeHead& tree, double weight) const;
-  void see(const ParticleGas& gas, const CollisionKernel&);
+  void setGas(const ParticleGas& gas, const CollisionKernel&);
   [[nodiscard]] double inception(const Sums& sums, double dt) const;
   [[nodiscard]] TreeUnits nucleus() const;
   [[nodiscard]] double step(const Sums& sums, const CollisionKernel* kernel, double tolerance, double remaining);
@@ -38,7 +38,7 @@ class TreeSoot {
   void begin(const Sums& sums, double dt);
   [[nodiscard]] bool isActive() const { return medium_->condensing() || medium_->surfaceActive(); }
   TreeFate grow(Tree& tree, RandomStream& random);
-  // In a time of growth, what happens to `number` trees (1/m3).
+  // Adds the event rates of `number` trees (1/m3) during growth.
   void addRates(TreeRates& rates, const TreeHead& tree, double number) const {
     rates.fragmentations += number * growth_->oxidation() * fragmentation_.perOxidation(tree);
   }
@@ -46,16 +46,16 @@ class TreeSoot {
   // that broke.
   [[nodiscard]] std::vector<Tree> takeFragments() { return std::exchange(fragments_, {}); }
 
-  void bookBirth(double weight, TreeExchange& exchange) const;
-  void bookGrowth(double weight, TreeExchange& exchange, TreeCounters& counters) const;
-  void bookSintering(double, double, TreeExchange&) const {}  // no sites go with the surface
+  void recordInception(double weight, TreeExchange& exchange) const;
+  void recordGrowth(double weight, TreeExchange& exchange, TreeCounters& counters) const;
+  void recordSintering(double, double, TreeExchange&) const {}  // no sites go with the surface
 
  private:
   [[nodiscard]] SootPopulationLaw law(double tolerance) const;
   [[nodiscard]] SootAggregate::Particle asSphere(const TreeHead& tree) const;
-  void happens(TreePrimary& primary, std::size_t kind, double times);
-  void oneByOne(TreeHead& tree, const SootEventNumbers& expected, double left, RandomStream& random);
-  void inNumbers(TreeHead& tree, const SootEventNumbers& expected, RandomStream& random);
+  void applyEvents(TreePrimary& primary, std::size_t kind, double times);
+  void applySingleEvents(TreeHead& tree, const SootEventNumbers& expected, double left, RandomStream& random);
+  void applyPoissonNumbers(TreeHead& tree, const SootEventNumbers& expected, RandomStream& random);
   TreeFate react(Tree& tree, RandomStream& random);
   TreeFate withoutBurnt(Tree& tree);
   void breakUp(Tree& tree, RandomStream& random, std::vector<Tree>& parts);
@@ -73,7 +73,7 @@ class TreeSoot {
   // Of the time of growth.
   double dt_ = 0;
   std::optional<SootGrowth> growth_;
-  SootMoved moved_;
+  SootTransfer moved_;
   std::uint64_t burntPrimaries_ = 0, burnt_ = 0, broken_ = 0, fragmentations_ = 0;
   double events_[sootEvents] = {};
   std::vector<Tree> fragments_, pieces_;

@@ -59,7 +59,7 @@ class Results:
         self.is_reactor = problem == "reactor"
         self.is_population = problem == "population_balance"
         self.is_flame = "flame" in self.file
-        self.is_along = problem == "particles_along"
+        self.is_along = problem in ("prescribed_gas", "particles_along")  # the second: before version 0.2
         if self.is_along or self.is_reactor or self.is_population or self.is_flame:
             return
         if "mesh" not in self.file or "cellCentre" not in self.file["mesh"]:

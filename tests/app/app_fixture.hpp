@@ -1,4 +1,4 @@
-// A small flame whose gas is a formula of the place, on any communicator: what the tests of the app room act on.
+// A small flame whose gas is a formula of the place, on any communicator: what the tests of the app module act on.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -18,7 +18,7 @@
 #include "flow/gas_properties.hpp"
 #include "flow/state.hpp"
 #include "particles/models/two_equation/dimer_soot.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/source_folder.hpp"
 
 namespace lampblack::test {

@@ -7,7 +7,7 @@
 
 #include "app/deck/soot_deck.hpp"
 #include "core/constants.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/carried_particles.hpp"
 #include "flow/budget.hpp"
 #include "flow/transport_operator.hpp"

@@ -1,7 +1,7 @@
 // A stiff solve that fails in one cell of one rank ends the run on all ranks, with one message that says where and
 // what.
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/reaction_operator.hpp"
 #include "tests/app/app_fixture.hpp"
 #include "tests/core/mpi_support.hpp"

@@ -5,7 +5,7 @@
 #include "app/flame1d/flame_case.hpp"
 #include "app/reactor/reactor_case.hpp"
 #include "chemistry/thermo/thermo.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "tests/app/app_fixture.hpp"
 #include "tests/scratch.hpp"
 

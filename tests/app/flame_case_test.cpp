@@ -9,7 +9,7 @@
 #include "app/run/problem.hpp"
 #include "chemistry/thermo/thermo.hpp"
 #include "core/errors.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/messages.hpp"
 #include "tests/source_folder.hpp"
 

@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "core/errors.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/messages.hpp"
 #include "tests/shared_scratch.hpp"
 

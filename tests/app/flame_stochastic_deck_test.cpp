@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::app {
 namespace {

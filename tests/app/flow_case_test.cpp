@@ -3,7 +3,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "tests/app/app_fixture.hpp"
 
 namespace lampblack::app {

@@ -7,8 +7,8 @@
 #include <fstream>
 
 #include "app/flow/flow_checkpoint.hpp"
-#include "core/rooms.hpp"
-#include "tests/every_room.hpp"
+#include "core/modules.hpp"
+#include "tests/every_module.hpp"
 #include "tests/messages.hpp"
 #include "tests/shared_scratch.hpp"
 #include "tests/source_folder.hpp"

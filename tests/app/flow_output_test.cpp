@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <map>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "tests/app/app_fixture.hpp"
 #include "tests/core/mpi_support.hpp"
 

@@ -34,7 +34,7 @@ temperature_profile: {{position: [0 mm, 1 mm, 2 mm, 6 mm], temperature: [300 K, 
 grid: {{refine: false, initial_points: 20}}
 solver: {{species_tolerance: 1e-8}}
 soot: {{model: sectional, pah: [A2]}}
-stochastic: {{particles: 50, repeats: 2, heights: [5 mm], bins: 5, coupled: two_way, iterations: 2, tolerance: 1}}
+stochastic: {{particles: 50, repeats: 2, heights: [5 mm], bins: 5, coupling: two_way, iterations: 2, tolerance: 1}}
 unsteady: {{end: 0.01 ms, output_interval: 0.01 ms, first_step: 1 us}}
 """
 
@@ -121,7 +121,7 @@ def main(executable: str, *mpiexec: str) -> int:
         ensembles.write_text(text[:text.index("trajectories:")], encoding="utf-8")
         # All blocks of an instant: five are soon over.
         runs["flow_ensembles"] = (ensembles, *running.settings(
-            "time.end=30 us", "time.maximum_step=2 us", "output.species=[A2]", "stochastic={particles: 50, shape: aggregates, bins: 5, least_number: 1e8 1/m^3}",
+            "time.end=30 us", "time.maximum_step=2 us", "output.species=[A2]", "stochastic={particles: 50, shape: aggregates, bins: 5, minimum_number_density: 1e8 1/m^3}",
             "stochastic.statistics={start: 10 us, block: 2 us}",
             "stochastic.regions.all={from: [0 mm, 0 mm], to: [14 mm, 8 mm]}"))
         for text, run in ((COUNTERFLOW, "counterflow"), (SOOT, "soot"), (POPULATION, "population")):
@@ -152,7 +152,7 @@ def main(executable: str, *mpiexec: str) -> int:
         runs["along"] = (along, *running.settings("stochastic.repeats=2", "stochastic.particles=32", "gas.end=4 ms", "output.times=[1 ms]",
                                                   "output.interval=2 ms"))
         along_model = folder / "along_model.yaml"
-        along_model.write_text(f"problem: particles_along\nmechanism: {CASES}/mechanisms/ethylene_abf2000_101.yaml\n"
+        along_model.write_text(f"problem: prescribed_gas\nmechanism: {CASES}/mechanisms/ethylene_abf2000_101.yaml\n"
                                f"gas: {{file: {along.parent}/gas.csv, end: 1 ms}}\nsoot: {{model: sectional, pah: [A4]}}\n"
                                "output: {interval: 1 ms}\n", encoding="utf-8")
         runs["along_model"] = (along_model,)

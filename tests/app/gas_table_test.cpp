@@ -1,11 +1,11 @@
 // A table of a gas over time: which columns count, in which units, and what is no such table.
-#include "app/particles_along/gas_table.hpp"
+#include "app/prescribed_gas/gas_table.hpp"
 
 #include <gtest/gtest.h>
 
-#include "app/particles_along/along_case.hpp"
+#include "app/prescribed_gas/prescribed_gas_case.hpp"
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "tests/app/app_fixture.hpp"
 #include "tests/messages.hpp"
 #include "tests/scratch.hpp"
@@ -52,6 +52,22 @@ TEST(GasTable, ColumnsMayStandInAnyOrderAndUnit) {
   EXPECT_EQ(sum, 2);  // none else
 }
 
+// The rate stands between a row and the next; the column may have its former name, with a note.
+TEST(GasTable, HasTheNumberLossRateByEitherName) {
+  for (const bool isFormer : {false, true}) {
+    const std::string name = isFormer ? "thinning" : "number_loss_rate";
+    testing::internal::CaptureStderr();
+    const GasHistory gas = historyOf("t,T,p,X_H2," + name + " [1/s]\n0,300,1e5,1,20\n1,300,1e5,1,0\n");
+    const std::string told = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(gas.numberLossRate, std::vector<double>{20}) << name;
+    EXPECT_EQ(told.find("the column thinning is called number_loss_rate since version 0.2") != std::string::npos,
+              isFormer)
+        << told;
+  }
+  EXPECT_THAT(refusalOf("t,T,p,X_H2,thinning,number_loss_rate\n0,300,1e5,1,2,2\n"),
+              HasSubstr("two columns are the number_loss_rate ('number_loss_rate' or 'thinning'); leave one out"));
+}
+
 TEST(GasTable, SaysWhatIsMissingOrWrong) {
   EXPECT_THAT(refusalOf("T,p,X_H2\n300,1e5,1\n"), HasSubstr("expected a column 'time' or 't'"));
   EXPECT_THAT(refusalOf("t,p,X_H2\n0,1e5,1\n"),
@@ -68,10 +84,11 @@ TEST(GasTable, SaysWhatIsMissingOrWrong) {
 }
 
 // The shipped case, and rows where the deck wants them.
-TEST(AlongCase, TheShippedDeckHasItsRows) {
-  const auto deck = Deck::load(test::sourceFolder / "cases/particles_along/premixed_ethylene_abf/deck.yaml",
-                               {"output.interval=10 ms", "output.times=[4 ms, 20 ms]", "gas.end=25 ms"}, alongSchema());
-  const AlongCase along = readAlongCase(deck);
+TEST(PrescribedGasCase, TheShippedDeckHasItsRows) {
+  const auto deck =
+      Deck::load(test::sourceFolder / "cases/particles_along/premixed_ethylene_abf/deck.yaml",
+                 {"output.interval=10 ms", "output.times=[4 ms, 20 ms]", "gas.end=25 ms"}, prescribedGasSchema());
+  const PrescribedGasCase along = readPrescribedGasCase(deck);
   std::vector<double> times;
   for (const std::size_t point : along.recorded) times.push_back(along.path.points[point].time);
   ASSERT_EQ(times.size(), 5u);

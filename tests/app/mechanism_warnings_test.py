@@ -1,4 +1,5 @@
-"""Every command that reads a mechanism tells its warnings once, on any number of ranks, and goes on.
+"""Every command that reads a mechanism tells its warnings once, on any number of ranks, and goes on; so it does with former
+names of a deck.
 
 Usage: mechanism_warnings_test.py EXECUTABLE RANKS MPIEXEC...
 """
@@ -10,6 +11,23 @@ import tempfile
 import running
 
 WARNING = "lampblack: warning: "
+
+
+def former_names(program: running.Program, folder: pathlib.Path) -> bool:
+    """A deck with the names of version 0.1: a note for each, once, from `check` and from `run`; the run is as any other."""
+    source = running.SOURCE / "cases/population_balance/soot_growth.yaml"
+    deck = folder / "former.yaml"
+    deck.write_text(source.read_text().replace("unbiased_moments: []", "claims: []", 1))
+    short = running.settings("repeats=2", "time.outputs=2", "methods={sections: {type: sectional, sections: 20, smallest: 3.8e-28 m^3, "
+                             "spacing: 2, overflow: 1, claims: []}}")
+    old = [program("check", deck), program("run", deck, *short, "--out", folder / "former")]
+    both = program("check", deck, *running.settings("methods={one: {type: dsmc, claims: [M0], unbiased_moments: [M0]}}"))
+    good = both.code == 2 and "this is the former name of 'unbiased_moments', which is given too; leave 'claims' out" in both.err
+    for result in old:
+        told = [line for line in result.err.splitlines() if line.startswith(WARNING)]
+        good = good and result.code == 0 and len(told) == 1 and ".claims is called " in told[0] and "since version 0.2" in told[0]
+    print(f"{'ok' if good else 'FAILED':8}former names: {[(one.code, one.err) for one in (*old, both)]}")
+    return good
 
 
 def main() -> int:
@@ -33,6 +51,7 @@ def main() -> int:
                     good = good and f"{running.MECHANISM}:{line}: species 'N2'" in warning and "cp/R by 0.1 " in warning
                 failures += not good
                 print(f"{'ok' if good else 'FAILED':8}{command[0]}, {expected} expected: {result.code} {result.err}")
+        failures += not former_names(program, pathlib.Path(folder))
     return min(failures, 1)
 
 

@@ -20,7 +20,7 @@ MECHANISM = running.SOURCE / "cases/mechanisms/ethylene_abf2000_101.yaml"
 SHORT = ("stochastic.particles=256", "stochastic.repeats=3", "gas.end=8 ms", "output.interval=2 ms", "output.times=[5 ms]",
          "stochastic.split_tolerance=0.05", "stochastic.smallest=0.5 nm")
 GAS = ("time [s],temperature [K],pressure [Pa],X_AR,X_A4,X_H\n0,1700,1e5,0.999,1e-6,1e-4\n0.01,1700,1e5,0.999,1e-6,1e-4\n")
-MODEL = """problem: particles_along
+MODEL = """problem: prescribed_gas
 mechanism: {mechanism}
 gas: {{file: gas.csv}}
 soot: {{model: {model}, pah: [A4]}}
@@ -107,7 +107,7 @@ def check_depletion(program, folder: pathlib.Path) -> None:
     left, given = {}, {}
     for name, more in (("hmom", ""), ("ensemble", "stochastic: {particles: 1000, repeats: 3}\n")):
         deck = folder / f"depleted_{name}.yaml"
-        deck.write_text(f"problem: particles_along\nmechanism: {MECHANISM}\ngas: {{file: {CASE}/gas.csv, exchange: two_way, end: 16 ms}}\n"
+        deck.write_text(f"problem: prescribed_gas\nmechanism: {MECHANISM}\ngas: {{file: {CASE}/gas.csv, exchange: two_way, end: 16 ms}}\n"
                         f"soot: {{model: {'none' if more else 'hmom'}, pah: [A4]}}\noutput: {{interval: 4 ms}}\n{more}", encoding="utf-8")
         result = program("run", deck, "--out", folder / f"depleted_{name}_{program.ranks}", timeout=120)
         assert result.code == 0, f"{name}: {result.err}"
@@ -157,7 +157,7 @@ solver: {{species_tolerance: 1e-8}}
     result = one("run", flame, "--out", folder / "flame", timeout=200)
     assert result.code == 0, result.err
     deck = folder / "along.yaml"
-    deck.write_text(f"""problem: particles_along
+    deck.write_text(f"""problem: prescribed_gas
 mechanism: {MECHANISM.parent}/ethylene_bisetti2012_47.yaml
 gas: {{flame: flame/results.h5}}
 soot: {{model: none, pah: [A2]}}
@@ -171,11 +171,11 @@ stochastic: {{particles: 100, repeats: 2}}
     assert number[-1] > 0 and len(number) == 101
     # As trees they are as many, but for their noise; nothing but coagulation and dilution tells spheres of them apart.
     trees = folder / "trees.yaml"
-    trees.write_text(f"""problem: particles_along
+    trees.write_text(f"""problem: prescribed_gas
 mechanism: {MECHANISM.parent}/ethylene_bisetti2012_47.yaml
 gas: {{flame: flame/results.h5}}
 soot: {{model: none, pah: [A2]}}
-particles: {{material: soot, number: 200, repeats: 2, full_at: 1e16 1/m^3}}
+particles: {{material: soot, number: 200, repeats: 2, expected_number: 1e16 1/m^3}}
 """, encoding="utf-8")
     result = program("run", trees, "--out", folder / "trees", timeout=200)
     assert result.code == 0, result.err

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "tests/source_folder.hpp"
 
 namespace lampblack::app {
@@ -80,9 +80,9 @@ TEST(PopulationCase, EveryMethodIsReadAndMade) {
   const std::string methods = R"(
   a: {type: dsmc, particles: 10, rates: exact}
   b: {type: constant_volume, particles: 10}
-  c: {type: constant_number_mass, particles: 10, claims: [M0, M1]}
+  c: {type: constant_number_mass, particles: 10, unbiased_moments: [M0, M1]}
   d: {type: constant_number_number, particles: 10}
-  e: {type: mmc, particles: 10, claims: []}
+  e: {type: mmc, particles: 10, unbiased_moments: []}
   f: {type: wfmc, particles: 10, fraction: constant, fraction_constant: 0.5}
   g: {type: samwfmc, particles: 10, fraction: hyperbolic, fraction_of: weights}
   h: {type: sammc, particles: 10, fraction: exponential, merging: absolute}
@@ -97,7 +97,7 @@ TEST(PopulationCase, EveryMethodIsReadAndMade) {
   ASSERT_EQ(made.methods.size(), 15U);
   const auto monteCarlo = [&](std::size_t m) { return std::get<MonteCarloOptions>(made.methods[m].options); };
   EXPECT_EQ(monteCarlo(0).rates, EventRates::exact);
-  EXPECT_EQ(made.methods[2].claims, (std::array<bool, 4>{true, true, false, false}));
+  EXPECT_EQ(made.methods[2].unbiased, (std::array<bool, 4>{true, true, false, false}));
   EXPECT_FALSE(made.methods[3].conservesMass);
   EXPECT_TRUE(made.methods[2].conservesMass);
   EXPECT_EQ(monteCarlo(5).fractionConstant, 0.5);

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "app/population_balance/population_accumulator.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::app {
 namespace {
@@ -100,9 +100,9 @@ TEST_F(PopulationStatisticsTest, ZIsTheDeviationInStandardErrorsAndMissingWithou
 TEST_F(PopulationStatisticsTest, ADeviationWithoutScatterIsABias) {
   EXPECT_EQ(of(threeRepeats()).bias, BiasVerdict::biased);
   EXPECT_EQ(of(threeRepeats()).verdict, "biased: M2 off by 1.0e-02 without scatter");
-  method_.claims = {true, true, false, true};
+  method_.unbiased = {true, true, false, true};
   EXPECT_EQ(of(threeRepeats()).bias, BiasVerdict::noBias);
-  method_.claims = {false, false, false, false};
+  method_.unbiased = {false, false, false, false};
   EXPECT_EQ(of(threeRepeats()).bias, BiasVerdict::biasedAsKnown);
 }
 
@@ -110,7 +110,7 @@ TEST_F(PopulationStatisticsTest, MassThatIsNotConservedIsToldUnlessOnlyItsMeanIs
   auto records = threeRepeats();
   records[0][6 + 1] = 10 * (1 + 1e-6);
   records[1][6 + 1] = 10 * (1 - 1e-6);
-  method_.claims = {true, true, false, true};
+  method_.unbiased = {true, true, false, true};
   const MethodStatistics strict = of(records);
   EXPECT_NEAR(strict.massError, 1e-6, 1e-15);
   EXPECT_EQ(strict.verdict, "biased: M1 not conserved (1.0e-06)");
@@ -125,7 +125,7 @@ TEST_F(PopulationStatisticsTest, MassThatIsNotConservedIsToldUnlessOnlyItsMeanIs
 TEST_F(PopulationStatisticsTest, FarFromTheExactValueIsABias) {
   auto records = threeRepeats();
   for (auto& record : records) record[6] += 1;  // 1.1 / 0.153 = 7.2
-  method_.claims = {true, true, false, true};
+  method_.unbiased = {true, true, false, true};
   EXPECT_EQ(of(records).verdict, "biased: M0 (z = 7.2)");
 }
 

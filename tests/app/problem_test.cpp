@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "tests/app/app_fixture.hpp"
 
 namespace lampblack::app {

@@ -13,7 +13,7 @@
 #include "app/tools/gas_input.hpp"
 #include "chemistry/thermo/thermo.hpp"
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "tests/app/app_fixture.hpp"
 #include "tests/scratch.hpp"
 

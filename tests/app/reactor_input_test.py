@@ -134,7 +134,7 @@ CLOSED_SOOT = CLOSED[:CLOSED.index("sensitivity:")].replace(str(HYDROGEN), str(E
 SOOT_MISTAKES = [
     ("soot of another mechanism", STIRRED, "inlet:", "soot: {pah: [A2]}\ninlet:", ("soot",)),
     ("diffusion in a reactor", SOOT, "pah: [A2]", "diffusion: true", ("soot.diffusion: a reactor is well mixed",)),
-    ("unknown model", SOOT, "pah: [A2]", "model: two_equation", ("soot.model",)),
+    ("unknown model", SOOT, "pah: [A2]", "model: three_equation", ("soot.model",)),
     ("PAH that is none", SOOT, "pah: [A2]", "pah: [A1]", ("soot.pah", "is not a polycyclic aromatic hydrocarbon")),
     ("sensitivities with soot", CLOSED_SOOT, "pah: [A2]", "pah: [A2]\nsensitivity: {reactions: [all]}",
      ("sensitivity: sensitivities are those of a gas alone",)),
@@ -152,7 +152,7 @@ SOOT_MISTAKES = [
      ("soot.model: an ensemble takes the place of a model",)),
     ("steady ensemble", SOOT, "pah: [A2]", "pah: [A2]\nstochastic: {repeats: 2}",
      ("stochastic: the steady state of an ensemble is a mean over time",)),
-    ("key of flames", SOOT, "pah: [A2]", "pah: [A2]\nstochastic: {coupled: two_way}", ("stochastic.coupled",)),
+    ("key of flames", SOOT, "pah: [A2]", "pah: [A2]\nstochastic: {coupling: two_way}", ("stochastic.coupling",)),
     ("one repeat", SOOT, "pah: [A2]", "pah: [A2]\nstochastic: {repeats: 1}", ("stochastic.repeats",)),
 ]
 
@@ -160,7 +160,7 @@ MISTAKES = SOOT_MISTAKES + [
     ("particles without their species", TREES, "number: 100", "number: 200", ["particles", "H4O4SI"]),
     ("particles of unknown heat", FROZEN_TREES, "energy: isothermal", "energy: adiabatic", ["reactor.energy", "isothermal"]),
     ("negative sintering", TREES, "number: 100", "sintering: {prefactor: -1}", ["particles.sintering.prefactor"]),
-    ("negative temperature of sintering", TREES, "number: 100", "sintering: {temperature: -1 K}", ["particles.sintering"]),
+    ("negative temperature of sintering", TREES, "number: 100", "sintering: {activation_temperature: -1 K}", ["particles.sintering"]),
     ("particles at the start by half", TREES, "number: 100", "initial: {number: 1e14 1/m^3}", ["particles.initial"]),
     ("units below zero", TREES, "number: 100", "initial: {number: 1e14 1/m^3, units: [1, -1, 0]}", ["units"]),
     ("parts by the smaller primary", TREES, "number: 100", "sintering: {between: parts}", ["particles.sintering.size"]),

@@ -107,10 +107,10 @@ def check_starved(executable, mpiexec, folder):
     for full_at, told in (("1e20 1/m^3", True), ("1e18 1/m^3", False)):
         out = folder / f"full_{told}"
         result = program("run", DECK, "--out", out, *running.settings(
-            "time.end=40 ms", "output.interval=10 ms", "particles.number=64", "particles.repeats=2", f"particles.full_at={full_at}"), timeout=100)
+            "time.end=40 ms", "output.interval=10 ms", "particles.number=64", "particles.repeats=2", f"particles.expected_number={full_at}"), timeout=100)
         assert result.code == 0, result.err
         assert ("2 samples were never three quarters full" in result.out) == told, result.out
-        assert ("'particles.full_at' near the largest number density" in result.out) == told, result.out
+        assert ("choose 'particles.expected_number' near the largest number density" in result.out) == told, result.out
         counts = json.loads((out / "run.json").read_text(encoding="utf-8"))["results"]["counts"]
         assert counts["samples_never_full"] == (2 if told else 0) and counts["collision_pairs_above_majorant"] == 0, counts
 

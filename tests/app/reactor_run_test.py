@@ -203,7 +203,7 @@ def behind_a_stirred_reactor(program, folder):
     rows = {}
     for name, more in (("hmom", "soot: {model: hmom, pah: [A2], density: 1800 kg/m^3}\n"),
                        ("trees", "soot: {pah: [A2], density: 1800 kg/m^3}\n"
-                                 "particles: {material: soot, number: 64, repeats: 2, full_at: 1e14 1/m^3, coupling_change: 0.5}\n")):
+                                 "particles: {material: soot, number: 64, repeats: 2, expected_number: 1e14 1/m^3, coupling_change: 0.5}\n")):
         deck = folder / f"{name}.yaml"
         deck.write_text(text + more, encoding="utf-8")
         result = program("run", deck, "--out", folder / name, timeout=300)
@@ -225,7 +225,7 @@ def too_few_sections(program, folder):
     """Soot that outgrows its sections: one message, exit code 3."""
     result = program("run", CASES / "reactor/closed_soot/deck.yaml", "--out", folder / "out",
                      *running.settings("soot.model=sectional", "soot.sectional.sections=6"))
-    assert result.code == 3 and "stands in the largest particles" in result.err and "soot.sectional.sections" in result.err, result.err
+    assert result.code == 3 and "is in the largest particles of the model; the limit is" in result.err and "soot.sectional.sections" in result.err, result.err
 
 
 def main(executable, ranks, *mpiexec):

@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "app/flow/flow_loop.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/checkpoint_folder.hpp"
 #include "io/hdf5_reader.hpp"
 #include "tests/app/app_fixture.hpp"
@@ -180,7 +180,7 @@ TEST(Repartition, BalancesABandOfCostlyCellsAndChangesNothingElse) {
 // The ensembles of the cells go along, each once.
 TEST(Repartition, TakesEnsemblesAlong) {
   const test::SharedScratchFolder scratch;
-  const std::vector<std::string> ensembles{"stochastic.particles=40", "stochastic.least_number=1e9 1/m^3",
+  const std::vector<std::string> ensembles{"stochastic.particles=40", "stochastic.minimum_number_density=1e9 1/m^3",
                                            "stochastic.exchange=one_way"};
   const auto with = [&](const std::string& repartition) {
     std::vector<std::string> all = ensembles;

@@ -6,7 +6,7 @@
 
 #include "app/flame1d/flame_case.hpp"
 #include "app/run/problem.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/flame/flame_fields.hpp"
 #include "flow/flame/flame_solver.hpp"
 #include "flow/flame/flame_state.hpp"

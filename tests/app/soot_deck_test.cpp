@@ -8,7 +8,7 @@
 
 #include "core/constants.hpp"
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/carried_particles.hpp"
 #include "particles/collisions/collision_physics.hpp"
 #include "particles/models/moments/hmom.hpp"
@@ -123,7 +123,6 @@ TEST(SootDeck, SemiEmpiricalConstantsAreThePublishedOnesUntilSet) {
 
 TEST(SootDeck, MistakesAreNamed) {
   using testing::HasSubstr;
-  EXPECT_THAT(messageOf("soot: {model: two_equation}"), HasSubstr("'two_equation' is called 'two_equation_dimer' now"));
   EXPECT_THAT(messageOf("soot: {pah: [A22]}"), HasSubstr("A22"));
   EXPECT_THAT(messageOf("soot: {pah: [CO]}"), HasSubstr("'CO' is not a hydrocarbon"));
   EXPECT_THAT(messageOf("soot: {pah: [A2, A3, A2]}"), HasSubstr("'A2' is named twice"));

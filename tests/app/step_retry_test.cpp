@@ -8,7 +8,7 @@
 
 #include "app/flow/flow_loop.hpp"
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/checkpoint_folder.hpp"
 #include "io/hdf5_reader.hpp"
 #include "tests/app/app_fixture.hpp"

@@ -7,7 +7,7 @@
 #include "app/population_balance/convergence_study.hpp"
 #include "app/study/sweep_study.hpp"
 #include "app/study/sweep_table.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::app {
 namespace {

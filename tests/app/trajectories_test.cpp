@@ -8,9 +8,9 @@
 
 #include "app/flow/flow_mesh.hpp"
 #include "app/flow/flow_output.hpp"
-#include "app/particles_along/gas_table.hpp"
+#include "app/prescribed_gas/gas_table.hpp"
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/given_gas.hpp"
 #include "particles/ensemble/ensemble_path.hpp"
 #include "tests/app/app_fixture.hpp"
@@ -91,7 +91,7 @@ TEST(Trajectories, TheTableOfTheGasIsThePath) {
     const GasHistory gas = readGasTable(folder.table("streamline_" + std::to_string(id)), flame.context.mechanism);
     const std::string name = std::to_string(id) + "/";
     ASSERT_EQ(gas.time.size(), all.at(name + "time").size());
-    ASSERT_EQ(gas.thinning.size() + 1, gas.time.size());
+    ASSERT_EQ(gas.numberLossRate.size() + 1, gas.time.size());
     for (std::size_t i = 0; i < gas.time.size(); ++i) {
       EXPECT_NEAR(gas.temperature[i], all.at(name + "temperature")[i], 1e-9);
       EXPECT_NEAR(gas.pressure[i] / flame.flowCase.pressure, 1, 1e-12);

@@ -29,7 +29,7 @@ TEST(TreesDeck, SilicaAsATableIsSilica) {
   density: 2200 kg/m^3
   fractal_dimension: 1.8
   growth_rate: 1e13 cm^3/mol/s
-  sintering: {mechanism: viscous_flow, prefactor: 1.1e-16, temperature: 1.2e5 K, critical_diameter: 4.4 nm}
+  sintering: {mechanism: viscous_flow, prefactor: 1.1e-16, activation_temperature: 1.2e5 K, critical_diameter: 4.4 nm}
   table:
     name: silica
     components:
@@ -119,14 +119,14 @@ TEST(TreesDeck, SilicaKeepsItsOwnDefaults) {
 TEST(TreesDeck, TitaniaSintersByGrainBoundaryDiffusion) {
   const SinteringLaw law =
       requestOf("silica_teos_29.yaml",
-                "  sintering: {mechanism: grain_boundary, prefactor: 7.4e16, temperature: 3.1e4 K, "
+                "  sintering: {mechanism: grain_boundary, prefactor: 7.4e16, activation_temperature: 3.1e4 K, "
                 "critical_diameter: 0 nm}\n")
           .options.material.sintering;
   EXPECT_NEAR(law.time(1500, 1e-8) / (7.4e16 * 1e-32 * 1500 * std::exp(31000.0 / 1500)), 1, 1e-12);
   for (const auto& [name, power] : {std::pair{"surface_diffusion", 4}, std::pair{"volume_diffusion", 3},
                                     std::pair{"viscous_flow", 1}, std::pair{"constant", 0}}) {
     const SinteringLaw other = requestOf("silica_teos_29.yaml", std::string("  sintering: {mechanism: ") + name +
-                                                                    ", prefactor: 2, temperature: 0 K}\n")
+                                                                    ", prefactor: 2, activation_temperature: 0 K}\n")
                                    .options.material.sintering;
     EXPECT_NEAR(other.time(900, 4e-9) / other.time(900, 2e-9), std::pow(2.0, power), 1e-9) << name;
   }

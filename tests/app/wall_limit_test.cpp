@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/wall_clock.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::app {
 namespace {
@@ -18,33 +18,33 @@ int nearAfter(const WallLimit& limit) {
 
 TEST(WallLimit, LeavesTimeForTheLongestStepAndForWhatIsWritten) {
   WallLimit limit(1000.0);
-  limit.stepTook(10.0);
+  limit.recordStep(10.0);
   const int steps = nearAfter(limit);
   EXPECT_LE(steps, 990) << "a step would not end in time";
   EXPECT_GT(steps, 960);
-  limit.stepTook(2.0);
+  limit.recordStep(2.0);
   EXPECT_EQ(nearAfter(limit), steps) << "the longest counts";
-  limit.outputTook(20.0);
+  limit.recordOutput(20.0);
   const int outputs = nearAfter(limit);
   EXPECT_LE(outputs, 950) << "a step, a checkpoint no shorter than an output, and an output";
-  limit.checkpointTook(100.0);
+  limit.recordCheckpoint(100.0);
   const int all = nearAfter(limit);
   EXPECT_LE(all, 870) << "a step, a checkpoint, an output";
   EXPECT_GT(all, 750);
-  limit.checkpointTook(50.0);
+  limit.recordCheckpoint(50.0);
   EXPECT_GT(nearAfter(limit), all) << "the last checkpoint counts";
 }
 
 TEST(WallLimit, LetsOneStepPassWhateverItIs) {
   WallLimit limit(1e-3);
   EXPECT_FALSE(limit.isNear(1e6));
-  limit.stepTook(1e-6);
+  limit.recordStep(1e-6);
   EXPECT_TRUE(limit.isNear(1e6));
 }
 
 TEST(WallLimit, IsNoneWithoutTheKey) {
   WallLimit limit({});
-  limit.stepTook(1e3);
+  limit.recordStep(1e3);
   EXPECT_FALSE(limit.isNear(1e9));
 }
 

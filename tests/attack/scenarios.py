@@ -30,8 +30,8 @@ class Scenarios:
         self.limits = limits
         self.quick = dataclasses.replace(QUICK, memory=limits.memory)
         self.list = []
-        for room in (scenarios_flow, scenarios_flame, scenarios_reactor, scenarios_population):
-            self.list += [self.deck(*scenario) for scenario in room.SCENARIOS]
+        for module in (scenarios_flow, scenarios_flame, scenarios_reactor, scenarios_population):
+            self.list += [self.deck(*scenario) for scenario in module.SCENARIOS]
         self.list += [self.study(*scenario) for scenario in scenarios_study.SCENARIOS]
         self.list += [self.text(*scenario) for scenario in scenarios_text.SCENARIOS]
         self.list += [self.command(*scenario) for scenario in scenarios_command.SCENARIOS]

@@ -24,7 +24,8 @@ def of_program(program: execution.Program) -> dict:
     """The schema of each problem's deck."""
     text = subprocess.run([program.executable, "deck-reference", "--json-schema"], env=execution.environment(),
                           capture_output=True, text=True, check=True, timeout=60).stdout
-    return {part["if"]["properties"]["problem"]["const"]: part["then"] for part in json.loads(text)["allOf"]}
+    problems = [(part["if"]["properties"]["problem"], part["then"]) for part in json.loads(text)["allOf"]]
+    return {name.get("const") or name["enum"][0]: then for name, then in problems}
 
 
 def kind_of(schema: dict) -> str:
@@ -51,7 +52,7 @@ def example(schema: dict):
     description = schema.get("description", "")
     instance = re.search(r"\(for instance '([^']*)'\)", description)
     if kind == "choice":
-        return schema["enum"][-1]
+        return [choice for choice in schema["enum"] if choice not in schema.get("x-former", [])][-1]
     if kind == "section":
         return {name: example(part) for name, part in schema.get("properties", {}).items()
                 if name in schema.get("required", [])}
@@ -75,6 +76,8 @@ def keys(schema: dict, tree, path: list | None = None) -> list:
             names = [name for name in here if name not in parts] if isinstance(here, dict) else []
             parts.update({str(name): schema["additionalProperties"] for name in names or ["extra"]})
         for name, part in parts.items():
+            if part.get("deprecated"):  # a former name of another key
+                continue
             value = here.get(name) if isinstance(here, dict) else None
             found.append(Key([*path, name], kind_of(part), part, name in schema.get("required", [])))
             found += keys(part, value, [*path, name])

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "flow/flame/block_tridiagonal.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace {
 

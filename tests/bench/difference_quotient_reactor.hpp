@@ -11,7 +11,7 @@
 #include "chemistry/numerics/sundials_handles.hpp"
 #include "chemistry/reactor/reactor_system.hpp"
 #include "tests/bench/reactor_states.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::bench {
 

@@ -9,7 +9,7 @@
 #include "chemistry/thermo/equilibrium.hpp"
 #include "chemistry/thermo/thermo.hpp"
 #include "core/constants.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/source_folder.hpp"
 
 namespace {

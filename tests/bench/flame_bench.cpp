@@ -16,7 +16,7 @@
 #include "chemistry/thermo/thermo.hpp"
 #include "flow/flame/flame_solver.hpp"
 #include "flow/flame/initial_flame.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/flow/flame/streams.hpp"
 
 namespace {

@@ -28,7 +28,7 @@
 #include "flow/mixing_layer.hpp"
 #include "flow/reaction_operator.hpp"
 #include "flow/transport_operator.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/source_folder.hpp"
 
 namespace {

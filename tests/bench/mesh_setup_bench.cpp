@@ -20,7 +20,7 @@
 #include "core/mesh_connect.hpp"
 #include "core/mesh_distribution.hpp"
 #include "tests/bench/memory_use.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::bench {
 namespace {

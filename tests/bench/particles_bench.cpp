@@ -6,7 +6,7 @@
 
 #include "particles/ensemble/ensemble.hpp"
 #include "particles/models/two_equation/dimer_soot.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace {
 

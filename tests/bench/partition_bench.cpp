@@ -24,7 +24,7 @@
 #include "core/shares.hpp"
 #include "core/vector3.hpp"
 #include "tests/bench/memory_use.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/skewed_mesh.hpp"
 
 namespace lampblack::bench {

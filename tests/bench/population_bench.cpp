@@ -3,7 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include "particles/population/monte_carlo/monte_carlo_options.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace {
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "particles/population/monte_carlo/monte_carlo_options.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace {
 

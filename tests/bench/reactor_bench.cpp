@@ -15,7 +15,7 @@
 
 #include "tests/bench/difference_quotient_reactor.hpp"
 #include "tests/bench/reactor_states.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace {
 

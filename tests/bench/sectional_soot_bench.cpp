@@ -1,7 +1,7 @@
 // Cost of the sectional soot model at one point: sources, analytic Jacobian, diffusivities.
 #include <benchmark/benchmark.h>
 
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/particles/models/sectional/sectional_soot_fixtures.hpp"
 
 namespace {

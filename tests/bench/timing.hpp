@@ -14,7 +14,7 @@
 #include "core/constants.hpp"
 #include "tests/bench/reactor_states.hpp"
 #include "tests/chemistry/table.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::bench {
 

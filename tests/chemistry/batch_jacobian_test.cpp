@@ -15,7 +15,7 @@
 #include "tests/chemistry/kinetics_rate_types.hpp"
 #include "tests/chemistry/measured.hpp"
 #include "tests/chemistry/table.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 namespace {

@@ -8,7 +8,7 @@
 #include "chemistry/transport/transport.hpp"
 #include "core/errors.hpp"
 #include "tests/chemistry/mechanism_text.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace {
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/chemistry/chemkin_support.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace {
 

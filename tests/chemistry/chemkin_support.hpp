@@ -8,7 +8,7 @@
 
 #include "chemistry/chemkin/chemkin_reader.hpp"
 #include "core/errors.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 

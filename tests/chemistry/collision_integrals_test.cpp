@@ -7,7 +7,7 @@
 
 #include "chemistry/transport/monchick_mason_tables.hpp"
 #include "tests/chemistry/measured.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace {
 

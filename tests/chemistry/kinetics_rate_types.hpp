@@ -7,7 +7,7 @@
 
 #include "chemistry/mechanism/mechanism.hpp"
 #include "tests/chemistry/table.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 

@@ -8,7 +8,7 @@
 
 #include "chemistry/mechanism/mechanism.hpp"
 #include "core/constants.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 

@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <string>
 
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 

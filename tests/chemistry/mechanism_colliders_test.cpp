@@ -7,7 +7,7 @@
 #include "chemistry/kinetics/kinetics.hpp"
 #include "core/constants.hpp"
 #include "tests/chemistry/mechanism_text.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace {
 

@@ -4,7 +4,7 @@
 
 #include "core/errors.hpp"
 #include "tests/chemistry/mechanism_text.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace {
 

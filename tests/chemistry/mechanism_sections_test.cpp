@@ -7,7 +7,7 @@
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 #include "tests/chemistry/mechanism_text.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/messages.hpp"
 #include "tests/scratch.hpp"
 

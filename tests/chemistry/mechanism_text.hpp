@@ -4,7 +4,7 @@
 #include <string>
 
 #include "chemistry/mechanism/mechanism.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/scratch.hpp"
 
 namespace lampblack::test {

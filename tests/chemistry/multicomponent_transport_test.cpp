@@ -12,7 +12,7 @@
 #include "tests/chemistry/mechanism_text.hpp"
 #include "tests/chemistry/multicomponent_support.hpp"
 #include "tests/chemistry/table.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace {
 

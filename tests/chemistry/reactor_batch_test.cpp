@@ -12,7 +12,7 @@
 #include "core/constants.hpp"
 #include "tests/chemistry/kinetics_rate_types.hpp"
 #include "tests/chemistry/table.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace {
 

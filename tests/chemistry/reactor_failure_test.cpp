@@ -8,7 +8,7 @@
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 #include "tests/chemistry/table.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace {
 

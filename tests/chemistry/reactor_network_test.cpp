@@ -15,7 +15,7 @@
 #include "tests/chemistry/measured.hpp"
 #include "tests/chemistry/mechanism_text.hpp"
 #include "tests/chemistry/table.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::chemistry {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "chemistry/mechanism/mechanism.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/source_folder.hpp"
 
 namespace lampblack::test {

@@ -10,8 +10,8 @@
 #include "chemistry/thermo/sound_speed.hpp"
 #include "chemistry/transport/pure_gas.hpp"
 #include "chemistry/transport/transport.hpp"
-#include "chemistry/transport/transport_room.hpp"
-#include "core/rooms.hpp"
+#include "chemistry/transport/transport_margin.hpp"
+#include "core/modules.hpp"
 #include "tests/chemistry/measured.hpp"
 #include "tests/chemistry/mechanism_text.hpp"
 #include "tests/chemistry/table.hpp"
@@ -68,12 +68,12 @@ TEST(SoundSpeed, OfNitrogenAndArgon) {
 
 // Flames at 200 and 4000 K need room beyond the range of the fits. Eight and six terms that are good to 2e-4 inside
 // grow by the Chebyshev polynomial T7 = 5 of the place 190 K, a twentieth beyond.
-TEST(TransportRoom, PolynomialsAreGoodALittleBeyondTheirRange) {
+TEST(TransportMargin, PolynomialsAreGoodALittleBeyondTheirRange) {
   const auto& mechanism = test::hydrogen();
   const Transport transport(mechanism);
   const PureGas gas(mechanism, CollisionIntegrals::MonchickMason);
   double worst = 0;
-  for (const double T : {transportroom::coldest, transportroom::hottest})
+  for (const double T : {transportmargin::coldest, transportmargin::hottest})
     for (std::size_t k = 0; k < mechanism.numSpecies(); ++k) {
       worst = std::max(worst, std::abs(transport.speciesViscosity(T, k) / gas.viscosity(k, T) - 1));
       for (std::size_t j = 0; j < k; ++j)

@@ -6,7 +6,7 @@
 #include "chemistry/thermo/species_thermo.hpp"
 #include "core/constants.hpp"
 #include "tests/chemistry/mechanism_text.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace {
 

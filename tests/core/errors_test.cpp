@@ -7,7 +7,7 @@
 
 #include "core/system_error.hpp"
 #include "mpi_support.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 namespace {

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "mpi_support.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/gather.hpp"
 
 namespace {

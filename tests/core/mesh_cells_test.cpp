@@ -10,7 +10,7 @@
 
 #include "core/errors.hpp"
 #include "mpi_support.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 namespace {

@@ -8,7 +8,7 @@
 #include "core/errors.hpp"
 #include "core/halo_exchange.hpp"
 #include "mpi_support.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 namespace {

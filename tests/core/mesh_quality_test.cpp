@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "mpi_support.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/skewed_mesh.hpp"
 
 namespace lampblack::test {

@@ -12,7 +12,7 @@
 #include "core/rank_exchange.hpp"
 #include "core/sorted_numbers.hpp"
 #include "mpi_support.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/skewed_mesh.hpp"
 
 namespace lampblack::test {

@@ -12,7 +12,7 @@
 #include "core/grading.hpp"
 #include "core/mesh.hpp"
 #include "core/shares.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/messages.hpp"
 #include "tests/world.hpp"
 

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "core/random.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/world.hpp"
 
 namespace lampblack::test {

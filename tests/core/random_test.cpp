@@ -11,7 +11,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack {
 namespace {

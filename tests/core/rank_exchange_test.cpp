@@ -40,7 +40,7 @@ TEST(RankExchange, RowsArriveByRankAndInItsOrder) {
   for (int rank = 0; rank < worldSize(); ++rank)
     for (int item = 0; item < items; ++item)
       if (goalOf(rank, item) == worldRank()) expected.add(rowOf(rank, item));
-  const PackedRows came = RankExchange(MPI_COMM_WORLD, sent.goals).there(sent.rows);
+  const PackedRows came = RankExchange(MPI_COMM_WORLD, sent.goals).send(sent.rows);
   EXPECT_EQ(came.lengths, expected.lengths);
   EXPECT_EQ(came.values, expected.values);
 }
@@ -49,7 +49,7 @@ TEST(RankExchange, RowsArriveByRankAndInItsOrder) {
 TEST(RankExchange, AnswersMayHaveOtherLengthsThanQuestions) {
   const Sent sent;
   const RankExchange exchange(MPI_COMM_WORLD, sent.goals);
-  const PackedRows came = exchange.there(sent.rows);
+  const PackedRows came = exchange.send(sent.rows);
   PackedRows answers, expected;
   auto next = came.values.begin();
   for (const std::int64_t length : came.lengths) {
@@ -63,17 +63,17 @@ TEST(RankExchange, AnswersMayHaveOtherLengthsThanQuestions) {
     row.push_back(-goalOf(worldRank(), item));
     expected.add(row);
   }
-  const PackedRows found = exchange.back(answers);
+  const PackedRows found = exchange.reply(answers);
   EXPECT_EQ(found.lengths, expected.lengths);
   EXPECT_EQ(found.values, expected.values);
 }
 
 TEST(RankExchange, NoRowsAndRowsOfNothingAreFine) {
   const RankExchange none(MPI_COMM_WORLD, {});
-  EXPECT_TRUE(none.there(PackedRows{}).lengths.empty());
-  EXPECT_TRUE(none.back(PackedRows{}).lengths.empty());
+  EXPECT_TRUE(none.send(PackedRows{}).lengths.empty());
+  EXPECT_TRUE(none.reply(PackedRows{}).lengths.empty());
   const RankExchange one(MPI_COMM_WORLD, std::vector<int>{0});
-  const PackedRows came = one.there(PackedRows{{0}, {}});
+  const PackedRows came = one.send(PackedRows{{0}, {}});
   EXPECT_EQ(came.lengths, std::vector<std::int64_t>(worldRank() == 0 ? at(worldSize()) : 0, 0));
   EXPECT_TRUE(came.values.empty());
 }

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 namespace {

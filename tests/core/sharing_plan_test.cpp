@@ -6,8 +6,8 @@
 #include <numeric>
 #include <vector>
 
+#include "core/modules.hpp"
 #include "core/random.hpp"
-#include "core/rooms.hpp"
 #include "core/work_sharing.hpp"
 
 namespace lampblack {

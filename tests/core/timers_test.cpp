@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "mpi_support.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 namespace {

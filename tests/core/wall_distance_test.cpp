@@ -12,7 +12,7 @@
 #include "core/errors.hpp"
 #include "core/wall_tree.hpp"
 #include "mpi_support.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/nearest_wall.hpp"
 #include "tests/skewed_mesh.hpp"
 

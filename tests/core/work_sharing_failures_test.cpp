@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "core/errors.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "work_items.hpp"
 
 namespace lampblack::test {

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <thread>
 
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "work_items.hpp"
 
 namespace lampblack::test {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.hpp"
-#include "core/kept_state.hpp"
+#include "core/state_backup.hpp"
 #include "particles/models/element_enthalpies.hpp"
 #include "tests/coupling/cell_vessel.hpp"
 
@@ -160,7 +160,7 @@ TEST(TreesInCells, DoNotDependOnRanksNorSharing) {
 TEST(TreesInCells, GoOnToTheSameBits) {
   Silica v(inCells(1e-4));
   for (int s = 0; s < 5; ++s) v.step();
-  KeptState kept(v.box.mesh.owned, v.box.mesh.faces);
+  StateBackup kept(v.box.mesh.owned, v.box.mesh.faces);
   const double time = v.time;
   kept.keep([&](StateArchive& archive) { v.saveOrLoad(archive); });
   for (int s = 0; s < 3; ++s) v.step();

@@ -9,7 +9,7 @@
 #include "coupling/ensemble_operator.hpp"
 #include "flow/budget.hpp"
 #include "tests/coupling/closed_box.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/flow/flow_fixture.hpp"
 
 namespace lampblack::test {

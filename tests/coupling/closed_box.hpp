@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/flow/flow_fixture.hpp"
 
 namespace lampblack::test {

@@ -8,12 +8,12 @@
 #include <cmath>
 
 #include "core/constants.hpp"
-#include "core/kept_state.hpp"
+#include "core/state_backup.hpp"
 #include "coupling/cell_soot.hpp"
 #include "particles/models/soot_model.hpp"
 #include "tests/coupling/cell_vessel.hpp"
 #include "tests/coupling/closed_box.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/flow/flow_fixture.hpp"
 #include "tests/particles/statistics.hpp"
 
@@ -201,7 +201,7 @@ TEST(EnsembleOperator, DoesNotDependOnRanksNorSharing) {
 TEST(EnsembleOperator, GoesOnToTheSameBits) {
   Vessel v(options(Exchange::TwoWay, 1e-4));
   for (int s = 0; s < 6; ++s) v.step();
-  KeptState kept(v.box.mesh.owned, v.box.mesh.faces);
+  StateBackup kept(v.box.mesh.owned, v.box.mesh.faces);
   const double time = v.time;
   kept.keep([&](StateArchive& archive) { v.saveOrLoad(archive); });
   for (int s = 0; s < 4; ++s) v.step();
@@ -220,10 +220,10 @@ TEST(EnsembleOperator, GoesOnToTheSameBits) {
 // The gas stays to the last bit, the balance of atoms too, and a restart has what moves the particles.
 TEST(EnsembleOperator, GoesOnInAGasThatIsHeld) {
   Options o = options(Exchange::TwoWay, 1e-4);
-  o.holdGas = 4.5 * Vessel::dt;
+  o.frozenFrom = 4.5 * Vessel::dt;
   Vessel v(o);
   for (int s = 0; s < 5; ++s) v.step();
-  ASSERT_TRUE(v.ensembles.isGasHeld(v.time));
+  ASSERT_TRUE(v.ensembles.isGasFrozen(v.time));
   const std::vector<double> T = v.state.temperature;
   const double carbon = v.contentOf("C"), soot = v.state.carried[CellSoot::carbon];
   const auto hold = [](Vessel& vessel) {
@@ -232,7 +232,7 @@ TEST(EnsembleOperator, GoesOnInAGasThatIsHeld) {
     vessel.time += Vessel::dt;
   };
   for (int s = 0; s < 3; ++s) hold(v);
-  KeptState kept(v.box.mesh.owned, v.box.mesh.faces);
+  StateBackup kept(v.box.mesh.owned, v.box.mesh.faces);
   kept.keep([&](StateArchive& archive) { v.saveOrLoad(archive); });
   for (int s = 0; s < 3; ++s) hold(v);
   EXPECT_EQ(v.state.temperature, T);

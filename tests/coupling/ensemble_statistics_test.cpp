@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "core/kept_state.hpp"
+#include "core/state_backup.hpp"
 #include "coupling/block_statistics.hpp"
 #include "tests/core/mpi_support.hpp"
 #include "tests/coupling/noise.hpp"
@@ -222,7 +222,7 @@ TEST(EnsembleStatistics, GoOnFromWhatWasSavedToTheSameBits) {
     Clock clock;
     run(whole, cells, clock, middle);
     ASSERT_EQ(whole.since().has_value(), middle > 30e-3);
-    KeptState kept(mesh.owned, mesh.faces);
+    StateBackup kept(mesh.owned, mesh.faces);
     kept.keep([&](StateArchive& archive) { Statistics::saveOrLoad(archive, &whole); });
     NoisyCells same = cells;
     Clock sameClock = clock;

@@ -10,7 +10,7 @@
 #include "core/constants.hpp"
 #include "particles/collisions/sphere.hpp"
 #include "tests/coupling/closed_box.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/flow/flow_fixture.hpp"
 #include "tests/particles/statistics.hpp"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/models/soot_model.hpp"
 #include "tests/flow/flame/streams.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "core/constants.hpp"
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::coupling {
 namespace {

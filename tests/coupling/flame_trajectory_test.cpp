@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/carried_model.hpp"
 #include "flow/flame/flame_solver.hpp"
 #include "flow/flame/initial_flame.hpp"

@@ -136,7 +136,7 @@ TEST(GasAlong, DerivativesAreThoseOfTheRates) {
   const test::Toy toy(mechanism(), 700, 2000, 1e4);
   test::ToyPhase phase(toy);
   GasHistory history = historyOf({0, 1e-3, 2e-3}, {1e-4, 3e-4, 1e-4});
-  history.thinning = {30, -20};
+  history.numberLossRate = {30, -20};
   history.temperature = {1500, 1600, 1400};
   GasAlong gas(mechanism(), history, {acetylene()}, &phase);
   const std::size_t size = gas.size(), n = mechanism().numSpecies();
@@ -165,7 +165,7 @@ TEST(GasAlong, SplittingComesToTheWhole) {
   GasHistory history = historyOf({0, 1e-3, 2e-3}, {1e-4, 4e-4, 2e-4});
   history.temperature = {1500, 1600, 1400};
   history.pressure = {1e5, 1.4e5, 0.8e5};
-  history.thinning = {40, 40};
+  history.numberLossRate = {40, 40};
   test::ToyPhase phase(toy);
   GasAlong whole(mechanism(), history, {acetylene()}, &phase);
   const std::vector<double> y = advanced(whole, 2e-3);
@@ -226,7 +226,7 @@ TEST(GasAlong, InertParticlesStayAsManyPerMassOfGas) {
   GasHistory history = historyOf({1e-3, 2e-3, 4e-3}, {0.1, 0.3, 0.2});
   history.temperature = {600, 1500, 1100};
   history.pressure = {2e5, 1e5, 1e5};
-  history.thinning = {50, -100};
+  history.numberLossRate = {50, -100};
   test::ToySplit particles(test::Toy(mechanism(), 0, 0, 0));
   particles.carbon = 1e-6;
   ParticlesAtRest atRest;

@@ -8,7 +8,7 @@
 #include "chemistry/mechanism/mechanism.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "coupling/model_along.hpp"
 #include "coupling/path_ensemble.hpp"
 #include "particles/models/two_equation/dimer_soot.hpp"
@@ -71,7 +71,7 @@ TEST(GivenPath, FractionsAreDividedByTheirSum) {
 TEST(GivenPath, InertParticlesStayAsManyPerMassOfGas) {
   ParticlePath path = givenPath(ethylene(), twoRows(), sootSpecies(test::jumpsOnly(false, false)), GasViscosity::air);
   const std::vector<double> times{1e-3, 1.3e-3, 2e-3, 2.0001e-3, 3e-3};
-  const std::vector<std::size_t> at = putPointsAt(path, times);
+  const std::vector<std::size_t> at = insertPoints(path, times);
   for (const EnsembleMethod method : {EnsembleMethod::dsmc, EnsembleMethod::sammc}) {
     EnsembleOptions options;
     options.method = method;
@@ -103,7 +103,7 @@ TEST(GivenPath, PointsPutInLeaveTheDivergenceAsItIs) {
   }
   path.divergence = {{10, 20}, {20, 0}};
   const std::vector<double> times{0.25, 0.5, 1, 2, 2.5};
-  const std::vector<std::size_t> at = putPointsAt(path, times);
+  const std::vector<std::size_t> at = insertPoints(path, times);
   EXPECT_EQ(at, (std::vector<std::size_t>{1, 2, 3, 4, 5}));
   ASSERT_EQ(path.points.size(), 7u);
   const double expected[7] = {10, 12.5, 15, 20, 10, 5, 0};
@@ -132,7 +132,7 @@ TEST(GivenPath, SaysWhatCannotBeAGas) {
   refuses([](GasHistory& h) { h = {}; });
   ParticlePath path = givenPath(ethylene(), twoRows(), seen, GasViscosity::air);
   const std::vector<double> late{4e-3};
-  EXPECT_THROW(static_cast<void>(putPointsAt(path, late)), InputError);
+  EXPECT_THROW(static_cast<void>(insertPoints(path, late)), InputError);
 }
 
 // A model in a gas that does not change forgets nothing and takes nothing: twice the time in one piece or in two. And
@@ -230,7 +230,7 @@ TEST(HistoryAlong, IsWhatThePathCameFrom) {
   for (const std::size_t row : {std::size_t{0}, history.time.size() - 1})
     for (std::size_t k = 0; k < n; ++k)
       EXPECT_NEAR(history.fractions[row * n + k], twoRows().fractions[(row > 0 ? n : 0) + k], 1e-12) << k;
-  for (const double thinning : history.thinning) EXPECT_NEAR(thinning, 20, 1e-8);
+  for (const double numberLossRate : history.numberLossRate) EXPECT_NEAR(numberLossRate, 20, 1e-8);
 }
 
 }  // namespace

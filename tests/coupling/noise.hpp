@@ -6,7 +6,7 @@
 
 #include "core/constants.hpp"
 #include "core/random.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 

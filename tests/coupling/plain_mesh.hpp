@@ -4,7 +4,7 @@
 #include <mpi.h>
 
 #include "core/mesh.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 

@@ -8,7 +8,7 @@
 #include "coupling/reactor_balance.hpp"
 #include "tests/chemistry/mechanism_text.hpp"
 #include "tests/coupling/toy_particles.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/particles/models/published_models.hpp"
 
 namespace lampblack::coupling {

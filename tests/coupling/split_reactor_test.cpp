@@ -10,7 +10,7 @@
 #include "particles/models/sectional/sectional_soot.hpp"
 #include "tests/chemistry/measured.hpp"
 #include "tests/coupling/toy_particles.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::coupling {
 namespace {

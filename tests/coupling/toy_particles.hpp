@@ -15,7 +15,7 @@
 #include "chemistry/reactor/stiff_integrator.hpp"
 #include "coupling/split_reactor.hpp"
 #include "particles/models/soot_model.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/source_folder.hpp"
 
 namespace lampblack::test {

@@ -28,7 +28,7 @@ struct Sample {
     trees = std::make_unique<ReactorTrees>(mechanism(), options, GasViscosity::air,
                                            ReactorTrees::Start{{2107, 3960, 398}, 1e17});
     trees->advance(gas(3e-8), 0.02);
-    trees->settle();
+    trees->applyDeferred();
   }
   static const Mechanism& mechanism() {
     static const Mechanism one = Mechanism::fromFile(test::sourcePath("cases/mechanisms/silica_teos_29.yaml"));

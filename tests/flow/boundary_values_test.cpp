@@ -8,7 +8,7 @@
 #include "core/errors.hpp"
 #include "flow/transport_operator.hpp"
 #include "flow_fixture.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/messages.hpp"
 
 namespace lampblack::test {

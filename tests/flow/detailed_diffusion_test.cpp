@@ -8,7 +8,7 @@
 #include "flow/gas_properties.hpp"
 #include "flow/species_diffusion.hpp"
 #include "flow_fixture.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "flow_fixture.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 namespace {

@@ -4,10 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/kept_state.hpp"
+#include "core/state_backup.hpp"
 #include "flow/transport_operator.hpp"
 #include "flow_fixture.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 namespace {
@@ -85,7 +85,7 @@ TEST(FindCells, PlacesOnFacesAndOutside) {
   int here = 0;
   for (const int local : found.cell) here += local >= 0 ? 1 : 0;
   EXPECT_EQ(sumOverRanks(here), 6.0) << "each place on one rank";
-  EXPECT_THAT(whereMeshIs(box.mesh, places[7]), testing::StrEq("the mesh reaches from (0, 0) m to (1, 0.8) m"));
+  EXPECT_THAT(meshExtentText(box.mesh, places[7]), testing::StrEq("the mesh reaches from (0, 0) m to (1, 0.8) m"));
 }
 
 // Opposite sides are one; places beside them are found where they are, and places beyond them are outside.
@@ -222,7 +222,7 @@ TEST(BoundaryTotals, GoBackWithTheState) {
   flow.advance(1e-3);
   const std::vector<BoundaryTotals> before = flow.totals();
   EXPECT_GT(std::abs(before[0].massFlow), 0.0);
-  KeptState kept(flow.mesh().owned, flow.mesh().faces);
+  StateBackup kept(flow.mesh().owned, flow.mesh().faces);
   const auto owners = [&](StateArchive& archive) { flow.saveOrLoad(archive); };
   kept.keep(owners);
   flow.advance(2e-3);

@@ -19,7 +19,7 @@
 #include "core/grading.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/state.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/skewed_mesh.hpp"
 #include "tests/source_folder.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "flow/limiter.hpp"
 #include "flow_fixture.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 namespace {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "flow_fixture.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "core/cell_finder.hpp"
 #include "paths_fixture.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "core/constants.hpp"
 #include "core/errors.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/flow/flame/streams.hpp"
 
 namespace lampblack::test {

@@ -8,7 +8,7 @@
 #include "flow/limiter.hpp"
 #include "flow/neighbour_bounds.hpp"
 #include "flow_fixture.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/messages.hpp"
 
 namespace lampblack::test {

@@ -11,7 +11,7 @@
 #include "flow/face_state.hpp"
 #include "flow/gas_properties.hpp"
 #include "flow_fixture.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 namespace {

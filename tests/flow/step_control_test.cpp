@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "flow_fixture.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 namespace {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "paths_fixture.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 namespace {

@@ -8,7 +8,7 @@
 #include "flow/limiter.hpp"
 #include "flow/transport_operator.hpp"
 #include "flow_fixture.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 namespace {

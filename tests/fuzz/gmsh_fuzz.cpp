@@ -10,7 +10,7 @@
 
 #include "core/errors.hpp"
 #include "io/gmsh_reader.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/scratch.hpp"
 
 namespace {

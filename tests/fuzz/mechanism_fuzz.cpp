@@ -9,7 +9,7 @@
 
 #include "chemistry/mechanism/mechanism.hpp"
 #include "core/errors.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/scratch.hpp"
 
 namespace {

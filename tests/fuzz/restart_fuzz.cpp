@@ -16,7 +16,7 @@
 
 #include "app/flame1d/flame_file.hpp"
 #include "core/errors.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/scratch.hpp"
 
 namespace {

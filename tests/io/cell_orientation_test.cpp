@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::io {
 namespace {

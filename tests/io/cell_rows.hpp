@@ -7,7 +7,7 @@
 #include <functional>
 #include <vector>
 
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 

@@ -9,7 +9,7 @@
 #include <sstream>
 #include <string>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/history.hpp"
 #include "tests/scratch.hpp"
 

@@ -2,7 +2,7 @@
 // the resolved deck where only their defaults stand, told by the reference page.
 #include <stdexcept>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "tests/io/sample_deck.hpp"
 
 namespace lampblack::io {

@@ -2,7 +2,7 @@
 #include <ctime>
 #include <filesystem>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "tests/io/sample_deck.hpp"
 
 namespace lampblack::io {
@@ -25,10 +25,6 @@ TEST(DeckErrors, AnUnknownKeyNamesTheNearestAndShowsTheLine) {
 
 TEST(DeckErrors, AMisspeltRequiredKeyIsMisspeltRatherThanMissing) {
   EXPECT_THAT(messageOf(sampleWith("problem: flow", "probelm: flow")), HasSubstr("did you mean 'problem'?"));
-}
-
-TEST(DeckErrors, AFormerNameOfAChoiceSaysTheNewOne) {
-  EXPECT_THAT(messageOf(sampleWith("type: inlet", "type: entrance")), HasSubstr("'entrance' is called 'inlet' now"));
 }
 
 TEST(DeckErrors, AKeyThatIsRightElsewhereSaysWhere) {

@@ -1,6 +1,6 @@
 #include <fstream>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "tests/io/sample_deck.hpp"
 #include "tests/shared_scratch.hpp"
 

@@ -1,4 +1,4 @@
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "tests/io/sample_deck.hpp"
 
 namespace lampblack::io {

@@ -1,7 +1,7 @@
 #include <stdexcept>
 
+#include "core/modules.hpp"
 #include "core/nearest_name.hpp"
-#include "core/rooms.hpp"
 #include "tests/io/sample_deck.hpp"
 
 namespace lampblack::io {

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "tests/io/sample_deck.hpp"
 #include "tests/scratch.hpp"
 

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "core/errors.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/messages.hpp"
 
 namespace lampblack::test {

@@ -8,7 +8,7 @@
 
 #include "core/errors.hpp"
 #include "io/gmsh_reader.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/io/gmsh_model.hpp"
 #include "tests/messages.hpp"
 #include "tests/shared_scratch.hpp"

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 

@@ -10,7 +10,7 @@
 #include <fstream>
 #include <map>
 
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/io/gmsh_model.hpp"
 #include "tests/io/whole_mesh.hpp"
 #include "tests/shared_scratch.hpp"

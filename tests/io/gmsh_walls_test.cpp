@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "core/mesh.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/gmsh_reader.hpp"
 #include "tests/nearest_wall.hpp"
 #include "tests/source_folder.hpp"

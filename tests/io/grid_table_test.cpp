@@ -7,7 +7,7 @@
 #include <array>
 
 #include "core/errors.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/messages.hpp"
 #include "tests/scratch.hpp"
 

@@ -10,7 +10,7 @@
 #include "core/errors.hpp"
 #include "io/hdf5_reader.hpp"
 #include "io/results_writer.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/shared_scratch.hpp"
 
 namespace lampblack::io {

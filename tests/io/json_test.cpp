@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <limits>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/report.hpp"
 #include "io/run_record.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <sstream>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::io {
 namespace {

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "core/system_error.hpp"
 #include "io/history.hpp"
 #include "tests/io/read_all.hpp"

@@ -9,7 +9,7 @@
 #include <csignal>
 #include <fstream>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "core/system_error.hpp"
 #include "io/hdf5_reader.hpp"
 #include "tests/io/read_all.hpp"

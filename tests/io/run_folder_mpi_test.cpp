@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/run_folder.hpp"
 #include "io/run_record.hpp"
 #include "tests/shared_scratch.hpp"

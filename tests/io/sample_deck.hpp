@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "io/deck.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/io/sample_schema.hpp"
 
 namespace lampblack::test {

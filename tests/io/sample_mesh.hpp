@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "io/results_writer.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "io/deck_schema.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::io {
 namespace {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "core/mesh_block.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/world.hpp"
 
 namespace lampblack::test {

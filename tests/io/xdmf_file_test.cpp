@@ -14,7 +14,7 @@
 
 #include "core/errors.hpp"
 #include "core/system_error.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/scratch.hpp"
 
 namespace lampblack::io {

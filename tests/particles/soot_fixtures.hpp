@@ -8,7 +8,7 @@
 #include "core/constants.hpp"
 #include "particles/ensemble/ensemble.hpp"
 #include "particles/gas/soot_gas.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 

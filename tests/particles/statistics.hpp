@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 

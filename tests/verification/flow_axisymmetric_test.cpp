@@ -4,7 +4,7 @@
 
 #include "../flow/flow_fixture.hpp"
 #include "flow/transport_operator.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "flow_exact.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "particles/ensemble/ensemble.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::app {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "chemistry/mechanism/mechanism.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/deck.hpp"
 #include "particles/gas/soot_gas.hpp"
 #include "particles/models/particle_model.hpp"

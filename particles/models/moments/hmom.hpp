@@ -7,7 +7,7 @@
 // Equations: docs/theory/soot_models.md.
 #pragma once
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/models/moments/moment_chemistry.hpp"
 #include "particles/models/soot_model.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/models/moments/hmom.hpp"
 
 namespace lampblack::particles {

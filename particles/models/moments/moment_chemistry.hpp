@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/gas/soot_gas.hpp"
 #include "particles/models/soot_model.hpp"
 #include "particles/soot/dimer.hpp"

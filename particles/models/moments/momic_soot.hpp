@@ -7,7 +7,7 @@
 
 #include <array>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/models/moments/moment_chemistry.hpp"
 #include "particles/models/soot_model.hpp"
 #include "particles/population/moments/momic_coagulation.hpp"

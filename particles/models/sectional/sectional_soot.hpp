@@ -9,7 +9,7 @@
 
 #include <memory>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/gas/soot_gas.hpp"
 #include "particles/models/soot_model.hpp"
 #include "particles/population/model/collision_kernel.hpp"

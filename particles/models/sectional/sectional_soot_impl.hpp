@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/models/sectional/sectional_soot.hpp"
 #include "particles/models/sectional/sectional_soot_flux.hpp"
 #include "particles/models/sectional/sectional_soot_pah.hpp"

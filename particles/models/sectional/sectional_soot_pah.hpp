@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/models/sectional/sectional_soot.hpp"
 #include "particles/models/sectional/sectional_soot_shapes.hpp"
 #include "particles/soot/dimer.hpp"

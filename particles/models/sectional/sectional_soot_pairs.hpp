@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/models/sectional/sectional_soot_shapes.hpp"
 
 namespace lampblack::particles {

@@ -7,7 +7,7 @@
 // The last is the free-molecular kernel of equal spheres, enhanced C times.
 #pragma once
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/models/equal_spheres.hpp"
 #include "particles/models/soot_model.hpp"
 

@@ -3,7 +3,7 @@
 // iterates may be states that no soot is ever in: see the theory page "soot models".
 #pragma once
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/models/equal_spheres.hpp"
 #include "particles/models/soot_model.hpp"
 #include "particles/models/two_equation/two_equation.hpp"

@@ -7,7 +7,7 @@
 #include <array>
 #include <cstddef>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/gas/soot_gas.hpp"
 #include "particles/soot/dimer.hpp"
 #include "particles/soot/surface_chemistry.hpp"

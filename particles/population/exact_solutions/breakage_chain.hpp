@@ -9,7 +9,7 @@
 
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::particles::exact {
 

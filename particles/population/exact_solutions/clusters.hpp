@@ -1,7 +1,7 @@
 // Numbers of clusters of k equal particles, and their sums over a range of k.
 #pragma once
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::particles::exact {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/model/population_model.hpp"
 
 namespace lampblack::particles {

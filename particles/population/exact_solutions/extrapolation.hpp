@@ -5,7 +5,7 @@
 #include <array>
 #include <functional>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::particles::exact {
 

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/model/population_model.hpp"
 
 namespace lampblack::particles {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <span>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::particles {
 

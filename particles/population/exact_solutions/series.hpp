@@ -1,7 +1,7 @@
 // Series behind the size distributions, each arranged so that it neither overflows nor loses digits.
 #pragma once
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::particles::exact {
 

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/exact_solutions/exact_solution.hpp"
 
 namespace lampblack::particles::exact {

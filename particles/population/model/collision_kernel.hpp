@@ -126,5 +126,5 @@ class CollisionKernel {
 
 }  // namespace lampblack::particles
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/model/collision_terms.hpp"

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "chemistry/transport/lanes.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/model/collision_kernel.hpp"
 
 namespace lampblack::particles {

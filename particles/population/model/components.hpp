@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <span>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/model/particle_type.hpp"
 #include "particles/population/model/sphere.hpp"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/constants.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/model/particle_type.hpp"
 #include "particles/population/model/sphere.hpp"
 

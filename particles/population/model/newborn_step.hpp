@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::particles {
 

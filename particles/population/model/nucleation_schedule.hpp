@@ -2,7 +2,7 @@
 // waiting time to the next nucleus is exact however fast J changes.
 #pragma once
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/model/population_model.hpp"
 
 namespace lampblack::particles {

@@ -6,8 +6,8 @@
 #include <concepts>
 #include <utility>
 
+#include "core/modules.hpp"
 #include "core/random.hpp"
-#include "core/rooms.hpp"
 #include "particles/population/model/collision_kernel.hpp"
 
 namespace lampblack::particles {

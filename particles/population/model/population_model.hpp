@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/model/collision_kernel.hpp"
 
 namespace lampblack::particles {

@@ -15,7 +15,7 @@
 #include <cstddef>
 #include <memory>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/population_solver.hpp"
 
 namespace lampblack::particles {

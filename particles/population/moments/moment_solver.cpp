@@ -28,7 +28,7 @@ class MomentSolver final : public PopulationSolver {
       const double stop = segmentEnd(end);
       begin(stop);
       while (time_ < stop) {
-        lookUp();
+        runCallback();
         step(stop);
       }
     }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "chemistry/reactor/ode_system.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/model/nucleation_schedule.hpp"
 #include "particles/population/model/population_model.hpp"
 #include "particles/population/moments/moment_options.hpp"

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/model/collision_kernel.hpp"
 #include "particles/population/moments/moment_interpolation.hpp"
 

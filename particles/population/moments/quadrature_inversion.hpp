@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <span>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/moments/moment_options.hpp"
 
 namespace lampblack::particles {

@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "core/cube_root.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::particles {
 

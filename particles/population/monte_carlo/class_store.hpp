@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/monte_carlo/store.hpp"
 #include "particles/population/monte_carlo/sum_tree.hpp"
 
@@ -327,5 +327,5 @@ class ClassStore {
 
 }  // namespace lampblack::particles
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/monte_carlo/class_store_changes.hpp"

@@ -1,7 +1,7 @@
 // What changes many entries of a ClassStore at once. Included by class_store.hpp.
 #pragma once
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/monte_carlo/class_store.hpp"
 
 namespace lampblack::particles {

@@ -18,7 +18,7 @@
 #include <utility>
 
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/model/particle_type.hpp"
 #include "particles/population/model/population_model.hpp"
 #include "particles/population/monte_carlo/monte_carlo_options.hpp"

@@ -8,7 +8,7 @@
 #include <optional>
 #include <span>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/model/particle_type.hpp"
 #include "particles/population/model/population_model.hpp"
 #include "particles/population/monte_carlo/growth_jump.hpp"

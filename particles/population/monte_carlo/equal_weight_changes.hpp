@@ -1,7 +1,7 @@
 // EqualWeightMethod: what changes, takes in or looks at all of its particles. Included by equal_weight_method.hpp.
 #pragma once
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/monte_carlo/equal_weight_method.hpp"
 
 namespace lampblack::particles {

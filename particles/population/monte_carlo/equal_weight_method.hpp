@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/monte_carlo/equal_rates.hpp"
 #include "particles/population/monte_carlo/equal_weight_sample.hpp"
 #include "particles/population/monte_carlo/growth_step.hpp"
@@ -276,5 +276,5 @@ class EqualWeightMethod {
 
 }  // namespace lampblack::particles
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/monte_carlo/equal_weight_changes.hpp"

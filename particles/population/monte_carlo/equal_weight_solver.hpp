@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/monte_carlo/class_store.hpp"
 #include "particles/population/monte_carlo/deferred_growth.hpp"
 #include "particles/population/monte_carlo/equal_weight_method.hpp"

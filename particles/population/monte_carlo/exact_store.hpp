@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/monte_carlo/store.hpp"
 
 namespace lampblack::particles {

@@ -12,7 +12,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::particles {
 

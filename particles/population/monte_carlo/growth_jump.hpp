@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/model/particle_type.hpp"
 #include "particles/population/model/population_model.hpp"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/model/population_model.hpp"
 
 namespace lampblack::particles {

@@ -20,7 +20,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/monte_carlo/hybrid_population.hpp"
 #include "particles/population/population_solver.hpp"
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/monte_carlo/store.hpp"
 #include "particles/population/monte_carlo/sum_tree.hpp"
 

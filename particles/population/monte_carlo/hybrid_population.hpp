@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/monte_carlo/class_store.hpp"
 #include "particles/population/monte_carlo/equal_rates.hpp"
 #include "particles/population/monte_carlo/hybrid_numbers.hpp"
@@ -36,9 +36,11 @@ class HybridPopulation {
 
   [[nodiscard]] const Rates& rates() const { return store_.rates(); }
   [[nodiscard]] std::size_t particles() const { return store_.size(); }
-  [[nodiscard]] std::uint64_t inNumbers() const { return numbers_.all(); }
+  [[nodiscard]] std::uint64_t countedParticles() const { return numbers_.all(); }
   [[nodiscard]] std::size_t sizes() const { return numbers_.threshold(); }
-  [[nodiscard]] double size() const { return static_cast<double>(inNumbers()) + static_cast<double>(particles()); }
+  [[nodiscard]] double size() const {
+    return static_cast<double>(countedParticles()) + static_cast<double>(particles());
+  }
   [[nodiscard]] std::size_t bytes() const { return store_.bytes() + numbers_.bytes(); }
 
   // A particle becomes a number where it is of a whole number of units.

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/monte_carlo/hybrid_method.hpp"
 #include "particles/population/monte_carlo/initial_sample.hpp"
 #include "particles/population/monte_carlo/jump_process.hpp"

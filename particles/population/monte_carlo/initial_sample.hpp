@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/modules.hpp"
 #include "core/random.hpp"
-#include "core/rooms.hpp"
 #include "particles/population/monte_carlo/monte_carlo_options.hpp"
 
 namespace lampblack::particles {

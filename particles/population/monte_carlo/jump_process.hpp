@@ -15,8 +15,8 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "core/modules.hpp"
 #include "core/random.hpp"
-#include "core/rooms.hpp"
 #include "particles/population/gelation_error.hpp"
 #include "particles/population/model/nucleation_schedule.hpp"
 #include "particles/population/monte_carlo/monte_carlo_options.hpp"
@@ -73,7 +73,7 @@ class JumpProcess final : public PopulationSolver {
     const bool continuous = model_.growth.active() && model_.growth.treatment != GrowthOptions::Treatment::jumps;
     const bool deferred = continuous && model_.growth.treatment == GrowthOptions::Treatment::deferred;
     while (time_ < end) {
-      lookUp();
+      runCallback();
       double next = end;
       if (continuous) next = std::min(next, time_ + method_.growthStep());
       if (model_.dilution != 0) next = std::min(next, time_ + dilutionStep / std::abs(model_.dilution));
@@ -111,7 +111,7 @@ class JumpProcess final : public PopulationSolver {
 
   void jump(double end, bool deferred) {
     while (true) {
-      if (++attempts_ % eventsUnwatched == 0) lookUp();
+      if (++attempts_ % eventsUnwatched == 0) runCallback();
       const double coagulation = model_.coagulation ? method_.coagulationRate() : 0;
       const double breakage = model_.breakage ? method_.breakageRate() : 0;
       const double deposition = model_.deposition ? method_.depositionRate() : 0;

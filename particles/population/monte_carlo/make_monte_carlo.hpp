@@ -2,7 +2,7 @@
 // library has the shipped types compiled in.
 #pragma once
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/model/particle_type.hpp"
 #include "particles/population/monte_carlo/monte_carlo_options.hpp"
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/population_solver.hpp"
 
 namespace lampblack::particles {
@@ -44,7 +44,7 @@ struct MonteCarloOptions {
   FractionFunction fraction = FractionFunction::one;
   FractionOf fractionOf = FractionOf::volumes;
   // sammc: the share of a particle's volume that it may take up of small ones at once, 0: one by one (TwoLevelStore).
-  double shareAtOnce = 0;
+  double bundledGrowth = 0;
   double fractionConstant = 1;  // C in (0, 1], of FractionFunction::constant
   MergingDifference merging = MergingDifference::relative;
   WeightTransfer transfer = WeightTransfer::mass;

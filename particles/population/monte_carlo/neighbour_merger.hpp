@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/monte_carlo/volume_order.hpp"
 
 namespace lampblack::particles {

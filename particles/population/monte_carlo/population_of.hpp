@@ -2,7 +2,7 @@
 // for the type; the shipped ones are compiled in the library, see shipped_types.hpp.
 #pragma once
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/monte_carlo/equal_weight_solver.hpp"
 #include "particles/population/monte_carlo/hybrid_solver.hpp"
 #include "particles/population/monte_carlo/weighted_solver.hpp"

@@ -1,7 +1,7 @@
 // The Monte Carlo solvers of the particle types that come with Lampblack. Throw InputError.
 #pragma once
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/model/components.hpp"
 #include "particles/population/model/fractal_aggregate.hpp"
 #include "particles/population/model/sphere.hpp"

@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/monte_carlo/chunk_trees.hpp"
 #include "particles/population/monte_carlo/store.hpp"
 

@@ -203,7 +203,7 @@ class SortedStore {
 
 }  // namespace lampblack::particles
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/monte_carlo/sorted_store_chunks.hpp"
 #include "particles/population/monte_carlo/sorted_store_draws.hpp"
 #include "particles/population/monte_carlo/sorted_store_sums.hpp"

@@ -1,7 +1,7 @@
 // SortedStore: how entries are drawn and taken out. Included by sorted_store.hpp.
 #pragma once
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/monte_carlo/sorted_store.hpp"
 
 namespace lampblack::particles {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/monte_carlo/store.hpp"
 
 namespace lampblack::particles::store_operations {

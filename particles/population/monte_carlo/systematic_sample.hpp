@@ -8,8 +8,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/modules.hpp"
 #include "core/random.hpp"
-#include "core/rooms.hpp"
 
 namespace lampblack::particles {
 

@@ -4,7 +4,7 @@
 // entry itself, which turns down fewer pairs than bounds of whole chunks (SortedStore). O(N / 32 + 32) an event;
 // neighbours in volume are merged many at once (NeighbourMerger), O(N log N).
 //
-// Small particles may be taken up in bundles (setShareAtOnce, BundleLimits): then each r of the kernel's bound
+// Small particles may be taken up in bundles (setBundledGrowth, BundleLimits): then each r of the kernel's bound
 // sum_r w_j [p_r(i) q_r(j) + q_r(i) p_r(j)] is summed with the one drawn by weight, j, small or not; its partner counts
 // once, or where j is small once a bundle.
 #pragma once
@@ -16,8 +16,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/modules.hpp"
 #include "core/random.hpp"
-#include "core/rooms.hpp"
 #include "particles/population/monte_carlo/bundle_limits.hpp"
 #include "particles/population/monte_carlo/factored_sums.hpp"
 #include "particles/population/monte_carlo/neighbour_merger.hpp"
@@ -42,9 +42,9 @@ class TwoLevelStore {
   [[nodiscard]] std::size_t size() const { return entries_.size() - holes_; }
   [[nodiscard]] std::size_t bytes() const { return entries_.capacity() * sizeof(Entry) + sums_.bytes(); }
   [[nodiscard]] const Rates& rates() const { return rates_; }
-  // The share of a particle's volume that it may take up at once, zero: one by one. Only where a pair coagulates at
-  // the larger of its weights.
-  void setShareAtOnce(double share) { shareAtOnce_ = share; }
+  // The share of its volume that a particle may gain from small particles in one event; zero: no bundles. Only where a
+  // pair coagulates at the larger of its weights.
+  void setBundledGrowth(double share) { bundledGrowth_ = share; }
   // How many of the second particle each of the first takes up in the event that was drawn last.
   [[nodiscard]] double collected() const { return collected_; }
 
@@ -57,7 +57,7 @@ class TwoLevelStore {
   }
   // In order of volume, then weight, without what events leave behind, holes and rounding errors of sums: what follows
   // depends on the entries alone, and so does what forEach() shows.
-  void settle() {
+  void sort() {
     closeHoles();
     order_.sort(entries_, rates_);
     isMeasured_ = false;
@@ -276,20 +276,20 @@ class TwoLevelStore {
     sums_.renew();
   }
   void findLimits() const {
-    if (!(shareAtOnce_ > 0)) return;
+    if (!(bundledGrowth_ > 0)) return;
     volumes_.clear();
     weights_.clear();
     for (const Entry& entry : entries_) {
       volumes_.push_back(rates_.volume(entry));
       weights_.push_back(rates_.weight(entry));
     }
-    limits_.find(shareAtOnce_, volumes_, weights_);
+    limits_.find(bundledGrowth_, volumes_, weights_);
   }
 
   Rates rates_;
   std::size_t rank_;
   std::array<std::size_t, singleProcesses> singleValue_{};
-  double shareAtOnce_ = 0, collected_ = 1;
+  double bundledGrowth_ = 0, collected_ = 1;
   std::vector<Entry> entries_;
   std::array<std::size_t, 2> hole_{};  // places whose entries are out
   std::size_t holes_ = 0;

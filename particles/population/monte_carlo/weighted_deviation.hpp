@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "chemistry/transport/lanes.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::particles {
 

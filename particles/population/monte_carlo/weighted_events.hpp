@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/monte_carlo/weighted_method.hpp"
 
 namespace lampblack::particles {
@@ -158,7 +158,7 @@ template <ParticleType Type, class Store>
 void WeightedMethod<Type, Store>::mergeExcess() {
   if (store_.size() >= capacity_) filled_ = true;
   if (store_.size() > capacity_) (void)mergeDownTo(capacity_);
-  if constexpr (mergesMany) store_.settle();
+  if constexpr (mergesMany) store_.sort();
 }
 
 // Particles that are new to the population, `copies` of the same kind.

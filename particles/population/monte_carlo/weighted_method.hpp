@@ -70,7 +70,7 @@ class WeightedMethod {
     const double weight = initial.number > 0 ? initial.number / static_cast<double>(capacity_) : 0;
     if constexpr (bundles) {
       if (method_ == MonteCarloMethod::sammc && options.fraction == FractionFunction::one)
-        store_.setShareAtOnce(options.shareAtOnce);
+        store_.setBundledGrowth(options.bundledGrowth);
     }
     for (const double v : initialVolumes(initial, capacity_, random)) entries.push_back({type.make(v), weight});
     for (const Entry& entry : entries) track(entry, 1);
@@ -216,5 +216,5 @@ class WeightedMethod {
 
 }  // namespace lampblack::particles
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/monte_carlo/weighted_events.hpp"

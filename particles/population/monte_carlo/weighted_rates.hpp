@@ -5,7 +5,7 @@
 #include <optional>
 #include <type_traits>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/model/particle_type.hpp"
 #include "particles/population/model/population_model.hpp"
 #include "particles/population/model/sphere.hpp"

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/monte_carlo/exact_store.hpp"
 #include "particles/population/monte_carlo/make_monte_carlo.hpp"
 #include "particles/population/monte_carlo/sorted_store.hpp"

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/monte_carlo/compensated_sum.hpp"
 #include "particles/population/monte_carlo/weighted_deviation.hpp"
 

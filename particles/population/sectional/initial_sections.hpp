@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/sectional/section_grid.hpp"
 
 namespace lampblack::particles {

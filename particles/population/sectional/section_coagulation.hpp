@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/model/collision_kernel.hpp"
 #include "particles/population/sectional/section_grid.hpp"
 

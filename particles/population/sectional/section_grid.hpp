@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/sectional/sectional_options.hpp"
 
 namespace lampblack::particles {

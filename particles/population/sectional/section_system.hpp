@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "chemistry/reactor/ode_system.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/model/nucleation_schedule.hpp"
 #include "particles/population/sectional/linear_processes.hpp"
 #include "particles/population/sectional/section_coagulation.hpp"

@@ -110,7 +110,7 @@ void SectionalSolver::advance(double end) {
     const double stop = self.segmentEnd(end);
     self.begin(stop);
     while (self.time < stop) {
-      lookUp();
+      runCallback();
       self.step();
     }
   }

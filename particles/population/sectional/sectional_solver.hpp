@@ -4,7 +4,7 @@
 #include <memory>
 #include <span>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/sectional/sectional_options.hpp"
 
 namespace lampblack::particles {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/population_solver.hpp"
 #include "particles/population/sectional/sectional_options.hpp"
 

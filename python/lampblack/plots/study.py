@@ -51,7 +51,7 @@ def plot_scores(rows, pictures):
         axes.axhspan(-BOUND, BOUND, color="0.93", zorder=0)
         for m, method in enumerate(methods):
             for known in (False, True):
-                chosen = [row for row in rows if row["method"] == method and ("known" in row.get("verdict", "")) == known]
+                chosen = [row for row in rows if row["method"] == method and any(word in row.get("verdict", "") for word in ("expected", "known")) == known]
                 x = [runs.index(row["run"]) + 0.7 * (m / max(1, len(methods) - 1) - 0.5) for row in chosen]
                 z = np.array([number(row, f"z_M{k}") for row in chosen])
                 axes.plot(x, z, ls="none", ms=4.5, marker=MARKS[m % len(MARKS)], color=f"C{m % 10}",

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "flow/flame/flame_profile.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::flow {
 namespace {

@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 extern "C" void dgesv_(const int* n, const int* columns, double* A, const int* lda, int* pivots, double* B,
                        const int* ldb, int* info);

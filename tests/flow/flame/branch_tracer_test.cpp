@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "tests/flow/flame/small_systems.hpp"
 
 namespace lampblack::flow {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "tests/flow/flame/steady_hydrogen.hpp"
 
 namespace lampblack::flow {

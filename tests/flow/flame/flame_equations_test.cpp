@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "chemistry/numerics/dense_blocks.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "tests/flow/flame/flame_fixture.hpp"
 
 namespace lampblack::flow {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "chemistry/thermo/thermo.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "tests/flow/flame/flame_fixture.hpp"
 
 namespace lampblack::flow {

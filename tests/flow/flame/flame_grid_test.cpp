@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "core/errors.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/flow/flame/analytic_profile.hpp"
 
 namespace lampblack::test {

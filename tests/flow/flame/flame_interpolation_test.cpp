@@ -7,7 +7,7 @@
 
 #include "core/errors.hpp"
 #include "flow/flame/flame_grid.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/flow/flame/analytic_profile.hpp"
 
 namespace lampblack::test {

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "flow/flame/initial_flame.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/flow/flame/flame_fixture.hpp"
 #include "tests/messages.hpp"
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/flame/flame_continuation.hpp"
 #include "flow/flame/flame_from_lower_load.hpp"
 #include "flow/flame/flame_state.hpp"

@@ -15,7 +15,7 @@
 #include "chemistry/thermo/thermo.hpp"
 #include "flow/flame/flame_problem.hpp"
 #include "flow/flame/flame_profile.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/flow/flame/streams.hpp"
 
 namespace lampblack::test {

@@ -13,7 +13,7 @@
 
 #include "core/errors.hpp"
 #include "flow/flame/stream_mixture.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/flow/flame/initial_flame_checks.hpp"
 #include "tests/messages.hpp"
 
@@ -122,7 +122,7 @@ TEST(InitialFlame, WhatCannotBurnFlowsAndMixesAndIsAnErrorOfAFreeFlame) {
     const auto free = oneStream(gas, FlameType::Free, moles);
     EXPECT_THAT(messageOf<InputError>([&] { static_cast<void>(initialFlame(gas.mechanism, free, 0)); }),
                 ::testing::HasSubstr(part));
-    EXPECT_THAT(whyItCannotBurn(gas.mechanism, free), ::testing::HasSubstr(part));
+    EXPECT_THAT(inertReason(gas.mechanism, free), ::testing::HasSubstr(part));
     for (const auto type : {FlameType::Burner, FlameType::Wall}) {
       const auto problem = oneStream(gas, type, moles);
       expectSound(gas, problem, initialFlame(gas.mechanism, problem, 0), 300, 400);
@@ -131,12 +131,12 @@ TEST(InitialFlame, WhatCannotBurnFlowsAndMixesAndIsAnErrorOfAFreeFlame) {
   for (const auto& [left, right, part] :
        {std::tuple{"N2: 1", air, "neither has fuel"}, {"N2: 1", "CH4: 1", "neither has an oxidiser"}}) {
     const auto problem = counterflowProblem(gas, left, right);
-    EXPECT_THAT(whyItCannotBurn(gas.mechanism, problem), ::testing::HasSubstr(part));
+    EXPECT_THAT(inertReason(gas.mechanism, problem), ::testing::HasSubstr(part));
     const auto p = initialFlame(gas.mechanism, problem, 0);
     expectSound(gas, problem, p, 300, 350);
     expectElementsMixed(gas, problem, p);
   }
-  EXPECT_EQ(whyItCannotBurn(gas.mechanism, counterflowProblem(gas)), "");
+  EXPECT_EQ(inertReason(gas.mechanism, counterflowProblem(gas)), "");
   InitialFlameOptions cold;
   cold.cold = true;
   const auto problem = counterflowProblem(gas);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/flame/flame_continuation.hpp"
 #include "flow/flame/flame_equations.hpp"
 #include "flow/flame/flame_solver.hpp"

@@ -7,7 +7,7 @@
 
 #include "flow/flame/initial_flame.hpp"
 #include "flow/flame/mixing_profile.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/flow/flame/initial_flame_checks.hpp"
 
 namespace lampblack::test {

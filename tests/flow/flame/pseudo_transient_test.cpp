@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/flame/newton_solver.hpp"
 #include "tests/flow/flame/small_systems.hpp"
 

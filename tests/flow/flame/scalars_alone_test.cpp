@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "chemistry/thermo/thermo.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/flame/flame_solver.hpp"
 #include "flow/flame/initial_flame.hpp"
 #include "tests/flow/flame/flame_fixture.hpp"

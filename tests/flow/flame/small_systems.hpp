@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "flow/flame/loaded_system.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 

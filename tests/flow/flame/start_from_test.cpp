@@ -9,7 +9,7 @@
 #include "chemistry/thermo/thermo.hpp"
 #include "core/errors.hpp"
 #include "flow/flame/initial_flame.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/flow/flame/streams.hpp"
 
 namespace lampblack::test {

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/flame/flame_equations.hpp"
 #include "tests/flow/flame/steady_hydrogen.hpp"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "flow/flame/unsteady_flame.hpp"
 #include "tests/flow/flame/small_systems.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "../statistics.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/models/two_equation/dimer_soot.hpp"
 #include "particles/soot/surface_chemistry.hpp"
 #include "tests/particles/soot_fixtures.hpp"

@@ -7,7 +7,7 @@
 
 #include "../statistics.hpp"
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/models/two_equation/two_equation.hpp"
 #include "tests/particles/soot_fixtures.hpp"
 

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/soot/surface_chemistry.hpp"
 #include "tests/particles/soot_fixtures.hpp"
 

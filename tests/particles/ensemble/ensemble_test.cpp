@@ -8,7 +8,7 @@
 
 #include "../statistics.hpp"
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/soot/soot_medium.hpp"
 #include "particles/soot/surface_chemistry.hpp"
 #include "tests/particles/soot_fixtures.hpp"

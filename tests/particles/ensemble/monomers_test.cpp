@@ -5,7 +5,7 @@
 
 #include "../statistics.hpp"
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/ensemble/ensemble.hpp"
 #include "particles/soot/soot_medium.hpp"
 #include "tests/particles/soot_fixtures.hpp"

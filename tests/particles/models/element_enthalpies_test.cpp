@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "soot_model_checks.hpp"
 #include "tests/particles/models/published_models.hpp"
 #include "tests/particles/soot_fixtures.hpp"

@@ -12,7 +12,7 @@
 #include "particles/models/sectional/sectional_soot.hpp"
 #include "particles/models/semi_empirical/semi_empirical_soot.hpp"
 #include "particles/models/two_equation/dimer_soot.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 

@@ -15,7 +15,7 @@
 
 #include "core/constants.hpp"
 #include "particles/models/soot_model.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/models/two_equation/two_equation.hpp"
 
 namespace lampblack::particles {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "tests/particles/soot_fixtures.hpp"
 
 namespace lampblack::particles {

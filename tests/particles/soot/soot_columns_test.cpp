@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "tests/particles/soot_fixtures.hpp"
 
 namespace lampblack::particles {
@@ -39,15 +39,15 @@ void compare(bool coalescing, const test::FlameGas& gas, double dt, bool someLos
   fluxes.condensation = medium.condensation(1e15);
   SootColumns all = manyParticles(type);
   const SootColumns before = all;
-  const SootMoved moved = growAll(all, type, medium, fluxes, dt);
-  SootMoved expected;
+  const SootTransfer moved = growAll(all, type, medium, fluxes, dt);
+  SootTransfer expected;
   SootSums sums;
   double carbon = 0, hydrogen = 0;  // what the particles gained
   bool lost = false, stayed = false;
   for (std::size_t k = 0; k < all.size(); ++k) {
     SootAggregate::Particle p = before.particle(k);
     const double w = before.weight[k], mass = SootAggregate::mass(p);
-    SootMoved one;
+    SootTransfer one;
     const bool left = medium.grow(type, fluxes, dt, p, one);
     expected.add(w, one);
     carbon += w * (all.carbon[k] - before.carbon[k]);
@@ -67,8 +67,9 @@ void compare(bool coalescing, const test::FlameGas& gas, double dt, bool someLos
   }
   EXPECT_EQ(lost, someLost);
   EXPECT_EQ(stayed, someStay);
-  for (const auto part : {&SootMoved::dimers, &SootMoved::growth, &SootMoved::oxidationO2, &SootMoved::oxidationOH,
-                          &SootMoved::hydrogenO2, &SootMoved::hydrogenOH, &SootMoved::lost})
+  for (const auto part :
+       {&SootTransfer::dimers, &SootTransfer::growth, &SootTransfer::oxidationO2, &SootTransfer::oxidationOH,
+        &SootTransfer::hydrogenO2, &SootTransfer::hydrogenOH, &SootTransfer::lost})
     expectNear(moved.*part, expected.*part, expected.*part);
   // Atoms: what the particles gained is what was moved.
   const double gross = moved.growth + moved.oxidationO2 + moved.oxidationOH + moved.dimers * medium.dimerCarbon();

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "../statistics.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "tests/particles/soot_fixtures.hpp"
 
 namespace lampblack::particles {
@@ -81,7 +81,7 @@ TEST(SootEvents, TellWhatTheyChanged) {
       EXPECT_NEAR(after.diameter[k], d, 1e-13 * d);
       EXPECT_EQ(after.primaries[k], before.primaries[k]);
     }
-    const SootMoved& moved = growth.moved();
+    const SootTransfer& moved = growth.moved();
     const double scale = 1e-12 * moved.growth;
     EXPECT_NEAR(carbon,
                 moved.dimers * scene.medium.dimerCarbon() + moved.growth - moved.oxidationO2 - moved.oxidationOH,
@@ -100,7 +100,7 @@ TEST(SootEvents, OfSomeAfterTheOtherAreThoseOfAll) {
   SootColumns all = scene.particles();
   SootColumns first = part(all, 0, 256), second = part(all, 256, many - 256);
   RandomStream one(1, 0, 7), two(1, 0, 7);
-  const SootMoved whole = growAllByEvents(all, scene.type, scene.medium, scene.fluxes, 3e-6, one);
+  const SootTransfer whole = growAllByEvents(all, scene.type, scene.medium, scene.fluxes, 3e-6, one);
   GrowthByEvents growth(scene.type, scene.medium, scene.fluxes, 3e-6, two);
   std::vector<std::uint32_t> changed;
   growth.grow(first, changed);

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "particles/trees/primary_trees.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 

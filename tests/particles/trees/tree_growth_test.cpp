@@ -115,7 +115,7 @@ TEST(TreeSites, StepsFollowWhatChangesFastest) {
   const std::array<double, 2> concentrations{1e-9, 0};
   ParticleGas gas{options.gas, concentrations};
   TreeSites sites(type);
-  sites.see(gas, kernel);
+  sites.setGas(gas, kernel);
   TreeSites::Sums sums;
   const Tree one = type.make(TreeUnits{2000, 4000, 400});
   const double number = 1e16, v = one.head().volume;

@@ -126,7 +126,7 @@ TEST_P(TreesLikeOthers, ThatCoalesceAreSpheresInLaw) {
     for (double& number : dry) number *= factor;
     population->fill(dry, start);
     population->advance(nitrogen.gas(), until);
-    population->settle();
+    population->applyDeferred();
     EXPECT_EQ(population->totals().largest, 1U);
     trees.number.push_back(population->totals().number);
     trees.squared.push_back(population->totals().massSquared);
@@ -203,7 +203,7 @@ TEST(TreePopulation, TakesInThoseOfAnother) {
   Nitrogen nitrogen;
   nitrogen.concentrations = {2e-6, 0};
   const auto other = populated(nitrogen, small());
-  other->settle();
+  other->applyDeferred();
   const std::vector<double> packed = other->pack();
   const std::span<const double> rows = treeRows.of(packed);
   EXPECT_EQ(treeRows.count(rows), other->size());
@@ -232,7 +232,7 @@ TEST(TreePopulation, TakesInTreesThatHaveSinteredUntilNow) {
   Nitrogen nitrogen;
   nitrogen.concentrations = {2e-6, 0};
   const auto other = populated(nitrogen, small());
-  other->settle();
+  other->applyDeferred();
   const double surface = other->totals().surface;
   ASSERT_GT(other->totals().primaries, 1.01 * other->totals().number);
   const std::vector<double> packed = other->pack();
@@ -247,7 +247,7 @@ TEST(TreePopulation, TakesInTreesThatHaveSinteredUntilNow) {
       trees->advance(nitrogen.gas(), waited);
       trees->join(treeRows.of(packed), 1.0);
       const double joined = trees->totals().surface;
-      trees->settle();
+      trees->applyDeferred();
       EXPECT_EQ(trees->totals().surface, joined) << waited;
       share.push_back(joined / surface);
     }

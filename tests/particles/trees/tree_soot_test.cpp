@@ -52,7 +52,7 @@ SootLaw ofTrees(TreeOptions options, const FlameGas& gas, double dt, int repeats
     options.owner = static_cast<std::uint64_t>(r);
     const auto trees = makeTreePopulation(options);
     trees->advance(gas.state, dt);
-    trees->settle();
+    trees->applyDeferred();
     const TreeTotals t = trees->totals();
     const TreeExchange taken = trees->takeExchange();
     law.number.push_back(t.number);
@@ -125,14 +125,14 @@ void expectMeanGrowth(const FlameGas& gas, std::size_t primaries, double dt) {
   TreeSoot::Sums sums;
   TreeSoot reactions(type);
   CollisionKernel kernel(options.kernel);
-  reactions.see(gas.state, kernel);
+  reactions.setGas(gas.state, kernel);
   reactions.add(sums, tree.head(), 1e12);
   const SootPopulationLaw law{soot, dimers, nullptr, 1, false, true, 0.01};
   const SootAggregate aggregate(soot.sootDensity, primaries == 1);
   SootAggregate::Particle expected =
       aggregate.make(n * units[0] * atom, n * units[1] * soot.hydrogenWeight / constants::avogadro, n);
   const double before = expected.carbon;
-  SootMoved moved;
+  SootTransfer moved;
   ASSERT_TRUE(medium.grow(aggregate, sootFluxes(law, medium, sums, dt), dt, expected, moved));
   for (int repeat = 0; repeat < 3000; ++repeat) {
     Tree own = tree;
@@ -168,7 +168,7 @@ TEST(TreesOfSoot, SumsAreThoseOfSpheres) {
   const DimerModel dimers(soot);
   const SootMedium medium(soot, dimers, gas.state, true);
   TreeSoot reactions(type);
-  reactions.see(gas.state, CollisionKernel(options.kernel));
+  reactions.setGas(gas.state, CollisionKernel(options.kernel));
   SootColumns columns;
   columns.resize(5);
   TreeSoot::Sums sums;
@@ -194,7 +194,7 @@ TEST(TreesOfSoot, NothingHappensToWhatHasBurnt) {
   const PrimaryTrees type(options.material, options.size);
   RandomStream random(81, 82, 83);
   TreeSoot reactions(type);
-  reactions.see(gas.state, CollisionKernel(options.kernel));
+  reactions.setGas(gas.state, CollisionKernel(options.kernel));
   const TreeUnits units{42, 20, 0};
   for (const double dt : {1e-6, 2e-5}) {  // one by one, and in numbers
     int gone = 0;
@@ -216,7 +216,7 @@ TEST(TreesOfSoot, NothingHappensToWhatHasBurnt) {
       if (fate != TreeFate::gone) count(tree);
       TreeExchange exchange;
       TreeCounters counters;
-      reactions.bookGrowth(1, exchange, counters);
+      reactions.recordGrowth(1, exchange, counters);
       for (std::size_t c = 0; c < 2; ++c) EXPECT_NEAR(6 * units[c] + exchange.units[c], left[c], 1e-9);
       EXPECT_EQ(6 - exchange.burntPrimaries, primaries);
       gone += fate == TreeFate::gone;
@@ -239,7 +239,7 @@ TEST(TreesOfSoot, EventsHappenToPrimariesByTheirSurface) {
   const Tree tree = type.coagulated(type.make(TreeUnits{8000, 800, 0}), type.make(TreeUnits{1000, 100, 0}), random);
   TreeSoot::Sums sums;
   TreeSoot reactions(type);
-  reactions.see(gas.state, CollisionKernel(options.kernel));
+  reactions.setGas(gas.state, CollisionKernel(options.kernel));
   reactions.add(sums, tree.head(), 1e12);
   for (const double dt : {5e-7, 1e-4}) {  // few, and in numbers
     double large = 0, small = 0;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "moment_model_fixtures.hpp"
 #include "particles/models/two_equation/two_equation.hpp"
 #include "tests/particles/models/soot_model_checks.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "particles/models/soot_model.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/particles/soot_fixtures.hpp"
 
 namespace lampblack::test {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "moment_model_fixtures.hpp"
 #include "particles/models/moments/hmom.hpp"
 #include "particles/models/moments/momic_soot.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "moment_model_fixtures.hpp"
 #include "particles/population/moments/moment_options.hpp"
 #include "particles/population/sectional/sectional_options.hpp"

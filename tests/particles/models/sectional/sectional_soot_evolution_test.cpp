@@ -2,7 +2,7 @@
 // against resolved particles, and against itself with more sections.
 #include <gtest/gtest.h>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/ensemble/ensemble.hpp"
 #include "particles/population/sectional/section_coagulation.hpp"
 #include "tests/particles/models/sectional/section_batch.hpp"

@@ -8,7 +8,7 @@
 
 #include "core/constants.hpp"
 #include "particles/models/sectional/sectional_soot.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 

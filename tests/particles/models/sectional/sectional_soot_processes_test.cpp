@@ -1,7 +1,7 @@
 // Each process of the sectional soot model alone, at one state.
 #include <gtest/gtest.h>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/models/sectional/sectional_soot.hpp"
 #include "particles/soot/surface_chemistry.hpp"
 #include "tests/particles/models/sectional/sectional_soot_fixtures.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "core/errors.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/messages.hpp"
 #include "tests/particles/models/sectional/sectional_soot_fixtures.hpp"
 

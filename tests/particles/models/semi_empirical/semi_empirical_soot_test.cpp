@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/soot/soot_oxidation.hpp"
 #include "tests/particles/models/soot_model_checks.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/soot/soot_oxidation.hpp"
 #include "tests/particles/models/soot_model_checks.hpp"
 #include "tests/particles/soot_fixtures.hpp"

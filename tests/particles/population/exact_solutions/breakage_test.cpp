@@ -1,7 +1,7 @@
 // Breakage alone: moments of the distribution, the population balance itself, and the chain of equal pieces against a
 // matrix exponential.
 #include "particles/population/exact_solutions/breakage_chain.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/particles/population/exact_solutions/exact_support.hpp"
 
 namespace lampblack::test {

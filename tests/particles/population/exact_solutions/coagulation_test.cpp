@@ -1,7 +1,7 @@
 // Coagulation alone: moments against tables, distributions against moments, a brute-force Smoluchowski equation of
 // discrete clusters, and the population balance itself.
 #include "particles/population/exact_solutions/series.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/particles/population/exact_solutions/exact_support.hpp"
 
 namespace lampblack::test {

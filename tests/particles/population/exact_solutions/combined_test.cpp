@@ -1,6 +1,6 @@
 // Several processes at once.
 #include "particles/population/exact_solutions/extrapolation.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/particles/population/exact_solutions/exact_support.hpp"
 
 namespace lampblack::test {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "particles/population/exact_solutions/exact_solution.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 

@@ -1,7 +1,7 @@
 // Nucleation, growth, deposition and dilution without interaction.
 #include "particles/population/exact_solutions/initial_distribution.hpp"
 #include "particles/population/model/sphere.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/particles/population/exact_solutions/exact_support.hpp"
 
 namespace lampblack::test {

@@ -5,7 +5,7 @@
 
 #include "core/random.hpp"
 #include "particles/population/model/collision_kernel.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 

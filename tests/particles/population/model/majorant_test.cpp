@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "kernel_fixtures.hpp"
 
 namespace lampblack::particles {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/errors.hpp"
+#include "core/modules.hpp"
 #include "core/random.hpp"
-#include "core/rooms.hpp"
 
 namespace lampblack::particles {
 namespace {

@@ -1,7 +1,7 @@
 // Growth in closed form against the numerical integration of its differential equations.
 #include <gtest/gtest.h>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "type_fixtures.hpp"
 
 namespace lampblack::particles {

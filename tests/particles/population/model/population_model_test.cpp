@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::particles {
 namespace {

@@ -8,7 +8,7 @@
 #include "particles/population/model/fractal_aggregate.hpp"
 #include "particles/population/model/sphere.hpp"
 #include "particles/population/model/surface_volume.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 

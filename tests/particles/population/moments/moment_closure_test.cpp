@@ -4,7 +4,7 @@
 #include "particles/population/model/particle_type.hpp"
 #include "particles/population/model/sphere.hpp"
 #include "particles/population/sectional/sectional_options.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/particles/population/moments/moment_fixtures.hpp"
 
 namespace lampblack::test {

@@ -9,7 +9,7 @@
 
 #include "particles/population/exact_solutions/exact_solution.hpp"
 #include "particles/population/moments/moment_options.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 

@@ -1,7 +1,7 @@
 // Moment methods where their closure is exact, and at their ends.
 #include "core/errors.hpp"
 #include "particles/population/gelation_error.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/particles/population/moments/moment_fixtures.hpp"
 
 namespace lampblack::test {

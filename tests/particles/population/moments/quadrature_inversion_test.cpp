@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::particles {
 namespace {

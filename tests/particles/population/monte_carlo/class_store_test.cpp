@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "test_rates.hpp"
 
 namespace lampblack::particles {

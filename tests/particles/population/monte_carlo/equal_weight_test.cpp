@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "../../statistics.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/gelation_error.hpp"
 #include "particles/population/monte_carlo/monte_carlo_options.hpp"
 

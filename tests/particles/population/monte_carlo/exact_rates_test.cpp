@@ -6,7 +6,7 @@
 #include <string>
 #include <tuple>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/monte_carlo/monte_carlo_options.hpp"
 #include "same_law.hpp"
 

@@ -6,7 +6,7 @@
 #include <map>
 #include <vector>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::particles {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "core/constants.hpp"
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/monte_carlo/monte_carlo_options.hpp"
 #include "same_law.hpp"
 

@@ -5,7 +5,7 @@
 
 #include "../../statistics.hpp"
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/gelation_error.hpp"
 #include "particles/population/model/sphere.hpp"
 #include "particles/population/monte_carlo/hybrid_solver.hpp"
@@ -186,7 +186,7 @@ TEST(Hybrid, NumbersTakeWhatWouldOverflowTheEnsemble) {
   const auto& method = methodOf(*solver);
   EXPECT_NEAR(static_cast<double>(solver->counters().nucleations), 0.5 / 1e-5, 1);
   EXPECT_EQ(solver->counters().removals, 0u);
-  EXPECT_GT(method.population().inNumbers(), 30000u);
+  EXPECT_GT(method.population().countedParticles(), 30000u);
   EXPECT_LE(solver->particles(), 100u);
   // Memory is of the threshold and the capacity, not of the nuclei.
   EXPECT_LT(solver->bytes(), 20000u);

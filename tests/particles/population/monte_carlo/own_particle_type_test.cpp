@@ -10,7 +10,7 @@
 #include "../../statistics.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/monte_carlo/equal_weight_solver.hpp"
 #include "particles/population/monte_carlo/hybrid_solver.hpp"
 #include "particles/population/monte_carlo/weighted_solver.hpp"

@@ -10,7 +10,7 @@
 
 #include "../../statistics.hpp"
 #include "particles/population/population_solver.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 

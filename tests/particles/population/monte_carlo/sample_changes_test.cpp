@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/model/sphere.hpp"
 #include "particles/population/monte_carlo/class_store.hpp"
 #include "particles/population/monte_carlo/equal_weight_method.hpp"

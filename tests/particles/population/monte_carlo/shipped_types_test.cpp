@@ -10,7 +10,7 @@
 #include "../../statistics.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::particles {
 namespace {

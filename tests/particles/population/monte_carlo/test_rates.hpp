@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "particles/population/monte_carlo/store.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 

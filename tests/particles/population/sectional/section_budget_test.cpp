@@ -7,7 +7,7 @@
 #include <limits>
 #include <numeric>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/sectional/linear_processes.hpp"
 #include "particles/population/sectional/section_coagulation.hpp"
 #include "particles/population/sectional/section_growth.hpp"

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <string>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/exact_solutions/exact_solution.hpp"
 #include "particles/population/sectional/sectional_solver.hpp"
 #include "tests/particles/population/sectional/sectional_fixtures.hpp"

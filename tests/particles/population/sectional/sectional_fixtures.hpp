@@ -7,7 +7,7 @@
 
 #include "core/random.hpp"
 #include "particles/population/sectional/section_grid.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/gelation_error.hpp"
 #include "particles/population/model/nucleation_schedule.hpp"
 #include "particles/population/sectional/initial_sections.hpp"

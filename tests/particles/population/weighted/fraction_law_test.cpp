@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
 namespace lampblack::particles {
 namespace {

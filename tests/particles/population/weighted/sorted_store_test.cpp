@@ -4,7 +4,7 @@
 #include <tuple>
 #include <vector>
 
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/particles/population/weighted/weighted_test_rates.hpp"
 
 namespace lampblack::test {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/errors.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "particles/population/gelation_error.hpp"
 #include "particles/population/monte_carlo/monte_carlo_options.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "particles/population/monte_carlo/monte_carlo_options.hpp"
 #include "particles/population/monte_carlo/weighted_solver.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/particles/statistics.hpp"
 
 namespace lampblack::test {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "particles/population/monte_carlo/two_level_store.hpp"
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 #include "tests/particles/population/weighted/weighted_test_rates.hpp"
 
 namespace lampblack::test {
@@ -146,7 +146,7 @@ TEST_P(Bundles, HaveTheRatesOfTheirMeetings) {
   const Rates rates;
   TwoLevelStore<Rates> store(rates);
   const double share = GetParam();
-  store.setShareAtOnce(share);
+  store.setBundledGrowth(share);
   std::vector<Entry> entries;
   RandomStream random(13, 0, 0);
   for (int k = 20; k-- > 0;) entries.push_back({{1 + 0.05 * k}, 2000 + 100.0 * k});
@@ -199,7 +199,7 @@ TEST(TwoLevelStore, KeepsWhatWasNotDrawn) {
     while (!store.drawPair(random, i, j)) {
     }
     ASSERT_EQ(store.size(), 1U);
-    store.settle();
+    store.sort();
     store.forEach(
         [&](const Entry& left) { EXPECT_EQ(left.particle.volume, 6.0 - i.particle.volume - j.particle.volume); });
   }
@@ -209,7 +209,7 @@ TEST(TwoLevelStore, SettlesInOrderOfVolumeThenWeight) {
   TwoLevelStore<Rates> store{Rates()};
   for (const auto& [volume, weight] : {std::pair{3.0, 1.0}, {1.0, 5.0}, {2.0, 1.0}, {1.0, 4.0}})
     store.insert({{volume}, weight});
-  store.settle();
+  store.sort();
   std::vector<std::pair<double, double>> found;
   store.forEach([&](const Entry& e) { found.emplace_back(e.particle.volume, e.weight); });
   EXPECT_EQ(found, (std::vector<std::pair<double, double>>{{1.0, 4.0}, {1.0, 5.0}, {2.0, 1.0}, {3.0, 1.0}}));

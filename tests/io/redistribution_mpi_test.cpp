@@ -3,8 +3,8 @@
 
 #include <stdexcept>
 
-#include "core/kept_state.hpp"
-#include "io/movement.hpp"
+#include "core/state_backup.hpp"
+#include "io/redistribution.hpp"
 #include "tests/io/cell_rows.hpp"
 
 namespace lampblack::io {
@@ -14,8 +14,8 @@ using test::dealtCells;
 using test::rowCells;
 using Numbers = std::vector<std::int64_t>;
 
-KeptState keptOf(std::size_t cells, std::vector<std::vector<double>> rows, std::vector<double> numbers) {
-  KeptState kept(static_cast<int>(cells), 0);
+StateBackup keptOf(std::size_t cells, std::vector<std::vector<double>> rows, std::vector<double> numbers) {
+  StateBackup kept(static_cast<int>(cells), 0);
   kept.keep([&](StateArchive& archive) {
     archive.rows("particles", rows);
     archive.cells("numbers", numbers, 1);
@@ -24,13 +24,13 @@ KeptState keptOf(std::size_t cells, std::vector<std::vector<double>> rows, std::
   return kept;
 }
 
-TEST(Movement, BringsRowsAndValuesToTheRanksThatWillHaveTheirCells) {
+TEST(Redistribution, BringsRowsAndValuesToTheRanksThatWillHaveTheirCells) {
   const test::RowsOfCells of;
   const auto numbersOf = [](const Numbers& cells) { return std::vector<double>(cells.begin(), cells.end()); };
   for (const int deal : {0, 1, 2}) {
     const Numbers from = dealtCells(MPI_COMM_WORLD, deal), to = dealtCells(MPI_COMM_WORLD, deal + 1);
-    const Movement movement(MPI_COMM_WORLD, from, to, rowCells);
-    KeptState kept = keptOf(from.size(), of.rows(from), numbersOf(from));
+    const Redistribution movement(MPI_COMM_WORLD, from, to, rowCells);
+    StateBackup kept = keptOf(from.size(), of.rows(from), numbersOf(from));
     kept.rearrange(static_cast<int>(to.size()), 0, movement, movement, movement);
     std::vector<std::vector<double>> rows(to.size(), {-1.0}), more(to.size());
     std::vector<double> numbers(to.size());
@@ -46,7 +46,7 @@ TEST(Movement, BringsRowsAndValuesToTheRanksThatWillHaveTheirCells) {
 }
 
 // All cells of all ranks, and none of the others'.
-TEST(Movement, ARankMayHaveNothingBeforeOrAfter) {
+TEST(Redistribution, ARankMayHaveNothingBeforeOrAfter) {
   const test::RowsOfCells of;
   int rank = 0, ranks = 1;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
@@ -56,20 +56,20 @@ TEST(Movement, ARankMayHaveNothingBeforeOrAfter) {
   PackedRows rows, expected;
   for (const std::int64_t cell : from) rows.add(of.row(cell));
   for (const std::int64_t cell : to) expected.add(of.row(cell));
-  const PackedRows moved = Movement(MPI_COMM_WORLD, from, to, rowCells)(rows);
+  const PackedRows moved = Redistribution(MPI_COMM_WORLD, from, to, rowCells)(rows);
   EXPECT_EQ(moved.lengths, expected.lengths);
   EXPECT_EQ(moved.values, expected.values);
 }
 
-TEST(Movement, RowsOfWhatSeveralRanksHaveAreRefused) {
+TEST(Redistribution, RowsOfWhatSeveralRanksHaveAreRefused) {
   const Numbers once = dealtCells(MPI_COMM_WORLD, 0);
   Numbers twice = once;
   twice.push_back(0);
   PackedRows rows;
   for (std::size_t i = 0; i < twice.size(); ++i) rows.add({});
-  EXPECT_THROW(static_cast<void>(Movement(MPI_COMM_WORLD, twice, once, rowCells)(rows)), std::logic_error);
+  EXPECT_THROW(static_cast<void>(Redistribution(MPI_COMM_WORLD, twice, once, rowCells)(rows)), std::logic_error);
   rows.lengths.pop_back();
-  EXPECT_THROW(static_cast<void>(Movement(MPI_COMM_WORLD, once, twice, rowCells)(rows)), std::logic_error);
+  EXPECT_THROW(static_cast<void>(Redistribution(MPI_COMM_WORLD, once, twice, rowCells)(rows)), std::logic_error);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What a deck with `problem: particles_along` asks for: a path through a given gas, and the particles on it. Ensembles
+// What a deck with `problem: prescribed_gas` asks for: a path through a given gas, and the particles on it. Ensembles
 // that leave the gas as it is and models are marched along the path; trees, and ensembles that deplete it, are coupled
 // with it as with the gas of a reactor.
 #pragma once
@@ -11,14 +11,14 @@
 #include "app/deck/ensemble_deck.hpp"
 #include "app/reactor/reactor_case.hpp"
 #include "chemistry/mechanism/mechanism.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/deck.hpp"
 #include "particles/ensemble/ensemble_path.hpp"
 #include "particles/models/particle_model.hpp"
 
 namespace lampblack::app {
 
-struct AlongCase {
+struct PrescribedGasCase {
   std::string title;
   std::shared_ptr<const Mechanism> mechanism;
   std::optional<ReactorCase> coupled;  // then nothing of the following
@@ -32,9 +32,9 @@ struct AlongCase {
 };
 
 // All keys such a deck may have.
-DeckSchema alongSchema();
+DeckSchema prescribedGasSchema();
 
 // Reads mechanism, gas and particles. InputError, pointing into the deck.
-AlongCase readAlongCase(const Deck& deck);
+PrescribedGasCase readPrescribedGasCase(const Deck& deck);
 
 }  // namespace lampblack::app

@@ -1,4 +1,4 @@
-// Values of a mesh's cells or faces that go from the ranks that have them to those that will.
+// Moves values of cells or faces of a mesh from their present ranks to their new ranks.
 #pragma once
 
 #include <mpi.h>
@@ -8,19 +8,20 @@
 #include <span>
 #include <vector>
 
+#include "core/modules.hpp"
 #include "core/packed_rows.hpp"
-#include "core/rooms.hpp"
 #include "io/block_exchange.hpp"
 
 namespace lampblack::io {
 
 // Making and using it is collective. A copy is cheap.
-class Movement {
+class Redistribution {
  public:
   // Global numbers of what this rank has and of what it will have, of 0..total-1.
-  Movement(MPI_Comm comm, std::span<const std::int64_t> from, std::span<const std::int64_t> to, std::int64_t total);
+  Redistribution(MPI_Comm comm, std::span<const std::int64_t> from, std::span<const std::int64_t> to,
+                 std::int64_t total);
 
-  // Of `width` values for each number: those of the new ones.
+  // `width` values for each present number; returns the values of the new numbers.
   [[nodiscard]] std::vector<double> operator()(const std::vector<double>& values, int width) const;
   // Of a row for each number. Each goes straight to the rank that will have it: of both there has to be one
   // (std::logic_error).

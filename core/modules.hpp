@@ -1,5 +1,6 @@
-// The rooms as namespaces, and whose names each sees without saying so: the arrows of docs/architecture.md. What `core`
-// owns stands in `lampblack` itself, the words that all rooms share. Two rooms may give one name to different things.
+// The namespace of each module, and the modules whose names it sees without qualification (docs/architecture.md). The
+// names of `core` stand in `lampblack` itself and are shared by all modules. Two modules may use one name for different
+// things.
 #pragma once
 
 namespace lampblack {

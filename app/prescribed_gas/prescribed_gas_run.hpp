@@ -1,4 +1,4 @@
-// Runs of a deck with `problem: particles_along`.
+// Runs of a deck with `problem: prescribed_gas`.
 #pragma once
 
 #include <mpi.h>
@@ -6,12 +6,12 @@
 #include <memory>
 
 #include "app/run/prepared_run.hpp"
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 #include "io/deck.hpp"
 
 namespace lampblack::app {
 
 // Collective; see Problem. Repeats of an ensemble are spread over the ranks; a model runs on the first.
-std::unique_ptr<PreparedRun> prepareAlong(MPI_Comm comm, const Deck& deck);
+std::unique_ptr<PreparedRun> preparePrescribedGas(MPI_Comm comm, const Deck& deck);
 
 }  // namespace lampblack::app

@@ -1,13 +1,13 @@
-#include "core/kept_state.hpp"
+#include "core/state_backup.hpp"
 
 #include <algorithm>
 #include <stdexcept>
 
 namespace lampblack {
 
-class KeptState::Writer : public StateArchive {
+class StateBackup::Writer : public StateArchive {
  public:
-  explicit Writer(KeptState& kept) : kept_(kept) {}
+  explicit Writer(StateBackup& kept) : kept_(kept) {}
   [[nodiscard]] bool loading() const override { return false; }
   void cells(const std::string& name, std::vector<double>& values, int width) override {
     put(name, {values.data(), kept_.cells_ * static_cast<std::size_t>(width)}, Piece::Of::Cells, width);
@@ -37,12 +37,12 @@ class KeptState::Writer : public StateArchive {
     return piece.kept;
   }
 
-  KeptState& kept_;
+  StateBackup& kept_;
 };
 
-class KeptState::Reader : public StateArchive {
+class StateBackup::Reader : public StateArchive {
  public:
-  explicit Reader(const KeptState& kept) : kept_(kept) {}
+  explicit Reader(const StateBackup& kept) : kept_(kept) {}
   [[nodiscard]] bool loading() const override { return true; }
   void cells(const std::string& name, std::vector<double>& values, int) override {
     std::ranges::copy(take(name).values, values.begin());
@@ -67,30 +67,30 @@ class KeptState::Reader : public StateArchive {
  private:
   const PackedRows& take(const std::string& name) {
     if (next_ == kept_.count_ || kept_.pieces_[next_].name != name)
-      throw std::logic_error("KeptState: '" + name + "' was not kept in this place");
+      throw std::logic_error("StateBackup: '" + name + "' was not saved in this place");
     return kept_.pieces_[next_++].kept;
   }
 
-  const KeptState& kept_;
+  const StateBackup& kept_;
   std::size_t next_ = 0;
 };
 
-KeptState::KeptState(int ownedCells, int faces)
+StateBackup::StateBackup(int ownedCells, int faces)
     : cells_(static_cast<std::size_t>(ownedCells)), faces_(static_cast<std::size_t>(faces)) {}
 
-void KeptState::keep(const Owners& owners) {
+void StateBackup::save(const Owners& owners) {
   count_ = 0;
   Writer writer(*this);
   owners(writer);
 }
 
-void KeptState::giveBack(const Owners& owners) {
+void StateBackup::restore(const Owners& owners) {
   Reader reader(*this);
   owners(reader);
 }
 
-void KeptState::rearrange(int ownedCells, int faces, const Move& moveCells, const Move& moveFaces,
-                          const MoveRows& moveRows) {
+void StateBackup::rearrange(int ownedCells, int faces, const Move& moveCells, const Move& moveFaces,
+                            const MoveRows& moveRows) {
   for (std::size_t i = 0; i < count_; ++i) {
     Piece& piece = pieces_[i];
     if (piece.of == Piece::Of::Cells) piece.kept.values = moveCells(piece.kept.values, piece.width);
@@ -101,7 +101,7 @@ void KeptState::rearrange(int ownedCells, int faces, const Move& moveCells, cons
   faces_ = static_cast<std::size_t>(faces);
 }
 
-std::size_t KeptState::bytes() const {
+std::size_t StateBackup::bytes() const {
   std::size_t sum = 0;
   for (std::size_t i = 0; i < count_; ++i) {
     const PackedRows& kept = pieces_[i].kept;

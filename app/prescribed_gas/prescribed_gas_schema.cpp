@@ -1,24 +1,24 @@
 #include "app/deck/ensemble_deck.hpp"
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/trees_deck.hpp"
-#include "app/particles_along/along_case.hpp"
+#include "app/prescribed_gas/prescribed_gas_case.hpp"
 #include "app/tools/gas_input.hpp"
 
 namespace lampblack::app {
 
-DeckSchema alongSchema() {
+DeckSchema prescribedGasSchema() {
   DeckSchema schema;
-  schema.add(choiceKey("problem", {"particles_along"}, "What is solved."))
+  schema.add(choiceKey("problem", {"prescribed_gas"}, "What is solved.").formerly("particles_along", "prescribed_gas"))
       .add(stringKey("title", "One line for reports and pictures.").byDefault("''"));
   addMechanismKeys(schema);
   schema.section("gas", Presence::required, "The gas that the particles meet on their way. Either 'file' or 'flame'.")
-      .add(
-          stringKey(
-              "gas.file",
-              "CSV file with columns time, temperature, pressure and X_<species> (mole fractions), units in "
-              "brackets, as \"time [ms]\", or in SI; the particles move with the gas, but for a column thinning (1/s). "
-              "Tables of a flow's streamlines are such (trajectories.gas_tables). Relative to the deck.")
-              .optional())
+      .add(stringKey("gas.file",
+                     "CSV file with columns time, temperature, pressure and X_<species> (mole fractions), units in "
+                     "brackets, as \"time [ms]\", or in SI; the particles move with the gas, but for a column "
+                     "number_loss_rate (1/s), "
+                     "the rate at which particles per kg of gas become fewer. "
+                     "Tables of a flow's streamlines are such (trajectories.gas_tables). Relative to the deck.")
+               .optional())
       .add(stringKey(
                "gas.flame",
                "Results file (results.h5) of a run with problem: flame1d and the same mechanism; the particles move "
@@ -30,8 +30,9 @@ DeckSchema alongSchema() {
                        "Position of the flame's grid from which on the particles are followed; absent: its end.")
                .optional()
                .atLeast(0))
-      .add(quantityKey("gas.slowest", units::velocity,
+      .add(quantityKey("gas.minimum_velocity", units::velocity,
                        "Speed of the particles below which a path through a flame ends, near the stagnation plane.")
+               .formerly("slowest")
                .byDefault("1 mm/s")
                .above(0))
       .add(quantityKey("gas.end", units::time, "Time at which the run ends; absent: the last of the gas.").optional())
@@ -56,7 +57,7 @@ DeckSchema alongSchema() {
       "section soot, whose PAH, surface and switches are theirs.");
   addRepeatKeys(schema);
   addCouplingKeys(schema, "stochastic");
-  addTreeAlongKeys(schema);
+  addTreePrescribedGasKeys(schema);
   addCouplingKeys(schema, "particles");
   schema.section("output", Presence::defaulted, "Rows of the history.")
       .add(quantityKey("output.interval", units::time, "Time between rows; absent: a hundredth of the run.")

@@ -1,11 +1,11 @@
 // What is kept in memory comes back as it was, and nothing but that.
-#include "core/kept_state.hpp"
+#include "core/state_backup.hpp"
 
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 
-#include "tests/every_room.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 namespace {
@@ -27,20 +27,20 @@ struct Owner {
   }
 };
 
-TEST(KeptState, GivesBackWhatItWasGivenLast) {
+TEST(StateBackup, GivesBackWhatItWasGivenLast) {
   Owner owner;
-  const KeptState::Owners owners = [&](StateArchive& archive) { owner.saveOrLoad(archive); };
-  KeptState kept(2, 4);
+  const StateBackup::Owners owners = [&](StateArchive& archive) { owner.saveOrLoad(archive); };
+  StateBackup kept(2, 4);
   for (const double offset : {0.0, 100.0}) {
     owner.cells[0] += offset;
     owner.shared = {offset};
     owner.rows[0].resize(offset > 0 ? 1 : 3, 23);
     owner.rows[1].assign(offset > 0 ? 2 : 0, 25);
-    kept.keep(owners);
+    kept.save(owners);
     const Owner before = owner;
     owner = {{0, 0, 0, 0, -5, -6}, {0, 0, 0, 0}, {0, 0}, {1, 2, 3, 4}, 0};
     owner.rows = {{1}, {2}, {-24}};
-    kept.giveBack(owners);
+    kept.restore(owners);
     // What follows the owned cells is left alone.
     EXPECT_EQ(owner.cells, (std::vector<double>{1 + offset, 2, 3, 4, -5, -6}));
     EXPECT_EQ(owner.faces, before.faces);
@@ -54,11 +54,11 @@ TEST(KeptState, GivesBackWhatItWasGivenLast) {
 }
 
 // To a mesh of which this rank owns the second cell and a new one, and sees three faces.
-TEST(KeptState, GoesAlongToOtherCellsAndFaces) {
+TEST(StateBackup, GoesAlongToOtherCellsAndFaces) {
   Owner owner;
-  const KeptState::Owners owners = [&](StateArchive& archive) { owner.saveOrLoad(archive); };
-  KeptState kept(2, 4);
-  kept.keep(owners);
+  const StateBackup::Owners owners = [&](StateArchive& archive) { owner.saveOrLoad(archive); };
+  StateBackup kept(2, 4);
+  kept.save(owners);
   kept.rearrange(
       2, 3,
       [](const std::vector<double>& values, int width) {
@@ -79,26 +79,26 @@ TEST(KeptState, GoesAlongToOtherCellsAndFaces) {
   const Owner before = owner;
   owner = {{0, 0, 0, 0}, {0, 0, 0}, {0, 0}, {}, 0};
   owner.rows = {{1}, {}};
-  kept.giveBack(owners);
+  kept.restore(owners);
   EXPECT_EQ(owner.cells, (std::vector<double>{3, 4, 20, 21}));
   EXPECT_EQ(owner.faces, (std::vector<double>{10, 9, 8}));
   EXPECT_EQ(owner.sums, before.sums);
   EXPECT_EQ(owner.shared, before.shared);
   EXPECT_EQ(owner.rows, (std::vector<std::vector<double>>{{}, {31, 32}}));
-  kept.keep(owners);
+  kept.save(owners);
   owner.cells.assign(4, 0.0);
-  kept.giveBack(owners);
+  kept.restore(owners);
   EXPECT_EQ(owner.cells, (std::vector<double>{3, 4, 20, 21}));
 }
 
-TEST(KeptState, KnowsOtherPieces) {
+TEST(StateBackup, KnowsOtherPieces) {
   Owner owner;
-  const KeptState::Owners owners = [&](StateArchive& archive) { owner.saveOrLoad(archive); };
-  KeptState kept(2, 4);
-  EXPECT_THROW(kept.giveBack(owners), std::logic_error) << "nothing was kept";
-  kept.keep(owners);
+  const StateBackup::Owners owners = [&](StateArchive& archive) { owner.saveOrLoad(archive); };
+  StateBackup kept(2, 4);
+  EXPECT_THROW(kept.restore(owners), std::logic_error) << "nothing was kept";
+  kept.save(owners);
   owner.name = "others";
-  EXPECT_THROW(kept.giveBack(owners), std::logic_error);
+  EXPECT_THROW(kept.restore(owners), std::logic_error);
 }
 
 }  // namespace

@@ -1,12 +1,12 @@
-#include "app/particles_along/along_run.hpp"
+#include "app/prescribed_gas/prescribed_gas_run.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "app/deck/soot_deck.hpp"
-#include "app/particles_along/along_case.hpp"
-#include "app/particles_along/along_output.hpp"
+#include "app/prescribed_gas/prescribed_gas_case.hpp"
+#include "app/prescribed_gas/prescribed_gas_output.hpp"
 #include "app/reactor/reactor_driver.hpp"
 #include "core/errors.hpp"
 #include "core/stop_request.hpp"
@@ -16,12 +16,12 @@
 namespace lampblack::app {
 namespace {
 
-class PreparedAlong : public PreparedRun {
+class PreparedPrescribedGas : public PreparedRun {
  public:
-  PreparedAlong(MPI_Comm comm, const Deck& deck) : comm_(comm), deck_(deck) {
+  PreparedPrescribedGas(MPI_Comm comm, const Deck& deck) : comm_(comm), deck_(deck) {
     MPI_Comm_rank(comm, &rank_);
     collectively(comm, [&] {
-      case_ = readAlongCase(deck);
+      case_ = readPrescribedGasCase(deck);
       if (case_.coupled) driver_ = ensembleReactorDriver(*case_.coupled);
     });
   }
@@ -68,7 +68,7 @@ class PreparedAlong : public PreparedRun {
   }
 
  private:
-  void writeHistory(const RunFolder& folder, ResultsWriter& results, const AlongTable& table) const {
+  void writeHistory(const RunFolder& folder, ResultsWriter& results, const PrescribedGasTable& table) const {
     HistoryWriter history(comm_, folder.history(), table.columns);
     history.row(table.rows);
     history.writeTo(results);
@@ -82,7 +82,7 @@ class PreparedAlong : public PreparedRun {
     const PathEnsemble ensemble =
         runPathEnsemble(comm_, case_.path, request.soot, request.repeats, march, "stochastic soot");
     ResultsWriter results(comm_, folder.results(), info);
-    const AlongTable history = historyOf(case_, ensemble), rates = ratesOf(case_, ensemble);
+    const PrescribedGasTable history = historyOf(case_, ensemble), rates = ratesOf(case_, ensemble);
     writeHistory(folder, results, history);
     results.table("/rates", rates.columns, rates.rows);
     writeDistributions(results, case_, ensemble);
@@ -103,10 +103,10 @@ class PreparedAlong : public PreparedRun {
 
   void runModel(const RunFolder& folder, const RunInfo& info, RunRecord& record) {
     ModelAlong model;
-    AlongTable history;
+    PrescribedGasTable history;
     collectively(comm_, [&] {
       if (rank_ == 0) model = marchModel(*case_.model, case_.path, case_.recorded, case_.depleted);
-      if (rank_ == 0) requireRoom(model);
+      if (rank_ == 0) requireSizeRangeCovered(model);
     });
     history = historyOf(case_, model);
     ResultsWriter results(comm_, folder.results(), info);
@@ -123,7 +123,7 @@ class PreparedAlong : public PreparedRun {
                last.numberDensity, model.steps);
   }
 
-  void requireRoom(const ModelAlong& model) const {
+  void requireSizeRangeCovered(const ModelAlong& model) const {
     double most = 0, atLimit = 0;
     for (const ModelRecord& record : model.records) {
       most = std::max(most, record.properties.volumeFraction);
@@ -131,18 +131,18 @@ class PreparedAlong : public PreparedRun {
     }
     if (atLimit > case_.sootAtLimit * most)
       throw NumericsError(
-          fmt::format("a part {:.2g} of the largest volume fraction stands in the largest particles that "
-                      "the model can have; allowed is {:.2g}. {}",
+          fmt::format("a fraction {:.2g} of the largest volume fraction is in the largest particles of the model; "
+                      "the limit is {:.2g}. {}",
                       atLimit / most, case_.sootAtLimit, tooFewSections));
   }
 
   template <class More>
-  void finish(RunRecord& record, const AlongTable& history, const More& more) const {
+  void finish(RunRecord& record, const PrescribedGasTable& history, const More& more) const {
     if (rank_ != 0) return;
     JsonWriter json;
     json.beginObject();
     more(json);
-    recordAlong(json, history);
+    recordPrescribedGas(json, history);
     json.endObject();
     record.resultsJson = json.text();
   }
@@ -150,14 +150,14 @@ class PreparedAlong : public PreparedRun {
   MPI_Comm comm_;
   const Deck& deck_;
   int rank_ = 0;
-  AlongCase case_;
+  PrescribedGasCase case_;
   std::unique_ptr<ReactorDriver> driver_;  // where particles and gas are coupled
 };
 
 }  // namespace
 
-std::unique_ptr<PreparedRun> prepareAlong(MPI_Comm comm, const Deck& deck) {
-  return std::make_unique<PreparedAlong>(comm, deck);
+std::unique_ptr<PreparedRun> preparePrescribedGas(MPI_Comm comm, const Deck& deck) {
+  return std::make_unique<PreparedPrescribedGas>(comm, deck);
 }
 
 }  // namespace lampblack::app

@@ -2,11 +2,11 @@
 // the range has room there, while inputs stay within Transport::minTemperature and maxTemperature.
 #pragma once
 
-#include "core/rooms.hpp"
+#include "core/modules.hpp"
 
-namespace lampblack::chemistry::transportroom {
+namespace lampblack::chemistry::transportmargin {
 
 inline constexpr double coldest = 190.0;   // K
 inline constexpr double hottest = 4200.0;  // K
 
-}  // namespace lampblack::chemistry::transportroom
+}  // namespace lampblack::chemistry::transportmargin

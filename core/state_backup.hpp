@@ -1,5 +1,5 @@
-// What a StateArchive names, kept in memory, each rank its own part: what a step that has failed goes back to, and what
-// moves to other ranks where a mesh is partitioned anew.
+// A copy in memory of the values that a StateArchive names; each rank copies its own part. A failed step is restored
+// from the copy. A new partition of the mesh moves the copy between ranks.
 #pragma once
 
 #include <cstddef>
@@ -12,16 +12,16 @@
 
 namespace lampblack {
 
-class KeptState {
+class StateBackup {
  public:
   using Owners = std::function<void(StateArchive&)>;
 
-  KeptState(int ownedCells, int faces);
+  StateBackup(int ownedCells, int faces);
 
-  // Reads what the owners name; what was kept before is gone.
-  void keep(const Owners& owners);
-  // Gives it back. The owners have to name the same pieces in the same order (std::logic_error).
-  void giveBack(const Owners& owners);
+  // Copies the values that the owners name, in place of the previous copy.
+  void save(const Owners& owners);
+  // Writes the copy back. The owners have to name the same pieces in the same order (std::logic_error).
+  void restore(const Owners& owners);
 
   // Of `width` values each for what this rank had: those of what it has now. Collective.
   using Move = std::function<std::vector<double>(const std::vector<double>& values, int width)>;

@@ -1,8 +1,8 @@
-// The helpers of tests see all rooms.
+// The helpers of tests see all modules.
 #pragma once
 
-#include "core/rooms.hpp"
-#include "tests/every_room.hpp"
+#include "core/modules.hpp"
+#include "tests/every_module.hpp"
 
 namespace lampblack::test {
 using namespace app;

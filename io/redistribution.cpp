@@ -1,4 +1,4 @@
-#include "io/movement.hpp"
+#include "io/redistribution.hpp"
 
 #include <stdexcept>
 
@@ -6,20 +6,20 @@
 
 namespace lampblack::io {
 
-Movement::Movement(MPI_Comm comm, std::span<const std::int64_t> from, std::span<const std::int64_t> to,
-                   std::int64_t total)
+Redistribution::Redistribution(MPI_Comm comm, std::span<const std::int64_t> from, std::span<const std::int64_t> to,
+                               std::int64_t total)
     : comm_(comm),
       arrivals_(static_cast<std::int64_t>(to.size())),
       leaving_(std::make_shared<BlockExchange>(comm, from, total)),
       arriving_(std::make_shared<BlockExchange>(comm, to, total)) {}
 
-std::vector<double> Movement::operator()(const std::vector<double>& values, int width) const {
+std::vector<double> Redistribution::operator()(const std::vector<double>& values, int width) const {
   return arriving_->fromBlock(leaving_->toBlock(values, width), width);
 }
 
-PackedRows Movement::operator()(const PackedRows& rows) const {
+PackedRows Redistribution::operator()(const PackedRows& rows) const {
   if (!leaving_->coversOnce() || !arriving_->coversOnce())
-    throw std::logic_error("Movement: rows of what several ranks have, or none");
+    throw std::logic_error("Redistribution: rows of what several ranks have, or none");
   int rank = 0;
   MPI_Comm_rank(comm_, &rank);
   std::vector<std::int64_t> goals;  // rank and place of each number
@@ -32,8 +32,8 @@ PackedRows Movement::operator()(const PackedRows& rows) const {
     places.push_back(static_cast<std::size_t>(goals[i + 1]));
   }
   const RankExchange exchange(comm_, ranks);
-  places = exchange.there(places, 1);
-  return scattered(exchange.there(rows), places);
+  places = exchange.send(places, 1);
+  return scattered(exchange.send(rows), places);
 }
 
 }  // namespace lampblack::io

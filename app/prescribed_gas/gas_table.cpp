@@ -1,4 +1,4 @@
-#include "app/particles_along/gas_table.hpp"
+#include "app/prescribed_gas/gas_table.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,6 +11,7 @@
 #include "core/errors.hpp"
 #include "core/text_file.hpp"
 #include "io/csv.hpp"
+#include "io/deck_former_names.hpp"
 #include "io/table_column.hpp"
 
 namespace lampblack::app {
@@ -30,11 +31,13 @@ std::vector<double> read(const TextTable& table, std::size_t column, const Table
   return values;
 }
 
+constexpr const char* formerLossRate = "thinning";  // of the column number_loss_rate
+
 GasHistory historyOf(const TextTable& table, const Mechanism& mechanism, std::vector<std::string>& unknown) {
   const Known known[] = {{"time", "t", units::time, &GasHistory::time},
                          {"temperature", "T", units::temperature, &GasHistory::temperature},
                          {"pressure", "p", units::pressure, &GasHistory::pressure},
-                         {"thinning", "thinning", units::frequency, &GasHistory::thinning, false}};
+                         {"number_loss_rate", formerLossRate, units::frequency, &GasHistory::numberLossRate, false}};
   GasHistory history;
   const std::size_t rows = table.rows.size(), species = mechanism.numSpecies();
   if (rows == 0) throw InputError("the table has no rows");
@@ -45,7 +48,9 @@ GasHistory historyOf(const TextTable& table, const Mechanism& mechanism, std::ve
     const auto [name, unit] = nameAndUnit(table.columns[column]);
     for (const Known& one : known) {
       if (name != one.name && name != one.symbol) continue;
-      if (!(history.*one.values).empty()) throw InputError(fmt::format("two columns are the {}", one.name));
+      if (!(history.*one.values).empty())
+        throw InputError(
+            fmt::format("two columns are the {} ('{}' or '{}'); leave one out", one.name, one.name, one.symbol));
       history.*one.values = read(table, column, TableColumn(name, unit, one.dimension));
     }
     if (!name.starts_with("X_")) continue;
@@ -63,7 +68,7 @@ GasHistory historyOf(const TextTable& table, const Mechanism& mechanism, std::ve
     if (one.isNeeded && (history.*one.values).empty())
       throw InputError(fmt::format("expected a column '{}' or '{}', as \"{} [{}]\"", one.name, one.symbol, one.name,
                                    one.name[0] == 't' ? (one.symbol[0] == 't' ? "s" : "K") : "Pa"));
-  if (!history.thinning.empty()) history.thinning.pop_back();  // behind the last row there is nothing
+  if (!history.numberLossRate.empty()) history.numberLossRate.pop_back();  // behind the last row there is nothing
   if (!hasAny) throw InputError("expected columns of mole fractions, \"X_H2 [1]\", of species that the mechanism has");
   return history;
 }
@@ -74,7 +79,14 @@ GasHistory readGasTable(const std::filesystem::path& file, const Mechanism& mech
   const std::string text = readTextFile(file, "a history of a gas");
   std::vector<std::string> unknown;
   try {
-    GasHistory history = historyOf(readCsv(text), mechanism, unknown);
+    const TextTable table = readCsv(text);
+    GasHistory history = historyOf(table, mechanism, unknown);
+    for (const std::string& column : table.columns)
+      if (nameAndUnit(column).first == formerLossRate)
+        printWarnings(
+            {fmt::format("{}: the column {} is called number_loss_rate since version {}; write the new name, as "
+                         "version {} does not read the old one",
+                         file.string(), formerLossRate, presentNamesBegin, formerNamesEnd)});
     if (!unknown.empty())
       printWarnings({fmt::format("{}: columns of species that the mechanism does not have are left out: {}",
                                  file.string(), fmt::join(unknown, ", "))});

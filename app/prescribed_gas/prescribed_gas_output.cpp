@@ -1,4 +1,4 @@
-#include "app/particles_along/along_output.hpp"
+#include "app/prescribed_gas/prescribed_gas_output.hpp"
 
 #include <cmath>
 
@@ -48,15 +48,15 @@ const Quantity gasColumns[] = {{"time", "s", "time"},
                                {"pressure", "Pa", "pressure"},
                                {"density", "kg/m^3", "density of the gas"}};
 
-void appendGas(const AlongCase& along, std::size_t row, std::vector<double>& rows) {
+void appendGas(const PrescribedGasCase& along, std::size_t row, std::vector<double>& rows) {
   const GasSample& at = along.path.points[along.recorded[row]];
   rows.insert(rows.end(), {at.time, at.gas.temperature, at.gas.pressure, at.gas.density});
 }
 
 }  // namespace
 
-AlongTable historyOf(const AlongCase& along, const PathEnsemble& ensemble) {
-  AlongTable table{{std::begin(gasColumns), std::end(gasColumns)}, {}};
+PrescribedGasTable historyOf(const PrescribedGasCase& along, const PathEnsemble& ensemble) {
+  PrescribedGasTable table{{std::begin(gasColumns), std::end(gasColumns)}, {}};
   for (const NamedValue& v : namedValues) addRepeatColumns({v.name, v.unit, v.description}, table.columns);
   const RepeatIntervals intervals(along.ensemble->repeats);
   for (std::size_t row = 0; row < along.recorded.size(); ++row) {
@@ -67,8 +67,8 @@ AlongTable historyOf(const AlongCase& along, const PathEnsemble& ensemble) {
   return table;
 }
 
-AlongTable historyOf(const AlongCase& along, const ModelAlong& model) {
-  AlongTable table{{std::begin(gasColumns), std::end(gasColumns)}, {}};
+PrescribedGasTable historyOf(const PrescribedGasCase& along, const ModelAlong& model) {
+  PrescribedGasTable table{{std::begin(gasColumns), std::end(gasColumns)}, {}};
   const std::string material = along.model->material() + "_";
   for (const auto& p : particlePropertyNames) table.columns.push_back({material + p.name, p.unit, p.description});
   for (const auto& p : particleProcessNames) table.columns.push_back({material + p.name, p.unit, p.description});
@@ -91,8 +91,8 @@ AlongTable historyOf(const AlongCase& along, const ModelAlong& model) {
   return table;
 }
 
-AlongTable ratesOf(const AlongCase& along, const PathEnsemble& ensemble) {
-  AlongTable table{{{"from", "s", "begin of the interval"}, {"to", "s", "end of the interval"}}, {}};
+PrescribedGasTable ratesOf(const PrescribedGasCase& along, const PathEnsemble& ensemble) {
+  PrescribedGasTable table{{{"from", "s", "begin of the interval"}, {"to", "s", "end of the interval"}}, {}};
   for (const NamedRate& r : namedRates) addRepeatColumns({r.name, r.unit, r.description}, table.columns);
   const RepeatIntervals intervals(along.ensemble->repeats);
   for (std::size_t i = 0; i < ensemble.exchange.size(); ++i) {
@@ -105,7 +105,7 @@ AlongTable ratesOf(const AlongCase& along, const PathEnsemble& ensemble) {
   return table;
 }
 
-void writeDistributions(ResultsWriter& results, const AlongCase& along, const PathEnsemble& ensemble) {
+void writeDistributions(ResultsWriter& results, const PrescribedGasCase& along, const PathEnsemble& ensemble) {
   const std::vector<double> edges = along.ensemble->bins.edges();
   std::vector<double> diameter;
   for (std::size_t b = 0; b + 1 < edges.size(); ++b) diameter.push_back(std::sqrt(edges[b] * edges[b + 1]));
@@ -131,7 +131,7 @@ void writeDistributions(ResultsWriter& results, const ModelAlong& model) {
                   "dN/dlog10 d of each row of the history");
 }
 
-void recordAlong(JsonWriter& json, const AlongTable& history) {
+void recordPrescribedGas(JsonWriter& json, const PrescribedGasTable& history) {
   const std::size_t n = history.columns.size();
   for (std::size_t c = 1; c < n; ++c)
     json.field("final_" + history.columns[c].name, history.rows[history.rows.size() - n + c]);

@@ -1,4 +1,4 @@
-#include "app/particles_along/along_case.hpp"
+#include "app/prescribed_gas/prescribed_gas_case.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/trees_deck.hpp"
 #include "app/flame1d/flame_file.hpp"
-#include "app/particles_along/gas_table.hpp"
+#include "app/prescribed_gas/gas_table.hpp"
 #include "app/reactor/reactor_case_parts.hpp"
 #include "app/tools/gas_input.hpp"
 #include "core/errors.hpp"
@@ -37,7 +37,7 @@ void checkGas(const Deck& deck) {
   if (deck.has("gas.file") == deck.has("gas.flame"))
     throw deck.error("gas", "expected either 'file', the history of a gas, or 'flame', the results of a flame");
   if (!deck.has("gas.flame")) {
-    for (const char* key : {"gas.side", "gas.start", "gas.slowest"})
+    for (const char* key : {"gas.side", "gas.start", "gas.minimum_velocity"})
       if (deck.isGiven(key)) throw deck.error(key, "this is of a path through a flame ('gas.flame'); leave it out");
   } else if (deck.optionalString("gas.viscosity") == "air") {
     throw deck.error("gas.viscosity", "that of a flame comes from its transport data; leave this out");
@@ -54,7 +54,7 @@ ParticlePath throughFlame(const Deck& deck, const Mechanism& mechanism, const st
   FlamePathOptions options;
   options.fromRight = deck.choice("gas.side") == "right";
   options.start = deck.optionalQuantity("gas.start");
-  options.slowest = deck.quantity("gas.slowest");
+  options.slowest = deck.quantity("gas.minimum_velocity");
   ParticlePath path =
       flamePath(flameGasOf(species, flame.profile, mechanism, pressure, waldmannThermophoresis()), options).path;
   if (path.points.empty())
@@ -111,7 +111,7 @@ std::vector<double> readRows(const Deck& deck, double begin, double last) {
   return rows;
 }
 
-void readParticles(const Deck& deck, AlongCase& along) {
+void readParticles(const Deck& deck, PrescribedGasCase& along) {
   if (!deck.has("soot"))
     throw deck.error("soot", "particles need the section 'soot', or 'particles' for trees of primaries");
   if (!deck.has("stochastic")) {
@@ -140,7 +140,7 @@ std::vector<std::string> precursorsOf(const Deck& deck, const Mechanism& mechani
 }
 
 // Trees, or ensembles that deplete the gas.
-ReactorCase readCoupled(const Deck& deck, const AlongCase& along) {
+ReactorCase readCoupled(const Deck& deck, const PrescribedGasCase& along) {
   const Mechanism& mechanism = *along.mechanism;
   ReactorCase coupled;
   coupled.title = along.title;
@@ -193,8 +193,8 @@ std::vector<std::size_t> readDepleted(const Deck& deck, const ParticleModel& mod
 
 }  // namespace
 
-AlongCase readAlongCase(const Deck& deck) {
-  AlongCase along;
+PrescribedGasCase readPrescribedGasCase(const Deck& deck) {
+  PrescribedGasCase along;
   along.title = deck.string("title");
   along.mechanism = readMechanism(deck);
   checkGas(deck);
@@ -207,7 +207,7 @@ AlongCase readAlongCase(const Deck& deck) {
   along.path = readPath(deck, *along.mechanism,
                         along.ensemble ? sootSpecies(along.ensemble->soot.soot) : along.model->gasSpecies());
   const std::vector<double> rows = readRows(deck, along.path.points.front().time, along.path.points.back().time);
-  along.recorded = putPointsAt(along.path, rows);
+  along.recorded = insertPoints(along.path, rows);
   along.path.points.resize(along.recorded.back() + 1);
   along.path.divergence.resize(along.recorded.back());
   if (along.ensemble) {

@@ -1,0 +1,94 @@
+// Whole decks with the names of version 0.1 are read as those of the present names.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/run/problem.hpp"
+#include "core/modules.hpp"
+#include "io/deck.hpp"
+#include "tests/every_module.hpp"
+
+namespace lampblack::app {
+namespace {
+
+using Names = std::vector<std::pair<std::string, std::string>>;  // present, former
+
+// `text` has the present names, each once.
+void expectFormerNamesAreRead(const std::string& text, const Names& names) {
+  std::string former = text;
+  for (const auto& [present, before] : names) {
+    const std::size_t at = former.find(present);
+    ASSERT_NE(at, std::string::npos) << present;
+    former.replace(at, present.size(), before);
+  }
+  const Deck now = Deck::parse(text, "deck.yaml", {}, deckKinds()),
+             old = Deck::parse(former, "deck.yaml", {}, deckKinds());
+  EXPECT_TRUE(now.notes().empty()) << now.notes().front();
+  EXPECT_EQ(old.notes().size(), names.size());
+  EXPECT_EQ(old.resolved(), now.resolved());
+}
+
+TEST(FormerNames, OfFlows) {
+  expectFormerNamesAreRead(R"(problem: flow
+mechanism: gas.yaml
+mesh: {r: [{to: 1 mm, cells: 2}], z: [{to: 1 mm, cells: 2}]}
+boundaries: {low: {type: outlet, side: z-min}}
+initial: {layer: none, composition: 'N2: 1'}
+time: {end: 1 s}
+soot: {model: two_equation_dimer}
+stochastic:
+  averaging_time: 1 ms
+  frozen_gas: 2 ms
+  minimum_number_density: 1e9 1/m^3
+  bundled_growth: 0.1
+transport: {collision_integrals: wang_fits}
+)",
+                           {{"averaging_time", "average"},
+                            {"frozen_gas", "hold_gas"},
+                            {"minimum_number_density", "least_number"},
+                            {"bundled_growth", "share_at_once"},
+                            {"two_equation_dimer", "two_equation"},
+                            {"wang_fits", "thesis_fits"}});
+}
+
+TEST(FormerNames, OfPrescribedGases) {
+  expectFormerNamesAreRead(R"(problem: prescribed_gas
+mechanism: gas.yaml
+gas: {flame: results.h5, minimum_velocity: 2 mm/s}
+particles:
+  expected_number: 1e16 1/m^3
+  sintering: {mechanism: constant, prefactor: 1, activation_temperature: 3 K}
+)",
+                           {{"prescribed_gas", "particles_along"},
+                            {"minimum_velocity", "slowest"},
+                            {"expected_number", "full_at"},
+                            {"activation_temperature", "temperature"}});
+}
+
+TEST(FormerNames, OfFlames) {
+  expectFormerNamesAreRead(R"(problem: flame1d
+mechanism: gas.yaml
+flame: {type: burner}
+inlet: {temperature: 300 K, velocity: 1 m/s, composition: 'N2: 1'}
+soot: {model: two_equation_dimer}
+stochastic: {coupling: two_way, minimum_velocity: 2 mm/s, iterations: 3}
+)",
+                           {{"coupling", "coupled"}, {"minimum_velocity", "slowest"}});
+}
+
+TEST(FormerNames, OfPopulationBalances) {
+  expectFormerNamesAreRead(R"(problem: population_balance
+name: one
+processes: {coagulation: {kernel: constant, rate: 1 m^3/s}}
+initial: {distribution: monodisperse, number: 1 1/m^3, volume: 1 m^3}
+methods: {one: {type: dsmc, unbiased_moments: [M0]}}
+time: {end: 1 s}
+distribution: {minimum: 0 m^3, maximum: 1 m^3, spacing: linear}
+)",
+                           {{"unbiased_moments", "claims"}});
+}
+
+}  // namespace
+}  // namespace lampblack::app
