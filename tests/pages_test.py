@@ -1,6 +1,6 @@
 """The pages lead where they say: links and anchors, files, cases, commands with their options, and decks.
 
-Of every page: each link and anchor leads somewhere. Of the pages that a user meets first (FRONT): each file, case, script and
+Of every page: each link and anchor leads somewhere. Of the guides for users and developers (GUIDES): each file, case, script and
 subcommand that is named exists, and each option is one of that command. docs/index.md and the site's menu name every page. The front
 page is short, its table has a command and a picture in each row, and the program accepts its decks.
 
@@ -18,13 +18,13 @@ from pathlib import Path
 
 import pages
 
-FRONT = ["README.md", "CONTRIBUTING.md", "docs/index.md", "docs/comparison.md", "docs/installing.md", "docs/pictures.md", "docs/tutorial.md",
-         "docs/python.md"]
+GUIDES = ["README.md", "CONTRIBUTING.md", "docs/index.md", "docs/comparison.md", "docs/installing.md", "docs/pictures.md", "docs/tutorial.md",
+          "docs/python.md", "docs/architecture.md", "docs/decisions.md", "docs/tests.md"]
 LONGEST = 105  # lines of the front page
 FOLDERS = "app|cases|chemistry|cmake|core|coupling|docs|flow|io|packaging|particles|python|scripts|tests|\\.ci"
 PATH = re.compile(rf"(?:\./)?((?:{FOLDERS})/[\w.+*/-]*)$")
 OPTION = re.compile(r"(?<![\w-])--?[A-Za-z][\w-]*")
-STANDS_FOR_ANY = re.compile(r"[<>*…]|\.\.\.|\b[A-Z]{3,}\b")  # results/<case>, DECK, cases/...
+STANDS_FOR_ANY = re.compile(r"[<>*…]|\.\.\.|(?:^|/)[A-Z]{3,}(?:/|$)")  # results/<case>, DECK, cases/...
 
 
 class Program:
@@ -66,12 +66,23 @@ def faults_of_links(root, page):
                 yield f"{page.relative_to(root)}: {link}: the site makes another anchor of this header, {known[anchor]}"
 
 
+@functools.lru_cache
+def names_in(module):
+    """Words of all headers of a module."""
+    return {word for header in module.rglob("*.hpp") for word in re.findall(r"\w+", header.read_text(encoding="utf-8"))}
+
+
+def is_there(root, path):
+    """A file or folder; a header without its ending, core/mesh; a case by its name; or a class of a module, flow/StepControl."""
+    module, _, name = path.rpartition("/")
+    return any(place.exists() for place in (root / path, root / f"{path}.hpp", root / "cases" / path)) or (name[:1].isupper() and name in names_in(root / module))
+
+
 def faults_of_paths(root, name, text):
-    code = [*pages.spans(text), *re.split(r"\s+", "\n".join([*pages.indented(text), *pages.fenced(text, "sh"), *pages.fenced(text, "python")]))]
-    for word in code:
+    code = [*pages.spans(text), *pages.indented(text), *pages.fenced(text, "sh"), *pages.fenced(text, "python")]
+    for word in " ".join(code).split():
         found = PATH.match(word.strip("\"'(),;:"))
-        # A header may stand without its ending: core/mesh.
-        if found and not STANDS_FOR_ANY.search(word) and not any((root / (found[1] + end)).exists() for end in ("", ".hpp")):
+        if found and not STANDS_FOR_ANY.search(word) and not is_there(root, found[1]):
             yield f"{name}: there is no {found[1]}"
 
 
@@ -170,7 +181,7 @@ def faults_of_decks(root, program, text):
 def faults(root, program):
     for page in pages.pages(root):
         yield from faults_of_links(root, page)
-    for name in FRONT:
+    for name in GUIDES:
         if (root / name).is_file():
             text = (root / name).read_text(encoding="utf-8")
             yield from faults_of_paths(root, name, text)
@@ -187,7 +198,8 @@ TOY = """# A page
     build/release/app/lampblack run cases/none/deck.yaml --ouch
     scripts/none
 
-`lampblack cases copy nothing`, `scripts/tool --no`, `docs/none.md`, `cases/...`, `lampblack --version`, `scripts/tool | lampblack check`
+`lampblack cases copy nothing`, `scripts/tool --no`, `docs/none.md`, `cases/...`, `core/Mesh`, `core/Mush`, `core/mesh`,
+`lampblack --version`, `scripts/tool | lampblack check`
 """
 
 
@@ -202,7 +214,7 @@ class ToyProgram:
 def check_the_checker():
     with tempfile.TemporaryDirectory() as folder:
         root = Path(folder)
-        files = {"README.md": TOY, "other.md": "# One, two\n\n## A - b\n", "a.png": "", "scripts/tool": "#  --yes\n",
+        files = {"README.md": TOY, "other.md": "# One, two\n\n## A - b\n", "a.png": "", "scripts/tool": "#  --yes\n", "core/mesh.hpp": "class Mesh {};\n",
                  "docs/index.md": "[a](../README.md)\n", "docs/left_out.md": "x\n", "packaging/mkdocs.yml.in": "  - a: docs/index.md\n  - b: docs/b.md\n"}
         for name, text in files.items():
             (root / name).parent.mkdir(parents=True, exist_ok=True)
@@ -210,10 +222,10 @@ def check_the_checker():
         found = list(faults(root, ToyProgram()))
         for part in ("there is no gone.md", "#three: no header", "another anchor of this header, a-b", "no subcommand runn", "no option --ouch",
                      "there is no scripts/none", "copy nothing: there is no such case", "no option --no", "there is no docs/none.md",
-                     "there is no cases/none/deck.yaml", "index.md does not list docs/left_out.md", "yml.in does not list docs/left_out.md",
+                     "there is no cases/none/deck.yaml", "there is no core/Mush", "index.md does not list docs/left_out.md", "yml.in does not list docs/left_out.md",
                      "yml.in: there is no docs/b.md"):
             assert any(part in line for line in found), (part, found)
-        assert len(found) == 14, found  # scripts/none is no file and no command
+        assert len(found) == 15, found  # scripts/none is no file and no command
         row = '| a | `scripts/tool x` | <img src="a.png"> |\n'
         page = "x\n\n    ./scripts/run cases/flow/counterflow_ensembles   # first\n    ./scripts/test\n\n| problem | c | p |\n|---|---|---|\n" + 8 * row
         assert list(faults_of_front_page(page)) == [], list(faults_of_front_page(page))
