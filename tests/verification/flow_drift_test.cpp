@@ -46,17 +46,17 @@ void expectSmallAndOfSecondOrder(Problem& problem, int sweeps, double most = 1e-
         << problem.name << ' ' << sweeps;
 }
 
-TEST(FlowDrift, FallsWithTheSquareOfTheStepInAHotSpot) {
+TEST(FlowDriftLong, FallsWithTheSquareOfTheStepInAHotSpot) {
   Problem problem = hotSpotInAStream();
   for (const int sweeps : {1, 2, 3}) expectSmallAndOfSecondOrder(problem, sweeps);
 }
 
-TEST(FlowDrift, FallsWithTheSquareOfTheStepInALayerRichInHydrogen) {
+TEST(FlowDriftLong, FallsWithTheSquareOfTheStepInALayerRichInHydrogen) {
   Problem problem = layerRichInHydrogen();
   for (const int sweeps : {1, 2, 3}) expectSmallAndOfSecondOrder(problem, sweeps);
 }
 
-TEST(FlowDrift, FallsWithTheSquareOfTheStepInAPremixedFlame) {
+TEST(FlowDriftLong, FallsWithTheSquareOfTheStepInAPremixedFlame) {
   Gas gas("methane_drm19_21.yaml");
   Problem problem = premixedFlame(gas);
   // One sweep guesses the reactions' rates from the last step.

@@ -21,7 +21,7 @@ TEST_F(FlowExact, TaylorGreen) {
   const Vortices flow = vortices(5.0, length);
   const double speed = flow.speed, duration = 0.5 / flow.decay;
   std::array<double, 3> velocity{}, pressure{};
-  for (std::size_t level = 0; level < 3; ++level) {
+  for (std::size_t level = 0; level < levels(); ++level) {
     const int cells = 16 << level;
     Box box(Geometry::Planar, {uniformAxis(length, cells), uniformAxis(length, cells)},
             {side(BoundaryKind::Symmetry, 0, false), side(BoundaryKind::Symmetry, 0, true),
@@ -66,7 +66,7 @@ TEST_F(FlowExact, Womersley) {
   };
   const auto none = [](const Place&, double) { return 0.0; };
   std::array<double, 3> error{};
-  for (std::size_t level = 0; level < 3; ++level) {
+  for (std::size_t level = 0; level < levels(); ++level) {
     const int cells = 8 << level;
     Side wall = side(BoundaryKind::Wall, 0, true);
     wall.condition.slip = false;
@@ -108,7 +108,7 @@ TEST_F(FlowExact, WallThatOscillates) {
   // Two sweeps leave an error of first order where viscosity is stiff, nu dt/h2 = 1 to 4 here.
   for (const int sweeps : {2, 3}) {
     std::array<double, 3> error{};
-    for (std::size_t level = 0; level < 3; ++level) {
+    for (std::size_t level = 0; level < levels(); ++level) {
       MeshSpec spec;
       spec.vertices = {uniformAxis(depth, 3), uniformAxis(depth, 16 << level)};
       spec.periodic = {true, false};

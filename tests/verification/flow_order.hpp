@@ -14,6 +14,7 @@
 #include "../flow/flow_fixture.hpp"
 #include "flow/reaction_operator.hpp"
 #include "flow/transport_operator.hpp"
+#include "tests/effort.hpp"
 #include "tests/every_module.hpp"
 
 namespace lampblack::test {

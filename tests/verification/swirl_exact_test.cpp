@@ -28,7 +28,7 @@ TEST_F(SwirlExact, StoppedPipe) {
     return speed * std::cyl_bessel_j(1.0, k * x[0]) * std::exp(-viscosity() * k * k * t);
   };
   std::array<double, 3> error{};
-  for (std::size_t level = 0; level < 3; ++level) {
+  for (std::size_t level = 0; level < levels(); ++level) {
     Side wall = side(BoundaryKind::Wall, 0, true);
     wall.condition.slip = false;
     Box box(Geometry::Axisymmetric, {uniformAxis(radius, 12 << level), uniformAxis(radius, 3)},
@@ -58,7 +58,7 @@ TEST_F(SwirlExact, BurgersVortex) {
   const auto core = [&](double r) { return -std::expm1(-a * r * r / (4.0 * viscosity())); };
   const auto w = [&](const Place& x, double) { return speed * radius / x[0] * core(x[0]) / core(radius); };
   std::array<double, 3> error{};
-  for (std::size_t level = 0; level < 3; ++level) {
+  for (std::size_t level = 0; level < levels(); ++level) {
     const int cells = 12 << level;
     Side around = stream(
         0, true, [&](const Place&, double) { return 0.5 * a * radius; },
@@ -92,7 +92,7 @@ TEST_F(SwirlExact, WaveThatLeavesAPipe) {
     return turning * x[0] * std::exp(-viscosity() * k * k * t) * std::sin(k * (x[1] - along * t));
   };
   std::array<double, 3> error{}, atOutlet{};
-  for (std::size_t level = 0; level < 3; ++level) {
+  for (std::size_t level = 0; level < levels(); ++level) {
     const int cells = 16 << level;
     Side in = opening(BoundaryKind::Inlet, 1, false, along, 300.0, n2);
     in.condition.varies.swirl = w;
@@ -129,7 +129,7 @@ TEST_F(SwirlExact, VortexWithASource) {
   const double inner = 1e-3, outer = 2e-3, speed = 0.1;
   const double source = 3.0 * viscosity();
   std::array<double, 3> error{};
-  for (std::size_t level = 0; level < 3; ++level) {
+  for (std::size_t level = 0; level < levels(); ++level) {
     const int cells = 8 << level;
     Side in = opening(BoundaryKind::Inlet, 0, false, source / inner, 300.0, n2);
     in.condition.varies.swirl = [&](const Place&, double) { return speed; };
@@ -175,7 +175,7 @@ TEST_F(SwirlExact, RingsBesideASlipWall) {
   };
   std::array<double, 3> change{};
   std::vector<double> coarser;
-  for (int level = 0; level < 4; ++level) {
+  for (std::size_t level = 0; level <= levels(); ++level) {
     const int cells = 8 << level;
     Box box(Geometry::Axisymmetric, {uniformAxis(radius, cells), uniformAxis(radius, cells)},
             {side(BoundaryKind::Symmetry, 0, false), side(BoundaryKind::Wall, 0, true),
@@ -193,12 +193,12 @@ TEST_F(SwirlExact, RingsBesideASlipWall) {
     if (level > 0) {
       const std::vector<double> finer = besideWall(box, state, cells / 2);
       for (std::size_t i = 0; i < finer.size(); ++i)
-        change[at(level - 1)] = std::max(change[at(level - 1)], std::abs(finer[i] - coarser[i]));
+        change[level - 1] = std::max(change[level - 1], std::abs(finer[i] - coarser[i]));
     }
     coarser = besideWall(box, state, cells);
   }
   expectOrders("rings beside a slip wall, 8, 16, 32 cells", change, 1.8);
-  EXPECT_LT(change[2], 1e-3);  // 1.8e-3 where the cells beside the wall see no slope
+  if (isLongRun()) EXPECT_LT(change[2], 1e-3);  // 1.8e-3 where the cells beside the wall see no slope
 }
 
 // A disk that turns throws the gas beside it outwards, which draws in gas along the axis. With z in units of
@@ -222,7 +222,7 @@ TEST_F(SwirlExact, TurningDisk) {
   const double drawn = 0.8844741 * std::sqrt(viscosity() * turning);
 
   std::array<double, 3> radial{}, swirl{}, axial{};
-  for (std::size_t level = 0; level < 3; ++level) {
+  for (std::size_t level = 0; level < levels(); ++level) {
     Side disk = side(BoundaryKind::Wall, 1, false);
     disk.condition.slip = false;
     disk.condition.varies.swirl = [&](const Place& x, double) { return turning * x[0]; };
