@@ -5,8 +5,8 @@
 #
 # NO_KERNELS: no source has a loop that takes time, so that little optimisation is enough and compiles in half the time.
 #
-# Sources are compiled twelve at a time, as most of the time goes into what they all include. What a source has in a namespace
-# without a name is then seen by the eleven others: names are one in a module (LAMPBLACK_UNITY=OFF, preset debug: each for itself).
+# Sources are compiled eight at a time, as most of the time goes into what they all include. What a source has in a namespace
+# without a name is then seen by the seven others: names are one in a module (LAMPBLACK_UNITY=OFF, preset debug: each for itself).
 function(lampblack_module module)
   cmake_parse_arguments(ARG "NO_KERNELS" "" "SOURCES;PUBLIC;PRIVATE;PRECOMPILED" ${ARGN})
   add_library(lampblack_${module} STATIC ${ARG_SOURCES})
@@ -18,7 +18,7 @@ function(lampblack_module module)
     target_compile_options(lampblack_${module} PRIVATE $<$<CONFIG:Release>:-O1>)
   endif()
   if(LAMPBLACK_UNITY)
-    set_target_properties(lampblack_${module} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
+    set_target_properties(lampblack_${module} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
     # GCC takes the sources for headers, whose classes would have members of types without a name outside.
     target_compile_options(lampblack_${module} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   endif()

@@ -12,6 +12,7 @@
 #include "core/rank_exchange.hpp"
 #include "core/shares.hpp"
 #include "core/sorted_numbers.hpp"
+#include "core/vector3.hpp"
 
 namespace lampblack {
 namespace {

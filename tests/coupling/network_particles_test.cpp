@@ -9,6 +9,7 @@
 #include "coupling/reactor_balance.hpp"
 #include "coupling/reactor_ensemble.hpp"
 #include "tests/coupling/toy_particles.hpp"
+#include "tests/effort.hpp"
 #include "tests/every_module.hpp"
 #include "tests/particles/statistics.hpp"
 
