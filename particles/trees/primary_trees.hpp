@@ -81,8 +81,7 @@ class PrimaryTrees {
     tree.rest = 0;
     shape(tree);
     // The joined tree sinters until the next update, at the rate it has half-way there.
-    if (shared_->sinter && shared_->nextUpdate > clock())
-      shared_->sinter(p, 0.5 * (clock() + shared_->nextUpdate));
+    if (shared_->sinter && shared_->nextUpdate > clock()) shared_->sinter(p, 0.5 * (clock() + shared_->nextUpdate));
     return std::move(p);
   }
 

@@ -26,7 +26,7 @@ STUDENT = {0.95: 2.776, 0.999: 8.610}  # four degrees of freedom
 def compute(executable, mpiexec, ranks, out):
     result = running.Program(executable, mpiexec, ranks)("run", DECK, "--out", out, *running.settings(*SHORT), timeout=200)
     assert result.code == 0, f"{ranks} ranks: {result.err}"
-    assert " of gas and particles in turn" in result.out and "0 of " in result.out, result.out
+    assert " coupling steps of gas and particles, " in result.out and "0 of " in result.out, result.out
     return out
 
 

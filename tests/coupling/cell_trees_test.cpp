@@ -163,11 +163,11 @@ TEST(TreesInCells, GoOnToTheSameBits) {
   for (int s = 0; s < 5; ++s) v.step();
   StateBackup kept(v.box.mesh.owned, v.box.mesh.faces);
   const double time = v.time;
-  kept.keep([&](StateArchive& archive) { v.saveOrLoad(archive); });
+  kept.save([&](StateArchive& archive) { v.saveOrLoad(archive); });
   for (int s = 0; s < 3; ++s) v.step();
   const auto populations = v.ensembles.populations();
   const std::vector<double> carried = v.state.carried;
-  kept.giveBack([&](StateArchive& archive) { v.saveOrLoad(archive); });
+  kept.restore([&](StateArchive& archive) { v.saveOrLoad(archive); });
   v.state.updateHalo(v.box.halo);
   v.time = time;
   v.begin();

@@ -223,13 +223,13 @@ TEST(EnsembleStatistics, GoOnFromWhatWasSavedToTheSameBits) {
     run(whole, cells, clock, middle);
     ASSERT_EQ(whole.since().has_value(), middle > 30e-3);
     StateBackup kept(mesh.owned, mesh.faces);
-    kept.keep([&](StateArchive& archive) { Statistics::saveOrLoad(archive, &whole); });
+    kept.save([&](StateArchive& archive) { Statistics::saveOrLoad(archive, &whole); });
     NoisyCells same = cells;
     Clock sameClock = clock;
     run(whole, cells, clock, 45e-3);
     // Other blocks in the deck: those that have begun go on.
     Statistics rest(mesh, "soot", {{}, middle > 30e-3 ? 2e-3 : 1e-3}, bins);
-    kept.giveBack([&](StateArchive& archive) { Statistics::saveOrLoad(archive, &rest); });
+    kept.restore([&](StateArchive& archive) { Statistics::saveOrLoad(archive, &rest); });
     run(rest, same, sameClock, 45e-3);
     EXPECT_EQ(rest.since(), whole.since());
     EXPECT_EQ(rest.blocks(), whole.blocks());

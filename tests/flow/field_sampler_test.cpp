@@ -224,10 +224,10 @@ TEST(BoundaryTotals, GoBackWithTheState) {
   EXPECT_GT(std::abs(before[0].massFlow), 0.0);
   StateBackup kept(flow.mesh().owned, flow.mesh().faces);
   const auto owners = [&](StateArchive& archive) { flow.saveOrLoad(archive); };
-  kept.keep(owners);
+  kept.save(owners);
   flow.advance(2e-3);
   EXPECT_NE(flow.totals()[0].massFlow, before[0].massFlow);
-  kept.giveBack(owners);
+  kept.restore(owners);
   const std::vector<BoundaryTotals> after = flow.totals();
   for (std::size_t b = 0; b < 4; ++b) {
     EXPECT_EQ(after[b].massFlow, before[b].massFlow);

@@ -16,7 +16,7 @@ using Numbers = std::vector<std::int64_t>;
 
 StateBackup keptOf(std::size_t cells, std::vector<std::vector<double>> rows, std::vector<double> numbers) {
   StateBackup kept(static_cast<int>(cells), 0);
-  kept.keep([&](StateArchive& archive) {
+  kept.save([&](StateArchive& archive) {
     archive.rows("particles", rows);
     archive.cells("numbers", numbers, 1);
     archive.rows("more", rows);
@@ -34,7 +34,7 @@ TEST(Redistribution, BringsRowsAndValuesToTheRanksThatWillHaveTheirCells) {
     kept.rearrange(static_cast<int>(to.size()), 0, movement, movement, movement);
     std::vector<std::vector<double>> rows(to.size(), {-1.0}), more(to.size());
     std::vector<double> numbers(to.size());
-    kept.giveBack([&](StateArchive& archive) {
+    kept.restore([&](StateArchive& archive) {
       archive.rows("particles", rows);
       archive.cells("numbers", numbers, 1);
       archive.rows("more", more);
