@@ -121,7 +121,7 @@ TEST(ReactorTrees, SmallSamplesHaveWhatTheGasLost) {
   const Mechanism& mechanism = siliconMechanism();
   const GasState gas = test::gasOf(mechanism, 1173, "C8H20O4SI: 2.5e-4, N2: 0.99975");
   const std::size_t n = mechanism.numSpecies();
-  const std::uint64_t repeats = fewOrMany<std::uint64_t>(48, 160);
+  const std::uint64_t repeats = test::fewOrMany<std::uint64_t>(48, 160);
   std::vector<double> ratios;
   double removals = 0;
   for (std::uint64_t owner = 0; owner < repeats; ++owner) {

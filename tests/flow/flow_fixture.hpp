@@ -19,6 +19,7 @@
 #include "core/grading.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/state.hpp"
+#include "tests/core/mpi_support.hpp"
 #include "tests/every_module.hpp"
 #include "tests/skewed_mesh.hpp"
 #include "tests/source_folder.hpp"
@@ -56,21 +57,8 @@ inline void report(const std::string& line) {
   if (rank == 0) fmt::print("{}\n", line);
 }
 
-inline double sumOverRanks(double value) {
-  MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
-  return value;
-}
-inline double maxOverRanks(double value) {
-  MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
-  return value;
-}
 inline double minOverRanks(double value) {
   return -maxOverRanks(-value);
-}
-// The axis that a face of a box is normal to.
-inline int axisOf(const Mesh& mesh, int face) {
-  const Vector3& n = mesh.normal[static_cast<std::size_t>(face)];
-  return std::abs(n[0]) == 1.0 ? 0 : std::abs(n[1]) == 1.0 ? 1 : 2;
 }
 inline std::size_t at(std::ptrdiff_t index) {
   return static_cast<std::size_t>(index);

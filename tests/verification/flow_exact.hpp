@@ -87,16 +87,16 @@ inline std::size_t levels() {
   return fewOrMany<std::size_t>(2, 3);
 }
 
-// The order between the last two meshes is above `least`, or above 0.2 less where the finest mesh is left out: there what is of
-// higher order counts more.
-inline void expectOrders(const std::string& what, const std::array<double, 3>& error, double least) {
+// The order between the last two meshes is above `least`. Where the finest mesh is left out, what is of higher order counts more:
+// `least` is then smaller by `allowance`.
+inline void expectOrders(const std::string& what, const std::array<double, 3>& error, double least, double allowance = 0.2) {
   std::string errors, orders;
   for (std::size_t level = 0; level < levels(); ++level) {
     errors += fmt::format(" {:.2e}", error[level]);
     if (level > 0) orders += fmt::format(" {:.2f}", std::log2(error[level - 1] / error[level]));
   }
   report(fmt::format("{}:{}, orders{}", what, errors, orders));
-  EXPECT_GT(std::log2(error[levels() - 2] / error[levels() - 1]), least - (isLongRun() ? 0.0 : 0.2)) << what;
+  EXPECT_GT(std::log2(error[levels() - 2] / error[levels() - 1]), least - (isLongRun() ? 0.0 : allowance)) << what;
 }
 
 // Behind a grid, Reynolds number 40: u = 1 - exp(lx) cos 2 pi y, v = l/(2 pi) exp(lx) sin 2 pi y, and a pressure that
@@ -145,6 +145,7 @@ inline FlowExact::Errors FlowExact::kovasznay(Axes vertices, int steps, std::opt
 
 inline void FlowExact::expectKovasznay(const std::string& what, const std::function<Axes(int)>& axes, int stepsOfACell,
                                        const std::array<double, 4>& least, std::optional<Split> split) {
+  constexpr double coarse = 0.35;  // a wave has 12 and 24 cells
   std::array<double, 3> errorU{}, errorV{}, largestU{}, largestV{};
   for (std::size_t level = 0; level < levels(); ++level) {
     const int cells = 12 << level;
@@ -154,10 +155,10 @@ inline void FlowExact::expectKovasznay(const std::string& what, const std::funct
     largestU[level] = found.largest[0];
     largestV[level] = found.largest[1];
   }
-  expectOrders(what + ", u", errorU, least[0]);
-  expectOrders(what + ", v", errorV, least[1]);
-  expectOrders(what + ", largest error of u", largestU, least[2]);
-  expectOrders(what + ", largest error of v", largestV, least[3]);
+  expectOrders(what + ", u", errorU, least[0], coarse);
+  expectOrders(what + ", v", errorV, least[1], coarse);
+  expectOrders(what + ", largest error of u", largestU, least[2], coarse);
+  expectOrders(what + ", largest error of v", largestV, least[3], coarse);
 }
 
 }  // namespace lampblack::test

@@ -28,13 +28,12 @@ struct Orders {
   double u = 0.0, T = 0.0, Y = 0.0, p = 0.0, carried = 0.0;
 };
 
-Orders measure(Problem& problem, int sweeps) {
+Orders measure(Problem& problem, int sweeps, std::size_t differences = fewOrMany<std::size_t>(2, 3)) {
   const std::size_t n = problem.box.gas.mechanism.numSpecies();
   const std::size_t species = problem.box.gas.mechanism.speciesIndex(problem.species);
   State start = problem.stateAtStart();
   if (problem.prelude > 0.0) advance(problem, start, 2, 2 * problem.steps, problem.prelude);
   std::vector<Quantities> found;
-  const std::size_t differences = fewOrMany<std::size_t>(2, 3);
   for (std::size_t level = 0; level <= differences; ++level) {
     State state = start;
     found.push_back(advance(problem, state, sweeps, problem.steps << level, problem.duration));
@@ -71,7 +70,7 @@ TEST(FlowOrder, HotSpotInAStream) {
 
 TEST(FlowOrder, LayerRichInHydrogen) {
   Problem problem = layerRichInHydrogen();
-  const Orders two = measure(problem, 2), three = measure(problem, 3);
+  const Orders two = measure(problem, 2, 3), three = measure(problem, 3, 3);
   EXPECT_GT(two.u, 1.6);
   EXPECT_GT(two.Y, 1.7);
   EXPECT_GT(three.u, 1.9);
@@ -124,7 +123,7 @@ TEST(FlowOrder, WaveOfHydrogenDecays) {
 TEST(FlowOrder, PremixedFlame) {
   Gas gas("methane_drm19_21.yaml");
   Problem problem = premixedFlame(gas);
-  for (const int sweeps : {2, 3}) {
+  for (int sweeps = 2; sweeps <= fewOrMany(2, 3); ++sweeps) {
     const Orders found = measure(problem, sweeps);
     EXPECT_GT(found.u, 1.9);
     EXPECT_GT(found.T, 1.9);

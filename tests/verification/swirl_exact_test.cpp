@@ -198,7 +198,9 @@ TEST_F(SwirlExact, RingsBesideASlipWall) {
     coarser = besideWall(box, state, cells);
   }
   expectOrders("rings beside a slip wall, 8, 16, 32 cells", change, 1.8);
-  if (isLongRun()) EXPECT_LT(change[2], 1e-3);  // 1.8e-3 where the cells beside the wall see no slope
+  if (isLongRun()) {
+    EXPECT_LT(change[2], 1e-3);  // 1.8e-3 where the cells beside the wall see no slope
+  }
 }
 
 // A disk that turns throws the gas beside it outwards, which draws in gas along the axis. With z in units of
@@ -258,7 +260,7 @@ TEST_F(SwirlExact, TurningDisk) {
     for (double* error : {&radial[level], &swirl[level], &axial[level]}) *error = maxOverRanks(*error);
   }
   expectOrders("turning disk, u", radial, 1.85);
-  expectOrders("turning disk, w", swirl, 1.85);
+  expectOrders("turning disk, w", swirl, 1.85, 0.6);  // the disk's layer is two coarse cells thick
   expectOrders("turning disk, v", axial, 1.85);
 }
 
