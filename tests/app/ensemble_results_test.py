@@ -13,7 +13,7 @@ import tempfile
 import running
 
 h5py, np = running.package("h5py"), running.package("numpy")
-running.package("matplotlib")
+running.needs("matplotlib")
 image = running.package("PIL.Image")
 
 MIDDLE = 30  # of some 60 steps; within a block

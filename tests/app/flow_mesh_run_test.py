@@ -12,8 +12,8 @@ import tempfile
 import running
 
 h5py, np = running.package("h5py"), running.package("numpy")
-running.package("meshio")
-running.package("matplotlib")
+running.needs("meshio")
+running.needs("matplotlib")
 
 GAS = 'temperature: 300 K, composition: "GAS: 1"'
 HEAD = f"""problem: flow

@@ -12,7 +12,7 @@ import tempfile
 import running
 
 h5py = running.package("h5py")
-running.package("matplotlib")  # for scripts/plot
+running.needs("matplotlib")  # for scripts/plot
 np = running.package("numpy")
 
 DECK = running.SOURCE / "cases/reactor/silica_batch/deck.yaml"

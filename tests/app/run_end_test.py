@@ -140,7 +140,7 @@ def check_small_disks(program, cases, folder, sizes):
     for problem, arguments in cases.short.items():
         for size in sizes:
             kept = folder / f"disk_{problem}_{size}"
-            small = running.Program("", [], 1)
+            small = running.Process("", [], 1)
             small.command = ["env", f"OUT={disk}/out", f"KEPT={kept}", *mount, f"{size}", str(disk), *program.command]
             wrong, code = disk_full_on(small, arguments, disk / "out", kept)
             assert not wrong, f"{problem} on a disk of {size} bytes {wrong}"

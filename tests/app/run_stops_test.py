@@ -31,7 +31,7 @@ def check_wall_limit(program, folder, deck):
     before = 0
     for again in ([], ["--restart"]):
         begun = time.monotonic()
-        result = program("run", deck, *LONG, *running.settings(f"time.wall_limit={LIMIT} s"), "--out", out, *again)
+        result = program.process_of_its_own("run", deck, *LONG, *running.settings(f"time.wall_limit={LIMIT} s"), "--out", out, *again)
         took = time.monotonic() - begun
         assert result.code == 128 + signal.SIGTERM and len(result.err.splitlines()) == 1, result
         (newest,) = [file for file in (out / "checkpoint").glob("step_*.h5") if file.name == restart_test.checkpoints(out)[-1]]
