@@ -5,7 +5,6 @@ Usage: compressed_results_test.py EXECUTABLE MPIEXEC...
 """
 
 import pathlib
-import subprocess
 import sys
 import tempfile
 
@@ -69,8 +68,8 @@ def main(executable: str, *mpiexec: str) -> None:
             assert there[key][1] == "gzip" and there[key][0].tobytes() == values.tobytes(), key
 
         run("from_packed", *SHORT, "initial={layer: none, flow: {results: ../packed}}", "time.end=1 us")
-        drawn = subprocess.run([running.SOURCE / "scripts/plot", packed], capture_output=True, text=True, check=False)
-        assert drawn.returncode == 0, drawn.stderr
+        drawn = running.script(running.SOURCE / "scripts/plot", packed)
+        assert drawn.code == 0, drawn.err
 
         for setting, expected in (("output.compression=10", "output.compression: expected"),
                                   ("output.compression=-1", "output.compression: expected"),

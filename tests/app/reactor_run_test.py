@@ -12,6 +12,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 
 import running
 
@@ -57,6 +58,7 @@ def ignition(program, folder):
         for c, name in enumerate(names):
             assert np.array_equal(file["history"][name.split(" [")[0]][()], table[:, c]), name
         assert file["history/time"][-1] == 2e-3
+    # As users start it, in a process of its own.
     done = subprocess.run([sys.executable, running.SOURCE / "scripts/plot", out], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     for picture in ("reactor", "ignition", "sensitivity"):
@@ -151,8 +153,8 @@ def soot(program, folder):
             if kind != "stirred":
                 assert np.max(history["element_imbalance"]) < 1e-13 and np.max(np.abs(history["energy_imbalance"])) < 1e-7
         if program.ranks == 1:
-            done = subprocess.run([sys.executable, running.SOURCE / "scripts/plot", out], capture_output=True, text=True, check=False)
-            assert done.returncode == 0 and (out / "pictures/particles.png").stat().st_size > 5000, done.stderr
+            done = running.script(running.SOURCE / "scripts/plot", out)
+            assert done.code == 0 and (out / "pictures/particles.png").stat().st_size > 5000, done.err
         shutil.rmtree(out)
 
 
@@ -185,10 +187,10 @@ def ensembles_in_networks(program, folder):
     two = history("two", "one: {residence_time: 5 ms}, two: {residence_time: 1 ms}",
                   "  connections: [{from: one, to: two}, {from: two, to: one, fraction: 0.5}]\n")
     if program.ranks == 1:
-        done = subprocess.run([sys.executable, running.SOURCE / "scripts/plot", folder / "two"], capture_output=True, text=True, check=False)
-        assert done.returncode == 0, done.stderr
+        done = running.script(running.SOURCE / "scripts/plot", folder / "two")
+        assert done.code == 0, done.err
         for picture in ("reactor_one", "particles_one", "reactor_two", "particles_two"):
-            assert (folder / f"two/pictures/{picture}.png").stat().st_size > 5000, done.stdout
+            assert (folder / f"two/pictures/{picture}.png").stat().st_size > 5000, done.out
     for name in ("one", "two"):
         assert two[f"{name}_soot_volume_fraction"][-1] > 0 and np.max(two[f"{name}_element_imbalance"]) < 1e-12, name
 
@@ -234,9 +236,10 @@ def main(executable, ranks, *mpiexec):
     if program.ranks == 1:  # what the first rank does alone, beyond a sample
         tests += [regular_output, transient, species_with_comma, behind_a_stirred_reactor]
     for test in tests:
+        begun = time.perf_counter()
         with tempfile.TemporaryDirectory() as folder:
             test(program, pathlib.Path(folder))
-        print(f"ok  {test.__name__}")
+        print(f"ok  {test.__name__}: {time.perf_counter() - begun:.1f} s", flush=True)
 
 
 main(*sys.argv[1:])

@@ -11,6 +11,8 @@ import importlib.util
 import os
 import pathlib
 import re
+import resource
+import runpy
 import select
 import shutil
 import signal
@@ -18,6 +20,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+import traceback
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 MECHANISM = "ethylene_bisetti2012_47.yaml"
@@ -75,6 +78,36 @@ def without_launcher(err: str) -> str:
     """Standard error without what the launcher of Open MPI 5 says of a rank's exit code, for which it knows no silence."""
     kept = re.sub(r"^-{60,}\n(?:(?!-{60,}).*\n)*?.*prterun(?:.*\n)*?-{60,}\n", "", err, flags=re.MULTILINE)
     return re.sub(r"^(\[[^\]]*\] PMIX ERROR: |\[warn\] Epoll ).*\n", "", kept, flags=re.MULTILINE)
+
+
+def script(path, *arguments, seconds: int = 60) -> Result:
+    """Runs a script of python, which may take so many seconds of the processor, in a copy of this process: the packages that most
+    scripts import are loaded once."""
+    for name in ("h5py", "matplotlib.pyplot"):
+        importlib.import_module(name)
+    with tempfile.TemporaryFile("w+") as out, tempfile.TemporaryFile("w+") as err:
+        sys.stdout.flush()
+        child = os.fork()
+        if child == 0:
+            os.dup2(out.fileno(), 1)
+            os.dup2(err.fileno(), 2)
+            resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds))
+            code = 99
+            try:
+                sys.argv = [str(path), *map(str, arguments)]
+                runpy.run_path(sys.argv[0], run_name="__main__")
+                code = 0
+            except SystemExit as end:
+                code = end.code if isinstance(end.code, int) else 0 if end.code is None else 1
+                if isinstance(end.code, str):
+                    print(end.code, file=sys.stderr)
+            except BaseException:  # noqa: BLE001
+                traceback.print_exc()
+            sys.stdout.flush()
+            sys.stderr.flush()
+            os._exit(code)
+        code = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+        return Result(code, *(file.seek(0) or file.read() for file in (out, err)))
 
 
 class Process:
