@@ -13,7 +13,7 @@ import running
 h5py = running.package("h5py")
 np = running.package("numpy")
 
-SHORT = ("time.end=3 us", "time.maximum_step=1 us", "output.interval=1 us", "mesh.refinement=5",
+SHORT = ("time.end=2 us", "time.maximum_step=1 us", "output.interval=1 us", "mesh.refinement=4.3",
          "output.species=[all]", "chemistry.share_work=false")
 COMPRESSED = ("output.compression=6", "output.writers=1", "output.wall_distance=true")
 
@@ -59,7 +59,7 @@ def main(executable: str, *mpiexec: str) -> None:
         assert sizes[1] < 0.8 * sizes[0], sizes
 
         # A run in two parts; the first steps come from files that are compressed too.
-        run("parts", *SHORT, *COMPRESSED, "time.end=2 us", "checkpoint.at_end=true")
+        run("parts", *SHORT, *COMPRESSED, "time.end=1 us", "checkpoint.at_end=true")
         parts = run("parts", *SHORT, *COMPRESSED, more=("--restart",))
         there = steps(parts / "results.h5")
         for key, (values, compression) in steps(packed / "results.h5").items():

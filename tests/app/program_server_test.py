@@ -129,7 +129,7 @@ def check_ends(program, folder: pathlib.Path) -> None:
     """A request that hangs, one that crashes, and one beside another thread's: each has its answer, and so has the next."""
     flow = running.small_case(folder)
     long = ["run", flow, *running.settings("time.end=1 s"), "--out", folder / "long"]
-    assert program(*long, timeout=2).code is None
+    assert program(*long, timeout=0.5).code is None
     assert program("check", flow).code == 0
     server = program._server.process.pid
     assert program("check", flow).code == 0 and program._server.process.pid == server, "a server for each request"
