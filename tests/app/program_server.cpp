@@ -11,11 +11,14 @@
 #include <hdf5.h>
 #include <mpi.h>
 #include <petscsys.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -88,6 +91,15 @@ class ProcessState {
   mode_t umask_ = 0;
 };
 
+std::atomic<bool> carriesOut = false;
+
+// Ends the process where the client is gone in the middle of a request: nobody waits for its end.
+void endWithClient(int input) {
+  pollfd watched{input, 0, 0};
+  while (poll(&watched, 1, -1) < 0 && errno == EINTR) continue;
+  if (carriesOut) _exit(1);
+}
+
 // Nothing at the end of the input.
 std::string readRequest(std::FILE* input) {
   std::size_t size = 0;
@@ -155,12 +167,16 @@ int carryOut(std::string request, int errors) {
 int main() {
   const int answers = moved(STDOUT_FILENO, O_WRONLY);
   const int errors = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
-  std::FILE* input = fdopen(moved(STDIN_FILENO, O_RDONLY), "r");
+  const int requests = moved(STDIN_FILENO, O_RDONLY);
+  std::FILE* input = fdopen(requests, "r");
   const lampblack::ParallelSession session;
   const int rank = lampblack::placeOfProcess().rank;
   const ProcessState before;
+  if (rank == 0) std::thread(endWithClient, requests).detach();
   for (std::string request; !(request = requestForAll(input, rank)).empty();) {
+    carriesOut = true;
     const int code = carryOut(request, errors);
+    carriesOut = false;
     std::array<int, 2> answer{code, before.restore() ? 0 : 1};
     MPI_Allreduce(MPI_IN_PLACE, answer.data(), 2, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
     if (rank == 0) dprintf(answers, "%d %d\n", answer[0], answer[1]);
