@@ -54,9 +54,7 @@ bool startedByLauncher() {
 
 Place placeOfProcess() {
   Place place;
-  int started = 0;
-  MPI_Initialized(&started);
-  if (started == 0) return place;
+  if (!ParallelSession::runs()) return place;
   MPI_Comm_rank(MPI_COMM_WORLD, &place.rank);
   MPI_Comm_size(MPI_COMM_WORLD, &place.ranks);
   return place;
@@ -71,6 +69,12 @@ ParallelSession::ParallelSession() {
 
 ParallelSession::~ParallelSession() {
   static_cast<void>(PetscFinalize());  // it prints what went wrong
+}
+
+bool ParallelSession::runs() {
+  int started = 0;
+  MPI_Initialized(&started);
+  return started != 0;
 }
 
 }  // namespace lampblack

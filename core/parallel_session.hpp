@@ -23,6 +23,9 @@ class ParallelSession {
   ~ParallelSession();
   ParallelSession(const ParallelSession&) = delete;
   ParallelSession& operator=(const ParallelSession&) = delete;
+
+  // Whether MPI has started in this process.
+  static bool runs();
 };
 
 }  // namespace lampblack

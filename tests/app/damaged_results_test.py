@@ -4,14 +4,11 @@ Usage: damaged_results_test.py EXECUTABLE [--all]. Without --all every seventy-f
 own and, where it cannot go on, with one line that names the file. Exit code 77 (skipped) where a Python package is missing.
 """
 
-import contextlib
 import json
 import os
 import pathlib
 import random
-import runpy
 import shutil
-import resource
 import sys
 import tempfile
 
@@ -117,28 +114,6 @@ def damages(folder):
                    lambda copy, text=text, content=content: (copy / text.relative_to(folder)).write_text(content))
 
 
-def run_script(script, arguments, report):
-    """In a process of its own, which has the packages loaded already; returns its status as waitpid has it."""
-    child = os.fork()
-    if child:
-        return os.waitpid(child, 0)[1]
-    code = 99
-    with open(report, "w", encoding="utf-8") as file, contextlib.redirect_stderr(file):
-        os.dup2(file.fileno(), 2)
-        with open(os.devnull, "w", encoding="utf-8") as nowhere, contextlib.redirect_stdout(nowhere):
-            resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
-            sys.argv = [str(SCRIPTS / script), *map(str, arguments)]
-            try:
-                runpy.run_path(sys.argv[0], run_name="__main__")
-            except SystemExit as end:
-                code = end.code or 0
-            except BaseException:  # noqa: BLE001
-                import traceback
-                traceback.print_exc()
-        file.flush()
-    os._exit(code)
-
-
 def main():
     program = running.Program(sys.argv[1], [], 1)
     every = 1 if "--all" in sys.argv else 75
@@ -148,9 +123,8 @@ def main():
         work = pathlib.Path(name)
         for problem, (folder, scripts) in make_results(program, work).items():
             for script, *more in scripts[:1]:
-                status = run_script(script, [folder, *more], work / "told")
-                told = (work / "told").read_text(encoding="utf-8")
-                assert status == 0, f"{problem}: {script} fails on what is whole: {told}"
+                ended = running.script(SCRIPTS / script, folder, *more, seconds=SECONDS)
+                assert ended.code == 0, f"{problem}: {script} fails on what is whole: {ended.err}"
                 shutil.rmtree(folder / "pictures")
             for damage, apply in damages(folder):
                 seen += 1
@@ -161,9 +135,8 @@ def main():
                 shutil.copytree(folder, copy)
                 apply(copy)
                 for script, *more in scripts:
-                    status = run_script(script, [copy, *more], work / "told")
-                    told = (work / "told").read_text(encoding="utf-8", errors="replace")
-                    code = os.waitstatus_to_exitcode(status)
+                    ended = running.script(SCRIPTS / script, copy, *more, seconds=SECONDS)
+                    code, told = ended.code, ended.err
                     lines = told.splitlines()
                     good = code in (0, 1) and not lines or code == 2 and len(lines) == 1 and str(copy) in lines[0]
                     counts[code] = counts.get(code, 0) + 1

@@ -6,14 +6,13 @@ Usage: ensemble_results_test.py EXECUTABLE MPIEXEC...
 """
 
 import pathlib
-import subprocess
 import sys
 import tempfile
 
 import running
 
 h5py, np = running.package("h5py"), running.package("numpy")
-running.package("matplotlib")
+running.needs("matplotlib")
 image = running.package("PIL.Image")
 
 MIDDLE = 30  # of some 60 steps; within a block
@@ -141,10 +140,10 @@ def check_without_sizes(program, folder, deck):
 
 
 def check_pictures(whole):
-    drawn = subprocess.run([running.SOURCE / "scripts/plot", whole], capture_output=True, text=True, check=False)
-    assert drawn.returncode == 0, drawn.stderr
+    drawn = running.script(running.SOURCE / "scripts/plot", whole)
+    assert drawn.code == 0, drawn.err
     for name in ("soot_averages.png", "sizes_region_flame.png", "sizes_line_axis.png", "sizes_centreline.png", "sizes_plane.png"):
-        assert (whole / "pictures" / name).read_bytes()[1:4] == b"PNG", (name, drawn.stdout)
+        assert (whole / "pictures" / name).read_bytes()[1:4] == b"PNG", (name, drawn.out)
     film = image.open(whole / "pictures/sizes.gif")
     assert film.n_frames == 3, "a frame for each output with particles"
 

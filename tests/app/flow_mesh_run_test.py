@@ -5,15 +5,14 @@ Usage: flow_mesh_run_test.py EXECUTABLE MPIEXEC...
 """
 
 import pathlib
-import subprocess
 import sys
 import tempfile
 
 import running
 
 h5py, np = running.package("h5py"), running.package("numpy")
-running.package("meshio")
-running.package("matplotlib")
+running.needs("meshio")
+running.needs("matplotlib")
 
 GAS = 'temperature: 300 K, composition: "GAS: 1"'
 HEAD = f"""problem: flow
@@ -106,9 +105,9 @@ def run(program, deck: pathlib.Path, out: pathlib.Path, *more) -> None:
 
 
 def check_pictures(folder: pathlib.Path) -> None:
-    for command in ([running.SOURCE / ".ci/check_results.py", folder], [running.SOURCE / "scripts/plot", folder]):
-        done = subprocess.run(["/usr/bin/python3", *map(str, command)], capture_output=True, text=True, check=False)
-        assert done.returncode == 0, f"{command}: {done.stdout}{done.stderr}"
+    for script in (".ci/check_results.py", "scripts/plot"):
+        done = running.script(running.SOURCE / script, folder)
+        assert done.code == 0, f"{script}: {done.out}{done.err}"
     for picture in ("temperature", "velocity"):
         assert (folder / "pictures" / f"{picture}.png").stat().st_size > 5000, f"{picture} is empty"
 

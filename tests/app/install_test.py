@@ -15,8 +15,8 @@ import tempfile
 
 import running
 
-running.package("h5py")
-running.package("matplotlib")
+running.needs("h5py")
+running.needs("matplotlib")
 NOBODY = 65534
 # One of the smallest flames, made smaller.
 SMALL = running.settings("grid.slope=0.5", "grid.curve=0.8")

@@ -5,14 +5,13 @@ Exit code 77 (skipped) where a Python package is missing.
 """
 
 import pathlib
-import subprocess
 import sys
 import tempfile
 
 import running
 
 h5py = running.package("h5py")
-running.package("matplotlib")  # for scripts/plot
+running.needs("matplotlib")  # for scripts/plot
 np = running.package("numpy")
 
 DECK = running.SOURCE / "cases/reactor/silica_batch/deck.yaml"
@@ -91,10 +90,10 @@ def main(executable, *mpiexec):
         none = compute(program, folder / "none", "particles.tables_at=[]", "time.end=1 ms", "output.interval=1 ms")
         assert none.code == 0, none.err
 
-        drawn = subprocess.run([running.SOURCE / "scripts/plot", out], capture_output=True, text=True, check=False)
-        assert drawn.returncode == 0, drawn.stderr
+        drawn = running.script(running.SOURCE / "scripts/plot", out)
+        assert drawn.code == 0, drawn.err
         for picture in ("micrographs_1", "micrographs_2", "particle_distributions_2", "particle_classes_2"):
-            assert (out / f"pictures/{picture}.png").stat().st_size > 10000, drawn.stdout
+            assert (out / f"pictures/{picture}.png").stat().st_size > 10000, drawn.out
     return 0
 
 

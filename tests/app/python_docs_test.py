@@ -12,8 +12,8 @@ import time
 
 import running
 
-running.package("h5py")
-running.package("matplotlib")
+running.needs("h5py")
+running.needs("matplotlib")
 
 
 def main(executable):

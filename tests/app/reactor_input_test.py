@@ -261,7 +261,9 @@ def main(executable: str, ranks: str, *mpiexec: str) -> int:
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "deck.yaml"
             path.write_text(deck.replace(old, new), encoding="utf-8")
-            result = program("run", path, "--out", pathlib.Path(folder) / "out")
+            # The first one as users start the program.
+            run = program.process_of_its_own if name == MISTAKES[0][0] else program
+            result = run("run", path, "--out", pathlib.Path(folder) / "out")
             problems = [] if result.code == 2 else [f"exit code {result.code}"]
             problems += running.differs_from_check(program, result, path) if also_check else []
             lines = result.err.splitlines()

@@ -104,10 +104,10 @@ def check_events(history):
 def check_starved(executable, mpiexec, folder):
     """A sample that begins far too small for what is born is told of, and one that has room is not."""
     program = running.Program(executable, mpiexec, 1)
-    for full_at, told in (("1e20 1/m^3", True), ("1e18 1/m^3", False)):
+    for expected_number, told in (("1e20 1/m^3", True), ("1e18 1/m^3", False)):
         out = folder / f"full_{told}"
         result = program("run", DECK, "--out", out, *running.settings(
-            "time.end=40 ms", "output.interval=10 ms", "particles.number=64", "particles.repeats=2", f"particles.expected_number={full_at}"), timeout=100)
+            "time.end=40 ms", "output.interval=10 ms", "particles.number=64", "particles.repeats=2", f"particles.expected_number={expected_number}"), timeout=100)
         assert result.code == 0, result.err
         assert ("2 samples were never three quarters full" in result.out) == told, result.out
         assert ("choose 'particles.expected_number' near the largest number density" in result.out) == told, result.out

@@ -67,6 +67,8 @@ def interrupt(program, deck, settings, out, chance):
 
 def main(executable, ranks, kills, what, *mpiexec):
     settings = SETTINGS[what]
+    if int(kills) < 10:  # some twenty steps a kill
+        settings = [*settings, *running.settings("time.end=0.06 ms")]
     program = running.Program(executable, list(mpiexec), int(ranks))
     chance = random.Random(7)
     killed = whole_runs = in_checkpoint = damaged = 0

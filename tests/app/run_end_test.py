@@ -51,7 +51,7 @@ class Cases:
         large = self.put("large.yaml", small_decks.free_flame(running.MECHANISM, "C2H4", slope=0.0005, curve=0.001))
         sweep = self.put("sweep.yaml", f"study: populations\ndeck: {population}\nvary:\n  - {{key: seed, values: [1, 2, 3]}}\n")
         many = self.put("many.yaml", f"study: populations\ndeck: {population}\nvary:\n"
-                                     f"  - {{key: seed, values: {list(range(1, 400))}}}\n")
+                                     f"  - {{key: seed, values: {list(range(1, 100))}}}\n")
         long_repeat = self.put("long_repeat.yaml", LONG_REPEAT)
         soon = running.settings("time.end=6 us", "output.interval=1 us")
         self.short = {"flow": ["run", flow, *soon], "reactor": ["run", reactor, *running.settings("time.end=0.4 ms")],
@@ -140,7 +140,7 @@ def check_small_disks(program, cases, folder, sizes):
     for problem, arguments in cases.short.items():
         for size in sizes:
             kept = folder / f"disk_{problem}_{size}"
-            small = running.Program("", [], 1)
+            small = running.Process("", [], 1)
             small.command = ["env", f"OUT={disk}/out", f"KEPT={kept}", *mount, f"{size}", str(disk), *program.command]
             wrong, code = disk_full_on(small, arguments, disk / "out", kept)
             assert not wrong, f"{problem} on a disk of {size} bytes {wrong}"
@@ -204,7 +204,7 @@ def check_signal(program, arguments, problem, out, number):
     process = start(program, arguments, out)
     wait_for(lambda: is_going(problem, out), process, "start of the run")
     if problem in ("population", "long repeat", "flame"):
-        time.sleep(1.0)
+        time.sleep(0.5)
     # One rank is enough where ranks work together; a reactor is computed by the first alone, and each rank has repeats of
     # its own. mpirun tells all.
     ranks = ranks_of(program, process)

@@ -14,7 +14,7 @@ h5py = running.package("h5py")
 
 KERNEL = pathlib.Path(__file__).with_name("kernel.yaml")
 # A flame with soot, whose particles are shared as well, and a kernel that ignites, in cells of every kind.
-CASES = {"flame": ("time.end=20 us", "mesh.refinement=2"), "kernel": ("mesh.refinement=0.5", "time.end=40 us")}
+CASES = {"flame": ("time.end=10 us", "mesh.refinement=2"), "kernel": ("mesh.refinement=0.5", "time.end=20 us")}
 
 
 def datasets(path):
@@ -45,9 +45,9 @@ def main(executable, *mpiexec):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         decks = {"flame": running.small_case(folder), "kernel": KERNEL}
-        for ranks in (2, 3):
-            for case, deck in decks.items():
-                check(running.Program(executable, list(mpiexec), ranks), folder, case, deck)
+        # Who gives to whom is a question of more than two ranks; what is given, of particles too.
+        for ranks, case in ((2, "flame"), (2, "kernel"), (3, "kernel")):
+            check(running.Program(executable, list(mpiexec), ranks), folder, case, decks[case])
 
 
 if __name__ == "__main__":

@@ -7,7 +7,6 @@ Usage: soot_rates_test.py EXECUTABLE MPIEXEC...
 import json
 import pathlib
 import shutil
-import subprocess
 import sys
 import tempfile
 
@@ -23,10 +22,9 @@ VARIANT = ("soot.pah=[A2, A3, A4]", "soot.sticking=[1e-3, 0.015, 0.03]", "soot.s
 
 def checked(folder):
     # On this grid the flame's own largest volume fraction is 5 % off that of the case's grid.
-    done = subprocess.run([sys.executable, str(SCRIPT), str(folder), "--transport-limit", "10", "--json"], capture_output=True,
-                          text=True, check=False)
-    assert done.returncode in (0, 1), done.stderr
-    return done.returncode, json.loads(done.stdout)
+    done = running.script(SCRIPT, folder, "--transport-limit", "10", "--json")
+    assert done.code in (0, 1), done.err
+    return done.code, json.loads(done.out)
 
 
 def spoiled(folder, name, path, factor):

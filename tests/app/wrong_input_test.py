@@ -188,6 +188,10 @@ MISTAKES = [
 OF_RANKS = ("unknown key", "missing mechanism", "garbage mechanism", "unknown PAH", "boundary faces without a patch",
             "gravity through the axis", "trajectory outside", "unknown key in --set", "not YAML")
 
+# As users start the program, each in a process of its own.
+REAL = ("unknown key", "missing mechanism", "unknown PAH", "unknown key in --set", "not YAML", "unknown option", "no deck", "done",
+        "running")
+
 USAGE = [
     ("unknown option", ("run", "DECK", "--frobnicate"), "--frobnicate"),
     ("no subcommand", (), "subcommand"),
@@ -205,6 +209,9 @@ class Checker:
         self.program = program
         self.folder = folder
         self.failures = 0
+
+    def run(self, name: str, *arguments) -> running.Result:
+        return (self.program.process_of_its_own if name in REAL else self.program)(*arguments)
 
     def require(self, name: str, result: running.Result, problems: list) -> None:
         if result.code != 2:
@@ -236,7 +243,7 @@ class Checker:
         (deck.parent / "garbage.yaml").write_text("species: [1, 2\n}: - x", encoding="utf-8")
         (deck.parent / "binary.yaml").write_bytes(bytes(range(256)) * 8)
         before = running.snapshot(self.folder)
-        result = self.program("run", deck, *running.settings(*wrong.settings), "--out", self.folder / "out")
+        result = self.run(wrong.name, "run", deck, *running.settings(*wrong.settings), "--out", self.folder / "out")
         problems = self.one_message(result.err)
         if also_check or wrong.name in OF_RANKS:
             problems += running.differs_from_check(self.program, result, deck, *running.settings(*wrong.settings))
@@ -256,7 +263,7 @@ class Checker:
     def usage(self, name: str, arguments: tuple, expected: str) -> None:
         deck = running.small_case(self.folder)
         before = running.snapshot(self.folder)
-        result = self.program(*[deck if word == "DECK" else word for word in arguments])
+        result = self.run(name, *[deck if word == "DECK" else word for word in arguments])
         lines = [line for line in result.err.splitlines() if line.strip()]
         # The message, and where to find help.
         problems = [] if 1 <= len(lines) <= 2 and len(set(lines)) == len(lines) else ["not exactly one message"]
@@ -274,7 +281,7 @@ class Checker:
         for file, text in files.items():
             (out / file).write_text(text, encoding="utf-8")
         before = running.snapshot(self.folder)
-        result = self.program("run", deck, "--out", out)
+        result = self.run(name, "run", deck, "--out", out)
         problems = self.one_message(result.err)
         problems += [f"does not say \"{part}\"" for part in (f"{out}: ", "--out", "--force") if part not in result.err]
         if running.snapshot(self.folder) != before:
