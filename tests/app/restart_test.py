@@ -282,13 +282,12 @@ def main(executable, ranks, *mpiexec):
         check_middle(program, folder, deck, sweeps=2)
         check_requests(program, folder, deck)
         if program.ranks == 1:
-            check_other_ranks(executable, list(mpiexec), folder, deck, whole, 1, [3])
             check_later_end(program, folder, deck, whole)
             check_wrong(program, folder, deck, whole)
             check_one_before(program, folder, deck, whole)
             check_full_disk(program, folder, deck)
         else:
-            check_other_ranks(executable, list(mpiexec), folder, deck, whole, 2, [1])
+            check_other_ranks(executable, list(mpiexec), folder, deck, whole, 2, [1, 3])
             check_absent(program, folder, deck, running.settings(*SETTINGS), whole)
     print("restarts: all in order")
 

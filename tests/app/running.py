@@ -128,7 +128,7 @@ class Process:
         self.command = [*self.launcher, executable]
         self.ranks = ranks
 
-    def __call__(self, *arguments, timeout: float = 60) -> Result:
+    def __call__(self, *arguments, timeout: float = 240) -> Result:
         """Runs it. A run that hangs ends after `timeout` seconds, without an exit code."""
         try:
             done = subprocess.run([*self.command, *map(str, arguments)], env=environment(), stdin=subprocess.DEVNULL,
@@ -149,7 +149,7 @@ class Program(Process):
         self.process_of_its_own = Process(executable, mpiexec, ranks)
         self._server = Server([*self.launcher, str(server)]) if server.exists() else None
 
-    def __call__(self, *arguments, timeout: float = 60) -> Result:
+    def __call__(self, *arguments, timeout: float = 240) -> Result:
         if self._server is None:
             return super().__call__(*arguments, timeout=timeout)
         return self._server.request(list(map(str, arguments)), timeout)
