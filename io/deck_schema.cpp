@@ -161,11 +161,20 @@ const DeckSchema::Node* DeckSchema::Node::child(const std::string& childName) co
 
 namespace {
 
+// A schema has hundreds of keys, and each is compared with all: nothing here makes a text.
+
 // Whether a former name of `key` is the path of `other`.
 bool formerlyNamed(const DeckKey& key, const DeckKey& other) {
-  const std::string section = key.path.substr(0, key.path.rfind('.') + 1);  // with its dot; empty at the top level
-  return std::any_of(key.formerNames.begin(), key.formerNames.end(),
-                     [&](const std::string& name) { return section + name == other.path; });
+  if (key.formerNames.empty()) return false;
+  const std::string_view section = std::string_view(key.path).substr(0, key.path.rfind('.') + 1);  // with its dot, if any
+  const std::string_view path = other.path;
+  return path.starts_with(section) && std::ranges::find(key.formerNames, path.substr(section.size())) != key.formerNames.end();
+}
+
+// Whether `path` is `whole` or lies below it: "mesh.r" and "mesh.r[]" below "mesh".
+bool isWithin(std::string_view path, std::string_view whole) {
+  if (!path.starts_with(whole)) return false;
+  return path.size() == whole.size() || path[whole.size()] == '.' || path[whole.size()] == '[';
 }
 
 }  // namespace
@@ -175,8 +184,7 @@ DeckSchema& DeckSchema::add(DeckKey key) {
     if (formerlyNamed(key, other) || formerlyNamed(other, key))
       throw std::logic_error(
           fmt::format("deck keys '{}' and '{}': one has the former name of the other", key.path, other.path));
-    if (other.path == key.path || other.path.starts_with(key.path + ".") || other.path.starts_with(key.path + "[") ||
-        key.path.starts_with(other.path + ".") || key.path.starts_with(other.path + "[")) {
+    if (isWithin(other.path, key.path) || isWithin(key.path, other.path)) {
       throw std::logic_error(fmt::format("deck key '{}' clashes with '{}'", key.path, other.path));
     }
   }

@@ -46,7 +46,7 @@ def requests(folder: pathlib.Path) -> dict:
     return {
         "flow": ["run", flow, *flow_settings, "--out"],
         "closed vessel": ["run", closed, *running.settings("mesh.refinement=0.5", "time.end=20 ms"), "--out"],
-        "ensembles": ["run", ensembles, *flow_settings, *running.settings("stochastic={particles: 40, least_number: 1e9 1/m^3}"), "--out"],
+        "ensembles": ["run", ensembles, *flow_settings, *running.settings("stochastic={particles: 40, minimum_number_density: 1e9 1/m^3}"), "--out"],
         "checkpoint": ["run", flow, *flow_settings, *running.settings("checkpoint.at_end=true"), "--out"],
         "reactor": ["run", reactor, *running.settings("time.end=0.1 ms", "sensitivity.reactions=['1']"), "--out"],
         "soot": ["run", soot, *running.settings("time.end=0.1 ms", "soot.model=hmom"), "--out"],

@@ -94,7 +94,7 @@ TEST(NetworkOfToys, IsOfSecondOrderWithARecycle) {
 class FlowingEnsembles : public ::testing::TestWithParam<EnsembleMethod> {
  protected:
   static constexpr double number = 1e16;  // 1/m3
-  static constexpr std::size_t repeats = 16;
+  const std::size_t repeats = test::fewOrMany<std::size_t>(6, 16);
   GasState gas = gasOf(ethylene(), 1500, "N2: 1");
 
   // Numbers and masses per m3 over those of the first reactor at the start, of each reactor; a sample each.

@@ -106,7 +106,7 @@ TEST_F(FlowSkewedCoarseLong, VorticesInSpace) {
     expectVortex(cells, 4, 1.75);
 }
 
-TEST_F(FlowSkewed, StreamsOnTriangles) {
+TEST_F(FlowSkewedCoarseLong, StreamsOnTriangles) {
   for (const bool ofComposition : {false, true}) expectStream(Cells::Triangles, ofComposition, 8, 1.8);
 }
 
