@@ -234,6 +234,22 @@ def check_the_checker():
         assert len(list(faults_of_front_page(page + LONGEST * "x\n"))) == 1
 
 
+def faults_of_entries(root, build):
+    """Tests that a page names: each choice of `ctest -R`, and each executable of a test, is one of this build."""
+    listed = subprocess.run(["ctest", "--test-dir", build, "-N"], capture_output=True, text=True, check=True).stdout
+    entries = re.findall(r"^ *Test +#\d+: (\S+)", listed, re.MULTILINE)
+    assert len(entries) > 50, "ctest lists no entries"
+    for page in pages.pages(root):
+        text = (root / page).read_text(encoding="utf-8")
+        for quote, pattern in re.findall(r"(?:ctest|scripts/test)[^`\n]*-R\s+(['\"]?)([^'\"`\s]+)\1", text):
+            for choice in pattern.split("|"):
+                if not any(re.search(choice, entry) for entry in entries):
+                    yield f"{page}: no test has '{choice}' in its name (ctest -R {quote}{pattern}{quote})"
+        for path in re.findall(r"build/release/(tests/[\w/]+/(?:test|verification)_\w+)", text):
+            if not (build / path).is_file():
+                yield f"{page}: {path} is not built"
+
+
 def main():
     check_the_checker()
     program = Program(sys.argv[1])
@@ -241,7 +257,8 @@ def main():
     front = (root / "README.md").read_text(encoding="utf-8")
     assert len(pages.pages(root)) > 50 and len(pages.commands(front)) > 10, "the pages are not where this test looks for them"
     assert {"run", "check", "gas"} <= program.subcommands(), "the program's help is not what this test reads"
-    wrong = [*faults(root, program), *faults_of_front_page(front), *faults_of_decks(root, program, front)]
+    wrong = [*faults(root, program), *faults_of_front_page(front), *faults_of_decks(root, program, front),
+             *faults_of_entries(root, Path(sys.argv[1]).resolve().parents[1])]
     wrong = list(dict.fromkeys(wrong))
     for line in wrong:
         print(line)
