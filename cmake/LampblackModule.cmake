@@ -1,4 +1,5 @@
-# lampblack_module(<module> SOURCES <files> [PUBLIC <libraries>] [PRIVATE <libraries>] [PRECOMPILED <headers>] [NO_KERNELS])
+# lampblack_module(<module> SOURCES <files> [PUBLIC <libraries>] [PRIVATE <libraries>] [PRECOMPILED <headers> | PRECOMPILED_AS <module>]
+#                  [NO_KERNELS])
 #
 # A module is a static library `lampblack_<module>` whose headers are included as "<module>/<header>.hpp". Modules see each
 # other only through what they link, so that an arrow against docs/architecture.md fails to link.
@@ -8,7 +9,7 @@
 # Sources are compiled eight at a time, as most of the time goes into what they all include. What a source has in a namespace
 # without a name is then seen by the seven others: names are one in a module (LAMPBLACK_UNITY=OFF, preset debug: each for itself).
 function(lampblack_module module)
-  cmake_parse_arguments(ARG "NO_KERNELS" "" "SOURCES;PUBLIC;PRIVATE;PRECOMPILED" ${ARGN})
+  cmake_parse_arguments(ARG "NO_KERNELS" "PRECOMPILED_AS" "SOURCES;PUBLIC;PRIVATE;PRECOMPILED" ${ARGN})
   add_library(lampblack_${module} STATIC ${ARG_SOURCES})
   target_include_directories(lampblack_${module} PUBLIC $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}>
                                                       $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/lampblack>)
@@ -22,7 +23,11 @@ function(lampblack_module module)
     # GCC takes the sources for headers, whose classes would have members of types without a name outside.
     target_compile_options(lampblack_${module} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   endif()
-  lampblack_precompile(lampblack_${module} HEADERS ${ARG_PRECOMPILED})
+  if(ARG_PRECOMPILED_AS)  # of the same options, and headers that are enough
+    lampblack_precompile(lampblack_${module} lampblack_${ARG_PRECOMPILED_AS})
+  else()
+    lampblack_precompile(lampblack_${module} HEADERS ${ARG_PRECOMPILED})
+  endif()
   if(NOT module STREQUAL "app")  # the program's own
     lampblack_install_module(${module})
   endif()

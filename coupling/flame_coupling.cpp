@@ -20,51 +20,6 @@ double interpolate(const std::vector<double>& z, std::span<const double> f, std:
   return (1 - share) * f[(upper - 1) * stride + k] + share * f[upper * stride + k];
 }
 
-class Coupling {
- public:
-  Coupling(const Mechanism& mechanism, CarriedModel* transfer, const FlameEnsembleOptions& options)
-      : mechanism_(mechanism), transfer_(transfer), soot_(options.soot.soot) {}
-
-  [[nodiscard]] FlameExchange ofPopulation(const FlameProfile& profile,
-                                           const std::vector<FlameEnsemblePath>& paths) const {
-    return exchangeOf(mechanism_, soot_, profile, paths);
-  }
-
-  // Of the transfer model in the same flame.
-  [[nodiscard]] FlameExchange ofTransfer(const FlameProfile& profile, const FlameSootGas& gas) const {
-    const std::size_t n = mechanism_.numSpecies();
-    FlameExchange e(profile.z, n);
-    if (transfer_ == nullptr) return e;
-    const auto& scalars = transfer_->scalars();
-    const auto& exchanged = transfer_->exchanged();
-    const auto weights = mechanism_.molecularWeights();
-    const std::size_t carbon = mechanism_.elementIndex("C"), hydrogen = mechanism_.elementIndex("H");
-    std::vector<double> concentrations(exchanged.size()), densities(scalars.size()), rates(scalars.size()),
-        production(exchanged.size());
-    for (std::size_t i = 0; i < profile.points(); ++i) {
-      const CarrierGas& s = gas.carrier[i];
-      for (std::size_t k = 0; k < exchanged.size(); ++k)
-        concentrations[k] = s.density * profile.massFractions(i)[exchanged[k]] / weights[exchanged[k]];
-      for (std::size_t k = 0; k < scalars.size(); ++k)
-        densities[k] = profile.scalars(i)[k] * scalars[k].scale * s.density;
-      transfer_->sources({s, concentrations}, densities, rates, production);
-      for (std::size_t k = 0; k < exchanged.size(); ++k)
-        e.species[i * n + exchanged[k]] = production[k] * weights[exchanged[k]];
-      for (std::size_t k = 0; k < scalars.size(); ++k) {
-        e.carbon[i] += rates[k] * scalars[k].elements[carbon];
-        e.hydrogen[i] += rates[k] * scalars[k].elements[hydrogen];
-      }
-      e.absorption[i] = transfer_->absorption(s.temperature, densities);
-    }
-    return e;
-  }
-
- private:
-  const Mechanism& mechanism_;
-  CarriedModel* transfer_;
-  const SootModelOptions& soot_;
-};
-
 // Volume fraction over z, of all paths.
 struct Volumes {
   std::vector<double> z, value;
@@ -186,10 +141,37 @@ FlameExchange exchangeOf(const Mechanism& mechanism, const SootModelOptions& soo
   return e;
 }
 
+FlameExchange exchangeOfTransfer(const Mechanism& mechanism, CarriedModel& transfer, const FlameProfile& profile,
+                                 const FlameSootGas& gas) {
+  const std::size_t n = mechanism.numSpecies();
+  FlameExchange e(profile.z, n);
+  const auto& scalars = transfer.scalars();
+  const auto& exchanged = transfer.exchanged();
+  const auto weights = mechanism.molecularWeights();
+  const std::size_t carbon = mechanism.elementIndex("C"), hydrogen = mechanism.elementIndex("H");
+  std::vector<double> concentrations(exchanged.size()), densities(scalars.size()), rates(scalars.size()),
+      production(exchanged.size());
+  for (std::size_t i = 0; i < profile.points(); ++i) {
+    const CarrierGas& s = gas.carrier[i];
+    for (std::size_t k = 0; k < exchanged.size(); ++k)
+      concentrations[k] = s.density * profile.massFractions(i)[exchanged[k]] / weights[exchanged[k]];
+    for (std::size_t k = 0; k < scalars.size(); ++k)
+      densities[k] = profile.scalars(i)[k] * scalars[k].scale * s.density;
+    transfer.sources({s, concentrations}, densities, rates, production);
+    for (std::size_t k = 0; k < exchanged.size(); ++k)
+      e.species[i * n + exchanged[k]] = production[k] * weights[exchanged[k]];
+    for (std::size_t k = 0; k < scalars.size(); ++k) {
+      e.carbon[i] += rates[k] * scalars[k].elements[carbon];
+      e.hydrogen[i] += rates[k] * scalars[k].elements[hydrogen];
+    }
+    e.absorption[i] = transfer.absorption(s.temperature, densities);
+  }
+  return e;
+}
+
 FlameCoupling coupleFlame(MPI_Comm comm, const Mechanism& mechanism, double pressure, FlameSolver& solver,
                           CarriedModel* transfer, FlameSolution start, const FlameCouplingOptions& options,
                           const std::function<void(const FlameCouplingStep&)>& report) {
-  const Coupling coupling(mechanism, transfer, options.ensemble);
   FlameCoupling result;
   result.solution = std::move(start);
   GivenExchange given;
@@ -203,7 +185,7 @@ FlameCoupling coupleFlame(MPI_Comm comm, const Mechanism& mechanism, double pres
       gas = flameSootGas(profile, mechanism, pressure, options.ensemble.soot.soot, waldmannThermophoresis());
     });
     result.paths = runFlameEnsemble(comm, gas, options.ensemble);
-    const FlameExchange population = coupling.ofPopulation(profile, result.paths);
+    const FlameExchange population = exchangeOf(mechanism, options.ensemble.soot.soot, profile, result.paths);
     const std::vector<Volumes> volumes = volumesOf(result.paths);
     FlameCouplingStep step = describe(result.paths, volumes, before);
     before = volumes;
@@ -217,7 +199,9 @@ FlameCoupling coupleFlame(MPI_Comm comm, const Mechanism& mechanism, double pres
     result.converged = step.volumeFractionChange <= std::max(options.tolerance, noise) &&
                        temperatureChange <= options.tolerance && acetyleneChange <= std::max(options.tolerance, noise);
     if (!result.converged && k < options.iterations) {
-      given = relaxed(given, profile, population, coupling.ofTransfer(profile, gas), options.relaxation);
+      const FlameExchange own = transfer != nullptr ? exchangeOfTransfer(mechanism, *transfer, profile, gas)
+                                                    : FlameExchange(profile.z, mechanism.numSpecies());
+      given = relaxed(given, profile, population, own, options.relaxation);
       solver.setExchange(given);
       const FlameProfile old = profile;
       result.solution = solver.solve(old);

@@ -42,6 +42,10 @@ struct FlameExchange {
 [[nodiscard]] FlameExchange exchangeOf(const Mechanism& mechanism, const SootModelOptions& soot,
                                        const FlameProfile& profile, const std::vector<FlameEnsemblePath>& paths);
 
+// Of the transfer model at the points of the same flame, whose gas is `gas`.
+[[nodiscard]] FlameExchange exchangeOfTransfer(const Mechanism& mechanism, CarriedModel& transfer,
+                                               const FlameProfile& profile, const FlameSootGas& gas);
+
 // (1 - w) `old` + w (population - transfer), at the points of the profile: what the flame is given besides its transfer
 // model. With carbon and hydrogen goes their enthalpy.
 [[nodiscard]] GivenExchange relaxed(const GivenExchange& old, const FlameProfile& profile,

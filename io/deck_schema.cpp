@@ -166,9 +166,11 @@ namespace {
 // Whether a former name of `key` is the path of `other`.
 bool formerlyNamed(const DeckKey& key, const DeckKey& other) {
   if (key.formerNames.empty()) return false;
-  const std::string_view section = std::string_view(key.path).substr(0, key.path.rfind('.') + 1);  // with its dot, if any
+  const std::string_view section =
+      std::string_view(key.path).substr(0, key.path.rfind('.') + 1);  // with its dot, if any
   const std::string_view path = other.path;
-  return path.starts_with(section) && std::ranges::find(key.formerNames, path.substr(section.size())) != key.formerNames.end();
+  return path.starts_with(section) &&
+         std::ranges::find(key.formerNames, path.substr(section.size())) != key.formerNames.end();
 }
 
 // Whether `path` is `whole` or lies below it: "mesh.r" and "mesh.r[]" below "mesh".

@@ -1,4 +1,5 @@
-// How much a run of the tests computes: little in the fast tier (scripts/test), all of it in the long one (scripts/test --long).
+// How much a run of the tests computes: little in the fast tier (scripts/test), all of it in the long one (scripts/test
+// --long).
 #pragma once
 
 #include <cstdlib>

@@ -186,7 +186,8 @@ struct Kind {
   Fault::Harm harm;
 };
 
-// Runs of so many sweeps in which nothing fails: one as it is, and one in which the step is a quarter as long from the start.
+// Runs of so many sweeps in which nothing fails: one as it is, and one in which the step is a quarter as long from the
+// start.
 struct Undisturbed {
   Watcher alone;
   std::optional<Shortener> shortener;

@@ -31,5 +31,16 @@ TEST(LeastSquares, TheSlopeAlongALongCellIsThatOfItsEnds) {
   EXPECT_LT(std::abs(gradient[0]), 0.02);
 }
 
+// The same cell in metres and in micrometres: what is cut off as no direction does not depend on the size.
+TEST(LeastSquares, TheSlopeOfASmallCellIsThatOfALargeOne) {
+  for (const double size : {1.0, 1e-3, 1e-6, 1e-8}) {
+    const Vector3 gradient =
+        gradientOf({{0.5 * size, 0.0, 0.0}, {-0.7 * size, 0.0, 0.0}, {0.0, 0.3 * size, 0.0}, {0.0, -0.2 * size, 0.0}},
+                   {0.5 * size, -0.7 * size, 0.6 * size, -0.4 * size});
+    EXPECT_NEAR(gradient[0], 1.0, 1e-12) << size;
+    EXPECT_NEAR(gradient[1], 2.0, 1e-12) << size;
+  }
+}
+
 }  // namespace
 }  // namespace lampblack::test

@@ -102,6 +102,77 @@ TEST(FlameCoupling, TheGasOfAFlameGivesWhatParticlesTakeAlongTheirPaths) {
   EXPECT_NEAR(exchange.absorption[5] / (700 * (fractionAt(0, 5) + fractionAt(1, 0)) * 1500), 1, 1e-12);
 }
 
+// Takes the carbon of acetylene and gives hydrogen, at rates that tell which concentration and which scalar they are
+// of.
+class Taking final : public CarriedModel {
+ public:
+  Taking() {
+    std::vector<double> elements(abf().numElements(), 0.0);
+    elements[abf().elementIndex("C")] = 3.0;
+    elements[abf().elementIndex("H")] = 0.5;
+    scalars_.push_back({{"amount", "1/m^3", "test"}, 1e-3, 0.0, elements});
+    elements.assign(elements.size(), 0.0);
+    elements[abf().elementIndex("C")] = 7.0;
+    scalars_.push_back({{"other", "1/m^3", "test"}, 2e-3, 0.0, elements});
+    exchanged_ = {abf().speciesIndex("H2"), abf().speciesIndex("C2H2")};
+  }
+  [[nodiscard]] std::string material() const override { return "test"; }
+  [[nodiscard]] const std::vector<Scalar>& scalars() const override { return scalars_; }
+  [[nodiscard]] const std::vector<std::size_t>& exchanged() const override { return exchanged_; }
+  void sources(const ParticleGas& gas, std::span<const double> densities, std::span<double> rates,
+               std::span<double> exchange) override {
+    rates[0] = 2.0 * densities[0];
+    rates[1] = 5.0 * densities[1];
+    exchange[0] = 11.0 * gas.concentrations[0];
+    exchange[1] = -13.0 * gas.concentrations[1];
+  }
+  void jacobian(const ParticleGas&, std::span<const double>, const CarriedJacobian&) override {}
+  ParticleAdvance advance(const CarrierGas&, double, std::span<double>, std::span<double>,
+                          std::span<const double>) override {
+    return {};
+  }
+  void diffusivities(const ParticleGas&, std::span<const double>, std::span<double>) override {}
+  void enthalpies(double, std::span<double>, std::span<double>) override {}
+  double absorption(double temperature, std::span<const double> densities) override {
+    return temperature * (densities[0] + 2.0 * densities[1]);
+  }
+
+ private:
+  std::vector<Scalar> scalars_;
+  std::vector<std::size_t> exchanged_;
+};
+
+// The transfer model sees the concentrations and densities of a point; what it takes is booked in kg of the species it
+// names.
+TEST(FlameCoupling, TheTransferModelTakesWhatItNamesAtEachPoint) {
+  const std::size_t n = abf().numSpecies(), H2 = abf().speciesIndex("H2"), C2H2 = abf().speciesIndex("C2H2");
+  FlameProfile profile{{n, 2}, {0, 1e-3}, {}};
+  profile.x.assign(profile.size(), 0.0);
+  FlameSootGas gas;
+  gas.carrier.resize(2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    profile.at(i, FlameLayout::firstSpecies + H2) = 0.1 + 0.1 * static_cast<double>(i);
+    profile.at(i, FlameLayout::firstSpecies + C2H2) = 0.4;
+    profile.at(i, profile.layout.firstScalar()) = 6.0;
+    profile.at(i, profile.layout.firstScalar() + 1) = 8.0;
+    gas.carrier[i].density = 0.25;
+    gas.carrier[i].temperature = 1500.0;
+  }
+  Taking model;
+  const FlameExchange e = exchangeOfTransfer(abf(), model, profile, gas);
+  EXPECT_NEAR(e.species[H2] / (11.0 * 0.25 * 0.1), 1.0, 1e-12);
+  EXPECT_NEAR(e.species[n + H2] / (11.0 * 0.25 * 0.2), 1.0, 1e-12);
+  EXPECT_NEAR(e.species[n + C2H2] / (-13.0 * 0.25 * 0.4), 1.0, 1e-12);
+  for (std::size_t k = 0; k < 2 * n; ++k) {
+    const double expected = k % n == H2 || k % n == C2H2 ? e.species[k] : 0.0;
+    EXPECT_EQ(e.species[k], expected) << k;
+  }
+  const double first = 6.0 * 1e-3 * 0.25, second = 8.0 * 2e-3 * 0.25;  // densities, per m3
+  EXPECT_NEAR(e.carbon[1] / (2.0 * first * 3.0 + 5.0 * second * 7.0), 1.0, 1e-12);
+  EXPECT_NEAR(e.hydrogen[1] / (2.0 * first * 0.5), 1.0, 1e-12);
+  EXPECT_NEAR(e.absorption[1] / (1500.0 * (first + 2.0 * second)), 1.0, 1e-12);
+}
+
 // A third of what is asked for anew, two thirds of what there was; half-way between its points the old is their mean.
 TEST(FlameCoupling, TheGasIsGivenThePopulationLessTheTransferModel) {
   const std::size_t n = abf().numSpecies(), k = abf().speciesIndex("C2H2");

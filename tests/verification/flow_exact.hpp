@@ -87,9 +87,10 @@ inline std::size_t levels() {
   return fewOrMany<std::size_t>(2, 3);
 }
 
-// The order between the last two meshes is above `least`. Where the finest mesh is left out, what is of higher order counts more:
-// `least` is then smaller by `allowance`.
-inline void expectOrders(const std::string& what, const std::array<double, 3>& error, double least, double allowance = 0.2) {
+// The order between the last two meshes is above `least`. Where the finest mesh is left out, what is of higher order
+// counts more: `least` is then smaller by `allowance`.
+inline void expectOrders(const std::string& what, const std::array<double, 3>& error, double least,
+                         double allowance = 0.2) {
   std::string errors, orders;
   for (std::size_t level = 0; level < levels(); ++level) {
     errors += fmt::format(" {:.2e}", error[level]);

@@ -11,7 +11,8 @@ TEST_F(GradedStreamLong, DiffusionAgainstConvectionIsOfSecondOrderToTheLastCell)
   for (const Geometry geometry : {Geometry::Planar, Geometry::Axisymmetric})
     for (const bool ofComposition : {false, true}) {
       std::array<double, 3> found{};
-      for (std::size_t level = 0; level < levels(); ++level) found[level] = error({geometry, ofComposition}, 10 << level);
+      for (std::size_t level = 0; level < levels(); ++level)
+        found[level] = error({geometry, ofComposition}, 10 << level);
       expectOrders(fmt::format("{} against convection on graded cells, {}, 10, 20, 40 cells",
                                ofComposition ? "diffusion" : "conduction",
                                geometry == Geometry::Planar ? "planar" : "axisymmetric"),

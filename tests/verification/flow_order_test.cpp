@@ -45,8 +45,8 @@ Orders measure(Problem& problem, int sweeps, std::size_t differences = fewOrMany
       d[level] = distance(problem.box, found[level].*field, found[level + 1].*field, components, component);
     const double last = std::log2(d[d.size() - 2] / d.back());
     const double whole = std::log2(d.front() / d.back()) / static_cast<double>(d.size() - 1);
-    report(fmt::format("{}, {} sweeps, {}: {:.2e}, orders {:.2f} to {:.2f}", problem.name, sweeps, name, fmt::join(d, " "),
-                       std::log2(d[0] / d[1]), last));
+    report(fmt::format("{}, {} sweeps, {}: {:.2e}, orders {:.2f} to {:.2f}", problem.name, sweeps, name,
+                       fmt::join(d, " "), std::log2(d[0] / d[1]), last));
     return std::pair{last, whole};
   };
   // Of the pressure over all steps: limiters that set in leave differences of 5e-5 Pa, which three sweeps reach at

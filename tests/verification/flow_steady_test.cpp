@@ -63,8 +63,8 @@ TEST_P(FlowSteady, StagnationFlowDoesNotDependOnTheTimeStep) {
   report(fmt::format(
       "stagnation flow, {}, {} sweeps: steady velocities at dt and dt/{} differ by {:.1e} of U; still changing by "
       "{:.1e} and {:.1e}",
-      geometry == Geometry::Planar ? "planar" : "axisymmetric", sweeps, finer, difference / speed, coarse.change / speed,
-      fine.change / speed));
+      geometry == Geometry::Planar ? "planar" : "axisymmetric", sweeps, finer, difference / speed,
+      coarse.change / speed, fine.change / speed));
   EXPECT_LT(difference, 1e-6 * speed);
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/errors.hpp"
 #include "core/modules.hpp"
+#include "particles/ensemble/particle_rows.hpp"
 #include "particles/population/monte_carlo/weighted_deviation.hpp"
 #include "tests/particles/soot_fixtures.hpp"
 
@@ -186,6 +187,17 @@ TEST(PackedEnsemble, TakesParticlesThatWerePutIn) {
   EXPECT_EQ(soot->counters().merges, 150U);
   EXPECT_NEAR(soot->totals().number, 250e9, 1);
   EXPECT_NEAR(soot->totals().carbon, 1e-23 * 1e9 * 250 * 251 / 2, 1e-26);
+}
+
+// A population is its head and a row a particle: a head alone has none.
+TEST(ParticleRows, OfAHeadAloneThereAreNone) {
+  const ParticleRows rows{3, false};
+  const std::vector<double> head(3, 1.0), one(3 + packedParticle, 1.0);
+  EXPECT_TRUE(rows.isEmpty({}));
+  EXPECT_TRUE(rows.isEmpty(head));
+  EXPECT_FALSE(rows.isEmpty(one));
+  EXPECT_TRUE(rows.of(head).empty());
+  EXPECT_EQ(rows.count(rows.of(one)), 1u);
 }
 
 }  // namespace

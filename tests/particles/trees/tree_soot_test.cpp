@@ -219,6 +219,9 @@ TEST(TreesOfSoot, NothingHappensToWhatHasBurnt) {
       reactions.recordGrowth(1, exchange, counters);
       for (std::size_t c = 0; c < 2; ++c) EXPECT_NEAR(6 * units[c] + exchange.units[c], left[c], 1e-9);
       EXPECT_EQ(6 - exchange.burntPrimaries, primaries);
+      EXPECT_EQ(static_cast<double>(counters.burnt), exchange.burnt) << "what is printed, and what is booked";
+      EXPECT_EQ(static_cast<double>(counters.broken), exchange.broken);
+      EXPECT_EQ(static_cast<double>(counters.fragmentations), exchange.fragmentations);
       gone += fate == TreeFate::gone;
       burntPrimaries += exchange.burntPrimaries;
     }
