@@ -129,6 +129,7 @@ TEST(MechanismErrors, RatesThatMakeNoSense) {
       {chebyshev + "temperature-range: [300, 200], pressure-range: [1, 2], data: [[1]]", "two rising positive values"},
       {chebyshev + ranges + "data: [[1, 2], [3]]", "the same number"},
       {chebyshev + ranges + "data: []", "expected rows"},
+      {chebyshev + ranges + "data: 3", "'data': expected a list"},
       {chebyshev + ranges + "data: [[a]]", "expected a number, found 'a'"},
       {"equation: H + O2 => HO2, rate-constant: [1 cm^6/mol^2/s, 0, 0]", "expected one like m^3/s/mol"},
       {"equation: H + O2 => HO2, rate-constant: [1 furlong/s, 0, 0]", "'furlong' is not a known unit"},

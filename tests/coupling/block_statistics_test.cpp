@@ -32,6 +32,14 @@ TEST(BlockStatistics, HasNoIntervalOfFourBlocks) {
   EXPECT_NEAR(BlockInterval::of(5).value().half(of.squares), 2.776 * std::sqrt(10.0 / 20.0), 1e-3);
 }
 
+// By hand: of -1, 1, 0 about their mean the products are -1 and 0, the squares 2. Two blocks have no correlation of
+// their own.
+TEST(BlockStatistics, TheCorrelationOfThreeBlocksIsThatByHand) {
+  const std::vector<double> three{4.0, 6.0, 5.0}, two{4.0, 6.0};
+  EXPECT_DOUBLE_EQ(lagOneCorrelation(three), -0.5);
+  EXPECT_EQ(lagOneCorrelation(two), 0.0);
+}
+
 // Of so many series the share for which `found` is true. A series: `value(i, noise)` for each block.
 constexpr int seeds = 1000;
 double share(std::size_t blocks, double memory, const std::function<double(double i, double noise)>& value,

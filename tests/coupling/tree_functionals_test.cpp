@@ -44,6 +44,14 @@ struct Sample {
   std::unique_ptr<ReactorTrees> trees;
 };
 
+// The ratio is the last functional, and there where a material has two elements.
+TEST(TreeFunctionals, OfOneElementHaveNoRatio) {
+  TreeMaterial carbon = silica();
+  for (TreeComponent& component : carbon.components) component.elements = {{"C", 1.0}};
+  EXPECT_EQ(TreeFunctionals(carbon).size(), static_cast<std::size_t>(Which::elementRatio));
+  EXPECT_EQ(TreeFunctionals(silica()).size(), Which::elementRatio + 1u);
+}
+
 TEST(TreeFunctionals, OfASphereAreItsDiameterAndAtoms) {
   const TreeMaterial material = silica();
   const TreeFunctionals functionals(material);

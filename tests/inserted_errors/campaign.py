@@ -1,10 +1,11 @@
 #!/usr/bin/python3
 """Which of the errors that insert.py put into a build are caught by its fast tests.
 
-Usage: campaign.py BUILD LIST.json OUT.json [--jobs 2] [--only 3,7] [--labels-left-out long]
+Usage: campaign.py BUILD LIST.json OUT.json [--jobs 2] [--only 3,7] [--labels-left-out long] [--seconds 3600]
 
 First every test runs once without an error: that gives its time and the errors whose lines it reaches (kept in OUT.json.reached,
-which a second call reads again). Then each error runs through the tests that reach it, the quickest first, until one fails.
+which a second call reads again). Then each error runs through the tests that reach it, those of its own module first, then the quickest, until one
+fails or the seconds for an error are over.
 The table at the end says by module how many errors were caught, and names those that were not.
 """
 
@@ -76,11 +77,14 @@ def failing_case(out: str) -> str:
     return next((a or b for a, b in found if a or b), "")[:90]
 
 
-def hunt(error: dict, tests: dict, reached: dict) -> dict:
+def hunt(error: dict, tests: dict, reached: dict, seconds: float) -> dict:
+    own = f"/tests/{error['file'].split('/')[0]}"
     names = sorted((name for name, what in reached.items() if error["number"] in what["reached"] and what["passed"]),
-                   key=lambda name: reached[name]["seconds"])
+                   key=lambda name: (own not in tests[name]["folder"], reached[name]["seconds"]))
     begin = time.monotonic()
     for tried, name in enumerate(names, start=1):
+        if time.monotonic() - begin > seconds:
+            return {"caught_by": None, "tests_reaching": len(names), "tried": tried - 1, "seconds": time.monotonic() - begin}
         passed, _, out = run(tests[name], max(30.0, 6 * reached[name]["seconds"]), LAMPBLACK_INSERTED_ERROR=str(error["number"]))
         if not passed:
             return {"caught_by": name, "case": failing_case(out), "tests_reaching": len(names), "tried": tried,
@@ -95,6 +99,7 @@ def main() -> int:
     parser.add_argument("out", type=pathlib.Path)
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--only", default="")
+    parser.add_argument("--seconds", type=float, default=3600)
     parser.add_argument("--labels-left-out", default="long")
     arguments = parser.parse_args()
     errors = json.loads(arguments.list.read_text(encoding="utf-8"))
@@ -107,7 +112,7 @@ def main() -> int:
     result = json.loads(arguments.out.read_text()) if arguments.out.exists() else {}
     wanted = [e for e in errors if (e["number"] in only if only else str(e["number"]) not in result)]
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-        pending = {pool.submit(hunt, error, tests, reached): error for error in wanted}
+        pending = {pool.submit(hunt, error, tests, reached, arguments.seconds): error for error in wanted}
         for done in concurrent.futures.as_completed(pending):
             error, what = pending[done], done.result()
             result[str(error["number"])] = what
