@@ -348,6 +348,19 @@ TEST(FlowMesh, AMeshFileStandsAlone) {
   EXPECT_THAT(messageOf<InputError>([] { caseOf(channel + ", unit: 1 mm", channelSides); }), HasSubstr("mesh.unit"));
 }
 
+// A plane of symmetry allows gravity along it, and none through it.
+TEST(FlowMesh, GravityLiesInPlanesOfSymmetry) {
+  const std::string box = "geometry: planar, x: [{to: 4 mm, cells: 4}], y: [{to: 2 mm, cells: 2}]";
+  const std::string sides = "  in: {type: inlet, side: x-min, velocity: 1 m/s, " + gas +
+                            "}\n  out: {type: outlet, side: x-max, " + gas +
+                            "}\n  below: {type: symmetry, side: y-min}\n  above: {type: wall, side: y-max}\n";
+  EXPECT_EQ(caseOf(box, sides, "gravity: {x: 2 m/s^2}\n").gravity[0], 2.0);
+  EXPECT_NE(messageOf<InputError>([&] {
+              caseOf(box, sides, "gravity: {y: 2 m/s^2}\n");
+            }).find("gravity would point through 'below'"),
+            std::string::npos);
+}
+
 // The left end is the axis in an axisymmetric flow.
 TEST(FlowMesh, TheSurfaceOfAMeshFileHasToMakeSense) {
   const MeshFileDeck deck;

@@ -30,6 +30,8 @@ def check(program, folder, name, deck):
         out = folder / f"{name}_{program.ranks}_{share}"
         done = program("run", deck, *running.settings(*CASES[name], f"chemistry.share_work={share}"), "--out", out, timeout=300)
         assert done.code == 0, done
+        table = done.out[done.out.index("Load imbalance, busiest rank / average"):]
+        assert "chemistry" in table, table
         results[share] = datasets(out / "results.h5")
     shared, apart = results["true"], results["false"]
     assert shared.keys() == apart.keys(), shared.keys() ^ apart.keys()

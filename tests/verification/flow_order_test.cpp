@@ -59,10 +59,13 @@ Orders measure(Problem& problem, int sweeps, std::size_t differences = fewOrMany
 // Its pressure is not looked at: it feels the moments at which a cell's limiter sets in.
 TEST(FlowOrder, HotSpotInAStream) {
   Problem problem = hotSpotInAStream();
-  const Orders one = measure(problem, 1), two = measure(problem, 2), four = measure(problem, 4);
+  const Orders one = measure(problem, 1), two = measure(problem, 2);
   EXPECT_NEAR(one.u, 1.0, 0.1);
   EXPECT_NEAR(one.T, 1.0, 0.1);
   EXPECT_GT(two.T, 1.8);
+  EXPECT_GT(two.carried, 1.8);
+  if (!isLongRun()) return;
+  const Orders four = measure(problem, 4);
   EXPECT_GT(four.u, 1.9);
   EXPECT_GT(four.T, 1.9);
   EXPECT_GT(four.carried, 1.9);
