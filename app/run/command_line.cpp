@@ -71,6 +71,7 @@ void run(const Arguments& arguments) {
 }
 
 void reference(const Arguments& arguments) {
+  if (placeOfProcess().rank != 0) return;
   if (arguments.json) {
     std::cout << jsonSchema(deckKinds());
   } else {

@@ -131,7 +131,7 @@ class ParticleModel {
   virtual ParticleAdvance advance(const CarrierGas& gas, double dt, std::span<double> densities,
                                   std::span<double> concentrations, std::span<const double> supply = {}) const;
   // Relative error allowed in a step of the default `advance`. At 1e-3 the volume fraction of a counterflow flame is
-  // within 0.002 % (sections) to 0.13 % (MOMIC) of that at 1e-6 (docs/verification.md).
+  // within 0.002 % (sections) to 0.13 % (MOMIC) of that at 1e-6 (docs/theory/soot_models.md).
   void setAdvanceTolerance(double relative) { advanceTolerance_ = relative; }
 
   // Whether the volume fraction is below 1e-21.

@@ -8,6 +8,7 @@ import json
 import pathlib
 import sys
 import tempfile
+import time
 
 import running
 
@@ -108,13 +109,17 @@ def main(executable: str, *mpiexec: str) -> None:
         for ranks in (1, 2, 3):
             program = running.Program(executable, list(mpiexec), ranks)
             out = folder / str(ranks) / "out"
+            begin = time.monotonic()
             result = run(program, DECK, folder / str(ranks))
+            elapsed = time.monotonic() - begin
             assert not result.err, f"a good run complains:\n{result.err}"
             runs[ranks] = datasets(out / "results.h5")
             with open(out / "table.csv", encoding="utf-8") as file:
                 tables[ranks] = list(csv.DictReader(file))
             record = json.loads((out / "run.json").read_text(encoding="utf-8"))
             assert record["status"] == "done" and record["ranks"] == ranks and record["seed"] == 7
+            spent = [float(row["seconds_per_repeat [s]"]) * float(row["repeats"]) for row in tables[ranks]]
+            assert all(0 <= seconds <= elapsed * ranks for seconds in spent), f"{spent} s of the processor in {elapsed} s"
             assert list(record["results"]["methods"]) == ["dsmc", "by_mass", "by_number", "sections"]
             verdicts = {row["method"]: row["verdict"] for row in tables[ranks]}
             assert all(verdicts[method] == "no bias" for method in ("dsmc", "by_mass", "by_number")), verdicts

@@ -85,7 +85,7 @@ def load_plots() -> None:
     sys.path.insert(0, str(SOURCE / "python"))
     importlib.import_module("h5py")
     style = importlib.import_module("lampblack.plots.style")
-    style.plt.rcParams.update({"figure.constrained_layout.use": False, "savefig.dpi": 80})
+    style.plt.rcParams.update({"figure.constrained_layout.use": False, "savefig.dpi": 40})
 
 
 def script(path, *arguments, seconds: int = 60) -> Result:

@@ -181,7 +181,7 @@ TEST(TreesInCells, AreUpToDateAfterAStep) {
   TreeOptions slow = trees();
   slow.material.sintering = {SinteringMechanism::constant, 10.0, 0, 0};  // s
   Silica v(inCells(0.0), MPI_COMM_WORLD, slow);
-  const int steps = fewOrMany(8, 12);
+  const int steps = fewOrMany(5, 12);
   for (int s = 0; s < steps; ++s) v.step();
   double aggregates = 0.0;
   for (int c = 0; c < v.box.mesh.owned; ++c) {

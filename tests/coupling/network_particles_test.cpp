@@ -180,8 +180,8 @@ TEST_P(FlowingEnsembles, ComeBackByARecycle) {
   expectAt(network, end, {grown * (c + (a11 - mean) * s), grown * a21 * s});
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, FlowingEnsembles,
-                         ::testing::Values(EnsembleMethod::dsmc, EnsembleMethod::sammc, EnsembleMethod::swa));
+INSTANTIATE_TEST_SUITE_P(Methods, FlowingEnsembles, ::testing::Values(EnsembleMethod::sammc));
+INSTANTIATE_TEST_SUITE_P(Long, FlowingEnsembles, ::testing::Values(EnsembleMethod::dsmc, EnsembleMethod::swa));
 
 }  // namespace
 }  // namespace lampblack::coupling

@@ -93,7 +93,7 @@ class ToySplit final : public SplitParticles {
   [[nodiscard]] std::vector<double> content() const override { return {carbon}; }
   void join(std::span<const double> content, double share) override { carbon += share * content[0]; }
   [[nodiscard]] std::uint64_t removals() const override { return lost; }
-  [[nodiscard]] bool idle(const ParticleGas&) const override { return false; }
+  [[nodiscard]] bool idle(const ParticleGas&) const override { return isIdle; }
   [[nodiscard]] std::unique_ptr<State> save() const override {
     return std::make_unique<PackedSplitState>(std::vector{carbon});
   }
@@ -102,6 +102,7 @@ class ToySplit final : public SplitParticles {
   double carbon = 0;  // kg/m3
   bool knowsItsRate = false;
   double burstAt = INFINITY;  // kg/m3, from where on they grow 30 times as fast
+  bool isIdle = false;        // as if there were none
   bool losesSome = false;     // numerical particles, in each step
   std::uint64_t lost = 0;
 

@@ -55,6 +55,7 @@ class GmshErrors : public ::testing::Test {
 
 TEST_F(GmshErrors, OtherFilesAreNamedForWhatTheyAre) {
   EXPECT_EQ(refusal(sound_), "");
+  EXPECT_THAT(refusal(gmshText(sound_, {}) + "x"), HasSubstr("found 'x'"));  // a byte alone is not the end
   EXPECT_THAT(test::messageOf<InputError>([&] { readGmsh(MPI_COMM_WORLD, scratch_.path() / "missing.msh", 1.0); }),
               HasSubstr("missing.msh: there is no such file"));
   EXPECT_THAT(test::messageOf<InputError>([&] { readGmsh(MPI_COMM_WORLD, scratch_.path(), 1.0); }),
