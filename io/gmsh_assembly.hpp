@@ -20,6 +20,7 @@ struct GmshPlan {
   std::int64_t cells = 0;
   std::vector<std::int64_t> groups;     // physical groups of the surface
   std::vector<std::string> groupNames;  // theirs; two groups may have the same
+  std::vector<std::string> notes;       // what of the file is passed over
 };
 
 // Collective; uses up `share`. `scale`: m per unit of the file. InputError, without the name of the file, where cells,

@@ -6,49 +6,47 @@
 namespace lampblack::io {
 namespace {
 
+// Corners come first, whatever the order; of some orders there are types with and without nodes inside.
 constexpr std::array gmshTypes{
-    GmshElementType{15, 0, 1},
-    GmshElementType{1, 1, 2},
-    GmshElementType{2, 2, 3, CellShape::Triangle},
-    GmshElementType{3, 2, 4, CellShape::Quadrilateral},
-    GmshElementType{4, 3, 4, CellShape::Tetrahedron},
-    GmshElementType{5, 3, 8, CellShape::Hexahedron},
-    GmshElementType{6, 3, 6, CellShape::Prism},
-    GmshElementType{7, 3, 5, CellShape::Pyramid},
-};
-
-struct OtherGmshType {
-  int type;
-  const char* name;
-};
-
-constexpr std::array otherGmshTypes{
-    OtherGmshType{8, "line of second order (3 nodes)"},
-    OtherGmshType{9, "triangle of second order (6 nodes)"},
-    OtherGmshType{10, "quadrilateral of second order (9 nodes)"},
-    OtherGmshType{11, "tetrahedron of second order (10 nodes)"},
-    OtherGmshType{12, "hexahedron of second order (27 nodes)"},
-    OtherGmshType{13, "prism of second order (18 nodes)"},
-    OtherGmshType{14, "pyramid of second order (14 nodes)"},
-    OtherGmshType{16, "quadrilateral of second order (8 nodes)"},
-    OtherGmshType{17, "hexahedron of second order (20 nodes)"},
-    OtherGmshType{18, "prism of second order (15 nodes)"},
-    OtherGmshType{19, "pyramid of second order (13 nodes)"},
-    OtherGmshType{20, "triangle of third order (9 nodes)"},
-    OtherGmshType{21, "triangle of third order (10 nodes)"},
-    OtherGmshType{22, "triangle of fourth order (12 nodes)"},
-    OtherGmshType{23, "triangle of fourth order (15 nodes)"},
-    OtherGmshType{24, "triangle of fifth order (15 nodes)"},
-    OtherGmshType{25, "triangle of fifth order (21 nodes)"},
-    OtherGmshType{26, "line of third order (4 nodes)"},
-    OtherGmshType{27, "line of fourth order (5 nodes)"},
-    OtherGmshType{28, "line of fifth order (6 nodes)"},
-    OtherGmshType{29, "tetrahedron of third order (20 nodes)"},
-    OtherGmshType{30, "tetrahedron of fourth order (35 nodes)"},
-    OtherGmshType{31, "tetrahedron of fifth order (56 nodes)"},
-    OtherGmshType{36, "quadrilateral of third order (16 nodes)"},
-    OtherGmshType{92, "hexahedron of third order (64 nodes)"},
-    OtherGmshType{93, "hexahedron of fourth order (125 nodes)"},
+    GmshElementType{15, 0, 1, 0, 1},
+    GmshElementType{1, 1, 2, 0, 1},
+    GmshElementType{2, 2, 3, 0, 1, CellShape::Triangle},
+    GmshElementType{3, 2, 4, 0, 1, CellShape::Quadrilateral},
+    GmshElementType{4, 3, 4, 0, 1, CellShape::Tetrahedron},
+    GmshElementType{5, 3, 8, 0, 1, CellShape::Hexahedron},
+    GmshElementType{6, 3, 6, 0, 1, CellShape::Prism},
+    GmshElementType{7, 3, 5, 0, 1, CellShape::Pyramid},
+    GmshElementType{8, 1, 2, 1, 2},
+    GmshElementType{9, 2, 3, 3, 2, CellShape::Triangle},
+    GmshElementType{10, 2, 4, 5, 2, CellShape::Quadrilateral},
+    GmshElementType{11, 3, 4, 6, 2, CellShape::Tetrahedron},
+    GmshElementType{12, 3, 8, 19, 2, CellShape::Hexahedron},
+    GmshElementType{13, 3, 6, 12, 2, CellShape::Prism},
+    GmshElementType{14, 3, 5, 9, 2, CellShape::Pyramid},
+    GmshElementType{16, 2, 4, 4, 2, CellShape::Quadrilateral},
+    GmshElementType{17, 3, 8, 12, 2, CellShape::Hexahedron},
+    GmshElementType{18, 3, 6, 9, 2, CellShape::Prism},
+    GmshElementType{19, 3, 5, 8, 2, CellShape::Pyramid},
+    GmshElementType{20, 2, 3, 6, 3, CellShape::Triangle},
+    GmshElementType{21, 2, 3, 7, 3, CellShape::Triangle},
+    GmshElementType{22, 2, 3, 9, 4, CellShape::Triangle},
+    GmshElementType{23, 2, 3, 12, 4, CellShape::Triangle},
+    GmshElementType{24, 2, 3, 12, 5, CellShape::Triangle},
+    GmshElementType{25, 2, 3, 18, 5, CellShape::Triangle},
+    GmshElementType{26, 1, 2, 2, 3},
+    GmshElementType{27, 1, 2, 3, 4},
+    GmshElementType{28, 1, 2, 4, 5},
+    GmshElementType{29, 3, 4, 16, 3, CellShape::Tetrahedron},
+    GmshElementType{30, 3, 4, 31, 4, CellShape::Tetrahedron},
+    GmshElementType{31, 3, 4, 52, 5, CellShape::Tetrahedron},
+    GmshElementType{36, 2, 4, 12, 3, CellShape::Quadrilateral},
+    GmshElementType{37, 2, 4, 21, 4, CellShape::Quadrilateral},
+    GmshElementType{39, 2, 4, 8, 3, CellShape::Quadrilateral},
+    GmshElementType{40, 2, 4, 12, 4, CellShape::Quadrilateral},
+    GmshElementType{90, 3, 6, 34, 3, CellShape::Prism},
+    GmshElementType{91, 3, 6, 69, 4, CellShape::Prism},
+    GmshElementType{92, 3, 8, 56, 3, CellShape::Hexahedron},
+    GmshElementType{93, 3, 8, 117, 4, CellShape::Hexahedron},
 };
 
 }  // namespace
@@ -57,12 +55,6 @@ const GmshElementType* findGmshType(std::int64_t type) {
   const auto* found = std::find_if(gmshTypes.begin(), gmshTypes.end(),
                                    [&](const GmshElementType& known) { return known.type == type; });
   return found == gmshTypes.end() ? nullptr : &*found;
-}
-
-std::string nameOfOtherGmshType(std::int64_t type) {
-  const auto* found = std::find_if(otherGmshTypes.begin(), otherGmshTypes.end(),
-                                   [&](const OtherGmshType& known) { return known.type == type; });
-  return found == otherGmshTypes.end() ? std::string() : std::string(found->name);
 }
 
 const char* gmshEntityName(int dimension) {

@@ -8,21 +8,24 @@
 
 namespace lampblack::io {
 
-// Text in both encodings: a line each of dimension, tag, name in quotes.
+// Text in both encodings: a line each of dimension, tag, name in quotes; version 2.0 has no dimension.
 void GmshGroups::readNames(GmshStream& stream) {
   const std::int64_t count = stream.textInteger("the number of physical names");
   stream.line();
   for (std::int64_t i = 0; i < count; ++i) {
-    const std::int64_t dimension = stream.textInteger("the dimension of a physical group, 0 to 3");
+    const std::int64_t first = stream.textInteger("the dimension of a physical group, 0 to 3");
+    const bool ofAll = stream.encoding.version2 && stream.peek().starts_with('"');
+    const std::int64_t dimension = ofAll ? 0 : first;
     if (dimension < 0 || dimension > 3)
       throw stream.error(fmt::format("expected the dimension of a physical group, 0 to 3, found {}", dimension));
-    const std::int64_t group = stream.textInteger("the tag of a physical group");
+    const std::int64_t group = ofAll ? first : stream.textInteger("the tag of a physical group");
     const std::string text = stream.line();
     const std::size_t begin = text.find('"'), end = text.rfind('"');
     if (begin != 0 || end + 1 != text.size() || end == begin)
       throw stream.error("expected the name of a physical group in quotes (\"wall\"), found " + quotedForMessage(text));
     const std::string name = text.substr(1, end - 1);
-    if (!name.empty()) names_[static_cast<std::size_t>(dimension)][group] = name;
+    for (std::int64_t d = dimension; !name.empty() && d <= (ofAll ? 3 : dimension); ++d)
+      names_[static_cast<std::size_t>(d)][group] = name;
   }
 }
 
@@ -68,15 +71,18 @@ std::int64_t GmshGroups::groupOf(const GmshStream& stream, int dimension, std::i
   }
   if (found->second.empty()) return 0;
   const std::int64_t group = found->second.front();
-  for (const std::int64_t other : found->second) {
-    if (!ambiguous_[d].empty() || nameOf(dimension, other) == nameOf(dimension, group)) continue;
-    ambiguous_[d] = fmt::format(
-        "the {} {} is in two physical groups, '{}' and '{}', so that its boundary condition is not clear; take it out "
-        "of "
-        "one of them",
-        gmshEntityName(dimension), entity, nameOf(dimension, group), nameOf(dimension, other));
-  }
+  for (const std::int64_t other : found->second)
+    noteGroups(dimension, fmt::format("the {} {}", gmshEntityName(dimension), entity), group, other);
   return group;
+}
+
+void GmshGroups::noteGroups(int dimension, const std::string& what, std::int64_t group, std::int64_t other) {
+  std::string& ambiguous = ambiguous_[static_cast<std::size_t>(dimension)];
+  if (!ambiguous.empty() || nameOf(dimension, other) == nameOf(dimension, group)) return;
+  ambiguous = fmt::format(
+      "{} is in two physical groups, '{}' and '{}', so that its boundary condition is not clear; take it out of one of "
+      "them",
+      what, nameOf(dimension, group), nameOf(dimension, other));
 }
 
 }  // namespace lampblack::io

@@ -24,7 +24,10 @@ class GmshGroups {
   std::int64_t groupOf(const GmshStream& stream, int dimension, std::int64_t entity);
   // "physical 12" where it has no name.
   [[nodiscard]] std::string nameOf(int dimension, std::int64_t group) const;
-  // What is wrong if an entity that groupOf was asked for is in groups of different names; empty if none is.
+  // What `what` belongs to: InputError is left to ambiguous() where the names of two groups differ.
+  void noteGroups(int dimension, const std::string& what, std::int64_t group, std::int64_t other);
+  // What is wrong if an entity that groupOf was asked for, or that noteGroups was told of, is in groups of different
+  // names; empty if none is.
   [[nodiscard]] const std::string& ambiguous(int dimension) const {
     return ambiguous_.at(static_cast<std::size_t>(dimension));
   }

@@ -23,6 +23,7 @@ GmshPlan planOf(const GmshSections& sections) {
     plan.groups.push_back(group);
     plan.groupNames.push_back(name);
   }
+  plan.notes = sections.notes();
   return plan;
 }
 
@@ -47,6 +48,7 @@ GmshPlan readAndSend(MPI_Comm comm, const std::filesystem::path& file, std::size
 void broadcastPlan(MPI_Comm comm, GmshPlan& plan) {
   std::string names;  // which have no ends of lines
   for (const std::string& name : plan.groupNames) names += name + '\n';
+  for (const std::string& note : plan.notes) names += note + '\n';
   std::int64_t numbers[5] = {plan.dimension, plan.groupedOnly ? 1 : 0, plan.cells,
                              static_cast<std::int64_t>(plan.groups.size()), static_cast<std::int64_t>(names.size())};
   MPI_Bcast(numbers, 5, MPI_INT64_T, 0, comm);
@@ -58,13 +60,16 @@ void broadcastPlan(MPI_Comm comm, GmshPlan& plan) {
   MPI_Bcast(plan.groups.data(), static_cast<int>(plan.groups.size()), MPI_INT64_T, 0, comm);
   MPI_Bcast(names.data(), static_cast<int>(names.size()), MPI_CHAR, 0, comm);
   plan.groupNames.clear();
+  plan.notes.clear();
   std::istringstream lines(names);
-  for (std::string name; std::getline(lines, name);) plan.groupNames.push_back(name);
+  for (std::string line; std::getline(lines, line);)
+    (plan.groupNames.size() < plan.groups.size() ? plan.groupNames : plan.notes).push_back(line);
 }
 
 }  // namespace
 
-MeshBlock readGmsh(MPI_Comm comm, const std::filesystem::path& file, double scale, std::size_t portion) {
+MeshBlock readGmsh(MPI_Comm comm, const std::filesystem::path& file, double scale, std::size_t portion,
+                   std::vector<std::string>* notes) {
   if (!(scale > 0) || !std::isfinite(scale)) throw std::logic_error("the scale of a mesh file is not a length above 0");
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
@@ -77,6 +82,7 @@ MeshBlock readGmsh(MPI_Comm comm, const std::filesystem::path& file, double scal
       receiveGmshShare(comm, share);
   });
   broadcastPlan(comm, plan);
+  if (notes != nullptr) *notes = plan.notes;
   try {
     return assembleGmsh(comm, share, plan, scale);
   } catch (const InputError& error) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "io/gmsh_cells.hpp"
 
@@ -10,7 +11,8 @@ namespace lampblack::io {
 namespace {
 
 constexpr const char* howToSave =
-    "save it from Gmsh as version 4.1 (in a script: Mesh.MshFileVersion = 4.1; on the command line: -format msh41)";
+    "save it from Gmsh as version 4.1 or 2.2 (in a script: Mesh.MshFileVersion = 4.1; on the command line: -format "
+    "msh41)";
 
 constexpr int valuesOfAffine = 16;
 
@@ -48,7 +50,8 @@ void GmshSections::readFormat() {
   }
   stream_.section = "MeshFormat";
   const double version = stream_.real("the version of the format");
-  if (version < 4.0)
+  const bool isVersion2 = version >= 2.0 && version <= 2.2;
+  if (version < 4.0 && !isVersion2)
     throw stream_.error(fmt::format("this is a mesh of version {}, which is not read; {}", version, howToSave));
   if (version > 4.1)
     throw stream_.error(
@@ -61,7 +64,7 @@ void GmshSections::readFormat() {
     throw stream_.error(fmt::format("expected the size of data, {}, found {}",
                                     type == 1 && version == 4.1 ? "4 or 8 bytes" : "8 bytes", size));
   stream_.line();
-  stream_.encoding = {type == 1, version < 4.1, static_cast<int>(size)};
+  stream_.encoding = {type == 1, !isVersion2 && version < 4.1, isVersion2, static_cast<int>(size)};
   if (type == 1) {
     const std::int32_t one = stream_.rawInt("the number that tells the order of bytes");
     if (one == 0x01000000)
@@ -95,6 +98,8 @@ void GmshSections::readSection() {
     readElements();
   else if (name == "$Periodic")
     readPeriodic();
+  else if (name == "$ParametricNodes")
+    throw stream_.error("nodes with parameters of version 2 are not read; save without them (Mesh.SaveParametric = 0)");
   else if (name == "$MeshFormat")
     throw stream_.error("this section stands twice; two files in one are not read");
   else if (name == "$PartitionedEntities")
@@ -155,6 +160,7 @@ void GmshSections::checkBlocks(std::int64_t done, std::int64_t total, const char
 void GmshSections::readNodes() {
   once(seenNodes_);
   const GmshStream::Encoding& encoding = stream_.encoding;
+  if (encoding.version2) return readNodes2();
   const std::int64_t blocks = stream_.count("the number of blocks");
   nodes_ = stream_.count("the number of nodes");
   // As text a digit and a space for the tag and each coordinate.
@@ -175,9 +181,9 @@ void GmshSections::readNodes() {
   checkBlocks(done, nodes_, "nodes");
 }
 
-// Version 4.1 has all tags of the block first, version 4.0 each in front of its place.
+// Version 4.1 has all tags of the block first, the others each in front of its place.
 void GmshSections::readNodeBlock(const Block& block, std::int64_t first) {
-  const bool tagsFirst = !stream_.encoding.version40;
+  const bool tagsFirst = !stream_.encoding.version40 && !stream_.encoding.version2;
   const int parameters = block.kind == 0 || (!tagsFirst && block.dimension == 3) ? 0 : block.dimension;
   const std::int64_t portion = std::max<std::int64_t>(static_cast<std::int64_t>(sender_.portion()) / 3, 1);
   std::vector<std::int64_t> tags;
@@ -201,8 +207,18 @@ void GmshSections::readNodeBlock(const Block& block, std::int64_t first) {
   }
 }
 
+// Version 2 has one block: the count on a line, then tag and place of each.
+void GmshSections::readNodes2() {
+  nodes_ = stream_.countLine("the number of nodes");
+  if (nodes_ > stream_.remaining() / (stream_.encoding.binary ? 28 : 8))
+    throw stream_.tooMany("the number of nodes", nodes_);
+  sender_.nodes(nodes_);
+  readNodeBlock({0, 0, 0, nodes_}, 0);
+}
+
 void GmshSections::readElements() {
   once(seenElements_);
+  if (stream_.encoding.version2) return readElements2();
   const std::int64_t blocks = stream_.count("the number of blocks");
   const std::int64_t total = stream_.count("the number of elements");
   if (!stream_.encoding.version40) {
@@ -219,16 +235,30 @@ void GmshSections::readElements() {
   checkBlocks(done, total, "elements");
 }
 
-void GmshSections::readElementBlock(const Block& block) {
-  const GmshElementType* type = findGmshType(block.kind);
-  if (type == nullptr) {
-    const std::string name = nameOfOtherGmshType(block.kind);
+const GmshElementType& GmshSections::typeOf(std::int64_t number) const {
+  const GmshElementType* type = findGmshType(number);
+  if (type == nullptr)
     throw stream_.error(
-        fmt::format("elements of type {} ({}) are not read; cells are of first order: set Mesh.ElementOrder = 1, mesh "
-                    "and save again",
-                    block.kind, name.empty() ? "of higher order, or not a plain shape" : name));
+        fmt::format("elements of type {} are not read: they are no plain shape, or of an order that is not known here; "
+                    "set Mesh.ElementOrder = 1, mesh and save again",
+                    number));
+  return *type;
+}
+
+// Corners come before the other nodes of an element.
+void GmshSections::readCorners(const GmshElementType& type, std::int64_t tag, std::array<std::int64_t, 8>& corners) {
+  for (std::size_t k = 0; k < static_cast<std::size_t>(type.nodes); ++k) {
+    corners[k] = stream_.tag("the tag of a node");
+    if (std::find(corners.begin(), corners.begin() + k, corners[k]) != corners.begin() + k)
+      throw stream_.error(
+          fmt::format("the element {} has the node {} twice; it is folded: mesh again", tag, corners[k]));
   }
-  if (type->dimension != block.dimension)
+  for (int k = 0; k < type.between; ++k) stream_.tag("the tag of a node");
+}
+
+void GmshSections::readElementBlock(const Block& block) {
+  const GmshElementType& type = typeOf(block.kind);
+  if (type.dimension != block.dimension)
     throw stream_.error(fmt::format("a {} cannot have elements of type {}; the file is damaged: save it again",
                                     gmshEntityName(block.dimension), block.kind));
   const auto d = static_cast<std::size_t>(block.dimension);
@@ -238,24 +268,92 @@ void GmshSections::readElementBlock(const Block& block) {
   std::int64_t& before = group == 0 ? ungrouped_[d] : grouped_[d];
   sender_.beginRun({block.kind, group, before, 0});
   std::array<std::int64_t, 8> corners{};
-  const std::span<const std::int64_t> nodes(corners.data(), static_cast<std::size_t>(type->nodes));
   for (std::int64_t i = 0; i < block.count; ++i) {
     const std::int64_t tag = stream_.tag("the tag of an element");
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-      corners[k] = stream_.tag("the tag of a node");
-      if (std::find(corners.begin(), corners.begin() + k, corners[k]) != corners.begin() + k)
-        throw stream_.error(
-            fmt::format("the element {} has the node {} twice; it is folded: mesh again", tag, corners[k]));
-    }
-    if (wanted) sender_.element(tag, nodes);
+    readCorners(type, tag, corners);
+    if (wanted) sender_.element(tag, std::span(corners).first(static_cast<std::size_t>(type.nodes)));
   }
   before += block.count;
+  if (type.order > 1 && block.dimension > 1) ofOrder_[type.order] += block.count;
   if (group != 0 && block.count > 0) used_[d][group] = groups_.nameOf(block.dimension, group);
+}
+
+// Version 2 has the number of elements on a line, then each with its physical group and its entity. Binary files have
+// them in blocks of one type, with a header each.
+void GmshSections::readElements2() {
+  const std::int64_t total = stream_.countLine("the number of elements");
+  before_ = {};
+  if (!stream_.encoding.binary) {
+    for (std::int64_t i = 0; i < total; ++i) {
+      const std::int64_t tag = stream_.tag("the tag of an element");
+      const std::int64_t type = stream_.integer("the type of an element");
+      readElement2(type, tag, stream_.count("the number of tags of an element"));
+    }
+    return;
+  }
+  for (std::int64_t done = 0; done < total;) {
+    const std::int64_t type = stream_.integer("the type of elements");
+    const std::int64_t count = stream_.integer("the number of elements of a block");
+    const std::int64_t tags = stream_.integer("the number of tags of an element");
+    if (count < 1 || tags < 0)
+      throw stream_.error(
+          fmt::format("expected a block of elements with their tags, found {} elements with {} tags; "
+                      "the file is damaged: save it again",
+                      count, tags));
+    checkBlock(count, done, total, "elements");
+    for (std::int64_t i = 0; i < count; ++i) readElement2(type, stream_.tag("the tag of an element"), tags);
+    done += count;
+  }
+}
+
+void GmshSections::readElement2(std::int64_t type, std::int64_t tag, std::int64_t tags) {
+  Element element{type, 0, {}};
+  for (std::int64_t k = 0; k < tags; ++k) {
+    const std::int64_t value = stream_.integer("a tag of an element: its physical group, its entity, its partitions");
+    if (k == 0) element.group = std::abs(value);  // a negative one asks for the other orientation
+  }
+  readCorners(typeOf(type), tag, element.corners);
+  takeElement2(element, tag);
+}
+
+// Gmsh saves an element of several physical groups once for each, one after the other.
+void GmshSections::takeElement2(const Element& element, std::int64_t tag) {
+  const GmshElementType& type = *findGmshType(element.type);
+  const auto d = static_cast<std::size_t>(type.dimension);
+  if (element.type == before_.type && element.group != before_.group &&
+      std::ranges::is_permutation(element.corners, before_.corners)) {
+    if (type.dimension > 0 && element.group != 0 && before_.group != 0)
+      groups_.noteGroups(type.dimension, fmt::format("the element {}", tag), before_.group, element.group);
+    return;
+  }
+  const std::int64_t group = type.dimension == 0 ? 0 : element.group;
+  std::int64_t& count = group == 0 ? ungrouped_[d] : grouped_[d];
+  if (type.dimension > 1 || group != 0) {
+    if (before_.type != element.type || before_.group != element.group)
+      sender_.beginRun({element.type, group, count, 0});
+    sender_.element(tag, std::span(element.corners).first(static_cast<std::size_t>(type.nodes)));
+  }
+  ++count;
+  if (type.order > 1 && type.dimension > 1) ++ofOrder_[type.order];
+  if (group != 0) used_[d].try_emplace(group, groups_.nameOf(type.dimension, group));
+  before_ = element;
+}
+
+std::vector<std::string> GmshSections::notes() const {
+  std::vector<std::string> notes;
+  for (const auto& [order, count] : ofOrder_)
+    notes.push_back(fmt::format(
+        "{} elements of order {} are read by their corners; the nodes between them are passed over, so that "
+        "curved sides are straight",
+        count, order));
+  return notes;
 }
 
 void GmshSections::readPeriodic() {
   once(seenPeriodic_);
-  const bool version40 = stream_.encoding.version40;
+  const GmshStream::Encoding encoding = stream_.encoding;
+  if (encoding.version2) stream_.encoding.binary = false;  // text in both encodings
+  const bool version40 = encoding.version40 || encoding.version2;
   const std::int64_t links =
       version40 ? stream_.integer("the number of periodic links") : stream_.count("the number of periodic links");
   for (std::int64_t i = 0; i < links; ++i) {
@@ -282,6 +380,7 @@ void GmshSections::readPeriodic() {
       sender_.periodic(node, master);
     }
   }
+  stream_.encoding = encoding;
 }
 
 }  // namespace lampblack::io

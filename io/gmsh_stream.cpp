@@ -166,8 +166,16 @@ std::int64_t GmshStream::count(const char* what) {
   return value;
 }
 
+std::int64_t GmshStream::countLine(const char* what) {
+  const std::int64_t value = textInteger(what);
+  if (value < 0) throw error(fmt::format("expected {}, 0 or more, found {}", what, value));
+  if (value > remaining()) throw tooMany(what, value);
+  line();
+  return value;
+}
+
 std::int64_t GmshStream::tag(const char* what) {
-  const std::int64_t value = encoding.version40 ? integer(what) : size(what);
+  const std::int64_t value = encoding.version40 || encoding.version2 ? integer(what) : size(what);
   if (value < 1) throw error(fmt::format("expected {}, 1 or more, found {}", what, value));
   return value;
 }

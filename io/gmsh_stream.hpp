@@ -19,7 +19,8 @@ class GmshStream {
  public:
   struct Encoding {
     bool binary = false;
-    bool version40 = false;  // else 4.1
+    bool version40 = false;  // else 4.1, or
+    bool version2 = false;   // 2.0 to 2.2
     int sizeBytes = 8;       // of a size_t in a binary file: 4 or 8
   };
 
@@ -42,6 +43,7 @@ class GmshStream {
 
   // Text in both encodings.
   std::int64_t textInteger(const char* what);
+  std::int64_t countLine(const char* what);  // as count(), on a line of its own
   std::string_view word();                // up to white space; empty at the end of the file; valid until the next call
   std::string_view peek();                // the same word, which stays to be read
   std::string line();                     // the rest of the line, without white space around it

@@ -65,10 +65,13 @@ TEST_F(GmshErrors, OtherFilesAreNamedForWhatTheyAre) {
               HasSubstr("line 1: this is no mesh file of Gmsh: expected $MeshFormat, found 'solid'"));
   EXPECT_THAT(refusal("$NOD\n8\n"), HasSubstr("this is a mesh of version 1; save it"));
   EXPECT_THAT(
-      refusal("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"),
-      AllOf(HasSubstr("mesh.msh, line 2, section $MeshFormat: this is a mesh of version 2.2, which is not read; save "
-                      "it from Gmsh as version 4.1"),
+      refusal("$MeshFormat\n3 0 8\n$EndMeshFormat\n"),
+      AllOf(HasSubstr("mesh.msh, line 2, section $MeshFormat: this is a mesh of version 3, which is not read; save it "
+                      "from Gmsh as version 4.1 or 2.2"),
             HasSubstr("Mesh.MshFileVersion = 4.1")));
+  EXPECT_THAT(refusal("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$ParametricNodes\n1\n"),
+              HasSubstr("Mesh.SaveParametric = 0"));
+  EXPECT_THAT(refusal(std::string("$MeshFormat\n2.2 1 8\n\0\0\0\1\n$EndMeshFormat\n", 40)), HasSubstr("big endian"));
   EXPECT_THAT(refusal("$MeshFormat\n5 0 8\n"), HasSubstr("version 5, newer than those that are read; save"));
   EXPECT_THAT(refusal("$MeshFormat\n4.1 2 8\n"), HasSubstr("0 for text or 1 for binary, found 2"));
   EXPECT_THAT(refusal("$MeshFormat\n4.1 1 3\n"), HasSubstr("expected the size of data, 4 or 8 bytes, found 3"));
@@ -104,13 +107,11 @@ TEST_F(GmshErrors, ATruncatedFileIsSaidToBe) {
 
 TEST_F(GmshErrors, ElementsThatAreNotReadAreNamed) {
   test::GmshModel model = sound_;
-  model.elements.push_back({2, 1, 9, {{10, 1, 2, 3, 4, 5, 6}}});
+  model.elements.push_back({2, 1, 140, {{10, 1, 2, 3, 4, 2, 3}}});
   for (const test::GmshEncoding& encoding : test::gmshEncodings())
     EXPECT_THAT(refusal(model, encoding),
-                AllOf(HasSubstr("elements of type 9 (triangle of second order (6 nodes)) are not read"),
-                      HasSubstr("set Mesh.ElementOrder = 1"), HasSubstr(encoding.binary ? "byte " : "line ")));
-  model.elements.back().type = 140;
-  EXPECT_THAT(refusal(model), HasSubstr("elements of type 140 (of higher order, or not a plain shape) are not read"));
+                AllOf(HasSubstr("elements of type 140 are not read"), HasSubstr("set Mesh.ElementOrder = 1"),
+                      HasSubstr(encoding.binary ? "byte " : "line ")));
   model.elements.back().type = 4;
   EXPECT_THAT(refusal(model), HasSubstr("a surface cannot have elements of type 4"));
 }
@@ -139,6 +140,32 @@ TEST_F(GmshErrors, CountsThatCannotBeAreRefused) {
               HasSubstr("99999999999, which is too large"));
   EXPECT_THAT(refusalOf("$Periodic\n1", "$Periodic\n-1"),
               HasSubstr("the number of periodic links, 0 or more, found -1"));
+}
+
+TEST_F(GmshErrors, CountsOfVersionTwoThatCannotBeAreRefused) {
+  const test::GmshEncoding text2{false, false, 8, true}, binary2{false, true, 8, true};
+  const auto with = [&](const test::GmshEncoding& encoding, const std::string& piece, const std::string& by) {
+    std::string text = gmshText(sound_, encoding);
+    const std::size_t at = text.find(piece);
+    EXPECT_NE(at, std::string::npos) << piece;
+    return refusal(text.replace(at, piece.size(), by));
+  };
+  for (const test::GmshEncoding& encoding : {text2, binary2}) {
+    EXPECT_THAT(with(encoding, "$Nodes\n4\n", "$Nodes\n60\n"), HasSubstr("the number of nodes is 60, more than the"));
+    EXPECT_THAT(with(encoding, "$Nodes\n4\n", "$Nodes\n-4\n"), HasSubstr("0 or more, found -4"));
+    EXPECT_THAT(with(encoding, "$Nodes\n4\n", "$Nodes\n3\n"), HasSubstr("expected $EndNodes"));
+    EXPECT_THAT(with(encoding, "$Elements\n3\n", "$Elements\n2\n"),
+                HasSubstr(encoding.binary ? "more elements than the 2" : "expected $EndElements"));
+    EXPECT_THAT(with(encoding, "$Elements\n3\n", "$Elements\n1000000\n"),
+                HasSubstr("the number of elements is 1000000, more than the"));
+  }
+  std::string header = test::GmshWriter(binary2).integer(1).integer(1).integer(4).text();
+  EXPECT_THAT(with(binary2, header, test::GmshWriter(binary2).integer(1).integer(0).integer(4).text()),
+              HasSubstr("found 0 elements with 4 tags"));
+  test::GmshModel model = sound_;
+  model.entities[0].groups = {11, 12};
+  for (const test::GmshEncoding& encoding : {text2, binary2})
+    EXPECT_THAT(refusal(model, encoding), HasSubstr("the element 7 is in two physical groups, 'wall' and 'open'"));
 }
 
 TEST_F(GmshErrors, WhatCannotBeReadIsSaidWithItsPlace) {

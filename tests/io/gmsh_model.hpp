@@ -18,11 +18,14 @@ struct GmshEncoding {
   bool version40 = false;
   bool binary = false;
   int sizeBytes = 8;
+  bool version2 = false;  // 2.2
+  [[nodiscard]] const char* version() const { return version2 ? "2.2" : version40 ? "4" : "4.1"; }
 };
 
 inline const std::vector<GmshEncoding>& gmshEncodings() {
-  static const std::vector<GmshEncoding> all{
-      {false, false, 8}, {true, false, 8}, {false, true, 8}, {false, true, 4}, {true, true, 8}};
+  static const std::vector<GmshEncoding> all{{false, false, 8},     {true, false, 8}, {false, true, 8},
+                                             {false, true, 4},      {true, true, 8},  {false, false, 8, true},
+                                             {false, true, 8, true}};
   return all;
 }
 
@@ -61,7 +64,9 @@ class GmshWriter {
   GmshWriter& size(std::int64_t value) {
     return encoding_.sizeBytes == 4 ? put(static_cast<std::uint32_t>(value)) : put(value);
   }
-  GmshWriter& tag(std::int64_t value) { return encoding_.version40 ? integer(value) : size(value); }
+  GmshWriter& tag(std::int64_t value) {
+    return encoding_.version40 || encoding_.version2 ? integer(value) : size(value);
+  }
   GmshWriter& real(double value) { return put(value); }
   GmshWriter& end() { return encoding_.binary ? *this : raw("\n"); }
   GmshWriter& raw(const std::string& text) {
@@ -169,9 +174,51 @@ inline std::string gmshLinksText(const GmshModel& model, const GmshEncoding& enc
   return out.text();
 }
 
+// Of version 2 the count on a line, then tag and place of each.
+inline std::string gmshNodesText2(const GmshModel& model, const GmshEncoding& encoding) {
+  std::size_t total = 0;
+  for (const auto& block : model.nodes) total += block.nodes.size();
+  GmshWriter out(encoding);
+  out.raw(fmt::format("{}\n", total));
+  for (const auto& block : model.nodes)
+    for (const auto& [tag, place] : block.nodes) {
+      out.tag(tag);
+      for (const double x : place) out.real(x);
+      out.end();
+    }
+  return out.text();
+}
+
+// An element of several groups stands there once for each; behind its group and its entity one of its partitions.
+inline std::string gmshElementsText2(const GmshModel& model, const GmshEncoding& encoding) {
+  std::size_t total = 0;
+  GmshWriter out(encoding);
+  for (const auto& block : model.elements) {
+    std::vector<int> groups;
+    for (const auto& entity : model.entities)
+      if (entity.dimension == block.dimension && entity.tag == block.entity) groups = entity.groups;
+    if (groups.empty()) groups.push_back(0);
+    // Elements of one group may share a header.
+    const bool isShared = groups.size() == 1;
+    if (encoding.binary && isShared)
+      out.integer(block.type).integer(static_cast<std::int64_t>(block.elements.size())).integer(4);
+    for (const auto& element : block.elements)
+      for (const int group : groups) {
+        ++total;
+        if (encoding.binary && !isShared) out.integer(block.type).integer(1).integer(4);
+        out.tag(element[0]);
+        if (!encoding.binary) out.integer(block.type).integer(4);
+        out.integer(group).integer(block.entity).integer(1).integer(3);
+        for (std::size_t k = 1; k < element.size(); ++k) out.tag(element[k]);
+        out.end();
+      }
+  }
+  return fmt::format("{}\n", total) + out.text();
+}
+
 inline std::string gmshText(const GmshModel& model, const GmshEncoding& encoding) {
-  std::string text = fmt::format("$MeshFormat\n{} {} {}\n", encoding.version40 ? "4" : "4.1", encoding.binary ? 1 : 0,
-                                 encoding.sizeBytes);
+  std::string text =
+      fmt::format("$MeshFormat\n{} {} {}\n", encoding.version(), encoding.binary ? 1 : 0, encoding.sizeBytes);
   if (encoding.binary) text += GmshWriter(encoding).integer(1).raw("\n").text();
   text += "$EndMeshFormat\n";
   if (!model.names.empty()) {
@@ -183,6 +230,13 @@ inline std::string gmshText(const GmshModel& model, const GmshEncoding& encoding
     text += "$" + name + "\n" + content + (encoding.binary ? "\n" : "") + "$End" + name + "\n";
   };
   section("Comments", "what $EndNodes and $EndComment are here\n$EndComment\n");
+  if (encoding.version2) {
+    section("Nodes", gmshNodesText2(model, encoding));
+    section("Elements", gmshElementsText2(model, encoding));
+    // Text in both encodings, as that of version 4.0.
+    if (!model.links.empty()) text += "$Periodic\n" + gmshLinksText(model, {true, false, 8}) + "$EndPeriodic\n";
+    return text;
+  }
   if (!model.entities.empty()) section("Entities", gmshEntitiesText(model, encoding));
   section("Nodes", gmshNodesText(model, encoding));
   section("Elements", gmshElementsText(model, encoding));

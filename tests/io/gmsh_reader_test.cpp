@@ -20,6 +20,7 @@ namespace lampblack::io {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::UnorderedElementsAre;
 using Cells = std::vector<std::vector<std::int64_t>>;
@@ -34,20 +35,21 @@ class GmshReader : public ::testing::Test {
     MPI_Barrier(MPI_COMM_WORLD);
     if (test::worldRank() == 0) std::ofstream(file, std::ios::binary) << text;
     MPI_Barrier(MPI_COMM_WORLD);
-    return test::wholeOf(readGmsh(MPI_COMM_WORLD, file, scale, portion));
+    return test::wholeOf(readGmsh(MPI_COMM_WORLD, file, scale, portion, &notes_));
   }
   // Calls check(mesh) for every encoding and for portions of one value, of some and of all.
   template <typename Check>
   void inAllWays(const test::GmshModel& model, double scale, const Check& check) {
     for (const test::GmshEncoding& encoding : test::gmshEncodings()) {
       for (const std::size_t portion : {1U, 7U, 20U, 100000U}) {
-        SCOPED_TRACE(fmt::format("{} {} {} bytes, portions of {}", encoding.version40 ? "4.0" : "4.1",
+        SCOPED_TRACE(fmt::format("{} {} {} bytes, portions of {}", encoding.version(),
                                  encoding.binary ? "binary" : "text", encoding.sizeBytes, portion));
         check(read(gmshText(model, encoding), scale, portion));
       }
     }
   }
   test::SharedScratchFolder scratch_;
+  std::vector<std::string> notes_;
 };
 
 // Two unit squares side by side at z = 0.25, the left one of two triangles. Tags are sparse and in no order, a node in
@@ -164,6 +166,49 @@ TEST_F(GmshReader, FewerCellsThanRanksIsNoTrouble) {
     EXPECT_EQ(mesh.cells, (Cells{{0, 1, 2}}));
     EXPECT_EQ(mesh.vertices[2], (Place{0, 2, 0}));
   });
+}
+
+// Nodes between the corners are passed over, on faces and in cells.
+TEST_F(GmshReader, ElementsOfHigherOrderAreReadByTheirCorners) {
+  test::GmshModel model = planeModel();
+  const auto lengthen = [&](int from, int to, std::size_t nodes) {
+    for (auto& block : model.elements) {
+      if (block.type != from) continue;
+      block.type = to;
+      for (auto& element : block.elements) element.resize(nodes + 1, 37888);
+    }
+  };
+  lengthen(1, 8, 3);
+  lengthen(2, 9, 6);
+  lengthen(3, 10, 9);
+  inAllWays(model, 1, [&](const test::WholeMesh& mesh) {
+    EXPECT_EQ(mesh.cells, (Cells{{0, 2, 1}, {2, 3, 1}, {2, 4, 5, 3}}));
+    EXPECT_EQ(mesh.vertices.size(), 6U);
+    EXPECT_THAT(mesh.patches, ElementsAre("fuel inlet", "wall", "physical 14"));
+    EXPECT_EQ(mesh.named.size(), 6U);
+    EXPECT_THAT(notes_, ElementsAre(HasSubstr("3 elements of order 2 are read by their corners")));
+  });
+  lengthen(10, 37, 25);
+  EXPECT_EQ(read(gmshText(model, {})).cells, (Cells{{0, 2, 1}, {2, 3, 1}, {2, 4, 5, 3}}));
+  EXPECT_THAT(notes_, ElementsAre(HasSubstr("2 elements of order 2"), HasSubstr("1 elements of order 4")));
+
+  model = spaceModel(false);
+  for (const auto& [from, to, nodes] :
+       {std::array{4, 11, 10}, {5, 12, 27}, {6, 13, 18}, {7, 14, 14}, {2, 9, 6}, {3, 16, 8}, {1, 8, 3}})
+    lengthen(from, to, static_cast<std::size_t>(nodes));
+  for (auto& block : model.elements)
+    for (auto& element : block.elements) std::ranges::replace(element, 37888, 8);
+  inAllWays(model, 1, [](const test::WholeMesh& mesh) {
+    EXPECT_EQ(mesh.cells, (Cells{{4, 5, 6, 7, 10}, {0, 1, 2, 3, 4, 5, 6, 7}, {5, 11, 6, 10}, {1, 8, 2, 5, 9, 6}}));
+    EXPECT_EQ(mesh.named.size(), 2U);
+  });
+}
+
+TEST_F(GmshReader, NamesOfVersionTwoNeedNoDimension) {
+  test::GmshModel model = planeModel();
+  model.names = {R"(11 "fuel inlet")", R"(12 "wall")"};
+  std::string text = gmshText(model, {false, false, 8, true});
+  EXPECT_THAT(read(text.replace(text.find("2.2"), 3, "2")).patches, ElementsAre("fuel inlet", "wall", "physical 14"));
 }
 
 TEST_F(GmshReader, TextMayHaveOtherWhiteSpace) {
