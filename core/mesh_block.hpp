@@ -45,6 +45,9 @@ struct MeshBlock {
     int patch = 0;  // in `patches`
   };
   std::vector<std::string> patches;  // the same on all ranks
+  // Of each patch, or empty for none: its faces that have a cell on both sides are walls of no thickness, two boundary
+  // faces each. Other names of such faces count for nothing.
+  std::vector<char> isThinWall;
   std::vector<NamedFace> named;
 
   // Vertices of one periodic side and the vertices of the other that they are one with, each pair on one of the ranks.

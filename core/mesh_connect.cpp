@@ -129,15 +129,24 @@ std::int64_t smallestVertex(const std::array<std::int64_t, 4>& key) {
   return *std::ranges::find_if(key, [](std::int64_t vertex) { return vertex >= 0; });
 }
 
-// Tells the sides that meet in one face, all that have one key, about each other.
-void introduce(std::span<const Meeting> all, const Shares& cells, std::vector<std::vector<Found>>& toRank) {
+// Tells the sides that meet in one face, all that have one key, about each other. `isThinWall`: MeshBlock's.
+void introduce(std::span<const Meeting> all, const Shares& cells, std::span<const char> isThinWall,
+               std::vector<std::vector<Found>>& toRank) {
   std::vector<const Meeting*> sides;
-  std::int16_t patch = -1;
+  std::int16_t patch = -1, wall = -1;
   for (const Meeting& one : all) {
     if (one.cell >= 0)
       sides.push_back(&one);
     else if (patch < 0)
       patch = one.patch;
+    if (one.cell < 0 && wall < 0 && !isThinWall.empty() && isThinWall[static_cast<std::size_t>(one.patch)] != 0)
+      wall = one.patch;
+  }
+  // The two sides of a periodic pair lie apart, with nothing between them.
+  if (wall >= 0 && sides.size() == 2 && sides[0]->isImage == sides[1]->isImage) {
+    for (const Meeting* own : sides)
+      toRank[static_cast<std::size_t>(cells.rankOf(own->cell))].push_back({own->cell, -1, own->side, -1, wall, 1, 0});
+    return;
   }
   for (const Meeting* own : sides) {
     Found found{own->cell, -1, own->side, -1, patch, 1, static_cast<std::int8_t>(sides.size() > 2 ? 1 : 0)};
@@ -287,7 +296,7 @@ class Connector {
     for (std::size_t i = 0; i < met.values.size();) {
       std::size_t end = i;
       while (end < met.values.size() && met.values[end].key == met.values[i].key) ++end;
-      introduce({&met.values[i], end - i}, cellShares_, back);
+      introduce({&met.values[i], end - i}, cellShares_, block_.isThinWall, back);
       i = end;
     }
     met = {};

@@ -14,9 +14,10 @@ struct ConnectedCells {
   std::int64_t totalVertices = 0;  // those that cells use, which are numbered anew without the others
 };
 
-// Collective. Sides that have the same vertices are one face. Each face gets a permanent number: faces are counted cell
-// by cell, each with the cell its normal points out of, which is the one of the smaller number (of a periodic pair the
-// one whose vertices are the images). InputError on all ranks where a face has three cells or, at the surface, no name.
+// Collective. Sides that have the same vertices are one face, but for those of a wall of no thickness. Each face gets a
+// permanent number: faces are counted cell by cell, each with the cell its normal points out of, which is the one of
+// the smaller number (of a periodic pair the one whose vertices are the images). InputError on all ranks where a face
+// has three cells or, at the surface, no name.
 ConnectedCells connect(MPI_Comm comm, const MeshBlock& block);
 
 }  // namespace lampblack

@@ -16,8 +16,7 @@ constexpr double mostPoints = 100000;  // of a line
 
 // Names become those of files and groups.
 void requireFileName(const Deck& deck, const std::string& key, const std::string& name) {
-  const auto isPlain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '+'; };
-  if (!std::ranges::all_of(name, isPlain))
+  if (fileNameOf(name) != name)
     throw deck.error(key,
                      fmt::format("the name '{}' is to be that of a file: expected letters, digits, _, - and +", name));
 }
@@ -44,16 +43,27 @@ std::vector<std::size_t> readTableBoundaries(const Deck& deck, const FlowCase& f
     if (found == there.end())
       throw deck.error(key, fmt::format("'{}' is no boundary of this deck that the gas meets; these are: {}", name,
                                         fmt::join(there, ", ")));
-    requireFileName(deck, key, name);
     const auto number = static_cast<std::size_t>(found - there.begin());
     if (std::ranges::find(numbers, number) != numbers.end())
       throw deck.error(key, fmt::format("'{}' is there twice", name));
+    for (const std::size_t other : numbers)
+      if (fileNameOf(there[other]) == fileNameOf(name))
+        throw deck.error(key, fmt::format("the tables of '{}' and '{}' would have one name, boundary_{}.csv; rename "
+                                          "one of them",
+                                          there[other], name, fileNameOf(name)));
     numbers.push_back(number);
   }
   return numbers;
 }
 
 }  // namespace
+
+std::string fileNameOf(std::string name) {
+  for (char& c : name)
+    if (const auto byte = static_cast<unsigned char>(c); std::isalnum(byte) == 0 && c != '_' && c != '-' && c != '+')
+      c = '_';
+  return name;
+}
 
 void addOutputKeys(DeckSchema& schema) {
   schema
@@ -104,7 +114,8 @@ void addOutputKeys(DeckSchema& schema) {
                .byDefault("[]"))
       .add(stringKey("output.boundaries",
                      "Boundaries of which mass flow, heat and forces are written with each row of the history, to the "
-                     "tables tables/boundary_<name>.csv; 'all': all but periodic ones.")
+                     "tables tables/boundary_<name>.csv, in whose names a character that is no letter, digit, _, - or "
+                     "+ becomes _; 'all': all but periodic ones.")
                .list()
                .byDefault("[]"));
 }

@@ -33,6 +33,9 @@ std::vector<double> readComposition(const Deck& deck, const std::string& key, co
 void readBoundaries(const Deck& deck, FlowCase& flowCase);
 
 // The section output: its keys, and reading it when mesh, boundaries and times have been read.
+// What a name is in those of files and of groups of the results: other characters than letters, digits, _, - and +
+// become _.
+std::string fileNameOf(std::string name);
 void addOutputKeys(DeckSchema& schema);
 void readOutput(const Deck& deck, FlowCase& flowCase);
 

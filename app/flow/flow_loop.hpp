@@ -42,6 +42,8 @@ class FlowLoop {
   [[nodiscard]] std::int64_t cells() const { return domain_->mesh.totalCells; }
 
   [[nodiscard]] const MeshQuality& quality() const { return quality_; }
+  // Of the case, and of the file of its mesh.
+  [[nodiscard]] const std::vector<std::string>& notes() const { return case_.notes; }
 
   // A further operator of each step, behind the case's own, which has to live as long; before load() and run().
   void addOperator(Operator& added) {

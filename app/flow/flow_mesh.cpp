@@ -11,6 +11,7 @@
 #include "app/flow/content_hash.hpp"
 #include "app/flow/flow_limits.hpp"
 #include "core/errors.hpp"
+#include "core/mesh_parts.hpp"
 #include "core/nearest_name.hpp"
 #include "io/gmsh_reader.hpp"
 
@@ -57,34 +58,109 @@ void requireGeometry(const FlowCase& flowCase, int dimension) {
                                                    : "lies in a plane; expected planar or axisymmetric"));
 }
 
-// The number of each of the file's patches among the boundaries; -1: periodic.
+// The patch that a name of the deck stands for; a group without a name goes by its number, too. patches.size(): none.
+std::size_t patchOf(const std::vector<std::string>& patches, const std::string& name) {
+  auto found = std::ranges::find(patches, name);
+  if (found == patches.end()) found = std::ranges::find(patches, "physical " + name);
+  return static_cast<std::size_t>(found - patches.begin());
+}
+
+std::string namesText(const std::vector<std::string>& patches, const MeshFile& file) {
+  return fmt::format("{} has these names: {}", file.path.string(),
+                     patches.empty() ? "none" : fmt::format("{}", fmt::join(patches, ", ")));
+}
+
+// The number of each of the file's patches among the boundaries; -1: periodic. Those that the deck does not name are
+// behind the boundaries, for only the mesh knows whether they are part of the surface.
 std::vector<int> numbersOf(const std::vector<std::string>& patches, const FlowCase& flowCase) {
   const MeshFile& file = *flowCase.meshFile;
-  const std::string named = fmt::format("{} has these names: {}", file.path.string(),
-                                        patches.empty() ? "none" : fmt::format("{}", fmt::join(patches, ", ")));
   std::vector<std::string> known = file.periodic;
   for (const BoundaryCondition& boundary : flowCase.boundaries) known.push_back(boundary.name);
-  for (const std::string& name : known)
-    if (std::ranges::find(patches, name) == patches.end())
-      throw file.deck.error("boundaries." + name,
-                            fmt::format("there is no such part of the mesh; {}{}", named, didYouMean(name, patches)));
-  std::vector<int> numbers;
-  for (const std::string& patch : patches) {
-    if (std::ranges::find(known, patch) == known.end())
-      throw file.deck.error("boundaries", fmt::format("'{}' has no boundary; {}", patch, named));
-    const auto boundary = std::ranges::find(flowCase.boundaries, patch, &BoundaryCondition::name);
-    numbers.push_back(boundary == flowCase.boundaries.end() ? -1
-                                                            : static_cast<int>(boundary - flowCase.boundaries.begin()));
+  constexpr int unknown = -2;
+  std::vector<int> numbers(patches.size(), unknown);
+  for (std::size_t k = 0; k < known.size(); ++k) {
+    const std::size_t patch = patchOf(patches, known[k]);
+    if (patch == patches.size())
+      throw file.deck.error("boundaries." + known[k],
+                            fmt::format("there is no such part of the mesh; {}{}", namesText(patches, file),
+                                        didYouMean(known[k], patches)));
+    if (numbers[patch] != unknown)
+      throw file.deck.error(
+          "boundaries." + known[k],
+          fmt::format("this is the group '{}', which has another boundary; leave one of them out", patches[patch]));
+    numbers[patch] = k < file.periodic.size() ? -1 : static_cast<int>(k - file.periodic.size());
   }
+  auto behind = static_cast<int>(flowCase.boundaries.size());
+  for (int& patch : numbers)
+    if (patch == unknown) patch = behind++;
   return numbers;
 }
 
-void orderPatches(MeshBlock& block, const FlowCase& flowCase) {
+// Returns the names that the deck does not have: patches behind the boundaries.
+std::vector<std::string> orderPatches(MeshBlock& block, const FlowCase& flowCase) {
   const std::vector<int> boundaryOf = numbersOf(block.patches, flowCase);
   for (MeshBlock::NamedFace& face : block.named) face.patch = boundaryOf[static_cast<std::size_t>(face.patch)];
   std::erase_if(block.named, [](const MeshBlock::NamedFace& face) { return face.patch < 0; });
+  std::vector<std::string> others;
+  for (std::size_t patch = 0; patch < block.patches.size(); ++patch)
+    if (boundaryOf[patch] >= static_cast<int>(flowCase.boundaries.size())) others.push_back(block.patches[patch]);
   block.patches.clear();
-  for (const BoundaryCondition& boundary : flowCase.boundaries) block.patches.push_back(boundary.name);
+  for (const BoundaryCondition& boundary : flowCase.boundaries) {
+    block.patches.push_back(boundary.name);
+    block.isThinWall.push_back(boundary.kind == BoundaryKind::Wall ? 1 : 0);
+  }
+  block.patches.insert(block.patches.end(), others.begin(), others.end());
+  block.isThinWall.resize(block.patches.size(), 0);
+  return others;
+}
+
+// Collective. Faces of each patch: those that are named, and those of the surface.
+struct PatchFaces {
+  std::vector<std::int64_t> named, surface;
+
+  PatchFaces(MPI_Comm comm, const MeshBlock& block) : named(block.patches.size(), 0) {
+    for (const MeshBlock::NamedFace& face : block.named) ++named[static_cast<std::size_t>(face.patch)];
+    add(comm, named);
+  }
+  void count(const Mesh& mesh) {
+    surface.assign(named.size(), 0);
+    for (const int patch : mesh.patch) ++surface[static_cast<std::size_t>(patch)];
+    add(mesh.comm, surface);
+  }
+
+ private:
+  static void add(MPI_Comm comm, std::vector<std::int64_t>& counts) {
+    MPI_Allreduce(MPI_IN_PLACE, counts.data(), static_cast<int>(counts.size()), MPI_INT64_T, MPI_SUM, comm);
+  }
+};
+
+// Collective. A group inside the gas that the deck does not name is passed over; one of the surface needs a boundary.
+void dropOtherPatches(Mesh& mesh, const std::vector<std::string>& others, const std::vector<std::string>& names,
+                      const PatchFaces& faces, FlowCase& flowCase, std::vector<std::string>& notes) {
+  const MeshFile& file = *flowCase.meshFile;
+  const std::size_t boundaries = flowCase.boundaries.size();
+  collectively(mesh.comm, [&] {
+    for (std::size_t i = 0; i < others.size(); ++i)
+      if (faces.surface[boundaries + i] > 0)
+        throw file.deck.error("boundaries", fmt::format("'{}' has no boundary; {}", others[i], namesText(names, file)));
+  });
+  for (const std::string& name : others)
+    notes.push_back(
+        fmt::format("the group '{}' is no part of the surface and has no boundary: it is passed over; inside the gas "
+                    "'type: wall' makes it a wall of no thickness",
+                    name));
+  for (std::size_t b = 0; b < boundaries; ++b) {
+    const std::int64_t named = faces.named[b], surface = faces.surface[b];
+    const std::string& name = flowCase.boundaries[b].name;
+    if (flowCase.boundaries[b].kind == BoundaryKind::Wall && surface > named)
+      notes.push_back(
+          fmt::format("{} of the {} faces of the wall '{}' have cells on both sides: a wall of no thickness",
+                      surface - named, named, name));
+    else if (surface > 0 && surface < named)
+      notes.push_back(fmt::format("{} of the {} faces of '{}' are no part of the surface and are passed over",
+                                  named - surface, named, name));
+  }
+  mesh.patches.resize(boundaries);
 }
 
 // What a deck that names a side of a box is asked beforehand.
@@ -108,21 +184,44 @@ void checkFace(const Mesh& mesh, const FlowCase& flowCase, int face) {
 }
 
 // Collective.
-void checkSurface(const Mesh& mesh, const FlowCase& flowCase) {
-  std::vector<int> faces(flowCase.boundaries.size(), 0);
+void checkSurface(const Mesh& mesh, const FlowCase& flowCase, const PatchFaces& faces) {
   collectively(mesh.comm, [&] {
-    for (int face = mesh.interiorFaces; face < mesh.faces; ++face) {
-      faces[static_cast<std::size_t>(mesh.patch[static_cast<std::size_t>(face - mesh.interiorFaces)])] = 1;
-      checkFace(mesh, flowCase, face);
-    }
-  });
-  MPI_Allreduce(MPI_IN_PLACE, faces.data(), static_cast<int>(faces.size()), MPI_INT, MPI_MAX, mesh.comm);
-  collectively(mesh.comm, [&] {
-    for (std::size_t b = 0; b < faces.size(); ++b)
-      if (faces[b] == 0)
+    for (int face = mesh.interiorFaces; face < mesh.faces; ++face) checkFace(mesh, flowCase, face);
+    for (std::size_t b = 0; b < flowCase.boundaries.size(); ++b)
+      if (faces.surface[b] == 0)
         throw flowCase.meshFile->deck.error(
             "boundaries." + flowCase.boundaries[b].name,
-            "there are cells on both sides of all its faces; expected a part of the surface, or 'type: periodic'");
+            "there are cells on both sides of all its faces; expected a part of the surface, 'type: wall' (of no "
+            "thickness) or 'type: periodic'. To part the cells there, run Gmsh's Plugin(Crack) on the group and save "
+            "the mesh again");
+  });
+}
+
+// Collective. A part without an outlet has no way to keep its pressure where others set it.
+void checkParts(const Mesh& mesh, const FlowCase& flowCase) {
+  const Deck& deck = flowCase.meshFile ? flowCase.meshFile->deck : *flowCase.output.tables.deck;
+  const std::string key = flowCase.meshFile ? "mesh.file" : "mesh";
+  const std::vector<MeshPart> parts = pointingAt(mesh.comm, deck, key, [&] { return partsOf(mesh); });
+  if (parts.size() == 1) return;
+  collectively(mesh.comm, [&] {
+    std::vector<std::string> texts;
+    std::size_t closed = 0;
+    for (const MeshPart& part : parts) {
+      bool isOpen = false;
+      for (std::size_t b = 0; b < flowCase.boundaries.size(); ++b)
+        isOpen = isOpen || (part.patches[b] != 0 && flowCase.boundaries[b].kind == BoundaryKind::Outlet);
+      closed += isOpen ? 0 : 1;
+      constexpr std::size_t mostTold = 10;
+      if (texts.size() < mostTold)
+        texts.push_back(fmt::format("{} cells, one at {}, {} an outlet", part.cells,
+                                    placeText(part.place, mesh.dimension), isOpen ? "with" : "without"));
+    }
+    if (closed == 0) return;
+    throw deck.error(
+        key, fmt::format("the mesh has {} parts that do not touch, {} of them without an outlet, which "
+                         "would each need a pressure of its own: {}{}; give each part an outlet, leave "
+                         "the others out of the mesh, or run them by themselves",
+                         parts.size(), closed, fmt::join(texts, "; "), texts.size() < parts.size() ? "; ..." : ""));
   });
 }
 
@@ -153,28 +252,37 @@ void checkLayers(const Mesh& mesh, const FlowCase& flowCase) {
 Mesh readMeshFile(MPI_Comm comm, FlowCase& flowCase, std::span<const double> cellWeight) {
   MeshFile& file = *flowCase.meshFile;
   const std::string key = "mesh.file";
-  MeshBlock block = pointingAt(comm, file.deck, key, [&] { return readGmsh(comm, file.path, file.unit); });
+  std::vector<std::string> notes;
+  MeshBlock block =
+      pointingAt(comm, file.deck, key, [&] { return readGmsh(comm, file.path, file.unit, 1U << 17U, &notes); });
   const std::string before = file.content;
+  const std::vector<std::string> names = block.patches;
+  std::vector<std::string> others;
   file.content = pointingAt(comm, file.deck, key, [&] { return contentOf(comm, file.path); });
   collectively(comm, [&] {
     if (!before.empty() && file.content != before)
       throw file.deck.error(key, fmt::format("{} has changed since the run began", file.path.string()));
     requireGeometry(flowCase, block.dimension);
-    orderPatches(block, flowCase);
+    others = orderPatches(block, flowCase);
     const auto cells = static_cast<double>(block.totalCells);
     requireCells(file.deck, cells, flowCase.mechanism->numSpecies());
     refuseExcess(file.deck, flowCase, cells);
   });
-  return pointingAt(comm, file.deck, key, [&] { return Mesh(comm, block, flowCase.mesh.geometry, cellWeight); });
+  PatchFaces faces(comm, block);
+  Mesh mesh = pointingAt(comm, file.deck, key, [&] { return Mesh(comm, block, flowCase.mesh.geometry, cellWeight); });
+  faces.count(mesh);
+  dropOtherPatches(mesh, others, names, faces, flowCase, notes);
+  checkSurface(mesh, flowCase, faces);
+  checkLayers(mesh, flowCase);
+  if (before.empty()) flowCase.notes.insert(flowCase.notes.end(), notes.begin(), notes.end());
+  return mesh;
 }
 
 }  // namespace
 
 Mesh makeMesh(MPI_Comm comm, FlowCase& flowCase, std::span<const double> cellWeight) {
-  if (!flowCase.meshFile) return {comm, flowCase.mesh, cellWeight};
-  Mesh mesh = readMeshFile(comm, flowCase, cellWeight);
-  checkSurface(mesh, flowCase);
-  checkLayers(mesh, flowCase);
+  Mesh mesh = flowCase.meshFile ? readMeshFile(comm, flowCase, cellWeight) : Mesh(comm, flowCase.mesh, cellWeight);
+  checkParts(mesh, flowCase);
   return mesh;
 }
 

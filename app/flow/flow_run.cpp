@@ -33,10 +33,10 @@ class PreparedFlow : public PreparedRun {
         throw deck.error("mesh", fmt::format("{} cells cannot be spread over {} ranks", cells, ranks));
     });
     seed_ = flowCase.seed;
-    notes_ = flowCase.notes;
     species_ = flowCase.mechanism->numSpecies();
     reactions_ = flowCase.mechanism->numReactions();
     run_ = std::make_unique<FlowLoop>(comm, std::move(flowCase));
+    notes_ = run_->notes();
     for (const std::string& warning : run_->quality().warnings()) notes_.push_back(warning);
   }
 

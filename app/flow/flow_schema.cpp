@@ -27,10 +27,12 @@ void addMesh(DeckSchema& schema) {
                .byDefault("axisymmetric"))
       .add(stringKey(
                "mesh.file",
-               "Mesh file of Gmsh (versions 4.0 and 4.1), relative to the deck, in place of segments along axes: "
+               "Mesh file of Gmsh (versions 2.0 to 2.2, 4.0 and 4.1), relative to the deck, in place of segments along "
+               "axes: "
                "triangles and quadrilaterals in a plane (axisymmetric: x of the file is the radius r, y is z), or, "
                "with geometry space, tetrahedra, pyramids, prisms and hexahedra. Its physical groups of lines (space: "
-               "of faces) are the boundaries, by their names.")
+               "of faces) are the boundaries, by their names, or those without one by their numbers; a group inside "
+               "the gas is a wall of no thickness where its boundary is one.")
                .optional())
       .add(quantityKey("mesh.unit", units::length, "Length of one unit of the mesh file, '1 mm'; absent: 1 m.")
                .optional()

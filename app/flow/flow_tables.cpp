@@ -72,7 +72,7 @@ FlowTables::FlowTables(const FlowContext& context, const FlowCase& flowCase, con
         *probes_, [&](int p) { return "output.probes." + tables.probes[p].name + ".at"; }, "the probe");
   }
   for (const std::size_t b : tables.boundaries)
-    tables_.push_back({"boundary", flowCase.boundaries[b].name, boundaryColumns()});
+    tables_.push_back({"boundary", flowcase::fileNameOf(flowCase.boundaries[b].name), boundaryColumns()});
   for (const OutputTables::Line& line : tables.lines) {
     std::vector<Vector3> places;
     for (int p = 0; p < line.points; ++p) places.push_back(placeOn(line, p));

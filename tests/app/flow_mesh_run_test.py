@@ -48,13 +48,14 @@ DECKS = {
 }
 
 
-def gmsh_text(columns: int, rows: int, is_split) -> str:
-    """A channel of 10 x 5 mm with vertices out of line; `is_split(i, j)`: whether a cell is two triangles."""
+def gmsh_text(columns: int, rows: int, is_split, wall_row=None) -> str:
+    """A channel of 10 x 5 mm with vertices out of line; `is_split(i, j)`: whether a cell is two triangles. `wall_row`: the row
+    of vertices that is the group 5, without a name; the two halves of the left end are groups of their own then."""
     def vertex(i, j):
         return i + (columns + 1) * j + 1
 
     def bulge(i, j):
-        inside = 0 < i < columns and 0 < j < rows
+        inside = 0 < i < columns and 0 < j < rows and j != wall_row
         return 0.15 * ((i * 7 + j * 3) % 5 - 2) / 2 if inside else 0.0
 
     nodes = [(10 * (i + bulge(i, j)) / columns, 5 * (j + bulge(j + 3, i + 1) * (bulge(i, j) != 0)) / rows)
@@ -73,10 +74,14 @@ def gmsh_text(columns: int, rows: int, is_split) -> str:
         "high": [(vertex(i, rows), vertex(i + 1, rows)) for i in range(columns)],
         "in": [(vertex(0, j), vertex(0, j + 1)) for j in range(rows)],
     }
-    text = ["$MeshFormat", "4.1 0 8", "$EndMeshFormat", "$PhysicalNames", "4"]
-    text += [f'1 {k} "{name}"' for k, name in enumerate(lines, 1)]
-    text += ["$EndPhysicalNames", "$Entities", "0 4 1 0"]
-    text += [f"{k} 0 0 0 10 5 0 1 {k} 0" for k in range(1, 5)] + ["1 0 0 0 10 5 0 0 0", "$EndEntities"]
+    named = len(lines)
+    if wall_row is not None:
+        lines["wall"] = [(vertex(i, wall_row), vertex(i + 1, wall_row)) for i in range(columns)]
+        lines["in"], lines["above"] = lines["in"][:wall_row], lines["in"][wall_row:]
+    text = ["$MeshFormat", "4.1 0 8", "$EndMeshFormat", "$PhysicalNames", str(named)]
+    text += [f'1 {k} "{name}"' for k, name in enumerate(list(lines)[:named], 1)]
+    text += ["$EndPhysicalNames", "$Entities", f"0 {len(lines)} 1 0"]
+    text += [f"{k} 0 0 0 10 5 0 1 {k} 0" for k in range(1, len(lines) + 1)] + ["1 0 0 0 10 5 0 0 0", "$EndEntities"]
     text += ["$Nodes", f"1 {len(nodes)} 1 {len(nodes)}", f"2 1 0 {len(nodes)}"]
     text += [str(k + 1) for k in range(len(nodes))] + [f"{x:.12g} {y:.12g} 0" for x, y in nodes] + ["$EndNodes"]
     blocks = [(1, k, 1, some) for k, some in enumerate(lines.values(), 1)]
@@ -139,6 +144,30 @@ def check(one, two, name: str, folder: pathlib.Path) -> None:
     check_pictures(folder / "one", draws=name != "triangles")  # "mixed" has triangles, too
 
 
+def check_thin_wall(one, two, folder: pathlib.Path) -> None:
+    """Gas of 300 K in a channel; gas of 400 K comes in above a wall of no thickness, from end to end. Where the walls are adiabatic
+    and the gas slips along them nothing of it reaches the channel below. The wall goes by the number of its group."""
+    deck = folder / "deck.yaml"
+    warm = GAS.replace("300 K", "400 K")
+    text = HEAD.replace("checkpoint: {at_end: true}\n", "output: {boundaries: [all]}\n") + DECKS["triangles"].replace(
+        "low: {type: wall, temperature: 310 K}", "low: {type: wall, slip: true}").replace(
+        "high: {type: wall, temperature: 300 K}", "high: {type: wall, slip: true}")
+    text += f"  physical 6: {{type: inlet, velocity: 50 cm/s, {warm}}}\n  5: {{type: wall, slip: true}}\n"
+    deck.write_text(text, encoding="utf-8")
+    (folder / "mesh.msh").write_text(gmsh_text(10, 6, lambda i, j: (i + j) % 3 == 0, 3), encoding="utf-8")
+    for program, name in ((one, "thin_one"), (two, "thin_two")):
+        run(program, deck, folder / name)
+        tables = sorted(path.name for path in (folder / name / "tables").iterdir())
+        assert tables == [f"boundary_{b}.csv" for b in ("5", "high", "in", "low", "out", "physical_6")], tables
+    with h5py.File(folder / "thin_one/results.h5", "r") as file:
+        above = file["mesh/cellCentre"][()][:, 1] > 2.5e-3
+    for name in ("thin_one", "thin_two"):
+        temperature = fields_of(folder / name)["temperature"]
+        away = np.abs(temperature[~above] - 300).max()
+        assert away < 1e-9, f"through a wall of no thickness the gas below has become {away} K warmer"
+        assert temperature[above].max() > 390, f"{temperature[above].max()} K above the wall"
+
+
 def check_checkpoint(one, folder: pathlib.Path) -> None:
     """A run goes on from its checkpoint on the same mesh, and refuses another."""
     deck, mesh = folder / "deck.yaml", folder / "mesh.msh"
@@ -155,6 +184,8 @@ def main(executable: str, *mpiexec: str) -> int:
             check(one, two, name, pathlib.Path(folder))
             if name == "mixed":
                 check_checkpoint(one, pathlib.Path(folder))
+            if name == "triangles":
+                check_thin_wall(one, two, pathlib.Path(folder))
             print(f"{name}: passed")
     return 0
 

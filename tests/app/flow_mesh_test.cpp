@@ -6,6 +6,7 @@
 
 #include <fstream>
 
+#include "app/flow/flow_case_parts.hpp"
 #include "app/flow/flow_checkpoint.hpp"
 #include "core/modules.hpp"
 #include "tests/every_module.hpp"
@@ -387,9 +388,77 @@ TEST(FlowMesh, APartInsideTheMeshIsNoBoundary) {
   replace("1 0 0 0 2 1 0 1 20 0\n", "5 1 0 0 1 1 0 1 15 0\n1 0 0 0 2 1 0 1 20 0\n");
   replace("6 9 1 9\n", "7 10 1 10\n1 5 1 1\n10 2 5\n");
   deck.write(text);
-  EXPECT_THAT(deck.error(rowSides), HasSubstr("'inner' has no boundary"));
+  FlowCase passedOver = deck.read(rowSides);
+  EXPECT_THAT(makeMesh(MPI_COMM_WORLD, passedOver).patches, ElementsAre("in", "out", "top", "floor"));
+  EXPECT_THAT(passedOver.notes, ElementsAre(HasSubstr("the group 'inner' is no part of the surface")));
+  EXPECT_THAT(deck.error(rowSides + "  inner: {type: symmetry}\n"),
+              testing::AllOf(HasSubstr("boundaries.inner"), HasSubstr("cells on both sides"),
+                             HasSubstr("'type: wall' (of no thickness)"), HasSubstr("Plugin(Crack)")));
+  // A wall of no thickness across the row leaves one part without an outlet.
   EXPECT_THAT(deck.error(rowSides + "  inner: {type: wall}\n"),
-              testing::AllOf(HasSubstr("boundaries.inner"), HasSubstr("cells on both sides")));
+              testing::AllOf(HasSubstr("mesh.file"), HasSubstr("the mesh has 2 parts that do not touch, 1 of them"),
+                             HasSubstr("1 cells, one at (0.005, 0.005) m, without an outlet"),
+                             HasSubstr("2 cells, one at (0.0166667, 0.00333333) m, with an outlet")));
+  FlowCase open = deck.read("  in: {type: outlet, " + gas + "}" + rowSides.substr(rowSides.find("\n  out")) +
+                            "  inner: {type: wall, temperature: 400 K}\n");
+  const Mesh mesh = makeMesh(MPI_COMM_WORLD, open);
+  EXPECT_THAT(open.notes, ElementsAre(HasSubstr("1 of the 1 faces of the wall 'inner' have cells on both sides")));
+  EXPECT_THAT(Surface(mesh).faces, ElementsAre(1, 1, 2, 2, 2));
+  EXPECT_NEAR(Surface(mesh).area[4], 2e-2, 1e-14);
+  EXPECT_EQ(mesh.totalFaces, 1 + 8);  // one between the triangles
+}
+
+// What is named on the surface is needed there, whatever of the group lies inside.
+TEST(FlowMesh, AGroupMayBePartlyInside) {
+  const MeshFileDeck deck;
+  std::string text = rowOfThree;
+  const auto replace = [&](const std::string& before, const std::string& after) {
+    text.replace(text.find(before), before.size(), after);
+  };
+  replace("6 9 1 9\n1 1 1 2\n", "6 10 1 10\n1 1 1 3\n10 2 5\n");
+  deck.write(text);
+  const std::string openSides = "  in: {type: outlet, " + gas + "}" + rowSides.substr(rowSides.find("\n  out"));
+  FlowCase wall = deck.read(openSides);
+  EXPECT_THAT(Surface(makeMesh(MPI_COMM_WORLD, wall)).faces, ElementsAre(1, 1, 2, 4));
+  EXPECT_THAT(wall.notes, ElementsAre(HasSubstr("1 of the 3 faces of the wall 'floor' have cells on both sides")));
+  FlowCase outlet = deck.read(openSides.substr(0, openSides.find("  floor")) + "  floor: {type: symmetry}\n");
+  EXPECT_THAT(Surface(makeMesh(MPI_COMM_WORLD, outlet)).faces, ElementsAre(1, 1, 2, 2));
+  EXPECT_THAT(outlet.notes, ElementsAre(HasSubstr("1 of the 3 faces of 'floor' are no part of the surface")));
+}
+
+TEST(FlowMesh, GroupsWithoutANameGoByTheirNumbers) {
+  const MeshFileDeck deck;
+  std::string text = rowOfThree;
+  text.erase(text.find("$PhysicalNames"), text.find("$Entities") - text.find("$PhysicalNames"));
+  deck.write(text);
+  const std::string sides = "  physical 14: {type: inlet, velocity: 1 m/s, " + gas + "}\n  12: {type: outlet, " + gas +
+                            "}\n  13: {type: wall}\n  physical 11: {type: wall}\n";
+  FlowCase flowCase = deck.read(sides, "geometry: planar, unit: 1 cm", "output: {boundaries: [all]}\n");
+  const Mesh mesh = makeMesh(MPI_COMM_WORLD, flowCase);
+  EXPECT_THAT(mesh.patches, ElementsAre("physical 14", "12", "13", "physical 11"));
+  EXPECT_THAT(Surface(mesh).faces, ElementsAre(1, 1, 2, 2));
+  EXPECT_EQ(flowCase.output.tables.boundaries.size(), 4U);
+  EXPECT_EQ(flowcase::fileNameOf("physical 14"), "physical_14");
+  EXPECT_THAT(deck.error(sides + "  physical 12: {type: wall}\n"),
+              testing::AllOf(HasSubstr("boundaries.physical 12"), HasSubstr("has another boundary")));
+  EXPECT_THAT(deck.error(sides + "  physical_14: {type: wall}\n", "geometry: planar",
+                         "output: {boundaries: [physical_14, physical 14]}\n"),
+              testing::AllOf(HasSubstr("output.boundaries"), HasSubstr("boundary_physical_14.csv")));
+  EXPECT_THAT(deck.error(sides.substr(0, sides.find("  13"))), HasSubstr("'physical 11' has no boundary"));
+}
+
+TEST(FlowMesh, PartsOfABoxThatSolidsCutOffNeedAnOutlet) {
+  const std::string dam = channel + ", solids: {dam: {x: [2 mm, 3 mm]}}", wall = "  dam: {type: wall, solid: dam}\n";
+  EXPECT_THAT(messageOf<InputError>([&] {
+                FlowCase flowCase = caseOf(dam, channelSides + wall);
+                makeMesh(MPI_COMM_WORLD, flowCase);
+              }),
+              testing::AllOf(HasSubstr("mesh: the mesh has 2 parts that do not touch"),
+                             HasSubstr("8 cells, one at (0.0005, 0.0005) m, without an outlet"),
+                             HasSubstr("12 cells, one at (0.0035, 0.0005) m, with an outlet")));
+  FlowCase open = caseOf(
+      dam, "  in: {type: outlet, side: x-min, " + gas + "}" + channelSides.substr(channelSides.find("\n  out")) + wall);
+  EXPECT_EQ(makeMesh(MPI_COMM_WORLD, open).totalCells, 20);
 }
 
 TEST(FlowMesh, TheStartsLayersLieInTheMeshFile) {

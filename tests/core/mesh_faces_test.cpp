@@ -1,4 +1,5 @@
 // Faces of a distributed mesh: closed cells, metrics on graded axes, patches, and sameness on any number of ranks.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +9,7 @@
 #include <limits>
 
 #include "core/errors.hpp"
+#include "core/mesh_parts.hpp"
 #include "mpi_support.hpp"
 #include "tests/every_module.hpp"
 
@@ -255,6 +257,41 @@ TEST(MeshPatches, SideWithoutAPatchIsAnInputErrorOnAllRanks) {
     EXPECT_THAT(message, testing::HasSubstr("belongs to no boundary"));
     EXPECT_TRUE(sameOnAllRanks(message));
   }
+}
+
+// Three columns of a box of 7 x 5 cells, of which two are left out; the same on any number of ranks.
+TEST(MeshParts, AreCountedWithTheirPatches) {
+  MeshSpec spec;
+  spec.geometry = Geometry::Planar;
+  spec.vertices = {gradedAxis(0.0, {{0.7, 7, 1.0}}), gradedAxis(0.0, {{0.5, 5, 1.0}})};
+  spec.patches = {{"left", 0, false}, {"right", 0, true}, {"low", 1, false}, {"high", 1, true}};
+  for (const double from : {0.2, 0.5}) {
+    MeshSpec::LeftOut part;
+    part.lower.fill(-1e300);
+    part.upper.fill(1e300);
+    part.lower[0] = from;
+    part.upper[0] = from + 0.1;
+    spec.leftOut.push_back(part);
+    BoundaryPatch wall;
+    wall.name = fmt::format("wall {}", from);
+    wall.leftOut = static_cast<int>(spec.leftOut.size()) - 1;
+    spec.patches.push_back(wall);
+  }
+  const std::vector<MeshPart> parts = partsOf(Mesh(MPI_COMM_WORLD, spec));
+  ASSERT_EQ(parts.size(), 3U);
+  const double places[3] = {0.05, 0.35, 0.65};
+  for (std::size_t p = 0; p < 3; ++p) {
+    EXPECT_EQ(parts[p].cells, p == 2 ? 5 : 10);
+    EXPECT_NEAR(parts[p].place[0], places[p], 1e-12);
+    EXPECT_NEAR(parts[p].place[1], 0.05, 1e-12);
+  }
+  EXPECT_THAT(parts[0].patches, testing::ElementsAre(1, 0, 1, 1, 1, 0));
+  EXPECT_THAT(parts[1].patches, testing::ElementsAre(0, 0, 1, 1, 1, 1));
+  EXPECT_THAT(parts[2].patches, testing::ElementsAre(0, 1, 1, 1, 0, 1));
+  spec.leftOut.resize(1);
+  spec.patches.pop_back();
+  spec.leftOut[0].upper[1] = 0.45;  // a gap above
+  EXPECT_EQ(partsOf(Mesh(MPI_COMM_WORLD, spec)).size(), 1U);
 }
 
 }  // namespace
