@@ -1,12 +1,15 @@
-// Fields at places: linear in the cell that has the place, along the cell's least-squares gradient, so that a linear
-// field is met exactly.
+// Fields at places: continuous over the mesh, linear between the centre of a cell and its corners, where values come
+// from the cells around and from what is known at the boundaries (flow/vertex_field.hpp). Nowhere beyond what these
+// have, so that a linear field is met exactly but beside boundaries where nothing is known, and in corners.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "core/cell_finder.hpp"
 #include "core/modules.hpp"
+#include "core/place_in_cell.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/gradient.hpp"
 
@@ -38,7 +41,8 @@ class FieldSampler {
   const FlowContext& context_;
   std::vector<Vector3> places_;
   FoundCells found_;
-  Gradient gradient_;
+  std::vector<PlaceInCell> inCell_;     // of places in cells that this rank owns
+  std::vector<std::int64_t> vertices_;  // permanent numbers of all ranks' corners of these places, increasing
 };
 
 }  // namespace lampblack::flow

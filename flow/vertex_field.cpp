@@ -78,6 +78,11 @@ class VertexSums {
     for (const Entry& entry : inside_)
       if (isShared[entry.vertex]) across_.push_back(entry);
     std::erase_if(inside_, [&](const Entry& entry) { return isShared[entry.vertex] != 0; });
+    if (source_.only)
+      for (std::vector<Entry>* entries : {&inside_, &across_})
+        std::erase_if(*entries, [&](const Entry& entry) {
+          return !std::ranges::binary_search(*source_.only, mesh_.vertexNumber[entry.vertex]);
+        });
     std::ranges::stable_sort(inside_, {}, &Entry::vertex);
     std::ranges::stable_sort(across_, {}, &Entry::vertex);
   }

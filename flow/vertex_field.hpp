@@ -10,6 +10,8 @@
 // Sums go by permanent numbers, so that values do not depend on the ranks to the last bit.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -30,6 +32,8 @@ class VertexField {
     std::vector<BoundaryData> known;  // a flag a boundary face, or a component of each
     // Values at vertices stay between those of the cells around: densities do not fall below zero beside a crest.
     bool isBounded = false;
+    // Permanent numbers, increasing, the same on all ranks: values are made at these vertices alone; nothing: at all.
+    std::optional<std::span<const std::int64_t>> only = std::nullopt;
   };
 
   // Collective. What a rank holds goes with its own share of the mesh alone.
