@@ -184,6 +184,19 @@ const DeckNode* descend(const DeckNode& root, std::string_view path, const DeckN
   return node;
 }
 
+// The item of a list that a message quotes first; of several that are alike the last.
+const DeckNode* quotedItem(const DeckNode& list, const std::string& message) {
+  const DeckNode* found = nullptr;
+  std::size_t first = std::string::npos;
+  for (const DeckNode& item : list.children) {
+    const std::size_t place = item.kind == DeckNode::Kind::scalar ? message.find("'" + item.text + "'") : first;
+    if (place == std::string::npos || place > first) continue;
+    first = place;
+    found = &item;
+  }
+  return found;
+}
+
 }  // namespace
 
 const DeckNode* Deck::nodeAt(std::string_view key) const {
@@ -207,6 +220,8 @@ std::size_t Deck::size(std::string_view list) const {
 InputError Deck::error(std::string_view key, const std::string& message) const {
   const DeckNode* deepest = nullptr;
   const DeckNode* node = descend(root_, key, &deepest);
+  if (node != nullptr && node->kind == DeckNode::Kind::list)
+    if (const DeckNode* item = quotedItem(*node, message); item != nullptr) node = item;
   const bool leaf = node != nullptr && node->kind == DeckNode::Kind::scalar;
   return deckError(*source_, leaf ? node->at : deepest->nameAt, std::string(key), message);
 }

@@ -4,10 +4,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <set>
 
 #include "core/nearest_name.hpp"
 #include "io/deck_conditions.hpp"
 #include "io/deck_former_names.hpp"
+#include "io/deck_mistakes.hpp"
 #include "io/deck_value.hpp"
 
 namespace lampblack::io {
@@ -19,11 +21,13 @@ class Checker {
  public:
   Checker(const DeckSource& source, const DeckSchema& schema) : source_(source), schema_(schema) {}
 
-  // First every name, then every value: a misspelt required key is reported as misspelt, not as missing.
+  // First every name, then every value: a misspelt required key is reported as misspelt, not as missing. Which keys
+  // count with which choices is asked where all values are right.
   std::vector<DeckValue> check(const DeckNode& root) {
     const SchemaNode tree = schema_.tree();
     checkNames(tree, root, "");
     readSection(tree, &root, "", root);
+    mistakes_.raise();
     applyConditions(source_, tree, root, values_);
     return std::move(values_);
   }
@@ -43,10 +47,17 @@ class Checker {
       const SchemaNode* known = schema.child(child.name);
       const std::string childPath = joinedPath(path, child.name);
       if (known == nullptr && any != nullptr && child.name.find_first_of(".[]") != std::string::npos) {
-        throw deckError(source_, child.nameAt, childPath, "a name may not contain '.', '[' or ']'");
+        mistakes_.add(child.nameAt,
+                      deckError(source_, child.nameAt, childPath, "a name may not contain '.', '[' or ']'"));
+        unread_.insert(&child);
+        continue;
       }
       if (known == nullptr) known = any;
-      if (known == nullptr) throw unknown(schema, child, childPath);
+      if (known == nullptr) {
+        mistakes_.add(child.nameAt, unknown(schema, child, childPath));
+        hasUnknown_.insert(&node);
+        continue;
+      }
       checkNames(*known, child, childPath);
     }
   }
@@ -77,12 +88,14 @@ class Checker {
     if (schema.key == nullptr) {
       readSection(schema, node, path, enclosing);
     } else if (node != nullptr) {
-      values_.push_back(readDeckValue(source_, *schema.key, path, *node));
+      mistakes_.collect(node->at.line > 0 ? node->at : node->nameAt,
+                        [&] { values_.push_back(readDeckValue(source_, *schema.key, path, *node)); });
     } else if (schema.key->presence == Presence::defaulted) {
       values_.push_back(defaultDeckValue(*schema.key, path));
-    } else if (schema.key->presence == Presence::required) {
-      throw deckError(source_, enclosing.nameAt, path,
-                      fmt::format("this key is missing; expected {}. {}", expectation(*schema.key), schema.key->doc));
+    } else if (schema.key->presence == Presence::required && !hasUnknown_.contains(&enclosing)) {
+      mistakes_.add(enclosing.nameAt, deckError(source_, enclosing.nameAt, path,
+                                                fmt::format("this key is missing; expected {}. {}",
+                                                            expectation(*schema.key), schema.key->doc)));
     }
   }
 
@@ -91,21 +104,24 @@ class Checker {
     if (schema.section != nullptr) {
       const bool hollow = empty || (node->kind != DeckNode::Kind::scalar && node->children.empty());
       if (schema.section->presence == Presence::required && hollow) {
-        throw deckError(source_, node ? node->nameAt : enclosing.nameAt, path,
-                        fmt::format("this section is missing or empty. {}", schema.section->doc));
+        const DeckLocation& at = node ? node->nameAt : enclosing.nameAt;
+        if (node != nullptr || !hasUnknown_.contains(&enclosing))
+          mistakes_.add(at, deckError(source_, at, path,
+                                      fmt::format("this section is missing or empty. {}", schema.section->doc)));
+        return;
       }
       if (schema.section->presence == Presence::optional && node == nullptr) return;
     }
     const DeckNode& here = node ? *node : enclosing;
     if (const SchemaNode* item = schema.child("[]")) {
       if (empty) return;
-      if (node->kind != DeckNode::Kind::list) throw wrongKind("a list", *node, path);
+      if (node->kind != DeckNode::Kind::list) return addWrongKind("a list", *node, path);
       for (std::size_t i = 0; i < node->children.size(); ++i) {
         read(*item, &node->children[i], fmt::format("{}[{}]", path, i), here);
       }
       return;
     }
-    if (!empty && node->kind != DeckNode::Kind::map) throw wrongKind("a map of keys", *node, path);
+    if (!empty && node->kind != DeckNode::Kind::map) return addWrongKind("a map of keys", *node, path);
     for (const SchemaNode& child : schema.children) {
       if (child.name != "*") {
         read(child, empty ? nullptr : node->child(child.name), joinedPath(path, child.name), here);
@@ -113,19 +129,22 @@ class Checker {
       }
       for (std::size_t i = 0; !empty && i < node->children.size(); ++i) {
         const DeckNode& entry = node->children[i];
-        if (schema.child(entry.name) == nullptr) read(child, &entry, joinedPath(path, entry.name), here);
+        if (schema.child(entry.name) == nullptr && !unread_.contains(&entry))
+          read(child, &entry, joinedPath(path, entry.name), here);
       }
     }
   }
 
-  InputError wrongKind(const std::string& expected, const DeckNode& node, const std::string& path) const {
-    return deckError(source_, node.at.line > 0 ? node.at : node.nameAt, path,
-                     fmt::format("expected {}, found {}", expected, foundText(node)));
+  void addWrongKind(const std::string& expected, const DeckNode& node, const std::string& path) {
+    const DeckLocation& at = node.at.line > 0 ? node.at : node.nameAt;
+    mistakes_.add(at, deckError(source_, at, path, fmt::format("expected {}, found {}", expected, foundText(node))));
   }
 
   const DeckSource& source_;
   const DeckSchema& schema_;
   std::vector<DeckValue> values_;
+  DeckMistakes mistakes_;
+  std::set<const DeckNode*> hasUnknown_, unread_;  // sections with unknown keys; what has no path
 };
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <map>
 
+#include "io/deck_mistakes.hpp"
+
 namespace lampblack::io {
 namespace {
 
@@ -39,9 +41,14 @@ class Conditions {
 
   // `counts`: the enclosing section does.
   void apply(const SchemaNode& schema, const DeckNode* node, const std::string& path, bool counts) {
-    if (schema.section != nullptr) counts = hold(schema.section->conditions, node, path) && counts;
+    const auto add = [&](const std::vector<DeckCondition>& conditions) {
+      bool holds = false;
+      mistakes_.collect(node == nullptr ? DeckLocation{} : node->nameAt, [&] { holds = hold(conditions, node, path); });
+      counts = holds && counts;
+    };
+    if (schema.section != nullptr) add(schema.section->conditions);
     if (schema.key != nullptr) {
-      counts = hold(schema.key->conditions, node, path) && counts;
+      add(schema.key->conditions);
       if (const auto value = index_.find(path); value != index_.end()) values_[value->second].counts = counts;
       return;
     }
@@ -59,6 +66,8 @@ class Conditions {
       }
     }
   }
+
+  void raise() const { mistakes_.raise(); }
 
  private:
   // False where a condition does not hold of something the deck does not say; InputError where it says it.
@@ -82,13 +91,16 @@ class Conditions {
   const DeckSource& source_;
   std::vector<DeckValue>& values_;
   std::map<std::string, std::size_t, std::less<>> index_;
+  DeckMistakes mistakes_;
 };
 
 }  // namespace
 
 void applyConditions(const DeckSource& source, const SchemaNode& schema, const DeckNode& root,
                      std::vector<DeckValue>& values) {
-  Conditions(source, values).apply(schema, &root, "", true);
+  Conditions conditions(source, values);
+  conditions.apply(schema, &root, "", true);
+  conditions.raise();
 }
 
 }  // namespace lampblack::io

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "core/nearest_name.hpp"
+#include "io/deck_mistakes.hpp"
 
 namespace lampblack::io {
 namespace {
@@ -127,7 +128,10 @@ DeckValue readDeckValue(const DeckSource& source, const DeckKey& key, const std:
     throw deckError(source, node.at.line > 0 ? node.at : node.nameAt, path,
                     fmt::format("expected {}, found {}", expectation(key), foundText(node)));
   }
-  for (std::size_t i = 0; i < node.children.size(); ++i) scalar(node.children[i], fmt::format("{}[{}]", path, i));
+  DeckMistakes mistakes;
+  for (std::size_t i = 0; i < node.children.size(); ++i)
+    mistakes.collect(node.children[i].at, [&] { scalar(node.children[i], fmt::format("{}[{}]", path, i)); });
+  mistakes.raise();
   return value;
 }
 

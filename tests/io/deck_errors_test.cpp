@@ -1,4 +1,6 @@
 // Every way a deck can be wrong, and what the message says: file, line, key, what was expected, what was found.
+#include <fmt/format.h>
+
 #include <ctime>
 #include <filesystem>
 
@@ -47,6 +49,53 @@ TEST(DeckErrors, ARequiredSectionMayNotBeMissingOrEmpty) {
   EXPECT_THAT(messageOf("problem: flow\nmechanism: m\nmesh: {z: [{to: 1, cells: 1}]}\ntime: {end: 1}\n"),
               HasSubstr("boundaries: this section is missing or empty. Named boundaries."));
   EXPECT_THAT(messageOf("problem: flow\nmechanism: m\nmesh: {}\n"), HasSubstr("deck.yaml:3:1: mesh: this section"));
+}
+
+// In the order of the deck, each with its line; a section with an unknown key may have meant what it misses.
+TEST(DeckErrors, AllMistakesAreToldInOneGo) {
+  std::string text = sampleWith("    velocity: 20 cm/s", "    velocty: 20 cm/s");
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+  };
+  replace("cells: 30", "cells: 0");
+  replace("298 K", "298 m");
+  replace("type: outlet", "type: outlt");
+  replace("  end: 40 ms", "  edn: 40 ms");
+  const std::string message = messageOf(text, {"seed=1.5"});
+  std::size_t at = 0;
+  for (const char* part :
+       {"deck.yaml:7:25: mesh.z[1].cells: expected an integer from 1",
+        "\n     7 |     - {to: 8 mm, cells: 0}\n       |",
+        "\ncases/sample/deck.yaml:11:5: boundaries.fuel.velocty: unknown key",
+        "deck.yaml:16:18: boundaries.oxidiser.temperature", "deck.yaml:20:19: boundaries.outside.type: expected one of",
+        "deck.yaml:22:3: time.edn: unknown key", "\n--set seed=1.5: seed: expected an integer"}) {
+    const std::size_t next = message.find(part, at);
+    ASSERT_NE(next, std::string::npos) << part << " is not behind the others in\n" << message;
+    at = next;
+  }
+  EXPECT_THAT(message, Not(HasSubstr("time.end")));
+  EXPECT_THAT(messageOf(sampleWith("time:\n  end: 40 ms\n", "seed: 1.5\n")),
+              AllOf(HasSubstr("seed: expected an integer"),
+                    HasSubstr("\ncases/sample/deck.yaml: time.end: this key is missing")));
+}
+
+TEST(DeckErrors, NotMoreThanTenMistakesAreTold) {
+  std::string text = test::sampleText;
+  for (int i = 0; i < 9; ++i) text += fmt::format("unknown{}: 1\n", i);
+  EXPECT_THAT(messageOf(text), AllOf(HasSubstr("'unknown8'"), Not(HasSubstr("may be more"))));
+  for (int i = 9; i < 12; ++i) text += fmt::format("unknown{}: 1\n", i);
+  EXPECT_THAT(messageOf(text), AllOf(HasSubstr("'unknown9'"), Not(HasSubstr("'unknown10'")),
+                                     HasSubstr("\nthese are 10 mistakes; there may be more")));
+}
+
+TEST(DeckErrors, TheCaretStandsAtTheItemOfAList) {
+  EXPECT_THAT(messageOf(test::sampleText + "gravity: [1 m, 2 m/s^2, 3 K]\n"),
+              AllOf(HasSubstr(":23:11: gravity[0]: "), HasSubstr(":23:25: gravity[2]: ")));
+  const Deck deck = test::sampleDeck({}, test::sampleText + "output: {fields: [velocity, heat, pressure, heat]}\n");
+  EXPECT_THAT(std::string(deck.error("output.fields", "'heat' is no field; these are: 'velocity'").what()),
+              HasSubstr("deck.yaml:23:45: output.fields: 'heat'"));
+  EXPECT_THAT(std::string(deck.error("output.fields", "expected fewer").what()),
+              HasSubstr("deck.yaml:23:10: output.fields"));
 }
 
 TEST(DeckErrors, AWrongDimensionSaysBoth) {
