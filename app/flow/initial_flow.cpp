@@ -4,14 +4,19 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <string>
 
 #include "app/flow/flow_case.hpp"
 #include "core/errors.hpp"
+#include "core/text_file.hpp"
+#include "io/csv.hpp"
 #include "io/grid_table.hpp"
 #include "io/hdf5_reader.hpp"
+#include "io/table_column.hpp"
 
 namespace lampblack::app::flowcase {
 namespace {
@@ -37,11 +42,11 @@ std::vector<double> component(const std::vector<double>& values, std::size_t com
 
 void requireSameGeometry(const Hdf5Reader& results, Geometry geometry) {
   const Deck earlier = Deck::parse(results.textAttribute("/", "deck"), results.name(), {}, flowSchema());
-  for (const char* key : {"mesh.file", "mesh.solids", "mesh.floor", "mesh.ceiling"})
+  for (const char* key : {"mesh.file", "mesh.floor", "mesh.ceiling"})
     if (earlier.has(key))
-      throw InputError(fmt::format("{} is of a mesh with '{}'; expected a whole plane box", results.name(), key));
+      throw InputError(fmt::format("{} is of a mesh with '{}'; expected a plane box", results.name(), key));
   if (earlier.choice("mesh.geometry") == "space")
-    throw InputError(fmt::format("{} is three-dimensional; expected a whole plane box", results.name()));
+    throw InputError(fmt::format("{} is three-dimensional; expected a plane box", results.name()));
   const bool wasAxisymmetric = earlier.choice("mesh.geometry") == "axisymmetric";
   if (wasAxisymmetric != (geometry == Geometry::Axisymmetric))
     throw InputError(fmt::format("{} is of {} geometry; expected that of this mesh", results.name(),
@@ -85,32 +90,82 @@ bool isClosed(const FlowCase& flowCase) {
   return std::ranges::none_of(flowCase.boundaries, [](const auto& b) { return b.kind == BoundaryKind::Outlet; });
 }
 
+// A column of the history, which stands in the results of a run that went to its end, and always in a table beside
+// them.
+std::vector<double> historyColumn(const Hdf5Reader& results, const std::string& name) {
+  if (results.has("/history/" + name)) return results.numbers("/history/" + name);
+  const auto file = std::filesystem::path(results.name()).parent_path() / "history.csv";
+  const TextTable table = readCsv(readTextFile(file, "the history of a run"));
+  const auto column =
+      std::ranges::find_if(table.columns, [&](const std::string& text) { return text.starts_with(name + " ["); });
+  if (column == table.columns.end() || table.rows.empty())
+    throw InputError(fmt::format("{} has no '{}', which tells the pressure of a closed vessel", file.string(), name));
+  std::vector<double> values;
+  const TableColumn reader(name, "", units::dimensionless);  // the table is in SI
+  for (std::size_t row = 0; row < table.rows.size(); ++row)
+    values.push_back(
+        reader.read(table.rows[row][static_cast<std::size_t>(column - table.columns.begin())], table.lines[row]));
+  return values;
+}
+
 // Pa, by the history of the earlier run at the time of the step.
 double thermodynamicPressure(const Hdf5Reader& results, const std::string& step) {
-  if (!results.has("/history/thermodynamic_pressure"))
-    throw InputError(
-        fmt::format("{} has no '/history', which tells the pressure of a closed vessel; expected a run that "
-                    "went to its end",
-                    results.name()));
-  const std::vector<double> times = results.numbers("/history/time");
+  const std::vector<double> times = historyColumn(results, "time");
   const double time = results.numberAttribute(step, "time");
   const auto row = std::ranges::min_element(times, {}, [&](double t) { return std::abs(t - time); });
-  return results.numbers("/history/thermodynamic_pressure").at(static_cast<std::size_t>(row - times.begin()));
+  return historyColumn(results, "thermodynamic_pressure").at(static_cast<std::size_t>(row - times.begin()));
+}
+
+// Where solids have no cells the values are those of a cell next to them, so that the rows span a grid.
+void fillSolids(GridTable::Numbers& numbers) {
+  std::array<std::vector<double>, 2> points;
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    points[axis] = numbers.places[axis];
+    std::ranges::sort(points[axis]);
+    points[axis].erase(std::unique(points[axis].begin(), points[axis].end()), points[axis].end());
+  }
+  const std::size_t rows = numbers.places[0].size(), across = points[1].size(), all = points[0].size() * across;
+  constexpr std::size_t none = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> rowAt(all, none), found;
+  for (std::size_t row = 0; row < rows; ++row) {
+    std::size_t at = 0;
+    for (std::size_t axis = 0; axis < 2; ++axis)
+      at = at * across + static_cast<std::size_t>(std::ranges::lower_bound(points[axis], numbers.places[axis][row]) -
+                                                  points[axis].begin());
+    rowAt[at] = row;
+    found.push_back(at);
+  }
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const std::size_t at = found[i];
+    const auto visit = [&](bool isThere, std::size_t next) {
+      if (!isThere || rowAt[next] != none) return;
+      rowAt[next] = rowAt[at];
+      found.push_back(next);
+      numbers.places[0].push_back(points[0][next / across]);
+      numbers.places[1].push_back(points[1][next % across]);
+      for (std::vector<double>& column : numbers.columns) column.push_back(column[rowAt[at]]);
+    };
+    visit(at % across > 0, at - 1);
+    visit(at % across + 1 < across, at + 1);
+    visit(at >= across, at - across);
+    visit(at + across < all, at + across);
+  }
 }
 
 }  // namespace
 
 void addInitialFlowKeys(DeckSchema& schema) {
   schema
-      .section(
-          section, Presence::optional,
-          "An earlier run of problem flow to start from, on a mesh of its own: gas, velocity, and soot where "
-          "there is a "
-          "model of it; 'layer' is none. Linear between the earlier run's cells. A closed vessel takes the earlier "
-          "run's thermodynamic pressure in place of 'pressure'.",
-          {{"initial.layer", {"none"}}})
+      .section(section, Presence::optional,
+               "An earlier run of problem flow to start from, on a mesh of its own: gas, velocity, and soot where "
+               "there is a "
+               "model of it; 'layer' is none. Linear between the earlier run's cells, beside solids as in the cell "
+               "next to them. A closed vessel takes the earlier "
+               "run's thermodynamic pressure in place of 'pressure'.",
+               {{"initial.layer", {"none"}}})
       .add(stringKey(section + ".results",
-                     "The earlier run's folder, or its results.h5, relative to the deck. It holds all species of the "
+                     "The earlier run's folder, or its results.h5, relative to the deck; of a run that was stopped the "
+                     "folder or results.h5.part. It holds all species of the "
                      "mechanism ('output: {species: [all]}')."))
       .add(quantityKey(section + ".time", units::time,
                        "Time of the earlier run; the output next to it is taken. Absent: the last output.")
@@ -122,7 +177,12 @@ InitialFields readInitialFlow(const Deck& deck, const FlowCase& flowCase, const 
     if (flowCase.meshFile || flowCase.mesh.map || flowCase.dimension != 2)
       throw InputError("an earlier run is laid over plane boxes only, without a floor or a ceiling of their own");
     std::filesystem::path file = deck.resolvePath(deck.string(section + ".results"));
-    if (std::filesystem::is_directory(file)) file /= "results.h5";
+    if (std::filesystem::is_directory(file)) {
+      // Of a run that did not reach its end there is the part that it wrote.
+      const std::filesystem::path part = file / "results.h5.part";
+      file /= "results.h5";
+      if (!std::filesystem::exists(file) && std::filesystem::exists(part)) file = part;
+    }
     const Hdf5Reader results(file);
     requireSameGeometry(results, flowCase.mesh.geometry);
     requireCover(results, flowCase.mesh);
@@ -137,6 +197,7 @@ InitialFields readInitialFlow(const Deck& deck, const FlowCase& flowCase, const 
       numbers.columns.push_back(component(velocity, 3, axis));
       numbers.places.push_back(component(centres, 3, axis));
     }
+    fillSolids(numbers);
     const auto table = std::make_shared<GridTable>(
         std::vector<GridTable::Coordinate>{{"first", units::length}, {"second", units::length}}, numbers);
     std::size_t column = 0;

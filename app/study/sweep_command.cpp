@@ -14,6 +14,7 @@
 #include "core/errors.hpp"
 #include "core/stop_request.hpp"
 #include "core/system_error.hpp"
+#include "core/text_file.hpp"
 #include "io/run_folder.hpp"
 
 namespace lampblack::app {
@@ -34,12 +35,21 @@ int rankOf(MPI_Comm comm) {
   return rank;
 }
 
+// Whether a study ended with all its runs begun. One that was stopped, or that met a full disk, goes on.
+bool hasEnded(const fs::path& file) {
+  std::error_code error;
+  if (!fs::exists(file, error)) return false;
+  const std::string text = readTextFile(file, "the record of a study");
+  for (const RunFailure unfinished : {RunFailure::stopped, RunFailure::system})
+    if (text.find(fmt::format("\"status\": \"{}\"", wordFor(unfinished))) != std::string::npos) return false;
+  return true;
+}
+
 // The folder of the study: nobody else's, and not that of a single run either.
 RunFolder prepareFolder(MPI_Comm comm, const fs::path& folder, bool force) {
   const fs::path last = folder / "study.json";
   collectively(comm, [&] {
-    std::error_code error;
-    if (rankOf(comm) == 0 && !force && fs::exists(last, error))
+    if (rankOf(comm) == 0 && !force && hasEnded(last))
       throw InputError(
           fmt::format("{}: this folder holds a study already. Choose another with --out DIR, or replace it "
                       "with --force",
@@ -109,8 +119,8 @@ void raiseFailures(MPI_Comm comm, const std::vector<RunOutcome>& outcomes, const
   }
   if (worst == RunFailure::stopped)
     raiseStopped(comm, agreedStopRequest(comm),
-                 fmt::format("after {} of {} runs: they are in the tables in {}", outcomes.size() - failed,
-                             outcomes.size(), folder.string()));
+                 fmt::format("after {} of {} runs: they are in the tables in {}; the same command goes on",
+                             outcomes.size() - failed, outcomes.size(), folder.string()));
   std::string message = fmt::format("{} of {} runs failed; the table says which and why", failed, outcomes.size());
   if (worst == RunFailure::system)
     message = std::find_if(outcomes.begin(), outcomes.end(), [](const RunOutcome& outcome) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <new>
@@ -12,7 +13,11 @@
 #include "core/errors.hpp"
 #include "core/stop_request.hpp"
 #include "core/system_error.hpp"
+#include "core/text_file.hpp"
+#include "io/checkpoint_folder.hpp"
+#include "io/deck_node.hpp"
 #include "io/json.hpp"
+#include "io/units.hpp"
 
 namespace lampblack::app {
 namespace {
@@ -51,6 +56,55 @@ void refuseLoneError(const Group& group, const std::exception& error) {
   if (group.size > 1 && !isCollective(error)) throw;
 }
 
+bool isSame(const DeckNode& a, const DeckNode& b) {
+  return a.kind == b.kind && a.name == b.name && a.text == b.text && std::ranges::equal(a.children, b.children, isSame);
+}
+
+// What an earlier run of this deck has left in the folder of a run.
+struct EarlierRun {
+  enum class State : int { none, done, unfinished, resumable };
+  State state = State::none;
+  double seconds = 0.0;  // wall time of a finished one
+};
+
+// Of one rank. None also where the folder has another deck's run, which is refused later on.
+EarlierRun earlierRun(const Deck& deck, const std::filesystem::path& folder) {
+  EarlierRun earlier;
+  std::error_code error;
+  if (!std::filesystem::exists(folder / "run.json", error)) return earlier;
+  // JSON is read as the flow style of YAML.
+  const auto parsed = [](const std::string& text) { return parseDeck(DeckSource{"run.json", text, {}}); };
+  try {
+    const DeckNode record = parsed(readTextFile(folder / "run.json", "the record of a run"));
+    const DeckNode *ran = record.child("deck"), *status = record.child("status"), *wall = record.child("wall_time_s");
+    if (ran == nullptr || status == nullptr || wall == nullptr) return earlier;
+    if (!std::ranges::equal(ran->children, parsed(deck.resolvedJson()).children, isSame)) return earlier;
+    const bool hasCheckpoint = !CheckpointFolder(folder).checkpoints().empty();
+    earlier.state = status->text == "done" ? EarlierRun::State::done
+                    : hasCheckpoint        ? EarlierRun::State::resumable
+                                           : EarlierRun::State::unfinished;
+    earlier.seconds = units::parseNumber(wall->text);
+  } catch (const InputError&) {
+    return {};  // no record of a run
+  }
+  return earlier;
+}
+
+// Collective: what the first rank of the group finds.
+EarlierRun agreedEarlierRun(MPI_Comm comm, const Deck& deck, const std::filesystem::path& folder) {
+  EarlierRun earlier;
+  collectively(comm, [&] {
+    int rank = 0;
+    MPI_Comm_rank(comm, &rank);
+    if (rank == 0) earlier = earlierRun(deck, folder);
+  });
+  int state = static_cast<int>(earlier.state);
+  MPI_Bcast(&state, 1, MPI_INT, 0, comm);
+  MPI_Bcast(&earlier.seconds, 1, MPI_DOUBLE, 0, comm);
+  earlier.state = static_cast<EarlierRun::State>(state);
+  return earlier;
+}
+
 // `before`: the run in front of this one in its chain, if it ended well.
 RunOutcome runOne(const Group& group, const SweepRun& run, const SweepRun* before, const std::filesystem::path& folder,
                   bool force) {
@@ -64,7 +118,16 @@ RunOutcome runOne(const Group& group, const SweepRun& run, const SweepRun* befor
       overrides.push_back("initial=" + jsonString(results.string()));
       deck = Deck::load(run.deck, overrides, deckKinds(), group.comm);
     }
-    problemOf(deck).prepare(group.comm, deck)->run({folder / run.name, force, overrides});
+    RunOptions options{folder / run.name, force, overrides};
+    const EarlierRun earlier = force ? EarlierRun{} : agreedEarlierRun(group.comm, deck, options.folder);
+    if (earlier.state == EarlierRun::State::done) {
+      outcome.seconds = earlier.seconds;
+      outcome.isTaken = true;
+      return outcome;
+    }
+    if (earlier.state == EarlierRun::State::resumable) options.restart = "";
+    if (earlier.state == EarlierRun::State::unfinished) options.force = true;
+    problemOf(deck).prepare(group.comm, deck)->run(options);
   } catch (const InputError& error) {
     refuseLoneError(group, error);
     outcome.failure = RunFailure::input;
@@ -179,6 +242,10 @@ std::vector<RunOutcome> runStudy(MPI_Comm comm, const SweepStudy& study, const s
     outcomes[i] = runOne(group, run, follows ? &study.runs[i - 1] : nullptr, folder, force);
     if (outcomes[i].failure == RunFailure::system || outcomes[i].failure == RunFailure::stopped)
       ended = outcomes[i].failure;
+    if (groupRank == 0 && outcomes[i].isTaken) {
+      fmt::print("{} is there already\n", run.name);
+      std::fflush(stdout);
+    }
     if (groupRank == 0 && outcomes[i].failure != RunFailure::none) {
       fmt::print("{} failed: {}\n", run.name, outcomes[i].message);
       std::fflush(stdout);

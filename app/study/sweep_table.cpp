@@ -57,6 +57,14 @@ bool isNumber(const std::string& text) {
   return end == text.c_str() + text.size();
 }
 
+// Length on the console: the bytes inside a UTF-8 character take no room.
+std::size_t width(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+}
+
+}  // namespace
+
 const char* wordFor(RunFailure failure) {
   switch (failure) {
     case RunFailure::none:
@@ -74,14 +82,6 @@ const char* wordFor(RunFailure failure) {
   }
   return "";
 }
-
-// Length on the console: the bytes inside a UTF-8 character take no room.
-std::size_t width(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
-}
-
-}  // namespace
 
 Leaves resultsOf(const std::string& record) {
   // JSON is read as the flow style of YAML.

@@ -18,6 +18,9 @@ namespace lampblack::app {
 // out. InputError where the text is not JSON.
 std::vector<std::pair<std::string, std::string>> resultsOf(const std::string& record);
 
+// How a run ended, in a word of the tables: "done".
+const char* wordFor(RunFailure failure);
+
 // A table with columns of even width, for the console.
 std::string alignedText(const TextTable& table);
 

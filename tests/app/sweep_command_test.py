@@ -54,6 +54,74 @@ def check_good(program: running.Program, folder: pathlib.Path) -> None:
     assert all(float(row["ignition_delays_s.max_dTdt"]) < delays[1] for row in rows(out / "study.csv"))
 
 
+def check_unfinished(program: running.Program, folder: pathlib.Path) -> None:
+    """A study that was stopped or killed goes on: finished runs are taken as they are, others run; of another deck they are refused."""
+    deck, out = study(folder, STUDY), folder / "unfinished"
+    assert program("sweep", deck, "--out", out).code == 0
+    table, record = rows(out / "study.csv"), out / "study.json"
+    one, two = (out / row["run"] for row in table)
+
+    def stop(run):
+        text = (run / "run.json").read_text(encoding="utf-8")
+        (run / "run.json").write_text(text.replace('"status": "done"', '"status": "stopped"'), encoding="utf-8")
+        (run / "results.h5").rename(run / "results.h5.part")
+
+    def again(*more) -> tuple:
+        before = running.snapshot(one)
+        result = program("sweep", deck, "--out", out, *more)
+        return result, running.snapshot(one) == before
+
+    stop(two)
+    record.write_text(record.read_text(encoding="utf-8").replace('"status": "done"', '"status": "stopped"'), encoding="utf-8")
+    result, is_kept = again()
+    assert result.code == 0 and is_kept and f"{one.name} is there already" in result.out, f"{result.code}: {result.err}{result.out}"
+    assert f"{two.name} is there already" not in result.out and (two / "results.h5").is_file()
+
+    def same(row):
+        return {key: value for key, value in row.items() if key != "wall_time_s"}
+
+    assert [same(row) for row in rows(out / "study.csv")] == [same(row) for row in table]
+    assert program("sweep", deck, "--out", out).code == 2, "a finished study was begun again"
+
+    record.unlink()
+    result, is_kept = again()
+    assert result.code == 0 and is_kept, f"{result.code}: {result.err}"
+    record.unlink()
+    result, is_kept = again("--set", "time.end=0.5 ms")
+    assert result.code == 2 and is_kept and "2 of 2 runs failed" in result.err, result.err
+    assert "holds a finished run already" in rows(out / "study.csv")[0]["message"]
+    result, is_kept = again("--force")
+    assert result.code == 0 and not is_kept, result.err
+
+
+def check_checkpoint(program: running.Program, folder: pathlib.Path) -> None:
+    """A flow that was stopped goes on from its checkpoint."""
+    deck = folder / "deck.yaml"
+    gas = 'temperature: 300 K, composition: "GAS: 1"'
+    deck.write_text(f"""problem: flow
+mechanism: {running.SOURCE}/cases/mechanisms/perfect_gas_1.yaml
+transport: {{model: unity_lewis}}
+mesh: {{geometry: planar, x: [{{to: 4 mm, cells: 4}}], y: [{{to: 3 mm, cells: 3}}]}}
+boundaries:
+  in: {{type: inlet, side: x-min, velocity: 1 m/s, {gas}}}
+  out: {{type: outlet, side: x-max, {gas}}}
+  low: {{type: wall, side: y-min}}
+  high: {{type: wall, side: y-max}}
+initial: {{layer: none, {gas}}}
+time: {{end: 0.2 ms, first_step: 50 us}}
+checkpoint: {{at_end: true}}
+""", encoding="utf-8")
+    text, out = study(folder, f"study: flows\ndeck: {deck}\n"), folder / "flows"
+    assert program("sweep", text, "--out", out).code == 0
+    run = out / rows(out / "study.csv")[0]["run"]
+    record = (run / "run.json").read_text(encoding="utf-8")
+    (run / "run.json").write_text(record.replace('"status": "done"', '"status": "running"'), encoding="utf-8")
+    (out / "study.json").unlink()
+    result = program("sweep", text, "--out", out)
+    assert result.code == 0, result.err
+    assert "checkpoint" in json.loads((run / "run.json").read_text(encoding="utf-8"))["restarted_from"]
+
+
 def check_failures(program: running.Program, folder: pathlib.Path) -> None:
     """A run that fails is a row of the table, the others are run, and the exit code tells."""
     text = STUDY.replace("1100 K", "1200 K").replace("deck:", "collect: {results: [final_temperature_K]}\ndeck:")
@@ -159,7 +227,7 @@ convergence:
 def main(executable: str, ranks: str, *mpiexec: str) -> None:
     program = running.Program(executable, list(mpiexec), int(ranks))
     alone = running.Program(executable, list(mpiexec), 1)
-    tasks = [(check_good, program), (check_failures, program), (check_refused, program), (check_groups, program),
+    tasks = [(check_good, program), (check_unfinished, program), (check_checkpoint, program), (check_failures, program), (check_refused, program), (check_groups, program),
              (check_population, program)]
     if program.ranks > 1:
         tasks.append((check_population, alone))
