@@ -75,19 +75,22 @@ def check_study(folder):
 def check_flow(folder):
     with meshio.xdmf.TimeSeriesReader(folder / "results.xdmf") as reader:
         points, cells = reader.read_points_cells()
-        assert np.all(np.isfinite(points)) and len(cells) == 1 and len(cells[0].data) > 0, "no mesh"
-        assert cells[0].data.max() == len(points) - 1, "the cells do not use all vertices"
+        # A mesh of several kinds of cells comes in blocks of one kind.
+        assert np.all(np.isfinite(points)) and len(cells) > 0 and all(len(block.data) > 0 for block in cells), "no mesh"
+        assert max(block.data.max() for block in cells) == len(points) - 1, "the cells do not use all vertices"
+        assert all(len(np.unique(block.data, axis=0)) == len(block.data) and np.all(np.diff(np.sort(block.data)) > 0)
+                   for block in cells), "a cell has a vertex twice, or stands there twice"
         assert reader.num_steps > 0, "no steps"
         times = []
         for k in range(reader.num_steps):
             time, _, data = reader.read_data(k)
             times.append(time)
             for name, values in data.items():
-                assert np.all(np.isfinite(values[0])), f"{name} at {time} s is not finite"
-            temperature = data["temperature"][0]
+                assert np.all(np.isfinite(np.concatenate(values))), f"{name} at {time} s is not finite"
+            temperature = np.concatenate(data["temperature"])
             assert temperature.min() > 200 and temperature.max() < 4000, "temperature out of any flame's range"
         assert times == sorted(times), "the steps are not in order of time"
-    print(f"{folder}: meshio reads {len(times)} steps of {len(cells[0].data)} cells, {len(data)} fields")
+    print(f"{folder}: meshio reads {len(times)} steps of {sum(len(block.data) for block in cells)} cells, {len(data)} fields")
 
 
 def main(folder):

@@ -39,6 +39,7 @@ ResultsWriter::ResultsWriter(MPI_Comm comm, std::filesystem::path path, const Ru
   write(
       self_->cells, "cells", mesh.connectivity, corners, "1",
       mesh.dimension == 2 ? "Vertices of each cell, counter-clockwise" : "Vertices of each cell, in the order of VTK");
+  self_->writeMixed(mesh);
   write(self_->cells, "cellVolume", mesh.cellVolume, 1, "m^3", "Volume of each cell");
   write(self_->cells, "cellCentre", mesh.cellCentre, 3, "m", "Centre of each cell");
   std::vector<std::int64_t> owner(mesh.owner.begin(), mesh.owner.end());

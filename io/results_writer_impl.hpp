@@ -55,9 +55,37 @@ struct ResultsWriter::Implementation {
         exceptionsAtStart(std::uncaught_exceptions()) {
     MPI_Comm_rank(comm, &rank);
     if (mesh.totalCells == 0) return;
+    describeMesh({mesh.dimension, mesh.corners, mesh.totalCells, mesh.totalVertices});
+  }
+
+  void describeMesh(const XdmfMesh& mesh) {
     std::filesystem::path beside = path;
-    xdmf.emplace(beside.replace_extension(".xdmf"),
-                 XdmfMesh{mesh.dimension, mesh.corners, mesh.totalCells, mesh.totalVertices});
+    xdmf.emplace(beside.replace_extension(".xdmf"), mesh);
+  }
+
+  // Cells without the vertices that they repeat, each with the number of its kind in front, where there are several
+  // kinds. Collective.
+  void writeMixed(const MeshOutput& mesh) {
+    const auto corners = static_cast<std::size_t>(mesh.corners);
+    const std::vector<std::int64_t> block =
+        cells.toBlock(std::span<const std::int64_t>(mesh.connectivity), mesh.corners);
+    std::vector<std::int64_t> mixed;
+    for (std::size_t cell = 0; cell < static_cast<std::size_t>(cells.count()); ++cell) {
+      const std::size_t kind = mixed.size();
+      mixed.push_back(0);
+      for (std::size_t k = cell * corners; k < (cell + 1) * corners; ++k)
+        if (k == cell * corners || block[k] != block[k - 1]) mixed.push_back(block[k]);
+      mixed[kind] = topologyNumber(mesh.dimension, static_cast<int>(mixed.size() - kind - 1));
+    }
+    const auto count = static_cast<std::int64_t>(mixed.size());
+    std::int64_t first = 0, total = 0;
+    MPI_Exscan(&count, &first, 1, MPI_INT64_T, MPI_SUM, comm);
+    if (rank == 0) first = 0;  // MPI_Exscan leaves it undefined
+    MPI_Allreduce(&count, &total, 1, MPI_INT64_T, MPI_SUM, comm);
+    if (total == cells.total() * (mesh.corners + 1)) return;
+    file.write("/mesh/mixed", {total}, first, count, mixed.data());
+    describe("/mesh/mixed", "1", "Cells one after the other: the number of the kind in XDMF, then the vertices");
+    describeMesh({mesh.dimension, mesh.corners, mesh.totalCells, mesh.totalVertices, total});
   }
 
   MPI_Comm comm;

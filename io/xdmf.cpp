@@ -73,13 +73,19 @@ bool isTopology(int dimension, int corners) {
   return topologyOf(dimension, corners) != nullptr;
 }
 
+std::int64_t topologyNumber(int dimension, int corners) {
+  if (dimension == 2) return corners == 3 ? 4 : 5;
+  return corners == 4 ? 6 : corners == 5 ? 7 : corners == 6 ? 8 : 9;
+}
+
 std::string xdmfStepText(const std::string& file, const XdmfMesh& mesh, const XdmfStep& step) {
   std::string text = fmt::format(
       "      <Grid Name=\"{}\" GridType=\"Uniform\">\n        <Time Value=\"{}\"/>\n"
       "        <Topology TopologyType=\"{}\" NumberOfElements=\"{}\">\n          {}\n        </Topology>\n"
       "        <Geometry GeometryType=\"XYZ\">\n          {}\n        </Geometry>\n",
-      escaped(step.group), step.time, topologyOf(mesh.dimension, mesh.corners), mesh.cells,
-      dataItem(fmt::format("{} {}", mesh.cells, mesh.corners), "Int", file + ":/mesh/cells"),
+      escaped(step.group), step.time, mesh.mixed > 0 ? "Mixed" : topologyOf(mesh.dimension, mesh.corners), mesh.cells,
+      mesh.mixed > 0 ? dataItem(fmt::format("{}", mesh.mixed), "Int", file + ":/mesh/mixed")
+                     : dataItem(fmt::format("{} {}", mesh.cells, mesh.corners), "Int", file + ":/mesh/cells"),
       dataItem(fmt::format("{} 3", mesh.vertices), "Float", file + ":/mesh/vertices"));
   for (const XdmfField& field : step.fields) {
     const std::string dimensions =

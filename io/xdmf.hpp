@@ -28,10 +28,13 @@ struct XdmfMesh {
   int corners = 4;  // of a cell
   std::int64_t cells = 0;
   std::int64_t vertices = 0;
+  std::int64_t mixed = 0;  // values of /mesh/mixed, of a mesh of several kinds of cells; 0: of one kind
 };
 
 // Whether there are cells of so many corners.
 bool isTopology(int dimension, int corners);
+// XDMF's number for them in a topology of several kinds.
+std::int64_t topologyNumber(int dimension, int corners);
 
 // The whole file as text; `file` is the HDF5 file's name beside it. It is the head, the text of each step and the tail.
 std::string xdmfText(const std::string& file, const XdmfMesh& mesh, const std::vector<XdmfStep>& steps);

@@ -67,6 +67,11 @@ void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
       FlowCheckpoints(comm_, case_.checkpoint, flowFingerprint(case_, domain_->state.scalars), folder.path())};
   auto& [_, results, history, progress, checkpoints] = outputs;
   tables_->open(folder);
+  std::vector<std::string> species;
+  for (std::size_t k = 0; k < case_.mechanism->numSpecies(); ++k) species.push_back(case_.mechanism->speciesName(k));
+  results.texts("/species/name", species, "species of the mechanism");
+  results.dataset("/species/molar_mass", {static_cast<std::int64_t>(species.size())},
+                  case_.mechanism->molecularWeights(), "kg/mol", "molar masses of the species");
   if (case_.ensembles) {
     const std::vector<double> edges = case_.ensembles->bins.edges();
     results.dataset(fmt::format("/{}_sizes/bin_edges", case_.cellParticles->material()),

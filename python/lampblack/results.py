@@ -12,6 +12,7 @@ from .arrays import Array, Table, array_of, table_of, table_of_csv, text_of
 from .damage import reading
 from .distributions import distributions_of
 from .errors import ResultsError
+from .places import LineOfPlaces
 
 
 # Other names that mechanisms use for the same species.
@@ -102,7 +103,20 @@ class Results:
                 return array_of(group[candidate])
             if candidate.lower() in by_lower:
                 return array_of(group[by_lower[candidate.lower()]])
-        return None
+        return self._mass_fraction(name[2:], group) if name.startswith("Y_") else None
+
+    def _mass_fraction(self, species, group):
+        """From the mole fractions of all species; None where they were not all written."""
+        if "species" not in self.file:
+            return None
+        names = [text_of(name) for name in self.file["species/name"][()]]
+        by_lower = {name.lower(): name for name in names}
+        species = species if species in names else by_lower.get(species.lower())
+        if species is None or any("X_" + name not in group for name in names):
+            return None
+        masses = dict(zip(names, self.file["species/molar_mass"][()]))
+        mean = sum(masses[name] * group["X_" + name][()] for name in names)
+        return Array(masses[species] * group["X_" + species][()] / mean, "Y_" + species, "1", f"mass fraction of {species}")
 
     def centreline(self):
         """Cells of the column nearest the axis, of a planar mesh nearest its middle, sorted along it; and their places in m.
@@ -195,6 +209,27 @@ class Results:
         axes = self.axis_names() if self.is_plane else ("x", "y", "z")
         columns = {name: Array(self.centres[:, i], name, "m", "centre of the cell") for i, name in enumerate(axes)}
         return Table({**columns, **table_of(self.fields(step or self.steps[-1]))})
+
+    def line(self, start, end, points=101, fields=None, step=None):
+        """Of a flow: a step (the last one) along a straight line between two places in m, (r, z), (x, y) or (x, y, z). Columns are
+        `distance` and the coordinates of the points, then all fields, or those of these names. Values are linear between the centre
+        of a cell and its corners, where they come from the cells around and never lie beyond what these have."""
+        if self.is_flame or self.is_reactor or self.is_population or self.is_along or not self.steps:
+            raise ResultsError(f"{self.folder}: these results have no fields of a flow")
+        if step is not None and step not in self.file["steps"]:
+            raise ResultsError(f"{self.folder}: there is no step '{step}'; these are there: {', '.join(self.steps)}")
+        named = {}
+        for name in fields if fields is not None else self.fields(step or self.steps[-1]):
+            named[name] = self.field(name, step)
+            if named[name] is None:
+                raise ResultsError(f"{self.folder}: the results hold no field '{name}'")
+        line = LineOfPlaces(self, start, end, points)
+        axes = self.axis_names() if self.is_plane else ("x", "y", "z")
+        columns = {"distance": Array(line.distance, "distance", "m", "from the line's first point")}
+        columns.update((axis, Array(line.places[:, i], axis, "m", "coordinate of the point")) for i, axis in enumerate(axes))
+        columns.update((name, Array(line.values(np.asarray(values)), name, values.unit, values.description))
+                       for name, values in named.items())
+        return Table(columns)
 
     def table(self, name):
         """Any group of results.h5 as a table ('probes/tip', 'rates', 'methods/dsmc/history'), or a CSV file of the folder."""

@@ -11,7 +11,7 @@ import tempfile
 import running
 
 h5py, np = running.package("h5py"), running.package("numpy")
-running.needs("meshio")
+meshio = running.package("meshio")
 running.needs("matplotlib")
 
 GAS = 'temperature: 300 K, composition: "GAS: 1"'
@@ -117,6 +117,16 @@ def check_pictures(folder: pathlib.Path, draws: bool) -> None:
         assert (folder / "pictures" / f"{picture}.png").stat().st_size > 5000, f"{picture} is empty"
 
 
+def check_mixed_xdmf(folder: pathlib.Path, cells, repeated) -> None:
+    """Triangles are triangles for ParaView, which meshio reads as blocks of one kind one after the other."""
+    with meshio.xdmf.TimeSeriesReader(folder / "results.xdmf") as reader:
+        _, blocks = reader.read_points_cells()
+    assert {block.type for block in blocks} == {"triangle", "quad"}
+    found = [list(cell) for block in blocks for cell in block.data]
+    expected = [list(cell[:3]) if is_triangle else list(cell) for cell, is_triangle in zip(cells, repeated)]
+    assert found == expected, "other cells than those of /mesh/cells"
+
+
 def check(one, two, name: str, folder: pathlib.Path) -> None:
     deck = folder / "deck.yaml"
     deck.write_text(HEAD + DECKS[name], encoding="utf-8")
@@ -141,6 +151,7 @@ def check(one, two, name: str, folder: pathlib.Path) -> None:
     if name == "mixed":
         repeated = a["cells"][:, 2] == a["cells"][:, 3]
         assert 0 < repeated.sum() < len(repeated), "no mixture of triangles and quadrilaterals"
+        check_mixed_xdmf(folder / "one", a["cells"], repeated)
     check_pictures(folder / "one", draws=name != "triangles")  # "mixed" has triangles, too
 
 

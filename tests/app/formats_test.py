@@ -116,6 +116,11 @@ def main(executable: str, *mpiexec: str) -> int:
             "radiation.model=optically_thin", "boundaries.fuel.swirl_velocity=1 m/s", "time.sweeps=2", "time.tolerance=0.1",
             "output.probes={p: {at: [1 mm, 5 mm]}}", "output.lines={l: {from: [0 mm, 1 mm], to: [0 mm, 7 mm], points: 3}}",
             "output.boundaries=[fuel]", "output.wall_distance=true"))}
+        from flow_mesh_run_test import DECKS, HEAD, gmsh_text
+
+        (folder / "mesh.msh").write_text(gmsh_text(5, 3, lambda i, j: i > 2), encoding="utf-8")
+        (folder / "mixed.yaml").write_text(HEAD + DECKS["mixed"], encoding="utf-8")
+        runs["mixed"] = (folder / "mixed.yaml", *running.settings("time.end=0.1 ms"))
         ensembles = folder / "flame/ensembles.yaml"
         text = runs["flow"][0].read_text(encoding="utf-8")
         ensembles.write_text(text[:text.index("trajectories:")], encoding="utf-8")

@@ -106,6 +106,75 @@ def check_flow(folder):
         assert "not the results of a one-dimensional flame" in str(error)
 
 
+def linear(x, y):
+    return 300 + 2e5 * x - 3e5 * y
+
+
+def check_line(folder):
+    """Fields along a line of a flow on triangles and quadrilaterals: a linear field is met but beside the surface, a step is continuous
+    and nowhere beyond what the cells have, vectors stay vectors; what is no line or no field is said."""
+    from flow_mesh_run_test import DECKS, HEAD, gmsh_text
+
+    (folder / "mesh.msh").write_text(gmsh_text(10, 6, lambda i, j: (i + j) % 3 == 0), encoding="utf-8")
+    (folder / "deck.yaml").write_text(HEAD + DECKS["mixed"], encoding="utf-8")
+    run = lampblack.run(folder / "deck.yaml", set={"time.end": "50 us"}, out=folder / "mixed")
+    x, y, last = run.centres[:, 0], run.centres[:, 1], run.steps[-1]
+    run.file.close()
+    with h5py.File(folder / "mixed/results.h5", "a") as file:
+        step = file["steps"][last]
+        step["density"][...] = linear(x, y)
+        step["viscosity"][...] = np.where(x < 5e-3, 1.0, 4.0)
+        step["velocity"][:, 0], step["velocity"][:, 1] = linear(x, y), -linear(x, y)
+    run = lampblack.open(folder / "mixed")
+    line = run.line((1.7e-3, 1.2e-3), (8.1e-3, 3.9e-3), points=800, fields=["density", "viscosity", "velocity"])
+    assert list(line) == ["distance", "x", "y", "density", "viscosity", "velocity"] and line.rows == 800
+    assert line["density"].unit == "kg/m^3" and abs(line["distance"][-1] - np.hypot(6.4e-3, 2.7e-3)) < 1e-15
+    assert np.allclose(line["density"], linear(line["x"], line["y"]), rtol=1e-10)
+    assert np.allclose(line["velocity"][:, 1], -linear(line["x"], line["y"]), rtol=1e-10)
+    step = line["viscosity"]
+    assert step.min() == 1 and step.max() == 4 and np.abs(np.diff(step)).max() < 0.2, np.abs(np.diff(step)).max()
+    whole = run.line((0, 0), (10e-3, 5e-3))
+    assert set(whole) >= {"temperature", "X_GAS"} and whole.rows == 101
+    assert run.centres.shape[1] == 3 and whole["density"].max() <= run.field("density").max()
+    for mistake, told in (((0, 0), (11e-3, 0)), "outside the mesh"), (((0, 0), (0, 0)), "two ends"), (((0, 0, 0), (1, 1, 1)), "2 coordinates"):
+        try:
+            run.line(*mistake)
+            raise AssertionError(f"{mistake} was accepted")
+        except lampblack.ResultsError as error:
+            assert told in str(error), error
+    try:
+        run.line((0, 0), (1e-3, 1e-3), fields=["heat"])
+        raise AssertionError("a field that is not there was accepted")
+    except lampblack.ResultsError as error:
+        assert "no field 'heat'" in str(error)
+    assert np.array_equal(run.field("Y_gas"), np.ones(len(x)))
+
+
+def check_line_in_space():
+    """The same among a hexahedron, a prism at its side, a pyramid and a tetrahedron: what is constant stays so, from end to end."""
+    import types
+
+    from lampblack.places import LineOfPlaces
+
+    vertices = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1), (2, 0, 0), (2, 0, 1),
+                         (0.5, 0.5, 2), (2, 0.5, 2)], dtype=float)
+    cells = np.array([(0, 1, 2, 3, 4, 5, 6, 7), (1, 8, 2, 2, 5, 9, 6, 6), (4, 5, 6, 7, 10, 10, 10, 10), (5, 11, 6, 6, 10, 10, 10, 10)])
+    centres = np.array([vertices[np.unique(cell)].mean(axis=0) for cell in cells])
+    mesh = types.SimpleNamespace(is_plane=False, vertices=vertices, cells=cells, centres=centres)
+    for start, end, found in (((0.1, 0.2, 0.1), (0.9, 0.3, 0.9), {0}), ((0.1, 0.2, 0.3), (1.7, 0.1, 0.3), {0, 1}),
+                              ((0.5, 0.5, 0.1), (0.5, 0.5, 1.9), {0, 2}), ((0.5, 0.5, 1.5), (1.4, 0.5, 1.75), {2, 3})):
+        line = LineOfPlaces(mesh, start, end, 60)
+        assert set(line._cell) == found, (start, set(line._cell))
+        assert np.allclose(line.values(np.full(4, 7.0)), 7.0, rtol=1e-12)
+        values = line.values(np.arange(4.0))
+        assert values.min() >= min(found) - 1e-12 and np.abs(np.diff(values)).max() < 0.25, values
+    try:
+        LineOfPlaces(mesh, (0.1, 0.1, 0.1), (0.1, 0.1, 1.9), 10)
+        raise AssertionError("a place outside was accepted")
+    except lampblack.ResultsError as error:
+        assert "outside the mesh" in str(error)
+
+
 def check_sweep(folder):
     deck = CASES / "flame1d/free_hydrogen/deck.yaml"
     study = lampblack.sweep(deck, vary={"inlet.equivalence_ratio": [1.0, 1.5]}, set=COARSE, chain=2, out=folder / "sweep")
@@ -192,7 +261,8 @@ def main(executable):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         check_arrays()
-        for check in (check_flame, check_reactor, check_population, check_flow, check_sweep, check_errors, check_tables):
+        check_line_in_space()
+        for check in (check_flame, check_reactor, check_population, check_flow, check_line, check_sweep, check_errors, check_tables):
             check(folder)
     return 0
 

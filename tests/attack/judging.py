@@ -34,6 +34,8 @@ BAD = (CRASH, HANG, BUG, ACCEPTED, UNSOUND, LATE, INCONSISTENT, LEFT, MESSAGE, W
 LONGEST_LINE = 1000  # characters: a state that failed is told with its mass fractions
 MOST_LINES = 3  # that go on with a message
 QUOTE = re.compile(r"^ *(\d+|--set)? \| ")
+# Mistakes of a deck are told together, each with its place.
+OF_DECK = re.compile(r"^(\S.*\.ya?ml(:\d+:\d+)?: |--set |these are \d+ mistakes)")
 WARNING = "lampblack: warning: "
 PLACE = re.compile(r":\d+:|--\w+|runs failed|[\w*]+(\.[\w*\[\]]+)+|: ")
 FOREIGN = re.compile(r"Traceback|terminate called|PETSC ERROR|HDF5-DIAG|Segmentation|MPI_ABORT|std::|bad_alloc|vector::",
@@ -58,6 +60,8 @@ def faults_of_message(err: str) -> str:
     if FOREIGN.search(err):
         return f"words of a library: {FOREIGN.search(err)[0]}"
     more = [line for line in lines[1:] if not QUOTE.match(line)]
+    if OF_DECK.match(lines[0][len("lampblack: "):]):
+        more = [line for line in more if not OF_DECK.match(line)]
     if any(line.startswith("lampblack: ") for line in more) or len(more) > MOST_LINES:
         return f"more than one message: {more[0][:100]!r}"
     if max(map(len, lines)) > LONGEST_LINE:

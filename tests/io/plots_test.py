@@ -84,6 +84,35 @@ def test_pictures_are_made_and_missing_fields_named(work):
     assert "not drawn - centreline profile of X_OH: the results hold no such field" in result.stdout
 
 
+def test_fields_are_drawn_by_name(work):
+    synthetic_results(work / "run")
+    with h5py.File(work / "run/results.h5", "a") as file:
+        step = file["steps/000010"]
+        for name in [name for name in step if name.startswith("X_")]:
+            del step[name]
+        write(step, "X_H2", np.full(NR * NZ, 0.6))
+        write(step, "X_CH2(S),S", np.full(NR * NZ, 0.4))
+        write(step, "heat_release", np.linspace(-1e6, 1e9, NR * NZ), "W/m^3")
+        write(file, "species/name", np.array([b"H2", b"CH2(S),S"]))
+        write(file, "species/molar_mass", np.array([2e-3, 14e-3]), "kg/mol")
+    result = run(ROOT / "scripts/plot", work / "run", "--fields", "heat_release", "X_CH2(S),S", "Y_H2,temperature")
+    assert result.returncode == 0
+    names = {p.stem for p in (work / "run/pictures").glob("*.png")}
+    assert names == {"heat_release", "X_CH2_S__S", "Y_H2", "temperature"}, names
+    result = run(ROOT / "scripts/plot", work / "run", "--fields", "heat")
+    assert result.returncode == 2 and "there is no field 'heat'" in result.stderr and "heat_release" in result.stderr
+
+    sys.path.insert(0, str(ROOT / "python"))
+    from lampblack.results import Results
+
+    fraction = Results(work / "run").field("Y_H2")
+    assert np.allclose(fraction, 0.6 * 2 / (0.6 * 2 + 0.4 * 14), rtol=1e-14) and fraction.unit == "1"
+    with h5py.File(work / "run/results.h5", "a") as file:
+        del file["steps/000010/X_H2"]
+    assert Results(work / "run").field("Y_CH2(S),S") is None
+    assert "output.species: [all]" in run(ROOT / "scripts/plot", work / "run", "--fields", "Y_H2").stderr
+
+
 def test_units_are_read_as_text(work):
     sys.path.insert(0, str(ROOT / "python"))
     from lampblack.results import Results, unit_of

@@ -5,7 +5,7 @@ balance moments, errors and
 size distributions; of a one-dimensional flame its profiles and soot; of a study its runs compared, and errors against numbers
 of particles; of several one-dimensional flames one picture that compares them.
 
-Usage: lampblack plot RESULTS_DIR [RESULTS_DIR...] [--reference CSV]...
+Usage: lampblack plot RESULTS_DIR [RESULTS_DIR...] [--reference CSV]... [--fields FIELD...]
 """
 
 import argparse
@@ -19,6 +19,9 @@ def main():
     parser.add_argument("--reference", type=pathlib.Path, action="append", default=[],
                         help="profile to draw over the centreline (columns z_m, T_K, X_...); "
                              "otherwise those in reference/ beside the deck")
+    parser.add_argument("--fields", nargs="+", default=[], metavar="FIELD",
+                        help="of a flow or a flame, only these: a picture each, of fields by their names in the results (X_OH, "
+                             "heat_release) and mass fractions (Y_OH)")
     parser.add_argument("--out", type=pathlib.Path, help="folder of the pictures; RESULTS_DIR/pictures otherwise")
     arguments = parser.parse_args()
     folders, arguments.results = arguments.results, arguments.results[0]
@@ -26,6 +29,7 @@ def main():
     try:
         from .along import plot_along
         from .ensembles import plot_ensembles
+        from .fields import plot_fields
         from .flame import plot_flame, plot_together
         from .flame_course import plot_branch, plot_course
         from .flame_study import is_flame_study, plot_flame_study
@@ -55,6 +59,9 @@ def main():
             (plot_flame_study if is_flame_study(arguments.results) else plot_study)(arguments.results, pictures)
             return finish(arguments, pictures)
         results = Results(arguments.results)
+        if arguments.fields:
+            plot_fields(results, arguments.fields, pictures)
+            return finish(arguments, pictures)
         without_references = results.is_reactor or results.is_population or results.is_flame or results.is_along
         references = [] if without_references else arguments.reference or find_references(results)
         for path in references:

@@ -145,21 +145,33 @@ def plot_planes(results, pictures):
         if values is None:
             pictures.skip(f"{name} picture", f"the results hold no field '{field}'")
             continue
-        velocity = None
-        if values.ndim == 2:
-            velocity, values = values, np.linalg.norm(values, axis=1)
-        if not np.all(np.isfinite(values)):
-            pictures.skip(f"{name} picture", "the field has values that are not finite")
-            continue
         unit = unit_of(results.fields(step)[field]) if field in results.fields(step) else ""
-        if is_fraction:
-            values, unit = scaled_fraction(values)
-        figure, axes = plt.subplots(figsize=_figure_size(results))
-        low = 0.0 if is_fraction or velocity is not None else float(values.min())
-        high = float(values.max())
-        drawn = draw(axes, results, shapes, values, colours, (low, high if high > low else low + 1.0))
-        if velocity is not None and results.centres.shape[0] > 3:
-            _streamlines(axes, results, shapes, velocity)
-        figure.colorbar(drawn, ax=axes, label=f"{title}, {unit}" if unit not in ("", "1") else title)
-        axes.set_title(f"{title} at t = {shown_time(results.time(step))}, largest {high:.4g} {unit}".rstrip() + cut)
-        pictures.save(figure, name)
+        _plot_plane(results, shapes, pictures, name, values, title, colours, None if is_fraction else unit, cut)
+
+
+def plot_plane(results, name, values, title, unit, pictures):
+    """A picture of one field of the last step; `unit` None: it is a small fraction."""
+    shapes = Shapes(results)
+    cut = "" if shapes.cut is None else f", z = {shapes.cut * 1e3:.3g} mm"
+    _plot_plane(results, shapes, pictures, name, values, title, "viridis", unit, cut)
+
+
+def _plot_plane(results, shapes, pictures, name, values, title, colours, unit, cut):
+    step = results.steps[-1]
+    velocity, is_fraction = None, unit is None
+    if values.ndim == 2:
+        velocity, values = values, np.linalg.norm(values, axis=1)
+    if not np.all(np.isfinite(values)):
+        pictures.skip(f"{name} picture", "the field has values that are not finite")
+        return
+    if is_fraction:
+        values, unit = scaled_fraction(values)
+    figure, axes = plt.subplots(figsize=_figure_size(results))
+    low = 0.0 if is_fraction or velocity is not None else float(values.min())
+    high = float(values.max())
+    drawn = draw(axes, results, shapes, values, colours, (low, high if high > low else low + 1.0))
+    if velocity is not None and results.centres.shape[0] > 3:
+        _streamlines(axes, results, shapes, velocity)
+    figure.colorbar(drawn, ax=axes, label=f"{title}, {unit}" if unit not in ("", "1") else title)
+    axes.set_title(f"{title} at t = {shown_time(results.time(step))}, largest {high:.4g} {unit}".rstrip() + cut)
+    pictures.save(figure, name)
