@@ -151,7 +151,8 @@ def check(one, two, name: str, folder: pathlib.Path) -> None:
     if name == "mixed":
         repeated = a["cells"][:, 2] == a["cells"][:, 3]
         assert 0 < repeated.sum() < len(repeated), "no mixture of triangles and quadrilaterals"
-        check_mixed_xdmf(folder / "one", a["cells"], repeated)
+        for ranks in ("one", "two"):
+            check_mixed_xdmf(folder / ranks, a["cells"], repeated)
     check_pictures(folder / "one", draws=name != "triangles")  # "mixed" has triangles, too
 
 
