@@ -2,11 +2,25 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "core/errors.hpp"
 
 namespace lampblack {
+namespace {
+
+// Carriage returns that no line feed follows become line feeds; "\r\n" stays.
+void endLinesWithLineFeeds(std::string& text) {
+  for (std::size_t at = text.find('\r'); at != std::string::npos; at = text.find('\r', at)) {
+    const std::size_t next = std::min(text.find_first_not_of('\r', at), text.size());
+    if (next == text.size() || text[next] != '\n')
+      std::fill_n(text.begin() + static_cast<std::ptrdiff_t>(at), next - at, '\n');
+    at = next;
+  }
+}
+
+}  // namespace
 
 std::string readTextFile(const std::filesystem::path& path, const std::string& what, std::uintmax_t limit) {
   namespace fs = std::filesystem;
@@ -27,6 +41,7 @@ std::string readTextFile(const std::filesystem::path& path, const std::string& w
   file.read(text.data(), static_cast<std::streamsize>(size));
   if (!file) throw refusal("the file cannot be read");
   if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
+  endLinesWithLineFeeds(text);
   return text;
 }
 

@@ -9,7 +9,8 @@ namespace lampblack {
 
 inline constexpr std::uintmax_t largestText = 256U << 20U;  // bytes; the largest mechanism published has 20 MB
 
-// The file's bytes without a byte-order mark in front. InputError where it is missing, no regular file, larger than
+// The file's text without a byte-order mark in front; lines that end with a carriage return alone, as on old
+// Macintoshes, end with a line feed. InputError where it is missing, no regular file, larger than
 // `limit` (bytes), empty or cannot be read; `what` says what the file is to be: "a deck".
 std::string readTextFile(const std::filesystem::path& path, const std::string& what,
                          std::uintmax_t limit = largestText);

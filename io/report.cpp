@@ -62,6 +62,7 @@ std::string formatReport(const ClosingReport& report) {
   text += fmt::format("\n{} cells x {} steps on {} rank{} in {}", report.cells, report.steps, report.ranks,
                       report.ranks == 1 ? "" : "s", formatDuration(report.wallTime));
   if (report.wallTime > 0.0) text += fmt::format(": {:.4g} cell-steps/s", cellSteps / report.wallTime);
+  if (report.earlierSteps > 0) text += fmt::format(", after {} steps before the restart", report.earlierSteps);
   text += fmt::format("\nPeak memory per rank: {}\n", formatBytes(report.peakMemoryPerRank));
   return text;
 }

@@ -28,7 +28,8 @@ struct Imbalance {
 struct ClosingReport {
   int ranks = 1;
   std::int64_t cells = 0;
-  std::int64_t steps = 0;
+  std::int64_t steps = 0;          // of this run
+  std::int64_t earlierSteps = 0;   // before the checkpoint that it went on from
   double wallTime = 0.0;           // s
   double peakMemoryPerRank = 0.0;  // bytes, the largest of the ranks
   std::vector<StageTime> stages;

@@ -51,7 +51,8 @@ std::string toJson(const RunRecord& record) {
   json.key("overrides").beginArray();
   for (const std::string& override : record.overrides) json.value(override);
   json.endArray();
-  if (!record.restartedFrom.empty()) json.field("restarted_from", record.restartedFrom);
+  if (!record.restartedFrom.empty())
+    json.field("restarted_from", record.restartedFrom).field("steps_before_restart", record.earlierSteps);
   json.key("deck");
   if (record.deckJson.empty()) {
     json.null();

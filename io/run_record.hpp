@@ -28,11 +28,12 @@ struct RunRecord {
   std::map<std::string, std::string> libraries;  // "PETSc": "3.18.5"
   int ranks = 1;
   std::uint64_t seed = 0;
-  std::string started;         // ISO 8601, UTC
-  std::string finished;        // empty while running
-  double wallTime = 0.0;       // s
-  double simulatedTime = 0.0;  // s
-  std::int64_t steps = 0;
+  std::string started;                       // ISO 8601, UTC
+  std::string finished;                      // empty while running
+  double wallTime = 0.0;                     // s
+  double simulatedTime = 0.0;                // s
+  std::int64_t steps = 0;                    // since the start, those before a restart among them
+  std::int64_t earlierSteps = 0;             // of these, before the restart
   std::optional<std::int64_t> retriedSteps;  // of a problem that can
   std::int64_t cells = 0;
   std::string meshJson;            // how good the mesh is, one object; may be empty

@@ -2,14 +2,37 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
+
 #include "core/errors.hpp"
 
 namespace lampblack::io {
+namespace {
+
+bool isUnit(const std::string& text) {
+  try {
+    static_cast<void>(units::parseUnit(text));
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+}  // namespace
 
 std::pair<std::string, std::string> nameAndUnit(const std::string& header) {
-  const std::size_t open = header.rfind(" [");
-  if (open == std::string::npos || !header.ends_with(']')) return {header, ""};
-  return {header.substr(0, open), header.substr(open + 2, header.size() - open - 3)};
+  const bool isSpecies = header.starts_with("X_");
+  for (const std::string_view brackets : {"[]", "()"}) {
+    const std::size_t open = header.rfind(brackets[0]);
+    if (open == std::string::npos || open == 0 || !header.ends_with(brackets[1])) continue;
+    const bool hasBlank = header[open - 1] == ' ';
+    if (isSpecies && !(hasBlank && brackets == "[]")) continue;
+    std::string unit = header.substr(open + 1, header.size() - open - 2);
+    if (brackets == "()" && !isUnit(unit)) continue;
+    const std::size_t end = header.find_last_not_of(' ', open - 1);
+    return {header.substr(0, end == std::string::npos ? 0 : end + 1), std::move(unit)};
+  }
+  return {header, ""};
 }
 
 TableColumn::TableColumn(std::string name, const std::string& unit, const units::Dimension& dimension)
@@ -22,7 +45,7 @@ TableColumn::TableColumn(std::string name, const std::string& unit, const units:
 
 double TableColumn::read(const std::string& field, std::size_t line) const {
   try {
-    return unit_.factor * units::parseNumber(field) + unit_.offset;
+    return inSI(units::parseNumber(field));
   } catch (const InputError&) {
     throw InputError(fmt::format("line {}: expected a finite number as '{}', found '{}'", line, name_, field));
   }

@@ -15,9 +15,14 @@
 #include "chemistry/transport/transport.hpp"
 #include "core/errors.hpp"
 #include "core/text_file.hpp"
+#include "io/table_column.hpp"
 
 namespace lampblack::app {
 namespace {
+
+std::string trimmed(const std::string& line) {
+  return line.substr(0, line.find('\r'));
+}
 
 // The fields of a line, without the blanks and quotes around them: between commas, or between blanks where there are
 // none.
@@ -48,29 +53,61 @@ std::optional<double> numberIn(const std::string& field) {
   return status == std::errc{} ? value : std::numeric_limits<double>::infinity();
 }
 
-// Two columns of numbers, separated by a comma or blanks. The first line may be a header: one without any number.
-TemperatureProfile readProfileFile(const std::filesystem::path& path) {
+// Of a header: units behind a blank belong to the name before them where blanks separate the columns.
+std::vector<std::string> joinedWithUnits(std::vector<std::string> names) {
+  for (std::size_t i = 1; i < names.size();) {
+    if (!names[i].starts_with('[') && !names[i].starts_with('(')) {
+      ++i;
+      continue;
+    }
+    names[i - 1] += ' ' + names[i];
+    names.erase(names.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+  return names;
+}
+
+// Two columns of numbers, separated by a comma or blanks. The first line may be a header: one without any number, with
+// units behind the names or without.
+TemperatureProfile readProfileFile(const std::filesystem::path& path, const units::Dimension& pointDimension) {
   std::istringstream file(readTextFile(path, "a profile of two columns"));
   std::vector<double> points, temperatures;
   bool first = true;
-  int number = 0;
+  std::size_t number = 0;
+  TableColumn pointColumn("", "", pointDimension), temperatureColumn("", "", units::temperature);
   for (std::string line; std::getline(file, line);) {
     ++number;
     const std::vector<std::string> fields = fieldsOf(line);
     if (std::all_of(fields.begin(), fields.end(), [](const std::string& field) { return field.empty(); }) ||
         fields[0].starts_with('#'))
       continue;
-    const bool header =
-        std::exchange(first, false) &&
-        std::none_of(fields.begin(), fields.end(), [](const auto& field) { return numberIn(field).has_value(); });
-    if (header) continue;
-    const auto point = numberIn(fields[0]), temperature = fields.size() == 2 ? numberIn(fields[1]) : std::nullopt;
-    if (!point || !temperature || !std::isfinite(*point) || !std::isfinite(*temperature))
-      throw InputError(fmt::format("{}:{}: expected two numbers, found '{}'", path.string(), number,
-                                   line.substr(0, line.find('\r'))));
     const auto refuse = [&](const std::string& why) {
       throw InputError(fmt::format("{}:{}: {}", path.string(), number, why));
     };
+    const bool header =
+        std::exchange(first, false) &&
+        std::none_of(fields.begin(), fields.end(), [](const auto& field) { return numberIn(field).has_value(); });
+    if (header) {
+      const std::vector<std::string> names = joinedWithUnits(fields);
+      if (names.size() != 2) {
+        if (line.find_first_of("[(") != std::string::npos)
+          refuse(fmt::format("expected the names of two columns, 'z [cm],T [K]', found '{}'", trimmed(line)));
+        continue;
+      }
+      try {
+        const auto [pointName, pointUnit] = nameAndUnit(names[0]);
+        const auto [temperatureName, temperatureUnit] = nameAndUnit(names[1]);
+        pointColumn = TableColumn(pointName, pointUnit, pointDimension);
+        temperatureColumn = TableColumn(temperatureName, temperatureUnit, units::temperature);
+      } catch (const InputError& error) {
+        refuse(error.what());
+      }
+      continue;
+    }
+    auto point = numberIn(fields[0]), temperature = fields.size() == 2 ? numberIn(fields[1]) : std::nullopt;
+    if (!point || !temperature || !std::isfinite(*point) || !std::isfinite(*temperature))
+      refuse(fmt::format("expected two numbers, found '{}'", trimmed(line)));
+    point = pointColumn.inSI(*point);
+    temperature = temperatureColumn.inSI(*temperature);
     if (!points.empty() && !(*point > points.back()))
       refuse(fmt::format("the points have to rise; {} follows {}", *point, points.back()));
     try {
@@ -134,20 +171,22 @@ void addTemperatureProfileKeys(DeckSchema& schema, const std::string& fileDoc) {
           temperatureKey("temperature_profile.temperature", "Temperatures of the gas at the points.").list().optional())
       .add(stringKey("temperature_profile.file", "CSV file with the points, in place of lists, of two columns, " +
                                                      fileDoc +
-                                                     " and temperature in K; a first line of names and lines that "
-                                                     "begin with # are skipped. Relative to the deck.")
+                                                     " and temperature in K; a first line of names may say other "
+                                                     "units, 'z [cm],T [degC]', and lines that begin with # are "
+                                                     "skipped. Relative to the deck.")
                .optional());
 }
 
 namespace {
 
 TemperatureProfile readPoints(const Deck& deck, const std::string& points) {
+  const units::Dimension dimension = points == "time" ? units::time : units::length;
   const std::string section = "temperature_profile";
   const bool listed = deck.has(section + "." + points) || deck.has(section + ".temperature");
   if (listed == deck.has(section + ".file"))
     throw deck.error(section, fmt::format("expected either '{}' and 'temperature' or 'file'", points));
   try {
-    if (!listed) return readProfileFile(deck.resolvePath(deck.string(section + ".file")));
+    if (!listed) return readProfileFile(deck.resolvePath(deck.string(section + ".file")), dimension);
     for (const std::string& name : {points, std::string("temperature")})
       if (!deck.has(section + "." + name))
         throw InputError(fmt::format("'{}' and 'temperature' belong together: give both or neither", points));

@@ -53,6 +53,8 @@ void FlowLoop::load(const WholeCheckpoint& checkpoint) {
   tables_->load(reader);
   if (hasOtherRanks) costs_.adopt(domain_->mesh.ranks, costs_.weights());
   resumeFromLoadedState();
+  earlierSteps_ = steps_;
+  earlierRetried_ = retried_;
   restart_ = checkpoint;
   wallLimit_.recordCheckpoint(secondsSinceStart() - start);  // reading it; writing is no faster
 }

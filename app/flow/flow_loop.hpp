@@ -159,9 +159,10 @@ class FlowLoop {
   double dt_ = 0.0;  // of the last step
   double nextOutput_ = 0.0;
   std::int64_t steps_ = 0;
-  std::int64_t written_ = -1;  // the last step in the results
-  std::int64_t retried_ = 0;   // steps that failed and were tried again
-  StateBackup backup_;         // the start of the step
+  std::int64_t written_ = -1;                           // the last step in the results
+  std::int64_t retried_ = 0;                            // steps that failed and were tried again
+  std::int64_t earlierSteps_ = 0, earlierRetried_ = 0;  // of these, before the restart
+  StateBackup backup_;                                  // the start of the step
   WallLimit wallLimit_;
   double stepBegan_ = 0.0;  // s, secondsSinceStart()
   Requests requests_;

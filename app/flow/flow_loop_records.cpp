@@ -77,6 +77,7 @@ std::string FlowLoop::status(const HistoryRow& row) const {
 
 void FlowLoop::count(RunRecord& record) const {
   record.steps = steps_;
+  record.earlierSteps = earlierSteps_;
   record.retriedSteps = retried_;
   record.cells = domain_->mesh.totalCells;
   record.meshJson = meshJson(quality_);
@@ -87,7 +88,8 @@ void FlowLoop::report(double wallTime, RunRecord& record) {
   ClosingReport closing;
   closing.ranks = domain_->mesh.ranks;
   closing.cells = domain_->mesh.totalCells;
-  closing.steps = steps_;
+  closing.steps = steps_ - earlierSteps_;
+  closing.earlierSteps = earlierSteps_;
   closing.wallTime = wallTime;
   closing.peakMemoryPerRank = peakMemory(comm_);
   for (const auto& stage : timers_.gather(comm_))
@@ -102,7 +104,8 @@ void FlowLoop::report(double wallTime, RunRecord& record) {
   std::cout << formatReport(closing);
   for (const std::string& line : quality_.lines()) fmt::print("{}\n", line);
   if (costs_.partitions() > 0) fmt::print("times the mesh was partitioned anew: {}\n", costs_.partitions());
-  if (retried_ > 0) fmt::print("steps that failed and were tried again, smaller: {}\n", retried_);
+  if (const std::int64_t retried = retried_ - earlierRetried_; retried > 0)
+    fmt::print("steps that failed and were tried again, smaller: {}\n", retried);
   fmt::print("peak temperature {:.1f} K at {} = ({:.3f}, {:.3f}) mm\n", last_.extremes.maximumTemperature,
              domain_->mesh.axisymmetric() ? "(r, z)" : "(x, y)", 1e3 * peakTemperature_.place[0],
              1e3 * peakTemperature_.place[1]);

@@ -56,7 +56,7 @@ TEST(ReactorCase, FlowsOfANetworkAreInBalance) {
 }
 
 // What a profile file becomes: its temperatures, or the message about it.
-std::string profileOf(const std::string& text) {
+std::string profileOf(const std::string& text, std::optional<double> at = {}) {
   const test::ScratchFolder folder;
   std::string found;
   try {
@@ -69,6 +69,7 @@ std::string profileOf(const std::string& text) {
         test::sourceFolder / "cases/deck.yaml", {}, reactorSchema());
     const ReactorCase read = readReactorCase(deck);
     for (const double T : read.profile->temperatures()) found += fmt::format("{:g} ", T);
+    if (at) found += fmt::format("at {:g}", read.profile->value(*at));
   } catch (const InputError& error) {
     found = error.what();
   }
@@ -95,6 +96,32 @@ TEST(ReactorCase, AProfileFileLosesNoLine) {
            {"time,T\n", "expected lines of two numbers, found none"},
            {"", "the file is empty"}})
     EXPECT_THAT(profileOf(text), testing::HasSubstr(message)) << text;
+}
+
+TEST(ReactorCase, AProfileFileSaysItsUnits) {
+  for (const std::string header : {"time [ms],T [degC]", "time[ms],T[degC]", "time (ms),T (degC)", "time [ms] T [degC]",
+                                   "\"time [ms]\",\"gas, measured [degC]\"", "time (ms), T [degC]"}) {
+    const bool commas = header.find(',') != std::string::npos;
+    EXPECT_EQ(profileOf(header + (commas ? "\n0,26.85\n2000,126.85\n" : "\n0 26.85\n2000 126.85\n"), 1.0),
+              "300 400 at 350")
+        << header;
+  }
+  EXPECT_EQ(profileOf("time (from the valve),T (corrected)\n0,300\n2,400\n", 1.0), "300 400 at 350");
+  EXPECT_EQ(profileOf("time since the start T\n0 300\n2 400\n", 1.0), "300 400 at 350");
+  for (const auto& [text, message] : std::vector<std::pair<std::string, std::string>>{
+           {"z [cm],T [K]\n0,300\n", "profile.csv:1: the column 'z' is in cm; expected a time"},
+           {"time [s],T [ms]\n0,300\n", ":1: the column 'T' is in ms; expected a temperature"},
+           {"time [sec],T [K]\n0,300\n", "'sec' is not a unit known here"},
+           {"the time [ms] T [K]\n0 300\n", ":1: expected the names of two columns"},
+           {"time [ms],T [degC]\n0,1e9\n", ":2: expected temperatures from"}})
+    EXPECT_THAT(profileOf(text), testing::HasSubstr(message)) << text;
+}
+
+TEST(ReactorCase, LinesMayEndWithACarriageReturnAlone) {
+  EXPECT_EQ(profileOf("z,T\r0,300\r1,400\r2,500\r"), "300 400 500 ");
+  EXPECT_EQ(profileOf("z,T\n0,300\r1,400\r"), "300 400 ") << "a header put in front";
+  EXPECT_EQ(profileOf("z,T\r\r\n0,300\r\r\n1,400\r\r\n"), "300 400 ") << "converted twice";
+  EXPECT_THAT(profileOf("z,T\r0,300\r0,400\r"), testing::HasSubstr("profile.csv:3: the points have to rise"));
 }
 
 TEST(ReactorCase, ReactionsAreNamedByNumberOrEquation) {

@@ -5,6 +5,7 @@ Usage: restart_test.py EXECUTABLE RANKS MPIEXEC...
 """
 
 import csv
+import json
 import os
 import pathlib
 import random
@@ -179,6 +180,10 @@ def check_later_end(program, folder, deck, whole):
     before = rows(out)
     result = run(program, deck, *running.settings("time.end=32 us", "output.interval=3 us"), "--out", out, "--restart")
     assert "continues from" in result.out
+    record = json.loads((out / "run.json").read_text("utf-8"))
+    earlier, own = record["steps_before_restart"], record["steps"] - record["steps_before_restart"]
+    assert earlier == int(float(before[-1]["step [1]"])) and 0 < own < earlier, record
+    assert f"x {own} steps on " in result.out and f", after {earlier} steps before the restart\n" in result.out, result.out
     assert rows(out)[: len(before)] == before and abs(float(rows(out)[-1]["time [s]"]) - 32e-6) < 1e-15
     with h5py.File(out / "results.h5", "r") as file:
         times = sorted(step.attrs["time"] for step in file["steps"].values())

@@ -7,6 +7,7 @@
 #include <array>
 
 #include "core/errors.hpp"
+#include "io/table_column.hpp"
 #include "tests/every_module.hpp"
 #include "tests/messages.hpp"
 #include "tests/scratch.hpp"
@@ -45,6 +46,19 @@ TEST_F(Tables, AreLinearBetweenPointsAndConstantBeyond) {
   EXPECT_NEAR(at(1.75e-3), 0.325, 1e-15);
   EXPECT_NEAR(at(-1.0), 0.10, 1e-15);
   EXPECT_NEAR(at(1.0), 0.30, 1e-15);
+}
+
+TEST_F(Tables, UnitsStandInBracketsWithABlankOrWithout) {
+  using Pair = std::pair<std::string, std::string>;
+  EXPECT_EQ(nameAndUnit("velocity [cm/s]"), (Pair{"velocity", "cm/s"}));
+  EXPECT_EQ(nameAndUnit("velocity[cm/s]"), (Pair{"velocity", "cm/s"}));
+  EXPECT_EQ(nameAndUnit("velocity  (cm/s)"), (Pair{"velocity", "cm/s"}));
+  EXPECT_EQ(nameAndUnit("velocity (mean)"), (Pair{"velocity (mean)", ""}));
+  EXPECT_EQ(nameAndUnit("X_C5H5O(1,3) [1]"), (Pair{"X_C5H5O(1,3)", "1"}));
+  for (const std::string species : {"X_CH2[s]", "X_CH2(s)", "X_CH2 (s)"})
+    EXPECT_EQ(nameAndUnit(species), (Pair{species, ""}));
+  const GridTable table = read("z(mm),velocity[cm/s]\r0,10\r2,30\r");
+  EXPECT_NEAR(table.value(0, std::array{9.0, 1e-3, 9.0}), 0.2, 1e-15);
 }
 
 TEST_F(Tables, SpanAGridInAnyOrder) {

@@ -73,7 +73,10 @@ TEST(Report, HasStagesSharesAndRates) {
   EXPECT_THAT(text, HasSubstr("70.0\n"));
   EXPECT_THAT(text, HasSubstr("other                        20.000"));
   EXPECT_THAT(text, HasSubstr("1.43    1.02"));
-  EXPECT_THAT(text, HasSubstr("1000 cells x 50 steps on 2 ranks in 1 min 40 s: 500 cell-steps/s"));
+  EXPECT_THAT(text, HasSubstr("1000 cells x 50 steps on 2 ranks in 1 min 40 s: 500 cell-steps/s\n"));
+  report.earlierSteps = 7000;
+  EXPECT_THAT(formatReport(report), HasSubstr("x 50 steps on 2 ranks in 1 min 40 s: 500 cell-steps/s, after 7000 steps "
+                                              "before the restart\n"));
   EXPECT_THAT(text, HasSubstr("Peak memory per rank: 1.5 GiB"));
 }
 
