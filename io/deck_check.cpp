@@ -35,7 +35,7 @@ class Checker {
  private:
   void checkNames(const SchemaNode& schema, const DeckNode& node, const std::string& path) {
     if (schema.key != nullptr) return;
-    if (const SchemaNode* item = schema.child("[]")) {
+    if (const SchemaNode* item = schema.itemFor(node.kind)) {
       for (std::size_t i = 0; i < node.children.size() && node.kind == DeckNode::Kind::list; ++i) {
         checkNames(*item, node.children[i], fmt::format("{}[{}]", path, i));
       }
@@ -64,7 +64,8 @@ class Checker {
 
   InputError unknown(const SchemaNode& schema, const DeckNode& node, const std::string& path) const {
     std::vector<std::string> here;
-    for (const SchemaNode& child : schema.children) here.push_back(child.name);
+    for (const SchemaNode& child : schema.children)
+      if (child.name != "[]") here.push_back(child.name);
     std::string hint = didYouMean(node.name, here);
     if (const std::string present = presentName(schema, node.name); hint.empty() && !present.empty())
       hint = fmt::format("; did you mean '{}'?", present);
@@ -113,7 +114,7 @@ class Checker {
       if (schema.section->presence == Presence::optional && node == nullptr) return;
     }
     const DeckNode& here = node ? *node : enclosing;
-    if (const SchemaNode* item = schema.child("[]")) {
+    if (const SchemaNode* item = schema.itemFor(empty ? DeckNode::Kind::null : node->kind)) {
       if (empty) return;
       if (node->kind != DeckNode::Kind::list) return addWrongKind("a list", *node, path);
       for (std::size_t i = 0; i < node->children.size(); ++i) {
@@ -121,8 +122,11 @@ class Checker {
       }
       return;
     }
-    if (!empty && node->kind != DeckNode::Kind::map) return addWrongKind("a map of keys", *node, path);
+    if (!empty && node->kind != DeckNode::Kind::map)
+      return addWrongKind(schema.child("[]") == nullptr ? "a map of keys" : "a map of keys or a list of such maps", *node,
+                          path);
     for (const SchemaNode& child : schema.children) {
+      if (child.name == "[]") continue;
       if (child.name != "*") {
         read(child, empty ? nullptr : node->child(child.name), joinedPath(path, child.name), here);
         continue;

@@ -52,7 +52,9 @@ class Conditions {
       if (const auto value = index_.find(path); value != index_.end()) values_[value->second].counts = counts;
       return;
     }
+    const bool isList = node != nullptr && node->kind == DeckNode::Kind::list;
     for (const SchemaNode& child : schema.children) {
+      if (child.name == "[]" && !isList) continue;
       if (child.name == "[]" || child.name == "*") {
         for (std::size_t i = 0; node != nullptr && i < node->children.size(); ++i) {
           const DeckNode& entry = node->children[i];

@@ -22,7 +22,7 @@ class FormerNames {
       replaceChoices(*schema.key, node, path);
       return;
     }
-    if (const SchemaNode* item = schema.child("[]")) {
+    if (const SchemaNode* item = schema.itemFor(node.kind)) {
       for (std::size_t i = 0; node.kind == DeckNode::Kind::list && i < node.children.size(); ++i)
         replace(*item, node.children[i], fmt::format("{}[{}]", path, i));
       return;

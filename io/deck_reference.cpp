@@ -148,6 +148,9 @@ void writeTitle(JsonWriter& json) {
   json.field("title", "Lampblack deck");
 }
 
+// The keys of a map.
+void writeMap(const Node& node, JsonWriter& json);
+
 void writeSchema(const Node& node, JsonWriter& json) {
   if (node.key != nullptr) {
     writeKey(*node.key, json);
@@ -157,17 +160,28 @@ void writeSchema(const Node& node, JsonWriter& json) {
   if (node.path.empty()) writeTitle(json);
   if (node.section != nullptr) json.field("description", meaning(node.section->doc, node.section->conditions));
   if (const Node* item = node.child("[]")) {
+    const bool isMapToo = node.children.size() > 1;
+    if (isMapToo) json.key("anyOf").beginArray().beginObject();
     json.field("type", "array");
     json.key("items");
     writeSchema(*item, json);
     json.endObject();
+    if (!isMapToo) return;
+    json.beginObject();
+    writeMap(node, json);
+    json.endObject().endArray().endObject();
     return;
   }
+  writeMap(node, json);
+  json.endObject();
+}
+
+void writeMap(const Node& node, JsonWriter& json) {
   // A section may be left with nothing in it ("output:").
   json.key("type").beginArray().value("object").value("null").endArray();
   json.key("properties").beginObject();
   for (const Node& child : node.children) {
-    if (child.name == "*") continue;
+    if (child.name == "*" || child.name == "[]") continue;
     json.key(child.name);
     writeSchema(child, json);
     if (child.key == nullptr) continue;
@@ -190,7 +204,6 @@ void writeSchema(const Node& node, JsonWriter& json) {
   } else {
     json.value(false);
   }
-  json.endObject();
 }
 
 }  // namespace

@@ -159,6 +159,10 @@ const DeckSchema::Node* DeckSchema::Node::child(const std::string& childName) co
   return nullptr;
 }
 
+const DeckSchema::Node* DeckSchema::Node::itemFor(DeckNode::Kind kind) const {
+  return kind == DeckNode::Kind::list || children.size() == 1 ? child("[]") : nullptr;
+}
+
 namespace {
 
 // A schema has hundreds of keys, and each is compared with all: nothing here makes a text.

@@ -8,7 +8,8 @@
 //       .add(quantityKey("boundaries.*.velocity", units::velocity, "Velocity along the inward normal.").optional())
 //       .add(integerKey("mesh.z[].cells", "Cells of this segment.").atLeast(1));
 //
-// A path is names joined by dots; `*` stands for a name the user chooses and `[]` for the items of a list.
+// A path is names joined by dots; `*` stands for a name the user chooses and `[]` for the items of a list. Where keys
+// are declared both of a section and of its items ("initial.number" and "initial[].number"), a deck may have either.
 //
 // A key or section that counts only with some choices of another key says so, and a deck that has it in vain is
 // refused:
@@ -24,6 +25,7 @@
 #include <vector>
 
 #include "core/modules.hpp"
+#include "io/deck_node.hpp"
 #include "io/units.hpp"
 
 namespace lampblack::io {
@@ -132,6 +134,8 @@ class DeckSchema {
     std::vector<Node> children;
 
     [[nodiscard]] const Node* child(const std::string& childName) const;  // exact, nullptr if none
+    // What the items of a part of a deck are: of a list, and of anything where nothing but a list may stand here.
+    [[nodiscard]] const Node* itemFor(DeckNode::Kind kind) const;
   };
   // Refers to this schema, which has to live as long. std::logic_error for a condition on a key or choice that is not
   // declared.

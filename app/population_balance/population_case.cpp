@@ -1,12 +1,14 @@
 #include "app/population_balance/population_case.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 
+#include "app/deck/initial_distribution.hpp"
 #include "app/population_balance/population_case_parts.hpp"
-#include "core/constants.hpp"
 #include "core/errors.hpp"
+#include "particles/population/exact_solutions/initial_distribution.hpp"
 #include "particles/population/monte_carlo/shipped_types.hpp"
 
 namespace lampblack::app {
@@ -15,23 +17,27 @@ using namespace populationcase;
 
 namespace {
 
-InitialPopulation readInitial(const Deck& deck) {
-  using Distribution = InitialPopulation::Distribution;
-  const std::string section = "initial", type = deck.choice("initial.distribution");
-  InitialPopulation initial;
-  if (type == "none") return initial;
-  const std::string who = fmt::format("the initial distribution {}", type);
-  initial.distribution = type == "monodisperse"  ? Distribution::monodisperse
-                         : type == "exponential" ? Distribution::exponential
-                                                 : Distribution::lognormal;
-  initial.number = needed(deck, section, "number", who);
-  initial.volume = readSize(deck, section, who);
-  if (type == "lognormal") {
-    if (!deck.has("initial.geometric_deviation"))
-      throw deck.error(section, fmt::format("{} needs the key 'geometric_deviation'", who));
-    initial.geometricDeviation = deck.number("initial.geometric_deviation");
+// By how much, of one, a sample may miss a moment without a word.
+constexpr double largestMiss = 0.1;
+
+// A warning where the sample that a method starts from lacks what a few large particles hold; empty where it does not.
+std::string missedAtStart(const PopulationCase& made, const PopulationMethod& method,
+                          const std::array<double, 4>& moments) {
+  if (method.deterministic()) return {};
+  std::vector<std::string> missed;
+  for (const int k : {1, 2, 3}) {
+    const double known = initialMoment(made.initial, k);
+    const double part = moments[static_cast<std::size_t>(k)] / known;
+    if (known > 0 && std::abs(part - 1) > largestMiss) missed.push_back(fmt::format("M{} {:.2g}", k, part));
   }
-  return initial;
+  if (missed.empty()) return {};
+  const std::size_t particles = std::get<MonteCarloOptions>(method.options).particles;
+  return fmt::format(
+      "methods.{}: the {} particles that the first repeat starts from miss what a few large ones hold: {} times that "
+      "of "
+      "the initial distribution, and the intervals of the results do not know of it; take more particles, a method "
+      "with different weights (sammc, swa, mmc) and initial_weights: moments, or sections",
+      method.name, particles, fmt::join(missed, ", "));
 }
 
 PopulationTimes readTimes(const Deck& deck) {
@@ -67,14 +73,6 @@ PopulationBins readBins(const Deck& deck, double end) {
 }
 
 }  // namespace
-
-double populationcase::readSize(const Deck& deck, const std::string& section, const std::string& who) {
-  if (deck.has(section + ".volume") == deck.has(section + ".diameter"))
-    throw deck.error(section, fmt::format("{} needs either 'volume' or 'diameter'", who));
-  if (const auto volume = deck.optionalQuantity(section + ".volume")) return *volume;
-  const double d = deck.quantity(section + ".diameter");
-  return constants::pi / 6 * d * d * d;
-}
 
 std::vector<double> PopulationTimes::rows() const {
   std::vector<double> rows{0};
@@ -125,7 +123,7 @@ PopulationCase readPopulationCase(const Deck& deck) {
   made.name = deck.string("name");
   made.model = readModel(deck);
   made.particles = readParticles(deck, made.model);
-  made.initial = readInitial(deck);
+  made.initial = readInitialDistribution(deck, "initial");
   made.times = readTimes(deck);
   made.bins = readBins(deck, made.times.end);
   made.repeats = deck.integer<std::uint64_t>("repeats");
@@ -140,7 +138,9 @@ PopulationCase readPopulationCase(const Deck& deck) {
   checkMethods(deck, made);
   for (const PopulationMethod& method : made.methods) {
     try {
-      makeSolver(made, method, 0);
+      const auto solver = makeSolver(made, method, 0);
+      if (std::string missed = missedAtStart(made, method, solver->moments()); !missed.empty())
+        made.warnings.push_back(std::move(missed));
     } catch (const InputError& error) {
       throw deck.error("methods." + method.name, error.what());
     }

@@ -63,6 +63,7 @@ struct PopulationCase {
   PopulationBins bins;
   std::uint64_t repeats = 1;
   std::uint64_t seed = 1;
+  std::vector<std::string> warnings;  // of samples that miss moments of the initial distribution
 
   // Whether no process changes M1.
   [[nodiscard]] bool conservesMass() const;

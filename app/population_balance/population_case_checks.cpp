@@ -1,8 +1,10 @@
 // What the parts of a population balance deck, each in its range, cannot be together.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "app/population_balance/population_case_parts.hpp"
+#include "particles/population/exact_solutions/initial_distribution.hpp"
 
 namespace lampblack::app::populationcase {
 namespace {
@@ -27,11 +29,7 @@ double fallByCollisions(const PopulationCase& made) {
   const double rate = kernel.rate * kernel.efficiency;
   if (kernel.type == CollisionKernelType::constant) return std::log1p(0.5 * rate * initial.number * made.times.end);
   if (kernel.type != CollisionKernelType::additive) return 0;
-  // The mean volume over the median one (Hatch and Choate 1929).
-  const double logarithm = std::log(initial.geometricDeviation);
-  const bool median = initial.distribution == InitialPopulation::Distribution::lognormal;
-  const double mean = initial.volume * (median ? std::exp(4.5 * logarithm * logarithm) : 1);
-  return rate * initial.number * mean * made.times.end;
+  return rate * initialMoment(initial, 1) * made.times.end;
 }
 
 void checkCollisions(const Deck& deck, const PopulationCase& made) {
@@ -58,7 +56,10 @@ void checkRates(const Deck& deck, const PopulationModel& model, double end) {
 // The smallest volume that particles begin with, of those that have one; infinite where there is none.
 double smallestStart(const PopulationCase& made) {
   double volume = std::numeric_limits<double>::infinity();
-  if (made.initial.distribution == InitialPopulation::Distribution::monodisperse) volume = made.initial.volume;
+  for (const InitialPopulation& mode : modesOf(made.initial)) {
+    if (mode.distribution == InitialPopulation::Distribution::monodisperse) volume = std::min(volume, mode.volume);
+    if (!mode.intervals.empty()) volume = std::min(volume, mode.intervals.front().from);
+  }
   if (made.model.nucleation) volume = std::min(volume, made.model.nucleation->volume);
   return volume;
 }

@@ -68,6 +68,7 @@ MonteCarloOptions readMonteCarlo(const Deck& deck, const std::string& section, c
     throw deck.error(section + ".expected_number",
                      "the number density at the start is that of 'initial'; leave this key out");
   options.expectedNumber = deck.optionalQuantity(section + ".expected_number").value_or(0.0);
+  if (deck.optionalString(section + ".initial_weights") == "equal") options.initialWeights = InitialWeights::equal;
   options.threshold = count(deck, section + ".threshold", options.threshold);
   requireMemory(deck, section + ".threshold", fmt::format("a threshold of {} sizes", options.threshold),
                 bytesOfParticle * static_cast<double>(options.threshold));

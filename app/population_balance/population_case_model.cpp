@@ -2,6 +2,7 @@
 #include <cmath>
 #include <map>
 
+#include "app/deck/initial_distribution.hpp"
 #include "app/population_balance/population_case_parts.hpp"
 #include "core/errors.hpp"
 
@@ -77,7 +78,7 @@ NucleationOptions readNucleation(const Deck& deck) {
   const std::string section = "processes.nucleation", source = deck.choice(section + ".source");
   const std::string who = "nucleation with the source " + source;
   NucleationOptions options;
-  options.volume = readSize(deck, section, "nucleation");
+  options.volume = readParticleSize(deck, section, "nucleation");
   if (source == "constant") {
     options.source = NucleationOptions::Source::constant;
     options.rate = needed(deck, section, "rate", who);

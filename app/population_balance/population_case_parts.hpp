@@ -18,9 +18,6 @@ inline double needed(const Deck& deck, const std::string& section, const std::st
   throw deck.error(section, fmt::format("{} needs the key '{}'", who, key));
 }
 
-// The volume of a particle, given as such or by a diameter.
-double readSize(const Deck& deck, const std::string& section, const std::string& who);
-
 PopulationModel readModel(const Deck& deck);
 // Sintering makes the model's growth active.
 PopulationParticles readParticles(const Deck& deck, PopulationModel& model);

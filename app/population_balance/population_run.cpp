@@ -24,6 +24,7 @@ class PreparedPopulation : public PreparedRun {
       case_ = readPopulationCase(deck);
       exact_ = exactSolution(case_);
     });
+    printWarnings(case_.warnings);
     if (exact_ && exact_->gelationTime() && *exact_->gelationTime() <= case_.times.end)
       printWarnings(
           {fmt::format("the population gels at t = {:.6g} s; time.end = {:g} s is later, and a run will stop at "
@@ -64,6 +65,7 @@ class PreparedPopulation : public PreparedRun {
           writePopulation(results, case_, statistics);
           record.peakMemoryPerRank = peakMemory(comm_);
           if (rank == 0) fmt::print("{}", populationSummary(case_, statistics));
+          if (rank == 0) printWarnings(startsWithoutTruth(case_, statistics));
           if (statistics.stop != 0) {
             results.closePartial();
             raiseStopped(

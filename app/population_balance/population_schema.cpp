@@ -1,3 +1,4 @@
+#include "app/deck/initial_distribution.hpp"
 #include "app/deck/temperature_input.hpp"
 #include "app/population_balance/population_case.hpp"
 
@@ -10,19 +11,6 @@ const std::vector<std::string> monteCarlo{
     "swa",  "hybrid"};
 const std::vector<std::string> weighted{"mmc", "wfmc", "samwfmc", "sammc", "swa"};
 const std::vector<std::string> fractions{"wfmc", "samwfmc", "sammc"};
-const std::vector<std::string> spread{"monodisperse", "exponential", "lognormal"};
-
-// A size of a particle, as a volume or as the diameter of the sphere that has it.
-void addSize(DeckSchema& schema, const std::string& section, const std::string& what,
-             const std::vector<DeckCondition>& conditions = {}) {
-  DeckKey volume = quantityKey(section + ".volume", units::volume, "Volume " + what + "; either this or the diameter.");
-  DeckKey diameter = quantityKey(section + ".diameter", units::length,
-                                 "Diameter of the sphere of that volume, in place of the volume.");
-  for (DeckKey* key : {&volume, &diameter}) {
-    key->optional().above(0).conditions = conditions;
-    schema.add(*key);
-  }
-}
 
 // The rate rate (v / reference_volume)^exponent of a process of single particles.
 void addSizeDependentRate(DeckSchema& schema, const std::string& section, const std::string& what) {
@@ -73,22 +61,7 @@ void addParticleTypes(DeckSchema& schema) {
                      "Mass fraction of the component in what condenses or grows on the surface.")
                .byDefault("0")
                .atLeast(0));
-  schema
-      .add(choiceKey("initial.distribution", {"none", "monodisperse", "exponential", "lognormal"},
-                     "Distribution of the volumes of the particles at time zero (lognormal: of their diameters); none: "
-                     "no particles.")
-               .byDefault("none"))
-      .add(quantityKey("initial.number", units::perVolume, "Number density of the particles at time zero.")
-               .optional()
-               .above(0)
-               .onlyWith("initial.distribution", spread));
-  addSize(schema, "initial", "of all (monodisperse), mean (exponential) or median by number (lognormal)",
-          {{"initial.distribution", spread}});
-  schema.add(numberKey("initial.geometric_deviation", "Geometric standard deviation of the diameter.")
-                 .optional()
-                 .above(1)
-                 .atMost(100)
-                 .onlyWith("initial.distribution", {"lognormal"}));
+  addInitialDistribution(schema, "initial");
 }
 
 void addCoagulation(DeckSchema& schema) {
@@ -155,7 +128,7 @@ void addNucleation(DeckSchema& schema) {
                .optional()
                .atLeast(0)
                .onlyWith(at + ".source", {"table"}));
-  addSize(schema, at, "of a nucleus");
+  addParticleSize(schema, at, "of a nucleus");
 }
 
 void addSingleProcesses(DeckSchema& schema) {
@@ -171,8 +144,7 @@ void addSingleProcesses(DeckSchema& schema) {
                .byDefault("equal"));
   schema.section("processes.condensation", Presence::optional, "dv/dt = rate v; evaporation where it is negative.")
       .add(quantityKey("processes.condensation.rate", units::frequency,
-                       "Relative rate at which all number densities fall as the gas expands, dn/dt = -rate n; "
-                       "negative: compression."))
+                       "Relative rate at which every volume grows, the rate in dv/dt = rate v; negative: evaporation."))
       .section("processes.surface_growth", Presence::optional, "dv/dt = rate S, with the surface S of the particle.")
       .add(quantityKey("processes.surface_growth.rate", units::velocity,
                        "Speed at which the surface of particles grows outwards, the rate in dv/dt = rate S.")
@@ -291,6 +263,12 @@ void addMethods(DeckSchema& schema) {
                      "Nuclei evenly spaced in the integral of their rate (hardly any noise) or at random.")
                .optional()
                .onlyWith(at + ".type", monteCarlo))
+      .add(choiceKey(at + ".initial_weights", {"moments", "equal"},
+                     "What the particles of the initial distribution stand for: moments (if not given): the large ones "
+                     "for fewer real ones, so that none holds more than 4/particles of any of M0 to M3; equal: all for "
+                     "as many.")
+               .optional()
+               .onlyWith(at + ".type", weighted))
       .add(quantityKey(at + ".nucleus_weight", units::perVolume,
                        "Number density of real particles that a new numerical particle (nucleus) stands for: smaller "
                        "is more accurate and slower.")
@@ -352,7 +330,9 @@ void addMethods(DeckSchema& schema) {
                .below(1)
                .onlyWith(at + ".type", {"sectional", "qmom", "momic"}))
       .add(numberKey(at + ".absolute_tolerance",
-                     "Absolute tolerance of the integrator, as part of the largest number density.")
+                     "Absolute tolerance of the integrator, as part of the number of particles of a section that would "
+                     "hold all "
+                     "of any of M0 to M3; 1e-12 if not given.")
                .optional()
                .above(0)
                .below(1)

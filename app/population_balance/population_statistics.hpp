@@ -83,6 +83,11 @@ struct PopulationStatistics {
   [[nodiscard]] std::optional<double> gelation() const;  // s, of the earliest method
 };
 
+// Warnings, one a method, where the intervals at the start do not hold a moment of the initial distribution: the mean
+// of the repeats is more than 1 % and 3.3 standard errors away from it.
+std::vector<std::string> startsWithoutTruth(const PopulationCase& populationCase,
+                                            const PopulationStatistics& statistics);
+
 // Collective; InputError and NumericsError are raised on all ranks. What comes back is complete on rank 0 and empty on
 // the others. `finished` is called on rank 0 after each method. A method that gels has the rows until then, and no
 // further repeats are begun.

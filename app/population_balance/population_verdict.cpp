@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/population_balance/population_accumulator.hpp"
+#include "particles/population/exact_solutions/initial_distribution.hpp"
 
 namespace lampblack::app {
 namespace {
@@ -71,6 +72,29 @@ void judge(const PopulationCase& populationCase, const PopulationMethod& method,
     statistics.bias = BiasVerdict::noBias;
     statistics.verdict = others.empty() ? "no bias" : fmt::format("no bias; not required: {}", fmt::join(others, ", "));
   }
+}
+
+std::vector<std::string> startsWithoutTruth(const PopulationCase& populationCase,
+                                            const PopulationStatistics& statistics) {
+  constexpr double negligible = 0.01;
+  std::vector<std::string> warnings;
+  for (const MethodStatistics& method : statistics.methods) {
+    if (method.deterministic || method.mean.empty() || method.repeats.size() < 2) continue;
+    std::vector<std::string> missed;
+    for (const std::size_t k : {0U, 1U, 2U, 3U}) {
+      const double known = initialMoment(populationCase.initial, static_cast<double>(k));
+      if (!(known > 0)) continue;
+      const double part = method.mean[0][k] / known, error = method.error[0][k] / known;
+      if (std::abs(part - 1) > std::max(negligible, largestZ * error))
+        missed.push_back(fmt::format("M{} {:.3g} +- {:.2g}", k, part, largestZ * error));
+    }
+    if (!missed.empty())
+      warnings.push_back(
+          fmt::format("methods.{}: at the start the mean of {} repeats and its interval do not hold the moments of the "
+                      "initial distribution, of which they are {}; nor can the intervals later hold the truth",
+                      method.name, method.repeats.size(), fmt::join(missed, ", ")));
+  }
+  return warnings;
 }
 
 }  // namespace lampblack::app

@@ -2,12 +2,17 @@
 #include "app/population_balance/population_case.hpp"
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 
+#include "app/population_balance/population_statistics.hpp"
 #include "core/errors.hpp"
 #include "core/modules.hpp"
+#include "particles/population/exact_solutions/initial_distribution.hpp"
+#include "tests/scratch.hpp"
 #include "tests/source_folder.hpp"
 
 namespace lampblack::app {
@@ -116,6 +121,134 @@ TEST(PopulationCase, AnEmptyStartIsFilledByNuclei) {
                   "{one: {type: sammc, particles: 10, expected_number: 1 1/m^3, nucleation: random}}", "{}"));
   EXPECT_EQ(made.initial.distribution, InitialPopulation::Distribution::none);
   EXPECT_EQ(std::get<MonteCarloOptions>(made.methods[0].options).nucleation, NucleationSampling::random);
+}
+
+// What a deck's `initial` becomes, with files beside it.
+InitialPopulation initialOf(const std::string& initial, const std::string& table = "") {
+  const test::ScratchFolder folder;
+  if (!table.empty()) static_cast<void>(folder.file("bins.csv", table));
+  return readPopulationCase(Deck::parse(deckOf("{coagulation: {kernel: constant, rate: 1}}", kOne, initial),
+                                        folder.path() / "deck.yaml", {}, populationSchema()))
+      .initial;
+}
+
+TEST(PopulationCase, TheStartMayBeAListOfModes) {
+  const InitialPopulation two = initialOf(R"(
+  - {distribution: lognormal, number: 3200 1/cm^3, diameter: 20 nm, geometric_deviation: 1.45}
+  - {distribution: lognormal, number: 2900 1/cm^3, diameter: 116 nm, geometric_deviation: 1.65})");
+  ASSERT_EQ(two.modes.size(), 2U);
+  EXPECT_DOUBLE_EQ(two.number, 6.1e9);
+  EXPECT_DOUBLE_EQ(two.modes[1].geometricDeviation, 1.65);
+  // Mean volumes by Hatch and Choate.
+  const auto volumes = [](double number, double d, double s) {
+    return number * std::acos(-1.0) / 6 * std::pow(d, 3) * std::exp(4.5 * std::pow(std::log(s), 2));
+  };
+  EXPECT_NEAR(initialMoment(two, 1) / (volumes(3.2e9, 20e-9, 1.45) + volumes(2.9e9, 116e-9, 1.65)), 1, 1e-12);
+  const std::string one = "{distribution: exponential, number: 2 1/m^3, volume: 3 m^3}";
+  EXPECT_EQ(initialOf("[" + one + "]").distribution, InitialPopulation::Distribution::exponential);
+  EXPECT_EQ(initialOf("[{}, " + one + "]").number, 2);
+}
+
+TEST(PopulationCase, TheStartMayBeATable) {
+  const std::string table = "{distribution: table, file: bins.csv}";
+  const double pi6 = std::acos(-1.0) / 6;
+  for (const std::string text : {"from [nm],to [nm],number [1/cm^3]\n10,20,1e3\n20,50,200\n",
+                                 "# measured\nnumber[1/cm^3],To [nm],From [nm]\r200,50,20\r1e3,20,10\r",
+                                 "from,to,number\n1e-8,2e-8,1e9\n2e-8,5e-8,2e8\n",
+                                 "from (um),note,to (um),number (1/cm3)\n0.01,a,0.02,1000\n0.02,b,0.05,200\n"}) {
+    const InitialPopulation made = initialOf(table, text);
+    ASSERT_EQ(made.intervals.size(), 2U) << text;
+    EXPECT_NEAR(made.number / 1.2e9, 1, 1e-12) << text;
+    EXPECT_NEAR(made.intervals[0].from / (pi6 * 1e-24), 1, 1e-12) << text;
+    EXPECT_NEAR(made.intervals[1].to / (pi6 * 1.25e-22), 1, 1e-12) << text;
+  }
+  EXPECT_NEAR(initialOf(table, "from [nm^3],to [nm^3],number [1/cm^3]\n10,20,1\n").intervals[0].to / 2e-26, 1, 1e-12);
+  // Channels of a scanning mobility sizer, 16 a decade: each holds its density times the width of a channel.
+  std::string channels = "Dp [nm],dN/dlogDp [1/cm^3]\n", natural = "diameter [nm],dN/dlnd [1/cm^3]\n";
+  double number = 0;
+  for (int i = 0; i < 33; ++i) {
+    const double density = 1e4 * std::exp(-0.5 * std::pow((i - 16) / 5.0, 2));
+    channels += fmt::format("{},{}\n", 10 * std::pow(10, i / 16.0), density);
+    natural += fmt::format("{},{}\n", 10 * std::pow(10, i / 16.0), density / std::log(10.0));
+    number += 1e6 * density / 16;
+  }
+  for (const std::string& text : {channels, natural}) {
+    const InitialPopulation sizer = initialOf(table, text);
+    EXPECT_NEAR(sizer.number / number, 1, 1e-12);
+    EXPECT_NEAR(initialNumber(sizer, pi6 * 1e-24, pi6 * 1e-18) / (number - 1e6 * 1e4 * std::exp(-5.12) / 16), 1, 1e-9)
+        << "but for half of the first and last channel";
+  }
+  EXPECT_EQ(
+      initialOf("[" + table + ", {distribution: monodisperse, number: 1, diameter: 1 nm}]", channels).modes.size(), 2U);
+  for (const auto& [text, message] : std::vector<std::pair<std::string, std::string>>{
+           {"from [nm],to [nm],number [1/cm^2]\n1,2,3\n",
+            "bins.csv: the column 'number' is in 1/cm^2; expected a number per volume"},
+           {"from [s],to [nm],number [1/cm^3]\n1,2,3\n", "the column 'from' is in s; expected a length"},
+           {"from [nm],to [nm]\n1,2\n", "expected columns 'from', 'to' and 'number', or"},
+           {"d [nm],dN/dlogd,dN/dlnd\n1,2,3\n", "expected columns"},
+           {"from,to,number,d,dN/dlogd\n1,2,3,4,5\n", "expected columns"},
+           {"d [nm],dN/dlogd [1/cm^3]\n1,2\n", "one has no width"},
+           {"d [nm],dN/dlogd [1/cm^3]\n1,2\n1,3\n", "two rows have the same size"},
+           {"d [nm],Dp [nm],dN/dlogd [1/cm^3]\n1,1,2\n", "two columns say the same, 'd [nm]' and 'Dp [nm]'"},
+           {"from [nm],to [nm],number [1/cm^3]\n", "the table has no rows"},
+           {"from [nm],to [nm],number [1/cm^3]\n1,2,3\n2,x,1\n", "line 3: expected a finite number as 'to', found 'x'"},
+           {"from [nm],to [nm],number [1/cm^3]\n0,2,3\n", "line 2: expected a size above zero as 'from'"},
+           {"from [nm],to [nm],number [1/cm^3]\n1,3,3\n2,4,1\n", "rise without overlap"},
+           {"", "there is no such file"}}) {
+    try {
+      initialOf(table, text);
+      ADD_FAILURE() << text;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("initial.file: "), testing::HasSubstr(message)))
+          << text;
+    }
+  }
+}
+
+// 10000 particles of one weight miss what one in 200000 holds, and particles of different weights do not.
+TEST(PopulationCase, ASampleThatMissesMomentsIsTold) {
+  const std::string initial =
+      "{distribution: lognormal, number: 1e11 1/m^3, diameter: 50 nm, geometric_deviation: 1.74}";
+  const PopulationCase made = read(deckOf("{coagulation: {kernel: constant, rate: 1e-15}}", R"(
+  equal: {type: dsmc, particles: 10000}
+  same: {type: sammc, particles: 1000, initial_weights: equal}
+  weighted: {type: sammc, particles: 1000}
+  other: {type: swa, particles: 1000}
+  sections: {type: sectional, sections: 100, smallest: 1e-26 m^3, spacing: 1.25})",
+                                          initial));
+  ASSERT_EQ(made.warnings.size(), 2U);
+  EXPECT_THAT(made.warnings[0], testing::MatchesRegex("methods.equal: the 10000 particles .*: M2 0\\.[678][0-9]*, M3 "
+                                                      "0\\.[012][0-9]* times .*initial_weights: moments.*"));
+  EXPECT_THAT(made.warnings[1], testing::HasSubstr("methods.same: the 1000 particles"));
+  const auto expect = [&](std::size_t method, double tolerance) {
+    const auto moments = makeSolver(made, made.methods[method], 3)->moments();
+    for (const int k : {0, 1, 2, 3})
+      EXPECT_NEAR(moments[static_cast<std::size_t>(k)] / initialMoment(made.initial, k), 1, tolerance)
+          << method << " M" << k;
+  };
+  expect(2, 0.01);
+  expect(3, 0.01);
+
+  PopulationStatistics statistics;
+  MethodStatistics method;
+  method.name = "one";
+  method.repeats.resize(20);
+  Moments known{}, error{};
+  for (std::size_t k = 0; k < 4; ++k) known[k] = initialMoment(made.initial, static_cast<double>(k));
+  for (std::size_t k = 0; k < 4; ++k) error[k] = 0.002 * known[k];
+  method.mean = {known};
+  method.error = {error};
+  statistics.methods = {method};
+  EXPECT_TRUE(startsWithoutTruth(made, statistics).empty());
+  statistics.methods[0].mean[0][2] *= 1.006;
+  EXPECT_TRUE(startsWithoutTruth(made, statistics).empty()) << "within 3.3 errors, and below one per cent";
+  statistics.methods[0].mean[0][2] = 0.98 * known[2];
+  statistics.methods[0].mean[0][3] = 0.15 * known[3];
+  const auto told = startsWithoutTruth(made, statistics);
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_THAT(told[0], testing::HasSubstr("of which they are M2 0.98 +- 0.0066, M3 0.15 +- 0.0066;"));
+  statistics.methods[0].error[0][3] = 0.5 * known[3];
+  EXPECT_THAT(startsWithoutTruth(made, statistics).at(0), testing::Not(testing::HasSubstr("M3")));
 }
 
 TEST(PopulationCase, EveryParticleTypeHasItsSolvers) {

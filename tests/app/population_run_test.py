@@ -48,6 +48,16 @@ methods: {dsmc: {type: dsmc, particles: 16}}
 time: {end: 1 s, outputs: 1}
 repeats: 1
 """
+# Two modes, the second far too wide for equal weights: a tenth of its M2 is in one particle of a million.
+MODES = """problem: population_balance
+initial:
+  - {distribution: lognormal, number: 3200 1/cm^3, diameter: 20 nm, geometric_deviation: 1.45}
+  - {distribution: lognormal, number: 2900 1/cm^3, diameter: 116 nm, geometric_deviation: 2.2}
+processes: {coagulation: {kernel: constant, rate: 1e-15 m^3/s}}
+methods: {dsmc: {type: dsmc, particles: 2000}, sammc: {type: sammc, particles: 1000}}
+time: {end: 1 s, outputs: 1}
+repeats: 5
+"""
 REPEATS, ROWS, OWN = 25, 21, "/seconds"
 
 
@@ -157,6 +167,18 @@ def main(executable: str, *mpiexec: str) -> None:
             "into equal pieces is for times below 1e7 / (pieces B(v0))"], result.err
         exact = datasets(folder / "shattered/out/results.h5")["exact/history/M0"]
         assert exact[0] == 1 and np.isnan(exact[1]), exact
+
+        result = run(running.Program(executable, list(mpiexec), 2), MODES, folder / "modes")
+        before, after = result.err.splitlines()
+        assert "warning: methods.dsmc: the 2000 particles that the first repeat starts from miss" in before, result.err
+        assert "warning: methods.dsmc: at the start the mean of 5 repeats and its interval do not hold" in after, result.err
+        data = datasets(folder / "modes/out/results.h5")
+        for k in range(4):
+            known = sum(n * (np.pi / 6 * d**3) ** k * np.exp(0.5 * (3 * k * np.log(s)) ** 2)
+                        for n, d, s in ((3.2e9, 20e-9, 1.45), (2.9e9, 116e-9, 2.2)))
+            found, exact = (data[f"{of}/history/M{k}"][0] for of in ("methods/sammc", "exact"))
+            assert abs(exact / known - 1) < 1e-12 and abs(found / known - 1) < 1e-3, (k, found, exact, known)
+        assert data["methods/dsmc/history/M3"][0] < 0.6 * known
     print("the same numbers on 1, 2 and 3 ranks; gelation stops with its time")
 
 

@@ -110,5 +110,51 @@ TEST(DeckConditions, OnWhatIsNotDeclaredAreMistakesOfTheSchema) {
   EXPECT_THROW((void)unknownChoice.tree(), std::logic_error);
 }
 
+// A section of which a deck may have one, as a map, or a list of them.
+TEST(DeckConditions, ASectionMayBeAMapOrAListOfMaps) {
+  DeckSchema made;
+  for (const std::string at : {"start", "start[]"})
+    made.add(choiceKey(at + ".shape", {"none", "equal", "wide"}, "Shape.").byDefault("none"))
+        .add(quantityKey(at + ".size", units::length, "Size.").optional())
+        .add(numberKey(at + ".width", "Width.").optional().onlyWith(at + ".shape", {"wide"}));
+  made.section("start[]", Presence::defaulted, "Or a list.");
+  const auto deckOf = [&](const std::string& text, const std::vector<std::string>& overrides = {}) {
+    return Deck::parse(text, "deck.yaml", overrides, made);
+  };
+  const auto problem = [&](const std::string& text) -> std::string {
+    try {
+      (void)deckOf(text);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return {};
+  };
+  const Deck map = deckOf("start: {shape: wide, size: 1 mm}", {"start.width=2"});
+  EXPECT_EQ(map.number("start.width"), 2);
+  EXPECT_EQ(map.size("start"), 0U);
+  const Deck list = deckOf("start:\n- {shape: wide, width: 3}\n- {size: 2 mm}\n", {"start[1].shape=equal"});
+  ASSERT_EQ(list.size("start"), 2U);
+  EXPECT_EQ(list.number("start[0].width"), 3);
+  EXPECT_EQ(list.choice("start[1].shape"), "equal");
+  EXPECT_EQ(list.quantity("start[1].size"), 2e-3);
+  EXPECT_FALSE(list.has("start.shape")) << "no defaults beside a list";
+  EXPECT_EQ(deckOf(list.resolved()).resolved(), list.resolved());
+  EXPECT_EQ(deckOf(map.resolved()).resolved(), map.resolved());
+  EXPECT_EQ(deckOf("{}").choice("start.shape"), "none");
+  EXPECT_EQ(deckOf("start:\n").choice("start.shape"), "none");
+  EXPECT_EQ(deckOf("start: []").size("start"), 0U);
+  EXPECT_THAT(problem("start: wide"), HasSubstr("start: expected a map of keys or a list of such maps, found 'wide'"));
+  EXPECT_THAT(problem("start: [wide]"), HasSubstr("start[0]: expected a map of keys, found 'wide'"));
+  EXPECT_THAT(problem("start: {shpe: wide}"), HasSubstr("did you mean 'shape'? Known here: shape, size, width\n"));
+  EXPECT_THAT(problem("start: [{shape: none}, {shpe: wide}]"), HasSubstr("start[1].shpe: unknown key"));
+  EXPECT_THAT(problem("start:\n- shape: wide\n- {shape: equal, width: 2}\n"),
+              AllOf(StartsWith("deck.yaml:3:18: start[1].width: 'start[1].shape: equal' does not have this")));
+  EXPECT_THAT(problem("start: {width: 2}"), HasSubstr("'start.shape: none' does not have this"));
+  const std::string page = markdownReference(made);
+  EXPECT_THAT(page, AllOf(HasSubstr("| `start.width` |"), HasSubstr("| `start[].width` |")));
+  const std::string json = jsonSchema(made);
+  EXPECT_THAT(json, AllOf(HasSubstr("\"anyOf\""), HasSubstr("\"array\""), Not(HasSubstr("\"[]\""))));
+}
+
 }  // namespace
 }  // namespace lampblack::io

@@ -42,7 +42,9 @@ class Coagulation final : public ExactSolution {
   }
 
   std::vector<double> numberInBins(double time, std::span<const double> edges) const override {
-    if (initial_.distribution == Distribution::lognormal || edges.size() < 2) return {};
+    const bool isKnown =
+        initial_.distribution == Distribution::monodisperse || initial_.distribution == Distribution::exponential;
+    if ((!isKnown && initial_.distribution != Distribution::none) || edges.size() < 2) return {};
     if (const auto gelation = gelationTime(); gelation && time >= *gelation) return {};
     std::vector<double> numbers(edges.size() - 1);
     if (time <= 0 || start_[0] <= 0) {
@@ -70,6 +72,8 @@ class Coagulation final : public ExactSolution {
     text += " kernel, ";
     text += initial_.distribution == Distribution::monodisperse  ? "monodisperse"
             : initial_.distribution == Distribution::exponential ? "exponential"
+            : initial_.distribution == Distribution::table       ? "tabulated"
+            : initial_.distribution == Distribution::modes       ? "several modes at the"
                                                                  : "log-normal";
     return text + " start";
   }

@@ -27,10 +27,27 @@ bool nothing(const InitialPopulation& initial) {
   return initial.distribution == Distribution::none || !(initial.number > 0);
 }
 
+// The part of an interval's number between two volumes.
+double numberWithin(const SizeInterval& interval, double lower, double upper) {
+  const double a = std::max(lower, interval.from), b = std::min(upper, interval.to);
+  return b > a ? interval.number * std::log(b / a) / std::log(interval.to / interval.from) : 0;
+}
+
 }  // namespace
+
+double intervalMoment(const SizeInterval& interval, double order) {
+  const double span = order * std::log(interval.to / interval.from);
+  return interval.number * std::pow(interval.from, order) * (span == 0 ? 1 : std::expm1(span) / span);
+}
 
 double initialMoment(const InitialPopulation& initial, double order) {
   if (nothing(initial)) return 0;
+  if (initial.distribution == Distribution::table || initial.distribution == Distribution::modes) {
+    double sum = 0;
+    for (const InitialPopulation& mode : initial.modes) sum += initialMoment(mode, order);
+    for (const SizeInterval& interval : initial.intervals) sum += intervalMoment(interval, order);
+    return sum;
+  }
   const double equal = initial.number * std::pow(initial.volume, order);
   if (single(initial)) return equal;
   if (initial.distribution == Distribution::exponential) {
@@ -43,6 +60,12 @@ double initialMoment(const InitialPopulation& initial, double order) {
 
 double initialNumber(const InitialPopulation& initial, double lower, double upper) {
   if (nothing(initial) || !(upper > lower)) return 0;
+  if (initial.distribution == Distribution::table || initial.distribution == Distribution::modes) {
+    double sum = 0;
+    for (const InitialPopulation& mode : initial.modes) sum += initialNumber(mode, lower, upper);
+    for (const SizeInterval& interval : initial.intervals) sum += numberWithin(interval, lower, upper);
+    return sum;
+  }
   const double v = initial.volume;
   if (single(initial)) return v >= lower && v < upper ? initial.number : 0.0;
   if (initial.distribution == Distribution::exponential) {
@@ -59,6 +82,17 @@ double initialNumber(const InitialPopulation& initial, double lower, double uppe
 double initialIntegral(const InitialPopulation& initial, double lower, double upper,
                        const std::function<double(double)>& f) {
   if (nothing(initial) || !(upper > lower)) return 0;
+  if (initial.distribution == Distribution::table || initial.distribution == Distribution::modes) {
+    double sum = 0;
+    for (const InitialPopulation& mode : initial.modes) sum += initialIntegral(mode, lower, upper, f);
+    for (const SizeInterval& interval : initial.intervals) {
+      const double a = std::max(lower, interval.from), b = std::min(upper, interval.to);
+      if (!(b > a)) continue;
+      sum += interval.number / std::log(interval.to / interval.from) *
+             integral([&](double z) { return f(std::exp(z)); }, std::log(a), std::log(b));
+    }
+    return sum;
+  }
   const double v0 = initial.volume;
   if (single(initial)) return v0 >= lower && v0 < upper ? initial.number * f(v0) : 0.0;
   if (initial.distribution == Distribution::exponential) {

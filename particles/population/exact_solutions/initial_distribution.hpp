@@ -11,6 +11,9 @@ namespace lampblack::particles {
 // Sum of v^order (m^(3 order - 3)); an exponential distribution has those above -1 only (InputError).
 [[nodiscard]] double initialMoment(const InitialPopulation& initial, double order);
 
+// The same of one row of a table.
+[[nodiscard]] double intervalMoment(const SizeInterval& interval, double order);
+
 // Number (1/m3) with a volume in [lower, upper).
 [[nodiscard]] double initialNumber(const InitialPopulation& initial, double lower, double upper);
 

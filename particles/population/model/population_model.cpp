@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 #include "core/errors.hpp"
 #include "particles/population/model/nucleation_schedule.hpp"
@@ -78,9 +79,58 @@ void check(const InitialPopulation& initial) {
       (!(initial.geometricDeviation >= 1) || !std::isfinite(initial.geometricDeviation))) {
     fail("initial.geometric_deviation", "1 or above", initial.geometricDeviation);
   }
+  for (const InitialPopulation& mode : initial.modes) check(mode);
 }
 
 }  // namespace
+
+InitialPopulation tabulated(std::vector<SizeInterval> intervals) {
+  InitialPopulation table;
+  table.distribution = InitialPopulation::Distribution::table;
+  double volume = 0, before = 0;
+  for (const auto& [from, to, number] : intervals) {
+    positive("the table: each lower end", from);
+    if (!(to > from) || !std::isfinite(to))
+      throw InputError(fmt::format("the table: expected an upper end above {:g} m3, not {:g} m3", from, to));
+    if (from < before * (1 - 1e-9))
+      throw InputError(
+          fmt::format("the table: its sizes have to rise without overlap; {:g} m3 follows {:g} m3", from, before));
+    notNegative("the table: each number", number);
+    before = to;
+    table.number += number;
+    volume += number * (to - from) / std::log(to / from);
+  }
+  if (!(table.number > 0)) throw InputError("the table holds no particles");
+  std::erase_if(intervals, [](const SizeInterval& interval) { return interval.number == 0; });
+  table.volume = volume / table.number;
+  table.intervals = std::move(intervals);
+  return table;
+}
+
+InitialPopulation sumOf(const std::vector<InitialPopulation>& modes) {
+  InitialPopulation sum;
+  double volume = 0;
+  for (const InitialPopulation& part : modes) {
+    for (const InitialPopulation& mode : modesOf(part)) {
+      if (mode.distribution == InitialPopulation::Distribution::none || !(mode.number > 0)) continue;
+      const double logarithm = std::log(mode.geometricDeviation);
+      const bool median = mode.distribution == InitialPopulation::Distribution::lognormal;
+      sum.number += mode.number;
+      volume += mode.number * mode.volume * (median ? std::exp(4.5 * logarithm * logarithm) : 1);
+      sum.modes.push_back(mode);
+    }
+  }
+  if (sum.modes.empty()) return {};
+  if (sum.modes.size() == 1) return InitialPopulation(sum.modes.front());
+  sum.distribution = InitialPopulation::Distribution::modes;
+  sum.volume = volume / sum.number;
+  return sum;
+}
+
+std::span<const InitialPopulation> modesOf(const InitialPopulation& initial) {
+  if (initial.distribution == InitialPopulation::Distribution::modes) return initial.modes;
+  return {&initial, 1};
+}
 
 void check(const PopulationModel& model, const InitialPopulation& initial) {
   if (model.coagulation) static_cast<void>(CollisionKernel(*model.coagulation));  // throws for what it lacks

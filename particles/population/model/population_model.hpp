@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/modules.hpp"
@@ -72,14 +73,30 @@ struct PopulationModel {
   double density = 1800;  // kg/m3, of particles whose type has no density of its own
 };
 
+// A row of a table of sizes: its number lies evenly over the logarithm of the volume (and of the diameter).
+struct SizeInterval {
+  double from = 0, to = 0;  // m3
+  double number = 0;        // 1/m3
+};
+
 // The population at time zero.
 struct InitialPopulation {
-  enum class Distribution { none, monodisperse, exponential, lognormal };
+  enum class Distribution { none, monodisperse, exponential, lognormal, table, modes };
   Distribution distribution = Distribution::none;
-  double number = 0;              // 1/m3
-  double volume = 1;              // m3: of all, mean, or median by number
-  double geometricDeviation = 1;  // of diameter, of the log-normal distribution
+  double number = 0;                          // 1/m3, of all modes or rows
+  double volume = 1;                          // m3: of all, mean, or median by number; of tables and modes the mean
+  double geometricDeviation = 1;              // of diameter, of the log-normal distribution
+  std::vector<SizeInterval> intervals = {};   // of a table, rising, apart or adjoining
+  std::vector<InitialPopulation> modes = {};  // whose sum the population is, none of them of modes itself
 };
+
+// The population of a table, which needs at least one number above zero, and the sum of several. InputError where
+// intervals do not rise, overlap, or hold numbers below zero.
+[[nodiscard]] InitialPopulation tabulated(std::vector<SizeInterval> intervals);
+[[nodiscard]] InitialPopulation sumOf(const std::vector<InitialPopulation>& modes);
+
+// The populations that this one is the sum of: its modes, or itself.
+[[nodiscard]] std::span<const InitialPopulation> modesOf(const InitialPopulation& initial);
 
 // Throws InputError for what has no meaning: rates below zero, fewer than two fragments, uniform daughters of more than
 // two, tables that do not increase, a kernel that lacks its gas, growth by jumps without a monomer.

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
+#include "chemistry/numerics/dense_lu.hpp"
 #include "core/errors.hpp"
+#include "particles/population/exact_solutions/initial_distribution.hpp"
 
 namespace lampblack::particles {
 namespace {
@@ -20,11 +23,141 @@ double logDeviation(const InitialPopulation& initial) {
   return 3 * std::log(initial.geometricDeviation);
 }
 
-double quantile(const InitialPopulation& initial, double probability) {
-  if (initial.distribution == InitialPopulation::Distribution::exponential) {
-    return -initial.volume * std::log1p(-probability);
+// Where the integral of x^order exp(-x) reaches a part of its whole.
+double gammaQuantile(int order, double probability) {
+  if (order == 0) return -std::log1p(-probability);
+  double low = 0, high = 60 + order;  // beyond, nothing is left of a probability in double precision
+  while (high - low > 1e-15 * high) {
+    const double x = 0.5 * (low + high);
+    double term = std::exp(-x), above = term;
+    for (int j = 1; j <= order; ++j) above += term *= x / j;
+    if (x == low || x == high) break;
+    (above > 1 - probability ? low : high) = x;
   }
-  return initial.volume * std::exp(logDeviation(initial) * normalQuantile(probability));
+  return 0.5 * (low + high);
+}
+
+// The rows of a table have a share of a moment each; where they together reach a part of it.
+double tableQuantile(const InitialPopulation& table, int order, double probability) {
+  double wanted = probability * initialMoment(table, order);
+  for (const SizeInterval& interval : table.intervals) {
+    const double held = intervalMoment(interval, order);
+    if (wanted >= held && &interval != &table.intervals.back()) {
+      wanted -= held;
+      continue;
+    }
+    const double part = std::clamp(wanted / held, 0.0, 1.0), span = std::log(interval.to / interval.from);
+    return interval.from *
+           (order == 0 ? std::exp(part * span) : std::pow(1 + part * std::expm1(order * span), 1.0 / order));
+  }
+  return table.volume;
+}
+
+// The volume below which a part of a moment of one mode lies; the number is the moment of order 0.
+double quantile(const InitialPopulation& mode, int order, double probability) {
+  switch (mode.distribution) {
+    case InitialPopulation::Distribution::exponential:
+      return mode.volume * gammaQuantile(order, probability);
+    case InitialPopulation::Distribution::table:
+      return tableQuantile(mode, order, probability);
+    case InitialPopulation::Distribution::lognormal: {
+      const double sigma = logDeviation(mode);
+      return mode.volume * std::exp(sigma * (order * sigma + normalQuantile(probability)));
+    }
+    default:
+      return mode.volume;
+  }
+}
+
+bool isEqual(const InitialPopulation& mode) {
+  return mode.distribution == InitialPopulation::Distribution::monodisperse;
+}
+
+// The end of the largest part that a random number from 0 to 1 may ask for: there the quantile is infinite.
+constexpr double largestProbability = 1 - 0x1.0p-53;
+
+// Parts of a whole side by side, with a length each.
+class Parts {
+ public:
+  explicit Parts(const std::vector<double>& lengths) {
+    for (const double length : lengths) ends_.push_back((ends_.empty() ? 0 : ends_.back()) + length);
+  }
+  struct Place {
+    std::size_t part;
+    double within;  // 0 to 1
+  };
+  // At a share of the whole.
+  [[nodiscard]] Place at(double share) const {
+    const double place = share * ends_.back();
+    const auto found = std::min(std::upper_bound(ends_.begin(), ends_.end(), place), ends_.end() - 1);
+    const double begin = found == ends_.begin() ? 0 : *(found - 1);
+    return {static_cast<std::size_t>(found - ends_.begin()),
+            std::clamp((place - begin) / (*found - begin), 0.0, largestProbability)};
+  }
+
+ private:
+  std::vector<double> ends_;
+};
+
+constexpr std::size_t orders = 4;  // M_0 to M_3
+using Moments = std::array<double, orders>;
+
+// The shares of v^k / M_k in their sum over k, and the sum.
+struct Shares {
+  Moments part{};
+  double sum = 0;
+  Shares(double volume, const Moments& moments) {
+    double power = 1;
+    for (std::size_t k = 0; k < orders; ++k, power *= volume) sum += part[k] = power / moments[k];
+    for (double& one : part) one /= sum;
+  }
+};
+
+Moments momentsOf(std::span<const InitialParticle> particles) {
+  Moments sums{};
+  for (const auto& [volume, weight] : particles) {
+    double term = weight;
+    for (double& sum : sums) {
+      sum += term;
+      term *= volume;
+    }
+  }
+  return sums;
+}
+
+// Changes the weights by factors near one so that the particles hold given moments: 1 + sum over k of c_k times the
+// share k of a particle, which lies between 0 and 1 (calibration of survey weights; Deville and Särndal 1992). Where
+// the shares are nearly the same for all particles, as in a narrow distribution, a ridge keeps the c_k small; number
+// and volume are then made exact by one factor on all weights and one on all volumes.
+void calibrate(std::span<InitialParticle> particles, const Moments& all, const Moments& target) {
+  constexpr double ridge = 1e-4;
+  chemistry::DenseLu matrix(orders);
+  const Moments held = momentsOf(particles);
+  Moments factors{};
+  for (std::size_t k = 0; k < orders; ++k) {
+    factors[k] = (target[k] - held[k]) / all[k];
+    matrix.column(k)[k] = ridge;
+  }
+  for (const auto& [volume, weight] : particles) {
+    const Shares shares(volume, all);
+    for (std::size_t j = 0; j < orders; ++j)
+      for (std::size_t k = 0; k < orders; ++k)
+        matrix.column(j)[k] += weight * shares.sum * shares.part[j] * shares.part[k];
+  }
+  if (!matrix.factorise()) return;
+  matrix.solve(factors.data());
+  for (auto& [volume, weight] : particles) {
+    const Shares shares(volume, all);
+    double factor = 1;
+    for (std::size_t k = 0; k < orders; ++k) factor += factors[k] * shares.part[k];
+    weight *= std::max(factor, 0.5);
+  }
+  const Moments now = momentsOf(particles);
+  const double number = target[0] / now[0], size = target[1] / (now[1] * number);
+  for (auto& [volume, weight] : particles) {
+    weight *= number;
+    volume *= size;
+  }
 }
 
 }  // namespace
@@ -74,35 +207,78 @@ double normalQuantile(double probability) {
   return q < 0 ? -tail : tail;
 }
 
-double meanInitialVolume(const InitialPopulation& initial) {
-  switch (initial.distribution) {
-    case InitialPopulation::Distribution::none:
-      return 0;
-    case InitialPopulation::Distribution::monodisperse:
-    case InitialPopulation::Distribution::exponential:
-      return initial.volume;
-    case InitialPopulation::Distribution::lognormal:
-      break;
-  }
-  const double sigma = logDeviation(initial);
-  return initial.volume * std::exp(0.5 * sigma * sigma);
-}
-
 std::vector<double> initialVolumes(const InitialPopulation& initial, std::size_t count, RandomStream& random) {
   if (initial.distribution == InitialPopulation::Distribution::none || initial.number == 0) return {};
   std::vector<double> volumes(count, initial.volume);
-  if (initial.distribution == InitialPopulation::Distribution::monodisperse) return volumes;
+  if (isEqual(initial)) return volumes;
+  const auto modes = modesOf(initial);
+  std::vector<double> numbers;
+  for (const InitialPopulation& mode : modes) numbers.push_back(mode.number);
+  const Parts parts(numbers);
   double sum = 0;
   for (std::size_t k = 0; k < count; ++k) {
-    // Rounding must not take the last one to 1, where the quantile is infinite.
+    // Rounding must not take the last one to 1.
     const double probability =
-        std::min((static_cast<double>(k) + random.uniform()) / static_cast<double>(count), 1 - 0x1.0p-53);
-    volumes[k] = quantile(initial, probability);
+        std::min((static_cast<double>(k) + random.uniform()) / static_cast<double>(count), largestProbability);
+    const Parts::Place place = modes.size() == 1 ? Parts::Place{0, probability} : parts.at(probability);
+    volumes[k] = quantile(modes[place.part], 0, place.within);
     sum += volumes[k];
   }
+  if (modes.size() > 1) std::ranges::sort(volumes);
+  if (std::ranges::all_of(modes, isEqual)) return volumes;  // there are no particles but of these volumes
   const double factor = meanInitialVolume(initial) * static_cast<double>(count) / sum;
   for (double& v : volumes) v *= factor;
   return volumes;
+}
+
+std::vector<InitialParticle> initialParticles(const InitialPopulation& initial, std::size_t count,
+                                              InitialWeights weights, RandomStream& random) {
+  std::vector<InitialParticle> particles;
+  if (weights == InitialWeights::equal || isEqual(initial) || !(initial.number > 0)) {
+    for (const double v : initialVolumes(initial, count, random))
+      particles.push_back({v, initial.number / static_cast<double>(count)});
+    return particles;
+  }
+  const auto modes = modesOf(initial);
+  Moments all{};
+  for (std::size_t k = 0; k < orders; ++k) all[k] = initialMoment(initial, static_cast<double>(k));
+  // Of each mode and moment its share in the moments of all.
+  std::vector<double> lengths;
+  for (const InitialPopulation& mode : modes)
+    for (std::size_t k = 0; k < orders; ++k) lengths.push_back(initialMoment(mode, static_cast<double>(k)) / all[k]);
+  const Parts parts(lengths);
+  std::vector<std::vector<InitialParticle>> members(modes.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const double probability =
+        std::min((static_cast<double>(i) + random.uniform()) / static_cast<double>(count), largestProbability);
+    const Parts::Place place = parts.at(probability);
+    const std::size_t mode = place.part / orders;
+    const double v = quantile(modes[mode], static_cast<int>(place.part % orders), place.within);
+    members[mode].push_back({v, orders / (Shares(v, all).sum * static_cast<double>(count))});
+  }
+  // Equal particles have their mode's number, the others together what is left of all moments.
+  Moments target = all;
+  std::vector<InitialParticle> others;
+  for (std::size_t mode = 0; mode < modes.size(); ++mode) {
+    if (!isEqual(modes[mode])) {
+      others.insert(others.end(), members[mode].begin(), members[mode].end());
+      continue;
+    }
+    for (const InitialParticle& particle : members[mode])
+      particles.push_back({particle.volume, modes[mode].number / static_cast<double>(members[mode].size())});
+  }
+  if (!others.empty()) {
+    const Moments equal = momentsOf(particles);
+    for (std::size_t k = 0; k < orders; ++k) target[k] -= equal[k];
+    calibrate(others, all, target);
+    particles.insert(particles.end(), others.begin(), others.end());
+  }
+  std::ranges::sort(particles, {}, &InitialParticle::volume);
+  return particles;
+}
+
+double meanInitialVolume(const InitialPopulation& initial) {
+  return initial.number > 0 ? initialMoment(initial, 1) / initial.number : 0;
 }
 
 double initialWeight(const InitialPopulation& initial, const MonteCarloOptions& options) {

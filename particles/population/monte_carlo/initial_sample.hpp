@@ -10,16 +10,27 @@
 
 namespace lampblack::particles {
 
-// Volumes (m3) of `count` particles of equal weight, in increasing order; empty where there are
-// none. The quantile
-// function is taken at one uniform random number in each of `count` intervals of equal probability: unbiased in every
-// linear functional of the distribution, with far less noise than independent draws. All volumes are then scaled by one
-// factor so that their mean is exactly the distribution's, M_1 hence exact from the start; the factor differs from one
-// by O(1/count), and the bias it leaves in other moments is O(log(count)/count^2) for the exponential distribution, far
-// below the noise. (Where the mean hangs on a few particles, a log-normal distribution with sigma_v^2 > log(count),
-// say, neither is small.)
+// Volumes (m3) of `count` particles of equal weight, in increasing order; empty where there are none. The quantile
+// function is taken at one uniform random number in each of `count` intervals of equal probability, those of one mode
+// after those of another: unbiased in every linear functional of the distribution, with far less noise than independent
+// draws. All volumes are then scaled by one factor so that their mean is exactly the distribution's, M_1 hence exact
+// from the start, but where all modes are monodisperse, whose volumes stay. What this costs, and where a sample of
+// equal weights misses M_2 and M_3: docs/theory/population_balance/equal_weights.md.
 [[nodiscard]] std::vector<double> initialVolumes(const InitialPopulation& initial, std::size_t count,
                                                  RandomStream& random);
+
+struct InitialParticle {
+  double volume, weight;  // m3, 1/m3
+};
+
+// `count` particles with weights, in increasing order of volume. InitialWeights::moments draws them with the density
+// n(v) (1/M_0 + v/M_1 + v^2/M_2 + v^3/M_3) / 4, one in each of `count` intervals of equal probability of the parts (of
+// a mode and a moment) that it is the sum of, and weighs them by one over that bracket (importance sampling by a
+// mixture; Hesterberg 1995, Veach and Guibas 1995). No particle then holds more than about 4/count of any of M_0 to
+// M_3, whatever the distribution. Factors near one make the moments those of the distribution (calibration; Deville and
+// Särndal 1992): number and volume to round-off. Equal particles have the number of their mode.
+[[nodiscard]] std::vector<InitialParticle> initialParticles(const InitialPopulation& initial, std::size_t count,
+                                                            InitialWeights weights, RandomStream& random);
 
 // Mean volume (m3) of the distribution by number; zero for Distribution::none.
 [[nodiscard]] double meanInitialVolume(const InitialPopulation& initial);

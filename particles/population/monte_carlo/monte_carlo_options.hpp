@@ -35,6 +35,10 @@ enum class EventRates { majorant, exact };  // fictitious jumps in O(log N), or 
 // the same mean with hardly any noise.
 enum class NucleationSampling { random, even };
 
+// How the particles of a weighted method divide the initial population: each holds at most 4/N_s of any of M_0 to M_3,
+// or each stands for as many real ones (initial_sample.hpp).
+enum class InitialWeights { moments, equal };
+
 struct MonteCarloOptions {
   MonteCarloMethod method = MonteCarloMethod::dsmc;
   std::size_t particles = 2000;  // numerical particles, N_s; at least 2
@@ -50,6 +54,7 @@ struct MonteCarloOptions {
   WeightTransfer transfer = WeightTransfer::mass;
   NucleationSampling nucleation = NucleationSampling::even;
   double nucleusWeight = 0;  // real particles (1/m3) a nucleus of a weighted method stands for; zero: N0 / particles
+  InitialWeights initialWeights = InitialWeights::moments;  // of the weighted methods
   // Number density at which an ensemble that starts empty is full; needed there.
   double expectedNumber = 0;  // 1/m3
   std::size_t threshold = 0;  // largest size, in nuclei, that the hybrid method keeps as a number

@@ -67,12 +67,12 @@ class WeightedMethod {
       nucleus_ = type.make(nucleusVolume_);
     }
     std::vector<Entry> entries;
-    const double weight = initial.number > 0 ? initial.number / static_cast<double>(capacity_) : 0;
     if constexpr (bundles) {
       if (method_ == MonteCarloMethod::sammc && options.fraction == FractionFunction::one)
         store_.setBundledGrowth(options.bundledGrowth);
     }
-    for (const double v : initialVolumes(initial, capacity_, random)) entries.push_back({type.make(v), weight});
+    for (const auto& [volume, weight] : initialParticles(initial, capacity_, options.initialWeights, random))
+      entries.push_back({type.make(volume), weight});
     for (const Entry& entry : entries) track(entry, 1);
     putIn_ = held_;
     assign(std::move(entries));

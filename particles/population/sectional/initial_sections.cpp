@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "particles/population/exact_solutions/initial_distribution.hpp"
 
 namespace lampblack::particles {
 namespace {
@@ -42,45 +43,79 @@ Part lognormalPart(double a, double b, double sigma) {
   return {number, volume - a * number};
 }
 
+// A row of a table, of one particle, volumes in units of `unit`.
+Part intervalPart(const SizeInterval& interval, double unit, double a, double b) {
+  const double from = interval.from / unit, to = interval.to / unit;
+  const double low = std::max(a, from), high = std::min(b, to);
+  if (!(high > low)) return {0, 0};
+  const double span = std::log(to / from), number = std::log(high / low) / span;
+  return {number, (high - low) / span - a * number};
+}
+
+// Adds a population all of one volume.
+void addEqual(const SectionGrid& grid, const InitialPopulation& initial, std::vector<double>& y) {
+  const double end = grid.volume(grid.last());
+  // On the first pivot but for rounding is on the grid.
+  if (initial.volume < grid.volume(1) * (1 - 1e-12) || initial.volume > end) {
+    throw InputError(
+        fmt::format("the volume of the initial particles, {:.4g} m3, is outside the sectional grid, "
+                    "{:.4g} to {:.4g} m3",
+                    initial.volume, grid.volume(1), end));
+  }
+  const auto place = grid.pivotsAround(initial.volume);
+  y[place.lower] += (1 - place.upper) * initial.number;
+  y[place.lower + 1] += place.upper * initial.number;
+}
+
+// Adds `number` particles spread by `part` over volumes in units of `unit`.
+template <class PartOf>
+void addSpread(const SectionGrid& grid, double number, double unit, PartOf part, std::vector<double>& y) {
+  const SectionLayout layout = grid.layout();
+  for (std::size_t k = 0; k < grid.last(); ++k) {
+    const double a = grid.volume(k) / unit, b = grid.volume(k + 1) / unit;
+    const Part p = part(a, b);
+    const double upper = std::clamp(p.excess / (b - a), 0.0, p.number);  // outside by rounding only
+    y[k] += number * (p.number - upper);
+    y[k + 1] += number * upper;
+  }
+  const double a = grid.volume(grid.last()) / unit;
+  const Part rest = part(a, std::numeric_limits<double>::infinity());
+  y[layout.overNumber()] += number * rest.number;
+  y[layout.overVolume()] += number * (rest.number + rest.excess / a);
+}
+
+void addMode(const SectionGrid& grid, const InitialPopulation& mode, std::vector<double>& y) {
+  using Distribution = InitialPopulation::Distribution;
+  const double sigma = 3 * std::log(mode.geometricDeviation);
+  if (mode.distribution == Distribution::table) {
+    for (const SizeInterval& interval : mode.intervals)
+      addSpread(
+          grid, interval.number, interval.from,
+          [&](double a, double b) { return intervalPart(interval, interval.from, a, b); }, y);
+  } else if (mode.distribution == Distribution::exponential) {
+    addSpread(
+        grid, mode.number, mode.volume,
+        [](double a, double b) {
+          return std::isinf(b) ? Part{std::exp(-a), std::exp(-a)} : exponentialPart(a, b);
+        },
+        y);
+  } else if (mode.distribution == Distribution::monodisperse || sigma == 0) {
+    addEqual(grid, mode, y);
+  } else {
+    addSpread(
+        grid, mode.number, mode.volume, [&](double a, double b) { return lognormalPart(a, b, sigma); }, y);
+  }
+}
+
 }  // namespace
 
 std::vector<double> initialSections(const SectionGrid& grid, const InitialPopulation& initial, double overflow) {
   const SectionLayout layout = grid.layout();
   std::vector<double> y(layout.size(), 0.0);
-  using Distribution = InitialPopulation::Distribution;
-  if (initial.distribution == Distribution::none || initial.number == 0) return y;
+  if (initial.distribution == InitialPopulation::Distribution::none || initial.number == 0) return y;
+  for (const InitialPopulation& mode : modesOf(initial)) addMode(grid, mode, y);
   const double end = grid.volume(grid.last());
-  const bool exponential = initial.distribution == Distribution::exponential;
-  const double sigma = 3 * std::log(initial.geometricDeviation);
-  if (initial.distribution == Distribution::monodisperse || (!exponential && sigma == 0)) {
-    // On the first pivot but for rounding is on the grid.
-    if (initial.volume < grid.volume(1) * (1 - 1e-12) || initial.volume > end) {
-      throw InputError(
-          fmt::format("the volume of the initial particles, {:.4g} m3, is outside the sectional grid, "
-                      "{:.4g} to {:.4g} m3",
-                      initial.volume, grid.volume(1), end));
-    }
-    const auto place = grid.pivotsAround(initial.volume);
-    y[place.lower] = (1 - place.upper) * initial.number;
-    y[place.lower + 1] = place.upper * initial.number;
-    return y;
-  }
-  const auto part = [&](double a, double b) {
-    return exponential ? exponentialPart(a, b) : lognormalPart(a, b, sigma);
-  };
-  for (std::size_t k = 0; k < grid.last(); ++k) {
-    const double a = grid.volume(k) / initial.volume, b = grid.volume(k + 1) / initial.volume;
-    const Part p = part(a, b);
-    const double upper = std::clamp(p.excess / (b - a), 0.0, p.number);  // outside by rounding only
-    y[k] += initial.number * (p.number - upper);
-    y[k + 1] += initial.number * upper;
-  }
-  const double a = end / initial.volume, infinity = std::numeric_limits<double>::infinity();
-  const Part rest = exponential ? Part{std::exp(-a), std::exp(-a)} : part(a, infinity);
-  y[layout.overNumber()] = initial.number * rest.number;
-  y[layout.overVolume()] = initial.number * (rest.number + rest.excess / a);
-  const double mean = exponential ? 1 : std::exp(0.5 * sigma * sigma);
-  const double lost = (rest.excess + a * rest.number) / mean;
+  const double lost = y[layout.overVolume()] * end / initialMoment(initial, 1);
   if (lost > overflow) {
     throw InputError(
         fmt::format("the sectional grid ends too early for the initial population: {:.2g} of its volume is "

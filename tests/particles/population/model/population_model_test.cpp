@@ -3,11 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <limits>
+#include <utility>
 
 #include "core/errors.hpp"
 #include "core/modules.hpp"
+#include "particles/population/exact_solutions/initial_distribution.hpp"
 
 namespace lampblack::particles {
 namespace {
@@ -88,6 +91,56 @@ TEST(PopulationModelCheck, NamesWhatIsWrong) {
 
 TEST(PopulationModelCheck, LooksAtNoInitialPopulationWhereThereIsNone) {
   EXPECT_EQ(complaint([](auto&, auto& i) { i = InitialPopulation{}; }), "nothing");
+}
+
+// Sums over fine slices in place of closed forms.
+TEST(InitialPopulations, OfTablesAndModesHaveTheMomentsOfTheirParts) {
+  using Distribution = InitialPopulation::Distribution;
+  const InitialPopulation table = tabulated({{1, 2, 3}, {2, 8, 1}, {10, 10.001, 0.5}});
+  EXPECT_DOUBLE_EQ(table.number, 4.5);
+  for (const double order : {-0.5, 0.0, 1.0 / 3, 1.0, 2.0, 3.0}) {
+    double sum = 0;
+    for (const auto& [from, to, number] : table.intervals)
+      for (int slice = 0; slice < 2000; ++slice)
+        sum += number / 2000 * std::pow(from * std::pow(to / from, (slice + 0.5) / 2000), order);
+    EXPECT_NEAR(initialMoment(table, order) / sum, 1, 1e-6) << order;
+    EXPECT_NEAR(initialIntegral(table, 0, HUGE_VAL, [&](double v) { return std::pow(v, order); }) / sum, 1, 1e-6)
+        << order;
+  }
+  EXPECT_NEAR(table.volume, initialMoment(table, 1) / 4.5, 1e-11);
+  EXPECT_NEAR(initialNumber(table, 4, 10.0005), 0.5 + 0.25, 1e-5);
+  EXPECT_NEAR(initialIntegral(table, 4, 9, [](double) { return 1.0; }), 0.5, 1e-12);
+
+  const InitialPopulation equal{Distribution::monodisperse, 7, 3, 1}, wide{Distribution::lognormal, 2, 5, 1.4};
+  const InitialPopulation sum = sumOf({equal, InitialPopulation{}, sumOf({wide, table})});
+  ASSERT_EQ(sum.modes.size(), 3U) << "a sum of sums is one sum";
+  EXPECT_DOUBLE_EQ(sum.number, 13.5);
+  for (const double order : {0.0, 1.0, 2.5})
+    EXPECT_NEAR(initialMoment(sum, order),
+                initialMoment(equal, order) + initialMoment(wide, order) + initialMoment(table, order),
+                1e-12 * initialMoment(sum, order));
+  EXPECT_NEAR(sum.volume * 13.5, initialMoment(sum, 1), 1e-10);
+  EXPECT_NEAR(initialNumber(sum, 0, 5), 7 + 1 + 3 + std::log(5.0 / 2) / std::log(4), 1e-12) << "half of the wide one";
+  EXPECT_EQ(sumOf({equal}).distribution, Distribution::monodisperse);
+  EXPECT_EQ(sumOf({}).distribution, Distribution::none);
+}
+
+TEST(InitialPopulations, RefuseTablesThatAreNone) {
+  const auto problem = [](std::vector<SizeInterval> intervals) -> std::string {
+    try {
+      static_cast<void>(tabulated(std::move(intervals)));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "nothing";
+  };
+  using testing::HasSubstr;
+  EXPECT_THAT(problem({{1, 2, 1}, {1.5, 3, 1}}), HasSubstr("rise without overlap"));
+  EXPECT_THAT(problem({{2, 1, 1}}), HasSubstr("an upper end above 2"));
+  EXPECT_THAT(problem({{0, 1, 1}}), HasSubstr("each lower end needs to be above zero"));
+  EXPECT_THAT(problem({{1, 2, -1}}), HasSubstr("each number needs to be zero or above"));
+  EXPECT_THAT(problem({{1, 2, 0}}), HasSubstr("holds no particles"));
+  EXPECT_EQ(problem({{1, 2, 1}, {2 * (1 - 1e-12), 3, 1}}), "nothing") << "but for rounding";
 }
 
 }  // namespace

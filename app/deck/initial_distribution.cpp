@@ -1,0 +1,228 @@
+#include "app/deck/initial_distribution.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "core/constants.hpp"
+#include "core/errors.hpp"
+#include "core/text_file.hpp"
+#include "io/csv.hpp"
+#include "io/table_column.hpp"
+
+namespace lampblack::app {
+namespace {
+
+const std::vector<std::string> spread{"monodisperse", "exponential", "lognormal"};
+
+double sphereVolume(double diameter) {
+  return constants::pi / 6 * diameter * diameter * diameter;
+}
+
+void addKeys(DeckSchema& schema, const std::string& at) {
+  const std::string type = at + ".distribution";
+  schema
+      .add(
+          choiceKey(type, {"none", "monodisperse", "exponential", "lognormal", "table"},
+                    "Distribution of the volumes of the particles at time zero (lognormal: of their diameters); table: "
+                    "from a file; none: no particles.")
+              .byDefault("none"))
+      .add(quantityKey(at + ".number", units::perVolume, "Number density of the particles at time zero.")
+               .optional()
+               .above(0)
+               .onlyWith(type, spread));
+  addParticleSize(schema, at, "of all (monodisperse), mean (exponential) or median by number (lognormal)",
+                  {{type, spread}});
+  schema
+      .add(numberKey(at + ".geometric_deviation", "Geometric standard deviation of the diameter.")
+               .optional()
+               .above(1)
+               .atMost(100)
+               .onlyWith(type, {"lognormal"}))
+      .add(
+          stringKey(at + ".file",
+                    "CSV file, relative to the deck, with columns 'from [nm],to [nm],number [1/cm^3]' or "
+                    "'diameter [nm],dN/dlogd [1/cm^3]', the logarithm to the base 10 (dN/dlnd: the natural one). Sizes "
+                    "are diameters, or volumes where their unit is one; a row's number lies evenly over the logarithm.")
+              .optional()
+              .onlyWith(type, {"table"}));
+}
+
+InitialPopulation readMode(const Deck& deck, const std::string& section) {
+  using Distribution = InitialPopulation::Distribution;
+  const std::string type = deck.choice(section + ".distribution");
+  InitialPopulation initial;
+  if (type == "none") return initial;
+  const std::string who = fmt::format("the initial distribution {}", type);
+  const auto require = [&](const char* key) {
+    if (!deck.has(section + "." + key)) throw deck.error(section, fmt::format("{} needs the key '{}'", who, key));
+    return section + "." + key;
+  };
+  if (type == "table") {
+    const std::string key = require("file");
+    return deck.at(key, [&] { return readSizeTable(deck.resolvePath(deck.string(key))); });
+  }
+  initial.distribution = type == "monodisperse"  ? Distribution::monodisperse
+                         : type == "exponential" ? Distribution::exponential
+                                                 : Distribution::lognormal;
+  initial.number = deck.quantity(require("number"));
+  initial.volume = readParticleSize(deck, section, who);
+  if (type == "lognormal") initial.geometricDeviation = deck.number(require("geometric_deviation"));
+  return initial;
+}
+
+std::string lowerCase(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+// A column of a table by one of its names.
+class Columns {
+ public:
+  explicit Columns(const TextTable& table) : table_(table) {
+    for (const std::string& header : table.columns) {
+      auto [name, unit] = nameAndUnit(header);
+      names_.push_back(lowerCase(std::move(name)));
+      units_.push_back(std::move(unit));
+    }
+  }
+
+  [[nodiscard]] std::optional<std::size_t> find(const std::set<std::string>& names) const {
+    std::optional<std::size_t> found;
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      if (!names.contains(names_[i])) continue;
+      if (found)
+        throw InputError(fmt::format("two columns say the same, '{}' and '{}'; leave one out", table_.columns[*found],
+                                     table_.columns[i]));
+      found = i;
+    }
+    return found;
+  }
+
+  [[nodiscard]] std::vector<double> read(std::size_t column, const units::Dimension& dimension) const {
+    const TableColumn reader(names_[column], units_[column], dimension);
+    std::vector<double> values;
+    for (std::size_t row = 0; row < table_.rows.size(); ++row)
+      values.push_back(reader.read(table_.rows[row][column], table_.lines[row]));
+    return values;
+  }
+
+  // Volumes of particles (m3), given as such or by diameters.
+  [[nodiscard]] std::vector<double> readVolumes(std::size_t column) const {
+    const bool isVolume =
+        !units_[column].empty() && units_[column] != "1" && units::parseUnit(units_[column]).dimension == units::volume;
+    std::vector<double> sizes = read(column, isVolume ? units::volume : units::length);
+    for (std::size_t row = 0; row < sizes.size(); ++row) {
+      if (!(sizes[row] > 0))
+        throw InputError(fmt::format("line {}: expected a size above zero as '{}'", table_.lines[row], names_[column]));
+      if (!isVolume) sizes[row] = sphereVolume(sizes[row]);
+    }
+    return sizes;
+  }
+
+ private:
+  const TextTable& table_;
+  std::vector<std::string> names_, units_;
+};
+
+// The interval of each size reaches half-way, by the logarithm, to its neighbours, at the ends as far to the other
+// side. `unit`: by how much the coordinate of the densities grows where the volume grows by the factor e.
+std::vector<SizeInterval> intervalsAround(std::vector<std::pair<double, double>> densities, double unit) {
+  if (densities.size() < 2) throw InputError("densities need two sizes at least; one has no width");
+  std::ranges::sort(densities);
+  const std::size_t last = densities.size() - 1;
+  const auto between = [&](std::size_t i) { return std::sqrt(densities[i].first * densities[i + 1].first); };
+  std::vector<SizeInterval> intervals;
+  for (std::size_t i = 0; i <= last; ++i) {
+    const auto [volume, density] = densities[i];
+    if (i < last && !(densities[i + 1].first > volume)) throw InputError("two rows have the same size");
+    const double from = i > 0 ? between(i - 1) : volume * volume / between(0);
+    const double to = i < last ? between(i) : volume * volume / between(last - 1);
+    intervals.push_back({from, to, density * unit * std::log(to / from)});
+  }
+  return intervals;
+}
+
+InitialPopulation populationOfTable(const TextTable& table) {
+  const Columns columns(table);
+  const auto from = columns.find({"from"}), to = columns.find({"to"}), number = columns.find({"number"});
+  const auto size = columns.find({"diameter", "d", "dp", "volume", "v"});
+  const auto decadic = columns.find({"dn/dlogd", "dn/dlogdp", "dn/dlog10d", "dn/dlog10dp", "dn/dlog(d)", "dn/dlog(dp)",
+                                     "dn/dlog10(d)", "dn/dlog10(dp)"});
+  const auto natural = columns.find({"dn/dlnd", "dn/dlndp", "dn/dln(d)", "dn/dln(dp)"});
+  const std::size_t densities = (decadic ? 1 : 0) + (natural ? 1 : 0);
+  const bool isBinned = from && to && number;
+  if (isBinned == (size && densities > 0) || densities > 1)
+    throw InputError(
+        "expected columns 'from', 'to' and 'number', or 'diameter' and one of 'dN/dlogd' (to the base 10) and "
+        "'dN/dlnd', "
+        "with their units: \"from [nm],to [nm],number [1/cm^3]\"");
+  if (table.rows.empty()) throw InputError("the table has no rows");
+  std::vector<SizeInterval> intervals;
+  if (isBinned) {
+    const auto lower = columns.readVolumes(*from), upper = columns.readVolumes(*to);
+    const auto numbers = columns.read(*number, units::perVolume);
+    for (std::size_t row = 0; row < lower.size(); ++row) intervals.push_back({lower[row], upper[row], numbers[row]});
+    std::ranges::sort(intervals, {}, &SizeInterval::from);
+    return tabulated(std::move(intervals));
+  }
+  const auto volumes = columns.readVolumes(*size);
+  const auto values = columns.read(decadic ? *decadic : *natural, units::perVolume);
+  std::vector<std::pair<double, double>> rows;
+  for (std::size_t row = 0; row < volumes.size(); ++row) rows.emplace_back(volumes[row], values[row]);
+  // The diameter grows by a third of the logarithm of the volume.
+  return tabulated(intervalsAround(std::move(rows), decadic ? 1 / (3 * std::log(10.0)) : 1.0 / 3));
+}
+
+}  // namespace
+
+void addParticleSize(DeckSchema& schema, const std::string& section, const std::string& what,
+                     const std::vector<DeckCondition>& conditions) {
+  DeckKey volume = quantityKey(section + ".volume", units::volume, "Volume " + what + "; either this or the diameter.");
+  DeckKey diameter = quantityKey(section + ".diameter", units::length,
+                                 "Diameter of the sphere of that volume, in place of the volume.");
+  for (DeckKey* key : {&volume, &diameter}) {
+    key->optional().above(0).conditions = conditions;
+    schema.add(*key);
+  }
+}
+
+double readParticleSize(const Deck& deck, const std::string& section, const std::string& who) {
+  if (deck.has(section + ".volume") == deck.has(section + ".diameter"))
+    throw deck.error(section, fmt::format("{} needs either 'volume' or 'diameter'", who));
+  if (const auto volume = deck.optionalQuantity(section + ".volume")) return *volume;
+  return sphereVolume(deck.quantity(section + ".diameter"));
+}
+
+void addInitialDistribution(DeckSchema& schema, const std::string& section) {
+  addKeys(schema, section);
+  schema.section(
+      section + "[]", Presence::defaulted,
+      fmt::format("In place of the keys of `{}` a list of maps, one a mode: the particles are their sum.", section));
+  addKeys(schema, section + "[]");
+}
+
+InitialPopulation readInitialDistribution(const Deck& deck, const std::string& section) {
+  if (deck.isGiven(section) && !deck.has(section + ".distribution")) {
+    std::vector<InitialPopulation> modes;
+    for (std::size_t i = 0; i < deck.size(section); ++i)
+      modes.push_back(readMode(deck, fmt::format("{}[{}]", section, i)));
+    return sumOf(modes);
+  }
+  return readMode(deck, section);
+}
+
+InitialPopulation readSizeTable(const std::filesystem::path& file) {
+  const std::string text = readTextFile(file, "a table of sizes");
+  try {
+    return populationOfTable(readCsv(text));
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", file.string(), error.what()));
+  }
+}
+
+}  // namespace lampblack::app

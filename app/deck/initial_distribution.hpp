@@ -1,0 +1,29 @@
+// The sizes of the particles at the start in a deck: a map of keys, a list of such maps whose sum the particles are,
+// and a table in a file. Wherever a deck gives a distribution of sizes.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/modules.hpp"
+#include "io/deck.hpp"
+#include "particles/population/model/population_model.hpp"
+
+namespace lampblack::app {
+
+// A size of a particle, as its volume or as the diameter of the sphere that has it: keys `volume` and `diameter`.
+void addParticleSize(DeckSchema& schema, const std::string& section, const std::string& what,
+                     const std::vector<DeckCondition>& conditions = {});
+// Its volume (m3). InputError, in which `who` needs a size, unless it is given once.
+double readParticleSize(const Deck& deck, const std::string& section, const std::string& who);
+
+// Keys of the section and of the items of a list in its place.
+void addInitialDistribution(DeckSchema& schema, const std::string& section);
+InitialPopulation readInitialDistribution(const Deck& deck, const std::string& section);
+
+// A table of sizes (CSV): columns `from`, `to` and `number`, or `diameter` and `dN/dlogd`; units in brackets behind the
+// names. Sizes are diameters, or volumes where their unit says so. InputError.
+InitialPopulation readSizeTable(const std::filesystem::path& file);
+
+}  // namespace lampblack::app
