@@ -3,11 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/errors.hpp"
 
 namespace lampblack::particles {
+namespace {
+
+// Part of the number density; the integrator divides by the square of the scales.
+constexpr double leastScale = 1e-100;
+
+}  // namespace
 
 SectionSystem::SectionSystem(const SectionGrid& grid, const PopulationModel& model, const SectionalOptions& options)
     : grid_(grid), layout_(grid.layout()), linear_(grid, model), growth_(grid, model.growth, options.growth) {
@@ -65,12 +72,24 @@ double SectionSystem::moment(const double* y, int k) const {
 }
 
 void SectionSystem::toleranceScales(const double* y, double* scales) const {
-  double number = std::abs(moment(y, 0)) + expected_;
-  double volume = std::abs(moment(y, 1)) + expected_ * nucleusVolume_;
-  if (!(number > 0)) number = 1;
-  if (!(volume > 0)) volume = number * grid_.volume(1);
+  // Of M_0 to M_3, with the nuclei that come.
+  std::array<double, 4> moments{};
+  double nuclei = expected_;
+  for (std::size_t j = 0; j < moments.size(); ++j, nuclei *= nucleusVolume_)
+    moments[j] = std::abs(moment(y, static_cast<int>(j))) + nuclei;
+  if (!(moments[0] > 0)) moments[0] = 1;
+  for (std::size_t j = 1; j < moments.size(); ++j)
+    if (!(moments[j] > 0)) moments[j] = moments[j - 1] * grid_.volume(1);
+  const double number = moments[0], least = number * leastScale;
   scales[0] = number;
-  for (std::size_t k = 1; k < layout_.sections; ++k) scales[k] = std::min(number, volume / grid_.volume(k));
+  for (std::size_t k = 1; k < layout_.sections; ++k) {
+    double scale = number, power = 1;
+    for (std::size_t j = 1; j < moments.size(); ++j) {
+      power *= grid_.volume(k);
+      scale = std::min(scale, moments[j] / power);
+    }
+    scales[k] = std::max(scale, least);
+  }
   scales[layout_.overNumber()] = scales[layout_.overVolume()] = scales[grid_.last()];
   scales[layout_.vanished()] = number + std::abs(y[layout_.vanished()]);
 }

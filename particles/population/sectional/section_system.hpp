@@ -23,8 +23,9 @@ class SectionSystem final : public OdeSystem {
   std::size_t size() const override { return layout_.size(); }
   bool rates(double t, const double* y, double* f) override;
   bool jacobian(double t, const double* y, double* f, double* J, std::size_t ld) override;
-  // The absolute error is measured by the number density, for large pivots by the number of them that would hold all
-  // volume: both moments are as accurate, and the scale follows a number that falls by decades.
+  // The absolute error of a section is measured by the number of its particles that would hold all of M_0, M_1, M_2 or
+  // M_3, whichever is smallest: what a section that has no particles gets by the integrator's noise weighs nothing in
+  // any of the moments, and the scale follows a number that falls by decades.
   bool hasMovingScales() const override { return true; }
   void toleranceScales(const double* y, double* scales) const override;
   std::string describe(double t, const double* y) const override;

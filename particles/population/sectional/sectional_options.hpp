@@ -23,7 +23,7 @@ struct SectionalOptions {
   double spacing = 0;          // ratio of neighbouring pivots, above 1; zero: from `largest`
   double largest = 0;          // m3, volume of the last pivot; zero: from `spacing`
   double relativeTolerance = 1e-8;
-  double absoluteTolerance = 1e-12;  // of the number density, or of the number of this volume that holds all mass
+  double absoluteTolerance = 1e-12;  // of the number of particles of a section that would hold all of any of M_0 to M_3
   SectionGrowthScheme growth = SectionGrowthScheme::limited;
   double overflow = 1e-6;  // part of the volume that may pass the last pivot before that is an error
 };
