@@ -1,54 +1,178 @@
 #include "flow/step_control.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-namespace lampblack::flow {
+#include "core/errors.hpp"
+#include "flow/cell_errors.hpp"
 
-StepControl::StepControl(const FlowContext& context, double tolerance, int sweeps)
-    : context_(context), tolerance_(tolerance), sweeps_(sweeps) {
-  if (sweeps < 2) throw std::logic_error("StepControl needs two sweeps");
+namespace lampblack::flow {
+namespace {
+
+// Of what a step may change: how much of it the next one aims at, and beyond which a cell that is colder than all else
+// has been cooled by the step itself.
+constexpr double aimed = 0.8, sudden = 0.1;
+constexpr double helping = 0.8;         // of what the attempt before did
+constexpr double roundOff = 1e-6;       // of a temperature
+constexpr double shortestFactor = 0.2;  // of the step before
+
+}  // namespace
+
+StepControl::StepControl(const FlowContext& context, const Options& options)
+    : context_(context), options_(options), failed_(std::numeric_limits<double>::infinity()), coldest_(failed_) {
+  if (options.tolerance && options.sweeps < 2) throw std::logic_error("StepControl needs two sweeps");
 }
 
-void StepControl::advance(State& state, double, double dt) {
+// K, of this rank's boundaries now.
+double StepControl::coldestGiven() const {
+  const Mesh& m = context_.mesh;
+  double coldest = std::numeric_limits<double>::infinity();
+  for (int face = m.interiorFaces; face < m.faces; ++face) {
+    const bool feeds = context_.boundaryOf(face).kind == BoundaryKind::Outlet;
+    if (feeds || context_.isTemperatureGiven(face)) coldest = std::min(coldest, context_.boundaryTemperature(face));
+  }
+  return coldest;
+}
+
+void StepControl::advance(State& state, double time, double dt) {
   ++sweep_;
   const auto owned = static_cast<std::size_t>(context_.mesh.owned);
-  const std::size_t fractions = owned * static_cast<std::size_t>(state.species);
-  if (sweep_ == sweeps_ - 1) {
+  if (options_.tolerance && sweep_ == options_.sweeps - 1) {
+    const std::size_t fractions = owned * static_cast<std::size_t>(state.species);
     temperature_.assign(state.temperature.begin(), state.temperature.begin() + static_cast<std::ptrdiff_t>(owned));
     Y_.assign(state.Y.begin(), state.Y.begin() + static_cast<std::ptrdiff_t>(fractions));
   }
-  if (sweep_ < sweeps_) return;
+  if (sweep_ < options_.sweeps) return;
   sweep_ = 0;
+  if (options_.tolerance) findError(state);
+  requireSound(state);
+  keepChange(state, time, dt);
   step_ = dt;
+}
+
+void StepControl::findError(const State& state) {
   error_ = 0.0;
-  for (std::size_t c = 0; c < owned; ++c)
+  for (std::size_t c = 0; c < temperature_.size(); ++c)
     error_ = std::max(error_, std::abs(state.temperature[c] - temperature_[c]) / state.temperature[c]);
-  for (std::size_t i = 0; i < fractions; ++i) error_ = std::max(error_, std::abs(state.Y[i] - Y_[i]));
+  for (std::size_t i = 0; i < Y_.size(); ++i) error_ = std::max(error_, std::abs(state.Y[i] - Y_[i]));
   MPI_Allreduce(MPI_IN_PLACE, &error_, 1, MPI_DOUBLE, MPI_MAX, context_.mesh.comm);
+}
+
+// How far a cell is beyond what a step may do to it, one where it just may; and what is wrong.
+double StepControl::excess(const State& state, int cell, std::string* fault) const {
+  const auto c = static_cast<std::size_t>(cell), n = static_cast<std::size_t>(state.species);
+  const double before = start_[c], now = state.temperature[c], change = now - before;
+  const double* Y = &state.Y[c * n];
+  const auto least = static_cast<std::size_t>(std::min_element(Y, Y + n) - Y);
+  double most = Y[least] / options_.leastMassFraction;
+  if (fault)
+    *fault = fmt::format("the mass fraction of {} has become {:.3g}, below {:.3g} (time.least_mass_fraction)",
+                         context_.mechanism.speciesName(least), Y[least], options_.leastMassFraction);
+  const auto blame = [&](double by, const std::string& limit) {
+    if (by <= most) return;
+    most = by;
+    if (fault)
+      *fault = fmt::format("the temperature has gone from {:.5g} to {:.5g} K in one step; {}", before, now, limit);
+  };
+  if (std::abs(change) > options_.temperatureChange)
+    blame(std::abs(change) / options_.temperatureChange,
+          fmt::format("it may change by {:.4g} K (time.temperature_change)", options_.temperatureChange));
+  if (now < coldest_ * (1.0 - roundOff))
+    blame(-change / (sudden * options_.temperatureChange),
+          fmt::format("the start and all boundaries are warmer ({:.5g} K and more)", coldest_));
+  return most;
+}
+
+void StepControl::requireSound(const State& state) {
+  const Mesh& m = context_.mesh;
+  inEachCell(m, [&](int c) { Transport::requireInRange(state.temperature[c]); });
+  double coldest = coldestGiven();
+  MPI_Allreduce(MPI_IN_PLACE, &coldest, 1, MPI_DOUBLE, MPI_MIN, m.comm);
+  coldest_ = std::min(coldest_, coldest);
+  double worst = 0.0;
+  for (int c = 0; c < m.owned; ++c) worst = std::max(worst, excess(state, c, nullptr));
+  MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE, MPI_MAX, m.comm);
+  // Where the shorter step does as much, it is not the step's length.
+  const bool helps = worst < helping * failed_;
+  failed_ = worst <= 1.0 || !helps ? std::numeric_limits<double>::infinity() : worst;
+  if (worst <= 1.0 || !helps) return;
+  inEachCell(m, [&](int c) {
+    std::string fault;
+    if (excess(state, c, &fault) == worst)
+      throw NumericsError(fault + "; shorter steps may help (time.maximum_step, time.courant)");
+  });
+}
+
+void StepControl::keepChange(const State& state, double time, double dt) {
+  const Peak largest = peakOf(
+      context_.mesh, [&](int c) { return std::abs(state.temperature[c] - start_[static_cast<std::size_t>(c)]); });
+  change_ = largest.value;
+  changeSinceRow_ = std::max(changeSinceRow_, change_);
+  if (change_ <= worst_.value) return;
+  worst_ = largest;
+  worstTime_ = time + dt;
+}
+
+void StepControl::endStep(State& state) {
+  const auto owned = static_cast<std::ptrdiff_t>(context_.mesh.owned);
+  start_.assign(state.temperature.begin(), state.temperature.begin() + owned);
+  if (coldest_ < std::numeric_limits<double>::infinity()) return;
+  for (const double T : start_) coldest_ = std::min(coldest_, T);
+  MPI_Allreduce(MPI_IN_PLACE, &coldest_, 1, MPI_DOUBLE, MPI_MIN, context_.mesh.comm);
 }
 
 double StepControl::largestStep(const State&) {
   if (step_ <= 0.0) return std::numeric_limits<double>::infinity();
+  double factor = std::numeric_limits<double>::infinity();
+  // What is beyond it has not been for the step's length.
+  if (change_ <= options_.temperatureChange)
+    factor = aimed * options_.temperatureChange / std::max(change_, 1e-6 * options_.temperatureChange);
   // A sweep has the error step^(sweeps) after those before it.
-  const double factor = 0.9 * std::pow(tolerance_ / std::max(error_, 1e-6 * tolerance_), 1.0 / sweeps_);
-  return step_ * std::max(factor, 0.2);
+  if (options_.tolerance)
+    factor = std::min(factor, 0.9 * std::pow(*options_.tolerance / std::max(error_, 1e-6 * *options_.tolerance),
+                                             1.0 / options_.sweeps));
+  return step_ * std::max(factor, shortestFactor);
 }
 
 void StepControl::saveOrLoad(StateArchive& archive) {
-  archive.shared("step_error", error_);
-  archive.shared("step_of_error", step_);
-  if (archive.loading()) sweep_ = 0;  // of a step that was broken off
+  std::vector<double> kept{error_,       step_,           change_,         changeSinceRow_, coldest_,
+                           worst_.value, worst_.place[0], worst_.place[1], worst_.place[2], worstTime_};
+  archive.shared("step_control", kept);
+  if (!archive.loading()) return;
+  error_ = kept.at(0);
+  step_ = kept.at(1);
+  change_ = kept.at(2);
+  changeSinceRow_ = kept.at(3);
+  coldest_ = kept.at(4);
+  worst_ = {kept.at(5), {kept.at(6), kept.at(7), kept.at(8)}};
+  worstTime_ = kept.at(9);
+  sweep_ = 0;  // of a step that was broken off
 }
 
 std::vector<Quantity> StepControl::historyColumns() const {
-  return {
-      {"step_error", "1", "largest change of a cell's temperature, relative, or of a mass fraction by the last sweep"}};
+  std::vector<Quantity> columns{
+      {"temperature_change", "K", "largest change of a cell's temperature in a step since the last row"}};
+  if (options_.tolerance)
+    columns.push_back({"step_error", "1",
+                       "largest change of a cell's temperature, relative, or of a mass fraction by the last sweep"});
+  return columns;
 }
 
 std::vector<double> StepControl::historyValues(const State&) {
-  return {error_};
+  std::vector<double> values{changeSinceRow_};
+  changeSinceRow_ = 0.0;
+  if (options_.tolerance) values.push_back(error_);
+  return values;
+}
+
+std::vector<std::string> StepControl::closingLines() const {
+  if (step_ <= 0.0) return {};
+  return {
+      fmt::format("largest change of a temperature in one step {:.3g} K at {} at t = {:.4g} s; {:.3g} K in the last",
+                  worst_.value, placeText(worst_.place, context_.mesh.dimension), worstTime_, change_)};
 }
 
 }  // namespace lampblack::flow

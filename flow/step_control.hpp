@@ -1,35 +1,67 @@
-// Time steps by their error. The last sweep of deferred correction corrects what the sweep before has found; by how
-// much is the error of the sweep before, in time, and the next step is that for which it is what the deck allows. The
-// state that goes on is the corrected one, whose error is smaller. Needs two sweeps.
+// What a step did, and how long the next one may be.
+//
+// A step in which a cell's temperature jumps, a mass fraction falls far below zero, or a cell becomes colder than
+// anything that could have cooled it, is no step of this gas: it fails, with the place, before it is accepted, so that
+// it is tried again from the good state. The next step is no longer than what the last one changed allows.
+//
+// With a tolerance the steps go by their error as well. The last sweep of deferred correction corrects what the sweep
+// before has found; by how much is the error of the sweep before, in time, and the next step is that for which it is
+// what the deck allows. The state that goes on is the corrected one, whose error is smaller. Needs two sweeps.
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "core/modules.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/operator.hpp"
+#include "flow/peak.hpp"
 
 namespace lampblack::flow {
 
 class StepControl : public Operator {
  public:
-  // `tolerance`: of the temperature, relative, and of mass fractions, the largest in any cell. Stands behind all other
-  // operators of a step of `sweeps` sweeps. std::logic_error for less than two of them.
-  StepControl(const FlowContext& context, double tolerance, int sweeps);
+  struct Options {
+    int sweeps = 1;
+    // Of the temperature, relative, and of mass fractions, the largest in any cell; nothing: errors are not looked at.
+    std::optional<double> tolerance = {};
+    double temperatureChange = 500.0;  // K, of a cell in a step
+    double leastMassFraction = -0.01;
+  };
+
+  // Stands behind all other operators of a step. std::logic_error for a tolerance with less than two sweeps.
+  StepControl(const FlowContext& context, const Options& options);
 
   [[nodiscard]] const char* name() const override { return "step control"; }
+  // NumericsError on all ranks, behind the last sweep, where the step has gone wrong.
   void advance(State& state, double time, double dt) override;
+  void endStep(State& state) override;
   void saveOrLoad(StateArchive& archive) override;
   [[nodiscard]] double largestStep(const State& state) override;
   [[nodiscard]] std::vector<Quantity> historyColumns() const override;
   [[nodiscard]] std::vector<double> historyValues(const State& state) override;
+  [[nodiscard]] std::vector<std::string> closingLines() const override;
 
  private:
+  void findError(const State& state);
+  [[nodiscard]] double excess(const State& state, int cell, std::string* fault) const;
+  void requireSound(const State& state);
+  void keepChange(const State& state, double time, double dt);
+  [[nodiscard]] double coldestGiven() const;
+
   const FlowContext& context_;
-  double tolerance_;
-  int sweeps_, sweep_ = 0;
+  Options options_;
+  int sweep_ = 0;
   std::vector<double> temperature_, Y_;  // of the owned cells, after the sweep before the last
+  std::vector<double> start_;            // K, of the owned cells when the step began
+  double failed_;                        // excess() of an attempt at this step that has failed; infinite: of none
+  double coldest_;                       // K, of the start and of all that boundaries have had
   double error_ = 0.0, step_ = 0.0;      // of the last step; zero before the first
+  double change_ = 0.0;                  // K, the largest of the last step
+  double changeSinceRow_ = 0.0;          // K
+  Peak worst_;                           // K, the largest change of the run
+  double worstTime_ = 0.0;               // s
 };
 
 }  // namespace lampblack::flow

@@ -326,7 +326,9 @@ FlowCase readFlowCase(const Deck& deck) {
                    deck.number("time.growth"),
                    deck.optionalNumber("time.tolerance"),
                    deck.integer<int>("time.retries"),
-                   deck.optionalQuantity("time.wall_limit")};
+                   deck.optionalQuantity("time.wall_limit"),
+                   deck.quantity("time.temperature_change"),
+                   deck.number("time.least_mass_fraction")};
   flowCase.flow.courant = deck.number("time.courant");
   flowCase.flow.sweeps = deck.integer<int>("time.sweeps");
   if (deck.choice("convection.velocity") == "central") {

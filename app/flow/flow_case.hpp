@@ -27,13 +27,15 @@
 namespace lampblack::app {
 
 struct TimeControl {
-  double end = 0.0;                 // s
-  double firstStep = 1e-6;          // s
-  double maximumStep = 1.0;         // s
-  double growth = 1.2;              // of the step from one to the next, at most
-  std::optional<double> tolerance;  // of a step; nothing: steps do not look at their errors
-  int retries = 4;                  // of a step that fails, each with a quarter of the step before
-  std::optional<double> wallLimit;  // s, from the start of the program
+  double end = 0.0;                  // s
+  double firstStep = 1e-6;           // s
+  double maximumStep = 1.0;          // s
+  double growth = 1.2;               // of the step from one to the next, at most
+  std::optional<double> tolerance;   // of a step; nothing: steps do not look at their errors
+  int retries = 4;                   // of a step that fails, each with a quarter of the step before
+  std::optional<double> wallLimit;   // s, from the start of the program
+  double temperatureChange = 500.0;  // K, of a cell in a step; more and the step fails
+  double leastMassFraction = -0.01;  // of a cell; below and the step fails
 };
 
 // Tables beside the fields and the history.

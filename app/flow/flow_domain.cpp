@@ -59,7 +59,9 @@ FlowDomain::FlowDomain(Mesh partitioned, const FlowCase& flowCase, const Thermo&
               distancesFromWalls(mesh, halo, flowCase)},
       state(mesh, flowCase.mechanism->numSpecies(), carriedScalars(flowCase), flowCase.swirls),
       flow(context, state, flowCase.flow),
-      chemistry(context, chemistryOptions) {
+      chemistry(context, chemistryOptions),
+      stepControl(context, {flowCase.flow.sweeps, flowCase.time.tolerance, flowCase.time.temperatureChange,
+                            flowCase.time.leastMassFraction}) {
   state.thermodynamicPressure = flowCase.pressure;
   if (context.varying) context.varying->set(0.0, 0.0);
   operators = {&flow, &chemistry};
@@ -76,10 +78,7 @@ FlowDomain::FlowDomain(Mesh partitioned, const FlowCase& flowCase, const Thermo&
         std::make_unique<RadiationOperator>(context, flowCase.radiation.surroundings, particleAbsorption(flowCase));
     operators.push_back(radiation.get());
   }
-  if (flowCase.time.tolerance) {
-    stepControl = std::make_unique<StepControl>(context, *flowCase.time.tolerance, flowCase.flow.sweeps);
-    operators.push_back(stepControl.get());
-  }
+  operators.push_back(&stepControl);
 }
 
 void FlowDomain::setStart(const FlowCase& flowCase) {

@@ -35,10 +35,10 @@ struct FlowDomain {
   State state;
   TransportOperator flow;
   ReactionOperator chemistry;
+  StepControl stepControl;
   std::unique_ptr<CarriedOperator> carried;
   std::unique_ptr<EnsembleOperator> ensembles;
   std::unique_ptr<RadiationOperator> radiation;
-  std::unique_ptr<StepControl> stepControl;
   std::vector<Operator*> operators;  // of these, each advances over the step, one after the other
   std::unique_ptr<Budget> budget;
 };

@@ -226,15 +226,27 @@ void addTimeAndOutput(DeckSchema& schema) {
                .above(0)
                .below(1))
       .add(numberKey("time.growth", "Largest ratio of a time step to the one before.").byDefault("1.2").above(1))
-      .add(
-          integerKey("time.retries",
-                     "How often a time step that fails is tried again, each time with a quarter of its length, before "
-                     "the run ends with its last good state and a checkpoint. Steps fail where a value is no number "
-                     "any more, a temperature is out of range, or the pressure or a cell's chemistry cannot be solved. "
-                     "0: the first failure ends the run.")
-              .byDefault("4")
-              .atLeast(0)
-              .atMost(20))
+      .add(integerKey(
+               "time.retries",
+               "How often a time step that fails is tried again, each time with a quarter of its length, before "
+               "the run ends with its last good state and a checkpoint. Steps fail where a value is no number "
+               "any more, a temperature is out of range or colder than the start and all boundaries, more changes "
+               "than time.temperature_change and time.least_mass_fraction allow, or the pressure or a cell's "
+               "chemistry cannot be solved. "
+               "0: the first failure ends the run.")
+               .byDefault("4")
+               .atLeast(0)
+               .atMost(20))
+      .add(quantityKey("time.temperature_change", units::temperature,
+                       "Largest change of a cell's temperature in a time step. A step that changes one by more fails "
+                       "and is tried again, shorter, and the steps behind it become no longer than that needs.")
+               .byDefault("500 K")
+               .above(0))
+      .add(numberKey("time.least_mass_fraction",
+                     "Most negative mass fraction that a time step may leave in a cell; one that leaves less fails and "
+                     "is tried again, shorter. Nothing is clipped.")
+               .byDefault("-0.01")
+               .below(0))
       .add(quantityKey("time.wall_limit", units::time,
                        "Wall time, from the start of the program, before whose end the run stops by itself as SIGTERM "
                        "stops it: with its last state in the results and a checkpoint, from which `lampblack run "

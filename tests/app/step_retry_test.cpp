@@ -314,6 +314,19 @@ TEST(RetriedStep, EndsTheRunWhereTimeStandsStill) {
   EXPECT_LT(shrinker.steps.size(), disturbedStep + 12);
 }
 
+// By the case's own step control, with a limit that the first of these steps is beyond.
+TEST(RetriedStep, AStepThatChangesMoreThanTheDeckAllowsIsShorter) {
+  const test::SharedScratchFolder scratch;
+  Watcher watcher;
+  const auto out = scratch.path() / "out";
+  const Ran ran = run(watcher, out, settings(1, {"time.end=0.4 us", "time.temperature_change=15 K"}));
+  EXPECT_GT(ran.retried, 0);
+  EXPECT_EQ(watcher.steps.front().dt, 0.1e-6);
+  const double change = Hdf5Reader(out / "results.h5").numbers("/history/temperature_change").front();
+  EXPECT_GT(change, 5.0);
+  EXPECT_LT(change, 15.0);
+}
+
 TEST(RetriedStep, HasAsManyAttemptsAsTheDeckAllowsEachTime) {
   const test::SharedScratchFolder scratch;
   Fault fault(fail, true, 2);
