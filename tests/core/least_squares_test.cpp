@@ -39,6 +39,10 @@ TEST(LeastSquares, TheSlopeOfASmallCellIsThatOfALargeOne) {
                    {0.5 * size, -0.7 * size, 0.6 * size, -0.4 * size});
     EXPECT_NEAR(gradient[0], 1.0, 1e-12) << size;
     EXPECT_NEAR(gradient[1], 2.0, 1e-12) << size;
+    // Of a row of cells the slope along it is known, and none across.
+    const Vector3 along = gradientOf({{0.5 * size, 0.0, 0.0}, {-0.7 * size, 0.0, 0.0}}, {0.5 * size, -0.7 * size});
+    EXPECT_NEAR(along[0], 1.0, 1e-12) << size;
+    EXPECT_EQ(along[1], 0.0) << size;
   }
 }
 
