@@ -24,7 +24,7 @@ constexpr std::size_t pairsForRate = 10000;
 }  // namespace
 
 ReactorTrees::ReactorTrees(const Mechanism& mechanism, const TreeOptions& options, GasViscosity viscosity,
-                           const std::optional<Start>& start)
+                           std::span<const TreeStart> start)
     : material_(options.material),
       functionals_(options.material),
       events_(treeEvents(options.material)),
@@ -57,7 +57,7 @@ ReactorTrees::ReactorTrees(const Mechanism& mechanism, const TreeOptions& option
     }
   }
   if (const SiteReactions* reactions = material_.sites()) requireAtoms(mechanism, *reactions);
-  if (start) population_->fill(start->units, start->number);
+  if (!start.empty()) population_->fill(start);
 }
 
 // Atoms of units and of the gas's species are the same before and after each process.

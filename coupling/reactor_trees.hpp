@@ -17,15 +17,10 @@ namespace lampblack::coupling {
 
 class ReactorTrees final : public ReactorPopulation {
  public:
-  // Spheres that there are from the beginning.
-  struct Start {
-    TreeUnits units{};
-    double number = 0;  // 1/m3
-  };
   // InputError where the mechanism lacks a species or an element, where a process of a material with sites does
   // not keep the atoms of these species, and as makeTreePopulation().
   ReactorTrees(const Mechanism& mechanism, const TreeOptions& options, GasViscosity viscosity,
-               const std::optional<Start>& start);
+               std::span<const TreeStart> start);
 
   [[nodiscard]] TreePopulation& population() const { return *population_; }
   // Whether particles can be born of this gas.

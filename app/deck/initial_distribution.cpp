@@ -23,58 +23,6 @@ double sphereVolume(double diameter) {
   return constants::pi / 6 * diameter * diameter * diameter;
 }
 
-void addKeys(DeckSchema& schema, const std::string& at) {
-  const std::string type = at + ".distribution";
-  schema
-      .add(
-          choiceKey(type, {"none", "monodisperse", "exponential", "lognormal", "table"},
-                    "Distribution of the volumes of the particles at time zero (lognormal: of their diameters); table: "
-                    "from a file; none: no particles.")
-              .byDefault("none"))
-      .add(quantityKey(at + ".number", units::perVolume, "Number density of the particles at time zero.")
-               .optional()
-               .above(0)
-               .onlyWith(type, spread));
-  addParticleSize(schema, at, "of all (monodisperse), mean (exponential) or median by number (lognormal)",
-                  {{type, spread}});
-  schema
-      .add(numberKey(at + ".geometric_deviation", "Geometric standard deviation of the diameter.")
-               .optional()
-               .above(1)
-               .atMost(100)
-               .onlyWith(type, {"lognormal"}))
-      .add(
-          stringKey(at + ".file",
-                    "CSV file, relative to the deck, with columns 'from [nm],to [nm],number [1/cm^3]' or "
-                    "'diameter [nm],dN/dlogd [1/cm^3]', the logarithm to the base 10 (dN/dlnd: the natural one). Sizes "
-                    "are diameters, or volumes where their unit is one; a row's number lies evenly over the logarithm.")
-              .optional()
-              .onlyWith(type, {"table"}));
-}
-
-InitialPopulation readMode(const Deck& deck, const std::string& section) {
-  using Distribution = InitialPopulation::Distribution;
-  const std::string type = deck.choice(section + ".distribution");
-  InitialPopulation initial;
-  if (type == "none") return initial;
-  const std::string who = fmt::format("the initial distribution {}", type);
-  const auto require = [&](const char* key) {
-    if (!deck.has(section + "." + key)) throw deck.error(section, fmt::format("{} needs the key '{}'", who, key));
-    return section + "." + key;
-  };
-  if (type == "table") {
-    const std::string key = require("file");
-    return deck.at(key, [&] { return readSizeTable(deck.resolvePath(deck.string(key))); });
-  }
-  initial.distribution = type == "monodisperse"  ? Distribution::monodisperse
-                         : type == "exponential" ? Distribution::exponential
-                                                 : Distribution::lognormal;
-  initial.number = deck.quantity(require("number"));
-  initial.volume = readParticleSize(deck, section, who);
-  if (type == "lognormal") initial.geometricDeviation = deck.number(require("geometric_deviation"));
-  return initial;
-}
-
 std::string lowerCase(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return text;
@@ -198,22 +146,87 @@ double readParticleSize(const Deck& deck, const std::string& section, const std:
   return sphereVolume(deck.quantity(section + ".diameter"));
 }
 
+void addDistribution(DeckSchema& schema, const std::string& at, Presence presence) {
+  const std::string key = at + ".distribution";
+  DeckKey type = choiceKey(key, {"none", "monodisperse", "exponential", "lognormal", "table"},
+                           "Distribution of the volumes of the particles at time zero (lognormal: of their diameters); "
+                           "table: from a file; none: no particles.")
+                     .byDefault("none");
+  DeckKey number = quantityKey(at + ".number", units::perVolume, "Number density of the particles at time zero.")
+                       .optional()
+                       .above(0);
+  if (presence == Presence::optional) {
+    type = choiceKey(key, {"monodisperse", "exponential", "lognormal", "table"},
+                     "Distribution of the volumes of the spheres (lognormal: of their diameters); table: from a file. "
+                     "Absent: all are alike, of the units given.")
+               .optional();
+    number.doc = "Number of spheres that there are at the start, but of a table, which has it; with 'units'.";
+  } else {
+    number.onlyWith(key, spread);
+  }
+  schema.add(type).add(number);
+  addParticleSize(schema, at, "of all (monodisperse), mean (exponential) or median by number (lognormal)",
+                  {{key, spread}});
+  schema
+      .add(numberKey(at + ".geometric_deviation", "Geometric standard deviation of the diameter.")
+               .optional()
+               .above(1)
+               .atMost(100)
+               .onlyWith(key, {"lognormal"}))
+      .add(
+          stringKey(at + ".file",
+                    "CSV file, relative to the deck, with columns 'from [nm],to [nm],number [1/cm^3]' or "
+                    "'diameter [nm],dN/dlogd [1/cm^3]', the logarithm to the base 10 (dN/dlnd: the natural one). Sizes "
+                    "are diameters, or volumes where their unit is one; a row's number lies evenly over the logarithm.")
+              .optional()
+              .onlyWith(key, {"table"}));
+}
+
+InitialPopulation readDistribution(const Deck& deck, const std::string& section) {
+  using Distribution = InitialPopulation::Distribution;
+  const std::string type = deck.choice(section + ".distribution");
+  InitialPopulation initial;
+  if (type == "none") return initial;
+  const std::string who = fmt::format("the initial distribution {}", type);
+  const auto require = [&](const char* key) {
+    if (!deck.has(section + "." + key)) throw deck.error(section, fmt::format("{} needs the key '{}'", who, key));
+    return section + "." + key;
+  };
+  if (type == "table") {
+    if (deck.has(section + ".number"))
+      throw deck.error(section + ".number", "the numbers are those of the table; leave this key out");
+    const std::string key = require("file");
+    return deck.at(key, [&] { return readSizeTable(deck.resolvePath(deck.string(key))); });
+  }
+  initial.distribution = type == "monodisperse"  ? Distribution::monodisperse
+                         : type == "exponential" ? Distribution::exponential
+                                                 : Distribution::lognormal;
+  initial.number = deck.quantity(require("number"));
+  initial.volume = readParticleSize(deck, section, who);
+  if (type == "lognormal") initial.geometricDeviation = deck.number(require("geometric_deviation"));
+  return initial;
+}
+
 void addInitialDistribution(DeckSchema& schema, const std::string& section) {
-  addKeys(schema, section);
+  addDistribution(schema, section, Presence::defaulted);
   schema.section(
       section + "[]", Presence::defaulted,
       fmt::format("In place of the keys of `{}` a list of maps, one a mode: the particles are their sum.", section));
-  addKeys(schema, section + "[]");
+  addDistribution(schema, section + "[]", Presence::defaulted);
+}
+
+std::vector<std::string> itemsOf(const Deck& deck, const std::string& section) {
+  std::vector<std::string> items;
+  for (std::size_t i = 0; i < deck.size(section); ++i) items.push_back(fmt::format("{}[{}]", section, i));
+  const bool isMap = !deck.isGiven(section) || !deck.children(section).empty();
+  if (items.empty() && isMap) items.push_back(section);
+  return items;
 }
 
 InitialPopulation readInitialDistribution(const Deck& deck, const std::string& section) {
-  if (deck.isGiven(section) && !deck.has(section + ".distribution")) {
-    std::vector<InitialPopulation> modes;
-    for (std::size_t i = 0; i < deck.size(section); ++i)
-      modes.push_back(readMode(deck, fmt::format("{}[{}]", section, i)));
-    return sumOf(modes);
-  }
-  return readMode(deck, section);
+  std::vector<InitialPopulation> modes;
+  for (const std::string& item : itemsOf(deck, section)) modes.push_back(readDistribution(deck, item));
+  return sumOf(modes);
 }
 
 InitialPopulation readSizeTable(const std::filesystem::path& file) {

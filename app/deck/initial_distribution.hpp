@@ -18,9 +18,17 @@ void addParticleSize(DeckSchema& schema, const std::string& section, const std::
 // Its volume (m3). InputError, in which `who` needs a size, unless it is given once.
 double readParticleSize(const Deck& deck, const std::string& section, const std::string& who);
 
+// Keys of one distribution: which, `number`, a size, `file`. Presence::optional: there may be particles without one,
+// `number` of them, of which the caller says what they are.
+void addDistribution(DeckSchema& schema, const std::string& section, Presence presence);
+// Of a section that says which.
+InitialPopulation readDistribution(const Deck& deck, const std::string& section);
+
 // Keys of the section and of the items of a list in its place.
 void addInitialDistribution(DeckSchema& schema, const std::string& section);
 InitialPopulation readInitialDistribution(const Deck& deck, const std::string& section);
+// The section, or each item of a list in its place: "initial", or "initial[0]", "initial[1]".
+std::vector<std::string> itemsOf(const Deck& deck, const std::string& section);
 
 // A table of sizes (CSV): columns `from`, `to` and `number`, or `diameter` and `dN/dlogd`; units in brackets behind the
 // names. Sizes are diameters, or volumes where their unit says so. InputError.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "app/deck/initial_distribution.hpp"
 #include "app/deck/size_bins_deck.hpp"
 #include "app/deck/tree_material_deck.hpp"
 #include "core/errors.hpp"
@@ -65,16 +66,19 @@ void addNumbers(DeckSchema& schema, const std::string& particles) {
 
 // Of the runs of all problems that repeat them.
 void addRuns(DeckSchema& schema) {
+  const std::string initial = "particles.initial";
+  for (const std::string& at : {initial, initial + "[]"}) {
+    addDistribution(schema, at, Presence::optional);
+    schema.add(numberKey(at + ".units",
+                         "Units of each component in one of them: Si, O, OH of silica; atoms C, H of soot. With a "
+                         "distribution their proportions.")
+                   .list()
+                   .optional()
+                   .atLeast(0));
+  }
   schema
-      .add(quantityKey("particles.initial.number", units::perVolume,
-                       "Number of equal spheres that there are at the start; with particles.initial.units.")
-               .optional()
-               .above(0))
-      .add(numberKey("particles.initial.units",
-                     "Units of each component in one of them: Si, O, OH of silica; atoms C, H of soot.")
-               .list()
-               .optional()
-               .atLeast(0))
+      .section(initial + "[]", Presence::defaulted,
+               "In place of the keys of `particles.initial` a list of maps, one a mode: all of them are there.")
       .add(quantityKey(
                "particles.expected_number", units::perVolume,
                "Expected largest number density: an empty sample is full when it first reaches this density. A value "
@@ -220,6 +224,28 @@ TreeOptions readTreeOptions(const Deck& deck, const Mechanism& mechanism) {
   return options;
 }
 
+namespace {
+
+TreeStart readStart(const Deck& deck, const std::string& at, const TreeMaterial& material) {
+  TreeStart start;
+  const bool hasSizes = deck.has(at + ".distribution");
+  if (!deck.has(at + ".units") || (!hasSizes && !deck.has(at + ".number")))
+    throw deck.error(
+        at, fmt::format("particles at the start need both '{}' and 'units'", hasSizes ? "distribution" : "number"));
+  if (hasSizes)
+    start.sizes = readDistribution(deck, at);
+  else
+    start.number = deck.quantity(at + ".number");
+  const std::vector<double> units = deck.numbers(at + ".units");
+  if (units.size() != material.components.size())
+    throw deck.error(at + ".units", fmt::format("{} numbers for {} components of {}", units.size(),
+                                                material.components.size(), material.name));
+  std::copy(units.begin(), units.end(), start.units.begin());
+  return start;
+}
+
+}  // namespace
+
 TreeRequest readTrees(const Deck& deck, const Mechanism& mechanism) {
   TreeRequest request;
   TreeOptions& options = request.options = readTreeOptions(deck, mechanism);
@@ -230,16 +256,10 @@ TreeRequest readTrees(const Deck& deck, const Mechanism& mechanism) {
                           : GasViscosity::transport;
   options.fullAt = deck.quantity("particles.expected_number");
   options.seed = deck.integer<std::uint64_t>("particles.seed");
-  if (deck.has("particles.initial.number") != deck.has("particles.initial.units"))
-    throw deck.error("particles.initial", "particles at the start need both 'number' and 'units'");
-  if (const auto number = deck.optionalQuantity("particles.initial.number")) {
-    const std::vector<double> units = deck.numbers("particles.initial.units");
-    if (units.size() != options.material.components.size())
-      throw deck.error("particles.initial.units",
-                       fmt::format("{} numbers for {} components of {}", units.size(),
-                                   options.material.components.size(), options.material.name));
-    request.start = {{}, *number};
-    std::copy(units.begin(), units.end(), request.start->units.begin());
+  for (const std::string& at : itemsOf(deck, "particles.initial")) {
+    const bool hasSizes = deck.has(at + ".distribution");
+    if (!hasSizes && !deck.has(at + ".number") && !deck.has(at + ".units") && !at.ends_with(']')) continue;
+    request.start.push_back(readStart(deck, at, options.material));
   }
   request.repeats = deck.integer<std::size_t>("particles.repeats");
   request.bins = readSizeBins(deck, "particles");

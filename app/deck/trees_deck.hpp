@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/modules.hpp"
 #include "coupling/reactor_trees.hpp"
@@ -14,7 +15,7 @@ namespace lampblack::app {
 struct TreeRequest {
   TreeOptions options;
   GasViscosity viscosity = GasViscosity::transport;
-  std::optional<ReactorTrees::Start> start;
+  std::vector<TreeStart> start;  // what is there from the beginning
   std::size_t repeats = 1;
   SizeBins bins;
   std::vector<double> tablesAt;  // s (plug flow: m), rising

@@ -22,6 +22,7 @@
 #include "particles/collisions/collision_physics.hpp"
 #include "particles/ensemble/particle_rows.hpp"
 #include "particles/population/model/collision_kernel.hpp"
+#include "particles/population/model/population_model.hpp"
 #include "particles/population/population_solver.hpp"
 #include "particles/trees/tree_shape.hpp"
 
@@ -96,12 +97,22 @@ struct TreeTotals {
 inline constexpr ParticleRows treeRows{21 + sizeof(TreeExchange) / sizeof(double) + std::size(populationCounters),
                                        true};
 
+// Spheres that a population begins with: `number` of them (1/m3), each of these units; or with a distribution of
+// volumes of their own, which has the number, in the proportions of the units.
+struct TreeStart {
+  TreeUnits units{};
+  double number = 0;
+  InitialPopulation sizes = {};
+};
+
 class TreePopulation {
  public:
   virtual ~TreePopulation() = default;
 
-  // Replaces the population by so many (1/m3) spheres of these units. InputError for what is not a particle.
-  virtual void fill(const TreeUnits& units, double number) = 0;
+  // Replaces the population by such spheres, divided between numerical particles of equal weight. InputError for what
+  // is not a particle.
+  virtual void fill(std::span<const TreeStart> starts) = 0;
+  void fill(const TreeUnits& units, double number) { fill(std::vector<TreeStart>{{units, number}}); }
   // Over dt (s); the gas has the concentrations of the material's species, in their order. NumericsError.
   virtual void advance(const ParticleGas& gas, double dt) = 0;
   virtual void dilute(double factor) = 0;  // all numbers per volume

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "core/errors.hpp"
 #include "particles/gas/soot_gas.hpp"
+#include "particles/population/monte_carlo/initial_sample.hpp"
 
 namespace lampblack::particles {
 
@@ -41,15 +43,31 @@ void TreeProcess::record(const TreeSintering::Changes& changes) {
   counters_.withoutSites += changes.limited;
 }
 
-void TreeProcess::fill(const TreeUnits& units, double number) {
-  for (const double amount : units)
-    if (!(amount >= 0))
-      throw InputError("particles: an initial particle may not have less than nothing of a component");
-  if (!(options_.material.volume(units) > 0) || !(number > 0))
-    throw InputError("particles: an initial particle needs mass and a number");
-  const Tree one = type_.make(units);
-  const std::vector<Tree> all(options_.particles, one);
-  method_.replace(all, number / static_cast<double>(options_.particles), random_);
+void TreeProcess::fill(std::span<const TreeStart> starts) {
+  const auto& material = options_.material;
+  std::vector<InitialPopulation> modes;
+  for (const auto& [units, number, sizes] : starts) {
+    for (const double amount : units)
+      if (!(amount >= 0))
+        throw InputError("particles: an initial particle may not have less than nothing of a component");
+    const bool hasSizes = sizes.distribution != InitialPopulation::Distribution::none;
+    if (!(material.volume(units) > 0) || !((hasSizes ? sizes.number : number) > 0))
+      throw InputError("particles: an initial particle needs mass and a number");
+    if (sizes.distribution == InitialPopulation::Distribution::modes)
+      throw std::logic_error("TreeProcess: the modes of a start are starts of their own");
+    modes.push_back(
+        hasSizes ? sizes
+                 : InitialPopulation{InitialPopulation::Distribution::monodisperse, number, material.volume(units)});
+  }
+  const InitialPopulation all = sumOf(modes);
+  std::vector<Tree> trees;
+  for (const auto& [volume, mode] : initialMembers(all, options_.particles, random_)) {
+    TreeUnits units = starts[mode].units;
+    const double factor = volume / material.volume(units);
+    for (double& amount : units) amount *= factor;
+    trees.push_back(type_.make(units));
+  }
+  method_.replace(trees, all.number / static_cast<double>(options_.particles), random_);
   exchange_ = {};
 }
 

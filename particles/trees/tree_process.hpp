@@ -23,7 +23,8 @@ class TreeProcess final : public TreePopulation {
 
   TreeProcess(const TreeOptions& options, const PopulationModel& model, const MonteCarloOptions& monteCarlo);
 
-  void fill(const TreeUnits& units, double number) override;
+  using TreePopulation::fill;
+  void fill(std::span<const TreeStart> starts) override;
   void advance(const ParticleGas& gas, double dt) override;
   void dilute(double factor) override { method_.dilute(factor); }
   [[nodiscard]] TreeExchange takeExchange() override { return std::exchange(exchange_, {}); }

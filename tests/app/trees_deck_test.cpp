@@ -1,6 +1,9 @@
 #include "app/deck/trees_deck.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 #include "app/deck/soot_deck.hpp"
 #include "app/reactor/reactor_case.hpp"
@@ -130,6 +133,37 @@ TEST(TreesDeck, TitaniaSintersByGrainBoundaryDiffusion) {
                                    .options.material.sintering;
     EXPECT_NEAR(other.time(900, 4e-9) / other.time(900, 2e-9), std::pow(2.0, power), 1e-9) << name;
   }
+}
+
+TEST(TreesDeck, TheStartMayBeASumOfDistributions) {
+  const auto startOf = [](const std::string& initial) {
+    return requestOf("silica_teos_29.yaml", "  material: silica\n  initial: " + initial + "\n").start;
+  };
+  EXPECT_TRUE(requestOf("silica_teos_29.yaml", "  material: silica\n").start.empty());
+  EXPECT_TRUE(startOf("[]").empty());
+  const auto alike = startOf("{number: 1e10 1/cm^3, units: [100, 150, 100]}");
+  ASSERT_EQ(alike.size(), 1U);
+  EXPECT_EQ(alike[0].number, 1e16);
+  EXPECT_EQ(alike[0].sizes.distribution, InitialPopulation::Distribution::none);
+  expectUnits(alike[0].units, {100, 150, 100});
+  const auto two = startOf(R"(
+    - {number: 1e10 1/cm^3, units: [100, 150, 100]}
+    - {distribution: lognormal, number: 1e8 1/cm^3, diameter: 20 nm, geometric_deviation: 1.4, units: [1, 2, 0]})");
+  ASSERT_EQ(two.size(), 2U);
+  EXPECT_EQ(two[0].number, 1e16);
+  EXPECT_NEAR(two[1].sizes.volume / (std::acos(-1.0) / 6 * 8e-24), 1, 1e-12);
+  EXPECT_EQ(two[1].sizes.number, 1e14);
+  expectUnits(two[1].units, {1, 2, 0});
+  for (const auto& [initial, message] : std::vector<std::pair<std::string, std::string>>{
+           {"{number: 1}", "particles.initial: particles at the start need both 'number' and 'units'"},
+           {"[{units: [1, 2, 0]}]", "particles.initial[0]: particles at the start need both 'number' and 'units'"},
+           {"{distribution: lognormal, number: 1, diameter: 1 nm, geometric_deviation: 2}",
+            "need both 'distribution' and 'units'"},
+           {"{number: 1, units: [1, 2]}", "particles.initial.units: 2 numbers for 3 components of silica"},
+           {"{number: 1, diameter: 1 nm, units: [1, 2, 0]}", "this counts only with 'particles.initial.distribution'"},
+           {"{distribution: table, number: 1, file: b.csv, units: [1, 2, 0]}", "the numbers are those of the table"}})
+    EXPECT_THAT(messageOf<InputError>([&, &text = initial] { (void)startOf(text); }), testing::HasSubstr(message))
+        << initial;
 }
 
 }  // namespace

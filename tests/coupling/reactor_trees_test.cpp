@@ -31,7 +31,7 @@ TreeOptions treeOptions() {
 
 std::string messageOf(const Mechanism& mechanism, const TreeOptions& options) {
   try {
-    const ReactorTrees trees(mechanism, options, GasViscosity::air, std::nullopt);
+    const ReactorTrees trees(mechanism, options, GasViscosity::air, {});
   } catch (const InputError& error) {
     return error.what();
   }
@@ -43,7 +43,7 @@ TEST(ReactorTrees, KeepsSiliconOxygenAndHydrogenToRoundOff) {
   const std::size_t n = mechanism.numSpecies();
   const GasState gas = test::gasOf(mechanism, 1173, "C8H20O4SI: 5e-5, N2: 0.99995");
   for (const auto held : {ReactorSystem::Held::Pressure, ReactorSystem::Held::Density}) {
-    ReactorTrees trees(mechanism, treeOptions(), GasViscosity::air, std::nullopt);
+    ReactorTrees trees(mechanism, treeOptions(), GasViscosity::air, {});
     ParticlesAtRest atRest(1, trees.elements());
     ClosedReactor reactor(mechanism, gas, held, TemperatureProfile(1173), &atRest);
     SplitReactor::Gas own;
@@ -81,7 +81,7 @@ TEST(ReactorTrees, KeepTheEnergyOfGasAndSilica) {
   const Mechanism& mechanism = siliconMechanism();
   const std::size_t n = mechanism.numSpecies();
   const GasState gas = test::gasOf(mechanism, 1273, "C8H20O4SI: 2e-4, N2: 0.9998");
-  ReactorTrees trees(mechanism, treeOptions(), GasViscosity::air, std::nullopt);
+  ReactorTrees trees(mechanism, treeOptions(), GasViscosity::air, {});
   ParticlesAtRest atRest(1, trees.elements());
   ClosedReactor reactor(mechanism, gas, ReactorSystem::Held::Pressure, std::nullopt, &atRest);
   SplitReactor::Gas own;
@@ -130,7 +130,7 @@ TEST(ReactorTrees, SmallSamplesHaveWhatTheGasLost) {
     own.fullAt = 4e18;
     own.material.siteReactions().freeMolecularInception = true;
     own.owner = owner;
-    ReactorTrees trees(mechanism, own, GasViscosity::air, std::nullopt);
+    ReactorTrees trees(mechanism, own, GasViscosity::air, {});
     ExchangeInGas inGas(mechanism, trees.elements(), trees.species());
     ClosedReactor reactor(mechanism, gas, ReactorSystem::Held::Pressure, TemperatureProfile(1173), &inGas);
     SplitReactor::Gas split;
@@ -200,7 +200,7 @@ class SootTreesInReactors : public testing::Test {
   const Mechanism& mechanism = test::ethylene();
   const std::size_t n = mechanism.numSpecies();
   const GasState gas = test::gasOf(mechanism, 1900, "C2H2: 0.06, A1: 0.01, O2: 0.005, N2: 0.925");
-  ReactorTrees trees{mechanism, sootOptions(true), GasViscosity::transport, std::nullopt};
+  ReactorTrees trees{mechanism, sootOptions(true), GasViscosity::transport, {}};
   ParticlesAtRest atRest{1, trees.elements()};
   ReactorBalance balance{mechanism, atRest, atRest.unitElements(mechanism)};
 
@@ -292,7 +292,8 @@ TEST_F(SootTreesInReactors, AStirredOneHoldsWhatFlowsIn) {
 
 // Particles to which nothing happens leave a stirred reactor with what flows out, and thin out with the gas of a duct.
 TEST_F(SootTreesInReactors, ParticlesLeaveWithTheGas) {
-  ReactorTrees inert(mechanism, sootOptions(false), GasViscosity::transport, ReactorTrees::Start{{1e5, 1e4}, 1e16});
+  ReactorTrees inert(mechanism, sootOptions(false), GasViscosity::transport,
+                     std::vector<TreeStart>{{{1e5, 1e4}, 1e16}});
   const GasState nitrogen = test::gasOf(mechanism, 1000, "N2: 1");
   const StirredReactor vessel{"r", 1e-4, {}, 1000, 0, 0};
   const double massFlow = 2e-2;
@@ -311,7 +312,8 @@ TEST_F(SootTreesInReactors, ParticlesLeaveWithTheGas) {
   split.advance(1.7 * residence);
   EXPECT_NEAR(inert.population().totals().number / (1e16 * std::exp(-1.7)), 1, 1e-5);
 
-  ReactorTrees carried(mechanism, sootOptions(false), GasViscosity::transport, ReactorTrees::Start{{1e5, 1e4}, 1e16});
+  ReactorTrees carried(mechanism, sootOptions(false), GasViscosity::transport,
+                       std::vector<TreeStart>{{{1e5, 1e4}, 1e16}});
   PlugFlow flow(mechanism, nitrogen, 3.0, 1.0, TemperatureProfile({0, 1}, {1000, 1600}), &atRest);
   own.system = &flow;
   own.density = [&](double, const double* y) { return flow.density(y); };
@@ -329,9 +331,10 @@ TEST_F(SootTreesInReactors, ParticlesFlowFromReactorToReactor) {
   TreeOptions options = sootOptions(false);
   options.fullAt = 1e16;
   const double units = 1e5, number = 1e16;
-  ReactorTrees first(mechanism, options, GasViscosity::transport, ReactorTrees::Start{{units, 0.1 * units}, number});
+  ReactorTrees first(mechanism, options, GasViscosity::transport,
+                     std::vector<TreeStart>{{{units, 0.1 * units}, number}});
   options.owner = 1;
-  ReactorTrees second(mechanism, options, GasViscosity::transport, std::nullopt);
+  ReactorTrees second(mechanism, options, GasViscosity::transport, {});
   const GasState nitrogen = test::gasOf(mechanism, 1000, "N2: 1");
   const double massFlow = 2e-2, residence = 1e-3;
   const auto vessel = [&](const char* name) { return StirredReactor{name, {}, residence, 1000, 0, 0}; };

@@ -26,7 +26,7 @@ struct Sample {
     options.particles = 400;
     options.owner = 3;
     trees = std::make_unique<ReactorTrees>(mechanism(), options, GasViscosity::air,
-                                           ReactorTrees::Start{{2107, 3960, 398}, 1e17});
+                                           std::vector<TreeStart>{{{2107, 3960, 398}, 1e17}});
     trees->advance(gas(3e-8), 0.02);
     trees->applyDeferred();
   }
@@ -221,7 +221,8 @@ TEST(TreeRates, EventsOfTheSampleAreThoseOfTheGasByItsWeight) {
   // Born of the gas, too few to fill the sample: it is neither doubled nor contracted.
   sample.options.particles = 4000;
   sample.options.fullAt = 4e18;
-  sample.trees = std::make_unique<ReactorTrees>(Sample::mechanism(), sample.options, GasViscosity::air, std::nullopt);
+  sample.trees = std::make_unique<ReactorTrees>(Sample::mechanism(), sample.options, GasViscosity::air,
+                                                std::span<const TreeStart>{});
   sample.trees->advance(sample.gas(1e-5), 1e-4);
   const TreeCounters counters = sample.trees->population().counters();
   ASSERT_EQ(counters.doublings + counters.removals, 0U);

@@ -207,10 +207,10 @@ double normalQuantile(double probability) {
   return q < 0 ? -tail : tail;
 }
 
-std::vector<double> initialVolumes(const InitialPopulation& initial, std::size_t count, RandomStream& random) {
+std::vector<InitialMember> initialMembers(const InitialPopulation& initial, std::size_t count, RandomStream& random) {
   if (initial.distribution == InitialPopulation::Distribution::none || initial.number == 0) return {};
-  std::vector<double> volumes(count, initial.volume);
-  if (isEqual(initial)) return volumes;
+  std::vector<InitialMember> members(count, {initial.volume, 0});
+  if (isEqual(initial)) return members;
   const auto modes = modesOf(initial);
   std::vector<double> numbers;
   for (const InitialPopulation& mode : modes) numbers.push_back(mode.number);
@@ -221,13 +221,19 @@ std::vector<double> initialVolumes(const InitialPopulation& initial, std::size_t
     const double probability =
         std::min((static_cast<double>(k) + random.uniform()) / static_cast<double>(count), largestProbability);
     const Parts::Place place = modes.size() == 1 ? Parts::Place{0, probability} : parts.at(probability);
-    volumes[k] = quantile(modes[place.part], 0, place.within);
-    sum += volumes[k];
+    members[k] = {quantile(modes[place.part], 0, place.within), place.part};
+    sum += members[k].volume;
   }
-  if (modes.size() > 1) std::ranges::sort(volumes);
-  if (std::ranges::all_of(modes, isEqual)) return volumes;  // there are no particles but of these volumes
+  if (std::ranges::all_of(modes, isEqual)) return members;  // there are no particles but of these volumes
   const double factor = meanInitialVolume(initial) * static_cast<double>(count) / sum;
-  for (double& v : volumes) v *= factor;
+  for (InitialMember& member : members) member.volume *= factor;
+  return members;
+}
+
+std::vector<double> initialVolumes(const InitialPopulation& initial, std::size_t count, RandomStream& random) {
+  std::vector<double> volumes;
+  for (const InitialMember& member : initialMembers(initial, count, random)) volumes.push_back(member.volume);
+  if (modesOf(initial).size() > 1) std::ranges::sort(volumes);
   return volumes;
 }
 

@@ -10,12 +10,21 @@
 
 namespace lampblack::particles {
 
-// Volumes (m3) of `count` particles of equal weight, in increasing order; empty where there are none. The quantile
-// function is taken at one uniform random number in each of `count` intervals of equal probability, those of one mode
-// after those of another: unbiased in every linear functional of the distribution, with far less noise than independent
-// draws. All volumes are then scaled by one factor so that their mean is exactly the distribution's, M_1 hence exact
-// from the start, but where all modes are monodisperse, whose volumes stay. What this costs, and where a sample of
-// equal weights misses M_2 and M_3: docs/theory/population_balance/equal_weights.md.
+// A particle of a sample: its volume (m3), and which of modesOf() it is of.
+struct InitialMember {
+  double volume;
+  std::size_t mode;
+};
+
+// `count` particles of equal weight, those of one mode after those of another; none where there are none. The quantile
+// function is taken at one uniform random number in each of `count` intervals of equal probability: unbiased in every
+// linear functional of the distribution, with far less noise than independent draws. All volumes are then scaled by one
+// factor so that their mean is exactly the distribution's, M_1 hence exact from the start, but where all modes are
+// monodisperse, whose volumes stay. What this costs, and where a sample of equal weights misses M_2 and M_3:
+// docs/theory/population_balance/equal_weights.md.
+[[nodiscard]] std::vector<InitialMember> initialMembers(const InitialPopulation& initial, std::size_t count,
+                                                        RandomStream& random);
+// Their volumes in increasing order.
 [[nodiscard]] std::vector<double> initialVolumes(const InitialPopulation& initial, std::size_t count,
                                                  RandomStream& random);
 

@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <map>
+
 #include "core/errors.hpp"
+#include "particles/population/monte_carlo/initial_sample.hpp"
 #include "particles/population/monte_carlo/shipped_types.hpp"
 #include "tests/particles/soot_fixtures.hpp"
 #include "tests/particles/statistics.hpp"
@@ -351,6 +355,38 @@ TEST(TreePopulation, CollidesByTheKernelOfThePaper) {
       }
     }
   }
+}
+
+// Spheres of one composition in a distribution of sizes and others all alike: numbers, volumes and units of both.
+TEST(TreePopulation, BeginsWithDistributionsOfSizes) {
+  const TreeOptions options = small();
+  const auto trees = makeTreePopulation(options);
+  const TreeUnits dry{1, 2, 0}, wet{300, 500, 200};
+  const auto volume = [&](const TreeUnits& units) { return options.material.volume(units); };
+  const InitialPopulation wide{InitialPopulation::Distribution::lognormal, 3e15, 500 * volume(dry), 1.3};
+  const InitialPopulation table = tabulated({{1e-26, 2e-26, 2e15}, {4e-26, 9e-26, 1e15}});
+  for (const InitialPopulation& sizes : {wide, table}) {
+    trees->fill(std::vector<TreeStart>{{dry, 0, sizes}, {wet, 1e15}});
+    const double spread = meanInitialVolume(sizes) * 3e15, alike = volume(wet) * 1e15;
+    const TreeTotals totals = trees->totals();
+    EXPECT_NEAR(totals.number / 4e15, 1, 1e-12);
+    EXPECT_NEAR(totals.volume / (spread + alike), 1, 1e-12);
+    std::map<double, double> found;  // number by the share of component 2
+    double least = 1, most = 0;
+    trees->forEachTree([&](const Tree& tree, double weight) {
+      const TreeUnits& units = tree.head().units;
+      found[std::round(1e6 * units[2] / units[1])] += weight;
+      if (units[2] != 0) return;
+      EXPECT_NEAR(units[1] / units[0], 2, 1e-12);
+      least = std::min(least, volume(units));
+      most = std::max(most, volume(units));
+    });
+    ASSERT_EQ(found.size(), 2U);
+    EXPECT_NEAR(found[0] / 3e15, 1, 1e-3);
+    EXPECT_NEAR(found[4e5] / 1e15, 1, 4e-3) << "a particle more or less";
+    EXPECT_GT(most, 2 * least);
+  }
+  EXPECT_THROW(trees->fill(std::vector<TreeStart>{{wet, 1e15}, {dry, 0}}), InputError);
 }
 
 TEST(TreePopulation, WrongOptionsSayWhatIsWrong) {
