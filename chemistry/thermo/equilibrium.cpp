@@ -19,6 +19,10 @@ constexpr double firstTemperature = 2500.0;  // K, of a search: dissociated enou
 constexpr double largestChange = 0.3;        // of temperature in one step of it
 constexpr double smallestChange = 1e-11;     // that which ends it
 constexpr int mostTemperatures = 200;
+constexpr double whole = HUGE_VAL;  // atoms: no molecule is cut
+constexpr double firstSize = 16;    // of the largest parts of molecules, where they are cut, atoms
+constexpr double leastSize = 4;
+constexpr double growth = 4;  // of the parts from one equilibrium to the next
 
 }  // namespace
 
@@ -53,7 +57,7 @@ void Equilibrium::begin(Constant constant, double pressureOrDensity, std::span<c
   }
   allowed_.assign(amounts_.size(), true);
   forbidAbsentElements();
-  setActiveSpecies();
+  setActiveSpecies(whole);
 }
 
 void Equilibrium::forbidAbsentElements() {
@@ -68,54 +72,89 @@ void Equilibrium::forbidAbsentElements() {
   }
 }
 
-// Hands the allowed species to the path. It starts from a mixture in which each has the share of its scarcest element,
-// divided by their number: not more than there is of any element, and positive for all.
-void Equilibrium::setActiveSpecies() {
+// Hands the allowed species to the path, molecules of no more than `size` atoms (setMixture). It starts from a mixture
+// in which each has the share of its scarcest element, divided by their number: not more than there is of any element,
+// and positive for all.
+void Equilibrium::setActiveSpecies(double size) {
   active_.clear();
   for (std::size_t k = 0; k < amounts_.size(); ++k)
     if (allowed_[k]) active_.push_back(k);
   const std::size_t n = active_.size(), elements = mechanism_.numElements();
-  for (auto* array : {&g_, &start_, &h_, &byTemperature_}) array->resize(n);
-  std::fill(start_.begin(), start_.end(), 1.0);
-  std::vector<double> atoms(elements * n);
-  for (std::size_t e = 0; e < elements; ++e) {
-    double* row = &atoms[e * n];
-    double total = 0;
+  for (auto* array : {&g_, &start_, &h_, &byTemperature_, &part_}) array->resize(n);
+  size_.assign(n, 0.0);
+  atoms_.resize(elements * n);
+  for (std::size_t e = 0; e < elements; ++e)
     for (std::size_t j = 0; j < n; ++j) {
-      row[j] = mechanism_.atoms(active_[j], e);
-      total += row[j] * amounts_[active_[j]];
+      const double a = atoms_[e * n + j] = mechanism_.atoms(active_[j], e);
+      size_[j] += std::max(a, 0.0);
     }
+  for (std::size_t j = 0; j < n; ++j) part_[j] = std::min(1.0, size / size_[j]);
+  std::fill(start_.begin(), start_.end(), 1.0);
+  for (std::size_t e = 0; e < elements; ++e) {
+    const double* row = &atoms_[e * n];
+    double total = 0;
+    for (std::size_t j = 0; j < n; ++j) total += row[j] * amounts_[active_[j]];
     if (std::any_of(row, row + n, [](double a) { return a < 0; })) continue;
     for (std::size_t j = 0; j < n; ++j)
-      if (row[j] > 0) start_[j] = std::min(start_[j], total / row[j]);
+      if (row[j] > 0) start_[j] = std::min(start_[j], total / (part_[j] * row[j]));
   }
+  for (std::size_t j = 0; j < n; ++j) start_[j] = std::log(start_[j] / static_cast<double>(n));
+  setMixture(size);
+}
+
+// The mixture in which molecules of more than `size` atoms are cut into parts of this size, each with its part of the
+// potential. start_ is where the path begins.
+void Equilibrium::setMixture(double size) {
+  const std::size_t n = active_.size(), elements = mechanism_.numElements();
+  auto atoms = atoms_;
   for (std::size_t j = 0; j < n; ++j) {
-    start_[j] = std::log(start_[j] / static_cast<double>(n));
+    part_[j] = std::min(1.0, size / size_[j]);
     g_[j] = amounts_[active_[j]];
+    if (part_[j] == 1) continue;
+    g_[j] /= part_[j];
+    for (std::size_t e = 0; e < elements; ++e) atoms[e * n + j] *= part_[j];
   }
   path_.setMixture(constant_, elements, std::move(atoms), g_);
   path_.startFrom(start_);
 }
 
-// Brings the mixture to equilibrium at T.
+// The next mixture, from the equilibrium of smaller molecules: each species with the atoms that it has there.
+void Equilibrium::growTo(double size) {
+  for (std::size_t j = 0; j < active_.size(); ++j)
+    start_[j] = path_.lnAmounts()[j] + std::log(part_[j] / std::min(1.0, size / size_[j]));
+  setMixture(size);
+}
+
+// Brings the mixture to equilibrium at T. The amount of a species of 1e5 atoms changes by 1e5 e-folds where those of
+// its elements change by one: it is there or not, as a condensed phase is. So equilibria of ever larger parts of it are
+// found one from the other, in which it comes and goes gently at first; so they are too where the path is lost without.
 void Equilibrium::moveTo(double T) {
   if (!(T > 0 && std::isfinite(T))) throw NumericsError("no equilibrium at the temperature of " + state(T));
   const double shift = constant_ == Constant::Pressure
                            ? std::log(pressureOrDensity_ / oneAtmosphere)
                            : -std::log(oneAtmosphere * mass_ / (pressureOrDensity_ * gasConstant * T));
   thermo_.gibbsOverRT(T, std::log(T), all_.data());
+  const bool hasHeavy = std::ranges::max(size_) > EquilibriumComponents::mostLightAtoms;
+  double first = hasHeavy ? firstSize : whole, size = first;
+  if (hasHeavy) setActiveSpecies(size);
   for (;;) {
-    for (std::size_t j = 0; j < active_.size(); ++j) g_[j] = all_[active_[j]] + shift;
+    for (std::size_t j = 0; j < active_.size(); ++j) g_[j] = part_[j] * all_[active_[j]] + shift;
     switch (path_.follow(g_)) {
       case EquilibriumPath::Outcome::Found:
-        return;
+        if (std::ranges::min(part_) == 1) return;
+        growTo(size *= growth);
+        break;
       case EquilibriumPath::Outcome::SpeciesExcluded:
         for (const std::size_t j : path_.excluded()) allowed_[active_[j]] = false;
-        setActiveSpecies();
+        setActiveSpecies(size = first);
         break;
       case EquilibriumPath::Outcome::Lost:
-        throw NumericsError(
-            fmt::format("the equilibrium was not found in {} iterations: {}", path_.iterations(), state(T)));
+        if (first == leastSize)
+          throw NumericsError(
+              fmt::format("the equilibrium was not found in {} iterations: {}", path_.iterations(), state(T)));
+        first = std::max(leastSize, std::min(firstSize, first / 2));
+        setActiveSpecies(size = first);
+        break;
     }
   }
 }

@@ -40,8 +40,10 @@ class Equilibrium {
 
   void begin(Constant constant, double pressureOrDensity, std::span<const double> Y);
   void forbidAbsentElements();
-  void setActiveSpecies();
+  void setActiveSpecies(double size);
+  void setMixture(double size);
   void moveTo(double T);
+  void growTo(double size);
   double search(Property property, double value, std::span<double> Y);
   double evaluate(Property property, double T);
   double slope(Property property, double T);
@@ -61,6 +63,8 @@ class Equilibrium {
   std::vector<double> g_, start_;    // per species of path_, as the following
   std::vector<double> h_;            // H/RT, at constant volume U/RT
   std::vector<double> byTemperature_;
+  std::vector<double> atoms_, size_;  // of the active species: per element and species, and all
+  std::vector<double> part_;          // of a molecule, that of path_ stands for
   EquilibriumPath path_;
 };
 

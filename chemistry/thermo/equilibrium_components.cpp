@@ -1,5 +1,6 @@
 #include "chemistry/thermo/equilibrium_components.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace lampblack::chemistry {
@@ -17,13 +18,23 @@ void EquilibriumComponents::setSpecies(std::size_t numElements, std::size_t numS
   remainder_.resize(numSpecies);
   species_.clear();
   rows_.clear();
+  size_.assign(numSpecies, 1.0);
+  logSize_.assign(numSpecies, 0.0);
+  for (std::size_t j = 0; j < numSpecies; ++j) {
+    double sum = 0;
+    for (std::size_t e = 0; e < numElements; ++e) sum += std::max(atoms_[e * numSpecies + j], 0.0);
+    size_[j] = std::max(sum, 1.0);
+  }
+  hasHeavy_ = std::ranges::any_of(size_, [](double size) { return size > mostLightAtoms; });
+  if (!hasHeavy_) size_.assign(numSpecies, 1.0);
+  for (std::size_t j = 0; j < numSpecies; ++j) logSize_[j] = 2 * std::log(size_[j]);
 }
 
 // The most abundant species that is not made of the components so far; numSpecies_ if there is none.
 std::size_t EquilibriumComponents::mostAbundant(std::span<const double> lnAmounts) const {
   std::size_t best = numSpecies_;
   for (std::size_t j = 0; j < numSpecies_; ++j) {
-    if (best < numSpecies_ && !(lnAmounts[j] > lnAmounts[best])) continue;
+    if (best < numSpecies_ && !(lnAmounts[j] + logSize_[j] > lnAmounts[best] + logSize_[best])) continue;
     for (std::size_t e = 0; e < numElements_; ++e)
       if (!rowUsed_[e] && work_[e * numSpecies_ + j] != 0) {
         best = j;
@@ -35,6 +46,10 @@ std::size_t EquilibriumComponents::mostAbundant(std::span<const double> lnAmount
 
 void EquilibriumComponents::choose(std::span<const double> lnAmounts) {
   work_ = atoms_;
+  // Per atom of the species, so that all numbers are of one magnitude.
+  if (hasHeavy_)
+    for (std::size_t e = 0; e < numElements_; ++e)
+      for (std::size_t k = 0; k < numSpecies_; ++k) work_[e * numSpecies_ + k] /= size_[k];
   species_.clear();
   rows_.clear();
   rowUsed_.assign(numElements_, false);
@@ -63,6 +78,9 @@ void EquilibriumComponents::choose(std::span<const double> lnAmounts) {
     rows_.push_back(pivot);
     species_.push_back(j);
   }
+  if (hasHeavy_)
+    for (std::size_t i = 0; i < count(); ++i)
+      for (std::size_t k = 0; k < numSpecies_; ++k) work_[rows_[i] * numSpecies_ + k] *= size_[k] / size_[species_[i]];
   for (std::size_t k = 0; k < numSpecies_; ++k) {
     double left = 1.0;
     for (std::size_t i = 0; i < count(); ++i) left -= row(i)[k];
@@ -72,10 +90,10 @@ void EquilibriumComponents::choose(std::span<const double> lnAmounts) {
 
 bool EquilibriumComponents::fit(std::span<const double> lnAmounts, double tolerance) const {
   for (std::size_t i = 0; i < count(); ++i) {
-    const double most = lnAmounts[species_[i]] + tolerance;
+    const double most = lnAmounts[species_[i]] + logSize_[species_[i]] + tolerance;
     const double* nu = row(i);
     for (std::size_t j = 0; j < numSpecies_; ++j)
-      if (nu[j] != 0 && lnAmounts[j] > most) return false;
+      if (nu[j] != 0 && lnAmounts[j] + logSize_[j] > most) return false;
   }
   return true;
 }

@@ -1,6 +1,9 @@
 // Components of an equilibrium: as many species as there are independent elements, chosen so that every other species
 // is made of components that are at least as abundant as itself. Written in them, the equations of chemical equilibrium
-// stay well conditioned however small some amounts are (Smith and Missen 1982, the optimised basis).
+// stay well conditioned however small some amounts are (Smith and Missen 1982, the optimised basis). Abundant means in
+// moles; where a species has more than mostLightAtoms (a section of soot), in moles times the square of the atoms, the
+// weight of a species in the equation of a component it is made of: a small amount of it may hold all there is of an
+// element.
 #pragma once
 
 #include <cstddef>
@@ -13,6 +16,8 @@ namespace lampblack::chemistry {
 
 class EquilibriumComponents {
  public:
+  static constexpr double mostLightAtoms = 64;  // of a species that is not heavy
+
   // atoms[e * numSpecies + j]: of element e in species j. Elements may depend on each other, and on nothing.
   void setSpecies(std::size_t numElements, std::size_t numSpecies, std::vector<double> atoms);
 
@@ -33,6 +38,8 @@ class EquilibriumComponents {
 
   std::size_t numElements_ = 0, numSpecies_ = 0;
   std::vector<double> atoms_, work_, remainder_;
+  std::vector<double> size_, logSize_;  // atoms of the species and ln of their square; one and zero if none is heavy
+  bool hasHeavy_ = false;
   std::vector<std::size_t> species_, rows_;
   std::vector<bool> rowUsed_;
 };
