@@ -24,14 +24,14 @@ Mechanism readMechanism(const MechanismFileNames& files) {
                       "and the phase '{}'",
                       files.mechanism, files.phase));
     const auto optional = [](const std::string& path) { return path.empty() ? std::nullopt : std::optional(path); };
-    return readChemkin({files.mechanism, optional(files.thermo), optional(files.transport)});
+    return readChemkin({files.mechanism, optional(files.thermo), optional(files.transport), files.permissive});
   }
   if (!files.thermo.empty())
     throw InputError(
         fmt::format("{} is YAML, which holds thermodynamic and transport data itself; expected no further "
                     "file, found '{}'",
                     files.mechanism, files.thermo));
-  return Mechanism::fromFile(findMechanism({}, files.mechanism), files.phase);
+  return Mechanism::fromFile(findMechanism({}, files.mechanism), files.phase, files.permissive);
 }
 
 }  // namespace lampblack::app

@@ -12,7 +12,11 @@ struct MechanismFileNames {
   std::string mechanism;          // YAML by its ending (.yaml, .yml), else CHEMKIN
   std::string thermo, transport;  // CHEMKIN data in files of their own; empty if not given
   std::string phase;              // of a YAML file; empty: the first ideal gas
+  bool permissive = false;        // as in MechanismRules
 };
+
+inline constexpr const char* permissiveHelp =
+    "Mark reactions that are the same as duplicates, with a warning; without it they are an error.";
 
 bool isYaml(const std::string& path);
 

@@ -17,6 +17,7 @@
 #include "app/tools/gas_input.hpp"
 #include "app/tools/gas_output.hpp"
 #include "app/tools/gas_report.hpp"
+#include "chemistry/mechanism/like_warnings.hpp"
 #include "chemistry/thermo/thermo.hpp"
 #include "core/errors.hpp"
 #include "core/parallel_session.hpp"
@@ -121,7 +122,7 @@ Answer answer(const GasArguments& arguments) {
   GasReport gas = constant.empty() ? gasReport(mechanism, T, p, X) : gasAtEquilibrium(mechanism, T, p, X, constant);
   addTransport(mechanism, transport, !arguments.transport.empty() || !arguments.collisionIntegrals.empty(), gas);
   Answer result;
-  result.warnings = mechanism.warnings();
+  result.warnings = oneOfEachKind(mechanism.warnings());
   result.warnings.push_back(rangeWarning(mechanism, T));
   if (gas.temperature != T) result.warnings.push_back(rangeWarning(mechanism, gas.temperature));
   std::erase(result.warnings, "");
@@ -148,6 +149,7 @@ void addGasCommand(CLI::App& app, Command& command) {
   gas->add_option("thermo", arguments->files.thermo, "CHEMKIN thermodynamic data.");
   gas->add_option("transport-data", arguments->files.transport, "CHEMKIN transport data.");
   gas->add_option("--phase", arguments->files.phase, "Phase of a YAML file; without it the first ideal gas.");
+  gas->add_flag("--permissive", arguments->files.permissive, permissiveHelp);
   gas->add_option("-T,--T", arguments->temperature, "Temperature: 1500, \"1500 K\".")->required();
   gas->add_option("-p,--p", arguments->pressure, "Pressure: 101325, \"1 atm\".")->default_val("1 atm");
   gas->add_option("-X,--X", arguments->moleFractions, "Mole fractions, scaled to one: \"CH4:1, O2:2, N2:7.52\".");

@@ -6,6 +6,7 @@
 
 #include "app/run/shipped_files.hpp"
 #include "app/run/warnings.hpp"
+#include "chemistry/mechanism/like_warnings.hpp"
 #include "chemistry/thermo/sound_speed.hpp"
 #include "chemistry/thermo/thermo.hpp"
 #include "chemistry/transport/pure_gas.hpp"
@@ -109,7 +110,7 @@ std::shared_ptr<const Mechanism> readMechanism(const Deck& deck) {
     auto mechanism = std::make_shared<const Mechanism>(
         Mechanism::fromFile(findMechanism(deck.resolvePath(""), deck.string("mechanism")).string(),
                             deck.optionalString("phase").value_or("")));
-    printWarnings(mechanism->warnings());
+    printWarnings(oneOfEachKind(mechanism->warnings()));
     return mechanism;
   });
 }

@@ -13,6 +13,7 @@
 
 #include "app/deck/mechanism_file_names.hpp"
 #include "app/run/warnings.hpp"
+#include "chemistry/mechanism/like_warnings.hpp"
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/mechanism/mechanism_writer.hpp"
 #include "core/errors.hpp"
@@ -23,7 +24,8 @@ namespace {
 
 struct MechanismArguments {
   MechanismFileNames files;
-  std::string output;  // empty if not given
+  std::string output;        // empty if not given
+  bool allWarnings = false;  // in place of one of each kind
 };
 
 void checkOutput(const MechanismArguments& arguments) {
@@ -82,7 +84,7 @@ void runMechanism(const MechanismArguments& arguments) {
   collectively(MPI_COMM_WORLD, [&] {
     checkOutput(arguments);
     const Mechanism mechanism = readMechanism(arguments.files);
-    warnings = mechanism.warnings();
+    warnings = arguments.allWarnings ? mechanism.warnings() : oneOfEachKind(mechanism.warnings());
     text = summary(mechanism);
     if (rank == 0 && !arguments.output.empty()) writeMechanism(mechanism, arguments.output);
   });
@@ -104,6 +106,9 @@ void addMechanismCommand(CLI::App& app, Command& command) {
   mechanism->add_option("transport", arguments->files.transport, "CHEMKIN transport data (tran.dat).");
   mechanism->add_option("--phase", arguments->files.phase, "Phase of a YAML file; without it the first ideal gas.");
   mechanism->add_option("-o,--output", arguments->output, "YAML file to write; without it, check and summarise only.");
+  mechanism->add_flag("--permissive", arguments->files.permissive, permissiveHelp);
+  mechanism->add_flag("--all-warnings", arguments->allWarnings,
+                      "Every warning; without it one of each kind and a count.");
   mechanism->callback([arguments, &command] { command = {[arguments] { runMechanism(*arguments); }}; });
 }
 

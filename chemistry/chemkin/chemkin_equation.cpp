@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
+#include <vector>
 
 #include "chemistry/chemkin/chemkin_text.hpp"
 #include "core/errors.hpp"
@@ -13,14 +15,29 @@ namespace lampblack::chemistry {
 namespace {
 
 constexpr std::size_t longestEquation = 2000;
+constexpr std::string_view lightText =
+    "reactions driven by light (hv) are not supported; it may stand among the products";
 
 bool isThirdBody(std::string_view name) {
   return name == "M" || name == "m";
 }
 
-// How many characters at the start look like a coefficient.
-std::size_t numberLength(std::string_view text) {
-  return std::min(text.find_first_not_of("0123456789."), text.size());
+bool isLight(std::string_view name) {
+  return name.size() == 2 && upperCase(name) == "HV";
+}
+
+// How many characters at the start may be a coefficient: first none and the plain numbers ("1", "1.", "1.5" of
+// "1.5E-2BIN6"), then those with an exponent ("1.5E-2").
+std::vector<std::size_t> coefficientLengths(std::string_view text) {
+  const std::size_t plain = std::min(text.find_first_not_of("0123456789."), text.size());
+  std::vector<std::size_t> lengths;
+  for (std::size_t n = 0; n <= plain; ++n) lengths.push_back(n);
+  std::size_t at = plain;
+  if (plain == 0 || at == text.size() || std::string_view("eEdD").find(text[at]) == std::string_view::npos)
+    return lengths;
+  if (++at < text.size() && (text[at] == '+' || text[at] == '-')) ++at;
+  for (; at < text.size() && std::isdigit(static_cast<unsigned char>(text[at])) != 0; ++at) lengths.push_back(at + 1);
+  return lengths;
 }
 
 void add(std::vector<StoichiometricTerm>& terms, std::size_t species, double coefficient) {
@@ -77,8 +94,7 @@ bool ChemkinEquationParser::takeTerms(std::string_view text, std::size_t at, std
     if (const auto behind = falloffEnd(text, end, side)) end = *behind;
     return end == text.size() || (text[end] == '+' && takeTerms(text, end + 1, hopeless, side));
   };
-  const std::size_t mostDigits = numberLength(rest);
-  for (std::size_t digits = 0; digits <= mostDigits; ++digits) {
+  for (const std::size_t digits : coefficientLengths(rest)) {
     double coefficient = 1;
     if (digits > 0) {
       const auto number = fortranNumber(rest.substr(0, digits));
@@ -91,6 +107,11 @@ bool ChemkinEquationParser::takeTerms(std::string_view text, std::size_t at, std
       if (!species) continue;
       add(side.terms, *species, coefficient);
       if (goesOn(start + length)) return true;
+      side = before;
+    }
+    if (digits == 0 && isLight(rest.substr(0, 2))) {
+      side.hasLight = true;
+      if (goesOn(at + 2)) return true;
       side = before;
     }
     if (digits == 0 && isThirdBody(rest.substr(0, 1)) && !side.hasM) {
@@ -124,9 +145,10 @@ void ChemkinEquationParser::explain(std::string_view text) const {
       if (const auto open = term.find('('); open != std::string_view::npos && open + 1 == term.size())
         term.remove_suffix(1);
       if (term.empty() || parseSide(term) || isThirdBody(term) || term == "M)" || term == "m)") continue;
-      const auto name = term.substr(std::min(numberLength(term), term.size() - 1));
-      if (upperCase(name) == "HV")
-        throw InputError(fmt::format("equation '{}': reactions of light (HV) are not supported", text));
+      auto lengths = coefficientLengths(term);
+      while (lengths.back() >= term.size()) lengths.pop_back();
+      const auto name = term.substr(lengths.back());
+      if (isLight(name)) throw InputError(fmt::format("equation '{}': {}", text, lightText));
       // A digit in front may belong to the name.
       const bool whole = !suggestion(term).empty();
       throw InputError(fmt::format("equation '{}': species '{}' is not declared{}", text, whole ? term : name,
@@ -146,13 +168,14 @@ ChemkinEquation ChemkinEquationParser::parse(std::string_view given) const {
     for (auto at = text.find(arrow); at != std::string::npos; at = text.find(arrow, at + 1)) {
       const auto left = parseSide(std::string_view(text).substr(0, at));
       if (!left) continue;
+      if (left->hasLight) throw InputError(fmt::format("equation '{}': {}", text, lightText));
       const auto right = parseSide(std::string_view(text).substr(at + arrow.size()));
       if (!right) continue;
       if (left->hasM != right->hasM || left->hasFalloff != right->hasFalloff || left->collider != right->collider)
         throw InputError(fmt::format("equation '{}': the third body must stand on both sides", text));
       if (left->hasM && left->hasFalloff)
         throw InputError(fmt::format("equation '{}': expected either 'M' or '(+M)', not both", text));
-      return {left->terms, right->terms, arrow != "=>", left->hasM, left->hasFalloff, left->collider};
+      return {left->terms, right->terms, arrow != "=>", right->hasLight, left->hasM, left->hasFalloff, left->collider};
     }
   }
   explain(text);

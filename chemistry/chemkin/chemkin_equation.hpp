@@ -19,6 +19,7 @@ struct ChemkinEquation {
   std::vector<StoichiometricTerm> reactants;  // each species once, coefficients added up
   std::vector<StoichiometricTerm> products;
   bool reversible = true;
+  bool hasLight = false;                // "+hv" among the products
   bool hasM = false;                    // "+M" on both sides
   bool hasFalloff = false;              // "(+M)" or "(+species)" on both sides
   std::optional<std::size_t> collider;  // the species in "(+species)"
@@ -29,7 +30,8 @@ class ChemkinEquationParser {
   // `names` in the order of the species' indices.
   explicit ChemkinEquationParser(std::span<const std::string> names);
 
-  // "H+O2(+M)=HO2(+M)", "2OH<=>O+H2O", "0.5 O2 + H => ...": blanks mean nothing. Where the text can be read in several
+  // "H+O2(+M)=HO2(+M)", "2OH<=>O+H2O", "0.5 O2 + H => ...", "...=>1.5E-2BIN6+...": blanks mean nothing. Light, "hv" in
+  // either case, may stand among the products unless a species has this name. Where the text can be read in several
   // ways the longest names at the left win. Throws InputError (without file and line) that names what is not known and
   // the nearest known name.
   ChemkinEquation parse(std::string_view text) const;
@@ -43,6 +45,7 @@ class ChemkinEquationParser {
     std::vector<StoichiometricTerm> terms;
     bool hasM = false;
     bool hasFalloff = false;
+    bool hasLight = false;
     std::optional<std::size_t> collider;
   };
 

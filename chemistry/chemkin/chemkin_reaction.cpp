@@ -30,12 +30,13 @@ class ReactionBuilder {
       source_.fail(entry_.line, error.what());
     }
     for (const auto& item : entry_.auxiliaries) take(item);
+    takeLight();
     takeMixtureOfTables();
     checkTogether();
     reaction_.line = entry_.line;
     reaction_.reactants = equation_.reactants;
     reaction_.products = equation_.products;
-    reaction_.reversible = equation_.reversible && !reverse_;
+    reaction_.reversible = equation_.reversible && !reverse_ && !equation_.hasLight;
     reaction_.orders = ordersThatDiffer(forwardOrders_, reaction_.reactants);
     if (equation_.hasM || low_ || high_) reaction_.thirdBody = thirdBody();
     setRates();
@@ -78,6 +79,7 @@ class ReactionBuilder {
 
   void take(const ChemkinAuxiliary& item) {
     const auto key = upperCase(item.key);
+    if (key == "HV" && equation_.hasLight) return;  // the wavelength
     constexpr std::string_view arrhenius = "the three numbers A, b and Ea";
     if (std::string_view meaning; isUnsupportedChemkinKeyword(key, meaning) && !species_.find(item.key))
       fail(item.line, fmt::format("the keyword '{}' ({}) is not supported", item.key, meaning));
@@ -148,6 +150,15 @@ class ReactionBuilder {
     efficiencies_.push_back({k, value});
   }
 
+  // Light that leaves the gas: nothing comes back from it.
+  void takeLight() {
+    if (!equation_.hasLight) return;
+    if (reverse_ && (*reverse_)[0] != 0) fail(entry_.line, "REV: light (hv) that leaves the gas has no reverse rate");
+    warnings_.push_back(fmt::format("{}: reaction '{}': the light (hv) is passed over, and the reaction taken as {}",
+                                    source_.place(entry_.line), entry_.equation,
+                                    equation_.reversible ? "irreversible, as if written with '=>'" : "it stands"));
+  }
+
   // The tables hold the dependence on pressure: CHEMKIN reads their '+M' as '(+M)', without a factor [M].
   void takeMixtureOfTables() {
     if (!equation_.hasM || (pressureLog_.empty() && chebyshev_.empty())) return;
@@ -176,7 +187,7 @@ class ReactionBuilder {
            "PLOG and CHEB know no single colliders or efficiencies");
     refuse(reverse_ && kinds > 0, "REV is not supported with LOW, HIGH, PLOG or CHEB");
     refuse(reverse_ && (*reverse_)[0] != 0 && !equation_.reversible, "REV needs a reversible equation ('=' or '<=>')");
-    refuse(!forwardOrders_.empty() && equation_.reversible && !reverse_,
+    refuse(!forwardOrders_.empty() && equation_.reversible && !reverse_ && !equation_.hasLight,
            "FORD needs an irreversible reaction ('=>' or REV): the reverse rate would contradict equilibrium");
     refuse(!reverseOrders_.empty() && !(reverse_ && (*reverse_)[0] != 0), "RORD needs REV with a rate of its own");
   }

@@ -18,8 +18,8 @@ std::string_view keyBefore(std::string_view text, std::size_t slash) {
 
 class ReactionLines {
  public:
-  ReactionLines(const ChemkinSource& source, const ChemkinEquationParser& species)
-      : source_(source), species_(species) {}
+  ReactionLines(const ChemkinSource& source, const ChemkinEquationParser& species, std::vector<std::string>& warnings)
+      : source_(source), species_(species), warnings_(warnings) {}
 
   std::vector<ChemkinReactionEntry> split(std::span<const ChemkinLine> section) {
     for (std::size_t i = 0; i < section.size(); ++i) {
@@ -80,14 +80,16 @@ class ReactionLines {
       if (item.key.empty()) source_.fail(line.number, "stray '/'; expected a keyword or a species before it");
       if (rest.starts_with('/')) {
         item.slashes = true;
-        const auto close = rest.find('/', 1);
-        if (close == std::string_view::npos)
-          source_.fail(line.number, fmt::format("expected a second '/' behind the values of '{}'", item.key));
+        const auto close = std::min(rest.find('/', 1), rest.size());
+        if (close == rest.size())
+          warnings_.push_back(
+              fmt::format("{}: the last '/' behind the values of '{}' is missing; they end with the line",
+                          source_.place(line.number), item.key));
         // Names of species may hold commas.
         const auto key = upperCase(item.key);
         const std::string_view separators = key == "FORD" || key == "RORD" ? " \t" : " \t,";
         for (const auto word : chemkinWords(rest.substr(1, close - 1), separators)) item.values.emplace_back(word);
-        rest = trimmed(rest.substr(close + 1));
+        rest = close == rest.size() ? std::string_view{} : trimmed(rest.substr(close + 1));
         if (key == "UNITS") rest = unitPerMole(rest, item);
       } else if (!isChemkinKeyword(item.key)) {
         explain(line, item.key);
@@ -118,6 +120,7 @@ class ReactionLines {
 
   const ChemkinSource& source_;
   const ChemkinEquationParser& species_;
+  std::vector<std::string>& warnings_;
   std::vector<ChemkinReactionEntry> entries_;
 };
 
@@ -125,8 +128,9 @@ class ReactionLines {
 
 std::vector<ChemkinReactionEntry> splitChemkinReactions(const ChemkinSource& source,
                                                         std::span<const ChemkinLine> section,
-                                                        const ChemkinEquationParser& species) {
-  return ReactionLines(source, species).split(section);
+                                                        const ChemkinEquationParser& species,
+                                                        std::vector<std::string>& warnings) {
+  return ReactionLines(source, species, warnings).split(section);
 }
 
 }  // namespace lampblack::chemistry

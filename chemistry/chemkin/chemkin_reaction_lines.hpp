@@ -29,9 +29,11 @@ struct ChemkinReactionEntry {
 };
 
 // A line that ends with '&' goes on in the next. A line with '=' starts a reaction unless it begins with a keyword or a
-// declared species and a slash. Throws InputError with file and line.
+// declared species and a slash. Where the last slash of a line is missing, the values end with the line, with a
+// warning. Throws InputError with file and line.
 std::vector<ChemkinReactionEntry> splitChemkinReactions(const ChemkinSource& source,
                                                         std::span<const ChemkinLine> section,
-                                                        const ChemkinEquationParser& species);
+                                                        const ChemkinEquationParser& species,
+                                                        std::vector<std::string>& warnings);
 
 }  // namespace lampblack::chemistry

@@ -7,6 +7,7 @@
 
 #include "chemistry/chemkin/chemkin_equation.hpp"
 #include "chemistry/chemkin/chemkin_keywords.hpp"
+#include "chemistry/chemkin/chemkin_nasa9.hpp"
 #include "chemistry/chemkin/chemkin_reaction.hpp"
 #include "chemistry/chemkin/chemkin_reaction_lines.hpp"
 #include "chemistry/chemkin/chemkin_sections.hpp"
@@ -14,6 +15,7 @@
 #include "chemistry/chemkin/chemkin_transport.hpp"
 #include "chemistry/mechanism/elements.hpp"
 #include "chemistry/mechanism/equation_text.hpp"
+#include "chemistry/mechanism/mechanism_checks.hpp"
 #include "core/errors.hpp"
 #include "core/nearest_name.hpp"
 
@@ -41,8 +43,8 @@ std::string listed(const std::vector<std::string>& names) {
 
 class ChemkinReader {
  public:
-  explicit ChemkinReader(const ChemkinText& mechanism)
-      : source_(mechanism), sections_(splitChemkinSections(source_, nullptr, warnings_)) {}
+  ChemkinReader(const ChemkinText& mechanism, bool permissive)
+      : permissive_(permissive), source_(mechanism), sections_(splitChemkinSections(source_, nullptr, warnings_)) {}
 
   Mechanism read(const std::optional<ChemkinText>& thermo, const std::optional<ChemkinText>& transport) {
     for (const auto& section : sections_)
@@ -65,8 +67,10 @@ class ChemkinReader {
     applyThermo();
     applyTransport(second || transport.has_value());
     readReactions();
+    const MechanismRules rules{.permissive = permissive_, .duplicateMark = "DUPLICATE"};
+    settleReactions(source_.file(), species_, reactions_, rules, warnings_);
     return Mechanism(source_.file(), source_.heading(), std::move(elements_), std::move(species_),
-                     std::move(reactions_), std::move(warnings_));
+                     std::move(reactions_), std::move(warnings_), rules);
   }
 
  private:
@@ -145,12 +149,17 @@ class ChemkinReader {
     const auto wanted = [this](std::string_view name) { return speciesLines_.contains(std::string(name)); };
     for (const auto& section : sections) {
       if (section.kind == Kind::Thermo) {
-        for (const auto& option : section.options)
-          if (upperCase(option) != "ALL")
-            source.fail(section.line, fmt::format("THERMO: expected ALL or nothing, found '{}'; supported are NASA-7 "
-                                                  "polynomials",
-                                                  option));
-        readChemkinThermo(source, section.lines, wanted, thermo_, warnings_);
+        bool nasa9 = false;
+        for (const auto& option : section.options) {
+          const auto word = upperCase(option);
+          nasa9 = nasa9 || word == "NASA9";
+          if (word != "ALL" && word != "NASA9" && word != "NASA7")
+            source.fail(section.line, fmt::format("THERMO: expected ALL, NASA9 or nothing, found '{}'", option));
+        }
+        if (nasa9)
+          readChemkinNasa9(source, section.lines, wanted, thermo_, warnings_);
+        else
+          readChemkinThermo(source, section.lines, wanted, thermo_, warnings_);
       } else if (section.kind == Kind::Transport) {
         readChemkinTransport(source, section.lines, wanted, transport_, warnings_);
         haveTransport_ = true;
@@ -182,6 +191,7 @@ class ChemkinReader {
         continue;
       }
       species.thermo = found->second.thermo;
+      species.nasa9 = found->second.nasa9;
       species.atoms.assign(elements_.size(), 0.0);
       for (const auto& [symbol, atoms] : found->second.atoms) setAtoms(species, symbol, atoms, found->second.place);
     }
@@ -228,7 +238,7 @@ class ChemkinReader {
         if (!units.set(option))
           source_.fail(section.line,
                        fmt::format("REACTIONS: unknown unit '{}'; expected {}", option, ChemkinUnits::expected()));
-      for (const auto& entry : splitChemkinReactions(source_, section.lines, parser)) {
+      for (const auto& entry : splitChemkinReactions(source_, section.lines, parser, warnings_)) {
         auto made = readChemkinReaction(source_, entry, units, parser, warnings_);
         const bool ownReverse = made.size() == 2 || std::ranges::any_of(entry.auxiliaries, [](const auto& item) {
                                   return upperCase(item.key) == "REV";
@@ -268,6 +278,7 @@ class ChemkinReader {
     }
   }
 
+  bool permissive_;
   ChemkinSource source_;
   std::vector<std::string> warnings_;
   std::vector<ChemkinSection> sections_;
@@ -289,12 +300,12 @@ Mechanism readChemkin(const ChemkinFiles& files) {
     if (!path) return std::nullopt;
     return loadChemkinText(*path);
   };
-  return parseChemkin(loadChemkinText(files.mechanism), load(files.thermo), load(files.transport));
+  return parseChemkin(loadChemkinText(files.mechanism), load(files.thermo), load(files.transport), files.permissive);
 }
 
 Mechanism parseChemkin(const ChemkinText& mechanism, const std::optional<ChemkinText>& thermo,
-                       const std::optional<ChemkinText>& transport) {
-  return ChemkinReader(mechanism).read(thermo, transport);
+                       const std::optional<ChemkinText>& transport, bool permissive) {
+  return ChemkinReader(mechanism, permissive).read(thermo, transport);
 }
 
 }  // namespace lampblack::chemistry

@@ -15,15 +15,16 @@ struct ChemkinFiles {
   std::string mechanism;                 // ELEMENTS, SPECIES, REACTIONS; THERMO and TRANSPORT may be there too
   std::optional<std::string> thermo;     // for species without data in the mechanism file; or transport data, alone
   std::optional<std::string> transport;  // the same
+  bool permissive = false;               // as in MechanismRules
 };
 
 // Reads and converts to SI units with mol. What is doubtful but can be used (data given twice, a species without
-// transport data) is told in the mechanism's warnings; what cannot be used is an InputError with file, line and what
-// was expected.
+// transport data, text behind END, light among the products) is told in the mechanism's warnings; what cannot be used
+// is an InputError with file, line and what was expected.
 Mechanism readChemkin(const ChemkinFiles& files);
 
 // The same with the files in memory.
 Mechanism parseChemkin(const ChemkinText& mechanism, const std::optional<ChemkinText>& thermo,
-                       const std::optional<ChemkinText>& transport);
+                       const std::optional<ChemkinText>& transport, bool permissive = false);
 
 }  // namespace lampblack::chemistry

@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "chemistry/chemkin/chemkin_keywords.hpp"
 #include "core/nearest_name.hpp"
 
 namespace lampblack::chemistry {
@@ -52,7 +53,8 @@ class SectionSplitter {
  private:
   void takeLine(const ChemkinLine& line) {
     auto words = chemkinWords(line.text);
-    if (const auto kind = sectionKind(words[0])) {
+    const auto kind = sectionKind(words[0]);
+    if (kind && (open_ || !reactionsEnded_ || isHeadingAlone(*kind, words))) {
       sections_.push_back({*kind, {}, {}, line.number});
       open_ = true;
       words.erase(words.begin());
@@ -78,6 +80,22 @@ class SectionSplitter {
     }
   }
 
+  // Behind the END of REACTIONS a line such as "Species named by ..." is text.
+  static bool isHeadingAlone(Kind kind, std::span<const std::string_view> words) {
+    return std::ranges::all_of(words.subspan(1), [kind](std::string_view word) {
+      if (kind == Kind::Reactions) return ChemkinUnits().set(word);
+      const auto upper = upperCase(word);
+      return !isList(kind) && (upper == "ALL" || (kind == Kind::Thermo && (upper == "NASA9" || upper == "NASA7")));
+    });
+  }
+
+  // "H+O2=O+OH 1e14 0 1000"
+  static bool isReaction(const ChemkinLine& line) {
+    const auto words = chemkinWords(line.text);
+    return words.size() > 3 && line.text.find('=') != std::string::npos &&
+           std::all_of(words.end() - 3, words.end(), [](auto word) { return fortranNumber(word).has_value(); });
+  }
+
   // Names up to END; what stands behind it in the same line is like a line of its own.
   void takeList(std::span<const std::string_view> words, int number) {
     const auto end = std::ranges::find_if(words, isEnd);
@@ -97,24 +115,31 @@ class SectionSplitter {
       source_.fail(line.number,
                    fmt::format("expected ELEMENTS, SPECIES, THERMO, REACTIONS or TRANSPORT, found '{}'{}", word,
                                didYouMean(word, {"ELEMENTS", "SPECIES", "THERMO", "REACTIONS", "TRANSPORT"})));
-    if (line.text.find('=') != std::string::npos)
+    const bool reaction = isReaction(line);
+    if (reaction && !reactionsEnded_ && implied_ == nullptr)
       source_.fail(line.number, "a reaction behind END; expected it in the section REACTIONS");
     const auto keyword = didYouMean(word, {"ELEMENTS", "SPECIES", "THERMO", "REACTIONS", "TRANSPORT"});
-    if (!keyword.empty()) source_.fail(line.number, fmt::format("'{}' begins no section{}", word, keyword));
-    if (!warned_) warnings_.push_back(fmt::format("{}: text behind END is ignored", source_.place(line.number)));
-    warned_ = true;
+    if (!keyword.empty() && trimmed(line.text) == word)
+      source_.fail(line.number, fmt::format("'{}' begins no section{}", word, keyword));
+    if (reaction)
+      warnings_.push_back(
+          fmt::format("{}: a reaction behind END is ignored: '{}'", source_.place(line.number), trimmed(line.text)));
+    else if (!warned_)
+      warnings_.push_back(fmt::format("{}: text behind END is ignored", source_.place(line.number)));
+    warned_ = warned_ || !reaction;
   }
 
   void close() {
     open_ = false;
     ended_ = true;
+    reactionsEnded_ = reactionsEnded_ || sections_.back().kind == Kind::Reactions;
   }
 
   const ChemkinSource& source_;
   const Kind* implied_;
   std::vector<std::string>& warnings_;
   std::vector<ChemkinSection> sections_;
-  bool open_ = false, ended_ = false, warned_ = false;
+  bool open_ = false, ended_ = false, reactionsEnded_ = false, warned_ = false;
 };
 
 }  // namespace

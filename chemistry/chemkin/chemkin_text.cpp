@@ -81,6 +81,10 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
+std::string_view chemkinColumns(std::string_view line, std::size_t first, std::size_t width) {
+  return first > line.size() ? std::string_view{} : line.substr(first - 1, width);
+}
+
 std::vector<std::string_view> chemkinWords(std::string_view text, std::string_view separators) {
   std::vector<std::string_view> result;
   for (std::size_t start = text.find_first_not_of(separators); start != std::string_view::npos;) {

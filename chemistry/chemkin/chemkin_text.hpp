@@ -47,6 +47,8 @@ class ChemkinSource {
 
 std::string upperCase(std::string_view text);
 std::string_view trimmed(std::string_view text);
+// Columns first..first+width-1, counted from one; what the line does not have is blank.
+std::string_view chemkinColumns(std::string_view line, std::size_t first, std::size_t width);
 // The parts between blanks (and between any of the other separators).
 std::vector<std::string_view> chemkinWords(std::string_view text, std::string_view separators = " \t");
 

@@ -7,18 +7,16 @@
 #include <cctype>
 #include <optional>
 #include <unordered_set>
+#include <utility>
+
+#include "core/errors.hpp"
 
 namespace lampblack::chemistry {
 
 namespace {
 
-// Columns first..first+width-1, counted from one; what the line does not have is blank.
-std::string_view columns(std::string_view line, std::size_t first, std::size_t width) {
-  return first > line.size() ? std::string_view{} : line.substr(first - 1, width);
-}
-
-// The width of a tabulator is eight columns, as terminals and editors show it.
-std::string withoutTabs(std::string_view line) {
+// A tabulator reaches to the next of every eight columns, as terminals and editors show it.
+std::string withWideTabs(std::string_view line) {
   std::string result;
   for (const char c : line) {
     if (c == '\t')
@@ -41,7 +39,7 @@ bool isSymbol(std::string_view word) {
 
 // The digit in column 80, or 0.
 int cardNumber(std::string_view line) {
-  const auto mark = columns(line, 80, 1);
+  const auto mark = chemkinColumns(line, 80, 1);
   return !mark.empty() && mark[0] >= '1' && mark[0] <= '4' ? mark[0] - '0' : 0;
 }
 
@@ -50,7 +48,12 @@ class ThermoReader {
   ThermoReader(const ChemkinSource& source, std::span<const ChemkinLine> section,
                const std::function<bool(std::string_view)>& wanted)
       : source_(source), wanted_(wanted) {
-    for (const auto& line : section) lines_.push_back({withoutTabs(line.text), line.number});
+    for (const auto& line : section) {
+      const bool hasTab = line.text.find('\t') != std::string::npos;
+      wide_.push_back(hasTab ? withWideTabs(line.text) : std::string());
+      lines_.push_back(line);
+      std::ranges::replace(lines_.back().text, '\t', ' ');
+    }
   }
 
   void read(ChemkinThermoTable& table, std::vector<std::string>& warnings) {
@@ -97,7 +100,7 @@ class ThermoReader {
     const auto words = chemkinWords(card);
     const std::string whole(words[0]);
     if (whole.size() <= 18 || card.front() == ' ' || wanted_(whole)) return whole;
-    return std::string(trimmed(columns(card, 1, 18)));
+    return std::string(trimmed(chemkinColumns(card, 1, 18)));
   }
 
   // Past card 1 and the lines it announces with '&' at its end; returns these lines joined.
@@ -112,25 +115,46 @@ class ThermoReader {
     return elements;
   }
 
+  // `read` looks at this line: with tabulators of one column, or else to the next of every eight.
+  void eitherWay(std::size_t line, std::vector<std::string>& warnings, const std::function<void()>& read) {
+    if (wide_[line].empty()) return read();
+    std::string_view meaning = "one column";
+    try {
+      read();
+    } catch (const InputError&) {
+      std::swap(lines_[line].text, wide_[line]);
+      meaning = "reaching to the next of every eight columns";
+      read();
+    }
+    warnings.push_back(fmt::format("{}: thermodynamic data of '{}': a tabulator is taken as {}",
+                                   source_.place(lines_[line].number), name_, meaning));
+  }
+
   ChemkinThermo readSpecies(std::vector<std::string>& warnings) {
     ChemkinThermo result;
-    result.place = source_.place(lines_[first_].number);
+    std::array<double, 3> temperatures{};
     const auto more = skipContinuations();
-    readFixedElements(result);
-    readElementsBehind(result);
-    readFreeElements(more, result);
-    if (result.atoms.empty()) fail(first_, "expected elements with their numbers of atoms in columns 25 to 44");
-    const auto temperatures = readTemperatures();
+    eitherWay(first_, warnings, [&] {
+      result = {};
+      result.place = source_.place(lines_[first_].number);
+      readFixedElements(result, warnings);
+      readElementsBehind(result);
+      readFreeElements(more, result);
+      if (result.atoms.empty()) fail(first_, "expected elements with their numbers of atoms in columns 25 to 44");
+      temperatures = readTemperatures();
+    });
     std::array<std::optional<double>, 14> a;
     const std::array<std::size_t, 3> counts{5, 5, 4};
     std::size_t at = 0;
     for (std::size_t card = 0; card < 3; ++card) {
       const int expected = static_cast<int>(card) + 2;
       if (next_ == lines_.size()) fail(next_ - 1, fmt::format("expected card {} after this line", expected));
-      const int found = cardNumber(lines_[next_].text);
-      if (found != 0 && found != expected)
-        fail(next_, fmt::format("expected card {}, found a {} in column 80", expected, found));
-      readCoefficients(std::span(a).subspan(at, counts[card]));
+      eitherWay(next_, warnings, [&] {
+        const int found = cardNumber(lines_[next_].text);
+        if (found != 0 && found != expected)
+          fail(next_, fmt::format("expected card {}, found a {} in column 80", expected, found));
+        readCoefficients(std::span(a).subspan(at, counts[card]));
+      });
       at += counts[card];
       ++next_;
     }
@@ -151,13 +175,27 @@ class ThermoReader {
     result.atoms.emplace_back(name, *value);
   }
 
-  void readFixedElements(ChemkinThermo& result) const {
+  // "G" or "0G" where a fourth element would be: the phase, one column or more to the left of its own.
+  static bool isPhase(std::string_view count) {
+    return !count.empty() && std::isalpha(static_cast<unsigned char>(count.back())) != 0 &&
+           isNothing(trimmed(count.substr(0, count.size() - 1)));
+  }
+
+  void readFixedElements(ChemkinThermo& result, std::vector<std::string>& warnings) const {
     const std::string_view card = lines_[first_].text;
     for (const std::size_t column : {25, 30, 35, 40, 74}) {
-      const auto symbol = trimmed(columns(card, column, 2)), count = trimmed(columns(card, column + 2, 3));
+      const auto symbol = trimmed(chemkinColumns(card, column, 2)),
+                 count = trimmed(chemkinColumns(card, column + 2, 3));
       // Columns 74-78 also hold the tail of a long temperature.
       if (column == 74 && (!isSymbol(symbol) || count.empty())) continue;
       if (isNothing(symbol) && isNothing(count)) continue;
+      if (column == 40 && isNothing(symbol) && isPhase(count)) {
+        warnings.push_back(
+            fmt::format("{}: thermodynamic data of '{}': the letter '{}' in the columns of a fourth "
+                        "element is taken as the phase, which belongs in column 45",
+                        source_.place(lines_[first_].number), name_, count.back()));
+        continue;
+      }
       if (!isSymbol(symbol))
         fail(first_,
              fmt::format("expected the symbol of an element in columns {} and {}, found '{}', and the number of "
@@ -170,7 +208,7 @@ class ThermoReader {
 
   // Behind column 80: "C  112H   80", pairs to the end of the line. Anything else there is a note.
   void readElementsBehind(ChemkinThermo& result) const {
-    auto rest = trimmed(columns(lines_[first_].text, 81, std::string_view::npos));
+    auto rest = trimmed(chemkinColumns(lines_[first_].text, 81, std::string_view::npos));
     if (rest.ends_with('&')) rest = trimmed(rest.substr(0, rest.size() - 1));
     std::vector<std::pair<std::string_view, std::string_view>> pairs;
     while (!rest.empty()) {
@@ -200,8 +238,9 @@ class ThermoReader {
   std::array<double, 3> readTemperatures() const {
     const std::string_view card = lines_[first_].text;
     auto T = defaults_;
-    const std::array<std::string_view, 3> fields{trimmed(columns(card, 46, 10)), trimmed(columns(card, 66, 8)),
-                                                 trimmed(columns(card, 56, 10))};
+    const std::array<std::string_view, 3> fields{trimmed(chemkinColumns(card, 46, 10)),
+                                                 trimmed(chemkinColumns(card, 66, 8)),
+                                                 trimmed(chemkinColumns(card, 56, 10))};
     bool inColumns = true;
     for (std::size_t i = 0; i < 3; ++i) {
       if (fields[i].empty()) continue;
@@ -211,7 +250,7 @@ class ThermoReader {
     }
     if (inColumns && T[0] >= 0 && T[0] < T[2]) return T;
     // Slipped: the numbers after the phase, in their order low, high, mid.
-    auto words = chemkinWords(columns(card, 45, 35));
+    auto words = chemkinWords(chemkinColumns(card, 45, 35));
     if (!words.empty() && words[0].size() == 1 && std::isalpha(static_cast<unsigned char>(words[0][0])) != 0)
       words.erase(words.begin());
     T = defaults_;
@@ -225,7 +264,7 @@ class ThermoReader {
     if (read < 2 || !(T[0] >= 0 && T[0] < T[2]))
       fail(first_,
            fmt::format("expected a low temperature in columns 46 to 55 and a higher one in 56 to 65, found '{}'",
-                       trimmed(columns(card, 45, 29))));
+                       trimmed(chemkinColumns(card, 45, 29))));
     return T;
   }
 
@@ -234,7 +273,7 @@ class ThermoReader {
     std::string_view wrong;
     std::size_t column = 0;
     for (std::size_t i = 0; i < a.size(); ++i) {
-      const auto field = trimmed(columns(line, 15 * i + 1, 15));
+      const auto field = trimmed(chemkinColumns(line, 15 * i + 1, 15));
       if (field.empty()) continue;
       a[i] = fortranNumber(field);
       // The last of five ends with its column, or it has slipped.
@@ -289,7 +328,8 @@ class ThermoReader {
 
   const ChemkinSource& source_;
   const std::function<bool(std::string_view)>& wanted_;
-  std::vector<ChemkinLine> lines_;
+  std::vector<ChemkinLine> lines_;  // a tabulator as one blank
+  std::vector<std::string> wide_;   // the same with tabulators to the next of every eight columns; empty without one
   std::array<double, 3> defaults_{300, 1000, 5000};
   std::size_t next_ = 0;   // the line to read
   std::size_t first_ = 0;  // card 1 of the species being read

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,6 +18,7 @@ namespace lampblack::chemistry {
 
 struct ChemkinThermo {
   Nasa7 thermo;
+  std::optional<Nasa9> nasa9;                         // of a section THERMO NASA9 (chemkin_nasa9.hpp)
   std::vector<std::pair<std::string, double>> atoms;  // symbols in upper case, each once
   std::string place;                                  // "file:line"
 };
@@ -32,7 +34,9 @@ using ChemkinThermoTable = std::unordered_map<std::string, ChemkinThermo>;
 // Card 1: name (columns 1-18), elements (25-44, 74-78, and from 81 on if nothing else is there; or free on lines
 // announced by '&'), temperatures (46-55 low,
 // 56-65 high, 66-73 mid; blank: the default). Cards 2-4: coefficients in columns of 15, of the upper range first;
-// blank: zero. Fields that slipped out of their columns are read as words where these are unambiguous.
+// blank: zero. Fields that slipped out of their columns are read as words where these are unambiguous. A tabulator
+// counts as one column, as Fortran has it, or, where a line cannot be read so, reaches to the next of every eight
+// columns. A letter of the phase in the field of a fourth element is none. Both are warnings.
 void readChemkinThermo(const ChemkinSource& source, std::span<const ChemkinLine> section,
                        const std::function<bool(std::string_view)>& wanted, ChemkinThermoTable& table,
                        std::vector<std::string>& warnings);

@@ -1,6 +1,7 @@
 #include "chemistry/kinetics/kinetics_falloff.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 #include "chemistry/numerics/vector_math.hpp"
 
@@ -8,7 +9,6 @@ namespace lampblack::chemistry {
 
 namespace {
 
-constexpr double kLn10 = 2.30258509299404568402;
 constexpr double kTiny = 1e-300;  // keeps logarithms of vanishing pressures and broadenings finite
 
 // One array each, so that the compiler sees that it may vectorise.
@@ -51,7 +51,7 @@ void FalloffFactors::setTemperature(const KineticsTables& tables, double T, doub
   }
   logInPlace(lnFcent, n);
   for (std::size_t i = 0; i < n; ++i) {
-    const double log10Fcent = lnFcent[i] * (1.0 / kLn10);
+    const double log10Fcent = lnFcent[i] * (1.0 / std::numbers::ln10);
     shift_[i] = f.shift0[i] + f.shift1[i] * log10Fcent;
     width_[i] = f.width0[i] + f.width1[i] * log10Fcent;
     lnScale_[i] = f.lnScale[i] + f.scaleExponent[i] * lnT;
@@ -74,7 +74,7 @@ std::span<const double> FalloffFactors::evaluate(const KineticsTables& tables, c
   std::copy_n(pr, n, u);
   logInPlace(u, n);
   for (std::size_t i = 0; i < n; ++i) {
-    u[i] = u[i] * (1.0 / kLn10) + shift[i];
+    u[i] = u[i] * (1.0 / std::numbers::ln10) + shift[i];
     const double h = u[i] / (width[i] - slope[i] * u[i]);
     values[i] = lnScale[i] + lnFcent[i] / (1.0 + h * h);
   }
@@ -109,9 +109,9 @@ void FalloffFactors::evaluateSlopes(const KineticsTables& tables) {
     const double d = width[i] - slope[i] * u[i], inverseD = 1.0 / d;
     const double h = u[i] * inverseD, spread = 1.0 / (1.0 + h * h);
     const double lnFByH = -2.0 * lnFcent[i] * h * spread * spread;
-    const double lnFByLnPr = lnFByH * width[i] * inverseD * inverseD * (1.0 / kLn10);
+    const double lnFByLnPr = lnFByH * width[i] * inverseD * inverseD * (1.0 / std::numbers::ln10);
     const double hByLog10Fcent = (shift1[i] * d - u[i] * (width1[i] - slope[i] * shift1[i])) * inverseD * inverseD;
-    const double lnFByLnFcent = spread + lnFByH * hByLog10Fcent * (1.0 / kLn10);
+    const double lnFByLnFcent = spread + lnFByH * hByLog10Fcent * (1.0 / std::numbers::ln10);
     const double term3 = w3[i] * terms[i], term1 = w1[i] * terms[n + i], term2 = w2[i] * terms[2 * n + i];
     const double centre = term3 + term1 + term2 + centreSlope[i] * T_;
     const double centreByT = -inverseT3[i] * term3 - inverseT1[i] * term1 + T2[i] * T2Scale * term2 + centreSlope[i];

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "chemistry/kinetics/kinetics_tables.hpp"
 #include "core/errors.hpp"
@@ -12,7 +13,6 @@ namespace lampblack::chemistry {
 namespace {
 
 constexpr double kLogOfZero = -1e4;  // its exponential vanishes beside any other rate
-constexpr double kLn10 = 2.30258509299404568402;
 
 std::string place(const Mechanism& mechanism, const Reaction& reaction) {
   return fmt::format("{}: reaction '{}'", mechanism.placeOf(reaction), reaction.equation);
@@ -83,8 +83,9 @@ Arrhenius chebyshevBase(const ChebyshevRate& rate) {
       log10High += value;
     }
   Arrhenius base;
-  base.activationTemperature = kLn10 * (log10High - log10Low) / (1.0 / rate.minTemperature - 1.0 / rate.maxTemperature);
-  base.A = std::exp(kLn10 * log10High + base.activationTemperature / rate.maxTemperature);
+  base.activationTemperature =
+      std::numbers::ln10 * (log10High - log10Low) / (1.0 / rate.minTemperature - 1.0 / rate.maxTemperature);
+  base.A = std::exp(std::numbers::ln10 * log10High + base.activationTemperature / rate.maxTemperature);
   return base;
 }
 
@@ -191,7 +192,7 @@ void KineticsTables::addChebyshev(std::size_t i, const ChebyshevRate& rate) {
   t.first.push_back(t.coefficients.size());
   t.numT.push_back(rate.numTemperature);
   t.numP.push_back(rate.numPressure);
-  for (const double a : rate.coefficients) t.coefficients.push_back(kLn10 * a);
+  for (const double a : rate.coefficients) t.coefficients.push_back(std::numbers::ln10 * a);
   const double coldest = 1.0 / rate.minTemperature, hottest = 1.0 / rate.maxTemperature;
   t.scaleT.push_back(2.0 / (hottest - coldest));
   t.shiftT.push_back((coldest + hottest) / (coldest - hottest));

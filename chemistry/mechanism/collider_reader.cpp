@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "chemistry/mechanism/rate_checks.hpp"
 #include "chemistry/mechanism/rate_reader.hpp"
 
 namespace lampblack::chemistry {
@@ -114,6 +115,9 @@ class ColliderReader {
     collider.rate.reversible = false;
     if (known->second == Type::Falloff) collider.rate.thirdBody = ThirdBody{};
     readRates(yaml_, units_, map, collider.rate, warnings_);
+    // A reaction's own are looked at with its duplicates (joinPressureRates).
+    if (const auto problem = pressureRateProblem(collider.rate.pressureRates); !problem.empty())
+      yaml_.fail(map.at("rate-constants"), fmt::format("{}: {}", map.what(), problem));
   }
 
   const YamlAccess& yaml_;

@@ -130,30 +130,54 @@ std::vector<ColliderPair> findColliderPairs(std::span<const Species> species, st
   return pairs;
 }
 
-void checkDuplicates(const std::string& file, std::span<const Species> species, std::span<const Reaction> reactions,
-                     std::vector<std::string>& warnings) {
+void markDuplicates(const std::string& file, std::span<const Species> species, std::span<Reaction> reactions,
+                    std::vector<std::string>& warnings) {
+  std::vector<std::size_t> like(reactions.size(), reactions.size());
+  forEqualPairs(species, reactions,
+                [&](std::size_t r, std::size_t other, const Compared& first, const Compared& second) {
+                  if (!reactions[r].duplicate && first.collider.has_value() == second.collider.has_value())
+                    like[r] = std::min(like[r], other);
+                });
+  for (std::size_t r = 0; r < reactions.size(); ++r) {
+    if (like[r] == reactions.size()) continue;
+    reactions[r].duplicate = true;
+    // One warning for two.
+    if (const auto& other = reactions[like[r]]; like[r] < r)
+      warnings.push_back(
+          fmt::format("{}: reaction '{}' is marked as a duplicate: it is the same as '{}' at line {}, and both count",
+                      place(file, reactions[r]), reactions[r].equation, other.equation, other.line));
+  }
+  for (std::size_t r = 0; r < reactions.size(); ++r)
+    if (like[r] != reactions.size()) reactions[like[r]].duplicate = true;
+}
+
+void checkDuplicates(const std::string& file, std::span<const Species> species, std::span<Reaction> reactions,
+                     std::string_view mark, std::vector<std::string>& warnings) {
   std::vector<bool> partner(reactions.size(), false);
   forEqualPairs(species, reactions,
                 [&](std::size_t r, std::size_t other, const Compared& first, const Compared& second) {
                   partner[r] = true;
-                  const auto &a = reactions[r], &b = reactions[other];
-                  if (a.duplicate || first.collider.has_value() != second.collider.has_value()) return;
-                  const bool later = r > other;
+                  if (reactions[r].duplicate || first.collider.has_value() != second.collider.has_value()) return;
+                  const auto &earlier = reactions[std::min(r, other)], &later = reactions[std::max(r, other)];
                   throw InputError(
-                      fmt::format("{}: reaction '{}' is the same as '{}' at line {}; expected both to be marked "
-                                  "'duplicate: true'",
-                                  place(file, later ? a : b), a.equation, b.equation, later ? b.line : a.line));
+                      fmt::format("{}: reaction '{}' is the same as '{}' at line {}; expected both to be marked {} if "
+                                  "both count, which `lampblack mechanism --permissive -o FILE` does in a new file",
+                                  place(file, later), later.equation, earlier.equation, earlier.line, mark));
                 });
-  for (std::size_t r = 0; r < reactions.size(); ++r)
-    if (!partner[r] && reactions[r].duplicate)
-      throw InputError(fmt::format("{}: reaction '{}' is marked as a duplicate, but there is no other one like it",
-                                   place(file, reactions[r]), reactions[r].equation));
+  for (std::size_t r = 0; r < reactions.size(); ++r) {
+    if (partner[r] || !reactions[r].duplicate) continue;
+    reactions[r].duplicate = false;
+    warnings.push_back(
+        fmt::format("{}: reaction '{}' is marked as a duplicate, but there is no other one like it; the mark "
+                    "is passed over",
+                    place(file, reactions[r]), reactions[r].equation));
+  }
   for (const auto& pair : findColliderPairs(species, reactions)) {
     const auto &named = reactions[pair.named], &mixture = reactions[pair.mixture];
-    warnings.push_back(
-        fmt::format("{}: reaction '{}' has the collider {} of '{}' at line {} a second time; expected "
-                    "its efficiency there to be zero, or both to be marked 'duplicate: true'",
-                    place(file, named), named.equation, species[pair.collider].name, mixture.equation, mixture.line));
+    warnings.push_back(fmt::format(
+        "{}: reaction '{}' has the collider {} of '{}' at line {} a second time; expected "
+        "its efficiency there to be zero, or both to be marked {}",
+        place(file, named), named.equation, species[pair.collider].name, mixture.equation, mixture.line, mark));
   }
 }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <utility>
 
 #include "chemistry/mechanism/mechanism_checks.hpp"
@@ -10,8 +12,20 @@
 
 namespace lampblack::chemistry {
 
+namespace {
+
+std::string lowerCase(std::string_view text) {
+  std::string result(text);
+  std::ranges::transform(result, result.begin(),
+                         [](unsigned char c) { return static_cast<char>(c < 0x80 ? std::tolower(c) : c); });
+  return result;
+}
+
+}  // namespace
+
 Mechanism::Mechanism(std::string file, std::string description, std::vector<Element> elements,
-                     std::vector<Species> species, std::vector<Reaction> reactions, std::vector<std::string> warnings)
+                     std::vector<Species> species, std::vector<Reaction> reactions, std::vector<std::string> warnings,
+                     const MechanismRules& rules)
     : file_(std::move(file)),
       description_(std::move(description)),
       elements_(std::move(elements)),
@@ -28,9 +42,10 @@ Mechanism::Mechanism(std::string file, std::string description, std::vector<Elem
       throw InputError(fmt::format("{}: species '{}' has no atoms; expected a composition with a positive mass",
                                    placeOf(s), s.name));
     molecularWeights_.push_back(s.molecularWeight);
+    speciesByLowerName_[lowerCase(s.name)].push_back(k);
   }
   checkBalances(file_, elements_, species_, reactions_);
-  checkDuplicates(file_, species_, reactions_, warnings_);
+  checkDuplicates(file_, species_, reactions_, rules.duplicateMark, warnings_);
   checkThermo(file_, species_, warnings_);
 }
 
@@ -43,13 +58,20 @@ std::string Mechanism::placeOf(const Reaction& reaction) const {
 }
 
 std::optional<std::size_t> Mechanism::findSpecies(std::string_view name) const {
-  const auto found = speciesByName_.find(std::string(name));
-  if (found == speciesByName_.end()) return std::nullopt;
-  return found->second;
+  if (const auto found = speciesByName_.find(std::string(name)); found != speciesByName_.end()) return found->second;
+  const auto like = speciesByLowerName_.find(lowerCase(name));
+  if (like == speciesByLowerName_.end() || like->second.size() != 1) return std::nullopt;
+  return like->second.front();
 }
 
 std::size_t Mechanism::speciesIndex(std::string_view name) const {
   if (const auto k = findSpecies(name)) return *k;
+  if (const auto like = speciesByLowerName_.find(lowerCase(name)); like != speciesByLowerName_.end()) {
+    std::string names;
+    for (const auto k : like->second) names += fmt::format("{}'{}'", names.empty() ? "" : ", ", species_[k].name);
+    throw InputError(
+        fmt::format("species '{}' in mechanism {} may be any of {}; expected one of these names", name, file_, names));
+  }
   std::vector<std::string_view> names;
   for (const auto& s : species_) names.push_back(s.name);
   throw InputError(fmt::format("unknown species '{}' in mechanism {}; the nearest known name is '{}'", name, file_,

@@ -21,18 +21,28 @@ struct Element {
   double atomicWeight = 0;  // kg/mol
 };
 
+// How files are taken that are not quite as their format has them.
+struct MechanismRules {
+  // Two reactions that are the same and not marked as duplicates are marked, with a warning, in place of an InputError.
+  bool permissive = false;
+  std::string_view duplicateMark = "'duplicate: true'";  // how the file's format marks one, for messages
+};
+
 class Mechanism {
  public:
   // Reads Cantera's YAML format: the ideal-gas phase of this name (the first one if empty), species with the
   // thermodynamic data of species.hpp and gas transport data, reactions of the types of reaction.hpp. Throws InputError
   // with file, line and what was expected; what the format knows but Lampblack does not (other phases, rate types,
-  // polynomials) is such an error too.
-  static Mechanism fromFile(const std::string& path, const std::string& phase = "");
+  // polynomials) is such an error too. Keys of a phase that the format does not know are a warning. `permissive`: as in
+  // MechanismRules.
+  static Mechanism fromFile(const std::string& path, const std::string& phase = "", bool permissive = false);
 
   // Takes finished data, e.g. from a reader of another format; the same physical checks apply (mechanism_checks.hpp).
-  // `warnings` are those of the reader.
+  // `warnings` are those of the reader, which has done what mechanism_checks.hpp asks before. Of `rules` the words for
+  // messages count here. What can be used though it is not quite right is told in a warning, such as a mark of a
+  // duplicate too many, which is dropped.
   Mechanism(std::string file, std::string description, std::vector<Element> elements, std::vector<Species> species,
-            std::vector<Reaction> reactions, std::vector<std::string> warnings = {});
+            std::vector<Reaction> reactions, std::vector<std::string> warnings = {}, const MechanismRules& rules = {});
 
   std::size_t numSpecies() const { return species_.size(); }
   std::size_t numElements() const { return elements_.size(); }
@@ -47,7 +57,8 @@ class Mechanism {
   const std::vector<std::string>& warnings() const { return warnings_; }
 
   const std::string& speciesName(std::size_t k) const { return species_[k].name; }
-  // Throws InputError naming the nearest known species.
+  // By its name, or by the only name that differs from it in the case of letters alone. speciesIndex throws InputError
+  // naming the nearest known species, or those that differ in case.
   std::size_t speciesIndex(std::string_view name) const;
   std::optional<std::size_t> findSpecies(std::string_view name) const;
   std::span<const double> molecularWeights() const { return molecularWeights_; }  // kg/mol
@@ -72,10 +83,12 @@ class Mechanism {
   std::vector<std::string> warnings_;
   std::vector<double> molecularWeights_;
   std::unordered_map<std::string, std::size_t> speciesByName_;
+  std::unordered_map<std::string, std::vector<std::size_t>> speciesByLowerName_;
 };
 
-// "C2H4: 1, N2: 3" (commas or blanks between the pairs) as mole fractions that sum to one. InputError for unknown names
-// (with the nearest known one), negative or unreadable amounts, a name given twice, and all amounts zero.
+// "C2H4: 1, N2: 3" (commas or blanks between the pairs) as mole fractions that sum to one; names as findSpecies takes
+// them. InputError for unknown names (with the nearest known one), negative or unreadable amounts, a name given twice,
+// and all amounts zero.
 std::vector<double> parseComposition(const Mechanism& mechanism, std::string_view text);
 
 // The same pairs as they stand, with `absent` for species that are not named; messages call the text `what`.

@@ -7,6 +7,7 @@
 
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/mechanism/nasa_polynomials.hpp"
+#include "chemistry/mechanism/pressure_rate_sums.hpp"
 #include "core/errors.hpp"
 
 namespace lampblack::chemistry {
@@ -55,6 +56,12 @@ void checkBalances(const std::string& file, std::span<const Element> elements, s
                         reaction.file.empty() ? file : reaction.file, reaction.line, reaction.equation, left,
                         elements[i].name, right));
     }
+}
+
+void settleReactions(const std::string& file, std::span<const Species> species, std::vector<Reaction>& reactions,
+                     const MechanismRules& rules, std::vector<std::string>& warnings) {
+  if (rules.permissive) markDuplicates(file, species, reactions, warnings);
+  joinPressureRates(file, reactions, warnings);
 }
 
 void checkThermo(const std::string& file, std::span<const Species> species, std::vector<std::string>& warnings) {

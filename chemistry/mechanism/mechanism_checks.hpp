@@ -3,6 +3,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "chemistry/mechanism/reaction.hpp"
@@ -12,17 +13,28 @@
 namespace lampblack::chemistry {
 
 struct Element;
+struct MechanismRules;
 
 // Throws InputError with file and line for a reaction that does not conserve an element (1e-4 of its atoms).
 void checkBalances(const std::string& file, std::span<const Element> elements, std::span<const Species> species,
                    std::span<const Reaction> reactions);
 
 // Throws InputError with file and line for two reactions of one type between the same species that are not both marked
-// as duplicates, and for a mark without a partner. Opposite directions count as the same unless both are irreversible;
-// reactions with third bodies count as different if no species is a collider in both. A collider named in the equation
-// beside the same reaction with M is a warning, as in Cantera.
-void checkDuplicates(const std::string& file, std::span<const Species> species, std::span<const Reaction> reactions,
-                     std::vector<std::string>& warnings);
+// as duplicates; `mark` says how the file marks one. A mark without a partner is taken away, with a warning. Opposite
+// directions count as the same unless both are irreversible; reactions with third bodies count as different if no
+// species is a collider in both. A collider named in the equation beside the same reaction with M is a warning, as in
+// Cantera.
+void checkDuplicates(const std::string& file, std::span<const Species> species, std::span<Reaction> reactions,
+                     std::string_view mark, std::vector<std::string>& warnings);
+
+// Marks the reactions that checkDuplicates would refuse, with a warning each.
+void markDuplicates(const std::string& file, std::span<const Species> species, std::span<Reaction> reactions,
+                    std::vector<std::string>& warnings);
+
+// What a reader does with its reactions before they become a mechanism's: marks duplicates if the rules are permissive,
+// and joins those that have a rate only together (pressure_rate_sums.hpp).
+void settleReactions(const std::string& file, std::span<const Species> species, std::vector<Reaction>& reactions,
+                     const MechanismRules& rules, std::vector<std::string>& warnings);
 
 // Pairs of a reaction with M and the same reaction with a named collider that M has, too, not both marked as
 // duplicates: first the one with M. The collider acts twice.

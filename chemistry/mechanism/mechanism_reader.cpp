@@ -17,26 +17,28 @@ namespace lampblack::chemistry {
 
 namespace {
 
+using namespace std::string_view_literals;
+
 class MechanismReader {
  public:
-  MechanismReader(const std::string& path, const std::string& phase)
-      : files_(path), yaml_(files_.main().yaml), phase_(choosePhase(files_.main(), phase)) {}
+  MechanismReader(const std::string& path, const std::string& phase, bool permissive)
+      : files_(path), yaml_(files_.main().yaml), phase_(choosePhase(files_.main(), phase)), permissive_(permissive) {}
 
   Mechanism read() {
-    phase_.allowOnly({"name", "thermo", "elements", "species", "kinetics", "reactions", "transport", "state",
-                      "skip-undeclared-elements", "skip-undeclared-third-bodies", "explicit-third-body-duplicates",
-                      "units", "note", "comment", "reference"});
+    passOverOwnKeys();
     if (auto text = transportWarning(yaml_, phase_); !text.empty()) warnings_.push_back(std::move(text));
     findSpecies();
     readElements();
     readSpeciesEntries();
     for (const auto& rule : reactionRules(files_, phase_)) addReactions(rule);
     resolveColliders();
+    const MechanismRules rules{.permissive = permissive_};
+    settleReactions(yaml_.file(), species_, reactions_, rules, warnings_);
     std::string description;
     if (const YAML::Node text = files_.main().root["description"]; text.IsDefined())
       description = yaml_.text(text, "description");
     return Mechanism(yaml_.file(), description, std::move(elements_), std::move(species_), std::move(reactions_),
-                     std::move(warnings_));
+                     std::move(warnings_), rules);
   }
 
  private:
@@ -45,6 +47,28 @@ class MechanismReader {
     std::size_t index;
     const YAML::Node& node() const { return section->entries[index]; }
   };
+
+  // The format lets a phase have keys for other programs.
+  void passOverOwnKeys() {
+    const auto keys = {"name"sv,
+                       "thermo"sv,
+                       "elements"sv,
+                       "species"sv,
+                       "kinetics"sv,
+                       "reactions"sv,
+                       "transport"sv,
+                       "state"sv,
+                       "skip-undeclared-elements"sv,
+                       "skip-undeclared-third-bodies"sv,
+                       "explicit-third-body-duplicates"sv,
+                       "units"sv,
+                       "note"sv,
+                       "comment"sv,
+                       "reference"sv};
+    for (const auto* entry : phase_.others(keys))
+      warnings_.push_back(fmt::format("{}:{}: {}; it is passed over", yaml_.file(), YamlAccess::line(entry->keyNode),
+                                      phase_.unknownKeyText(*entry, keys)));
+  }
 
   void findSpecies() {
     const auto* list = phase_.find("species");
@@ -225,13 +249,14 @@ class MechanismReader {
   std::unordered_map<std::string, std::size_t, TextHash, std::equal_to<>> speciesByName_;
   std::vector<Reaction> reactions_;
   std::vector<std::string> warnings_;
+  bool permissive_;
 };
 
 }  // namespace
 
-Mechanism Mechanism::fromFile(const std::string& path, const std::string& phase) {
+Mechanism Mechanism::fromFile(const std::string& path, const std::string& phase, bool permissive) {
   try {
-    return MechanismReader(path, phase).read();
+    return MechanismReader(path, phase, permissive).read();
   } catch (const YAML::Exception& error) {
     throw InputError(fmt::format("{}:{}: not valid YAML: {}", path, error.mark.line + 1, error.msg));
   }

@@ -19,6 +19,9 @@ struct MechanismUnit {
   bool sameDimension(const MechanismUnit& other) const;
 };
 
+inline constexpr MechanismUnit kKelvin{1.0, {0, 0, 0, 1, 0}};
+inline constexpr MechanismUnit kPascal{1.0, {1, -1, -2, 0, 0}};
+
 // Products and quotients of units with decimal powers, as Cantera writes them: "cm^3/mol/s", "J/kmol", "1/s", with the
 // one-letter SI prefixes. InputError whose text names what is not understood.
 MechanismUnit parseMechanismUnit(std::string_view text);

@@ -38,7 +38,10 @@ std::string rateProblem(const Reaction& reaction) {
       masel && !(reaction.rate.activationTemperature >= 0 && std::isfinite(masel->bondEnergy) &&
                  masel->bondEnergy > reaction.rate.activationTemperature))
     return "expected 'Ea0' of zero or more and a bond energy 'w' above it";
-  const std::span rates(reaction.pressureRates);
+  return {};
+}
+
+std::string pressureRateProblem(std::span<const PressureRate> rates) {
   for (std::size_t first = 0, next = 0; first < rates.size(); first = next) {
     for (next = first; next < rates.size() && rates[next].pressure == rates[first].pressure;) ++next;
     for (const double T : {300.0, 500.0, 1000.0, 2000.0, 5000.0, 10000.0})

@@ -14,9 +14,6 @@ namespace {
 
 using Type = Reaction::Type;
 
-constexpr MechanismUnit kKelvin{1.0, {0, 0, 0, 1, 0}};
-constexpr MechanismUnit kPascal{1.0, {1, -1, -2, 0, 0}};
-
 // Sum of the powers of concentrations in the forward rate, without that of [M].
 double forwardOrder(const Reaction& reaction) {
   double order = 0;
@@ -180,7 +177,6 @@ class RateReader {
     if (reaction_.pressureRates.empty()) fail(list, "'rate-constants': expected at least one pressure");
     std::stable_sort(reaction_.pressureRates.begin(), reaction_.pressureRates.end(),
                      [](const auto& a, const auto& b) { return a.pressure < b.pressure; });
-    requireSound(list);
   }
 
   std::pair<double, double> range(std::string_view key, const MechanismUnit& unit, double factor) const {

@@ -12,8 +12,6 @@ namespace lampblack::chemistry {
 
 namespace {
 
-constexpr MechanismUnit kKelvin{1.0, {0, 0, 0, 1, 0}};
-constexpr MechanismUnit kPascal{1.0, {1, -1, -2, 0, 0}};
 constexpr MechanismUnit kMetre{1.0, {0, 1, 0, 0, 0}};
 constexpr MechanismUnit kCubicMetre{1.0, {0, 3, 0, 0, 0}};
 

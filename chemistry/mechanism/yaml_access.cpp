@@ -158,11 +158,21 @@ const YAML::Node& YamlMap::at(std::string_view key) const {
   yaml_.fail(node_, fmt::format("{} has no '{}'", what_, key));
 }
 
-void YamlMap::allowOnly(std::initializer_list<std::string_view> keys) const {
+std::vector<const YamlMap::Entry*> YamlMap::others(std::initializer_list<std::string_view> keys) const {
+  std::vector<const Entry*> result;
   for (const auto& entry : entries_)
-    if (std::find(keys.begin(), keys.end(), entry.key) == keys.end())
-      yaml_.fail(entry.keyNode, fmt::format("{}: unknown key '{}'; the nearest known key is '{}'", what_, entry.key,
-                                            closestName(entry.key, std::vector<std::string_view>(keys))));
+    if (std::find(keys.begin(), keys.end(), entry.key) == keys.end()) result.push_back(&entry);
+  return result;
+}
+
+std::string YamlMap::unknownKeyText(const Entry& entry, std::initializer_list<std::string_view> keys) const {
+  return fmt::format("{}: unknown key '{}'; the nearest known key is '{}'", what_, entry.key,
+                     closestName(entry.key, std::vector<std::string_view>(keys)));
+}
+
+void YamlMap::allowOnly(std::initializer_list<std::string_view> keys) const {
+  if (const auto unknown = others(keys); !unknown.empty())
+    yaml_.fail(unknown[0]->keyNode, unknownKeyText(*unknown[0], keys));
 }
 
 bool YamlMap::flag(std::string_view key, bool standard) const {

@@ -65,6 +65,9 @@ class YamlMap {
   const YAML::Node& at(std::string_view key) const;
   // InputError naming the nearest allowed key if the map has another one.
   void allowOnly(std::initializer_list<std::string_view> keys) const;
+  // The entries with other keys, and what to say about one: its key and the nearest allowed one.
+  std::vector<const Entry*> others(std::initializer_list<std::string_view> keys) const;
+  std::string unknownKeyText(const Entry& entry, std::initializer_list<std::string_view> keys) const;
 
   // The values of optional keys.
   bool flag(std::string_view key, bool standard) const;

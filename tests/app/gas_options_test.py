@@ -5,6 +5,7 @@ Usage: gas_options_test.py EXECUTABLE RANKS MPIEXEC...
 
 import json
 import pathlib
+import re
 import sys
 import tempfile
 
@@ -148,6 +149,44 @@ def chemkin(check: Checker) -> None:
         check.close("  same entropy", again["entropy_mass"], gas["entropy_mass"], 1e-13)
 
 
+def equal_reactions(check: Checker) -> None:
+    """Duplicates that are not marked: an error that says how, or marked by --permissive; like warnings are counted."""
+    with tempfile.TemporaryDirectory() as folder:
+        mechanism, thermo, converted = (pathlib.Path(folder) / name for name in ("chem.inp", "therm.dat", "mech.yaml"))
+        twice = "2H+M=H2+M 1.E18 -1. 0.\nH2+M=2H+M 1.E10 0. 0.\n2O=O2 1. 0. 0.\nDUP\n2O+H2=O2+2H 1. 0. 0.\nDUP\n"
+        text = CHEMKIN.replace("2H+M=H2+M 1.E18 -1. 0.\n", twice).replace("ELEMENTS H", "ELEMENTS H O").replace("H H2 END", "H H2 O O2 END")
+        mechanism.write_text(text, encoding="utf-8")
+        oxygen = (chemkin_species("O", "O   1", [2.5, 0, 0, 0, 0, 29000, 4])
+                  + chemkin_species("O2", "O   2", [3.5, 0, 0, 0, 0, -1000, 4]))
+        thermo.write_text(CHEMKIN_THERMO.replace("END", oxygen + "END"), encoding="utf-8")
+        refused = check.program("mechanism", mechanism, thermo)
+        check.require("equal reactions", refused.code == 2 and "DUPLICATE" in refused.err and "--permissive" in refused.err,
+                      refused.err)
+        taken = check.program("mechanism", mechanism, thermo, "--permissive", "-o", converted)
+        told = taken.err.splitlines()
+        check.require("  --permissive", taken.code == 0 and sum("is marked as a duplicate: it is" in line for line in told) == 1,
+                      taken.err)
+        marks = [line for line in told if "no other one like it" in line]
+        check.require("  one warning of a kind", len(marks) == 1 and marks[0].endswith("(1 more like this)"), taken.err)
+        every = check.program("mechanism", mechanism, thermo, "--permissive", "--all-warnings")
+        check.require("  --all-warnings", every.err.count("no other one like it") == 2, every.err)
+        check.require("  both in the file", converted.read_text(encoding="utf-8").count("duplicate: true") == 2)
+        options = ("--T", "2000", "--X", "H:1, H2:1")
+        check.require("  gas", check.gas(mechanism, thermo, "--permissive", *options)["net_production_rates"]
+                      == check.gas(converted, *options)["net_production_rates"])
+
+
+def names(check: Checker) -> None:
+    """Species in another case than the mechanism has them."""
+    with tempfile.TemporaryDirectory() as folder:
+        lower = pathlib.Path(folder) / "low.yaml"
+        lower.write_text(re.sub(r"\b(O2|N2|H2)\b", lambda found: found[0].lower(), HYDROGEN.read_text(encoding="utf-8")),
+                         encoding="utf-8")
+        options = ("--T", "300", "--fuel", "H2:1", "--oxidizer", AIR, "--phi", "1", "--hp")
+        check.close("names in another case", check.gas(lower, *options)["temperature"],
+                    check.gas(HYDROGEN, *options)["temperature"], 1e-14)
+
+
 def without_transport(check: Checker) -> None:
     gas = check.gas(SILICA, "--T", "1500", "--X", "C8H20O4SI:1, N2:9")
     check.require("no transport data: null and why",
@@ -190,7 +229,7 @@ def main() -> int:
         part(check, *arguments)
         return check.failures
 
-    parts = (spellings, equilibria, tables, chemkin, without_transport, beyond_the_data, ranks)
+    parts = (spellings, equilibria, tables, chemkin, equal_reactions, names, without_transport, beyond_the_data, ranks)
     failed = running.at_once(failures, [(part,) for part in parts] + [(mistake, *one) for one in MISTAKES])
     return 1 if sum(failed) else 0
 

@@ -51,11 +51,13 @@ TEST(ChemkinErrors, Sections) {
   EXPECT_THAT(mechanismMessage("ELEMENTS H END"), HasSubstr("no species; expected a section SPECIES"));
   EXPECT_THAT(mechanismMessage("\nELEMENS H O END"),
               AllOf(StartsWith("chem.inp:2:"), HasSubstr("found 'ELEMENS'; did you mean 'ELEMENTS'?")));
-  EXPECT_THAT(mechanismMessage("ELEM H END SPEC H END\nREAC\nEND\nH+M=H+M 1 0 0\n"),
-              AllOf(StartsWith("chem.inp:4:"), HasSubstr("a reaction behind END")));
+  EXPECT_THAT(mechanismMessage("ELEM H END SPEC H END\nH+M=H+M 1 0 0\nREAC\nEND\n"),
+              AllOf(StartsWith("chem.inp:2:"), HasSubstr("a reaction behind END")));
+  EXPECT_THAT(mechanismMessage("ELEM H END SPEC H END\nREAC\nEND\nTHERMOS\n"),
+              AllOf(StartsWith("chem.inp:4:"), HasSubstr("'THERMOS' begins no section; did you mean 'THERMO'?")));
   EXPECT_THAT(mechanismMessage("ELEM H END SPEC H END\nSITE/PT/ END"), HasSubstr("surfaces are not supported"));
   EXPECT_THAT(thermoMessage("ELEMENTS H O END"), AllOf(StartsWith("therm.dat:1:"), HasSubstr("THERMO")));
-  EXPECT_THAT(thermoMessage("THERMO NASA9\n"), AllOf(StartsWith("therm.dat:1:"), HasSubstr("found 'NASA9'")));
+  EXPECT_THAT(thermoMessage("THERMO NASA8\n"), AllOf(StartsWith("therm.dat:1:"), HasSubstr("found 'NASA8'")));
 }
 
 TEST(ChemkinErrors, ElementsAndSpecies) {
@@ -98,6 +100,28 @@ TEST(ChemkinErrors, Thermo) {
               AllOf(StartsWith("therm.dat:2:"), HasSubstr("number in columns 16 to 30, found '1.0x.y0000E-03'")));
   EXPECT_THAT(thermoMessage(thermoCards("H2O", "H   2O   1").substr(0, 81) + "0.\n0.\n0.\n"),
               HasSubstr("all coefficients are zero"));
+}
+
+// Line 1 of the record stands in line 2.
+TEST(ChemkinErrors, Nasa9) {
+  const std::string record =
+      "THERMO NASA9\nH2O a comment\n 1 note   H   2.00O   1.00    0.00    0.00    0.00 0   18.0152800\n"
+      "    200.000   1000.0007 -2.0 -1.0  0.0  1.0  2.0  3.0  4.0  0.0         6197.428\n"
+      " 0.000000000D+00 0.000000000D+00 4.000000000D+00\n 0.000000000D+00 0.000000000D+00\n";
+  const auto changed = [&](const std::string& from, const std::string& to) {
+    auto text = record;
+    text.replace(text.find(from), from.size(), to);
+    return thermoMessage(text);
+  };
+  EXPECT_EQ(thermoMessage(record), "no error");
+  const std::string species = "thermodynamic data of 'H2O': ";
+  EXPECT_THAT(changed(" 1 note", " x note"), StartsWith("therm.dat:2: " + species + "expected the number of ranges"));
+  EXPECT_THAT(changed(" 1 note", " 2 note"), HasSubstr("three lines for each of 2 ranges"));
+  EXPECT_THAT(changed("H   2.00", "H   x.00"), StartsWith("therm.dat:3: " + species + "expected the symbol"));
+  EXPECT_THAT(changed("-2.0 -1.0", "-1.0 -1.0"), StartsWith("therm.dat:4: " + species + "expected seven powers"));
+  EXPECT_THAT(changed("   1000.0007", "    100.0007"), HasSubstr("rising temperatures"));
+  EXPECT_THAT(changed("4.000000000D+00", "4.00000x000D+00"),
+              StartsWith("therm.dat:5: " + species + "expected a number in columns 33 to 48"));
 }
 
 // What is in wrong columns is not taken for something else.
@@ -143,7 +167,11 @@ TEST(ChemkinErrors, Equations) {
   EXPECT_THAT(reactionMessage("H+oh=H2O 1 0 0"), HasSubstr("species 'oh' is not declared; did you mean 'OH'?"));
   EXPECT_THAT(reactionMessage("H+=H2O 1 0 0"), HasSubstr("joined by '+'"));
   EXPECT_THAT(reactionMessage("=H2O 1 0 0"), HasSubstr("species on both sides"));
-  EXPECT_THAT(reactionMessage("H+OH=H2O+HV 1 0 0"), HasSubstr("reactions of light (HV) are not supported"));
+  EXPECT_THAT(reactionMessage("H2O+HV=H+OH 1 0 0"), HasSubstr("reactions driven by light (hv) are not supported"));
+  EXPECT_THAT(reactionMessage("H2O+hv=>H+O3 1 0 0"), HasSubstr("(hv)"));
+  EXPECT_THAT(reactionMessage("H2O=H+OH+hv 1 0 0\nREV/1 0 0/"),
+              HasSubstr("light (hv) that leaves the gas has no reverse"));
+  EXPECT_THAT(reactionMessage("2O2=>1.9E0XY 1 0 0"), HasSubstr("species 'XY' is not declared"));
   EXPECT_THAT(reactionMessage("H+OH+M=H2O 1 0 0"), HasSubstr("third body must stand on both sides"));
   EXPECT_THAT(reactionMessage("H+OH(+M)=H2O(+AR) 1 0 0"), HasSubstr("third body must stand on both sides"));
   EXPECT_THAT(reactionMessage("H+OH+M(+M)=H2O+M(+M) 1 0 0"), HasSubstr("either 'M' or '(+M)'"));
@@ -155,7 +183,8 @@ TEST(ChemkinErrors, Equations) {
   EXPECT_THAT(reactionMessage("H+OH=H2O 1 0 x"), HasSubstr("three numbers A, b and Ea after the equation, found 'x'"));
   EXPECT_THAT(reactionMessage("H+OH=H2O 1E 0 0"), HasSubstr("found '1E'"));
   EXPECT_THAT(reactionMessage("H+OH=H2O 1 0 0\nH+OH=H2O 2 0 0"),
-              AllOf(StartsWith("chem.inp:7:"), HasSubstr("is the same as"), HasSubstr("line 6")));
+              AllOf(StartsWith("chem.inp:7:"), HasSubstr("is the same as"), HasSubstr("line 6"),
+                    HasSubstr("marked DUPLICATE"), HasSubstr("--permissive")));
   EXPECT_THAT(reactionMessage("H+OH=H2O 1E300 0 1E300\nUNITS/MOLECULES/"), HasSubstr("beyond any rate constant"));
   EXPECT_THAT(reactionMessage("H+OH=H2O &"), HasSubstr("expected a line after '&'"));
 }
@@ -168,7 +197,7 @@ TEST(ChemkinErrors, Lines) {
   EXPECT_THAT(reactionMessage("H+OH+H2O 1 0 0"), HasSubstr("expected a reaction (with '=')"));
   EXPECT_THAT(reactionMessage("H2/2/"), HasSubstr("'H2' stands before the first reaction"));
   EXPECT_THAT(reactionMessage("H+OH+M=H2O+M 1 0 0\nH2/2.0 O2/3/"), HasSubstr("found '3'; is a '/' missing before it?"));
-  EXPECT_THAT(reactionMessage("H+OH+M=H2O+M 1 0 0\nH2/2.0"), HasSubstr("a second '/' behind the values of 'H2'"));
+  EXPECT_THAT(reactionMessage("H+OH+M=H2O+M 1 0 0\nH2/"), HasSubstr("expected one efficiency of 'H2', found 0 values"));
   EXPECT_THAT(reactionMessage("H+OH+M=H2O+M 1 0 0\nH2/2.0//"), HasSubstr("stray '/'"));
 }
 
@@ -216,7 +245,12 @@ TEST(ChemkinErrors, AuxiliaryData) {
   EXPECT_THAT(message("H+OH=>H2O", "RORD/H2O 2/"), HasSubstr("RORD needs REV"));
   EXPECT_THAT(message("H+OH=H2O", "PLOG/1 2 3/"), HasSubstr("the four numbers p, A, b and Ea"));
   EXPECT_THAT(message("H+OH=H2O", "PLOG/0 1 0 0/"), HasSubstr("a pressure above zero"));
-  EXPECT_THAT(message("H+OH=H2O", "PLOG/1 -1 0 0/"), HasSubstr("positive sum"));
+  EXPECT_THAT(message("H+OH=H2O", "PLOG/1 -1 0 0/"), AllOf(StartsWith("chem.inp:6:"), HasSubstr("positive sum")));
+  EXPECT_THAT(message("H+OH=H2O", "PLOG/1 -1 0 0/\nDUP\nH+OH=H2O 1 0 0\nPLOG/2 1 0 0/\nDUP"),
+              AllOf(StartsWith("chem.inp:6:"), HasSubstr("its duplicate at line 9 cannot be added"),
+                    HasSubstr("expected the same pressures")));
+  EXPECT_THAT(message("H+OH=H2O", "PLOG/1 -1 0 0/\nDUP\nH+OH=H2O 1 0 0\nPLOG/1 1 0 0/\nDUP"),
+              AllOf(HasSubstr("with its duplicate at line 9"), HasSubstr("add up to zero or less")));
   EXPECT_THAT(message("H+OH(+M)=H2O(+M)", "PLOG/1 1 0 0/ AR/2/"), HasSubstr("no single colliders or efficiencies"));
   EXPECT_THAT(message("H+OH=H2O", "CHEB/2 2 1 2 3/"), HasSubstr("'CHEB': expected 2 x 2 coefficients, found 3"));
   EXPECT_THAT(message("H+OH=H2O", "CHEB/2.5 2 1 2 3/"), HasSubstr("the numbers of coefficients in temperature"));

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/constants.hpp"
+#include "core/errors.hpp"
 #include "tests/chemistry/chemkin_support.hpp"
 #include "tests/every_module.hpp"
 
@@ -275,6 +276,116 @@ TEST(ChemkinReaction, LinesThatGoOn) {
   expectRate(mechanism.reaction(0).rate, 2e8, -0.4, 16600 * kCalorie);
   EXPECT_EQ(terms(mechanism, mechanism.reaction(1).thirdBody->efficiencies), "6 H2O 2 N2 ");
   EXPECT_EQ(terms(mechanism, mechanism.reaction(2).thirdBody->efficiencies), "2 C=C 3 C2H4 ");
+}
+
+TEST(ChemkinReaction, CoefficientsWithExponents) {
+  const auto mechanism = readChemkinReactions(
+      "\nH2+O2=>1.9E0OH+.5E-1H2+5.0E-2O2 1E10 0 0\n"
+      "2E-1C4H8+1d0O=>2.0D-1 2-C4H8+O 1 0 0\n"
+      "NO=NO++E 1 0 0\nNO+E=>NO++2E 1 0 0");
+  EXPECT_EQ(terms(mechanism, mechanism.reaction(0).products), "1.9 OH 0.05 H2 0.05 O2 ");
+  EXPECT_EQ(terms(mechanism, mechanism.reaction(1).reactants), "0.2 C4H8 1 O ");
+  EXPECT_EQ(terms(mechanism, mechanism.reaction(1).products), "0.2 2-C4H8 1 O ");
+  // An E that is a species, and no exponent.
+  EXPECT_EQ(terms(mechanism, mechanism.reaction(3).products), "1 NO+ 2 E ");
+}
+
+// Light that leaves the gas is a note: a reaction of the order of its reactants, and irreversible.
+TEST(ChemkinReaction, LightAmongTheProducts) {
+  std::vector<std::string> warnings;
+  const auto mechanism = readChemkinReactions(
+      "\nCH2(S)=>CH2+hv 1.45E6 0 0\nDUP\nCH2(S)<=>HV+CH2 2E6 0 0\nHV/300/\nDUP\nCH2(S)=>CH2 2E6 0 0\nDUP", &warnings);
+  ASSERT_EQ(mechanism.numReactions(), 3U);
+  expectRate(mechanism.reaction(0).rate, 1.45e6, 0, 0);
+  for (const auto& reaction : mechanism.reactions()) {
+    EXPECT_FALSE(reaction.reversible);
+    EXPECT_EQ(reaction.equation, "CH2(S) => CH2");
+  }
+  EXPECT_THAT(warnings,
+              ::testing::ElementsAre(HasSubstr("chem.inp:6: reaction 'CH2(S)=>CH2+hv': the light (hv) is passed "
+                                               "over"),
+                                     HasSubstr("irreversible, as if written with '=>'")));
+}
+
+TEST(ChemkinReaction, ALastSlashMayBeMissing) {
+  std::vector<std::string> warnings;
+  const auto mechanism = readChemkinReactions(
+      "\nH+OH+M=H2O+M 1 0 0\nH2/2.0/ O2/0.4\nH+OH=H2O 1 0 0\nPLOG/1 2 0 0\nPLOG/10 3 0 0/", &warnings);
+  EXPECT_EQ(terms(mechanism, mechanism.reaction(0).thirdBody->efficiencies), "2 H2 0.4 O2 ");
+  EXPECT_EQ(mechanism.reaction(1).pressureRates.size(), 2U);
+  EXPECT_THAT(warnings, ::testing::ElementsAre(HasSubstr("chem.inp:7: the last '/' behind the values of 'O2'"),
+                                               HasSubstr("chem.inp:9: ")));
+}
+
+// A sum of tables written as two reactions of which one is negative or zero somewhere.
+TEST(ChemkinReaction, TablesThatArePositiveTogether) {
+  std::vector<std::string> warnings;
+  const auto joined = readChemkinReactions(
+      "\nH2+OH=2H+OH 1 0 0\nPLOG/0.1 1E12 0 0/\nPLOG/10 3E12 0 0/\nDUP\n"
+      "H+O2=O+OH 1 0 0\n"
+      "H2+OH=2H+OH 1 0 0\nPLOG/0.1 -2E11 0 0/\nPLOG/10 0 0 0/\nDUPLICATE",
+      &warnings);
+  ASSERT_EQ(joined.numReactions(), 2U);
+  EXPECT_EQ(joined.reaction(1).equation, "H + O2 <=> O + OH");
+  const auto& rates = joined.reaction(0).pressureRates;
+  ASSERT_EQ(rates.size(), 3U);
+  EXPECT_EQ(rates[0].pressure, rates[1].pressure);
+  EXPECT_NEAR(rates[0].rate.A + rates[1].rate.A, 8e5, 1e-8);
+  EXPECT_NEAR(rates[2].rate.A, 3e6, 1e-8);
+  EXPECT_FALSE(joined.reaction(0).duplicate);
+  EXPECT_THAT(warnings, ::testing::ElementsAre(HasSubstr("chem.inp:6: reaction 'H2 + OH <=> 2 H + OH': its rates and "
+                                                         "those of its duplicate at line 11 are added")));
+  // Where all are positive each stays for itself.
+  const auto apart =
+      readChemkinReactions("\nH+OH=H2O 1 0 0\nPLOG/1 1 0 0/\nDUP\nH+OH=H2O 1 0 0\nPLOG/10 2 0 0/\nDUP", &warnings);
+  EXPECT_EQ(apart.numReactions(), 2U);
+  EXPECT_THAT(warnings, ::testing::IsEmpty());
+  // A third of another kind keeps its partner.
+  const auto three = readChemkinReactions(
+      "\nH+OH=H2O 1 0 0\nPLOG/1 3 0 0/\nDUP\nH+OH=H2O 1 0 0\nPLOG/1 -2 0 0/\nDUP\nH2O=H+OH 1 0 0\nDUP", &warnings);
+  ASSERT_EQ(three.numReactions(), 2U);
+  EXPECT_TRUE(three.reaction(0).duplicate);
+  EXPECT_TRUE(three.reaction(1).duplicate);
+}
+
+TEST(ChemkinReaction, ATableOfZerosIsARateOfZero) {
+  std::vector<std::string> warnings;
+  const auto mechanism = readChemkinReactions("\nH+OH=H2O 1 0 0\nPLOG/0.1 0 0 0/\nPLOG/1 0 0 0/", &warnings);
+  EXPECT_EQ(mechanism.reaction(0).type, Reaction::Type::Elementary);
+  expectRate(mechanism.reaction(0).rate, 0, 0, 0);
+  EXPECT_THAT(warnings,
+              ::testing::ElementsAre(HasSubstr("chem.inp:6: reaction 'H + OH <=> H2O': the rate constants are "
+                                               "zero at all pressures")));
+}
+
+// Marks of duplicates that are missing, or too many.
+TEST(ChemkinReaction, MarksOfDuplicates) {
+  std::vector<std::string> warnings;
+  const auto marked = readChemkinReactions(
+      "\nH2+OH=>2H+OH 1E10 0 0\nDUP\nH2+OH=>2H+OH 2E10 0 0\nDUP\n2H+OH=>H2+OH 2E10 0 0\nDUP\nH+O2=O+OH 1 0 0\nDUP",
+      &warnings);
+  EXPECT_TRUE(marked.reaction(0).duplicate);
+  EXPECT_TRUE(marked.reaction(1).duplicate);
+  EXPECT_FALSE(marked.reaction(2).duplicate);
+  EXPECT_FALSE(marked.reaction(3).duplicate);
+  EXPECT_THAT(warnings, ::testing::ElementsAre(HasSubstr("chem.inp:10: reaction '2 H + OH => H2 + OH' is marked as a "
+                                                         "duplicate, but there is no other"),
+                                               HasSubstr("chem.inp:12: ")));
+  const std::string text = lampblack::test::chemkinHead() +
+                           "REACTIONS\nH2+O2=OH+OH 1.7E13 0 47780\nOH+OH=H2+O2 1E9 0 0\nO+H2=H+OH 1 0 0\n"
+                           "H2+O2=2OH 1 0 0\nEND\n";
+  const ChemkinText thermo{"therm.dat", lampblack::test::chemkinThermo()};
+  EXPECT_THROW(parseChemkin({"chem.inp", text}, thermo, std::nullopt), InputError);
+  const auto permissive = parseChemkin({"chem.inp", text}, thermo, std::nullopt, true);
+  ASSERT_EQ(permissive.numReactions(), 4U);
+  for (const std::size_t r : {0, 1, 3}) EXPECT_TRUE(permissive.reaction(r).duplicate);
+  EXPECT_FALSE(permissive.reaction(2).duplicate);
+  expectRate(permissive.reaction(1).rate, 1e3, 0, 0);
+  EXPECT_THAT(
+      permissive.warnings(),
+      ::testing::ElementsAre(HasSubstr("chem.inp:7: reaction '2 OH <=> H2 + O2' is marked as a duplicate: it is the "
+                                       "same as 'H2 + O2 <=> 2 OH' at line 6"),
+                             HasSubstr("chem.inp:9: ")));
 }
 
 }  // namespace

@@ -84,6 +84,78 @@ TEST(ChemkinReader, SectionsMayBeShortAndLackTheirEnds) {
                                     HasSubstr("no transport data for 2 of 3 species: H2, OH")));
 }
 
+// Behind the END of REACTIONS there may be notes, also such as begin like a section or look like a reaction.
+TEST(ChemkinReader, TextBehindTheReactionsIsPassedOver) {
+  std::vector<std::string> warnings;
+  const auto mechanism = readChemkinText(
+      "ELEM H O END SPEC H2 O2 OH END\nREAC\nH2+O2=2OH 1E13 0 0\nEND\n\nSources of the rates\n"
+      "Species such as H2 and XY follow\nReactions of [1]: 1 kcal = 4.184 kJ\nThermo from [2]\nEND\n"
+      "2OH=H2+O2 1E10 0 0\n",
+      &warnings);
+  EXPECT_EQ(mechanism.numReactions(), 1U);
+  EXPECT_EQ(mechanism.numSpecies(), 3U);
+  EXPECT_THAT(warnings, ElementsAre(AllOf(HasSubstr("chem.inp:6:"), HasSubstr("text behind END is ignored")),
+                                    AllOf(HasSubstr("chem.inp:11:"),
+                                          HasSubstr("a reaction behind END is ignored: '2OH=H2+O2 1E10 0 0'"))));
+  // Data may follow the reactions.
+  EXPECT_EQ(readChemkinText("ELEM H END SPEC H END REAC\nEND\nTHERMO ALL\n" + thermoCards("H", "H   1"), nullptr,
+                            std::nullopt)
+                .species(0)
+                .thermo.maxTemperature,
+            5000);
+}
+
+// As Fortran reads it: " 2.50000000E+00\t1.00000000E-03". Tabulators to the next of every eight columns: Tabulators.
+TEST(ChemkinReader, ATabulatorIsOneColumn) {
+  auto text = thermoCards("H2", "H   2");
+  text.replace(96, 1, "\t");
+  std::vector<std::string> warnings;
+  const auto mechanism = readChemkinText("ELEM H END SPEC H2 END", &warnings, text);
+  EXPECT_EQ(mechanism.species(0).thermo.high[0], 2.5);
+  EXPECT_EQ(mechanism.species(0).thermo.high[1], 1e-3);
+  EXPECT_THAT(warnings, ElementsAre(AllOf(HasSubstr("therm.dat:2:"), HasSubstr("taken as one column"))));
+}
+
+TEST(ChemkinReader, ThePhaseInTheFieldOfAFourthElement) {
+  for (const std::string field : {"              G ", "             G  ", "            0 G ", "          0 0 G "}) {
+    std::vector<std::string> warnings;
+    const auto mechanism =
+        readChemkinText("ELEM H END SPEC H2 END", &warnings, thermoCards("H2", "H   2").replace(29, 16, field));
+    EXPECT_EQ(mechanism.atoms(0, 0), 2) << field;
+    EXPECT_THAT(warnings, ElementsAre(AllOf(HasSubstr("therm.dat:1:"), HasSubstr("'G'"), HasSubstr("column 45"))));
+  }
+}
+
+// cp/R = a1/T^2 + ... + a7 T^4, of two ranges and of a record that is not wanted between them.
+TEST(ChemkinReader, Nasa9) {
+  const auto record = [](const std::string& name, const std::string& elements) {
+    return name + " a comment\n 2 note   " + elements +
+           "    0.00    0.00    0.00 0   18.0152800          0.000\n"
+           "    200.000   1000.0007 -2.0 -1.0  0.0  1.0  2.0  3.0  4.0  0.0         6197.428\n"
+           " 1.000000000D+03-2.000000000D+00 4.000000000D+00 1.000000000D-03 2.000000000D-06\n"
+           "-3.000000000D-10 4.000000000D-14                -3.000000000D+04 5.000000000D+00\n"
+           "   1000.000   6000.0007 -2.0 -1.0  0.0  1.0  2.0  3.0  4.0  0.0         6197.428\n"
+           "\t0.000000000D+00 0.000000000D+00 7.000000000D+00 0.000000000D+00 0.000000000D+00\n"
+           " 0.000000000D+00 0.000000000D+00                -3.100000000D+04 6.000000000D+00\n";
+  };
+  std::vector<std::string> warnings;
+  const auto mechanism = readChemkinText(
+      "ELEM H O END SPEC H2O H2 END\nTHERMO NASA9 ALL\n   200.000  1000.000  6000.000 20000.000   1/01/26\n" +
+          record("XY", "X   2.00Y   1.00") + record("H2O", "H   2.00O   1.00") + record("H2O", "H   2.00O   1.00") +
+          "END\n",
+      &warnings, thermoCards("H2", "H   2"));
+  ASSERT_TRUE(mechanism.species(0).nasa9);
+  EXPECT_FALSE(mechanism.species(1).nasa9);
+  const auto& data = *mechanism.species(0).nasa9;
+  EXPECT_THAT(data.temperatures, ElementsAre(200, 1000, 6000));
+  EXPECT_THAT(data.ranges[0], ElementsAre(1000, -2, 4, 1e-3, 2e-6, -3e-10, 4e-14, -3e4, 5));
+  EXPECT_THAT(data.ranges[1], ElementsAre(0, 0, 7, 0, 0, 0, 0, -3.1e4, 6));
+  EXPECT_EQ(mechanism.species(0).thermo.maxTemperature, 6000);
+  EXPECT_EQ(mechanism.atoms(0, *mechanism.findElement("H")), 2);
+  EXPECT_EQ(mechanism.atoms(0, *mechanism.findElement("O")), 1);
+  EXPECT_THAT(warnings, ::testing::Contains(HasSubstr("'H2O' has thermodynamic data already at chem.inp:12")));
+}
+
 // What a mechanism says itself goes before the separate files; neither is a duplicate.
 TEST(ChemkinReader, DataOfTheMechanismGoFirst) {
   std::vector<std::string> warnings;

@@ -194,7 +194,6 @@ TEST(MechanismSections, WhatCannotBeFoundIsNamed) {
       {"reactions: some", "expected all, none, declared-species or a list"},
       {"reactions: [some]", "no section 'some'"},
       {"reactions: [{others: some}]", "unknown rule 'some'"},
-      {"specis: [H]", "unknown key 'specis'; the nearest known key is 'species'"},
       {"skip-undeclared-third-bodies: maybe", "expected true or false"},
       {"explicit-third-body-duplicates: ignore", "expected warn, error, mark-duplicate or modify-efficiency"},
   };

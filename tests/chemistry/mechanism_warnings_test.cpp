@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "chemistry/mechanism/known_species.hpp"
+#include "chemistry/mechanism/like_warnings.hpp"
 #include "core/errors.hpp"
 #include "tests/chemistry/mechanism_text.hpp"
 #include "tests/chemistry/table.hpp"
@@ -110,6 +112,79 @@ TEST(MechanismWarnings, DuplicatesOfDifferentTypes) {
                                     "- {equation: H + O2 <=> HO2, rate-constant: [1, 0, 0]" + mark +
                                         "}\n  - {equation: HO2 <=> H + O2, " + plog + mark + "}");
     EXPECT_THAT(mechanism.warnings(), IsEmpty());
+  }
+}
+
+TEST(MechanismWarnings, OwnKeysOfAPhase) {
+  const auto mechanism = readText("species: [H], n_lumped: 1, specis: [H]", R"(
+- {name: H, composition: {H: 1}, thermo: *t})",
+                                  "[]");
+  EXPECT_EQ(mechanism.numSpecies(), 1U);
+  EXPECT_THAT(mechanism.warnings(),
+              ElementsAre(HasSubstr(".yaml:4: phase 'gas': unknown key 'n_lumped'; the nearest known key is "),
+                          HasSubstr("unknown key 'specis'; the nearest known key is 'species'; it is passed over")));
+}
+
+// A rate that is zero at all pressures, and one mark too many, in YAML.
+TEST(MechanismWarnings, TablesOfZerosAndMarksTooMany) {
+  const auto mechanism = readText("species: [H, O2, HO2]", R"(
+- {name: H, composition: {H: 1}, thermo: *t}
+- {name: O2, composition: {O: 2}, thermo: *t}
+- {name: HO2, composition: {H: 1, O: 2}, thermo: *t})",
+                                  "- {equation: H + O2 <=> HO2, duplicate: true, type: pressure-dependent-Arrhenius, "
+                                  "rate-constants: [{P: 1 atm, A: 0, b: 0, Ea: 0}, {P: 2 atm, A: 0, b: 0, Ea: 0}]}");
+  EXPECT_EQ(mechanism.reaction(0).rate.A, 0);
+  EXPECT_FALSE(mechanism.reaction(0).duplicate);
+  EXPECT_THAT(mechanism.warnings(),
+              ElementsAre(HasSubstr(":11: reaction 'H + O2 <=> HO2': the rate constants are zero"),
+                          HasSubstr(":11: reaction 'H + O2 <=> HO2' is marked as a duplicate")));
+}
+
+TEST(MechanismWarnings, OneOfEachKind) {
+  const std::string jump = ": the thermodynamic data jump at ", marked = "' is marked as a duplicate, but";
+  EXPECT_THAT(
+      oneOfEachKind(std::vector<std::string>{
+          "a b.yaml:1: species 'CH2'" + jump + "1000 K: cp/R by 0.1",
+          "chem.inp:17: reaction 'H + O2 (+M) => HO2" + marked, "no transport data for 2 of 3 species: H2, OH",
+          "a b.yaml:22: species 'H: b'" + jump + "1382.5 K: h/RT by 0.2",
+          "chem.inp:19: reaction 'C4H8-2 => OH" + marked, "a b.yaml:23: species 'H'" + jump + "999 K: cp/R by 1",
+          "chem.inp:19: reaction 'H + O2 (+M) => HO2': T2 of zero"}),
+      ElementsAre("a b.yaml:1: species 'CH2'" + jump + "1000 K: cp/R by 0.1 (2 more like this)",
+                  "chem.inp:17: reaction 'H + O2 (+M) => HO2" + marked + " (1 more like this)",
+                  "no transport data for 2 of 3 species: H2, OH",
+                  "chem.inp:19: reaction 'H + O2 (+M) => HO2': T2 of zero"));
+}
+
+// Species the program looks for: by name, by the name in another case, or by a composition that only one has.
+TEST(KnownSpecies, ByNameCaseAndComposition) {
+  const auto mechanism = readText("species: [h2o, WATER2, dioxide, CO, C2H2, vinylidene, hydroxyl, oh*, a4, NO+]", R"(
+- {name: h2o, composition: {H: 2, O: 1}, thermo: *t}
+- {name: WATER2, composition: {H: 2, O: 1}, thermo: *t}
+- {name: dioxide, composition: {C: 1, O: 2}, thermo: *t}
+- {name: CO, composition: {C: 1, O: 1}, thermo: *t}
+- {name: C2H2, composition: {C: 2, H: 2}, thermo: *t}
+- {name: vinylidene, composition: {C: 2, H: 2}, thermo: *t}
+- {name: hydroxyl, composition: {H: 1, O: 1}, thermo: *t}
+- {name: oh*, composition: {H: 1, O: 1}, thermo: *t}
+- {name: a4, composition: {C: 16, H: 10}, thermo: *t}
+- {name: NO+, composition: {N: 1, O: 1, E: -1}, thermo: *t})",
+                                  "[]");
+  using Found = std::optional<std::size_t>;
+  EXPECT_EQ(findKnownSpecies(mechanism, "H2O"), Found(0));
+  EXPECT_EQ(findKnownSpecies(mechanism, "CO2"), Found(2));
+  EXPECT_EQ(findKnownSpecies(mechanism, "CO"), Found(3));
+  EXPECT_EQ(findKnownSpecies(mechanism, "C2H2"), Found(4));
+  EXPECT_EQ(findKnownSpecies(mechanism, "OH"), Found());
+  EXPECT_EQ(findKnownSpecies(mechanism, "A4"), Found(8));
+  EXPECT_EQ(findKnownSpecies(mechanism, "C16H10"), Found(8));
+  EXPECT_EQ(findKnownSpecies(mechanism, "NO"), Found());
+  EXPECT_EQ(findKnownSpecies(mechanism, "CH4"), Found());
+  try {
+    static_cast<void>(knownSpecies(mechanism, "OH", "ensembles need"));
+    ADD_FAILURE() << "found";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("ensembles need the species 'OH'"));
+    EXPECT_THAT(error.what(), HasSubstr("('hydroxyl', 'oh*')"));
   }
 }
 
