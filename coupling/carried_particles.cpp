@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "chemistry/mechanism/known_species.hpp"
+
 namespace lampblack::coupling {
 
 CarriedParticles::CarriedParticles(const Mechanism& mechanism, std::unique_ptr<ParticleModel> model, bool diffusion)
@@ -14,7 +16,7 @@ CarriedParticles::CarriedParticles(const Mechanism& mechanism, std::unique_ptr<P
     scalars_.push_back(
         {{scalar.name, scalar.unit, scalar.description}, scalar.scale, model_->thermophoresis(), std::move(elements)});
   }
-  for (const std::string& name : model_->gasSpecies()) exchanged_.push_back(mechanism.speciesIndex(name));
+  exchanged_ = knownSpecies(mechanism, model_->gasSpecies(), "the model needs");
 }
 
 void CarriedParticles::sources(const ParticleGas& gas, std::span<const double> densities, std::span<double> rates,

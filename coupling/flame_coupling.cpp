@@ -4,7 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "chemistry/mechanism/known_species.hpp"
 #include "core/errors.hpp"
+#include "coupling/ensemble_species.hpp"
 #include "particles/collisions/collision_physics.hpp"
 #include "particles/models/soot_model.hpp"
 
@@ -107,8 +109,7 @@ GivenExchange relaxed(const GivenExchange& old, const FlameProfile& profile, con
 
 FlameExchange exchangeOf(const Mechanism& mechanism, const SootModelOptions& soot, const FlameProfile& profile,
                          const std::vector<FlameEnsemblePath>& paths) {
-  std::vector<std::size_t> species;
-  for (const std::string& name : sootSpecies(soot)) species.push_back(mechanism.speciesIndex(name));
+  const auto species = indicesOfSootSpecies(mechanism, soot);
   const std::size_t n = mechanism.numSpecies(), last = profile.points() - 1;
   const auto weights = mechanism.molecularWeights();
   FlameExchange e(profile.z, n);
@@ -206,8 +207,8 @@ FlameCoupling coupleFlame(MPI_Comm comm, const Mechanism& mechanism, double pres
       const FlameProfile old = profile;
       result.solution = solver.solve(old);
       temperatureChange = change(old, result.solution.profile, FlameLayout::temperature);
-      acetyleneChange =
-          change(old, result.solution.profile, FlameLayout::firstSpecies + mechanism.speciesIndex("C2H2"));
+      acetyleneChange = change(old, result.solution.profile,
+                               FlameLayout::firstSpecies + knownSpecies(mechanism, "C2H2", "ensembles need"));
     }
     step.seconds = MPI_Wtime() - began;
     result.steps.push_back(step);

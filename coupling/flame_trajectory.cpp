@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "chemistry/mechanism/known_species.hpp"
 #include "chemistry/transport/transport.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
@@ -62,7 +63,7 @@ FlameSootGas flameGasOf(std::span<const std::string> names, const FlameProfile& 
   FlameSootGas gas;
   gas.z = profile.z;
   std::vector<std::optional<std::size_t>> species;
-  for (const std::string& name : names) species.push_back(mechanism.findSpecies(name));
+  for (const std::string& name : names) species.push_back(findKnownSpecies(mechanism, name));
   Transport transport(mechanism);
   const auto weights = mechanism.molecularWeights();
   std::vector<double> X(n), D(n), T(points);

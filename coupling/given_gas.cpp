@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "chemistry/mechanism/known_species.hpp"
 #include "core/errors.hpp"
 
 namespace lampblack::coupling {
@@ -78,7 +79,7 @@ ParticlePath givenPath(const Mechanism& mechanism, const GasHistory& history, st
   for (std::size_t k = 0; k < n; ++k) all[k] = k;
   ReactorGas gas(mechanism, all, viscosity);
   std::vector<std::optional<std::size_t>> seen;
-  for (const std::string& name : species) seen.push_back(mechanism.findSpecies(name));
+  for (const std::string& name : species) seen.push_back(findKnownSpecies(mechanism, name));
   ParticlePath path;
   for (std::size_t i = 0; i < history.time.size(); ++i) {
     const std::vector<double> c = concentrationsOf(history, i, n);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "chemistry/mechanism/known_species.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 
@@ -30,14 +31,7 @@ ReactorTrees::ReactorTrees(const Mechanism& mechanism, const TreeOptions& option
       events_(treeEvents(options.material)),
       viscosity_(viscosity),
       population_(makeTreePopulation(options)) {
-  for (const std::string& name : material_.species()) {
-    const auto k = mechanism.findSpecies(name);
-    if (!k)
-      throw InputError(
-          fmt::format("particles of {} need the species '{}', but the mechanism has no species of this name",
-                      material_.name, name));
-    species_.push_back(*k);
-  }
+  species_ = knownSpecies(mechanism, material_.species(), fmt::format("particles of {} need", material_.name));
   for (std::size_t e = 0; e < mechanism.numElements(); ++e)
     for (const TreeComponent& component : material_.components)
       if (atomsOf(component, mechanism.elementName(e)) != 0) {

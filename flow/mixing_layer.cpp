@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "chemistry/mechanism/known_species.hpp"
 #include "chemistry/thermo/equilibrium.hpp"
 
 namespace lampblack::flow {
@@ -14,8 +15,8 @@ class CompleteCombustion {
  public:
   explicit CompleteCombustion(const Mechanism& mechanism) : mechanism_(mechanism) {
     for (const char* element : {"C", "H", "O"}) elements_.push_back(mechanism.findElement(element));
-    for (const char* name : {"CO2", "CO", "H2O", "O2"}) products_.push_back(mechanism.findSpecies(name));
-    for (const char* name : {"H", "OH"}) radicals_.push_back(mechanism.findSpecies(name));
+    for (const char* name : {"CO2", "CO", "H2O", "O2"}) products_.push_back(findKnownSpecies(mechanism, name));
+    for (const char* name : {"H", "OH"}) radicals_.push_back(findKnownSpecies(mechanism, name));
   }
 
   // Whether the mechanism has the products, and the radicals.

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <string_view>
 
+#include "chemistry/mechanism/known_species.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 
@@ -27,13 +29,43 @@ constexpr std::array coldMonoxideTerms{4.7869, -0.06953, 2.95775e-4, -4.25732e-7
 constexpr std::array hotMonoxideTerms{10.09, -0.01183, 4.7753e-6, -5.87209e-10, -2.5334e-14};
 constexpr std::array methaneTerms{6.6334, -0.0035686, 1.6682e-8, 2.5611e-10, -2.6558e-14};
 
+// "CO2, CO"
+std::string namesOf(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+bool hasElements(const Mechanism& mechanism, std::string_view formula) {
+  for (const char element : {'C', 'H', 'O'})
+    if (formula.find(element) != std::string_view::npos && !mechanism.findElement(std::string(1, element)))
+      return false;
+  return true;
+}
+
 }  // namespace
 
+std::vector<std::string> radiationWarnings(const Mechanism& mechanism) {
+  std::vector<std::string> missing, others;
+  for (const char* name : {"H2O", "CO2", "CO"})
+    if (hasElements(mechanism, name) && !findKnownSpecies(mechanism, name)) missing.emplace_back(name);
+  for (const char* name : {"NH3", "N2O", "NO"})
+    if (const auto k = findKnownSpecies(mechanism, name)) others.push_back(mechanism.speciesName(*k));
+  std::vector<std::string> warnings;
+  if (!missing.empty())
+    warnings.push_back("radiation: no species of the mechanism is " + namesOf(missing) +
+                       " for sure, by composition and name; what is left out does not radiate");
+  if (!others.empty())
+    warnings.push_back("radiation: H2O, CO2, CO and CH4 radiate; " + namesOf(others) +
+                       " of the mechanism would too, but there are no data of them here");
+  return warnings;
+}
+
 ThinRadiation::ThinRadiation(const Mechanism& mechanism, double surroundings)
-    : h2o_(mechanism.findSpecies("H2O")),
-      co2_(mechanism.findSpecies("CO2")),
-      co_(mechanism.findSpecies("CO")),
-      ch4_(mechanism.findSpecies("CH4")),
+    : h2o_(findKnownSpecies(mechanism, "H2O")),
+      co2_(findKnownSpecies(mechanism, "CO2")),
+      co_(findKnownSpecies(mechanism, "CO")),
+      ch4_(findKnownSpecies(mechanism, "CH4")),
       surroundings4_(surroundings * surroundings * surroundings * surroundings) {
   if (!(surroundings >= 0))
     throw InputError("radiation: the temperature of the surroundings cannot be " + std::to_string(surroundings) + " K");

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "chemistry/mechanism/mechanism.hpp"
 #include "core/modules.hpp"
@@ -16,9 +18,13 @@ struct RadiationOptions {
   double surroundings = 298;  // K
 };
 
+// What of a mechanism does not radiate though it would: H2O, CO2 or CO where the mechanism has their elements but no
+// species that is one of them for sure (findKnownSpecies), and NH3, N2O and NO, which have no polynomials here.
+std::vector<std::string> radiationWarnings(const Mechanism& mechanism);
+
 class ThinRadiation {
  public:
-  // Species the mechanism does not have do not radiate. `surroundings`: K.
+  // Species are those of findKnownSpecies; those the mechanism does not have do not radiate. `surroundings`: K.
   ThinRadiation(const Mechanism& mechanism, double surroundings);
 
   // Planck-mean absorption coefficient of the gas, 1/m, at T (K), p (Pa), mole fractions X. The polynomials were fitted

@@ -9,6 +9,7 @@
 namespace lampblack::app {
 
 void addRadiationKeys(DeckSchema& schema);
-RadiationOptions readRadiation(const Deck& deck);
+// Warns of what of the mechanism does not radiate though it would (radiationWarnings).
+RadiationOptions readRadiation(const Deck& deck, const Mechanism& mechanism);
 
 }  // namespace lampblack::app

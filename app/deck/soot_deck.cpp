@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "chemistry/mechanism/known_species.hpp"
+
 namespace lampblack::app {
 namespace {
 
@@ -193,18 +195,18 @@ std::vector<PahSpecies> readPahSpecies(const Deck& deck, const Mechanism& mechan
     const std::size_t carbon = mechanism.elementIndex("C"), hydrogen = mechanism.elementIndex("H");
     for (std::size_t i = 0; i < names.size(); ++i) {
       const std::size_t k = mechanism.speciesIndex(names[i]);
-      if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=
-          names.begin() + static_cast<std::ptrdiff_t>(i))
-        throw InputError(fmt::format("'{}' is named twice: it would count twice", names[i]));
+      const std::string& name = mechanism.speciesName(k);
+      if (std::ranges::find(list, name, &PahSpecies::name) != list.end())
+        throw InputError(fmt::format("'{}' is named twice: it would count twice", name));
       for (std::size_t e = 0; e < mechanism.numElements(); ++e)
         if ((e == carbon && mechanism.atoms(k, e) < 1) || (e != carbon && e != hydrogen && mechanism.atoms(k, e) != 0))
-          throw InputError(fmt::format("'{}' is not a hydrocarbon", names[i]));
-      PahSpecies pah{names[i], static_cast<int>(std::lround(mechanism.atoms(k, carbon))),
+          throw InputError(fmt::format("'{}' is not a hydrocarbon", name));
+      PahSpecies pah{name, static_cast<int>(std::lround(mechanism.atoms(k, carbon))),
                      static_cast<int>(std::lround(mechanism.atoms(k, hydrogen))), 0};
       requirePah(pah.name, pah.carbon, pah.hydrogen);
-      pah.stickingCoefficient = given ? sticking[i]
-                                      : defaultStickingCoefficient(names[i]).value_or(
-                                            stickingCoefficientByMass(mechanism.molecularWeights()[k]));
+      pah.stickingCoefficient =
+          given ? sticking[i]
+                : defaultStickingCoefficient(name).value_or(stickingCoefficientByMass(mechanism.molecularWeights()[k]));
       list.push_back(std::move(pah));
     }
   } catch (const InputError& error) {
@@ -274,11 +276,7 @@ std::unique_ptr<ParticleModel> readSootModel(const Deck& deck, const Mechanism& 
     if (deck.isGiven(key))
       throw deck.error(key, "only ensembles (section 'stochastic', without 'soot.model') have this; leave it out");
   std::unique_ptr<ParticleModel> model = entryOf(deck, models).read(deck, mechanism);
-  for (const std::string& species : model->gasSpecies())
-    if (!mechanism.findSpecies(species))
-      throw deck.error("soot.model", fmt::format("the model needs the species '{}', but the mechanism has no species "
-                                                 "of this name; choose another mechanism or another model",
-                                                 species));
+  deck.at("soot.model", [&] { return knownSpecies(mechanism, model->gasSpecies(), "the model needs"); });
   return model;
 }
 

@@ -260,7 +260,7 @@ FlameCase readFlameCase(const Deck& deck) {
   flame.mechanism = readMechanism(deck);
   readConfiguration(deck, flame);
   flame.problem.transport = readTransport(deck, *flame.mechanism);
-  flame.problem.radiation = readRadiation(deck);
+  flame.problem.radiation = readRadiation(deck, *flame.mechanism);
   readSolver(deck, flame);
   readContinuation(deck, flame);
   readUnsteady(deck, flame);

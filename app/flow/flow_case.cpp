@@ -22,6 +22,7 @@
 #include "coupling/carried_particles.hpp"
 #include "coupling/cell_soot.hpp"
 #include "coupling/cell_trees.hpp"
+#include "coupling/ensemble_species.hpp"
 #include "flow/carried_operator.hpp"
 
 namespace lampblack::app {
@@ -285,11 +286,7 @@ void readTrajectories(const Deck& deck, FlowCase& flowCase) {
     throw deck.error("trajectories", "trajectories need a 'soot' section: it names the particle model");
   TrajectoryRequest options;
   options.soot = readSootModelOptions(deck, *flowCase.mechanism);
-  for (const std::string& species : sootSpecies(options.soot))
-    if (!flowCase.mechanism->findSpecies(species))
-      throw deck.error("trajectories", fmt::format("ensembles need the species '{}', but the mechanism has no species "
-                                                   "of this name; choose another mechanism",
-                                                   species));
+  deck.at("trajectories", [&] { return indicesOfSootSpecies(*flowCase.mechanism, options.soot); });
   options.duration = deck.quantity("trajectories.duration");
   options.timeStep = deck.quantity("trajectories.time_step");
   options.particles = deck.integer<int>("trajectories.particles");
@@ -319,7 +316,7 @@ FlowCase readFlowCase(const Deck& deck) {
   readSoot(deck, flowCase);
   readInitial(deck, flowCase);
   readGravity(deck, flowCase);
-  flowCase.radiation = readRadiation(deck);
+  flowCase.radiation = readRadiation(deck, *flowCase.mechanism);
   flowCase.time = {deck.quantity("time.end"),
                    deck.quantity("time.first_step"),
                    deck.quantity("time.maximum_step"),

@@ -15,6 +15,7 @@
 #include "core/errors.hpp"
 #include "core/first_error.hpp"
 #include "core/rank_exchange.hpp"
+#include "coupling/ensemble_species.hpp"
 #include "coupling/given_gas.hpp"
 #include "flow/path_gas.hpp"
 #include "flow/streamline.hpp"
@@ -220,8 +221,7 @@ void runTrajectories(const FlowContext& context, const FlowCase& flowCase, const
                      const GasProperties& properties, ResultsWriter& results, const RunFolder* folder) {
   const TrajectoryRequest& request = *flowCase.trajectories;
   const Mesh& m = context.mesh;
-  std::vector<std::size_t> species;
-  for (const std::string& name : sootSpecies(request.soot)) species.push_back(context.mechanism.speciesIndex(name));
+  const std::vector<std::size_t> species = indicesOfSootSpecies(context.mechanism, request.soot);
   const Streamlines streamlines(context, state, properties, waldmannThermophoresis());
   const TracedPaths traced = streamlines.trace(request.starts, request.timeStep, request.duration);
   const bool hasTables = request.gasTables && folder != nullptr;

@@ -11,6 +11,7 @@
 #include "app/prescribed_gas/gas_table.hpp"
 #include "app/reactor/reactor_case_parts.hpp"
 #include "app/tools/gas_input.hpp"
+#include "chemistry/mechanism/known_species.hpp"
 #include "core/errors.hpp"
 #include "coupling/ensemble_species.hpp"
 #include "coupling/flame_trajectory.hpp"
@@ -177,13 +178,14 @@ ReactorCase readCoupled(const Deck& deck, const PrescribedGasCase& along) {
 }
 
 // Of the model's species, by their number in it.
-std::vector<std::size_t> readDepleted(const Deck& deck, const ParticleModel& model) {
+std::vector<std::size_t> readDepleted(const Deck& deck, const Mechanism& mechanism, const ParticleModel& model) {
   if (!isTwoWay(deck)) return {};
   if (!deck.has("gas.depleted")) return model.precursors();
   std::vector<std::size_t> depleted;
-  const auto& seen = model.gasSpecies();
+  const auto seen = knownSpecies(mechanism, model.gasSpecies(), "the model needs");
   for (const std::string& name : deck.strings("gas.depleted")) {
-    const auto at = std::ranges::find(seen, name);
+    const auto k = mechanism.findSpecies(name);
+    const auto at = k ? std::ranges::find(seen, *k) : seen.end();
     if (at == seen.end())
       throw deck.error("gas.depleted", fmt::format("particles exchange nothing of {}; leave it out", name));
     depleted.push_back(static_cast<std::size_t>(at - seen.begin()));
@@ -203,7 +205,7 @@ PrescribedGasCase readPrescribedGasCase(const Deck& deck) {
     return along;
   }
   readParticles(deck, along);
-  if (along.model) along.depleted = readDepleted(deck, *along.model);
+  if (along.model) along.depleted = readDepleted(deck, *along.mechanism, *along.model);
   along.path = readPath(deck, *along.mechanism,
                         along.ensemble ? sootSpecies(along.ensemble->soot.soot) : along.model->gasSpecies());
   const std::vector<double> rows = readRows(deck, along.path.points.front().time, along.path.points.back().time);

@@ -5,7 +5,9 @@
 #include <charconv>
 
 #include "app/reactor/reactor_case_parts.hpp"
+#include "app/run/warnings.hpp"
 #include "app/tools/gas_input.hpp"
+#include "chemistry/mechanism/known_species.hpp"
 #include "chemistry/thermo/equilibrium.hpp"
 #include "chemistry/thermo/thermo.hpp"
 #include "core/errors.hpp"
@@ -47,13 +49,18 @@ void readIgnition(const Deck& deck, ReactorCase& reactorCase) {
   auto& criteria = reactorCase.ignition;
   if (adiabatic && deck.boolean("ignition.temperature_rate"))
     criteria.push_back({Kind::TemperatureRate, 0, 0.0, "max_dTdt"});
-  if (!deck.isGiven("ignition.species") && !mechanism.findSpecies("OH")) {
-    // The default is for mechanisms that have it.
-  } else {
-    for (const std::size_t k : readSpeciesList(deck, "ignition.species", mechanism)) {
-      criteria.push_back({Kind::MoleFraction, k, 0.0, "max_X_" + mechanism.speciesName(k)});
-      criteria.push_back({Kind::MassFraction, k, 0.0, "max_Y_" + mechanism.speciesName(k)});
-    }
+  std::vector<std::size_t> species;
+  if (deck.isGiven("ignition.species"))
+    species = readSpeciesList(deck, "ignition.species", mechanism);
+  else if (const auto hydroxyl = findKnownSpecies(mechanism, "OH"))
+    species = {*hydroxyl};
+  else if (mechanism.findElement("H") && mechanism.findElement("O"))
+    printWarnings(
+        {"ignition: the mechanism has no species OH that could be told from others of its composition; there "
+         "is no delay by it (ignition.species names others)"});
+  for (const std::size_t k : species) {
+    criteria.push_back({Kind::MoleFraction, k, 0.0, "max_X_" + mechanism.speciesName(k)});
+    criteria.push_back({Kind::MassFraction, k, 0.0, "max_Y_" + mechanism.speciesName(k)});
   }
   if (const auto rise = deck.optionalQuantity("ignition.temperature_rise")) {
     requireIgnition(deck, "ignition.temperature_rise", reactorCase);

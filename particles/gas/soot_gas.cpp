@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <utility>
 
 #include "core/errors.hpp"
@@ -11,12 +12,13 @@ namespace lampblack::particles {
 
 std::optional<double> defaultStickingCoefficient(std::string_view name) {
   static constexpr std::pair<std::string_view, double> table[] = {
-      {"A2", 2.0e-3},      {"C10H8", 2.0e-3},   {"A2R5", 4.0e-3},    {"P2", 8.5e-3},     {"A3", 1.5e-2},
-      {"A3R5", 2.5e-2},    {"A4", 2.5e-2},      {"FLTN", 2.5e-2},    {"A4R5", 3.9e-2},   {"C18H12", 3.9e-2},
-      {"BAPYR", 6.1e-2},   {"BaPyr", 6.1e-2},   {"BEPYREN", 6.1e-2}, {"BePyr", 6.1e-2},  {"PERYLEN", 6.1e-2},
-      {"BGHIPER", 8.7e-2}, {"BghiPER", 8.7e-2}, {"ANTHAN", 8.7e-2},  {"CORONEN", 1.2e-1}};
+      {"A2", 2.0e-3},     {"C10H8", 2.0e-3},   {"A2R5", 4.0e-3},  {"P2", 8.5e-3},      {"A3", 1.5e-2},
+      {"A3R5", 2.5e-2},   {"A4", 2.5e-2},      {"FLTN", 2.5e-2},  {"A4R5", 3.9e-2},    {"C18H12", 3.9e-2},
+      {"BAPYR", 6.1e-2},  {"BEPYREN", 6.1e-2}, {"BEPYR", 6.1e-2}, {"PERYLEN", 6.1e-2}, {"BGHIPER", 8.7e-2},
+      {"ANTHAN", 8.7e-2}, {"CORONEN", 1.2e-1}};
+  const auto upper = [](char c) { return std::toupper(static_cast<unsigned char>(c)); };
   for (const auto& [known, value] : table) {
-    if (known == name) return value;
+    if (std::ranges::equal(known, name, {}, upper, upper)) return value;
   }
   return std::nullopt;
 }

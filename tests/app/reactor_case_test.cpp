@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <regex>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "chemistry/thermo/thermo.hpp"
 #include "core/errors.hpp"
 #include "core/modules.hpp"
+#include "core/text_file.hpp"
 #include "tests/app/app_fixture.hpp"
 #include "tests/scratch.hpp"
 
@@ -132,6 +134,22 @@ TEST(ReactorCase, ReactionsAreNamedByNumberOrEquation) {
   EXPECT_EQ(read("['11', 'O+H2<=>H + OH']"), (std::vector<std::size_t>{10, 2}));
   EXPECT_EQ(read("[all]").size(), 29U);
   EXPECT_THROW(read("['0']"), InputError);
+}
+
+// The delay by OH without being asked for, where the mechanism calls it oh.
+TEST(ReactorCase, TheRadicalOfADelayInAnyCase) {
+  const test::ScratchFolder folder;
+  const auto text =
+      readTextFile((test::sourceFolder / "cases/mechanisms/hydrogen_h2o2_10.yaml").string(), "a mechanism");
+  static_cast<void>(folder.file("low.yaml", std::regex_replace(text, std::regex("\\bOH\\b"), "oh")));
+  const std::string deck = folder.file("deck.yaml",
+                                       "problem: reactor\nmechanism: low.yaml\nreactor: {type: constant_pressure}\n"
+                                       "initial: {temperature: 1100 K, composition: 'h2: 2, o2: 1, N2: 3.76'}\n"
+                                       "time: {end: 1 ms}\n");
+  const ReactorCase low = readReactorCase(Deck::load(deck, {}, reactorSchema()));
+  std::vector<std::string> names;
+  for (const IgnitionCriterion& criterion : low.ignition) names.push_back(criterion.name);
+  EXPECT_THAT(names, testing::IsSupersetOf({"max_X_oh", "max_Y_oh"}));
 }
 
 TEST(Problems, ADeckChoosesItsProblem) {

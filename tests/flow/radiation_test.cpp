@@ -1,14 +1,18 @@
 // Optically thin radiation: the workshop's polynomials at temperatures where they can be added up by hand.
 #include "flow/radiation.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <regex>
 #include <string>
 #include <vector>
 
 #include "core/constants.hpp"
 #include "core/errors.hpp"
+#include "core/text_file.hpp"
+#include "tests/chemistry/mechanism_text.hpp"
 #include "tests/every_module.hpp"
 #include "tests/flow/flame/streams.hpp"
 
@@ -76,6 +80,22 @@ TEST(ThinRadiation, SpeciesThatAreNotThereDoNotRadiateAndTheSurroundingsAreCheck
   EXPECT_NEAR(ThinRadiation(hydrogen, 300).absorption(1000, constants::oneAtmosphere, X), 0.5 * 5.575471316, 1e-9);
   EXPECT_THROW(ThinRadiation(hydrogen, -1), InputError);
   EXPECT_THROW(ThinRadiation(hydrogen, std::nan("")), InputError);
+}
+
+// As in the mechanisms of Lawrence Livermore: h2o.
+TEST(ThinRadiation, NamesMayBeInAnyCase) {
+  const auto text = readTextFile(sourcePath("cases/mechanisms/hydrogen_h2o2_10.yaml"), "a mechanism");
+  const auto lower = readFileText(std::regex_replace(text, std::regex("\\bH2O\\b"), "h2o"));
+  std::vector<double> X(lower.numSpecies(), 0.0);
+  X[lower.speciesIndex("h2o")] = 1;
+  EXPECT_EQ(lower.speciesName(lower.speciesIndex("H2O")), "h2o");
+  EXPECT_NEAR(ThinRadiation(lower, 300).absorption(1000, constants::oneAtmosphere, X), 5.575471316, 1e-9);
+}
+
+TEST(ThinRadiation, WhatWouldRadiateButDoesNotIsSaid) {
+  EXPECT_THAT(radiationWarnings(shippedMechanism("hydrogen_h2o2_10.yaml")), ::testing::IsEmpty());
+  EXPECT_THAT(radiationWarnings(shippedMechanism("methane_gri30_53.yaml")),
+              ::testing::ElementsAre(::testing::HasSubstr("NH3, N2O, NO of the mechanism would too")));
 }
 
 }  // namespace
