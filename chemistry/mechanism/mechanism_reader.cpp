@@ -17,15 +17,16 @@ namespace lampblack::chemistry {
 
 namespace {
 
-using namespace std::string_view_literals;
-
 class MechanismReader {
  public:
   MechanismReader(const std::string& path, const std::string& phase, bool permissive)
       : files_(path), yaml_(files_.main().yaml), phase_(choosePhase(files_.main(), phase)), permissive_(permissive) {}
 
   Mechanism read() {
-    passOverOwnKeys();
+    phase_.warnOfOthers({"name", "thermo", "elements", "species", "kinetics", "reactions", "transport", "state",
+                         "skip-undeclared-elements", "skip-undeclared-third-bodies", "explicit-third-body-duplicates",
+                         "units", "note", "comment", "reference"},
+                        warnings_, YamlMap::Slips::Warnings);
     if (auto text = transportWarning(yaml_, phase_); !text.empty()) warnings_.push_back(std::move(text));
     findSpecies();
     readElements();
@@ -47,28 +48,6 @@ class MechanismReader {
     std::size_t index;
     const YAML::Node& node() const { return section->entries[index]; }
   };
-
-  // The format lets a phase have keys for other programs.
-  void passOverOwnKeys() {
-    const auto keys = {"name"sv,
-                       "thermo"sv,
-                       "elements"sv,
-                       "species"sv,
-                       "kinetics"sv,
-                       "reactions"sv,
-                       "transport"sv,
-                       "state"sv,
-                       "skip-undeclared-elements"sv,
-                       "skip-undeclared-third-bodies"sv,
-                       "explicit-third-body-duplicates"sv,
-                       "units"sv,
-                       "note"sv,
-                       "comment"sv,
-                       "reference"sv};
-    for (const auto* entry : phase_.others(keys))
-      warnings_.push_back(fmt::format("{}:{}: {}; it is passed over", yaml_.file(), YamlAccess::line(entry->keyNode),
-                                      phase_.unknownKeyText(*entry, keys)));
-  }
 
   void findSpecies() {
     const auto* list = phase_.find("species");
@@ -180,7 +159,7 @@ class MechanismReader {
     for (const auto& entry : speciesEntries_) {
       if (skip && hasUndeclaredElement(entry.node())) continue;
       const auto& file = *entry.section->file;
-      auto species = readSpecies(file.yaml, entry.section->units, entry.node(), elements_);
+      auto species = readSpecies(file.yaml, entry.section->units, entry.node(), elements_, warnings_);
       if (&file != &files_.main()) species.file = file.yaml.file();
       if (!speciesByName_.emplace(species.name, species_.size()).second)
         yaml_.fail(phase_.node(), fmt::format("species '{}' is in the phase twice", species.name));

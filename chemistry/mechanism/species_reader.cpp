@@ -80,8 +80,8 @@ std::array<double, 9> nasa9FromShomate(const std::array<double, 7>& c) {
 class ThermoReader {
  public:
   ThermoReader(const YamlAccess& yaml, const UnitSystem& units, const YAML::Node& node, const std::string& owner,
-               Species& species)
-      : yaml_(yaml), units_(units), map_(yaml, node, owner + ", 'thermo'"), species_(species) {
+               Species& species, std::vector<std::string>& warnings)
+      : yaml_(yaml), units_(units), map_(yaml, node, owner + ", 'thermo'"), species_(species), warnings_(warnings) {
     if (const auto* own = map_.find("units")) units_ = yaml.units(*own, units_);
   }
 
@@ -93,8 +93,9 @@ class ThermoReader {
       yaml_.fail(model, fmt::format("{}: model '{}' is not supported; supported are NASA7, NASA9, Shomate and "
                                     "constant-cp",
                                     map_.what(), name));
-    map_.allowOnly(
-        {"model", "units", "temperature-ranges", "data", "note", "reference-pressure", "comment", "reference"});
+    map_.warnOfOthers(
+        {"model", "units", "temperature-ranges", "data", "note", "reference-pressure", "comment", "reference"},
+        warnings_);
     if (name == "NASA7")
       readNasa7();
     else if (name == "NASA9")
@@ -166,8 +167,9 @@ class ThermoReader {
 
   // h = h0 + cp0 (T - T0), s = s0 + cp0 ln(T/T0): a NASA-7 polynomial of one range.
   void readConstantCp() {
-    map_.allowOnly({"model", "units", "T0", "h0", "s0", "cp0", "T-min", "T-max", "note", "reference-pressure",
-                    "comment", "reference"});
+    map_.warnOfOthers({"model", "units", "T0", "h0", "s0", "cp0", "T-min", "T-max", "note", "reference-pressure",
+                       "comment", "reference"},
+                      warnings_);
     constexpr double R = constants::gasConstant;
     constexpr MechanismUnit joule{1.0, {1, 2, -2, 0, -1}}, joulePerKelvin{1.0, {1, 2, -2, -1, -1}};
     const double T0 = valueOf("T0", kKelvin, 1.0, 298.15);
@@ -190,17 +192,20 @@ class ThermoReader {
   UnitSystem units_;
   YamlMap map_;
   Species& species_;
+  std::vector<std::string>& warnings_;
 };
 
 // Numbers that stand alone are in Angstrom, Debye and K, whatever the units of the file: so the format has it.
-TransportData readTransport(const YamlAccess& yaml, const YAML::Node& node, const std::string& owner) {
+TransportData readTransport(const YamlAccess& yaml, const YAML::Node& node, const std::string& owner,
+                            std::vector<std::string>& warnings) {
   const YamlMap map(yaml, node, owner + ", 'transport'");
   const auto& model = map.at("model");
   if (yaml.text(model, map.what()) != "gas")
     yaml.fail(model, fmt::format("{}: model '{}' is not supported; supported is gas", map.what(), model.Scalar()));
-  map.allowOnly({"model", "geometry", "well-depth", "diameter", "dipole", "polarizability", "rotational-relaxation",
-                 "acentric-factor", "dispersion-coefficient", "quadrupole-polarizability", "note", "comment",
-                 "reference"});
+  map.warnOfOthers(
+      {"model", "geometry", "well-depth", "diameter", "dipole", "polarizability", "rotational-relaxation",
+       "acentric-factor", "dispersion-coefficient", "quadrupole-polarizability", "note", "comment", "reference"},
+      warnings);
   TransportData t;
   const auto& geometry = map.at("geometry");
   const auto& shape = yaml.text(geometry, map.what());
@@ -228,7 +233,7 @@ TransportData readTransport(const YamlAccess& yaml, const YAML::Node& node, cons
 }  // namespace
 
 Species readSpecies(const YamlAccess& yaml, const UnitSystem& units, const YAML::Node& node,
-                    std::span<const Element> elements) {
+                    std::span<const Element> elements, std::vector<std::string>& warnings) {
   YamlMap map(yaml, node, "species");
   Species species;
   species.name = yaml.text(map.at("name"), "species name");
@@ -236,12 +241,15 @@ Species readSpecies(const YamlAccess& yaml, const UnitSystem& units, const YAML:
   const auto what = fmt::format("species '{}'", species.name);
   map.rename(what);
   // The equation of state and the critical data are for real gases; an ideal-gas phase does not use them.
-  map.allowOnly({"name", "composition", "thermo", "transport", "units", "note", "equation-of-state",
-                 "critical-parameters", "comment", "reference"});
+  map.warnOfOthers({"name", "composition", "thermo", "transport", "units", "note", "equation-of-state",
+                    "critical-parameters", "comment", "reference"},
+                   warnings);
   const auto* own = map.find("units");
   readComposition(yaml, map.at("composition"), what, elements, species);
-  ThermoReader(yaml, own != nullptr ? yaml.units(*own, units) : units, map.at("thermo"), what, species).read();
-  if (const auto* transport = map.find("transport")) species.transport = readTransport(yaml, *transport, what);
+  ThermoReader(yaml, own != nullptr ? yaml.units(*own, units) : units, map.at("thermo"), what, species, warnings)
+      .read();
+  if (const auto* transport = map.find("transport"))
+    species.transport = readTransport(yaml, *transport, what, warnings);
   return species;
 }
 

@@ -158,21 +158,26 @@ const YAML::Node& YamlMap::at(std::string_view key) const {
   yaml_.fail(node_, fmt::format("{} has no '{}'", what_, key));
 }
 
-std::vector<const YamlMap::Entry*> YamlMap::others(std::initializer_list<std::string_view> keys) const {
-  std::vector<const Entry*> result;
-  for (const auto& entry : entries_)
-    if (std::find(keys.begin(), keys.end(), entry.key) == keys.end()) result.push_back(&entry);
-  return result;
-}
-
 std::string YamlMap::unknownKeyText(const Entry& entry, std::initializer_list<std::string_view> keys) const {
   return fmt::format("{}: unknown key '{}'; the nearest known key is '{}'", what_, entry.key,
                      closestName(entry.key, std::vector<std::string_view>(keys)));
 }
 
 void YamlMap::allowOnly(std::initializer_list<std::string_view> keys) const {
-  if (const auto unknown = others(keys); !unknown.empty())
-    yaml_.fail(unknown[0]->keyNode, unknownKeyText(*unknown[0], keys));
+  for (const auto& entry : entries_)
+    if (std::find(keys.begin(), keys.end(), entry.key) == keys.end())
+      yaml_.fail(entry.keyNode, unknownKeyText(entry, keys));
+}
+
+void YamlMap::warnOfOthers(std::initializer_list<std::string_view> keys, std::vector<std::string>& warnings,
+                           Slips slips) const {
+  for (const auto& entry : entries_) {
+    if (std::find(keys.begin(), keys.end(), entry.key) != keys.end()) continue;
+    if (slips == Slips::Refused && !nearestName(entry.key, {keys.begin(), keys.end()}).empty())
+      yaml_.fail(entry.keyNode, unknownKeyText(entry, keys));
+    warnings.push_back(fmt::format("{}:{}: {}; it is passed over", yaml_.file(), YamlAccess::line(entry.keyNode),
+                                   unknownKeyText(entry, keys)));
+  }
 }
 
 bool YamlMap::flag(std::string_view key, bool standard) const {

@@ -65,15 +65,19 @@ class YamlMap {
   const YAML::Node& at(std::string_view key) const;
   // InputError naming the nearest allowed key if the map has another one.
   void allowOnly(std::initializer_list<std::string_view> keys) const;
-  // The entries with other keys, and what to say about one: its key and the nearest allowed one.
-  std::vector<const Entry*> others(std::initializer_list<std::string_view> keys) const;
-  std::string unknownKeyText(const Entry& entry, std::initializer_list<std::string_view> keys) const;
+  // A warning for each other key, which is for another program. One that hardly differs from an allowed key is a slip:
+  // an InputError unless slips are warnings too.
+  enum class Slips { Refused, Warnings };
+  void warnOfOthers(std::initializer_list<std::string_view> keys, std::vector<std::string>& warnings,
+                    Slips slips = Slips::Refused) const;
 
   // The values of optional keys.
   bool flag(std::string_view key, bool standard) const;
   double number(std::string_view key, double standard) const;
 
  private:
+  std::string unknownKeyText(const Entry& entry, std::initializer_list<std::string_view> keys) const;
+
   const YamlAccess& yaml_;
   YAML::Node node_;
   std::string what_;

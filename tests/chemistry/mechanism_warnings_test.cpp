@@ -125,6 +125,25 @@ TEST(MechanismWarnings, OwnKeysOfAPhase) {
                           HasSubstr("unknown key 'specis'; the nearest known key is 'species'; it is passed over")));
 }
 
+// Fields of other programs, also in what a species has; a slip stays an error.
+TEST(MechanismWarnings, OwnKeysOfASpecies) {
+  const auto with = [](const std::string& species, const std::string& thermo, const std::string& transport) {
+    return readText("species: [H]",
+                    "\n- {name: H, composition: {H: 1}" + species + ", thermo: {model: constant-cp" + thermo +
+                        "}, transport: {model: gas, geometry: atom, diameter: 2, "
+                        "well-depth: 145" +
+                        transport + "}}",
+                    "[]");
+  };
+  EXPECT_THAT(with(", extra-field: blue, literal: [1]", ", bonus-field: green", ", bogus-field: red").warnings(),
+              ElementsAre(HasSubstr(":7: species 'H': unknown key 'extra-field'"), HasSubstr("'literal'"),
+                          HasSubstr("species 'H', 'thermo': unknown key 'bonus-field'"),
+                          HasSubstr("species 'H', 'transport': unknown key 'bogus-field'")));
+  EXPECT_THROW(with(", transprt: 1", "", ""), InputError);
+  EXPECT_THROW(with("", ", T_max: 3000", ""), InputError);
+  EXPECT_THROW(with("", "", ", dipol: 1"), InputError);
+}
+
 // A rate that is zero at all pressures, and one mark too many, in YAML.
 TEST(MechanismWarnings, TablesOfZerosAndMarksTooMany) {
   const auto mechanism = readText("species: [H, O2, HO2]", R"(
