@@ -54,7 +54,7 @@ class SectionSplitter {
   void takeLine(const ChemkinLine& line) {
     auto words = chemkinWords(line.text);
     const auto kind = sectionKind(words[0]);
-    if (kind && (open_ || !reactionsEnded_ || isHeadingAlone(*kind, words))) {
+    if (kind && (open_ || !dataEnded_ || isHeadingAlone(*kind, words))) {
       sections_.push_back({*kind, {}, {}, line.number});
       open_ = true;
       words.erase(words.begin());
@@ -80,7 +80,7 @@ class SectionSplitter {
     }
   }
 
-  // Behind the END of REACTIONS a line such as "Species named by ..." is text.
+  // Behind the END of REACTIONS or of a file of data a line such as "Species named by ..." is text.
   static bool isHeadingAlone(Kind kind, std::span<const std::string_view> words) {
     return std::ranges::all_of(words.subspan(1), [kind](std::string_view word) {
       if (kind == Kind::Reactions) return ChemkinUnits().set(word);
@@ -116,7 +116,7 @@ class SectionSplitter {
                    fmt::format("expected ELEMENTS, SPECIES, THERMO, REACTIONS or TRANSPORT, found '{}'{}", word,
                                didYouMean(word, {"ELEMENTS", "SPECIES", "THERMO", "REACTIONS", "TRANSPORT"})));
     const bool reaction = isReaction(line);
-    if (reaction && !reactionsEnded_ && implied_ == nullptr)
+    if (reaction && !dataEnded_)
       source_.fail(line.number, "a reaction behind END; expected it in the section REACTIONS");
     const auto keyword = didYouMean(word, {"ELEMENTS", "SPECIES", "THERMO", "REACTIONS", "TRANSPORT"});
     if (!keyword.empty() && trimmed(line.text) == word)
@@ -132,14 +132,15 @@ class SectionSplitter {
   void close() {
     open_ = false;
     ended_ = true;
-    reactionsEnded_ = reactionsEnded_ || sections_.back().kind == Kind::Reactions;
+    dataEnded_ = dataEnded_ || implied_ != nullptr || sections_.back().kind == Kind::Reactions;
   }
 
   const ChemkinSource& source_;
   const Kind* implied_;
   std::vector<std::string>& warnings_;
   std::vector<ChemkinSection> sections_;
-  bool open_ = false, ended_ = false, reactionsEnded_ = false, warned_ = false;
+  bool open_ = false, ended_ = false, warned_ = false;
+  bool dataEnded_ = false;  // what the file is for: text may follow
 };
 
 }  // namespace

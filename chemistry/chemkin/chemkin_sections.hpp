@@ -21,8 +21,8 @@ struct ChemkinSection {
 // A section ends with END or where the next begins. Keywords may be shortened as CHEMKIN allows (ELEM, SPEC, THER,
 // REAC, TRAN), in letters of either case. `implied`: the kind of section that lines before any keyword belong to, if
 // not null; else such lines are an error. Lines behind an END are passed over with a warning; behind the END of
-// REACTIONS so is what only begins with the word of a section, and a reaction. Before it a reaction outside a section
-// is an error. Throws InputError with file and line.
+// REACTIONS, or of an implied section, so is what only begins with the word of a section, and a reaction. Before it a
+// reaction outside a section is an error. Throws InputError with file and line.
 std::vector<ChemkinSection> splitChemkinSections(const ChemkinSource& source, const ChemkinSection::Kind* implied,
                                                  std::vector<std::string>& warnings);
 

@@ -57,7 +57,11 @@ void join(const std::string& file, std::vector<Reaction>& reactions, std::size_t
     if (other == r || (reactions[r].duplicate && isTable(reactions[other]) && reactions[other].duplicate &&
                        sameEquation(reactions[other], reactions[r])))
       parts.push_back(other);
-  if (parts.size() == 1) throw InputError(fmt::format("{}: {}", placeAndName(file, reactions[r]), problem));
+  if (parts.size() == 1)
+    throw InputError(fmt::format(
+        "{}: {}; rates that are positive only in a sum belong under one equation, or under several that are "
+        "all marked as duplicates",
+        placeAndName(file, reactions[r]), problem));
   auto& joined = reactions[parts[0]];
   const int line = reactions[parts[1]].line;
   for (const auto other : parts) {

@@ -134,6 +134,7 @@ void FlameEquations::setGrid(std::span<const double> z) {
     d.counts[r] = static_cast<int>((startOf(r + 1) - startOf(r)) * d.width());
   }
   d.steadyFactors = false;
+  d.matrix.reset();  // the largest there is: not twice
   d.matrix = std::make_unique<BlockTridiagonal>(d.comm, n, d.width(), numFlameGlobals);
   d.anchor = std::min(d.anchor, n - 1);
 }

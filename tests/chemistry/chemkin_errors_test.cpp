@@ -245,7 +245,8 @@ TEST(ChemkinErrors, AuxiliaryData) {
   EXPECT_THAT(message("H+OH=>H2O", "RORD/H2O 2/"), HasSubstr("RORD needs REV"));
   EXPECT_THAT(message("H+OH=H2O", "PLOG/1 2 3/"), HasSubstr("the four numbers p, A, b and Ea"));
   EXPECT_THAT(message("H+OH=H2O", "PLOG/0 1 0 0/"), HasSubstr("a pressure above zero"));
-  EXPECT_THAT(message("H+OH=H2O", "PLOG/1 -1 0 0/"), AllOf(StartsWith("chem.inp:6:"), HasSubstr("positive sum")));
+  EXPECT_THAT(message("H+OH=H2O", "PLOG/1 -1 0 0/"),
+              AllOf(StartsWith("chem.inp:6:"), HasSubstr("positive sum"), HasSubstr("under one equation")));
   EXPECT_THAT(message("H+OH=H2O", "PLOG/1 -1 0 0/\nDUP\nH+OH=H2O 1 0 0\nPLOG/2 1 0 0/\nDUP"),
               AllOf(StartsWith("chem.inp:6:"), HasSubstr("its duplicate at line 9 cannot be added"),
                     HasSubstr("expected the same pressures")));

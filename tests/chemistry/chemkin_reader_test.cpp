@@ -97,6 +97,11 @@ TEST(ChemkinReader, TextBehindTheReactionsIsPassedOver) {
   EXPECT_THAT(warnings, ElementsAre(AllOf(HasSubstr("chem.inp:6:"), HasSubstr("text behind END is ignored")),
                                     AllOf(HasSubstr("chem.inp:11:"),
                                           HasSubstr("a reaction behind END is ignored: '2OH=H2+O2 1E10 0 0'"))));
+  EXPECT_EQ(readChemkinText("ELEM H END SPEC H END", &warnings,
+                            "THERMO\n" + thermoCards("H", "H   1") + "END\nReactions of H = H, see 1 2 3\n")
+                .numSpecies(),
+            1U);
+  EXPECT_THAT(warnings, ElementsAre(AllOf(HasSubstr("therm.dat:6:"), HasSubstr("a reaction behind END is ignored"))));
   // Data may follow the reactions.
   EXPECT_EQ(readChemkinText("ELEM H END SPEC H END REAC\nEND\nTHERMO ALL\n" + thermoCards("H", "H   1"), nullptr,
                             std::nullopt)
