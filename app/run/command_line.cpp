@@ -184,8 +184,12 @@ int runCommandLine(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return say(app, error);
   }
+  std::optional<int> codeOfRanks;
   const int code = execute([&] {
-    if (needsLauncher(arguments.ranks)) runOnRanks(arguments.ranks, {argv, static_cast<std::size_t>(argc)});
+    if (needsLauncher(arguments.ranks)) {
+      codeOfRanks = runOnRanks(arguments.ranks, {argv, static_cast<std::size_t>(argc)});
+      return;
+    }
     if (command.needsMpi) start();
     if (ParallelSession::runs()) {
       checkRanks(PETSC_COMM_WORLD, arguments.ranks);
@@ -193,6 +197,7 @@ int runCommandLine(int argc, char** argv) {
     }
     command.work();
   });
+  if (codeOfRanks) return *codeOfRanks;
   if (code != 0) sayNoMore();
   return code;
 }

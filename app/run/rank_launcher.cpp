@@ -73,9 +73,10 @@ std::vector<std::string> launch(int ranks) {
       setUnlessSet(fmt::format("{}_ALLOW_RUN_AS_ROOT_CONFIRM", family).c_str(), "1");
     }
   }
-  // Between SIGTERM and SIGKILL mpirun leaves the ranks a quarter of a second, too little to keep what they have.
-  setUnlessSet("OMPI_MCA_odls_base_sigkill_timeout", "5");
-  setUnlessSet("PRTE_MCA_odls_base_sigkill_timeout", "5");
+  // Between SIGTERM and SIGKILL mpirun leaves the ranks a quarter of a second, too little to keep what they have if it
+  // is mpirun that gets a signal; and after any failure it waits twice that long, though no rank is left.
+  for (const char* family : {"OMPI", "PRTE"})
+    setUnlessSet(fmt::format("{}_MCA_odls_base_sigkill_timeout", family).c_str(), inAllocation() ? "5" : "1");
   // Open MPI 5 looks for a network between ranks of one machine, and says on standard error where it finds none.
   if (OMPI_MAJOR_VERSION >= 5 && !inAllocation()) setUnlessSet("OMPI_MCA_btl", "^tcp");
   std::vector<std::string> words{mpirun};
@@ -96,7 +97,7 @@ bool needsLauncher(int ranks) {
   return ranks > 1 && !startedByLauncher() && std::getenv(launchedByUs) == nullptr;
 }
 
-void runOnRanks(int ranks, std::span<char* const> commandLine) {
+int runOnRanks(int ranks, std::span<char* const> commandLine) {
   std::vector<std::string> words = launch(ranks);
   words.push_back(std::filesystem::read_symlink("/proc/self/exe"));
   for (const char* word : commandLine.subspan(1)) words.emplace_back(word);
@@ -109,7 +110,7 @@ void runOnRanks(int ranks, std::span<char* const> commandLine) {
     dup2(nothing, STDIN_FILENO);
     close(nothing);
   }
-  replaceBy(words);
+  return runForDescendants(words);
 }
 
 void checkRanks(MPI_Comm comm, int ranks) {

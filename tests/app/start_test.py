@@ -17,6 +17,7 @@ import running
 
 METHANE = str(running.SOURCE / "cases/mechanisms/methane_gri30_53.yaml")
 IGNITION = str(running.SOURCE / "cases/reactor/ignition_hydrogen/deck.yaml")
+FLAME = str(running.SOURCE / "cases/flame1d/free_methane/deck.yaml")
 SHORT = running.settings("time.end=0.1 ms")
 
 
@@ -116,6 +117,27 @@ def check_ranks(executable, folder):
     assert done.returncode == 2 and "--ranks" in done.stderr, done
 
 
+def check_stops(executable, folder):
+    """A signal to a run that has started its own ranks reaches them: exit code, last line and record are those of a stop."""
+    for number in (signal.SIGTERM, signal.SIGINT):
+        out = folder / f"stopped_{number}"
+        process = subprocess.Popen([executable, "run", FLAME, "--ranks", "2", "--out", str(out), *running.settings("grid.slope=0.01", "grid.curve=0.01")],
+                                   env=plain_environment(**HASTE), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.PIPE, start_new_session=True, text=True)
+        until = time.monotonic() + 30
+        while not (out / "run.json").exists() and time.monotonic() < until:
+            time.sleep(0.05)
+        time.sleep(0.5)
+        process.send_signal(number)
+        said = process.communicate(timeout=30)[1]
+        name = signal.Signals(number).name
+        assert process.returncode == 128 + number and len(said.splitlines()) == 1, (process.returncode, said)
+        assert said.startswith(f"lampblack: stopped by {name} before the end of the flame's solution"), said
+        record = json.loads((out / "run.json").read_text())
+        assert record["status"] == "stopped" and sum(stage["maximum_s"] for stage in record["stages"]) > 0, record
+        assert record["steps"] > 0, record
+
+
 def check_launchers(executable, mpiexec, folder):
     env = dict(HASTE, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
     done = run(*mpiexec, "2", "--oversubscribe", executable, "run", IGNITION, "--ranks", "3", "--out", folder / "three", **env)
@@ -139,6 +161,7 @@ def main(executable, *mpiexec):
         check_what_starts_mpi(executable)
         check_no_daemon(executable, folder)
         check_ranks(executable, folder)
+        check_stops(executable, folder)
         check_launchers(executable, mpiexec, folder)
     return 0
 
