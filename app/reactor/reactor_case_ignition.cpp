@@ -2,14 +2,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 
+#include "app/deck/sensitivity_deck.hpp"
 #include "app/reactor/reactor_case_parts.hpp"
 #include "app/run/warnings.hpp"
 #include "app/tools/gas_input.hpp"
 #include "chemistry/mechanism/known_species.hpp"
 #include "chemistry/thermo/equilibrium.hpp"
 #include "chemistry/thermo/thermo.hpp"
+#include "core/constants.hpp"
 #include "core/errors.hpp"
 #include "core/nearest_name.hpp"
 
@@ -49,6 +50,13 @@ void readIgnition(const Deck& deck, ReactorCase& reactorCase) {
   auto& criteria = reactorCase.ignition;
   if (adiabatic && deck.boolean("ignition.temperature_rate"))
     criteria.push_back({Kind::TemperatureRate, 0, 0.0, "max_dTdt"});
+  if (adiabatic && deck.boolean("ignition.first_stage"))
+    criteria.push_back({.kind = Kind::TemperatureRate, .name = "first_stage", .firstStage = true});
+  if (adiabatic && reactorCase.type == ReactorType::ConstantVolume && deck.boolean("ignition.pressure_rate")) {
+    const GasState& start = reactorCase.initial;
+    const double density = Thermo(mechanism).density(start.temperature, start.pressure, start.Y);
+    criteria.push_back({.kind = Kind::PressureRate, .name = "max_dpdt", .scale = density * constants::gasConstant});
+  }
   std::vector<std::size_t> species;
   if (deck.isGiven("ignition.species"))
     species = readSpeciesList(deck, "ignition.species", mechanism);
@@ -68,60 +76,14 @@ void readIgnition(const Deck& deck, ReactorCase& reactorCase) {
   }
 }
 
-namespace {
-
-// An equation without blanks, for comparisons.
-std::string bare(std::string text) {
-  std::erase_if(text, [](char c) { return c == ' ' || c == '\t'; });
-  return text;
-}
-
-std::vector<std::size_t> reactionsNamed(const Mechanism& mechanism, const std::string& text) {
-  std::size_t number = 0;
-  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (status == std::errc{} && end == text.data() + text.size()) {
-    if (number < 1 || number > mechanism.numReactions())
-      throw InputError(fmt::format("there is no reaction {}; expected 1 to {}", number, mechanism.numReactions()));
-    return {number - 1};
-  }
-  std::vector<std::size_t> found;
-  std::vector<std::string> known;
-  for (std::size_t r = 0; r < mechanism.numReactions(); ++r) {
-    known.push_back(mechanism.reaction(r).equation);
-    if (bare(known.back()) == bare(text)) found.push_back(r);
-  }
-  if (found.empty())
-    throw InputError(fmt::format("no reaction '{}' in the mechanism{}", text, didYouMean(text, known)));
-  return found;
-}
-
-}  // namespace
-
 void readSensitivity(const Deck& deck, ReactorCase& reactorCase) {
   if (!deck.has("sensitivity")) return;
-  const Mechanism& mechanism = *reactorCase.mechanism;
-  auto& reactions = reactorCase.sensitivities;
   if (reactorCase.ignition.empty())
     throw deck.error(
         "sensitivity",
         "there is no ignition delay to compute sensitivities of; give a criterion in the section 'ignition'");
   if (!reactorCase.profile) requireIgnition(deck, "sensitivity", reactorCase);
-  for (const std::string& text : deck.strings("sensitivity.reactions")) {
-    if (text == "all") {
-      reactions.clear();
-      for (std::size_t r = 0; r < mechanism.numReactions(); ++r) reactions.push_back(r);
-      return;
-    }
-    try {
-      const auto found = reactionsNamed(mechanism, text);
-      if (std::find(reactions.begin(), reactions.end(), found.front()) != reactions.end())
-        throw InputError(fmt::format("the reaction '{}' is named twice", text));
-      reactions.insert(reactions.end(), found.begin(), found.end());
-    } catch (const InputError& error) {
-      throw deck.error("sensitivity.reactions", error.what());
-    }
-  }
-  if (reactions.empty()) throw deck.error("sensitivity.reactions", "expected at least one reaction, or 'all'");
+  reactorCase.sensitivities = readSensitivityReactions(deck, *reactorCase.mechanism);
 }
 
 }  // namespace lampblack::app::reactorcase

@@ -69,7 +69,8 @@ class ClosedReactorDriver : public ReactorOfOneRank {
     progress.finish();
     sensitivitySeconds_ = MPI_Wtime() - begin - seconds_;
     if (stopRequest() != 0) return;
-    writeSensitivityTable(folder.file("sensitivities.csv"), case_, sensitivities_);
+    writeFileAtomically(folder.file("sensitivities.csv"), sensitivityTable(*case_.mechanism, case_.sensitivities,
+                                                                           namedSensitivities(case_, sensitivities_)));
   }
 
   void write(ResultsWriter& results) const override {
@@ -77,7 +78,9 @@ class ClosedReactorDriver : public ReactorOfOneRank {
     particles_.write(results);
     writeIgnition(results, case_, events_);
     // Rank 0 alone knows how far it came; what it has not computed is NaN.
-    if (!case_.sensitivities.empty()) writeSensitivities(results, case_, sensitivities_);
+    if (!case_.sensitivities.empty())
+      writeSensitivities(results, case_.sensitivities, namedSensitivities(case_, sensitivities_),
+                         "d ln(ignition delay) / d ln(rate constant)");
   }
 
   void record(JsonWriter& json) const override {
@@ -120,24 +123,13 @@ class ClosedReactorDriver : public ReactorOfOneRank {
  private:
   // The reactions the delay depends on most, by the first criterion that was met; all are in the files.
   void printSensitivities() const {
-    constexpr std::size_t shown = 10;
     fmt::print("sensitivities to {} reactions: {} steps in {}\n", case_.sensitivities.size(),
                sensitivities_.statistics.steps, formatDuration(sensitivitySeconds_));
     for (std::size_t i = 0; i < case_.ignition.size(); ++i) {
       const auto& values = sensitivities_.values[i];
       if (values.empty()) continue;
-      std::vector<std::size_t> order(values.size());
-      std::iota(order.begin(), order.end(), std::size_t{0});
-      std::sort(order.begin(), order.end(),
-                [&](std::size_t a, std::size_t b) { return std::abs(values[a]) > std::abs(values[b]); });
       fmt::print("\nd ln tau / d ln k by {}\n", describe(case_.ignition[i], *case_.mechanism));
-      for (std::size_t j = 0; j < std::min(shown, order.size()); ++j) {
-        const std::size_t r = case_.sensitivities[order[j]];
-        fmt::print("  {:>5}  {:<40} {:>9.4f}\n", r + 1, case_.mechanism->reaction(r).equation, values[order[j]]);
-      }
-      if (values.size() == case_.mechanism->numReactions())
-        fmt::print("  {:>5}  {:<40} {:>9.4f}\n", "", "all together (exactly -1)",
-                   std::accumulate(values.begin(), values.end(), 0.0));
+      fmt::print("{}", largestSensitivities(*case_.mechanism, case_.sensitivities, values, "exactly -1"));
       return;
     }
   }

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/reactor/reactor_driver.hpp"
 #include "app/reactor/reactor_history.hpp"
@@ -110,6 +111,10 @@ class SteadyNetworkDriver : public ReactorOfOneRank {
     std::string line = csvLine(names);
     line.pop_back();
     results.attribute("/reactors", "names", line);
+    for (std::size_t r = 0; r < reactors_.size(); ++r)
+      if (reactors_[r].out)
+        results.attribute("/reactors", "last_burning_residence_time_" + names[r],
+                          reactors_[r].lastBurningTime.value_or(NAN));
   }
 
   void record(JsonWriter& json) const override {
@@ -118,6 +123,7 @@ class SteadyNetworkDriver : public ReactorOfOneRank {
       json.key(case_.network.reactors[r].name).beginObject();
       json.field("temperature_K", reactors_[r].state.temperature);
       json.field("residence_time_s", reactors_[r].residenceTime).field("residual", reactors_[r].residual);
+      recordOut(json, reactors_[r]);
       if (case_.particles) {
         const std::string material = case_.soot->material() + "_";
         for (const auto& p : particlePropertyNames) json.field(material + p.name, properties_[r].*p.value);
@@ -141,6 +147,8 @@ class SteadyNetworkDriver : public ReactorOfOneRank {
           "{:<16} {} volume fraction {:.4g}, mean diameter {:.4g} nm; elements balance to {:.1e}, energy to {:.1e}\n",
           case_.network.reactors[r].name, case_.soot->material(), properties_[r].volumeFraction,
           1e9 * properties_[r].meanDiameter, balances_[r].elements, balances_[r].energy);
+    for (std::size_t r = 0; r < reactors_.size(); ++r)
+      fmt::print("{}", outLine(case_.network.reactors[r].name, reactors_[r]));
     fmt::print("{} steps of the integrator in {}\n", steps(), formatDuration(seconds_));
   }
 

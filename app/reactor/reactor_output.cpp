@@ -50,26 +50,21 @@ std::vector<double> closedRow(const ReactorCase& reactorCase, ClosedReactor& rea
   return row;
 }
 
-void writeSensitivityTable(const std::filesystem::path& path, const ReactorCase& reactorCase,
-                           const IgnitionSensitivities& sensitivities) {
-  std::vector<std::string> names{"reaction", "equation"};
+std::vector<Sensitivities> namedSensitivities(const ReactorCase& reactorCase,
+                                              const IgnitionSensitivities& sensitivities) {
+  std::vector<Sensitivities> named;
   for (std::size_t i = 0; i < reactorCase.ignition.size(); ++i)
-    if (!sensitivities.values[i].empty()) names.push_back(reactorCase.ignition[i].name + " [1]");
-  std::string text = csvLine(names);
-  for (std::size_t p = 0; p < reactorCase.sensitivities.size(); ++p) {
-    const std::size_t r = reactorCase.sensitivities[p];
-    std::vector<std::string> fields{std::to_string(r + 1), reactorCase.mechanism->reaction(r).equation};
-    for (const auto& values : sensitivities.values)
-      if (!values.empty()) fields.push_back(fmt::format("{}", values[p]));
-    text += csvLine(fields);
-  }
-  writeFileAtomically(path, text);
+    named.push_back({reactorCase.ignition[i].name,
+                     i < sensitivities.values.size() ? sensitivities.values[i] : std::vector<double>()});
+  return named;
 }
 
 std::string describe(const IgnitionCriterion& criterion, const Mechanism& mechanism) {
   switch (criterion.kind) {
     case Kind::TemperatureRate:
-      return "largest dT/dt";
+      return criterion.firstStage ? "first maximum of dT/dt, before a higher one" : "largest dT/dt";
+    case Kind::PressureRate:
+      return "largest dp/dt";
     case Kind::MoleFraction:
       return "largest mole fraction of " + mechanism.speciesName(criterion.species);
     case Kind::MassFraction:
@@ -84,6 +79,7 @@ namespace {
 
 const char* unitOf(const IgnitionCriterion& criterion) {
   if (criterion.kind == Kind::TemperatureRate) return "K/s";
+  if (criterion.kind == Kind::PressureRate) return "Pa/s";
   return criterion.kind == Kind::TemperatureRise ? "K" : "1";
 }
 
@@ -103,19 +99,17 @@ void writeIgnition(ResultsWriter& results, const ReactorCase& reactorCase,
   }
 }
 
-void writeSensitivities(ResultsWriter& results, const ReactorCase& reactorCase,
-                        const IgnitionSensitivities& sensitivities) {
-  const auto count = static_cast<std::int64_t>(reactorCase.sensitivities.size());
-  std::vector<std::int64_t> numbers;
-  for (const std::size_t r : reactorCase.sensitivities) numbers.push_back(static_cast<std::int64_t>(r) + 1);
-  results.dataset("/sensitivity/reaction", {count}, std::span<const std::int64_t>(numbers), "1",
-                  "number of the reaction in the mechanism file, from 1");
-  for (std::size_t i = 0; i < reactorCase.ignition.size(); ++i) {
-    std::vector<double> values(numbers.size(), std::numeric_limits<double>::quiet_NaN());
-    if (i < sensitivities.values.size() && !sensitivities.values[i].empty()) values = sensitivities.values[i];
-    results.dataset("/sensitivity/" + reactorCase.ignition[i].name, {count}, std::span<const double>(values), "1",
-                    "d ln(ignition delay) / d ln(rate constant)");
-  }
+std::string outLine(const std::string& name, const ReactorSteadyState& reactor) {
+  if (!reactor.out) return "";
+  if (reactor.lastBurningTime)
+    return fmt::format("Reactor '{}' is out: followed from longer residence times, burning states end at {:.4g} s.\n",
+                       name, *reactor.lastBurningTime);
+  return fmt::format("Reactor '{}' is out: no burning state was found at longer residence times, either.\n", name);
+}
+
+void recordOut(JsonWriter& json, const ReactorSteadyState& reactor) {
+  json.field("out", reactor.out);
+  if (reactor.lastBurningTime) json.field("last_burning_residence_time_s", *reactor.lastBurningTime);
 }
 
 }  // namespace lampblack::app

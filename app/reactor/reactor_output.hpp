@@ -6,9 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "app/deck/sensitivity_deck.hpp"
 #include "app/reactor/reactor_case.hpp"
 #include "chemistry/reactor/ignition_sensitivity.hpp"
 #include "core/modules.hpp"
+#include "io/json.hpp"
 #include "io/results_writer.hpp"
 #include "io/run_folder.hpp"
 
@@ -24,15 +26,18 @@ std::vector<Quantity> closedColumns(const ReactorCase& reactorCase);
 std::vector<double> closedRow(const ReactorCase& reactorCase, ClosedReactor& reactor, double time,
                               std::span<const double> y);
 
-// sensitivities.csv: a row for each reaction, a column for each criterion that was met.
-void writeSensitivityTable(const std::filesystem::path& path, const ReactorCase& reactorCase,
-                           const IgnitionSensitivities& sensitivities);
+// Of the ignition delays, by the criteria of the deck.
+std::vector<Sensitivities> namedSensitivities(const ReactorCase& reactorCase,
+                                              const IgnitionSensitivities& sensitivities);
 
-// The groups /ignition and /sensitivity. Collective; rank 0 has the values.
+// The group /ignition. Collective; rank 0 has the values.
 void writeIgnition(ResultsWriter& results, const ReactorCase& reactorCase,
                    const std::vector<std::optional<IgnitionEvent>>& events);
-void writeSensitivities(ResultsWriter& results, const ReactorCase& reactorCase,
-                        const IgnitionSensitivities& sensitivities);
+
+// A line for the console on a stirred reactor that is out; empty for others.
+std::string outLine(const std::string& name, const ReactorSteadyState& reactor);
+// Its fields of the record.
+void recordOut(JsonWriter& json, const ReactorSteadyState& reactor);
 
 // "largest dT/dt": a criterion in words.
 std::string describe(const IgnitionCriterion& criterion, const Mechanism& mechanism);

@@ -1,6 +1,8 @@
 // Plug flow: the history along the duct.
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "app/reactor/reactor_driver.hpp"
 #include "app/reactor/reactor_history.hpp"
 #include "app/reactor/reactor_output.hpp"
@@ -32,7 +34,8 @@ class PlugFlowDriver : public ReactorOfOneRank {
 
   void compute(const RunFolder& folder) override {
     const double begin = MPI_Wtime();
-    const GasState inlet = case_.upstream ? steadyUpstream(case_, case_.particles.get()) : case_.inlet;
+    if (case_.upstream) upstream_ = steadyUpstream(case_, case_.particles.get());
+    const GasState& inlet = upstream_ ? upstream_->state : case_.inlet;
     PlugFlow flow(*case_.mechanism, inlet, case_.massFlux, case_.length, case_.profile, case_.particles.get());
     StiffIntegrator integrator(flow, case_.integrator);
     integrator.start(0.0, flow.initialState(), case_.length);
@@ -64,6 +67,12 @@ class PlugFlowDriver : public ReactorOfOneRank {
   void record(JsonWriter& json) const override {
     json.field("final_temperature_K", temperature_).field("final_velocity_m_per_s", velocity_);
     json.field("residence_time_s", time_);
+    if (upstream_) {
+      json.key("upstream").beginObject();
+      json.field("temperature_K", upstream_->state.temperature);
+      recordOut(json, *upstream_);
+      json.endObject();
+    }
     particles_.record(json);
   }
 
@@ -71,6 +80,7 @@ class PlugFlowDriver : public ReactorOfOneRank {
     fmt::print("T = {:.4f} K, u = {:.6g} m/s at z = {:g} m, {:.6e} s after the inlet\n", temperature_, velocity_,
                case_.length, time_);
     particles_.print();
+    if (upstream_) fmt::print("{}", outLine("upstream", *upstream_));
     fmt::print("{} steps of the integrator in {}\n", steps_, formatDuration(seconds_));
   }
 
@@ -81,6 +91,7 @@ class PlugFlowDriver : public ReactorOfOneRank {
   const ReactorCase& case_;
   ReactorParticleOutput particles_;
   ReactorHistory history_;
+  std::optional<ReactorSteadyState> upstream_;
   long steps_ = 0;
   double temperature_ = 0, velocity_ = 0, time_ = 0, seconds_ = 0;
 };

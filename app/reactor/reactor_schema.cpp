@@ -1,4 +1,5 @@
 #include "app/deck/ensemble_deck.hpp"
+#include "app/deck/sensitivity_deck.hpp"
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/temperature_input.hpp"
 #include "app/deck/trees_deck.hpp"
@@ -150,6 +151,16 @@ void addIgnition(DeckSchema& schema) {
                       "Whether the time of the largest dT/dt is reported as an ignition delay.")
                .byDefault("true")
                .onlyWith("reactor.energy", {"adiabatic"}))
+      .add(booleanKey("ignition.first_stage",
+                      "Whether the time of the first maximum of dT/dt is reported as an ignition delay, where a higher "
+                      "one follows: that of a cool flame. Below 1 K of heating it does not count.")
+               .byDefault("false")
+               .onlyWith("reactor.energy", {"adiabatic"}))
+      .add(booleanKey("ignition.pressure_rate",
+                      "Whether the time of the largest dp/dt is reported as an ignition delay.")
+               .byDefault("false")
+               .onlyWith("reactor.energy", {"adiabatic"})
+               .onlyWith(typeKey, {"constant_volume"}))
       .add(stringKey("ignition.species",
                      "Species whose times of the largest mole and of the largest mass fraction are reported as "
                      "ignition delays; OH only where the mechanism has it.")
@@ -159,17 +170,12 @@ void addIgnition(DeckSchema& schema) {
                        "Reports as an ignition delay when the temperature first is this much above the initial one.")
                .optional()
                .above(0)
-               .onlyWith("reactor.energy", {"adiabatic"}))
-      .section("sensitivity", Presence::optional,
-               "Sensitivities d ln tau / d ln k of the ignition delays to the rate constants, forward and reverse "
-               "together.",
-               {{typeKey, closed}})
-      .add(choiceKey("sensitivity.of", {"ignition_delay"}, "Result whose sensitivities are computed.")
-               .byDefault("ignition_delay"))
-      .add(stringKey("sensitivity.reactions",
-                     "Reactions by their number in the file, from 1, or by their equation; 'all' takes every one.")
-               .list()
-               .byDefault("[all]"));
+               .onlyWith("reactor.energy", {"adiabatic"}));
+  addSensitivityKeys(
+      schema,
+      "Sensitivities d ln tau / d ln k of the ignition delays to the rate constants, forward and reverse "
+      "together.",
+      "ignition_delay", {{typeKey, closed}});
 }
 
 void addEnsembles(DeckSchema& schema) {

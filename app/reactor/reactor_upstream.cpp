@@ -6,10 +6,8 @@
 
 namespace lampblack::app {
 
-GasState steadyUpstream(const ReactorCase& reactorCase, CarriedPhase* carried) {
-  GasState state = solveNetwork(*reactorCase.mechanism, *reactorCase.upstream, {}, carried)[0].state;
-  state.pressure = reactorCase.upstream->pressure;
-  return state;
+ReactorSteadyState steadyUpstream(const ReactorCase& reactorCase, CarriedPhase* carried) {
+  return solveNetwork(*reactorCase.mechanism, *reactorCase.upstream, {}, carried)[0];
 }
 
 GasState upstreamWithPopulation(const ReactorCase& reactorCase, SplitParticles& particles,
@@ -17,7 +15,7 @@ GasState upstreamWithPopulation(const ReactorCase& reactorCase, SplitParticles& 
   ReactorCase before = reactorCase;
   before.type = ReactorType::Stirred;
   before.network = *reactorCase.upstream;
-  before.start.given = steadyUpstream(reactorCase, nullptr);
+  before.start.given = steadyUpstream(reactorCase, nullptr).state;
   before.profile.reset();
   EnsembleGas gas(before);
   SplitReactor reactor(*before.mechanism, gas.gas(), particles, options);

@@ -10,7 +10,7 @@ namespace lampblack::app {
 
 // The steady state of the stirred reactor in front of a plug flow. `carried`: the phase that the gas carries; null:
 // none. NumericsError.
-[[nodiscard]] GasState steadyUpstream(const ReactorCase& reactorCase, CarriedPhase* carried);
+[[nodiscard]] ReactorSteadyState steadyUpstream(const ReactorCase& reactorCase, CarriedPhase* carried);
 // The state of the stirred reactor with a population, at ReactorCase::upstreamTime after the steady state of the gas
 // alone. NumericsError.
 [[nodiscard]] GasState upstreamWithPopulation(const ReactorCase& reactorCase, SplitParticles& particles,

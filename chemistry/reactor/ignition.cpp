@@ -15,6 +15,7 @@ namespace {
 
 // A largest fraction of fewer absolute tolerances is noise.
 constexpr double kNoise = 1e4;
+constexpr double kStageRise = 1;  // K, of a first stage
 
 }  // namespace
 
@@ -43,14 +44,24 @@ double IgnitionQuantity::moleFractionChange(std::size_t k, const MoleFraction& a
   return (s[k] / mechanism_.molecularWeights()[k] - at.X * moles(s)) / at.M;
 }
 
-// Of the temperature's rate the slope is (J f)_T: the rates of an adiabatic reactor do not depend on time themselves.
+double IgnitionQuantity::second(std::size_t row) const {
+  double sum = 0;
+  for (std::size_t j = 0; j < f_.size(); ++j) sum += J_[row + j * f_.size()] * f_[j];
+  return sum;
+}
+
 IgnitionQuantity::Value IgnitionQuantity::of(const IgnitionCriterion& criterion, const double* y) const {
   const std::size_t n = mechanism_.numSpecies(), k = criterion.species;
   switch (criterion.kind) {
-    case Kind::TemperatureRate: {
-      double slope = 0;
-      for (std::size_t j = 0; j < f_.size(); ++j) slope += J_[n + j * f_.size()] * f_[j];
-      return {f_[n], slope};
+    case Kind::TemperatureRate:
+      return {f_[n], second(n)};
+    case Kind::PressureRate: {
+      // p/scale = T M, M = sum Y/W
+      const double M = moles(y), rate = moles(f_.data());
+      double M2 = 0;
+      for (std::size_t i = 0; i < n; ++i) M2 += second(i) / mechanism_.molecularWeights()[i];
+      return {criterion.scale * (f_[n] * M + y[n] * rate),
+              criterion.scale * (second(n) * M + 2 * f_[n] * rate + y[n] * M2)};
     }
     case Kind::MoleFraction:
       return {moleFraction(k, y).X, moleFractionChange(k, moleFraction(k, y), f_.data())};
@@ -68,6 +79,8 @@ double IgnitionQuantity::change(const IgnitionCriterion& criterion, const double
   switch (criterion.kind) {
     case Kind::TemperatureRate:
       return sDot[n];
+    case Kind::PressureRate:
+      return criterion.scale * (sDot[n] * moles(y) + f_[n] * moles(s) + s[n] * moles(f_.data()) + y[n] * moles(sDot));
     case Kind::MoleFraction: {
       // dX/dt = (dY_k/dt/W_k - X dM/dt)/M
       const MoleFraction at = moleFraction(k, y);
@@ -87,10 +100,11 @@ IgnitionMonitor::IgnitionMonitor(const Mechanism& mechanism, OdeSystem& system, 
     : quantity_(mechanism, system),
       criteria_(std::move(criteria)),
       events_(criteria_.size()),
+      first_(criteria_.size()),
       signals_(criteria_.size()),
       temperature_(mechanism.numSpecies()),
       y_(system.size()) {
-  for (const auto& criterion : criteria_) needsJacobian_ = needsJacobian_ || criterion.kind == Kind::TemperatureRate;
+  for (const auto& criterion : criteria_) needsJacobian_ = needsJacobian_ || criterion.ofRate();
 }
 
 double IgnitionMonitor::signal(std::size_t i, const IgnitionQuantity::Value& value) const {
@@ -99,6 +113,7 @@ double IgnitionMonitor::signal(std::size_t i, const IgnitionQuantity::Value& val
 
 void IgnitionMonitor::begin(double time, const double* y) {
   events_.assign(criteria_.size(), std::nullopt);
+  first_.assign(criteria_.size(), std::nullopt);
   startTemperature_ = y[temperature_];
   quantity_.prepare(time, y, needsJacobian_);
   for (std::size_t i = 0; i < criteria_.size(); ++i) signals_[i] = signal(i, quantity_.of(criteria_[i], y));
@@ -148,10 +163,15 @@ void IgnitionMonitor::locate(std::size_t i, const StiffIntegrator& integrator, d
     if (events_[i]) return;
     event.width = criterion.rise / std::max(value.slope, 1e-300);
   } else {
-    const bool isFraction = criterion.kind != Kind::TemperatureRate;
-    const double noise = isFraction ? kNoise * integrator.options().absoluteTolerance : 0.0;
+    const double noise = !criterion.ofRate() ? kNoise * integrator.options().absoluteTolerance : 0.0;
     if (!(value.value > noise) || (events_[i] && events_[i]->value >= value.value)) return;
     event.width = std::sqrt(std::abs(value.value / slopeOfSignal));
+    if (criterion.firstStage) {
+      if (events_[i]) return;
+      if (!first_[i] && y_[temperature_] > startTemperature_ + kStageRise) first_[i] = event;
+      if (first_[i] && value.value > first_[i]->value) events_[i] = first_[i];
+      return;
+    }
   }
   events_[i] = event;
 }

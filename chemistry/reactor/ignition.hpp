@@ -18,6 +18,7 @@ namespace lampblack::chemistry {
 struct IgnitionCriterion {
   enum class Kind {
     TemperatureRate,  // largest dT/dt
+    PressureRate,     // largest dp/dt, at constant volume
     MoleFraction,     // largest mole fraction of a species
     MassFraction,     // largest mass fraction of a species
     TemperatureRise,  // T first is `rise` above the initial temperature
@@ -26,16 +27,23 @@ struct IgnitionCriterion {
   std::size_t species = 0;
   double rise = 0;   // K
   std::string name;  // for results
+  // Of dp/dt: density times the gas constant (SI), so that p = scale T sum(Y/W).
+  double scale = 1;
+  // Of a rate: its first maximum after some heat has been set free, where a higher one follows.
+  bool firstStage = false;
+
+  // Whether it is about a maximum of dT/dt or dp/dt.
+  [[nodiscard]] bool ofRate() const { return kind == Kind::TemperatureRate || kind == Kind::PressureRate; }
 };
 
 struct IgnitionEvent {
   double time = 0;   // s: the delay
-  double value = 0;  // of what is largest (K/s or 1), or the temperature
+  double value = 0;  // of what is largest (K/s, Pa/s or 1), or the temperature
   // Of a maximum: sqrt(|a/a''|), the time in which the quantity a falls off noticeably; of a rise: rise/(dT/dt).
   double width = 0;
 };
 
-// The quantity a criterion is about - dT/dt, a fraction, or T - and its rate of change, at a state of a system.
+// The quantity a criterion is about - dT/dt, dp/dt, a fraction, or T - and its rate of change, at a state of a system.
 class IgnitionQuantity {
  public:
   IgnitionQuantity(const Mechanism& mechanism, OdeSystem& system);
@@ -43,11 +51,12 @@ class IgnitionQuantity {
   struct Value {
     double value = 0, slope = 0;
   };
-  // Prepares the rates (and, for dT/dt, the Jacobian) of a state; NumericsError where it is no state of a gas.
+  // Prepares the rates (and, for dT/dt and dp/dt, the Jacobian) of a state; NumericsError where it is no state of a
+  // gas.
   void prepare(double t, const double* y, bool withJacobian);
   Value of(const IgnitionCriterion& criterion, const double* y) const;
-  // What goes with a change s of the prepared state and sDot of its rates: the change of dT/dt itself, of the slope of
-  // a fraction, or of a temperature.
+  // What goes with a change s of the prepared state and sDot of its rates: the change of dT/dt or dp/dt itself, of the
+  // slope of a fraction, or of a temperature.
   double change(const IgnitionCriterion& criterion, const double* y, const double* s, const double* sDot) const;
 
  private:
@@ -61,6 +70,10 @@ class IgnitionQuantity {
 
   const Mechanism& mechanism_;
   OdeSystem& system_;
+  // (J f)_row: the second derivative of an unknown, as the rates of an adiabatic reactor do not depend on time
+  // themselves.
+  double second(std::size_t row) const;
+
   std::vector<double> f_, J_;
 };
 
@@ -85,8 +98,9 @@ class IgnitionMonitor {
   IgnitionQuantity quantity_;
   std::vector<IgnitionCriterion> criteria_;
   std::vector<std::optional<IgnitionEvent>> events_;
-  std::vector<double> signals_;  // at the end of the last step
-  std::size_t temperature_;      // its unknown
+  std::vector<std::optional<IgnitionEvent>> first_;  // maxima that are a first stage where a higher one follows
+  std::vector<double> signals_;                      // at the end of the last step
+  std::size_t temperature_;                          // its unknown
   std::vector<double> y_;
   double startTemperature_ = 0;
   bool needsJacobian_ = false;

@@ -7,8 +7,6 @@ namespace lampblack::chemistry {
 
 namespace {
 
-using Kind = IgnitionCriterion::Kind;
-
 // Of the points around tau: small against the width of the maximum, for the formulas are of fourth order, and large
 // against the errors of the integration.
 constexpr double kSpacing = 0.05;
@@ -20,8 +18,8 @@ struct Sample {
   int position = 0;  // -2..2 spacings from tau
 };
 
-// What is known around one tau. Of the largest dT/dt: that rate and its derivatives by the parameters at five points.
-// Of the others, at tau alone: the derivatives by the parameters and by time of what is zero there.
+// What is known around one tau. Of the largest dT/dt or dp/dt: that rate and its derivatives by the parameters at five
+// points. Of the others, at tau alone: the derivatives by the parameters and by time of what is zero there.
 struct Stencil {
   double spacing = 0;
   std::array<double, 5> value{};
@@ -99,7 +97,7 @@ std::vector<Sample> samplesAround(const std::vector<IgnitionCriterion>& criteria
   std::vector<Sample> samples;
   for (std::size_t i = 0; i < events.size(); ++i) {
     if (!events[i]) continue;
-    const int reach = criteria[i].kind == Kind::TemperatureRate ? 2 : 0;
+    const int reach = criteria[i].ofRate() ? 2 : 0;
     for (int position = -reach; position <= reach; ++position)
       samples.push_back({events[i]->time + position * spacingOf(*events[i]), i, position});
   }
@@ -134,9 +132,8 @@ IgnitionSensitivities ignitionSensitivities(const Mechanism& mechanism, ClosedRe
     Stencil& stencil = sampler.stencil(i);
     stencil.spacing = spacingOf(*events[i]);
     for (std::size_t p = 0; p < reactor.numParameters(); ++p) {
-      const double byParameter = criteria[i].kind == Kind::TemperatureRate
-                                     ? byMaximum(stencil, p)
-                                     : -stencil.byParameter[2][p] / stencil.byTime;
+      const double byParameter =
+          criteria[i].ofRate() ? byMaximum(stencil, p) : -stencil.byParameter[2][p] / stencil.byTime;
       result.values[i].push_back(byParameter / events[i]->time);
     }
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "chemistry/reactor/burning_branch.hpp"
 #include "chemistry/reactor/steady_state.hpp"
 #include "chemistry/thermo/equilibrium.hpp"
 
@@ -35,6 +36,41 @@ ReactorNetwork partOf(const ReactorNetwork& network, const std::vector<std::size
                               solved[stream.from].state.carried});
   }
   return part;
+}
+
+struct ColdReactor {
+  bool out = false;
+  std::optional<double> lastBurningTime;
+};
+
+// A state in which reactors are cold that could burn becomes a burning one where there is such: one without cold
+// reactors, or else one with fewer. What is said of those that stay cold is returned.
+std::vector<ColdReactor> relight(const Mechanism& mechanism, NetworkSystem& system, SteadyState& steady) {
+  const std::size_t reactors = system.network().reactors.size(), carried = system.numCarried();
+  std::vector<ColdReactor> result(reactors);
+  const BurningBranch branch(mechanism, system.network());
+  const std::size_t cold = branch.cold(steady.y, carried);
+  if (cold == 0) return result;
+  BurningBranch::Result found = branch.follow(0);
+  if (found.smooth) return result;
+  if (found.y.empty() && cold == reactors && reactors > 1) {
+    BurningBranch::Result some = branch.follow(cold - 1);
+    found.y = std::move(some.y);
+  }
+  if (!found.y.empty()) {
+    std::vector<double> y;
+    const std::size_t own = mechanism.numSpecies() + 1;
+    for (std::size_t r = 0; r < reactors; ++r) {
+      y.insert(y.end(), &found.y[r * own], &found.y[r * own] + own);
+      y.resize(y.size() + carried);
+    }
+    steady = networkAtRest(system, y);
+  }
+  for (std::size_t r = 0; r < reactors; ++r) {
+    result[r].out = branch.isCold(steady.y, r, carried);
+    if (result[r].out && !found.lastResidenceTimes.empty()) result[r].lastBurningTime = found.lastResidenceTimes[r];
+  }
+  return result;
 }
 
 }  // namespace
@@ -111,10 +147,9 @@ std::vector<ReactorSteadyState> solveNetwork(const Mechanism& mechanism, const R
   for (const auto& group : solutionOrder(network)) {
     NetworkSystem system(mechanism, partOf(network, group, solved), carried);
     const ReactorNetwork& part = system.network();
-    const std::vector<double> y = startUnknowns(mechanism, part, start, system.numCarried());
-    double slowest = 0;
-    for (std::size_t i = 0; i < group.size(); ++i) slowest = std::max(slowest, system.residenceTime(y.data(), i));
-    const SteadyState steady = findSteadyState(system, y, slowest);
+    SteadyState steady = networkAtRest(system, startUnknowns(mechanism, part, start, system.numCarried()));
+    std::vector<ColdReactor> coldOnes(group.size());
+    if (start.burnt && !start.given) coldOnes = relight(mechanism, system, steady);
     for (std::size_t i = 0; i < group.size(); ++i) {
       const double* block = system.block(steady.y.data(), i);
       ReactorSteadyState& result = solved[group[i]];
@@ -130,6 +165,8 @@ std::vector<ReactorSteadyState> solveNetwork(const Mechanism& mechanism, const R
       result.heatRelease = system.heatRelease(steady.y.data(), i);
       result.residual = steady.residual;
       result.steps = steady.steps;
+      result.out = coldOnes[i].out;
+      result.lastBurningTime = coldOnes[i].lastBurningTime;
     }
   }
   return solved;

@@ -1,5 +1,6 @@
 // The steady state of a network of stirred reactors. Reactors that no recycle joins are solved one after the other
-// along the stream; those of a recycle together.
+// along the stream; those of a recycle together. From a burnt start the state is a burning one wherever there is one
+// (burning_branch.hpp).
 #pragma once
 
 #include <optional>
@@ -27,6 +28,10 @@ struct ReactorSteadyState {
   double heatRelease = 0;    // W/m3
   double residual = 0;       // SteadyState::residual of its group
   long steps = 0;            // of the transient of its group
+  // Of a reactor that is cold though what flows into its group could burn, from a burnt start: whether no burning state
+  // was found, and its residence time (s) in the last one where larger reactors burn.
+  bool out = false;
+  std::optional<double> lastBurningTime = std::nullopt;
 };
 
 // The groups in the order in which they can be solved: each a set of reactors joined by recycles (strongly connected;

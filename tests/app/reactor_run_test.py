@@ -234,11 +234,36 @@ def too_few_sections(program, folder):
     assert result.code == 3 and "is in the largest particles of the model; the limit is" in result.err and "soot.sectional.sections" in result.err, result.err
 
 
+def burning_or_out(program, folder):
+    """A stirred reactor, alone or before a duct, burns as long as it can, and what is out is said with its last burning time."""
+    inlet = 'inlet: {temperature: 300 K, fuel: "CH4: 1", oxidizer: "O2: 1, N2: 3.76", equivalence_ratio: 1'
+    top = f"problem: reactor\nmechanism: {CASES}/mechanisms/methane_gri30_53.yaml\n"
+    decks = {"stirred": f"{top}reactor: {{type: stirred, residence_time: 0.1 ms}}\n{inlet}}}\n",
+             "duct": f"{top}reactor: {{type: plug_flow, length: 1 mm}}\nupstream: {{residence_time: 0.1 ms}}\n{inlet}, velocity: 1 m/s}}\n"}
+    for name, text in decks.items():
+        (folder / f"{name}.yaml").write_text(text, encoding="utf-8")
+        for time, burns in (("0.1 ms", True), ("0.07 ms", False)):
+            key = "reactor" if name == "stirred" else "upstream"
+            out = folder / f"{name}_{burns}"
+            result = program("run", folder / f"{name}.yaml", "--out", out, *running.settings(f"{key}.residence_time={time}"))
+            assert result.code == 0, result
+            results = json.loads((out / "run.json").read_text(encoding="utf-8"))["results"]
+            found = results["upstream"] if name == "duct" else results["reactors"]["reactor"]
+            assert abs(found["temperature_K"] - (1777.65 if burns else 300)) < 0.01, found
+            assert found["out"] == (not burns) and ("is out" in result.out) == (not burns), (found, result.out)
+            assert burns or abs(found["last_burning_residence_time_s"] / 7.93e-5 - 1) < 0.01, found
+            assert burns or f"Reactor '{key}' is out: followed from longer residence times, burning states end at 7.9" in result.out, result.out
+            if name == "stirred":
+                with h5py.File(out / "results.h5", "r") as file:
+                    last = file["reactors"].attrs.get("last_burning_residence_time_reactor")
+                    assert (last is None) == burns and (burns or last == found["last_burning_residence_time_s"]), last
+
+
 def main(executable, ranks, *mpiexec):
     program = running.Program(executable, list(mpiexec), int(ranks))
     tests = [ignition, network, soot, ensembles_in_networks, too_few_sections]
     if program.ranks == 1:  # what the first rank does alone, beyond a sample
-        tests += [regular_output, transient, species_with_comma, behind_a_stirred_reactor]
+        tests += [regular_output, transient, species_with_comma, behind_a_stirred_reactor, burning_or_out]
     for test in tests:
         begun = time.perf_counter()
         with tempfile.TemporaryDirectory() as folder:

@@ -2,6 +2,7 @@
 // an exact sum.
 #include "chemistry/reactor/ignition.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,6 +12,7 @@
 #include "chemistry/thermo/thermo.hpp"
 #include "core/constants.hpp"
 #include "tests/chemistry/measured.hpp"
+#include "tests/chemistry/mechanism_text.hpp"
 #include "tests/chemistry/table.hpp"
 #include "tests/every_module.hpp"
 
@@ -21,6 +23,7 @@ using namespace lampblack::chemistry;
 using lampblack::test::hydrogen;
 using lampblack::test::measured;
 using lampblack::test::raise;
+using lampblack::test::readText;
 using lampblack::test::sourcePath;
 using Held = ReactorSystem::Held;
 using Kind = IgnitionCriterion::Kind;
@@ -38,7 +41,8 @@ std::vector<IgnitionCriterion> allCriteria(const Mechanism& mechanism) {
   return {{Kind::TemperatureRate, 0, 0.0, "max_dTdt"},
           {Kind::MoleFraction, OH, 0.0, "max_X_OH"},
           {Kind::MassFraction, OH, 0.0, "max_Y_OH"},
-          {Kind::TemperatureRise, 0, 400.0, "rise_400K"}};
+          {Kind::TemperatureRise, 0, 400.0, "rise_400K"},
+          {Kind::PressureRate, 0, 0.0, "max_dpdt"}};
 }
 
 struct Run {
@@ -47,10 +51,11 @@ struct Run {
 };
 
 Run ignite(const Mechanism& mechanism, const GasState& state, double end, Held held = Held::Pressure,
-           const StiffIntegrator::Options& options = kDefault) {
+           const StiffIntegrator::Options& options = kDefault, std::vector<IgnitionCriterion> criteria = {}) {
   ClosedReactor reactor(mechanism, state, held);
   StiffIntegrator integrator(reactor, options);
-  IgnitionMonitor monitor(mechanism, reactor, allCriteria(mechanism));
+  if (criteria.empty()) criteria = allCriteria(mechanism);
+  IgnitionMonitor monitor(mechanism, reactor, criteria);
   const auto start = reactor.initialState();
   integrator.start(0.0, start, end);
   monitor.begin(0.0, start.data());
@@ -106,6 +111,67 @@ TEST(Ignition, DelayDoesNotDependOnTheSteps) {
   for (std::size_t i = 0; i < free.events.size(); ++i) {
     measured(allCriteria(hydrogen())[i].name, free.events[i]->time / fine.events[i]->time - 1);
     EXPECT_NEAR(free.events[i]->time / fine.events[i]->time, 1, 1e-6) << i;
+  }
+}
+
+// The largest rate of the reactor's own pressure, by a parabola through differences.
+TEST(Ignition, ThePressureRisesFastestWhereItIsSaid) {
+  const GasState state = mixture(hydrogen(), "H2: 2, O2: 1, N2: 3.76", 1200);
+  ClosedReactor reactor(hydrogen(), state, Held::Density);
+  const double scale = reactor.density(reactor.initialState().data()) * constants::gasConstant;
+  const auto run = ignite(hydrogen(), state, 2e-4, Held::Density, kDefault,
+                          {{.kind = Kind::PressureRate, .name = "max_dpdt", .scale = scale}});
+  ASSERT_TRUE(run.events[0]);
+  const double tau = run.events[0]->time, spacing = 0.02 * run.events[0]->width;
+  StiffIntegrator integrator(reactor, {1e-10, 1e-18, 0.0, 1000000});
+  integrator.start(0.0, reactor.initialState(), 2e-4);
+  std::vector<double> pressure, y(reactor.size());
+  for (int i = -2; i <= 2; ++i) {
+    while (integrator.time() < tau + i * spacing) integrator.step();
+    integrator.interpolate(tau + i * spacing, y);
+    pressure.push_back(reactor.pressure(y.data()));
+  }
+  const double before = (pressure[1] - pressure[0]) / spacing, after = (pressure[4] - pressure[3]) / spacing;
+  const double middle = (pressure[3] - pressure[1]) / (2 * spacing);
+  EXPECT_NEAR(run.events[0]->value / middle, 1, 1e-3);
+  EXPECT_GT(middle, before);
+  EXPECT_GT(middle, after);
+  const double place = 1.5 * spacing * 0.5 * (before - after) / (before - 2 * middle + after);
+  EXPECT_NEAR(place / run.events[0]->width, 0, 2e-3) << "away from the top of the parabola";
+}
+
+// Two autocatalytic reactions of constant rate, the slower one with more heat: each is fastest when half of it is done,
+// at ln(A/P)/(k (A + P)) with the first concentrations.
+TEST(Ignition, TheFirstStageIsTheEarlierMaximum) {
+  const auto species = [](const char* name, int heat) {
+    return fmt::format(
+        "\n- {{name: {}, composition: {{N: 2}}, thermo: {{model: NASA7, temperature-ranges: [200, 6000], "
+        "data: [[3.5, 0, 0, 0, 0, {}, 4]]}}}}",
+        name, -900 - heat);
+  };
+  const Mechanism mechanism =
+      readText("species: [I, A, P, C, Q]",
+               species("I", 0) + species("A", 0) + species("P", 2000) + species("C", 0) + species("Q", 8000),
+               "- {equation: A + P => 2 P, rate-constant: {A: 9e9, b: 0, Ea: 0}}\n"
+               "  - {equation: C + Q => 2 Q, rate-constant: {A: 4.5e8, b: 0, Ea: 0}}");
+  const std::vector<IgnitionCriterion> criteria{
+      {.kind = Kind::TemperatureRate, .name = "first_stage", .firstStage = true},
+      {.kind = Kind::TemperatureRate, .name = "max_dTdt"}};
+  const GasState both = mixture(mechanism, "I: 0.75, A: 0.05, P: 5e-5, C: 0.2, Q: 2e-4", 800);
+  const double concentration = constants::oneAtmosphere / (constants::gasConstant * 800);
+  const auto run = ignite(mechanism, both, 0.02, Held::Density, kDefault, criteria);
+  ASSERT_TRUE(run.events[0] && run.events[1]);
+  const double total = 1.00025;  // of the amounts above
+  // The second, which has begun, moves the top of the sum by 0.3 %.
+  EXPECT_NEAR(run.events[0]->time, std::log(1000) / (9e3 * concentration * 0.05005 / total),
+              5e-3 * run.events[0]->time);
+  EXPECT_NEAR(run.events[1]->time, std::log(1000) / (450 * concentration * 0.2002 / total), 1e-3 * run.events[1]->time);
+  EXPECT_LT(run.events[0]->value, run.events[1]->value);
+  // A single stage, or one that is followed by a lower one, is the ignition itself.
+  for (const char* one : {"I: 0.8, C: 0.2, Q: 2e-4", "I: 0.95, A: 0.5, P: 5e-4, C: 0.02, Q: 2e-5"}) {
+    const auto single = ignite(mechanism, mixture(mechanism, one, 800), 0.1, Held::Density, kDefault, criteria);
+    EXPECT_FALSE(single.events[0]) << one;
+    EXPECT_TRUE(single.events[1]) << one;
   }
 }
 

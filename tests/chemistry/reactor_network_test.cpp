@@ -16,6 +16,7 @@
 #include "tests/chemistry/mechanism_text.hpp"
 #include "tests/chemistry/table.hpp"
 #include "tests/every_module.hpp"
+#include "tests/source_folder.hpp"
 
 namespace {
 
@@ -260,6 +261,94 @@ TEST(SteadyState, BlowsOutOrComesToEquilibrium) {
     previous = distance;
   }
   EXPECT_LT(previous, 1e-5);
+}
+
+// Stoichiometric methane and air at 300 K and 1 atm. The temperatures are those of transients over 200 residence times,
+// each from the state of the next longer time, of the residuals of which the rates of `lampblack gas` leave 1e-12; from
+// the equilibrium of the inflow transients go out at 0.2 ms and less.
+class MethaneReactor : public ::testing::Test {
+ protected:
+  static const Mechanism& methane() {
+    static const Mechanism mechanism =
+        Mechanism::fromFile(lampblack::test::sourcePath("cases/mechanisms/methane_gri30_53.yaml"));
+    return mechanism;
+  }
+  static InflowStream feedTo(std::size_t reactor, const char* X = "CH4: 1, O2: 2, N2: 7.52", double T = 300) {
+    InflowStream feed{reactor, 1.0, T, std::vector<double>(methane().numSpecies())};
+    Thermo(methane()).moleToMass(parseComposition(methane(), X), feed.Y);
+    return feed;
+  }
+  static StirredReactor lasting(double residenceTime) {
+    StirredReactor reactor;
+    reactor.residenceTime = residenceTime;
+    return reactor;
+  }
+  static ReactorSteadyState alone(double residenceTime, const NetworkStart& start = {}) {
+    return solveNetwork(methane(), {kAtm, {lasting(residenceTime)}, {feedTo(0)}, {}}, start)[0];
+  }
+  static constexpr double end_ = 7.93e-5;  // s, of the burning branch
+};
+
+TEST_F(MethaneReactor, BurnsAsLongAsThereIsABurningState) {
+  for (const auto& [tau, T] : {std::pair{2e-4, 1857.25}, {1e-4, 1777.65}, {8e-5, 1724.58}}) {
+    const ReactorSteadyState reactor = alone(tau);
+    EXPECT_NEAR(reactor.state.temperature, T, 0.01);
+    EXPECT_FALSE(reactor.out);
+    EXPECT_FALSE(reactor.lastBurningTime);
+  }
+  // By its volume as by its residence time.
+  const ReactorSteadyState given = alone(1e-4);
+  const auto byVolume = solveNetwork(methane(), {kAtm, {vessel("", given.volume)}, {feedTo(0)}, {}}, {})[0];
+  EXPECT_NEAR(byVolume.state.temperature, given.state.temperature, 1e-6);
+}
+
+TEST_F(MethaneReactor, IsOutWithTheLastBurningTimeBehindTheEndOfTheBranch) {
+  for (const double tau : {7e-5, 1e-6}) {
+    const ReactorSteadyState reactor = alone(tau);
+    EXPECT_NEAR(reactor.state.temperature, 300, 0.01);
+    EXPECT_TRUE(reactor.out);
+    ASSERT_TRUE(reactor.lastBurningTime);
+    EXPECT_NEAR(*reactor.lastBurningTime, end_, 0.01 * end_);
+  }
+}
+
+TEST_F(MethaneReactor, WhatIsAskedToStartOtherwiseDoes) {
+  for (const NetworkStart& start : {NetworkStart{false}, NetworkStart{true, GasState{300, kAtm, feedTo(0).Y}}}) {
+    const ReactorSteadyState reactor = alone(1e-3, start);
+    EXPECT_NEAR(reactor.state.temperature, 300, 0.01);
+    EXPECT_FALSE(reactor.out);
+  }
+}
+
+TEST_F(MethaneReactor, WithNothingToGoOutIsNotOut) {
+  // Air, a gas that burns the less the shorter its time is without a jump, a given temperature.
+  for (const InflowStream& feed : {feedTo(0, "O2: 1, N2: 3.76"), feedTo(0, "CH4: 0.01, O2: 0.02, N2: 1", 1600)})
+    EXPECT_FALSE(solveNetwork(methane(), {kAtm, {lasting(1e-8)}, {feed}, {}}, {})[0].out);
+  StirredReactor cold = lasting(1e-4);
+  cold.temperature = 400;
+  EXPECT_FALSE(solveNetwork(methane(), {kAtm, {cold}, {feedTo(0)}, {}}, {})[0].out);
+}
+
+// In a row each reactor is followed by itself; those of a recycle together, and two equal ones that feed each other are
+// a single one.
+TEST_F(MethaneReactor, BurnsInNetworks) {
+  const auto row = solveNetwork(
+      methane(), {kAtm, {lasting(1e-4), lasting(1e-3), lasting(1e-5)}, {feedTo(0)}, {{0, 1, 1.0}, {1, 2, 1.0}}}, {});
+  EXPECT_NEAR(row[0].state.temperature, 1777.65, 0.01);
+  EXPECT_GT(row[1].state.temperature, 2000);
+  EXPECT_GT(row[2].state.temperature, 2000);
+  const auto coldFirst =
+      solveNetwork(methane(), {kAtm, {lasting(5e-5), lasting(1e-4)}, {feedTo(0)}, {{0, 1, 1.0}}}, {});
+  EXPECT_TRUE(coldFirst[0].out);
+  EXPECT_NEAR(*coldFirst[0].lastBurningTime, end_, 0.01 * end_);
+  EXPECT_FALSE(coldFirst[1].out);
+  EXPECT_NEAR(coldFirst[1].state.temperature, 1777.65, 0.1);
+  // 1 kg/s through each from outside and 1 kg/s to the other: twice the mass flow, half the time in each.
+  const ReactorNetwork equal{kAtm, {lasting(5e-5), lasting(5e-5)}, {feedTo(0), feedTo(1)}, {{0, 1, 1.0}, {1, 0, 1.0}}};
+  for (const ReactorSteadyState& reactor : solveNetwork(methane(), equal, {})) {
+    EXPECT_NEAR(reactor.state.temperature, 1777.65, 0.01);
+    EXPECT_FALSE(reactor.out);
+  }
 }
 
 // exp(-k z/u) and the time z/u.
