@@ -185,11 +185,25 @@ class ConditionReader {
       throw deck_.error(section_, "no gas comes through a wall; expected no mole fractions");
   }
 
+  // An outlet that says nothing of the gas outside: that of the start, where it is one gas everywhere.
+  [[nodiscard]] bool entrainsFirstGas(const GasVariation& gas) const {
+    return type_ == "outlet" && !isGiven("temperature") && !deck_.has(keyOf("composition")) &&
+           gas.moleFractions.empty() && deck_.choice("initial.layer") == "none" &&
+           deck_.isGiven("initial.temperature") && deck_.has("initial.composition");
+  }
+
   // Of an inlet, and of what an outlet may draw in.
   void readGas() {
     boundary_.kind = type_ == "inlet" ? BoundaryKind::Inlet : BoundaryKind::Outlet;
     const std::string what = type_ == "inlet" ? "an inlet" : "an outlet (for the gas it may entrain)";
     const GasVariation gas = fields_.gas();
+    if (entrainsFirstGas(gas)) {
+      boundary_.temperature = deck_.quantity("initial.temperature");
+      requireTemperature(deck_, "initial.temperature", boundary_.temperature, mechanism_, TemperatureUse::transport);
+      boundary_.Y = readComposition(deck_, "initial.composition", mechanism_);
+      given_ = {boundary_.temperature, boundary_.Y};
+      return;
+    }
     if (!isGiven("temperature")) throw deck_.error(section_, fmt::format("{} needs the key 'temperature'", what));
     if (!deck_.has(keyOf("composition")) && gas.moleFractions.empty())
       throw deck_.error(section_, fmt::format("{} needs the key 'composition'", what));

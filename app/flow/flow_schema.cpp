@@ -120,11 +120,14 @@ void addBoundaries(DeckSchema& schema) {
                .optional()
                .onlyWith("boundaries.*.type", {"inlet", "wall"}))
       .add(temperatureKey("boundaries.*.temperature",
-                          "inlet: of the stream; outlet: of entrained gas; wall: isothermal at this temperature.")
+                          "inlet: of the stream, needed; outlet: of entrained gas, needed unless the start is one gas "
+                          "everywhere (initial.layer: none, with its temperature and composition), which is then also "
+                          "outside; wall: isothermal at this temperature.")
                .optional()
                .onlyWith("boundaries.*.type", {"inlet", "outlet", "wall"}))
       .add(stringKey("boundaries.*.composition",
-                     "Mole fractions of the stream (inlet) or of gas that is entrained (outlet), 'C2H4: 1, N2: 3'.")
+                     "Mole fractions of the stream (inlet) or of gas that is entrained (outlet), 'C2H4: 1, N2: 3'; "
+                     "needed as the temperature is.")
                .optional()
                .onlyWith("boundaries.*.type", {"inlet", "outlet"}))
       .add(choiceKey(

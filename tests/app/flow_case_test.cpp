@@ -122,6 +122,19 @@ TEST(FlowCase, FillsInDefaultsInSi) {
 }
 
 // Every default of the schema has to be one: a deck that only says what it must is a good deck.
+// An opening whose gas outside nobody names, where the flow starts as one gas.
+TEST(FlowCase, OutsideAnOutletIsTheGasOfTheStart) {
+  const std::string outlet = "boundaries.outflow={type: outlet, side: r-max}";
+  const std::string one = "initial={layer: none, temperature: 310 K, composition: 'O2: 1'}";
+  const FlowCase flowCase = withTransport({outlet, one});
+  EXPECT_EQ(flowCase.boundaries[5].kind, BoundaryKind::Outlet);
+  EXPECT_EQ(flowCase.boundaries[5].temperature, 310);
+  EXPECT_EQ(flowCase.boundaries[5].Y[flowCase.mechanism->speciesIndex("O2")], 1);
+  EXPECT_THROW(withTransport({outlet}), InputError);
+  EXPECT_THROW(withTransport({outlet, "initial={layer: none, composition: 'O2: 1'}"}), InputError);
+  EXPECT_THROW(withTransport({"boundaries.outflow={type: outlet, side: r-max, temperature: 300 K}", one}), InputError);
+}
+
 TEST(FlowCase, NeedsNoTitle) {
   std::string text;
   {
