@@ -127,7 +127,8 @@ ModelAlong marchModel(const ParticleModel& model, const ParticlePath& path, std:
   };
   reached(0);
   for (std::size_t k = 0; k + 1 < path.points.size(); ++k) {
-    if (const int signal = stopRequest(); signal != 0) throw NumericsError("stopped by " + signalName(signal));
+    if (const int signal = stopRequest(); signal != 0)
+      throw Stopped(signal, "stopped by " + signalName(signal) + " before the end of the path");
     const GasSample &from = path.points[k], &to = path.points[k + 1];
     checkInterval(from, to, species);
     marchInterval(from, to, division, [&](const ParticleGas& gas, double w, double dt) {

@@ -63,7 +63,7 @@ PathEnsemble runPathEnsemble(MPI_Comm comm, const ParticlePath& path, const Ense
   const std::size_t width = records * row + (records - 1) * exchangeWidth + counters;
   std::vector<double> all = gatherRepeats(comm, 0, repeats, width, [&](std::uint64_t r, std::span<double> record) {
     if (const int signal = stopRequest(); signal != 0)
-      throw NumericsError("stochastic soot: stopped by " + signalName(signal));
+      throw Stopped(signal, "stopped by " + signalName(signal) + " before the end of the path");
     EnsembleOptions own = options;
     own.owner = options.owner + r;
     try {

@@ -61,6 +61,8 @@ class FlowLoop {
 
   // Writes numbers of steps and the time reached into the record.
   void count(RunRecord& record) const;
+  // Collective: what its parts took, and memory.
+  void measure(RunRecord& record) const;
 
   void report(double wallTime, RunRecord& record);
 

@@ -84,6 +84,13 @@ void FlowLoop::count(RunRecord& record) const {
   record.simulatedTime = time_;
 }
 
+void FlowLoop::measure(RunRecord& record) const {
+  record.stages.clear();
+  for (const auto& stage : timers_.gather(comm_))
+    record.stages.push_back({stage.name, stage.least, stage.mean, stage.most});
+  record.peakMemoryPerRank = peakMemory(comm_);
+}
+
 void FlowLoop::report(double wallTime, RunRecord& record) {
   ClosingReport closing;
   closing.ranks = domain_->mesh.ranks;
@@ -91,14 +98,12 @@ void FlowLoop::report(double wallTime, RunRecord& record) {
   closing.steps = steps_ - earlierSteps_;
   closing.earlierSteps = earlierSteps_;
   closing.wallTime = wallTime;
-  closing.peakMemoryPerRank = peakMemory(comm_);
-  for (const auto& stage : timers_.gather(comm_))
-    closing.stages.push_back({stage.name, stage.least, stage.mean, stage.most});
+  measure(record);
+  closing.stages = record.stages;
+  closing.peakMemoryPerRank = record.peakMemoryPerRank;
   for (const Operator* op : operators_)
     if (const auto imbalance = op->imbalance())
       closing.imbalances.push_back({op->name(), imbalance->before, imbalance->after});
-  record.stages = closing.stages;
-  record.peakMemoryPerRank = closing.peakMemoryPerRank;
   count(record);
   if (domain_->mesh.rank != 0) return;
   std::cout << formatReport(closing);

@@ -10,6 +10,7 @@
 #include "app/run/recorded_run.hpp"
 #include "app/run/warnings.hpp"
 #include "core/errors.hpp"
+#include "core/stop_request.hpp"
 
 namespace lampblack::app {
 namespace {
@@ -69,6 +70,10 @@ class PreparedFlow : public PreparedRun {
       }
       try {
         run_->run(folder, info);
+      } catch (const Stopped&) {
+        run_->count(record);
+        run_->measure(record);
+        throw;
       } catch (...) {
         run_->count(record);  // how far it came
         throw;

@@ -50,18 +50,20 @@ class PreparedPrescribedGas : public PreparedRun {
     recordedRun(comm_, deck_, options, case_.ensemble ? case_.ensemble->soot.seed : 0,
                 [&](const RunFolder& folder, const RunInfo& info, RunRecord& record) {
                   const double begin = MPI_Wtime();
+                  const auto measure = [&] {
+                    const double seconds = MPI_Wtime() - begin;
+                    record.stages = {{"particles", seconds, seconds, seconds}};
+                  };
                   try {
                     if (case_.ensemble)
                       runEnsemble(folder, info, record);
                     else
                       runModel(folder, info, record);
-                  } catch (const NumericsError&) {
-                    if (const int signal = agreedStopRequest(comm_); signal != 0)
-                      raiseStopped(comm_, signal, "before the end of the path");
+                  } catch (const Stopped&) {
+                    measure();
                     throw;
                   }
-                  const double seconds = MPI_Wtime() - begin;
-                  record.stages = {{"particles", seconds, seconds, seconds}};
+                  measure();
                   record.simulatedTime = case_.path.points.back().time - case_.path.points.front().time;
                   record.peakMemoryPerRank = peakMemory(comm_);
                 });

@@ -65,7 +65,16 @@ void runDriver(MPI_Comm comm, ReactorDriver& driver, const RunFolder& folder, co
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
   const double begin = MPI_Wtime();
-  driver.run(comm, folder);
+  const auto measure = [&] {
+    const double seconds = MPI_Wtime() - begin;
+    record.stages = {{"integration", seconds, seconds, seconds}};
+  };
+  try {
+    driver.run(comm, folder);
+  } catch (const Stopped&) {
+    measure();
+    throw;
+  }
   collectively(comm, [&] {
     if (rank != 0) return;
     JsonWriter json;
@@ -75,8 +84,7 @@ void runDriver(MPI_Comm comm, ReactorDriver& driver, const RunFolder& folder, co
     record.resultsJson = json.text();
     record.steps = driver.steps();
     record.simulatedTime = driver.simulatedTime();
-    const double seconds = MPI_Wtime() - begin;
-    record.stages = {{"integration", seconds, seconds, seconds}};
+    measure();
   });
   ResultsWriter results(comm, folder.results(), info);
   driver.write(results);

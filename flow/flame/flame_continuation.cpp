@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/errors.hpp"
+#include "core/stop_request.hpp"
 
 namespace lampblack::flow {
 namespace {
@@ -77,6 +78,9 @@ FlameBranch followFlame(MPI_Comm comm, std::shared_ptr<const Mechanism> mechanis
         branch.reason = tracer.reason();
     } catch (const NumericsError& error) {
       branch.reason = error.what();
+    } catch (const Stopped& stop) {
+      branch.reason = stop.what();
+      branch.stop = stop.signal();
     }
     if (!branch.reason.empty()) break;
     record();

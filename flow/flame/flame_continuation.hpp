@@ -41,6 +41,7 @@ struct FlameBranch {
   std::vector<TurningPoint> turningPoints;
   std::string reason;     // why the branch ends here
   bool complete = false;  // as asked for; false: the next point could not be found
+  int stop = 0;           // the signal that asked to stop on the way, or 0
   FlameProfile last;
 };
 

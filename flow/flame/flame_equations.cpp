@@ -54,6 +54,29 @@ double GivenTemperature::at(double place) const {
   return T[above - 1] + share * (T[above] - T[above - 1]);
 }
 
+GivenTemperature GivenTemperature::smoothed(double width, double length) const {
+  constexpr int samples = 50;                                  // on either side of a mean
+  constexpr double perWidth = 20, fewest = 200, most = 20000;  // points of the result
+  const auto extended = [&](double place) {
+    if (place < 0) return 2 * at(0) - at(-place);
+    return place > length ? 2 * at(length) - at(2 * length - place) : at(place);
+  };
+  const double intervals = std::clamp(std::ceil(perWidth * length / width), fewest, most);
+  GivenTemperature result;
+  for (double i = 0; i <= intervals; ++i) {
+    const double place = length * i / intervals;
+    double sum = 0, weights = 0;
+    for (int s = -samples; s <= samples; ++s) {
+      const double weight = 1.0 - std::abs(s) / (samples + 1.0);
+      sum += weight * extended(place + width * s / (samples + 1.0));
+      weights += weight;
+    }
+    result.z.push_back(place);
+    result.T.push_back(sum / weights);
+  }
+  return result;
+}
+
 FlameEquations::Data::Data(MPI_Comm communicator, std::shared_ptr<const Mechanism> gasMechanism, FlameProblem flame,
                            CarriedModel* carriedModel, FlameTolerances sizes)
     : comm(communicator),
@@ -167,13 +190,14 @@ void FlameEquations::setExchange(std::optional<GivenExchange> exchange) {
   data_->exchange = std::move(exchange);
 }
 
+void FlameEquations::Data::endIfAsked() const {
+  if (const int signal = agreedStopRequest(comm); signal != 0) raiseStopped(comm, signal, "in the solution of a flame");
+}
+
 void FlameEquations::residual(std::span<const double> x, std::span<double> F) {
   Data& d = *data_;
   const double start = MPI_Wtime();
-  // Here, where all ranks pass together and which costs far more than asking. Whoever solves treats it as any failure,
-  // and keeps what there is; each further attempt ends here, too.
-  if (const int signal = agreedStopRequest(d.comm); signal != 0)
-    throw NumericsError("stopped by " + signalName(signal));
+  d.endIfAsked();  // here, where all ranks pass together and which costs far more than asking
   d.setUnknowns(x);
   const auto work = [&] {
     d.chooseBlend();

@@ -61,6 +61,9 @@ struct FlameEquations::Data {
   [[nodiscard]] std::size_t unknowns() const { return profile.size(); }
   [[nodiscard]] bool isHeld(std::size_t component) const { return holds && holds(component); }
 
+  // Collective: raises Stopped on all ranks where the run is asked to stop.
+  void endIfAsked() const;
+
   [[nodiscard]] std::string nameOf(std::size_t point, std::size_t component) const;
 
   void setUnknowns(std::span<const double> x) { std::copy(x.begin(), x.end(), profile.x.begin()); }

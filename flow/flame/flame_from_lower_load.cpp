@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/stop_request.hpp"
 #include "flow/flame/flame_continuation.hpp"
 #include "flow/flame/flame_state.hpp"
 
@@ -24,8 +25,14 @@ FlameProblem atLoad(FlameProblem problem, double load) {
 class Raise {
  public:
   Raise(MPI_Comm comm, const std::shared_ptr<const Mechanism>& mechanism, const FlameProblem& problem,
-        FlameSolverOptions options, const std::function<void(double, double)>& report)
-      : comm_(comm), mechanism_(mechanism), problem_(problem), options_(std::move(options)), report_(report) {
+        FlameSolverOptions options, const std::function<void(double, double)>& report,
+        const std::function<void(double)>& tries)
+      : comm_(comm),
+        mechanism_(mechanism),
+        problem_(problem),
+        options_(std::move(options)),
+        report_(report),
+        tries_(tries) {
     options_.polish = 0;  // a way, not an end
   }
 
@@ -52,6 +59,7 @@ class Raise {
  private:
   // Keeps a flame that burns and lasts.
   bool solve(const FlameProblem& problem, FlameProfile start, double load) {
+    if (tries_) tries_(load);
     try {
       FlameSolution solution = FlameSolver(comm_, mechanism_, problem, nullptr, options_).solve(std::move(start));
       if (!isWarm(problem, solution.profile) || solution.growthRate) return false;
@@ -75,6 +83,7 @@ class Raise {
                                            [&](const FlameBranchPoint& point, const FlameProfile&) {
                                              if (report_) report_(load_ * point.load, point.peakTemperature);
                                            });
+    if (branch.stop != 0) raiseStopped(comm_, branch.stop, "in the search for a flame from lower velocities");
     if (!branch.turningPoints.empty()) {
       raised.extinctionLoad = load_ * branch.turningPoints.front().load;
     } else if (branch.complete && branch.last.global(load) > options.highestLoad) {
@@ -89,6 +98,7 @@ class Raise {
   const FlameProblem& problem_;
   FlameSolverOptions options_;
   const std::function<void(double, double)>& report_;
+  const std::function<void(double)>& tries_;
   FlameProfile profile_;
   double load_ = 0;
 };
@@ -97,9 +107,10 @@ class Raise {
 
 RaisedFlame flameFromLowerLoad(MPI_Comm comm, const std::shared_ptr<const Mechanism>& mechanism,
                                const FlameProblem& problem, const FlameSolverOptions& options,
-                               const InitialFlameOptions& start, const std::function<void(double, double)>& report) {
+                               const InitialFlameOptions& start, const std::function<void(double, double)>& report,
+                               const std::function<void(double)>& tries) {
   if (problem.type == FlameType::Free) throw std::logic_error("a free flame has no load to raise");
-  Raise raise(comm, mechanism, problem, options, report);
+  Raise raise(comm, mechanism, problem, options, report, tries);
   return raise.start(start) ? raise.raise() : RaisedFlame{};
 }
 

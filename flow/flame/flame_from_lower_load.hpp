@@ -22,10 +22,12 @@ struct RaisedFlame {
 };
 
 // Collective. Neither is given where no start burns, or where the branch is lost on its way. `report` sees the load and
-// the peak temperature (K) of every flame on the way, on all ranks. Not for free flames (std::logic_error).
+// the peak temperature (K) of every flame on the way, `tries` the load of every flame that is about to be solved, on
+// all ranks. Not for free flames (std::logic_error).
 [[nodiscard]] RaisedFlame flameFromLowerLoad(MPI_Comm comm, const std::shared_ptr<const Mechanism>& mechanism,
                                              const FlameProblem& problem, const FlameSolverOptions& options,
                                              const InitialFlameOptions& start,
-                                             const std::function<void(double load, double peak)>& report = {});
+                                             const std::function<void(double load, double peak)>& report = {},
+                                             const std::function<void(double load)>& tries = {});
 
 }  // namespace lampblack::flow

@@ -40,6 +40,9 @@ struct FlameStream {
 struct GivenTemperature {
   std::vector<double> z, T;  // m (rising), K
   [[nodiscard]] double at(double place) const;
+  // The mean over `width` (m) to either side, with weights that fall linearly to its ends: no kinks and no steps of
+  // rounding. Beyond the ends of the domain [0, length] it goes on point-symmetrically, so that its values there stay.
+  [[nodiscard]] GivenTemperature smoothed(double width, double length) const;
 };
 
 struct FlameProblem {
@@ -52,7 +55,7 @@ struct FlameProblem {
   double wallTemperature = 300;           // K, Wall
   double strainRate = 0;                  // 1/s, Potential: of the stream at the right end
   double stagnationPlane = 0;             // m, Potential
-  std::optional<GivenTemperature> given;  // where the energy equation is not solved (burner)
+  std::optional<GivenTemperature> given;  // where the energy equation is not solved (burner, wall)
   TransportModel transport;
   RadiationOptions radiation;
 };

@@ -52,6 +52,7 @@ void FlameScalars::evaluate(std::span<const double> x) {
 }
 
 void FlameScalars::residual(std::span<const double> x, std::span<double> F) {
+  flame_.endIfAsked();
   collectively(flame_.comm, [&] {
     evaluate(x);
     for (std::size_t i = 0; i < flame_.points(); ++i) {

@@ -38,11 +38,14 @@ std::string whatMayHelp(const FlameProblem& problem) {
                        : problem.type == FlameType::Burner     ? "at this mass flux, or does it blow off"
                        : problem.nozzles == FlameNozzles::Plug ? "at these velocities, or are they beyond extinction"
                                                                : "at this strain rate, or is it beyond extinction";
+  const char* kinks =
+      problem.given ? "a given temperature without kinks and steps of rounding ('temperature_profile.smoothing'), "
+                    : "";
   return fmt::format(
-      "What may help: {}a start from a flame that is like it ('initial'), more points to begin with "
+      "What may help: {}{}a start from a flame that is like it ('initial'), more points to begin with "
       "('grid.initial_points'), a shorter first time step ('solver.first_time_step'); does the flame "
       "exist {}?",
-      free ? "a guess of its speed ('inlet.velocity'), " : "", exists);
+      kinks, free ? "a guess of its speed ('inlet.velocity'), " : "", exists);
 }
 
 }  // namespace
@@ -75,6 +78,21 @@ void FlameSolver::Data::reactAtFixedTemperature(FlameEquations& equations, Newto
   equations.release();
 }
 
+void FlameSolver::Data::inStage(FlameStage& stage, double start, NewtonSolver& solver,
+                                const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const Stopped& stop) {
+    stage.newton = solver.report();
+    stage.newton.converged = false;
+    stage.newton.reason = stop.what();
+    stage.points = solution.profile.points();
+    stage.seconds = MPI_Wtime() - start;
+    solution.stages.push_back(stage);
+    throw;
+  }
+}
+
 void FlameSolver::Data::finish(FlameStage& stage, double start) {
   stage.points = solution.profile.points();
   stage.seconds = MPI_Wtime() - start;
@@ -89,12 +107,14 @@ void FlameSolver::Data::steady(FlameEquations& equations, NewtonSolver& solver, 
   stage.name = name;
   setGridAndAnchor(equations);
   std::size_t failures = 0;
-  stage.newton = solver.steady(equations, solution.profile.x, [&] {
-    watchFlux();
-    if (failures++ > 0)
-      moveGridToFlame(equations);
-    else if (solution.stages.empty())
-      reactAtFixedTemperature(equations, solver);
+  inStage(stage, start, solver, [&] {
+    stage.newton = solver.steady(equations, solution.profile.x, [&] {
+      watchFlux();
+      if (failures++ > 0)
+        moveGridToFlame(equations);
+      else if (solution.stages.empty())
+        reactAtFixedTemperature(equations, solver);
+    });
   });
   finish(stage, start);
 }
@@ -106,8 +126,7 @@ void FlameSolver::Data::gasAlone(const FlameProblem& flame, NewtonSolver& solver
   solution.profile = withLayout(solution.profile, bare);
   FlameEquations gas(comm, mechanism, flame, nullptr, options.tolerances);
   gas.setExchange(exchange);
-  refine(gas, solver, name);
-  addCounters(gas);
+  counted(gas, [&] { refine(gas, solver, name); });
   solution.profile = withLayout(solution.profile, full);
 }
 
@@ -135,7 +154,7 @@ void FlameSolver::Data::scalarsAlone(FlameEquations& equations, NewtonSolver& so
   setGridAndAnchor(equations);
   FlameScalars scalars(equations, solution.profile);
   std::vector<double> x = scalars.start();
-  stage.newton = solver.steady(scalars, x);
+  inStage(stage, start, solver, [&] { stage.newton = solver.steady(scalars, x); });
   const std::vector<double> without = solution.profile.x;
   scalars.put(x, solution.profile);
   if (largestLoad() > mostLoad) {
@@ -143,6 +162,16 @@ void FlameSolver::Data::scalarsAlone(FlameEquations& equations, NewtonSolver& so
     stage.name = "scalars in the gas: too many to start from";
   }
   finish(stage, start);
+}
+
+void FlameSolver::Data::counted(const FlameEquations& equations, const std::function<void()>& work) {
+  try {
+    work();
+  } catch (...) {
+    addCounters(equations);
+    throw;
+  }
+  addCounters(equations);
 }
 
 void FlameSolver::Data::addCounters(const FlameEquations& equations) {
@@ -187,6 +216,8 @@ FlameSolution FlameSolver::solve(const std::vector<FlameProfile>& starts) {
   Data& d = *data_;
   try {
     d.solveFromOneOf(starts);
+  } catch (const Stopped& stop) {
+    throw FlameStopped(stop, d.solution);
   } catch (const FlameFailure&) {
     throw;
   } catch (const NumericsError& error) {
@@ -248,21 +279,22 @@ void FlameSolver::Data::solve() {
     throw std::logic_error("the start of a flame has other unknowns than its problem");
   anchorIn(solution.profile);
 
-  const bool multicomponent = problem.transport.isMulticomponent();
-  if (multicomponent) {
-    // Most of the way with coefficients that cost a hundredth.
-    FlameProblem averaged = problem;
-    averaged.transport.diffusion = TransportModel::Diffusion::MixtureAveraged;
-    gasAlone(averaged, solver, "mixture-averaged gas");
-  }
-  if (layout.scalars > 0 && withoutScalars()) {
-    if (!multicomponent) gasAlone(problem, solver, "gas");
-    scalarsAlone(equations, solver);
-  }
-  const std::string name = layout.scalars > 0 ? "gas and scalars" : "flame";
-  toLastSteps(equations, solver, name);
-  if (options.preferStable) preferStable(equations, solver, name);
-  addCounters(equations);
+  counted(equations, [&] {
+    const bool multicomponent = problem.transport.isMulticomponent();
+    if (multicomponent) {
+      // Most of the way with coefficients that cost a hundredth.
+      FlameProblem averaged = problem;
+      averaged.transport.diffusion = TransportModel::Diffusion::MixtureAveraged;
+      gasAlone(averaged, solver, "mixture-averaged gas");
+    }
+    if (layout.scalars > 0 && withoutScalars()) {
+      if (!multicomponent) gasAlone(problem, solver, "gas");
+      scalarsAlone(equations, solver);
+    }
+    const std::string name = layout.scalars > 0 ? "gas and scalars" : "flame";
+    toLastSteps(equations, solver, name);
+    if (options.preferStable) preferStable(equations, solver, name);
+  });
   solution.budgets = equations.budgets(solution.profile.x);
   if (problem.type == FlameType::Burner) solution.burnerHeatFlux = equations.burnerHeatFlux(solution.profile.x);
 }

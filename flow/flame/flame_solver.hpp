@@ -8,10 +8,12 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/errors.hpp"
 #include "core/modules.hpp"
+#include "core/stop_request.hpp"
 #include "flow/flame/flame_equations.hpp"
 #include "flow/flame/flame_grid.hpp"
 #include "flow/flame/newton_solver.hpp"
@@ -66,6 +68,16 @@ class FlameFailure : public NumericsError {
   FlameSolution last_;
 };
 
+// Asked to stop on the way to a flame. The last profile goes along so that it can be kept.
+class FlameStopped : public Stopped {
+ public:
+  FlameStopped(const Stopped& stop, FlameSolution last) : Stopped(stop.signal(), stop.what()), last_(std::move(last)) {}
+  [[nodiscard]] const FlameSolution& last() const { return last_; }
+
+ private:
+  FlameSolution last_;
+};
+
 class FlameSolver {
  public:
   FlameSolver(MPI_Comm comm, std::shared_ptr<const Mechanism> mechanism, FlameProblem problem, CarriedModel* carried,
@@ -77,7 +89,8 @@ class FlameSolver {
   // Exchange with something outside (two-way coupled stochastic particles); kept for the following solutions.
   void setExchange(std::optional<GivenExchange> exchange);
 
-  // Collective. Throws FlameFailure. `start` may be of any grid over the problem's length.
+  // Collective. Throws FlameFailure, and FlameStopped where the run is asked to stop. `start` may be of any grid over
+  // the problem's length.
   FlameSolution solve(FlameProfile start);
   // From the first of several starts (initialFlames) that leads to a flame.
   FlameSolution solve(const std::vector<FlameProfile>& starts);

@@ -32,6 +32,8 @@ struct FlameSolver::Data {
   // The end of a stage that began at `start` (MPI_Wtime). FlameFailure where it has not converged.
   void finish(FlameStage& stage, double start);
   [[noreturn]] void fail(const FlameStage& stage);
+  // The work of a stage that began at `start`; one that is stopped is kept with what its solver counted.
+  void inStage(FlameStage& stage, double start, NewtonSolver& solver, const std::function<void()>& work);
   // Stages on the way to the last grid, and Newton steps until budgets close.
   void toLastSteps(FlameEquations& equations, NewtonSolver& solver, const std::string& name);
   // Where the solution would not last, to the one that the flame goes to from there if it is disturbed towards higher
@@ -49,6 +51,8 @@ struct FlameSolver::Data {
   void gasAlone(const FlameProblem& flame, NewtonSolver& solver, const std::string& name);
   void scalarsAlone(FlameEquations& equations, NewtonSolver& solver);
   [[nodiscard]] double largestLoad() const;
+  // What equations counted in some work, whatever ends it.
+  void counted(const FlameEquations& equations, const std::function<void()>& work);
   void addCounters(const FlameEquations& equations);
   [[nodiscard]] bool withoutScalars() const {
     for (std::size_t i = 0; i < solution.profile.points(); ++i)

@@ -67,6 +67,7 @@ bool NewtonIteration::search(std::span<const double> x, std::span<const double> 
 
   // A step that is within the tolerance anyway may be cut to nothing.
   const double least = !converged_ && size.largest <= options_.stepTolerance ? 0 : options_.smallestDamping;
+  constexpr double rounding = 1e-16;  // a smaller part is tried once
   while (damping >= least) {
     // Within bounds but for rounding.
     for (std::size_t i = 0; i < x.size(); ++i)
@@ -83,7 +84,7 @@ bool NewtonIteration::search(std::span<const double> x, std::span<const double> 
         return true;
       }
     }
-    if (!fresh || converged_) break;
+    if (!fresh || converged_ || damping < rounding) break;
     // A-posteriori estimate of the same algorithm, within [1/10, 1/2].
     double factor = 0.5;
     if (evaluated && std::isfinite(next.mean)) {

@@ -39,6 +39,7 @@ void addCounts(NewtonReport& whole, NewtonReport part) {
 struct NewtonSolver::Data {
   NewtonOptions newton;
   PseudoTransientOptions transient;
+  NewtonReport last;  // of steady()
 
   // Some time steps from x, the first of length dt; dt becomes that of the next. Returns why they had to stop early;
   // empty otherwise.
@@ -64,7 +65,7 @@ struct NewtonSolver::Data {
 };
 
 NewtonSolver::NewtonSolver(NewtonOptions options, PseudoTransientOptions transient)
-    : data_(std::make_unique<Data>(Data{options, transient})) {}
+    : data_(std::make_unique<Data>(Data{options, transient, {}})) {}
 
 NewtonSolver::~NewtonSolver() = default;
 
@@ -82,11 +83,19 @@ bool NewtonSolver::timeStep(NewtonSystem& system, std::span<double> x, double dt
 }
 
 NewtonReport NewtonSolver::steady(NewtonSystem& system, std::vector<double>& x, const std::function<void()>& between) {
-  NewtonReport report;
+  NewtonReport& report = data_->last;
+  report = {};
   double dt = data_->transient.firstStep;
   std::vector<double> solution = x;
   while (true) {
-    addCounts(report, newton(system, solution));
+    NewtonReport part;
+    try {
+      NewtonIteration(system, data_->newton).steady(solution, part);
+    } catch (...) {
+      addCounts(report, std::move(part));
+      throw;
+    }
+    addCounts(report, std::move(part));
     if (report.converged) {
       x = std::move(solution);
       return report;
@@ -104,6 +113,10 @@ NewtonReport NewtonSolver::steady(NewtonSystem& system, std::vector<double>& x, 
     }
     solution = x;
   }
+}
+
+const NewtonReport& NewtonSolver::report() const {
+  return data_->last;
 }
 
 }  // namespace lampblack::flow

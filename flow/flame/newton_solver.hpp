@@ -65,6 +65,8 @@ class NewtonSolver {
   // solution, or the last time step's. `between` is called where Newton's method failed, before time steps; it may
   // put the system and x on another grid.
   NewtonReport steady(NewtonSystem& system, std::vector<double>& x, const std::function<void()>& between = {});
+  // Of the last steady(): also where an exception ended it.
+  [[nodiscard]] const NewtonReport& report() const;
 
  private:
   struct Data;

@@ -11,6 +11,7 @@
 
 #include "core/errors.hpp"
 #include "core/modules.hpp"
+#include "core/stop_request.hpp"
 #include "tests/flow/flame/small_systems.hpp"
 
 namespace lampblack::flow {
@@ -159,6 +160,57 @@ TEST(Newton, ErrorsThatAreNoNumericsErrorsPassThroughPetsc) {
       [](auto, std::vector<double>& J) { J[0] = 1; });
   std::vector<double> x = {3};
   EXPECT_THROW(NewtonSolver().newton(system, x), std::logic_error);
+}
+
+// Whichever evaluation it is that is asked to stop: of the start, in a line search, in a time step.
+TEST(Newton, AStopEndsItAtOnceAndWhatWasDoneIsCounted) {
+  std::size_t calls = 0;
+  const auto run = [&](std::size_t last, NewtonReport& report) {
+    calls = 0;
+    SmallSystem system(
+        1,
+        [&, last](auto x, auto F) {
+          if (++calls >= last) throw Stopped(15, "stopped");
+          F[0] = std::atan(x[0]) + 1e-3 * x[0];  // Newton's method alone diverges from far
+        },
+        [](auto x, std::vector<double>& J) { J[0] = 1 / (1 + x[0] * x[0]) + 1e-3; });
+    std::vector<double> x = {60};
+    NewtonOptions options;
+    options.maximumSteps = 3;
+    NewtonSolver solver(options, {});
+    try {
+      report = solver.steady(system, x);
+      EXPECT_TRUE(report.converged) << report.reason;
+      return true;
+    } catch (const Stopped&) {
+      report = solver.report();
+      return false;
+    }
+  };
+  NewtonReport whole, part;
+  ASSERT_TRUE(run(10000, whole));
+  ASSERT_GT(whole.timeSteps, 0u);
+  const std::size_t all = calls;
+  for (std::size_t last = 1; last <= all; ++last) {
+    ASSERT_FALSE(run(last, part));
+    EXPECT_EQ(calls, last) << "it goes on after a stop";
+    EXPECT_EQ(part.residuals, last);
+  }
+}
+
+// The line search of a step within the tolerance, which may be cut to nothing.
+TEST(Newton, ATinyStepThatCannotBeEvaluatedEnds) {
+  std::size_t calls = 0;
+  SmallSystem system(
+      1,
+      [&](auto, auto F) {
+        if (++calls > 1) throw NumericsError("no value");
+        F[0] = 1e-9;
+      },
+      [](auto, std::vector<double>& J) { J[0] = 1; });
+  std::vector<double> x = {1};
+  EXPECT_FALSE(NewtonSolver().newton(system, x).converged);
+  EXPECT_LT(calls, 100u);
 }
 
 TEST(Newton, KeepsFactorsWhileTheyConvergeFast) {
