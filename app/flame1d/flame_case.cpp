@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "app/deck/radiation_deck.hpp"
+#include "app/deck/sensitivity_deck.hpp"
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/temperature_input.hpp"
 #include "app/deck/transport_deck.hpp"
@@ -60,9 +61,21 @@ void requireLowStrain(const Deck& deck, const FlameCase& flame) {
   requireLowMach(deck, "flame.strain_rate", thermo, 2 * problem.strainRate * distance, known.temperature, known.Y);
 }
 
+constexpr double agrees = 1;  // K, of two temperatures at one place
+
+// The wall has the temperature that the gas is given there.
+void setWallTemperature(const Deck& deck, FlameProblem& problem) {
+  const double last = problem.given->at(problem.length);
+  if (deck.optionalQuantity("flame.wall_temperature") && std::abs(last - problem.wallTemperature) > agrees)
+    throw deck.error("flame.wall_temperature",
+                     fmt::format("the wall is {:g} K, the profile {:g} K there: expected the same, or no "
+                                 "'wall_temperature'",
+                                 problem.wallTemperature, last));
+  problem.wallTemperature = last;
+}
+
 // What a burner at one temperature lets through cannot begin at another.
 void requireTemperatureOfInlet(const Deck& deck, const FlameProblem& problem) {
-  constexpr double agrees = 1;  // K
   const GivenTemperature& given = *problem.given;
   const double first = given.at(0), inlet = problem.left.temperature;
   if (std::abs(first - inlet) > agrees)
@@ -89,7 +102,7 @@ void readConfiguration(const Deck& deck, FlameCase& flame) {
   } else {
     problem.left = readStream(deck, "inlet", flame, flux);
   }
-  if (problem.type == FlameType::Wall) {
+  if (problem.type == FlameType::Wall && !(given && !deck.optionalQuantity("flame.wall_temperature"))) {
     problem.wallTemperature = neededQuantity(deck, "flame", "wall_temperature", "a flame against a wall");
     requireTemperature(deck, "flame.wall_temperature", problem.wallTemperature, *flame.mechanism,
                        TemperatureUse::transport);
@@ -109,6 +122,14 @@ void readConfiguration(const Deck& deck, FlameCase& flame) {
         readTemperatureProfile(deck, "position", *flame.mechanism, TemperatureUse::transport);
     problem.given = GivenTemperature{profile.points(), profile.temperatures()};
     requireTemperatureOfInlet(deck, problem);
+    if (const auto width = deck.optionalQuantity("temperature_profile.smoothing")) {
+      if (*width > 0.5 * problem.length)
+        throw deck.error(
+            "temperature_profile.smoothing",
+            fmt::format("expected at most half of 'flame.length', {:g} m, found {:g} m", 0.5 * problem.length, *width));
+      problem.given = problem.given->smoothed(*width, problem.length);
+    }
+    if (problem.type == FlameType::Wall) setWallTemperature(deck, problem);
   }
   if (problem.type == FlameType::Free)
     if (const std::string reason = inertReason(*flame.mechanism, problem); !reason.empty())
@@ -264,6 +285,7 @@ FlameCase readFlameCase(const Deck& deck) {
   readSolver(deck, flame);
   readContinuation(deck, flame);
   readUnsteady(deck, flame);
+  if (deck.has("sensitivity")) flame.sensitivities = readSensitivityReactions(deck, *flame.mechanism);
   if (auto model = readSootModel(deck, *flame.mechanism)) {
     flame.soot = std::make_unique<CarriedParticles>(*flame.mechanism, std::move(model), deck.boolean("soot.diffusion"));
     flame.sootAtLimit = deck.number("soot.sectional.overflow");

@@ -40,6 +40,7 @@ struct FlameCase {
   std::optional<StochasticRequest> stochastic;
   std::optional<FlameContinuationOptions> continuation;
   std::optional<FlameUnsteady> unsteady;
+  std::vector<std::size_t> sensitivities;  // reactions, of the speed
 
   [[nodiscard]] std::vector<std::string> scalarNames() const;  // of the soot
 };

@@ -87,8 +87,10 @@ FlameInTime flameInTime(MPI_Comm comm, FlameCase& flame, FlameProfile& start, Hi
     });
   } catch (const NumericsError& error) {
     course.failure = error.what();
-    if (!course.profiles.empty()) start = course.profiles.back();
+  } catch (const Stopped& stop) {
+    course.failure = stop.what();
   }
+  if (!course.failure.empty() && !course.profiles.empty()) start = course.profiles.back();
   progress.finish();
   return course;
 }

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "app/deck/sensitivity_deck.hpp"
 #include "app/flame1d/flame_branch.hpp"
 #include "app/flame1d/flame_case.hpp"
 #include "app/flame1d/flame_in_time.hpp"
@@ -16,6 +17,7 @@
 #include "core/stop_request.hpp"
 #include "core/timers.hpp"
 #include "flow/flame/flame_from_lower_load.hpp"
+#include "flow/flame/flame_sensitivity.hpp"
 
 namespace lampblack::app {
 namespace {
@@ -55,6 +57,7 @@ struct Attempt {
   std::optional<FlameInTime> course;
   std::unique_ptr<HistoryWriter> history;  // of the course
   std::optional<double> extinctionLoad;    // of a flame that is out
+  std::vector<Sensitivities> sensitivities;
   std::optional<std::string> failure;
 };
 
@@ -63,12 +66,15 @@ void relight(MPI_Comm comm, const FlameCase& flame, FlameSolver& solver, FlameSo
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
   if (rank == 0) fmt::print("the flame went out; from lower velocities: load, largest temperature\n");
-  const RaisedFlame raised = flameFromLowerLoad(comm, flame.mechanism, flame.problem, flame.solver, flame.start,
-                                                [rank](double load, double peak) {
-                                                  if (rank != 0) return;
-                                                  fmt::print("  {:>12.6g} {:>10.2f} K\n", load, peak);
-                                                  std::fflush(stdout);
-                                                });
+  const auto say = [rank](const std::string& line) {
+    if (rank != 0) return;
+    fmt::print("{}\n", line);
+    std::fflush(stdout);
+  };
+  const RaisedFlame raised = flameFromLowerLoad(
+      comm, flame.mechanism, flame.problem, flame.solver, flame.start,
+      [&](double load, double peak) { say(fmt::format("  {:>12.6g} {:>10.2f} K", load, peak)); },
+      [&](double load) { say(fmt::format("  {:>12.6g} is tried", load)); });
   attempt.extinctionLoad = raised.extinctionLoad;
   if (raised.profile) solution = solver.solve(withLayout(*raised.profile, solution.profile.layout));
 }
@@ -99,11 +105,20 @@ Attempt solve(MPI_Comm comm, FlameCase& flame, const std::vector<FlameProfile>& 
       } catch (const NumericsError& error) {
         solution = alone;
         attempt.failure = error.what();
+      } catch (const Stopped& stop) {
+        solution = alone;
+        attempt.failure = stop.what();
       }
     }
   } catch (const FlameFailure& failure) {
     solution = failure.last();
     attempt.failure = failure.what();
+  } catch (const FlameStopped& stop) {
+    // A flame that is there stays: what was searched from it may be of another load.
+    if (!solution) solution = stop.last();
+    attempt.failure = stop.what();
+  } catch (const Stopped& stop) {
+    attempt.failure = stop.what();
   }
   collectively(comm, [&] { attempt.result = flameResult(flame, std::move(*solution), !attempt.failure); });
   attempt.result.extinctionLoad = attempt.extinctionLoad;
@@ -142,6 +157,20 @@ void followInTime(MPI_Comm comm, FlameCase& flame, const RunFolder& folder, Atte
   collectively(comm, [&] { attempt.result = flameResult(flame, std::move(last), !attempt.failure); });
 }
 
+void findSensitivities(MPI_Comm comm, const FlameCase& flame, Attempt& attempt) {
+  try {
+    const std::vector<double> all = speedSensitivities(comm, flame.mechanism, flame.problem, flame.soot.get(),
+                                                       flame.solver.tolerances, attempt.result.solution.profile);
+    Sensitivities& chosen = attempt.sensitivities.emplace_back();
+    chosen.name = "flame_speed";
+    for (const std::size_t r : flame.sensitivities) chosen.values.push_back(all[r]);
+  } catch (const NumericsError& error) {
+    attempt.failure = error.what();
+  } catch (const Stopped& stop) {
+    attempt.failure = stop.what();
+  }
+}
+
 Attempt attemptFlame(MPI_Comm comm, FlameCase& flame, const std::vector<FlameProfile>& starts,
                      const RunFolder& folder) {
   Attempt attempt;
@@ -155,6 +184,7 @@ Attempt attemptFlame(MPI_Comm comm, FlameCase& flame, const std::vector<FlamePro
   if (attempt.failure) return attempt;
   if (flame.unsteady) followInTime(comm, flame, folder, attempt);
   refuseOverflow(flame, attempt);
+  if (!attempt.failure && !flame.sensitivities.empty()) findSensitivities(comm, flame, attempt);
   if (!flame.continuation) return attempt;
   try {
     attempt.branch = followBranch(comm, flame, attempt.result.solution.profile, attempt.result.summary);
@@ -162,6 +192,8 @@ Attempt attemptFlame(MPI_Comm comm, FlameCase& flame, const std::vector<FlamePro
       attempt.failure = "the branch of flames ends early: " + attempt.branch->branch.reason;
   } catch (const NumericsError& error) {
     attempt.failure = error.what();
+  } catch (const Stopped& stop) {
+    attempt.failure = stop.what();
   }
   return attempt;
 }
@@ -173,6 +205,9 @@ std::string writeTexts(const RunFolder& folder, const FlameCase& flame, const At
   json.beginObject();
   recordFlame(json, flame, attempt.result);
   if (attempt.stochastic) recordStochasticFlame(json, *attempt.stochastic);
+  if (!attempt.sensitivities.empty())
+    writeFileAtomically(folder.file("sensitivities.csv"),
+                        sensitivityTable(*flame.mechanism, flame.sensitivities, attempt.sensitivities));
   if (attempt.branch) {
     writeFileAtomically(folder.file("branch.csv"), branchTable(*attempt.branch));
     recordNumbers(json, namedBranchNumbers(*attempt.branch));
@@ -217,12 +252,19 @@ class PreparedFlame : public PreparedRun {
       writeFlame(results, flame_, result);
       if (attempt.stochastic) writeStochasticFlame(results, *flame_.stochastic, *attempt.stochastic);
       if (attempt.branch) writeBranch(results, *attempt.branch);
+      if (!attempt.sensitivities.empty())
+        writeSensitivities(results, flame_.sensitivities, attempt.sensitivities,
+                           "d ln(flame speed) / d ln(rate constant)");
       if (attempt.course) writeFlameInTime(results, flame_, *attempt.course);
       if (attempt.history) attempt.history->writeTo(results);
       if (!attempt.failure) {
         results.close();
         if (rank == 0) fmt::print("\n{}", flameReport(flame_, result));
         if (rank == 0 && attempt.stochastic) fmt::print("{}", stochasticFlameReport(*attempt.stochastic));
+        if (rank == 0 && !attempt.sensitivities.empty())
+          fmt::print("\nd ln S_u / d ln k\n{}",
+                     largestSensitivities(*flame_.mechanism, flame_.sensitivities, attempt.sensitivities.front().values,
+                                          "0.5 but for the grid"));
         if (rank == 0 && attempt.branch) fmt::print("\n{}", numbersText(namedBranchNumbers(*attempt.branch)));
         return;
       }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "app/deck/radiation_deck.hpp"
+#include "app/deck/sensitivity_deck.hpp"
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/temperature_input.hpp"
 #include "app/deck/transport_deck.hpp"
@@ -67,14 +68,15 @@ void addFlame(DeckSchema& schema) {
                .above(0)
                .onlyWith("flame.type", {"counterflow"})
                .onlyWith("flame.nozzles", {"potential"}))
-      .add(temperatureKey("flame.wall_temperature", "Temperature of the wall.")
+      .add(temperatureKey("flame.wall_temperature",
+                          "Temperature of the wall; absent with flame.energy given: that of the profile there.")
                .optional()
                .onlyWith("flame.type", {"wall"}))
       .add(choiceKey("flame.energy", {"solved", "given"},
                      "solved: the temperature follows from the energy equation; given: it is the measured one of the "
                      "section temperature_profile.")
                .byDefault("solved")
-               .onlyWith("flame.type", {"burner"}));
+               .onlyWith("flame.type", {"burner", "wall"}));
   addStream(schema, "inlet", "The stream that comes in on the left.", {"free", "burner", "wall"});
   addStream(schema, "left", "The stream from the left, by custom the fuel.", {"counterflow"});
   addStream(schema, "right", "The stream from the right, by custom the oxidiser.", {"counterflow"});
@@ -87,6 +89,12 @@ void addFlame(DeckSchema& schema) {
               .list()
               .optional());
   addTemperatureProfileKeys(schema, "distance in m");
+  schema.add(quantityKey("temperature_profile.smoothing", units::length,
+                         "Half the distance over which the temperature is averaged, with weights that fall linearly to "
+                         "its ends: for measured values whose kinks and steps of rounding the grid would follow. The "
+                         "values at both ends of the flame stay. Absent: as it is given.")
+                 .optional()
+                 .above(0));
 }
 
 void addPhysics(DeckSchema& schema) {
@@ -270,6 +278,10 @@ DeckSchema flameSchema() {
   addSolver(schema);
   addContinuation(schema);
   addUnsteady(schema);
+  addSensitivityKeys(schema,
+                     "Sensitivities d ln S_u / d ln k of the flame speed to the rate constants, forward and reverse "
+                     "together, by the adjoint of the flame.",
+                     "flame_speed", {{"flame.type", {"free"}}});
   return schema;
 }
 

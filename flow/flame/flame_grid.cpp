@@ -12,6 +12,9 @@
 namespace lampblack::flow {
 namespace {
 
+// That are left where a profile is flat: it says nothing of the grid that it needs when it changes.
+constexpr std::size_t fewestPoints = 5;
+
 void check(const GridOptions& o) {
   // Halving an interval that is less than twice its neighbour leaves one that is smaller than the neighbour: with a
   // ratio below 2 the grid could grow without end.
@@ -152,11 +155,13 @@ GridChange refineGrid(const FlameProfile& profile, const GridOptions& options, s
 
   GridChange change;
   std::size_t free = 1;  // the first point that may go
+  const std::size_t mostRemoved = n > fewestPoints ? n - fewestPoints : 0;
   for (std::size_t i = 0; i < n; ++i) {
     // Two points to either side stay as they are.
     const bool calm = i >= free && i + 1 < n && !split[i - 1] && !split[i] && (i < 2 || !split[i - 2]) &&
                       (i + 2 >= n || !split[i + 1]);
-    if (options.prune > 0 && calm && std::ranges::find(keep, i) == keep.end() && refinement.superfluous(i)) {
+    if (options.prune > 0 && calm && change.removed < mostRemoved && std::ranges::find(keep, i) == keep.end() &&
+        refinement.superfluous(i)) {
       free = i + 3;
       ++change.removed;
       continue;

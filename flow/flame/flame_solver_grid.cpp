@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "flow/flame/flame_solver_data.hpp"
 
@@ -108,6 +109,8 @@ bool FlameSolver::Data::widen() {
 }
 
 void FlameSolver::Data::refine(FlameEquations& equations, NewtonSolver& solver, const std::string& name) {
+  GridOptions grid = options.grid;
+  std::set<std::vector<double>> earlier;
   for (std::size_t pass = 0;; ++pass) {
     steady(equations, solver, pass == 0 ? name : fmt::format("{}, grid {}", name, pass + 1));
     if (!options.refine) return;
@@ -120,7 +123,13 @@ void FlameSolver::Data::refine(FlameEquations& equations, NewtonSolver& solver, 
     };
     GridChange change;
     try {
-      change = refineForAllButFlux(seenByGrid(solution.profile, carried), options.grid, anchorPoint());
+      change = refineForAllButFlux(seenByGrid(solution.profile, carried), grid, anchorPoint());
+      // Points may be superfluous on one grid and needed on the next, without end.
+      const bool returns = !earlier.insert(solution.profile.z).second || earlier.contains(change.z);
+      if (grid.prune > 0 && change.changed() && (returns || pass >= options.maximumGrids / 2)) {
+        grid.prune = 0;
+        change = refineForAllButFlux(seenByGrid(solution.profile, carried), grid, anchorPoint());
+      }
     } catch (const NumericsError& error) {
       stopRefinement(error.what());
     }

@@ -36,6 +36,17 @@ std::vector<double> pointsAround(double centre, double width, double length, std
   return z;
 }
 
+// Where a given temperature first is half-way to its largest.
+double riseOf(const GivenTemperature& given) {
+  if (given.T.size() < 2) return given.z.front();
+  const double half = 0.5 * (given.T.front() + *std::ranges::max_element(given.T));
+  std::size_t above = 1;
+  while (above + 1 < given.T.size() && given.T[above] < half) ++above;
+  const double step = given.T[above] - given.T[above - 1];
+  const double share = step > 0 ? std::clamp((half - given.T[above - 1]) / step, 0.0, 1.0) : 1.0;
+  return given.z[above - 1] + share * (given.z[above] - given.z[above - 1]);
+}
+
 class Start {
  public:
   Start(const Mechanism& mechanism, const FlameProblem& problem, std::size_t scalars,
@@ -120,6 +131,10 @@ FlameProfile Start::wall() {
     placeAtWall(mixture, 0.6 * length);
     return profile_;
   }
+  if (problem_.given) {
+    placeAtWall(mixture, std::clamp(riseOf(*problem_.given), 0.05 * length, 0.8 * length));
+    return profile_;
+  }
   // Where the stream, slowed down, is as fast as the flame.
   const double burning = burningFlux(mixture.hottest());
   double low = 0.05 * length, high = 0.8 * length;
@@ -154,8 +169,9 @@ void Start::placeAtWall(const StreamMixture& mixture, double centre) {
     double& T = profile_.at(i, FlameLayout::temperature);
     T = problem_.wallTemperature +
         (T - problem_.wallTemperature) * std::tanh((length - z) / layer) / std::tanh(length / layer);
+    if (problem_.given) T = problem_.given->at(z);
   }
-  profile_.at(0, FlameLayout::temperature) = stream.temperature;
+  if (!problem_.given) profile_.at(0, FlameLayout::temperature) = stream.temperature;
   const auto density = densities();
   for (std::size_t i = 0; i < profile_.points(); ++i) {
     const double z = profile_.z[i];

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <iomanip>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -49,6 +50,20 @@ bool flammable(const Mechanism& mechanism, const Thermo& thermo, const FlameStre
   return burn(mechanism, h, pressure, stream.Y).T > stream.temperature + leastRise;
 }
 
+// The products of a gas that burns with nothing: hydrogen peroxide, hydrazine, ozone, acetylene. Empty where they are
+// not hotter.
+std::optional<Burnt> decompose(const Mechanism& mechanism, const Thermo& thermo, const FlameStream& stream,
+                               double pressure) {
+  const double h = thermo.enthalpyMass(stream.temperature, stream.Y);
+  try {
+    Burnt burnt = burn(mechanism, h, pressure, stream.Y);
+    if (burnt.T >= stream.temperature + leastRise) return burnt;
+  } catch (const NumericsError&) {
+    // No equilibrium in the range of the data, as of a fuel that would get cold.
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 FuelAndOxidiser fuelAndOxidiser(const Mechanism& mechanism, std::span<const double> Y) {
@@ -83,14 +98,21 @@ StreamMixture StreamMixture::cold(const Mechanism& mechanism, const FlameStream&
 StreamMixture StreamMixture::premixed(const Mechanism& mechanism, const FlameStream& stream, double pressure) {
   checkSize(mechanism, stream);
   const auto [fuel, oxidiser] = fuelAndOxidiser(mechanism, stream.Y);
-  if (fuel <= 0) throw InputError("flame: the stream has no fuel");
-  if (oxidiser <= 0) throw InputError("flame: the stream has no oxidiser");
   const Thermo thermo(mechanism);
-  const double h = thermo.enthalpyMass(stream.temperature, stream.Y);
-  const Burnt burnt = burn(mechanism, h, pressure, stream.Y);
-  if (burnt.T < stream.temperature + leastRise)
-    throw InputError("flame: the stream of " + text(stream.temperature) + " K burns to only " + text(burnt.T) +
-                     " K (equivalence ratio " + text(fuel / oxidiser) + ")");
+  Burnt burnt;
+  if (fuel > 0 && oxidiser > 0) {
+    const double h = thermo.enthalpyMass(stream.temperature, stream.Y);
+    burnt = burn(mechanism, h, pressure, stream.Y);
+    if (burnt.T < stream.temperature + leastRise)
+      throw InputError("flame: the stream of " + text(stream.temperature) + " K burns to only " + text(burnt.T) +
+                       " K (equivalence ratio " + text(fuel / oxidiser) + ")");
+  } else {
+    auto decomposed = decompose(mechanism, thermo, stream, pressure);
+    if (!decomposed)
+      throw InputError(std::string("flame: the stream has no ") + (fuel <= 0 ? "fuel" : "oxidiser") +
+                       " and does not burn by itself: its equilibrium is not hotter");
+    burnt = std::move(*decomposed);
+  }
   FlameStream products = stream;
   products.temperature = burnt.T;
   products.Y = burnt.Y;
@@ -111,6 +133,12 @@ StreamMixture StreamMixture::counterflow(const Mechanism& mechanism, const Flame
     mixture.addEquilibrium(mechanism, missingRight / (missingRight - missingLeft), pressure);
   if (flammable(mechanism, mixture.thermo_, left, pressure))
     mixture.addEquilibrium(mechanism, flammableShare, pressure);
+  if (mixture.knots_.size() == 2) {
+    if (decompose(mechanism, mixture.thermo_, right, pressure))
+      mixture.addEquilibrium(mechanism, 1 - flammableShare, pressure);
+    if (decompose(mechanism, mixture.thermo_, left, pressure))
+      mixture.addEquilibrium(mechanism, flammableShare, pressure);
+  }
   if (mixture.knots_.size() == 2)
     throw InputError("flame: these two streams do not burn with each other: " +
                      std::string(l.fuel + r.fuel <= 0           ? "neither has fuel"

@@ -11,6 +11,7 @@ import sys
 import tempfile
 
 import running
+import small_decks
 
 h5py = running.package("h5py")
 np = running.package("numpy")
@@ -90,6 +91,57 @@ def check_followed(program, folder):
         assert hottest[1] < hottest[0] < hottest[3], hottest
         assert file["unsteady/temperature"].shape == (5, len(file["unsteady/z"]))
         assert np.array_equal(file["unsteady/temperature"][-1], file["flame/temperature"][()])
+
+
+def check_sensitivities(program, folder):
+    """Of the speed of a free flame: the same in the table, the results and, the largest of them, in the report."""
+    deck = folder / "free.yaml"
+    deck.write_text(small_decks.free_flame("hydrogen_h2o2_10.yaml", "H2", 0.1, 0.2) + "sensitivity: {of: flame_speed}\n", encoding="utf-8")
+    result = program("run", deck, "--out", folder / "all")
+    assert result.code == 0, result
+    with (folder / "all/sensitivities.csv").open(encoding="utf-8", newline="") as file:
+        rows = list(csv.reader(file))
+    assert rows[0] == ["reaction", "equation", "flame_speed [1]"], rows[0]
+    with h5py.File(folder / "all/results.h5", "r") as file:
+        values = file["sensitivity/flame_speed"][()]
+        assert np.array_equal(file["sensitivity/reaction"][()], np.arange(1, len(values) + 1))
+    assert len(rows) == len(values) + 1 and [float(row[2]) for row in rows[1:]] == list(values)
+    assert abs(np.sum(values) - 0.5) < 0.01, np.sum(values)
+    # With a domain and a grid of this size; hydrogen is made faster most by its branching.
+    largest = int(np.argmax(values))
+    equation = rows[1 + largest][1]
+    assert f"{largest + 1}  {equation}" in result.out and "all together (0.5 but for the grid)" in result.out, result.out
+    result = program("run", deck, "--out", folder / "some", *running.settings("sensitivity.reactions=[H + O2 <=> O + OH]"))
+    assert result.code == 0, result
+    with h5py.File(folder / "some/results.h5", "r") as file:
+        number = int(file["sensitivity/reaction"][0])
+        assert rows[number][1] == "H + O2 <=> O + OH" and np.isclose(file["sensitivity/flame_speed"][0], values[number - 1], rtol=1e-6)
+    for pair, message in (("sensitivity.reactions=[H <=> H]", "no reaction 'H <=> H'"), ("flame.type=burner", "sensitivity")):
+        result = program("check", deck, *running.settings(pair))
+        assert result.code == 2 and message in result.err, result.err
+
+
+def check_given_temperature_at_a_wall(program, folder):
+    """A burner-stabilised stagnation flame: its temperature is the profile's, the wall's too."""
+    deck = folder / "stagnation.yaml"
+    deck.write_text(f"""problem: flame1d
+mechanism: {running.SOURCE}/cases/mechanisms/hydrogen_h2o2_10.yaml
+flame: {{type: wall, length: 8 mm, energy: given}}
+inlet: {{temperature: 350 K, composition: "H2: 0.2, O2: 0.2, AR: 0.6", velocity: 40 cm/s}}
+temperature_profile: {{position: [0 mm, 1 mm, 2 mm, 6 mm, 8 mm], temperature: [350 K, 1100 K, 1500 K, 1400 K, 500 K]}}
+grid: {{slope: 0.15, curve: 0.25}}
+""", encoding="utf-8")
+    result = program("run", deck, "--out", folder / "stagnation")
+    assert result.code == 0, result
+    with h5py.File(folder / "stagnation/results.h5", "r") as file:
+        z, temperature, velocity = (file[f"flame/{name}"][()] for name in ("z", "temperature", "velocity"))
+        assert np.allclose(temperature, np.interp(z, [0, 1e-3, 2e-3, 6e-3, 8e-3], [350, 1100, 1500, 1400, 500]), rtol=1e-6)
+        # What diffuses towards the nozzle makes the gas there a little heavier than the stream.
+        assert abs(velocity[-1]) < 1e-9 and np.isclose(velocity[0], 0.4, rtol=0.03), velocity
+        # It burns: no hydrogen is left at the wall.
+        assert file["flame/X/H2"][-1] < 0.02 and file["flame"].attrs["flame_state"].decode() == "burning"
+    result = program("check", deck, *running.settings("flame.wall_temperature=510 K"))
+    assert result.code == 2 and "the wall is 510 K, the profile 500 K there" in result.err, result.err
 
 
 def check_states(program, folder):
@@ -180,6 +232,8 @@ def main(executable, ranks, *mpiexec):
         if int(ranks) == 1:
             check_followed(program, folder)
             check_states(program, folder)
+            check_sensitivities(program, folder)
+            check_given_temperature_at_a_wall(program, folder)
 
         # Any number of ranks: the same flame to the last bit.
         if int(ranks) > 1:

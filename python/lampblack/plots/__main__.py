@@ -2,7 +2,7 @@
 cells also a film), history; of a reactor its history, ignition and sensitivities, and where it has tables of every particle
 micrographs, distributions and averages by size; of particles along a given gas their history, rates and sizes; of a population
 balance moments, errors and
-size distributions; of a one-dimensional flame its profiles and soot; of a study its runs compared, and errors against numbers
+size distributions; of a one-dimensional flame its profiles, soot and sensitivities; of a study its runs compared, and errors against numbers
 of particles; of several one-dimensional flames one picture that compares them.
 
 Usage: lampblack plot RESULTS_DIR [RESULTS_DIR...] [--reference CSV]... [--fields FIELD...]
@@ -38,6 +38,7 @@ def main():
         from .population import plot_population
         from .profiles import plot_profiles
         from .reactor import plot_reactor
+        from .sensitivities import plot_sensitivities
         from ..reference import ProfileError, find_references, read_reference
         from ..results import Results, ResultsError
         from .sizes import plot_sizes
@@ -82,6 +83,7 @@ def main():
         plot_flame(results, pictures)
         plot_branch(results, pictures)
         plot_course(results, pictures)
+        plot_sensitivities(results, pictures)
     else:
         plot_planes(results, pictures)
         plot_profiles(results, pictures, references)

@@ -1,15 +1,12 @@
 """Pictures of a reactor run, of each reactor of a network with ensembles: temperature and main species over time or place, the ignition, what it depends on."""
 
-import csv
-
 import numpy as np
 
-from ..damage import reading
+from .sensitivities import plot_sensitivities
 from .style import plt
 from .tree_tables import plot_tree_tables
 
 MOST_SPECIES = 8
-MOST_REACTIONS = 15
 
 
 def plot_reactor(results, pictures):
@@ -34,7 +31,7 @@ def plot_reactor(results, pictures):
             _plot_history(own, columns["time"] * factor, f"time, {unit}", {}, pictures, f"reactor_{reactor}")
             plot_particles(own, columns["time"] * factor, f"time, {unit}", pictures, f"particles_{reactor}")
     _plot_reactors(results, pictures)
-    _plot_sensitivities(results, pictures)
+    plot_sensitivities(results, pictures)
     plot_tree_tables(results, pictures)
 
 
@@ -126,27 +123,3 @@ def _plot_reactors(results, pictures):
     below.set_xticks(places, names, rotation=30, ha="right")
     below.legend(fontsize=8, ncol=3)
     pictures.save(figure, "reactors")
-
-
-def _plot_sensitivities(results, pictures):
-    path = results.folder / "sensitivities.csv"
-    if not path.is_file():
-        return
-    with open(reading(path), newline="", encoding="utf-8") as file:
-        header, *rows = list(csv.reader(file))
-    if len(header) < 3 or not rows:
-        pictures.skip("sensitivities", "no criterion of ignition was met")
-        return
-    values = np.array([[float(word) for word in row[2:]] for row in rows])
-    order = np.argsort(-np.max(np.abs(values), axis=1))[:MOST_REACTIONS][::-1]
-    figure, axes = plt.subplots(figsize=(7.0, 0.8 + 0.32 * len(order)))
-    places = np.arange(len(order))
-    height = 0.8 / values.shape[1]
-    for c in range(values.shape[1]):
-        name = header[2 + c].split(" [")[0]
-        axes.barh(places + (c - 0.5 * (values.shape[1] - 1)) * height, values[order, c], height=height, label=name)
-    axes.set_yticks(places, [f"{rows[i][0]}: {rows[i][1]}" for i in order], fontsize=8)
-    axes.axvline(0, color="black", lw=0.8)
-    axes.set_xlabel("d ln(ignition delay) / d ln k")
-    axes.legend(fontsize=8)
-    pictures.save(figure, "sensitivity")

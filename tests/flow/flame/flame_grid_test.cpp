@@ -171,6 +171,20 @@ TEST(FlameGrid, PruningTakesNeedlessPointsAndKeepsCriteriaEndsAndTheAnchor) {
   }
 }
 
+TEST(FlameGrid, PruningLeavesAGridWhereAProfileIsFlat) {
+  GridOptions options;
+  options.slope = 0.2;
+  options.curve = 0.3;
+  options.prune = 0.1;
+  AnalyticFlame flat = flame();
+  flat.temperature = [](double) { return 300.0; };
+  flat.species.assign(4, [](double) { return 0.25; });
+  for (FlameProfile p = flat.on(uniformPoints(0, length, 40));; p = flat.on(refineGrid(p, options, all, {}).z)) {
+    ASSERT_GE(p.points(), 5u);
+    if (!refineGrid(p, options, all, {}).changed()) break;
+  }
+}
+
 TEST(FlameGrid, SpacingStopsAtTheSmallest) {
   GridOptions options;
   options.smallestSpacing = 4e-5;

@@ -1,18 +1,32 @@
 // Whole flames of hydrogen, from their streams to a converged solution.
 #include "flow/flame/flame_solver.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <numeric>
 #include <string>
 #include <utility>
 
+#include "core/stop_request.hpp"
+#include "flow/flame/flame_continuation.hpp"
+#include "flow/flame/flame_from_lower_load.hpp"
+#include "flow/flame/flame_sensitivity.hpp"
+#include "flow/flame/flame_state.hpp"
 #include "flow/flame/initial_flame.hpp"
 #include "tests/every_module.hpp"
 #include "tests/flow/flame/flame_fixture.hpp"
+#include "tests/flow/flame/steady_hydrogen.hpp"
 #include "tests/messages.hpp"
+#include "tests/scratch.hpp"
+#include "tests/source_folder.hpp"
 
 namespace lampblack::flow {
 namespace {
@@ -38,6 +52,17 @@ FlameProblem stoichiometric() {
   problem.length = 0.06;
   problem.left = hydrogenStream("H2: 2, O2: 1, N2: 3.76", 300, 1.7);
   return problem;
+}
+
+// The mechanism of hydrogen with the pre-exponential factor of a reaction times another.
+std::shared_ptr<const Mechanism> withFactor(const std::string& equation, const std::string& A, double factor) {
+  std::ifstream file(test::sourcePath("cases/mechanisms/hydrogen_h2o2_10.yaml"));
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::size_t at = text.find("A: " + A, text.find("equation: " + equation + "\n"));
+  EXPECT_NE(at, std::string::npos) << equation;
+  text.replace(at + 3, A.size(), fmt::format("{:.15g}", factor * std::stod(A)));
+  const test::ScratchFolder scratch;
+  return std::make_shared<const Mechanism>(Mechanism::fromFile(scratch.file("hydrogen.yaml", text)));
 }
 
 void expectClosedBudgets(const FlameSolution& solution) {
@@ -158,11 +183,15 @@ FlameProblem unguessed(const std::string& composition, double temperature, doubl
   return problem;
 }
 
+FlameSolution withOptions(const FlameProblem& problem, const FlameSolverOptions& options) {
+  FlameSolver solver(MPI_COMM_WORLD, hydrogenMechanism(), problem, nullptr, options);
+  return solver.solve(initialFlames(*hydrogenMechanism(), problem, 0));
+}
+
 FlameSolution fromItsStream(const FlameProblem& problem, FlameSolverOptions options = {}) {
   options.grid.slope = 0.15;
   options.grid.curve = 0.25;
-  FlameSolver solver(MPI_COMM_WORLD, hydrogenMechanism(), problem, nullptr, options);
-  return solver.solve(initialFlames(*hydrogenMechanism(), problem, 0));
+  return withOptions(problem, options);
 }
 
 // 19 m/s and millimetres per second, in domains that are too short or far too long for them. The speeds are those that
@@ -229,6 +258,158 @@ TEST(FlameSolver, TheHeatFluxToTheBurnerIsWhatTheBurntGasLacks) {
     EXPECT_NEAR(*solution.burnerHeatFlux, flux * (in - out), 1e-5 * *solution.burnerHeatFlux);
   }
   EXPECT_FALSE(fromItsStream(stoichiometric()).burnerHeatFlux);
+}
+
+// Flames that need no fuel and no oxidiser: with 1e-7 of hydrogen beside the peroxide its flame has 2.885 m/s and
+// 1904.2 K.
+TEST(FlameSolver, PeroxideBurnsByItself) {
+  FlameProblem problem;
+  problem.type = FlameType::Free;
+  problem.length = 0.02;
+  problem.left = hydrogenStream("H2O2: 0.8, H2O: 0.2", 450, 0);
+  const FlameSolution solution = fromItsStream(problem);
+  EXPECT_NEAR(speedOf(problem, solution), 2.885, 0.005);
+  EXPECT_NEAR(solution.profile.peakTemperature(), 1904.2, 0.5);
+  EXPECT_EQ(stateOf(*hydrogenMechanism(), problem, solution), FlameState::Burning);
+}
+
+// On its way to a grid with ever more and fewer points a flame that is blown off gets flat.
+TEST(FlameSolver, PruningEndsWhereAFlameIsBlownOff) {
+  FlameProblem problem = hydrogenProblem(FlameType::Burner);
+  problem.length = 0.1;
+  problem.left = hydrogenStream("H2: 0.8, O2: 1, AR: 5", 300, 1.2);
+  FlameSolverOptions options;
+  options.grid = {.ratio = 3, .slope = 0.16, .curve = 0.3, .prune = 0.1};
+  const FlameSolution solution = withOptions(problem, options);
+  EXPECT_EQ(stateOf(*hydrogenMechanism(), problem, solution), FlameState::Out);
+  EXPECT_GE(solution.profile.points(), 5u);
+}
+
+// A burner-stabilised stagnation flame whose temperature is that of the flame that solves for it: the same flame.
+TEST(FlameSolver, AWallFlameAtItsOwnTemperatureIsTheSame) {
+  FlameProblem problem = hydrogenProblem(FlameType::Wall);
+  const FlameProfile solved = steadyHydrogen(problem);
+  FlameSolverOptions options;
+  options.refine = false;
+  problem.given.emplace();
+  for (std::size_t i = 0; i < solved.points(); ++i) {
+    problem.given->z.push_back(solved.z[i]);
+    problem.given->T.push_back(solved.temperature(i));
+  }
+  problem.wallTemperature = problem.given->T.back();
+  FlameSolver solver(MPI_COMM_WORLD, hydrogenMechanism(), problem, nullptr, options);
+  const FlameSolution again = solver.solve(solved);
+  expectClosedBudgets(again);
+  for (std::size_t i = 0; i < solved.points(); ++i)
+    for (std::size_t c = 0; c < solved.layout.width(); ++c)
+      ASSERT_NEAR(again.profile.at(i, c), solved.at(i, c), 2e-5 * std::abs(solved.at(i, c)) + 1e-9) << c;
+  // From its own start, which has the given temperature everywhere.
+  const FlameProfile start = initialFlame(*hydrogenMechanism(), problem, 0);
+  for (std::size_t i = 0; i < start.points(); ++i) EXPECT_EQ(start.temperature(i), problem.given->at(start.z[i]));
+  const FlameProfile own = fromItsStream(problem).profile;
+  EXPECT_NEAR(own.at(own.points() / 2, FlameLayout::temperature), problem.given->at(own.z[own.points() / 2]), 1e-6);
+  EXPECT_NEAR(own.global(pressureGradient), solved.global(pressureGradient),
+              0.01 * std::abs(solved.global(pressureGradient)));
+}
+
+// Every stage of the way, and what is kept of it.
+TEST(FlameSolver, AStopEndsEveryStageAndKeepsIt) {
+  const FlameProblem problem = hydrogenProblem(FlameType::Burner);
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  const std::size_t stages = fromItsStream(problem).stages.size();
+  for (std::size_t before = 0; before + 1 < stages; ++before) {
+    watchForSignals();
+    FlameSolver solver(MPI_COMM_WORLD, hydrogenMechanism(), problem, nullptr, {});
+    std::size_t done = 0;
+    const auto ask = [&] {
+      if (done++ == before && rank == 0) std::raise(SIGTERM);
+    };
+    solver.onStage([&](const FlameStage&, const FlameProfile&) { ask(); });
+    try {
+      static_cast<void>(solver.solve(initialFlame(*hydrogenMechanism(), problem, 0)));
+      ADD_FAILURE() << "goes on after stage " << before;
+    } catch (const FlameStopped& stop) {
+      EXPECT_EQ(stop.signal(), SIGTERM);
+      const auto& kept = stop.last().stages;
+      EXPECT_EQ(done, before + 1) << "further stages";
+      ASSERT_EQ(kept.size(), before + 2) << "the stage that was stopped is told";
+      EXPECT_FALSE(kept.back().newton.converged);
+      EXPECT_THAT(kept.back().newton.reason, ::testing::HasSubstr("stopped by SIGTERM"));
+      EXPECT_GE(kept.back().points, 5u);
+      EXPECT_GT(stop.last().counters.residuals, 0u);
+    }
+  }
+  watchForSignals();
+}
+
+// What is followed from a flame that is there: the branch keeps its points, and a search for other loads ends.
+TEST(FlameSolver, AStopEndsWhatIsFollowedFromAFlame) {
+  const FlameProblem problem = hydrogenProblem(FlameType::Counterflow);
+  const FlameProfile flame = steadyHydrogen(problem);
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  watchForSignals();
+  std::size_t points = 0;
+  FlameContinuationOptions options;
+  options.grid = coarseGrid();
+  const FlameBranch branch = followFlame(MPI_COMM_WORLD, hydrogenMechanism(), problem, nullptr, flame, options,
+                                         [&](const FlameBranchPoint&, const FlameProfile&) {
+                                           if (++points == 2 && rank == 0) std::raise(SIGINT);
+                                         });
+  EXPECT_EQ(branch.points.size(), 2u);
+  EXPECT_EQ(branch.stop, SIGINT);
+  EXPECT_FALSE(branch.complete);
+  EXPECT_THAT(branch.reason, ::testing::HasSubstr("stopped by SIGINT"));
+
+  watchForSignals();
+  EXPECT_THROW(static_cast<void>(flameFromLowerLoad(MPI_COMM_WORLD, hydrogenMechanism(), problem, {}, {}, {},
+                                                    [&](double) {
+                                                      if (rank == 0) std::raise(SIGINT);
+                                                    })),
+               Stopped);
+  watchForSignals();
+}
+
+// All rates times a: the flame is as it was in lengths sqrt(a) times shorter and sqrt(a) faster, so that the sum over
+// the reactions is 1/2, but for what the grid and the ends of the domain do.
+TEST(SpeedSensitivity, OfAllReactionsTogetherIsOneHalf) {
+  for (const auto diffusion : {TransportModel::Diffusion::MixtureAveraged, TransportModel::Diffusion::Multicomponent}) {
+    FlameProblem problem = stoichiometric();
+    problem.transport.diffusion = diffusion;
+    FlameSolverOptions options;
+    options.grid.slope = options.grid.curve = 0.05;
+    const FlameProfile flame = withOptions(problem, options).profile;
+    const std::vector<double> values =
+        speedSensitivities(MPI_COMM_WORLD, hydrogenMechanism(), problem, nullptr, {}, flame);
+    EXPECT_NEAR(std::accumulate(values.begin(), values.end(), 0.0), 0.5, 2e-3);
+  }
+}
+
+// Against flames with the rate constants of three reactions 1 % larger and smaller, on the same grid.
+TEST(SpeedSensitivity, IsThatOfFlamesWithOtherRates) {
+  const FlameProblem problem = stoichiometric();
+  FlameSolverOptions options;
+  options.polish = 1e-8;
+  const FlameProfile flame = withOptions(problem, options).profile;
+  const std::vector<double> values =
+      speedSensitivities(MPI_COMM_WORLD, hydrogenMechanism(), problem, nullptr, {}, flame);
+  options.refine = false;
+  for (const auto& [equation, A] : {std::pair{"H + O2 <=> O + OH", "2.65e+16"},
+                                    {"OH + H2 <=> H + H2O", "2.16e+08"},
+                                    {"H + HO2 <=> 2 OH", "8.4e+13"}}) {
+    std::size_t r = 0;
+    while (hydrogenMechanism()->reaction(r).equation != equation) ASSERT_LT(++r, hydrogenMechanism()->numReactions());
+    std::vector<double> speeds;
+    for (const double factor : {1.01, 0.99}) {
+      const auto changed = withFactor(equation, A, factor);
+      FlameSolver solver(MPI_COMM_WORLD, changed, problem, nullptr, options);
+      speeds.push_back(solver.solve(flame).profile.global(leftMassFlux));
+    }
+    const double expected = std::log(speeds[0] / speeds[1]) / std::log(1.01 / 0.99);
+    std::cout << equation << ": " << values[r] << " by the adjoint, " << expected << " by differences\n";
+    EXPECT_NEAR(values[r], expected, 1e-4 + 1e-3 * std::abs(expected));
+  }
 }
 
 TEST(FlameSolver, RanksDoNotChangeABit) {

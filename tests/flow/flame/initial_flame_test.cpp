@@ -146,5 +146,25 @@ TEST(InitialFlame, WhatCannotBurnFlowsAndMixesAndIsAnErrorOfAFreeFlame) {
   EXPECT_THROW(static_cast<void>(initialFlame(gas.mechanism, oneStream(gas, FlameType::Free), 0, cold)), InputError);
 }
 
+// Without fuel or without oxidiser: what its equilibrium is hotter than.
+TEST(InitialFlame, WhatDecomposesToHotterProductsBurns) {
+  const Gas& gas = Gas::hydrogen();
+  for (const auto& [moles, burns] : {std::pair{"H2O2: 0.8, H2O: 0.2", true},
+                                     {"H2O2: 0.01, H2O: 0.99", false},
+                                     {"H2: 1", false},
+                                     {"O2: 1, H2O: 1", false}}) {
+    const auto free = oneStream(gas, FlameType::Free, moles);
+    EXPECT_EQ(inertReason(gas.mechanism, free).empty(), burns) << moles;
+    auto opposed = counterflowProblem(gas, moles, "N2: 1");
+    EXPECT_EQ(inertReason(gas.mechanism, opposed).empty(), burns) << moles;
+    std::swap(opposed.left, *opposed.right);
+    EXPECT_EQ(inertReason(gas.mechanism, opposed).empty(), burns) << moles;
+    if (!burns) continue;
+    const double burnt = gas.equilibriumTemperature(free.left);
+    EXPECT_NEAR(initialFlame(gas.mechanism, free, 0).peakTemperature(), burnt, 1);
+    EXPECT_GT(initialFlame(gas.mechanism, opposed, 0).peakTemperature(), 0.8 * burnt);
+  }
+}
+
 }  // namespace
 }  // namespace lampblack::test
