@@ -10,7 +10,7 @@
 namespace lampblack::chemistry {
 namespace {
 
-// A reactor burns where it is warmer than this share of the way to the equilibrium. Burning branches end at 0.7 to 0.8.
+// A reactor certainly burns where it is warmer than this share of the way to the equilibrium.
 constexpr double kProgress = 0.5;
 constexpr double kLeastRise = 1;  // K, by burning: with less there is nothing to go out
 // The way to larger reactors in which the transient from the equilibrium burns.
@@ -18,9 +18,9 @@ constexpr double kCoarseStep = 4;
 constexpr int kMostCoarseSteps = 10;
 // Steps back along the branch: ratios of sizes.
 constexpr double kFirstStep = 2, kLastStep = 1.005;
-// A drop in the last step of less than this share of the rise by burning is no end of a branch: where what flows in
-// ignites by itself the temperature falls smoothly with the size.
-constexpr double kSmooth = 0.1;
+// A step that cools a reactor by more of the rise by burning has left the branch, however short it is: at the end of a
+// branch the temperature falls as a square root, and where what flows in ignites by itself it falls smoothly.
+constexpr double kJump = 0.1;
 
 }  // namespace
 
@@ -67,12 +67,12 @@ std::optional<std::vector<double>> BurningBranch::atRest(double size, const std:
   }
 }
 
-// Sum of the temperatures that are not given, K.
-double BurningBranch::warmth(const std::vector<double>& y) const {
-  double sum = 0;
-  for (std::size_t r = 0; r < network_.reactors.size(); ++r)
-    if (!network_.reactors[r].temperature) sum += y[(r + 1) * blockSize_ - 1];
-  return sum;
+bool BurningBranch::isJump(const std::vector<double>& from, const std::vector<double>& to) const {
+  for (std::size_t r = 0; r < network_.reactors.size(); ++r) {
+    const std::size_t T = (r + 1) * blockSize_ - 1;
+    if (from[T] - to[T] > kJump * (burnt_ - fresh_)) return true;
+  }
+  return false;
 }
 
 std::optional<BurningBranch::State> BurningBranch::inLargerReactors(std::size_t mostCold) const {
@@ -89,24 +89,19 @@ BurningBranch::Result BurningBranch::follow(std::size_t mostCold) const {
   std::optional<State> last = inLargerReactors(mostCold);
   if (!last) return {};
   double step = kFirstStep;
-  std::optional<std::vector<double>> beyond;  // the end of the last step that went out
   while (last->size > 1 && step > kLastStep) {
     const double size = std::max(1.0, last->size / step);
     auto y = atRest(size, last->y);
-    if (y && cold(*y) <= mostCold) {
+    if (y && !isJump(last->y, *y))
       last = State{size, std::move(*y)};
-    } else {
-      beyond = std::move(y);
+    else
       step = std::sqrt(step);
-    }
   }
   Result result;
   if (last->size == 1) {
     result.y = std::move(last->y);
     return result;
   }
-  result.smooth = beyond && warmth(last->y) - warmth(*beyond) < kSmooth * (burnt_ - fresh_);
-  if (result.smooth) return result;
   const NetworkSystem system(mechanism_, scaled(last->size));
   for (std::size_t r = 0; r < network_.reactors.size(); ++r)
     result.lastResidenceTimes.push_back(system.residenceTime(last->y.data(), r));

@@ -29,12 +29,12 @@ class BurningBranch {
   [[nodiscard]] std::size_t cold(const std::vector<double>& y, std::size_t carried = 0) const;
 
   struct Result {
-    std::vector<double> y;  // the burning state at the given sizes; empty: none
+    // The state at the given sizes, cold only where it has become so without a jump; empty: none.
+    std::vector<double> y;
     // Where the branch ends above the given sizes: the residence times (s) of the last burning state.
     std::vector<double> lastResidenceTimes;
-    bool smooth = false;  // no branch ends: the temperature falls with the size to that of the given sizes
   };
-  // The states with at most `mostCold` cold reactors.
+  // From a state of larger reactors with at most `mostCold` cold ones.
   [[nodiscard]] Result follow(std::size_t mostCold) const;
 
  private:
@@ -45,7 +45,7 @@ class BurningBranch {
   [[nodiscard]] ReactorNetwork scaled(double size) const;
   [[nodiscard]] std::optional<std::vector<double>> atRest(double size, const std::vector<double>& start) const;
   [[nodiscard]] std::optional<State> inLargerReactors(std::size_t mostCold) const;
-  [[nodiscard]] double warmth(const std::vector<double>& y) const;
+  [[nodiscard]] bool isJump(const std::vector<double>& from, const std::vector<double>& to) const;
 
   const Mechanism& mechanism_;
   ReactorNetwork network_;

@@ -1,6 +1,7 @@
 #include "chemistry/reactor/network_solver.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "chemistry/reactor/burning_branch.hpp"
@@ -12,6 +13,7 @@ namespace lampblack::chemistry {
 namespace {
 
 constexpr std::size_t kUnseen = static_cast<std::size_t>(-1);
+constexpr double kSameTemperature = 0.1;  // K, of two steady states
 
 // The part of a network in a group, with what comes from reactors that are solved already as streams from outside.
 ReactorNetwork partOf(const ReactorNetwork& network, const std::vector<std::size_t>& group,
@@ -52,22 +54,21 @@ std::vector<ColdReactor> relight(const Mechanism& mechanism, NetworkSystem& syst
   const std::size_t cold = branch.cold(steady.y, carried);
   if (cold == 0) return result;
   BurningBranch::Result found = branch.follow(0);
-  if (found.smooth) return result;
-  if (found.y.empty() && cold == reactors && reactors > 1) {
-    BurningBranch::Result some = branch.follow(cold - 1);
-    found.y = std::move(some.y);
-  }
+  const bool whole = !found.y.empty();
+  if (!whole && cold == reactors && reactors > 1) found.y = branch.follow(cold - 1).y;
   if (!found.y.empty()) {
     std::vector<double> y;
+    bool other = false;  // not where the transient has arrived anyway
     const std::size_t own = mechanism.numSpecies() + 1;
     for (std::size_t r = 0; r < reactors; ++r) {
       y.insert(y.end(), &found.y[r * own], &found.y[r * own] + own);
+      other = other || std::abs(y.back() - steady.y[y.size() - 1]) > kSameTemperature;
       y.resize(y.size() + carried);
     }
-    steady = networkAtRest(system, y);
+    if (other) steady = networkAtRest(system, y);
   }
   for (std::size_t r = 0; r < reactors; ++r) {
-    result[r].out = branch.isCold(steady.y, r, carried);
+    result[r].out = !whole && branch.isCold(steady.y, r, carried);
     if (result[r].out && !found.lastResidenceTimes.empty()) result[r].lastBurningTime = found.lastResidenceTimes[r];
   }
   return result;

@@ -312,6 +312,24 @@ TEST_F(MethaneReactor, IsOutWithTheLastBurningTimeBehindTheEndOfTheBranch) {
   }
 }
 
+// The branch of hydrogen ends below half the way to the equilibrium, where the transient from there arrives by itself.
+TEST(HydrogenReactor, BurnsToTheSameEndFromEverywhere) {
+  const GasState feed = hydrogenAir(300);
+  const auto at = [&](double tau) {
+    StirredReactor reactor;
+    reactor.residenceTime = tau;
+    return solveNetwork(hydrogen(), {kAtm, {reactor}, {{0, 1.0, 300, feed.Y}}, {}}, NetworkStart{})[0];
+  };
+  const ReactorSteadyState burning = at(1.6e-5), out = at(1.5e-5);
+  EXPECT_NEAR(burning.state.temperature, 1303.48, 0.05);
+  EXPECT_FALSE(burning.out);
+  EXPECT_NEAR(out.state.temperature, 300, 0.01);
+  EXPECT_TRUE(out.out);
+  ASSERT_TRUE(out.lastBurningTime);
+  EXPECT_GT(*out.lastBurningTime, 1.5e-5);
+  EXPECT_LT(*out.lastBurningTime, 1.6e-5);
+}
+
 TEST_F(MethaneReactor, WhatIsAskedToStartOtherwiseDoes) {
   for (const NetworkStart& start : {NetworkStart{false}, NetworkStart{true, GasState{300, kAtm, feedTo(0).Y}}}) {
     const ReactorSteadyState reactor = alone(1e-3, start);
@@ -321,12 +339,28 @@ TEST_F(MethaneReactor, WhatIsAskedToStartOtherwiseDoes) {
 }
 
 TEST_F(MethaneReactor, WithNothingToGoOutIsNotOut) {
-  // Air, a gas that burns the less the shorter its time is without a jump, a given temperature.
-  for (const InflowStream& feed : {feedTo(0, "O2: 1, N2: 3.76"), feedTo(0, "CH4: 0.01, O2: 0.02, N2: 1", 1600)})
-    EXPECT_FALSE(solveNetwork(methane(), {kAtm, {lasting(1e-8)}, {feed}, {}}, {})[0].out);
+  EXPECT_FALSE(solveNetwork(methane(), {kAtm, {lasting(1e-8)}, {feedTo(0, "O2: 1, N2: 3.76")}, {}}, {})[0].out)
+      << "air";
   StirredReactor cold = lasting(1e-4);
   cold.temperature = 400;
   EXPECT_FALSE(solveNetwork(methane(), {kAtm, {cold}, {feedTo(0)}, {}}, {})[0].out);
+}
+
+// A reaction of first order that sets heat free is the less complete the shorter the time is, without a jump.
+TEST(SteadyState, ColdIsNotOutWhereNothingJumps) {
+  const Mechanism mechanism = readText(
+      "species: [A, B]",
+      "\n- {name: A, composition: {N: 2}, thermo: *t}\n- {name: B, composition: {N: 2}, thermo: {model: NASA7, "
+      "temperature-ranges: [200, 6000], data: [[3.5, 1e-4, 0, 0, 0, -2900, 4]]}}",
+      "- {equation: A => B, rate-constant: {A: 1000, b: 0, Ea: 0}}");
+  StirredReactor reactor;
+  reactor.residenceTime = 1e-4;
+  const ReactorNetwork network{kAtm, {reactor}, {{0, 1.0, 400, {1, 0}}}, {}};
+  const ReactorSteadyState state = solveNetwork(mechanism, network, {})[0];
+  EXPECT_FALSE(state.out);
+  EXPECT_FALSE(state.lastBurningTime);
+  EXPECT_NEAR(state.state.Y[1], 0.1 / 1.1, 1e-10);
+  EXPECT_GT(state.state.temperature, 430);
 }
 
 // In a row each reactor is followed by itself; those of a recycle together, and two equal ones that feed each other are
