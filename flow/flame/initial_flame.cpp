@@ -65,7 +65,7 @@ class Start {
  private:
   [[nodiscard]] StreamMixture ofOneStream() const {
     return options_.cold ? StreamMixture::cold(mechanism_, problem_.left, problem_.left)
-                         : StreamMixture::premixed(mechanism_, problem_.left, problem_.pressure);
+                         : StreamMixture::premixed(mechanism_, problem_);
   }
   // Of a free flame of the stream on the left, kg/m2/s.
   [[nodiscard]] double burningFlux(double burnt) {

@@ -15,6 +15,9 @@ namespace lampblack::flow {
 namespace {
 
 constexpr double leastRise = 100;  // K, by burning at constant pressure
+// K, of the products of a fuel that burns by itself where no flame is asked for: ethylene, whose equilibrium has soot's
+// precursors and 1140 K, flows and mixes.
+constexpr double leastHot = 1300;
 // Ratio of fuel to oxidiser outside which no gas is flammable by itself at usual temperatures.
 constexpr double leanest = 0.1, richest = 6;
 // Share of a flammable stream in what it has mixed with when it burns: it burns early.
@@ -51,13 +54,13 @@ bool flammable(const Mechanism& mechanism, const Thermo& thermo, const FlameStre
 }
 
 // The products of a gas that burns with nothing: hydrogen peroxide, hydrazine, ozone, acetylene. Empty where they are
-// not hotter.
+// not hotter than `least`.
 std::optional<Burnt> decompose(const Mechanism& mechanism, const Thermo& thermo, const FlameStream& stream,
-                               double pressure) {
+                               double pressure, double least) {
   const double h = thermo.enthalpyMass(stream.temperature, stream.Y);
   try {
     Burnt burnt = burn(mechanism, h, pressure, stream.Y);
-    if (burnt.T >= stream.temperature + leastRise) return burnt;
+    if (burnt.T >= std::max(least, stream.temperature + leastRise)) return burnt;
   } catch (const NumericsError&) {
     // No equilibrium in the range of the data, as of a fuel that would get cold.
   }
@@ -95,7 +98,9 @@ StreamMixture StreamMixture::cold(const Mechanism& mechanism, const FlameStream&
   return {mechanism, left, right};
 }
 
-StreamMixture StreamMixture::premixed(const Mechanism& mechanism, const FlameStream& stream, double pressure) {
+StreamMixture StreamMixture::premixed(const Mechanism& mechanism, const FlameProblem& problem) {
+  const FlameStream& stream = problem.left;
+  const double pressure = problem.pressure;
   checkSize(mechanism, stream);
   const auto [fuel, oxidiser] = fuelAndOxidiser(mechanism, stream.Y);
   const Thermo thermo(mechanism);
@@ -107,7 +112,11 @@ StreamMixture StreamMixture::premixed(const Mechanism& mechanism, const FlameStr
       throw InputError("flame: the stream of " + text(stream.temperature) + " K burns to only " + text(burnt.T) +
                        " K (equivalence ratio " + text(fuel / oxidiser) + ")");
   } else {
-    auto decomposed = decompose(mechanism, thermo, stream, pressure);
+    // At a given temperature, whether the gas would be hotter says nothing.
+    std::optional<Burnt> decomposed;
+    if (!problem.given)
+      decomposed =
+          decompose(mechanism, thermo, stream, pressure, fuel > 0 && problem.type != FlameType::Free ? leastHot : 0);
     if (!decomposed)
       throw InputError(std::string("flame: the stream has no ") + (fuel <= 0 ? "fuel" : "oxidiser") +
                        " and does not burn by itself: its equilibrium is not hotter");
@@ -134,10 +143,11 @@ StreamMixture StreamMixture::counterflow(const Mechanism& mechanism, const Flame
   if (flammable(mechanism, mixture.thermo_, left, pressure))
     mixture.addEquilibrium(mechanism, flammableShare, pressure);
   if (mixture.knots_.size() == 2) {
-    if (decompose(mechanism, mixture.thermo_, right, pressure))
-      mixture.addEquilibrium(mechanism, 1 - flammableShare, pressure);
-    if (decompose(mechanism, mixture.thermo_, left, pressure))
-      mixture.addEquilibrium(mechanism, flammableShare, pressure);
+    const auto burns = [&](const FlameStream& stream, double fuel) {
+      return decompose(mechanism, mixture.thermo_, stream, pressure, fuel > 0 ? leastHot : 0).has_value();
+    };
+    if (burns(right, r.fuel)) mixture.addEquilibrium(mechanism, 1 - flammableShare, pressure);
+    if (burns(left, l.fuel)) mixture.addEquilibrium(mechanism, flammableShare, pressure);
   }
   if (mixture.knots_.size() == 2)
     throw InputError("flame: these two streams do not burn with each other: " +
@@ -181,7 +191,7 @@ std::string inertReason(const Mechanism& mechanism, const FlameProblem& problem)
     if (problem.right)
       static_cast<void>(StreamMixture::counterflow(mechanism, problem.left, *problem.right, problem.pressure));
     else
-      static_cast<void>(StreamMixture::premixed(mechanism, problem.left, problem.pressure));
+      static_cast<void>(StreamMixture::premixed(mechanism, problem));
   } catch (const InputError& error) {
     const std::string reason = error.what(), about = "flame: ";
     return reason.starts_with(about) ? reason.substr(about.size()) : reason;

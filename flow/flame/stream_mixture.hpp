@@ -24,9 +24,10 @@ struct FuelAndOxidiser {
 
 class StreamMixture {
  public:
-  // A fresh stream (share 1) and its products at constant enthalpy (share 0). InputError if it gets hardly warmer by
-  // burning; a stream without fuel or without oxidiser may burn by itself (hydrogen peroxide, ozone, acetylene).
-  static StreamMixture premixed(const Mechanism& mechanism, const FlameStream& stream, double pressure);
+  // The fresh stream on the left (share 1) and its products at constant enthalpy (share 0). InputError if it gets
+  // hardly warmer by burning; a stream without fuel or without oxidiser may burn by itself (hydrogen peroxide, ozone,
+  // acetylene).
+  static StreamMixture premixed(const Mechanism& mechanism, const FlameProblem& problem);
   // Two streams that burn where they are stoichiometric, and next to a stream that is flammable by itself; where there
   // is no such place, next to a stream that decomposes to hotter products. InputError if there is none either.
   static StreamMixture counterflow(const Mechanism& mechanism, const FlameStream& left, const FlameStream& right,

@@ -160,6 +160,10 @@ TEST(InitialFlame, WhatDecomposesToHotterProductsBurns) {
     std::swap(opposed.left, *opposed.right);
     EXPECT_EQ(inertReason(gas.mechanism, opposed).empty(), burns) << moles;
     if (!burns) continue;
+    auto given = oneStream(gas, FlameType::Burner, moles);
+    EXPECT_EQ(inertReason(gas.mechanism, given), "");
+    given.given = GivenTemperature{{0, 0.01}, {300, 1500}};
+    EXPECT_NE(inertReason(gas.mechanism, given), "") << "hot it is anyway";
     const double burnt = gas.equilibriumTemperature(free.left);
     EXPECT_NEAR(initialFlame(gas.mechanism, free, 0).peakTemperature(), burnt, 1);
     EXPECT_GT(initialFlame(gas.mechanism, opposed, 0).peakTemperature(), 0.8 * burnt);
