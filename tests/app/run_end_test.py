@@ -223,6 +223,7 @@ def check_signal(program, arguments, problem, out, number):
         return
     record = json.loads((out / "run.json").read_text(encoding="utf-8"))
     assert record["status"] == "stopped" and record["message"] in told, record["message"]
+    assert sum(stage["maximum_s"] for stage in record["stages"]) > 0, f"{problem}: {record['stages']}"
     kept = read_all(out / "results.h5.part")
     if problem == "flow":
         assert sum(name.endswith("/temperature") for name in kept) == 2, "first and last state"
@@ -240,6 +241,7 @@ def check_signal(program, arguments, problem, out, number):
             assert 1 < len(kept["methods/dsmc/repeats/M0"]) < 1000000 and (kept["methods/dsmc/repeats/M0"] > 0).all()
     else:
         assert len(kept["flame/z"]) > 5 and "flame/restart/unknowns" in kept
+        assert len(kept["stages/points"]) > 0 and kept["stages/residuals"][-1] > 0, "the stage that was stopped is told"
 
 
 def check_memory(program, arguments, out):
