@@ -123,8 +123,8 @@ class Checker {
       return;
     }
     if (!empty && node->kind != DeckNode::Kind::map)
-      return addWrongKind(schema.child("[]") == nullptr ? "a map of keys" : "a map of keys or a list of such maps", *node,
-                          path);
+      return addWrongKind(schema.child("[]") == nullptr ? "a map of keys" : "a map of keys or a list of such maps",
+                          *node, path);
     for (const SchemaNode& child : schema.children) {
       if (child.name == "[]") continue;
       if (child.name != "*") {

@@ -1,6 +1,7 @@
 #include "app/deck/initial_distribution.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -13,6 +14,7 @@
 #include "core/text_file.hpp"
 #include "io/csv.hpp"
 #include "io/table_column.hpp"
+#include "particles/population/exact_solutions/initial_distribution.hpp"
 
 namespace lampblack::app {
 namespace {
@@ -227,6 +229,16 @@ InitialPopulation readInitialDistribution(const Deck& deck, const std::string& s
   std::vector<InitialPopulation> modes;
   for (const std::string& item : itemsOf(deck, section)) modes.push_back(readDistribution(deck, item));
   return sumOf(modes);
+}
+
+std::string missedMoments(const InitialPopulation& initial, const std::array<double, 4>& moments) {
+  constexpr double largestMiss = 0.1;
+  std::vector<std::string> missed;
+  for (const std::size_t k : {1U, 2U, 3U}) {
+    const double known = initialMoment(initial, static_cast<double>(k)), part = moments[k] / known;
+    if (known > 0 && std::abs(part - 1) > largestMiss) missed.push_back(fmt::format("M{} {:.2g}", k, part));
+  }
+  return fmt::format("{}", fmt::join(missed, ", "));
 }
 
 InitialPopulation readSizeTable(const std::filesystem::path& file) {

@@ -2,6 +2,7 @@
 // and a table in a file. Wherever a deck gives a distribution of sizes.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -29,6 +30,10 @@ void addInitialDistribution(DeckSchema& schema, const std::string& section);
 InitialPopulation readInitialDistribution(const Deck& deck, const std::string& section);
 // The section, or each item of a list in its place: "initial", or "initial[0]", "initial[1]".
 std::vector<std::string> itemsOf(const Deck& deck, const std::string& section);
+
+// What a sample with these moments misses of the distribution, "M2 0.78, M3 0.17" of what they should be; empty where
+// all of M1 to M3 are within 10 %.
+std::string missedMoments(const InitialPopulation& initial, const std::array<double, 4>& moments);
 
 // A table of sizes (CSV): columns `from`, `to` and `number`, or `diameter` and `dN/dlogd`; units in brackets behind the
 // names. Sizes are diameters, or volumes where their unit says so. InputError.

@@ -1,14 +1,12 @@
 #include "app/population_balance/population_case.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <cmath>
 
 #include "app/deck/initial_distribution.hpp"
 #include "app/population_balance/population_case_parts.hpp"
 #include "core/errors.hpp"
-#include "particles/population/exact_solutions/initial_distribution.hpp"
 #include "particles/population/monte_carlo/shipped_types.hpp"
 
 namespace lampblack::app {
@@ -17,27 +15,17 @@ using namespace populationcase;
 
 namespace {
 
-// By how much, of one, a sample may miss a moment without a word.
-constexpr double largestMiss = 0.1;
-
 // A warning where the sample that a method starts from lacks what a few large particles hold; empty where it does not.
 std::string missedAtStart(const PopulationCase& made, const PopulationMethod& method,
                           const std::array<double, 4>& moments) {
-  if (method.deterministic()) return {};
-  std::vector<std::string> missed;
-  for (const int k : {1, 2, 3}) {
-    const double known = initialMoment(made.initial, k);
-    const double part = moments[static_cast<std::size_t>(k)] / known;
-    if (known > 0 && std::abs(part - 1) > largestMiss) missed.push_back(fmt::format("M{} {:.2g}", k, part));
-  }
+  const std::string missed = method.deterministic() ? "" : missedMoments(made.initial, moments);
   if (missed.empty()) return {};
-  const std::size_t particles = std::get<MonteCarloOptions>(method.options).particles;
   return fmt::format(
       "methods.{}: the {} particles that the first repeat starts from miss what a few large ones hold: {} times that "
       "of "
       "the initial distribution, and the intervals of the results do not know of it; take more particles, a method "
       "with different weights (sammc, swa, mmc) and initial_weights: moments, or sections",
-      method.name, particles, fmt::join(missed, ", "));
+      method.name, std::get<MonteCarloOptions>(method.options).particles, missed);
 }
 
 PopulationTimes readTimes(const Deck& deck) {

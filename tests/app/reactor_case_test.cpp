@@ -123,7 +123,9 @@ TEST(ReactorCase, LinesMayEndWithACarriageReturnAlone) {
   EXPECT_EQ(profileOf("z,T\r0,300\r1,400\r2,500\r"), "300 400 500 ");
   EXPECT_EQ(profileOf("z,T\n0,300\r1,400\r"), "300 400 ") << "a header put in front";
   EXPECT_EQ(profileOf("z,T\r\r\n0,300\r\r\n1,400\r\r\n"), "300 400 ") << "converted twice";
-  EXPECT_THAT(profileOf("z,T\r0,300\r0,400\r"), testing::HasSubstr("profile.csv:3: the points have to rise"));
+  for (const std::string end : {"\r", "\r\n", "\n"})
+    EXPECT_THAT(profileOf("z,T" + end + "0,300" + end + "0,400" + end),
+                testing::HasSubstr("profile.csv:3: the points have to rise"));
 }
 
 TEST(ReactorCase, ReactionsAreNamedByNumberOrEquation) {

@@ -154,6 +154,15 @@ TEST(TreesDeck, TheStartMayBeASumOfDistributions) {
   EXPECT_NEAR(two[1].sizes.volume / (std::acos(-1.0) / 6 * 8e-24), 1, 1e-12);
   EXPECT_EQ(two[1].sizes.number, 1e14);
   expectUnits(two[1].units, {1, 2, 0});
+  const auto warningOf = [&](const std::string& deviation) {
+    testing::internal::CaptureStderr();
+    (void)startOf("{distribution: lognormal, number: 1, diameter: 20 nm, units: [1, 2, 0], geometric_deviation: " +
+                  deviation + "}");
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_EQ(warningOf("1.1"), "");
+  EXPECT_THAT(warningOf("2"),
+              testing::HasSubstr("particles.initial: the 8192 numerical particles of the first repeat miss"));
   for (const auto& [initial, message] : std::vector<std::pair<std::string, std::string>>{
            {"{number: 1}", "particles.initial: particles at the start need both 'number' and 'units'"},
            {"[{units: [1, 2, 0]}]", "particles.initial[0]: particles at the start need both 'number' and 'units'"},
