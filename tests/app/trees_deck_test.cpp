@@ -143,16 +143,16 @@ TEST(TreesDeck, TheStartMayBeASumOfDistributions) {
   EXPECT_TRUE(startOf("[]").empty());
   const auto alike = startOf("{number: 1e10 1/cm^3, units: [100, 150, 100]}");
   ASSERT_EQ(alike.size(), 1U);
-  EXPECT_EQ(alike[0].number, 1e16);
+  EXPECT_DOUBLE_EQ(alike[0].number, 1e16);
   EXPECT_EQ(alike[0].sizes.distribution, InitialPopulation::Distribution::none);
   expectUnits(alike[0].units, {100, 150, 100});
   const auto two = startOf(R"(
     - {number: 1e10 1/cm^3, units: [100, 150, 100]}
     - {distribution: lognormal, number: 1e8 1/cm^3, diameter: 20 nm, geometric_deviation: 1.4, units: [1, 2, 0]})");
   ASSERT_EQ(two.size(), 2U);
-  EXPECT_EQ(two[0].number, 1e16);
+  EXPECT_DOUBLE_EQ(two[0].number, 1e16);
   EXPECT_NEAR(two[1].sizes.volume / (std::acos(-1.0) / 6 * 8e-24), 1, 1e-12);
-  EXPECT_EQ(two[1].sizes.number, 1e14);
+  EXPECT_DOUBLE_EQ(two[1].sizes.number, 1e14);
   expectUnits(two[1].units, {1, 2, 0});
   const auto warningOf = [&](const std::string& deviation) {
     testing::internal::CaptureStderr();
@@ -171,7 +171,7 @@ TEST(TreesDeck, TheStartMayBeASumOfDistributions) {
            {"{number: 1, units: [1, 2]}", "particles.initial.units: 2 numbers for 3 components of silica"},
            {"{number: 1, diameter: 1 nm, units: [1, 2, 0]}", "this counts only with 'particles.initial.distribution'"},
            {"{distribution: table, number: 1, file: b.csv, units: [1, 2, 0]}", "the numbers are those of the table"}})
-    EXPECT_THAT(messageOf<InputError>([&, &text = initial] { (void)startOf(text); }), testing::HasSubstr(message))
+    EXPECT_THAT(test::messageOf<InputError>([&, &text = initial] { (void)startOf(text); }), testing::HasSubstr(message))
         << initial;
 }
 
