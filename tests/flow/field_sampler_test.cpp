@@ -125,6 +125,9 @@ TEST(FieldSampler, IsContinuousAndWithinWhatTheCellsHave) {
       if (i > 0) jump = std::max(jump, std::abs(samples[i] - samples[i - 1]));
     }
     EXPECT_LT(jump, 0.15) << kind.name;
+    // A place by itself has the value that it has among others.
+    const std::vector<double> alone = FieldSampler(box.context, {places[427]}).sample(fields);
+    EXPECT_EQ(alone, std::vector<double>{samples[427]}) << kind.name;
     EXPECT_NEAR(samples.front(), 2.0, 1e-12) << kind.name;
     EXPECT_NEAR(samples.back(), 5.0, 1e-12) << kind.name;
   }
