@@ -87,6 +87,8 @@ class TransportOperator : public Operator {
   [[nodiscard]] const VelocityGradient& velocityGradient(const State& state) {
     return momentum_.velocityGradient(state);
   }
+  // Pa at each boundary face: what presses on it (PressureForce::atBoundary).
+  [[nodiscard]] std::vector<double> boundaryPressures(const State& state) { return momentum_.boundaryPressures(state); }
   // Of each boundary, in the context's order. Collective.
   [[nodiscard]] std::vector<BoundaryTotals> boundaryTotals(const State& state);
 

@@ -191,6 +191,9 @@ std::vector<FieldSampler::Field> FlowTables::fieldsOf(const Source& source) cons
         field.known[face - m.interiorFaces] = knownTemperature(*context_, face);
         field.boundary[face - m.interiorFaces] = context_->boundaryTemperature(face);
       }
+    } else if (wanted_[f].field == "pressure") {
+      field.boundary = source.transport.boundaryPressures(source.state);
+      std::ranges::fill(field.known, BoundaryData::Value);
     } else if (wanted_[f].field == "swirl_velocity") {
       std::ranges::fill(field.known, BoundaryData::Nothing);
     }
