@@ -101,7 +101,7 @@ TEST(ChemkinReader, TextBehindTheReactionsIsPassedOver) {
                             "THERMO\n" + thermoCards("H", "H   1") + "END\nReactions of H = H, see 1 2 3\n")
                 .numSpecies(),
             1U);
-  EXPECT_THAT(warnings, ElementsAre(AllOf(HasSubstr("therm.dat:6:"), HasSubstr("a reaction behind END is ignored"))));
+  EXPECT_THAT(warnings, ElementsAre(AllOf(HasSubstr("therm.dat:7:"), HasSubstr("a reaction behind END is ignored"))));
   // Data may follow the reactions.
   EXPECT_EQ(readChemkinText("ELEM H END SPEC H END REAC\nEND\nTHERMO ALL\n" + thermoCards("H", "H   1"), nullptr,
                             std::nullopt)
