@@ -146,6 +146,33 @@ TEST(InitialFlame, WhatCannotBurnFlowsAndMixesAndIsAnErrorOfAFreeFlame) {
   EXPECT_THROW(static_cast<void>(initialFlame(gas.mechanism, oneStream(gas, FlameType::Free), 0, cold)), InputError);
 }
 
+// Half a triangle's width above a kink the mean falls short by a sixth of the width times the change of slope.
+TEST(GivenTemperature, IsSmoothedWithoutItsEndsAndStraightParts) {
+  const double width = 2e-3, slope = 1e5;
+  const GivenTemperature kinked{{0, 0.01, 0.02}, {300, 1300, 1300}};
+  const GivenTemperature smooth = kinked.smoothed(width, 0.02);
+  EXPECT_NEAR(smooth.at(0), 300, 1e-9);
+  EXPECT_NEAR(smooth.at(0.02), 1300, 1e-9);
+  for (const double z : {0.001, 0.005, 0.0079}) EXPECT_NEAR(smooth.at(z), 300 + slope * z, 1e-6) << z;
+  EXPECT_NEAR(smooth.at(0.01), 1300 - slope * width / 6, 0.1);
+  double largest = 0;
+  for (std::size_t i = 1; i + 1 < smooth.z.size(); ++i)
+    largest = std::max(largest, std::abs((smooth.T[i + 1] - smooth.T[i]) / (smooth.z[i + 1] - smooth.z[i]) -
+                                         (smooth.T[i] - smooth.T[i - 1]) / (smooth.z[i] - smooth.z[i - 1])));
+  EXPECT_LT(largest, 0.06 * slope) << "of a slope that falls by all of it over two widths of 20 points";
+}
+
+// The equilibrium of ethylene, soot's precursors, is warmer than a cold stream; on a burner or in a counterflow it
+// flows and mixes all the same. Acetylene burns.
+TEST(InitialFlame, WhatOnlyCracksBurnsOnlyWhereAFlameIsAskedFor) {
+  const Gas gas("ethylene_abf2000_101.yaml");
+  EXPECT_EQ(inertReason(gas.mechanism, oneStream(gas, FlameType::Free, "C2H4: 1")), "");
+  EXPECT_NE(inertReason(gas.mechanism, oneStream(gas, FlameType::Burner, "C2H4: 1")), "");
+  EXPECT_NE(inertReason(gas.mechanism, counterflowProblem(gas, "C2H4: 1", "N2: 1")), "");
+  EXPECT_EQ(inertReason(gas.mechanism, oneStream(gas, FlameType::Burner, "C2H2: 0.2, N2: 0.8")), "");
+  EXPECT_EQ(inertReason(gas.mechanism, counterflowProblem(gas, "C2H2: 0.4, N2: 0.6", "N2: 1")), "");
+}
+
 // Without fuel or without oxidiser: what its equilibrium is hotter than.
 TEST(InitialFlame, WhatDecomposesToHotterProductsBurns) {
   const Gas& gas = Gas::hydrogen();
