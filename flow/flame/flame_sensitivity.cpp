@@ -119,6 +119,7 @@ std::vector<double> speedSensitivities(MPI_Comm comm, std::shared_ptr<const Mech
   const std::size_t anchor = steepest(profile);
   equations.setAnchor(anchor, profile.temperature(anchor));
   equations.setLoad(profile.global(load));
+  equations.data().matrix.reset();  // the transposed one takes as much
   const std::vector<double> lambda = Adjoint(equations, profile).solve();
 
   // dm/d ln k = -lambda . dF/d ln k; the residuals have the sources of species, and of energy where it is solved.
