@@ -92,7 +92,7 @@ BurningBranch::Result BurningBranch::follow(std::size_t mostCold) const {
   while (last->size > 1 && step > kLastStep) {
     const double size = std::max(1.0, last->size / step);
     auto y = atRest(size, last->y);
-    if (y && !isJump(last->y, *y))
+    if (y && (!isJump(last->y, *y) || (mostCold > 0 && cold(*y) <= mostCold)))
       last = State{size, std::move(*y)};
     else
       step = std::sqrt(step);

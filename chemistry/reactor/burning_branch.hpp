@@ -34,7 +34,7 @@ class BurningBranch {
     // Where the branch ends above the given sizes: the residence times (s) of the last burning state.
     std::vector<double> lastResidenceTimes;
   };
-  // From a state of larger reactors with at most `mostCold` cold ones.
+  // From a state of larger reactors with at most `mostCold` cold ones, so many of which may go out on the way.
   [[nodiscard]] Result follow(std::size_t mostCold) const;
 
  private:
