@@ -377,14 +377,17 @@ TEST_F(MethaneReactor, BurnsInNetworks) {
   EXPECT_NEAR(*coldFirst[0].lastBurningTime, end_, 0.01 * end_);
   EXPECT_FALSE(coldFirst[1].out);
   EXPECT_NEAR(coldFirst[1].state.temperature, 1777.65, 0.1);
-  // Of a recycle in which the first has too little time the second burns, with 5 % of what leaves it going back.
-  const ReactorNetwork recycle{kAtm, {lasting(2e-5), lasting(1.2e-4)}, {feedTo(0)}, {{0, 1, 1.05}, {1, 0, 0.05}}};
-  const auto part = solveNetwork(methane(), recycle, {});
-  EXPECT_TRUE(part[0].out);
-  EXPECT_TRUE(part[0].lastBurningTime);
-  EXPECT_LT(part[0].state.temperature, 600);
-  EXPECT_FALSE(part[1].out);
-  EXPECT_GT(part[1].state.temperature, 1700);
+  // Of a recycle in which the first has too little time the second burns, with 5 % of what leaves it going back; in
+  // four times larger reactors the first is out, or burns, too.
+  for (const auto& [first, second] : {std::pair{2.5e-5, 1.2e-4}, {6e-5, 9e-5}}) {
+    const ReactorNetwork recycle{kAtm, {lasting(first), lasting(second)}, {feedTo(0)}, {{0, 1, 1.05}, {1, 0, 0.05}}};
+    const auto part = solveNetwork(methane(), recycle, {});
+    EXPECT_TRUE(part[0].out);
+    EXPECT_TRUE(part[0].lastBurningTime);
+    EXPECT_LT(part[0].state.temperature, 600);
+    EXPECT_FALSE(part[1].out);
+    EXPECT_GT(part[1].state.temperature, 1700);
+  }
   // 1 kg/s through each from outside and 1 kg/s to the other: twice the mass flow, half the time in each.
   const ReactorNetwork equal{kAtm, {lasting(5e-5), lasting(5e-5)}, {feedTo(0), feedTo(1)}, {{0, 1, 1.0}, {1, 0, 1.0}}};
   for (const ReactorSteadyState& reactor : solveNetwork(methane(), equal, {})) {
