@@ -53,8 +53,11 @@ std::vector<double> FieldSampler::sample(std::span<Field> fields) const {
                              std::vector<double>(static_cast<std::size_t>(m.boundaryFaces()) * count),
                              std::vector<BoundaryData>(static_cast<std::size_t>(m.boundaryFaces()) * count),
                              true,
+                             {},
                              vertices_};
+  source.isLedOut.resize(count);
   for (std::size_t f = 0; f < count; ++f) {
+    source.isLedOut[f] = fields[f].isLedOut ? 1 : 0;
     for (std::size_t c = 0; c < fields[f].values.size(); ++c) source.values[c * count + f] = fields[f].values[c];
     for (std::size_t b = 0; b < fields[f].known.size(); ++b) {
       source.boundary[b * count + f] = fields[f].boundary[b];

@@ -29,6 +29,7 @@ class FieldSampler {
     std::vector<double> values;
     std::vector<double> boundary;
     std::vector<BoundaryData> known;
+    bool isLedOut = false;  // at a boundary where nothing is known, by the slopes of the cells there
   };
   // A field of which nothing is known at boundaries but that it is even at a symmetry.
   [[nodiscard]] static Field scalarField(const FlowContext& context);

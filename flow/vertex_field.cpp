@@ -140,7 +140,11 @@ class VertexSums {
   [[nodiscard]] double combine(std::span<const double* const> rows, std::size_t k) const {
     const std::size_t at = Row::first + k * perComponent_;
     double highest = 0.0;
-    for (const double* row : rows) highest = std::max(highest, row[at + Row::standing]);
+    bool isLedOut = false;
+    for (const double* row : rows) {
+      highest = std::max(highest, row[at + Row::standing]);
+      isLedOut = isLedOut || (row[Row::isFace] != 0.0 && !source_.isLedOut.empty() && source_.isLedOut[k] != 0);
+    }
     double weights = 0.0, mean = 0.0, led = 0.0;
     double least = std::numeric_limits<double>::infinity(), most = -least;
     Vector3 way{}, slope{};
@@ -160,7 +164,7 @@ class VertexSums {
       }
     }
     const double value = (mean + 0.5 * (led + dot(way, slope) / weights)) / weights;
-    return source_.isBounded ? std::clamp(value, least, most) : value;
+    return source_.isBounded && !isLedOut ? std::clamp(value, least, most) : value;
   }
 
   // Runs of rows of one vertex, sorted; `take` gets the rows of each.

@@ -32,6 +32,8 @@ class VertexField {
     std::vector<BoundaryData> known;  // a flag a boundary face, or a component of each
     // Values at vertices stay between those of the cells around: densities do not fall below zero beside a crest.
     bool isBounded = false;
+    // A component each, or none: bounded inside alone. At a boundary it may be led beyond the cells, as a pressure is.
+    std::vector<char> isLedOut = {};
     // Permanent numbers, increasing, the same on all ranks: values are made at these vertices alone; nothing: at all.
     std::optional<std::span<const std::int64_t>> only = std::nullopt;
   };

@@ -193,7 +193,10 @@ std::vector<FieldSampler::Field> FlowTables::fieldsOf(const Source& source) cons
       }
     } else if (wanted_[f].field == "pressure") {
       field.boundary = source.transport.boundaryPressures(source.state);
-      std::ranges::fill(field.known, BoundaryData::Value);
+      field.isLedOut = true;
+      for (int face = m.interiorFaces; face < m.faces; ++face)
+        if (context_->boundaryOf(face).kind == BoundaryKind::Outlet)
+          field.known[face - m.interiorFaces] = BoundaryData::Value;
     } else if (wanted_[f].field == "swirl_velocity") {
       std::ranges::fill(field.known, BoundaryData::Nothing);
     }

@@ -133,6 +133,20 @@ TEST(FieldSampler, IsContinuousAndWithinWhatTheCellsHave) {
   }
 }
 
+// What is led out, as the pressure, is linear up to the boundary where nothing is known of it; on a box to its corners.
+TEST(FieldSampler, WhatIsLedOutGoesOnToTheBoundary) {
+  Box box = boxOf(kinds().front(), wallsAround(2));
+  FieldSampler::Field field = FieldSampler::scalarField(box.context);
+  for (int c = 0; c < box.mesh.owned; ++c) field.values[at(c)] = linear(box.mesh.centre[at(c)]);
+  const std::vector<Vector3> places = placesIn(2);
+  std::vector<FieldSampler::Field> fields{field, field};
+  fields[1].isLedOut = true;
+  const std::vector<double> samples = FieldSampler(box.context, places).sample(fields);
+  for (std::size_t i = 0; i < places.size(); ++i)
+    EXPECT_NEAR(samples[2 * i + 1], linear(places[i]), 1e3 * epsilon) << placeText(places[i], 2);
+  EXPECT_GT(samples[0], linear(places[0]) + 0.1);  // bounded by the cells
+}
+
 // Where the boundary's values are known, in a plane everywhere but in its corners, whose vertices have the mean of two
 // sides; where nothing is known there, in cells that see enough others.
 TEST(FieldSampler, ALinearFieldIsExact) {
