@@ -93,6 +93,13 @@ void Expansion::begin(const State& state, const GasProperties& properties, bool 
   }
 }
 
+void Expansion::changeReactions(const State& state, const GasProperties& properties, int cell,
+                                std::span<const double> change, bool isFirstSweep) {
+  const double more = context_.mesh.volume[cell] * ofSpecies(state, properties, cell, change.data());
+  divergence_[cell] += more;
+  if (isFirstSweep) balance_[cell] += more;
+}
+
 void Expansion::withdraw(const State& state, const GasProperties& properties, std::span<const double> species,
                          const HeatFluxes& fluxes) {
   addContents(state, properties, species, -1.0);

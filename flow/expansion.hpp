@@ -32,6 +32,9 @@ class Expansion {
 
   // Begins a sweep over dt: with p_eos - p0 of the state. `lastStep` (s): that before this one, 0 if there is none.
   void begin(const State& state, const GasProperties& properties, bool isFirstSweep, double dt, double lastStep);
+  // After begin(): the reactions of State::balance in a cell have become others, by `change` (kg/m3/s).
+  void changeReactions(const State& state, const GasProperties& properties, int cell, std::span<const double> change,
+                       bool isFirstSweep);
   // Diffusion is about to change these contents (kg, species a owned cell) to those that complete() is given.
   void beforeDiffusion(const State& state, const GasProperties& properties, std::span<const double> contents);
   // The sweep's divergence (1/s, owned cells), with this diffusion.

@@ -74,7 +74,7 @@ void HeatConduction::evaluate(std::span<const double> temperature, std::span<dou
 }
 
 void HeatConduction::implicitFlux(const State& guess, const GasProperties& properties, const Contents& contents,
-                                  double dt, std::span<double> flux) {
+                                  double dt, std::span<double> flux, const std::function<bool(int cell)>& exactly) {
   const Mesh& m = context_.mesh;
   const auto n = static_cast<std::size_t>(guess.species);
   inertia_.resize(static_cast<std::size_t>(m.owned));
@@ -84,6 +84,12 @@ void HeatConduction::implicitFlux(const State& guess, const GasProperties& prope
   collectively(m.comm, [&] {
     for (int c = 0; c < m.owned; ++c) {
       for (std::size_t k = 0; k < n; ++k) Y_[k] = contents.species[c * n + k] / contents.mass[c];
+      if (exactly && exactly(c)) {
+        const double T = guess.temperature[c], mass = contents.mass[c];
+        inertia_[c] = mass * context_.thermo.cpMass(T, Y_) / dt;
+        temperature_[c] = (contents.enthalpy[c] - mass * context_.thermo.enthalpyMass(T, Y_)) / dt;
+        continue;
+      }
       const double T =
           context_.thermo.temperatureFromEnthalpy(contents.enthalpy[c] / contents.mass[c], Y_, guess.temperature[c]);
       inertia_[c] = contents.mass[c] * properties.heatCapacity[c] / dt;

@@ -2,6 +2,7 @@
 // implicit solution, so that what leaves one cell enters the next whatever the solver's tolerance.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -26,6 +27,8 @@ class HeatConduction {
   // Collective. Takes the coefficients of the state, which everything below goes by, and of its temperature what goes
   // along faces that the cells' steps are oblique to.
   void prepare(const State& state, const GasProperties& properties);
+  // W/K, through a face; zero where no heat passes.
+  [[nodiscard]] double conductance(int face) const { return conductance_[static_cast<std::size_t>(face)]; }
   // Fluxes of that state.
   void presentFlux(const State& state, std::span<double> flux) const { evaluate(state.temperature, flux); }
 
@@ -33,9 +36,11 @@ class HeatConduction {
   struct Contents {
     std::span<const double> mass, species, enthalpy;
   };
-  // Collective. Fluxes at the end of a step, of which the state is the guess.
+  // Collective. Fluxes at the end of a step, of which the state is the guess. Heat that comes in by everything else
+  // counts by the temperature it leads to; in cells that `exactly` says by the enthalpy that the guess lacks, so that a
+  // guess which is the end is exactly that, however fast reactions heat the cell.
   void implicitFlux(const State& guess, const GasProperties& properties, const Contents& contents, double dt,
-                    std::span<double> flux);
+                    std::span<double> flux, const std::function<bool(int cell)>& exactly = {});
 
  private:
   [[nodiscard]] double givenFlux(int face) const;

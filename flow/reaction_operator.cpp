@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 
 #include "core/errors.hpp"
 
@@ -24,6 +26,16 @@ namespace {
 // and few enough for their states to stay in the processor's cache.
 constexpr std::size_t cellsTogether = 256;
 
+// Steps of cells that are coupled with their neighbours: how much their reactions grow in a part, and in how many parts
+// at most, beyond which the step has to be shorter.
+constexpr double growthInPart = 0.8;
+constexpr int mostParts = 60;
+// Only where a species changes by more than that in a step is it asked how fast its reactions grow.
+constexpr double changeThatCounts = 0.01;
+// A cell that reacts less than that share of what it did when it outran a step is no foot of a flame any more: what is
+// left of its growth rate after a step.
+constexpr double slow = 0.25, forgotten = 0.8;
+
 constexpr double firstCost = 1.0;  // before a cell was ever advanced: that of all others
 
 }  // namespace
@@ -37,7 +49,12 @@ ReactionOperator::ReactionOperator(const FlowContext& context, Options options)
       costOfStep_(cost_.size()),
       initialStep_(context.mesh.owned, 0.0),
       isLimited_(cost_.size()),
-      heatRelease_(cost_.size()) {}
+      heatRelease_(cost_.size()),
+      growthRate_(context.mechanism, -100.0 * options.reactor.absoluteTolerance),
+      outruns_(cost_.size()),
+      isTaken_(cost_.size()),
+      grows_(cost_.size()),
+      fastest_(cost_.size()) {}
 
 // Of the gas in which transport counts the rate as one per mass.
 double ReactionOperator::densityOfRate(const State& state, std::size_t cell) const {
@@ -176,21 +193,61 @@ void ReactionOperator::limitRates(State& state, std::size_t cell) {
   isLimited_[cell] = 1.0;
 }
 
+bool ReactionOperator::findOutrunning(const State& state, double dt) {
+  const auto n = static_cast<std::size_t>(state.species);
+  std::ranges::fill(outruns_, 0);
+  std::ranges::fill(isTaken_, 0);
+  std::array<double, 2> largestOf{0.0, 0.0};
+  for (std::size_t cell = 0; cell < outruns_.size(); ++cell) {
+    const double* rate = &state.balance.reactions[cell * n];
+    double largest = 0.0;
+    for (std::size_t k = 0; k < n; ++k) largest = std::max(largest, std::abs(rate[k]));
+    double& grows = grows_[cell];
+    if (largest * dt < changeThatCounts * state.density[cell] && isLimited_[cell] == 0.0) {
+      grows = fastest_[cell] = 0.0;
+      continue;
+    }
+    const double growth =
+        growthRate_.of(state.temperature[cell], state.thermodynamicPressure, {&state.Y[cell * n], n}, dt);
+    double& fastest = fastest_[cell];
+    const double speed = largest / state.density[cell];
+    grows = std::max(growth, speed < slow * fastest ? forgotten * grows : grows);
+    outruns_[cell] = grows * dt > 1.0;
+    fastest = outruns_[cell] ? std::max(fastest, speed) : 0.0;
+    largestOf[0] = std::max(largestOf[0], grows);
+    largestOf[1] = std::max(largestOf[1], growth);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, largestOf.data(), 2, MPI_DOUBLE, MPI_MAX, context_.mesh.comm);
+  growth_ = largestOf[0];
+  growthInStep_ = largestOf[1] * dt;
+  parts_ = std::clamp(static_cast<int>(std::ceil(growth_ * dt / growthInPart)), 2, mostParts);
+  return growth_ * dt > 1.0;
+}
+
+double ReactionOperator::largestStep(const State&) {
+  return growth_ > 0.0 ? growthInPart * mostParts / growth_ : std::numeric_limits<double>::infinity();
+}
+
 void ReactionOperator::advance(State& state, double time, double dt) {
   if (step_ == 0.0) std::ranges::fill(costOfStep_, 0.0);
   step_ = dt;
   const auto n = static_cast<std::size_t>(state.species);
   WorkSharing::Items items;
-  items.cost = cost_;
-  items.pack = [&](std::size_t cell, std::vector<double>& in) {
+  std::vector<std::size_t> cells;
+  for (std::size_t cell = 0; cell < cost_.size(); ++cell) {
+    if (isTaken_[cell]) continue;
+    cells.push_back(cell);
+    items.cost.push_back(cost_[cell]);
+  }
+  items.pack = [&](std::size_t item, std::vector<double>& in) {
     in.resize(Layout::inHeader + 2 * n);
-    pack(state, cell, dt, in);
+    pack(state, cells[item], dt, in);
   };
   items.groupSize = cellsTogether;
   items.advanceGroup = [&](std::span<const std::span<const double>> in, std::span<std::vector<double>> out) {
     solve(time, dt, in, out);
   };
-  items.unpack = [&](std::size_t cell, std::span<const double> out) { unpack(state, cell, dt, out); };
+  items.unpack = [&](std::size_t item, std::span<const double> out) { unpack(state, cells[item], dt, out); };
   items.work = [](std::span<const double> out) { return out[2]; };
   const auto statistics = sharing_.run(items);
   diagnostics_.imbalanceBefore += statistics.imbalanceBefore;
@@ -218,41 +275,58 @@ void ReactionOperator::endStep(State& state) {
       limitRates(state, cell);
       diagnostics_.limitedCells += isLimited_[cell];
     }
+  for (char& isTaken : isTaken_) {
+    diagnostics_.coupledCells += isTaken;
+    isTaken = 0;
+  }
   step_ = 0.0;
 }
 
 // What a step begins with is the state: endStep() takes it from there after loading.
 void ReactionOperator::saveOrLoad(StateArchive& archive) {
-  if (archive.loading()) step_ = 0.0;  // of a step that was broken off
+  if (archive.loading()) {  // of a step that was broken off
+    step_ = 0.0;
+    std::ranges::fill(isTaken_, 0);
+  }
   archive.cells("chemistry_cost", cost_, 1);
   archive.cells("chemistry_first_step", initialStep_, 1);
   archive.cells("chemistry_rate_is_limited", isLimited_, 1);
   archive.cells("heat_release", heatRelease_, 1);
-  std::array<double, 6> counted{diagnostics_.solverSteps,     diagnostics_.integratedCells, diagnostics_.skippedCells,
-                                diagnostics_.handedOverCells, diagnostics_.retries,         diagnostics_.limitedCells};
+  archive.cells("reaction_growth", grows_, 1);
+  archive.cells("reaction_speed", fastest_, 1);
+  std::array<double, 7> counted{diagnostics_.solverSteps,     diagnostics_.integratedCells, diagnostics_.skippedCells,
+                                diagnostics_.handedOverCells, diagnostics_.retries,         diagnostics_.coupledCells,
+                                diagnostics_.limitedCells};
   archive.sums("chemistry_counts", counted);
-  std::vector<double> stages{
-      diagnostics_.imbalanceBefore, diagnostics_.imbalanceAfter, static_cast<double>(diagnostics_.stages),
-      imbalances_.before,           imbalances_.after,           static_cast<double>(stages_)};
+  std::vector<double> stages{diagnostics_.imbalanceBefore,
+                             diagnostics_.imbalanceAfter,
+                             static_cast<double>(diagnostics_.stages),
+                             imbalances_.before,
+                             imbalances_.after,
+                             static_cast<double>(stages_),
+                             growth_,
+                             growthInStep_};
   archive.shared("chemistry_stages", stages);
-  diagnostics_ = {counted[0],   counted[1],   counted[2],
-                  counted[3],   counted[4],   counted[5],
-                  stages.at(0), stages.at(1), static_cast<int>(stages.at(2))};
+  diagnostics_ = {counted[0], counted[1], counted[2],   counted[3],   counted[4],
+                  counted[5], counted[6], stages.at(0), stages.at(1), static_cast<int>(stages.at(2))};
   imbalances_ = {stages.at(3), stages.at(4)};
   stages_ = static_cast<int>(stages.at(5));
+  growth_ = stages.at(6);
+  growthInStep_ = stages.at(7);
 }
 
 ReactionOperator::Diagnostics ReactionOperator::takeDiagnostics() {
   Diagnostics all = diagnostics_;
-  double sums[6] = {all.solverSteps,     all.integratedCells, all.skippedCells,
-                    all.handedOverCells, all.retries,         all.limitedCells};
-  MPI_Allreduce(MPI_IN_PLACE, sums, 6, MPI_DOUBLE, MPI_SUM, context_.mesh.comm);
+  double sums[7] = {all.solverSteps, all.integratedCells, all.skippedCells, all.handedOverCells,
+                    all.retries,     all.limitedCells,    all.coupledCells};
+  MPI_Allreduce(MPI_IN_PLACE, sums, 7, MPI_DOUBLE, MPI_SUM, context_.mesh.comm);
   all.solverSteps = sums[0];
   all.integratedCells = sums[1];
   all.skippedCells = sums[2];
   all.handedOverCells = sums[3];
   all.retries = sums[4];
   all.limitedCells = sums[5];
+  all.coupledCells = sums[6];
   if (all.stages > 0) {
     all.imbalanceBefore /= all.stages;
     all.imbalanceAfter /= all.stages;
@@ -269,14 +343,17 @@ std::vector<Quantity> ReactionOperator::historyColumns() const {
           {"stiff_solver_retries", "1", "repeated stiff solves since the last row"},
           {"limited_rate_cells", "1",
            "cells that reacted so fast that the next step's transport took less of it, over all steps"},
+          {"coupled_cells", "1", "cells whose reactions outran a step, with those around, over all steps"},
+          {"reaction_growth", "1",
+           "largest growth rate of the reactions in a cell times the last step; zero where it is below 0.9"},
           {"imbalance_before", "1", "busiest rank's chemistry cost over the mean, as partitioned"},
           {"imbalance_after", "1", "the same as it turned out, with work sharing"}};
 }
 
 std::vector<double> ReactionOperator::historyValues(const State&) {
   const Diagnostics d = takeDiagnostics();
-  return {d.solverSteps, d.integratedCells, d.skippedCells,    d.handedOverCells,
-          d.retries,     d.limitedCells,    d.imbalanceBefore, d.imbalanceAfter};
+  return {d.solverSteps,  d.integratedCells, d.skippedCells, d.handedOverCells, d.retries,
+          d.limitedCells, d.coupledCells,    growthInStep_,  d.imbalanceBefore, d.imbalanceAfter};
 }
 
 void ReactionOperator::fields(const State& state, const FieldSink& sink) const {

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "chemistry/reactor/growth_rate.hpp"
 #include "chemistry/reactor/reactor.hpp"
 #include "chemistry/reactor/reactor_failure.hpp"
 #include "core/modules.hpp"
@@ -35,6 +36,7 @@ class ReactionOperator : public Operator {
   struct Diagnostics {  // of all ranks and all stages since the last call of takeDiagnostics()
     double solverSteps = 0.0;
     double integratedCells = 0.0, skippedCells = 0.0, handedOverCells = 0.0, retries = 0.0;
+    double coupledCells = 0.0;                           // whose rates were found with their neighbours
     double limitedCells = 0.0;                           // whose rates the next transport takes only in part
     double imbalanceBefore = 0.0, imbalanceAfter = 0.0;  // means over stages
     int stages = 0;
@@ -52,6 +54,23 @@ class ReactionOperator : public Operator {
   void fields(const State& state, const FieldSink& sink) const override;
   void addCost(const Mesh& mesh, CellCost& cost) const override;
   Diagnostics takeDiagnostics();  // collective
+
+  // Cells whose reactions grow by more than a factor of e within a step (GrowthRate), or have done so since they burn:
+  // transport as a constant source would have them run away. A foot that stands grows little, and yet is as fast as it
+  // was when it came to stand once it moves. For who couples them with their neighbours (CoupledCells).
+  //
+  // Collective. Finds them for a step from this state; whether there are any, on any rank.
+  bool findOutrunning(const State& state, double dt);
+  [[nodiscard]] bool outruns(std::size_t cell) const { return outruns_[cell] != 0; }
+  // In how many parts such a step has to be taken.
+  [[nodiscard]] int parts() const { return parts_; }
+  [[nodiscard]] ConstantPressureReactor& reactor() { return reactor_; }
+  // The cell's rates in State::balance are those of the step, and what transport makes of them is its state.
+  void take(std::size_t cell) {
+    isTaken_[cell] = 1;
+    isLimited_[cell] = 0.0;
+  }
+  [[nodiscard]] double largestStep(const State& state) override;
 
  private:
   struct Layout;
@@ -76,6 +95,13 @@ class ReactionOperator : public Operator {
   double step_ = 0.0;                // s, the present; zero between steps
   std::vector<double> isLimited_;    // 1 or 0, owned cells: whether rates are less than found (limitRates)
   std::vector<double> heatRelease_;  // W/m3, of the last step, where rates are limited
+  GrowthRate growthRate_;
+  std::vector<char> outruns_, isTaken_;  // of the present step, owned cells
+  std::vector<double> grows_;            // 1/s, the largest growth rate that a burning cell has had, owned cells
+  std::vector<double> fastest_;          // 1/s, of any species, the fastest that it has reacted meanwhile
+  double growth_ = 0.0;                  // 1/s, the largest of them
+  double growthInStep_ = 0.0;            // the largest of the last step's start, times that step
+  int parts_ = 1;
   Diagnostics diagnostics_;
   Imbalance imbalances_{0.0, 0.0};  // sums over all stages
   int stages_ = 0;

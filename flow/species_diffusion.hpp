@@ -37,6 +37,9 @@ class SpeciesDiffusion {
   // Flux through a face from the mass fractions of all local cells; false, and zeros, where nothing diffuses.
   bool flux(int face, std::span<const double> Y, std::span<double> row) const;
 
+  // kg/s, conductances of these species through a face; zero where nothing diffuses.
+  void conductance(int face, std::span<const int> species, double* g) const;
+
   // A gas without the diffusion that is sought: mass (kg) of owned cells and content (kg, species a cell), which is
   // advanced by it. `guess`: mass fractions of all local cells, and `solution` room for as many. With those of the
   // step's start, `start`, the fluxes are the mean of the start's and the guess's, and what the guess's change.
@@ -62,7 +65,6 @@ class SpeciesDiffusion {
 
   [[nodiscard]] const double* diffusivity(const Coefficients& of, int cell) const;
   bool flux(const Coefficients& of, int face, std::span<const double> Y, std::span<double> row) const;
-  void conductance(int face, std::span<const int> species, double* g) const;
   // Half of the flux of the start's mass fractions plus `present` times that of the guess, which `row` holds.
   void correct(std::span<const double> start, int face, double present, std::span<double> row) const;
 

@@ -195,7 +195,9 @@ void TransportOperator::advanceDiffusion(const State& mean, State& state, double
     for (std::size_t i = 0; i < extra.size(); ++i) extra[i] = 0.5 * (extra[i] - heat_.heat[i]);
     addFaceFluxes(m, extra, 1, dt, heatContent_);
   }
-  heatConduction_.implicitFlux(state, properties_, {newMass_, content_, heatContent_}, dt, heat_.heat);
+  std::function<bool(int)> isCoupled;
+  if (couples_) isCoupled = [this](int c) { return takesCoupled(c); };
+  heatConduction_.implicitFlux(state, properties_, {newMass_, content_, heatContent_}, dt, heat_.heat, isCoupled);
   addFaceFluxes(m, heat_.heat, 1, dt, heatContent_);
   for (std::size_t i = 0; i < extra.size(); ++i) heat_.heat[i] += extra[i];
 }
@@ -295,6 +297,7 @@ void TransportOperator::advance(State& state, double time, double dt) {
   // The state's own mass fractions are written over before the step is done with them.
   faces_.prepare(mean, several ? mean.Y : state.start.Y);
 
+  coupleReactions(mean, state, dt);
   predictContents(start, mean, state, dt);
   if (!first) addCompression();
   advanceDiffusion(mean, state, dt);

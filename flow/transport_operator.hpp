@@ -19,6 +19,7 @@
 #include "core/modules.hpp"
 #include "flow/boundary_totals.hpp"
 #include "flow/carried_transport.hpp"
+#include "flow/coupled_cells.hpp"
 #include "flow/expansion.hpp"
 #include "flow/face_state.hpp"
 #include "flow/flow_context.hpp"
@@ -27,6 +28,7 @@
 #include "flow/implicit_diffusion.hpp"
 #include "flow/momentum.hpp"
 #include "flow/operator.hpp"
+#include "flow/reaction_operator.hpp"
 #include "flow/species_diffusion.hpp"
 
 namespace lampblack::flow {
@@ -64,6 +66,10 @@ class TransportOperator : public Operator {
   void fields(const State& state, const FieldSink& sink) const override;
   void addCost(const Mesh& mesh, CellCost& cost) const override;
 
+  // Cells whose reactions outrun a step go together with their neighbours (CoupledCells). The reactions, which stand
+  // behind this operator in each sweep, have to live as long.
+  void coupleWith(ReactionOperator& reactions) { reactions_ = &reactions; }
+
   // Is called at the end of each step's last sweep: budgets count what crossed the boundary.
   void watchBoundary(std::function<void(const BoundaryAmounts&)> watcher) { watchers_.push_back(std::move(watcher)); }
 
@@ -97,6 +103,11 @@ class TransportOperator : public Operator {
   void initialise(State& state, double dt);
 
  private:
+  void coupleReactions(const State& mean, State& state, double dt);
+  void markCoupled();
+  [[nodiscard]] bool takesCoupled(int cell) const;
+  void addTendency(const State& mean, const State& state, int cell, std::span<const double> conducted,
+                   CoupledCells::Cell& to);
   void predictContents(const State& start, const State& mean, const State& state, double dt);
   void correctContents(const State& mean, State& state, double dt);
   void addCompression();
@@ -123,9 +134,12 @@ class TransportOperator : public Operator {
   std::vector<double> boundaryFlows_;
   std::vector<std::function<void(const BoundaryAmounts&)>> watchers_;
 
-  bool movesForOthers_;    // whether somebody else moves particles by what is found here
-  int sweep_ = 0;          // of the present step
-  double lastStep_ = 0.0;  // s
+  ReactionOperator* reactions_ = nullptr;
+  bool couples_ = false;             // in the present step
+  std::vector<double> coupledRing_;  // of the local cells: how many cells from one that outruns the step
+  bool movesForOthers_;              // whether somebody else moves particles by what is found here
+  int sweep_ = 0;                    // of the present step
+  double lastStep_ = 0.0;            // s
   // Only of steps of several sweeps: the start; the mean of it and of what the last sweep found; conduction at the
   // start; what diffusion brought in the last sweep, kg/s of each species to the owned cells.
   std::optional<State> start_, mean_;

@@ -64,6 +64,7 @@ FlowDomain::FlowDomain(Mesh partitioned, const FlowCase& flowCase, const Thermo&
                             flowCase.time.leastMassFraction}) {
   state.thermodynamicPressure = flowCase.pressure;
   if (context.varying) context.varying->set(0.0, 0.0);
+  flow.coupleWith(chemistry);
   operators = {&flow, &chemistry};
   if (flowCase.carried) {
     carried = std::make_unique<CarriedOperator>(context, *flowCase.carried, 0, flowCase.carriedOptions);

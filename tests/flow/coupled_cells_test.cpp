@@ -1,0 +1,146 @@
+// Cells whose reactions outrun a step: how fast reactions grow, and steps of cells and their neighbours together.
+#include "flow/coupled_cells.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "chemistry/reactor/growth_rate.hpp"
+#include "core/errors.hpp"
+#include "flow/budget.hpp"
+#include "flow/reaction_operator.hpp"
+#include "flow/transport_operator.hpp"
+#include "flow_fixture.hpp"
+#include "tests/every_module.hpp"
+
+namespace lampblack::test {
+namespace {
+
+// The chain branching of hydrogen: radicals grow as the exponential of the rate until they are no longer few.
+TEST(GrowthRates, AreThoseOfTheRadicals) {
+  Gas& gas = Gas::hydrogen();
+  std::vector<double> Y = gas.massFractions("H2: 2, O2: 1, N2: 3.76");
+  const double T = 1300.0, p = 101325.0;
+  ConstantPressureReactor reactor(gas.mechanism);
+  const std::size_t H = gas.mechanism.speciesIndex("H");
+  Y[H] = 1e-9;
+  ConstantPressureReactor::Cell cell{T, p, Y, {}};
+  reactor.advance(cell, 1e-5);  // the mode that grows fastest is all there is
+  const double before = Y[H];
+  GrowthRate growth(gas.mechanism, -1e-10);
+  const double rate = growth.of(cell.temperature, p, Y, 1e-4);
+  reactor.advance(cell, 2e-6);
+  EXPECT_NEAR(rate, std::log(Y[H] / before) / 2e-6, 0.01 * rate);
+  // By whatever step it is asked for; where a step is too short to feel it there is none.
+  EXPECT_GT(rate, 1e4);
+  EXPECT_NEAR(growth.of(cell.temperature, p, Y, 3.0 / rate), growth.of(cell.temperature, p, Y, 30.0 / rate),
+              1e-3 * rate);
+  EXPECT_EQ(growth.of(cell.temperature, p, Y, 0.3 / rate), 0.0);
+}
+
+TEST(GrowthRates, OfWhatDecaysAreNone) {
+  Gas& gas = Gas::hydrogen();
+  GrowthRate growth(gas.mechanism, -1e-10);
+  EXPECT_EQ(growth.of(2400.0, 101325.0, gas.massFractions("H2O: 0.3, N2: 0.65, OH: 0.02, H: 0.02, O2: 0.01"), 1e-4),
+            0.0);
+  EXPECT_EQ(growth.of(300.0, 101325.0, gas.massFractions("H2: 2, O2: 1, N2: 3.76"), 1e-3), 0.0);
+}
+
+// Hydrogen and air that burn on a burner, a row of cells.
+class FlameOnABurner : public testing::Test {
+ protected:
+  Gas& gas = Gas::hydrogen();
+  const std::vector<double> fresh = gas.massFractions("H2: 0.25, O2: 0.15, N2: 0.6");
+  const std::vector<double> burnt = gas.massFractions("H2O: 0.25, O2: 0.025, N2: 0.6");
+  Side inlet() const {
+    Side side = opening(BoundaryKind::Inlet, 0, false, 0.6, 300.0, fresh);
+    side.condition.fixedComposition = true;
+    return side;
+  }
+  Box box{Geometry::Planar,
+          {uniformAxis(4e-3, 20), uniformAxis(1e-3, 1)},
+          {inlet(), opening(BoundaryKind::Outlet, 0, true, 0.0, 300.0, burnt), side(BoundaryKind::Wall, 1, false),
+           side(BoundaryKind::Wall, 1, true)}};
+
+  struct Outcome {
+    double change = 0.0;     // K, largest in a step of the last ten
+    double hottest = 0.0;    // K
+    double coupled = 0.0;    // cells in all steps
+    double imbalance = 0.0;  // of mass and elements, over what came in
+    double growth = 0.0;
+  };
+  // The flame that has come to stand in short steps, and so many long ones behind.
+  Outcome burn(bool isCoupled, int sweeps, double longStep, int steps) {
+    State state = box.state([&](const Vector3& x) {
+      const double share = std::clamp((x[0] - 0.4e-3) / 0.4e-3, 0.0, 1.0);
+      Box::Local local{{0.6, 0.0}, 300.0 + 1900.0 * share, fresh};
+      for (std::size_t k = 0; k < fresh.size(); ++k) local.Y[k] += share * (burnt[k] - fresh[k]);
+      return local;
+    });
+    TransportOperator transport(box.context, state, {.courant = 0.5, .sweeps = sweeps});
+    ReactionOperator chemistry(box.context, {});
+    if (isCoupled) transport.coupleWith(chemistry);
+    transport.initialise(state, 1e-6);
+    Budget budget(box.context, massAndElements(gas.mechanism, {}), state);
+    transport.watchBoundary([&](const auto& amounts) { budget.addStep(amounts); });
+    Outcome outcome;
+    double time = 0.0;
+    const int shortSteps = 400;
+    for (int step = 0; step < shortSteps + steps; ++step) {
+      const double dt = step < shortSteps ? std::min(4e-6, 1e-6 + 1e-8 * step) : longStep;
+      const std::vector<double> before = state.temperature;
+      for (int sweep = 0; sweep < sweeps; ++sweep) {
+        transport.advance(state, time, dt);
+        chemistry.advance(state, time, dt);
+        if (sweep + 1 < sweeps) transport.endSweep(state);
+      }
+      chemistry.endStep(state);
+      transport.endSweep(state);
+      time += dt;
+      if (step >= shortSteps + steps - 10)
+        outcome.change =
+            std::max(outcome.change,
+                     largest(box.mesh, [&](int c) { return std::abs(state.temperature[at(c)] - before[at(c)]); }));
+    }
+    outcome.hottest = largest(box.mesh, [&](int c) { return state.temperature[at(c)]; });
+    const std::vector<double> row = chemistry.historyValues(state);
+    outcome.coupled = row.at(6);
+    outcome.growth = row.at(7);
+    for (const Budget::Line& line : budget.lines(state)) outcome.imbalance = std::max(outcome.imbalance, line.error);
+    return outcome;
+  }
+};
+
+TEST_F(FlameOnABurner, StandsInLongSteps) {
+  const Outcome stands = burn(true, 1, 4e-5, 100);
+  EXPECT_GT(stands.growth, 2.0);
+  EXPECT_GE(stands.coupled, 100.0);
+  EXPECT_LT(stands.change, 0.1);
+  EXPECT_LT(stands.imbalance, 1e-13);
+  // Steady is what does not depend on the step.
+  const Outcome inShorter = burn(true, 1, 2e-5, 300);
+  EXPECT_GT(inShorter.growth, 1.0);
+  EXPECT_LT(inShorter.change, 0.1);
+  EXPECT_NEAR(inShorter.hottest, stands.hottest, 0.2);
+  const Outcome inSweeps = burn(true, 2, 4e-5, 160);
+  EXPECT_GE(inSweeps.coupled, 100.0);
+  EXPECT_LT(inSweeps.change, 0.1);
+  EXPECT_NEAR(inSweeps.hottest, stands.hottest, 0.2);
+  EXPECT_LT(inSweeps.imbalance, 1e-13);
+}
+
+TEST_F(FlameOnABurner, RingsInLongStepsOfEachCellAlone) {
+  EXPECT_GT(burn(false, 1, 2e-5, 60).change, 100.0);
+  EXPECT_THROW(burn(false, 1, 4e-5, 60), NumericsError);
+}
+
+TEST_F(FlameOnABurner, IsTheSameToTheLastBitWhereNothingOutrunsAStep) {
+  const Outcome coupled = burn(true, 1, 4e-6, 20), alone = burn(false, 1, 4e-6, 20);
+  EXPECT_EQ(coupled.coupled, 0.0);
+  EXPECT_EQ(coupled.hottest, alone.hottest);
+  EXPECT_EQ(coupled.change, alone.change);
+}
+
+}  // namespace
+}  // namespace lampblack::test
