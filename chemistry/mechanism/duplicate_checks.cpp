@@ -147,8 +147,6 @@ void markDuplicates(const std::string& file, std::span<const Species> species, s
           fmt::format("{}: reaction '{}' is marked as a duplicate: it is the same as '{}' at line {}, and both count",
                       place(file, reactions[r]), reactions[r].equation, other.equation, other.line));
   }
-  for (std::size_t r = 0; r < reactions.size(); ++r)
-    if (like[r] != reactions.size()) reactions[like[r]].duplicate = true;
 }
 
 void checkDuplicates(const std::string& file, std::span<const Species> species, std::span<Reaction> reactions,

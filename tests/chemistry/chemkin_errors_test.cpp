@@ -247,6 +247,8 @@ TEST(ChemkinErrors, AuxiliaryData) {
   EXPECT_THAT(message("H+OH=H2O", "PLOG/0 1 0 0/"), HasSubstr("a pressure above zero"));
   EXPECT_THAT(message("H+OH=H2O", "PLOG/1 -1 0 0/"),
               AllOf(StartsWith("chem.inp:6:"), HasSubstr("positive sum"), HasSubstr("under one equation")));
+  EXPECT_THAT(message("H+OH=H2O", "PLOG/1 -1 0 0/\nDUP\nH+OH=>H2O 1 0 0\nPLOG/1 3 0 0/\nDUP"),
+              HasSubstr("under one equation"));
   EXPECT_THAT(message("H+OH=H2O", "PLOG/1 -1 0 0/\nDUP\nH+OH=H2O 1 0 0\nPLOG/2 1 0 0/\nDUP"),
               AllOf(StartsWith("chem.inp:6:"), HasSubstr("its duplicate at line 9 cannot be added"),
                     HasSubstr("expected the same pressures")));

@@ -163,12 +163,12 @@ TEST(MechanismWarnings, OneOfEachKind) {
   const std::string jump = ": the thermodynamic data jump at ", marked = "' is marked as a duplicate, but";
   EXPECT_THAT(
       oneOfEachKind(std::vector<std::string>{
-          "a b.yaml:1: species 'CH2'" + jump + "1000 K: cp/R by 0.1",
+          "a b.yaml:1: species 'CH2'" + jump + "1000 K: cp/R by 0.1: much",
           "chem.inp:17: reaction 'H + O2 (+M) => HO2" + marked, "no transport data for 2 of 3 species: H2, OH",
           "a b.yaml:22: species 'H: b'" + jump + "1382.5 K: h/RT by 0.2",
           "chem.inp:19: reaction 'C4H8-2 => OH" + marked, "a b.yaml:23: species 'H'" + jump + "999 K: cp/R by 1",
           "chem.inp:19: reaction 'H + O2 (+M) => HO2': T2 of zero"}),
-      ElementsAre("a b.yaml:1: species 'CH2'" + jump + "1000 K: cp/R by 0.1 (2 more like this)",
+      ElementsAre("a b.yaml:1: species 'CH2'" + jump + "1000 K: cp/R by 0.1: much (2 more like this)",
                   "chem.inp:17: reaction 'H + O2 (+M) => HO2" + marked + " (1 more like this)",
                   "no transport data for 2 of 3 species: H2, OH",
                   "chem.inp:19: reaction 'H + O2 (+M) => HO2': T2 of zero"));
