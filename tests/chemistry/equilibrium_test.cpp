@@ -320,7 +320,7 @@ TEST(Equilibrium, LeavesOutWhatTheElementsForbid) {
 
 // H2, O2, H2O, CO, CO2, CH4, C2H2, C2H4, H, O, OH and a section of soot (C H0.3)n, all of constant heat capacity; per
 // atom of carbon the section is the same whatever its size.
-Mechanism withSection(double carbon) {
+Mechanism withSection(double carbon, bool smallerToo = false) {
   std::string text =
       "phases: [{name: gas, thermo: ideal-gas, elements: [H, C, O], species: all}]\nunits: {quantity: mol}\nspecies:\n";
   const auto add = [&](const char* name, const std::string& atoms, double h, double s, double cp) {
@@ -341,7 +341,26 @@ Mechanism withSection(double carbon) {
   add("O", "O: 1", 249.2, 161.1, 20.9);
   add("OH", "O: 1, H: 1", 38.99, 183.7, 30.5);
   add("BIG", fmt::format("C: {}, H: {}", carbon, 0.3 * carbon), 2 * carbon, 8 * carbon, 22 * carbon);
+  for (double c = 20; smallerToo && c < carbon; c *= 2)
+    for (const double hydrogen : {0.8, 0.5, 0.25})
+      add(fmt::format("BIN{}_{}", c, hydrogen).c_str(), fmt::format("C: {}, H: {}", c, hydrogen * c),
+          c * (1.56 + 1.5 / std::cbrt(c) + 0.8 * hydrogen), c * (8 + 10.8 * hydrogen + 2 / std::cbrt(c)),
+          c * (22 + 6 * hydrogen));
   return lampblack::test::readFileText(text);
+}
+
+// Sections from 20 atoms of carbon on, each twice as large as the last, of three contents of hydrogen.
+TEST(Equilibrium, WithManySections) {
+  const auto mechanism = withSection(3e8, true);
+  Equilibrium equilibrium(mechanism);
+  for (const double phi : {2.9, 4.0, 10.0})
+    for (const double T : {600.0, 1800.0, 2600.0}) {
+      auto Y = massFractions(mechanism, fmt::format("C2H4: {}, O2: 3", phi));
+      const auto before = Y;
+      ASSERT_NO_THROW(equilibrium.atTemperatureAndPressure(T, 1e6, Y)) << phi << " " << T;
+      for (std::size_t e = 0; e < 3; ++e)
+        EXPECT_NEAR(content(mechanism, e, Y) / content(mechanism, e, before), 1, 1e-13);
+    }
 }
 
 // By a minimisation of Gibbs' energy of its own kind (numpy, balances to 4e-13), 1800 K, 1 atm, phi 4.
