@@ -34,7 +34,7 @@ constexpr int mostParts = 60;
 constexpr double changeThatCounts = 0.01;
 // A cell that reacts less than that share of what it did when it outran a step is no foot of a flame any more: what is
 // left of its growth rate after a step.
-constexpr double slow = 0.25, forgotten = 0.8;
+constexpr double slowShare = 0.25, forgotten = 0.8;
 
 constexpr double firstCost = 1.0;  // before a cell was ever advanced: that of all others
 
@@ -211,7 +211,7 @@ bool ReactionOperator::findOutrunning(const State& state, double dt) {
         growthRate_.of(state.temperature[cell], state.thermodynamicPressure, {&state.Y[cell * n], n}, dt);
     double& fastest = fastest_[cell];
     const double speed = largest / state.density[cell];
-    grows = std::max(growth, speed < slow * fastest ? forgotten * grows : grows);
+    grows = std::max(growth, speed < slowShare * fastest ? forgotten * grows : grows);
     outruns_[cell] = grows * dt > 1.0;
     fastest = outruns_[cell] ? std::max(fastest, speed) : 0.0;
     largestOf[0] = std::max(largestOf[0], grows);

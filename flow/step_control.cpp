@@ -16,7 +16,7 @@ namespace {
 // has been cooled by the step itself.
 constexpr double aimed = 0.8, sudden = 0.1;
 constexpr double helping = 0.8;         // of what the attempt before did
-constexpr double roundOff = 1e-6;       // of a temperature
+constexpr double ofRoundOff = 1e-6;     // of a temperature
 constexpr double shortestFactor = 0.2;  // of the step before
 
 }  // namespace
@@ -80,7 +80,7 @@ double StepControl::excess(const State& state, int cell, std::string* fault) con
   if (std::abs(change) > options_.temperatureChange)
     blame(std::abs(change) / options_.temperatureChange,
           fmt::format("it may change by {:.4g} K (time.temperature_change)", options_.temperatureChange));
-  if (now < coldest_ * (1.0 - roundOff))
+  if (now < coldest_ * (1.0 - ofRoundOff))
     blame(-change / (sudden * options_.temperatureChange),
           fmt::format("the start and all boundaries are warmer ({:.5g} K and more)", coldest_));
   return most;

@@ -12,7 +12,7 @@ namespace {
 // How many cells around one that outruns the step take its rates and theirs from the coupled cells, and how many answer
 // to them.
 constexpr double ringTaken = 1.0, ringCoupled = 2.0;
-constexpr double far = 100.0;
+constexpr double notCoupled = 100.0;
 
 }  // namespace
 
@@ -23,7 +23,7 @@ bool TransportOperator::takesCoupled(int cell) const {
 
 void TransportOperator::markCoupled() {
   const Mesh& m = context_.mesh;
-  coupledRing_.assign(static_cast<std::size_t>(m.cells), far);
+  coupledRing_.assign(static_cast<std::size_t>(m.cells), notCoupled);
   for (int c = 0; c < m.owned; ++c)
     if (reactions_->outruns(static_cast<std::size_t>(c))) coupledRing_[c] = 0.0;
   for (double ring = 1.0; ring <= ringCoupled; ++ring) {
