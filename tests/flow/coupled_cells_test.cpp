@@ -47,6 +47,32 @@ TEST(GrowthRates, OfWhatDecaysAreNone) {
   EXPECT_EQ(growth.of(300.0, 101325.0, gas.massFractions("H2: 2, O2: 1, N2: 3.76"), 1e-3), 0.0);
 }
 
+// A cell that nothing flows into is a reactor: what it makes is the mean over the step, in however many parts.
+TEST(CoupledCell, AloneIsAReactor) {
+  Gas& gas = Gas::hydrogen();
+  const std::vector<double> start = gas.massFractions("H2: 0.2, O2: 0.15, N2: 0.6, H: 0.002, OH: 0.002");
+  const double T = 1100.0, mass = 3e-9, dt = 2e-5;
+  CoupledCells cells(start.size());
+  CoupledCells::Cell cell{7, mass, 101325.0, T, gas.thermo.enthalpyMass(T, start), T, 0.0, 0.0, start, start, {}, {}};
+  cell.brought.assign(start.size(), 0.0);
+  cell.reacts = cell.brought;
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (rank == 0) cells.add(cell);
+  cells.gather(MPI_COMM_WORLD);
+  ConstantPressureReactor reactor(gas.mechanism);
+  cells.advance(reactor, gas.thermo, dt, 4);
+  std::vector<double> Y = start;
+  ConstantPressureReactor::Cell whole{T, 101325.0, Y, {}};
+  reactor.advance(whole, dt);
+  double change = 0.0;
+  for (std::size_t k = 0; k < Y.size(); ++k) {
+    change = std::max(change, std::abs(Y[k] - start[k]));
+    EXPECT_NEAR(cells.made(7)[k] * dt / mass, Y[k] - start[k], 1e-6) << k;
+  }
+  EXPECT_GT(change, 0.01);
+}
+
 // Hydrogen and air that burn on a burner, a row of cells.
 class FlameOnABurner : public testing::Test {
  protected:
