@@ -32,6 +32,8 @@ constexpr double growthInPart = 0.8;
 constexpr int mostParts = 60;
 // Only where a species changes by more than that in a step is it asked how fast its reactions grow.
 constexpr double changeThatCounts = 0.01;
+// One in which nothing grew is asked again after so many steps, or once a step changes so much more.
+constexpr double stepsUnasked = 8.0, moreChange = 1.25;
 // A cell that reacts less than that share of what it did when it outran a step is no foot of a flame any more: what is
 // left of its growth rate after a step.
 constexpr double slowShare = 0.25, forgotten = 0.8;
@@ -54,7 +56,9 @@ ReactionOperator::ReactionOperator(const FlowContext& context, Options options)
       outruns_(cost_.size()),
       isTaken_(cost_.size()),
       grows_(cost_.size()),
-      fastest_(cost_.size()) {}
+      fastest_(cost_.size()),
+      askedChange_(cost_.size()),
+      askedAgo_(cost_.size()) {}
 
 // Of the gas in which transport counts the rate as one per mass.
 double ReactionOperator::densityOfRate(const State& state, std::size_t cell) const {
@@ -203,10 +207,14 @@ bool ReactionOperator::findOutrunning(const State& state, double dt) {
     double largest = 0.0;
     for (std::size_t k = 0; k < n; ++k) largest = std::max(largest, std::abs(rate[k]));
     double& grows = grows_[cell];
-    if (largest * dt < changeThatCounts * state.density[cell] && isLimited_[cell] == 0.0) {
-      grows = fastest_[cell] = 0.0;
+    const double change = largest / state.density[cell] * dt;
+    if (change < changeThatCounts && isLimited_[cell] == 0.0) {
+      grows = fastest_[cell] = askedChange_[cell] = 0.0;
       continue;
     }
+    if (grows == 0.0 && change < moreChange * askedChange_[cell] && ++askedAgo_[cell] < stepsUnasked) continue;
+    askedChange_[cell] = change;
+    askedAgo_[cell] = 0.0;
     const double growth =
         growthRate_.of(state.temperature[cell], state.thermodynamicPressure, {&state.Y[cell * n], n}, dt);
     double& fastest = fastest_[cell];
@@ -294,6 +302,8 @@ void ReactionOperator::saveOrLoad(StateArchive& archive) {
   archive.cells("heat_release", heatRelease_, 1);
   archive.cells("reaction_growth", grows_, 1);
   archive.cells("reaction_speed", fastest_, 1);
+  archive.cells("reaction_change_when_asked", askedChange_, 1);
+  archive.cells("reaction_steps_unasked", askedAgo_, 1);
   std::array<double, 7> counted{diagnostics_.solverSteps,     diagnostics_.integratedCells, diagnostics_.skippedCells,
                                 diagnostics_.handedOverCells, diagnostics_.retries,         diagnostics_.coupledCells,
                                 diagnostics_.limitedCells};
