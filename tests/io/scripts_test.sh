@@ -39,8 +39,8 @@ check "setup is silent when nothing is missing" 0 "" env PATH="$work/bin:$PATH" 
 # --- build without a terminal: how far it is, and what the compiler says.
 progress() {
   source "$root/scripts/common.sh"
-  { echo "ninja: Entering directory"; echo "[30/120] a.cpp"; sleep 1.1; echo "[40/120] b.cpp"; echo "b.cpp: warning: c"; echo "[41/120] d.cpp"; } |
-    build_progress 1
+  { echo "ninja: Entering directory"; echo "[30/120] a.cpp"; sleep 2.1; echo "[40/120] b.cpp"; echo "b.cpp: warning: c"; echo "[41/120] d.cpp"; } |
+    build_progress 2  # in whole seconds, of which the last line takes none
 }
 check "build says how far it is" 0 "Built 40 of 120 files, about " progress
 [ "$(sed 's/about .* to go$/about/' output)" = $'Built 40 of 120 files, about\nb.cpp: warning: c' ] || { cat output; exit 1; }
