@@ -121,7 +121,9 @@ def check_stops(executable, folder):
     """A signal to a run that has started its own ranks reaches them: exit code, last line and record are those of a stop."""
     for number in (signal.SIGTERM, signal.SIGINT):
         out = folder / f"stopped_{number}"
-        process = subprocess.Popen([executable, "run", FLAME, "--ranks", "2", "--out", str(out), *running.settings("grid.slope=0.01", "grid.curve=0.01")],
+        # Of seconds on any machine.
+        settings = running.settings("mechanism=ethylene_abf2000_101.yaml", "grid.slope=0.01", "grid.curve=0.01")
+        process = subprocess.Popen([executable, "run", FLAME, "--ranks", "2", "--out", str(out), *settings],
                                    env=plain_environment(**HASTE), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                                    stderr=subprocess.PIPE, start_new_session=True, text=True)
         until = time.monotonic() + 30
