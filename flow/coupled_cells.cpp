@@ -1,5 +1,7 @@
 #include "flow/coupled_cells.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -153,6 +155,8 @@ void CoupledCells::solve(std::size_t field, double dt, std::span<const double> i
     }
     if (change <= solved * size) return;
   }
+  throw NumericsError(
+      fmt::format("the transport of cells that go together has not come to rest in {} iterations", mostIterations));
 }
 
 void CoupledCells::advance(ConstantPressureReactor& reactor, const Thermo& thermo, double dt, int parts) {

@@ -57,6 +57,7 @@ class CoupledCells {
   // After it: kg/s, what the reactions made in a cell, the mean over the step.
   [[nodiscard]] std::span<const double> made(std::int64_t number) const;
 
+ private:
   void connect();
   void solve(std::size_t field, double dt, std::span<const double> inertia, std::vector<double>& x) const;
 

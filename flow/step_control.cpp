@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -98,6 +99,7 @@ void StepControl::requireSound(const State& state) {
   // Where the shorter step does as much, it is not the step's length.
   const bool helps = worst < helping * failed_;
   failed_ = worst <= 1.0 || !helps ? std::numeric_limits<double>::infinity() : worst;
+  hasTakenTooMuch_ = worst > 1.0 && !helps;
   if (worst <= 1.0 || !helps) return;
   inEachCell(m, [&](int c) {
     std::string fault;
@@ -111,9 +113,17 @@ void StepControl::keepChange(const State& state, double time, double dt) {
       context_.mesh, [&](int c) { return std::abs(state.temperature[c] - start_[static_cast<std::size_t>(c)]); });
   change_ = largest.value;
   changeSinceRow_ = std::max(changeSinceRow_, change_);
-  if (change_ <= worst_.value) return;
-  worst_ = largest;
-  worstTime_ = time + dt;
+  const auto n = static_cast<std::size_t>(state.species);
+  const Peak missing = peakOf(context_.mesh, [&](int c) {
+    const double* Y = &state.Y[static_cast<std::size_t>(c) * n];
+    return std::max(0.0, -*std::min_element(Y, Y + n));
+  });
+  if (hasTakenTooMuch_ && ++takenTooMuch_ == 1.0) firstTooMuch_ = time;
+  const auto keep = [&](const Peak& found, Worst& worst) {
+    if (found.value > worst.peak.value) worst = {found, time + dt};
+  };
+  keep(largest, warming_);
+  keep(missing, negative_);
 }
 
 void StepControl::endStep(State& state) {
@@ -138,17 +148,17 @@ double StepControl::largestStep(const State&) {
 }
 
 void StepControl::saveOrLoad(StateArchive& archive) {
-  std::vector<double> kept{error_,       step_,           change_,         changeSinceRow_, coldest_,
-                           worst_.value, worst_.place[0], worst_.place[1], worst_.place[2], worstTime_};
+  const std::array scalars{&error_, &step_, &change_, &changeSinceRow_, &coldest_, &takenTooMuch_, &firstTooMuch_};
+  std::vector<double*> values(scalars.begin(), scalars.end());
+  for (Worst* worst : {&warming_, &negative_}) {
+    values.insert(values.end(), {&worst->peak.value, &worst->time});
+    for (double& coordinate : worst->peak.place) values.push_back(&coordinate);
+  }
+  std::vector<double> kept;
+  for (const double* value : values) kept.push_back(*value);
   archive.shared("step_control", kept);
   if (!archive.loading()) return;
-  error_ = kept.at(0);
-  step_ = kept.at(1);
-  change_ = kept.at(2);
-  changeSinceRow_ = kept.at(3);
-  coldest_ = kept.at(4);
-  worst_ = {kept.at(5), {kept.at(6), kept.at(7), kept.at(8)}};
-  worstTime_ = kept.at(9);
+  for (std::size_t i = 0; i < values.size(); ++i) *values[i] = kept.at(i);
   sweep_ = 0;  // of a step that was broken off
 }
 
@@ -170,9 +180,21 @@ std::vector<double> StepControl::historyValues(const State&) {
 
 std::vector<std::string> StepControl::closingLines() const {
   if (step_ <= 0.0) return {};
-  return {
-      fmt::format("largest change of a temperature in one step {:.3g} K at {} at t = {:.4g} s; {:.3g} K in the last",
-                  worst_.value, placeText(worst_.place, context_.mesh.dimension), worstTime_, change_)};
+  const auto whereOf = [&](const Worst& worst) {
+    return fmt::format("at {} at t = {:.4g} s", placeText(worst.peak.place, context_.mesh.dimension), worst.time);
+  };
+  std::vector<std::string> lines{
+      fmt::format("largest change of a temperature in one step {:.3g} K {}; {:.3g} K in the last", warming_.peak.value,
+                  whereOf(warming_), change_)};
+  if (negative_.peak.value > 0.0)
+    lines.push_back(
+        fmt::format("most negative mass fraction of all steps {:.2g} {}", -negative_.peak.value, whereOf(negative_)));
+  if (takenTooMuch_ > 0.0)
+    lines.push_back(fmt::format(
+        "steps that did more than time.temperature_change or time.least_mass_fraction allow, and were taken "
+        "since a shorter one did as much: {:.0f}, the first at t = {:.4g} s",
+        takenTooMuch_, firstTooMuch_));
+  return lines;
 }
 
 }  // namespace lampblack::flow

@@ -60,8 +60,15 @@ class StepControl : public Operator {
   double error_ = 0.0, step_ = 0.0;      // of the last step; zero before the first
   double change_ = 0.0;                  // K, the largest of the last step
   double changeSinceRow_ = 0.0;          // K
-  Peak worst_;                           // K, the largest change of the run
-  double worstTime_ = 0.0;               // s
+  struct Worst {
+    Peak peak;
+    double time = 0.0;  // s
+  };
+  Worst warming_;                 // K, the largest change of the run
+  Worst negative_;                // how far below zero a mass fraction has been in the run
+  bool hasTakenTooMuch_ = false;  // whether the present step is beyond what it may do, as a shorter one was
+  double takenTooMuch_ = 0.0;     // how many such steps there were
+  double firstTooMuch_ = 0.0;     // s, when the first of them began
 };
 
 }  // namespace lampblack::flow

@@ -118,7 +118,7 @@ void FlowLoop::report(double wallTime, RunRecord& record) {
     for (const std::string& line : op->closingLines()) fmt::print("{}\n", line);
   for (const Budget::Line& line : last_.budget)
     fmt::print("budget of {:<5} closed to {:.2e} of the inflow\n", line.name, line.error);
-  fmt::print("sum of mass fractions 1 to {:.1e}; most negative mass fraction {:.1e} (nothing is clipped)\n",
+  fmt::print("sum of mass fractions 1 to {:.1e}; most negative mass fraction {:.1e} at the end (nothing is clipped)\n",
              last_.extremes.massFractionSumError, last_.extremes.minimumMassFraction);
 }
 

@@ -81,6 +81,14 @@ TEST_F(StepControls, TellsTheLargestChangeOfAStepAndStepsByIt) {
   EXPECT_THAT(control.closingLines().at(0),
               testing::AllOf(testing::HasSubstr("90 K at (0.875, 0.5) m at t = 0.00102 s"),
                              testing::HasSubstr("10 K in the last")));
+  EXPECT_EQ(control.closingLines().size(), 1u);
+  change(9, 0.0, -2e-3);
+  control.advance(state, 1.04e-3, 2e-5);
+  control.endStep(state);
+  change(9, 0.0, 1e-3);
+  control.advance(state, 1.06e-3, 2e-5);
+  EXPECT_THAT(control.closingLines().at(1), testing::HasSubstr("of all steps -0.002 at (0.375, 0.833"));
+  EXPECT_THAT(control.closingLines().at(1), testing::HasSubstr("t = 0.00106 s"));
 }
 
 // What a step in one sweep leaves in a cell, and what is said of it; nothing: the step is taken.
@@ -127,7 +135,9 @@ TEST_F(StepControls, WhatAShorterStepDoesAsWellIsTaken) {
   };
   EXPECT_THROW(attempt(400.0), NumericsError);
   EXPECT_THROW(attempt(300.0), NumericsError);
+  EXPECT_EQ(control.closingLines().size(), 0u);
   EXPECT_NO_THROW(attempt(260.0));
+  EXPECT_THAT(control.closingLines().back(), testing::HasSubstr("a shorter one did as much: 1, the first at t = 0 s"));
   EXPECT_EQ(control.largestStep(state), std::numeric_limits<double>::infinity());
   EXPECT_THROW(attempt(260.0), NumericsError) << "another step";
 }
