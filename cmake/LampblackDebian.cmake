@@ -38,7 +38,7 @@ set(CPACK_DEBIAN_LAMPBLACK_PACKAGE_CONTROL_EXTRA "${CMAKE_SOURCE_DIR}/packaging/
 set(CPACK_DEBIAN_LAMPBLACK-DEV_PACKAGE_NAME lampblack-dev)
 set(CPACK_DEBIAN_LAMPBLACK-DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_LAMPBLACK-DEV_PACKAGE_DEPENDS
-  "lampblack (= ${PROJECT_VERSION}-1), libfmt-dev, libhdf5-openmpi-dev, liblapack-dev, libmuparser-dev, libopenmpi-dev, librandom123-dev, libsundials-dev, libyaml-cpp-dev, petsc-dev, pkg-config")
+  "lampblack (= ${PROJECT_VERSION}-1), libfmt-dev, libhdf5-openmpi-dev, liblapack-dev, libmetis-dev, libmuparser-dev, libopenmpi-dev, librandom123-dev, libsundials-dev, libyaml-cpp-dev, petsc-dev, pkg-config")
 
 # `import lampblack` without a search path.
 set(link "${CMAKE_BINARY_DIR}/debian/lampblack")

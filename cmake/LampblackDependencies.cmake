@@ -2,7 +2,7 @@
 # comes from pkg-config, CMake packages (CMAKE_PREFIX_PATH) or PETSC_DIR and PETSC_ARCH (docs/installing.md). What is missing is told
 # at once. The installed package (find_package(Lampblack)) looks for the same by this file.
 #
-# Targets: External::PETSc, External::HDF5, External::muParser, External::Random123; MPI::MPI_CXX, LAPACK::LAPACK, fmt::fmt,
+# Targets: External::PETSc, External::HDF5, External::muParser, External::Random123, External::METIS; MPI::MPI_CXX, LAPACK::LAPACK, fmt::fmt,
 # yaml-cpp and SUNDIALS::<library>_shared by their own packages.
 set(lampblack_missing "")
 
@@ -88,6 +88,15 @@ else()
   endif()
 endif()
 lampblack_need(muParser 2.3 "${MUPARSER_VERSION}" "Debian: libmuparser-dev; elsewhere: its prefix in CMAKE_PREFIX_PATH")
+
+find_path(METIS_INCLUDE_DIR metis.h)
+find_library(METIS_LIBRARY metis)
+if(METIS_INCLUDE_DIR AND METIS_LIBRARY)
+  lampblack_external(METIS "${METIS_LIBRARY}")
+  target_include_directories(External::METIS INTERFACE "${METIS_INCLUDE_DIR}")
+else()
+  string(APPEND lampblack_missing "\n  METIS: metis.h or its library not found. Debian: libmetis-dev; elsewhere: its prefix in CMAKE_PREFIX_PATH")
+endif()
 
 find_package(SUNDIALS QUIET)
 lampblack_need(SUNDIALS 6.4 "${SUNDIALS_VERSION}" "Debian: libsundials-dev; elsewhere: shared libraries with CVODES, its prefix in CMAKE_PREFIX_PATH")

@@ -302,33 +302,33 @@ class MeshBuilder {
 
 }  // namespace
 
-Mesh::Mesh(MPI_Comm communicator, MeshBlock block, Geometry meshGeometry, std::span<const double> cellWeight)
+Mesh::Mesh(MPI_Comm communicator, MeshBlock block, Geometry meshGeometry, const Partition& partition)
     : comm(communicator), geometry(meshGeometry) {
-  build(std::move(block), cellWeight);
+  build(std::move(block), partition);
 }
 
-Mesh::Mesh(MPI_Comm communicator, const MeshSpec& spec, std::span<const double> cellWeight)
+Mesh::Mesh(MPI_Comm communicator, const MeshSpec& spec, const Partition& partition)
     : comm(communicator), geometry(spec.geometry), box(spec) {
-  build(boxBlock(comm, spec), cellWeight);
+  build(boxBlock(comm, spec), partition);
 }
 
-void Mesh::build(MeshBlock block, std::span<const double> cellWeight) {
+void Mesh::build(MeshBlock block, const Partition& partition) {
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &ranks);
   dimension = block.dimension;
   patches = block.patches;
   totalCells = block.totalCells;
   collectively(comm, [&] {
-    if (!cellWeight.empty() && cellWeight.size() != block.shapes.size())
+    if (!partition.weight.empty() && partition.weight.size() != block.shapes.size())
       throw std::invalid_argument(
-          fmt::format("Mesh: {} cell weights for {} cells", cellWeight.size(), block.shapes.size()));
+          fmt::format("Mesh: {} cell weights for {} cells", partition.weight.size(), block.shapes.size()));
     if (axisymmetric() && dimension != 2) throw InputError("an axisymmetric mesh lies in a plane");
   });
   ConnectedCells connected = connect(comm, block);
   block = {};
   totalFaces = connected.totalFaces;
   totalVertices = connected.totalVertices;
-  std::vector<int> owner = partitionAlongCurve(comm, connected.cells, dimension, cellWeight);
+  std::vector<int> owner = ownersOf(comm, connected.cells, dimension, partition);
   DistributedCells distributed = distribute(comm, std::move(connected.cells), totalCells, owner);
   owner = {};
   MeshBuilder(*this, std::move(distributed)).run();

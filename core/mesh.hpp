@@ -19,18 +19,18 @@
 #include "core/box_mesh.hpp"
 #include "core/cell_set.hpp"
 #include "core/mesh_block.hpp"
+#include "core/partition.hpp"
 #include "core/vector3.hpp"
 
 namespace lampblack {
 
 class Mesh {
  public:
-  // Collective. `cellWeight` (one for each cell of this rank's share, or empty on all ranks for equal weights) is the
-  // expected cost that the partition balances. Every rank owns at least one cell. InputError, on all ranks, when there
-  // are fewer cells than ranks, a radius is negative, a cell is folded, or a boundary face belongs to no patch.
-  Mesh(MPI_Comm comm, MeshBlock block, Geometry geometry, std::span<const double> cellWeight = {});
+  // Collective. Every rank owns at least one cell. InputError, on all ranks, when there are fewer cells than ranks, a
+  // radius is negative, a cell is folded, or a boundary face belongs to no patch.
+  Mesh(MPI_Comm comm, MeshBlock block, Geometry geometry, const Partition& partition = {});
   // The same of a box, which stands in `box` from then on.
-  Mesh(MPI_Comm comm, const MeshSpec& spec, std::span<const double> cellWeight = {});
+  Mesh(MPI_Comm comm, const MeshSpec& spec, const Partition& partition = {});
 
   MPI_Comm comm;
   int rank = 0;
@@ -126,7 +126,7 @@ class Mesh {
   [[nodiscard]] int findOwned(std::int64_t natural) const;
 
  private:
-  void build(MeshBlock block, std::span<const double> cellWeight);
+  void build(MeshBlock block, const Partition& partition);
 };
 
 }  // namespace lampblack

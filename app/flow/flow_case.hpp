@@ -108,6 +108,7 @@ struct FlowCase {
   std::vector<std::string> solids;  // names of mesh.leftOut
   int dimension = 2;
   std::optional<MeshFile> meshFile;
+  std::optional<Partitioner> partitioner;  // empty: Curve for a box, for a mesh file what suits its size
   std::optional<double> repartition;  // busiest rank's cost over the mean, above which the mesh is partitioned anew
   std::vector<BoundaryCondition> boundaries;  // in the order of mesh.patches
   Vector3 gravity{0.0, 0.0, 0.0};             // m/s^2

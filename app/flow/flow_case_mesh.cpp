@@ -161,12 +161,24 @@ void readBend(const Deck& deck, FlowCase& flowCase) {
   };
 }
 
+std::optional<Partitioner> readPartitioner(const Deck& deck) {
+  const std::string key = "mesh.partition";
+  if (!deck.has(key)) return std::nullopt;
+  const std::string name = deck.choice(key);
+  if (name == "curve") return Partitioner::Curve;
+  if (name == "metis") return Partitioner::Metis;
+  if (!isThere(Partitioner::PtScotch))
+    throw deck.error(key, "PETSc was built without PT-Scotch here; expected metis or curve");
+  return Partitioner::PtScotch;
+}
+
 }  // namespace
 
 void readMesh(const Deck& deck, FlowCase& flowCase) {
   const std::string geometry = deck.choice("mesh.geometry");
   flowCase.mesh.geometry = geometry == "axisymmetric" ? Geometry::Axisymmetric : Geometry::Planar;
   flowCase.dimension = geometry == "space" ? 3 : 2;
+  flowCase.partitioner = readPartitioner(deck);
   flowCase.repartition = deck.optionalNumber("mesh.repartition");
   if (deck.has("mesh.file")) {
     readFile(deck, flowCase);

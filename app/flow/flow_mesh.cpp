@@ -249,7 +249,12 @@ void checkLayers(const Mesh& mesh, const FlowCase& flowCase) {
   });
 }
 
-Mesh readMeshFile(MPI_Comm comm, FlowCase& flowCase, std::span<const double> cellWeight) {
+// Of a mesh file without `mesh.partition`: what cuts least, where one rank can hold the graph.
+Partitioner usualPartitioner(std::int64_t cells) {
+  return cells <= 10'000'000 ? Partitioner::Metis : Partitioner::Curve;
+}
+
+Mesh readMeshFile(MPI_Comm comm, FlowCase& flowCase, std::span<const double> weight) {
   MeshFile& file = *flowCase.meshFile;
   const std::string key = "mesh.file";
   std::vector<std::string> notes;
@@ -269,7 +274,8 @@ Mesh readMeshFile(MPI_Comm comm, FlowCase& flowCase, std::span<const double> cel
     refuseExcess(file.deck, flowCase, cells);
   });
   PatchFaces faces(comm, block);
-  Mesh mesh = pointingAt(comm, file.deck, key, [&] { return Mesh(comm, block, flowCase.mesh.geometry, cellWeight); });
+  const Partition partition{flowCase.partitioner.value_or(usualPartitioner(block.totalCells)), weight};
+  Mesh mesh = pointingAt(comm, file.deck, key, [&] { return Mesh(comm, block, flowCase.mesh.geometry, partition); });
   faces.count(mesh);
   dropOtherPatches(mesh, others, names, faces, flowCase, notes);
   checkSurface(mesh, flowCase, faces);
@@ -280,8 +286,10 @@ Mesh readMeshFile(MPI_Comm comm, FlowCase& flowCase, std::span<const double> cel
 
 }  // namespace
 
-Mesh makeMesh(MPI_Comm comm, FlowCase& flowCase, std::span<const double> cellWeight) {
-  Mesh mesh = flowCase.meshFile ? readMeshFile(comm, flowCase, cellWeight) : Mesh(comm, flowCase.mesh, cellWeight);
+Mesh makeMesh(MPI_Comm comm, FlowCase& flowCase, std::span<const double> weight) {
+  Mesh mesh = flowCase.meshFile
+                  ? readMeshFile(comm, flowCase, weight)
+                  : Mesh(comm, flowCase.mesh, {flowCase.partitioner.value_or(Partitioner::Curve), weight});
   checkParts(mesh, flowCase);
   return mesh;
 }

@@ -14,8 +14,8 @@ namespace lampblack::app {
 // into `flowCase`, and what is passed over becomes notes of it; groups inside the gas whose boundary is a wall become
 // walls of no thickness. InputError, on all ranks, at a key of the deck where the file is damaged, is not of the deck's
 // geometry, has other names than the deck's boundaries, or more cells than there is room for, where it is read again
-// and has changed, or where one of several parts that do not touch has no outlet. `cellWeight`: of the cells whose
+// and has changed, or where one of several parts that do not touch has no outlet. `weight`: of the cells whose
 // permanent numbers are this rank's block (BlockExchange), or empty on all ranks.
-Mesh makeMesh(MPI_Comm comm, FlowCase& flowCase, std::span<const double> cellWeight = {});
+Mesh makeMesh(MPI_Comm comm, FlowCase& flowCase, std::span<const double> weight = {});
 
 }  // namespace lampblack::app

@@ -38,6 +38,14 @@ void addMesh(DeckSchema& schema) {
                .optional()
                .above(0))
       .add(numberKey("mesh.refinement", "Multiplies the cell count of every segment.").byDefault("1").above(0))
+      .add(choiceKey(
+               "mesh.partition", {"curve", "metis", "ptscotch"},
+               "How the cells are spread over the ranks: pieces of a space-filling curve, for which no rank holds more "
+               "than its share; by METIS, whose first rank holds the graph of the whole mesh (about 200 bytes a cell); "
+               "or by PT-Scotch, where PETSc has it, whose pieces are others in each run. Results differ by round-off "
+               "alone; to the last bit a run and its restarts repeat with curve and metis. Absent: the curve for "
+               "segments along axes, METIS for a mesh file of up to ten million cells.")
+               .optional())
       .add(
           numberKey("mesh.repartition",
                     "Cost of the busiest rank over the mean, '1.2', above which the mesh is partitioned anew between "

@@ -89,8 +89,8 @@ void measure(bool isSpace, double wanted) {
     auto block = std::make_unique<MeshBlock>(stages.run("box", [&] { return boxBlock(MPI_COMM_WORLD, spec); }));
     ConnectedCells connected = stages.run("connect", [&] { return connect(MPI_COMM_WORLD, *block); });
     block.reset();
-    const auto owner = stages.run(
-        "partition", [&] { return partitionAlongCurve(MPI_COMM_WORLD, connected.cells, spec.dimension(), {}); });
+    const auto owner =
+        stages.run("partition", [&] { return ownersOf(MPI_COMM_WORLD, connected.cells, spec.dimension(), {}); });
     stages.run("distribute", [&] { return distribute(MPI_COMM_WORLD, std::move(connected.cells), cells, owner); });
   }
   const auto mesh = stages.run("all", [&] { return std::make_unique<Mesh>(MPI_COMM_WORLD, spec); });

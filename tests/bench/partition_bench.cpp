@@ -1,11 +1,8 @@
-// Ways to give cells to ranks, side by side: pieces of the curve (what Mesh does), PT-Scotch on the spread graph, and
-// METIS on the whole graph on one rank, for as many parts as there are ranks. Run by hand:
+// The partitioners side by side, for as many parts as there are ranks. Run by hand:
 //   mpirun --oversubscribe -n 64 partition_bench [cells]
 #include <fmt/format.h>
 #include <malloc.h>
-#include <metis.h>
 #include <mpi.h>
-#include <petscmat.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +15,7 @@
 
 #include "core/grading.hpp"
 #include "core/mesh_connect.hpp"
-#include "core/mesh_distribution.hpp"
+#include "core/partition.hpp"
 #include "core/petsc.hpp"
 #include "core/rank_exchange.hpp"
 #include "core/shares.hpp"
@@ -74,91 +71,13 @@ Problem problem(const std::string& name, const MeshBlock& block, const std::func
   return p;
 }
 
-// Whole numbers for the weights, of mean 1000 where that fits.
-template <typename Integer>
-void wholeWeights(const std::vector<double>& weight, double sum, double cells, Integer* whole) {
-  const double scale = std::min(1000.0 * cells, 0x1p30) / sum;
-  std::ranges::transform(weight, whole,
-                         [&](double w) { return std::max<Integer>(1, static_cast<Integer>(std::lround(w * scale))); });
-}
-
-std::vector<int> byCurve(const Problem& p) {
-  return partitionAlongCurve(comm, p.cells, p.dimension, p.weight);
-}
-
-std::vector<int> byPtScotch(const Problem& p) {
-  const auto own = static_cast<std::int64_t>(p.cells.size());
-  const double cells = reduced(static_cast<double>(own), MPI_DOUBLE, MPI_SUM);
-  const double sum = reduced(std::accumulate(p.weight.begin(), p.weight.end(), 0.0), MPI_DOUBLE, MPI_SUM);
-  // These arrays pass to PETSc.
-  PetscInt *start = nullptr, *neighbours = nullptr, *weights = nullptr;
-  checkPetsc(PetscMalloc1(p.start.size(), &start));
-  checkPetsc(PetscMalloc1(p.neighbours.size() + 1, &neighbours));
-  checkPetsc(PetscMalloc1(p.weight.size() + 1, &weights));
-  std::ranges::copy(p.start, start);
-  std::ranges::copy(p.neighbours, neighbours);
-  wholeWeights(p.weight, sum, cells, weights);
-  PetscMatrix graph;
-  checkPetsc(MatCreateMPIAdj(comm, static_cast<PetscInt>(own), static_cast<PetscInt>(cells), start, neighbours, nullptr,
-                             graph.put()));
-  MatPartitioning partitioning = nullptr;
-  checkPetsc(MatPartitioningCreate(comm, &partitioning));
-  checkPetsc(MatPartitioningSetAdjacency(partitioning, graph.get()));
-  checkPetsc(MatPartitioningSetType(partitioning, MATPARTITIONINGPTSCOTCH));
-  checkPetsc(MatPartitioningSetVertexWeights(partitioning, weights));
-  checkPetsc(MatPartitioningSetFromOptions(partitioning));
-  IS parts = nullptr;
-  checkPetsc(MatPartitioningApply(partitioning, &parts));
-  const PetscInt* part = nullptr;
-  checkPetsc(ISGetIndices(parts, &part));
-  std::vector<int> owner(part, part + own);
-  checkPetsc(ISRestoreIndices(parts, &part));
-  checkPetsc(ISDestroy(&parts));
-  checkPetsc(MatPartitioningDestroy(&partitioning));
-  return owner;
-}
-
-// All values on rank 0, by rank.
-template <typename T>
-std::vector<T> onFirst(const Problem& p, const std::vector<T>& own) {
-  std::vector<std::vector<T>> toRank(static_cast<std::size_t>(p.ranks));
-  toRank[0] = own;
-  return sendToRanks(comm, toRank).values;
-}
-
-std::vector<int> byMetis(const Problem& p) {
-  std::vector<std::int64_t> degree;
-  for (std::size_t c = 0; c < p.cells.size(); ++c) degree.push_back(p.start[c + 1] - p.start[c]);
-  const auto degrees = onFirst(p, degree), neighbours = onFirst(p, p.neighbours),
-             counts = onFirst<std::int64_t>(p, {static_cast<std::int64_t>(p.cells.size())});
-  const auto weight = onFirst(p, p.weight);
-  std::vector<std::vector<int>> toRank(static_cast<std::size_t>(p.ranks));
-  if (!counts.empty()) {
-    std::vector<idx_t> start{0}, adjacency(neighbours.begin(), neighbours.end()), weights(weight.size());
-    for (const std::int64_t d : degrees) start.push_back(start.back() + static_cast<idx_t>(d));
-    wholeWeights(weight, std::accumulate(weight.begin(), weight.end(), 0.0), static_cast<double>(weight.size()),
-                 weights.data());
-    std::vector<idx_t> part(weight.size(), 0), options(METIS_NOPTIONS);
-    METIS_SetDefaultOptions(options.data());
-    options[METIS_OPTION_SEED] = 1;
-    idx_t vertices = static_cast<idx_t>(weight.size()), constraints = 1, parts = p.ranks, cut = 0;
-    if (METIS_PartGraphRecursive(&vertices, &constraints, start.data(), adjacency.data(), weights.data(), nullptr,
-                                 nullptr, &parts, nullptr, nullptr, options.data(), &cut, part.data()) != METIS_OK)
-      throw std::runtime_error("METIS failed");
-    auto next = part.begin();
-    for (std::size_t r = 0; r < toRank.size(); next += counts[r++]) toRank[r].assign(next, next + counts[r]);
-  }
-  return sendToRanks(comm, toRank).values;
-}
-
-void measure(const Problem& p, const std::string& way,
-             const std::function<std::vector<int>(const Problem&)>& partition) {
+void measure(const Problem& p, const std::string& way, Partitioner partitioner) {
   malloc_trim(0);  // so that what was freed before does not serve unseen
   forgetPeakMemory();
   const double before = peakMemory();
   MPI_Barrier(comm);
   const double began = MPI_Wtime();
-  const std::vector<int> owner = partition(p);
+  const std::vector<int> owner = ownersOf(comm, p.cells, p.dimension, {partitioner, p.weight});
   MPI_Barrier(comm);
   const double seconds = MPI_Wtime() - began;
   const double memory = reduced(peakMemory() - before, MPI_DOUBLE, MPI_MAX);
@@ -211,9 +130,9 @@ void compare(double cells) {
       problem("skewed triangles, flame ring", test::SkewedMesh(comm, triangles, test::Cells::Triangles, 0.3).block(),
               [](const Vector3& x) { return std::abs(std::hypot(x[0] - 0.4, x[1] - 0.5) - 0.3) < 0.03 ? 20.0 : 1.0; }));
   for (const Problem& p : problems) {
-    measure(p, "curve", byCurve);
-    measure(p, "PT-Scotch", byPtScotch);
-    measure(p, "METIS", byMetis);
+    measure(p, "curve", Partitioner::Curve);
+    measure(p, "PT-Scotch", Partitioner::PtScotch);
+    measure(p, "METIS", Partitioner::Metis);
   }
 }
 

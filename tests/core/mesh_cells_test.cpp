@@ -166,7 +166,7 @@ TEST(MeshInput, CellWeightsOfTheWrongLengthAreRefusedOnAllRanksEvenIfOnlyOneRank
   std::vector<double> weight = shareOf(std::vector<double>(16, 1.0));
   const std::size_t count = weight.size();
   if (worldRank() == worldSize() - 1) weight.pop_back();
-  EXPECT_THAT(messageOf<std::runtime_error>([&] { Mesh(MPI_COMM_WORLD, unitBox(4, 4), weight); }),
+  EXPECT_THAT(messageOf<std::runtime_error>([&] { Mesh(MPI_COMM_WORLD, unitBox(4, 4), {.weight = weight}); }),
               testing::HasSubstr("cell weights for"));
   EXPECT_EQ(shareOf(std::vector<double>(16, 1.0)).size(), count);
 }

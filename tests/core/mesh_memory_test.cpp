@@ -25,7 +25,7 @@ TEST_P(MeshMemory, ARankTakesNothingOfTheSizeOfTheMesh) {
   std::optional<Mesh> mesh;
   std::optional<HaloExchange> halo;
   const std::size_t taken = largestTaken([&] {
-    mesh.emplace(MPI_COMM_WORLD, std::move(made.block), Geometry::Planar, made.weight);
+    mesh.emplace(MPI_COMM_WORLD, std::move(made.block), Geometry::Planar, Partition{.weight = made.weight});
     halo.emplace(*mesh);
     std::vector<double> values(5 * at(mesh->cells), 1.0);
     halo->update(values, 5);
@@ -40,7 +40,7 @@ TEST_P(MeshMemory, ARankTakesNothingOfTheSizeOfTheMesh) {
 }
 
 TEST_P(MeshMemory, AGatheredFieldWouldBeNoticed) {
-  const Mesh mesh(MPI_COMM_WORLD, std::move(made.block), Geometry::Planar, made.weight);
+  const Mesh mesh(MPI_COMM_WORLD, std::move(made.block), Geometry::Planar, {.weight = made.weight});
   const std::vector<double> values(at(mesh.cells), 1.0);
   EXPECT_GE(largestTaken([&] { static_cast<void>(gatherNatural(mesh, values, 1)); }),
             at(static_cast<int>(mesh.totalCells)));

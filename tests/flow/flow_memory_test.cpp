@@ -27,7 +27,7 @@ TEST(FlowMemory, AStepAndPathsTakeNothingOfTheSizeOfTheMesh) {
   Gas& gas = Gas::hydrogen();
   const auto air = gas.massFractions("O2: 0.21, N2: 0.79"), fuel = gas.massFractions("H2: 0.2, N2: 0.8");
   CornerMesh made = cornerMesh(2, 200);
-  const Mesh mesh(MPI_COMM_WORLD, std::move(made.block), Geometry::Planar, made.weight);
+  const Mesh mesh(MPI_COMM_WORLD, std::move(made.block), Geometry::Planar, {.weight = made.weight});
   HaloExchange halo(mesh);
   BoundaryCondition wall = side(BoundaryKind::Wall, 0, false).condition;
   wall.temperature = 350.0;

@@ -25,6 +25,7 @@ class Lampblack(CMakePackage):
     depends_on("sundials@6.4: +cvodes +shared")
     depends_on("hdf5@1.10: +mpi ~cxx")
     depends_on("muparser@2.3:")
+    depends_on("metis@5.1:")
     depends_on("yaml-cpp@0.7:")
     depends_on("fmt@9:")
     depends_on("cli11@2.1:")
