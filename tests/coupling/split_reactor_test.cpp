@@ -109,6 +109,28 @@ class EveryCoupling : public SplitToy, public ::testing::WithParamInterface<bool
   // What the gas carries.
   ParticlesAtRest& phase() { return GetParam() ? static_cast<ParticlesAtRest&>(inGas) : atRest; }
   void couple(SplitReactor::Gas& own) { own.expected = GetParam() ? &inGas : nullptr; }
+  // A closed reactor as the coupling sees it.
+  SplitReactor::Gas closedGas(ClosedReactor& reactor, Kept kept) {
+    SplitReactor::Gas own;
+    couple(own);
+    own.system = &reactor;
+    own.density = [&](double, const double* y) { return reactor.density(y); };
+    own.pressure = [&](double, const double* y) { return reactor.pressure(y); };
+    own.timePerUnit = [](const double*) { return 1.0; };
+    own.kept = {kept};
+    return own;
+  }
+  // The work that 0.2 ms of a closed reactor of constant pressure take.
+  SplitReactor::Work workOf(ToySplit& particles) {
+    ClosedReactor reactor(ethylene(), gas, Held::Pressure, std::nullopt, &phase());
+    SplitReactor::Options options;
+    options.integrator = {1e-6, 1e-12, 0, 1000000};
+    options.change = 0.03;
+    SplitReactor both(ethylene(), closedGas(reactor, Kept::enthalpy), particles, options);
+    both.start(0, reactor.initialState());
+    both.advance(2e-4);
+    return both.work();
+  }
   ParticlesAtRest atRest;
   ExchangeInGas inGas{ethylene(), SplitParticles::sootElements(), {toy.acetylene}};
 };
@@ -118,12 +140,7 @@ TEST_P(EveryCoupling, ClosedReactorsAreOfSecondOrder) {
     ToyPhase exact(toy);
     ClosedReactor whole(ethylene(), gas, held, std::nullopt, &exact);
     ClosedReactor reactor(ethylene(), gas, held, std::nullopt, &phase());
-    SplitReactor::Gas own;
-    couple(own);
-    own.density = [&](double, const double* y) { return reactor.density(y); };
-    own.pressure = [&](double, const double* y) { return reactor.pressure(y); };
-    own.timePerUnit = [](const double*) { return 1.0; };
-    own.kept = {held == Held::Pressure ? Kept::enthalpy : Kept::internalEnergy};
+    SplitReactor::Gas own = closedGas(reactor, held == Held::Pressure ? Kept::enthalpy : Kept::internalEnergy);
     expectSecondOrder(reactor, own, reactor.initialState(), 2e-4, reference(whole, whole.initialState(), 2e-4));
   }
 }
@@ -132,53 +149,27 @@ TEST_P(EveryCoupling, ClosedReactorsAreOfSecondOrder) {
 // choose among what chance has it.
 TEST_P(EveryCoupling, NoStepWithRemovalsIsTakenBack) {
   for (const bool loses : {false, true}) {
-    ClosedReactor reactor(ethylene(), gas, Held::Pressure, std::nullopt, &phase());
-    SplitReactor::Gas own;
-    couple(own);
-    own.system = &reactor;
-    own.density = [&](double, const double* y) { return reactor.density(y); };
-    own.pressure = [&](double, const double* y) { return reactor.pressure(y); };
-    own.timePerUnit = [](const double*) { return 1.0; };
-    own.kept = {Kept::enthalpy};
     ToySplit particles(toy);
     particles.losesSome = loses;
     particles.burstAt = 1e-3;
-    SplitReactor::Options options;
-    options.integrator = {1e-6, 1e-12, 0, 1000000};
-    options.change = 0.03;
-    SplitReactor both(ethylene(), own, particles, options);
-    both.start(0, reactor.initialState());
-    both.advance(2e-4);
+    const SplitReactor::Work work = workOf(particles);
     ASSERT_GT(particles.carbon, particles.burstAt);
-    EXPECT_GE(both.work().gasSteps, both.work().steps) << "the gas takes a step at least in each";
-    EXPECT_EQ(both.work().rejected > 0, !loses);
-    EXPECT_EQ(both.work().unchecked > 0, loses);
+    EXPECT_GE(work.gasSteps, work.steps) << "the gas takes a step at least in each";
+    EXPECT_EQ(work.rejected > 0, !loses);
+    EXPECT_EQ(work.unchecked > 0, loses);
   }
 }
 
 // Where there are no particles, the exchange limits no step.
 TEST_P(EveryCoupling, IdleParticlesLimitNoStep) {
-  ClosedReactor reactor(ethylene(), gas, Held::Pressure, std::nullopt, &phase());
-  SplitReactor::Gas own;
-  couple(own);
-  own.system = &reactor;
-  own.density = [&](double, const double* y) { return reactor.density(y); };
-  own.pressure = [&](double, const double* y) { return reactor.pressure(y); };
-  own.timePerUnit = [](const double*) { return 1.0; };
-  own.kept = {Kept::enthalpy};
   std::array<std::size_t, 2> steps{};
   for (const bool idle : {false, true}) {
     ToySplit particles(toy);
     particles.isIdle = idle;
-    SplitReactor::Options options;
-    options.integrator = {1e-6, 1e-12, 0, 1000000};
-    options.change = 0.03;
-    SplitReactor both(ethylene(), own, particles, options);
-    both.start(0, reactor.initialState());
-    both.advance(2e-4);
-    steps[idle ? 1 : 0] = both.work().steps;
+    const SplitReactor::Work work = workOf(particles);
+    steps[idle ? 1 : 0] = work.steps;
     if (idle) {
-      EXPECT_EQ(both.work().rejected, 0u);
+      EXPECT_EQ(work.rejected, 0u);
     }
   }
   EXPECT_LT(2 * steps[1], steps[0]);
