@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <random>
 
 #include "chemistry/kinetics/kinetics.hpp"
@@ -16,12 +17,14 @@
 #include "tests/chemistry/measured.hpp"
 #include "tests/chemistry/mechanism_text.hpp"
 #include "tests/chemistry/table.hpp"
+#include "tests/effort.hpp"
 #include "tests/every_module.hpp"
 
 namespace {
 
 using namespace lampblack;
 using namespace lampblack::chemistry;
+using lampblack::test::fewOrMany;
 using lampblack::test::hydrogen;
 using lampblack::test::measured;
 using lampblack::test::raise;
@@ -197,11 +200,34 @@ TEST_P(EquilibriumOf, ForgetsTheCompositionItStartedFrom) {
   EXPECT_LT(worst, 1e-12);
 }
 
+// The number of docs/theory/chemistry.md: in a long run 4000 of each mechanism.
+TEST_P(EquilibriumOf, IsFoundForRandomMixtures) {
+  const auto mechanism = shipped(GetParam());
+  const Thermo thermo(mechanism);
+  Equilibrium equilibrium(mechanism);
+  RandomStates state(mechanism, 6);
+  std::vector<double> Y(mechanism.numSpecies());
+  const int states = fewOrMany(100, 4000);
+  int lost = 0;
+  for (int i = 0; i < states; ++i) {
+    state.next();
+    thermo.moleToMass(state.X, Y);
+    try {
+      equilibrium.atTemperatureAndPressure(state.T, state.p, Y);
+    } catch (const NumericsError& error) {
+      ++lost;
+      std::cout << error.what() << '\n';
+    }
+  }
+  measured("not found", lost);
+  EXPECT_EQ(lost, 0);
+}
+
 INSTANTIATE_TEST_SUITE_P(Mechanisms, EquilibriumOf,
                          ::testing::Values("hydrogen_h2o2_10.yaml", "hydrogen_sandiego_9.yaml", "methane_drm19_21.yaml",
                                            "methane_gri30_53.yaml", "ethylene_bisetti2012_47.yaml",
                                            "ethylene_abf2000_101.yaml", "ethylene_narayanaswamy2010_158.yaml",
-                                           "ethylene_km2_202.yaml"),
+                                           "ethylene_km2_202.yaml", "silica_teos_29.yaml"),
                          [](const auto& param) {
                            const std::string name = param.param;
                            return name.substr(0, name.find('.'));
