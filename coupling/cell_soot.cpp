@@ -8,7 +8,7 @@ namespace lampblack::coupling {
 
 CellSoot::CellSoot(const Mechanism& mechanism, const EnsembleOptions& options)
     : CellParticles("soot", {"C", "H"}, mechanism, indicesOfSootSpecies(mechanism, options.soot),
-                    {SootAggregate(options.soot.sootDensity, options.coalescing), {packedHead, false}}),
+                    {sootAggregate(options), {packedHead, false}}),
       engine_(makeEnsemble(options)) {
   blank_ = engine_->pack();
 }

@@ -81,14 +81,13 @@ std::vector<ReactorPopulation::Table> ReactorTrees::tables() const {
   std::int64_t particle = 0, before = 0;
   for (const Tree& tree : trees) {
     const TreeHead& head = tree.head();
-    const double n = head.count;
     particles.put(weight);
     units(particles, head.units);
     for (const double value : {head.volume, head.surface, head.collision, treeDiameter(head.volume)})
       particles.put(value);
     particles.put(std::int64_t{head.count});
-    particles.put(head.diameters / n);
-    particles.put(head.count > 1 ? head.levels / (n - 1) : 1.0);
+    particles.put(meanPrimaryDiameter(head));
+    particles.put(meanSinteringLevel(head));
     for (const TreePrimary& primary : tree.primaries()) {
       primaries.put(particle);
       units(primaries, primary.units);

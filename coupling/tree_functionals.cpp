@@ -37,7 +37,6 @@ TreeFunctionals::TreeFunctionals(const TreeMaterial& material)
 }
 
 double TreeFunctionals::of(const TreeHead& tree, std::size_t which) const {
-  const double n = tree.count;
   switch (which) {
     case collisionDiameter:
       return tree.collision;
@@ -48,11 +47,11 @@ double TreeFunctionals::of(const TreeHead& tree, std::size_t which) const {
       return 6 * tree.volume / tree.surface * SootAggregate::mobilityFactor(ratio * ratio * ratio);
     }
     case primaries:
-      return n;
+      return primariesOfTree(tree);
     case primaryDiameter:
-      return tree.diameters / n;
+      return meanPrimaryDiameter(tree);
     case sinteringLevel:
-      return tree.count > 1 ? tree.levels / (n - 1) : 1.0;
+      return meanSinteringLevel(tree);
     default:
       break;
   }

@@ -22,9 +22,18 @@ void addEnsembleKeys(DeckSchema& schema, const std::string& description, const s
                .byDefault(particles)
                .atLeast(8))
       .add(choiceKey(
-               "stochastic.shape", {"spheres", "aggregates"},
-               "spheres: particles coalesce when they coagulate; aggregates: their primary particles stay and touch.")
+               "stochastic.shape", {"spheres", "aggregates", "surface_volume"},
+               "spheres: particles coalesce when they coagulate; aggregates: their primary particles stay and touch; "
+               "surface_volume: by volume and surface, which coagulation adds up and growth makes rounder (Patterson, "
+               "Kraft 2007).")
                .byDefault("spheres"))
+      .add(numberKey("stochastic.fractal_dimension",
+                     "Fractal dimension in the diameter of collision, d_p n_p^(1/D_f) of n_p primaries of d_p = 6V/S. "
+                     "Absent: mean of the diameters of the spheres of the particle's volume and of its surface.")
+               .optional()
+               .atLeast(1)
+               .atMost(3)
+               .onlyWith("stochastic.shape", {"surface_volume"}))
       .add(choiceKey("stochastic.active_sites", {"particle", "primary"},
                      "The mean size in the fraction alpha of active sites (Appel, Bockhorn, Frenklach 2000): carbon "
                      "atoms of the mean particle or of the mean primary particle.")
@@ -90,7 +99,11 @@ EnsembleRequest readEnsemble(const Deck& deck, const SootModelOptions& soot) {
                 40 * static_cast<double>(options.particles));
   if (deck.has("stochastic.seed")) options.seed = deck.integer<std::uint64_t>("stochastic.seed");
   options.soot = soot;
-  options.coalescing = deck.choice("stochastic.shape") == "spheres";
+  const std::string shape = deck.choice("stochastic.shape");
+  options.shape = shape == "spheres"      ? SootShape::spheres
+                  : shape == "aggregates" ? SootShape::aggregates
+                                          : SootShape::surfaceVolume;
+  options.fractalDimension = deck.optionalNumber("stochastic.fractal_dimension").value_or(0);
   options.alphaOfPrimaries = deck.choice("stochastic.active_sites") == "primary";
   options.keepsHydrogen = deck.boolean("stochastic.keep_hydrogen");
   options.growthByEvents = deck.choice("stochastic.growth") == "events";

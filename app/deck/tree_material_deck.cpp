@@ -120,16 +120,19 @@ void addSintering(DeckSchema& schema) {
       .add(choiceKey(s + "size", {"smaller", "volume_to_surface"},
                      "The size d in the law: that of the smaller of two neighbours (Shekar et al. 2011), or 6 V/S of "
                      "what sinters.")
-               .byDefault("smaller"))
+               .byDefault("smaller")
+               .onlyWith("particles.shape", {"trees"}))
       .add(choiceKey(s + "between", {"neighbours", "parts"},
                      "What sinters: pairs of neighbours (Shekar et al. 2011, eq. 40); or the two parts of an aggregate "
                      "that a collision joined, with the whole volume and surface of both, as the program MOpS does.")
-               .byDefault("neighbours"))
+               .byDefault("neighbours")
+               .onlyWith("particles.shape", {"trees"}))
       .add(
           choiceKey(s + "inner_parts", {"sphere", "nothing"},
                     "What the surface of parts within an aggregate goes towards where parts sinter: that of the sphere "
                     "of their volume; or nothing, as the program MOpS computes it.")
-              .byDefault("sphere"));
+              .byDefault("sphere")
+              .onlyWith("particles.shape", {"trees"}));
 }
 
 SinteringMechanism mechanismOf(const std::string& name) {
@@ -148,14 +151,16 @@ SinteringLaw readSintering(const Deck& deck, SinteringLaw law) {
   law.prefactor = deck.optionalNumber(s + "prefactor").value_or(law.prefactor);
   law.temperature = deck.optionalQuantity(s + "activation_temperature").value_or(law.temperature);
   law.critical = deck.optionalQuantity(s + "critical_diameter").value_or(law.critical);
-  law.size = deck.choice(s + "size") == "smaller" ? SinteringLaw::Size::smaller : SinteringLaw::Size::volumeToSurface;
-  law.between =
-      deck.choice(s + "between") == "neighbours" ? SinteringLaw::Between::neighbours : SinteringLaw::Between::parts;
-  law.innerSpheres = deck.choice(s + "inner_parts") == "sphere";
-  if (!law.innerSpheres && law.between == SinteringLaw::Between::neighbours)
-    throw deck.error(s + "inner_parts", "only where 'between' is 'parts' do parts within an aggregate sinter");
-  if (law.between == SinteringLaw::Between::parts && law.size == SinteringLaw::Size::smaller)
-    throw deck.error(s + "size", "parts of an aggregate sinter by 'volume_to_surface'");
+  if (deck.has(s + "size")) {
+    law.size = deck.choice(s + "size") == "smaller" ? SinteringLaw::Size::smaller : SinteringLaw::Size::volumeToSurface;
+    law.between =
+        deck.choice(s + "between") == "neighbours" ? SinteringLaw::Between::neighbours : SinteringLaw::Between::parts;
+    law.innerSpheres = deck.choice(s + "inner_parts") == "sphere";
+    if (!law.innerSpheres && law.between == SinteringLaw::Between::neighbours)
+      throw deck.error(s + "inner_parts", "only where 'between' is 'parts' do parts within an aggregate sinter");
+    if (law.between == SinteringLaw::Between::parts && law.size == SinteringLaw::Size::smaller)
+      throw deck.error(s + "size", "parts of an aggregate sinter by 'volume_to_surface'");
+  }
   if (law.active() && !(law.prefactor > 0))
     throw deck.error("particles.sintering",
                      "this mechanism needs the key 'prefactor', and most an 'activation_temperature'");
@@ -261,7 +266,8 @@ void addTreeMaterialKeys(DeckSchema& schema, const std::string& description) {
                     "as keeps its shape.")
               .byDefault("1")
               .atLeast(0)
-              .atMost(2));
+              .atMost(2)
+              .onlyWith("particles.shape", {"trees"}));
   addReactions(schema);
   addTable(schema);
   addSintering(schema);
@@ -280,7 +286,7 @@ TreeMaterial readTreeMaterial(const Deck& deck, const Mechanism& mechanism) {
     r.energy = deck.quantity("particles.growth_energy");
     r.condenses = deck.boolean("particles.intra_particle");
   }
-  m.smoothing = deck.number("particles.smoothing");
+  m.smoothing = deck.optionalNumber("particles.smoothing").value_or(m.smoothing);
   m.sintering = readSintering(deck, m.sintering);
   return m;
 }

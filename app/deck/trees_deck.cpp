@@ -24,6 +24,13 @@ void addProcesses(DeckSchema& schema) {
                .byDefault("1e-3")
                .atLeast(0)
                .atMost(0.1))
+      .add(
+          choiceKey("particles.shape", {"trees", "surface_volume"},
+                    "trees: primaries that share surface; surface_volume: particles by their volume and surface alone, "
+                    "which collisions add up, growth makes rounder (Patterson, Kraft 2007) and sintering takes to the "
+                    "sphere's, dS/dt = -(S - S_sphere)/tau(6V/S) (Koch, Friedlander 1990). Of silica and of a table; "
+                    "soot by volume and surface is stochastic.shape.")
+              .byDefault("trees"))
       .add(booleanKey("particles.coagulation", "Whether particles collide and stick; of soot it is soot.coagulation.")
                .byDefault("true"))
       .add(choiceKey("particles.kernel", {"transition", "free_molecular", "continuum"},
@@ -49,7 +56,8 @@ void addProcesses(DeckSchema& schema) {
                "Length that a power of the number of primaries multiplies to a diameter of collision: mean diameter "
                "of primaries (Shekar et al. 2011, eqs. 17, 18), or 6 V/S of the particle, by which a particle that has "
                "become a sphere has its diameter. Absent: volume_to_surface for soot, primaries for other materials.")
-               .optional());
+               .optional()
+               .onlyWith("particles.shape", {"trees"}));
 }
 
 void addNumbers(DeckSchema& schema, const std::string& particles) {
@@ -106,7 +114,8 @@ DeckKey tablesAt() {
                      "and necks; the history has a row there. Some 1000 bytes for a particle of ten primaries.")
       .list()
       .optional()
-      .atLeast(0);
+      .atLeast(0)
+      .onlyWith("particles.shape", {"trees"});
 }
 
 void addClasses(DeckSchema& schema) {
@@ -183,7 +192,8 @@ void addTreeReactorKeys(DeckSchema& schema) {
                .list()
                .optional()
                .atLeast(0)
-               .onlyWith("reactor.type", {"plug_flow"}));
+               .onlyWith("reactor.type", {"plug_flow"})
+               .onlyWith("particles.shape", {"trees"}));
   addRuns(schema);
   addClasses(schema);
 }
@@ -204,6 +214,13 @@ TreeOptions readTreeOptions(const Deck& deck, const Mechanism& mechanism) {
   const SootReactions* soot = options.material.soot();
   options.sinteringTolerance = deck.number("particles.sintering.tolerance");
   options.coagulation = soot != nullptr ? soot->soot.coagulation : deck.boolean("particles.coagulation");
+  if (deck.choice("particles.shape") == "surface_volume") {
+    if (soot != nullptr)
+      throw deck.error("particles.shape",
+                       "soot by volume and surface is 'stochastic: {shape: surface_volume}' without the section "
+                       "'particles'");
+    options.shape = TreeShape::surfaceVolume;
+  }
   const std::string kernel = deck.choice("particles.kernel");
   options.kernel.type = kernel == "transition"       ? CollisionKernelType::transition
                         : kernel == "free_molecular" ? CollisionKernelType::freeMolecular

@@ -214,8 +214,8 @@ std::shared_ptr<CellParticles> readCellTrees(const Deck& deck, const FlowCase& f
                      "{exchange: two_way}'");
   if (deck.isGiven("soot.model") && deck.choice("soot.model") != "none")
     throw deck.error("soot.model", "trees in the cells take the place of a model: leave this out, or 'particles'");
-  for (const char* key :
-       {"method", "particles", "shape", "active_sites", "keep_hydrogen", "growth", "split_tolerance", "bundled_growth"})
+  for (const char* key : {"method", "particles", "shape", "fractal_dimension", "active_sites", "keep_hydrogen",
+                          "growth", "split_tolerance", "bundled_growth"})
     if (const std::string full = std::string("stochastic.") + key; deck.isGiven(full))
       throw deck.error(full, "this is of soot; what trees of primaries are like is said in the section 'particles'");
   TreeOptions options = readTreeOptions(deck, *flowCase.mechanism);

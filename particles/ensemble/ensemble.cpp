@@ -14,7 +14,7 @@ template <class Method>
 std::unique_ptr<Ensemble> make(EnsembleOptions options, const PopulationModel& model,
                                const MonteCarloOptions& monteCarlo) {
   RandomStream random(options.seed, options.owner, ensembleStream);
-  const SootAggregate type(options.soot.sootDensity, options.coalescing);
+  const SootAggregate type = sootAggregate(options);
   Method method(type, model, InitialPopulation{}, monteCarlo, random);
   return std::make_unique<StochasticProcess<Method>>(std::move(options), type, std::move(method), random);
 }

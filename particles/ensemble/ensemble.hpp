@@ -23,6 +23,7 @@
 #include "particles/gas/soot_gas.hpp"
 #include "particles/population/model/collision_kernel.hpp"
 #include "particles/population/population_solver.hpp"
+#include "particles/soot/soot_aggregate.hpp"
 
 namespace lampblack::particles {
 
@@ -37,7 +38,8 @@ struct EnsembleOptions {
   // Of coagulation; the gas gives its gas, and soot its enhancement and slip. The kernels with exact solutions are
   // there for verification.
   CollisionKernelOptions kernel{.type = CollisionKernelType::transition};
-  bool coalescing = true;         // spheres; otherwise aggregates of primaries
+  SootShape shape = SootShape::spheres;
+  double fractalDimension = 0;    // SootAggregate: of particles by volume and surface
   bool alphaOfPrimaries = false;  // mu_1 in alpha(T, mu_1) is of the mean primary (Wang 2025, eq. 9-37), not particle
   bool keepsHydrogen = true;      // false: that of PAH returns to the gas as H2 when they are taken up
   // Growth, condensation and oxidation in whole events, as often as chance has it, not as their mean: where particles
@@ -53,6 +55,10 @@ struct EnsembleOptions {
   // 1/m3: dsmc, at which a sample that is or becomes empty is full at least; more where more are born at once.
   double startNumberDensity = 1e6;
 };
+
+[[nodiscard]] inline SootAggregate sootAggregate(const EnsembleOptions& options) {
+  return {options.soot.sootDensity, options.shape, options.fractalDimension};
+}
 
 // What a population took from (negative) and gave to the gas and what happened to its own mass, summed over the steps
 // since the last look, per m3 of the gas of each moment.

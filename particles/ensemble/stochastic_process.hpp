@@ -123,7 +123,7 @@ SootPopulationLaw StochasticProcess<Method>::law() const {
   return {options_.soot,
           dimers_,
           kernel_ ? &*kernel_ : nullptr,
-          options_.coalescing ? std::cbrt(2.0) : SootAggregate::collisionFactor(2),
+          type_.coalescing() ? std::cbrt(2.0) : type_.shapeFactor(2),
           options_.alphaOfPrimaries,
           options_.growthByEvents,
           options_.splitTolerance};

@@ -18,26 +18,27 @@ void forEachBlock(std::size_t n, F f) {
 }
 
 // Diameters of the primaries, d^3 = perVolume * mass / primaries.
-template <bool Spheres>
+template <SootShape Shape>
 void primaryDiameters(const double* carbon, const double* hydrogen, const double* primaries, double perVolume,
                       std::size_t n, double* d) {
   for (std::size_t i = 0; i < n; ++i) {
     const double volume = perVolume * (carbon[i] + hydrogen[i]);
-    d[i] = normalCubeRoot(Spheres ? volume : volume / primaries[i]);
+    d[i] = normalCubeRoot(Shape == SootShape::spheres ? volume : volume / primaries[i]);
   }
 }
 
-template <bool Spheres>
+template <SootShape Shape>
 SootSums sums(const SootColumns& all, const SootAggregate& type, const SootMedium& medium) {
+  constexpr bool areSpheres = Shape == SootShape::spheres;
   SootSums s;
   const bool condensing = medium.condensing();
   forEachBlock(all.size(), [&](std::size_t first, std::size_t n) {
     const double *c = &all.carbon[first], *h = &all.hydrogen[first], *primaries = &all.primaries[first];
     const double *diameter = &all.diameter[first], *w = &all.weight[first];
     Block carbon, hydrogen, count, area, diameters, rates, slopes, d;
-    if (!Spheres) primaryDiameters<Spheres>(c, h, primaries, type.perVolume(), n, d);
+    if (!areSpheres) primaryDiameters<Shape>(c, h, primaries, type.perVolume(), n, d);
     for (std::size_t i = 0; i < n; ++i) {
-      const double primary = Spheres ? diameter[i] : d[i];
+      const double primary = areSpheres ? diameter[i] : d[i];
       carbon[i] = w[i] * c[i];
       hydrogen[i] = w[i] * h[i];
       count[i] = w[i] * primaries[i];
@@ -58,29 +59,41 @@ SootSums sums(const SootColumns& all, const SootAggregate& type, const SootMediu
     s.collisions += chemistry::sumOf(rates, n);
     if (medium.ofMonomers()) return;
     for (std::size_t i = 0; i < n; ++i)
-      slopes[i] = medium.collisionSlope({c[i], h[i], primaries[i], diameter[i]}, rates[i]);
+      slopes[i] = medium.collisionSlope({c[i], h[i], primaries[i], diameter[i]}, rates[i],
+                                        Shape == SootShape::surfaceVolume ? type.shapeGain(primaries[i]) : 1);
     s.slopes += chemistry::sumOf(slopes, n);
   });
   return s;
 }
 
-template <bool Spheres>
+template <SootShape Shape>
 SootTransfer grow(SootColumns& all, const SootAggregate& type, const SootMedium& medium, const SootFluxes& fluxes,
                   double dt) {
+  constexpr bool areSpheres = Shape == SootShape::spheres, changesPrimaries = Shape == SootShape::surfaceVolume;
   const SootGrowth law = medium.growth(fluxes);
   const double perVolume = type.perVolume(), least = law.leastCarbon(), share = law.shareO2();
   SootTransfer sum;
   forEachBlock(all.size(), [&](std::size_t first, std::size_t n) {
     double *c = &all.carbon[first], *h = &all.hydrogen[first], *diameter = &all.diameter[first];
-    const double *primaries = &all.primaries[first], *w = &all.weight[first];
-    Block carbon, hydrogen, d, shape, rest, lost, moved[6];
-    if (!Spheres) {
-      primaryDiameters<Spheres>(c, h, primaries, perVolume, n, d);
+    double* primaries = &all.primaries[first];
+    const double* w = &all.weight[first];
+    Block carbon, hydrogen, d, shape, rest, lost, after, moved[6];
+    if (changesPrimaries) {
+      for (std::size_t i = 0; i < n; ++i) {
+        const GrowingShape middle = growingShape(law, type, c[i] + h[i], primaries[i], dt);
+        after[i] = middle.primaries;
+        shape[i] = middle.factor;
+        d[i] = middle.diameter;
+      }
+    } else if (!areSpheres) {
+      primaryDiameters<Shape>(c, h, primaries, perVolume, n, d);
       for (std::size_t i = 0; i < n; ++i) shape[i] = SootAggregate::collisionFactor(primaries[i]);
     }
     for (std::size_t i = 0; i < n; ++i) {
-      const double before = Spheres ? diameter[i] : d[i];
-      const SootGrowth::Step s = law.step(c[i], h[i], primaries[i], Spheres ? 1 : shape[i], before, dt);
+      const double before = areSpheres ? diameter[i] : d[i];
+      const SootGrowth::Step s =
+          law.step(c[i], h[i], changesPrimaries ? after[i] : primaries[i], areSpheres ? 1 : shape[i], before, dt);
+      if (changesPrimaries) after[i] = primariesAfter(primaries[i], c[i] + h[i], law.gained(s), law.lost(s));
       // What is too small to go on burning goes as a whole.
       const bool gone = s.carbon < c[i] && s.carbon < least;
       const double C = gone ? s.carbon : 0, H = gone ? s.hydrogen : 0;
@@ -107,17 +120,23 @@ SootTransfer grow(SootColumns& all, const SootAggregate& type, const SootMedium&
         const bool left = medium.grow(type, fluxes, dt, p, one);
         carbon[i] = left ? p.carbon : 0;
         hydrogen[i] = left ? p.hydrogen : 0;
+        if (changesPrimaries) after[i] = p.primaries;
         lost[i] = w[i] * one.lost;
         for (std::size_t k = 0; k < 6; ++k) moved[k][i] = w[i] * (one.*parts[k]);
       }
     }
     for (std::size_t k = 0; k < 6; ++k) sum.*parts[k] += chemistry::sumOf(moved[k], n);
     sum.lost += chemistry::sumOf(lost, n);
-    primaryDiameters<Spheres>(carbon, hydrogen, primaries, perVolume, n, d);
+    if (changesPrimaries)
+      for (std::size_t i = 0; i < n; ++i) {
+        primaries[i] = after[i];
+        shape[i] = type.shapeFactor(after[i]);
+      }
+    primaryDiameters<Shape>(carbon, hydrogen, primaries, perVolume, n, d);
     for (std::size_t i = 0; i < n; ++i) {
       c[i] = carbon[i];
       h[i] = hydrogen[i];
-      diameter[i] = Spheres ? d[i] : shape[i] * d[i];
+      diameter[i] = areSpheres ? d[i] : shape[i] * d[i];
     }
   });
   return sum;
@@ -126,12 +145,28 @@ SootTransfer grow(SootColumns& all, const SootAggregate& type, const SootMedium&
 }  // namespace
 
 SootSums sumsOf(const SootColumns& all, const SootAggregate& type, const SootMedium& medium) {
-  return type.coalescing() ? sums<true>(all, type, medium) : sums<false>(all, type, medium);
+  switch (type.shape()) {
+    case SootShape::spheres:
+      return sums<SootShape::spheres>(all, type, medium);
+    case SootShape::aggregates:
+      return sums<SootShape::aggregates>(all, type, medium);
+    case SootShape::surfaceVolume:
+      break;
+  }
+  return sums<SootShape::surfaceVolume>(all, type, medium);
 }
 
 SootTransfer growAll(SootColumns& all, const SootAggregate& type, const SootMedium& medium, const SootFluxes& fluxes,
                      double dt) {
-  return type.coalescing() ? grow<true>(all, type, medium, fluxes, dt) : grow<false>(all, type, medium, fluxes, dt);
+  switch (type.shape()) {
+    case SootShape::spheres:
+      return grow<SootShape::spheres>(all, type, medium, fluxes, dt);
+    case SootShape::aggregates:
+      return grow<SootShape::aggregates>(all, type, medium, fluxes, dt);
+    case SootShape::surfaceVolume:
+      break;
+  }
+  return grow<SootShape::surfaceVolume>(all, type, medium, fluxes, dt);
 }
 
 }  // namespace lampblack::particles

@@ -22,6 +22,7 @@ struct EventBatch {
   std::uint64_t few[particlesAtATime];  // 16 bits for each kind
   double number[sootEvents][particlesAtATime];
   double carbon[particlesAtATime], hydrogen[particlesAtATime], diameter[particlesAtATime];
+  double gained[particlesAtATime], lost[particlesAtATime];  // kg
 };
 
 // `number` of those that have few events.
@@ -73,6 +74,8 @@ void applyAllEvents(EventBatch& batch, const SootColumns& all, const SootMedium&
     byOH[j] = counted * OH;
     hydrogenO2[j] = counted * share * O2;
     hydrogenOH[j] = counted * share * OH;
+    batch.gained[j] = most + full - c - h;
+    batch.lost[j] = (1 + share) * (O2 + OH);
   }
   sum.dimers += chemistry::sumOf(dimers, n);
   sum.growth += chemistry::sumOf(growth, n);
@@ -98,12 +101,13 @@ void GrowthByEvents::grow(SootColumns& all, std::vector<std::uint32_t>& changed)
   double d[particlesAtATime], shape[particlesAtATime];
   EventBatch batch;
   std::uint32_t many[particlesAtATime];  // which of them have their numbers already
-  const bool spheres = type_.coalescing();
+  const bool spheres = type_.coalescing(), changesPrimaries = type_.shape() == SootShape::surfaceVolume;
   RandomStream& random = random_;
   double next = next_;
   for (std::size_t first = 0; first < all.size(); first += particlesAtATime) {
     const std::size_t n = std::min(particlesAtATime, all.size() - first);
-    const double *c = &all.carbon[first], *h = &all.hydrogen[first], *primaries = &all.primaries[first];
+    const double *c = &all.carbon[first], *h = &all.hydrogen[first];
+    double* primaries = &all.primaries[first];
     const auto expect = [&](std::size_t i, double count, double factor, double diameter) {
       const SootEventNumbers e = expectedEvents(law, c[i], h[i], count, factor, diameter, dt, perAtom);
       for (std::size_t kind = 0; kind < sootEvents; ++kind) expected[kind][i] = e[kind];
@@ -112,6 +116,11 @@ void GrowthByEvents::grow(SootColumns& all, std::vector<std::uint32_t>& changed)
     if (spheres) {
       const double* diameter = &all.diameter[first];
       for (std::size_t i = 0; i < n; ++i) expect(i, 1, 1, diameter[i]);
+    } else if (changesPrimaries) {
+      for (std::size_t i = 0; i < n; ++i) {
+        const GrowingShape middle = growingShape(law, type_, c[i] + h[i], primaries[i], dt);
+        expect(i, middle.primaries, middle.factor, middle.diameter);
+      }
     } else {
       for (std::size_t i = 0; i < n; ++i) {
         d[i] = normalCubeRoot(perVolume * (c[i] + h[i]) / primaries[i]);
@@ -151,6 +160,12 @@ void GrowthByEvents::grow(SootColumns& all, std::vector<std::uint32_t>& changed)
     }
     unpack(batch, {many, manyOnes});
     applyAllEvents(batch, all, medium_, least, random, moved_);
+    if (changesPrimaries)
+      for (std::size_t j = 0; j < batch.count; ++j) {
+        const std::size_t i = batch.place[j] - first;
+        primaries[i] = primariesAfter(primaries[i], c[i] + h[i], batch.gained[j], batch.lost[j]);
+        shape[i] = type_.shapeFactor(primaries[i]);
+      }
     for (std::size_t j = 0; j < batch.count; ++j)
       batch.diameter[j] = perVolume * (batch.carbon[j] + batch.hydrogen[j]) / all.primaries[batch.place[j]];
     for (std::size_t j = 0; j < batch.count; ++j) batch.diameter[j] = normalCubeRoot(batch.diameter[j]);

@@ -50,6 +50,11 @@ class SootGrowth {
     return lossO2_ > 0 ? lossO2_ / (lossO2_ + lossOH_) : 0;
   }
 
+  // What a particle takes up, kg/s, as step() of it.
+  [[nodiscard, gnu::always_inline]] inline double gain(double mass, double n, double shape, double d) const {
+    return condensing(shape * d, inertia_ / mass) + gain_ * (n * constants::pi * d * d);
+  }
+
   struct Step {
     double length;            // s; shorter than asked for where the diameter would change by more than a half
     double carbon, hydrogen;  // kg, of the particle at the end
@@ -93,6 +98,13 @@ class SootGrowth {
     s.carbon = carbon + (s.dimers * dimerCarbon_ + s.growth - s.oxidationO2 - s.oxidationOH);
     s.hydrogen = hydrogen + (s.dimers * dimerHydrogen_ - (s.hydrogenO2 + s.hydrogenOH));
     return s;
+  }
+  // What it took up and lost, kg.
+  [[nodiscard, gnu::always_inline]] inline double gained(const Step& s) const {
+    return s.dimers * dimerMass_ + s.growth;
+  }
+  [[nodiscard, gnu::always_inline]] inline double lost(const Step& s) const {
+    return s.oxidationO2 + s.oxidationOH + s.hydrogenO2 + s.hydrogenOH;
   }
 
  private:

@@ -105,10 +105,14 @@ SootFluxes SootMedium::fluxes() const {
 bool SootMedium::grow(const SootAggregate& type, const SootFluxes& fluxes, double dt, SootAggregate::Particle& p,
                       SootTransfer& moved) const {
   const SootGrowth law = growth(fluxes);
-  const double shape = SootAggregate::collisionFactor(p.primaries), before = p.carbon;
+  const double before = p.carbon;
   double rest = dt;
   while (rest > 0) {
-    const SootGrowth::Step s = law.step(p.carbon, p.hydrogen, p.primaries, shape, type.primaryDiameter(p), rest);
+    const double mass = SootAggregate::mass(p);
+    const GrowingShape shape = growingShape(law, type, mass, p.primaries, rest);
+    const SootGrowth::Step s = law.step(p.carbon, p.hydrogen, shape.primaries, shape.factor, shape.diameter, rest);
+    if (type.shape() == SootShape::surfaceVolume)
+      p.primaries = primariesAfter(p.primaries, mass, law.gained(s), law.lost(s));
     p.carbon = s.carbon;
     p.hydrogen = s.hydrogen;
     moved.dimers += s.dimers;
@@ -128,7 +132,7 @@ bool SootMedium::grow(const SootAggregate& type, const SootFluxes& fluxes, doubl
       return false;
     }
   }
-  p.diameter = shape * type.primaryDiameter(p);
+  p.diameter = type.shapeFactor(p.primaries) * type.primaryDiameter(p);
   return true;
 }
 

@@ -3,12 +3,14 @@
 // (SootModelOptions::inceptionBy), "dimers" are the molecules of the PAH: as many as the gas has, whatever takes them.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 
 #include "core/modules.hpp"
 #include "particles/collisions/collision_physics.hpp"
 #include "particles/gas/soot_gas.hpp"
+#include "particles/population/model/surface_volume.hpp"
 #include "particles/soot/dimer.hpp"
 #include "particles/soot/soot_aggregate.hpp"
 #include "particles/soot/soot_growth.hpp"
@@ -53,9 +55,10 @@ class SootMedium {
     const double sum = dimer_.diameter + p.diameter;
     return freeMolecular_ * std::sqrt(1 / dimer_.mass + inertia_ / SootAggregate::mass(p)) * sum * sum;
   }
-  [[nodiscard]] double collisionSlope(const SootAggregate::Particle& p, double collision) const {
+  // `shapeGain`: SootAggregate::shapeGain().
+  [[nodiscard]] double collisionSlope(const SootAggregate::Particle& p, double collision, double shapeGain = 1) const {
     const double part = inertia_ * dimer_.mass, share = part / (SootAggregate::mass(p) + part);
-    return collision * (2 * p.diameter / (dimer_.diameter + p.diameter) - 1.5 * share);
+    return collision * (2 * shapeGain * p.diameter / (dimer_.diameter + p.diameter) - 1.5 * share);
   }
   // Whether the number of dimers() is that of the gas's molecules and does not depend on collisions.
   [[nodiscard]] bool ofMonomers() const { return monomers_ > 0; }
@@ -94,5 +97,21 @@ class SootMedium {
   double leastCarbon_;                   // kg
   bool condensing_ = false, surfaceActive_ = false;
 };
+
+// Primaries, shape and diameter by which a particle grows over dt (s): its own; by volume and surface of the mass (kg)
+// it has with the surface of the middle, so that the step is of second order.
+struct GrowingShape {
+  double primaries, factor, diameter;
+};
+[[nodiscard, gnu::always_inline]] inline GrowingShape growingShape(const SootGrowth& law, const SootAggregate& type,
+                                                                   double mass, double primaries, double dt) {
+  const auto of = [&](double n) {
+    return GrowingShape{n, type.shapeFactor(n), normalCubeRoot(type.perVolume() * mass / n)};
+  };
+  const GrowingShape first = of(primaries);
+  if (type.shape() != SootShape::surfaceVolume) return first;
+  const double gain = std::min(0.5 * dt * law.gain(mass, first.primaries, first.factor, first.diameter), mass);
+  return of(primariesAfter(primaries, mass, gain, 0));
+}
 
 }  // namespace lampblack::particles

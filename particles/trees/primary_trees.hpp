@@ -19,8 +19,13 @@ class PrimaryTrees {
   using Particle = Tree;
   static constexpr bool moreThanVolume = true;
 
-  PrimaryTrees(const TreeMaterial& material, CollisionSize size)
-      : material_(std::make_shared<TreeMaterial>(material)), pool_(std::make_shared<TreePool>()), size_(size) {}
+  PrimaryTrees(const TreeMaterial& material, CollisionSize size, TreeShape shape = TreeShape::primaries)
+      : material_(std::make_shared<TreeMaterial>(material)),
+        pool_(std::make_shared<TreePool>()),
+        size_(size),
+        shape_(shape) {}
+
+  [[nodiscard]] bool bySurface() const { return shape_ == TreeShape::surfaceVolume; }
 
   [[nodiscard]] const TreeMaterial& material() const { return *material_; }
   [[nodiscard]] TreePool& pool() const { return *pool_; }
@@ -48,7 +53,8 @@ class PrimaryTrees {
   // In point contact at a primary of each, drawn uniformly (eq. 35). Those of the smaller tree move.
   [[nodiscard]] Tree coagulated(Tree&& p, Tree&& q, RandomStream& random) const {
     for (Tree* one : {&p, &q})
-      if (one->count() > 1 && one->head().time < clock() && shared_->sinter) shared_->sinter(*one, clock());
+      if (isAggregate(one->head()) && one->head().time < clock() && shared_->sinter) shared_->sinter(*one, clock());
+    if (bySurface()) return withSurfaceOfBoth(std::move(p), q);
     if (p.count() < q.count()) p.swap(q);
     const std::size_t n = p.count(), m = q.count();
     TreeHead& tree = p.own(n + m);
@@ -77,12 +83,8 @@ class PrimaryTrees {
     tree.surfaces += other.surfaces;
     tree.levels += other.levels + sinteringLevel(contact);
     tree.sintering += other.sintering;
-    tree.time = clock();
-    tree.rest = 0;
     shape(tree);
-    // The joined tree sinters until the next update, at the rate it has half-way there.
-    if (shared_->sinter && shared_->nextUpdate > clock()) shared_->sinter(p, 0.5 * (clock() + shared_->nextUpdate));
-    return std::move(p);
+    return sinteredOn(std::move(p));
   }
 
   // Time (s) up to which trees have sintered when they collide.
@@ -92,10 +94,36 @@ class PrimaryTrees {
   // The function that sinters a tree up to a time (s).
   void setSintering(std::function<void(Tree&, double time)> sinter) const { shared_->sinter = std::move(sinter); }
 
-  void measure(TreeHead& tree) const { measureTree(tree, 1 / material_->fractalDimension, size_); }
+  // By volume and surface the surface stays as it is, where it can.
+  void measure(TreeHead& tree) const {
+    const double surface = tree.surface;
+    measureTree(tree, 1 / material_->fractalDimension, size_);
+    if (!bySurface()) return;
+    tree.surface = surface;
+    shapeBySurface(tree, 1 / material_->fractalDimension);
+  }
   void shape(TreeHead& tree) const { shapeTree(tree, 1 / material_->fractalDimension, size_); }
 
  private:
+  // The joined tree sinters until the next update, at the rate it has half-way there.
+  [[nodiscard]] Tree sinteredOn(Tree&& p) const {
+    TreeHead& tree = p.own();
+    tree.time = clock();
+    tree.rest = 0;
+    if (shared_->sinter && shared_->nextUpdate > clock()) shared_->sinter(p, 0.5 * (clock() + shared_->nextUpdate));
+    return std::move(p);
+  }
+  [[nodiscard]] Tree withSurfaceOfBoth(Tree&& p, const Tree& q) const {
+    TreeHead& tree = p.own();
+    TreePrimary& whole = *primariesOf(&tree);
+    for (std::size_t c = 0; c < mostTreeComponents; ++c) whole.units[c] += q.head().units[c];
+    whole.diameter = treeDiameter(material_->volume(whole.units));
+    tree.surface += q.head().surface;
+    tree.sintering += q.head().sintering;
+    measure(tree);
+    return sinteredOn(std::move(p));
+  }
+
   struct Shared {
     double clock = 0, nextUpdate = 0;
     std::function<void(Tree&, double)> sinter;
@@ -104,6 +132,7 @@ class PrimaryTrees {
   std::shared_ptr<TreePool> pool_;
   std::shared_ptr<Shared> shared_ = std::make_shared<Shared>();
   CollisionSize size_;
+  TreeShape shape_;
 };
 
 }  // namespace lampblack::particles

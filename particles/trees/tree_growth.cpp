@@ -10,7 +10,7 @@ namespace lampblack::particles {
 
 double TreeGrowth::within(const TreeHead& tree, double sites) const {
   if (!reactions_.condenses) return 0;
-  const double bySintering = tree.count > 1 ? 0.5 * sites / tree.surface * tree.sintering : 0;
+  const double bySintering = isAggregate(tree) ? 0.5 * sites / tree.surface * tree.sintering : 0;
   return rate_ * sites - bySintering;
 }
 

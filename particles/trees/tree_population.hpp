@@ -35,6 +35,9 @@ struct TreeOptions {
   // Of coagulation and inception; the gas gives its gas.
   CollisionKernelOptions kernel{.type = CollisionKernelType::transition, .enhancement = 2.2, .slip = SlipLaw::air};
   CollisionSize size = CollisionSize::primaries;
+  // By volume and surface: of materials with sites. The diameter of collision is of 6V/S, and so is the law of
+  // sintering, dS/dt = -(S - S_sphere)/tau(6V/S) (Koch, Friedlander 1990).
+  TreeShape shape = TreeShape::primaries;
   bool coagulation = true;
   double splitTolerance = 0.05;      // relative change of the population in a splitting step
   double sinteringTolerance = 1e-3;  // TreeSintering

@@ -24,7 +24,7 @@ std::variant<TreeSites, TreeSoot> reactionsOf(const PrimaryTrees& type) {
 
 TreeProcess::TreeProcess(const TreeOptions& options, const PopulationModel& model, const MonteCarloOptions& monteCarlo)
     : options_(options),
-      type_(options.material, options.size),
+      type_(options.material, options.size, options.shape),
       random_(options.seed, options.owner, treeStream),
       method_(type_, model, InitialPopulation{}, monteCarlo, random_),
       sintering_(type_, options.sinteringTolerance),
@@ -173,7 +173,7 @@ void TreeProcess::change(Reactions& reactions, const typename Reactions::Sums& s
 }
 
 void TreeProcess::applyDeferred() {
-  const auto waits = [&](const Tree& tree) { return tree.count() > 1 && tree.head().time < type_.clock(); };
+  const auto waits = [&](const Tree& tree) { return isAggregate(tree.head()) && tree.head().time < type_.clock(); };
   // Where none does, nothing is rebuilt.
   bool isAnyWaiting = false;
   method_.forEachParticle([&](const Tree& tree, double) { isAnyWaiting = isAnyWaiting || waits(tree); });
@@ -216,6 +216,8 @@ std::vector<TreeEvent> treeEvents(const TreeMaterial& material) {
 
 std::unique_ptr<TreePopulation> makeTreePopulation(const TreeOptions& options) {
   requireMaterial(options.material);
+  if (options.shape == TreeShape::surfaceVolume && options.material.sites() == nullptr)
+    throw InputError("particles: only materials with sites are there by volume and surface");
   if (options.particles < 8) throw InputError("particles: at least 8 numerical particles are needed");
   if (!(options.splitTolerance > 0) || !(options.splitTolerance <= 1) || !(options.fullAt > 0))
     throw InputError(

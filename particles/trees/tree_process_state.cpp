@@ -19,7 +19,8 @@ TreeTotals TreeProcess::totals() const {
   WeightedDeviation collision, primary;
   method_.forEachParticle([&](const Tree& p, double w) {
     const TreeHead& tree = p.head();
-    const double n = tree.count, mass = tree.volume * options_.material.density, mean = tree.diameters / n;
+    const double n = primariesOfTree(tree), mass = tree.volume * options_.material.density;
+    const double mean = meanPrimaryDiameter(tree);
     t.number += w;
     t.volume += w * tree.volume;
     t.mass += w * mass;
@@ -31,7 +32,7 @@ TreeTotals TreeProcess::totals() const {
     t.sphereDiameter += w * treeDiameter(tree.volume);
     t.collisionDiameter += w * tree.collision;
     t.primaryDiameter += w * mean;
-    levels += w * (tree.count > 1 ? tree.levels / (n - 1) : 1);
+    levels += w * meanSinteringLevel(tree);
     collision.add(std::log(tree.collision), w);
     primary.add(std::log(mean), w);
     t.largest = std::max<std::size_t>(t.largest, tree.count);

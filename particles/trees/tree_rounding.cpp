@@ -2,11 +2,23 @@
 
 #include <algorithm>
 
+#include "particles/population/model/surface_volume.hpp"
+
 namespace lampblack::particles {
 
 void roundTree(const PrimaryTrees& type, TreeHead& tree, std::vector<double>& change, double piece) {
   const TreeMaterial& m = type.material();
   TreePrimary* primaries = primariesOf(&tree);
+  if (type.bySurface()) {
+    const double before = tree.volume, after = m.volume(primaries->units), gain = std::max(change[0], 0.0) * piece;
+    const double ratio = tree.surface / tree.surfaces;
+    const double n = primariesAfter(ratio * ratio * ratio, before, gain, std::max(before + gain - after, 0.0));
+    primaries->diameter = treeDiameter(after);
+    tree.surface = primarySurface(primaries->diameter) * cubeRoot(n);
+    type.measure(tree);
+    tree.rest = 0;
+    return;
+  }
   TreeNeck* necks = necksOf(&tree);
   const double gain = 2 * m.smoothing * piece;
   bool shrinks = false;

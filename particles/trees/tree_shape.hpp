@@ -13,6 +13,10 @@
 
 namespace lampblack::particles {
 
+// What a particle is: primaries that share surface; or its volume and surface alone (surface_volume.hpp), as one
+// primary of its volume with a surface of its own.
+enum class TreeShape { primaries, surfaceVolume };
+
 // Two equal spheres in point contact have a sphere's surface over theirs of 2^(-1/3), where the sintering level is 0.
 inline constexpr double touching = 0.79370052598409973738;
 // From this level on (eq. 44) two primaries are one.
@@ -67,6 +71,31 @@ inline void shapeTree(TreeHead& tree, double inverseDimension, CollisionSize siz
 // How many equal primaries of 6 V/S in point contact have its volume and surface, n_r = S^3 / (36 pi V^2) (eq. 19).
 [[nodiscard]] inline double equalPrimaries(const TreeHead& tree) {
   return tree.volume / primaryVolume(6 * tree.volume / tree.surface);
+}
+
+// Whether there is surface to sinter: necks, or by volume and surface more than the sphere's.
+[[nodiscard, gnu::always_inline]] inline bool isAggregate(const TreeHead& tree) {
+  return tree.count > 1 || tree.surface > tree.surfaces;
+}
+// What results say of a tree: its primaries, by volume and surface those equal ones; their mean diameter; its mean
+// sintering level, by volume and surface the sphere's surface over its own.
+[[nodiscard]] inline double primariesOfTree(const TreeHead& tree) {
+  return tree.count > 1 || !isAggregate(tree) ? tree.count : equalPrimaries(tree);
+}
+[[nodiscard]] inline double meanPrimaryDiameter(const TreeHead& tree) {
+  return tree.count > 1 || !isAggregate(tree) ? tree.diameters / tree.count : 6 * tree.volume / tree.surface;
+}
+[[nodiscard]] inline double meanSinteringLevel(const TreeHead& tree) {
+  if (tree.count > 1) return tree.levels / (tree.count - 1.0);
+  return isAggregate(tree) ? tree.surfaces / tree.surface : 1;
+}
+
+// By volume and surface: from the surface, which is the sphere's at least. A trace more is a sphere's too.
+inline constexpr double traceOfSurface = 1e-9;
+inline void shapeBySurface(TreeHead& tree, double inverseDimension) {
+  if (!(tree.surface > (1 + traceOfSurface) * tree.surfaces)) tree.surface = tree.surfaces;
+  const double ratio = tree.surface / tree.surfaces;
+  tree.collision = tree.diameters / ratio * std::pow(ratio, 3 * inverseDimension);
 }
 
 // All sums afresh, from primaries and necks that are up to date.

@@ -181,13 +181,54 @@ void TreeSintering::fuseAll(TreeHead& tree, Changes& changes) {
   if (tree.count != count) type_.measure(tree);
 }
 
+// By steps in the surface, at whose middle the characteristic time is taken; the excess over the sphere's surface,
+// which shrinks with the sites, goes exponentially in each. A trace of it that is left is nothing.
+void TreeSintering::surface(TreeHead& tree, double dt, Changes& changes) const {
+  const SinteringLaw& law = type_.material().sintering;
+  const SiteReactions& sites = *type_.material().sites();
+  if (!law.active()) return;
+  TreePrimary& whole = *primariesOf(&tree);
+  const double density = whole.units[sites.site] / tree.surface;  // of sites: stays as they go with the surface
+  const auto sphereAt = [&](double S) {
+    return treeSphere(tree.volume - density * volumeOfSite_ * (tree.surface - S));
+  };
+  double S = tree.surface, sphere = tree.surfaces, left = dt;
+  while (left > 0 && S > sphere) {
+    const double excess = S - sphere,
+                 down = excess < traceOfSurface * sphere ? excess : std::min(step * S, 0.5 * excess);
+    const double slope = (sphere - sphereAt(S - down)) / down;
+    const double middle = S - 0.5 * down;
+    const double volume = tree.volume - density * volumeOfSite_ * (tree.surface - middle);
+    const double tau = law.time(T_, 6 * volume / middle) / (1 - slope);
+    if (excess < traceOfSurface * sphere) {
+      S -= down / (1 - slope);
+      break;
+    }
+    const double needs = tau * std::log(excess / (excess - (1 - slope) * down));
+    S -= needs <= left ? down : -std::expm1(-left / tau) * excess / (1 - slope);
+    sphere = sphereAt(S);
+    left -= needs;
+  }
+  const double gone = density * (tree.surface - S);
+  whole.units[sites.site] -= gone;
+  whole.units[sites.bridge] += 0.5 * gone;
+  changes.bridges += 0.5 * gone;
+  tree.surface = S;
+  sizePrimaries(tree);
+}
+
 // How long nothing has to be done, and how fast surface goes now.
 void TreeSintering::rest(TreeHead& tree, double time) {
   const SinteringLaw& law = type_.material().sintering;
   tree.time = time;
   tree.sintering = 0;
   tree.rest = never;
-  if (tree.count == 1 || !law.active()) return;
+  if (!isAggregate(tree) || !law.active()) return;
+  if (type_.bySurface()) {
+    tree.sintering = partRate(tree.volume, tree.surface);
+    if (tree.sintering > 0) tree.rest = tolerance_ * tree.surfaces / tree.sintering;
+    return;
+  }
   const bool ofParts = law.between == SinteringLaw::Between::parts;
   if (ofParts && !fresh_) partRates(tree);
   fresh_ = false;
@@ -204,10 +245,12 @@ void TreeSintering::rest(TreeHead& tree, double time) {
 }
 
 void TreeSintering::advance(Tree& tree, double time, Changes& changes) {
-  if (tree.count() == 1) return;
+  if (!isAggregate(tree.head())) return;
   const SinteringLaw& law = type_.material().sintering;
   const double dt = std::max(0.0, time - tree.head().time);
-  if (!law.active())
+  if (type_.bySurface())
+    surface(tree.own(), dt, changes);
+  else if (!law.active())
     fuseAll(tree.own(), changes);
   else if (law.between == SinteringLaw::Between::parts)
     parts(tree, dt, changes);

@@ -8,6 +8,9 @@
 // small steps): by a straight line in the common surface, exact at both of its ends. What a primary loses at one neck
 // its others see when the tree is brought up to date, which `tolerance` says how often.
 //
+// By volume and surface the whole is what relaxes, dS/dt = -(S - S_sphere)/tau(6V/S) (Koch, Friedlander 1990), and
+// sites go with its surface.
+//
 // A neck whose primaries are fused with another hands its level on, as far as point contact allows: the paper leaves
 // open what becomes of it.
 #pragma once
@@ -38,7 +41,7 @@ class TreeSintering {
   // The same, but for trees that may wait.
   void advanceLazily(Tree& tree, Changes& changes) {
     const TreeHead& head = tree.head();
-    if (head.count > 1 && type_.clock() - head.time >= head.rest) advance(tree, type_.clock(), changes);
+    if (isAggregate(head) && type_.clock() - head.time >= head.rest) advance(tree, type_.clock(), changes);
   }
 
   static constexpr double step = 0.005;
@@ -59,6 +62,7 @@ class TreeSintering {
   [[nodiscard]] Course follow(const TreePrimary* primaries, const TreeNeck& neck, double density, double dt) const;
   void neighbours(Tree& tree, double dt, Changes& changes);
   void parts(Tree& tree, double dt, Changes& changes);
+  void surface(TreeHead& tree, double dt, Changes& changes) const;
   std::size_t partRates(TreeHead& tree);
   [[nodiscard]] double partRate(double volume, double surface) const;
   [[nodiscard]] bool fuseAtOnce(TreeHead& tree, std::size_t whole, double dt);

@@ -153,6 +153,10 @@ SOOT_MISTAKES = [
     ("steady ensemble", SOOT, "pah: [A2]", "pah: [A2]\nstochastic: {repeats: 2}",
      ("stochastic: the steady state of an ensemble is a mean over time",)),
     ("key of flames", SOOT, "pah: [A2]", "pah: [A2]\nstochastic: {coupling: two_way}", ("stochastic.coupling",)),
+    ("a fractal dimension of spheres", SOOT, "pah: [A2]", "pah: [A2]\nstochastic: {fractal_dimension: 1.8}",
+     ("stochastic.fractal_dimension: 'stochastic.shape: spheres' does not have this",)),
+    ("a fractal dimension above three", SOOT, "pah: [A2]", "pah: [A2]\nstochastic: {shape: surface_volume, fractal_dimension: 3.5}",
+     ("stochastic.fractal_dimension", "at most 3")),
     ("one repeat", SOOT, "pah: [A2]", "pah: [A2]\nstochastic: {repeats: 1}", ("stochastic.repeats",)),
 ]
 
@@ -166,6 +170,12 @@ MISTAKES = SOOT_MISTAKES + [
     ("parts by the smaller primary", TREES, "number: 100", "sintering: {between: parts}", ["particles.sintering.size"]),
     ("particles and soot", TREES, "particles:", "soot: {model: none}\nparticles:", ["soot"]),
     ("too much smoothing", TREES, "number: 100", "smoothing: 2.5", ["particles.smoothing"]),
+    ("necks without primaries", TREES, "number: 100", "shape: surface_volume\n  sintering: {between: neighbours}",
+     ["particles.sintering.between: 'particles.shape: surface_volume' does not have this"]),
+    ("tables without primaries", TREES, "number: 100", "shape: surface_volume\n  tables_at: [1 ms]",
+     ["particles.tables_at: 'particles.shape: surface_volume' does not have this"]),
+    ("soot by volume and surface", SOOT_TREES, "number: 100", "shape: surface_volume",
+     ["particles.shape: soot by volume and surface is 'stochastic"]),
     ("a component without mass", OWN_TREES, "24.022 g/mol", "0 g/mol", ["particles.table.components[1].weight"]),
     ("a component of too few atoms", OWN_TREES, "[C, H], atoms: [1, 1]", "[C, H], atoms: [1]", ["components[0].atoms", "1 numbers for 2 elements"]),
     ("a nucleus of other components", OWN_TREES, "nucleus: [2, 1]", "nucleus: [2, 1, 0]", ["particles.table.nucleus", "3 numbers for 2 components"]),

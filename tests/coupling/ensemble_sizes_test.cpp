@@ -23,7 +23,7 @@ EnsembleOptions options(bool coalescing) {
   EnsembleOptions all;
   all.method = EnsembleMethod::sammc;
   all.particles = 200;
-  all.coalescing = coalescing;
+  all.shape = coalescing ? SootShape::spheres : SootShape::aggregates;
   all.soot.sootDensity = density;
   return all;
 }

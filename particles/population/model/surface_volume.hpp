@@ -20,6 +20,16 @@
 
 namespace lampblack::particles {
 
+// n_p of a particle of the size `size` (volume, or mass) after a gain and a loss of size at the same time: what comes
+// grows on a sphere of the particle's surface, dS = 2 dV / sqrt(S/(4 pi)), so that sqrt(n_p) V + gain stays, and what
+// goes leaves the primaries there are, dS = 2/3 S/V dV (Patterson, Kraft 2007, and the program MOpS). Half of the loss
+// is before and half behind the gain.
+[[nodiscard]] inline double primariesAfter(double primaries, double size, double gain, double loss) {
+  const double there = std::max(size - 0.5 * loss, 0.5 * size);
+  const double root = (std::sqrt(primaries) * there + gain) / (there + gain);
+  return root * root;
+}
+
 class SurfaceVolume {
  public:
   static constexpr bool moreThanVolume = true;  // see particle_type.hpp

@@ -65,10 +65,10 @@ TEST(SootMedium, FluxesAndInceptionAreThoseOfTheSurfaceAndTheDimers) {
 TEST_P(EnsembleMethods, TakesFromTheGasTheAtomsThatTheSootGains) {
   const test::FlameGas gas(1650, 1e-3, 0.03, 1e-5, 0.08, 1e-5, 0.03, {1e-6, 4e-7, 3e-7});
   const SootModelOptions soot = test::threePah();
-  for (const bool coalescing : {true, false}) {
+  for (const SootShape shape : {SootShape::spheres, SootShape::aggregates, SootShape::surfaceVolume}) {
     EnsembleOptions o = options(soot);
-    o.coalescing = coalescing;
-    o.keepsHydrogen = coalescing;
+    o.shape = shape;
+    o.keepsHydrogen = shape != SootShape::aggregates;
     const auto population = makeEnsemble(o);
     EnsembleExchange sum;
     for (int step = 0; step < 40; ++step) {
@@ -123,7 +123,7 @@ TEST_P(EnsembleMethods, SurfaceGrowthIsLinearInTheDiameterOfPrimaries) {
   const double flux = 2 * soot.carbonWeight * SurfaceChemistry(soot, 1700).rates(gas.concentrations, 0.7).growth *
                       gas[SootSpecies::C2H2];
   EnsembleOptions o = options(soot);
-  o.coalescing = false;
+  o.shape = SootShape::aggregates;
   const auto population = makeEnsemble(o);
   const double n = 8, start = 6e-9;
   population->initialise(std::vector<GivenParticle>{{0.95 * n * massOf(start), 0.05 * n * massOf(start), n, 1e14}});
@@ -133,6 +133,49 @@ TEST_P(EnsembleMethods, SurfaceGrowthIsLinearInTheDiameterOfPrimaries) {
   EXPECT_NEAR(totals.hydrogen / (1e14 * 0.05 * n * massOf(start)), 1, 1e-11);
   EXPECT_NEAR(totals.primaries / (1e14 * n), 1, 1e-12);
   EXPECT_NEAR(totals.diameters / (1e14 * 11e-9 * std::pow(8, 0.45)), 1, 1e-11);
+}
+
+// By volume and surface: the sphere of the surface, of diameter sqrt(S/pi), grows as any other sphere does, and the
+// volume gained is its; dV/dt = w S and dS/dt = 2 dV/dt / sqrt(S/4 pi) have that solution. Of second order.
+TEST_P(EnsembleMethods, ByVolumeAndSurfaceGrowthIsThatOfTheSphereOfTheSurface) {
+  const test::FlameGas gas(1700, 1e-3, 0.03, 0, 0.08, 0, 0.03, {});
+  SootModelOptions soot;
+  soot.alpha = 0.7;
+  soot.coagulation = soot.inception = false;
+  const double flux = 2 * soot.carbonWeight * SurfaceChemistry(soot, 1700).rates(gas.concentrations, 0.7).growth *
+                      gas[SootSpecies::C2H2];
+  const double n = 8, primary = 6e-9, start = std::sqrt(n) * primary, end = start + 5e-9;
+  const auto error = [&](double tolerance) {
+    EnsembleOptions o = options(soot);
+    o.shape = SootShape::surfaceVolume;
+    o.splitTolerance = tolerance;
+    const auto population = makeEnsemble(o);
+    population->initialise(std::vector<GivenParticle>{{n * massOf(primary), 0, n, 1e14}});
+    population->advance(gas.state, 0, 5e-9 * rho / (2 * flux));
+    const auto totals = population->totals();
+    EXPECT_NEAR(totals.surface / (1e14 * constants::pi * end * end), 1, 0.1 * tolerance);
+    return totals.mass() / (1e14 * (n * massOf(primary) + massOf(end) - massOf(start))) - 1;
+  };
+  const double coarse = error(0.04), fine = error(0.01);
+  EXPECT_LT(std::abs(fine), 2e-4);
+  EXPECT_NEAR(coarse / fine, 16, 5);
+}
+
+// Surface that burns away leaves as many spheres of 6V/S.
+TEST_P(EnsembleMethods, ByVolumeAndSurfaceOxidationKeepsThePrimaries) {
+  const test::FlameGas gas(1800, 0, 0, 2e-3, 0.1, 0, 0, {0});
+  SootModelOptions soot = test::naphthalene();
+  soot.coagulation = false;
+  const double flux = soot.carbonWeight * SurfaceChemistry(soot, 1800).rates(gas.concentrations, 0.0).oxidationOH *
+                      gas[SootSpecies::OH];
+  EnsembleOptions o = options(soot);
+  o.shape = SootShape::surfaceVolume;
+  const auto population = makeEnsemble(o);
+  population->initialise(std::vector<GivenParticle>{{5.5 * massOf(20e-9), 0, 5.5, 1e14}});
+  population->advance(gas.state, 0, 4e-9 * rho / (2 * flux));
+  const auto totals = population->totals();
+  EXPECT_NEAR(totals.mass() / (1e14 * 5.5 * massOf(16e-9)), 1, 1e-11);
+  EXPECT_NEAR(totals.surface / (1e14 * 5.5 * constants::pi * 16e-9 * 16e-9), 1, 1e-11);
 }
 
 TEST_P(EnsembleMethods, OxidationKeepsCompositionAndGivesBackAllOfWhatFallsBelowANucleus) {
@@ -156,21 +199,27 @@ TEST_P(EnsembleMethods, OxidationKeepsCompositionAndGivesBackAllOfWhatFallsBelow
   EXPECT_NEAR(x.oxidisedOH / (1e14 * (massOf(3e-9) + massOf(20e-9) - massOf(16e-9))), 1, 1e-11);
 }
 
-TEST_P(EnsembleMethods, CoagulationOfAggregatesKeepsMassAndPrimaries) {
+TEST_P(EnsembleMethods, CoagulationOfAggregatesKeepsMassPrimariesAndSurface) {
   const test::FlameGas gas(1600, 0, 0, 0, 0, 0, 0, {});
   EnsembleOptions o = options({});
-  o.coalescing = false;
-  const auto population = makeEnsemble(o);
-  std::vector<GivenParticle> start;
-  for (int k = 0; k < 400; ++k) start.push_back({massOf(10e-9 + 1e-11 * k), 0, 1, 5e13});
-  population->initialise(start);
-  const auto before = population->totals();
-  for (int k = 0; k < 4; ++k) population->advance(gas.state, 0, 5e-3);
-  const auto after = population->totals();
-  EXPECT_LT(after.number, 0.7 * before.number);
-  EXPECT_NEAR(after.mass() / before.mass(), 1, 1e-12);
-  if (GetParam() == EnsembleMethod::swa) return;  // primaries of unlike particles in the mean only
-  EXPECT_NEAR(after.primaries / before.primaries, 1, 1e-12);
+  for (const SootShape shape : {SootShape::aggregates, SootShape::surfaceVolume}) {
+    o.shape = shape;
+    const auto population = makeEnsemble(o);
+    std::vector<GivenParticle> start;
+    for (int k = 0; k < 400; ++k) start.push_back({massOf(10e-9 + 1e-11 * k), 0, 1, 5e13});
+    population->initialise(start);
+    const auto before = population->totals();
+    for (int k = 0; k < 4; ++k) population->advance(gas.state, 0, 5e-3);
+    const auto after = population->totals();
+    EXPECT_LT(after.number, 0.7 * before.number);
+    EXPECT_NEAR(after.mass() / before.mass(), 1, 1e-12);
+    if (GetParam() == EnsembleMethod::swa) return;  // primaries and surfaces of unlike particles in the mean only
+    if (shape == SootShape::aggregates) {
+      EXPECT_NEAR(after.primaries / before.primaries, 1, 1e-12);
+    } else {
+      EXPECT_NEAR(after.surface / before.surface, 1, 1e-12);
+    }
+  }
 }
 
 // The processes of a soot-forming zone from nothing, with dilution: moments of all methods are those of equal weights.

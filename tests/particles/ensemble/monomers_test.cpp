@@ -160,7 +160,7 @@ TEST(GrowthByEvents, HasTheMeansOfGrowthByTheMean) {
     options.growthByEvents = events;
     options.soot = pyrene();
     options.soot.coagulation = options.soot.inception = false;
-    options.coalescing = false;
+    options.shape = SootShape::aggregates;
     const auto soot = makeEnsemble(options);
     const double mass = 2000 * options.soot.carbonWeight / constants::avogadro;
     std::vector<GivenParticle> given = test::equalSpheres(20000, mass, 0.01, 1e15);

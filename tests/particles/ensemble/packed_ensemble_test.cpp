@@ -19,7 +19,8 @@ const test::FlameGas& flame() {
 
 struct Choice {
   EnsembleMethod method;
-  bool coalescing, coagulation, events = false;
+  SootShape shape;
+  bool coagulation, events = false;
 };
 
 class PackedSoot : public testing::TestWithParam<Choice> {
@@ -27,7 +28,7 @@ class PackedSoot : public testing::TestWithParam<Choice> {
   [[nodiscard]] EnsembleOptions options(std::uint64_t owner) const {
     EnsembleOptions o;
     o.method = GetParam().method;
-    o.coalescing = GetParam().coalescing;
+    o.shape = GetParam().shape;
     o.particles = 300;
     o.seed = 42;
     o.owner = owner;
@@ -39,14 +40,21 @@ class PackedSoot : public testing::TestWithParam<Choice> {
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(
-    Methods, PackedSoot,
-    testing::Values(Choice{EnsembleMethod::dsmc, true, true}, Choice{EnsembleMethod::dsmc, false, true},
-                    Choice{EnsembleMethod::dsmc, true, false}, Choice{EnsembleMethod::sammc, true, true},
-                    Choice{EnsembleMethod::sammc, false, true}, Choice{EnsembleMethod::sammc, true, false},
-                    Choice{EnsembleMethod::swa, true, true}, Choice{EnsembleMethod::swa, false, true},
-                    Choice{EnsembleMethod::dsmc, true, true, true}, Choice{EnsembleMethod::dsmc, false, true, true},
-                    Choice{EnsembleMethod::dsmc, true, false, true}, Choice{EnsembleMethod::sammc, true, true, true}));
+INSTANTIATE_TEST_SUITE_P(Methods, PackedSoot,
+                         testing::Values(Choice{EnsembleMethod::dsmc, SootShape::spheres, true},
+                                         Choice{EnsembleMethod::dsmc, SootShape::aggregates, true},
+                                         Choice{EnsembleMethod::dsmc, SootShape::spheres, false},
+                                         Choice{EnsembleMethod::sammc, SootShape::spheres, true},
+                                         Choice{EnsembleMethod::sammc, SootShape::aggregates, true},
+                                         Choice{EnsembleMethod::sammc, SootShape::spheres, false},
+                                         Choice{EnsembleMethod::swa, SootShape::spheres, true},
+                                         Choice{EnsembleMethod::swa, SootShape::aggregates, true},
+                                         Choice{EnsembleMethod::dsmc, SootShape::spheres, true, true},
+                                         Choice{EnsembleMethod::dsmc, SootShape::aggregates, true, true},
+                                         Choice{EnsembleMethod::dsmc, SootShape::spheres, false, true},
+                                         Choice{EnsembleMethod::sammc, SootShape::spheres, true, true},
+                                         Choice{EnsembleMethod::dsmc, SootShape::surfaceVolume, true, true},
+                                         Choice{EnsembleMethod::sammc, SootShape::surfaceVolume, true}));
 
 TEST_P(PackedSoot, GoesOnToTheSameBits) {
   const auto one = makeEnsemble(options(7));

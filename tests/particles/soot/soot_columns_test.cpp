@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "core/modules.hpp"
+#include "particles/population/model/surface_volume.hpp"
 #include "tests/particles/soot_fixtures.hpp"
 
 namespace lampblack::particles {
@@ -25,15 +27,17 @@ SootColumns manyParticles(const SootAggregate& type) {
   return all;
 }
 
+constexpr SootShape shapes[] = {SootShape::spheres, SootShape::aggregates, SootShape::surfaceVolume};
+
 void expectNear(double value, double expected, double scale) {
   EXPECT_NEAR(value, expected, 1e-12 * scale);
 }
 
-void compare(bool coalescing, const test::FlameGas& gas, double dt, bool someLost, bool someStay) {
+void compare(SootShape shape, const test::FlameGas& gas, double dt, bool someLost, bool someStay) {
   const SootModelOptions options = test::naphthalene();
   const DimerModel dimers(options);
   const SootMedium medium(options, dimers, gas.state, true);
-  const SootAggregate type(options.sootDensity, coalescing);
+  const SootAggregate type(options.sootDensity, shape);
   SootFluxes fluxes = medium.fluxes();
   fluxes.alpha = 0.6;
   fluxes.condensation = medium.condensation(1e15);
@@ -56,13 +60,16 @@ void compare(bool coalescing, const test::FlameGas& gas, double dt, bool someLos
     stayed |= left;
     ASSERT_EQ(all.carbon[k] > 0, left) << k;
     EXPECT_EQ(all.weight[k], w);
-    EXPECT_EQ(all.primaries[k], before.primaries[k]);
+    if (shape != SootShape::surfaceVolume) {
+      EXPECT_EQ(all.primaries[k], before.primaries[k]);
+    }
     if (!left) {
       EXPECT_EQ(all.carbon[k] + all.hydrogen[k], 0);
       continue;
     }
     expectNear(all.carbon[k], p.carbon, mass);
     expectNear(all.hydrogen[k], p.hydrogen, mass);
+    expectNear(all.primaries[k], p.primaries, p.primaries);
     expectNear(all.diameter[k], p.diameter, p.diameter);
   }
   EXPECT_EQ(lost, someLost);
@@ -86,7 +93,7 @@ void compare(bool coalescing, const test::FlameGas& gas, double dt, bool someLos
     sums.area += w * type.surface(p);
     sums.diameters += w * p.diameter;
     sums.collisions += w * rate;
-    sums.slopes += w * medium.collisionSlope(p, rate);
+    sums.slopes += w * medium.collisionSlope(p, rate, type.shapeGain(p.primaries));
   }
   const SootSums found = sumsOf(before, type, medium);
   for (const auto sum : {&SootSums::number, &SootSums::carbon, &SootSums::hydrogen, &SootSums::primaries,
@@ -105,18 +112,52 @@ const test::FlameGas& burning() {
 }
 
 TEST(SootColumns, GrowAsOneByOne) {
-  for (const bool coalescing : {true, false}) compare(coalescing, growing(), 1e-5, false, true);
+  for (const SootShape shape : shapes) compare(shape, growing(), 1e-5, false, true);
 }
 
 // Long enough for steps of a particle to be cut where it is small.
 TEST(SootColumns, GrowAsOneByOneInSeveralSteps) {
-  for (const bool coalescing : {true, false}) compare(coalescing, growing(), 5e-3, false, true);
+  for (const SootShape shape : shapes) compare(shape, growing(), 5e-3, false, true);
 }
 
 TEST(SootColumns, BurnAsOneByOne) {
-  for (const bool coalescing : {true, false}) {
-    compare(coalescing, burning(), 2e-6, true, true);
-    compare(coalescing, burning(), 1e-4, true, true);
+  for (const SootShape shape : shapes) {
+    compare(shape, burning(), 2e-6, true, true);
+    compare(shape, burning(), 1e-4, true, true);
+  }
+}
+
+// The law of the population balance's particles by volume and surface, and the two diameters of collision.
+TEST(SootAggregate, ByVolumeAndSurfaceIsTheTypeOfThePopulationBalance) {
+  constexpr double rho = 1850;
+  const SurfaceVolume there(rho, 1.8);
+  const SootAggregate fractal(rho, SootShape::surfaceVolume, 1.8), mean(rho, SootShape::surfaceVolume);
+  const auto at = [&](const SootAggregate& type, const SurfaceVolume::Particle& p) {
+    return type.make(rho * p.volume, 0, there.primaries(p));
+  };
+  const auto expectSame = [&](const SootAggregate::Particle& here, const SurfaceVolume::Particle& p) {
+    EXPECT_NEAR(fractal.surface(here) / p.surface, 1, 1e-13);
+    EXPECT_NEAR(fractal.collisionDiameter(here) / there.collisionDiameter(p), 1, 1e-13);
+  };
+  const SurfaceVolume::Particle small = there.make(3e-26), large{8e-24, 4.7 * there.make(8e-24).surface};
+  for (const auto& [p, q] : {std::pair{small, small}, {small, large}, {large, large}}) {
+    expectSame(fractal.coagulated(at(fractal, p), at(fractal, q)), there.coagulated(p, q));
+    SurfaceVolume::Particle seven = p;
+    for (int k = 0; k < 7; ++k) seven = there.coagulated(seven, q);
+    expectSame(fractal.coagulated(at(fractal, p), at(fractal, q), 7), seven);
+    expectSame(fractal.mean(at(fractal, q), 3, at(fractal, q), 1), q);
+  }
+  const SurfaceVolume::Particle both = there.mean(large, 3, there.make(7e-24), 1);
+  expectSame(fractal.mean(at(fractal, large), 3, at(fractal, there.make(7e-24)), 1), both);
+  EXPECT_EQ(fractal.mean(at(fractal, small), 1, at(fractal, there.make(9e-24)), 1).primaries, 1);
+  const double sphere = std::cbrt(6 / constants::pi * large.volume), surface = std::sqrt(large.surface / constants::pi);
+  EXPECT_NEAR(at(mean, large).diameter / (0.5 * (sphere + surface)), 1, 1e-13);
+  // A gain of volume: d ln d_c / d ln V, three times, with S going as it grows.
+  for (const SootAggregate& type : {fractal, mean}) {
+    const SootAggregate::Particle p = at(type, large);
+    const double mass = SootAggregate::mass(p), gain = 1e-6 * mass;
+    const auto more = type.make(mass + gain, 0, primariesAfter(p.primaries, mass, gain, 0));
+    EXPECT_NEAR(3 * std::log(more.diameter / p.diameter) / std::log1p(1e-6), type.shapeGain(p.primaries), 1e-5);
   }
 }
 

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "core/poisson.hpp"
+#include "particles/population/model/surface_volume.hpp"
+#include "particles/trees/tree_rounding.hpp"
 #include "particles/trees/tree_sites.hpp"
 #include "tests/particles/statistics.hpp"
 #include "tests/particles/trees/tree_fixtures.hpp"
@@ -60,6 +62,27 @@ TEST(TreeGrowth, OneByOneHasTheLawOfTheSites) {
 }
 TEST(TreeGrowth, InNumbersHasTheLawOfTheSites) {
   expectMartingale(5000, 0.2, 1, 1);
+}
+
+// By volume and surface what comes grows on the sphere of the surface, dS = 2 dV / sqrt(S/4 pi), and what leaves keeps
+// the number of equal primaries; of small changes.
+TEST(TreeGrowth, ByVolumeAndSurfaceRounds) {
+  const TreeMaterial material = silica();
+  const PrimaryTrees type(material, CollisionSize::volumeToSurface, TreeShape::surfaceVolume);
+  RandomStream random(31, 32, 33);
+  for (const bool grows : {true, false}) {
+    Tree tree = joinedTree(type, {6e-9, 7e-9, 5e-9}, random);
+    TreeHead& head = tree.own();
+    const double S = head.surface, V = head.volume;
+    primariesOf(&head)->units[0] += grows ? 20 : -20;
+    std::vector<double> pieces{grows ? 20.0 : 0.0};
+    roundTree(type, head, pieces, material.volume({1, 0, 0}));
+    const double dV = material.volume({grows ? 20.0 : -20.0, 0, 0});
+    EXPECT_NEAR(head.volume - V, dV, 1e-9 * V);
+    const double expected = grows ? 2 * dV / std::sqrt(S / (4 * constants::pi)) : 2.0 / 3 * S / V * dV;
+    EXPECT_NEAR((head.surface - S) / expected, 1, 2e-3);
+    EXPECT_NEAR(head.collision / SurfaceVolume(2200, 1.8).collisionDiameter({head.volume, head.surface}), 1, 1e-12);
+  }
 }
 
 // A nucleus has six sites and may lose the last: it stays there, and what is refused is counted.

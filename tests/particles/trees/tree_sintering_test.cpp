@@ -130,6 +130,65 @@ TEST(TreeSintering, TwoPrimariesFollowTheExponentialUntilTheyFuse) {
   EXPECT_NEAR(tree.head().collision / std::cbrt(216e-27 + 343e-27), 1, 1e-12);
 }
 
+// By volume and surface the excess over the sphere's surface goes exponentially, at a size that stays.
+TEST(TreeSintering, ByVolumeAndSurfaceTheExcessGoesExponentially) {
+  RandomStream random(1, 2, 3);
+  TreeMaterial material = silica();
+  material.sintering = {SinteringMechanism::constant, 0.3};
+  const PrimaryTrees type(material, CollisionSize::volumeToSurface, TreeShape::surfaceVolume);
+  Tree tree = dry(type, {6e-9, 7e-9, 3e-9, 6e-9}, random);
+  const double start = tree.head().surface, sphere = tree.head().surfaces;
+  EXPECT_EQ(tree.count(), 1U);
+  EXPECT_NEAR(start / (constants::pi * (36 + 49 + 9 + 36) * 1e-18), 1, 1e-12);
+  TreeSintering sintering(type, 0);
+  sintering.setTemperature(T);
+  TreeSintering::Changes changes;
+  for (const double time : {0.03, 0.4, 1.5, 4.0}) {
+    type.clock() = time;
+    sintering.advance(tree, time, changes);
+    EXPECT_NEAR((tree.head().surface - sphere) / ((start - sphere) * std::exp(-time / 0.3)), 1, 1e-9);
+    EXPECT_NEAR(tree.head().sintering * 0.3 / (tree.head().surface - sphere), 1, 1e-8);
+  }
+  sintering.advance(tree, 30, changes);
+  EXPECT_EQ(tree.head().surface, tree.head().surfaces);
+  EXPECT_FALSE(isAggregate(tree.head()));
+  EXPECT_NEAR(tree.head().collision / treeDiameter(tree.head().volume), 1, 1e-12);
+}
+
+// With the characteristic time of 6V/S, and sites that go as the surface does and take mass along: small steps.
+TEST(TreeSintering, ByVolumeAndSurfaceSitesGoAsTheSurface) {
+  RandomStream random(1, 2, 3);
+  TreeMaterial material = silica();
+  material.sintering = {SinteringMechanism::viscousFlow, 1e8, 2e3, 1.5e-9};
+  const PrimaryTrees type(material, CollisionSize::volumeToSurface, TreeShape::surfaceVolume);
+  Tree tree = type.make(TreeUnits{2, 1, 6});
+  for (int k = 0; k < 9; ++k) tree = type.coagulated(std::move(tree), type.make(TreeUnits{20, 25, 30}), random);
+  const TreeHead start = tree.head();
+  const double density = start.units[2] / start.surface;
+  double S = start.surface;
+  TreeUnits units = start.units;
+  const double end = 0.1;
+  constexpr int steps = 20000;
+  const auto rate = [&](double surface) {
+    const double gone = density * (start.surface - surface);
+    const double V = material.volume({units[0], start.units[1] + 0.5 * gone, start.units[2] - gone});
+    return (surface - treeSphere(V)) / material.sintering.time(T, 6 * V / surface);
+  };
+  for (int i = 0; i < steps; ++i) S -= end / steps * rate(S - 0.5 * end / steps * rate(S));
+  TreeSintering sintering(type, 0);
+  sintering.setTemperature(T);
+  TreeSintering::Changes changes;
+  for (const double part : {0.1, 0.7, 1.0}) sintering.advance(tree, part * end, changes);
+  const double lost = start.surface - S;
+  EXPECT_NEAR((start.surface - tree.head().surface) / lost, 1, 1e-4);
+  EXPECT_GT(lost, 0.2 * start.surface);
+  EXPECT_GT(S, 1.1 * tree.head().surfaces);
+  EXPECT_NEAR(tree.head().units[2] / (density * tree.head().surface), 1, 1e-12);
+  EXPECT_NEAR(2 * changes.bridges / (start.units[2] - tree.head().units[2]), 1, 1e-12);
+  EXPECT_NEAR(tree.head().units[1] - start.units[1], changes.bridges, 1e-10);
+  EXPECT_NEAR(material.volume(tree.head().units) / tree.head().volume, 1, 1e-12);
+}
+
 // The times at which a hundred primaries fuse lie apart by less than any step; so the plain steps are of first order in
 // them. Halving the steps halves the difference: that with the smallest is below it.
 class TreesOfMany : public testing::TestWithParam<std::pair<SinteringLaw::Size, int>> {};
