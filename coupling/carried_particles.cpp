@@ -62,8 +62,7 @@ std::vector<Quantity> CarriedParticles::properties() const {
 
 void CarriedParticles::evaluateProperties(const ParticleGas& gas, std::span<const double> densities,
                                           std::span<double> values) const {
-  const ParticleProperties properties =
-      model_->isNegligible(densities) ? ParticleProperties{} : model_->properties(gas, densities);
+  const ParticleProperties properties = model_->propertiesForResults(gas, densities);
   for (std::size_t i = 0; i < particlePropertyNames.size(); ++i) values[i] = properties.*particlePropertyNames[i].value;
 }
 

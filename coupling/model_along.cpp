@@ -119,7 +119,7 @@ ModelAlong marchModel(const ParticleModel& model, const ParticlePath& path, std:
     const ParticleGas gas{at.gas, concentrations};
     std::vector<double> ofDepleted;
     for (const std::size_t k : depleted) ofDepleted.push_back(concentrations[k]);
-    result.records.push_back({densities, model.properties(gas, densities), model.processes(gas, densities),
+    result.records.push_back({densities, model.propertiesForResults(gas, densities), model.processes(gas, densities),
                               model.sizeDistribution(densities), std::move(ofDepleted)});
   };
   const auto dilute = [&](double factor) {

@@ -45,7 +45,7 @@ FlameSootFields flameSootFields(const Mechanism& mechanism, double pressure, con
     }
     const ParticleGas at{{gas.temperature[i], pressure, gas.density[i], gas.viscosity[i], gas.meanMolecularWeight[i]},
                          concentrations};
-    const ParticleProperties properties = soot.model().properties(at, densities);
+    const ParticleProperties properties = soot.model().propertiesForResults(at, densities);
     for (std::size_t c = 0; c < particlePropertyNames.size(); ++c)
       fields.properties[c].values.push_back(properties.*particlePropertyNames[c].value);
     const ParticleProcesses processes = soot.model().processes(at, densities);

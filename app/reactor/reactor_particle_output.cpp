@@ -46,7 +46,7 @@ void ReactorParticleOutput::append(double pressure, double density, std::span<co
   const ParticleModel& model = case_.soot->model();
   case_.particles->densities(density, amounts, densities_);
   const ParticleGas& gas = case_.particles->gas().atComposition(T, pressure, Y);
-  last_ = model.properties(gas, densities_);
+  last_ = model.propertiesForResults(gas, densities_);
   for (const auto& p : particlePropertyNames) row.push_back(last_.*p.value);
   const ParticleProcesses processes = model.processes(gas, densities_);
   for (const auto& p : particleProcessNames) row.push_back(processes.*p.value);

@@ -16,6 +16,7 @@ constexpr double relativeStep = 1e-6, relativeTemperatureStep = 1e-7;
 // Below these there are no particles, and none can be born.
 constexpr double negligibleVolumeFraction = 1e-21;
 constexpr double negligibleMoleFraction = 1e-15;
+constexpr double fewestWithSizes = 1e6;  // 1/m3
 
 double totalConcentration(const CarrierGas& gas) {  // mol/m3
   return gas.pressure / (constants::gasConstant * gas.temperature);
@@ -62,6 +63,17 @@ void ParticleModel::jacobian(const ParticleGas& gas, std::span<const double> den
 
 bool ParticleModel::isNegligible(std::span<const double> densities) const {
   return volumeFraction(densities) < negligibleVolumeFraction;
+}
+
+ParticleProperties ParticleModel::propertiesForResults(const ParticleGas& gas,
+                                                       std::span<const double> densities) const {
+  if (isNegligible(densities)) return {};
+  ParticleProperties p = properties(gas, densities);
+  if (p.numberDensity < fewestWithSizes)
+    for (double* size :
+         {&p.meanDiameter, &p.primaryDiameter, &p.primariesPerAggregate, &p.mobilityDiameter, &p.gyrationDiameter})
+      *size = 0;
+  return p;
 }
 
 bool ParticleModel::idle(const ParticleGas& gas, std::span<const double> densities) const {

@@ -152,6 +152,10 @@ class ParticleModel {
 
   [[nodiscard]] virtual ParticleProperties properties(const ParticleGas& gas,
                                                       std::span<const double> densities) const = 0;
+  // The same for results: all zero where isNegligible(), and no sizes where there is less than one particle per cm3, as
+  // the ratio of traces that a solver leaves is no size.
+  [[nodiscard]] ParticleProperties propertiesForResults(const ParticleGas& gas,
+                                                        std::span<const double> densities) const;
   // m3/m3, for radiation. The default calls `properties` in a hot gas; models override the default where that is
   // costly.
   [[nodiscard]] virtual double volumeFraction(std::span<const double> densities) const;

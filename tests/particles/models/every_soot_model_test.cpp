@@ -82,6 +82,31 @@ TEST_P(EverySootModel, DensitiesOfGasAloneMakeSootOnlyByNucleation) {
   EXPECT_EQ(model->volumeFraction(s.densities), 0);
 }
 
+// Where a solver has left a trace of mass and no particles to speak of, there is no size to tell: a two-equation
+// model's ratio of them would be some 10 um, the largest that counts.
+TEST_P(EverySootModel, ResultsHaveNoSizesOfTraces) {
+  const auto model = published(GetParam());
+  test::RandomStates states(600);
+  test::ModelState s = states.next(*model);
+  for (std::size_t k = 0; k < s.densities.size(); ++k) s.densities[k] = model->scalars()[k].scale;
+  s.connect();
+  const auto sizes = {&ParticleProperties::meanDiameter, &ParticleProperties::primaryDiameter,
+                      &ParticleProperties::mobilityDiameter, &ParticleProperties::gyrationDiameter,
+                      &ParticleProperties::primariesPerAggregate};
+  const ParticleProperties as = model->properties(s.gas, s.densities),
+                           results = model->propertiesForResults(s.gas, s.densities);
+  for (const auto size : sizes) EXPECT_EQ(results.*size, as.*size);
+  EXPECT_GT(results.meanDiameter, 0);
+  for (double& density : s.densities) density *= 5e5 / as.numberDensity;
+  const ParticleProperties trace = model->propertiesForResults(s.gas, s.densities);
+  ASSERT_FALSE(model->isNegligible(s.densities));
+  EXPECT_GT(trace.volumeFraction, 0);
+  EXPECT_NEAR(trace.numberDensity / 5e5, 1, 1e-9);
+  for (const auto size : sizes) EXPECT_EQ(trace.*size, 0);
+  std::fill(s.densities.begin(), s.densities.end(), 0.0);
+  EXPECT_EQ(model->propertiesForResults(s.gas, s.densities).volumeFraction, 0);
+}
+
 // Tables of distributions have a row for every place, with and without soot.
 TEST_P(EverySootModel, SizeDistributionsHaveTheSameDiametersForAllDensities) {
   const auto model = published(GetParam());
