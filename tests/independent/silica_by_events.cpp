@@ -77,6 +77,8 @@ bool run(const Gas& gas, const std::vector<double>& rows) {
     for (double t : gas.time) stops[t] = 0;
     if (options.frozen)
       for (double t : times_of_looks(options.looks)) stops[t] = 1;
+    else if (options.slip)  // sizes of before a look are the room that the bound leaves
+      for (double t = 0; t < options.end; t += 1e-3) stops[t] = 1;
     for (double t : rows) stops[t] = 2;
     double t = 0;
     size_t k = 0, row = 0;
@@ -124,13 +126,14 @@ bool run(const Gas& gas, const std::vector<double>& rows) {
 int main(int count, char** words) try {
   using namespace silica;
   std::string gas;
-  std::vector<double> rows = {0.01, 0.02, 0.025, 0.03, 0.045, 0.06, 0.095, 0.2, 0.4, 0.8};
+  std::vector<double> rows = {0.01, 0.02, 0.025, 0.03, 0.045, 0.05, 0.06, 0.095, 0.2, 0.4, 0.8};
   bool verifying = false;
   std::map<std::string, bool*> flags = {
       {"frozen", &options.frozen},     {"inner", &options.inner},     {"bridges", &options.bridges},
       {"pooled", &options.pooled},     {"quanta", &options.quanta},   {"spheres", &options.spheres},
       {"uncapped", &options.uncapped}, {"held", &options.held},       {"given", &options.given},
-      {"narrow", &options.narrow},     {"swapped", &options.swapped}, {"verify", &verifying}};
+      {"narrow", &options.narrow},     {"swapped", &options.swapped}, {"slip", &options.slip},
+      {"surface", &options.surface},   {"verify", &verifying}};
   std::map<std::string, bool*> without = {{"no-sintering", &options.sinter},
                                           {"no-coagulation", &options.coagulate},
                                           {"no-condensation", &options.condense},
@@ -161,8 +164,8 @@ int main(int count, char** words) try {
       throw std::runtime_error("unknown option " + word);
   }
   if (verifying) return verify();
-  while (!rows.empty() && rows.back() > options.end * (1 + 1e-12)) rows.pop_back();
   if (options.spheres) rows = {0.1, 0.5, 1, 2, 5, 10};
+  while (!rows.empty() && rows.back() > options.end * (1 + 1e-12)) rows.pop_back();
   return run(options.spheres ? Gas{{0, 10}, {0, 0}, {0, 0}} : read_gas(gas), rows) ? 0 : 1;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "%s\n", error.what());

@@ -33,6 +33,8 @@ struct Options {
   bool spheres = false;  // begins with spheres of Si2107 O3960 OH398 and no gas to grow from, instead of with gas alone
   bool uncapped = false;  // necks of a fused primary keep their level even where that is more surface than both have
   bool swapped = false;   // which part is hung below the other where two primaries fuse
+  bool surface = false;   // particles by volume and surface alone: one node, and the surface in Particle::s
+  bool slip = false;      // collisions by the continuum kernel with slip alone, whatever the size
   bool sinter = true, coagulate = true, condense = true, grow = true, incept = true;
   double constant_kernel = 0;  // m3/s, for the test
 };
@@ -77,8 +79,32 @@ inline double level_of(const Particle& p, const Node& neck, double common) {
   return (s / common - q) / (1 - q);
 }
 
+inline double fractal_size(double v, double s) {
+  return 6 * v / s * std::pow(s * s * s / (36 * pi * v * v), 1 / fractal);
+}
+
+// By volume and surface: with S as it is, but the sphere's at least, and where it is that but for a millionth.
+inline void derive_by_surface(Particle& p) {
+  Node& whole = p.nodes[0];
+  primary(whole);
+  p.v = whole.v;
+  if (p.s < whole.s * (1 + 1e-6)) p.s = whole.s;
+  p.sites = whole.oh;
+  p.mass = p.v * density;
+  p.primaries = p.s * p.s * p.s / (36 * pi * p.v * p.v);
+  p.d_p = 6 * p.v / p.s;
+  p.level = whole.s / p.s;
+  p.d_c = fractal_size(p.v, p.s);
+}
+
+inline double tau(double d) {
+  const double power = std::max(tau_temperature / temperature * (1 - critical / d), -300.0);
+  return std::max(tau_prefactor * d * std::exp(power), shortest_tau);
+}
+
 // Sums of all nodes; the root has the surface of equation 15, other parts that of their primaries.
 inline void derive(Particle& p) {
+  if (options.surface) return derive_by_surface(p);
   for (Node& n : p.nodes) {
     if (n.left < 0) {
       primary(n);
@@ -103,20 +129,18 @@ inline void derive(Particle& p) {
   p.sites = root.sites;
   p.mass = p.v * density;
   p.d_p = root.d / root.count;
-  p.d_c = 6 * p.v / p.s * std::pow(p.s * p.s * p.s / (36 * pi * p.v * p.v), 1 / fractal);
+  p.d_c = fractal_size(p.v, p.s);
 }
 
 // Rate at which the neck n loses surface, by volume and surface of all that its collision joined.
 inline double loss(const Particle& p, int n) {
   const Node& part = p.nodes[n];
-  const double d = 6 * part.v / part.s;
-  const double power = std::max(tau_temperature / temperature * (1 - critical / d), -300.0);
-  const double tau = std::max(tau_prefactor * d * std::exp(power), shortest_tau);
   const double above = options.inner && n != p.root() ? part.s : std::max(part.s - sphere(part.v), 0.0);
-  return above / tau;
+  return above / tau(6 * part.v / part.s);
 }
 
 inline double all_losses(const Particle& p) {
+  if (options.surface) return (p.s - p.nodes[0].s) / tau(p.d_p);
   double sum = 0;
   for (int n = 0; n <= p.root(); ++n)
     if (p.nodes[n].left >= 0) sum += loss(p, n);

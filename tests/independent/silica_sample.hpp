@@ -12,12 +12,17 @@
 
 namespace silica {
 
+// Of the continuum kernel with slip, a ((1 + slip/d1)/d1 + (1 + slip/d2)/d2) (d1 + d2): m3/s and m.
+const double slip = 1.257 * 4.74e-5 * temperature / pressure;
+inline double continuum_factor() {
+  return 2 * k_b * temperature / (3 * options.viscosity);
+}
+
 inline double kernel(double m1, double d1, double m2, double d2) {
   if (options.constant_kernel > 0) return options.constant_kernel;
-  const double slip = 1.257 * 4.74e-5 * temperature / pressure;
+  const double continuum = continuum_factor() * ((1 + slip / d1) / d1 + (1 + slip / d2) / d2) * (d1 + d2);
+  if (options.slip) return continuum;
   const double free = enhancement * std::sqrt(pi * k_b * temperature / 2 * (1 / m1 + 1 / m2)) * (d1 + d2) * (d1 + d2);
-  const double continuum =
-      2 * k_b * temperature / (3 * options.viscosity) * ((1 + slip / d1) / d1 + (1 + slip / d2) / d2) * (d1 + d2);
   return free * continuum / (free + continuum);
 }
 
@@ -29,6 +34,7 @@ class Sums {
     for (tree_[i += size_] = x; i > 1; i /= 2) tree_[i / 2] = tree_[i] + tree_[i ^ 1];
   }
   double total() const { return tree_[1]; }
+  double at(size_t i) const { return tree_[i + size_]; }
   size_t draw(double u) const {
     double x = u * total();
     size_t i = 1;
@@ -63,9 +69,25 @@ class Sample {
         both_(1),
         sites_(1),
         surface_(1),
-        losses_(1) {
+        losses_(1),
+        size_(1),
+        per_size_(1),
+        per_size2_(1),
+        one_(1) {
     while (slots_ < 2 * static_cast<size_t>(options.capacity)) slots_ *= 2;
-    for (Sums* s : {&size2_, &inverse_, &both_, &sites_, &surface_, &losses_}) *s = Sums(slots_);
+    for (Sums* s : all_sums()) *s = Sums(slots_);
+    // A bound of the kernel as a sum of products of what one particle has and what the other has. Of the free-molecular
+    // kernel, above the harmonic mean; of the continuum the kernel itself, with room for particles that shrink until
+    // they are looked at, as they sinter.
+    if (options.slip) {
+      const double a = 1.5 * continuum_factor();
+      terms_ = {
+          {&one_, &one_, a}, {&size_, &per_size_, a}, {&per_size_, &one_, a * slip}, {&size_, &per_size2_, a * slip}};
+    } else {
+      const double a = enhancement * std::sqrt(pi * k_b * temperature / 2) * (options.narrow ? 1.4178 : 2.0) *
+                       (options.frozen ? 1 : 1.1);
+      terms_ = {{&both_, &one_, a}, {&size2_, &inverse_, a}};
+    }
   }
   std::vector<Particle> particles;
   double taken = 0;  // Si per m3 that came by inception and growth
@@ -85,15 +107,14 @@ class Sample {
     const double most = options.given ? std::max(gas_.molar[k], gas_.molar[k + 1])
                                       : std::max(std::max(gas_.source[k], gas_.source[k + 1]) - taken / avogadro, 0.0);
     const double pair = 0.5 * kernel(molecule_mass, molecule_size, molecule_mass, molecule_size) * avogadro * avogadro;
-    const double bound = enhancement * std::sqrt(pi * k_b * temperature / 2) * (options.narrow ? 1.4178 : 2.0) *
-                         (options.frozen ? 1 : 1.1);
     for (;;) {
       const double inception = options.incept ? pair * most * most * volume_ : 0;
       const double growth = options.grow ? reaction * most * sites_.total() : 0;
       const double condensation = options.condense ? reaction * most * sites_.total() : 0;
-      const double n = static_cast<double>(particles.size());
-      const double one = n > 1 ? (n - 1) * both_.total() : 0, two = n > 1 ? size2_.total() * inverse_.total() : 0;
-      const double coagulation = options.coagulate ? bound / volume_ * (one + two) : 0;
+      double coagulation = 0;
+      if (options.coagulate && particles.size() > 1)
+        for (const Term& term : terms_)
+          coagulation += term.factor / volume_ * term.first->total() * term.second->total();
       const double total = inception + growth + condensation + coagulation;
       if (total <= 0) break;
       t -= std::log(1 - uniform()) / total;
@@ -111,7 +132,11 @@ class Sample {
       } else if ((x -= condensation) < 0) {
         condense(t, c, most);
       } else {
-        coagulate(t, x < bound / volume_ * one, bound);
+        size_t k = 0;
+        while (k + 1 < terms_.size() &&
+               (x -= terms_[k].factor / volume_ * terms_[k].first->total() * terms_[k].second->total()) >= 0)
+          ++k;
+        coagulate(t, terms_[k]);
       }
       if (full_once_ && 2 * particles.size() < static_cast<size_t>(options.capacity) && particles.size() > 0) twice();
     }
@@ -126,6 +151,13 @@ class Sample {
   }
 
  private:
+  struct Term {
+    const Sums *first, *second;
+    double factor;
+  };
+  std::vector<Sums*> all_sums() {
+    return {&size2_, &inverse_, &both_, &sites_, &surface_, &losses_, &size_, &per_size_, &per_size2_, &one_};
+  }
   void refresh(size_t i) {
     Particle& p = particles[i];
     derive(p);
@@ -133,6 +165,10 @@ class Sample {
     size2_.set(i, a);
     inverse_.set(i, b);
     both_.set(i, a * b);
+    size_.set(i, p.d_c);
+    per_size_.set(i, 1 / p.d_c);
+    per_size2_.set(i, 1 / a);
+    one_.set(i, 1);
     sites_.set(i, p.sites);
     surface_.set(i, p.s);
     if (options.pooled) {
@@ -143,7 +179,7 @@ class Sample {
     if (particles.size() * 2 > static_cast<size_t>(options.capacity)) full_once_ = true;
   }
   void clear(size_t i) {
-    for (Sums* s : {&size2_, &inverse_, &both_, &sites_, &surface_, &losses_}) s->set(i, 0);
+    for (Sums* s : all_sums()) s->set(i, 0);
   }
   void remove(size_t i) {
     const size_t last = particles.size() - 1;
@@ -183,6 +219,7 @@ class Sample {
     add(p);
   }
   size_t drawn_primary(const Particle& p) {
+    if (options.surface) return 0;
     auto left = static_cast<int>(uniform() * p.primaries);
     for (size_t n = 0;; ++n)
       if (p.nodes[n].left < 0 && left-- == 0) return n;
@@ -191,11 +228,12 @@ class Sample {
     Particle& p = particles[i];
     const size_t n = drawn_primary(p);
     Node& x = p.nodes[n];
-    const double v = x.v, d = x.d;
+    const double v = x.v, d = x.d, s = p.s;
     x.si += 1;
     x.o += 1;
     x.oh += 2;
     primary(x);
+    if (options.surface) p.s = std::pow(std::pow(s, 1.5) + 6 * std::sqrt(pi) * (x.v - v), 2.0 / 3);
     for (Node& neck : p.nodes)
       if (neck.left >= 0 && (neck.a == static_cast<int>(n) || neck.b == static_cast<int>(n)))
         neck.common += 2 * (x.v - v) / d;
@@ -221,19 +259,21 @@ class Sample {
       ++lacked;
       if (!options.pooled) return;
     }
+    const double v = x.v;
     x.o += 1;
     x.oh = std::max(x.oh - 2, 0.0);
+    primary(x);
+    if (options.surface) p.s *= std::pow(x.v / v, 2.0 / 3);
     refresh(i);
   }
-  void coagulate(double t, bool uniform_partner, double bound) {
+  void coagulate(double t, const Term& drawn_by) {
     ++attempts;
-    const size_t n = particles.size();
-    size_t i = uniform_partner ? both_.draw(uniform()) : size2_.draw(uniform());
-    size_t j = uniform_partner ? static_cast<size_t>(uniform() * static_cast<double>(n - 1)) : inverse_.draw(uniform());
-    if (uniform_partner && j >= i) ++j;
+    const size_t i = drawn_by.first->draw(uniform()), j = drawn_by.second->draw(uniform());
     if (i == j) return;
     Particle &p = particles[i], &r = particles[j];
-    const double most = bound * (p.d_c * p.d_c + r.d_c * r.d_c) * (1 / std::sqrt(p.mass) + 1 / std::sqrt(r.mass));
+    double most = 0;
+    for (const Term& term : terms_)
+      most += term.factor * (term.first->at(i) * term.second->at(j) + term.first->at(j) * term.second->at(i));
     sinter(p, t, random_);
     sinter(r, t, random_);
     refresh(i);
@@ -246,6 +286,13 @@ class Sample {
     remove(j);
   }
   void join(Particle& p, const Particle& r) {
+    if (options.surface) {
+      p.nodes[0].si += r.nodes[0].si;
+      p.nodes[0].o += r.nodes[0].o;
+      p.nodes[0].oh += r.nodes[0].oh;
+      p.s += r.s;
+      return derive(p);
+    }
     Node neck;
     neck.a = static_cast<int>(drawn_primary(p));
     const int shift = static_cast<int>(p.nodes.size());
@@ -273,7 +320,8 @@ class Sample {
   std::mt19937_64 random_;
   size_t slots_;
   double volume_;
-  Sums size2_, inverse_, both_, sites_, surface_, losses_;
+  Sums size2_, inverse_, both_, sites_, surface_, losses_, size_, per_size_, per_size2_, one_;
+  std::vector<Term> terms_;
   bool full_once_ = false;
 };
 
