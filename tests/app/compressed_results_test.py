@@ -68,7 +68,7 @@ def main(executable: str, *mpiexec: str) -> None:
             assert there[key][1] == "gzip" and there[key][0].tobytes() == values.tobytes(), key
 
         run("from_packed", *SHORT, "initial={layer: none, flow: {results: ../packed}}", "time.end=1 us")
-        drawn = running.script(running.SOURCE / "scripts/plot", packed)
+        drawn = running.script(running.SOURCE / "scripts/plot", packed, "--fields", "temperature", "wall_distance")
         assert drawn.code == 0, drawn.err
 
         for setting, expected in (("output.compression=10", "output.compression: expected"),

@@ -33,14 +33,14 @@ class CostlyBand final : public Operator {
   static constexpr double costOfCell = 2e3;
 };
 
-// Some 30 steps of 240 cells, with what operators keep: swirl and soot. Its start is sudden, which is not looked at
+// Some 30 steps of 135 cells, with what operators keep: swirl and soot. Its start is sudden, which is not looked at
 // here.
 std::vector<std::string> settings(const std::vector<std::string>& more = {}) {
   std::vector<std::string> all{"time.end=50 us",
                                "time.maximum_step=2 us",
                                "output.interval=25 us",
                                "output.history_steps=4",
-                               "mesh.refinement=2",
+                               "mesh.refinement=1.5",
                                "boundaries.fuel.swirl_velocity=10 cm/s",
                                "output.species=[O2, OH]",
                                "output.boundaries=[all]",

@@ -147,7 +147,7 @@ def steps_in(out):
 
 def check_requests(program, folder, deck):
     """Checkpoints by signal and by file, a stop, and going on from there: against a run that was left alone."""
-    end = "0.2 ms" if program.ranks == 1 else "0.06 ms"
+    end = "0.1 ms" if program.ranks == 1 else "0.06 ms"
     options = running.settings(f"time.end={end}", "time.maximum_step=1 us", "output.interval=0.015 ms")
     whole, out = folder / "alone", folder / "asked"
     run(program, deck, *options, "--out", whole)
@@ -264,18 +264,18 @@ def check_full_disk(program, folder, deck):
     treated as a full disk; the results are small enough for it."""
     out = folder / "full"
     options = running.settings(*SETTINGS, "output.interval=1 s", "output.species=[O2]", "mesh.refinement=4", "soot.model=none")
-    run(program, deck, *options, *running.settings("time.end=2 us", "checkpoint.at_end=true"), "--out", out)
+    run(program, deck, *options, *running.settings("time.end=1 us", "checkpoint.at_end=true"), "--out", out)
     (former,) = (out / "checkpoint").glob("step_*.h5")
     before = former.read_bytes()
     limit = len(before) - 1
-    done = subprocess.run([*program.command, "run", str(deck), *options, *running.settings("checkpoint.steps=3", "time.end=8 us"),
+    done = subprocess.run([*program.command, "run", str(deck), *options, *running.settings("checkpoint.steps=1", "time.end=4 us"),
                            "--out", str(out), "--restart"], env=running.environment(), stdin=subprocess.DEVNULL,
                           capture_output=True, text=True, check=False,
                           preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
     assert done.returncode == 0 and "no checkpoint at step" in done.stderr and "disk full: " in done.stderr, done
     assert former.read_bytes() == before and checkpoints(out) == [former.name], checkpoints(out)
     assert not [file.name for file in out.rglob("*") if file.name.endswith(".part")]
-    assert abs(float(rows(out)[-1]["time [s]"]) - 8e-6) < 1e-15
+    assert abs(float(rows(out)[-1]["time [s]"]) - 4e-6) < 1e-15
 
 
 def main(executable, ranks, *mpiexec):

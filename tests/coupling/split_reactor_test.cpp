@@ -120,15 +120,15 @@ class EveryCoupling : public SplitToy, public ::testing::WithParamInterface<bool
     own.kept = {kept};
     return own;
   }
-  // The work that 0.2 ms of a closed reactor of constant pressure take.
-  SplitReactor::Work workOf(ToySplit& particles) {
+  // The work that a closed reactor of constant pressure takes up to `end`, s.
+  SplitReactor::Work workOf(ToySplit& particles, double end) {
     ClosedReactor reactor(ethylene(), gas, Held::Pressure, std::nullopt, &phase());
     SplitReactor::Options options;
     options.integrator = {1e-6, 1e-12, 0, 1000000};
     options.change = 0.03;
     SplitReactor both(ethylene(), closedGas(reactor, Kept::enthalpy), particles, options);
     both.start(0, reactor.initialState());
-    both.advance(2e-4);
+    both.advance(end);
     return both.work();
   }
   ParticlesAtRest atRest;
@@ -152,7 +152,7 @@ TEST_P(EveryCoupling, NoStepWithRemovalsIsTakenBack) {
     ToySplit particles(toy);
     particles.losesSome = loses;
     particles.burstAt = 1e-3;
-    const SplitReactor::Work work = workOf(particles);
+    const SplitReactor::Work work = workOf(particles, 7e-5);
     ASSERT_GT(particles.carbon, particles.burstAt);
     EXPECT_GE(work.gasSteps, work.steps) << "the gas takes a step at least in each";
     EXPECT_EQ(work.rejected > 0, !loses);
@@ -166,7 +166,7 @@ TEST_P(EveryCoupling, IdleParticlesLimitNoStep) {
   for (const bool idle : {false, true}) {
     ToySplit particles(toy);
     particles.isIdle = idle;
-    const SplitReactor::Work work = workOf(particles);
+    const SplitReactor::Work work = workOf(particles, 2e-4);
     steps[idle ? 1 : 0] = work.steps;
     if (idle) {
       EXPECT_EQ(work.rejected, 0u);

@@ -101,7 +101,7 @@ TEST_F(ClosedVessel, ReactsAsAReactorOfConstantVolume) {
   const auto mixture = gas.massFractions("H2: 2, O2: 1, N2: 3.76");
   const double T0 = 1200.0, dt = 1e-6;
   const int steps = 100;
-  Box b = box(walls(true), 4);
+  Box b = box(walls(true), 2);
   for (const int sweeps : {1, 2}) {
     State state = b.state([&](const auto&) { return Box::Local{{0.0, 0.0}, T0, mixture}; });
     TransportOperator transport(b.context, state, {0.5, sweeps});

@@ -2,17 +2,21 @@
 
 import json
 import pathlib
-import subprocess
 import sys
 import tempfile
 
 try:
     import h5py
+    import matplotlib  # noqa: F401
     import numpy as np
 except ImportError:
     sys.exit(77)
 
-SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "scripts/compare_flame"
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SCRIPT = ROOT / "scripts/compare_flame"
+sys.path.insert(0, str(ROOT / "tests/app"))
+import running  # noqa: E402
+
 
 
 def profiles(z, place, oh=1.0, water=1.0):
@@ -67,9 +71,8 @@ def write_reference(path, z, p):
 
 
 def compare(folder, *options):
-    run = subprocess.run([SCRIPT, folder / "results.h5", folder / "reference.csv", *options], capture_output=True,
-                         text=True, check=False)
-    return run.returncode, run.stdout, run.stderr
+    run = running.script(SCRIPT, folder / "results.h5", folder / "reference.csv", *options)
+    return run.code, run.out, run.err
 
 
 def main():
@@ -112,15 +115,15 @@ def main():
         flow.mkdir()
         write_flow(flow / "results.h5", 0.5 * (fine[1:] + fine[:-1]), profiles(0.5 * (fine[1:] + fine[:-1]), 0.01))
         write_profile(profile, coarse, profiles(coarse, 0.01, oh=1.02))
-        run = subprocess.run([SCRIPT, flow, profile, "--json"], capture_output=True, text=True, check=False)
-        assert run.returncode == 0, run.stderr
-        rows = {row["quantity"]: row["difference"] for row in json.loads(run.stdout)["rows"]}
+        run = running.script(SCRIPT, flow, profile, "--json")
+        assert run.code == 0, run.err
+        rows = {row["quantity"]: row["difference"] for row in json.loads(run.out)["rows"]}
         assert set(rows) == {"T_K", "u_m_s", "V_1_s", "rho_kg_m3", "q_W_m3", "X_H2O", "X_N2", "X_OH"}, rows
-        assert all(abs(rows.pop(name) - 0.02 / 1.02) < 1e-3 for name in ("X_OH", "q_W_m3")), run.stdout
+        assert all(abs(rows.pop(name) - 0.02 / 1.02) < 1e-3 for name in ("X_OH", "q_W_m3")), run.out
         assert all(value < 1e-3 for value in rows.values()), rows
         write_flame(results, fine, profiles(fine, 0.01), "counterflow")
-        run = subprocess.run([SCRIPT, flow, results], capture_output=True, text=True, check=False)
-        assert run.returncode == 0 and "X_OH" in run.stdout, run.stderr
+        run = running.script(SCRIPT, flow, results)
+        assert run.code == 0 and "X_OH" in run.out, run.err
 
         # No results, no flame, no reference.
         code, _, err = compare(folder / "nothing")

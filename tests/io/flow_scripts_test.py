@@ -2,7 +2,6 @@
 
 import json
 import pathlib
-import subprocess
 import sys
 import tempfile
 
@@ -13,7 +12,11 @@ try:
 except ImportError:
     sys.exit(77)
 
-SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SCRIPTS = ROOT / "scripts"
+sys.path.insert(0, str(ROOT / "tests/app"))
+import running  # noqa: E402
+
 DECK = {"mesh": {"geometry": "axisymmetric"},
         "boundaries": {"axis": {"side": "r-min"}, "out": {"side": "r-max"}, "nozzle": {"side": "z-min", "to": 0.002},
                        "flange": {"side": "z-min", "from": 0.002}, "lid": {"side": "z-max"}}}
@@ -37,8 +40,8 @@ def write_run(folder, r, z, field, more=None):
 
 
 def called(script, *words):
-    result = subprocess.run([SCRIPTS / script, *map(str, words)], capture_output=True, text=True, check=False)
-    return result.returncode, result.stdout, result.stderr
+    result = running.script(SCRIPTS / script, *words)
+    return result.code, result.out, result.err
 
 
 def section(text, name):

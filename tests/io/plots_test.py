@@ -5,7 +5,6 @@ Exit code 77 (skipped) where a Python package is missing.
 
 import json
 import pathlib
-import subprocess
 import sys
 import tempfile
 
@@ -18,6 +17,9 @@ except ImportError as error:
     sys.exit(77)
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests/app"))
+import running  # noqa: E402
+
 NR, NZ = 20, 40
 FLAME = 4.53e-3  # m, between the samples so that the peak has to be interpolated
 
@@ -69,19 +71,19 @@ def synthetic_results(folder, with_fields=True):
 
 
 def run(*command):
-    result = subprocess.run([str(c) for c in command], capture_output=True, text=True, check=False)
-    print(result.stdout + result.stderr)
+    result = running.script(*command)
+    print(result.out + result.err)
     return result
 
 
 def test_pictures_are_made_and_missing_fields_named(work):
     synthetic_results(work / "run")
     result = run(ROOT / "scripts" / "plot", work / "run")
-    assert result.returncode == 0
+    assert result.code == 0
     names = {p.stem for p in (work / "run" / "pictures").glob("*.png")}
     assert names == {"flame", "temperature", "C2H2", "A2", "soot_volume_fraction", "velocity", "centreline",
                      "size_distributions", "history"}, names
-    assert "not drawn - centreline profile of X_OH: the results hold no such field" in result.stdout
+    assert "not drawn - centreline profile of X_OH: the results hold no such field" in result.out
 
 
 def test_fields_are_drawn_by_name(work):
@@ -96,11 +98,11 @@ def test_fields_are_drawn_by_name(work):
         write(file, "species/name", np.array([b"H2", b"CH2(S),S"]))
         write(file, "species/molar_mass", np.array([2e-3, 14e-3]), "kg/mol")
     result = run(ROOT / "scripts/plot", work / "run", "--fields", "heat_release", "X_CH2(S),S", "Y_H2,temperature")
-    assert result.returncode == 0
+    assert result.code == 0
     names = {p.stem for p in (work / "run/pictures").glob("*.png")}
     assert names == {"heat_release", "X_CH2_S__S", "Y_H2", "temperature"}, names
     result = run(ROOT / "scripts/plot", work / "run", "--fields", "heat")
-    assert result.returncode == 2 and "there is no field 'heat'" in result.stderr and "heat_release" in result.stderr
+    assert result.code == 2 and "there is no field 'heat'" in result.err and "heat_release" in result.err
 
     sys.path.insert(0, str(ROOT / "python"))
     from lampblack.results import Results
@@ -110,7 +112,7 @@ def test_fields_are_drawn_by_name(work):
     with h5py.File(work / "run/results.h5", "a") as file:
         del file["steps/000010/X_H2"]
     assert Results(work / "run").field("Y_CH2(S),S") is None
-    assert "output.species: [all]" in run(ROOT / "scripts/plot", work / "run", "--fields", "Y_H2").stderr
+    assert "output.species: [all]" in run(ROOT / "scripts/plot", work / "run", "--fields", "Y_H2").err
 
 
 def test_units_are_read_as_text(work):
@@ -126,9 +128,9 @@ def test_units_are_read_as_text(work):
 def test_empty_results_are_said_to_be_empty(work):
     synthetic_results(work / "bare", with_fields=False)
     result = run(ROOT / "scripts" / "plot", work / "bare")
-    assert result.returncode == 2
-    assert "nothing to draw" in result.stderr
-    assert run(ROOT / "scripts" / "plot", work).returncode == 2
+    assert result.code == 2
+    assert "nothing to draw" in result.err
+    assert run(ROOT / "scripts" / "plot", work).code == 2
 
 
 def test_reference_is_found_beside_the_deck_and_compared(work):
@@ -154,13 +156,13 @@ def test_reference_is_found_beside_the_deck_and_compared(work):
     assert pictures.made == [work / "pictures" / "centreline.png"]
 
     result = run(ROOT / "scripts" / "compare_centreline", work / "flame", reference, "--json")
-    rows = {row["quantity"]: row for row in json.loads(result.stdout)}
+    rows = {row["quantity"]: row for row in json.loads(result.out)}
     assert abs(rows["T, K"]["peak"] - 2300.0) < 1e-6
     assert abs(rows["T, K"]["z_m"] - FLAME) < 1e-9
     assert abs(rows["T, K"]["shift_m"] - 3e-5) < 1e-9
     assert abs(rows["X C2H2"]["deviation"] + 0.2) < 1e-9
-    assert "deviation" in run(ROOT / "scripts" / "compare_centreline", work / "flame", reference).stdout
-    assert run(ROOT / "scripts" / "compare_centreline", work / "flame", work / "none.csv").returncode == 2
+    assert "deviation" in run(ROOT / "scripts" / "compare_centreline", work / "flame", reference).out
+    assert run(ROOT / "scripts" / "compare_centreline", work / "flame", work / "none.csv").code == 2
 
 
 def test_series_are_runs_that_differ_in_one_thing(work):

@@ -90,11 +90,12 @@ inline Problem hotSpotInAStream() {
   const auto air = gas.massFractions("O2: 0.21, N2: 0.79");
   const double size = 4e-3;
   const double speed = 1.0;
+  const int cells = fewOrMany(20, 32);
   const std::vector<Side> sides{opening(BoundaryKind::Inlet, 0, false, speed, 300.0, air),
                                 opening(BoundaryKind::Outlet, 0, true, 0.0, 300.0, air),
                                 side(BoundaryKind::Symmetry, 1, false), side(BoundaryKind::Symmetry, 1, true)};
   return {"hot spot",
-          Box(Geometry::Planar, {uniformAxis(size, 32), uniformAxis(size, 32)}, sides),
+          Box(Geometry::Planar, {uniformAxis(size, cells), uniformAxis(size, cells)}, sides),
           [=](const Vector3& x) {
             const double r2 = std::pow(x[0] - 0.4 * size, 2) + std::pow(x[1] - 0.45 * size, 2);
             return Box::Local{{speed, 0.0}, 300.0 + 2100.0 * std::exp(-r2 / std::pow(0.8e-3, 2)), air};
