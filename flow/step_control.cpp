@@ -16,6 +16,8 @@ namespace {
 // Of what a step may change: how much of it the next one aims at, and beyond which a cell that is colder than all else
 // has been cooled by the step itself.
 constexpr double aimed = 0.8, sudden = 0.1;
+// The same of the mass fraction that a step may leave below zero.
+constexpr double aimedBelow = 0.5;
 constexpr double helping = 0.8;         // of what the attempt before did
 constexpr double ofRoundOff = 1e-6;     // of a temperature
 constexpr double shortestFactor = 0.2;  // of the step before
@@ -112,8 +114,13 @@ void StepControl::keepChange(const State& state, double time, double dt) {
   const Peak largest = peakOf(
       context_.mesh, [&](int c) { return std::abs(state.temperature[c] - start_[static_cast<std::size_t>(c)]); });
   change_ = largest.value;
+  place_ = largest.place;
   changeSinceRow_ = std::max(changeSinceRow_, change_);
   const auto n = static_cast<std::size_t>(state.species);
+  undershoot_ = 0.0;
+  for (std::size_t i = 0; i < start_.size() * n; ++i)
+    undershoot_ = std::max(undershoot_, std::min(state.start.Y.empty() ? 0.0 : state.start.Y[i], 0.0) - state.Y[i]);
+  MPI_Allreduce(MPI_IN_PLACE, &undershoot_, 1, MPI_DOUBLE, MPI_MAX, context_.mesh.comm);
   const Peak missing = peakOf(context_.mesh, [&](int c) {
     const double* Y = &state.Y[static_cast<std::size_t>(c) * n];
     return std::max(0.0, -*std::min_element(Y, Y + n));
@@ -140,6 +147,8 @@ double StepControl::largestStep(const State&) {
   // What is beyond it has not been for the step's length.
   if (change_ <= options_.temperatureChange)
     factor = aimed * options_.temperatureChange / std::max(change_, 1e-6 * options_.temperatureChange);
+  if (undershoot_ > 0.0 && undershoot_ <= -options_.leastMassFraction)
+    factor = std::min(factor, aimedBelow * -options_.leastMassFraction / undershoot_);
   // A sweep has the error step^(sweeps) after those before it.
   if (options_.tolerance)
     factor = std::min(factor, 0.9 * std::pow(*options_.tolerance / std::max(error_, 1e-6 * *options_.tolerance),
@@ -148,8 +157,10 @@ double StepControl::largestStep(const State&) {
 }
 
 void StepControl::saveOrLoad(StateArchive& archive) {
-  const std::array scalars{&error_, &step_, &change_, &changeSinceRow_, &coldest_, &takenTooMuch_, &firstTooMuch_};
+  const std::array scalars{&error_,   &step_,         &change_,       &changeSinceRow_,
+                           &coldest_, &takenTooMuch_, &firstTooMuch_, &undershoot_};
   std::vector<double*> values(scalars.begin(), scalars.end());
+  for (double& coordinate : place_) values.push_back(&coordinate);
   for (Worst* worst : {&warming_, &negative_}) {
     values.insert(values.end(), {&worst->peak.value, &worst->time});
     for (double& coordinate : worst->peak.place) values.push_back(&coordinate);
@@ -184,8 +195,8 @@ std::vector<std::string> StepControl::closingLines() const {
     return fmt::format("at {} at t = {:.4g} s", placeText(worst.peak.place, context_.mesh.dimension), worst.time);
   };
   std::vector<std::string> lines{
-      fmt::format("largest change of a temperature in one step {:.3g} K {}; {:.3g} K in the last", warming_.peak.value,
-                  whereOf(warming_), change_)};
+      fmt::format("largest change of a temperature in one step {:.3g} K {}; {:.3g} K in the last, at {}",
+                  warming_.peak.value, whereOf(warming_), change_, placeText(place_, context_.mesh.dimension))};
   if (negative_.peak.value > 0.0)
     lines.push_back(
         fmt::format("most negative mass fraction of all steps {:.2g} {}", -negative_.peak.value, whereOf(negative_)));

@@ -27,7 +27,7 @@ class StepControl : public Operator {
     // Of the temperature, relative, and of mass fractions, the largest in any cell; nothing: errors are not looked at.
     std::optional<double> tolerance = {};
     double temperatureChange = 500.0;  // K, of a cell in a step
-    double leastMassFraction = -0.01;
+    double leastMassFraction = -1e-4;
   };
 
   // Stands behind all other operators of a step. std::logic_error for a tolerance with less than two sweeps.
@@ -59,12 +59,14 @@ class StepControl : public Operator {
   double coldest_;                       // K, of the start and of all that boundaries have had
   double error_ = 0.0, step_ = 0.0;      // of the last step; zero before the first
   double change_ = 0.0;                  // K, the largest of the last step
+  double undershoot_ = 0.0;              // by how much the last step has taken a mass fraction (further) below zero
   double changeSinceRow_ = 0.0;          // K
   struct Worst {
     Peak peak;
     double time = 0.0;  // s
   };
   Worst warming_;                 // K, the largest change of the run
+  Vector3 place_{};               // m, where change_ was
   Worst negative_;                // how far below zero a mass fraction has been in the run
   bool hasTakenTooMuch_ = false;  // whether the present step is beyond what it may do, as a shorter one was
   double takenTooMuch_ = 0.0;     // how many such steps there were

@@ -35,7 +35,7 @@ struct TimeControl {
   int retries = 4;                   // of a step that fails, each with a quarter of the step before
   std::optional<double> wallLimit;   // s, from the start of the program
   double temperatureChange = 500.0;  // K, of a cell in a step; more and the step fails
-  double leastMassFraction = -0.01;  // of a cell; below and the step fails
+  double leastMassFraction = -1e-4;  // of a cell; below and the step fails
 };
 
 // Tables beside the fields and the history.

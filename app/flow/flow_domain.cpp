@@ -60,6 +60,7 @@ FlowDomain::FlowDomain(Mesh partitioned, const FlowCase& flowCase, const Thermo&
       state(mesh, flowCase.mechanism->numSpecies(), carriedScalars(flowCase), flowCase.swirls),
       flow(context, state, flowCase.flow),
       chemistry(context, chemistryOptions),
+      undershoots(context, flowCase.flow.sweeps),
       stepControl(context, {flowCase.flow.sweeps, flowCase.time.tolerance, flowCase.time.temperatureChange,
                             flowCase.time.leastMassFraction}) {
   state.thermodynamicPressure = flowCase.pressure;
@@ -79,6 +80,7 @@ FlowDomain::FlowDomain(Mesh partitioned, const FlowCase& flowCase, const Thermo&
         std::make_unique<RadiationOperator>(context, flowCase.radiation.surroundings, particleAbsorption(flowCase));
     operators.push_back(radiation.get());
   }
+  operators.push_back(&undershoots);
   operators.push_back(&stepControl);
 }
 

@@ -14,6 +14,7 @@
 #include "flow/flow_context.hpp"
 #include "flow/radiation_operator.hpp"
 #include "flow/step_control.hpp"
+#include "flow/undershoot_correction.hpp"
 
 namespace lampblack::app {
 
@@ -35,6 +36,7 @@ struct FlowDomain {
   State state;
   TransportOperator flow;
   ReactionOperator chemistry;
+  UndershootCorrection undershoots;
   StepControl stepControl;
   std::unique_ptr<CarriedOperator> carried;
   std::unique_ptr<EnsembleOperator> ensembles;

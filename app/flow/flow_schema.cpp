@@ -256,7 +256,7 @@ void addTimeAndOutput(DeckSchema& schema) {
       .add(numberKey("time.least_mass_fraction",
                      "Most negative mass fraction that a time step may leave in a cell; one that leaves less fails and "
                      "is tried again, shorter. Nothing is clipped.")
-               .byDefault("-0.01")
+               .byDefault("-1e-4")
                .below(0))
       .add(quantityKey("time.wall_limit", units::time,
                        "Wall time, from the start of the program, before whose end the run stops by itself as SIGTERM "

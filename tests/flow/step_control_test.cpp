@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "core/errors.hpp"
+#include "flow/undershoot_correction.hpp"
 #include "flow_fixture.hpp"
 #include "tests/every_module.hpp"
 #include "tests/messages.hpp"
@@ -63,7 +64,7 @@ TEST_F(StepControls, NeedsTwoSweeps) {
 }
 
 TEST_F(StepControls, TellsTheLargestChangeOfAStepAndStepsByIt) {
-  StepControl control(box.context, {.temperatureChange = 100.0});
+  StepControl control(box.context, {.temperatureChange = 100.0, .leastMassFraction = -0.01});
   EXPECT_TRUE(control.closingLines().empty());
   control.endStep(state);
   change(5, 60.0, 0.0);
@@ -80,7 +81,7 @@ TEST_F(StepControls, TellsTheLargestChangeOfAStepAndStepsByIt) {
   // Cell 7 of four in a row is the last of the second row.
   EXPECT_THAT(control.closingLines().at(0),
               testing::AllOf(testing::HasSubstr("90 K at (0.875, 0.5) m at t = 0.00102 s"),
-                             testing::HasSubstr("10 K in the last")));
+                             testing::HasSubstr("10 K in the last, at (0.625, 0.166667) m")));
   EXPECT_EQ(control.closingLines().size(), 1u);
   change(9, 0.0, -2e-3);
   control.advance(state, 1.04e-3, 2e-5);
@@ -164,6 +165,121 @@ TEST_F(StepControls, OutOfTheRangeOfTransport) {
   change(4, -15.0, 0.0);
   EXPECT_THAT(messageOf<NumericsError>([&] { control.advance(state, 0.0, 1e-5); }),
               testing::HasSubstr("transport properties at 185 K"));
+}
+
+TEST_F(StepControls, StepsByHowFarTheLastWentBelowZero) {
+  StepControl control(box.context, {.leastMassFraction = -1e-3});
+  const auto stepTo = [&](double below) {
+    control.endStep(state);
+    state.start.Y = state.Y;
+    change(5, 0.0, -below);
+    control.advance(state, 0.0, 2e-5);
+    control.endStep(state);
+    return control.largestStep(state);
+  };
+  EXPECT_NEAR(stepTo(8e-4), 2e-5 * 0.5 / 0.8, 1e-18);
+  EXPECT_NEAR(stepTo(1e-4), 2e-5 * 0.5 / 0.1, 1e-18) << "what was below zero beforehand is no matter of the step";
+}
+
+// Some hydrogen in a gas of several temperatures; two cells beside each other lack some.
+class Undershoots : public StepControls {
+ protected:
+  const std::size_t n = air.size(), H2 = gas.mechanism.speciesIndex("H2"), N2 = gas.mechanism.speciesIndex("N2");
+  // Of the cells by their numbers, four in a row.
+  const std::vector<double> hydrogen{3e-3, 2e-3, 5e-3, 0.0, 4e-3, -2e-3, -1e-3, 6e-3, 0.0, 1e-3, 2e-3, 8e-3};
+  void SetUp() override {
+    for (int c = 0; c < box.mesh.owned; ++c) {
+      const auto number = at(box.mesh.naturalCell[at(c)]);
+      std::vector<double> Y = gas.massFractions("O2: 0.1, N2: 0.79, H2O: 0.2");
+      Y[N2] -= hydrogen[number];
+      Y[H2] = hydrogen[number];
+      std::ranges::copy(Y, state.Y.begin() + static_cast<std::ptrdiff_t>(at(c) * n));
+      state.temperature[at(c)] = 600.0 + 100.0 * static_cast<double>(number);
+      state.density[at(c)] = gas.thermo.density(state.temperature[at(c)], state.thermodynamicPressure, Y);
+      state.enthalpy[at(c)] = gas.thermo.enthalpyMass(state.temperature[at(c)], Y);
+    }
+    state.updateHalo(box.halo);
+  }
+  double amount(std::int64_t number, std::size_t species) {
+    const int c = box.mesh.findOwned(number);
+    return sumOverRanks(c < 0 ? 0.0 : state.Y[at(c) * n + species] * state.density[at(c)] * box.mesh.volume[at(c)]);
+  }
+  double total(std::size_t species) {
+    return integral(box.mesh, [&](int c) { return state.density[at(c)] * state.Y[at(c) * n + species]; });
+  }
+  double enthalpy() {
+    return integral(box.mesh, [&](int c) { return state.density[at(c)] * state.enthalpy[at(c)]; });
+  }
+};
+
+TEST_F(Undershoots, AreFilledFromTheCellsAround) {
+  std::vector<double> before, totals;
+  for (std::int64_t number = 0; number < 12; ++number) before.push_back(amount(number, H2));
+  for (std::size_t k = 0; k < n; ++k) totals.push_back(total(k));
+  const double heat = enthalpy();
+  const State start = state;
+  UndershootCorrection correction(box.context, 2);
+  correction.advance(state, 0.0, 1e-5);
+  EXPECT_EQ(state.Y, start.Y) << "the last sweep's alone";
+  correction.advance(state, 0.0, 1e-5);
+  EXPECT_NEAR(correction.historyValues(state).at(0), -2e-3, 1e-15);
+  EXPECT_EQ(correction.historyValues(state).at(0), 0.0);
+  EXPECT_GT(-largest(box.mesh, [&](int c) { return -state.Y[at(c) * n + H2]; }), -1.02e-5);
+  for (std::size_t k = 0; k < n; ++k) EXPECT_NEAR(total(k), totals[k], 1e-15 * totals[N2]) << k;
+  EXPECT_NEAR(enthalpy(), heat, 1e-14 * std::abs(heat) + 1e-9);
+  for (int c = 0; c < box.mesh.owned; ++c) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < n; ++k) sum += state.Y[at(c) * n + k];
+    EXPECT_NEAR(sum, 1.0, 1e-15);
+    EXPECT_NEAR(gas.thermo.enthalpyMass(state.temperature[at(c)], {&state.Y[at(c) * n], n}), state.enthalpy[at(c)],
+                1e-6 * std::abs(state.enthalpy[at(c)]));
+    // What is exchanged has the temperature between the two cells, some 1e-3 of what they hold.
+    EXPECT_NEAR(state.temperature[at(c)], start.temperature[at(c)], 10.0);
+  }
+  EXPECT_EQ(state.density, start.density);
+  // Cell 5 has 1, 4, 6 and 9 around it, 6 has 2, 5, 7 and 10: both ask in proportion to what is there.
+  const auto given = [&](std::int64_t number) {
+    return (before[at(number)] - amount(number, H2)) / before[at(number)];
+  };
+  EXPECT_NEAR(given(4), given(1), 1e-12);
+  EXPECT_NEAR(given(9), given(1), 1e-12);
+  EXPECT_NEAR(given(7), given(2), 1e-12);
+  EXPECT_NEAR(given(10), given(2), 1e-12);
+  for (const std::int64_t number : {1, 2, 4, 7, 9, 10}) {
+    EXPECT_GT(given(number), 0.05) << number;
+    EXPECT_LE(given(number), 0.5) << number;
+  }
+  for (const std::int64_t number : {0, 3, 8, 11}) EXPECT_NEAR(amount(number, H2), before[at(number)], 1e-18) << number;
+}
+
+TEST_F(Undershoots, OfNextToNothingStay) {
+  change(5, 0.0, 0.0);
+  for (int c = 0; c < box.mesh.owned; ++c) {
+    double& Y = state.Y[at(c) * n + H2];
+    if (Y < 0.0) Y = -0.99e-5;
+  }
+  state.updateHalo(box.halo);
+  const State start = state;
+  UndershootCorrection correction(box.context, 1);
+  correction.advance(state, 0.0, 1e-5);
+  EXPECT_EQ(state.Y, start.Y);
+  EXPECT_EQ(state.temperature, start.temperature);
+  EXPECT_EQ(correction.historyValues(state).at(0), -0.99e-5);
+}
+
+// Two cells that ask one for more than it gives share that.
+TEST_F(Undershoots, TakeNoMoreThanHalf) {
+  for (int c = 0; c < box.mesh.owned; ++c) {
+    const std::int64_t number = box.mesh.naturalCell[at(c)];
+    double& Y = state.Y[at(c) * n + H2];
+    Y = number == 6 ? 1e-4 : number == 5 || number == 7 ? -0.03 : 0.0;
+  }
+  state.updateHalo(box.halo);
+  const double before = amount(6, H2);
+  UndershootCorrection correction(box.context, 1);
+  correction.advance(state, 0.0, 1e-5);
+  EXPECT_GT(amount(6, H2), 0.0);
+  EXPECT_NEAR(amount(6, H2), before * std::pow(0.5, 6), 1e-3 * before) << "in each of six rounds";
 }
 
 }  // namespace
