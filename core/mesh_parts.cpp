@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/errors.hpp"
+#include "core/gather.hpp"
 #include "core/halo_exchange.hpp"
 
 namespace lampblack {
@@ -78,12 +79,7 @@ std::vector<MeshPart> partsOf(const Mesh& mesh) {
                       total));
   });
 
-  std::vector<int> counts(static_cast<std::size_t>(mesh.ranks)), starts(counts.size(), 0);
-  const int bytes = static_cast<int>(mine.size() * sizeof(Begin));
-  MPI_Allgather(&bytes, 1, MPI_INT, counts.data(), 1, MPI_INT, mesh.comm);
-  std::exclusive_scan(counts.begin(), counts.end(), starts.begin(), 0);
-  std::vector<Begin> begins(static_cast<std::size_t>(total));
-  MPI_Allgatherv(mine.data(), bytes, MPI_BYTE, begins.data(), counts.data(), starts.data(), MPI_BYTE, mesh.comm);
+  std::vector<Begin> begins = gatheredFromAll<Begin>(mesh.comm, mine);
   std::ranges::sort(begins, {}, &Begin::cell);
 
   const auto partOf = [&](std::size_t cell) {

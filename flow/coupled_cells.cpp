@@ -7,30 +7,13 @@
 #include <stdexcept>
 
 #include "core/errors.hpp"
+#include "core/gather.hpp"
 
 namespace lampblack::flow {
 namespace {
 
 constexpr double solved = 1e-6;       // of the largest change, what the last iteration of an implicit part changed
 constexpr int mostIterations = 1000;  // of an implicit part
-
-// All ranks' values, one rank's behind the other's.
-std::vector<double> gathered(MPI_Comm comm, const std::vector<double>& own) {
-  int ranks = 1;
-  MPI_Comm_size(comm, &ranks);
-  if (ranks == 1) return own;
-  const int count = static_cast<int>(own.size());
-  std::vector<int> counts(static_cast<std::size_t>(ranks)), starts(counts);
-  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
-  int sum = 0;
-  for (std::size_t rank = 0; rank < counts.size(); ++rank) {
-    starts[rank] = sum;
-    sum += counts[rank];
-  }
-  std::vector<double> all(static_cast<std::size_t>(sum));
-  MPI_Allgatherv(own.data(), count, MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE, comm);
-  return all;
-}
 
 // Reads values of a row one after the other.
 class Values {
@@ -53,7 +36,9 @@ class Values {
 
 void CoupledCells::gather(MPI_Comm comm) {
   std::vector<double> cells, links;
+  std::vector<std::int64_t> own;
   for (const Cell& cell : cells_) {
+    own.push_back(cell.number);
     cells.insert(cells.end(), {static_cast<double>(cell.number), cell.mass, cell.pressure, cell.temperature,
                                cell.enthalpy, cell.referenceTemperature, cell.referenceEnthalpy, cell.heat});
     for (const auto* row : {&cell.Y, &cell.reference, &cell.brought, &cell.reacts})
@@ -66,7 +51,8 @@ void CoupledCells::gather(MPI_Comm comm) {
   }
   cells_.clear();
   links_.clear();
-  const std::vector<double> allCells = gathered(comm, cells), allLinks = gathered(comm, links);
+  const std::vector<double> allCells = gatheredFromAll<double>(comm, cells);
+  const std::vector<double> allLinks = gatheredFromAll<double>(comm, links);
   for (Values values(allCells); !values.isAtEnd();) {
     Cell& cell = cells_.emplace_back();
     cell.number = static_cast<std::int64_t>(values.next());
@@ -86,22 +72,21 @@ void CoupledCells::gather(MPI_Comm comm) {
   std::ranges::sort(links_,
                     [](const Link& a, const Link& b) { return std::pair(a.face, a.low) < std::pair(b.face, b.low); });
   // From here on links have places in place of numbers.
-  const auto place = [this](std::int64_t number) -> std::int64_t {
-    if (number == Link::none) return Link::none;
-    const auto found = std::ranges::lower_bound(cells_, number, {}, &Cell::number);
-    if (found == cells_.end() || found->number != number) throw std::logic_error("a link without its cell");
-    return found - cells_.begin();
-  };
-  for (Link& link : links_) {
-    link.low = place(link.low);
-    link.high = place(link.high);
-  }
+  for (Link& link : links_)
+    for (std::int64_t* number : {&link.low, &link.high})
+      if (*number != Link::none) *number = static_cast<std::int64_t>(placeOf(*number));
+  own_.clear();
+  for (const std::int64_t number : own) own_.push_back(placeOf(number));
+}
+
+std::size_t CoupledCells::placeOf(std::int64_t number) const {
+  const auto found = std::ranges::lower_bound(cells_, number, {}, &Cell::number);
+  if (found == cells_.end() || found->number != number) throw std::logic_error("this cell is not coupled");
+  return static_cast<std::size_t>(found - cells_.begin());
 }
 
 std::span<const double> CoupledCells::made(std::int64_t number) const {
-  const auto found = std::ranges::lower_bound(cells_, number, {}, &Cell::number);
-  if (found == cells_.end() || found->number != number) throw std::logic_error("this cell is not coupled");
-  return made_.at(static_cast<std::size_t>(found - cells_.begin()));
+  return made_.at(placeOf(number));
 }
 
 // The neighbours of each cell, and how much of the difference of each comes into it, by field; the last is heat.
@@ -159,17 +144,44 @@ void CoupledCells::solve(std::size_t field, double dt, std::span<const double> i
       fmt::format("the transport of cells that go together has not come to rest in {} iterations", mostIterations));
 }
 
-void CoupledCells::advance(ConstantPressureReactor& reactor, const Thermo& thermo, double dt, int parts) {
+// The reactions of all cells over a part, each rank's own on it.
+void CoupledCells::advanceReactions(MPI_Comm comm, const React& react, double part) {
+  std::vector<Reacting> reacting;
+  for (const std::size_t i : own_) {
+    Cell& cell = cells_[i];
+    reacting.push_back({cell.number, cell.temperature, cell.enthalpy, cell.pressure, heating_[i], initialStep_[i],
+                        cost_[i], cell.Y, source_[i]});
+  }
+  react(reacting, part);
+  std::vector<double> found;
+  for (std::size_t own = 0; own < own_.size(); ++own) {
+    const Reacting& cell = reacting[own];
+    initialStep_[own_[own]] = cell.initialStep;
+    cost_[own_[own]] = cell.cost;
+    found.insert(found.end(), {static_cast<double>(cell.number), cell.temperature});
+    found.insert(found.end(), cell.Y.begin(), cell.Y.end());
+  }
+  const std::vector<double> ofAll = gatheredFromAll<double>(comm, found);
+  for (Values values(ofAll); !values.isAtEnd();) {
+    Cell& cell = cells_[placeOf(static_cast<std::int64_t>(values.next()))];
+    cell.temperature = values.next();
+    cell.Y = values.next(n_);
+  }
+}
+
+void CoupledCells::advance(MPI_Comm comm, const React& react, const Thermo& thermo, double dt, int parts) {
   const std::size_t count = cells_.size();
   const double part = dt / parts;
   connect();
   made_.assign(count, std::vector<double>(n_, 0.0));
+  source_.assign(count, std::vector<double>(n_));
+  heating_.assign(count, 0.0);
+  initialStep_.assign(count, 0.0);
+  cost_.assign(count, 0.0);
   std::vector<double> masses(count), inertia(count), x(count), enthalpies(n_), h(n_), mean(n_), Y(n_);
-  std::vector<double> firstStep(count, 0.0), heating(count);
   std::vector<std::vector<double>> moved(count, std::vector<double>(n_));  // differences after diffusion
-  std::vector<std::vector<double>> rate(count, std::vector<double>(n_));   // kg/s, of everything but the reactions
-  std::vector<ConstantPressureReactor::Cell> reacting(count);
-  std::vector<ConstantPressureReactor::Result> results(count);
+  std::vector<std::vector<double>>& rate = source_;  // kg/s, then 1/s, of everything but the reactions
+  std::vector<double>& heating = heating_;           // W, then W/kg
   for (std::size_t i = 0; i < count; ++i) masses[i] = cells_[i].mass;
   const auto difference = [&](std::int64_t i, std::size_t k) {
     return i == Link::none ? 0.0 : moved[static_cast<std::size_t>(i)][k];
@@ -250,14 +262,11 @@ void CoupledCells::advance(ConstantPressureReactor& reactor, const Thermo& therm
       for (double& value : rate[i]) value /= cell.mass;
       heating[i] /= cell.mass;
       moved[i] = cell.Y;
-      reacting[i] = {cell.temperature, cell.pressure, cell.Y, rate[i], firstStep[i], heating[i]};
     }
-    reactor.advance(reacting, part, results);
+    advanceReactions(comm, react, part);
     for (std::size_t i = 0; i < count; ++i) {
       Cell& cell = cells_[i];
-      cell.temperature = reacting[i].temperature;
       cell.enthalpy += part * heating[i];
-      firstStep[i] = reacting[i].initialStep;
       for (std::size_t k = 0; k < n_; ++k) {
         cell.reacts[k] = cell.mass * ((cell.Y[k] - moved[i][k]) / part - rate[i][k]);
         made_[i][k] += cell.reacts[k] / parts;

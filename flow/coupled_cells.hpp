@@ -4,17 +4,18 @@
 //
 // Transport is known by its rates in a reference state and linear in what cells differ from it: diffusion by its
 // conductances, convection upwind. Cells outside stay as in the reference. Plain data of any number of ranks; what is
-// found depends on it alone.
+// found depends on it alone. Each rank advances the reactions of the cells that it has added; the small linear systems
+// between the parts are solved on all of them.
 #pragma once
 
 #include <mpi.h>
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
 
-#include "chemistry/reactor/reactor.hpp"
 #include "chemistry/thermo/thermo.hpp"
 #include "core/modules.hpp"
 
@@ -46,27 +47,48 @@ class CoupledCells {
     double conducts = 0.0;                        // W/K
     std::vector<double> diffuses;                 // kg/s, conductances
   };
+  // A cell whose reactions are to be advanced, with all else as a constant source.
+  struct Reacting {
+    std::int64_t number = 0;
+    double temperature = 0.0;        // K, in and out
+    double enthalpy = 0.0;           // J/kg
+    double pressure = 0.0;           // Pa
+    double heating = 0.0;            // W/kg
+    double initialStep = 0.0;        // s, ConstantPressureReactor::Cell::initialStep, in and out
+    double cost = 0.0;               // of the last part, out; zero at first
+    std::span<double> Y;             // in and out
+    std::span<const double> source;  // 1/s
+  };
+  // Collective. Advances these cells of this rank by dt (s).
+  using React = std::function<void(std::span<Reacting> cells, double dt)>;
+
   void add(Cell cell) { cells_.push_back(std::move(cell)); }
   void add(Link link) { links_.push_back(std::move(link)); }
 
   // Collective. All ranks have the cells and links of all.
   void gather(MPI_Comm comm);
 
-  // After gather(). Over dt (s) in so many parts. NumericsError where the reactions of a cell cannot be advanced.
-  void advance(ConstantPressureReactor& reactor, const Thermo& thermo, double dt, int parts);
+  // Collective, after gather(). Over dt (s) in so many parts.
+  void advance(MPI_Comm comm, const React& react, const Thermo& thermo, double dt, int parts);
   // After it: kg/s, what the reactions made in a cell, the mean over the step.
   [[nodiscard]] std::span<const double> made(std::int64_t number) const;
 
  private:
+  [[nodiscard]] std::size_t placeOf(std::int64_t number) const;
   void connect();
+  void advanceReactions(MPI_Comm comm, const React& react, double part);
   void solve(std::size_t field, double dt, std::span<const double> inertia, std::vector<double>& x) const;
 
   std::size_t n_;
   std::vector<Cell> cells_;
   std::vector<Link> links_;
+  std::vector<std::size_t> own_;                        // cells that this rank has added
   std::vector<std::size_t> first_, other_;              // of each cell, its neighbours
   std::vector<std::vector<double>> weights_, outward_;  // of each field, for each neighbour and each cell
   std::vector<std::vector<double>> made_;
+  // Of each cell: what everything but the reactions brings in the present part, 1/s and W/kg; and its reactor's.
+  std::vector<std::vector<double>> source_;
+  std::vector<double> heating_, initialStep_, cost_;
 };
 
 }  // namespace lampblack::flow

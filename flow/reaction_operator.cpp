@@ -154,6 +154,11 @@ void ReactionOperator::unpack(State& state, std::size_t cell, double dt, std::sp
   state.temperature[cell] = out[0];
   initialStep_[cell] = out[1];
   cost_[cell] = 0.5 * (cost_[cell] + out[2]);  // some cells change between the methods from step to step
+  count(cell, out);
+}
+
+// What the reactor has done in a cell.
+void ReactionOperator::count(std::size_t cell, std::span<const double> out) {
   costOfStep_[cell] += out[2];
   diagnostics_.solverSteps += out[3];
   diagnostics_.retries += out[4];
@@ -198,6 +203,7 @@ void ReactionOperator::limitRates(State& state, std::size_t cell) {
 }
 
 bool ReactionOperator::findOutrunning(const State& state, double dt) {
+  begin(dt);
   const auto n = static_cast<std::size_t>(state.species);
   std::ranges::fill(outruns_, 0);
   std::ranges::fill(isTaken_, 0);
@@ -236,9 +242,46 @@ double ReactionOperator::largestStep(const State&) {
   return growth_ > 0.0 ? growthInPart * mostParts / growth_ : std::numeric_limits<double>::infinity();
 }
 
-void ReactionOperator::advance(State& state, double time, double dt) {
+void ReactionOperator::react(std::span<CoupledCells::Reacting> cells, double time, double part) {
+  const std::size_t n = context_.mechanism.numSpecies();
+  WorkSharing::Items items;
+  std::vector<std::size_t> local;
+  for (const CoupledCells::Reacting& cell : cells) {
+    local.push_back(static_cast<std::size_t>(context_.mesh.findOwned(cell.number)));
+    items.cost.push_back(cell.cost > 0.0 ? cell.cost : cost_[local.back()]);
+  }
+  items.pack = [&](std::size_t item, std::vector<double>& in) {
+    const CoupledCells::Reacting& cell = cells[item];
+    const Vector3& centre = context_.mesh.centre[local[item]];
+    in.assign({centre[0], centre[1], cell.enthalpy, cell.heating, cell.temperature, cell.pressure, cell.initialStep,
+               static_cast<double>(cell.number), centre[2]});
+    in.insert(in.end(), cell.Y.begin(), cell.Y.end());
+    in.insert(in.end(), cell.source.begin(), cell.source.end());
+  };
+  items.groupSize = cellsTogether;
+  items.advanceGroup = [&](std::span<const std::span<const double>> in, std::span<std::vector<double>> out) {
+    solve(time, part, in, out);
+  };
+  items.unpack = [&](std::size_t item, std::span<const double> out) {
+    CoupledCells::Reacting& cell = cells[item];
+    cell.temperature = out[0];
+    cell.initialStep = out[1];
+    cell.cost = out[2];
+    std::ranges::copy(out.subspan(Layout::outHeader, n), cell.Y.begin());
+    count(local[item], out);
+  };
+  items.work = [](std::span<const double> out) { return out[2]; };
+  sharing_.run(items);
+}
+
+// Called by whatever comes first in a step.
+void ReactionOperator::begin(double dt) {
   if (step_ == 0.0) std::ranges::fill(costOfStep_, 0.0);
   step_ = dt;
+}
+
+void ReactionOperator::advance(State& state, double time, double dt) {
+  begin(dt);
   const auto n = static_cast<std::size_t>(state.species);
   WorkSharing::Items items;
   std::vector<std::size_t> cells;

@@ -19,6 +19,7 @@
 #include "chemistry/reactor/reactor_failure.hpp"
 #include "core/modules.hpp"
 #include "core/work_sharing.hpp"
+#include "flow/coupled_cells.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/operator.hpp"
 
@@ -64,7 +65,9 @@ class ReactionOperator : public Operator {
   [[nodiscard]] bool outruns(std::size_t cell) const { return outruns_[cell] != 0; }
   // In how many parts such a step has to be taken.
   [[nodiscard]] int parts() const { return parts_; }
-  [[nodiscard]] ConstantPressureReactor& reactor() { return reactor_; }
+  // Collective. Advances the reactions of these cells of this rank by a part of a step (s) with constant sources; the
+  // work is shared and counted as all other.
+  void react(std::span<CoupledCells::Reacting> cells, double time, double part);
   // The cell's rates in State::balance are those of the step, and what transport makes of them is its state.
   void take(std::size_t cell) {
     isTaken_[cell] = 1;
@@ -79,6 +82,8 @@ class ReactionOperator : public Operator {
   void pack(const State& state, std::size_t cell, double dt, std::span<double> in) const;
   void solve(double time, double dt, std::span<const std::span<const double>> in, std::span<std::vector<double>> out);
   void unpack(State& state, std::size_t cell, double dt, std::span<const double> out);
+  void count(std::size_t cell, std::span<const double> out);
+  void begin(double dt);
   void removeNetMass(State& state, std::size_t cell);
   void limitRates(State& state, std::size_t cell);
   [[nodiscard]] double heatRelease(const State& state, std::size_t cell) const;

@@ -61,7 +61,7 @@ void TransportOperator::addTendency(const State& mean, const State& state, int c
   }
 }
 
-void TransportOperator::coupleReactions(const State& mean, State& state, double dt) {
+void TransportOperator::coupleReactions(const State& mean, State& state, double time, double dt) {
   if (!reactions_) return;
   const bool isFirst = sweep_ == 1;
   if (isFirst) couples_ = reactions_->findOutrunning(state, dt);
@@ -114,7 +114,8 @@ void TransportOperator::coupleReactions(const State& mean, State& state, double 
     cells.add(std::move(link));
   }
   cells.gather(m.comm);
-  collectively(m.comm, [&] { cells.advance(reactions_->reactor(), context_.thermo, dt, reactions_->parts()); });
+  const auto react = [&](std::span<CoupledCells::Reacting> own, double part) { reactions_->react(own, time, part); };
+  collectively(m.comm, [&] { cells.advance(m.comm, react, context_.thermo, dt, reactions_->parts()); });
   for (int c = 0; c < m.owned; ++c) {
     if (!takesCoupled(c)) continue;
     const std::span<const double> made = cells.made(m.naturalCell[c]);

@@ -297,7 +297,7 @@ void TransportOperator::advance(State& state, double time, double dt) {
   // The state's own mass fractions are written over before the step is done with them.
   faces_.prepare(mean, several ? mean.Y : state.start.Y);
 
-  coupleReactions(mean, state, dt);
+  coupleReactions(mean, state, time, dt);
   predictContents(start, mean, state, dt);
   if (!first) addCompression();
   advanceDiffusion(mean, state, dt);

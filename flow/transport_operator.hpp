@@ -103,7 +103,7 @@ class TransportOperator : public Operator {
   void initialise(State& state, double dt);
 
  private:
-  void coupleReactions(const State& mean, State& state, double dt);
+  void coupleReactions(const State& mean, State& state, double time, double dt);
   void markCoupled();
   [[nodiscard]] bool takesCoupled(int cell) const;
   void addTendency(const State& mean, const State& state, int cell, std::span<const double> conducted,

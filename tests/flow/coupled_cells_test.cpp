@@ -47,6 +47,19 @@ TEST(GrowthRates, OfWhatDecaysAreNone) {
   EXPECT_EQ(growth.of(300.0, 101325.0, gas.massFractions("H2: 2, O2: 1, N2: 3.76"), 1e-3), 0.0);
 }
 
+// Cells one by one.
+CoupledCells::React reactEachWith(ConstantPressureReactor& reactor) {
+  return [&reactor](std::span<CoupledCells::Reacting> own, double part) {
+    for (CoupledCells::Reacting& one : own) {
+      ConstantPressureReactor::Cell cell{one.temperature, one.pressure,    one.Y,
+                                         one.source,      one.initialStep, one.heating};
+      reactor.advance(cell, part);
+      one.temperature = cell.temperature;
+      one.initialStep = cell.initialStep;
+    }
+  };
+}
+
 // A cell that nothing flows into is a reactor: what it makes is the mean over the step, in however many parts.
 TEST(CoupledCell, AloneIsAReactor) {
   Gas& gas = Gas::hydrogen();
@@ -61,7 +74,13 @@ TEST(CoupledCell, AloneIsAReactor) {
   if (rank == 0) cells.add(cell);
   cells.gather(MPI_COMM_WORLD);
   ConstantPressureReactor reactor(gas.mechanism);
-  cells.advance(reactor, gas.thermo, dt, 4);
+  int advanced = 0;
+  const auto react = [&](std::span<CoupledCells::Reacting> own, double part) {
+    advanced += static_cast<int>(own.size());
+    reactEachWith(reactor)(own, part);
+  };
+  cells.advance(MPI_COMM_WORLD, react, gas.thermo, dt, 4);
+  EXPECT_EQ(advanced, rank == 0 ? 4 : 0) << "each rank its own";
   std::vector<double> Y = start;
   ConstantPressureReactor::Cell whole{T, 101325.0, Y, {}};
   reactor.advance(whole, dt);
@@ -71,6 +90,50 @@ TEST(CoupledCell, AloneIsAReactor) {
     EXPECT_NEAR(cells.made(7)[k] * dt / mass, Y[k] - start[k], 1e-6) << k;
   }
   EXPECT_GT(change, 0.01);
+}
+
+// Two cells in a row, the gas flows from the cold one through the hot one, which gives heat and radicals back.
+TEST(CoupledCell, WithAnotherIsTheSameOnAnyRank) {
+  Gas& gas = Gas::hydrogen();
+  const std::size_t n = gas.mechanism.numSpecies();
+  const auto madeOf = [&](int rankOfSecond) {
+    int rank = 0;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    CoupledCells cells(n);
+    for (const int number : {3, 8}) {
+      if (rank != (number == 3 ? 0 : rankOfSecond)) continue;
+      CoupledCells::Cell cell;
+      cell.number = number;
+      cell.mass = 3e-9;
+      cell.pressure = 101325.0;
+      cell.temperature = cell.referenceTemperature = number == 3 ? 700.0 : 1300.0;
+      cell.Y = cell.reference =
+          gas.massFractions(number == 3 ? "H2: 0.3, O2: 0.15, N2: 0.6" : "H2: 0.2, O2: 0.1, N2: 0.6, H: 0.01");
+      cell.enthalpy = cell.referenceEnthalpy = gas.thermo.enthalpyMass(cell.temperature, cell.Y);
+      cell.brought.assign(n, 0.0);
+      cell.reacts = cell.brought;
+      cells.add(cell);
+    }
+    if (rank == 0) cells.add(CoupledCells::Link{4, 3, 8, 2e-5, 1e-2, std::vector<double>(n, 4e-5)});
+    cells.gather(MPI_COMM_WORLD);
+    ConstantPressureReactor reactor(gas.mechanism);
+    cells.advance(MPI_COMM_WORLD, reactEachWith(reactor), gas.thermo, 4e-5, 5);
+    std::vector<double> made;
+    for (const int number : {3, 8}) made.insert(made.end(), cells.made(number).begin(), cells.made(number).end());
+    return made;
+  };
+  int ranks = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  const std::vector<double> together = madeOf(0);
+  EXPECT_EQ(madeOf(ranks - 1), together);
+  // Hydrogen atoms that come from the hot cell make HO2 in the cold one, and mass is made nowhere.
+  EXPECT_GT(together[gas.mechanism.speciesIndex("HO2")], 1e-9);
+  double net = 0.0, all = 0.0;
+  for (const double rate : together) {
+    net += rate;
+    all += std::abs(rate);
+  }
+  EXPECT_LT(std::abs(net), 1e-12 * all);
 }
 
 // Hydrogen and air that burn on a burner, a row of cells.
