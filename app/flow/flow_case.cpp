@@ -261,6 +261,18 @@ void readSoot(const Deck& deck, FlowCase& flowCase) {
   flowCase.carriedOptions = {flowCase.chemistry.shareWork, deck.number("soot.sectional.overflow"), tooFewSections};
 }
 
+std::optional<SteadyControl> readSteady(const Deck& deck, const FlowCase& flowCase) {
+  if (!deck.has("time.steady")) return {};
+  if (flowCase.ensembles)
+    throw deck.error("time.steady",
+                     "ensembles in the cells fluctuate, and with them the gas: their fields never come to rest. Leave "
+                     "this out; averages that start by themselves tell when the soot has no trend "
+                     "(stochastic.statistics)");
+  return SteadyControl{deck.number("time.steady.tolerance"), deck.optionalQuantity("time.steady.time"),
+                       deck.quantity("time.steady.after"),
+                       deck.choice("time.steady.norm") == "rms" ? Steadiness::Norm::Rms : Steadiness::Norm::Maximum};
+}
+
 // Of a plane mesh r and z may stand for x and y.
 Vector3 readStart(const Deck& deck, const std::string& item, const FlowCase& flowCase) {
   AxisNames names = axisNames(flowCase);
@@ -325,7 +337,8 @@ FlowCase readFlowCase(const Deck& deck) {
                    deck.integer<int>("time.retries"),
                    deck.optionalQuantity("time.wall_limit"),
                    deck.quantity("time.temperature_change"),
-                   deck.number("time.least_mass_fraction")};
+                   deck.number("time.least_mass_fraction"),
+                   readSteady(deck, flowCase)};
   flowCase.flow.courant = deck.number("time.courant");
   flowCase.flow.sweeps = deck.integer<int>("time.sweeps");
   if (deck.choice("convection.velocity") == "central") {

@@ -18,6 +18,7 @@
 #include "flow/mixing_layer.hpp"
 #include "flow/radiation.hpp"
 #include "flow/reaction_operator.hpp"
+#include "flow/steadiness.hpp"
 #include "flow/transport_model.hpp"
 #include "flow/transport_operator.hpp"
 #include "io/deck.hpp"
@@ -25,6 +26,14 @@
 #include "particles/gas/soot_gas.hpp"
 
 namespace lampblack::app {
+
+// When a run that does not change any more ends.
+struct SteadyControl {
+  double tolerance = 1e-3;
+  std::optional<double> time;  // s, over which changes are counted; nothing: what the flow gives
+  double after = 0.0;          // s, before which the run does not end
+  Steadiness::Norm norm = Steadiness::Norm::Maximum;
+};
 
 struct TimeControl {
   double end = 0.0;                  // s
@@ -36,6 +45,7 @@ struct TimeControl {
   std::optional<double> wallLimit;   // s, from the start of the program
   double temperatureChange = 500.0;  // K, of a cell in a step; more and the step fails
   double leastMassFraction = -1e-4;  // of a cell; below and the step fails
+  std::optional<SteadyControl> steady;
 };
 
 // Tables beside the fields and the history.

@@ -23,12 +23,15 @@ FlowLoop::FlowLoop(MPI_Comm comm, FlowCase flowCase)
                                            withFailedCellFiles(case_.chemistry))),
       operators_(domain_->operators),
       quality_(domain_->mesh),
+      steadiness_(domain_->context, domain_->state,
+                  {case_.time.steady ? case_.time.steady->time : std::nullopt, !case_.ensembles}),
       costs_(domain_->mesh),
       repartitions_(case_.repartition.has_value() && domain_->mesh.ranks > 1),
       backup_(domain_->mesh.owned, domain_->mesh.faces),
       wallLimit_(case_.time.wallLimit) {
   domain_->setStart(case_);
   beginNextStep();
+  steadiness_.begin(domain_->state, time_);
   domain_->beginBudget(case_);
   tables_ = std::make_unique<FlowTables>(domain_->context, case_, tableSource());
   if (case_.trajectories) requireStartsInside(domain_->context, *case_.trajectories);
@@ -63,9 +66,7 @@ void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
   folder_ = folder;
   Outputs outputs{
       folder, ResultsWriter(comm_, folder.results(), info, meshOutput(domain_->mesh), case_.output.storage),
-      HistoryWriter(comm_, folder.history(),
-                    historyColumns(domain_->mesh, operators_, domain_->budget->lines(domain_->state))),
-      Progress(comm_, time_, case_.time.end),
+      HistoryWriter(comm_, folder.history(), columns()), Progress(comm_, time_, case_.time.end),
       FlowCheckpoints(comm_, case_.checkpoint, flowFingerprint(case_, domain_->state.scalars), folder.path())};
   auto& [_, results, history, progress, checkpoints] = outputs;
   tables_->open(folder);
@@ -87,7 +88,7 @@ void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
     output(results);
   }
   checkStateAndRequests(checkpoints);
-  while (time_ < case_.time.end * (1.0 - 1e-12)) {
+  while (!isAtEnd()) {
     if (requests_.signal != 0 || requests_.wallLimit) stop(outputs);
     if (requests_.checkpoint) {
       requests_.checkpoint = false;
@@ -97,7 +98,8 @@ void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
     }
     stepBegan_ = secondsSinceStart();
     stepWithRetries(chooseStep(dt_, std::min(nextOutput_, case_.time.end)), outputs);
-    const bool due = time_ >= nextOutput_ * (1.0 - 1e-12) || time_ >= case_.time.end * (1.0 - 1e-12);
+    watchSteadiness();
+    const bool due = time_ >= nextOutput_ * (1.0 - 1e-12) || isAtEnd();
     if (due || steps_ % case_.output.historySteps == 0) {
       const HistoryRow row = writeRow(history);
       progress.update(steps_, time_, dt_, status(row));
@@ -110,6 +112,9 @@ void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
     wallLimit_.recordStep(secondsSinceStart() - stepBegan_);
   }
   progress.finish();
+  if (case_.time.steady && !isSteady()) {
+    printWarnings({fmt::format("time.end, {:.6g} s, has come before the flow is steady", case_.time.end)});
+  }
   if (case_.checkpoint.atEnd) {
     const std::string problem = writeCheckpoint(outputs);
     if (!problem.empty()) printWarnings({problem});
@@ -130,6 +135,28 @@ void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
   tables_->writeTo(results);
   results.close();
   if (failure) std::rethrow_exception(failure);
+}
+
+bool FlowLoop::isSteady() const {
+  const std::optional<SteadyControl>& steady = case_.time.steady;
+  return steady && time_ >= steady->after && steadiness_.isSteady(steady->tolerance, steady->norm);
+}
+
+bool FlowLoop::isAtEnd() const {
+  return time_ >= case_.time.end * (1.0 - 1e-12) || isSteady();
+}
+
+void FlowLoop::watchSteadiness() {
+  const Timers::Scope scope(timers_, "monitoring");
+  const auto heatRelease = [this] {
+    std::vector<double> heat;
+    const auto keep = [&](const Quantity&, std::span<const double> values) {
+      heat.assign(values.begin(), values.end());
+    };
+    domain_->chemistry.fields(domain_->state, Operator::FieldSink(keep));
+    return heat;
+  };
+  steadiness_.add(domain_->state, domain_->flow.properties(), heatRelease, time_);
 }
 
 double FlowLoop::chooseStep(double previous, double until) {

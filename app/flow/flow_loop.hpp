@@ -24,6 +24,7 @@
 #include "core/state_backup.hpp"
 #include "core/timers.hpp"
 #include "flow/peak.hpp"
+#include "flow/steadiness.hpp"
 #include "io/progress.hpp"
 #include "io/run_folder.hpp"
 #include "io/run_record.hpp"
@@ -85,6 +86,12 @@ class FlowLoop {
 
   double chooseStep(double previous, double until);
 
+  // Whether the run is to end as steady, and whether it is to end.
+  [[nodiscard]] bool isSteady() const;
+  [[nodiscard]] bool isAtEnd() const;
+  // The state after a step that was taken, or the one to begin with.
+  void watchSteadiness();
+
   void beginNextStep();
   // The same after the state was loaded.
   void resumeFromLoadedState();
@@ -117,6 +124,7 @@ class FlowLoop {
   [[noreturn]] void endAfterFailure(Outputs& outputs, const std::exception_ptr& failure,
                                     const std::vector<double>& tried);
 
+  [[nodiscard]] std::vector<Quantity> columns() const;
   HistoryRow observe();
   // Writes the present state as a row of the history and of its tables.
   HistoryRow writeRow(HistoryWriter& history);
@@ -125,6 +133,10 @@ class FlowLoop {
   }
 
   [[nodiscard]] std::string status(const HistoryRow& row) const;
+  [[nodiscard]] bool isGasFrozen() const { return domain_->ensembles && domain_->ensembles->isGasFrozen(time_); }
+  // How far from steady the run ended, for the closing report.
+  [[nodiscard]] std::vector<std::string> steadyLines() const;
+  [[nodiscard]] std::string steadyJson() const;  // the same for the record
 
   // All that the next step, its outputs and the report depend on.
   void saveOrLoad(StateArchive& archive, std::vector<double>& history);
@@ -151,6 +163,7 @@ class FlowLoop {
   std::unique_ptr<FlowDomain> domain_;
   std::vector<Operator*> added_, operators_;  // those of others; all, each advances over the step, one after the other
   MeshQuality quality_;
+  Steadiness steadiness_;
   CellCosts costs_;
   bool repartitions_;  // whether the mesh may still be partitioned anew
   std::unique_ptr<FlowTables> tables_;

@@ -30,6 +30,7 @@ void FlowLoop::replaceMesh(Mesh mesh) {
   operators_ = domain_->operators;
   operators_.insert(operators_.end(), added_.begin(), added_.end());
   tables_->moveTo(domain_->context);
+  steadiness_.moveTo(domain_->context);
   costs_ = CellCosts(domain_->mesh);
   backup_ = StateBackup(domain_->mesh.owned, domain_->mesh.faces);
 }
@@ -79,6 +80,7 @@ void FlowLoop::moveTo(Mesh mesh, const std::vector<double>& weights) {
   const auto owners = [this](StateArchive& archive) {
     saveOrLoadParts(archive);
     costs_.saveOrLoad(archive);
+    steadiness_.saveOrLoad(archive);
   };
   StateBackup moving(domain_->mesh.owned, domain_->mesh.faces);
   moving.save(owners);

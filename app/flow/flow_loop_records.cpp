@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <limits>
 
 #include "app/flow/flow_loop.hpp"
 #include "app/run/failed_cell.hpp"
@@ -40,7 +41,32 @@ std::string meshJson(const MeshQuality& quality) {
   return json.text();
 }
 
+// Rows of a history that was written with the last columns that are asked for now, or without: NaN is what they do not
+// have.
+std::vector<double> withWidth(const std::vector<double>& rows, std::size_t from, std::size_t to) {
+  if (from == to) return rows;
+  std::vector<double> others;
+  for (std::size_t row = 0; row + from <= rows.size(); row += from) {
+    const auto begin = rows.begin() + static_cast<std::ptrdiff_t>(row);
+    others.insert(others.end(), begin, begin + static_cast<std::ptrdiff_t>(std::min(from, to)));
+    if (to > from) others.insert(others.end(), to - from, std::numeric_limits<double>::quiet_NaN());
+  }
+  return others;
+}
+
+const std::vector<Quantity> steadyColumns{
+    {"steady_change", "1", "largest change of a field in a cell over the residence time, of the field's range"},
+    {"steady_change_rms", "1", "the same, root of the mean square over the domain"},
+    {"steady_time", "s", "residence time, or time.steady.time"},
+    {"steady_period", "s", "after which the flow repeats itself"}};
+
 }  // namespace
+
+std::vector<Quantity> FlowLoop::columns() const {
+  std::vector<Quantity> columns = historyColumns(domain_->mesh, operators_, domain_->budget->lines(domain_->state));
+  if (case_.time.steady) columns.insert(columns.end(), steadyColumns.begin(), steadyColumns.end());
+  return columns;
+}
 
 HistoryRow FlowLoop::observe() {
   const Timers::Scope scope(timers_, "monitoring");
@@ -55,6 +81,15 @@ HistoryRow FlowLoop::observe() {
     row.operators.insert(row.operators.end(), values.begin(), values.end());
   }
   row.budget = domain_->budget->lines(domain_->state);
+  if (case_.time.steady) {
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    for (const auto norm : {Steadiness::Norm::Maximum, Steadiness::Norm::Rms}) {
+      const auto change = steadiness_.change(norm);
+      row.steady.push_back(change ? change->value : unknown);
+    }
+    row.steady.push_back(steadiness_.time());
+    row.steady.push_back(steadiness_.periodicity() ? steadiness_.periodicity()->period : unknown);
+  }
   peakTemperature_ = peakOf(domain_->mesh, [&](int c) { return domain_->state.temperature[c]; });
   last_ = row;
   return row;
@@ -72,7 +107,42 @@ std::string FlowLoop::status(const HistoryRow& row) const {
   std::string text = fmt::format("Tmax {:.0f} K", row.extremes.maximumTemperature);
   for (const Operator* op : operators_)
     if (const std::string more = op->status(); !more.empty()) text += "  " + more;
+  if (!case_.time.steady) return text;
+  const auto& [tolerance, _, after, norm] = *case_.time.steady;
+  if (const auto change = steadiness_.change(norm))
+    text += fmt::format("  change {:.2g} in {:.3g} s (to be {:.2g})", change->value, steadiness_.time(), tolerance);
+  else
+    text += fmt::format("  change of {:.3g} s not known yet", steadiness_.time());
+  if (steadiness_.periodicity()) text += fmt::format("  period {:.3g} s", steadiness_.periodicity()->period);
   return text;
+}
+
+std::vector<std::string> FlowLoop::steadyLines() const {
+  if (isGasFrozen()) return {};
+  std::vector<std::string> lines = steadiness_.lines();
+  if (case_.time.steady)
+    lines.push_back(fmt::format("{} (time.steady.tolerance {:.2g}, {} norm)",
+                                isSteady() ? fmt::format("steady at t = {:.6g} s", time_) : "not steady",
+                                case_.time.steady->tolerance,
+                                case_.time.steady->norm == Steadiness::Norm::Rms ? "RMS" : "maximum"));
+  return lines;
+}
+
+// One object; null where it is not known.
+std::string FlowLoop::steadyJson() const {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  const auto whole = [&](Steadiness::Norm norm) {
+    const auto change = steadiness_.change(norm);
+    return change && change->isWhole ? change->value : unknown;
+  };
+  JsonWriter json;
+  json.beginObject();
+  if (case_.time.steady) json.field("steady", isSteady());
+  json.field("residence_time_s", steadiness_.time()).field("change", whole(Steadiness::Norm::Maximum));
+  json.field("change_rms", whole(Steadiness::Norm::Rms));
+  json.field("period_s", steadiness_.periodicity() ? steadiness_.periodicity()->period : unknown);
+  json.endObject();
+  return json.text();
 }
 
 void FlowLoop::count(RunRecord& record) const {
@@ -105,6 +175,7 @@ void FlowLoop::report(double wallTime, RunRecord& record) {
     if (const auto imbalance = op->imbalance())
       closing.imbalances.push_back({op->name(), imbalance->before, imbalance->after});
   count(record);
+  if (!isGasFrozen()) record.resultsJson = steadyJson();
   if (domain_->mesh.rank != 0) return;
   std::cout << formatReport(closing);
   for (const std::string& line : quality_.lines()) fmt::print("{}\n", line);
@@ -116,6 +187,7 @@ void FlowLoop::report(double wallTime, RunRecord& record) {
              1e3 * peakTemperature_.place[1]);
   for (const Operator* op : operators_)
     for (const std::string& line : op->closingLines()) fmt::print("{}\n", line);
+  for (const std::string& line : steadyLines()) fmt::print("{}\n", line);
   for (const Budget::Line& line : last_.budget)
     fmt::print("budget of {:<5} closed to {:.2e} of the inflow\n", line.name, line.error);
   fmt::print("sum of mass fractions 1 to {:.1e}; most negative mass fraction {:.1e} at the end (nothing is clipped)\n",
@@ -132,23 +204,27 @@ void FlowLoop::saveOrLoad(StateArchive& archive, std::vector<double>& history) {
   saveOrLoadParts(archive);
   costs_.saveOrLoad(archive);
   const double interval = case_.output.interval;
-  std::vector<double> clock{
-      time_,
-      static_cast<double>(steps_),
-      dt_,
-      nextOutput_,
-      interval,
-      static_cast<double>(written_),
-      static_cast<double>(historyColumns(domain_->mesh, operators_, domain_->budget->lines(domain_->state)).size()),
-      static_cast<double>(retried_)};
-  const double columns = clock[6];
+  const std::size_t width = columns().size();
+  const std::size_t withoutSteady = width - (case_.time.steady ? steadyColumns.size() : 0);
+  std::vector<double> clock{time_,
+                            static_cast<double>(steps_),
+                            dt_,
+                            nextOutput_,
+                            interval,
+                            static_cast<double>(written_),
+                            static_cast<double>(width),
+                            static_cast<double>(retried_)};
   archive.shared("clock", clock);
   archive.shared("history", history);
+  const auto stored = static_cast<std::size_t>(clock.size() > 6 ? clock[6] : 0.0);
+  const bool hasSteady = stored == withoutSteady + steadyColumns.size();
+  if (case_.time.steady && hasSteady) steadiness_.saveOrLoad(archive);
   if (!archive.loading()) return;
   collectively(comm_, [&] {
-    if (clock.size() != 8 || clock[6] != columns)
+    if (clock.size() != 8 || (stored != withoutSteady && !hasSteady))
       throw InputError("the checkpoint was written by another version of Lampblack, with another history");
   });
+  history = withWidth(history, stored, width);
   time_ = clock[0];
   steps_ = static_cast<std::int64_t>(clock[1]);
   dt_ = clock[2];
@@ -156,6 +232,7 @@ void FlowLoop::saveOrLoad(StateArchive& archive, std::vector<double>& history) {
   nextOutput_ = clock[4] == interval ? clock[3] : interval * (std::floor(time_ / interval * (1.0 + 1e-12)) + 1.0);
   written_ = static_cast<std::int64_t>(clock[5]);
   retried_ = static_cast<std::int64_t>(clock[7]);
+  if (!case_.time.steady || !hasSteady) steadiness_.begin(domain_->state, time_);
 }
 
 void FlowLoop::restore(ResultsWriter& results, HistoryWriter& history) {

@@ -148,6 +148,7 @@ std::vector<double> historyValues(const HistoryRow& row) {
   values.insert(values.end(), row.operators.begin(), row.operators.end());
   for (const Budget::Line& line : row.budget)
     for (double value : {line.content, line.inflow, line.outflow, line.error}) values.push_back(value);
+  values.insert(values.end(), row.steady.begin(), row.steady.end());
   return values;
 }
 

@@ -39,6 +39,7 @@ struct HistoryRow {
   StateExtremes extremes;
   std::vector<double> operators;  // the values of each, one behind the other
   std::vector<Budget::Line> budget;
+  std::vector<double> steady;  // with time.steady only; the last columns
 };
 std::vector<Quantity> historyColumns(const Mesh& mesh, const std::vector<Operator*>& operators,
                                      const std::vector<Budget::Line>& budget);

@@ -264,6 +264,34 @@ void addTimeAndOutput(DeckSchema& schema) {
                        "--restart` goes on, and exit code 143. It makes one step at least. Absent: no limit.")
                .optional()
                .above(0));
+  schema
+      .section(
+          "time.steady", Presence::optional,
+          "Ends the run, before time.end, once the flow is steady: over a whole residence time no field (velocity, "
+          "temperature, mass fractions, what particles are carried) has changed by more than the tolerance, and "
+          "the changes do not grow. Absent: the run goes on to time.end; its closing report says how steady it "
+          "is in either case. Not with ensembles in the cells, which fluctuate.")
+      .add(numberKey("time.steady.tolerance",
+                     "Largest change of a field in any cell over a residence time, as a share of the range of the "
+                     "field in the domain.")
+               .byDefault("1e-3")
+               .above(0)
+               .below(1))
+      .add(quantityKey("time.steady.time", units::time,
+                       "Time over which changes are counted. Absent: the residence time, which is what is in the "
+                       "domain over what flows through it; without a flow through it the domain's size over its RMS "
+                       "velocity, or over the conduction of heat where that is faster.")
+               .optional()
+               .above(0))
+      .add(choiceKey("time.steady.norm", {"maximum", "rms"},
+                     "maximum: the change of the cell that changes most counts; rms: the root of the mean square over "
+                     "the domain, which a small part that moves to and fro does not keep up.")
+               .byDefault("maximum"))
+      .add(quantityKey("time.steady.after", units::time,
+                       "Time before which the run does not end: until what boundaries do over time is over, or "
+                       "something slow has begun.")
+               .byDefault("0 s")
+               .atLeast(0));
   schema.add(
       choiceKey("convection.velocity", {"limited", "central"},
                 "How the flow carries its velocity. limited: upwind of second order, of first where the flow is "

@@ -23,7 +23,7 @@ h5py = running.package("h5py")
 numpy = running.package("numpy")
 
 # No row of the history in the middle: what it counts since the last one is saved.
-SETTINGS = ("time.end=28 us", "time.maximum_step=2 us", "output.interval=7 us", "output.history_steps=4",
+SETTINGS = ("time.end=28 us", "time.steady={time: 8 us, tolerance: 1e-6}", "time.maximum_step=2 us", "output.interval=7 us", "output.history_steps=4",
             "boundaries.fuel.swirl_velocity=10 cm/s", "output.boundaries=[all]",
             "output.probes={flame: {at: [1 mm, 5 mm]}}", "output.lines={axis: {from: [0 mm, 1 mm], to: [0 mm, 7 mm], points: 5}}")
 # The start of a run that goes on is that of its checkpoint, whatever the deck says.
