@@ -3,8 +3,14 @@
 #include "coupling/ensemble_species.hpp"
 #include "particles/ensemble/packed_ensemble.hpp"
 #include "particles/models/soot_model.hpp"
+#include "particles/population/monte_carlo/initial_sample.hpp"
 
 namespace lampblack::coupling {
+namespace {
+
+constexpr std::uint32_t startStream = 0x53544152;
+
+}  // namespace
 
 CellSoot::CellSoot(const Mechanism& mechanism, const EnsembleOptions& options)
     : CellParticles("soot", {"C", "H"}, mechanism, indicesOfSootSpecies(mechanism, options.soot),
@@ -54,6 +60,17 @@ std::vector<double> CellSoot::packed(std::span<const GivenParticle> population, 
   const auto ensemble = makeEnsemble(own);
   ensemble->initialise(population);
   return ensemble->pack();
+}
+
+std::vector<double> CellSoot::packed(const InitialPopulation& sizes, std::uint64_t cell) const {
+  const EnsembleOptions& options = engine_->options();
+  RandomStream random(options.seed, cell, startStream);
+  const InitialWeights weights =
+      options.method == EnsembleMethod::dsmc ? InitialWeights::equal : InitialWeights::moments;
+  std::vector<GivenParticle> particles;
+  for (const auto& [volume, weight] : initialParticles(sizes, options.particles, weights, random))
+    particles.push_back({volume * options.soot.sootDensity, 0.0, 1.0, weight});
+  return packed(particles, cell);
 }
 
 }  // namespace lampblack::coupling

@@ -7,6 +7,7 @@
 #include "core/modules.hpp"
 #include "coupling/cell_particles.hpp"
 #include "particles/ensemble/ensemble.hpp"
+#include "particles/population/model/population_model.hpp"
 
 namespace lampblack::coupling {
 
@@ -31,6 +32,9 @@ class CellSoot final : public CellParticles {
 
   // Packed, of the given particles; as Ensemble::initialise().
   [[nodiscard]] std::vector<double> packed(std::span<const GivenParticle> population, std::uint64_t cell) const;
+  // Packed, of spheres of carbon whose sizes are drawn for the cell, as many as there may be: of equal numbers where
+  // the method has such, else as initialParticles().
+  [[nodiscard]] std::vector<double> packed(const InitialPopulation& sizes, std::uint64_t cell) const;
 
  private:
   std::unique_ptr<Ensemble> engine_;

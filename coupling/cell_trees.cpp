@@ -79,11 +79,11 @@ CellParticles::Change CellTrees::advance(const ParticleGas& gas, double dt) {
   return change;
 }
 
-std::vector<double> CellTrees::packed(const TreeUnits& units, double number, std::uint64_t cell) const {
+std::vector<double> CellTrees::packed(std::span<const TreeStart> starts, std::uint64_t cell) const {
   TreeOptions own = options_;
   own.owner = cell;
   const auto population = makeTreePopulation(own);
-  population->fill(units, number);
+  population->fill(starts);
   return population->pack();
 }
 

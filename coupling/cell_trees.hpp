@@ -3,6 +3,8 @@
 // the mean. What comes and goes so is counted (Change::resampled).
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/modules.hpp"
@@ -29,7 +31,11 @@ class CellTrees final : public CellParticles {
   [[nodiscard]] std::vector<double> pack() const override { return trees_.population().pack(); }
 
   // Packed, of `number` (1/m3) equal spheres of these units.
-  [[nodiscard]] std::vector<double> packed(const TreeUnits& units, double number, std::uint64_t cell) const;
+  [[nodiscard]] std::vector<double> packed(const TreeUnits& units, double number, std::uint64_t cell) const {
+    return packed(std::vector<TreeStart>{{units, number}}, cell);
+  }
+  // Of all that is there at the start.
+  [[nodiscard]] std::vector<double> packed(std::span<const TreeStart> starts, std::uint64_t cell) const;
 
  private:
   CellTrees(const Mechanism& mechanism, const TreeOptions& options, ReactorTrees trees);

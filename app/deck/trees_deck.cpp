@@ -74,21 +74,12 @@ void addNumbers(DeckSchema& schema, const std::string& particles) {
                .atMost(1));
 }
 
+constexpr const char* initial = "particles.initial";
+
 // Of the runs of all problems that repeat them.
 void addRuns(DeckSchema& schema) {
-  const std::string initial = "particles.initial";
-  for (const std::string& at : {initial, initial + "[]"}) {
-    addDistribution(schema, at, Presence::optional);
-    schema.add(numberKey(at + ".units",
-                         "Units of each component in one of them: Si, O, OH of silica; atoms C, H of soot. With a "
-                         "distribution their proportions.")
-                   .list()
-                   .optional()
-                   .atLeast(0));
-  }
+  addTreeStartKeys(schema);
   schema
-      .section(initial + "[]", Presence::defaulted,
-               "In place of the keys of `particles.initial` a list of maps, one a mode: all of them are there.")
       .add(quantityKey(
                "particles.expected_number", units::perVolume,
                "Expected largest number density: an empty sample is full when it first reaches this density. A value "
@@ -169,6 +160,20 @@ std::vector<double> readTablesAt(const Deck& deck) {
 }
 
 }  // namespace
+
+void addTreeStartKeys(DeckSchema& schema) {
+  for (const std::string& at : {std::string(initial), std::string(initial) + "[]"}) {
+    addDistribution(schema, at, Presence::optional);
+    schema.add(numberKey(at + ".units",
+                         "Units of each component in one of them: Si, O, OH of silica; atoms C, H of soot. With a "
+                         "distribution their proportions.")
+                   .list()
+                   .optional()
+                   .atLeast(0));
+  }
+  schema.section(std::string(initial) + "[]", Presence::defaulted,
+                 "In place of the keys of `particles.initial` a list of maps, one a mode: all of them are there.");
+}
 
 void addTreeKeys(DeckSchema& schema, const std::string& description, const std::string& particles) {
   addTreeMaterialKeys(schema, description);
@@ -264,15 +269,15 @@ TreeStart readStart(const Deck& deck, const std::string& at, const TreeMaterial&
 }
 
 // Trees have equal weights: a wide distribution may have its higher moments in fewer than one of them.
-void warnOfMisses(const TreeRequest& request) {
-  const TreeMaterial& material = request.options.material;
+void warnOfMisses(const TreeOptions& options, const std::vector<TreeStart>& starts) {
+  const TreeMaterial& material = options.material;
   std::vector<InitialPopulation> modes;
-  for (const TreeStart& start : request.start)
+  for (const TreeStart& start : starts)
     modes.push_back(start.sizes.number > 0 ? start.sizes
                                            : InitialPopulation{InitialPopulation::Distribution::monodisperse,
                                                                start.number, material.volume(start.units)});
-  const auto population = makeTreePopulation(request.options);
-  population->fill(request.start);
+  const auto population = makeTreePopulation(options);
+  population->fill(starts);
   std::array<double, 4> moments{};
   population->forEachTree([&](const Tree& tree, double weight) {
     const double volume = material.volume(tree.head().units);
@@ -283,12 +288,23 @@ void warnOfMisses(const TreeRequest& request) {
   });
   if (const std::string missed = missedMoments(sumOf(modes), moments); !missed.empty())
     printWarnings({fmt::format(
-        "particles.initial: the {} numerical particles of the first repeat miss what a few large ones hold: {} times "
+        "particles.initial: the {} numerical particles of the first sample miss what a few large ones hold: {} times "
         "that of the initial distribution, and the intervals of the results do not know of it; take more of them",
-        request.options.particles, missed)});
+        options.particles, missed)});
 }
 
 }  // namespace
+
+std::vector<TreeStart> readTreeStart(const Deck& deck, const TreeOptions& options) {
+  std::vector<TreeStart> starts;
+  for (const std::string& at : itemsOf(deck, initial)) {
+    const bool hasSizes = deck.has(at + ".distribution");
+    if (!hasSizes && !deck.has(at + ".number") && !deck.has(at + ".units") && !at.ends_with(']')) continue;
+    starts.push_back(readStart(deck, at, options.material));
+  }
+  if (!starts.empty()) deck.at("particles", [&] { warnOfMisses(options, starts); });
+  return starts;
+}
 
 TreeRequest readTrees(const Deck& deck, const Mechanism& mechanism) {
   TreeRequest request;
@@ -300,12 +316,7 @@ TreeRequest readTrees(const Deck& deck, const Mechanism& mechanism) {
                           : GasViscosity::transport;
   options.fullAt = deck.quantity("particles.expected_number");
   options.seed = deck.integer<std::uint64_t>("particles.seed");
-  for (const std::string& at : itemsOf(deck, "particles.initial")) {
-    const bool hasSizes = deck.has(at + ".distribution");
-    if (!hasSizes && !deck.has(at + ".number") && !deck.has(at + ".units") && !at.ends_with(']')) continue;
-    request.start.push_back(readStart(deck, at, options.material));
-  }
-  if (!request.start.empty()) deck.at("particles", [&] { warnOfMisses(request); });
+  request.start = readTreeStart(deck, options);
   request.repeats = deck.integer<std::size_t>("particles.repeats");
   request.bins = readSizeBins(deck, "particles");
   request.tablesAt = readTablesAt(deck);

@@ -26,6 +26,8 @@ struct TreeRequest {
 // The section, described for the problem, with the keys that all problems have; `particles`: the default number of
 // numerical particles.
 void addTreeKeys(DeckSchema& schema, const std::string& description, const std::string& particles);
+// Those of the particles that are there at the start.
+void addTreeStartKeys(DeckSchema& schema);
 // With those of a reactor.
 void addTreeReactorKeys(DeckSchema& schema);
 // With those of particles along a given gas.
@@ -33,6 +35,8 @@ void addTreePrescribedGasKeys(DeckSchema& schema);
 
 // Of a deck with the section, what all problems have. InputError, pointing into the deck.
 [[nodiscard]] TreeOptions readTreeOptions(const Deck& deck, const Mechanism& mechanism);
+// What `particles.initial` says is there from the beginning; a sample that misses moments of it is told.
+[[nodiscard]] std::vector<TreeStart> readTreeStart(const Deck& deck, const TreeOptions& options);
 // Of a reactor or along a given gas.
 [[nodiscard]] TreeRequest readTrees(const Deck& deck, const Mechanism& mechanism);
 

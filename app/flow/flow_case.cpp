@@ -5,6 +5,7 @@
 #include <array>
 
 #include "app/deck/ensemble_deck.hpp"
+#include "app/deck/initial_distribution.hpp"
 #include "app/deck/radiation_deck.hpp"
 #include "app/deck/size_bins_deck.hpp"
 #include "app/deck/soot_deck.hpp"
@@ -18,12 +19,16 @@
 #include "app/flow/initial_flow.hpp"
 #include "app/tools/gas_input.hpp"
 #include "core/errors.hpp"
+#include "core/random.hpp"
 #include "coupling/block_statistics.hpp"
 #include "coupling/carried_particles.hpp"
 #include "coupling/cell_soot.hpp"
 #include "coupling/cell_trees.hpp"
 #include "coupling/ensemble_species.hpp"
 #include "flow/carried_operator.hpp"
+#include "particles/ensemble/packed_ensemble.hpp"
+#include "particles/models/soot_model.hpp"
+#include "particles/population/monte_carlo/initial_sample.hpp"
 
 namespace lampblack::app {
 
@@ -227,6 +232,42 @@ std::shared_ptr<CellParticles> readCellTrees(const Deck& deck, const FlowCase& f
                            [&] { return std::make_shared<CellTrees>(*flowCase.mechanism, options); });
 }
 
+constexpr const char* sootAtStart = "soot.initial";
+
+// Soot that the cells' ensembles begin with. A sample of equal numbers may miss what a few large particles hold.
+void readStartOfSoot(const Deck& deck, FlowCase& flowCase) {
+  if (!deck.has("soot")) return;
+  const InitialPopulation sizes = readInitialDistribution(deck, sootAtStart);
+  if (!(sizes.number > 0.0)) return;
+  const auto soot = std::dynamic_pointer_cast<CellSoot>(flowCase.cellParticles);
+  if (!soot)
+    throw deck.error(sootAtStart, "what trees of primaries begin with is said in 'particles.initial'; leave this out");
+  flowCase.startPopulation = [soot, sizes](std::uint64_t cell) { return soot->packed(sizes, cell); };
+  std::array<double, 4> moments{};
+  const double density = readSootModelOptions(deck, *flowCase.mechanism, {}).sootDensity;
+  for (const GivenParticle& particle : packedParticles(flowCase.startPopulation(0))) {
+    double share = particle.number;
+    for (double& moment : moments) {
+      moment += share;
+      share *= particle.carbon / density;
+    }
+  }
+  if (const std::string missed = missedMoments(sizes, moments); !missed.empty())
+    flowCase.notes.push_back(fmt::format(
+        "soot.initial: the numerical particles of a cell miss what a few large ones hold: {} times that of the "
+        "distribution; take more of them, or 'stochastic.method: sammc'",
+        missed));
+}
+
+void readStartOfTrees(const Deck& deck, FlowCase& flowCase) {
+  TreeOptions options = readTreeOptions(deck, *flowCase.mechanism);
+  options.seed = flowCase.seed;
+  const std::vector<TreeStart> starts = readTreeStart(deck, options);
+  if (starts.empty()) return;
+  const auto trees = std::dynamic_pointer_cast<CellTrees>(flowCase.cellParticles);
+  flowCase.startPopulation = [trees, starts](std::uint64_t cell) { return trees->packed(starts, cell); };
+}
+
 void readEnsembles(const Deck& deck, FlowCase& flowCase) {
   EnsembleOperator::Options options;
   flowCase.cellParticles = deck.has("particles") ? readCellTrees(deck, flowCase) : readCellSoot(deck, flowCase);
@@ -243,6 +284,29 @@ void readEnsembles(const Deck& deck, FlowCase& flowCase) {
   options.sweeps = deck.integer<int>("time.sweeps");
   if (deck.has("stochastic.statistics")) options.statistics = readStatistics(deck, flowCase);
   flowCase.ensembles = options;
+  if (deck.has("particles")) readStartOfTrees(deck, flowCase);
+  readStartOfSoot(deck, flowCase);
+}
+
+// Scalars of a model that begins with particles, the same in every cell.
+void readCarriedStart(const Deck& deck, FlowCase& flowCase) {
+  if (flowCase.ensembles || !deck.has("soot")) return;
+  const InitialPopulation sizes = readInitialDistribution(deck, sootAtStart);
+  if (!(sizes.number > 0.0)) return;
+  if (!flowCase.carried)
+    throw deck.error(sootAtStart, "there is no soot that could begin with particles; expected a 'soot.model'");
+  if (!flowCase.initialFields.carried.empty())
+    throw deck.error(sootAtStart, "the particles at the start are those of 'initial.flow'; leave one of the two out");
+  const auto* model = dynamic_cast<const SootModel*>(&dynamic_cast<const CarriedParticles&>(*flowCase.carried).model());
+  if (model == nullptr) throw deck.error(sootAtStart, "this model cannot begin with particles");
+  // As many as hold all moments, drawn anew by no seed of a deck: the scalars are the same for all.
+  constexpr std::size_t many = 4096;
+  RandomStream random(0, 0, 0);
+  std::vector<double> densities(model->scalars().size(), 0.0);
+  for (const auto& [volume, number] : initialParticles(sizes, many, InitialWeights::moments, random))
+    model->addSpheres(number, volume, densities);
+  for (const double density : densities)
+    flowCase.initialFields.carried.emplace_back([density](const Vector3&, double) { return density; });
 }
 
 void readSoot(const Deck& deck, FlowCase& flowCase) {
@@ -327,6 +391,7 @@ FlowCase readFlowCase(const Deck& deck) {
   flowCase.chemistry.shareWork = deck.boolean("chemistry.share_work");
   readSoot(deck, flowCase);
   readInitial(deck, flowCase);
+  readCarriedStart(deck, flowCase);
   readGravity(deck, flowCase);
   flowCase.radiation = readRadiation(deck, *flowCase.mechanism);
   flowCase.time = {deck.quantity("time.end"),

@@ -1,7 +1,9 @@
 // What a deck with `problem: flow` asks for, checked and in SI: the bridge from the words of the deck to the operators.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -136,6 +138,8 @@ struct FlowCase {
   std::shared_ptr<CarriedModel> carried;               // null: nothing
   std::optional<EnsembleOperator::Options> ensembles;  // in the cells; then nothing else is carried
   std::shared_ptr<CellParticles> cellParticles;        // of the ensembles
+  // Packed, of the ensemble that a cell of this permanent number begins with; empty: nothing is there.
+  std::function<std::vector<double>(std::uint64_t cell)> startPopulation;
   CarriedOperator::Options carriedOptions;
   std::optional<TrajectoryRequest> trajectories;
   std::vector<std::string> notes;  // what the user should be told before the run

@@ -88,6 +88,9 @@ void FlowDomain::setStart(const FlowCase& flowCase) {
   collectively(mesh.comm, [&] {
     setMixingLayer(context, flowCase.initial, state);
     setInitialFields(context, flowCase.initialFields, state);
+    if (!flowCase.startPopulation) return;
+    for (int c = 0; c < mesh.owned; ++c)
+      ensembles->initialise(state, c, flowCase.startPopulation(static_cast<std::uint64_t>(mesh.naturalCell[c])));
   });
   flow.initialise(state, flowCase.time.firstStep);
 }

@@ -2,6 +2,7 @@
 #include <string>
 
 #include "app/deck/ensemble_deck.hpp"
+#include "app/deck/initial_distribution.hpp"
 #include "app/deck/radiation_deck.hpp"
 #include "app/deck/size_bins_deck.hpp"
 #include "app/deck/soot_deck.hpp"
@@ -316,6 +317,7 @@ void addTimeAndOutput(DeckSchema& schema) {
 
 void addParticles(DeckSchema& schema) {
   addSootModelKeys(schema);
+  addInitialDistribution(schema, "soot.initial");
   addEnsembleKeys(
       schema,
       "Ensembles of particles in the cells, in place of soot.model: they move with the gas, by thermophoresis and "
@@ -328,6 +330,7 @@ void addParticles(DeckSchema& schema) {
       "stochastic, which says how the cells hold them, and a mechanism with the species that the material is "
       "made from.",
       "500");
+  addTreeStartKeys(schema);
   schema
       .add(choiceKey("stochastic.exchange", {"two_way", "one_way"},
                      "two_way: the gas loses what the particles take, and its heat; one_way: the gas does not know of "

@@ -16,6 +16,9 @@ class SootModel : public ParticleModel {
   // Carbon has the enthalpy of graphite, hydrogen that of H2.
   void enthalpies(double temperature, std::span<double> h, std::span<double> slope) const override;
   [[nodiscard]] double absorption(double temperature, double volumeFraction) const override;
+  // Adds `count` (1/m3) spheres of carbon of this volume (m3) each to the densities of the scalars. Number and carbon
+  // are kept to round-off; of sections, which share them, the carbon alone beyond the smallest and the largest.
+  virtual void addSpheres(double count, double volume, std::span<double> densities) const = 0;
 };
 
 // 700 f_v T, 1/m (Wang 2025, section 7.2.4).

@@ -26,7 +26,7 @@ boundaries:
   lower: {{type: wall, side: y-min, temperature: 300 K}}
   upper: {{type: wall, side: y-max, temperature: 300 K, tangential_velocity: 1 m/s}}
 initial: {{layer: none, composition: "N2: 1", temperature: 300 K}}
-time: {{end: 60 ms, maximum_step: 0.25 ms, sweeps: 2{STEADY}}}
+time: {{end: 60 ms, maximum_step: 0.5 ms, sweeps: 2{STEADY}}}
 output: {{interval: 11 ms}}
 """
 DENSITY, VISCOSITY = 1.1380, 1.5893e-5  # kg/m^3, m^2/s, by the mechanism
@@ -46,7 +46,7 @@ def steady_run(program, folder, name, text, *arguments):
     return result, history, list(csv.DictReader(history.splitlines()))[-1], record["results"]
 
 
-def check_steady(program, folder) -> None:
+def check_steady(program, folder, ranks) -> None:
     # By what the velocity differs from a straight line: 2/pi exp(-rate t) sin(pi y/H) in the end, rate = nu pi^2/H^2. Ranges are
     # those between the centres of cells.
     rate, time, tolerance = VISCOSITY * math.pi**2 / 1e-6, 3e-3, 2e-3
@@ -60,6 +60,8 @@ def check_steady(program, folder) -> None:
     assert f"steady at t = {end:.6g} s (time.steady.tolerance 0.002, maximum norm)" in result.out, result.out
     assert "in the last 0.003 s (time.steady.time) fields changed by" in result.out, result.out
     assert not result.err, result.err
+    if ranks > 1:
+        return
 
     # One that was broken off in the middle ends with the same bits; one whose first part did not ask ends a little later.
     unasked = PLATES.replace(STEADY, "")
@@ -95,7 +97,7 @@ def main(executable: str, ranks: str, *mpiexec: str) -> None:
     program = running.Program(executable, list(mpiexec), int(ranks))
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        check_steady(program, folder)
+        check_steady(program, folder, int(ranks))
         deck = running.small_case(folder)
         text = deck.read_text(encoding="utf-8")
         # The second trajectory starts half a nanometre from the outlet.

@@ -1,5 +1,5 @@
 """A flow's soot over a few steps against the closed solution: a gas of one temperature whose only reactant is naphthalene, which
-dimerises by its second-order law whatever the coupling and the step.
+dimerises by its second-order law whatever the coupling and the step. And boxes that begin with soot of given sizes.
 
 Usage: flow_soot_test.py EXECUTABLE MPIEXEC...
 """
@@ -29,6 +29,52 @@ def expected():
     return 10 * CARBON * (start - start / (1 + rate * start * END))
 
 
+# Two modes; nothing reacts.
+BOX = f"""problem: flow
+mechanism: {running.SOURCE}/cases/mechanisms/{running.MECHANISM}
+mesh: {{geometry: planar, x: [{{to: 1 mm, cells: 2}}], y: [{{to: 1 mm, cells: 2}}]}}
+boundaries: {{west: {{type: wall, side: x-min}}, east: {{type: wall, side: x-max}}, south: {{type: wall, side: y-min}}, north: {{type: wall, side: y-max}}}}
+initial: {{layer: none, composition: "N2: 1", temperature: 600 K}}
+time: {{end: 20 us, maximum_step: 10 us, first_step: 10 us}}
+output: {{interval: 10 us}}
+"""
+WIDE, EQUAL = (1e16, 20e-9, 1.4), (1e15, 50e-9)
+START = (f"[{{distribution: lognormal, number: {WIDE[0]} 1/m^3, diameter: {WIDE[1]} m, geometric_deviation: {WIDE[2]}@}}, "
+         f"{{distribution: monodisperse, number: {EQUAL[0]} 1/m^3, diameter: {EQUAL[1]} m@}}]")
+SOOT = "soot: {pah: [A2], initial: " + START.replace("@", "") + ", model: none}\n"
+ENSEMBLE = SOOT.replace(", model: none", "") + "stochastic: {particles: 200, method: sammc}\n"
+TREES = "particles: {material: soot, number: 200, initial: " + START.replace("@", ", units: [1, 0]") + "}\n"
+BEGINS = {**{model: SOOT.replace("none", model) for model in ("two_equation_dimer", "leung", "sectional", "momic", "hmom")},
+          **{method: ENSEMBLE.replace("sammc", method) for method in ("dsmc", "swa", "sammc")},
+          "trees": "soot: {pah: [A2]}\nstochastic: {exchange: two_way}\n" + TREES}
+
+
+def check_begins(program, folder):
+    """Number and volume fraction at the start are those of the deck in every cell, and no carbon is lost."""
+    number = WIDE[0] + EQUAL[0]
+    volume = math.pi / 6 * (WIDE[0] * WIDE[1] ** 3 * math.exp(4.5 * math.log(WIDE[2]) ** 2) + EQUAL[0] * EQUAL[1] ** 3)
+    for name, particles in BEGINS.items():
+        deck, out = folder / f"{name}.yaml", folder / name
+        deck.write_text(BOX + particles, encoding="utf-8")
+        result = program("run", deck, "--out", out)
+        assert result.code == 0, (name, result.err)
+        with h5py.File(out / "results.h5", "r") as file:
+            first = file["steps"][min(file["steps"])]
+            for field, expected_value in (("soot_number_density", number), ("soot_volume_fraction", volume)):
+                found = first[field][()]
+                error = abs(found / expected_value - 1).max()
+                assert error < 1e-9 and len(found) == 4, (name, field, found, expected_value)
+            content = file["history/C_content"][()]
+            # What copies of numerical trees come and go with is counted.
+            assert abs(content[-1] / content[0] - 1) < (0.2 if name == "trees" else 1e-11), (name, content)
+            assert file["history/C_budget_error"][-1] < 1e-11, name
+    for text, expected_message in ((BOX + SOOT, "expected a 'soot.model'"),
+                                   (BOX + SOOT + BEGINS["trees"].split("\n", 1)[1], "said in 'particles.initial'")):
+        deck.write_text(text, encoding="utf-8")
+        result = program("check", deck)
+        assert result.code == 2 and expected_message in result.err, (result.code, result.err)
+
+
 def main(executable, *mpiexec):
     program = running.Program(executable, list(mpiexec), 1)
     with tempfile.TemporaryDirectory() as name:
@@ -48,6 +94,7 @@ def main(executable, *mpiexec):
             ratio = carbon.max() / expected()
             print(f"steps of {step}: {ratio:.6f}")
             assert abs(ratio - 1) < 5e-4, ratio
+        check_begins(program, folder)
     print("passed")
 
 

@@ -220,4 +220,11 @@ void HmomSoot::sources(const ParticleGas& gas, std::span<const double> densities
   chemistry_.exchange(read, r.dimers, events, r.hydrogenLost, exchange);
 }
 
+void HmomSoot::addSpheres(double count, double volume, std::span<double> densities) const {
+  const double diameter = cubeRoot(6.0 / constants::pi * volume);
+  densities[Scalar::number] += count;
+  densities[carbon] += count * volume * options_.soot.sootDensity;
+  densities[surface] += count * constants::pi * diameter * diameter;
+}
+
 }  // namespace lampblack::particles

@@ -275,4 +275,12 @@ SizeDistribution MomicSoot::sizeDistribution(std::span<const double> densities) 
   return distribution;
 }
 
+void MomicSoot::addSpheres(double count, double volume, std::span<double> densities) const {
+  const double mass = volume * options_.soot.sootDensity;
+  densities[Scalar::number] += count;
+  densities[carbon] += count * mass;
+  for (std::size_t k = 2; k < options_.moments; ++k)
+    densities[higher + k - 2] += count * std::pow(mass / unit_, static_cast<double>(k));
+}
+
 }  // namespace lampblack::particles

@@ -36,6 +36,7 @@ class MomicSoot final : public SootModel {
   [[nodiscard]] ParticleProperties properties(const ParticleGas& gas, std::span<const double> densities) const override;
   [[nodiscard]] ParticleProcesses processes(const ParticleGas& gas, std::span<const double> densities) const override;
   [[nodiscard]] double volumeFraction(std::span<const double> densities) const override;
+  void addSpheres(double count, double volume, std::span<double> densities) const override;
   // Of the log-normal distribution with the same M_0, M_1 and M_2.
   [[nodiscard]] SizeDistribution sizeDistribution(std::span<const double> densities) const override;
 

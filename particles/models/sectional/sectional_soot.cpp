@@ -264,4 +264,19 @@ void SectionalSoot::sources(const ParticleGas& gas, std::span<const double> dens
   impl_->sources(rates, exchange);
 }
 
+void SectionalSoot::addSpheres(double count, double volume, std::span<double> densities) const {
+  const std::vector<double>& pivots = impl_->pivots;
+  const double carbon = volume * impl_->options.soot.sootDensity;
+  const auto add = [&](std::size_t section, double particles) {
+    densities[section] += particles;
+    if (!impl_->spheres) densities[impl_->sections + section] += particles;
+  };
+  if (carbon <= pivots.front()) return add(0, count * carbon / pivots.front());
+  if (carbon >= pivots.back()) return add(pivots.size() - 1, count * carbon / pivots.back());
+  const auto upper = static_cast<std::size_t>(std::ranges::upper_bound(pivots, carbon) - pivots.begin());
+  const double part = (carbon - pivots[upper - 1]) / (pivots[upper] - pivots[upper - 1]);
+  add(upper - 1, (1.0 - part) * count);
+  add(upper, part * count);
+}
+
 }  // namespace lampblack::particles

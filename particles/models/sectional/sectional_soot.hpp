@@ -79,6 +79,7 @@ class SectionalSoot final : public SootModel {
   [[nodiscard]] ParticleProperties properties(const ParticleGas& gas, std::span<const double> densities) const override;
   [[nodiscard]] ParticleProcesses processes(const ParticleGas& gas, std::span<const double> densities) const override;
   [[nodiscard]] double volumeFraction(std::span<const double> densities) const override;
+  void addSpheres(double count, double volume, std::span<double> densities) const override;
   [[nodiscard]] double volumeFractionAtLimit(std::span<const double> densities) const override;
   [[nodiscard]] SizeDistribution sizeDistribution(std::span<const double> densities) const override;
 

@@ -144,4 +144,9 @@ ParticleProcesses SemiEmpiricalSoot::processes(const ParticleGas& gas, std::span
   return out;
 }
 
+void SemiEmpiricalSoot::addSpheres(double count, double volume, std::span<double> densities) const {
+  densities[Scalar::number] += count;
+  densities[carbon] += count * volume * options_.density;
+}
+
 }  // namespace lampblack::particles

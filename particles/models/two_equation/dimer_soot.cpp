@@ -98,4 +98,9 @@ ParticleProcesses DimerSoot::processes(const ParticleGas& gas, std::span<const d
   return out;
 }
 
+void DimerSoot::addSpheres(double count, double volume, std::span<double> densities) const {
+  densities[Scalar::number] += count;
+  densities[carbon] += count * volume * model_.options().sootDensity;
+}
+
 }  // namespace lampblack::particles

@@ -24,6 +24,7 @@ class DimerSoot final : public SootModel {
   [[nodiscard]] ParticleProperties properties(const ParticleGas& gas, std::span<const double> densities) const override;
   [[nodiscard]] ParticleProcesses processes(const ParticleGas& gas, std::span<const double> densities) const override;
   [[nodiscard]] double volumeFraction(std::span<const double> densities) const override;
+  void addSpheres(double count, double volume, std::span<double> densities) const override;
 
   [[nodiscard]] const TwoEquationSoot& twoEquation() const { return model_; }
 

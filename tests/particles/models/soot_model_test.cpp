@@ -46,6 +46,7 @@ TEST(SootEnthalpy, SlopesAreTheDerivatives) {
 // A model that is a formula: what the default Jacobian has to get right from empty to 1e20.
 class Formula final : public SootModel {
  public:
+  void addSpheres(double, double, std::span<double>) const override {}
   const std::vector<std::string>& gasSpecies() const override { return species_; }
   std::vector<std::size_t> precursors() const override { return {0}; }
   const std::vector<ParticleScalar>& scalars() const override { return scalars_; }
