@@ -257,8 +257,16 @@ void EnsembleOperator::storeArrivals(State& state) {
 
 void EnsembleOperator::countOutflow() {
   std::ranges::fill(outflow_, 0.0);
-  particles_->rows().forEach(transport_.gone(),
-                             [&](const double* row) { particles_->addAmounts(row, row[packedNumberAt], outflow_); });
+  goneThrough_.assign(static_cast<std::size_t>(context_.mesh.boundaryFaces()), 0.0);
+  std::vector<double> amounts(outflow_.size());
+  auto face = transport_.goneThrough().begin();
+  particles_->rows().forEach(transport_.gone(), [&](const double* row) {
+    particles_->addAmounts(row, row[packedNumberAt], outflow_);
+    std::ranges::fill(amounts, 0.0);
+    particles_->addAmounts(row, row[packedNumberAt], amounts);
+    double& mass = goneThrough_[static_cast<std::size_t>(*face++ - context_.mesh.interiorFaces)];
+    for (std::size_t e = 0; e < amounts_.held; ++e) mass += amounts[amounts_.element(e)];
+  });
 }
 
 void EnsembleOperator::addToStatistics(const State& state) {
@@ -281,6 +289,7 @@ void EnsembleOperator::endStep(State& state) {
     std::vector<double> came(amounts_.count());
     for (std::size_t e = 0; e < amounts_.held; ++e) came[amounts_.element(e)] = resampled_[e] - resampledBefore_[e];
     for (const Watcher& watcher : watchers_) watcher(came, outflow_);
+    for (const FaceWatcher& watcher : faceWatchers_) watcher(lastStep_, goneThrough_);
     resampledBefore_ = resampled_;
     addToStatistics(state);
   }

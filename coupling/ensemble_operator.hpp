@@ -86,6 +86,10 @@ class EnsembleOperator : public Operator {
   // through the boundary in it, of this rank's cells, per metre depth or radian.
   using Watcher = std::function<void(std::span<const double> resampled, std::span<const double> gone)>;
   void watchAmounts(Watcher watcher) { watchers_.push_back(std::move(watcher)); }
+  // Is called at the end of each step of dt (s): kg that left through each boundary face in it, per metre depth or
+  // radian.
+  using FaceWatcher = std::function<void(double dt, std::span<const double> gone)>;
+  void watchFaces(FaceWatcher watcher) { faceWatchers_.push_back(std::move(watcher)); }
   [[nodiscard]] const Options& options() const { return options_; }
   [[nodiscard]] const CellParticles& particles() const { return *particles_; }
   // Averages over time; null without.
@@ -133,11 +137,13 @@ class EnsembleOperator : public Operator {
   std::vector<double> startWaiting_, startReserve_;
   std::vector<double> startResampled_;
   bool inStep_ = false;
-  double lastStep_ = 0.0;        // s
-  double stepEnd_ = 0.0;         // s
-  std::int64_t steps_ = 0;       // since the start
-  std::vector<double> outflow_;  // of the step, each amount, per metre depth or radian
+  double lastStep_ = 0.0;            // s
+  double stepEnd_ = 0.0;             // s
+  std::int64_t steps_ = 0;           // since the start
+  std::vector<double> outflow_;      // of the step, each amount, per metre depth or radian
+  std::vector<double> goneThrough_;  // kg of the step, boundary faces
   std::vector<Watcher> watchers_;
+  std::vector<FaceWatcher> faceWatchers_;
   // Of each element, by numerical particles that come and go: kg per metre depth or radian, since the start and before
   // this step.
   std::vector<double> resampled_, resampledBefore_;

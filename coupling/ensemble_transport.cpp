@@ -12,6 +12,7 @@
 #include "core/first_error.hpp"
 #include "core/random.hpp"
 #include "core/rank_exchange.hpp"
+#include "flow/wall_flux.hpp"
 #include "particles/collisions/sphere.hpp"
 #include "particles/population/monte_carlo/systematic_sample.hpp"
 
@@ -59,7 +60,23 @@ struct EnsembleTransport::Side {
   std::array<double, classes> diffused{};   // factor of `diffusion`: o
   std::array<double, nodes> diffusion{};    // times d^2, m2: at the nodes
   bool diffuses = false;
+  // A wall that takes particles: `drift` is the probability to drift to it with the value of the cell, or below zero;
+  // `convected` how much more of it particles have that follow the slope in the cell.
+  bool isWall = false;
+  double drift = 0.0;
   std::array<bool, classes> isLimited{};  // whether convected or diffused is
+
+  // To a wall: of a particle of that volume and class, and no less than that of any up to the next node.
+  [[nodiscard]] double toWall(int k, const Between& at, double perSquare) const {
+    const double through =
+        diffuses ? perSquare * (diffusion[at.node] + at.part * (diffusion[at.node + 1] - diffusion[at.node])) : 0.0;
+    return takenByWall(drift, through) + outsideWallLayer(drift, through) * convected[k];
+  }
+  [[nodiscard]] double mostToWall(int k, std::size_t node, double perSquare) const {
+    const double through =
+        diffuses ? perSquare * std::max(diffusion[node], diffusion[std::min(node + 1, nodes - 1)]) : 0.0;
+    return takenByWall(drift, through) + std::max(convected[k], 0.0);
+  }
 };
 
 struct EnsembleTransport::Leaving {
@@ -93,9 +110,14 @@ double EnsembleTransport::massOf(const Gas& gas, int cell, double part) const {
 // kg/s, of the gas that particles of the cell see flow out through one of its faces.
 double EnsembleTransport::outflow(const Gas& gas, int face, int cell) const {
   const Mesh& m = context_.mesh;
-  if (m.high[face] < 0) return gas.state.massFlux[face];
-  const double flux = gas.state.massFlux[face] + options_.thermophoresis * gas.driftFlux[face];
+  const double flux =
+      gas.state.massFlux[face] +
+      (m.high[face] >= 0 || context_.takesParticles(face) ? options_.thermophoresis * gas.driftFlux[face] : 0.0);
   return m.low[face] == cell ? flux : -flux;
+}
+
+bool EnsembleTransport::diffuses(int face) const {
+  return options_.diffusion && (context_.mesh.high[face] >= 0 || context_.takesParticles(face));
 }
 
 // Of a local cell: D d^2 at the nodes.
@@ -132,7 +154,8 @@ void EnsembleTransport::findDensities(const Gas& gas, double part, const std::ve
     const BoundaryKind kind = context_.boundaryOf(face).kind;
     const bool isOpen = kind == BoundaryKind::Inlet || kind == BoundaryKind::Outlet;
     // Nothing comes in; what goes out is as what comes after it.
-    known_[face - m.interiorFaces] = !isOpen                          ? BoundaryData::ZeroSlope
+    known_[face - m.interiorFaces] = context_.takesParticles(face)    ? BoundaryData::Nothing
+                                     : !isOpen                        ? BoundaryData::ZeroSlope
                                      : gas.state.massFlux[face] < 0.0 ? BoundaryData::Value
                                                                       : BoundaryData::Nothing;
   }
@@ -149,27 +172,35 @@ void EnsembleTransport::findSides(const Gas& gas, int cell, double dt, double ma
     const int face = m.faceOfCell[i];
     if (m.area[face] <= 0.0) continue;
     const bool isLow = m.low[face] == cell;
-    const double convected = std::max(outflow(gas, face, cell), 0.0) * dt / mass;
+    const double out = outflow(gas, face, cell) * dt / mass, convected = std::max(out, 0.0);
     Side side;
     side.face = face;
     side.beyond = isLow ? m.high[face] : m.low[face];
-    side.diffuses = options_.diffusion && side.beyond >= 0;
+    side.diffuses = diffuses(face);
     if (!(convected > 0.0) && !side.diffuses) continue;
+    side.isWall = side.beyond < 0 && context_.takesParticles(face);
+    side.drift = out;
     Vector3 from = difference(m.faceCentreOf(cell, face), m.centre[cell]);
     for (int axis = 0; axis < m.dimension; ++axis)
       from[axis] -= 0.5 * dt * gas.state.velocity[static_cast<std::size_t>(cell) * m.dimension + axis];
     for (int k = 0; k < classes; ++k) {
       double ratio = 1.0;
-      if (options_.secondOrder && side.beyond >= 0 && present[k] > 0.0) {
+      if (options_.secondOrder && (side.beyond >= 0 || side.isWall) && present[k] > 0.0) {
         for (int axis = 0; axis < m.dimension; ++axis)
           ratio += slopes[k * m.dimension + axis] * from[axis] / present[k];
         side.isLimited[k] = ratio < 0.0 || ratio > 2.0;
         ratio = std::clamp(ratio, 0.0, 2.0);
       }
-      side.convected[k] = convected * ratio;
+      side.convected[k] = convected * (side.isWall ? ratio - 1.0 : ratio);
     }
     if (side.diffuses) {
       const double through = dt / mass * gas.faceDensity[face] * m.area[face] / m.distance[face];
+      if (side.isWall) {
+        const double* here = diffusivityOf(gas, cell);
+        for (std::size_t node = 0; node < nodes; ++node) side.diffusion[node] = through * here[node];
+        sides.push_back(side);
+        continue;
+      }
       const double own = isLow ? m.lowWeight[face] : 1.0 - m.lowWeight[face];
       const double *here = diffusivityOf(gas, cell), *there = diffusivityOf(gas, side.beyond);
       for (std::size_t node = 0; node < nodes; ++node)
@@ -204,10 +235,14 @@ int EnsembleTransport::sumChances(const double* row, const std::vector<Side>& si
   double sum = 0.0;
   for (std::size_t s = 0; s < sides.size(); ++s) {
     const Side& side = sides[s];
-    sum += side.convected[k];
-    if (side.diffuses)
-      sum += side.diffused[k] * perSquare *
-             (side.diffusion[at.node] + at.part * (side.diffusion[at.node + 1] - side.diffusion[at.node]));
+    if (side.isWall) {
+      sum += side.toWall(k, at, perSquare);
+    } else {
+      sum += side.convected[k];
+      if (side.diffuses)
+        sum += side.diffused[k] * perSquare *
+               (side.diffusion[at.node] + at.part * (side.diffusion[at.node + 1] - side.diffusion[at.node]));
+    }
     upTo[s] = sum;
   }
   return k;
@@ -222,6 +257,10 @@ void EnsembleTransport::boundChances(const std::vector<Side>& sides, std::span<d
     const int k = classOf(volume);
     const double d = sphereDiameter(volume), perSquare = 1.0 / (d * d);
     for (const Side& side : sides) {
+      if (side.isWall) {
+        bounds[node] += side.mostToWall(k, node, perSquare);
+        continue;
+      }
       bounds[node] += side.convected[k];
       if (side.diffuses)
         bounds[node] += side.diffused[k] * perSquare *
@@ -279,7 +318,10 @@ void EnsembleTransport::drawLeaving(int cell, const std::vector<Side>& sides, do
     for (std::size_t s = 0; s < sides.size(); ++s) {
       if (!(leave[s] > 0.0)) continue;
       Rows& to = sides[s].beyond < 0 ? gone_ : leavingRows_;
-      if (sides[s].beyond >= 0) leaving_.push_back({m.faceNumber[sides[s].face], sides[s].beyond, to.size()});
+      if (sides[s].beyond >= 0)
+        leaving_.push_back({m.faceNumber[sides[s].face], sides[s].beyond, to.size()});
+      else
+        goneThrough_.push_back(sides[s].face);
       to.insert(to.end(), &rows[i], &rows[i] + length);
       to[to.size() - length + packedNumberAt] = inCell * leave[s] / pieces;
     }
@@ -347,7 +389,7 @@ int EnsembleTransport::findParts(const Gas& gas, double dt, const std::vector<Ro
       const int face = m.faceOfCell[i];
       if (m.area[face] <= 0.0) continue;
       out += std::max(outflow(gas, face, cell), 0.0);
-      if (!options_.diffusion || m.high[face] < 0) continue;
+      if (!diffuses(face)) continue;
       const double* D = diffusivityOf(gas, cell) + at.node;
       out += gas.faceDensity[face] * m.area[face] / m.distance[face] * (D[0] + at.part * (D[1] - D[0])) /
              std::pow(sphereDiameter(volume), 2);
@@ -368,6 +410,7 @@ void EnsembleTransport::advance(const Gas& gas, double dt, std::uint64_t step, H
   const bool isFirst = half == Half::First;
   if (isFirst) {
     gone_.clear();
+    goneThrough_.clear();
     limited_ = 0;
     parts_ = 0;
   }

@@ -7,11 +7,12 @@
 //   p = dt/M_d [ max(m, 0) r + G(D) o ],   m = gas's mass flux out of d + thermophoresis, G = rho_f A D / distance,
 //
 // as carried scalars do: by upwind convection with the value at the face over that in the cell (r), and by diffusion
-// both ways. r is of second order in place and time: linear in the cell, by the gradient of the particles of like size
-// per mass of gas, at the place from which the gas reaches the face in the middle of the time; it is limited to between
-// 0 and 2, which no face value of a smooth field exceeds, and to nothing else: a limiter of slopes would bias what is
-// noisy. o corrects diffusion where the step from cell to cell is oblique to the face. Like sizes: volumes within a
-// factor of eight.
+// both ways. A wall that takes particles has the flux of drift and diffusion to it (flow/wall_flux.hpp), each particle
+// by its own diffusivity. r is of second order in place and time: linear in the cell, by the gradient of the particles
+// of like size per mass of gas, at the place from which the gas reaches the face in the middle of the time; it is
+// limited to between 0 and 2, which no face value of a smooth field exceeds, and to nothing else: a limiter of slopes
+// would bias what is noisy. o corrects diffusion where the step from cell to cell is oblique to the face. Like sizes:
+// volumes within a factor of eight.
 //
 // Which particles go is drawn evenly over their order (nextEvenPoint), by one random number of the cell and part of the
 // step: results do not depend on ranks. A numerical particle that stands for more than twice the mean goes in pieces,
@@ -45,7 +46,7 @@ class EnsembleTransport {
   // The gas of the step, whose mass fluxes are those that moved it: fields of all local cells and faces.
   struct Gas {
     const State& state;                       // with State::start
-    std::span<const double> driftFlux;        // kg/s, interior faces (CarriedTransport)
+    std::span<const double> driftFlux;        // kg/s, faces (CarriedTransport)
     std::span<const double> faceDensity;      // kg/m3
     std::span<const double> viscosity;        // Pa s
     std::span<const double> molecularWeight;  // kg/mol
@@ -63,8 +64,10 @@ class EnsembleTransport {
   void advance(const Gas& gas, double dt, std::uint64_t step, Half half, std::vector<Rows>& populations,
                std::vector<Rows>& arrived);
 
-  // Rows of what left through the boundary in the last step, of this rank's cells: numbers per metre depth or radian.
+  // Rows of what left through the boundary in the last step, of this rank's cells: numbers per metre depth or radian;
+  // and the face of each.
   [[nodiscard]] const Rows& gone() const { return gone_; }
+  [[nodiscard]] const std::vector<int>& goneThrough() const { return goneThrough_; }
   // In how many parts the halves of the last step were taken, so that no cell gives more than it has: two at least.
   [[nodiscard]] int parts() const { return parts_; }
   // How many numerical particles of this rank's cells moved in the last step, once a part, with a probability that was
@@ -85,6 +88,8 @@ class EnsembleTransport {
                      const std::vector<Rows>& arrived);
   void findSides(const Gas& gas, int cell, double dt, double mass, std::vector<Side>& sides);
   [[nodiscard]] double outflow(const Gas& gas, int face, int cell) const;
+  // Whether particles diffuse through a face.
+  [[nodiscard]] bool diffuses(int face) const;
   [[nodiscard]] double massOf(const Gas& gas, int cell, double part) const;
   int sumChances(const double* row, const std::vector<Side>& sides, std::span<double> upTo) const;
   static void boundChances(const std::vector<Side>& sides, std::span<double, nodes> bounds);
@@ -103,6 +108,7 @@ class EnsembleTransport {
   std::vector<char> isFound_;                // whether it is that of this half of the step
   std::vector<Leaving> leaving_;
   Rows leavingRows_, gone_;
+  std::vector<int> goneThrough_;
   int parts_ = 0;
   std::int64_t limited_ = 0;
 };

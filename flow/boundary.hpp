@@ -35,10 +35,11 @@ struct BoundaryCondition {
   // Inlet: true fixes the mass fractions at the face; false fixes the total species flux, convection and diffusion
   // together, at the fed flux (no diffusive loss into the nozzle), and lets gas that leaves go as it is.
   bool fixedComposition = false;
-  bool isothermal = false;   // Wall: at `temperature`; otherwise `heatFlux` comes through it
-  double heatFlux = 0.0;     // W/m^2, Wall: into the gas; zero: adiabatic
-  bool slip = false;         // Wall
-  BoundaryVariation varies;  // in place of the values above
+  bool isothermal = false;      // Wall: at `temperature`; otherwise `heatFlux` comes through it
+  double heatFlux = 0.0;        // W/m^2, Wall: into the gas; zero: adiabatic
+  bool slip = false;            // Wall
+  bool takesParticles = false;  // Wall: what is carried and touches it stays there (flow/wall_flux.hpp)
+  BoundaryVariation varies;     // in place of the values above
 };
 
 }  // namespace lampblack::flow

@@ -1,5 +1,7 @@
 // Scalars that the flow carries for a model (State::carried): convection with the gas and thermophoresis by the limited
-// scheme, explicit, then implicit diffusion; in several sweeps as the gas (TransportOperator).
+// scheme, explicit, then implicit diffusion; in several sweeps as the gas (TransportOperator). Walls that take
+// particles have the flux of drift and diffusion to a place without particles (flow/wall_flux.hpp), implicit as
+// diffusion is.
 #pragma once
 
 #include <span>
@@ -8,6 +10,7 @@
 #include "core/modules.hpp"
 #include "flow/face_state.hpp"
 #include "flow/flow_context.hpp"
+#include "flow/gas_properties.hpp"
 #include "flow/implicit_diffusion.hpp"
 #include "flow/state.hpp"
 
@@ -32,24 +35,28 @@ class CarriedTransport {
     const FaceState& faces;
     std::span<const double> faceVelocity;  // m/s, every face
     std::span<const double> newMass;       // kg, of the gas in each owned cell after the step
+    const GasProperties& properties;       // beside the boundaries
+    std::span<const double> heat;          // W, conducted through every face in the step
   };
   // Collective.
   void advance(State& state, const Gas& gas, double dt);
 
-  // Convective flux of the last step, per s, scalars a face, positive from low to high or outwards; what crosses the
-  // boundary is in here, as diffusion does not cross it.
+  // Flux of the last step, per s, scalars a face, positive from low to high or outwards: all that crosses the boundary,
+  // between cells the convective part.
   [[nodiscard]] std::span<const double> flux() const { return flux_; }
   // kg/s, what thermophoresis moves of the gas's mass through each face in the last step for a coefficient of one:
-  // particles drift as if so much gas flowed; not through the boundary.
+  // particles drift as if so much gas flowed; of the boundary's faces to the walls that take particles alone.
   [[nodiscard]] std::vector<double>& driftFlux() { return driftFlux_; }
   [[nodiscard]] const std::vector<double>& driftFlux() const { return driftFlux_; }
 
  private:
   void findDrift(const Gas& gas);
+  [[nodiscard]] double driftToWall(const Gas& gas, int face) const;
+  [[nodiscard]] double wallDiffusion(const State& state, const FaceState& faces, int face, int scalar) const;
   void convectiveFlux(const State& state, const Gas& gas);
   void diffuse(const State& state, const Gas& gas, double dt, std::span<double> content);
-  // Collective. Flux of the state by its own diffusivities, and the conductances (per s) it has through the interior
-  // faces.
+  void addCrossed(std::span<const double> flux);
+  // Collective. Flux of the state by its own diffusivities, and the conductances (per s) it has through the faces.
   void presentFlux(const State& state, const FaceState& faces, std::span<double> conductance,
                    std::span<double> flux) const;
 

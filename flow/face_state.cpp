@@ -86,6 +86,10 @@ void FaceState::setBoundaries(const State& state) {
     for (int s = 0; s < carried_; ++s) boundaryCarried_[b * carried_ + s] = isYGiven ? 0.0 : perMass_[c * carried_ + s];
   }
   for (int face = m.interiorFaces; face < m.faces; ++face) limitFed(state, face);
+  if (carried_ == 0) return;
+  carriedKnown_ = YKnown_;
+  for (int face = m.interiorFaces; face < m.faces; ++face)
+    if (context_.takesParticles(face)) carriedKnown_[face - m.interiorFaces] = BoundaryData::Nothing;
 }
 
 void FaceState::limitFed(const State& state, int face) {
@@ -116,7 +120,7 @@ void FaceState::prepare(const State& state, std::span<const double> Y) {
   gradient_.compute(state.temperature, boundaryTemperature_, 1, temperatureGradient_, temperatureKnown_);
   std::vector<FieldView> gradients{{temperatureGradient_, m.dimension}};
   if (carried_ > 0) {
-    gradient_.compute(perMass_, boundaryCarried_, carried_, carriedGradient_, YKnown_);
+    gradient_.compute(perMass_, boundaryCarried_, carried_, carriedGradient_, carriedKnown_);
     gradients.push_back({carriedGradient_, m.dimension * carried_});
   }
   context_.halo.update(gradients);
@@ -124,7 +128,7 @@ void FaceState::prepare(const State& state, std::span<const double> Y) {
   if (!m.isSkewed()) return;
   temperatureBounds_.prepare(state.temperature, boundaryTemperature_, temperatureKnown_);
   YBounds_.prepare(Y_, boundaryY_, YKnown_);
-  carriedBounds_.prepare(perMass_, boundaryCarried_, YKnown_);
+  if (carried_ > 0) carriedBounds_.prepare(perMass_, boundaryCarried_, carriedKnown_);
 }
 
 bool FaceState::enters(int face, double direction) const {
@@ -176,6 +180,14 @@ void FaceState::interpolate(const State& state, int face, double direction, std:
 
 double FaceState::carriedPerMass(int face, int scalar, double direction) const {
   return limited(YUpwind_.of(face, direction), face, perMass_, carriedGradient_, carriedBounds_, carried_, scalar);
+}
+
+double FaceState::carriedRiseToWall(int face, int scalar) const {
+  const Mesh& m = context_.mesh;
+  const int i = m.low[face] * carried_ + scalar;
+  const double present = std::max(perMass_[i], 0.0);
+  return std::clamp(slopeAlong(m.step[face], &carriedGradient_[static_cast<std::size_t>(i) * m.dimension], m.dimension),
+                    -present, present);
 }
 
 double FaceState::limited(const Upwind& u, int face, std::span<const double> values, std::span<const double> gradient,

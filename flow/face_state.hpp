@@ -36,6 +36,8 @@ class FaceState {
 
   // Limited value of a carried scalar per mass of gas at an interior face, upwind of `direction`.
   [[nodiscard]] double carriedPerMass(int face, int scalar, double direction) const;
+  // What it is more at a wall than in the cell, as it changes in the cell on the other side: no more than its value.
+  [[nodiscard]] double carriedRiseToWall(int face, int scalar) const;
   [[nodiscard]] std::span<const double> temperatureGradient() const { return temperatureGradient_; }
   // Temperature at a boundary face (faces - interiorFaces of them): given, or the cell's.
   [[nodiscard]] std::span<const double> boundaryTemperature() const { return boundaryTemperature_; }
@@ -55,8 +57,9 @@ class FaceState {
   int species_, carried_;
   std::span<const double> Y_;
   Gradient gradient_;
-  std::vector<BoundaryData> temperatureKnown_, YKnown_;  // of carried scalars as of Y
-  std::vector<BoundaryData> temperatureHeld_, YHeld_;    // the same, without what is fed with a given flux alone
+  std::vector<BoundaryData> temperatureKnown_, YKnown_;
+  std::vector<BoundaryData> carriedKnown_;             // as of Y, but at walls that take particles
+  std::vector<BoundaryData> temperatureHeld_, YHeld_;  // the same, without what is fed with a given flux alone
   UpwindGeometry temperatureUpwind_, YUpwind_;
   std::vector<double> boundaryTemperature_, boundaryY_, boundaryCarried_;
   std::vector<double> perMass_;

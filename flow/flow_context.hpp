@@ -54,6 +54,11 @@ struct FlowContext {
     const BoundaryValues::Face* values = varyingAt(face);
     return values ? values->heatFlux : boundaryOf(face).heatFlux;
   }
+  // Whether what is carried and touches this boundary face stays there.
+  [[nodiscard]] bool takesParticles(int face) const {
+    const BoundaryCondition& boundary = boundaryOf(face);
+    return boundary.kind == BoundaryKind::Wall && boundary.takesParticles;
+  }
   // Whether the mass fractions at this boundary face are given.
   [[nodiscard]] bool isCompositionGiven(int face) const {
     const BoundaryCondition& boundary = boundaryOf(face);

@@ -225,6 +225,7 @@ void TransportOperator::recordBoundary(const State& state, double dt) {
   const int scalars = state.carriedCount();
   boundary_ = {std::vector<double>(n, 0.0), std::vector<double>(n, 0.0), std::vector<double>(scalars, 0.0),
                std::vector<double>(scalars, 0.0)};
+  boundary_.time = dt;
   std::ranges::fill(boundaryFlows_, 0.0);
   const auto book = [dt](double outward, double& in, double& out) {
     (outward < 0.0 ? in : out) += dt * std::abs(outward);
@@ -314,7 +315,7 @@ void TransportOperator::advance(State& state, double time, double dt) {
   correctContents(mean, state, dt);
   addCompression();
   const std::vector<double>& meanViscosity = several ? meanViscosity_ : properties_.viscosity;
-  carried_.advance(state, {start, mean, meanViscosity, faces_, faceVelocity_, newMass_}, dt);
+  carried_.advance(state, {start, mean, meanViscosity, faces_, faceVelocity_, newMass_, properties_, heat_.heat}, dt);
   if (sweep_ == options_.sweeps) recordBoundary(state, dt);
   finish(state);
   state.thermodynamicPressure = state.start.thermodynamicPressure + expansion_.pressureRise();

@@ -51,6 +51,7 @@ class TransportOperator : public Operator {
     std::vector<double> speciesIn, speciesOut;
     std::vector<double> carriedIn, carriedOut;
     double enthalpyIn = 0.0, enthalpyOut = 0.0;  // J, conduction included
+    double time = 0.0;                           // s, of the step
   };
 
   TransportOperator(const FlowContext& context, const State& state, Options options);
@@ -80,6 +81,8 @@ class TransportOperator : public Operator {
   // faces, kg/m3.
   [[nodiscard]] std::span<const double> driftFlux() const { return carried_.driftFlux(); }
   [[nodiscard]] std::span<const double> faceDensity() const { return faces_.density; }
+  // CarriedTransport::flux(), of the last step.
+  [[nodiscard]] std::span<const double> carriedFlux() const { return carried_.flux(); }
   // Largest |p_eos - p0| / p0 of all cells. Collective.
   [[nodiscard]] double pressureDrift(const State& state);
 

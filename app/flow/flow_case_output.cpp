@@ -113,9 +113,10 @@ void addOutputKeys(DeckSchema& schema) {
                .list()
                .byDefault("[]"))
       .add(stringKey("output.boundaries",
-                     "Boundaries of which mass flow, heat and forces are written with each row of the history, to the "
-                     "tables tables/boundary_<name>.csv, in whose names a character that is no letter, digit, _, - or "
-                     "+ becomes _; 'all': all but periodic ones.")
+                     "Boundaries of which mass flow, heat, forces and what walls take of the particles are written "
+                     "with each row of the history, to the tables tables/boundary_<name>.csv, in whose names a "
+                     "character that is no letter, digit, _, - or + becomes _; 'all': all but periodic ones. Of walls "
+                     "that take particles tables/deposit_<name>.csv has each face, with each field output.")
                .list()
                .byDefault("[]"));
 }

@@ -75,6 +75,17 @@ FlowDomain::FlowDomain(Mesh partitioned, const FlowCase& flowCase, const Thermo&
     ensembles = std::make_unique<EnsembleOperator>(context, flow, flowCase.cellParticles, *flowCase.ensembles);
     operators.push_back(ensembles.get());
   }
+  if ((carried || ensembles) && DepositionOperator::isNeeded(flowCase.boundaries)) {
+    deposition = std::make_unique<DepositionOperator>(
+        context, carried ? flowCase.carried->material() : flowCase.cellParticles->material());
+    operators.push_back(deposition.get());
+    if (carried)
+      flow.watchBoundary([this, &model = *flowCase.carried](const TransportOperator::BoundaryAmounts& amounts) {
+        deposition->record(amounts.time, carriedThroughFaces(model, amounts.time));
+      });
+    else
+      ensembles->watchFaces([this](double dt, std::span<const double> gone) { deposition->record(dt, gone); });
+  }
   if (flowCase.radiation.on) {
     radiation =
         std::make_unique<RadiationOperator>(context, flowCase.radiation.surroundings, particleAbsorption(flowCase));
@@ -93,6 +104,21 @@ void FlowDomain::setStart(const FlowCase& flowCase) {
       ensembles->initialise(state, c, flowCase.startPopulation(static_cast<std::uint64_t>(mesh.naturalCell[c])));
   });
   flow.initialise(state, flowCase.time.firstStep);
+}
+
+std::vector<double> FlowDomain::carriedThroughFaces(const CarriedModel& model, double dt) const {
+  const std::size_t n = model.scalars().size();
+  std::vector<double> unit(n, 0.0);  // kg
+  for (std::size_t s = 0; s < n; ++s)
+    for (const double mass : model.scalars()[s].elements) unit[s] += mass;
+  std::vector<double> through;
+  const std::span<const double> flux = flow.carriedFlux().subspan(static_cast<std::size_t>(mesh.interiorFaces) * n);
+  for (std::size_t i = 0; i < flux.size(); i += n) {
+    double mass = 0.0;
+    for (std::size_t s = 0; s < n; ++s) mass += unit[s] * flux[i + s];
+    through.push_back(dt * mass);
+  }
+  return through;
 }
 
 void FlowDomain::beginBudget(const FlowCase& flowCase) {

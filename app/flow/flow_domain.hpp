@@ -11,6 +11,7 @@
 #include "coupling/ensemble_operator.hpp"
 #include "flow/budget.hpp"
 #include "flow/carried_operator.hpp"
+#include "flow/deposition_operator.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/radiation_operator.hpp"
 #include "flow/step_control.hpp"
@@ -29,6 +30,8 @@ struct FlowDomain {
   void setStart(const FlowCase& flowCase);
   // Collective. Counts from the present state on.
   void beginBudget(const FlowCase& flowCase);
+  // kg per metre depth or radian that each boundary face lets out of what the case's model carries, in the last step.
+  [[nodiscard]] std::vector<double> carriedThroughFaces(const CarriedModel& model, double dt) const;
 
   Mesh mesh;
   HaloExchange halo;
@@ -40,6 +43,7 @@ struct FlowDomain {
   StepControl stepControl;
   std::unique_ptr<CarriedOperator> carried;
   std::unique_ptr<EnsembleOperator> ensembles;
+  std::unique_ptr<DepositionOperator> deposition;  // null where no wall takes particles
   std::unique_ptr<RadiationOperator> radiation;
   std::vector<Operator*> operators;  // of these, each advances over the step, one after the other
   std::unique_ptr<Budget> budget;

@@ -129,7 +129,7 @@ class FlowLoop {
   // Writes the present state as a row of the history and of its tables.
   HistoryRow writeRow(HistoryWriter& history);
   [[nodiscard]] FlowTables::Source tableSource() {
-    return {domain_->state, domain_->flow, operators_, domain_->ensembles.get()};
+    return {domain_->state, domain_->flow, operators_, domain_->ensembles.get(), domain_->deposition.get()};
   }
 
   [[nodiscard]] std::string status(const HistoryRow& row) const;

@@ -31,6 +31,7 @@ bool isUsual(const std::string& field) {
 // Of the results.
 std::string groupOf(const std::string& kind, const std::string& name) {
   if (kind == "sizes" || kind == "joint") return "/regions/" + name + "/" + kind;
+  if (kind == "deposit") return "/boundaries/" + name + "/deposit";
   return (kind == "boundary" ? "/boundaries/" : "/" + kind + "s/") + name;
 }
 
@@ -57,7 +58,7 @@ std::string FlowTables::Table::header() const {
 }
 
 FlowTables::FlowTables(const FlowContext& context, const FlowCase& flowCase, const Source& source)
-    : context_(&context), case_(flowCase) {
+    : context_(&context), case_(flowCase), hasDeposition_(source.deposition != nullptr) {
   const OutputTables& tables = flowCase.output.tables;
   const auto axes = flowcase::axisNames(flowCase);
   if (!tables.probes.empty() || !tables.lines.empty()) chooseQuantities(source);
@@ -72,7 +73,7 @@ FlowTables::FlowTables(const FlowContext& context, const FlowCase& flowCase, con
         *probes_, [&](int p) { return "output.probes." + tables.probes[p].name + ".at"; }, "the probe");
   }
   for (const std::size_t b : tables.boundaries)
-    tables_.push_back({"boundary", flowcase::fileNameOf(flowCase.boundaries[b].name), boundaryColumns()});
+    tables_.push_back({"boundary", flowcase::fileNameOf(flowCase.boundaries[b].name), boundaryColumns(b)});
   for (const OutputTables::Line& line : tables.lines) {
     std::vector<Vector3> places;
     for (int p = 0; p < line.points; ++p) places.push_back(placeOn(line, p));
@@ -83,6 +84,15 @@ FlowTables::FlowTables(const FlowContext& context, const FlowCase& flowCase, con
     lines_.emplace_back(context, std::move(places));
     requireInside(
         lines_.back(), [&](int) { return "output.lines." + line.name; }, "a point of the line");
+  }
+  for (const std::size_t b : deposits()) {
+    std::vector<Quantity> columns = momentColumns;
+    for (const std::string& axis : axes)
+      columns.push_back({axis, "m", "coordinate of the face's middle along " + axis});
+    columns.push_back({"area", integralUnit(context.mesh, "m^2"), "of the face"});
+    columns.push_back({"deposition", "kg/m^2/s", "of particles on the face, mean of the step"});
+    columns.push_back({"deposited", "kg/m^2", "of particles on the face since the start"});
+    tables_.push_back({"deposit", flowcase::fileNameOf(flowCase.boundaries[b].name), columns});
   }
   makeRegions();
   for (std::size_t r = 0; r < regions_.size(); ++r) {
@@ -159,7 +169,15 @@ std::vector<Quantity> FlowTables::columnsOf(const std::vector<Quantity>& first) 
   return columns;
 }
 
-std::vector<Quantity> FlowTables::boundaryColumns() const {
+std::vector<std::size_t> FlowTables::deposits() const {
+  std::vector<std::size_t> found;
+  for (const std::size_t b : case_.output.tables.boundaries)
+    if (hasDeposition_ && case_.boundaries[b].kind == BoundaryKind::Wall && case_.boundaries[b].takesParticles)
+      found.push_back(b);
+  return found;
+}
+
+std::vector<Quantity> FlowTables::boundaryColumns(std::size_t boundary) const {
   const auto unit = [this](const char* of) { return integralUnit(context_->mesh, of); };
   std::vector<Quantity> columns = momentColumns;
   columns.push_back({"area", unit("m^2"), "of the boundary"});
@@ -170,6 +188,12 @@ std::vector<Quantity> FlowTables::boundaryColumns() const {
     for (const std::string& axis : flowcase::axisNames(case_))
       columns.push_back({fmt::format("{}_force_{}", part, axis), unit("N"),
                          fmt::format("{} force of the gas on it along {}", part, axis)});
+  if (hasDeposition_ && case_.boundaries[boundary].kind == BoundaryKind::Wall) {
+    columns.push_back({"deposition", unit("kg/s"), "of particles on the wall, mean of the step"});
+    columns.push_back({"mean_deposition", "kg/m^2/s", "the same over the wall's area"});
+    columns.push_back({"largest_deposition", "kg/m^2/s", "the same of the face that takes most"});
+    columns.push_back({"deposited", unit("kg"), "of particles on the wall since the start"});
+  }
   return columns;
 }
 
@@ -240,12 +264,16 @@ void FlowTables::historyRow(const Moment& moment, const Source& source) {
   }
   if (case_.output.tables.boundaries.empty()) return;
   const std::vector<BoundaryTotals> totals = source.transport.boundaryTotals(source.state);
+  std::vector<DepositionOperator::Totals> deposits;
+  if (source.deposition) deposits = source.deposition->totals();
   for (const std::size_t b : case_.output.tables.boundaries) {
     const BoundaryTotals& of = totals[b];
     std::vector<double> row = first;
     row.insert(row.end(), {of.area, of.massFlow, of.enthalpyFlow, of.heatFlow});
     for (const Vector3* force : {&of.pressureForce, &of.viscousForce})
       row.insert(row.end(), force->begin(), force->begin() + context_->mesh.dimension);
+    if (source.deposition && case_.boundaries[b].kind == BoundaryKind::Wall)
+      row.insert(row.end(), {deposits[b].rate, deposits[b].meanFlux(), deposits[b].largestFlux, deposits[b].mass});
     writers_[table++].row(row);
   }
 }
@@ -264,6 +292,15 @@ void FlowTables::outputRows(const Moment& moment, const Source& source) {
       rows.insert(rows.end(), place.begin(), place.begin() + context_->mesh.dimension);
       const auto begin = samples.begin() + static_cast<std::ptrdiff_t>(p * wanted_.size());
       rows.insert(rows.end(), begin, begin + static_cast<std::ptrdiff_t>(wanted_.size()));
+    }
+    writers_[table++].row(rows);
+  }
+  for (const std::size_t b : deposits()) {
+    std::vector<double> rows;
+    for (const DepositionOperator::Face& face : source.deposition->facesOf(static_cast<int>(b))) {
+      rows.insert(rows.end(), {static_cast<double>(moment.step), moment.time});
+      rows.insert(rows.end(), face.place.begin(), face.place.begin() + context_->mesh.dimension);
+      rows.insert(rows.end(), {face.area, face.flux, face.mass});
     }
     writers_[table++].row(rows);
   }

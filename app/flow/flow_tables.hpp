@@ -1,6 +1,6 @@
-// Tables of a flow: fields at probes and boundaries' sums, a row each row of the history; fields along lines, and sizes
-// of the particles in regions, at each output. A CSV file each in the folder `tables` of the run, and a group each of
-// the results (docs/formats.md).
+// Tables of a flow: fields at probes and boundaries' sums, a row each row of the history; fields along lines, what the
+// faces of walls have taken of the particles, and sizes of the particles in regions, at each output. A CSV file each in
+// the folder `tables` of the run, and a group each of the results (docs/formats.md).
 #pragma once
 
 #include <cstdint>
@@ -14,6 +14,7 @@
 #include "core/modules.hpp"
 #include "coupling/ensemble_operator.hpp"
 #include "coupling/ensemble_sizes.hpp"
+#include "flow/deposition_operator.hpp"
 #include "flow/field_sampler.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/operator.hpp"
@@ -33,6 +34,7 @@ class FlowTables {
     TransportOperator& transport;
     const std::vector<Operator*>& operators;
     const EnsembleOperator* ensembles = nullptr;
+    const DepositionOperator* deposition = nullptr;
   };
   struct Moment {
     std::int64_t step = 0;
@@ -48,7 +50,7 @@ class FlowTables {
   void open(const RunFolder& folder);
   // Of probes and boundaries, with a row of the history.
   void historyRow(const Moment& moment, const Source& source);
-  // Of lines and regions, with an output.
+  // Of lines, walls' faces and regions, with an output.
   void outputRows(const Moment& moment, const Source& source);
   void writeTo(ResultsWriter& results) const;
 
@@ -76,7 +78,9 @@ class FlowTables {
                      const std::string& what) const;
   [[nodiscard]] std::vector<FieldSampler::Field> fieldsOf(const Source& source) const;
   [[nodiscard]] std::vector<Quantity> columnsOf(const std::vector<Quantity>& first) const;
-  [[nodiscard]] std::vector<Quantity> boundaryColumns() const;
+  [[nodiscard]] std::vector<Quantity> boundaryColumns(std::size_t boundary) const;
+  // Of the boundaries that are asked for, those whose faces have a table.
+  [[nodiscard]] std::vector<std::size_t> deposits() const;
 
   const FlowContext* context_;
   const FlowCase& case_;
@@ -84,7 +88,8 @@ class FlowTables {
   std::unique_ptr<FieldSampler> probes_;  // a place a probe; null without any
   std::vector<FieldSampler> lines_;
   std::vector<EnsembleRegion> regions_;
-  std::vector<Table> tables_;  // probes, boundaries, lines, regions
+  bool hasDeposition_;
+  std::vector<Table> tables_;  // probes, boundaries, lines, walls' faces, regions
   std::vector<HistoryWriter> writers_;
   std::map<std::string, std::vector<double>> loaded_;  // rows by header
 };

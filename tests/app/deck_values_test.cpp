@@ -20,7 +20,8 @@ const std::string hydrogen = "mechanism: mechanisms/hydrogen_h2o2_10.yaml\n";
 TEST(DeckValues, OfAFlow) {
   const FlowCase flow = readFlowCase(test::flameDeck(
       {"pressure=2 atm", "seed=7", "boundaries.fuel.species=fixed", "boundaries.fuel.temperature=310 K",
-       "boundaries.fuel_flange.slip=true", "boundaries.oxidiser_flange.temperature=350 K",
+       "boundaries.fuel_flange.slip=true", "boundaries.fuel_flange.particles=reflect",
+       "boundaries.oxidiser_flange.temperature=350 K",
        "boundaries.outflow={type: outlet, side: r-max, temperature: 320 K, composition: \"O2: 1\"}",
        "initial={low: fuel, high: oxidiser, position: 3 mm, width: 1 mm, layer: hot, temperature: 1900 K, "
        "hot_position: 4 mm, hot_width: 0.5 mm}",
@@ -37,8 +38,10 @@ TEST(DeckValues, OfAFlow) {
   EXPECT_FALSE(b[1].fixedComposition);
   EXPECT_EQ(b[0].temperature, 310);
   EXPECT_TRUE(b[2].slip);
+  EXPECT_FALSE(b[2].takesParticles);
   EXPECT_FALSE(b[2].isothermal);
   EXPECT_FALSE(b[3].slip);
+  EXPECT_TRUE(b[3].takesParticles);
   EXPECT_TRUE(b[3].isothermal);
   EXPECT_EQ(b[3].temperature, 350);
   EXPECT_EQ(b[5].temperature, 320);

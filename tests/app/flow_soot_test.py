@@ -1,14 +1,17 @@
 """A flow's soot over a few steps against the closed solution: a gas of one temperature whose only reactant is naphthalene, which
-dimerises by its second-order law whatever the coupling and the step. And boxes that begin with soot of given sizes.
+dimerises by its second-order law whatever the coupling and the step. Boxes that begin with soot of given sizes. And what a cold wall
+takes of it: tables, history, report and budgets agree, from a checkpoint too, and with ensembles.
 
 Usage: flow_soot_test.py EXECUTABLE MPIEXEC...
 """
 
+import csv
 import math
 import pathlib
 import sys
 import tempfile
 
+import restart_test
 import running
 
 h5py = running.package("h5py")
@@ -33,7 +36,7 @@ def expected():
 BOX = f"""problem: flow
 mechanism: {running.SOURCE}/cases/mechanisms/{running.MECHANISM}
 mesh: {{geometry: planar, x: [{{to: 1 mm, cells: 2}}], y: [{{to: 1 mm, cells: 2}}]}}
-boundaries: {{west: {{type: wall, side: x-min}}, east: {{type: wall, side: x-max}}, south: {{type: wall, side: y-min}}, north: {{type: wall, side: y-max}}}}
+boundaries: {{west: {{type: wall, side: x-min, particles: reflect}}, east: {{type: wall, side: x-max, particles: reflect}}, south: {{type: wall, side: y-min, particles: reflect}}, north: {{type: wall, side: y-max, particles: reflect}}}}
 initial: {{layer: none, composition: "N2: 1", temperature: 600 K}}
 time: {{end: 20 us, maximum_step: 10 us, first_step: 10 us}}
 output: {{interval: 10 us}}
@@ -75,8 +78,49 @@ def check_begins(program, folder):
         assert result.code == 2 and expected_message in result.err, (result.code, result.err)
 
 
+def table(path):
+    """Rows, with numbers by the names of the columns without their units."""
+    with open(path, newline="", encoding="utf-8") as file:
+        return [{name.split(" ")[0]: float(value) for name, value in row.items()} for row in csv.DictReader(file)]
+
+
+def check_walls(program, other, deck, folder, *options):
+    """What the walls took, kg/rad."""
+    settings = running.settings(*(f"boundaries.{inlet}.{value}" for inlet in ("fuel", "oxidiser") for value in GAS),
+                                "boundaries.fuel_flange.temperature=600 K", "boundaries.oxidiser_flange.particles=reflect",
+                                "time.end=160 us", "time.maximum_step=20 us", "time.first_step=20 us", "output.interval=80 us",
+                                "output.boundaries=[all]", *options)
+    out = folder / "walls"
+    result = restart_test.run(program, deck, *settings, "--set", "checkpoint.steps=5", "--out", out)
+    last = table(out / "history.csv")[-1]
+    for element in ("mass", "C", "H"):
+        assert last[f"{element}_budget_error"] < 1e-12, (element, last)
+    rows = table(out / "tables/boundary_fuel_flange.csv")
+    assert abs(rows[-1]["deposited"] / last["soot_deposited"] - 1) < 1e-12 and rows[-1]["deposited"] > 0, (rows[-1], last)
+    gathered = sum(20e-6 * row["deposition"] for row in rows)
+    assert abs(rows[-1]["deposited"] / gathered - 1) < 1e-9, (rows[-1], gathered)
+    assert all(row["deposited"] == row["deposition"] == 0 for row in table(out / "tables/boundary_oxidiser_flange.csv"))
+    faces = [row for row in table(out / "tables/deposit_fuel_flange.csv") if row["step"] == rows[-1]["step"]]
+    assert [row["r"] for row in faces] == sorted(row["r"] for row in faces) and len(faces) == 2, faces
+    for column, name in (("deposited", "deposited"), ("deposition", "deposition")):
+        total = sum(row["area"] * row[column] for row in faces)
+        assert abs(total - rows[-1][name]) <= 1e-12 * total, (column, faces, rows[-1])
+    assert max(row["deposition"] for row in faces) == rows[-1]["largest_deposition"], (faces, rows[-1])
+    assert rows[-1]["mean_deposition"] * rows[-1]["area"] == rows[-1]["deposition"] or \
+        abs(rows[-1]["mean_deposition"] * rows[-1]["area"] / rows[-1]["deposition"] - 1) < 1e-12
+    assert not (out / "tables/deposit_oxidiser_flange.csv").exists()
+    assert f"soot on the wall fuel_flange: {rows[-1]['deposition']:.3g} kg/s/rad" in result.out, result.out
+    assert f"{rows[-1]['deposited']:.4g} kg/rad since the start" in result.out and "oxidiser_flange" not in result.out, result.out
+    restart_test.run(program, deck, *settings, "--out", folder / "rest", "--restart", out / "checkpoint/step_000005.h5")
+    restart_test.assert_equal(folder / "rest", out)
+    restart_test.run(other, deck, *settings, "--out", folder / "other", "--restart", out / "checkpoint/step_000005.h5")
+    elsewhere = table(folder / "other/history.csv")[-1]
+    assert abs(elsewhere["soot_deposited"] / last["soot_deposited"] - 1) < 1e-6, (elsewhere, last)
+    return rows[-1]["deposited"]
+
+
 def main(executable, *mpiexec):
-    program = running.Program(executable, list(mpiexec), 1)
+    program, other = (running.Program(executable, list(mpiexec), ranks) for ranks in (1, 2))
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         deck = running.small_case(folder)
@@ -95,6 +139,10 @@ def main(executable, *mpiexec):
             print(f"steps of {step}: {ratio:.6f}")
             assert abs(ratio - 1) < 5e-4, ratio
         check_begins(program, folder)
+        taken = check_walls(program, other, deck, folder)
+        ensembles = check_walls(program, other, deck, folder / "ensembles",
+                                "stochastic={particles: 50, minimum_number_density: 1e9 1/m^3}")
+        print(f"walls took {taken:.3g} kg/rad of the model's particles, {ensembles:.3g} of ensembles")
     print("passed")
 
 

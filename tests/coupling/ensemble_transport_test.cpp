@@ -30,7 +30,7 @@ struct Moving {
         state(box.state([&](const Vector3& x) {
           return Box::Local{velocity(x), 1500.0, Gas::hydrogen().massFractions("N2: 1")};
         })),
-        drift(at(box.mesh.interiorFaces)),
+        drift(at(box.mesh.faces)),
         density(at(box.mesh.faces), state.density[0]),
         viscosity(at(box.mesh.cells), 5e-5),
         weight(at(box.mesh.cells), 0.028),
@@ -41,6 +41,15 @@ struct Moving {
       state.massFlux[at(face)] =
           state.density[0] * m.area[at(face)] * dot(velocity(m.faceCentre[at(face)]), m.normal[at(face)]);
     state.keepStart();
+  }
+
+  void letWallsTake() {
+    for (BoundaryCondition& wall : box.context.boundaries) wall.takesParticles = true;
+  }
+  // Along x, of all faces.
+  void driftAt(double speed) {
+    for (int face = 0; face < box.mesh.faces; ++face)
+      drift[at(face)] = state.density[0] * box.mesh.area[at(face)] * speed * box.mesh.normal[at(face)][0];
   }
 
   // `number(x)` per m3 in each cell, as `count` numerical particles of diameters from 2 nm on, each a tenth larger.
@@ -124,7 +133,8 @@ std::vector<double> fieldAfter(const Moving& m, std::vector<double> field, doubl
   const double dt = 0.5 * step;
   const Mesh& mesh = m.box.mesh;
   std::vector<double> slope(at(mesh.cells) * 2), boundary(at(mesh.boundaryFaces()));
-  const std::vector<BoundaryData> known(boundary.size(), BoundaryData::ZeroSlope);
+  const bool take = m.box.context.boundaries[0].takesParticles;
+  const std::vector<BoundaryData> known(boundary.size(), take ? BoundaryData::Nothing : BoundaryData::ZeroSlope);
   const Gradient gradient(mesh);
   HaloExchange halo(mesh);
   for (int half = 0; half < 2 * steps; ++half) {
@@ -132,10 +142,10 @@ std::vector<double> fieldAfter(const Moving& m, std::vector<double> field, doubl
     gradient.compute(field, boundary, 1, slope, known);
     halo.update(slope, 2);
     std::vector<double> next = field;
-    for (int face = 0; face < mesh.interiorFaces; ++face) {
+    for (int face = 0; face < (take ? mesh.faces : mesh.interiorFaces); ++face) {
       const int low = mesh.low[at(face)], high = mesh.high[at(face)];
       const double flux = (m.state.massFlux[at(face)] + 0.55 * m.drift[at(face)]) / m.state.density[0];
-      const int up = flux > 0.0 ? low : high;
+      const int up = flux > 0.0 || high < 0 ? low : high;
       double value = field[at(up)];
       for (int axis = 0; axis < 2; ++axis) {
         const double from = mesh.faceCentre[at(face)][at(axis)] - mesh.centre[at(up)][at(axis)] -
@@ -143,6 +153,15 @@ std::vector<double> fieldAfter(const Moving& m, std::vector<double> field, doubl
         value += slope[at(2 * up + axis)] * from;
       }
       value = std::clamp(value, 0.0, 2.0 * field[at(up)]);
+      if (high < 0) {  // J = v c/(1 - e^-P), and coth(P/2) - 2/P of what c changes to the wall
+        const double P = flux / (diffusivity * mesh.area[at(face)] / mesh.distance[at(face)]);
+        const double outside = P > 0.0 ? 1.0 / std::tanh(0.5 * P) - 2.0 / P : 0.0;
+        const double all =
+            P == 0.0 ? diffusivity * mesh.area[at(face)] / mesh.distance[at(face)] : flux / (1.0 - std::exp(-P));
+        const double taken = all * field[at(low)] + flux * outside * (value - field[at(low)]);
+        next[at(low)] -= dt * taken / mesh.volume[at(low)];
+        continue;
+      }
       const double moved = dt * (flux * value + diffusivity * mesh.area[at(face)] / mesh.distance[at(face)] *
                                                     (field[at(low)] - field[at(high)]));
       next[at(low)] -= moved / mesh.volume[at(low)];
@@ -156,7 +175,7 @@ std::vector<double> fieldAfter(const Moving& m, std::vector<double> field, doubl
 
 struct Motion {
   std::string name;
-  bool turns, drifts, diffuses;
+  bool turns, drifts, diffuses, walls = false;
 };
 void PrintTo(const Motion& motion, std::ostream* out) {
   *out << motion.name;
@@ -165,7 +184,8 @@ void PrintTo(const Motion& motion, std::ostream* out) {
 class MeanOfParticles : public testing::TestWithParam<Motion> {};
 INSTANTIATE_TEST_SUITE_P(Motions, MeanOfParticles,
                          testing::Values(Motion{"convection", true, false, false}, Motion{"drift", false, true, false},
-                                         Motion{"diffusion", false, false, true}, Motion{"all", true, true, true}),
+                                         Motion{"diffusion", false, false, true}, Motion{"all", true, true, true},
+                                         Motion{"allWithWalls", true, true, true, true}),
                          [](const auto& info) { return info.param.name; });
 
 TEST_P(MeanOfParticles, IsTheFiniteVolumeField) {
@@ -177,9 +197,8 @@ TEST_P(MeanOfParticles, IsTheFiniteVolumeField) {
   for (int r = 0; r < repeats; ++r) {
     Moving m(
         cells, motion.turns ? vortex : [](const Vector3&) { return Vector3{}; });
-    if (motion.drifts)
-      for (int face = 0; face < m.box.mesh.interiorFaces; ++face)
-        m.drift[at(face)] = m.state.density[0] * m.box.mesh.area[at(face)] * 0.8 * m.box.mesh.normal[at(face)][0];
+    if (motion.drifts) m.driftAt(motion.walls ? 0.1 : 0.8);
+    if (motion.walls) m.letWallsTake();
     m.fill(40, hill, 0.0);
     EnsembleTransport transport = m.transport(motion.diffuses, 1000 + static_cast<std::uint64_t>(r));
     if (expected.empty()) {
@@ -364,14 +383,36 @@ TEST(EnsembleTransport, ErrsFourTimesLessOnHalfTheCells) {
   EXPECT_LT(fine, coarse / 2.8);
 }
 
-// The same particles on any number of ranks, in the same order.
+// The same particles on any number of ranks, in the same order; and the same at the walls, where all that is lost is.
 TEST(EnsembleTransport, DoesNotDependOnRanks) {
   Moving alone(8, vortex, MPI_COMM_SELF), together(8, vortex);
+  std::map<std::int64_t, std::vector<double>> gone[2];  // of each face, by its number
   for (Moving* m : {&alone, &together}) {
+    m->letWallsTake();
+    m->driftAt(0.1);
     m->fill(50, hill);
     EnsembleTransport transport = m->transport(true, 9);
-    for (int s = 0; s < 10; ++s) m->step(transport, 3e-4, static_cast<std::uint64_t>(s));
+    double taken = 0.0, start = 0.0, end = 0.0;
+    for (int c = 0; c < m->box.mesh.owned; ++c) start += m->box.mesh.volume[at(c)] * m->moment(c, 0.0);
+    for (int s = 0; s < 10; ++s) {
+      m->step(transport, 3e-4, static_cast<std::uint64_t>(s));
+      std::size_t row = 0;
+      ParticleRows{packedHead}.forEach(transport.gone(), [&](const double* particle) {
+        const int face = transport.goneThrough()[row++];
+        ASSERT_LT(m->box.mesh.high[at(face)], 0);
+        gone[m == &together ? 1 : 0][m->box.mesh.faceNumber[at(face)]].push_back(particle[packedNumberAt]);
+        taken += particle[packedNumberAt];
+      });
+      EXPECT_EQ(row, transport.goneThrough().size());
+    }
+    for (int c = 0; c < m->box.mesh.owned; ++c) end += m->box.mesh.volume[at(c)] * m->moment(c, 0.0);
+    if (m == &together)
+      for (double* sum : {&taken, &start, &end}) *sum = sumOverRanks(*sum);
+    EXPECT_NEAR((end + taken) / start, 1.0, 1e-13);
+    EXPECT_GT(taken, 0.01 * start);
   }
+  for (const auto& [face, numbers] : gone[1]) EXPECT_EQ(numbers, gone[0][face]) << face;
+  EXPECT_EQ(sumOverRanks(static_cast<double>(gone[1].size())), static_cast<double>(gone[0].size()));
   for (int c = 0; c < together.box.mesh.owned; ++c) {
     const int same = alone.box.mesh.findOwned(together.box.mesh.naturalCell[at(c)]);
     EXPECT_EQ(together.populations[at(c)], alone.populations[at(same)]) << c;

@@ -271,6 +271,105 @@ TEST_P(Carried, ThermophoresisDriftsToTheCold) {
   EXPECT_LT(relative, 0.0);
 }
 
+// Still gas between a warm wall at 0 and a cold one at L, both of which take particles, and as many particles coming
+// into every volume: J = w c - rho D c' rises by S L from one wall to the other. With P = w L/(rho D) the part 1/P -
+// 1/(e^P - 1) of them goes to the warm wall, and c = (J0 + S y)/w + S rho D/w^2 - S L/w e^(P y/L)/(e^P - 1), J0 = -S L
+// times that part. The warm wall is so little warmer, and the coefficient so large, that nothing else varies.
+struct Slab {
+  double toWarm = 0.0, toCold = 0.0, error = 0.0, unbooked = 0.0, least = 0.0;  // shares; mean error of c over its mean
+};
+Slab slabBetweenWalls(int cells, double peclet, int sweeps, bool diffuses = true, bool warmTakes = true) {
+  Gas& gas = Gas::hydrogen();
+  const std::vector<double> air = gas.massFractions("O2: 0.21, N2: 0.79");
+  const double length = 0.01, cold = 300.0, warmer = 0.03, v = peclet > 0.0 ? 0.02 : 0.0, source = 3.0;
+  std::vector<double> X(air.size()), D(air.size());
+  gas.thermo.massToMole(air, X);
+  const double density = gas.thermo.density(cold, 101325.0, air);
+  const double viscosity = gas.transport.mixture(cold, 101325.0, X, D).viscosity;
+  const double diffusivity = !diffuses ? 0.0 : peclet > 0.0 ? v * length / peclet : 5e-5;
+  std::vector<Side> sides{side(BoundaryKind::Symmetry, 0, false), side(BoundaryKind::Symmetry, 0, true),
+                          side(BoundaryKind::Wall, 1, false), side(BoundaryKind::Wall, 1, true)};
+  for (const std::size_t i : {2, 3}) {
+    sides[i].condition.isothermal = true;
+    sides[i].condition.temperature = i == 2 ? cold + warmer : cold;
+    sides[i].condition.takesParticles = i == 3 || warmTakes;
+  }
+  Box b(Geometry::Planar, {uniformAxis(1e-3, 2), uniformAxis(length, cells)}, sides);
+  State state = b.state(
+      [&](const auto& x) {
+        return Box::Local{{}, cold + warmer * (1.0 - x[1] / length), air};
+      },
+      {{"dust", "1/m3", "", v * density * cold * length / (viscosity * warmer)}});
+  std::fill(state.carriedDiffusivity.begin(), state.carriedDiffusivity.end(), diffusivity);
+  TransportOperator transport(b.context, state, {.sweeps = sweeps});
+  const double dt = v > 0.0 ? 0.4 * length / cells / v : 0.2;
+  transport.initialise(state, dt);
+  for (int c = 0; c < b.mesh.owned; ++c) state.balance.carried[at(c)] = source;
+  double through[2] = {0.0, 0.0}, taken = 0.0;
+  const double came = source * integral(b.mesh, [](int) { return 1.0; }) * dt;
+  int steps = 0;
+  Slab found;
+  for (const int enough = v > 0.0 ? 8 * cells : 30; steps < enough; ++steps) {
+    for (int sweep = 0; sweep < sweeps; ++sweep) transport.advance(state, steps * dt, dt);
+    taken += sumOverRanks(transport.boundaryAmounts().carriedOut[0]);
+  }
+  for (int face = b.mesh.interiorFaces; face < b.mesh.faces; ++face)
+    if (b.mesh.patch[at(face - b.mesh.interiorFaces)] >= 2)
+      through[b.mesh.patch[at(face - b.mesh.interiorFaces)] - 2] += transport.carriedFlux()[at(face)] * dt;
+  found.toWarm = sumOverRanks(through[0]) / came;
+  found.toCold = sumOverRanks(through[1]) / came;
+  const double content = integral(b.mesh, [&](int c) { return state.carried[at(c)]; });
+  found.unbooked = std::abs(content + taken - steps * came) / (steps * came);
+  const double w = v * density, g = density * diffusivity;
+  const auto exact = [&](double y) {  // c
+    if (!(w > 0.0)) return 0.5 * source * y * (length - y) / g;
+    if (!(g > 0.0)) return source * y / w;
+    const double J0 = -source * length * (1.0 / peclet - 1.0 / std::expm1(peclet));
+    return (J0 + source * y) / w + source * g / (w * w) -
+           source * length / w * std::exp(peclet * (y / length - 1.0)) / -std::expm1(-peclet);
+  };
+  const auto sum = [&](const auto& value) { return integral(b.mesh, value); };
+  found.error = sum([&](int c) { return std::abs(state.carried[at(c)] / density - exact(b.mesh.centre[at(c)][1])); }) /
+                sum([&](int c) { return exact(b.mesh.centre[at(c)][1]); });
+  found.least = -largest(b.mesh, [&](int c) { return -state.carried[at(c)]; });
+  return found;
+}
+
+TEST(Walls, TakeWhatDriftsAndDiffusesToThem) {
+  struct Case {
+    const char* name;
+    double peclet;
+    bool diffuses;
+    double share, error;  // most that are allowed on 20 cells
+  };
+  // A layer of a twentieth of a cell at the warm wall takes what comes into it: that is not resolved.
+  for (const Case& one :
+       {Case{"diffusion", 0.0, true, 2e-5, 4e-3}, Case{"both", 4.0, true, 1.6e-3, 2.7e-3},
+        Case{"a thin layer at the wall", 400.0, true, 2.6e-3, 6e-3}, Case{"drift", 1.0, false, 0.0, 1e-4}}) {
+    SCOPED_TRACE(one.name);
+    const double exact = !one.diffuses       ? 0.0
+                         : one.peclet == 0.0 ? 0.5
+                                             : 1.0 / one.peclet - 1.0 / std::expm1(one.peclet);
+    const int sweeps = one.peclet == 4.0 ? 2 : 1;
+    const Slab coarse = slabBetweenWalls(10, one.peclet, 1, one.diffuses);
+    const Slab fine = slabBetweenWalls(20, one.peclet, sweeps, one.diffuses);
+    report(fmt::format("{}: to the warm wall {:.5f} and {:.5f}, exact {:.5f}; error of c {:.2e} and {:.2e}", one.name,
+                       coarse.toWarm, fine.toWarm, exact, coarse.error, fine.error));
+    EXPECT_LE(std::abs(fine.toWarm - exact), one.share);
+    EXPECT_NEAR(fine.toWarm + fine.toCold, 1.0, 1e-4) << "not steady";
+    EXPECT_LT(fine.error, one.error);
+    EXPECT_LT(fine.unbooked, 1e-12);
+    EXPECT_GE(fine.least, 0.0);
+  }
+}
+
+// A wall that reflects has none, and one that is told to takes all.
+TEST(Walls, TakeNoneWhereTheyReflect) {
+  const Slab one = slabBetweenWalls(10, 4.0, 1, true, false);
+  EXPECT_EQ(one.toWarm, 0.0);
+  EXPECT_GT(one.toCold, 0.99);
+}
+
 INSTANTIATE_TEST_SUITE_P(Geometries, Carried, testing::Values(Geometry::Planar, Geometry::Axisymmetric));
 
 }  // namespace
