@@ -152,6 +152,7 @@ void followInTime(MPI_Comm comm, FlameCase& flame, const RunFolder& folder, Atte
   last.budgets.clear();  // those of a steady flame
   last.growthRate.reset();
   last.burnerHeatFlux.reset();
+  last.deposition.reset();
   attempt.course = flameInTime(comm, flame, last.profile, *attempt.history);
   if (!attempt.course->failure.empty()) attempt.failure = attempt.course->failure;
   collectively(comm, [&] { attempt.result = flameResult(flame, std::move(last), !attempt.failure); });

@@ -101,6 +101,25 @@ std::vector<FlameBudget> FlameEquations::budgets(std::span<const double> x) {
   return result;
 }
 
+WallDeposition FlameEquations::wallDeposition(std::span<const double> x) {
+  Data& d = *data_;
+  const std::size_t S = d.scalars(), last = d.points() - 1;
+  d.setUnknowns(x);
+  collectively(d.comm, [&] {
+    d.chooseBlend();
+    d.evaluate(last - 1, d.points());
+  });
+  WallDeposition taken;
+  for (std::size_t s = 0; s < S; ++s) {
+    double mass = 0;
+    for (const double part : d.gas.scalarElements[s]) mass += part;
+    taken.all += mass * d.scalarFluxRight(last, s);
+    const double drift = std::max(d.gas.scalarThermophoresis[s] * d.gas.faces.drift[last - 1], 0.0);
+    taken.byThermophoresis += mass * drift * d.profile.scalars(last)[s] * d.gas.scalarScale[s];
+  }
+  return taken;
+}
+
 double FlameEquations::burnerHeatFlux(std::span<const double> x) {
   Data& d = *data_;
   d.setUnknowns(x);

@@ -43,6 +43,11 @@ struct FlameBudget {
   [[nodiscard]] double imbalance() const { return in + given - out - wall - radiated; }
 };
 
+// What the wall of a flame takes of the particles, kg/m2/s: in all, and as they drift alone.
+struct WallDeposition {
+  double all = 0, byThermophoresis = 0;
+};
+
 class FlameEquations : public UnsteadySystem {
  public:
   // `carried` may be null; it has to live as long. InputError for problems that make no sense.
@@ -101,6 +106,7 @@ class FlameEquations : public UnsteadySystem {
   // Heat that the gas gives to the burner, W/m2, positive into it: what the volume at z = 0 has to lose to keep the
   // temperature that it is given. Collective.
   [[nodiscard]] double burnerHeatFlux(std::span<const double> x);
+  [[nodiscard]] WallDeposition wallDeposition(std::span<const double> x);
 
   struct Counters {
     std::size_t residuals = 0, jacobians = 0;

@@ -79,7 +79,8 @@ struct FlameEquations::Data {
   // Of a species through the left and right surfaces of the control volume of point i, kg/m2/s.
   [[nodiscard]] double speciesFluxLeft(std::size_t i, std::size_t k) const;
   [[nodiscard]] double speciesFluxRight(std::size_t i, std::size_t k) const;
-  // Velocity (times density) of scalar s at an end, towards larger z; zero where it would bring scalars in.
+  // Velocity (times density) of scalar s at an end, towards larger z; zero where it would bring scalars in. At a wall
+  // drift and diffusion to a place without particles, over the value that the flame has there.
   [[nodiscard]] double endDrift(std::size_t s, bool right) const;
   [[nodiscard]] double scalarFluxLeft(std::size_t i, std::size_t s) const;
   [[nodiscard]] double scalarFluxRight(std::size_t i, std::size_t s) const;

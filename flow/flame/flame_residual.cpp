@@ -1,6 +1,7 @@
 // The residual of a point and of the unknowns of the whole flame.
 #include "core/constants.hpp"
 #include "flow/flame/flame_equations_data.hpp"
+#include "flow/wall_flux.hpp"
 
 namespace lampblack::flow {
 
@@ -18,6 +19,7 @@ double FlameEquations::Data::endDrift(std::size_t s, bool right) const {
   const std::size_t face = right ? points() - 2 : 0;
   const double m = right ? profile.at(points() - 1, FlameLayout::massFlux) : profile.global(leftMassFlux);
   const double w = m + gas.scalarThermophoresis[s] * gas.faces.drift[face];
+  if (right && rightEnd == FlameEnd::Wall) return takenAtWall(w, gas.faces.scalarConductance[face * scalars() + s]);
   return right ? std::max(w, 0.0) : std::min(w, 0.0);
 }
 

@@ -297,6 +297,8 @@ void FlameSolver::Data::solve() {
   });
   solution.budgets = equations.budgets(solution.profile.x);
   if (problem.type == FlameType::Burner) solution.burnerHeatFlux = equations.burnerHeatFlux(solution.profile.x);
+  if (problem.type == FlameType::Wall && equations.layout().scalars > 0)
+    solution.deposition = equations.wallDeposition(solution.profile.x);
 }
 
 }  // namespace lampblack::flow

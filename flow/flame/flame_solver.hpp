@@ -49,8 +49,9 @@ struct FlameSolution {
   std::vector<FlameBudget> budgets;
   // 1/s, of the disturbance by which the flame would leave this solution (flame_stability.hpp); empty: none was found.
   std::optional<double> growthRate;
-  std::optional<double> burnerHeatFlux;  // W/m2, into the burner
-  std::size_t starts = 1;                // that were tried
+  std::optional<double> burnerHeatFlux;      // W/m2, into the burner
+  std::optional<WallDeposition> deposition;  // of a flame with scalars against a wall
+  std::size_t starts = 1;                    // that were tried
   // Of a scalar in the last of the last steps, over its largest value. Above FlameSolverOptions::scalarChange: the
   // values of scalars at faces have not settled in the passes allowed, although the equations with these values are
   // solved.
