@@ -33,6 +33,17 @@ if(LAMPBLACK_SANITIZE)
   endif()
 endif()
 
+# Some sixty programs, most of them tests, are linked: by gold, where it is there, in a third of the time of the usual linker. Not what
+# is packaged, and not what is optimised where it is linked.
+option(LAMPBLACK_GOLD "Link with gold where the compiler finds it" ON)
+if(LAMPBLACK_GOLD AND NOT LAMPBLACK_DEBIAN_PACKAGE AND NOT CMAKE_INTERPROCEDURAL_OPTIMIZATION)
+  include(CheckLinkerFlag)
+  check_linker_flag(CXX -fuse-ld=gold LAMPBLACK_HAS_GOLD)
+  if(LAMPBLACK_HAS_GOLD)
+    add_link_options(-fuse-ld=gold)
+  endif()
+endif()
+
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   # What ccache has to be told before it stores what is compiled with a precompiled header.
