@@ -17,8 +17,8 @@ namespace lampblack {
 // Fills the row of a repeat. May not communicate.
 using RunRepeat = std::function<void(std::uint64_t repeat, std::span<double> row)>;
 
-// Collective. Runs the repeats from `first` to before `end`, each leaving `width` numbers. Their rows one after another
-// on rank 0, nothing on the others. What fails on any rank is raised on all (collectively()).
+// Collective. Runs the repeats from `first` to before `end`, each leaving `width` numbers. Returns the rows one after
+// another on rank 0, nothing on the others. What fails on any rank is raised on all (collectively()).
 [[nodiscard]] std::vector<double> gatherRepeats(MPI_Comm comm, std::uint64_t first, std::uint64_t end,
                                                 std::size_t width, const RunRepeat& run);
 

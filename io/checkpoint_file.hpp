@@ -1,6 +1,6 @@
 // One checkpoint: the pieces of a StateArchive in an HDF5 file, in the global order of cells and faces, so that any
-// number of ranks can read it; and what has to agree where it is read. It is written under a temporary name and sealed
-// (sealed_file.hpp). docs/formats.md describes the file. Everything is collective.
+// number of ranks can read it; and what has to agree where it is read. The file is written under a temporary name and
+// sealed (sealed_file.hpp). docs/formats.md describes the file. Everything is collective.
 #pragma once
 
 #include <mpi.h>

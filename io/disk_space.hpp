@@ -20,8 +20,8 @@ namespace lampblack::io {
 // long then. Where the file system cannot promise that, the free space is looked at. refuseWrite() where it has none.
 void claimSpace(const std::filesystem::path& path, std::int64_t from, std::int64_t end, const std::string& keeps = {});
 
-// Space that is kept free for what has to be written last. It belongs to a file without a name, so that nothing of it
-// stays however the process ends.
+// Space that is kept free for what has to be written last. The space belongs to a file without a name, so that nothing
+// of it stays however the process ends.
 class SpareSpace {
  public:
   // In the file system of `folder`. SystemError where the disk is too full.

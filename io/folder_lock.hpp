@@ -7,7 +7,7 @@
 
 namespace lampblack::io {
 
-// A lock on the folder itself (flock), held while this lives. It leaves no file behind and ends with the process,
+// A lock on the folder itself (flock), held while this lives. The lock leaves no file behind and ends with the process,
 // however that ends. Between machines that share a disk it holds where their file system passes it on; a file system
 // without locks gives none.
 class FolderLock {

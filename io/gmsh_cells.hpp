@@ -1,5 +1,5 @@
 // The elements of Gmsh that Lampblack has (Geuzaine and Remacle 2009; the reference manual of Gmsh, "MSH file format":
-// the numbers of the types). Those of higher order are known by their corners.
+// the numbers of the types). Elements of higher order are known by their corners.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
-// The folder a run writes to. It is made when missing, and refused when it already holds a run - finished, failed or
-// still going - so that nothing is overwritten unless the user says so. One that is still going keeps its folder
-// locked: nobody can replace it.
+// The folder a run writes to. A missing folder is made. A folder that already holds a run - finished, failed or still
+// going - is refused, so that nothing is overwritten unless the user says so. A run that is still going keeps its
+// folder locked: nobody can replace it.
 #pragma once
 
 #include <mpi.h>

@@ -1,7 +1,7 @@
 // How long a run will still take, once that can be said. The first steps of a run tell little: they are small and grow,
 // so that time divided by share promises days for what takes minutes. Therefore the pace is that of the last quarter of
-// the time so far. It counts as known when 5 % are done, or when after twenty reports the quarter before had the same
-// pace within a fourth.
+// the time so far. The time left counts as known when 5 % are done, or when after twenty reports the quarter before
+// had the same pace within a fourth.
 #pragma once
 
 #include <cstddef>

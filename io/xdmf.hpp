@@ -36,7 +36,7 @@ bool isTopology(int dimension, int corners);
 // XDMF's number for them in a topology of several kinds.
 std::int64_t topologyNumber(int dimension, int corners);
 
-// The whole file as text; `file` is the HDF5 file's name beside it. It is the head, the text of each step and the tail.
+// The whole file as text; `file` is the HDF5 file's name beside it. The text is the head, each step and the tail.
 std::string xdmfText(const std::string& file, const XdmfMesh& mesh, const std::vector<XdmfStep>& steps);
 std::string xdmfStepText(const std::string& file, const XdmfMesh& mesh, const XdmfStep& step);
 std::string_view xdmfTail();

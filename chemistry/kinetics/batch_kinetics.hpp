@@ -4,7 +4,7 @@
 // object holds its workspace, so use one per thread or rank.
 //
 // The rates of a state depend on its temperature and concentrations alone: not on its place in the batch, on the other
-// states or on their number, to the last bit. They agree with Kinetics to round-off, and between instruction sets.
+// states or on their number, to the last bit. Rates agree with Kinetics to round-off, and between instruction sets.
 #pragma once
 
 #include <cstddef>

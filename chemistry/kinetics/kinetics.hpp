@@ -57,8 +57,8 @@ class Kinetics {
   void ratesOfProgress(double T, std::span<const double> concentrations, std::span<double> forward,
                        std::span<double> reverse);
 
-  // Rate constants in the mechanism's order. Those of reactions that depend on pressure are effective ones; those of
-  // three-body reactions exclude [M]. Irreversible reactions have reverse constant 0.
+  // Rate constants in the mechanism's order. Constants of reactions that depend on pressure are effective ones.
+  // Constants of three-body reactions exclude [M]. Irreversible reactions have reverse constant 0.
   void rateConstants(double T, std::span<const double> concentrations, std::span<double> forward,
                      std::span<double> reverse);
 

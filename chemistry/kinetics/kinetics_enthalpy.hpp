@@ -17,7 +17,7 @@ class EnthalpyFactors {
 
   // ln of the factors of tables.enthalpyDependent, from h/RT of all species.
   std::span<const double> logarithms(const KineticsTables& tables, double T, const double* enthalpyOverRT);
-  // Their derivatives by T, 1/K; also needs cp/R.
+  // Derivatives of the logarithms by T, 1/K; also needs cp/R.
   std::span<const double> slopes(const KineticsTables& tables, double T, const double* enthalpyOverRT,
                                  const double* cpOverR);
 

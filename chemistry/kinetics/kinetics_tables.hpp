@@ -22,7 +22,7 @@ namespace lampblack::chemistry {
 
 struct KineticsTables {
   // A reaction with more than three reactants, or products if reversible, decimal coefficients or orders: handled by
-  // explicit powers (concentration_power.hpp). Its slots are empty.
+  // explicit powers (concentration_power.hpp). The reaction's slots are empty.
   struct GeneralReaction {
     std::size_t reaction = 0;
     std::vector<StoichiometricTerm> forwardOrders, reverseOrders;

@@ -27,7 +27,7 @@ class Equilibrium {
   void atTemperatureAndPressure(double T, double p, std::span<double> Y);
   void atTemperatureAndDensity(double T, double density, std::span<double> Y);
   // Enthalpy h (J/kg, with enthalpies of formation) or entropy s (J/kg/K) and pressure, internal energy u (J/kg) and
-  // density. They return the temperature, which is searched in [Thermo::minTemperature, Thermo::maxTemperature].
+  // density. Returned is the temperature, which is searched in [Thermo::minTemperature, Thermo::maxTemperature].
   double atEnthalpyAndPressure(double h, double p, std::span<double> Y);
   double atEntropyAndPressure(double s, double p, std::span<double> Y);
   double atEnergyAndDensity(double u, double density, std::span<double> Y);

@@ -1,9 +1,9 @@
 // Multicomponent transport of a gas: the linear systems of Dixon-Lewis, Proc. R. Soc. Lond. A 307 (1968) 111-135, in
-// the notation of Kee, Coltrin, Glarborg (2003, section 12.4). They give the conductivity with its translational,
-// rotational and vibrational parts, the coefficients of thermal diffusion, and ordinary diffusion as fluxes or as a
-// matrix of coefficients. The systems are symmetric: conjugate gradients (Ern, Giovangigli 1994) solve them without
-// forming what only an elimination would need; matrices of coefficients take an LU factorisation. What depends on
-// temperature alone is kept for the next call. An object holds its workspace, so use one per thread.
+// the notation of Kee, Coltrin, Glarborg (2003, section 12.4). The systems give the conductivity with its
+// translational, rotational and vibrational parts, the coefficients of thermal diffusion, and ordinary diffusion as
+// fluxes or as a matrix of coefficients. All are symmetric: conjugate gradients (Ern, Giovangigli 1994) solve them
+// without forming what only an elimination would need; matrices of coefficients take an LU factorisation. What depends
+// on temperature alone is kept for the next call. An object holds its workspace, so use one per thread.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // A symmetric matrix over pairs of species whose entries are polynomials, M_jk(s) = sum_m a_jkm s^m, and its products
-// with vectors. Its coefficients fill more than the innermost cache: one pass through those of the lower triangle forms
+// with vectors. The coefficients fill more than the innermost cache: one pass through those of the lower triangle forms
 // every entry in a register and uses it twice.
 #pragma once
 

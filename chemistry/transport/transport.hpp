@@ -67,7 +67,7 @@ class Transport {
   };
 
   // Properties of the mixture with mole fractions X (negative values count as zero) at T (K), p (Pa). D receives the
-  // diffusion coefficients (m2/s) of the model of `options`. Those of the mixture-averaged one, (1-Y_k)/sum_{j!=k}
+  // diffusion coefficients (m2/s) of the model of `options`. Mixture-averaged coefficients, (1-Y_k)/sum_{j!=k}
   // X_j/D_jk, relate mass fluxes in the mass-averaged frame to gradients of mole fractions:
   // j_k = -rho W_k/W D_k grad X_k. Every X is raised by 1e-12 first, which gives the formula its limit where one
   // species is alone.

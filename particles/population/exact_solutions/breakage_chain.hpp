@@ -2,7 +2,7 @@
 //
 //   dN_k/dt = b B_(k-1) N_(k-1) - B_k N_k,   N_0(0) = 1.
 //
-// N_k / b^k is the probability that a piece has broken k times. It is summed over a Poisson process of rate B_0 that
+// N_k / b^k is the probability that a piece has broken k times. The sum is over a Poisson process of rate B_0 that
 // breaks a piece of generation k with probability B_k / B_0 (uniformisation; Jensen 1953): only positive terms, so that
 // every N_k comes out to round-off relative to itself.
 #pragma once

@@ -1,4 +1,4 @@
-// Aggregates by volume and surface (Kraft 2022, "surface-volume models"). They are thought of as n_p equal
+// Aggregates by volume and surface (Kraft 2022, "surface-volume models"). An aggregate is thought of as n_p equal
 // primaries of diameter d_p,
 //
 //   d_p = 6 V / S,  n_p = S^3 / (36 pi V^2),  d_c = d_p n_p^(1/D_f),

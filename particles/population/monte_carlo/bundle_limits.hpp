@@ -40,7 +40,7 @@ class BundleLimits {
  private:
   // Up to which parts of the number particles are tried as the small ones.
   static constexpr std::array<double, 4> triedParts{0.4, 0.6, 0.75, 0.9};
-  // Of what the mean small particle stands for. Those that stand for less than this would lose half of it to a few
+  // Of what the mean small particle stands for. Particles that stand for less than this would lose half of it to a few
   // collectors, and are not many meetings.
   static constexpr double leastPart = 0.05;
   // Of the events without bundles that are left: with more, the larger sums and products cost what is saved.

@@ -24,7 +24,7 @@ struct InitialMember {
 // docs/theory/population_balance/equal_weights.md.
 [[nodiscard]] std::vector<InitialMember> initialMembers(const InitialPopulation& initial, std::size_t count,
                                                         RandomStream& random);
-// Their volumes in increasing order.
+// The volumes of such members in increasing order.
 [[nodiscard]] std::vector<double> initialVolumes(const InitialPopulation& initial, std::size_t count,
                                                  RandomStream& random);
 

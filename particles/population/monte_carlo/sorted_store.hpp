@@ -111,7 +111,7 @@ class SortedStore {
   }
   [[nodiscard]] Slot locate(double volume, double weight) const;
 
-  // Two random numbers find a pair. They are drawn two attempts ahead, so that what they will most likely find is in
+  // Two random numbers find a pair. Both are drawn two attempts ahead, so that what they will most likely find is in
   // the cache by then: first the sums over its chunks, then the chunks. What they do find is up to the sums of that
   // time.
   struct PairDraw {

@@ -125,7 +125,8 @@ inline bool SortedStore<Rates>::lessen(Place place, double weight) {
   Chunk& chunk = chunks_[place.slot];
   const double before = chunk.weight(place.at), volume = chunk.volume(place.at);
   if (weight == before) return true;
-  // It may come to be before entries of the same volume, but as the first one might be below the chunk's boundary.
+  // The entry may come to be before entries of the same volume, but as the first one might be below the chunk's
+  // boundary.
   if (place.at == 0 || !chunk.below(0, volume, weight)) return false;
   std::uint32_t to = place.at;
   while (!chunk.below(to - 1, volume, weight)) --to;

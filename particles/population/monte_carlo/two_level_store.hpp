@@ -88,7 +88,7 @@ class TwoLevelStore {
     isMeasured_ = false;
   }
 
-  // Those of what was taken out are in the rates until something goes in or is drawn: a bound all the same.
+  // Rates of what was taken out are in the sum until something goes in or is drawn: a bound all the same.
   [[nodiscard]] double pairRate() const {
     measure();
     double sum = 0;

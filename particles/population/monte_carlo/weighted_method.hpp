@@ -160,7 +160,7 @@ class WeightedMethod {
     track(entry, 1);
     store_.insert(entry);
   }
-  // It will be put in soon.
+  // The particle will be put in soon.
   void expect(const Particle& particle, double weight) {
     if constexpr (requires { store_.expect(Entry{particle, weight}); }) store_.expect({particle, weight});
   }

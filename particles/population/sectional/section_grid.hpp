@@ -1,7 +1,7 @@
 // The sections of the volume axis: one at volume zero, then pivots in a geometric row. What lies between two of them is
 // divided between both so that number and volume are kept (Kumar and Ramkrishna 1996); for that the section at zero is
-// the lower neighbour of the first pivot. It holds number without volume: the part of the number that a coarse view of
-// what is smaller than the first pivot needs.
+// the lower neighbour of the first pivot. That section holds number without volume: the part of the number that a
+// coarse view of what is smaller than the first pivot needs.
 #pragma once
 
 #include <cstddef>

@@ -9,8 +9,8 @@
 //
 //   L_k = G_k where r > 1,  G_k (1 - (1 - r)^2) elsewhere, in the sense of the flux limiters of Sweby (1984).
 //
-// It is close to G where the spectrum is smooth and goes to upwind at steep fronts; its first derivative has no jump,
-// which implicit integration likes, and no number becomes negative.
+// The limiter is close to G where the spectrum is smooth and goes to upwind at steep fronts. Its first derivative has
+// no jump, which implicit integration likes. No number becomes negative.
 #pragma once
 
 #include <cstddef>
