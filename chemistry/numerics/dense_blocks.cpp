@@ -174,16 +174,32 @@ void DenseBlocks::subtractProduct(std::size_t m, std::size_t n, std::size_t k, c
   }
 }
 
-void DenseBlocks::solveUnitLower(std::size_t n, const double* L, std::size_t ld, std::size_t columns, double* B) {
+void DenseBlocks::solveUnitLower(std::size_t n, const double* L, std::size_t ld, std::size_t columns, double* B,
+                                 std::size_t ldb) {
   double* packed = scratch(pack * std::max(n, pack));
   for (std::size_t i = 0; i < n; i += pack) {
     const std::size_t rows = std::min(pack, n - i);
     if (i > 0) {
       packRows(1, rows, i, L + i, ld, packed);
-      multiplyPacked(tiles_, true, 1, rows, columns, i, packed, B, ld, B + i, ld);
+      multiplyPacked(tiles_, true, 1, rows, columns, i, packed, B, ldb, B + i, ldb);
     }
     invertUnitLower(rows, L + i * ld + i, ld, packed);
-    multiplyPacked(tiles_, false, 1, rows, columns, rows, packed, B + i, ld, B + i, ld);
+    multiplyPacked(tiles_, false, 1, rows, columns, rows, packed, B + i, ldb, B + i, ldb);
+  }
+}
+
+void DenseBlocks::solveUpper(std::size_t n, const double* U, std::size_t ld, std::size_t columns, double* B,
+                             std::size_t ldb) {
+  double* packed = scratch(pack * std::max(n, pack));
+  for (std::size_t i = (n + pack - 1) / pack * pack; i > 0;) {
+    i -= pack;
+    const std::size_t end = std::min(i + pack, n);
+    if (end < n) {
+      packRows(1, end - i, n - end, U + end * ld + i, ld, packed);
+      multiplyPacked(tiles_, true, 1, end - i, columns, n - end, packed, B + end, ldb, B + i, ldb);
+    }
+    invertUpper(end - i, U + i * ld + i, ld, packed);
+    multiplyPacked(tiles_, false, 1, end - i, columns, end - i, packed, B + i, ldb, B + i, ldb);
   }
 }
 
@@ -193,7 +209,7 @@ bool DenseBlocks::factorise(std::size_t m, std::size_t n, double* A, std::size_t
   double* right = A + half * ld;
   if (!factorise(m, half, A, ld, pivots)) return false;
   exchangeRows(0, half, pivots, n - half, right, ld);
-  solveUnitLower(half, A, ld, n - half, right);
+  solveUnitLower(half, A, ld, n - half, right, ld);
   subtractProduct(m - half, n - half, half, A + half, ld, right, ld, right + half, ld);
   if (!factorise(m - half, n - half, right + half, ld, pivots + half)) return false;
   exchangeRows(0, n - half, pivots + half, half, A + half, ld);
@@ -250,6 +266,38 @@ void DenseBlocks::solve(std::size_t n, const double* A, const int* pivots, std::
       at += (n - end) * pack;
       tile(false, end - i, end - i, at, b + i, n, b + i, n);
       at += pack * pack;
+    }
+  }
+}
+
+void DenseBlocks::invert(std::size_t n, const double* A, const int* pivots, const double* d, double* B) {
+  // Columns of L^-1, which are zero above the diagonal, then of U^-1 L^-1, some at a time; blocks of rows so that
+  // products of large blocks are most of the work.
+  constexpr std::size_t height = 6 * pack, width = 12 * pack;
+  order_.resize(n);
+  std::iota(order_.begin(), order_.end(), 0);
+  for (std::size_t i = 0; i < n; ++i) std::swap(order_[i], order_[pivots[i]]);
+  AlignedVector columns(n * std::min(n, width));
+  double* const b = columns.data();
+  for (std::size_t first = 0; first < n; first += width) {
+    const std::size_t count = std::min(width, n - first);
+    std::fill_n(b, n * count, 0.0);
+    for (std::size_t c = 0; c < count; ++c) b[c * n + first + c] = 1;
+    for (std::size_t i = first; i < n; i += height) {
+      const std::size_t rows = std::min(height, n - i);
+      subtractProduct(rows, count, i - first, A + first * n + i, n, b + first, n, b + i, n);
+      solveUnitLower(rows, A + i * n + i, n, count, b + i, n);
+    }
+    for (std::size_t i = (n + height - 1) / height * height; i > 0;) {
+      i -= height;
+      const std::size_t end = std::min(i + height, n);
+      subtractProduct(end - i, count, n - end, A + end * n + i, n, b + end, n, b + i, n);
+      solveUpper(end - i, A + i * n + i, n, count, b + i, n);
+    }
+    // Row i of L U is row order[i] of A.
+    for (std::size_t c = 0; c < count; ++c) {
+      const auto column = static_cast<std::size_t>(order_[first + c]);
+      for (std::size_t i = 0; i < n; ++i) B[column * n + i] = b[c * n + i] * d[column];
     }
   }
 }

@@ -28,10 +28,13 @@ class DenseBlocks {
   [[nodiscard]] bool factorise(std::size_t n, double* A, int* pivots);
   // B (n x columns) becomes the solution.
   void solve(std::size_t n, const double* A, const int* pivots, std::size_t columns, double* B);
+  // B (n x n) becomes the inverse times diag(d). As L^-1 is a triangle, two thirds of the work of `solve`.
+  void invert(std::size_t n, const double* A, const int* pivots, const double* d, double* B);
 
  private:
   [[nodiscard]] bool factorise(std::size_t m, std::size_t n, double* A, std::size_t ld, int* pivots);
-  void solveUnitLower(std::size_t n, const double* L, std::size_t ld, std::size_t columns, double* B);
+  void solveUnitLower(std::size_t n, const double* L, std::size_t ld, std::size_t columns, double* B, std::size_t ldb);
+  void solveUpper(std::size_t n, const double* U, std::size_t ld, std::size_t columns, double* B, std::size_t ldb);
   double* scratch(std::size_t size);
 
   BlockTiles tiles_;

@@ -51,15 +51,18 @@ void multiplyRows(std::size_t m, std::size_t n, const double* scale, double* A) 
     for (std::size_t i = 0; i < m; ++i) A[j * m + i] *= scale[i];
 }
 
-BlockSweep::BlockSweep(std::size_t rows, std::size_t width, std::size_t border)
+BlockSweep::BlockSweep(std::size_t rows, std::size_t width, std::size_t border, NeighbourTerms terms)
     : count_(rows),
       n_(width),
       border_(border),
+      terms_(terms),
       stride_(wholeLines(width * width)),
       thinStride_(wholeLines(width * border)),
-      rowStride_(3 * stride_ + 2 * thinStride_),
-      scale_(rows * width),
-      pivots_(rows * width) {
+      neighbourStride_(wholeLines(NeighbourBlock::size(width, terms))),
+      rowStride_(stride_ + 2 * thinStride_ + 2 * neighbourStride_),
+      X_(rows > 0 ? width * width : 0),
+      scale_(width),
+      pivots_(width) {
   storage_.reserve(rows * rowStride_);
   preferLargePages(storage_.data(), storage_.capacity() * sizeof(double));
   storage_.resize(rows * rowStride_);
@@ -69,60 +72,61 @@ void BlockSweep::clear() {
   std::fill(storage_.begin(), storage_.end(), 0.0);
 }
 
-bool BlockSweep::scaleRows(std::size_t k) {
-  double* scale = scale_.data() + k * n_;
-  if (!rowScales(n_, n_, diagonal(k), scale)) return false;
-  multiplyRows(n_, n_, scale, diagonal(k));
-  multiplyRows(n_, n_, scale, inward(k));
-  multiplyRows(n_, border_, scale, columns(k));
+bool BlockSweep::invert(std::size_t k) {
+  double* D = diagonal(k);
+  if (!rowScales(n_, n_, D, scale_.data())) return false;
+  multiplyRows(n_, n_, scale_.data(), D);
+  if (!dense_.factorise(n_, D, pivots_.data())) return false;
+  sign_ *= chemistry::determinantSign(n_, D, pivots_.data());
+  dense_.invert(n_, D, pivots_.data(), scale_.data(), X_.data());
+  std::copy_n(X_.data(), n_ * n_, D);
   return true;
 }
 
 bool BlockSweep::eliminate(std::size_t k, double* corner) {
   if (k > 0) {
-    dense_.subtractProduct(n_, n_, n_, outward(k), n_, inward(k - 1), n_, diagonal(k), n_);
-    dense_.subtractProduct(n_, border_, n_, outward(k), n_, columns(k - 1), n_, columns(k), n_);
-    dense_.subtractProduct(border_, n_, n_, rows(k - 1), border_, inward(k - 1), n_, rows(k), border_);
+    outward(k).subtractProduct(dense_, n_, X_.data(), diagonal(k), n_);
+    outward(k).subtractProduct(dense_, border_, columns(k - 1), columns(k), n_);
+    dense_.subtractProduct(border_, n_, n_, rows(k - 1), border_, X_.data(), n_, rows(k), border_);
   }
-  int* pivots = pivots_.data() + k * n_;
-  if (!scaleRows(k) || !dense_.factorise(n_, diagonal(k), pivots)) return false;
-  dense_.solve(n_, diagonal(k), pivots, n_, inward(k));
-  dense_.solve(n_, diagonal(k), pivots, border_, columns(k));
+  if (!invert(k)) return false;
+  inward(k).multiply(dense_, diagonal(k), X_.data());
+  std::vector<double> Y(n_ * border_);
+  for (std::size_t j = 0; j < border_; ++j) addProduct(n_, n_, 1, diagonal(k), columns(k) + j * n_, Y.data() + j * n_);
+  std::copy(Y.begin(), Y.end(), columns(k));
   for (std::size_t j = 0; j < border_; ++j)
     addProduct(border_, n_, 1, rows(k), columns(k) + j * n_, corner + j * border_);
-  return allFinite(n_ * n_, inward(k)) && allFinite(n_ * border_, columns(k));
+  return allFinite(n_ * n_, X_.data()) && allFinite(n_ * border_, columns(k));
 }
 
 std::size_t BlockSweep::factorise(double* corner) {
   std::fill_n(corner, border_ * border_, 0.0);
+  sign_ = 1;
   for (std::size_t k = 0; k < count_; ++k)
     if (!eliminate(k, corner)) return k;
   return count_;
 }
 
-int BlockSweep::determinantSign() const {
-  int sign = 1;
-  for (std::size_t k = 0; k < count_; ++k)
-    sign *= chemistry::determinantSign(n_, storage_.data() + k * rowStride_ + stride_, pivots_.data() + k * n_);
-  return sign;
-}
-
-void BlockSweep::forward(double* b, std::ptrdiff_t step, double* rowSum) {
+void BlockSweep::forward(double* b, std::ptrdiff_t step, double* rowSum, double* last) {
   std::fill_n(rowSum, border_, 0.0);
   for (std::size_t k = 0; k < count_; ++k, b += step) {
-    if (k > 0) addProduct(n_, n_, -1, outward(k), b - step, b);
-    multiplyRows(n_, 1, scale_.data() + k * n_, b);
-    dense_.solve(n_, diagonal(k), pivots_.data() + k * n_, 1, b);
-    addProduct(border_, n_, 1, rows(k), b, rowSum);
+    if (k > 0) outward(k).addTimes(-1, last, b);
+    std::fill_n(last, n_, 0.0);
+    addProduct(n_, n_, 1, diagonal(k), b, last);
+    addProduct(border_, n_, 1, rows(k), last, rowSum);
   }
 }
 
-void BlockSweep::backward(double* y, std::ptrdiff_t step, const double* next, const double* z) {
+void BlockSweep::backward(double* b, std::ptrdiff_t step, const double* next, const double* z) {
   if (count_ == 0) return;
-  y += static_cast<std::ptrdiff_t>(count_ - 1) * step;
-  for (std::size_t k = count_; k-- > 0; next = y, y -= step) {
-    addProduct(n_, border_, -1, columns(k), z, y);
-    addProduct(n_, n_, -1, inward(k), next, y);
+  std::vector<double> x(n_);
+  b += static_cast<std::ptrdiff_t>(count_ - 1) * step;
+  for (std::size_t k = count_; k-- > 0; next = b, b -= step) {
+    inward(k).addTimes(-1, next, b);
+    std::fill(x.begin(), x.end(), 0.0);
+    addProduct(n_, n_, 1, diagonal(k), b, x.data());
+    addProduct(n_, border_, -1, columns(k), z, x.data());
+    std::copy(x.begin(), x.end(), b);
   }
 }
 

@@ -7,12 +7,13 @@
 
 namespace lampblack::flow {
 
-BlockTridiagonal::BlockTridiagonal(MPI_Comm comm, std::size_t points, std::size_t width, std::size_t border) {
+BlockTridiagonal::BlockTridiagonal(MPI_Comm comm, std::size_t points, std::size_t width, std::size_t border,
+                                   NeighbourTerms terms) {
   if (points == 0 || width == 0) throw std::logic_error("BlockTridiagonal: empty");
   int rank = 0, ranks = 1;
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &ranks);
-  data_ = std::make_unique<Data>(comm, rank, ranks, points, width, border);
+  data_ = std::make_unique<Data>(comm, rank, ranks, points, width, border, terms);
 }
 BlockTridiagonal::~BlockTridiagonal() = default;
 BlockTridiagonal::BlockTridiagonal(BlockTridiagonal&&) noexcept = default;
@@ -47,7 +48,7 @@ void BlockTridiagonal::clear() {
   d.factorised = false;
 }
 
-double* BlockTridiagonal::lower(std::size_t row) {
+NeighbourBlock BlockTridiagonal::lower(std::size_t row) {
   if (row == 0) throw std::logic_error("BlockTridiagonal: no block left of the first row");
   return data_->lower(row);
 }
@@ -56,7 +57,7 @@ double* BlockTridiagonal::diagonal(std::size_t row) {
   return data_->diagonal(row);
 }
 
-double* BlockTridiagonal::upper(std::size_t row) {
+NeighbourBlock BlockTridiagonal::upper(std::size_t row) {
   if (row + 1 == points()) throw std::logic_error("BlockTridiagonal: no block right of the last row");
   return data_->upper(row);
 }
@@ -84,9 +85,9 @@ void BlockTridiagonal::multiply(std::span<const double> x, std::span<double> y) 
   for (std::size_t i = d.begin(); i < d.end(); ++i) {
     double* row = y.data() + i * n;
     const double* at = x.data() + i * n;
-    if (i > 0) addProduct(n, n, 1, d.lower(i), at - n, row);
+    if (i > 0) d.lower(i).addTimes(1, at - n, row);
     addProduct(n, n, 1, d.diagonal(i), at, row);
-    if (i + 1 < d.points) addProduct(n, n, 1, d.upper(i), at + n, row);
+    if (i + 1 < d.points) d.upper(i).addTimes(1, at + n, row);
     addProduct(n, d.border, 1, d.columns(i), z, row);
     addProduct(d.border, n, 1, d.rows(i), at, y.data() + d.points * n);
   }

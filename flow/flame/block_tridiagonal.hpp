@@ -19,12 +19,15 @@
 #include <span>
 
 #include "core/modules.hpp"
+#include "flow/flame/neighbour_block.hpp"
 
 namespace lampblack::flow {
 
 class BlockTridiagonal {
  public:
-  BlockTridiagonal(MPI_Comm comm, std::size_t points, std::size_t width, std::size_t border);
+  // Blocks beside the diagonal ones are dense, or thin with that many terms: a row then takes little more than a third
+  // of the memory, and elimination half the time.
+  BlockTridiagonal(MPI_Comm comm, std::size_t points, std::size_t width, std::size_t border, NeighbourTerms terms = {});
   ~BlockTridiagonal();
   BlockTridiagonal(BlockTridiagonal&&) noexcept;
   BlockTridiagonal& operator=(BlockTridiagonal&&) noexcept;
@@ -40,11 +43,11 @@ class BlockTridiagonal {
 
   // Sets all entries to zero, and forgets the factors: needed before blocks are set once more.
   void clear();
-  // Blocks of an owned row, column-major with leading dimension `width`. `lower` of row 0 and `upper` of the last row
-  // do not exist: std::logic_error, as when factors have taken the place of the blocks.
-  [[nodiscard]] double* lower(std::size_t row);
+  // Blocks of an owned row, dense ones column-major with leading dimension `width`. `lower` of row 0 and `upper` of the
+  // last row do not exist: std::logic_error, as when factors have taken the place of the blocks.
+  [[nodiscard]] NeighbourBlock lower(std::size_t row);
   [[nodiscard]] double* diagonal(std::size_t row);
-  [[nodiscard]] double* upper(std::size_t row);
+  [[nodiscard]] NeighbourBlock upper(std::size_t row);
   // Border: columns beside an owned row (width x border, column-major), rows below a column of blocks (border x width,
   // column-major; set by the owner of the block row of that number), and the corner (border x border, column-major,
   // the same on all ranks).

@@ -26,9 +26,9 @@ void packInnermost(BlockSweep& end, std::size_t n, std::size_t border, DenseBloc
   if (end.size() == 0) return;
   const Innermost at(n, border);
   const std::size_t k = end.size() - 1;
-  std::copy_n(end.inward(k), n * n, values.data());
+  std::copy_n(end.innermost(), n * n, values.data());
   std::copy_n(end.columns(k), n * border, values.data() + at.Y);
-  dense.subtractProduct(border, n, n, end.rows(k), border, end.inward(k), n, values.data() + at.rowsX, border);
+  dense.subtractProduct(border, n, n, end.rows(k), border, end.innermost(), n, values.data() + at.rowsX, border);
 }
 
 }  // namespace
@@ -48,9 +48,9 @@ bool BlockTridiagonal::Data::factoriseCore(const std::vector<double>& ofLeft, co
   for (const auto* side : {&ofLeft, &fromRight}) {
     const bool isLeft = side == &ofLeft;
     if (isLeft ? middle == 0 : middle + 1 == points) continue;
-    const double* outward = isLeft ? middleLower.data() : middleUpper.data();
-    dense.subtractProduct(n, n, n, outward, n, side->data() + at.X, n, core.data(), ld);
-    dense.subtractProduct(n, border, n, outward, n, side->data() + at.Y, n, columns, ld);
+    const NeighbourBlock outward = ofMiddle(isLeft ? middleLower : middleUpper);
+    outward.subtractProduct(dense, n, side->data() + at.X, core.data(), ld);
+    outward.subtractProduct(dense, border, side->data() + at.Y, columns, ld);
     add(border, n, side->data() + at.rowsX, 1, core.data() + n);
     add(border, border, side->data() + at.corner, -1, columns + n);
   }
@@ -113,12 +113,9 @@ void BlockTridiagonal::solve(std::span<double> b) {
   double* z = first + d.points * n;
 
   // Ends inwards. The right one hands on y of its innermost point and its sum for the border.
-  std::vector<double> leftSum(border), innermost(n + border);
-  if (d.owns[left]) d.ends[left].forward(first, d.step(), leftSum.data());
-  if (d.owns[right]) {
-    d.ends[right].forward(last, -d.step(), innermost.data() + n);
-    if (d.ends[right].size() > 0) std::copy_n(middle + n, n, innermost.data());
-  }
+  std::vector<double> leftSum(border), ofLeft(n), innermost(n + border);
+  if (d.owns[left]) d.ends[left].forward(first, d.step(), leftSum.data(), ofLeft.data());
+  if (d.owns[right]) d.ends[right].forward(last, -d.step(), innermost.data() + n, innermost.data());
   const int length = static_cast<int>(n + border);
   if (!d.owns[left] && d.owns[right]) MPI_Send(innermost.data(), length, MPI_DOUBLE, 0, innermostSumTag, d.comm);
   if (d.owns[left] && !d.owns[right])
@@ -128,8 +125,8 @@ void BlockTridiagonal::solve(std::span<double> b) {
   std::vector<double> core(n + border);
   if (d.owns[left]) {
     std::copy_n(middle, n, core.data());
-    if (d.middle > 0) addProduct(n, n, -1, d.middleLower.data(), middle - n, core.data());
-    if (d.middle + 1 < d.points) addProduct(n, n, -1, d.middleUpper.data(), innermost.data(), core.data());
+    if (d.middle > 0) d.ofMiddle(d.middleLower).addTimes(-1, ofLeft.data(), core.data());
+    if (d.middle + 1 < d.points) d.ofMiddle(d.middleUpper).addTimes(-1, innermost.data(), core.data());
     for (std::size_t i = 0; i < border; ++i) core[n + i] = z[i] - leftSum[i] - innermost[n + i];
     multiplyRows(n + border, 1, d.coreScale.data(), core.data());
     d.dense.solve(n + border, d.core.data(), d.corePivots.data(), 1, core.data());

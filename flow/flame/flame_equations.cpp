@@ -158,7 +158,9 @@ void FlameEquations::setGrid(std::span<const double> z) {
   }
   d.steadyFactors = false;
   d.matrix.reset();  // the largest there is: not twice
-  d.matrix = std::make_unique<BlockTridiagonal>(d.comm, n, d.width(), numFlameGlobals);
+  d.matrix = std::make_unique<BlockTridiagonal>(
+      d.comm, n, d.width(), numFlameGlobals,
+      d.gas.multicomponent() ? NeighbourTerms() : NeighbourTerms(numFlameNeighbourTerms));
   d.anchor = std::min(d.anchor, n - 1);
 }
 

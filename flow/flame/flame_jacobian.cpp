@@ -20,8 +20,8 @@ FlameEquations::Data::JacobianWork::JacobianWork(const Data& data) {
 void FlameEquations::Data::fillRow(std::size_t i, double inverseTimeStep, JacobianWork& work) {
   const std::size_t n = species(), S = scalars(), w = width(), lastPoint = points() - 1, first = layout.firstScalar();
   work.D = matrix->diagonal(i);
-  work.L = i > 0 ? matrix->lower(i) : nullptr;
-  work.U = i < lastPoint ? matrix->upper(i) : nullptr;
+  work.L = i > 0 ? std::optional(matrix->lower(i)) : std::nullopt;
+  work.U = i < lastPoint ? std::optional(matrix->upper(i)) : std::nullopt;
   work.B = matrix->borderColumns(i);
   double* D = work.D;
   const double dv = volume[i], rho = gas.nodes.density[i], W = gas.nodes.weight[i], gained = gas.nodes.exchanged[i];
@@ -32,7 +32,7 @@ void FlameEquations::Data::fillRow(std::size_t i, double inverseTimeStep, Jacobi
   // Continuity.
   D[M * w + M] += 1;
   if (i > 0)
-    work.L[M * w + M] -= 1;
+    *(work.L->isDense() ? work.L->entries() + M * w + M : work.L->diagonal() + M) -= 1;
   else
     work.B[leftMassFlux * w + M] -= 1;
   D[V * w + M] += 2 * dv * rho;
@@ -112,9 +112,9 @@ void FlameEquations::Data::holdRow(JacobianWork& work) {
   const std::size_t w = width();
   for (std::size_t row = 0; row < w; ++row) {
     if (!isHeld(row)) continue;
-    for (double* block : {work.D, work.L, work.U})
-      if (block != nullptr)
-        for (std::size_t c = 0; c < w; ++c) block[c * w + row] = 0;
+    for (std::size_t c = 0; c < w; ++c) work.D[c * w + row] = 0;
+    for (const auto& block : {work.L, work.U})
+      if (block) block->clearRow(row);
     for (std::size_t g = 0; g < numFlameGlobals; ++g) work.B[g * w + row] = 0;
     work.D[row * w + row] = 1;
   }

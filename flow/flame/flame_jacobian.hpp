@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "core/modules.hpp"
@@ -10,16 +11,34 @@
 
 namespace lampblack::flow {
 
-// Of the species' fluxes through face f. Matrices are column-major, species by species.
+// Terms of the blocks of neighbours where those are thin (flow/flame/neighbour_block.hpp): what the mass flux and the
+// temperature of the neighbour do to all equations, what all unknowns do to the equation of temperature, and what all
+// species do to the flux of each through the mean weight and through the sum of the fluxes.
+enum FlameNeighbourTerm : std::size_t {
+  byMassFlux,
+  byTemperature,
+  ofTemperature,
+  byMeanWeight,
+  byAllFluxes,
+  numFlameNeighbourTerms
+};
+
+// Derivatives of the species' fluxes through a face with the mass fractions of a point beside it.
+struct FluxDerivatives {
+  std::vector<double> entries;  // column-major, species by species
+  // The same as a diagonal, meanWeight[k] meanWeightWith[j] and ofSum[k] sumWith[j]; not with multicomponent diffusion.
+  std::vector<double> diagonal, meanWeight, meanWeightWith, ofSum, sumWith;
+};
+
+// Of the species' fluxes through face f.
 struct FaceDerivatives {
-  std::vector<double> left, right;                        // with mass fractions of point f, f + 1
+  FluxDerivatives left, right;                            // with mass fractions of point f, f + 1
   std::vector<double> leftTemperature, rightTemperature;  // with their temperatures
   std::vector<double> massFlux;                           // with the mass flux: mass fractions of the face
   void compute(const FlameEquations::Data& data, std::size_t f);
 
  private:
   void side(const FlameEquations::Data& data, std::size_t f, bool right);
-  std::vector<double> sum_, scaled_;
 };
 
 struct FlameEquations::Data::JacobianWork {
@@ -30,8 +49,7 @@ struct FlameEquations::Data::JacobianWork {
   std::vector<double> carried, carriedConcentrations, densities, difference, timeWeights;
   std::vector<double> gain;  // of the whole gas, kg/m2/s, with each unknown of the point
   double* D = nullptr;       // blocks of the row
-  double* L = nullptr;
-  double* U = nullptr;
+  std::optional<NeighbourBlock> L, U;
   double* B = nullptr;
 };
 

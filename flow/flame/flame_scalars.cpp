@@ -12,7 +12,7 @@ namespace lampblack::flow {
 FlameScalars::FlameScalars(FlameEquations& equations, const FlameProfile& flame)
     : flame_(equations.data()),
       scalars_(flame.layout.scalars),
-      matrix_(flame_.comm, flame.points(), scalars_, 0),
+      matrix_(flame_.comm, flame.points(), scalars_, 0, 0),
       densities_(scalars_) {
   const std::size_t rows = scalars_ + flame_.carried->exchanged().size();
   jacobian_.resize(rows * (rows + 1));
@@ -85,14 +85,14 @@ void FlameScalars::fillRow(std::size_t i, double inverseTimeStep) {
     if (i > 0) {
       const auto [left, right] = flame_.scalarSlopes(i - 1, s);
       own -= right;
-      matrix_.lower(i)[s * (S + 1)] -= left;
+      matrix_.lower(i).diagonal()[s] -= left;
     } else {
       own -= flame_.endDrift(s, false);
     }
     if (i < last) {
       const auto [left, right] = flame_.scalarSlopes(i, s);
       own += left;
-      matrix_.upper(i)[s * (S + 1)] += right;
+      matrix_.upper(i).diagonal()[s] += right;
     } else {
       own += flame_.endDrift(s, true);
     }

@@ -62,7 +62,9 @@ class Adjoint {
       if (!owns(i)) continue;
       const double step = trial[i * w + c] - x_[i * w + c];
       for (std::size_t j = i > 0 ? i - 1 : i; j <= std::min(i + 1, n - 1); ++j) {
-        double* block = j < i ? transposed_.lower(i) : j == i ? transposed_.diagonal(i) : transposed_.upper(i);
+        double* block = j < i    ? transposed_.lower(i).entries()
+                        : j == i ? transposed_.diagonal(i)
+                                 : transposed_.upper(i).entries();
         for (std::size_t e = 0; e < w; ++e) block[e * w + c] = (changed[j * w + e] - F_[j * w + e]) / step;
       }
     }

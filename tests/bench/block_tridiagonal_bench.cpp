@@ -46,9 +46,9 @@ struct FlameMatrix {
   void fill(BlockTridiagonal& A) const {
     A.clear();
     for (std::size_t i = A.ownedBegin(); i < A.ownedEnd(); ++i) {
-      if (i > 0) std::copy(lower.begin(), lower.end(), A.lower(i));
+      if (i > 0) std::copy(lower.begin(), lower.end(), A.lower(i).entries());
       std::copy(diagonal.begin(), diagonal.end(), A.diagonal(i));
-      if (i + 1 < points) std::copy(upper.begin(), upper.end(), A.upper(i));
+      if (i + 1 < points) std::copy(upper.begin(), upper.end(), A.upper(i).entries());
       std::copy(columns.begin(), columns.end(), A.borderColumns(i));
       if (i == points / 3) A.borderRows(i)[n / 2] = 1;
     }

@@ -83,6 +83,26 @@ TEST(DenseBlocks, SolveRandomSystemsWithAnyNumberOfColumns) {
       }
 }
 
+TEST(DenseBlocks, InvertAsTheySolveADiagonalMatrix) {
+  Random random;
+  for (auto& dense : onAllInstructionSets())
+    for (const std::size_t n : {1, 2, 7, 8, 9, 16, 23, 40, 57}) {
+      auto factors = random.numbers(n * n);
+      std::vector<double> d(n), X(n * n), inverse(n * n, 1.0);
+      std::vector<int> pivots(n);
+      ASSERT_TRUE(dense.factorise(n, factors.data(), pivots.data()));
+      for (std::size_t i = 0; i < n; ++i)
+        X[i * n + i] = d[i] = i % 5 == 4 ? 0 : std::ldexp(i % 3 == 1 ? -1 : 1, static_cast<int>(i % 7));
+      if (n > 2)
+        dense.solve(n, factors.data(), pivots.data(), n, X.data());
+      else
+        for (std::size_t j = 0; j < n; ++j) dense.solve(n, factors.data(), pivots.data(), 1, &X[j * n]);
+      dense.invert(n, factors.data(), pivots.data(), d.data(), inverse.data());
+      for (std::size_t e = 0; e < n * n; ++e)
+        EXPECT_NEAR(inverse[e], X[e], 1e-13 * (1 + std::abs(X[e]))) << n << ", " << e;
+    }
+}
+
 TEST(DenseBlocks, PivotWithTheLargestEntryOfAColumn) {
   // Every pivot is below the diagonal until the last row: the factors are exact.
   for (auto& dense : onAllInstructionSets()) {

@@ -98,9 +98,9 @@ struct Pattern {
     A.clear();
     const std::size_t n = width, ofBorder = points * n;
     for (std::size_t p = A.ownedBegin(); p < A.ownedEnd(); ++p) {
-      if (p > 0) copyBlock(p * n, (p - 1) * n, n, n, A.lower(p));
+      if (p > 0) copyBlock(p * n, (p - 1) * n, n, n, A.lower(p).entries());
       copyBlock(p * n, p * n, n, n, A.diagonal(p));
-      if (p + 1 < points) copyBlock(p * n, (p + 1) * n, n, n, A.upper(p));
+      if (p + 1 < points) copyBlock(p * n, (p + 1) * n, n, n, A.upper(p).entries());
       copyBlock(p * n, ofBorder, n, border, A.borderColumns(p));
       copyBlock(ofBorder, p * n, border, n, A.borderRows(p));
     }
@@ -114,6 +114,52 @@ struct Pattern {
   }
 };
 
+// The same with thin blocks beside the diagonal ones.
+struct ThinPattern : Pattern {
+  std::size_t terms;
+  std::vector<std::vector<double>> lower, upper;  // values of the thin blocks of each point
+
+  ThinPattern(const Pattern& dominantOne, std::size_t numTerms, unsigned seed)
+      : Pattern(dominantOne), terms(numTerms), lower(points), upper(points) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> entry(-1, 1);
+    for (std::size_t p = 0; p < points; ++p)
+      for (auto* side : {&lower, &upper}) {
+        if (side == &lower ? p == 0 : p + 1 == points) continue;
+        auto& values = (*side)[p];
+        values.resize(NeighbourBlock::size(width, terms));
+        for (double& value : values) value = entry(random);
+        const NeighbourBlock block(width, terms, values.data());
+        const std::size_t column = (side == &lower ? p - 1 : p + 1) * width;
+        for (std::size_t j = 0; j < width; ++j)
+          for (std::size_t i = 0; i < width; ++i) {
+            double value = i == j ? block.diagonal()[i] : 0;
+            for (std::size_t t = 0; t < terms; ++t) value += block.column(t)[i] * block.row(t, j);
+            (*this)(p * width + i, column + j) = value;
+          }
+      }
+    for (std::size_t i = 0; i < size; ++i) {
+      double sum = 0;
+      for (std::size_t j = 0; j < size; ++j) sum += i == j ? 0 : std::abs((*this)(i, j));
+      (*this)(i, i) = 1.2 * (1 + sum);
+    }
+  }
+
+  [[nodiscard]] BlockTridiagonal on(MPI_Comm comm) const {
+    BlockTridiagonal A(comm, points, width, border, terms);
+    const std::size_t n = width, ofBorder = points * n;
+    for (std::size_t p = A.ownedBegin(); p < A.ownedEnd(); ++p) {
+      if (p > 0) std::copy(lower[p].begin(), lower[p].end(), A.lower(p).diagonal());
+      copyBlock(p * n, p * n, n, n, A.diagonal(p));
+      if (p + 1 < points) std::copy(upper[p].begin(), upper[p].end(), A.upper(p).diagonal());
+      copyBlock(p * n, ofBorder, n, border, A.borderColumns(p));
+      copyBlock(ofBorder, p * n, border, n, A.borderRows(p));
+    }
+    copyBlock(ofBorder, ofBorder, border, border, A.corner());
+    return A;
+  }
+};
+
 std::vector<double> randomVector(std::size_t size, unsigned seed = 7) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> entry(-1, 1);
@@ -122,7 +168,8 @@ std::vector<double> randomVector(std::size_t size, unsigned seed = 7) {
   return v;
 }
 
-std::vector<double> solution(const Pattern& pattern, MPI_Comm comm, std::vector<double> b) {
+template <typename AnyPattern>
+std::vector<double> solution(const AnyPattern& pattern, MPI_Comm comm, std::vector<double> b) {
   auto A = pattern.on(comm);
   EXPECT_TRUE(A.factorise());
   A.solve(b);
@@ -159,6 +206,51 @@ TEST(BlockTridiagonalFactors, SolveWhatDenseEliminationSolves) {
     const auto b = randomVector(A.size);
     EXPECT_LT(largestDifference(solution(A, MPI_COMM_WORLD, b), A.denseSolution(b)), rounding(A));
   }
+}
+
+TEST(BlockTridiagonalFactors, OfThinBlocksSolveWhatDenseEliminationSolves) {
+  for (const auto& [points, width, border] : shapes())
+    for (const std::size_t terms : {0, 1, 3}) {
+      SCOPED_TRACE(testing::Message() << points << " points, " << width << " wide, border " << border << ", " << terms);
+      const ThinPattern A(Pattern::dominant(points, width, border), terms, 4);
+      const auto b = randomVector(A.size);
+      const auto found = solution(A, MPI_COMM_WORLD, b);
+      EXPECT_LT(largestDifference(found, A.denseSolution(b)), rounding(A));
+      EXPECT_EQ(found, solution(A, MPI_COMM_SELF, b));
+      std::vector<double> y(A.size);
+      A.on(MPI_COMM_WORLD).multiply(b, y);
+      EXPECT_LT(largestDifference(y, A.times(b)), 1.2 * static_cast<double>(A.size) * rounding(A));
+      auto factors = A.on(MPI_COMM_WORLD);
+      ASSERT_TRUE(factors.factorise());
+      EXPECT_EQ(factors.determinantSign(), A.denseSign());
+    }
+}
+
+TEST(BlockTridiagonalFactors, OfThinBlocksRefuseWhatIsNotFinite) {
+  const double wrong = std::numeric_limits<double>::quiet_NaN();
+  const ThinPattern good(Pattern::dominant(7, 4, 2), 2, 4);
+  for (const std::size_t point : {1, 3, 5})
+    for (const std::size_t value : {1, 6, 14}) {
+      auto pattern = good;
+      pattern.upper[point][value] = wrong;
+      EXPECT_FALSE(pattern.on(MPI_COMM_WORLD).factorise()) << point << ", " << value;
+    }
+}
+
+TEST(BlockTridiagonalFactors, OfThinBlocksHaveNoDenseEntries) {
+  auto A = ThinPattern(Pattern::dominant(3, 4, 1), 2, 4).on(MPI_COMM_SELF);
+  EXPECT_THROW((void)A.lower(1).entries(), std::logic_error);
+  const std::vector<double> x = randomVector(A.size());
+  std::vector<double> y(A.size());
+  A.lower(1).clearRow(2);
+  A.multiply(x, y);
+  const std::size_t row = 4 + 2;  // the third equation of the second point
+  double expected = 0;
+  for (std::size_t j = 0; j < 4; ++j) expected += A.diagonal(1)[j * 4 + 2] * x[4 + j];
+  std::vector<double> ofUpper(4);
+  A.upper(1).addTimes(1, &x[8], ofUpper.data());
+  expected += ofUpper[2] + A.borderColumns(1)[2] * x[12];
+  EXPECT_NEAR(y[row], expected, 1e-13 * std::abs(expected));
 }
 
 TEST(BlockTridiagonalFactors, SolveBlocksThatNeedPivoting) {

@@ -25,7 +25,7 @@ std::vector<double> denseInverse(std::vector<double> a, std::size_t size) {
 }
 
 // Largest difference between the entries of the matrix and differences of the residual, over the size of the row; both
-// scaled by what counts as a change of 1 of each unknown. The matrix is recovered from its inverse.
+// scaled by what counts as a change of 1 of each unknown. The matrix is recovered from its inverse, scaled alike.
 struct Worst {
   double difference = 0;
   std::string row, column;
@@ -38,12 +38,6 @@ Worst compare(FlameEquations& equations, const FlameProfile& start) {
   equations.freezeTransport(true);
   EXPECT_TRUE(equations.factorise(x, 0));
   equations.scales(x, scale);
-  std::vector<double> inverse(size * size);
-  for (std::size_t c = 0; c < size; ++c) {
-    inverse[c * size + c] = 1;
-    equations.solve({&inverse[c * size], size});
-  }
-  const std::vector<double> matrix = denseInverse(inverse, size);
   std::vector<double> differences(size * size), rowSize(size);
   for (std::size_t c = 0; c < size; ++c) {
     const double step = 1e-3 * scale[c] + 1e-7 * std::abs(x[c]), kept = x[c];
@@ -53,14 +47,22 @@ Worst compare(FlameEquations& equations, const FlameProfile& start) {
     equations.residual(x, down);
     x[c] = kept;
     for (std::size_t r = 0; r < size; ++r) {
-      differences[c * size + r] = (up[r] - down[r]) / (2 * step);
-      rowSize[r] = std::max(rowSize[r], std::abs(differences[c * size + r]) * scale[c]);
+      differences[c * size + r] = (up[r] - down[r]) / (2 * step) * scale[c];
+      rowSize[r] = std::max(rowSize[r], std::abs(differences[c * size + r]));
     }
   }
+  std::vector<double> inverse(size * size);
+  for (std::size_t r = 0; r < size; ++r) {
+    double* column = &inverse[r * size];
+    column[r] = rowSize[r];
+    equations.solve({column, size});
+    for (std::size_t c = 0; c < size; ++c) column[c] /= scale[c];
+  }
+  const std::vector<double> matrix = denseInverse(inverse, size);
   Worst worst;
   for (std::size_t c = 0; c < size; ++c)
     for (std::size_t r = 0; r < size; ++r) {
-      const double d = std::abs(differences[c * size + r] - matrix[c * size + r]) * scale[c] / rowSize[r];
+      const double d = std::abs(differences[c * size + r] / rowSize[r] - matrix[c * size + r]);
       if (d > worst.difference) worst = {d, equations.nameOf(r), equations.nameOf(c)};
     }
   return worst;
