@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <set>
+#include <string_view>
+#include <utility>
 
 #include "core/nearest_name.hpp"
 #include "io/deck_conditions.hpp"
@@ -62,11 +64,23 @@ class Checker {
     }
   }
 
+  // What other programs and papers call a key; the nearest name would be another one ('mass_fractions').
+  static std::string byOtherName(std::string_view name, const std::vector<std::string>& here) {
+    using Names = std::pair<std::string_view, std::string_view>;
+    for (const auto& [other, key] :
+         {Names("mole_fractions", "composition"), Names("X", "composition"), Names("Y", "mass_fractions"),
+          Names("reactants", "composition"), Names("phi", "equivalence_ratio"), Names("T", "temperature"),
+          Names("p", "pressure"), Names("P", "pressure")})
+      if (name == other && std::ranges::find(here, key) != here.end()) return fmt::format("; did you mean '{}'?", key);
+    return {};
+  }
+
   InputError unknown(const SchemaNode& schema, const DeckNode& node, const std::string& path) const {
     std::vector<std::string> here;
     for (const SchemaNode& child : schema.children)
       if (child.name != "[]") here.push_back(child.name);
-    std::string hint = didYouMean(node.name, here);
+    std::string hint = byOtherName(node.name, here);
+    if (hint.empty()) hint = didYouMean(node.name, here);
     if (const std::string present = presentName(schema, node.name); hint.empty() && !present.empty())
       hint = fmt::format("; did you mean '{}'?", present);
     if (hint.empty()) {  // perhaps it is right elsewhere

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/deck/mechanism_file_names.hpp"
 #include "app/run/shipped_files.hpp"
 #include "app/run/warnings.hpp"
 #include "chemistry/mechanism/like_warnings.hpp"
@@ -107,9 +108,19 @@ void addMechanismKeys(DeckSchema& schema) {
 
 std::shared_ptr<const Mechanism> readMechanism(const Deck& deck) {
   return deck.at("mechanism", [&] {
-    auto mechanism = std::make_shared<const Mechanism>(
-        Mechanism::fromFile(findMechanism(deck.resolvePath(""), deck.string("mechanism")).string(),
-                            deck.optionalString("phase").value_or("")));
+    const std::string path = findMechanism(deck.resolvePath(""), deck.string("mechanism")).string();
+    const auto read = [&] {
+      try {
+        return Mechanism::fromFile(path, deck.optionalString("phase").value_or(""));
+      } catch (const InputError& error) {
+        if (isYaml(path)) throw;
+        throw InputError(
+            fmt::format("{}; expected YAML, which 'lampblack mechanism {} THERMO TRANSPORT -o NAME.yaml' makes "
+                        "of CHEMKIN files",
+                        error.what(), deck.string("mechanism")));
+      }
+    };
+    auto mechanism = std::make_shared<const Mechanism>(read());
     printWarnings(oneOfEachKind(mechanism->warnings()));
     return mechanism;
   });

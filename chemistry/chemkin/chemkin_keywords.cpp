@@ -16,7 +16,7 @@ namespace {
 constexpr std::array<std::string_view, 14> kSupported{"LOW",   "HIGH", "TROE",      "SRI", "PLOG", "CHEB", "TCHEB",
                                                       "PCHEB", "DUP",  "DUPLICATE", "REV", "FORD", "RORD", "UNITS"};
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 18> kUnsupported{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 20> kUnsupported{{
     {"LT", "Landau-Teller rates"},
     {"RLT", "Landau-Teller rates of the reverse"},
     {"JAN", "the rate formula of Janev, Langer and others"},
@@ -35,6 +35,8 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 18> kUnsuppo
     {"MWOFF", "sticking coefficients"},
     {"EIM", "rates at the electrons' temperature"},
     {"USER", "rates of a user's own program"},
+    {"PLOGSP", "rates over pressure of each collider"},
+    {"PLOGMX", "rates over pressure of each collider"},
 }};
 
 }  // namespace

@@ -303,8 +303,30 @@ Mechanism readChemkin(const ChemkinFiles& files) {
   return parseChemkin(loadChemkinText(files.mechanism), load(files.thermo), load(files.transport), files.permissive);
 }
 
+namespace {
+
+// Other programs' formats, known by how they begin.
+void refuseForeignFormat(const ChemkinText& file) {
+  const ChemkinSource source(file);
+  if (source.lines().empty()) return;
+  const auto& first = source.lines().front();
+  const auto begins = [&](std::string_view word) { return trimmed(first.text).starts_with(word); };
+  constexpr std::string_view made = "; a mechanism is read as YAML or CHEMKIN: Cantera's";
+  if (begins("<?xml") || begins("<ctml"))
+    source.fail(first.number, fmt::format("this is XML{} ctml2yaml converts", made));
+  for (const auto& line : source.lines())
+    for (const std::string_view call : {"units(", "ideal_gas(", "species(", "reaction("})
+      if (trimmed(line.text).starts_with(call))
+        source.fail(line.number, fmt::format("this is CTI, a former format of Cantera{} cti2yaml converts", made));
+  if (begins("FoamFile") || begins("/*---"))
+    source.fail(first.number, "this is a dictionary of OpenFOAM; a mechanism is read as YAML or CHEMKIN");
+}
+
+}  // namespace
+
 Mechanism parseChemkin(const ChemkinText& mechanism, const std::optional<ChemkinText>& thermo,
                        const std::optional<ChemkinText>& transport, bool permissive) {
+  refuseForeignFormat(mechanism);
   return ChemkinReader(mechanism, permissive).read(thermo, transport);
 }
 

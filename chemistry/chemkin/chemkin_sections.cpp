@@ -16,13 +16,15 @@ namespace {
 
 using Kind = ChemkinSection::Kind;
 
+// CHEMKIN goes by the first four letters; here any beginning of the word from four letters on: "ELEM", "SPECIE".
 std::optional<Kind> sectionKind(std::string_view word) {
+  if (word.size() < 4) return std::nullopt;
   const auto upper = upperCase(word);
-  if (upper == "ELEMENTS" || upper == "ELEMENT" || upper == "ELEM") return Kind::Elements;
-  if (upper == "SPECIES" || upper == "SPEC") return Kind::Species;
-  if (upper == "THERMO" || upper == "THERM" || upper == "THER") return Kind::Thermo;
-  if (upper == "REACTIONS" || upper == "REACTION" || upper == "REAC") return Kind::Reactions;
-  if (upper == "TRANSPORT" || upper == "TRANS" || upper == "TRAN") return Kind::Transport;
+  using Heading = std::pair<std::string_view, Kind>;
+  for (const auto& [heading, kind] :
+       {Heading("ELEMENTS", Kind::Elements), Heading("SPECIES", Kind::Species), Heading("THERMO", Kind::Thermo),
+        Heading("REACTIONS", Kind::Reactions), Heading("TRANSPORT", Kind::Transport)})
+    if (heading.starts_with(upper)) return kind;
   return std::nullopt;
 }
 

@@ -58,10 +58,36 @@ void checkBalances(const std::string& file, std::span<const Element> elements, s
     }
 }
 
+namespace {
+
+// A fall-off curve whose centre vanishes brings its reaction to nothing: "TROE/ 0.5 0 0/" for a centre of 0.5.
+bool centreIsZero(const TroeBroadening& troe) {
+  const auto term = [](double T, double by) { return by == 0 ? 0.0 : std::exp(-T / by); };
+  for (const double T : {300.0, 1000.0, 2500.0})
+    if ((1 - troe.A) * term(T, troe.T3) + troe.A * term(T, troe.T1) + (troe.T2 ? std::exp(-*troe.T2 / T) : 0) > 1e-30)
+      return false;
+  return true;
+}
+
+void warnOfZeroCentres(const std::string& file, std::span<const Reaction> reactions,
+                       std::vector<std::string>& warnings) {
+  for (const auto& reaction : reactions)
+    if (reaction.troe && centreIsZero(*reaction.troe))
+      warnings.push_back(
+          fmt::format("{}:{}: reaction '{}': with T3 = {:g} and T1 = {:g} the centre of its fall-off is zero at all "
+                      "temperatures, and so is its rate; a constant centre A has a T3 next to zero (1e-30) and a large "
+                      "T1 (1e30)",
+                      reaction.file.empty() ? file : reaction.file, reaction.line, reaction.equation, reaction.troe->T3,
+                      reaction.troe->T1));
+}
+
+}  // namespace
+
 void settleReactions(const std::string& file, std::span<const Species> species, std::vector<Reaction>& reactions,
                      const MechanismRules& rules, std::vector<std::string>& warnings) {
   if (rules.permissive) markDuplicates(file, species, reactions, warnings);
   joinPressureRates(file, reactions, warnings);
+  warnOfZeroCentres(file, reactions, warnings);
 }
 
 void checkThermo(const std::string& file, std::span<const Species> species, std::vector<std::string>& warnings) {

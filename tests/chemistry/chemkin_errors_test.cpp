@@ -60,6 +60,15 @@ TEST(ChemkinErrors, Sections) {
   EXPECT_THAT(thermoMessage("THERMO NASA8\n"), AllOf(StartsWith("therm.dat:1:"), HasSubstr("found 'NASA8'")));
 }
 
+TEST(ChemkinErrors, FormatsOfOthers) {
+  EXPECT_THAT(mechanismMessage("\n<?xml version=\"1.0\"?>\n<ctml/>"),
+              AllOf(StartsWith("chem.inp:2: this is XML"), HasSubstr("ctml2yaml")));
+  EXPECT_THAT(mechanismMessage("# made\n\nunits(length='cm')\nideal_gas(name='gas')"),
+              AllOf(StartsWith("chem.inp:3: this is CTI"), HasSubstr("cti2yaml")));
+  EXPECT_THAT(mechanismMessage("FoamFile\n{\n}\nspecies ( O2 N2 );"),
+              StartsWith("chem.inp:1: this is a dictionary of"));
+}
+
 TEST(ChemkinErrors, ElementsAndSpecies) {
   EXPECT_THAT(mechanismMessage("ELEMENTS\nH QQ\nEND"),
               AllOf(StartsWith("chem.inp:2: unknown element 'QQ'"), HasSubstr("QQ/12.011/")));
@@ -202,7 +211,8 @@ TEST(ChemkinErrors, Lines) {
 }
 
 TEST(ChemkinErrors, UnsupportedKeywordsAreNamed) {
-  for (const char* keyword : {"LT", "RLT", "JAN", "FIT1", "HV", "TDEP", "EXCI", "MOME", "XSMI", "USRPROG"})
+  for (const char* keyword :
+       {"LT", "RLT", "JAN", "FIT1", "HV", "TDEP", "EXCI", "MOME", "XSMI", "USRPROG", "PLOGSP", "PLOGMX"})
     EXPECT_THAT(reactionMessage("H+OH=H2O 1 0 0\n" + std::string(keyword) + " / 1 2 /"),
                 AllOf(StartsWith("chem.inp:7: reaction 'H+OH=H2O': the keyword '" + std::string(keyword) + "'"),
                       HasSubstr("is not supported")));

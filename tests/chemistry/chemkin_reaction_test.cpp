@@ -136,6 +136,20 @@ TEST(ChemkinReaction, FallOff) {
   EXPECT_THAT(warnings[0], HasSubstr("chem.inp:20: reaction 'H+OH(+M)=H2O(+M)': T2 of zero"));
 }
 
+TEST(ChemkinReaction, FallOffWhoseCentreIsZero) {
+  std::vector<std::string> warnings;
+  readChemkinReactions(
+      "\nCH3+H(+M)=CH4(+M) 1E13 0 0\nLOW/1E30 -4 0/\nTROE/0.5 0 0/\n2OH(+M)=H2O2(+M) 1E13 0 0\nLOW/1E18 0 0/\n"
+      "TROE/0.5 1E-30 1E30/\n2CH3(+M)=C2H6(+M) 1E13 0 0\nLOW/1E18 0 0/\nTROE/0 0 1E30 100/\n"
+      "H+OH(+M)=H2O(+M) 1E13 0 0\nLOW/1E18 0 0/\nTROE/1 1E30 1E-30/",
+      &warnings);
+  EXPECT_THAT(warnings,
+              ::testing::ElementsAre(
+                  AllOf(HasSubstr("chem.inp:6: reaction 'CH3 + H (+M) <=> CH4 (+M)'"),
+                        HasSubstr("T3 = 0 and T1 = 0 the centre of its fall-off is zero at all temperatures")),
+                  HasSubstr("reaction 'H + OH (+M) <=> H2O (+M)': with T3 = 1e+30 and T1 = 1e-30")));
+}
+
 // The line of the equation holds the low-pressure limit, of the reaction's own order; HIGH is one order lower.
 TEST(ChemkinReaction, ChemicallyActivated) {
   const auto mechanism =

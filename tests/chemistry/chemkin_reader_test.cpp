@@ -71,9 +71,9 @@ TEST(ChemkinReader, ElementsWithWeightsOfTheirOwn) {
 TEST(ChemkinReader, SectionsMayBeShortAndLackTheirEnds) {
   std::vector<std::string> warnings;
   const auto mechanism = readChemkinText(
-      "! of somebody\nELEM\nH O\nH\nSPEC\nH2 O2\nOH H2\nther\n" + thermoCards("OH", "H   1O   1") +
+      "! of somebody\nELEM\nH O\nH\nSPECIE\nH2 O2\nOH H2\nther\n" + thermoCards("OH", "H   1O   1") +
           thermoCards("H2", "H   2") +
-          "TRAN\nO2 1 107.4 3.458 0 1.6 3.8\nREAC\nH2+O2=2OH 1E13 0 0\nEND\nno more than a note\nand another\n",
+          "TRANSP\nO2 1 107.4 3.458 0 1.6 3.8\nREAC\nH2+O2=2OH 1E13 0 0\nEND\nno more than a note\nand another\n",
       &warnings, thermoCards("O2", "O   2"));
   EXPECT_EQ(mechanism.numSpecies(), 3U);
   EXPECT_EQ(mechanism.numReactions(), 1U);
