@@ -73,13 +73,13 @@ void BlockSweep::clear() {
 }
 
 bool BlockSweep::invert(std::size_t k) {
-  double* D = diagonal(k);
+  double *D = diagonal(k), *factors = X_.data();
   if (!rowScales(n_, n_, D, scale_.data())) return false;
-  multiplyRows(n_, n_, scale_.data(), D);
-  if (!dense_.factorise(n_, D, pivots_.data())) return false;
-  sign_ *= chemistry::determinantSign(n_, D, pivots_.data());
-  dense_.invert(n_, D, pivots_.data(), scale_.data(), X_.data());
-  std::copy_n(X_.data(), n_ * n_, D);
+  for (std::size_t j = 0; j < n_; ++j)
+    for (std::size_t i = 0; i < n_; ++i) factors[j * n_ + i] = scale_[i] * D[j * n_ + i];
+  if (!dense_.factorise(n_, factors, pivots_.data())) return false;
+  sign_ *= chemistry::determinantSign(n_, factors, pivots_.data());
+  dense_.invert(n_, factors, pivots_.data(), scale_.data(), D);
   return true;
 }
 

@@ -53,8 +53,9 @@ class BlockSweep {
  private:
   [[nodiscard]] double* at(std::size_t k) { return storage_.data() + k * rowStride_; }
   [[nodiscard]] bool eliminate(std::size_t k, double* corner);
-  // The diagonal block becomes its inverse. Its rows are first multiplied by powers of two that bring their sums to
-  // about one: pivots are then compared alike whatever the units of the equations, and nothing is rounded.
+  // The diagonal block becomes its inverse; X_ is its scratch. Its rows are first multiplied by powers of two that
+  // bring their sums to about one: pivots are then compared alike whatever the units of the equations, and nothing is
+  // rounded.
   [[nodiscard]] bool invert(std::size_t k);
 
   std::size_t count_, n_, border_;

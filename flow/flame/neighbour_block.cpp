@@ -37,17 +37,17 @@ void NeighbourBlock::subtractProduct(chemistry::DenseBlocks& dense, std::size_t 
 
 void NeighbourBlock::multiply(chemistry::DenseBlocks& dense, const double* W, double* X) const {
   const std::size_t n = width_;
-  std::fill_n(X, n * n, 0.0);
   if (!terms_) {
+    std::fill_n(X, n * n, 0.0);
     dense.subtractProduct(n, n, n, W, n, values_, n, X, n);
     for (std::size_t e = 0; e < n * n; ++e) X[e] = -X[e];
     return;
   }
   std::vector<double> product(n * *terms_);  // -W A
   dense.subtractProduct(n, *terms_, n, W, n, column(0), n, product.data(), n);
-  dense.subtractProduct(n, n, *terms_, product.data(), n, rows(), *terms_, X, n);
   for (std::size_t j = 0; j < n; ++j)
-    for (std::size_t i = 0; i < n; ++i) X[j * n + i] += W[j * n + i] * values_[j];
+    for (std::size_t i = 0; i < n; ++i) X[j * n + i] = W[j * n + i] * values_[j];
+  dense.subtractProduct(n, n, *terms_, product.data(), n, rows(), *terms_, X, n);
 }
 
 void NeighbourBlock::clearRow(std::size_t row) const {
