@@ -192,7 +192,7 @@ void ReactionOperator::limitRates(State& state, std::size_t cell) {
   double largest = 0.0;
   for (std::size_t k = 0; k < n; ++k) largest = std::max(largest, std::abs(rate[k] * excess(k)));
   if (largest == 0.0) return;
-  heatRelease_[cell] = heatRelease(state, cell);
+  heatRelease_[cell] = heatRelease(context_, state, cell);
   const double perStep = meanDensity(state, cell) / step_;
   for (std::size_t k = 0; k < n; ++k) {
     const double tooMuch = perStep * excess(k);
@@ -310,11 +310,10 @@ void ReactionOperator::advance(State& state, double time, double dt) {
   state.updateHalo(context_.halo);
 }
 
-// Of the rates, W/m3.
-double ReactionOperator::heatRelease(const State& state, std::size_t cell) const {
+double heatRelease(const FlowContext& context, const State& state, std::size_t cell) {
   const auto n = static_cast<std::size_t>(state.species);
   std::vector<double> enthalpies(n);
-  context_.thermo.speciesEnthalpies(state.temperature[cell], enthalpies);
+  context.thermo.speciesEnthalpies(state.temperature[cell], enthalpies);
   double heat = 0.0;
   for (std::size_t k = 0; k < n; ++k) heat -= enthalpies[k] * state.balance.reactions[cell * n + k];
   return heat;
@@ -412,7 +411,7 @@ std::vector<double> ReactionOperator::historyValues(const State&) {
 void ReactionOperator::fields(const State& state, const FieldSink& sink) const {
   std::vector<double> heat = heatRelease_;
   for (std::size_t cell = 0; cell < heat.size(); ++cell)
-    if (isLimited_[cell] == 0.0) heat[cell] = heatRelease(state, cell);
+    if (isLimited_[cell] == 0.0) heat[cell] = heatRelease(context_, state, cell);
   sink({"heat_release", "W/m^3", "heat set free by the gas reactions, mean of the last step"}, heat);
 }
 

@@ -25,6 +25,9 @@
 
 namespace lampblack::flow {
 
+// W/m3, what the reactions of State::balance set free in an owned cell.
+[[nodiscard]] double heatRelease(const FlowContext& context, const State& state, std::size_t cell);
+
 class ReactionOperator : public Operator {
  public:
   struct Options {
@@ -86,7 +89,6 @@ class ReactionOperator : public Operator {
   void begin(double dt);
   void removeNetMass(State& state, std::size_t cell);
   void limitRates(State& state, std::size_t cell);
-  [[nodiscard]] double heatRelease(const State& state, std::size_t cell) const;
 
   const FlowContext& context_;
   Options options_;

@@ -6,9 +6,11 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "core/errors.hpp"
 #include "flow/cell_errors.hpp"
+#include "flow/reaction_operator.hpp"
 
 namespace lampblack::flow {
 namespace {
@@ -25,7 +27,11 @@ constexpr double shortestFactor = 0.2;  // of the step before
 }  // namespace
 
 StepControl::StepControl(const FlowContext& context, const Options& options)
-    : context_(context), options_(options), failed_(std::numeric_limits<double>::infinity()), coldest_(failed_) {
+    : context_(context),
+      options_(options),
+      failed_(std::numeric_limits<double>::infinity()),
+      coldest_(failed_),
+      heat_(static_cast<std::size_t>(context.mesh.owned), 0.0) {
   if (options.tolerance && options.sweeps < 2) throw std::logic_error("StepControl needs two sweeps");
 }
 
@@ -53,6 +59,7 @@ void StepControl::advance(State& state, double time, double dt) {
   if (options_.tolerance) findError(state);
   requireSound(state);
   keepChange(state, time, dt);
+  keepHeat(state);
   step_ = dt;
 }
 
@@ -133,6 +140,20 @@ void StepControl::keepChange(const State& state, double time, double dt) {
   keep(missing, negative_);
 }
 
+void StepControl::keepHeat(const State& state) {
+  std::array<double, 2> largest{0.0, 0.0};  // heat release, and change of it
+  for (std::size_t c = 0; c < heat_.size(); ++c) {
+    const double now = heatRelease(context_, state, c);
+    largest[0] = std::max(largest[0], std::abs(now));
+    largest[1] = std::max(largest[1], std::abs(now - heat_[c]));
+    heat_[c] = now;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, largest.data(), 2, MPI_DOUBLE, MPI_MAX, context_.mesh.comm);
+  const double unit = std::max(largestHeat_, largest[0]);
+  largestHeat_ = largest[0];
+  if (unit > 0.0) heatChangeSinceRow_ = std::max(heatChangeSinceRow_, largest[1] / unit);
+}
+
 void StepControl::endStep(State& state) {
   const auto owned = static_cast<std::ptrdiff_t>(context_.mesh.owned);
   start_.assign(state.temperature.begin(), state.temperature.begin() + owned);
@@ -157,8 +178,9 @@ double StepControl::largestStep(const State&) {
 }
 
 void StepControl::saveOrLoad(StateArchive& archive) {
-  const std::array scalars{&error_,   &step_,         &change_,       &changeSinceRow_,
-                           &coldest_, &takenTooMuch_, &firstTooMuch_, &undershoot_};
+  archive.cells("heat_release_of_step", heat_, 1);
+  const std::array scalars{&error_,        &step_,         &change_,     &changeSinceRow_, &coldest_,
+                           &takenTooMuch_, &firstTooMuch_, &undershoot_, &largestHeat_,    &heatChangeSinceRow_};
   std::vector<double*> values(scalars.begin(), scalars.end());
   for (double& coordinate : place_) values.push_back(&coordinate);
   for (Worst* worst : {&warming_, &negative_}) {
@@ -175,7 +197,9 @@ void StepControl::saveOrLoad(StateArchive& archive) {
 
 std::vector<Quantity> StepControl::historyColumns() const {
   std::vector<Quantity> columns{
-      {"temperature_change", "K", "largest change of a cell's temperature in a step since the last row"}};
+      {"temperature_change", "K", "largest change of a cell's temperature in a step since the last row"},
+      {"heat_release_change", "1",
+       "largest change of a cell's heat release in a step since the last row, over the largest of any cell"}};
   if (options_.tolerance)
     columns.push_back({"step_error", "1",
                        "largest change of a cell's temperature, relative, or of a mass fraction by the last sweep"});
@@ -183,8 +207,7 @@ std::vector<Quantity> StepControl::historyColumns() const {
 }
 
 std::vector<double> StepControl::historyValues(const State&) {
-  std::vector<double> values{changeSinceRow_};
-  changeSinceRow_ = 0.0;
+  std::vector<double> values{std::exchange(changeSinceRow_, 0.0), std::exchange(heatChangeSinceRow_, 0.0)};
   if (options_.tolerance) values.push_back(error_);
   return values;
 }

@@ -48,6 +48,7 @@ class StepControl : public Operator {
   [[nodiscard]] double excess(const State& state, int cell, std::string* fault) const;
   void requireSound(const State& state);
   void keepChange(const State& state, double time, double dt);
+  void keepHeat(const State& state);
   [[nodiscard]] double coldestGiven() const;
 
   const FlowContext& context_;
@@ -61,6 +62,10 @@ class StepControl : public Operator {
   double change_ = 0.0;                  // K, the largest of the last step
   double undershoot_ = 0.0;              // by how much the last step has taken a mass fraction (further) below zero
   double changeSinceRow_ = 0.0;          // K
+  std::vector<double> heat_;             // W/m3, that the last step's reactions have set free, of the owned cells
+  double largestHeat_ = 0.0;             // the largest of any cell
+  // The largest change of it in a step since the last row, in units of the largest there was before or after.
+  double heatChangeSinceRow_ = 0.0;
   struct Worst {
     Peak peak;
     double time = 0.0;  // s

@@ -46,17 +46,17 @@ TEST_F(StepControls, TheLastCorrectionIsTheError) {
   change(7, 2.0, 0.0);
   change(9, 0.0, 3e-3);
   control.advance(state, 0.0, 2e-5);
-  EXPECT_NEAR(control.historyValues(state).at(1), std::max(2.0 / 502.0, 3e-3), 1e-15);
+  EXPECT_NEAR(control.historyValues(state).at(2), std::max(2.0 / 502.0, 3e-3), 1e-15);
   control.endStep(state);
   EXPECT_NEAR(control.largestStep(state), 2e-5 * 0.9 * std::cbrt(1e-3 / (2.0 / 502.0)), 1e-18);
   for (int sweep = 0; sweep < 3; ++sweep) {
     if (sweep == 2) change(9, 0.0, 0.5);
     control.advance(state, 0.0, 1e-5);
   }
-  EXPECT_NEAR(control.historyValues(state).at(1), 0.5, 1e-12);
+  EXPECT_NEAR(control.historyValues(state).at(2), 0.5, 1e-12);
   EXPECT_DOUBLE_EQ(control.largestStep(state), 0.2e-5) << "not less than a fifth at once";
   for (int sweep = 0; sweep < 3; ++sweep) control.advance(state, 0.0, 1e-5);
-  EXPECT_EQ(control.historyValues(state).at(1), 0.0) << "of the last step alone";
+  EXPECT_EQ(control.historyValues(state).at(2), 0.0) << "of the last step alone";
 }
 
 TEST_F(StepControls, NeedsTwoSweeps) {
@@ -90,6 +90,27 @@ TEST_F(StepControls, TellsTheLargestChangeOfAStepAndStepsByIt) {
   control.advance(state, 1.06e-3, 2e-5);
   EXPECT_THAT(control.closingLines().at(1), testing::HasSubstr("of all steps -0.002 at (0.375, 0.833"));
   EXPECT_THAT(control.closingLines().at(1), testing::HasSubstr("t = 0.00106 s"));
+}
+
+TEST_F(StepControls, TellsTheLargestChangeOfHeatRelease) {
+  StepControl control(box.context, {});
+  const auto release = [&](std::int64_t number, double rate) {  // kg/m3/s, of water
+    const int c = box.mesh.findOwned(number);
+    if (c >= 0) state.balance.reactions[at(c) * air.size() + gas.mechanism.speciesIndex("H2O")] = rate;
+  };
+  const auto changeIn = [&] {
+    control.endStep(state);
+    control.advance(state, 0.0, 1e-5);
+    return control.historyValues(state).at(1);
+  };
+  release(5, 2.0);
+  release(7, 4.0);
+  EXPECT_DOUBLE_EQ(changeIn(), 1.0) << "the first step from nothing";
+  EXPECT_EQ(changeIn(), 0.0);
+  release(5, 1.0);
+  EXPECT_NEAR(changeIn(), 0.25, 1e-14) << "in units of the largest of any cell";
+  release(7, 1.0);
+  EXPECT_NEAR(changeIn(), 0.75, 1e-14) << "before or after";
 }
 
 // What a step in one sweep leaves in a cell, and what is said of it; nothing: the step is taken.
