@@ -88,7 +88,9 @@ void Expansion::begin(const State& state, const GasProperties& properties, bool 
   std::ranges::fill(balance_, 0.0);
   addBalance(state, properties, balance_);
   for (std::size_t c = 0; c < divergence_.size(); ++c) {
-    if (lastStep > 0.0) correction_[c] += share * ((gained_[c] - balance_[c]) * lastStep + drift_[c]);
+    // What a steady state needs goes on all the time: it is in proportion to the step.
+    if (lastStep > 0.0)
+      correction_[c] = (correction_[c] + share * ((gained_[c] - balance_[c]) * lastStep + drift_[c])) * (dt / lastStep);
     divergence_[c] = balance_[c] + (correction_[c] + drift_[c]) / dt;
   }
 }

@@ -1,9 +1,16 @@
 #include "flow/heat_conduction.hpp"
 
+#include <cmath>
+
 #include "core/errors.hpp"
 #include "flow/face_fluxes.hpp"
 
 namespace lampblack::flow {
+namespace {
+
+constexpr double smallRise = 1e-3;  // K, over which a heat capacity does not change
+
+}  // namespace
 
 BoundaryData knownTemperature(const FlowContext& context, int face) {
   if (context.isTemperatureGiven(face)) return BoundaryData::Value;
@@ -73,8 +80,8 @@ void HeatConduction::evaluate(std::span<const double> temperature, std::span<dou
   }
 }
 
-void HeatConduction::implicitFlux(const State& guess, const GasProperties& properties, const Contents& contents,
-                                  double dt, std::span<double> flux, const std::function<bool(int cell)>& exactly) {
+void HeatConduction::implicitFlux(const State& guess, const Contents& contents, double dt, std::span<double> flux,
+                                  const std::function<bool(int cell)>& atOnce) {
   const Mesh& m = context_.mesh;
   const auto n = static_cast<std::size_t>(guess.species);
   inertia_.resize(static_cast<std::size_t>(m.owned));
@@ -84,16 +91,15 @@ void HeatConduction::implicitFlux(const State& guess, const GasProperties& prope
   collectively(m.comm, [&] {
     for (int c = 0; c < m.owned; ++c) {
       for (std::size_t k = 0; k < n; ++k) Y_[k] = contents.species[c * n + k] / contents.mass[c];
-      if (exactly && exactly(c)) {
-        const double T = guess.temperature[c], mass = contents.mass[c];
-        inertia_[c] = mass * context_.thermo.cpMass(T, Y_) / dt;
-        temperature_[c] = (contents.enthalpy[c] - mass * context_.thermo.enthalpyMass(T, Y_)) / dt;
-        continue;
-      }
-      const double T =
-          context_.thermo.temperatureFromEnthalpy(contents.enthalpy[c] / contents.mass[c], Y_, guess.temperature[c]);
-      inertia_[c] = contents.mass[c] * properties.heatCapacity[c] / dt;
-      temperature_[c] = inertia_[c] * (T - guess.temperature[c]);
+      const double T = guess.temperature[c], mass = contents.mass[c], h = contents.enthalpy[c] / mass;
+      const double lacks = h - context_.thermo.enthalpyMass(T, Y_);
+      double capacity = context_.thermo.cpMass(T, Y_);
+      // Its mean up to the temperature that all this leads to.
+      if (!(atOnce && atOnce(c)))
+        if (const double rise = context_.thermo.temperatureFromEnthalpy(h, Y_, T) - T; std::abs(rise) > smallRise)
+          capacity = lacks / rise;
+      inertia_[c] = mass * capacity / dt;
+      temperature_[c] = mass * lacks / dt;
     }
   });
   evaluate(guess.temperature, flux);

@@ -37,10 +37,11 @@ class HeatConduction {
     std::span<const double> mass, species, enthalpy;
   };
   // Collective. Fluxes at the end of a step, of which the state is the guess. Heat that comes in by everything else
-  // counts by the temperature it leads to; in cells that `exactly` says by the enthalpy that the guess lacks, so that a
-  // guess which is the end is exactly that, however fast reactions heat the cell.
-  void implicitFlux(const State& guess, const GasProperties& properties, const Contents& contents, double dt,
-                    std::span<double> flux, const std::function<bool(int cell)>& exactly = {});
+  // counts by the enthalpy that the guess lacks, so that a guess which is the end is exactly that in steps of any
+  // length, and by the mean heat capacity up to the temperature it leads to; in cells that `atOnce` says, which
+  // reactions may heat beyond any temperature, by that of the guess.
+  void implicitFlux(const State& guess, const Contents& contents, double dt, std::span<double> flux,
+                    const std::function<bool(int cell)>& atOnce = {});
 
  private:
   [[nodiscard]] double givenFlux(int face) const;

@@ -197,7 +197,7 @@ void TransportOperator::advanceDiffusion(const State& mean, State& state, double
   }
   std::function<bool(int)> isCoupled;
   if (couples_) isCoupled = [this](int c) { return takesCoupled(c); };
-  heatConduction_.implicitFlux(state, properties_, {newMass_, content_, heatContent_}, dt, heat_.heat, isCoupled);
+  heatConduction_.implicitFlux(state, {newMass_, content_, heatContent_}, dt, heat_.heat, isCoupled);
   addFaceFluxes(m, heat_.heat, 1, dt, heatContent_);
   for (std::size_t i = 0; i < extra.size(); ++i) heat_.heat[i] += extra[i];
 }
