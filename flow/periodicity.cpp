@@ -5,13 +5,15 @@
 #include <cstddef>
 #include <limits>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 namespace lampblack::flow {
 namespace {
 
 constexpr double constant = 1e-6;      // of a scale
-constexpr double minor = 0.01;         // of the largest variation
-constexpr double misfit = 0.05;        // of a range, between a value and that a period before
+constexpr double minor = 0.05;         // of the largest variation
+constexpr double allowed = 0.05;       // of a range, between a value and that a period before
 constexpr double hysteresis = 0.2;     // of a range, to either side of the middle
 constexpr std::size_t periods = 3;     // that are looked at
 constexpr std::size_t perPeriod = 16;  // times at least
@@ -53,24 +55,28 @@ class Record {
     return static_cast<std::size_t>(std::ranges::lower_bound(t_, time) - t_.begin());
   }
 
-  [[nodiscard]] bool repeats(double period) const {
+  // By how much of its range, at most, a signal is away from what it was a period before; infinite where the record is
+  // too short to tell.
+  [[nodiscard]] double misfitOf(double period) const {
+    constexpr double unknown = std::numeric_limits<double>::infinity();
     const double end = t_.back();
-    if (end - static_cast<double>(periods) * period < t_.front() - 1e-9 * period) return false;
+    if (end - static_cast<double>(periods) * period < t_.front() - 1e-9 * period) return unknown;
     const std::size_t last = firstFrom(end - period), looked = firstFrom(end - 2.0 * period);
-    if (t_.size() - last < perPeriod) return false;
+    if (t_.size() - last < perPeriod) return unknown;
     const auto variationOf = [&](const RecordedSignal& signal) {
       const auto [low, high] = rangeOf(signal, looked);
       return high - low > constant * signal.scale ? (high - low) / signal.scale : 0.0;
     };
-    double most = 0.0;
+    double most = 0.0, misfit = 0.0;
     for (const RecordedSignal& signal : signals_) most = std::max(most, variationOf(signal));
-    return std::ranges::all_of(signals_, [&](const RecordedSignal& signal) {
-      if (variationOf(signal) <= minor * most) return true;
+    for (const RecordedSignal& signal : signals_) {
+      if (variationOf(signal) <= minor * most) continue;
       const auto [low, high] = rangeOf(signal, last);
+      if (!(high > low)) return unknown;
       for (std::size_t i = looked; i < t_.size(); ++i)
-        if (std::abs(signal.values[i] - at(signal, t_[i] - period)) > misfit * (high - low)) return false;
-      return true;
-    });
+        misfit = std::max(misfit, std::abs(signal.values[i] - at(signal, t_[i] - period)) / (high - low));
+    }
+    return misfit;
   }
 
  private:
@@ -91,7 +97,7 @@ std::optional<Periodicity> periodicityOf(std::span<const double> times, std::spa
     if (signal.values.size() != times.size()) throw std::logic_error("a signal does not fit the times of the record");
   if (times.size() < periods * perPeriod) return {};
   const Record record(times, signals);
-  double best = std::numeric_limits<double>::infinity();
+  std::vector<std::pair<double, double>> found;  // periods, and how well they fit
   // A part of the record has the fewer periods the shorter it is, and less of what was before they began.
   for (double part = times.back() - times.front();; part *= shorter) {
     const std::size_t first = record.firstFrom(times.back() - part);
@@ -102,15 +108,20 @@ std::optional<Periodicity> periodicityOf(std::span<const double> times, std::spa
       const std::vector<double> rises = record.risesOf(signal, first);
       for (std::size_t each = 1; each <= crossings && rises.size() > periods * each; ++each) {
         const double period = (rises.back() - rises[rises.size() - 1 - periods * each]) / static_cast<double>(periods);
-        if (period < best && record.repeats(period)) best = period;
+        if (const double misfit = record.misfitOf(period); misfit <= allowed) found.emplace_back(period, misfit);
       }
     }
   }
-  if (!std::isfinite(best)) return {};
-  Periodicity found{best, {}};
+  if (found.empty()) return {};
+  // Of those that are the shortest but for how well they are known, the one that fits best.
+  const double longest = 1.5 * std::ranges::min(found).first;
+  const double period = std::ranges::min(found, {}, [&](const auto& each) {
+                          return each.first <= longest ? each.second : std::numeric_limits<double>::infinity();
+                        }).first;
+  Periodicity periodicity{period, {}};
   for (const RecordedSignal& signal : signals)
-    found.ranges.push_back(record.rangeOf(signal, record.firstFrom(times.back() - best)));
-  return found;
+    periodicity.ranges.push_back(record.rangeOf(signal, record.firstFrom(times.back() - period)));
+  return periodicity;
 }
 
 }  // namespace lampblack::flow

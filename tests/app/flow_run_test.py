@@ -79,6 +79,13 @@ def check_steady(program, folder, ranks) -> None:
     result, later, last, found = steady_run(program, folder, "whole", unasked.replace("end: 60 ms", "end: 45 ms"), "--restart")
     assert "steady" not in found and not any("steady" in name for name in last), (found, last)
 
+    # Not before a time that is given; by the mean over the cells a little earlier than by the largest change.
+    _, _, last, found = steady_run(program, folder, "after", PLATES.replace("time: 3 ms", "time: 3 ms, after: 45 ms"))
+    assert found["steady"] is True and 45e-3 <= float(last["time [s]"]) < 45.6e-3, last
+    result, _, last, found = steady_run(program, folder, "rms", PLATES.replace("time: 3 ms", "time: 3 ms, norm: rms"))
+    assert found["change_rms"] < tolerance < found["change"] and float(last["time [s]"]) < end, (found, last)
+    assert found["change_rms"] == float(last["steady_change_rms [1]"]) and "RMS norm)" in result.out, (found, last)
+
     # A plate that moves to and fro is never steady. Stokes' exact solution gives the amplitude of the momentum.
     period = 20e-3
     waves = PLATES.replace("tangential_velocity: 1 m/s", f"formula: {{tangential_velocity: 'sin(2*pi*t/{period})'}}")
