@@ -20,8 +20,13 @@ using Numbers = std::vector<double>;
 class ReactionBuilder {
  public:
   ReactionBuilder(const ChemkinSource& source, const ChemkinReactionEntry& entry, const ChemkinUnits& units,
-                  const ChemkinEquationParser& species, std::vector<std::string>& warnings)
-      : source_(source), entry_(entry), units_(units), species_(species), warnings_(warnings) {}
+                  const ChemkinEquationParser& species, bool permissive, std::vector<std::string>& warnings)
+      : source_(source),
+        entry_(entry),
+        units_(units),
+        species_(species),
+        permissive_(permissive),
+        warnings_(warnings) {}
 
   std::vector<Reaction> build() {
     try {
@@ -132,9 +137,18 @@ class ReactionBuilder {
 
   void takeEfficiency(const ChemkinAuxiliary& item) {
     if (!species_.find(item.key)) {
+      const bool looksLikeEfficiency = item.values.size() == 1 && fortranNumber(item.values[0]);
+      if (permissive_ && looksLikeEfficiency) {
+        warnings_.push_back(
+            fmt::format("{}:{}: reaction '{}': the efficiency of '{}' is left out: it is no declared species",
+                        source_.file(), item.line, entry_.equation, item.key));
+        return;
+      }
       const auto keyword = suggestChemkinKeyword(item.key);
-      fail(item.line, fmt::format("'{}' is neither a keyword nor a declared species{}", item.key,
-                                  keyword.empty() ? species_.suggestion(item.key) : keyword));
+      fail(item.line,
+           fmt::format("'{}' is neither a keyword nor a declared species{}{}", item.key,
+                       keyword.empty() ? species_.suggestion(item.key) : keyword,
+                       looksLikeEfficiency ? "; --permissive leaves efficiencies of other species out" : ""));
     }
     const auto k = *species_.find(item.key);
     if (item.values.size() != 1)
@@ -311,6 +325,7 @@ class ReactionBuilder {
   const ChemkinReactionEntry& entry_;
   ChemkinUnits units_;
   const ChemkinEquationParser& species_;
+  bool permissive_;
   std::vector<std::string>& warnings_;
   ChemkinEquation equation_;
   Reaction reaction_;
@@ -324,8 +339,8 @@ class ReactionBuilder {
 
 std::vector<Reaction> readChemkinReaction(const ChemkinSource& source, const ChemkinReactionEntry& entry,
                                           const ChemkinUnits& units, const ChemkinEquationParser& species,
-                                          std::vector<std::string>& warnings) {
-  return ReactionBuilder(source, entry, units, species, warnings).build();
+                                          bool permissive, std::vector<std::string>& warnings) {
+  return ReactionBuilder(source, entry, units, species, permissive, warnings).build();
 }
 
 }  // namespace lampblack::chemistry

@@ -14,9 +14,10 @@
 namespace lampblack::chemistry {
 
 // One reaction; two where REV gives a rate of its own to the reverse direction: both are irreversible then. `units` are
-// those of the section. Throws InputError with file, line and what was expected.
+// those of the section. `permissive`: efficiencies of species that are not declared are left out, with a warning.
+// Throws InputError with file, line and what was expected.
 std::vector<Reaction> readChemkinReaction(const ChemkinSource& source, const ChemkinReactionEntry& entry,
                                           const ChemkinUnits& units, const ChemkinEquationParser& species,
-                                          std::vector<std::string>& warnings);
+                                          bool permissive, std::vector<std::string>& warnings);
 
 }  // namespace lampblack::chemistry

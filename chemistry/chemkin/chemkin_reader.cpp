@@ -239,7 +239,7 @@ class ChemkinReader {
           source_.fail(section.line,
                        fmt::format("REACTIONS: unknown unit '{}'; expected {}", option, ChemkinUnits::expected()));
       for (const auto& entry : splitChemkinReactions(source_, section.lines, parser, warnings_)) {
-        auto made = readChemkinReaction(source_, entry, units, parser, warnings_);
+        auto made = readChemkinReaction(source_, entry, units, parser, permissive_, warnings_);
         const bool ownReverse = made.size() == 2 || std::ranges::any_of(entry.auxiliaries, [](const auto& item) {
                                   return upperCase(item.key) == "REV";
                                 });

@@ -23,7 +23,8 @@ struct Element {
 
 // How files are taken that are not quite as their format has them.
 struct MechanismRules {
-  // Two reactions that are the same and not marked as duplicates are marked, with a warning, in place of an InputError.
+  // In place of an InputError, with a warning: two reactions that are the same and not marked as duplicates are marked;
+  // efficiencies of species that a CHEMKIN file does not declare are left out.
   bool permissive = false;
   std::string_view duplicateMark = "'duplicate: true'";  // how the file's format marks one, for messages
 };

@@ -387,17 +387,19 @@ TEST(ChemkinReaction, MarksOfDuplicates) {
                                                HasSubstr("chem.inp:12: ")));
   const std::string text = lampblack::test::chemkinHead() +
                            "REACTIONS\nH2+O2=OH+OH 1.7E13 0 47780\nOH+OH=H2+O2 1E9 0 0\nO+H2=H+OH 1 0 0\n"
-                           "H2+O2=2OH 1 0 0\nEND\n";
+                           "H2+O2=2OH 1 0 0\nH+OH+M=H2O+M 1 0 0\n H2/2/ XE/3/ O2/0.5/\nEND\n";
   const ChemkinText thermo{"therm.dat", lampblack::test::chemkinThermo()};
   EXPECT_THROW(parseChemkin({"chem.inp", text}, thermo, std::nullopt), InputError);
   const auto permissive = parseChemkin({"chem.inp", text}, thermo, std::nullopt, true);
-  ASSERT_EQ(permissive.numReactions(), 4U);
+  ASSERT_EQ(permissive.numReactions(), 5U);
+  EXPECT_EQ(permissive.reaction(4).thirdBody->efficiencies.size(), 2U);
   for (const std::size_t r : {0, 1, 3}) EXPECT_TRUE(permissive.reaction(r).duplicate);
   EXPECT_FALSE(permissive.reaction(2).duplicate);
   expectRate(permissive.reaction(1).rate, 1e3, 0, 0);
   EXPECT_THAT(
       permissive.warnings(),
-      ::testing::ElementsAre(HasSubstr("chem.inp:7: reaction '2 OH <=> H2 + O2' is marked as a duplicate: it is the "
+      ::testing::ElementsAre(HasSubstr("chem.inp:11: reaction 'H+OH+M=H2O+M': the efficiency of 'XE' is left out"),
+                             HasSubstr("chem.inp:7: reaction '2 OH <=> H2 + O2' is marked as a duplicate: it is the "
                                        "same as 'H2 + O2 <=> 2 OH' at line 6"),
                              HasSubstr("chem.inp:9: ")));
 }
