@@ -17,9 +17,8 @@ DepositionOperator::DepositionOperator(const FlowContext& context, std::string m
       mass_(rate_.size()) {}
 
 bool DepositionOperator::isNeeded(const std::vector<BoundaryCondition>& boundaries) {
-  return std::ranges::any_of(boundaries, [](const BoundaryCondition& boundary) {
-    return boundary.kind == BoundaryKind::Wall && boundary.takesParticles;
-  });
+  return std::ranges::any_of(boundaries,
+                             [](const BoundaryCondition& boundary) { return boundary.kind == BoundaryKind::Wall; });
 }
 
 void DepositionOperator::record(double dt, std::span<const double> mass) {
@@ -42,7 +41,7 @@ std::vector<DepositionOperator::Totals> DepositionOperator::totals() const {
   std::vector<PlacedValue> values;
   std::vector<double> largest(boundaries, 0.0);
   for (int face = m.interiorFaces; face < m.faces; ++face) {
-    if (!context_.takesParticles(face) || m.area[face] <= 0.0) continue;
+    if (context_.boundaryOf(face).kind != BoundaryKind::Wall || m.area[face] <= 0.0) continue;
     const auto b = static_cast<std::size_t>(m.patch[face - m.interiorFaces]);
     values.push_back({3 * b, rate_[face]});
     values.push_back({3 * b + 1, mass_[face]});
@@ -79,7 +78,7 @@ std::vector<std::string> DepositionOperator::closingLines() const {
   for (std::size_t b = 0; b < last_.size(); ++b) {
     const BoundaryCondition& boundary = context_.boundaries[b];
     const Totals& of = last_[b];
-    if (boundary.kind == BoundaryKind::Wall && boundary.takesParticles)
+    if (boundary.kind == BoundaryKind::Wall && (boundary.takesParticles || of.mass > 0.0))
       lines.push_back(fmt::format(
           "{} on the wall {}: {:.3g} {} at the end (mean {:.3g}, largest {:.3g} kg/m^2/s), {:.4g} {} since the start",
           material_, boundary.name, of.rate, integralUnit(context_.mesh, "kg/s"), of.meanFlux(), of.largestFlux,

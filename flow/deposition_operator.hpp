@@ -18,7 +18,7 @@ class DepositionOperator : public Operator {
   // `material`: of the particles.
   DepositionOperator(const FlowContext& context, std::string material);
 
-  // Whether a wall of the flow takes particles.
+  // Whether the flow has walls, which take particles or may once it goes on.
   [[nodiscard]] static bool isNeeded(const std::vector<BoundaryCondition>& boundaries);
 
   // A step of `dt` (s) in which the boundary's faces took these masses, kg per metre depth or radian.
@@ -39,8 +39,8 @@ class DepositionOperator : public Operator {
     double area = 0.0;         // m^2 per metre depth or radian
     [[nodiscard]] double meanFlux() const { return area > 0.0 ? rate / area : 0.0; }
   };
-  // Collective. In the order of the context's boundaries; zero where a boundary takes none. The same to the last bit on
-  // any number of ranks.
+  // Collective. In the order of the context's boundaries; zero where a boundary has taken none. The same to the last
+  // bit on any number of ranks.
   [[nodiscard]] std::vector<Totals> totals() const;
 
   // The faces of a boundary along it, in the order of their numbers.

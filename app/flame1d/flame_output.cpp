@@ -169,8 +169,8 @@ std::vector<NamedNumber> namedNumbers(const FlameCase& flame, const FlameResult&
       for (NamedNumber& number : namedSootNumbers(result.fields, *result.soot)) numbers.push_back(std::move(number));
       if (!result.soot->diameter.empty()) numbers.push_back({"soot_in_last_section", "1", result.soot->partAtLimit});
       if (const auto& wall = result.solution.deposition) {
-        numbers.push_back({"soot_deposition_on_wall", "kg/m^2/s", wall->all});
-        numbers.push_back({"soot_deposition_by_thermophoresis", "kg/m^2/s", wall->byThermophoresis});
+        numbers.push_back({"soot_deposition_on_wall", "kg/m^2/s", wall->rate});
+        numbers.push_back({"thermophoretic_velocity_at_wall", "m/s", wall->thermophoresis});
       }
     }
   }

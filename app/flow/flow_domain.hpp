@@ -43,7 +43,7 @@ struct FlowDomain {
   StepControl stepControl;
   std::unique_ptr<CarriedOperator> carried;
   std::unique_ptr<EnsembleOperator> ensembles;
-  std::unique_ptr<DepositionOperator> deposition;  // null where no wall takes particles
+  std::unique_ptr<DepositionOperator> deposition;  // null without particles and without walls
   std::unique_ptr<RadiationOperator> radiation;
   std::vector<Operator*> operators;  // of these, each advances over the step, one after the other
   std::unique_ptr<Budget> budget;

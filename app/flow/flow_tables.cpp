@@ -31,7 +31,6 @@ bool isUsual(const std::string& field) {
 // Of the results.
 std::string groupOf(const std::string& kind, const std::string& name) {
   if (kind == "sizes" || kind == "joint") return "/regions/" + name + "/" + kind;
-  if (kind == "deposit") return "/boundaries/" + name + "/deposit";
   return (kind == "boundary" ? "/boundaries/" : "/" + kind + "s/") + name;
 }
 

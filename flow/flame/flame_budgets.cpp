@@ -113,9 +113,9 @@ WallDeposition FlameEquations::wallDeposition(std::span<const double> x) {
   for (std::size_t s = 0; s < S; ++s) {
     double mass = 0;
     for (const double part : d.gas.scalarElements[s]) mass += part;
-    taken.all += mass * d.scalarFluxRight(last, s);
-    const double drift = std::max(d.gas.scalarThermophoresis[s] * d.gas.faces.drift[last - 1], 0.0);
-    taken.byThermophoresis += mass * drift * d.profile.scalars(last)[s] * d.gas.scalarScale[s];
+    taken.rate += mass * d.scalarFluxRight(last, s);
+    taken.thermophoresis = std::max(
+        taken.thermophoresis, d.gas.scalarThermophoresis[s] * d.gas.faces.drift[last - 1] / d.gas.nodes.density[last]);
   }
   return taken;
 }

@@ -43,9 +43,10 @@ struct FlameBudget {
   [[nodiscard]] double imbalance() const { return in + given - out - wall - radiated; }
 };
 
-// What the wall of a flame takes of the particles, kg/m2/s: in all, and as they drift alone.
+// What the wall of a flame takes of the particles, kg/m2/s, and the velocity of thermophoresis to it, m/s: of the
+// scalar that drifts most.
 struct WallDeposition {
-  double all = 0, byThermophoresis = 0;
+  double rate = 0, thermophoresis = 0;
 };
 
 class FlameEquations : public UnsteadySystem {

@@ -368,6 +368,16 @@ TEST(EnsembleOperator, TellsWhatLeavesThePipe) {
   pipe.ensembles.watchAmounts([&](std::span<const double>, std::span<const double> outflow) {
     for (std::size_t k = 0; k < left.size(); ++k) left[k] += outflow[k];
   });
+  double mass = 0.0, time = 0.0;
+  pipe.ensembles.watchFaces([&](double dt, std::span<const double> gone) {
+    time += dt;
+    for (std::size_t b = 0; b < gone.size(); ++b) {
+      const bool isOutlet =
+          pipe.box.context.boundaryOf(pipe.box.mesh.interiorFaces + static_cast<int>(b)).kind == BoundaryKind::Outlet;
+      EXPECT_TRUE(isOutlet || gone[b] == 0.0) << b;
+      mass += gone[b];
+    }
+  });
   const auto watched = {A::number, A::carbon, A::hydrogen, A::primaries};
   std::vector<double> before;
   for (const A::Amount amount : watched) before.push_back(content(amount));
@@ -379,6 +389,8 @@ TEST(EnsembleOperator, TellsWhatLeavesThePipe) {
     EXPECT_NEAR((content(amount) + gone) / before[k], 1.0, 1e-12) << k;
     ++k;
   }
+  EXPECT_NEAR(sumOverRanks(mass) / sumOverRanks(left[A::carbon] + left[A::hydrogen]), 1.0, 1e-12);
+  EXPECT_NEAR(time, 20.0 * Pipe::dt, 1e-12);
 }
 
 // With a constant kernel, behind the first cells, where the particles are put in, each cell follows from the one before

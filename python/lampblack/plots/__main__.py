@@ -45,6 +45,7 @@ def main():
         from ..study import is_study
         from .study import plot_study
         from .style import Pictures
+        from .walls import plot_walls
     except ImportError as error:
         print(f"{error}. Pictures need numpy, h5py and matplotlib (Debian: python3-h5py python3-matplotlib).", file=sys.stderr)
         return 1
@@ -89,6 +90,7 @@ def main():
         plot_profiles(results, pictures, references)
         plot_sizes(results, pictures)
         plot_ensembles(results, pictures)
+        plot_walls(results, pictures)
         plot_history(results, pictures)
     return finish(arguments, pictures)
 
