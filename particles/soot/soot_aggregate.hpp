@@ -56,7 +56,8 @@ class SootAggregate {
   [[nodiscard]] double volume(const Particle& p) const { return mass(p) / density_; }
   [[nodiscard]] double collisionDiameter(const Particle& p) const { return p.diameter; }
   [[nodiscard, gnu::always_inline]] inline double primaryDiameter(const Particle& p) const {
-    return cubeRoot(perVolume() * mass(p) / p.primaries);
+    const double cube = perVolume() * mass(p) / p.primaries;
+    return cube > 1e-290 ? normalCubeRoot(cube) : std::cbrt(cube);
   }
   [[nodiscard]] double surface(const Particle& p) const {
     const double d = primaryDiameter(p);

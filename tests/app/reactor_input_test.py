@@ -156,7 +156,7 @@ SOOT_MISTAKES = [
     ("a fractal dimension of spheres", SOOT, "pah: [A2]", "pah: [A2]\nstochastic: {fractal_dimension: 1.8}",
      ("stochastic.fractal_dimension: 'stochastic.shape: spheres' does not have this",)),
     ("a fractal dimension above three", SOOT, "pah: [A2]", "pah: [A2]\nstochastic: {shape: surface_volume, fractal_dimension: 3.5}",
-     ("stochastic.fractal_dimension", "at most 3")),
+     ("stochastic.fractal_dimension", "from 1 to 3")),
     ("one repeat", SOOT, "pah: [A2]", "pah: [A2]\nstochastic: {repeats: 1}", ("stochastic.repeats",)),
 ]
 

@@ -152,6 +152,17 @@ TEST(SootAggregate, ByVolumeAndSurfaceIsTheTypeOfThePopulationBalance) {
   EXPECT_EQ(fractal.mean(at(fractal, small), 1, at(fractal, there.make(9e-24)), 1).primaries, 1);
   const double sphere = std::cbrt(6 / constants::pi * large.volume), surface = std::sqrt(large.surface / constants::pi);
   EXPECT_NEAR(at(mean, large).diameter / (0.5 * (sphere + surface)), 1, 1e-13);
+  // A gain and a loss at the same time, against small steps of either law: of second order.
+  for (const double part : {0.1, 0.05}) {
+    const double gain = part, loss = 0.8 * part;
+    double V = 1, S = 2.5;  // n = S^3/V^2, in spheres of 1
+    for (int k = 0; k < 4000; ++k) {
+      const double dS = gain / 4000 * (2.0 / 3) / std::sqrt(S) - loss / 4000 * (2.0 / 3) * S / V;
+      V += (gain - loss) / 4000;
+      S += dS;
+    }
+    EXPECT_NEAR(primariesAfter(2.5 * 2.5 * 2.5, 1, gain, loss) / (S * S * S / (V * V)), 1, 0.15 * part * part);
+  }
   // A gain of volume: d ln d_c / d ln V, three times, with S going as it grows.
   for (const SootAggregate& type : {fractal, mean}) {
     const SootAggregate::Particle p = at(type, large);

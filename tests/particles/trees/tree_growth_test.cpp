@@ -81,7 +81,17 @@ TEST(TreeGrowth, ByVolumeAndSurfaceRounds) {
     EXPECT_NEAR(head.volume - V, dV, 1e-9 * V);
     const double expected = grows ? 2 * dV / std::sqrt(S / (4 * constants::pi)) : 2.0 / 3 * S / V * dV;
     EXPECT_NEAR((head.surface - S) / expected, 1, 2e-3);
-    EXPECT_NEAR(head.collision / SurfaceVolume(2200, 1.8).collisionDiameter({head.volume, head.surface}), 1, 1e-12);
+    const SurfaceVolume as(2200, 1.8);
+    EXPECT_NEAR(primariesOfTree(head) / as.primaries({head.volume, head.surface}), 1, 1e-12);
+    EXPECT_NEAR(meanPrimaryDiameter(head) / as.primaryDiameter({head.volume, head.surface}), 1, 1e-12);
+    EXPECT_NEAR(meanSinteringLevel(head) / (treeSphere(head.volume) / head.surface), 1, 1e-12);
+    // Two sites within it, beside what sinters of them; both of two that join do.
+    head.sintering = 1e-18;
+    TreeGrowth growth(type);
+    growth.setRate(0.3);
+    EXPECT_NEAR(growth.within(head, 7) / (0.3 * 7 - 0.5 * 7 / head.surface * 1e-18), 1, 1e-12);
+    EXPECT_EQ(type.coagulated(Tree(tree), Tree(tree), random).head().sintering, 2e-18);
+    EXPECT_NEAR(head.collision / as.collisionDiameter({head.volume, head.surface}), 1, 1e-12);
   }
 }
 
