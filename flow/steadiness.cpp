@@ -44,7 +44,8 @@ Steadiness::Steadiness(const FlowContext& context, const State& state, Options o
     width_ += components;
   };
   add(Kind::Velocity, "velocity", "m/s", state.dimension);
-  if (state.swirls) add(Kind::Velocity, "swirl velocity", "m/s");
+  // Whether it swirls or not: a run that goes on may do otherwise.
+  if (context.mesh.axisymmetric()) add(Kind::Velocity, "swirl velocity", "m/s");
   add(Kind::Temperature, "temperature", "K");
   for (std::size_t k = 0; k < static_cast<std::size_t>(state.species); ++k)
     add(Kind::MassFraction, "mass fraction of " + context.mechanism.speciesName(k), "1");
@@ -73,7 +74,7 @@ void Steadiness::forEachValue(const State& state, Take take) const {
   for (std::size_t c = 0; c < owned; ++c) {
     std::size_t i = c * width;
     for (std::size_t axis = 0; axis < d; ++axis) take(i++, state.velocity[c * d + axis]);
-    if (state.swirls) take(i++, state.swirl[c]);
+    if (context_->mesh.axisymmetric()) take(i++, state.swirls ? state.swirl[c] : 0.0);
     take(i++, state.temperature[c]);
     for (std::size_t k = 0; k < n; ++k) take(i++, state.Y[c * n + k]);
     if (options_.hasParticles)
