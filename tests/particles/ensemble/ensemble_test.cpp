@@ -115,13 +115,23 @@ TEST_P(EnsembleMethods, TakesFromTheGasTheAtomsThatTheSootGains) {
   }
 }
 
-TEST_P(EnsembleMethods, SurfaceGrowthIsLinearInTheDiameterOfPrimaries) {
-  const test::FlameGas gas(1700, 1e-3, 0.03, 0, 0.08, 0, 0.03, {});
+// A gas in which particles only grow, by `flux`, kg/(m2 s).
+struct GrowthAlone {
+  test::FlameGas gas{1700, 1e-3, 0.03, 0, 0.08, 0, 0.03, {}};
   SootModelOptions soot;
-  soot.alpha = 0.7;
-  soot.coagulation = soot.inception = false;
-  const double flux = 2 * soot.carbonWeight * SurfaceChemistry(soot, 1700).rates(gas.concentrations, 0.7).growth *
-                      gas[SootSpecies::C2H2];
+  double flux = 0.0;
+
+  GrowthAlone() {
+    soot.alpha = 0.7;
+    soot.coagulation = soot.inception = false;
+    flux = 2 * soot.carbonWeight * SurfaceChemistry(soot, 1700).rates(gas.concentrations, 0.7).growth *
+           gas[SootSpecies::C2H2];
+  }
+};
+
+TEST_P(EnsembleMethods, SurfaceGrowthIsLinearInTheDiameterOfPrimaries) {
+  const GrowthAlone growth;
+  const auto& [gas, soot, flux] = growth;
   EnsembleOptions o = options(soot);
   o.shape = SootShape::aggregates;
   const auto population = makeEnsemble(o);
@@ -138,12 +148,8 @@ TEST_P(EnsembleMethods, SurfaceGrowthIsLinearInTheDiameterOfPrimaries) {
 // By volume and surface: the sphere of the surface, of diameter sqrt(S/pi), grows as any other sphere does, and the
 // volume gained is its; dV/dt = w S and dS/dt = 2 dV/dt / sqrt(S/4 pi) have that solution. Of second order.
 TEST_P(EnsembleMethods, ByVolumeAndSurfaceGrowthIsThatOfTheSphereOfTheSurface) {
-  const test::FlameGas gas(1700, 1e-3, 0.03, 0, 0.08, 0, 0.03, {});
-  SootModelOptions soot;
-  soot.alpha = 0.7;
-  soot.coagulation = soot.inception = false;
-  const double flux = 2 * soot.carbonWeight * SurfaceChemistry(soot, 1700).rates(gas.concentrations, 0.7).growth *
-                      gas[SootSpecies::C2H2];
+  const GrowthAlone growth;
+  const auto& [gas, soot, flux] = growth;
   const double n = 8, primary = 6e-9, start = std::sqrt(n) * primary, end = start + 5e-9;
   const auto error = [&](double tolerance) {
     EnsembleOptions o = options(soot);
