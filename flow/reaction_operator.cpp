@@ -29,6 +29,7 @@ constexpr std::size_t cellsTogether = 256;
 // Steps of cells that are coupled with their neighbours: how much their reactions grow in a part, and in how many parts
 // at most, beyond which the step has to be shorter.
 constexpr double growthInPart = 0.8;
+constexpr double outrunning = 1.0;  // growth in a step beyond which cells are coupled
 constexpr int mostParts = 60;
 // Only where a species changes by more than that in a step is it asked how fast its reactions grow.
 constexpr double changeThatCounts = 0.01;
@@ -226,7 +227,7 @@ bool ReactionOperator::findOutrunning(const State& state, double dt) {
     double& fastest = fastest_[cell];
     const double speed = largest / state.density[cell];
     grows = std::max(growth, speed < slowShare * fastest ? forgotten * grows : grows);
-    outruns_[cell] = grows * dt > 1.0;
+    outruns_[cell] = grows * dt > outrunning;
     fastest = outruns_[cell] ? std::max(fastest, speed) : 0.0;
     largestOf[0] = std::max(largestOf[0], grows);
     largestOf[1] = std::max(largestOf[1], growth);
@@ -235,7 +236,7 @@ bool ReactionOperator::findOutrunning(const State& state, double dt) {
   growth_ = largestOf[0];
   growthInStep_ = largestOf[1] * dt;
   parts_ = std::clamp(static_cast<int>(std::ceil(growth_ * dt / growthInPart)), 2, mostParts);
-  return growth_ * dt > 1.0;
+  return growth_ * dt > outrunning;
 }
 
 double ReactionOperator::largestStep(const State&) {

@@ -8,8 +8,10 @@
 #include <numbers>
 
 #include "core/constants.hpp"
+#include "flow/face_fluxes.hpp"
 #include "flow/face_state.hpp"
 #include "flow/gas_properties.hpp"
+#include "flow/heat_conduction.hpp"
 #include "flow_fixture.hpp"
 #include "tests/every_module.hpp"
 
@@ -178,6 +180,38 @@ TEST_F(Diffusing, BinaryCosineDecaysAtTheAnalyticRate) {
   // Second order in space: (wave dx)^2/24 = 4e-4; implicit in time: decay of 1e-3 over the step; the raising of every X
   // by 1e-12 and the variation of density and W: below 1e-4.
   EXPECT_NEAR(found / exact, 1.0, 4.1e-4 + 1e-3 + 1e-4);
+}
+
+// Where all else brings what conduction takes, conduction is what it is, in a step in which all else would heat cells
+// by hundreds of kelvin too; and without conduction cells get the temperature that all else leads to.
+TEST_F(Diffusing, HeatOfASteadyStateDoesNotDependOnTheStep) {
+  Box box(Geometry::Planar, {uniformAxis(0.01, 12), uniformAxis(0.01, 1)},
+          {side(BoundaryKind::Wall, 0, false), side(BoundaryKind::Wall, 0, true), side(BoundaryKind::Wall, 1, false),
+           side(BoundaryKind::Wall, 1, true)});
+  State state = box.state([&](const Vector3& x) { return blend(0.3, 900.0 + 600.0 * std::sin(500.0 * x[0])); });
+  GasProperties properties;
+  properties.update(box.context, state);
+  const Mesh& m = box.mesh;
+  ImplicitDiffusion solver(m, box.halo);
+  HeatConduction conduction(box.context, solver);
+  conduction.prepare(state, properties);
+  std::vector<double> present(at(m.faces)), flux(present);
+  conduction.presentFlux(state, present);
+  double largestFlux = 0.0;
+  for (const double one : present) largestFlux = std::max(largestFlux, std::abs(one));
+  for (const bool atOnce : {false, true})
+    for (const double dt : {1e-5, 3e-3}) {
+      std::vector<double> mass(at(m.owned)), content, heat(at(m.owned));
+      for (int c = 0; c < m.owned; ++c) {
+        mass[at(c)] = state.density[at(c)] * m.volume[at(c)];
+        heat[at(c)] = mass[at(c)] * state.enthalpy[at(c)];
+        for (std::size_t k = 0; k < fuel.size(); ++k) content.push_back(mass[at(c)] * state.Y[at(c) * fuel.size() + k]);
+      }
+      addFaceFluxes(m, present, 1, -dt, heat);
+      conduction.implicitFlux(state, {mass, content, heat}, dt, flux, [&](int) { return atOnce; });
+      for (std::size_t face = 0; face < flux.size(); ++face)
+        EXPECT_NEAR(flux[face], present[face], 1e-9 * largestFlux) << face << ", " << dt;
+    }
 }
 
 }  // namespace

@@ -175,5 +175,37 @@ TEST(TransportOperator, TemperatureOutsideTheDataIsANumericsErrorOnAllRanks) {
   EXPECT_THROW(transport.advance(state, 0.0, 1e-4), NumericsError);
 }
 
+// What the expansion has found to be missing goes on at the same rate in steps of another length.
+TEST(Expansions, CorrectAtARateWhateverTheStep) {
+  Gas& gas = Gas::hydrogen();
+  const std::vector<double> air = gas.massFractions("O2: 0.21, N2: 0.79");
+  Box box(Geometry::Planar, {uniformAxis(0.01, 2), uniformAxis(0.01, 2)},
+          {side(BoundaryKind::Wall, 0, false), opening(BoundaryKind::Outlet, 0, true, 0.0, 300.0, air),
+           side(BoundaryKind::Wall, 1, false), side(BoundaryKind::Wall, 1, true)});
+  State state = box.state([&](const auto&) { return Box::Local{{}, 600.0, air}; });
+  GasProperties properties;
+  properties.update(box.context, state);
+  const auto faces = at(box.mesh.faces);
+  const HeatFluxes none{std::vector<double>(faces, 0.0), std::vector<double>(faces, 0.0)};
+  const std::vector<double> contents(at(box.mesh.owned) * air.size(), 0.0);
+  const double dt = 1e-4;
+  const auto divergenceAfter = [&](double secondStep) {
+    Expansion expansion(box.context);
+    const auto step = [&](double now, double last) {
+      expansion.begin(state, properties, true, now, last);
+      expansion.beforeDiffusion(state, properties, contents);
+      return expansion.complete(state, properties, contents, none, true)[0];
+    };
+    step(dt, 0.0);
+    for (double& density : state.density) density *= 1.01;  // a pressure that is 1 % too high
+    EXPECT_NEAR(step(dt, dt), 1.1 * 0.01 / dt, 1e-9 / dt);
+    for (double& density : state.density) density /= 1.01;
+    return step(secondStep, dt);
+  };
+  const double same = divergenceAfter(dt);
+  EXPECT_NEAR(same, 0.1 * 0.01 / dt, 1e-9 / dt);
+  EXPECT_NEAR(divergenceAfter(0.1 * dt), same, 1e-9 / dt);
+}
+
 }  // namespace
 }  // namespace lampblack::test
