@@ -280,6 +280,10 @@ TEST(BlockTridiagonalFactors, KnowTheSignOfTheDeterminant) {
       EXPECT_THROW((void)A.determinantSign(), std::logic_error);
       ASSERT_TRUE(A.factorise());
       EXPECT_EQ(A.determinantSign(), pattern.denseSign()) << points << " points, " << width << " wide, " << border;
+      const int sign = A.determinantSign();
+      pattern.setTo(A);
+      ASSERT_TRUE(A.factorise());
+      EXPECT_EQ(A.determinantSign(), sign) << "a second time";
       negative += A.determinantSign() < 0;
       ++all;
     }
