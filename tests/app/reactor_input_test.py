@@ -200,7 +200,7 @@ MISTAKES = SOOT_MISTAKES + [
     ("no problem", CLOSED, "problem: reactor\n", "", ("problem: this key is missing", "flow, flame1d, reactor")),
     ("misspelt problem", CLOSED, "problem:", "probelm:", ("unknown key 'probelm'", "did you mean 'problem'?")),
     ("mole fractions by another name", STIRRED, "composition:", "mole_fractions:", ("unknown key 'mole_fractions'", "did you mean 'composition'?")),
-    ("a mechanism of CHEMKIN", CLOSED, str(HYDROGEN), str(running.SOURCE / "README.md"), ("mechanism file", "expected YAML, which 'lampblack mechanism")),
+    ("a mechanism of CHEMKIN", CLOSED, str(HYDROGEN), str(running.SOURCE / "README.md"), ("mechanism: ", "expected YAML, which 'lampblack mechanism")),
     ("unknown problem", CLOSED, "problem: reactor", "problem: reacter", ("expected one of: flow, flame1d, reactor", "did you mean 'reactor'?")),
     ("key of another problem", CLOSED, "time:", "mesh:\n  refinement: 1\ntime:", ("mesh: unknown key 'mesh'",)),
     ("unknown phase", CLOSED, "reactor:\n  type", "phase: liquid\nreactor:\n  type", ("mechanism", "there is no phase 'liquid'", "'gas' (ideal-gas)")),
