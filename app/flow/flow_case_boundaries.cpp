@@ -172,7 +172,7 @@ class ConditionReader {
 
   void readWall() {
     boundary_.slip = deck_.boolean(keyOf("slip"));
-    boundary_.takesParticles = deck_.choice(keyOf("particles")) == "deposit";
+    boundary_.takesParticles = isGiven("particles") ? deck_.choice(keyOf("particles")) == "deposit" : !boundary_.slip;
     for (const char* name : {"tangential_velocity", "swirl_velocity"})
       if (boundary_.slip && (valueOf(name) != 0 || fields_.has(name)))
         throw deck_.error(fields_.has(name) ? fields_.keyOf(name) : keyOf(name),
