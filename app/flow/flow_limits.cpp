@@ -30,9 +30,10 @@ void refuseTrajectories(const Deck& deck, const TrajectoryRequest& request) {
 
 void requireCells(const Deck& deck, double cells, std::size_t species) {
   const std::string key = deck.number("mesh.refinement") > 1 ? "mesh.refinement" : "mesh";
-  // The state, its halo and faces, and per species: mass fraction, rate, diffusivity, two fluxes, the solver's vectors.
+  // The state, its halo and faces, and per species: mass fraction, rate, diffusivity, two fluxes, the solver's vectors,
+  // and the smallest and largest value in the present piece of time (Steadiness).
   requireMemory(deck, key, fmt::format("a mesh of {:.9g} cells with {} species", cells, species),
-                cells * number * (60 + 6 * static_cast<double>(species)));
+                cells * number * (66 + 8 * static_cast<double>(species)));
   // PETSc numbers cells, faces and vertices together, about four a cell.
   constexpr PetscInt most = std::numeric_limits<PetscInt>::max() / 4;
   if (cells > static_cast<double>(most))
