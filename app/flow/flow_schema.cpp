@@ -149,12 +149,14 @@ void addBoundaries(DeckSchema& schema) {
                        "Heat that comes through the wall into the gas; absent, and without a temperature: adiabatic.")
                .optional()
                .onlyWith("boundaries.*.type", {"wall"}))
-      .add(choiceKey("boundaries.*.particles", {"deposit", "reflect"},
-                     "deposit: particles of models and ensembles that come to the wall, by thermophoresis and by "
-                     "diffusion, stay there; reflect: the wall takes none. Absent: deposit, of a wall with slip, which stands "
-                     "for no solid, reflect.")
-               .optional()
-               .onlyWith("boundaries.*.type", {"wall"}))
+      .add(
+          choiceKey(
+              "boundaries.*.particles", {"deposit", "reflect"},
+              "deposit: particles of models and ensembles that come to the wall, by thermophoresis and by "
+              "diffusion, stay there; reflect: the wall takes none. Absent: deposit, of a wall with slip, which stands "
+              "for no solid, reflect.")
+              .optional()
+              .onlyWith("boundaries.*.type", {"wall"}))
       .add(booleanKey("boundaries.*.slip",
                       "true: the gas slides along the wall without friction; false: it sticks to the wall.")
                .byDefault("false")

@@ -20,8 +20,7 @@ const std::string hydrogen = "mechanism: mechanisms/hydrogen_h2o2_10.yaml\n";
 TEST(DeckValues, OfAFlow) {
   const FlowCase flow = readFlowCase(test::flameDeck(
       {"pressure=2 atm", "seed=7", "boundaries.fuel.species=fixed", "boundaries.fuel.temperature=310 K",
-       "boundaries.fuel_flange.slip=true",
-       "boundaries.oxidiser_flange.temperature=350 K",
+       "boundaries.fuel_flange.slip=true", "boundaries.oxidiser_flange.temperature=350 K",
        "boundaries.outflow={type: outlet, side: r-max, temperature: 320 K, composition: \"O2: 1\"}",
        "initial={low: fuel, high: oxidiser, position: 3 mm, width: 1 mm, layer: hot, temperature: 1900 K, "
        "hot_position: 4 mm, hot_width: 0.5 mm}",
