@@ -132,11 +132,11 @@ class Sample {
       } else if ((x -= condensation) < 0) {
         condense(t, c, most);
       } else {
-        size_t k = 0;
-        while (k + 1 < terms_.size() &&
-               (x -= terms_[k].factor / volume_ * terms_[k].first->total() * terms_[k].second->total()) >= 0)
-          ++k;
-        coagulate(t, terms_[k]);
+        size_t term = 0;
+        while (term + 1 < terms_.size() &&
+               (x -= terms_[term].factor / volume_ * terms_[term].first->total() * terms_[term].second->total()) >= 0)
+          ++term;
+        coagulate(t, terms_[term]);
       }
       if (full_once_ && 2 * particles.size() < static_cast<size_t>(options.capacity) && particles.size() > 0) twice();
     }
