@@ -28,7 +28,7 @@ BOUND = 1e-7
 # Depends on the ranks by its nature (who owns what, who waited, how a solver got there) or is round-off.
 OWN = ("owner", "imbalance_before", "imbalance_after", "pressure_iterations", "species_iterations",
        "stiff_solver_steps", "stiff_solver_retries", "reacting_cells", "skipped_cells", "continuity_error",
-       "mass_fraction_sum_error", "minimum_mass_fraction")
+       "mass_fraction_sum_error", "minimum_mass_fraction", "undershoot")
 
 
 def datasets(path: pathlib.Path) -> dict:

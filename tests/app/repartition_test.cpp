@@ -115,8 +115,8 @@ Ran run(const Task& task) {
 
 // What ranks differ in, and what is round-off.
 bool isOwn(const std::string& name) {
-  for (const char* part : {"imbalance", "error", "iterations", "steps", "cells", "minimum_mass_fraction", "diameter",
-                           "retries", "pressure"})
+  for (const char* part : {"imbalance", "error", "iterations", "steps", "cells", "minimum_mass_fraction", "undershoot",
+                           "diameter", "retries", "pressure"})
     if (name.find(part) != std::string::npos) return true;
   return false;
 }

@@ -162,7 +162,7 @@ TEST(TreesDeck, TheStartMayBeASumOfDistributions) {
   };
   EXPECT_EQ(warningOf("1.1"), "");
   EXPECT_THAT(warningOf("2"),
-              testing::HasSubstr("particles.initial: the 8192 numerical particles of the first repeat miss"));
+              testing::HasSubstr("particles.initial: the 8192 numerical particles of the first sample miss"));
   for (const auto& [initial, message] : std::vector<std::pair<std::string, std::string>>{
            {"{number: 1}", "particles.initial: particles at the start need both 'number' and 'units'"},
            {"[{units: [1, 2, 0]}]", "particles.initial[0]: particles at the start need both 'number' and 'units'"},

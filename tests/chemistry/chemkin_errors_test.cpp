@@ -225,7 +225,7 @@ TEST(ChemkinErrors, AuxiliaryData) {
   };
   EXPECT_EQ(message("H+OH+M=H2O+M", "H2OO/6/"),
             "chem.inp:7: reaction 'H+OH+M=H2O+M': 'H2OO' is neither a keyword nor a declared species; did you mean "
-            "'H2O'?");
+            "'H2O'?; --permissive leaves efficiencies of other species out");
   EXPECT_THAT(message("H+OH(+M)=H2O(+M)", "LOWW/1 2 3/"), HasSubstr("did you mean 'LOW'?"));
   EXPECT_THAT(message("H+OH(+M)=H2O(+M)", "LOW/1 2/"),
               AllOf(StartsWith("chem.inp:7:"), HasSubstr("'LOW': expected the three numbers A, b and Ea, found 2")));

@@ -4,6 +4,8 @@
 namespace lampblack::test {
 namespace {
 
+class FlowExactLong : public FlowExact {};
+
 // Steady after a flow of so many seconds: particles come into the cells below `band` as the gas flows through them.
 void feed(Box& box, State& state, TransportOperator& transport, double band, double time, double courant) {
   const double dt = courant * [&] {
@@ -26,7 +28,7 @@ void feed(Box& box, State& state, TransportOperator& transport, double band, dou
 
 // Far from the inlet particles decay along the plates with the Sherwood number 4 h J/(rho D c) = 7.5407, c being the
 // mean over the flow: the Nusselt number of plates of one temperature (Shah and London 1978).
-TEST_F(FlowExact, PlatesThatTakeParticles) {
+TEST_F(FlowExactLong, PlatesThatTakeParticles) {
   const double h = 1e-3, length = 32.0 * h, mean = 1.0, D = mean * h / 50.0, station = 27.0 * h;
   double error[2];
   for (int level = 0; level < 2; ++level) {
@@ -73,7 +75,7 @@ TEST_F(FlowExact, PlatesThatTakeParticles) {
 // on Pr K and the temperatures alone. Of a gas that is mixed over the section, dc/c = Pr K dT/T and E = 1 - (Tw/T0)^(Pr
 // K); of a laminar one about Pr K t (1 + (1 - Pr K) t) with t = 1 - Tw/T0 (Batchelor and Shen 1985). Both are of
 // constant properties: no more is asked than to be as far from them as they are from each other.
-TEST_F(FlowExact, TubeThatCoolsTakesParticles) {
+TEST_F(FlowExactLong, TubeThatCoolsTakesParticles) {
   const double R = 2e-3, length = 44e-3, cooled = 8e-3, hot = 600.0, cold = 300.0, mean = 0.5, K = 0.5385;
   std::vector<double> X(n2.size()), D(n2.size());
   gas.thermo.massToMole(n2, X);
