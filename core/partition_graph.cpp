@@ -9,8 +9,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <utility>
 
 #include "core/errors.hpp"
+#include "core/gather.hpp"
 #include "core/petsc.hpp"
 #include "core/ranks.hpp"
 #include "core/shares.hpp"
@@ -49,14 +51,6 @@ std::vector<Integer> wholeWeights(MPI_Comm comm, const std::vector<double>& weig
   return whole;
 }
 
-// All values on the first rank, by rank; none on the others.
-template <typename T>
-Received<T> onFirst(MPI_Comm comm, const std::vector<T>& own) {
-  std::vector<std::vector<T>> toRank(static_cast<std::size_t>(ranksOf(comm)));
-  toRank[0] = own;
-  return sendToRanks(comm, toRank);
-}
-
 // The parts of all cells.
 std::vector<int> metisOnOneRank(int parts, const std::vector<std::int32_t>& length,
                                 const std::vector<std::int64_t>& neighbour, std::vector<idx_t> weight) {
@@ -84,10 +78,9 @@ std::vector<int> metisOnOneRank(int parts, const std::vector<std::int32_t>& leng
 
 std::vector<int> metisParts(MPI_Comm comm, const CellSet& cells, const std::vector<double>& weight) {
   Rows own = rowsOf(cells);
-  const Received<std::int32_t> length = onFirst(comm, own.length);
-  const Received<std::int64_t> neighbour = onFirst(comm, own.neighbour);
-  const Received<idx_t> whole = onFirst(comm, wholeWeights<idx_t>(comm, weight));
-  own = {};
+  const Received<std::int32_t> length = gatheredOnFirst(comm, std::move(own.length));
+  const Received<std::int64_t> neighbour = gatheredOnFirst(comm, std::move(own.neighbour));
+  const Received<idx_t> whole = gatheredOnFirst(comm, wholeWeights<idx_t>(comm, weight));
   std::vector<std::vector<int>> toRank(static_cast<std::size_t>(ranksOf(comm)));
   collectively(comm, [&] {
     if (length.values.empty()) return;

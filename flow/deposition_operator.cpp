@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/gather.hpp"
 #include "core/order_free_sums.hpp"
 
 namespace lampblack::flow {
@@ -88,25 +89,13 @@ std::vector<std::string> DepositionOperator::closingLines() const {
 }
 
 std::vector<DepositionOperator::Face> DepositionOperator::facesOf(int boundary) const {
-  constexpr std::size_t width = 7;
   const Mesh& m = context_.mesh;
-  std::vector<double> own;
-  for (int face = m.interiorFaces; face < m.faces; ++face) {
-    if (m.patch[face - m.interiorFaces] != boundary || m.area[face] <= 0.0) continue;
-    const Vector3& place = m.faceCentre[face];
-    own.insert(own.end(), {static_cast<double>(m.faceNumber[face]), place[0], place[1], place[2], m.area[face],
-                           rate_[face] / m.area[face], mass_[face] / m.area[face]});
-  }
-  const int count = static_cast<int>(own.size());
-  std::vector<int> counts(static_cast<std::size_t>(m.ranks)), begins(counts.size());
-  MPI_Gather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, m.comm);
-  for (std::size_t r = 1; r < counts.size(); ++r) begins[r] = begins[r - 1] + counts[r - 1];
-  std::vector<double> all(m.rank == 0 ? static_cast<std::size_t>(begins.back() + counts.back()) : 0);
-  MPI_Gatherv(own.data(), count, MPI_DOUBLE, all.data(), counts.data(), begins.data(), MPI_DOUBLE, 0, m.comm);
-  std::vector<Face> faces;
-  for (std::size_t i = 0; i < all.size(); i += width)
-    faces.push_back(
-        {static_cast<std::int64_t>(all[i]), {all[i + 1], all[i + 2], all[i + 3]}, all[i + 4], all[i + 5], all[i + 6]});
+  std::vector<Face> own;
+  for (int face = m.interiorFaces; face < m.faces; ++face)
+    if (m.patch[face - m.interiorFaces] == boundary && m.area[face] > 0.0)
+      own.push_back({m.faceNumber[face], m.faceCentre[face], m.area[face], rate_[face] / m.area[face],
+                     mass_[face] / m.area[face]});
+  std::vector<Face> faces = gatheredOnFirst(m.comm, std::move(own)).values;
   std::ranges::sort(faces, {}, &Face::number);
   return faces;
 }

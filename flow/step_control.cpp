@@ -15,14 +15,19 @@
 namespace lampblack::flow {
 namespace {
 
-// Of what a step may change: how much of it the next one aims at, and beyond which a cell that is colder than all else
-// has been cooled by the step itself.
+// Of what a step may change: how much of it the next one aims at, and beyond which a cell that is colder than all else,
+// or has less than the least of a species, has come there by the step itself.
 constexpr double aimed = 0.8, sudden = 0.1;
 // The same of the mass fraction that a step may leave below zero.
 constexpr double aimedBelow = 0.5;
 constexpr double helping = 0.8;         // of what the attempt before did
 constexpr double ofRoundOff = 1e-6;     // of a temperature
 constexpr double shortestFactor = 0.2;  // of the step before
+
+// By how much a step has taken a mass fraction, by its place in the state, (further) below zero.
+double takenBelowZero(const State& state, std::size_t i) {
+  return std::min(state.start.Y.empty() ? 0.0 : state.start.Y[i], 0.0) - state.Y[i];
+}
 
 }  // namespace
 
@@ -75,12 +80,17 @@ void StepControl::findError(const State& state) {
 double StepControl::excess(const State& state, int cell, std::string* fault) const {
   const auto c = static_cast<std::size_t>(cell), n = static_cast<std::size_t>(state.species);
   const double before = start_[c], now = state.temperature[c], change = now - before;
-  const double* Y = &state.Y[c * n];
-  const auto least = static_cast<std::size_t>(std::min_element(Y, Y + n) - Y);
-  double most = Y[least] / options_.leastMassFraction;
-  if (fault)
-    *fault = fmt::format("the mass fraction of {} has become {:.3g}, below {:.3g} (time.least_mass_fraction)",
-                         context_.mechanism.speciesName(least), Y[least], options_.leastMassFraction);
+  double most = 0.0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double Y = state.Y[c * n + k];
+    if (Y / options_.leastMassFraction <= most) continue;
+    if (Y < options_.leastMassFraction && takenBelowZero(state, c * n + k) < -sudden * options_.leastMassFraction)
+      continue;  // steps of any length would find it so
+    most = Y / options_.leastMassFraction;
+    if (fault)
+      *fault = fmt::format("the mass fraction of {} has become {:.3g}, below {:.3g} (time.least_mass_fraction)",
+                           context_.mechanism.speciesName(k), Y, options_.leastMassFraction);
+  }
   const auto blame = [&](double by, const std::string& limit) {
     if (by <= most) return;
     most = by;
@@ -125,8 +135,7 @@ void StepControl::keepChange(const State& state, double time, double dt) {
   changeSinceRow_ = std::max(changeSinceRow_, change_);
   const auto n = static_cast<std::size_t>(state.species);
   undershoot_ = 0.0;
-  for (std::size_t i = 0; i < start_.size() * n; ++i)
-    undershoot_ = std::max(undershoot_, std::min(state.start.Y.empty() ? 0.0 : state.start.Y[i], 0.0) - state.Y[i]);
+  for (std::size_t i = 0; i < start_.size() * n; ++i) undershoot_ = std::max(undershoot_, takenBelowZero(state, i));
   MPI_Allreduce(MPI_IN_PLACE, &undershoot_, 1, MPI_DOUBLE, MPI_MAX, context_.mesh.comm);
   const Peak missing = peakOf(context_.mesh, [&](int c) {
     const double* Y = &state.Y[static_cast<std::size_t>(c) * n];

@@ -202,6 +202,20 @@ TEST_F(StepControls, StepsByHowFarTheLastWentBelowZero) {
   EXPECT_NEAR(stepTo(1e-4), 2e-5 * 0.5 / 0.1, 1e-18) << "what was below zero beforehand is no matter of the step";
 }
 
+// Else a mass fraction that nothing fills would shorten the steps for ever.
+TEST_F(StepControls, DoNotFailByWhatWasBelowZeroBeforehand) {
+  StepControl control(box.context, {.leastMassFraction = -1e-3});
+  const auto step = [&](double below) {
+    control.endStep(state);
+    state.start.Y = state.Y;
+    change(5, 0.0, -below);
+    control.advance(state, 0.0, 2e-5);
+  };
+  EXPECT_NO_THROW(step(9.5e-4));
+  EXPECT_NO_THROW(step(0.9e-4));
+  EXPECT_THROW(step(1.1e-4), NumericsError);
+}
+
 // Some hydrogen in a gas of several temperatures; two cells beside each other lack some.
 class Undershoots : public StepControls {
  protected:
