@@ -44,7 +44,7 @@ void CellTrees::addAmounts(const double* row, double number, std::span<double> a
   const SootAggregate& type = sizes().type;
   amounts[AmountPlaces::number] += number;
   addElements(tree.units, number, amounts.subspan(at.element(0), elements().size()));
-  const bool isBySurface = tree.count == 1.0 && tree.surface > tree.surfaces;
+  const bool isBySurface = options_.shape == TreeShape::surfaceVolume;
   amounts[at.primaries()] += number * (isBySurface ? particle.primaries : tree.count);
   amounts[at.surface()] += number * tree.surface;
   amounts[at.diameters()] += number * type.mobilityDiameter(type.make(particle.carbon, 0.0, particle.primaries));

@@ -261,9 +261,9 @@ void EnsembleOperator::countOutflow() {
   std::vector<double> amounts(outflow_.size());
   auto face = transport_.goneThrough().begin();
   particles_->rows().forEach(transport_.gone(), [&](const double* row) {
-    particles_->addAmounts(row, row[packedNumberAt], outflow_);
     std::ranges::fill(amounts, 0.0);
     particles_->addAmounts(row, row[packedNumberAt], amounts);
+    for (std::size_t i = 0; i < amounts.size(); ++i) outflow_[i] += amounts[i];
     double& mass = goneThrough_[static_cast<std::size_t>(*face++ - context_.mesh.interiorFaces)];
     for (std::size_t e = 0; e < amounts_.held; ++e) mass += amounts[amounts_.element(e)];
   });

@@ -71,21 +71,28 @@ double ReactionOperator::meanDensity(const State& state, std::size_t cell) const
   return state.start.Y.empty() ? state.density[cell] : 0.5 * (state.start.density[cell] + state.density[cell]);
 }
 
+// What solve() reads in front of a cell's mass fractions and sources. `reactor`: enthalpy, heating, guess of the
+// temperature, pressure and first step.
+void ReactionOperator::packHead(std::size_t cell, const std::array<double, 5>& reactor, std::span<double> in) const {
+  const Vector3& centre = context_.mesh.centre[cell];
+  in[0] = centre[0];
+  in[1] = centre[1];
+  std::ranges::copy(reactor, in.begin() + 2);
+  in[7] = static_cast<double>(context_.mesh.naturalCell[cell]);
+  in[8] = centre[2];
+}
+
 void ReactionOperator::pack(const State& state, std::size_t cell, double dt, std::span<double> in) const {
   const auto n = static_cast<std::size_t>(state.species);
   const double* Y = &state.Y[cell * n];
   const double* before = state.start.Y.empty() ? Y : &state.start.Y[cell * n];
   const double enthalpy = state.start.Y.empty() ? state.enthalpy[cell] : state.start.enthalpy[cell];
-  in[0] = context_.mesh.centre[cell][0];
-  in[1] = context_.mesh.centre[cell][1];
-  in[2] = enthalpy;
-  in[3] = (state.enthalpy[cell] - enthalpy) / dt;
-  in[4] = state.temperature[cell];
-  in[5] = state.start.Y.empty() ? state.thermodynamicPressure
-                                : 0.5 * (state.start.thermodynamicPressure + state.thermodynamicPressure);
-  in[6] = initialStep_[cell];
-  in[7] = static_cast<double>(context_.mesh.naturalCell[cell]);
-  in[8] = context_.mesh.centre[cell][2];
+  const double pressure = state.start.Y.empty()
+                              ? state.thermodynamicPressure
+                              : 0.5 * (state.start.thermodynamicPressure + state.thermodynamicPressure);
+  packHead(cell,
+           {enthalpy, (state.enthalpy[cell] - enthalpy) / dt, state.temperature[cell], pressure, initialStep_[cell]},
+           in);
   const std::span<double> start = in.subspan(Layout::inHeader, n);
   const std::span<double> source = in.subspan(Layout::inHeader + n, n);
   std::copy_n(before, n, start.begin());
@@ -193,7 +200,8 @@ void ReactionOperator::limitRates(State& state, std::size_t cell) {
   double largest = 0.0;
   for (std::size_t k = 0; k < n; ++k) largest = std::max(largest, std::abs(rate[k] * excess(k)));
   if (largest == 0.0) return;
-  heatRelease_[cell] = heatRelease(context_, state, cell);
+  std::vector<double> enthalpies(n);
+  heatRelease_[cell] = heatRelease(context_, state, cell, enthalpies);
   const double perStep = meanDensity(state, cell) / step_;
   for (std::size_t k = 0; k < n; ++k) {
     const double tooMuch = perStep * excess(k);
@@ -253,9 +261,8 @@ void ReactionOperator::react(std::span<CoupledCells::Reacting> cells, double tim
   }
   items.pack = [&](std::size_t item, std::vector<double>& in) {
     const CoupledCells::Reacting& cell = cells[item];
-    const Vector3& centre = context_.mesh.centre[local[item]];
-    in.assign({centre[0], centre[1], cell.enthalpy, cell.heating, cell.temperature, cell.pressure, cell.initialStep,
-               static_cast<double>(cell.number), centre[2]});
+    in.resize(Layout::inHeader);
+    packHead(local[item], {cell.enthalpy, cell.heating, cell.temperature, cell.pressure, cell.initialStep}, in);
     in.insert(in.end(), cell.Y.begin(), cell.Y.end());
     in.insert(in.end(), cell.source.begin(), cell.source.end());
   };
@@ -311,9 +318,8 @@ void ReactionOperator::advance(State& state, double time, double dt) {
   state.updateHalo(context_.halo);
 }
 
-double heatRelease(const FlowContext& context, const State& state, std::size_t cell) {
+double heatRelease(const FlowContext& context, const State& state, std::size_t cell, std::span<double> enthalpies) {
   const auto n = static_cast<std::size_t>(state.species);
-  std::vector<double> enthalpies(n);
   context.thermo.speciesEnthalpies(state.temperature[cell], enthalpies);
   double heat = 0.0;
   for (std::size_t k = 0; k < n; ++k) heat -= enthalpies[k] * state.balance.reactions[cell * n + k];
@@ -410,9 +416,9 @@ std::vector<double> ReactionOperator::historyValues(const State&) {
 }
 
 void ReactionOperator::fields(const State& state, const FieldSink& sink) const {
-  std::vector<double> heat = heatRelease_;
+  std::vector<double> heat = heatRelease_, enthalpies(static_cast<std::size_t>(state.species));
   for (std::size_t cell = 0; cell < heat.size(); ++cell)
-    if (isLimited_[cell] == 0.0) heat[cell] = heatRelease(context_, state, cell);
+    if (isLimited_[cell] == 0.0) heat[cell] = heatRelease(context_, state, cell, enthalpies);
   sink({"heat_release", "W/m^3", "heat set free by the gas reactions, mean of the last step"}, heat);
 }
 

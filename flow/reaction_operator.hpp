@@ -8,6 +8,7 @@
 // the transport, needs few steps.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -25,8 +26,9 @@
 
 namespace lampblack::flow {
 
-// W/m3, what the reactions of State::balance set free in an owned cell.
-[[nodiscard]] double heatRelease(const FlowContext& context, const State& state, std::size_t cell);
+// W/m3, what the reactions of State::balance set free in an owned cell. `enthalpies`: scratch, a value a species.
+[[nodiscard]] double heatRelease(const FlowContext& context, const State& state, std::size_t cell,
+                                 std::span<double> enthalpies);
 
 class ReactionOperator : public Operator {
  public:
@@ -82,6 +84,7 @@ class ReactionOperator : public Operator {
   struct Layout;
   [[nodiscard]] double meanDensity(const State& state, std::size_t cell) const;
   [[nodiscard]] double densityOfRate(const State& state, std::size_t cell) const;
+  void packHead(std::size_t cell, const std::array<double, 5>& reactor, std::span<double> in) const;
   void pack(const State& state, std::size_t cell, double dt, std::span<double> in) const;
   void solve(double time, double dt, std::span<const std::span<const double>> in, std::span<std::vector<double>> out);
   void unpack(State& state, std::size_t cell, double dt, std::span<const double> out);

@@ -33,8 +33,6 @@ struct RecordedQuantity {
 // Behind the momentum along each axis.
 constexpr std::array<RecordedQuantity, 4> recorded{
     {{"kinetic energy", "J"}, {"mass in the domain", "kg"}, {"largest temperature", "K"}, {"heat release", "W"}}};
-constexpr std::array axisNames{"first", "second", "third"};
-
 }  // namespace
 
 Steadiness::Steadiness(const FlowContext& context, const State& state, Options options)
@@ -349,7 +347,8 @@ std::vector<std::string> Steadiness::lines() const {
   for (std::size_t i = 0; i < signals_.size(); ++i) {
     const auto& [low, high] = periodicity_->ranges[i];
     if (high - low <= 1e-4 * signals_[i].scale) continue;
-    text += i < axes ? fmt::format("; momentum along the {} axis {:.4g} to {:.4g} {}", axisNames[i], low, high,
+    text += i < axes ? fmt::format("; momentum along {} {:.4g} to {:.4g} {}",
+                                   (context_->mesh.axisymmetric() ? "rz" : "xyz")[i], low, high,
                                    integralUnit(context_->mesh, "kg m/s"))
                      : fmt::format("; {} {:.5g} to {:.5g} {}", recorded[i - axes].name, low, high,
                                    std::string(recorded[i - axes].unit) == "K"

@@ -151,8 +151,9 @@ void StepControl::keepChange(const State& state, double time, double dt) {
 
 void StepControl::keepHeat(const State& state) {
   std::array<double, 2> largest{0.0, 0.0};  // heat release, and change of it
+  std::vector<double> enthalpies(static_cast<std::size_t>(state.species));
   for (std::size_t c = 0; c < heat_.size(); ++c) {
-    const double now = heatRelease(context_, state, c);
+    const double now = heatRelease(context_, state, c, enthalpies);
     largest[0] = std::max(largest[0], std::abs(now));
     largest[1] = std::max(largest[1], std::abs(now - heat_[c]));
     heat_[c] = now;

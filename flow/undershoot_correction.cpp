@@ -1,5 +1,7 @@
 #include "flow/undershoot_correction.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -47,9 +49,10 @@ void UndershootCorrection::findLacking(const State& state) {
     if (least[k] < lowest) lacking_.push_back(k);
 }
 
-void UndershootCorrection::correct(State& state) {
+// What each cell asks for, of what the neighbours can give, and what each gives of that.
+void UndershootCorrection::findShares(const State& state) {
   const Mesh& m = context_.mesh;
-  const auto n = static_cast<std::size_t>(state.species), count = lacking_.size();
+  const std::size_t count = lacking_.size();
   asked_.assign(static_cast<std::size_t>(m.cells) * count, 0.0);
   given_.assign(asked_.size(), 1.0);
   for (int c = 0; c < m.owned; ++c)
@@ -68,53 +71,63 @@ void UndershootCorrection::correct(State& state) {
       if (asked > 1.0) given_[static_cast<std::size_t>(c) * count + i] = 1.0 / asked;
     }
   context_.halo.update(given_, static_cast<int>(count));
+}
 
+// Adds to `row`, kg of each species and then J, what `to` gets from `from` and gives back of its mixture, times `sign`.
+// Whether that is anything.
+bool UndershootCorrection::addExchange(const State& state, int to, int from, double sign, std::span<double> row) {
+  const auto n = static_cast<std::size_t>(state.species);
+  const double* Y = &state.Y[static_cast<std::size_t>(to) * n];
+  double sum = 0.0;  // of what there is in `to`; above zero once something is exchanged
+  for (std::size_t i = 0; i < lacking_.size(); ++i) {
+    const double share = asked_[static_cast<std::size_t>(to) * lacking_.size() + i] *
+                         given_[static_cast<std::size_t>(from) * lacking_.size() + i];
+    if (share == 0.0) continue;
+    const double amount = sign * share * available(context_.mesh, state, from, lacking_[i]);
+    if (amount == 0.0) continue;
+    if (sum == 0.0) {
+      for (std::size_t k = 0; k < n; ++k) sum += std::max(Y[k], 0.0);
+      context_.thermo.speciesEnthalpies(0.5 * (state.temperature[to] + state.temperature[from]), enthalpies_);
+    }
+    row[lacking_[i]] += amount;
+    row[n] += amount * enthalpies_[lacking_[i]];
+    for (std::size_t k = 0; k < n; ++k) {
+      const double back = amount * std::max(Y[k], 0.0) / sum;
+      row[k] -= back;
+      row[n] -= back * enthalpies_[k];
+    }
+  }
+  return sum != 0.0;
+}
+
+void UndershootCorrection::correct(State& state) {
+  const Mesh& m = context_.mesh;
+  const auto n = static_cast<std::size_t>(state.species);
+  findShares(state);
   // All of it from the state as it is, so that both sides of a face find the same.
   std::vector<int> changed;
-  std::vector<double> contents, row(n), enthalpies(n);
+  std::vector<double> changes, row(n + 1);
+  enthalpies_.resize(n);
   for (int c = 0; c < m.owned; ++c) {
-    double heat = 0.0;
-    bool changes = false;
+    bool isChanged = false;
     std::ranges::fill(row, 0.0);
-    const auto receive = [&](int to, int from, double sign) {
-      for (std::size_t i = 0; i < count; ++i) {
-        const double share =
-            asked_[static_cast<std::size_t>(to) * count + i] * given_[static_cast<std::size_t>(from) * count + i];
-        if (share == 0.0) continue;
-        const double amount = sign * share * available(m, state, from, lacking_[i]);
-        if (amount == 0.0) continue;
-        changes = true;
-        context_.thermo.speciesEnthalpies(0.5 * (state.temperature[to] + state.temperature[from]), enthalpies);
-        const double* Y = &state.Y[static_cast<std::size_t>(to) * n];
-        double sum = 0.0;
-        for (std::size_t k = 0; k < n; ++k) sum += std::max(Y[k], 0.0);
-        row[lacking_[i]] += amount;
-        heat += amount * enthalpies[lacking_[i]];
-        for (std::size_t k = 0; k < n; ++k) {
-          const double back = amount * std::max(Y[k], 0.0) / sum;
-          row[k] -= back;
-          heat -= back * enthalpies[k];
-        }
-      }
-    };
     atNeighbours(m, c, [&](int other) {
-      receive(c, other, 1.0);
-      receive(other, c, -1.0);
+      isChanged = addExchange(state, c, other, 1.0, row) || isChanged;
+      isChanged = addExchange(state, other, c, -1.0, row) || isChanged;
     });
-    if (!changes) continue;
+    if (!isChanged) continue;
     changed.push_back(c);
-    contents.insert(contents.end(), row.begin(), row.end());
-    contents.push_back(heat);
+    changes.insert(changes.end(), row.begin(), row.end());
   }
+  std::vector<char> isChanged(static_cast<std::size_t>(m.owned), 0);
   for (std::size_t i = 0; i < changed.size(); ++i) {
     const int c = changed[i];
     const double mass = state.density[c] * m.volume[c];
-    const double* change = &contents[i * (n + 1)];
+    const double* change = &changes[i * (n + 1)];
     for (std::size_t k = 0; k < n; ++k) state.Y[static_cast<std::size_t>(c) * n + k] += change[k] / mass;
     state.enthalpy[c] += change[n] / mass;
+    isChanged[c] = 1;
   }
-  std::vector<char> isChanged(static_cast<std::size_t>(m.owned), 0);
-  for (const int c : changed) isChanged[c] = 1;
   inEachCell(m, [&](int c) {
     if (isChanged[c] == 0) return;
     const std::span<const double> Y{&state.Y[static_cast<std::size_t>(c) * n], n};
@@ -128,6 +141,9 @@ void UndershootCorrection::advance(State& state, double, double) {
   sweep_ = 0;
   findLacking(state);
   lowestSinceRow_ = std::min(lowestSinceRow_, lowest_);
+  if (lacking_.empty()) return;
+  ++corrected_;
+  lowestOfRun_ = std::min(lowestOfRun_, lowest_);
   for (int round = 0; round < mostRounds && !lacking_.empty(); ++round) {
     correct(state);
     findLacking(state);
@@ -135,9 +151,11 @@ void UndershootCorrection::advance(State& state, double, double) {
 }
 
 void UndershootCorrection::saveOrLoad(StateArchive& archive) {
-  std::vector<double> kept{lowestSinceRow_};
+  std::vector<double> kept{lowestSinceRow_, lowestOfRun_, corrected_};
   archive.shared("undershoots", kept);
   lowestSinceRow_ = kept.at(0);
+  lowestOfRun_ = kept.at(1);
+  corrected_ = kept.at(2);
   if (archive.loading()) sweep_ = 0;  // of a step that was broken off
 }
 
@@ -148,6 +166,14 @@ std::vector<Quantity> UndershootCorrection::historyColumns() const {
 
 std::vector<double> UndershootCorrection::historyValues(const State&) {
   return {std::exchange(lowestSinceRow_, 0.0)};
+}
+
+std::vector<std::string> UndershootCorrection::closingLines() const {
+  if (corrected_ == 0.0) return {};
+  return {
+      fmt::format("mass fractions below {:g}, down to {:.2g}, that got back from the cells around what they lacked: in "
+                  "{:.0f} steps",
+                  allowed, lowestOfRun_, corrected_)};
 }
 
 }  // namespace lampblack::flow

@@ -9,6 +9,7 @@
 // are, so that a flow without lower ones, a steady flame, is not touched.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,9 +30,12 @@ class UndershootCorrection : public Operator {
   void saveOrLoad(StateArchive& archive) override;
   [[nodiscard]] std::vector<Quantity> historyColumns() const override;
   [[nodiscard]] std::vector<double> historyValues(const State& state) override;
+  [[nodiscard]] std::vector<std::string> closingLines() const override;
 
  private:
   void findLacking(const State& state);
+  void findShares(const State& state);
+  [[nodiscard]] bool addExchange(const State& state, int to, int from, double sign, std::span<double> row);
   void correct(State& state);
 
   const FlowContext& context_;
@@ -40,8 +44,11 @@ class UndershootCorrection : public Operator {
   // Of these, for each local cell: the part of what the neighbours can give that it asks for; what a cell gives of
   // that.
   std::vector<double> asked_, given_;
-  double lowest_ = 0.0;          // mass fraction, the most negative that was found in the last search
-  double lowestSinceRow_ = 0.0;  // the same before corrections, since the last row of the history
+  std::vector<double> enthalpies_;  // scratch
+  double lowest_ = 0.0;             // mass fraction, the most negative that was found in the last search
+  double lowestSinceRow_ = 0.0;     // the same before corrections, since the last row of the history
+  double lowestOfRun_ = 0.0;        // and of all steps that were corrected
+  double corrected_ = 0.0;          // how many these were
 };
 
 }  // namespace lampblack::flow

@@ -16,9 +16,9 @@ struct MechanismFileNames {
 };
 
 inline constexpr const char* permissiveHelp =
-    "Mark reactions that are the same as duplicates, and leave out efficiencies of species that are not declared, with "
-    "a "
-    "warning each; without it they are an error.";
+    "Mark reactions that are the same as duplicates, and leave out efficiencies of species that are not declared; each "
+    "with a "
+    "warning, without it an error.";
 
 bool isYaml(const std::string& path);
 

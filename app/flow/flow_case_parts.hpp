@@ -20,7 +20,8 @@ inline AxisNames axisNames(const FlowCase& flowCase) {
 // "the axes of this mesh are r and z".
 std::string axesText(const AxisNames& names);
 
-// The section mesh: a box with its solids, floor and ceiling, or a file.
+// The section mesh: a box with its solids, floor and ceiling, or a file; its keys, and reading it.
+void addMeshKeys(DeckSchema& schema);
 void readMesh(const Deck& deck, FlowCase& flowCase);
 
 // Tells the user where an edge, of what is named, lies inside a cell of an axis.
@@ -32,10 +33,11 @@ std::vector<double> readComposition(const Deck& deck, const std::string& key, co
 // The section boundaries, on the mesh that has been read: along every side one boundary follows the other.
 void readBoundaries(const Deck& deck, FlowCase& flowCase);
 
-// The section output: its keys, and reading it when mesh, boundaries and times have been read.
 // What a name is in those of files and of groups of the results: other characters than letters, digits, _, - and +
 // become _.
 std::string fileNameOf(std::string name);
+
+// The section output: its keys, and reading it when mesh, boundaries and times have been read.
 void addOutputKeys(DeckSchema& schema);
 void readOutput(const Deck& deck, FlowCase& flowCase);
 

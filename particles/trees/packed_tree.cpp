@@ -84,7 +84,7 @@ Tree unpackTree(std::span<const double> rows, TreePool& pool, const TreeMaterial
 
 PackedTreeSums sumsOfPackedTree(const double* row) {
   const auto h = PackedDoubles({row + packedParticle, valuesOf<Sums>}).next<Sums>();
-  return {h.count, h.units, h.surface, h.surfaces};
+  return {h.count, h.units, h.surface};
 }
 
 }  // namespace lampblack::particles

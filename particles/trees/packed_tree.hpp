@@ -20,7 +20,7 @@ void packTree(const Tree& tree, double number, const TreeMaterial& material, std
 struct PackedTreeSums {
   double count = 0;  // primaries
   TreeUnits units{};
-  double surface = 0, surfaces = 0;  // m2, of the particle, and of its primaries by themselves
+  double surface = 0;  // m2
 };
 [[nodiscard]] PackedTreeSums sumsOfPackedTree(const double* row);
 

@@ -94,7 +94,7 @@ def check_steady(program, folder, ranks) -> None:
     assert abs(found["period_s"] - period) < 2e-3 * period and float(last["steady_period [s]"]) == found["period_s"], found
     k = cmath.sqrt(2j * math.pi / period / VISCOSITY)
     amplitude = DENSITY * 0.03 * abs((cmath.cosh(k * 1e-3) - 1) / (k * cmath.sinh(k * 1e-3)))
-    said = re.search(r"repeats itself every 0.02 s \(50 Hz\); momentum along the first axis (\S+) to (\S+) kg m/s/m", result.out)
+    said = re.search(r"repeats itself every 0.02 s \(50 Hz\); momentum along x (\S+) to (\S+) kg m/s/m", result.out)
     assert said, result.out
     for sign, number in zip((-1, 1), said.groups()):
         assert abs(float(number) - sign * amplitude) < 0.03 * amplitude, (said.groups(), amplitude)

@@ -33,6 +33,14 @@ class StepControls : public testing::Test {
     state.temperature[at(c)] += kelvin;
     state.Y[at(c) * air.size()] += fraction;
   }
+  // A step that takes a mass fraction that much further below zero.
+  void stepBelow(StepControl& control, double below) {
+    control.endStep(state);
+    state.start.Y = state.Y;
+    change(5, 0.0, -below);
+    control.advance(state, 0.0, 2e-5);
+    control.endStep(state);
+  }
 };
 
 TEST_F(StepControls, TheLastCorrectionIsTheError) {
@@ -190,30 +198,19 @@ TEST_F(StepControls, OutOfTheRangeOfTransport) {
 
 TEST_F(StepControls, StepsByHowFarTheLastWentBelowZero) {
   StepControl control(box.context, {.leastMassFraction = -1e-3});
-  const auto stepTo = [&](double below) {
-    control.endStep(state);
-    state.start.Y = state.Y;
-    change(5, 0.0, -below);
-    control.advance(state, 0.0, 2e-5);
-    control.endStep(state);
-    return control.largestStep(state);
-  };
-  EXPECT_NEAR(stepTo(8e-4), 2e-5 * 0.5 / 0.8, 1e-18);
-  EXPECT_NEAR(stepTo(1e-4), 2e-5 * 0.5 / 0.1, 1e-18) << "what was below zero beforehand is no matter of the step";
+  stepBelow(control, 8e-4);
+  EXPECT_NEAR(control.largestStep(state), 2e-5 * 0.5 / 0.8, 1e-18);
+  stepBelow(control, 1e-4);
+  EXPECT_NEAR(control.largestStep(state), 2e-5 * 0.5 / 0.1, 1e-18)
+      << "what was below zero beforehand is no matter of the step";
 }
 
 // Else a mass fraction that nothing fills would shorten the steps for ever.
 TEST_F(StepControls, DoNotFailByWhatWasBelowZeroBeforehand) {
   StepControl control(box.context, {.leastMassFraction = -1e-3});
-  const auto step = [&](double below) {
-    control.endStep(state);
-    state.start.Y = state.Y;
-    change(5, 0.0, -below);
-    control.advance(state, 0.0, 2e-5);
-  };
-  EXPECT_NO_THROW(step(9.5e-4));
-  EXPECT_NO_THROW(step(0.9e-4));
-  EXPECT_THROW(step(1.1e-4), NumericsError);
+  EXPECT_NO_THROW(stepBelow(control, 9.5e-4));
+  EXPECT_NO_THROW(stepBelow(control, 0.9e-4));
+  EXPECT_THROW(stepBelow(control, 1.1e-4), NumericsError);
 }
 
 // Some hydrogen in a gas of several temperatures; two cells beside each other lack some.
@@ -259,6 +256,9 @@ TEST_F(Undershoots, AreFilledFromTheCellsAround) {
   correction.advance(state, 0.0, 1e-5);
   EXPECT_NEAR(correction.historyValues(state).at(0), -2e-3, 1e-15);
   EXPECT_EQ(correction.historyValues(state).at(0), 0.0);
+  EXPECT_EQ(correction.closingLines().at(0),
+            "mass fractions below -1e-05, down to -0.002, that got back from the cells around what they lacked: in 1 "
+            "steps");
   EXPECT_GT(-largest(box.mesh, [&](int c) { return -state.Y[at(c) * n + H2]; }), -1.02e-5);
   for (std::size_t k = 0; k < n; ++k) EXPECT_NEAR(total(k), totals[k], 1e-15 * totals[N2]) << k;
   EXPECT_NEAR(enthalpy(), heat, 1e-14 * std::abs(heat) + 1e-9);
@@ -309,6 +309,7 @@ TEST_F(Undershoots, OfNextToNothingStay) {
   EXPECT_EQ(state.Y, start.Y);
   EXPECT_EQ(state.temperature, start.temperature);
   EXPECT_EQ(correction.historyValues(state).at(0), -0.99e-5);
+  EXPECT_TRUE(correction.closingLines().empty());
 }
 
 // Two cells that ask one for more than it gives share that.
