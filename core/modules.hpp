@@ -5,20 +5,27 @@
 
 namespace lampblack {
 
-namespace chemistry {}
 namespace io {}
+namespace numerics {}
+
+namespace chemistry {
+using namespace numerics;
+}
 
 namespace particles {
 using namespace chemistry;
-}
+using namespace numerics;
+}  // namespace particles
 
 namespace flow {
 using namespace chemistry;
-}
+using namespace numerics;
+}  // namespace flow
 
 namespace coupling {
 using namespace chemistry;
 using namespace flow;
+using namespace numerics;
 using namespace particles;
 }  // namespace coupling
 
@@ -27,6 +34,7 @@ using namespace chemistry;
 using namespace coupling;
 using namespace flow;
 using namespace io;
+using namespace numerics;
 using namespace particles;
 }  // namespace app
 

@@ -7,7 +7,7 @@
 
 #include "chemistry/mechanism/mechanism.hpp"
 #include "core/modules.hpp"
-#include "flow/carried_model.hpp"
+#include "flow/models/carried_model.hpp"
 #include "particles/models/particle_model.hpp"
 
 namespace lampblack::coupling {

@@ -29,9 +29,9 @@
 #include "coupling/ensemble_sizes.hpp"
 #include "coupling/ensemble_statistics.hpp"
 #include "coupling/ensemble_transport.hpp"
-#include "flow/gas_exchange.hpp"
+#include "flow/models/gas_exchange.hpp"
 #include "flow/operator.hpp"
-#include "flow/transport_operator.hpp"
+#include "flow/stepping/transport_operator.hpp"
 
 namespace lampblack::coupling {
 

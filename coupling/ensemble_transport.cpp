@@ -12,7 +12,7 @@
 #include "core/first_error.hpp"
 #include "core/random.hpp"
 #include "core/rank_exchange.hpp"
-#include "flow/wall_flux.hpp"
+#include "flow/boundaries/wall_flux.hpp"
 #include "particles/collisions/sphere.hpp"
 #include "particles/population/monte_carlo/systematic_sample.hpp"
 

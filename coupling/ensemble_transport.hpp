@@ -7,12 +7,12 @@
 //   p = dt/M_d [ max(m, 0) r + G(D) o ],   m = gas's mass flux out of d + thermophoresis, G = rho_f A D / distance,
 //
 // as carried scalars do: by upwind convection with the value at the face over that in the cell (r), and by diffusion
-// both ways. A wall that takes particles has the flux of drift and diffusion to it (flow/wall_flux.hpp), each particle
-// by its own diffusivity. r is of second order in place and time: linear in the cell, by the gradient of the particles
-// of like size per mass of gas, at the place from which the gas reaches the face in the middle of the time; it is
-// limited to between 0 and 2, which no face value of a smooth field exceeds, and to nothing else: a limiter of slopes
-// would bias what is noisy. o corrects diffusion where the step from cell to cell is oblique to the face. Like sizes:
-// volumes within a factor of eight.
+// both ways. A wall that takes particles has the flux of drift and diffusion to it (flow/boundaries/wall_flux.hpp),
+// each particle by its own diffusivity. r is of second order in place and time: linear in the cell, by the gradient of
+// the particles of like size per mass of gas, at the place from which the gas reaches the face in the middle of the
+// time; it is limited to between 0 and 2, which no face value of a smooth field exceeds, and to nothing else: a limiter
+// of slopes would bias what is noisy. o corrects diffusion where the step from cell to cell is oblique to the face.
+// Like sizes: volumes within a factor of eight.
 //
 // Which particles go is drawn evenly over their order (nextEvenPoint), by one random number of the cell and part of the
 // step: results do not depend on ranks. A numerical particle that stands for more than twice the mean goes in pieces,
@@ -24,8 +24,8 @@
 #include <vector>
 
 #include "core/modules.hpp"
+#include "flow/discretisation/gradient.hpp"
 #include "flow/flow_context.hpp"
-#include "flow/gradient.hpp"
 #include "flow/state.hpp"
 #include "particles/ensemble/packed_ensemble.hpp"
 #include "particles/ensemble/particle_rows.hpp"

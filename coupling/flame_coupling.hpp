@@ -21,9 +21,9 @@
 #include "chemistry/mechanism/mechanism.hpp"
 #include "core/modules.hpp"
 #include "coupling/flame_ensemble.hpp"
-#include "flow/carried_model.hpp"
 #include "flow/flame/flame_solver.hpp"
 #include "flow/flame/given_exchange.hpp"
+#include "flow/models/carried_model.hpp"
 
 namespace lampblack::coupling {
 

@@ -13,9 +13,9 @@
 #include "core/halo_exchange.hpp"
 #include "core/mesh.hpp"
 #include "core/modules.hpp"
-#include "flow/boundary.hpp"
-#include "flow/boundary_values.hpp"
-#include "flow/transport_model.hpp"
+#include "flow/boundaries/boundary.hpp"
+#include "flow/boundaries/boundary_values.hpp"
+#include "flow/properties/transport_model.hpp"
 
 namespace lampblack::flow {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/modules.hpp"
+#include "flow/boundaries/gas_variation.hpp"
 #include "flow/flow_context.hpp"
-#include "flow/gas_variation.hpp"
 #include "flow/state.hpp"
 
 namespace lampblack::flow {

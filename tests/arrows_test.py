@@ -2,7 +2,7 @@
 
 A template or an inline function of a forbidden module needs no library, so that linking alone does not find it. What a module
 may know is what its CMakeLists.txt links; the page's column "knows" has to say the same. The order of the folders of
-chemistry and particles is that of the page.
+chemistry, particles and flow is that of the page.
 
 Usage: arrows_test.py [ROOT]
 """
@@ -34,7 +34,7 @@ def modules_on_page(page, modules):
 
 
 # Modules with folders that the page lists, each building on those before it.
-ORDERED = ("chemistry", "particles")
+ORDERED = ("chemistry", "particles", "flow")
 
 
 def folders_on_page(page, module):
@@ -82,10 +82,10 @@ def toy(root):
         "core/a.hpp": '#include <vector>\n#include "chemistry/thermo/b.hpp"\ntemplate <class T> T twice(T x);',
         "core/c.hpp": '#include "../chemistry/thermo/b.hpp"',
         "core/d.hpp": '  #  include <chemistry/thermo/b.hpp>',
-        "chemistry/thermo/b.hpp": '#include "core/a.hpp"\n#include "chemistry/numerics/n.hpp"',
-        "chemistry/numerics/n.hpp": '#include "chemistry/thermo/b.hpp"',
+        "chemistry/thermo/b.hpp": '#include "core/a.hpp"\n#include "chemistry/mechanism/n.hpp"',
+        "chemistry/mechanism/n.hpp": '#include "chemistry/thermo/b.hpp"',
         "docs/architecture.md": "| `core/` | MPI | errors |\n| `chemistry/` | `core` | gas |\n\n"
-                                "| `chemistry/numerics/` | x |\n| `chemistry/thermo/` | y |\n",
+                                "| `chemistry/mechanism/` | x |\n| `chemistry/thermo/` | y |\n",
     }
     for name, text in files.items():
         (root / name).parent.mkdir(parents=True, exist_ok=True)
@@ -97,7 +97,7 @@ def check_the_checker():
         root = Path(folder)
         toy(root)
         found = [line.split(":")[0] for line in wrong_arrows(root)]
-        assert sorted(found) == ["chemistry/numerics/n.hpp", "core/a.hpp", "core/c.hpp", "core/d.hpp"], found
+        assert sorted(found) == ["chemistry/mechanism/n.hpp", "core/a.hpp", "core/c.hpp", "core/d.hpp"], found
         page = root / "docs/architecture.md"
         page.write_text(page.read_text().replace("| MPI |", "| MPI, `chemistry` |"))
         assert any("says that core knows ['chemistry']" in line for line in wrong_arrows(root))

@@ -21,7 +21,7 @@ import pages
 GUIDES = ["README.md", "CONTRIBUTING.md", "docs/index.md", "docs/comparison.md", "docs/installing.md", "docs/pictures.md", "docs/tutorial.md",
           "docs/python.md", "docs/architecture.md", "docs/decisions.md", "docs/tests.md"]
 LONGEST = 105  # lines of the front page
-FOLDERS = "app|cases|chemistry|cmake|core|coupling|docs|flow|io|packaging|particles|python|scripts|tests|\\.ci"
+FOLDERS = "app|cases|chemistry|cmake|core|coupling|docs|flow|io|numerics|packaging|particles|python|scripts|tests|\\.ci"
 PATH = re.compile(rf"(?:\./)?((?:{FOLDERS})/[\w.+*/-]*)$")
 OPTION = re.compile(r"(?<![\w-])--?[A-Za-z][\w-]*")
 STANDS_FOR_ANY = re.compile(r"[<>*…]|\.\.\.|(?:^|/)[A-Z]{3,}(?:/|$)")  # results/<case>, DECK, cases/...

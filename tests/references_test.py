@@ -12,7 +12,7 @@ import tempfile
 import unicodedata
 from pathlib import Path
 
-MODULES = "app chemistry core coupling flow io particles tests"
+MODULES = "app chemistry core coupling flow io numerics particles tests"
 # Not the mechanisms: their heads are full references, which go where the file goes.
 PLACES = ["docs/theory/**/*.md", "docs/verification.md", "README.md", "cases/**/*.md", "cases/[!m]*/**/*.yaml",
           "scripts/**/*", *(f"{module}/**/*.[ch]pp" for module in MODULES.split())]

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/modules.hpp"
-#include "flow/radiation.hpp"
+#include "flow/models/radiation.hpp"
 #include "io/deck.hpp"
 #include "io/deck_schema.hpp"
 

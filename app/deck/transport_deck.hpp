@@ -3,7 +3,7 @@
 
 #include "chemistry/mechanism/mechanism.hpp"
 #include "core/modules.hpp"
-#include "flow/transport_model.hpp"
+#include "flow/properties/transport_model.hpp"
 #include "io/deck.hpp"
 #include "io/deck_schema.hpp"
 

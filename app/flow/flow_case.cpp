@@ -25,7 +25,7 @@
 #include "coupling/cell_soot.hpp"
 #include "coupling/cell_trees.hpp"
 #include "coupling/ensemble_species.hpp"
-#include "flow/carried_operator.hpp"
+#include "flow/models/carried_operator.hpp"
 #include "particles/ensemble/packed_ensemble.hpp"
 #include "particles/models/soot_model.hpp"
 #include "particles/population/monte_carlo/initial_sample.hpp"

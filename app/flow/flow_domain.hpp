@@ -9,13 +9,13 @@
 #include "core/halo_exchange.hpp"
 #include "core/modules.hpp"
 #include "coupling/ensemble_operator.hpp"
-#include "flow/budget.hpp"
-#include "flow/carried_operator.hpp"
-#include "flow/deposition_operator.hpp"
 #include "flow/flow_context.hpp"
-#include "flow/radiation_operator.hpp"
-#include "flow/step_control.hpp"
-#include "flow/undershoot_correction.hpp"
+#include "flow/models/carried_operator.hpp"
+#include "flow/models/deposition_operator.hpp"
+#include "flow/models/radiation_operator.hpp"
+#include "flow/stepping/budget.hpp"
+#include "flow/stepping/step_control.hpp"
+#include "flow/stepping/undershoot_correction.hpp"
 
 namespace lampblack::app {
 

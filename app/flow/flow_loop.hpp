@@ -24,7 +24,7 @@
 #include "core/state_backup.hpp"
 #include "core/timers.hpp"
 #include "flow/peak.hpp"
-#include "flow/steadiness.hpp"
+#include "flow/steady/steadiness.hpp"
 #include "io/progress.hpp"
 #include "io/run_folder.hpp"
 #include "io/run_record.hpp"

@@ -9,7 +9,7 @@
 #include "core/stop_request.hpp"
 #include "core/system_error.hpp"
 #include "core/wall_clock.hpp"
-#include "flow/finite_state.hpp"
+#include "flow/stepping/finite_state.hpp"
 
 namespace lampblack::app {
 namespace {

@@ -9,10 +9,10 @@
 
 #include "app/flow/flow_case.hpp"
 #include "core/modules.hpp"
-#include "flow/budget.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/operator.hpp"
 #include "flow/state.hpp"
+#include "flow/stepping/budget.hpp"
 #include "io/history.hpp"
 #include "io/results_writer.hpp"
 

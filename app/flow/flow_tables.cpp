@@ -9,7 +9,7 @@
 #include "app/flow/flow_case_parts.hpp"
 #include "app/flow/flow_output.hpp"
 #include "core/first_error.hpp"
-#include "flow/heat_conduction.hpp"
+#include "flow/equations/heat_conduction.hpp"
 #include "io/csv.hpp"
 
 namespace lampblack::app {

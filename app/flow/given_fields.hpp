@@ -9,7 +9,7 @@
 #include "app/flow/flow_case_parts.hpp"
 #include "chemistry/mechanism/mechanism.hpp"
 #include "core/modules.hpp"
-#include "flow/gas_variation.hpp"
+#include "flow/boundaries/gas_variation.hpp"
 #include "io/deck.hpp"
 #include "io/units.hpp"
 

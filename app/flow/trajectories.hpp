@@ -5,7 +5,7 @@
 #include "core/modules.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/state.hpp"
-#include "flow/transport_operator.hpp"
+#include "flow/stepping/transport_operator.hpp"
 #include "io/results_writer.hpp"
 #include "io/run_folder.hpp"
 

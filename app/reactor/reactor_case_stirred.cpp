@@ -6,9 +6,9 @@
 #include "app/deck/temperature_input.hpp"
 #include "app/reactor/reactor_case_parts.hpp"
 #include "app/tools/gas_input.hpp"
-#include "chemistry/numerics/dense_lu.hpp"
 #include "core/errors.hpp"
 #include "core/nearest_name.hpp"
+#include "numerics/dense_lu.hpp"
 
 namespace lampblack::app::reactorcase {
 namespace {

@@ -2,9 +2,9 @@
 // of BatchKinetics; for the linkage see batch_kinetics_simd.hpp.
 #pragma once
 
-#include "chemistry/kinetics/batch_kinetics_simd.hpp"
 #include "chemistry/kinetics/batch_kinetics_view.hpp"
 #include "core/modules.hpp"
+#include "numerics/simd_vectors.hpp"
 
 namespace lampblack::chemistry {
 namespace {

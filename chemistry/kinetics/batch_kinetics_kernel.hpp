@@ -8,9 +8,9 @@
 #pragma once
 
 #include "chemistry/kinetics/batch_kinetics_constants.hpp"
-#include "chemistry/kinetics/batch_kinetics_simd.hpp"
 #include "chemistry/kinetics/batch_kinetics_view.hpp"
 #include "core/modules.hpp"
+#include "numerics/simd_vectors.hpp"
 
 namespace lampblack::chemistry {
 namespace {

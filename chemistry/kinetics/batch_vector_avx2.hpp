@@ -4,8 +4,8 @@
 
 #include <immintrin.h>
 
-#include "chemistry/kinetics/batch_kinetics_simd.hpp"
 #include "core/modules.hpp"
+#include "numerics/simd_vectors.hpp"
 
 namespace lampblack::chemistry {
 

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "chemistry/kinetics/batch_kinetics_view.hpp"
-#include "chemistry/numerics/aligned_vector.hpp"
 #include "core/modules.hpp"
+#include "numerics/aligned_vector.hpp"
 
 namespace lampblack::chemistry {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "chemistry/kinetics/kinetics_powers.hpp"
-#include "chemistry/numerics/vector_math.hpp"
 #include "core/constants.hpp"
+#include "numerics/vector_math.hpp"
 
 namespace lampblack::chemistry {
 

@@ -23,9 +23,9 @@
 #include "chemistry/kinetics/kinetics_pressure.hpp"
 #include "chemistry/kinetics/kinetics_tables.hpp"
 #include "chemistry/mechanism/mechanism.hpp"
-#include "chemistry/numerics/sparse_pattern.hpp"
 #include "chemistry/thermo/species_thermo.hpp"
 #include "core/modules.hpp"
+#include "numerics/sparse_pattern.hpp"
 
 namespace lampblack::chemistry {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "chemistry/numerics/vector_math.hpp"
+#include "numerics/vector_math.hpp"
 
 namespace lampblack::chemistry {
 

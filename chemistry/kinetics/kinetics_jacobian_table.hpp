@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "chemistry/kinetics/kinetics_tables.hpp"
-#include "chemistry/numerics/sparse_pattern.hpp"
 #include "core/modules.hpp"
+#include "numerics/sparse_pattern.hpp"
 
 namespace lampblack::chemistry {
 

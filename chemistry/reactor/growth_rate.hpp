@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "chemistry/mechanism/mechanism.hpp"
-#include "chemistry/numerics/dense_lu.hpp"
 #include "chemistry/reactor/reactor_system.hpp"
 #include "core/modules.hpp"
+#include "numerics/dense_lu.hpp"
 
 namespace lampblack::chemistry {
 

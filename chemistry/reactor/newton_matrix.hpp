@@ -7,10 +7,10 @@
 #include <optional>
 #include <vector>
 
-#include "chemistry/numerics/dense_lu.hpp"
-#include "chemistry/numerics/sparse_lu.hpp"
 #include "chemistry/reactor/reactor_system.hpp"
 #include "core/modules.hpp"
+#include "numerics/dense_lu.hpp"
+#include "numerics/sparse_lu.hpp"
 
 namespace lampblack::chemistry {
 

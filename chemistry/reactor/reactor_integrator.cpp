@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "chemistry/numerics/short_vector.hpp"
+#include "numerics/short_vector.hpp"
 
 namespace lampblack::chemistry {
 

@@ -5,10 +5,10 @@
 #include <functional>
 #include <string>
 
-#include "chemistry/numerics/sundials_handles.hpp"
 #include "chemistry/reactor/reactor_linear_solver.hpp"
 #include "chemistry/reactor/reactor_system.hpp"
 #include "core/modules.hpp"
+#include "numerics/sundials_handles.hpp"
 
 namespace lampblack::chemistry {
 

@@ -9,9 +9,9 @@
 // -r C against -sum_k C_k (-r Y_k).
 #include <algorithm>
 
-#include "chemistry/numerics/dot.hpp"
 #include "chemistry/reactor/reactor_system.hpp"
 #include "core/errors.hpp"
+#include "numerics/dot.hpp"
 
 namespace lampblack::chemistry {
 

@@ -6,9 +6,9 @@
 #include <limits>
 #include <vector>
 
-#include "chemistry/numerics/rosenbrock_solver.hpp"
 #include "chemistry/reactor/reactor_lanes_tables.hpp"
 #include "chemistry/thermo/thermo.hpp"
+#include "numerics/rosenbrock_solver.hpp"
 
 namespace lampblack::chemistry {
 

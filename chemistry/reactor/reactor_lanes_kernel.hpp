@@ -6,9 +6,9 @@
 
 #include "chemistry/kinetics/batch_jacobian_kernel.hpp"
 #include "chemistry/kinetics/batch_kinetics_kernel.hpp"
-#include "chemistry/numerics/lane_lu_kernel.hpp"
 #include "chemistry/reactor/reactor_lanes_view.hpp"
 #include "core/modules.hpp"
+#include "numerics/lane_lu_kernel.hpp"
 
 namespace lampblack::chemistry {
 namespace {

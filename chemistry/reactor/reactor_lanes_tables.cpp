@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "chemistry/numerics/sparse_lu.hpp"
 #include "chemistry/reactor/newton_matrix.hpp"
 #include "chemistry/thermo/thermo.hpp"
 #include "core/constants.hpp"
+#include "numerics/sparse_lu.hpp"
 
 namespace lampblack::chemistry {
 

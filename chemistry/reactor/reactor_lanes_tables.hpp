@@ -10,9 +10,9 @@
 #include "chemistry/kinetics/kinetics_jacobian_table.hpp"
 #include "chemistry/kinetics/kinetics_tables.hpp"
 #include "chemistry/mechanism/mechanism.hpp"
-#include "chemistry/numerics/lane_lu.hpp"
 #include "chemistry/reactor/reactor_lanes_view.hpp"
 #include "core/modules.hpp"
+#include "numerics/lane_lu.hpp"
 
 namespace lampblack::chemistry {
 

@@ -7,8 +7,8 @@
 
 #include "chemistry/kinetics/batch_jacobian_view.hpp"
 #include "chemistry/kinetics/batch_kinetics_view.hpp"
-#include "chemistry/numerics/lane_lu_view.hpp"
 #include "core/modules.hpp"
+#include "numerics/lane_lu_view.hpp"
 
 namespace lampblack::chemistry {
 

@@ -2,10 +2,10 @@
 // interfaces for matrices and linear solvers.
 #pragma once
 
-#include "chemistry/numerics/sundials_handles.hpp"
 #include "chemistry/reactor/newton_matrix.hpp"
 #include "chemistry/reactor/reactor_system.hpp"
 #include "core/modules.hpp"
+#include "numerics/sundials_handles.hpp"
 
 namespace lampblack::chemistry {
 

@@ -6,11 +6,11 @@
 
 #include <span>
 
-#include "chemistry/numerics/rosenbrock_solver.hpp"
 #include "chemistry/reactor/newton_matrix.hpp"
 #include "chemistry/reactor/reactor_integrator.hpp"
 #include "chemistry/reactor/reactor_system.hpp"
 #include "core/modules.hpp"
+#include "numerics/rosenbrock_solver.hpp"
 
 namespace lampblack::chemistry {
 

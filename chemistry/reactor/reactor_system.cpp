@@ -6,9 +6,9 @@
 #include <cmath>
 #include <utility>
 
-#include "chemistry/numerics/dot.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
+#include "numerics/dot.hpp"
 
 namespace lampblack::chemistry {
 

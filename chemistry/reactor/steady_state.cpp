@@ -6,10 +6,10 @@
 #include <cmath>
 #include <optional>
 
-#include "chemistry/numerics/dense_lu.hpp"
 #include "chemistry/reactor/stiff_integrator.hpp"
 #include "core/errors.hpp"
 #include "core/stop_request.hpp"
+#include "numerics/dense_lu.hpp"
 
 namespace lampblack::chemistry {
 

@@ -9,9 +9,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "chemistry/numerics/dense_lu.hpp"
-#include "chemistry/numerics/sundials_handles.hpp"
 #include "core/errors.hpp"
+#include "numerics/dense_lu.hpp"
+#include "numerics/sundials_handles.hpp"
 
 namespace lampblack::chemistry {
 

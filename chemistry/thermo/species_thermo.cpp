@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "chemistry/mechanism/nasa_polynomials.hpp"
-#include "chemistry/numerics/block.hpp"
+#include "numerics/block.hpp"
 
 namespace lampblack::chemistry {
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "chemistry/mechanism/species.hpp"
-#include "chemistry/numerics/aligned_vector.hpp"
 #include "core/modules.hpp"
+#include "numerics/aligned_vector.hpp"
 
 namespace lampblack::chemistry {
 

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "chemistry/numerics/dot.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
+#include "numerics/dot.hpp"
 
 namespace lampblack::chemistry {
 

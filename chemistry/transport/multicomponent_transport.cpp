@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "chemistry/numerics/dot.hpp"
-#include "chemistry/transport/lanes.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
+#include "numerics/dot.hpp"
+#include "numerics/lanes.hpp"
 
 namespace lampblack::chemistry {
 

@@ -11,13 +11,13 @@
 #include <vector>
 
 #include "chemistry/mechanism/mechanism.hpp"
-#include "chemistry/numerics/dense_blocks.hpp"
-#include "chemistry/numerics/weighted_conjugate_gradients.hpp"
 #include "chemistry/thermo/species_thermo.hpp"
 #include "chemistry/transport/multicomponent_pairs.hpp"
 #include "chemistry/transport/pure_gas.hpp"
 #include "chemistry/transport/transport.hpp"
 #include "core/modules.hpp"
+#include "numerics/dense_blocks.hpp"
+#include "numerics/weighted_conjugate_gradients.hpp"
 
 namespace lampblack::chemistry {
 

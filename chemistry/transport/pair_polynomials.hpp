@@ -8,8 +8,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "chemistry/transport/lanes.hpp"
 #include "core/modules.hpp"
+#include "numerics/lanes.hpp"
 
 namespace lampblack::chemistry {
 

@@ -6,12 +6,12 @@
 #include <array>
 #include <cmath>
 
-#include "chemistry/numerics/dot.hpp"
 #include "chemistry/transport/fit_points.hpp"
-#include "chemistry/transport/lanes.hpp"
 #include "chemistry/transport/transport_margin.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
+#include "numerics/dot.hpp"
+#include "numerics/lanes.hpp"
 
 namespace lampblack::chemistry {
 

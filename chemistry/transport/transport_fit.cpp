@@ -6,12 +6,12 @@
 #include <cmath>
 
 #include "chemistry/transport/fit_points.hpp"
-#include "chemistry/transport/lanes.hpp"
 #include "chemistry/transport/polynomial_fit.hpp"
 #include "chemistry/transport/pure_gas.hpp"
 #include "chemistry/transport/transport.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
+#include "numerics/lanes.hpp"
 
 namespace lampblack::chemistry {
 

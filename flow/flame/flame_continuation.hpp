@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "core/modules.hpp"
-#include "flow/flame/branch_tracer.hpp"
 #include "flow/flame/flame_equations.hpp"
 #include "flow/flame/flame_grid.hpp"
+#include "numerics/branch_tracer.hpp"
 
 namespace lampblack::flow {
 

@@ -17,12 +17,12 @@
 
 #include "chemistry/mechanism/mechanism.hpp"
 #include "core/modules.hpp"
-#include "flow/carried_model.hpp"
-#include "flow/flame/block_tridiagonal.hpp"
 #include "flow/flame/flame_problem.hpp"
 #include "flow/flame/flame_profile.hpp"
 #include "flow/flame/given_exchange.hpp"
-#include "flow/flame/unsteady_system.hpp"
+#include "flow/models/carried_model.hpp"
+#include "numerics/block_tridiagonal.hpp"
+#include "numerics/unsteady_system.hpp"
 
 namespace lampblack::flow {
 

@@ -12,11 +12,11 @@
 #include "chemistry/transport/multicomponent_transport.hpp"
 #include "chemistry/transport/transport.hpp"
 #include "core/modules.hpp"
-#include "flow/carried_model.hpp"
 #include "flow/flame/flame_equations.hpp"
 #include "flow/flame/flame_problem.hpp"
 #include "flow/flame/flame_profile.hpp"
-#include "flow/radiation.hpp"
+#include "flow/models/carried_model.hpp"
+#include "flow/models/radiation.hpp"
 
 namespace lampblack::flow {
 

@@ -11,7 +11,7 @@
 
 namespace lampblack::flow {
 
-// Terms of the blocks of neighbours where those are thin (flow/flame/neighbour_block.hpp): what the mass flux and the
+// Terms of the blocks of neighbours where those are thin (numerics/neighbour_block.hpp): what the mass flux and the
 // temperature of the neighbour do to all equations, what all unknowns do to the equation of temperature, and what all
 // species do to the flux of each through the mean weight and through the sum of the fluxes.
 enum FlameNeighbourTerm : std::size_t {

@@ -1,6 +1,6 @@
 // What the fluxes through a face put into the rows of a point.
-#include "chemistry/numerics/dot.hpp"
 #include "flow/flame/flame_jacobian.hpp"
+#include "numerics/dot.hpp"
 
 namespace lampblack::flow::flamejacobian {
 namespace {

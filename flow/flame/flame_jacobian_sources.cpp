@@ -1,8 +1,8 @@
 // What reactions, and exchange with what is carried, put into the rows of a point.
 #include <algorithm>
 
-#include "chemistry/numerics/dot.hpp"
 #include "flow/flame/flame_jacobian.hpp"
+#include "numerics/dot.hpp"
 
 namespace lampblack::flow::flamejacobian {
 

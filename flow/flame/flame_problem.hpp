@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "core/modules.hpp"
-#include "flow/radiation.hpp"
-#include "flow/transport_model.hpp"
+#include "flow/models/radiation.hpp"
+#include "flow/properties/transport_model.hpp"
 
 namespace lampblack::flow {
 

@@ -1,7 +1,7 @@
 // The residual of a point and of the unknowns of the whole flame.
 #include "core/constants.hpp"
+#include "flow/boundaries/wall_flux.hpp"
 #include "flow/flame/flame_equations_data.hpp"
-#include "flow/wall_flux.hpp"
 
 namespace lampblack::flow {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/modules.hpp"
-#include "flow/flame/block_tridiagonal.hpp"
 #include "flow/flame/flame_equations.hpp"
+#include "numerics/block_tridiagonal.hpp"
 
 namespace lampblack::flow {
 

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "core/errors.hpp"
-#include "flow/flame/block_tridiagonal.hpp"
 #include "flow/flame/flame_equations_data.hpp"
+#include "numerics/block_tridiagonal.hpp"
 
 namespace lampblack::flow {
 namespace {

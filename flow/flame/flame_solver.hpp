@@ -16,7 +16,7 @@
 #include "core/stop_request.hpp"
 #include "flow/flame/flame_equations.hpp"
 #include "flow/flame/flame_grid.hpp"
-#include "flow/flame/newton_solver.hpp"
+#include "numerics/newton_solver.hpp"
 
 namespace lampblack::flow {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/errors.hpp"
-#include "flow/flame/arnoldi.hpp"
+#include "numerics/arnoldi.hpp"
 
 namespace lampblack::flow {
 namespace {

@@ -9,8 +9,8 @@
 #include "core/errors.hpp"
 #include "core/petsc.hpp"
 #include "core/petsc_callbacks.hpp"
-#include "flow/flame/newton_iteration.hpp"
 #include "flow/flame/unsteady_step.hpp"
+#include "numerics/newton_iteration.hpp"
 
 namespace lampblack::flow {
 namespace {

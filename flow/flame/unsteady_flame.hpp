@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/modules.hpp"
-#include "flow/flame/newton_solver.hpp"
-#include "flow/flame/unsteady_system.hpp"
+#include "numerics/newton_solver.hpp"
+#include "numerics/unsteady_system.hpp"
 
 namespace lampblack::flow {
 

@@ -11,8 +11,8 @@
 
 #include "core/modules.hpp"
 #include "core/petsc_callbacks.hpp"
-#include "flow/flame/newton_system.hpp"
-#include "flow/flame/unsteady_system.hpp"
+#include "numerics/newton_system.hpp"
+#include "numerics/unsteady_system.hpp"
 
 namespace lampblack::flow {
 

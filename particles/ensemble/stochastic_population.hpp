@@ -5,9 +5,9 @@
 #include <numbers>
 #include <tuple>
 
-#include "chemistry/numerics/vector_math.hpp"
 #include "core/modules.hpp"
 #include "core/packed_doubles.hpp"
+#include "numerics/vector_math.hpp"
 #include "particles/ensemble/size_bins.hpp"
 #include "particles/ensemble/stochastic_process.hpp"
 #include "particles/population/monte_carlo/systematic_sample.hpp"
@@ -174,7 +174,7 @@ void StochasticProcess<Method>::forEachLogDiameter(F f) const {
   double diameter[atATime], weight[atATime];
   std::size_t n = 0;
   const auto flush = [&] {
-    chemistry::vectormath::log(diameter, diameter, n);
+    numerics::vectormath::log(diameter, diameter, n);
     f(diameter, weight, n);
     n = 0;
   };

@@ -5,10 +5,10 @@
 #include <stdexcept>
 #include <vector>
 
-#include "chemistry/numerics/bogacki_shampine.hpp"
-#include "chemistry/numerics/rosenbrock_solver.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
+#include "numerics/bogacki_shampine.hpp"
+#include "numerics/rosenbrock_solver.hpp"
 #include "particles/models/particle_model.hpp"
 
 namespace lampblack::particles {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "chemistry/transport/lanes.hpp"
+#include "numerics/lanes.hpp"
 
 namespace lampblack::particles {
 namespace {
@@ -45,23 +45,23 @@ SootSums sums(const SootColumns& all, const SootAggregate& type, const SootMediu
       area[i] = count[i] * constants::pi * primary * primary;
       diameters[i] = w[i] * diameter[i];
     }
-    s.number += chemistry::sumOf(w, n);
-    s.carbon += chemistry::sumOf(carbon, n);
-    s.hydrogen += chemistry::sumOf(hydrogen, n);
-    s.primaries += chemistry::sumOf(count, n);
-    s.area += chemistry::sumOf(area, n);
-    s.diameters += chemistry::sumOf(diameters, n);
+    s.number += numerics::sumOf(w, n);
+    s.carbon += numerics::sumOf(carbon, n);
+    s.hydrogen += numerics::sumOf(hydrogen, n);
+    s.primaries += numerics::sumOf(count, n);
+    s.area += numerics::sumOf(area, n);
+    s.diameters += numerics::sumOf(diameters, n);
     if (!condensing) return;
     for (std::size_t i = 0; i < n; ++i) {
       const SootAggregate::Particle p{c[i], h[i], primaries[i], diameter[i]};
       rates[i] = w[i] * medium.condensingCollision(p);
     }
-    s.collisions += chemistry::sumOf(rates, n);
+    s.collisions += numerics::sumOf(rates, n);
     if (medium.ofMonomers()) return;
     for (std::size_t i = 0; i < n; ++i)
       slopes[i] = medium.collisionSlope({c[i], h[i], primaries[i], diameter[i]}, rates[i],
                                         Shape == SootShape::surfaceVolume ? type.shapeGain(primaries[i]) : 1);
-    s.slopes += chemistry::sumOf(slopes, n);
+    s.slopes += numerics::sumOf(slopes, n);
   });
   return s;
 }
@@ -111,7 +111,7 @@ SootTransfer grow(SootColumns& all, const SootAggregate& type, const SootMedium&
     constexpr double SootTransfer::*parts[6] = {&SootTransfer::dimers,      &SootTransfer::growth,
                                                 &SootTransfer::oxidationO2, &SootTransfer::oxidationOH,
                                                 &SootTransfer::hydrogenO2,  &SootTransfer::hydrogenOH};
-    if (chemistry::sumOf(rest, n) > 0) {
+    if (numerics::sumOf(rest, n) > 0) {
       // More than one step: one by one.
       for (std::size_t i = 0; i < n; ++i) {
         if (rest[i] == 0) continue;
@@ -125,8 +125,8 @@ SootTransfer grow(SootColumns& all, const SootAggregate& type, const SootMedium&
         for (std::size_t k = 0; k < 6; ++k) moved[k][i] = w[i] * (one.*parts[k]);
       }
     }
-    for (std::size_t k = 0; k < 6; ++k) sum.*parts[k] += chemistry::sumOf(moved[k], n);
-    sum.lost += chemistry::sumOf(lost, n);
+    for (std::size_t k = 0; k < 6; ++k) sum.*parts[k] += numerics::sumOf(moved[k], n);
+    sum.lost += numerics::sumOf(lost, n);
     if (changesPrimaries)
       for (std::size_t i = 0; i < n; ++i) {
         primaries[i] = after[i];

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <span>
 
-#include "chemistry/transport/lanes.hpp"
 #include "core/cube_root.hpp"
 #include "core/poisson.hpp"
+#include "numerics/lanes.hpp"
 #include "particles/soot/soot_columns.hpp"
 
 namespace lampblack::particles {
@@ -77,12 +77,12 @@ void applyAllEvents(EventBatch& batch, const SootColumns& all, const SootMedium&
     batch.gained[j] = most + full - c - h;
     batch.lost[j] = (1 + share) * (O2 + OH);
   }
-  sum.dimers += chemistry::sumOf(dimers, n);
-  sum.growth += chemistry::sumOf(growth, n);
-  sum.oxidationO2 += chemistry::sumOf(byO2, n);
-  sum.oxidationOH += chemistry::sumOf(byOH, n);
-  sum.hydrogenO2 += chemistry::sumOf(hydrogenO2, n);
-  sum.hydrogenOH += chemistry::sumOf(hydrogenOH, n);
+  sum.dimers += numerics::sumOf(dimers, n);
+  sum.growth += numerics::sumOf(growth, n);
+  sum.oxidationO2 += numerics::sumOf(byO2, n);
+  sum.oxidationOH += numerics::sumOf(byOH, n);
+  sum.hydrogenO2 += numerics::sumOf(hydrogenO2, n);
+  sum.hydrogenOH += numerics::sumOf(hydrogenOH, n);
   for (std::size_t j = 0; j < n; ++j) {
     if (inTurn[j] == 0) continue;
     SootEvents events(medium, least, all.weight[batch.place[j]], sum);

@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "chemistry/numerics/vector_math.hpp"
 #include "core/modules.hpp"
 #include "core/random.hpp"
+#include "numerics/vector_math.hpp"
 #include "particles/soot/soot_columns.hpp"
 #include "particles/soot/soot_medium.hpp"
 
@@ -90,7 +90,7 @@ class ExponentialGaps {
  private:
   void make(RandomStream& random) {
     for (double& gap : gaps_) gap = random.uniform();
-    for (double& gap : gaps_) gap = -chemistry::vectormath::logOne(gap);
+    for (double& gap : gaps_) gap = -numerics::vectormath::logOne(gap);
     used_ = 0;
   }
 

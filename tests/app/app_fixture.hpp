@@ -13,9 +13,9 @@
 
 #include "app/flow/flow_case.hpp"
 #include "coupling/carried_particles.hpp"
-#include "flow/carried_operator.hpp"
 #include "flow/flow_context.hpp"
-#include "flow/gas_properties.hpp"
+#include "flow/models/carried_operator.hpp"
+#include "flow/properties/gas_properties.hpp"
 #include "flow/state.hpp"
 #include "particles/models/two_equation/dimer_soot.hpp"
 #include "tests/every_module.hpp"

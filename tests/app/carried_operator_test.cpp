@@ -1,6 +1,6 @@
 // What the coupling of particles and gas keeps in the cells of a flow, with every model: mass, elements, enthalpy, and
 // every bit of a cell without soot.
-#include "flow/carried_operator.hpp"
+#include "flow/models/carried_operator.hpp"
 
 #include <cstring>
 #include <memory>
@@ -9,8 +9,8 @@
 #include "core/constants.hpp"
 #include "core/modules.hpp"
 #include "coupling/carried_particles.hpp"
-#include "flow/budget.hpp"
-#include "flow/transport_operator.hpp"
+#include "flow/stepping/budget.hpp"
+#include "flow/stepping/transport_operator.hpp"
 #include "particles/collisions/collision_physics.hpp"
 #include "particles/models/two_equation/dimer_soot.hpp"
 #include "tests/app/app_fixture.hpp"

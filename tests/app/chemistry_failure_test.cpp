@@ -2,7 +2,7 @@
 // what.
 #include "core/errors.hpp"
 #include "core/modules.hpp"
-#include "flow/reaction_operator.hpp"
+#include "flow/models/reaction_operator.hpp"
 #include "tests/app/app_fixture.hpp"
 #include "tests/core/mpi_support.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "app/deck/soot_deck.hpp"
 #include "coupling/carried_particles.hpp"
-#include "flow/carried_operator.hpp"
+#include "flow/models/carried_operator.hpp"
 #include "tests/app/app_fixture.hpp"
 
 namespace lampblack::app {

@@ -11,7 +11,7 @@
 #include <random>
 #include <vector>
 
-#include "flow/flame/block_tridiagonal.hpp"
+#include "numerics/block_tridiagonal.hpp"
 #include "tests/every_module.hpp"
 
 namespace {

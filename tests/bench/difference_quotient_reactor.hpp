@@ -8,8 +8,8 @@
 
 #include <algorithm>
 
-#include "chemistry/numerics/sundials_handles.hpp"
 #include "chemistry/reactor/reactor_system.hpp"
+#include "numerics/sundials_handles.hpp"
 #include "tests/bench/reactor_states.hpp"
 #include "tests/every_module.hpp"
 

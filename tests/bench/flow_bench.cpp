@@ -26,8 +26,8 @@
 #include "core/mesh.hpp"
 #include "core/petsc.hpp"
 #include "flow/mixing_layer.hpp"
-#include "flow/reaction_operator.hpp"
-#include "flow/transport_operator.hpp"
+#include "flow/models/reaction_operator.hpp"
+#include "flow/stepping/transport_operator.hpp"
 #include "tests/every_module.hpp"
 #include "tests/source_folder.hpp"
 

@@ -5,13 +5,14 @@
 #include <cmath>
 #include <numeric>
 
-#include "chemistry/numerics/dense_blocks.hpp"
 #include "chemistry/transport/multicomponent_transport.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
+#include "numerics/dense_blocks.hpp"
 #include "tests/chemistry/measured.hpp"
 #include "tests/chemistry/mechanism_text.hpp"
 #include "tests/chemistry/multicomponent_support.hpp"
+#include "tests/chemistry/table.hpp"
 #include "tests/every_module.hpp"
 
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "chemistry/numerics/dense_blocks.hpp"
 #include "core/constants.hpp"
+#include "numerics/dense_blocks.hpp"
 #include "tests/chemistry/measured.hpp"
 #include "tests/chemistry/mechanism_text.hpp"
 #include "tests/chemistry/multicomponent_support.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "coupling/ensemble_operator.hpp"
-#include "flow/budget.hpp"
+#include "flow/stepping/budget.hpp"
 #include "tests/coupling/closed_box.hpp"
 #include "tests/every_module.hpp"
 #include "tests/flow/flow_fixture.hpp"

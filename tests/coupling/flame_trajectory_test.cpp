@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "core/modules.hpp"
-#include "flow/carried_model.hpp"
 #include "flow/flame/flame_solver.hpp"
 #include "flow/flame/initial_flame.hpp"
+#include "flow/models/carried_model.hpp"
 #include "tests/flow/flame/flame_fixture.hpp"
 
 namespace lampblack::coupling {

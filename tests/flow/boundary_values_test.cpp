@@ -1,12 +1,12 @@
 // Boundaries that vary over place and time, and walls of given heat flux.
-#include "flow/boundary_values.hpp"
+#include "flow/boundaries/boundary_values.hpp"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 
 #include "core/errors.hpp"
-#include "flow/transport_operator.hpp"
+#include "flow/stepping/transport_operator.hpp"
 #include "flow_fixture.hpp"
 #include "tests/every_module.hpp"
 #include "tests/messages.hpp"

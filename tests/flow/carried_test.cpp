@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "core/constants.hpp"
-#include "flow/budget.hpp"
-#include "flow/transport_operator.hpp"
+#include "flow/stepping/budget.hpp"
+#include "flow/stepping/transport_operator.hpp"
 #include "flow_fixture.hpp"
 #include "tests/every_module.hpp"
 

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "core/constants.hpp"
-#include "flow/reaction_operator.hpp"
-#include "flow/transport_operator.hpp"
+#include "flow/models/reaction_operator.hpp"
+#include "flow/stepping/transport_operator.hpp"
 #include "flow_fixture.hpp"
 #include "tests/every_module.hpp"
 

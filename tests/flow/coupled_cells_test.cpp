@@ -1,5 +1,5 @@
 // Cells whose reactions outrun a step: how fast reactions grow, and steps of cells and their neighbours together.
-#include "flow/coupled_cells.hpp"
+#include "flow/models/coupled_cells.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 
 #include "chemistry/reactor/growth_rate.hpp"
 #include "core/errors.hpp"
-#include "flow/budget.hpp"
-#include "flow/reaction_operator.hpp"
-#include "flow/transport_operator.hpp"
+#include "flow/models/reaction_operator.hpp"
+#include "flow/stepping/budget.hpp"
+#include "flow/stepping/transport_operator.hpp"
 #include "flow_fixture.hpp"
 #include "tests/every_module.hpp"
 

@@ -5,8 +5,8 @@
 
 #include "chemistry/transport/multicomponent_transport.hpp"
 #include "core/constants.hpp"
-#include "flow/gas_properties.hpp"
-#include "flow/species_diffusion.hpp"
+#include "flow/equations/species_diffusion.hpp"
+#include "flow/properties/gas_properties.hpp"
 #include "flow_fixture.hpp"
 #include "tests/every_module.hpp"
 

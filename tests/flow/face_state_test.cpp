@@ -1,5 +1,5 @@
 // Face values as convection takes them, whichever way it goes.
-#include "flow/face_state.hpp"
+#include "flow/equations/face_state.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // Places in cells, fields at places, and what boundaries are told of the stress on them.
-#include "flow/field_sampler.hpp"
+#include "flow/paths/field_sampler.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/state_backup.hpp"
-#include "flow/transport_operator.hpp"
+#include "flow/stepping/transport_operator.hpp"
 #include "flow_fixture.hpp"
 #include "tests/every_module.hpp"
 

@@ -3,8 +3,8 @@
 // traced, for which ranks share out the vertices on their borders.
 #include <gtest/gtest.h>
 
-#include "flow/streamline.hpp"
-#include "flow/transport_operator.hpp"
+#include "flow/paths/streamline.hpp"
+#include "flow/stepping/transport_operator.hpp"
 #include "flow_fixture.hpp"
 #include "tests/corner_mesh.hpp"
 #include "tests/watched_memory.hpp"

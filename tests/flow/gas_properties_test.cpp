@@ -1,9 +1,9 @@
 // Coefficients of the gas beside boundaries: their values, and a gas between a hot and a cold wall that feels them.
-#include "flow/gas_properties.hpp"
+#include "flow/properties/gas_properties.hpp"
 
 #include <gtest/gtest.h>
 
-#include "flow/transport_operator.hpp"
+#include "flow/stepping/transport_operator.hpp"
 #include "flow_fixture.hpp"
 #include "tests/every_module.hpp"
 

@@ -1,5 +1,5 @@
 // A gas that varies over place and time: given mole fractions, and what the other species become.
-#include "flow/gas_variation.hpp"
+#include "flow/boundaries/gas_variation.hpp"
 
 #include <gtest/gtest.h>
 

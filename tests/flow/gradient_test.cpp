@@ -1,11 +1,11 @@
 // Cell gradients and the limited interpolation to faces.
-#include "flow/gradient.hpp"
+#include "flow/discretisation/gradient.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "flow/limiter.hpp"
+#include "flow/discretisation/limiter.hpp"
 #include "flow_fixture.hpp"
 #include "tests/every_module.hpp"
 

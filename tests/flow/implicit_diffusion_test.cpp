@@ -1,5 +1,5 @@
 // The solver of implicit diffusion of many fields, against elimination of the dense matrix.
-#include "flow/implicit_diffusion.hpp"
+#include "flow/discretisation/implicit_diffusion.hpp"
 
 #include <gtest/gtest.h>
 

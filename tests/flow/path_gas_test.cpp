@@ -1,5 +1,5 @@
 // The gas on paths: what it is in the cells, and what is given at boundaries.
-#include "flow/path_gas.hpp"
+#include "flow/paths/path_gas.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "flow/streamline.hpp"
+#include "flow/paths/streamline.hpp"
 #include "flow_fixture.hpp"
 
 namespace lampblack::test {

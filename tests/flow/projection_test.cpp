@@ -1,5 +1,5 @@
 // Pressure projection: the divergence asked for, on every cell, whatever the density.
-#include "flow/projection.hpp"
+#include "flow/equations/projection.hpp"
 
 #include <gtest/gtest.h>
 

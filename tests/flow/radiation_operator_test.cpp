@@ -1,10 +1,10 @@
 // Heat lost by radiation in a flow.
-#include "flow/radiation_operator.hpp"
+#include "flow/models/radiation_operator.hpp"
 
 #include <gtest/gtest.h>
 
 #include "core/constants.hpp"
-#include "flow/transport_operator.hpp"
+#include "flow/stepping/transport_operator.hpp"
 #include "flow_fixture.hpp"
 #include "tests/every_module.hpp"
 

@@ -1,5 +1,5 @@
 // Optically thin radiation: the workshop's polynomials at temperatures where they can be added up by hand.
-#include "flow/radiation.hpp"
+#include "flow/models/radiation.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.hpp"
-#include "flow/face_state.hpp"
-#include "flow/finite_state.hpp"
-#include "flow/limiter.hpp"
-#include "flow/neighbour_bounds.hpp"
+#include "flow/discretisation/limiter.hpp"
+#include "flow/discretisation/neighbour_bounds.hpp"
+#include "flow/equations/face_state.hpp"
+#include "flow/stepping/finite_state.hpp"
 #include "flow_fixture.hpp"
 #include "tests/every_module.hpp"
 #include "tests/messages.hpp"

@@ -1,5 +1,5 @@
 // Mixture-averaged diffusion fluxes and the state of the gas at the faces.
-#include "flow/species_diffusion.hpp"
+#include "flow/equations/species_diffusion.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 #include <numbers>
 
 #include "core/constants.hpp"
-#include "flow/face_fluxes.hpp"
-#include "flow/face_state.hpp"
-#include "flow/gas_properties.hpp"
-#include "flow/heat_conduction.hpp"
+#include "flow/discretisation/face_fluxes.hpp"
+#include "flow/equations/face_state.hpp"
+#include "flow/equations/heat_conduction.hpp"
+#include "flow/properties/gas_properties.hpp"
 #include "flow_fixture.hpp"
 #include "tests/every_module.hpp"
 

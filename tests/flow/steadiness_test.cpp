@@ -1,5 +1,5 @@
 // How far fields that are formulas of time are from steady, and whether they repeat themselves.
-#include "flow/steadiness.hpp"
+#include "flow/steady/steadiness.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "core/state_backup.hpp"
-#include "flow/periodicity.hpp"
+#include "flow/steady/periodicity.hpp"
 #include "tests/flow/flow_fixture.hpp"
 
 namespace lampblack::flow {

@@ -1,5 +1,5 @@
 // What a step did: its error, what it changed, and steps that are none.
-#include "flow/step_control.hpp"
+#include "flow/stepping/step_control.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "core/errors.hpp"
-#include "flow/undershoot_correction.hpp"
+#include "flow/stepping/undershoot_correction.hpp"
 #include "flow_fixture.hpp"
 #include "tests/every_module.hpp"
 #include "tests/messages.hpp"

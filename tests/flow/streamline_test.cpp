@@ -1,5 +1,5 @@
 // Paths of particles through velocity fields whose paths are known, on meshes of all kinds.
-#include "flow/streamline.hpp"
+#include "flow/paths/streamline.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // Gas that turns about the axis: what it keeps, what it loses to walls, and the pressure that holds it.
-#include "flow/swirl.hpp"
+#include "flow/equations/swirl.hpp"
 
 #include <gtest/gtest.h>
 
-#include "flow/transport_operator.hpp"
+#include "flow/stepping/transport_operator.hpp"
 #include "flow_fixture.hpp"
 #include "tests/every_module.hpp"
 

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.hpp"
-#include "flow/budget.hpp"
-#include "flow/time_step.hpp"
-#include "flow/transport_operator.hpp"
+#include "flow/stepping/budget.hpp"
+#include "flow/stepping/time_step.hpp"
+#include "flow/stepping/transport_operator.hpp"
 #include "flow_fixture.hpp"
 #include "tests/every_module.hpp"
 

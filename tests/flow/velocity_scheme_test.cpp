@@ -4,9 +4,9 @@
 
 #include <numbers>
 
-#include "flow/face_velocity.hpp"
-#include "flow/limiter.hpp"
-#include "flow/transport_operator.hpp"
+#include "flow/discretisation/limiter.hpp"
+#include "flow/equations/face_velocity.hpp"
+#include "flow/stepping/transport_operator.hpp"
 #include "flow_fixture.hpp"
 #include "tests/every_module.hpp"
 

@@ -1,6 +1,6 @@
 // Fields between centres and vertices: exact where they are linear, continuous, of second order, no worse than what is
 // bilinear between the centres of a box, and the same bits on any number of ranks.
-#include "flow/vertex_field.hpp"
+#include "flow/discretisation/vertex_field.hpp"
 
 #include <gtest/gtest.h>
 

@@ -17,7 +17,7 @@ import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-MODULES = {"core": 8, "chemistry": 13, "particles": 15, "flow": 13, "coupling": 9, "io": 7, "app": 13}  # weights
+MODULES = {"core": 8, "numerics": 4, "chemistry": 13, "particles": 15, "flow": 13, "coupling": 9, "io": 7, "app": 13}  # weights
 SWAPS = {" + ": " - ", " - ": " + ", " * ": " / ", " / ": " * ", " += ": " -= ", " -= ": " += ", " *= ": " /= ", " < ": " <= ",
          " <= ": " < ", " > ": " >= ", " >= ": " > ", " == ": " != ", " != ": " == ", " && ": " || ", " || ": " && ",
          "std::max": "std::min", "std::min": "std::max", "true": "false", "false": "true"}

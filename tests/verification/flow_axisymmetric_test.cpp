@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "../flow/flow_fixture.hpp"
-#include "flow/transport_operator.hpp"
+#include "flow/stepping/transport_operator.hpp"
 #include "tests/every_module.hpp"
 
 namespace lampblack::test {

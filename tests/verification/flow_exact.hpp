@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "../flow/flow_fixture.hpp"
-#include "flow/transport_operator.hpp"
+#include "flow/stepping/transport_operator.hpp"
 #include "tests/effort.hpp"
 #include "tests/every_module.hpp"
 

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "../flow/flow_fixture.hpp"
-#include "flow/time_step.hpp"
-#include "flow/transport_operator.hpp"
+#include "flow/stepping/time_step.hpp"
+#include "flow/stepping/transport_operator.hpp"
 #include "tests/effort.hpp"
 #include "tests/every_module.hpp"
 

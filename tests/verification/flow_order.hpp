@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "../flow/flow_fixture.hpp"
-#include "flow/reaction_operator.hpp"
-#include "flow/transport_operator.hpp"
+#include "flow/models/reaction_operator.hpp"
+#include "flow/stepping/transport_operator.hpp"
 #include "tests/effort.hpp"
 #include "tests/every_module.hpp"
 

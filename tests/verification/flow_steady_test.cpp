@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "../flow/flow_fixture.hpp"
-#include "flow/transport_operator.hpp"
+#include "flow/stepping/transport_operator.hpp"
 #include "tests/effort.hpp"
 #include "tests/every_module.hpp"
 

@@ -3,8 +3,8 @@
 
 #include <span>
 
-#include "chemistry/transport/lanes.hpp"
 #include "core/modules.hpp"
+#include "numerics/lanes.hpp"
 #include "particles/population/model/collision_kernel.hpp"
 
 namespace lampblack::particles {
@@ -90,14 +90,14 @@ inline CollisionKernel::Terms CollisionKernel::terms(const Properties& x) const 
 
 // The largest of a_i and zero.
 inline double largestOf(const double* a, std::size_t n) {
-  chemistry::Lanes most{};
+  numerics::Lanes most{};
   std::size_t i = 0;
-  for (; i + chemistry::laneCount <= n; i += chemistry::laneCount) {
-    const chemistry::Lanes v = chemistry::loadLanes(a + i);
+  for (; i + numerics::laneCount <= n; i += numerics::laneCount) {
+    const numerics::Lanes v = numerics::loadLanes(a + i);
     most = v > most ? v : most;
   }
   double largest = 0;
-  for (std::size_t k = 0; k < chemistry::laneCount; ++k) largest = std::max(largest, most[k]);
+  for (std::size_t k = 0; k < numerics::laneCount; ++k) largest = std::max(largest, most[k]);
   for (; i < n; ++i) largest = std::max(largest, a[i]);
   return largest;
 }

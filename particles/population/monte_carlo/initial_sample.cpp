@@ -5,8 +5,8 @@
 #include <cmath>
 #include <span>
 
-#include "chemistry/numerics/dense_lu.hpp"
 #include "core/errors.hpp"
+#include "numerics/dense_lu.hpp"
 #include "particles/population/exact_solutions/initial_distribution.hpp"
 
 namespace lampblack::particles {
@@ -131,7 +131,7 @@ Moments momentsOf(std::span<const InitialParticle> particles) {
 // and volume are then made exact by one factor on all weights and one on all volumes.
 void calibrate(std::span<InitialParticle> particles, const Moments& all, const Moments& target) {
   constexpr double ridge = 1e-4;
-  chemistry::DenseLu matrix(orders);
+  numerics::DenseLu matrix(orders);
   const Moments held = momentsOf(particles);
   Moments factors{};
   for (std::size_t k = 0; k < orders; ++k) {

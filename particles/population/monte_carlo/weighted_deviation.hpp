@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include "chemistry/transport/lanes.hpp"
 #include "core/modules.hpp"
+#include "numerics/lanes.hpp"
 
 namespace lampblack::particles {
 
@@ -19,7 +19,7 @@ class WeightedDeviation {
   }
   // Many at a time: their own mean and squares, put together with those so far (Chan, Golub, LeVeque 1983).
   void add(const double* x, const double* weights, std::size_t n) {
-    const double weight = chemistry::sumOf(weights, n);
+    const double weight = numerics::sumOf(weights, n);
     if (!(weight > 0)) return;
     double mean = 0, square = 0;
     for (std::size_t k = 0; k < n; ++k) mean += weights[k] * (x[k] - x[0]);

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "chemistry/numerics/dense_blocks.hpp"
 #include "core/modules.hpp"
+#include "numerics/dense_blocks.hpp"
 #include "tests/flow/flame/flame_fixture.hpp"
 
 namespace lampblack::flow {

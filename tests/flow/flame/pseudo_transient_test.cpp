@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/modules.hpp"
-#include "flow/flame/newton_solver.hpp"
-#include "tests/flow/flame/small_systems.hpp"
+#include "numerics/newton_solver.hpp"
+#include "tests/numerics/small_systems.hpp"
 
 namespace lampblack::flow {
 namespace {

@@ -9,7 +9,7 @@
 #include "core/errors.hpp"
 #include "core/modules.hpp"
 #include "flow/flame/unsteady_flame.hpp"
-#include "tests/flow/flame/small_systems.hpp"
+#include "tests/numerics/small_systems.hpp"
 
 namespace lampblack::flow {
 namespace {

@@ -1,0 +1,82 @@
+#include "flow/discretisation/gradient.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "core/least_squares.hpp"
+
+namespace lampblack::flow {
+
+Gradient::Gradient(const Mesh& mesh) : mesh_(mesh) {}
+
+const Vector3* Gradient::weights(int cell, std::span<const BoundaryData> known, int components, int first,
+                                 Weights& room) const {
+  const Mesh& m = mesh_;
+  if (m.gradientRow[cell] >= 0) return &m.gradientWeight[static_cast<std::size_t>(m.gradientRow[cell])];
+  const bool isEachComponent = components > 1 && known.size() > static_cast<std::size_t>(m.boundaryFaces());
+  const auto dataOf = [&](int face) {
+    const int b = face - m.interiorFaces;
+    return known.empty() ? BoundaryData::Value : known[isEachComponent ? b * components + first : b];
+  };
+  LeastSquares squares;
+  for (int i = m.faceStart[cell]; i < m.faceStart[cell + 1]; ++i) {
+    const int face = m.faceOfCell[i];
+    const BoundaryData data = m.high[face] >= 0 ? BoundaryData::Value : dataOf(face);
+    if (data == BoundaryData::Value) squares.add(m.step[face]);
+    if (data == BoundaryData::ZeroSlope) squares.add(scaled(m.normal[face], reach(m.distance[face], data)));
+  }
+  squares.finish(m.dimension);
+  for (int i = m.faceStart[cell]; i < m.faceStart[cell + 1]; ++i) {
+    const int face = m.faceOfCell[i];
+    const bool counts = m.high[face] >= 0 || dataOf(face) == BoundaryData::Value;
+    const double sign = m.low[face] == cell ? 1.0 : -1.0;
+    room[i - m.faceStart[cell]] = counts ? squares.weight(scaled(m.step[face], sign)) : Vector3{};
+  }
+  return room.data();
+}
+
+void Gradient::compute(std::span<const double> values, std::span<const double> boundary, int components,
+                       std::span<double> gradient, std::span<const BoundaryData> known) const {
+  const Mesh& m = mesh_;
+  const int d = m.dimension;
+  // Components of the same flags at once.
+  const bool isEachComponent = components > 1 && known.size() > static_cast<std::size_t>(m.boundaryFaces());
+  const int width = isEachComponent ? 1 : components;
+  Weights room;
+  for (int cell = 0; cell < m.owned; ++cell) {
+    double* out = gradient.data() + static_cast<std::ptrdiff_t>(cell) * components * d;
+    std::fill(out, out + d * components, 0.0);
+    const double* own = values.data() + static_cast<std::ptrdiff_t>(cell) * components;
+    for (int first = 0; first < components; first += width) {
+      const Vector3* weight = weights(cell, known, components, first, room);
+      for (int i = m.faceStart[cell]; i < m.faceStart[cell + 1]; ++i, ++weight) {
+        if (*weight == Vector3{}) continue;
+        const int face = m.faceOfCell[i];
+        const double* other = valuesBeyond(m, cell, face, values, boundary, components);
+        for (int k = first; k < first + width; ++k) {
+          const double difference = other[k] - own[k];
+          for (int axis = 0; axis < d; ++axis) out[k * d + axis] += (*weight)[axis] * difference;
+        }
+      }
+    }
+  }
+}
+
+void Gradient::along(const Vector3& direction, int cell, std::span<const double> values,
+                     std::span<const double> boundary, int components, std::span<double> slope,
+                     std::span<const BoundaryData> known) const {
+  const Mesh& m = mesh_;
+  std::fill_n(slope.begin(), components, 0.0);
+  Weights room;
+  const Vector3* weight = weights(cell, known, 1, 0, room);
+  const double* own = values.data() + static_cast<std::ptrdiff_t>(cell) * components;
+  for (int i = m.faceStart[cell]; i < m.faceStart[cell + 1]; ++i, ++weight) {
+    const double share = dot(*weight, direction);
+    if (share == 0.0) continue;  // of a box the faces of the other axes
+    const int face = m.faceOfCell[i];
+    const double* other = valuesBeyond(m, cell, face, values, boundary, components);
+    for (int k = 0; k < components; ++k) slope[k] += share * (other[k] - own[k]);
+  }
+}
+
+}  // namespace lampblack::flow

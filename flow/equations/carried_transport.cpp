@@ -1,0 +1,173 @@
+#include "flow/equations/carried_transport.hpp"
+
+#include <algorithm>
+
+#include "flow/boundaries/wall_flux.hpp"
+#include "flow/discretisation/face_fluxes.hpp"
+
+namespace lampblack::flow {
+
+void CarriedTransport::findDrift(const Gas& gas) {
+  const Mesh& m = context_.mesh;
+  const auto temperatureGradient = gas.faces.temperatureGradient();
+  for (int face = 0; face < m.interiorFaces; ++face) {
+    const int low = m.low[face], high = m.high[face];
+    const double w = m.lowWeight[face];
+    const auto mean = [&](std::span<const double> field) { return w * field[low] + (1.0 - w) * field[high]; };
+    const double slope = faceSlope(m, face, m.normal[face], temperatureGradient);
+    const double drift = -mean(gas.viscosity) / mean(gas.mean.density) * slope / mean(gas.mean.temperature);
+    driftFlux_[face] = gas.faces.density[face] * m.area[face] * drift;
+  }
+  for (int face = m.interiorFaces; face < m.faces; ++face)
+    driftFlux_[face] = context_.takesParticles(face) && m.area[face] > 0.0 ? driftToWall(gas, face) : 0.0;
+}
+
+// -A mu (grad T . n)/T at a wall, by the heat that it takes: viscosity over conductivity hardly changes with the
+// temperature.
+double CarriedTransport::driftToWall(const Gas& gas, int face) const {
+  const Mesh& m = context_.mesh;
+  const int b = face - m.interiorFaces;
+  const double conductivity = gas.properties.boundaryConductivity[b];
+  double T = context_.boundaryTemperature(face);
+  if (!context_.isTemperatureGiven(face))
+    T = gas.mean.temperature[m.low[face]] - gas.heat[face] / m.area[face] * m.distance[face] / conductivity;
+  return gas.properties.boundaryViscosity[b] / conductivity * gas.heat[face] / T;
+}
+
+// kg/s of gas: the conductance of diffusion to a wall.
+double CarriedTransport::wallDiffusion(const State& state, const FaceState& faces, int face, int scalar) const {
+  const Mesh& m = context_.mesh;
+  return faces.density[face] * m.area[face] / m.distance[face] *
+         state.carriedDiffusivity[m.low[face] * state.carriedCount() + scalar];
+}
+
+void CarriedTransport::convectiveFlux(const State& state, const Gas& gas) {
+  const Mesh& m = context_.mesh;
+  const int n = state.carriedCount();
+  for (int face = 0; face < m.faces; ++face) {
+    double* flux = &flux_[static_cast<std::size_t>(face) * n];
+    std::fill_n(flux, n, 0.0);
+    const int low = m.low[face];
+    if (m.area[face] <= 0.0) continue;
+    if (m.high[face] < 0) {
+      // Particles leave with the gas; nothing enters with it. What walls take is implicit but for how particles outside
+      // the layer in which they diffuse to the wall change over the half cell.
+      if (state.massFlux[face] > 0.0)
+        for (int s = 0; s < n; ++s)
+          flux[s] = state.massFlux[face] * gas.mean.carried[low * n + s] / gas.mean.density[low];
+      if (context_.takesParticles(face))  // nothing flows through these
+        for (int s = 0; s < n; ++s) {
+          const double drift = state.scalars[s].thermophoresis * driftFlux_[face];
+          const double share = outsideWallLayer(drift, wallDiffusion(state, gas.faces, face, s));
+          if (share > 0.0) flux[s] = drift * share * gas.faces.carriedRiseToWall(face, s);
+        }
+      continue;
+    }
+    const double gasFlux = gas.faces.density[face] * m.area[face] * gas.faceVelocity[face];
+    for (int s = 0; s < n; ++s) {
+      const double carrying = gasFlux + state.scalars[s].thermophoresis * driftFlux_[face];
+      flux[s] = carrying * gas.faces.carriedPerMass(face, s, carrying);
+    }
+  }
+}
+
+void CarriedTransport::advance(State& state, const Gas& gas, double dt) {
+  const Mesh& m = context_.mesh;
+  const int n = state.carriedCount();
+  if (n == 0) return;
+  findDrift(gas);
+  if (std::ranges::none_of(state.scalars, &CarriedScalar::isTransported)) return;
+  convectiveFlux(state, gas);
+  std::vector<double> content(static_cast<std::size_t>(m.owned) * n);
+  for (int c = 0; c < m.owned; ++c)
+    for (int s = 0; s < n; ++s)
+      content[c * n + s] = m.volume[c] * (gas.start.carried[c * n + s] + dt * state.balance.carried[c * n + s]);
+  addFaceFluxes(m, flux_, n, dt, content);
+  diffuse(state, gas, dt, content);
+  for (int c = 0; c < m.owned; ++c)
+    for (int s = 0; s < n; ++s)
+      if (state.scalars[s].isTransported) state.carried[c * n + s] = content[c * n + s] / m.volume[c];
+}
+
+void CarriedTransport::presentFlux(const State& state, const FaceState& faces, std::span<double> conductance,
+                                   std::span<double> flux) const {
+  const Mesh& m = context_.mesh;
+  const int n = state.carriedCount();
+  if (m.isOblique()) {
+    perMass_.resize(static_cast<std::size_t>(m.cells) * n);
+    for (int c = 0; c < m.cells; ++c)
+      for (int s = 0; s < n; ++s) perMass_[c * n + s] = state.carried[c * n + s] / state.density[c];
+    perMassGradient_.resize(perMass_.size() * m.dimension);
+    gradient_.compute(perMass_, {}, n, perMassGradient_, nothingPasses_);
+    context_.halo.update(perMassGradient_, n * m.dimension);
+  }
+  for (int face = m.interiorFaces; face < m.faces; ++face) {
+    if (!context_.takesParticles(face) || m.area[face] <= 0.0) continue;
+    for (int s = 0; s < n; ++s) {
+      const int i = m.low[face] * n + s;
+      double& g = conductance[face * n + s];
+      g = takenByWall(state.scalars[s].thermophoresis * driftFlux_[face], wallDiffusion(state, faces, face, s));
+      flux[face * n + s] = g * state.carried[i] / state.density[m.low[face]];
+    }
+  }
+  for (int face = 0; face < m.interiorFaces; ++face) {
+    const int low = m.low[face], high = m.high[face];
+    const double w = m.lowWeight[face];
+    const double metric = faces.density[face] * m.area[face] / m.distance[face];
+    for (int s = 0; s < n; ++s) {
+      double& g = conductance[face * n + s];
+      g = metric * (w * state.carriedDiffusivity[low * n + s] + (1.0 - w) * state.carriedDiffusivity[high * n + s]);
+      flux[face * n + s] =
+          g * (state.carried[low * n + s] / state.density[low] - state.carried[high * n + s] / state.density[high]);
+      if (m.isOblique())
+        flux[face * n + s] -= g * m.distance[face] * faceSlope(m, face, m.oblique[face], perMassGradient_, n, s);
+    }
+  }
+}
+
+// Through the boundary, beside what is there already.
+void CarriedTransport::addCrossed(std::span<const double> flux) {
+  const std::size_t first = flux.size() / static_cast<std::size_t>(context_.mesh.faces) *
+                            static_cast<std::size_t>(context_.mesh.interiorFaces);
+  for (std::size_t i = first; i < flux.size(); ++i) flux_[i] += flux[i];
+}
+
+// Implicit: particles of a nucleus's size diffuse almost like molecules. From the second sweep on corrected so that it
+// becomes the mean of the diffusion at both ends of the step.
+void CarriedTransport::diffuse(const State& state, const Gas& gas, double dt, std::span<double> content) {
+  const Mesh& m = context_.mesh;
+  const int n = state.carriedCount();
+  std::vector<double> conductance(flux_.size());
+  std::vector<double> flux(flux_.size(), 0.0), startFlux(flux_.size(), 0.0);
+  if (&gas.start != &state) {
+    presentFlux(gas.start, gas.faces, conductance, startFlux);
+    presentFlux(state, gas.faces, conductance, flux);
+    for (std::size_t i = 0; i < flux.size(); ++i) flux[i] = 0.5 * (startFlux[i] - flux[i]);
+    addFaceFluxes(m, flux, n, dt, content);
+    addCrossed(flux);
+  }
+  presentFlux(state, gas.faces, conductance, flux);
+  // At what rate the contents change by everything else and by the guess's diffusion.
+  std::vector<double> inertia(static_cast<std::size_t>(m.owned));
+  std::vector<double> perMass(static_cast<std::size_t>(m.cells) * n);
+  for (int c = 0; c < m.owned; ++c) {
+    inertia[c] = gas.newMass[c] / dt;
+    for (int s = 0; s < n; ++s)
+      perMass[c * n + s] = content[c * n + s] / dt - inertia[c] * state.carried[c * n + s] / state.density[c];
+  }
+  addFaceFluxes(m, flux, n, 1.0, perMass);
+  const auto through = [&](int face, std::span<const int> scalars, double* g) {
+    for (std::size_t i = 0; i < scalars.size(); ++i) g[i] = conductance[face * n + scalars[i]];
+  };
+  // Particles see how much there is of them where there is next to nothing.
+  diffusion_.changes(n, inertia, through, perMass, 1e-8);
+  for (int face = 0; face < m.interiorFaces; ++face)
+    for (int s = 0; s < n; ++s)
+      flux[face * n + s] += conductance[face * n + s] * (perMass[m.low[face] * n + s] - perMass[m.high[face] * n + s]);
+  for (int face = m.interiorFaces; face < m.faces; ++face)
+    for (int s = 0; s < n; ++s) flux[face * n + s] += conductance[face * n + s] * perMass[m.low[face] * n + s];
+  addFaceFluxes(m, flux, n, dt, content);
+  addCrossed(flux);
+}
+
+}  // namespace lampblack::flow

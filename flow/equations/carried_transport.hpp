@@ -1,0 +1,72 @@
+// Scalars that the flow carries for a model (State::carried): convection with the gas and thermophoresis by the limited
+// scheme, explicit, then implicit diffusion; in several sweeps as the gas (TransportOperator). Walls that take
+// particles have the flux of drift and diffusion to a place without particles (flow/boundaries/wall_flux.hpp), implicit
+// as diffusion is.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/modules.hpp"
+#include "flow/discretisation/implicit_diffusion.hpp"
+#include "flow/equations/face_state.hpp"
+#include "flow/flow_context.hpp"
+#include "flow/properties/gas_properties.hpp"
+#include "flow/state.hpp"
+
+namespace lampblack::flow {
+
+class CarriedTransport {
+ public:
+  CarriedTransport(const FlowContext& context, ImplicitDiffusion& diffusion, int scalars)
+      : context_(context),
+        diffusion_(diffusion),
+        gradient_(context.mesh),
+        flux_(static_cast<std::size_t>(context.mesh.faces) * static_cast<std::size_t>(scalars), 0.0),
+        driftFlux_(static_cast<std::size_t>(scalars > 0 ? context.mesh.faces : 0), 0.0),
+        nothingPasses_(static_cast<std::size_t>(context.mesh.boundaryFaces()), BoundaryData::ZeroSlope) {}
+
+  // The gas of a sweep: the step's start, and its mean with what the last sweep found (both the state itself in the
+  // first sweep), viscosity (Pa s, cells) and values at faces of that mean, and what the gas is advanced with.
+  struct Gas {
+    const State& start;
+    const State& mean;
+    std::span<const double> viscosity;
+    const FaceState& faces;
+    std::span<const double> faceVelocity;  // m/s, every face
+    std::span<const double> newMass;       // kg, of the gas in each owned cell after the step
+    const GasProperties& properties;       // beside the boundaries
+    std::span<const double> heat;          // W, conducted through every face in the step
+  };
+  // Collective.
+  void advance(State& state, const Gas& gas, double dt);
+
+  // Flux of the last step, per s, scalars a face, positive from low to high or outwards: all that crosses the boundary,
+  // between cells the convective part.
+  [[nodiscard]] std::span<const double> flux() const { return flux_; }
+  // kg/s, what thermophoresis moves of the gas's mass through each face in the last step for a coefficient of one:
+  // particles drift as if so much gas flowed; of the boundary's faces to the walls that take particles alone.
+  [[nodiscard]] std::vector<double>& driftFlux() { return driftFlux_; }
+  [[nodiscard]] const std::vector<double>& driftFlux() const { return driftFlux_; }
+
+ private:
+  void findDrift(const Gas& gas);
+  [[nodiscard]] double driftToWall(const Gas& gas, int face) const;
+  [[nodiscard]] double wallDiffusion(const State& state, const FaceState& faces, int face, int scalar) const;
+  void convectiveFlux(const State& state, const Gas& gas);
+  void diffuse(const State& state, const Gas& gas, double dt, std::span<double> content);
+  void addCrossed(std::span<const double> flux);
+  // Collective. Flux of the state by its own diffusivities, and the conductances (per s) it has through the faces.
+  void presentFlux(const State& state, const FaceState& faces, std::span<double> conductance,
+                   std::span<double> flux) const;
+
+  const FlowContext& context_;
+  ImplicitDiffusion& diffusion_;
+  Gradient gradient_;
+  std::vector<double> flux_, driftFlux_;
+  // Of what is carried per mass of gas, where steps are oblique to faces.
+  mutable std::vector<double> perMass_, perMassGradient_;
+  std::vector<BoundaryData> nothingPasses_;
+};
+
+}  // namespace lampblack::flow

@@ -1,0 +1,269 @@
+#include "flow/models/carried_operator.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "core/errors.hpp"
+
+namespace lampblack::flow {
+namespace {
+
+// How a cell is packed for the trip to another rank and back. In: place, number, gas, densities, concentrations, and
+// what brings them; out: cost, steps, densities, concentrations.
+constexpr std::size_t inHeader = 9, outHeader = 2;
+
+constexpr double firstModelCost = 1.0;  // before a cell was ever advanced: that of all others
+
+// About microseconds: rates, and the factors of a dense matrix, of RODAS3. Estimated, not measured: it weighs cells
+// with particles against each other, and against the gas to a factor of two or so.
+double costOfAdvance(std::size_t scalars, double steps) {
+  const auto n = static_cast<double>(scalars);
+  return 1.0 + steps * (1.0 + 0.3 * n + 0.01 * n * n);
+}
+
+// Where a cell's values begin, `width` of them a cell.
+std::size_t at(int cell, std::size_t width) {
+  return static_cast<std::size_t>(cell) * width;
+}
+
+}  // namespace
+
+ParticleGas gasOfCell(const FlowContext& context, const State& state, int cell, double viscosity,
+                      const std::vector<std::size_t>& species, std::vector<double>& concentrations) {
+  const auto n = static_cast<std::size_t>(state.species);
+  const double* Y = &state.Y[static_cast<std::size_t>(cell) * n];
+  const auto W = context.mechanism.molecularWeights();
+  const double rho = state.density[cell];
+  concentrations.clear();
+  for (const std::size_t k : species) concentrations.push_back(rho * Y[k] / W[k]);
+  return {{state.temperature[cell], state.thermodynamicPressure, rho, viscosity,
+           context.thermo.meanMolecularWeight({Y, n})},
+          concentrations};
+}
+
+std::vector<CarriedScalar> CarriedOperator::scalarsOf(const CarriedModel& model) {
+  std::vector<CarriedScalar> scalars;
+  for (const CarriedModel::Scalar& scalar : model.scalars())
+    scalars.push_back({model.material() + "_" + scalar.density.name, scalar.density.unit,
+                       scalar.density.description + ", per volume", scalar.thermophoresis});
+  return scalars;
+}
+
+CarriedOperator::CarriedOperator(const FlowContext& context, CarriedModel& model, std::size_t first, Options options)
+    : context_(context),
+      model_(model),
+      first_(first),
+      scalars_(model.scalars().size()),
+      options_(std::move(options)),
+      sharing_(context.mesh.comm, options_.shareWork),
+      cost_(context.mesh.owned, firstModelCost),
+      costOfStep_(cost_.size()),
+      before_(cost_.size() * (scalars_ + model.exchanged().size())),
+      rate_(before_.size()),
+      heat_(cost_.size()),
+      exchange_(context),
+      values_(scalars_ + model.exchanged().size()),
+      enthalpy_(scalars_),
+      slope_(scalars_) {}
+
+std::span<double> CarriedOperator::densities(State& state, int cell) const {
+  return {&state.carried[at(cell, state.scalars.size()) + first_], scalars_};
+}
+
+std::span<const double> CarriedOperator::densities(const State& state, int cell) const {
+  return {&state.carried[at(cell, state.scalars.size()) + first_], scalars_};
+}
+
+double CarriedOperator::viscosityOf(const State& state, int cell) const {
+  const auto n = static_cast<std::size_t>(state.species);
+  thread_local std::vector<double> X, D;
+  X.resize(n);
+  D.resize(n);
+  context_.thermo.massToMole({&state.Y[static_cast<std::size_t>(cell) * n], n}, X);
+  return context_.transport.mixture(state.temperature[cell], state.thermodynamicPressure, X, D).viscosity;
+}
+
+void CarriedOperator::solve(double time, double dt, std::span<const double> in, std::span<double> out) const {
+  const std::span<double> values = out.subspan(outHeader);
+  const std::span<const double> supply = in.subspan(inHeader + values.size());
+  std::ranges::copy(in.subspan(inHeader, values.size()), values.begin());
+  try {
+    const ParticleAdvance done = model_.advance({in[3], in[4], in[5], in[6], in[7]}, dt, values.first(scalars_),
+                                                values.subspan(scalars_), supply);
+    out[1] = done.steps + done.rejected;
+  } catch (const NumericsError& error) {
+    throw NumericsError(fmt::format("{} failed in cell {:.0f} at {} at time {:.6g} s: {}", model_.material(), in[2],
+                                    placeText({in[0], in[1], in[8]}, context_.mesh.dimension), time, error.what()));
+  }
+  out[0] = costOfAdvance(scalars_, out[1]);
+}
+
+void CarriedOperator::valuesOf(const State& state, int cell, std::span<double> values) const {
+  std::ranges::copy(densities(state, cell), values.begin());
+  const std::vector<std::size_t>& species = model_.exchanged();
+  const auto W = context_.mechanism.molecularWeights();
+  for (std::size_t i = 0; i < species.size(); ++i)
+    values[scalars_ + i] = state.density[cell] * state.Y[at(cell, state.species) + species[i]] / W[species[i]];
+}
+
+void CarriedOperator::pack(const State& state, const BusyCell& busy, double dt, std::vector<double>& in) const {
+  const Mesh& m = context_.mesh;
+  const int c = busy.cell;
+  in = {m.centre[c][0],
+        m.centre[c][1],
+        static_cast<double>(m.naturalCell[c]),
+        state.temperature[c],
+        state.thermodynamicPressure,
+        state.density[c],
+        busy.viscosity,
+        busy.meanMolecularWeight,
+        m.centre[c][2]};
+  const std::size_t n = values_.size();
+  in.resize(inHeader + 2 * n);
+  const std::span<double> start = std::span(in).subspan(inHeader, n);
+  valuesOf(state, c, start);
+  // Since the end of the last step, without what these particles did in it: at a constant rate.
+  for (std::size_t i = 0; i < n; ++i) {
+    const double before = before_[at(c, n) + i];
+    in[inHeader + n + i] = (start[i] - before) / dt - rate_[at(c, n) + i];
+    start[i] = before;
+  }
+}
+
+void CarriedOperator::unpack(State& state, int cell, double dt, std::span<const double> out) {
+  cost_[cell] = out[0];
+  costOfStep_[cell] += out[0];
+  steps_ += static_cast<long>(out[1]);
+  take(state, cell, dt, out.subspan(outHeader));
+}
+
+void CarriedOperator::take(State& state, int cell, double dt, std::span<const double> after) {
+  const std::vector<std::size_t>& species = model_.exchanged();
+  valuesOf(state, cell, values_);
+  double* rate = &rate_[at(cell, values_.size())];
+  const double temperature = state.temperature[cell];
+  model_.enthalpies(temperature, enthalpy_, slope_);
+  double power = 0.0;  // W/m3, of the gas to the particles
+  for (std::size_t i = 0; i < values_.size(); ++i) rate[i] += (after[i] - values_[i]) / dt;
+  for (std::size_t s = 0; s < scalars_; ++s) power += rate[s] * enthalpy_[s];
+  const double given = dt * (power + heat_[cell]);  // J/m3, what the balance does not hold already
+  heat_[cell] = -power;
+  std::copy_n(after.begin(), scalars_, densities(state, cell).begin());
+
+  for (std::size_t i = scalars_; i < values_.size(); ++i) values_[i] = after[i] - values_[i];
+  exchange_.recordExchange(state, cell, species, std::span(values_).subspan(scalars_), given);
+}
+
+void CarriedOperator::setDiffusivities(State& state, int cell, double viscosity) {
+  const std::span<double> D{&state.carriedDiffusivity[at(cell, state.scalars.size()) + first_], scalars_};
+  model_.diffusivities(gasOfCell(context_, state, cell, viscosity, model_.exchanged(), concentrations_),
+                       densities(state, cell), D);
+}
+
+// A cell without particles, and without anything they could come of, is left alone: it gives back what the balance held
+// of them.
+void CarriedOperator::rest(State& state, int cell, double dt) {
+  std::fill_n(&state.carriedDiffusivity[at(cell, state.scalars.size()) + first_], scalars_, 0.0);
+  const std::span<double> rate{&rate_[at(cell, values_.size())], values_.size()};
+  if (std::ranges::all_of(rate, [](double r) { return r == 0.0; })) return;
+  std::vector<double> after(values_.size());
+  valuesOf(state, cell, after);
+  for (std::size_t i = 0; i < after.size(); ++i) after[i] -= dt * rate[i];
+  take(state, cell, dt, after);
+  std::ranges::fill(rate, 0.0);
+  heat_[cell] = 0.0;
+}
+
+void CarriedOperator::advance(State& state, double time, double dt) {
+  const Mesh& m = context_.mesh;
+  lastStep_ = dt;
+  if (!inStep_) std::ranges::fill(costOfStep_, 0.0);
+  inStep_ = true;
+  std::vector<BusyCell> busy;
+  WorkSharing::Items items;
+  collectively(m.comm, [&] {
+    for (int c = 0; c < m.owned; ++c) {
+      const ParticleGas still = gasOfCell(context_, state, c, 0.0, model_.exchanged(), concentrations_);
+      if (model_.idle(still, densities(state, c))) {
+        rest(state, c, dt);
+        continue;
+      }
+      busy.push_back({c, viscosityOf(state, c), still.meanMolecularWeight});
+      items.cost.push_back(cost_[c]);
+    }
+  });
+  items.pack = [&](std::size_t i, std::vector<double>& in) { pack(state, busy[i], dt, in); };
+  items.advance = [&](std::span<const double> in, std::vector<double>& out) {
+    out.resize(outHeader + values_.size());
+    solve(time, dt, in, out);
+  };
+  items.unpack = [&](std::size_t i, std::span<const double> out) {
+    unpack(state, busy[i].cell, dt, out);
+    setDiffusivities(state, busy[i].cell, busy[i].viscosity);
+  };
+  items.work = [](std::span<const double> out) { return out[0]; };
+  const WorkSharing::Statistics statistics = sharing_.run(items);
+  imbalances_.before += statistics.imbalanceBefore;
+  imbalances_.after += statistics.imbalanceAfter;
+  ++stages_;
+  state.updateHalo(context_.halo);
+}
+
+// Of the last step's rates, that transport is told: no more than would take half of what there is of each scalar in
+// such a step, as the flow may carry away the other half. Where particles burn faster than that, transport knows it in
+// part.
+double CarriedOperator::shareForTransport(std::span<const double> present, const double* rate) const {
+  double share = 1.0;
+  for (std::size_t s = 0; s < scalars_; ++s)
+    if (rate[s] < 0.0) share = std::min(share, std::max(present[s], 0.0) / (-2.0 * lastStep_ * rate[s]));
+  return share;
+}
+
+void CarriedOperator::addCost(const Mesh&, CellCost& cost) const {
+  std::vector<double>& to = options_.shareWork ? cost.shared : cost.own;
+  for (std::size_t cell = 0; cell < to.size(); ++cell) to[cell] += costOfStep_[cell];
+}
+
+void CarriedOperator::endStep(State& state) {
+  inStep_ = false;
+  for (int c = 0; c < context_.mesh.owned; ++c) valuesOf(state, c, {&before_[at(c, values_.size())], values_.size()});
+}
+
+void CarriedOperator::endSweep(State& state) {
+  const std::vector<std::size_t>& species = model_.exchanged();
+  const auto W = context_.mechanism.molecularWeights();
+  const std::size_t n = values_.size();
+  for (int c = 0; c < context_.mesh.owned; ++c) {
+    double* rate = &rate_[at(c, n)];
+    const double share = shareForTransport(densities(std::as_const(state), c), rate);
+    for (std::size_t i = 0; i < n; ++i) rate[i] *= share;
+    heat_[c] *= share;
+    for (std::size_t s = 0; s < scalars_; ++s)
+      state.balance.carried[at(c, state.scalars.size()) + first_ + s] += rate[s];
+    for (std::size_t i = 0; i < species.size(); ++i)
+      state.balance.exchange(static_cast<std::size_t>(c), species[i], rate[scalars_ + i] * W[species[i]]);
+    state.balance.enthalpy[c] += heat_[c];
+  }
+}
+
+void CarriedOperator::saveOrLoad(StateArchive& archive) {
+  if (archive.loading()) {
+    lastStep_ = 0.0;  // the rates are what endSweep() left
+    inStep_ = false;
+  }
+  archive.cells("carried_cost", cost_, 1);
+  archive.cells("carried_rate", rate_, static_cast<int>(values_.size()));
+  archive.cells("carried_heat", heat_, 1);
+  std::array<double, 1> counted{static_cast<double>(steps_)};
+  archive.sums("carried_counts", counted);
+  steps_ = static_cast<long>(counted[0]);
+  std::vector<double> stages{imbalances_.before, imbalances_.after, static_cast<double>(stages_)};
+  archive.shared("carried_stages", stages);
+  imbalances_ = {stages.at(0), stages.at(1)};
+  stages_ = static_cast<int>(stages.at(2));
+}
+
+}  // namespace lampblack::flow

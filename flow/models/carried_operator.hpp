@@ -1,0 +1,105 @@
+// Advances what a flow carries (State::carried) by its model, cell by cell, together with the gas it exchanges with:
+// what the model takes from or gives to the gas changes the gas's species, mass and enthalpy. Cells are shared between
+// the ranks as those of the chemistry are.
+//
+// Coupled as the chemistry is (ReactionOperator): particles and what they exchange are integrated from the step's start
+// with the changes by transport and chemistry as a constant source, while State::balance held the particles' own rates
+// of the last sweep. A steady state does then not depend on the step. Temperature and density of the gas are those of
+// the step's end, of first order in time.
+//
+// Energy: gas and scalars together keep their enthalpy over a step, what was exchanged being as warm as the gas. The
+// scalars' own sensible heat is not followed along their path.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/modules.hpp"
+#include "core/particle_gas.hpp"
+#include "core/work_sharing.hpp"
+#include "flow/flow_context.hpp"
+#include "flow/models/carried_model.hpp"
+#include "flow/models/gas_exchange.hpp"
+#include "flow/operator.hpp"
+
+namespace lampblack::flow {
+
+// The gas of a cell as a model sees it; its concentrations, of the species named by their indices, are in
+// `concentrations`.
+[[nodiscard]] ParticleGas gasOfCell(const FlowContext& context, const State& state, int cell, double viscosity,
+                                    const std::vector<std::size_t>& species, std::vector<double>& concentrations);
+
+class CarriedOperator : public Operator {
+ public:
+  struct Options {
+    bool shareWork = true;
+    // Largest volume fraction in particles that cannot grow over the largest of all; more is a NumericsError, when a
+    // row of the history is due, which ends with `advice`.
+    double allowedAtLimit = 1.0;
+    std::string advice;
+  };
+
+  // What a State has to carry for the model.
+  [[nodiscard]] static std::vector<CarriedScalar> scalarsOf(const CarriedModel& model);
+
+  // The model's scalars stand in State::carried from `first` on.
+  CarriedOperator(const FlowContext& context, CarriedModel& model, std::size_t first, Options options);
+
+  [[nodiscard]] const char* name() const override { return "particles"; }
+  void advance(State& state, double time, double dt) override;
+  void endSweep(State& state) override;
+  void endStep(State& state) override;
+  void saveOrLoad(StateArchive& archive) override;
+
+  [[nodiscard]] std::vector<Quantity> historyColumns() const override;
+  [[nodiscard]] std::vector<double> historyValues(const State& state) override;
+  [[nodiscard]] std::string status() const override;
+  [[nodiscard]] std::vector<std::string> closingLines() const override;
+  [[nodiscard]] std::optional<Imbalance> imbalance() const override;
+  void fields(const State& state, const FieldSink& sink) const override;
+  void addCost(const Mesh& mesh, CellCost& cost) const override;
+
+  // Of a cell, in the order of the model.
+  [[nodiscard]] std::span<double> densities(State& state, int cell) const;
+  [[nodiscard]] std::span<const double> densities(const State& state, int cell) const;
+
+ private:
+  [[nodiscard]] double viscosityOf(const State& state, int cell) const;
+  struct BusyCell {
+    int cell;
+    double viscosity, meanMolecularWeight;
+  };
+  // Densities of the scalars (per m3), then concentrations of the exchanged species (mol/m3).
+  void valuesOf(const State& state, int cell, std::span<double> values) const;
+  void pack(const State& state, const BusyCell& busy, double dt, std::vector<double>& in) const;
+  void solve(double time, double dt, std::span<const double> in, std::span<double> out) const;
+  void unpack(State& state, int cell, double dt, std::span<const double> out);
+  // Gives the cell the values `after` in place of those it has.
+  void take(State& state, int cell, double dt, std::span<const double> after);
+  void rest(State& state, int cell, double dt);
+  [[nodiscard]] double shareForTransport(std::span<const double> present, const double* rate) const;
+  void setDiffusivities(State& state, int cell, double viscosity);
+
+  const FlowContext& context_;
+  CarriedModel& model_;
+  std::size_t first_, scalars_;
+  Options options_;
+  WorkSharing sharing_;
+  std::vector<double> cost_;        // of each owned cell's last advance
+  std::vector<double> costOfStep_;  // the sum of these over the step's sweeps; 0 where nothing was to be done
+  // Of each owned cell: its values at the end of the last step; their mean rates by the particles in it, and
+  // the power that these gave to the gas, W/m3.
+  std::vector<double> before_, rate_, heat_;
+  double lastStep_ = 0.0;  // s
+  bool inStep_ = false;
+  long steps_ = 0;                  // since the start, on this rank
+  Imbalance imbalances_{0.0, 0.0};  // sums over the stages
+  int stages_ = 0;
+  // Of the last row.
+  double peak_ = 0.0;
+  Vector3 place_{};
+  GasExchange exchange_;
+  std::vector<double> values_, concentrations_, enthalpy_, slope_;
+};
+
+}  // namespace lampblack::flow

@@ -1,0 +1,66 @@
+#include "flow/properties/gas_properties.hpp"
+
+#include <algorithm>
+
+namespace lampblack::flow {
+
+GasProperties::Coefficients GasProperties::evaluate(const FlowContext& context, double T, double p,
+                                                    std::span<const double> Y, std::span<double> D) {
+  const TransportModel& model = context.transportModel;
+  const auto molecularWeights = context.mechanism.molecularWeights();
+  double moles = 0.0;
+  for (std::size_t k = 0; k < X_.size(); ++k) moles += X_[k] = std::max(Y[k], 0.0) / molecularWeights[k];
+  for (double& x : X_) x /= moles;
+  const auto mixture = context.transport.mixture(T, p, X_, D);
+  Coefficients result{mixture.viscosity, mixture.conductivity};
+  if (multicomponent_)
+    result.conductivity = multicomponent_->mixture(T, p, X_, DT_).conductivity;
+  else if (model.soret)
+    context.transport.thermalDiffusion(T, p, X_, DT_);
+  return result;
+}
+
+void GasProperties::update(const FlowContext& context, const State& state) {
+  const auto cells = static_cast<std::size_t>(context.mesh.cells);
+  const auto n = static_cast<std::size_t>(state.species);
+  for (auto* ofCells : {&viscosity, &conductivity, &heatCapacity, &molecularWeight}) ofCells->resize(cells);
+  massDiffusivity.resize(cells * n);
+  for (auto* work : {&X_, &D_, &DT_}) work->resize(n);
+  const TransportModel& model = context.transportModel;
+  if (model.isMulticomponent() && !multicomponent_) multicomponent_.emplace(context.mechanism, model.integrals);
+  if (model.soret) thermalDiffusion.resize(massDiffusivity.size());
+  for (std::size_t cell = 0; cell < cells; ++cell) {
+    const std::span<const double> Y{&state.Y[cell * n], n};
+    const std::span<double> D{&massDiffusivity[cell * n], n};
+    const Coefficients found = evaluate(context, state.temperature[cell], state.thermodynamicPressure, Y, D);
+    for (double& d : D) d *= state.density[cell];
+    viscosity[cell] = found.viscosity;
+    conductivity[cell] = found.conductivity;
+    if (model.soret) std::ranges::copy(DT_, &thermalDiffusion[cell * n]);
+    heatCapacity[cell] = context.thermo.cpMass(state.temperature[cell], Y);
+    molecularWeight[cell] = context.thermo.meanMolecularWeight(Y);
+  }
+  updateBoundary(context, state);
+}
+
+void GasProperties::updateBoundary(const FlowContext& context, const State& state) {
+  const Mesh& m = context.mesh;
+  const auto n = static_cast<std::size_t>(state.species);
+  boundaryViscosity.resize(static_cast<std::size_t>(m.boundaryFaces()));
+  boundaryConductivity.resize(boundaryViscosity.size());
+  for (int face = m.interiorFaces; face < m.faces; ++face) {
+    const auto cell = static_cast<std::size_t>(m.low[face]);
+    const auto b = static_cast<std::size_t>(face - m.interiorFaces);
+    boundaryViscosity[b] = viscosity[cell];
+    boundaryConductivity[b] = conductivity[cell];
+    if (!context.isTemperatureGiven(face)) continue;
+    const std::span<const double> Y = context.isCompositionGiven(face)
+                                          ? std::span<const double>(context.boundaryY(face))
+                                          : std::span{&state.Y[cell * n], n};
+    const Coefficients there = evaluate(context, context.boundaryTemperature(face), state.thermodynamicPressure, Y, D_);
+    boundaryViscosity[b] = 0.5 * (boundaryViscosity[b] + there.viscosity);
+    boundaryConductivity[b] = 0.5 * (boundaryConductivity[b] + there.conductivity);
+  }
+}
+
+}  // namespace lampblack::flow

@@ -1,0 +1,423 @@
+#include "flow/steady/steadiness.hpp"
+
+#include <fmt/format.h>
+#include <mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <utility>
+
+namespace lampblack::flow {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double piecesOfTime = 4.0;
+// Least scales of fields that are the same all over the domain.
+constexpr double leastOfTemperature = 1e-3;  // of the largest temperature
+constexpr double leastOfVelocity = 1e-3;     // of the length of the domain over the time
+constexpr double leastMassFraction = 1e-6;
+constexpr double leastOfOthers = 1e-3;  // of the largest range of carried scalars of one unit
+// The record of whole-domain quantities.
+constexpr double recordedTimes = 10.0;    // of time(), that it goes back
+constexpr double recordsPerTime = 500.0;  // at most
+constexpr std::size_t mostRecorded = 8000;
+constexpr double heatOfMass = 1e6;  // J/kg, with which heat release is compared
+
+struct RecordedQuantity {
+  const char* name;
+  const char* unit;
+};
+// Behind the momentum along each axis.
+constexpr std::array<RecordedQuantity, 4> recorded{
+    {{"kinetic energy", "J"}, {"mass in the domain", "kg"}, {"largest temperature", "K"}, {"heat release", "W"}}};
+}  // namespace
+
+Steadiness::Steadiness(const FlowContext& context, const State& state, Options options)
+    : context_(&context), options_(options) {
+  const auto add = [this](Kind kind, std::string name, std::string unit, int components = 1) {
+    fields_.push_back({kind, std::move(name), std::move(unit), width_, components});
+    width_ += components;
+  };
+  add(Kind::Velocity, "velocity", "m/s", state.dimension);
+  // Whether it swirls or not: a run that goes on may do otherwise.
+  if (context.mesh.axisymmetric()) add(Kind::Velocity, "swirl velocity", "m/s");
+  add(Kind::Temperature, "temperature", "K");
+  for (std::size_t k = 0; k < static_cast<std::size_t>(state.species); ++k)
+    add(Kind::MassFraction, "mass fraction of " + context.mechanism.speciesName(k), "1");
+  if (options_.hasParticles)
+    for (const CarriedScalar& scalar : state.scalars) add(Kind::Carried, scalar.name, scalar.unit);
+  signals_.resize(static_cast<std::size_t>(state.dimension) + recorded.size());
+  moveTo(context);
+}
+
+void Steadiness::moveTo(const FlowContext& context) {
+  context_ = &context;
+  const Mesh& m = context.mesh;
+  low_.assign(static_cast<std::size_t>(m.owned) * static_cast<std::size_t>(width_), 0.0);
+  high_ = low_;
+  volume_ = 0.0;
+  for (int c = 0; c < m.owned; ++c) volume_ += m.volume[static_cast<std::size_t>(c)];
+  MPI_Allreduce(MPI_IN_PLACE, &volume_, 1, MPI_DOUBLE, MPI_SUM, m.comm);
+}
+
+// Calls with (index in low_ and high_, value) of each owned cell.
+template <typename Take>
+void Steadiness::forEachValue(const State& state, Take take) const {
+  const auto owned = static_cast<std::size_t>(context_->mesh.owned);
+  const auto width = static_cast<std::size_t>(width_), d = static_cast<std::size_t>(state.dimension),
+             n = static_cast<std::size_t>(state.species), s = static_cast<std::size_t>(state.carriedCount());
+  for (std::size_t c = 0; c < owned; ++c) {
+    std::size_t i = c * width;
+    for (std::size_t axis = 0; axis < d; ++axis) take(i++, state.velocity[c * d + axis]);
+    if (context_->mesh.axisymmetric()) take(i++, state.swirls ? state.swirl[c] : 0.0);
+    take(i++, state.temperature[c]);
+    for (std::size_t k = 0; k < n; ++k) take(i++, state.Y[c * n + k]);
+    if (options_.hasParticles)
+      for (std::size_t k = 0; k < s; ++k) take(i++, state.carried[c * s + k]);
+  }
+}
+
+void Steadiness::startPiece(const State& state) {
+  forEachValue(state, [this](std::size_t i, double value) { low_[i] = high_[i] = value; });
+  pressure_ = {state.thermodynamicPressure, state.thermodynamicPressure};
+  sums_ = {};
+}
+
+void Steadiness::begin(const State& state, double time) {
+  pieces_.clear();
+  times_.clear();
+  for (RecordedSignal& signal : signals_) signal.values.clear();
+  periodicity_.reset();
+  last_ = time;
+  startPiece(state);
+}
+
+double Steadiness::lengthOfDomain() const {
+  const Mesh& m = context_->mesh;
+  if (m.axisymmetric()) return std::cbrt(2.0 * std::numbers::pi * volume_);
+  return m.dimension == 2 ? std::sqrt(volume_) : std::cbrt(volume_);
+}
+
+double Steadiness::timeOf(const Integrals& sums) const {
+  if (options_.time) return *options_.time;
+  if (sums[Through] > 0.0) return sums[Mass] / sums[Through];
+  const double length = lengthOfDomain();
+  double time = infinity;
+  if (sums[KineticEnergy] > 0.0) time = length / std::sqrt(2.0 * sums[KineticEnergy] / sums[Mass]);
+  if (sums[Conduction] > 0.0) time = std::min(time, length * length * sums[Mass] / sums[Conduction]);
+  return time;
+}
+
+Steadiness::Integrals Steadiness::sumsOfPieces() const {
+  Integrals sums{};
+  for (const Piece& piece : pieces_)
+    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += piece.sums[i];
+  return sums;
+}
+
+std::string Steadiness::meaningOfTime() const {
+  if (options_.time) return "time.steady.time";
+  const Integrals sums = pieces_.empty() ? sums_ : sumsOfPieces();
+  if (sums[Through] > 0.0) return "residence time: what is in the domain over what flows through it";
+  const double length = lengthOfDomain();
+  return timeOf(sums) * sums[Conduction] < length * length * sums[Mass] * (1.0 - 1e-9)
+             ? "the size of the domain over the RMS velocity"
+             : "of conduction over the size of the domain";
+}
+
+double Steadiness::time() const {
+  return timeOf(pieces_.empty() ? sums_ : sumsOfPieces());
+}
+
+void Steadiness::add(const State& state, const GasProperties& properties, const HeatRelease& heatRelease, double time) {
+  const Mesh& m = context_->mesh;
+  forEachValue(state, [this](std::size_t i, double value) {
+    low_[i] = std::min(low_[i], value);
+    high_[i] = std::max(high_[i], value);
+  });
+  pressureNow_ = state.thermodynamicPressure;
+  pressure_ = {std::min(pressure_[0], pressureNow_), std::max(pressure_[1], pressureNow_)};
+
+  const auto d = static_cast<std::size_t>(state.dimension);
+  const double expected = this->time();
+  const bool isDue =
+      times_.empty() || !std::isfinite(expected) || time - times_.back() >= expected / recordsPerTime * (1.0 - 1e-9);
+  // Mass, what flows through, kinetic energy, conduction, heat release, momentum.
+  std::array<double, 8> whole{};
+  double hottest = 0.0;
+  for (std::size_t c = 0; c < static_cast<std::size_t>(m.owned); ++c) {
+    const double mass = state.density[c] * m.volume[c];
+    double squares = state.swirls ? state.swirl[c] * state.swirl[c] : 0.0;
+    for (std::size_t axis = 0; axis < d; ++axis) {
+      const double u = state.velocity[c * d + axis];
+      squares += u * u;
+      whole[5 + axis] += mass * u;
+    }
+    whole[0] += mass;
+    whole[2] += 0.5 * mass * squares;
+    whole[3] += properties.conductivity[c] / properties.heatCapacity[c] * m.volume[c];
+    hottest = std::max(hottest, state.temperature[c]);
+  }
+  for (auto face = static_cast<std::size_t>(m.interiorFaces); face < static_cast<std::size_t>(m.faces); ++face)
+    whole[1] += 0.5 * std::abs(state.massFlux[face]);
+  if (isDue) {
+    const std::vector<double> heat = heatRelease();
+    for (std::size_t c = 0; c < heat.size(); ++c) whole[4] += heat[c] * m.volume[c];
+  }
+  MPI_Allreduce(MPI_IN_PLACE, whole.data(), static_cast<int>(whole.size()), MPI_DOUBLE, MPI_SUM, m.comm);
+  const double dt = time - last_;
+  last_ = time;
+  sums_[Duration] += dt;
+  sums_[Mass] += dt * whole[0];
+  sums_[Through] += dt * whole[1];
+  sums_[KineticEnergy] += dt * whole[2];
+  sums_[Conduction] += dt * whole[3];
+  if (isDue) {
+    MPI_Allreduce(MPI_IN_PLACE, &hottest, 1, MPI_DOUBLE, MPI_MAX, m.comm);
+    std::vector<double> values(whole.begin() + 5, whole.begin() + 5 + static_cast<std::ptrdiff_t>(d));
+    values.insert(values.end(), {whole[2], whole[0], hottest, whole[4]});
+    record(values, time);
+  }
+  if (sums_[Duration] >= timeOf(sums_) / piecesOfTime * (1.0 - 1e-9)) closePiece(state);
+}
+
+void Steadiness::record(const std::vector<double>& values, double time) {
+  times_.push_back(time);
+  for (std::size_t i = 0; i < values.size(); ++i) signals_[i].values.push_back(values[i]);
+  if (times_.size() <= mostRecorded) return;
+  constexpr std::ptrdiff_t oldest = mostRecorded / 4;
+  times_.erase(times_.begin(), times_.begin() + oldest);
+  for (RecordedSignal& signal : signals_) signal.values.erase(signal.values.begin(), signal.values.begin() + oldest);
+}
+
+// By which changes of each field are divided: its range over the domain.
+std::vector<double> Steadiness::scales(const State& state) const {
+  std::vector<double> ends(2 * fields_.size(), -infinity);  // largest, and smallest with the other sign
+  std::vector<std::size_t> fieldOf(static_cast<std::size_t>(width_));
+  for (std::size_t f = 0; f < fields_.size(); ++f)
+    for (int i = 0; i < fields_[f].components; ++i) fieldOf[static_cast<std::size_t>(fields_[f].first + i)] = f;
+  forEachValue(state, [&](std::size_t i, double value) {
+    const std::size_t f = fieldOf[i % static_cast<std::size_t>(width_)];
+    ends[2 * f] = std::max(ends[2 * f], value);
+    ends[2 * f + 1] = std::max(ends[2 * f + 1], -value);
+  });
+  MPI_Allreduce(MPI_IN_PLACE, ends.data(), static_cast<int>(ends.size()), MPI_DOUBLE, MPI_MAX, context_->mesh.comm);
+  std::vector<double> scales(fields_.size());
+  std::map<std::string, double> largest;  // range of carried scalars, by unit
+  for (std::size_t f = 0; f < fields_.size(); ++f) {
+    scales[f] = ends[2 * f] + ends[2 * f + 1];
+    if (fields_[f].kind == Kind::Carried) largest[fields_[f].unit] = std::max(largest[fields_[f].unit], scales[f]);
+  }
+  const auto leastOf = [&](std::size_t f) {
+    switch (fields_[f].kind) {
+      case Kind::Velocity:
+        return leastOfVelocity * lengthOfDomain() / timeOf(sums_);
+      case Kind::Temperature:
+        return leastOfTemperature * ends[2 * f];
+      case Kind::MassFraction:
+        return leastMassFraction;
+      case Kind::Carried:
+        return leastOfOthers * largest[fields_[f].unit];
+    }
+    return 0.0;
+  };
+  for (std::size_t f = 0; f < fields_.size(); ++f) scales[f] = std::max(scales[f], leastOf(f));
+  return scales;
+}
+
+void Steadiness::closePiece(const State& state) {
+  const Mesh& m = context_->mesh;
+  const std::vector<double> scale = scales(state);
+  const std::size_t count = fields_.size(), width = static_cast<std::size_t>(width_);
+  struct Found {
+    double value;
+    int rank;
+  };
+  std::vector<Found> most(count, {0.0, m.rank});
+  std::vector<double> squares(count, 0.0), places(3 * count, 0.0);
+  for (std::size_t c = 0; c < static_cast<std::size_t>(m.owned); ++c)
+    for (std::size_t f = 0; f < count; ++f) {
+      for (int i = 0; i < fields_[f].components; ++i) {
+        const std::size_t at = c * width + static_cast<std::size_t>(fields_[f].first + i);
+        const double change = high_[at] - low_[at];
+        squares[f] += change * change * m.volume[c];
+        if (change <= most[f].value) continue;
+        most[f].value = change;
+        std::ranges::copy(m.centre[c], places.begin() + static_cast<std::ptrdiff_t>(3 * f));
+      }
+    }
+  MPI_Allreduce(MPI_IN_PLACE, most.data(), static_cast<int>(count), MPI_DOUBLE_INT, MPI_MAXLOC, m.comm);
+  MPI_Allreduce(MPI_IN_PLACE, squares.data(), static_cast<int>(count), MPI_DOUBLE, MPI_SUM, m.comm);
+  for (std::size_t f = 0; f < count; ++f)
+    if (most[f].rank != m.rank) std::fill_n(places.begin() + static_cast<std::ptrdiff_t>(3 * f), 3, 0.0);
+  MPI_Allreduce(MPI_IN_PLACE, places.data(), static_cast<int>(places.size()), MPI_DOUBLE, MPI_SUM, m.comm);
+
+  Piece piece{sums_, {}, {}, std::move(places)};
+  const auto ofScale = [](double change, double by) { return by > 0.0 ? change / by : 0.0; };
+  for (std::size_t f = 0; f < count; ++f) {
+    piece.maximum.push_back(ofScale(most[f].value, scale[f]));
+    piece.rms.push_back(ofScale(std::sqrt(squares[f] / volume_), scale[f]));
+  }
+  const double compressed = ofScale(pressure_[1] - pressure_[0], pressureNow_);
+  piece.maximum.push_back(compressed);
+  piece.rms.push_back(compressed);
+  pieces_.push_back(std::move(piece));
+  dropOldPieces();
+  startPiece(state);
+  findPeriod();
+}
+
+// Those that the newer ones do without.
+void Steadiness::dropOldPieces() {
+  while (pieces_.size() > 1) {
+    Integrals rest = sumsOfPieces();
+    for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= pieces_.front().sums[i];
+    if (rest[Duration] < timeOf(rest) * (1.0 - 1e-9)) break;
+    pieces_.pop_front();
+  }
+}
+
+void Steadiness::findPeriod() {
+  const std::size_t axes = signals_.size() - recorded.size();
+  const auto latest = [&](std::size_t i) { return signals_[i].values.empty() ? 0.0 : signals_[i].values.back(); };
+  const double energy = latest(axes), mass = latest(axes + 1);
+  for (std::size_t i = 0; i < signals_.size(); ++i)
+    signals_[i].scale = i < axes       ? std::sqrt(2.0 * energy * mass)
+                        : i < axes + 3 ? std::abs(latest(i))
+                                       : heatOfMass * mass / time();
+  for (RecordedSignal& signal : signals_) signal.scale = std::max(signal.scale, std::numeric_limits<double>::min());
+  periodicity_ = periodicityOf(times_, signals_);
+}
+
+double Steadiness::changeOf(std::size_t field, Norm norm) const {
+  double change = 0.0;
+  for (const Piece& piece : pieces_) change += (norm == Norm::Maximum ? piece.maximum : piece.rms)[field];
+  const Integrals sums = sumsOfPieces();
+  return change * timeOf(sums) / sums[Duration];
+}
+
+std::optional<Steadiness::Change> Steadiness::change(Norm norm) const {
+  if (pieces_.empty()) return {};
+  Change worst;
+  std::size_t field = 0;
+  for (std::size_t f = 0; f <= fields_.size(); ++f)
+    if (const double value = changeOf(f, norm); value > worst.value) {
+      worst.value = value;
+      field = f;
+    }
+  if (field < fields_.size()) {
+    worst.field = fields_[field].name;
+    std::copy_n(pieces_.back().places.begin() + static_cast<std::ptrdiff_t>(3 * field), 3, worst.place.begin());
+  } else {
+    worst.field = "thermodynamic pressure";
+  }
+  const auto rateOf = [norm](const Piece& piece) {
+    return std::ranges::max(norm == Norm::Maximum ? piece.maximum : piece.rms) / piece.sums[Duration];
+  };
+  const Integrals sums = sumsOfPieces();
+  double mean = 0.0;
+  for (const Piece& piece : pieces_) mean += rateOf(piece) * piece.sums[Duration] / sums[Duration];
+  worst.grows = rateOf(pieces_.back()) > mean * (1.0 + 1e-9);
+  worst.isWhole = sums[Duration] >= timeOf(sums) * (1.0 - 1e-9);
+  return worst;
+}
+
+bool Steadiness::isSteady(double tolerance, Norm norm) const {
+  const auto found = change(norm);
+  return found && found->isWhole && !found->grows && found->value <= tolerance;
+}
+
+std::vector<std::string> Steadiness::lines() const {
+  const double t = time();
+  if (!std::isfinite(t)) return {};
+  const auto most = change(Norm::Maximum), mean = change(Norm::Rms);
+  if (!most || !most->isWhole)
+    return {fmt::format("how steady it is can be told after {:.3g} s ({})", t, meaningOfTime())};
+  std::vector<std::string> lines{fmt::format(
+      "in the last {:.3g} s ({}){} fields changed by {:.2e} of their range at most, {} at {}; RMS {:.2e}, {}", t,
+      meaningOfTime(), options_.hasParticles ? "" : " the gas's", most->value, most->field,
+      placeText(most->place, context_->mesh.dimension), mean->value, mean->field)};
+  if (!periodicity_) return lines;
+  std::string text = fmt::format("the flow repeats itself every {:.4g} s ({:.4g} Hz)", periodicity_->period,
+                                 1.0 / periodicity_->period);
+  const std::size_t axes = signals_.size() - recorded.size();
+  for (std::size_t i = 0; i < signals_.size(); ++i) {
+    const auto& [low, high] = periodicity_->ranges[i];
+    if (high - low <= 1e-4 * signals_[i].scale) continue;
+    text += i < axes ? fmt::format("; momentum along {} {:.4g} to {:.4g} {}",
+                                   (context_->mesh.axisymmetric() ? "rz" : "xyz")[i], low, high,
+                                   integralUnit(context_->mesh, "kg m/s"))
+                     : fmt::format("; {} {:.5g} to {:.5g} {}", recorded[i - axes].name, low, high,
+                                   std::string(recorded[i - axes].unit) == "K"
+                                       ? "K"
+                                       : integralUnit(context_->mesh, recorded[i - axes].unit));
+  }
+  lines.push_back(text);
+  return lines;
+}
+
+void Steadiness::saveOrLoad(StateArchive& archive) {
+  archive.cells("steady_low", low_, width_);
+  archive.cells("steady_high", high_, width_);
+  std::vector<double> now{last_, pressure_[0], pressure_[1], pressureNow_};
+  now.insert(now.end(), sums_.begin(), sums_.end());
+  archive.shared("steady_piece", now);
+  std::vector<double> earlier;
+  for (const Piece& piece : pieces_) {
+    earlier.insert(earlier.end(), piece.sums.begin(), piece.sums.end());
+    for (const auto* values : {&piece.maximum, &piece.rms, &piece.places})
+      earlier.insert(earlier.end(), values->begin(), values->end());
+  }
+  archive.shared("steady_pieces", earlier);
+  std::vector<double> rows;  // the time and the signals
+  for (std::size_t i = 0; i < times_.size(); ++i) {
+    rows.push_back(times_[i]);
+    for (const RecordedSignal& signal : signals_) rows.push_back(signal.values[i]);
+  }
+  archive.shared("steady_record", rows);
+  std::vector<double> period;
+  if (periodicity_) {
+    period.push_back(periodicity_->period);
+    for (const Periodicity::Range& range : periodicity_->ranges) period.insert(period.end(), {range.low, range.high});
+  }
+  for (const RecordedSignal& signal : signals_) period.push_back(signal.scale);
+  archive.shared("steady_period", period);
+  if (!archive.loading()) return;
+
+  last_ = now.at(0);
+  pressure_ = {now.at(1), now.at(2)};
+  pressureNow_ = now.at(3);
+  for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] = now.at(4 + i);
+  pieces_.clear();
+  const std::size_t values = fields_.size() + 1, places = 3 * fields_.size();
+  auto from = earlier.cbegin();
+  const auto take = [&from](std::size_t number) {
+    const auto begin = from;
+    from += static_cast<std::ptrdiff_t>(number);
+    return std::vector<double>(begin, from);
+  };
+  while (from != earlier.cend()) {
+    Piece& piece = pieces_.emplace_back();
+    std::ranges::copy(take(piece.sums.size()), piece.sums.begin());
+    piece.maximum = take(values);
+    piece.rms = take(values);
+    piece.places = take(places);
+  }
+  times_.clear();
+  for (RecordedSignal& signal : signals_) signal.values.clear();
+  for (std::size_t i = 0; i < rows.size(); i += 1 + signals_.size()) {
+    times_.push_back(rows[i]);
+    for (std::size_t s = 0; s < signals_.size(); ++s) signals_[s].values.push_back(rows.at(i + 1 + s));
+  }
+  const std::size_t scalesBegin = period.size() - signals_.size();
+  for (std::size_t s = 0; s < signals_.size(); ++s) signals_[s].scale = period.at(scalesBegin + s);
+  periodicity_.reset();
+  if (scalesBegin == 0) return;
+  periodicity_ = Periodicity{period[0], {}};
+  for (std::size_t i = 1; i < scalesBegin; i += 2) periodicity_->ranges.push_back({period.at(i), period.at(i + 1)});
+}
+
+}  // namespace lampblack::flow

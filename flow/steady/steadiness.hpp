@@ -1,0 +1,120 @@
+// How far a flow is from steady: by how much its fields change in the time that the gas takes to pass through, and
+// whether it repeats itself (docs/theory/flow.md, "Steady").
+//
+// The change of a field over a piece of time is the difference of the largest and the smallest value that a cell had
+// in it, over the range of the field in the domain at its end: so nothing that happens between two looks is missed, and
+// the length of the steps does not count. A piece is a quarter of the time that changes are told for; the change over
+// that time is the sum over its pieces, which is what it is where fields go one way, and more where they go to and fro.
+#pragma once
+
+#include <array>
+#include <deque>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/modules.hpp"
+#include "core/state_archive.hpp"
+#include "flow/flow_context.hpp"
+#include "flow/properties/gas_properties.hpp"
+#include "flow/state.hpp"
+#include "flow/steady/periodicity.hpp"
+
+namespace lampblack::flow {
+
+class Steadiness {
+ public:
+  struct Options {
+    std::optional<double> time = {};  // s, that changes are told for; nothing: what the flow gives (time())
+    bool hasParticles = true;         // whether carried scalars count; false: they are noise
+  };
+  enum class Norm { Maximum, Rms };  // over the cells; of the RMS each counts with its volume
+
+  Steadiness(const FlowContext& context, const State& state, Options options);
+
+  // W/m^3, of the owned cells.
+  using HeatRelease = std::function<std::vector<double>()>;
+
+  // Forgets all, and starts from the state at a time (s).
+  void begin(const State& state, double time);
+  // The state after a step that was taken. Collective.
+  void add(const State& state, const GasProperties& properties, const HeatRelease& heatRelease, double time);
+
+  // s, that changes are told for. That of the flow, a mean over the pieces: what is in the domain over what flows
+  // through its boundaries; without a flow through, the length of the domain (root of its volume) over the RMS
+  // velocity, but no more than heat takes to be conducted over that length. Infinite where nothing is known yet.
+  [[nodiscard]] double time() const;
+  [[nodiscard]] std::string meaningOfTime() const;  // "residence time: ..."
+
+  // Of the field that changes most.
+  struct Change {
+    double value = 0.0;    // of the field's range, over time()
+    std::string field;     // "temperature"
+    Vector3 place{};       // m, where the maximum of the last piece was
+    bool isWhole = false;  // whether pieces cover time(); else it is extrapolated
+    bool grows = false;    // whether the last piece changed faster than the mean of all
+  };
+  // Nothing before the end of the first piece.
+  [[nodiscard]] std::optional<Change> change(Norm norm) const;
+  // Whether a whole time() has passed with no more change than that, and the change does not grow.
+  [[nodiscard]] bool isSteady(double tolerance, Norm norm) const;
+
+  // As of the end of the last piece.
+  [[nodiscard]] const std::optional<Periodicity>& periodicity() const { return periodicity_; }
+
+  // "in the last 0.0123 s (what is in the domain over the flow through it) temperature changed by ..." and how it
+  // repeats itself; for the closing report.
+  [[nodiscard]] std::vector<std::string> lines() const;
+
+  // The mesh has been partitioned anew; what is kept is then loaded.
+  void moveTo(const FlowContext& context);
+  // Collective.
+  void saveOrLoad(StateArchive& archive);
+
+ private:
+  // What integrals over time are made of, each times s.
+  enum Sum { Duration, Mass, Through, KineticEnergy, Conduction, Sums };
+  using Integrals = std::array<double, Sums>;
+  enum class Kind { Velocity, Temperature, MassFraction, Carried };
+  struct Field {
+    Kind kind;
+    std::string name, unit;
+    int first = 0, components = 1;
+  };
+  struct Piece {
+    Integrals sums{};
+    std::vector<double> maximum, rms;  // of each field
+    std::vector<double> places;        // m, three a field, of the maximum
+  };
+
+  template <typename Take>
+  void forEachValue(const State& state, Take take) const;
+  [[nodiscard]] double lengthOfDomain() const;
+  [[nodiscard]] double timeOf(const Integrals& sums) const;
+  [[nodiscard]] Integrals sumsOfPieces() const;
+  [[nodiscard]] double changeOf(std::size_t field, Norm norm) const;
+  void startPiece(const State& state);
+  void closePiece(const State& state);
+  [[nodiscard]] std::vector<double> scales(const State& state) const;
+  void dropOldPieces();
+  void record(const std::vector<double>& values, double time);
+  void findPeriod();
+
+  const FlowContext* context_;
+  Options options_;
+  std::vector<Field> fields_;
+  int width_ = 0;                     // values a cell
+  double volume_ = 0.0;               // of the domain, m^3 or per radian or metre
+  double last_ = 0.0;                 // s, of the last state
+  Integrals sums_{};                  // of the present piece
+  std::vector<double> low_, high_;    // of the values of the owned cells in it
+  std::array<double, 2> pressure_{};  // Pa, lowest and highest thermodynamic pressure in it
+  double pressureNow_ = 0.0;
+  std::deque<Piece> pieces_;
+  std::vector<double> times_;  // s, of the record
+  std::vector<RecordedSignal> signals_;
+  std::optional<Periodicity> periodicity_;
+};
+
+}  // namespace lampblack::flow

@@ -1,0 +1,369 @@
+#include "flow/stepping/transport_operator.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/errors.hpp"
+#include "core/flush_denormals.hpp"
+#include "flow/cell_errors.hpp"
+#include "flow/discretisation/face_fluxes.hpp"
+#include "flow/stepping/time_step.hpp"
+
+namespace lampblack::flow {
+TransportOperator::TransportOperator(const FlowContext& context, const State& state, Options options)
+    : context_(context),
+      options_(options),
+      faces_(context, state.species, state.carriedCount()),
+      diffusion_(context.mesh, context.halo),
+      speciesDiffusion_(context, diffusion_),
+      heatConduction_(context, diffusion_),
+      expansion_(context),
+      momentum_(context, state.swirls, options.velocityScheme),
+      carried_(context, diffusion_, state.carriedCount()),
+      movesForOthers_(std::ranges::any_of(state.scalars, [](const auto& scalar) { return !scalar.isTransported; })) {
+  const auto faces = static_cast<std::size_t>(context.mesh.faces);
+  const auto owned = static_cast<std::size_t>(context.mesh.owned);
+  const auto n = static_cast<std::size_t>(state.species);
+  // What is loaded has its size beforehand.
+  for (auto* loaded : {&properties_.viscosity, &properties_.conductivity, &properties_.molecularWeight})
+    loaded->resize(static_cast<std::size_t>(context.mesh.cells));
+  content_.resize(owned * n);
+  heatContent_.resize(owned);
+  newMass_.resize(owned);
+  heat_ = {std::vector<double>(faces, 0.0), std::vector<double>(faces, 0.0)};
+  boundaryFlux_.assign(static_cast<std::size_t>(context.mesh.boundaryFaces()) * n, 0.0);
+  faceVelocity_.assign(faces, 0.0);
+  boundaryFlows_.assign(3 * context.boundaries.size(), 0.0);
+  row_.resize(n);
+  speciesEnthalpy_.resize(n);
+}
+
+void TransportOperator::initialise(State& state, double dt) {
+  const Mesh& m = context_.mesh;
+  if (context_.varying) context_.varying->set(0.0, 0.0);
+  state.updateHalo(context_.halo);
+  collectively(m.comm, [&] { properties_.update(context_, state); });
+  std::fill(state.massFlux.begin(), state.massFlux.end(), 0.0);
+  faces_.prepare(state, state.Y);
+  speciesDiffusion_.prepare(state, properties_);
+  std::ranges::fill(content_, 0.0);
+  for (int face = 0; face < m.faces; ++face) {
+    speciesDiffusion_.flux(face, state.Y, row_);
+    heat_.enthalpy[face] = enthalpyFlux(state, face, row_);
+    addFaceFlux(m, face, row_, 1.0, content_);
+  }
+  heatConduction_.prepare(state, properties_);
+  heatConduction_.presentFlux(state, heat_.heat);
+  const auto divergence = expansion_.initial(state, properties_, content_, heat_);
+  momentum_.balanceForces(state);
+  const std::vector<double> weight = state.pressure;
+  // So short that nothing but the pressure changes the velocity; that of the blow is not kept.
+  momentum_.advance(state, {state, state, properties_.viscosity, properties_.boundaryViscosity, divergence, 1e-6 * dt},
+                    faceVelocity_);
+  momentum_.endStep();
+  state.pressure = weight;
+  for (int face = 0; face < m.faces; ++face) {
+    faces_.interpolate(state, face, faceVelocity_[face], row_);
+    state.massFlux[face] = faces_.density[face] * faceVelocity_[face] * m.area[face];
+  }
+}
+
+void TransportOperator::keepStart(const State& state) {
+  start_ = state;
+  for (auto* kept : {&start_->Y, &start_->start.Y, &start_->balance.reactions})
+    *kept = {};  // State::start has the first
+  mean_ = start_;
+  mean_->Y.resize(state.Y.size());
+  startViscosity_ = properties_.viscosity;
+  startBoundaryViscosity_ = properties_.boundaryViscosity;
+  startHeatFlux_.resize(heat_.heat.size());
+  speciesDiffusion_.keepStart();
+  heatConduction_.presentFlux(state, startHeatFlux_);
+}
+
+void TransportOperator::average(const State& state) {
+  const auto mean = [](std::span<const double> start, std::span<const double> latest, std::span<double> result) {
+    for (std::size_t i = 0; i < result.size(); ++i) result[i] = 0.5 * (start[i] + latest[i]);
+  };
+  for (const auto field :
+       {&State::velocity, &State::swirl, &State::temperature, &State::density, &State::carried, &State::massFlux})
+    mean((*start_).*field, state.*field, (*mean_).*field);
+  mean(state.start.Y, state.Y, mean_->Y);
+  mean_->thermodynamicPressure = 0.5 * (start_->thermodynamicPressure + state.thermodynamicPressure);
+  meanViscosity_.resize(startViscosity_.size());
+  mean(startViscosity_, properties_.viscosity, meanViscosity_);
+}
+
+// Content of the owned cells at the step's end after the balance and convection by the mass flux of the last sweep or
+// step.
+void TransportOperator::predictContents(const State& start, const State& mean, const State& state, double dt) {
+  const Mesh& m = context_.mesh;
+  const int n = state.species;
+  for (int c = 0; c < m.owned; ++c) {
+    double gained = 0.0;
+    state.balance.ofSpecies(static_cast<std::size_t>(c), row_);
+    for (int k = 0; k < n; ++k) {
+      const std::size_t i = static_cast<std::size_t>(c) * n + k;
+      content_[i] = m.volume[c] * (start.density[c] * state.start.Y[i] + dt * row_[k]);
+      gained += row_[k];
+    }
+    heatContent_[c] = m.volume[c] * (start.density[c] * start.enthalpy[c] + dt * state.balance.enthalpy[c]);
+    newMass_[c] = m.volume[c] * (start.density[c] + dt * gained);
+  }
+  compression_ = 0.0;
+  for (int face = 0; face < m.faces; ++face) {
+    const double flux = state.massFlux[face];
+    faces_.interpolate(mean, face, flux, row_);
+    addFaceFlux(m, face, row_, dt * flux, content_);
+    addFaceFlux(m, face, flux * faces_.enthalpy[face], dt, heatContent_);
+    addFaceFlux(m, face, flux, dt, newMass_);
+  }
+}
+
+// The mass flux of the projected velocities takes the place of that which the contents were predicted with.
+void TransportOperator::correctContents(const State& mean, State& state, double dt) {
+  const Mesh& m = context_.mesh;
+  for (int face = 0; face < m.faces; ++face) {
+    double& flux = state.massFlux[face];
+    const double velocity = faceVelocity_[face];
+    double heat = -flux * faces_.enthalpy[face];
+    double excess = -flux;  // of what the new direction's upwind gas carries
+    if ((velocity >= 0.0) != (flux >= 0.0)) {
+      faces_.massFractions(face, flux, row_);
+      addFaceFlux(m, face, row_, -dt * flux, content_);
+      addFaceFlux(m, face, -flux, dt, newMass_);
+      faces_.interpolate(mean, face, velocity, row_);
+      excess = 0.0;
+    } else {
+      faces_.massFractions(face, velocity, row_);
+    }
+    flux = faces_.density[face] * velocity * m.area[face];
+    excess += flux;
+    addFaceFlux(m, face, row_, dt * excess, content_);
+    addFaceFlux(m, face, excess, dt, newMass_);
+    addFaceFlux(m, face, heat + flux * faces_.enthalpy[face], dt, heatContent_);
+  }
+}
+
+// Work of the rising thermodynamic pressure on the gas of a closed vessel.
+void TransportOperator::addCompression() {
+  for (std::size_t c = 0; c < heatContent_.size(); ++c)
+    heatContent_[c] += context_.mesh.volume[c] * (expansion_.pressureRise() - compression_);
+  compression_ = expansion_.pressureRise();
+}
+
+// W, of species that diffuse through a face.
+double TransportOperator::enthalpyFlux(const State& mean, int face, std::span<const double> species) {
+  const Mesh& m = context_.mesh;
+  const int low = m.low[face];
+  const double T = m.high[face] >= 0 ? m.lowWeight[face] * mean.temperature[low] +
+                                           (1.0 - m.lowWeight[face]) * mean.temperature[m.high[face]]
+                                     : faces_.boundaryTemperature()[face - m.interiorFaces];
+  context_.thermo.speciesEnthalpies(T, speciesEnthalpy_);
+  double sum = 0.0;
+  for (std::size_t k = 0; k < species.size(); ++k) sum += species[k] * speciesEnthalpy_[k];
+  return sum;
+}
+
+// Diffusion and conduction of the sweep; from the second on corrected so that they become the mean of those at both
+// ends.
+void TransportOperator::advanceDiffusion(const State& mean, State& state, double dt) {
+  const Mesh& m = context_.mesh;
+  const bool several = options_.sweeps > 1, corrected = sweep_ > 1;
+  if (corrected) expansion_.withdraw(state, properties_, diffused_, heat_);
+  expansion_.beforeDiffusion(state, properties_, content_);
+  if (several) diffused_ = content_;
+  std::ranges::fill(heat_.enthalpy, 0.0);
+  // In the first sweep the guess is the start, and the state has room for the solution.
+  if (corrected) solution_.resize(state.Y.size());
+  SpeciesDiffusion::Gas gas{state.start.Y, state.Y, newMass_, content_};
+  if (corrected) gas = {state.Y, solution_, newMass_, content_, state.start.Y};
+  diagnostics_.speciesIterations = speciesDiffusion_.advance(gas, dt, [&](int face, std::span<const double> row) {
+    heat_.enthalpy[face] = enthalpyFlux(mean, face, row);
+    if (face >= m.interiorFaces)
+      std::ranges::copy(row,
+                        boundaryFlux_.begin() + (face - m.interiorFaces) * static_cast<std::ptrdiff_t>(row.size()));
+  });
+  if (several)
+    for (std::size_t i = 0; i < diffused_.size(); ++i) diffused_[i] = (content_[i] - diffused_[i]) / dt;
+  addFaceFluxes(m, heat_.enthalpy, 1, dt, heatContent_);
+
+  std::vector<double> extra;
+  if (corrected) {
+    extra = startHeatFlux_;
+    heatConduction_.presentFlux(state, heat_.heat);
+    for (std::size_t i = 0; i < extra.size(); ++i) extra[i] = 0.5 * (extra[i] - heat_.heat[i]);
+    addFaceFluxes(m, extra, 1, dt, heatContent_);
+  }
+  std::function<bool(int)> isCoupled;
+  if (couples_) isCoupled = [this](int c) { return takesCoupled(c); };
+  heatConduction_.implicitFlux(state, {newMass_, content_, heatContent_}, dt, heat_.heat, isCoupled);
+  addFaceFluxes(m, heat_.heat, 1, dt, heatContent_);
+  for (std::size_t i = 0; i < extra.size(); ++i) heat_.heat[i] += extra[i];
+}
+
+void TransportOperator::finish(State& state) {
+  const Mesh& m = context_.mesh;
+  const int n = state.species;
+  // A temperature out of range on one rank must stop all of them.
+  inEachCell(m, [&](int c) {
+    const double* content = &content_[static_cast<std::size_t>(c) * n];
+    double mass = 0.0;
+    for (int k = 0; k < n; ++k) mass += content[k];
+    double* y = &state.Y[static_cast<std::size_t>(c) * n];
+    for (int k = 0; k < n; ++k) y[k] = content[k] / mass;
+    state.density[c] = mass / m.volume[c];
+    state.enthalpy[c] = heatContent_[c] / mass;
+    state.temperature[c] = context_.thermo.temperatureFromEnthalpy(state.enthalpy[c], {y, static_cast<std::size_t>(n)},
+                                                                   state.temperature[c]);
+  });
+}
+
+void TransportOperator::recordBoundary(const State& state, double dt) {
+  const Mesh& m = context_.mesh;
+  const int n = state.species;
+  const int scalars = state.carriedCount();
+  boundary_ = {std::vector<double>(n, 0.0), std::vector<double>(n, 0.0), std::vector<double>(scalars, 0.0),
+               std::vector<double>(scalars, 0.0)};
+  boundary_.time = dt;
+  std::ranges::fill(boundaryFlows_, 0.0);
+  const auto book = [dt](double outward, double& in, double& out) {
+    (outward < 0.0 ? in : out) += dt * std::abs(outward);
+  };
+  for (int face = m.interiorFaces; face < m.faces; ++face) {
+    faces_.massFractions(face, state.massFlux[face], row_);
+    const double* diffuses = &boundaryFlux_[static_cast<std::size_t>(face - m.interiorFaces) * n];
+    double* flows = &boundaryFlows_[3 * static_cast<std::size_t>(m.patch[face - m.interiorFaces])];
+    for (int k = 0; k < n; ++k) {
+      const double outward = state.massFlux[face] * row_[k] + diffuses[k];
+      book(outward, boundary_.speciesIn[k], boundary_.speciesOut[k]);
+      flows[0] -= outward;
+    }
+    for (int s = 0; s < scalars; ++s)
+      book(carried_.flux()[static_cast<std::size_t>(face) * scalars + s], boundary_.carriedIn[s],
+           boundary_.carriedOut[s]);
+    const double enthalpy = state.massFlux[face] * faces_.enthalpy[face] + heat_.enthalpy[face] + heat_.heat[face];
+    book(enthalpy, boundary_.enthalpyIn, boundary_.enthalpyOut);
+    flows[1] -= enthalpy;
+    flows[2] -= heat_.heat[face];
+  }
+}
+
+// The same for each cell, fitted to gases of 9 and 47 species.
+void TransportOperator::addCost(const Mesh&, CellCost& cost) const {
+  const double cell = options_.sweeps * (8.8 + 0.3 * static_cast<double>(context_.mechanism.numSpecies()));
+  for (double& own : cost.own) own += cell;
+}
+
+void TransportOperator::saveOrLoad(StateArchive& archive) {
+  // What others look at between two steps; the rest of the properties is evaluated where a step begins.
+  archive.cells("viscosity", properties_.viscosity, 1);
+  archive.cells("conductivity", properties_.conductivity, 1);
+  std::vector<double> seen{diagnostics_.continuityError, static_cast<double>(diagnostics_.pressureIterations),
+                           static_cast<double>(diagnostics_.speciesIterations), lastStep_};
+  archive.sums("boundary_flows", boundaryFlows_);
+  archive.shared("transport_diagnostics", seen);
+  diagnostics_ = {seen.at(0), static_cast<int>(seen.at(1)), static_cast<int>(seen.at(2))};
+  lastStep_ = seen.at(3);
+  if (archive.loading()) sweep_ = 0;  // of a step that was broken off
+  if (movesForOthers_) {
+    archive.faces("face_density", faces_.density, 1);
+    archive.faces("drift_flux", carried_.driftFlux(), 1);
+    archive.cells("mean_molecular_weight", properties_.molecularWeight, 1);
+    if (archive.loading()) {
+      context_.halo.update(properties_.viscosity, 1);
+      context_.halo.update(properties_.molecularWeight, 1);
+    }
+  }
+  momentum_.saveOrLoad(archive);
+  expansion_.saveOrLoad(archive);
+}
+
+void TransportOperator::advance(State& state, double time, double dt) {
+  const FlushDenormals flush;
+  const Mesh& m = context_.mesh;
+  const bool first = ++sweep_ == 1;
+  const bool several = options_.sweeps > 1;
+  // The gas's boundaries at the middle of its step, those of the velocities at the middle of theirs.
+  if (first && context_.varying) context_.varying->set(time + 0.5 * dt, time + 0.25 * (dt - lastStep_));
+  collectively(m.comm, [&] { properties_.update(context_, state); });
+  expansion_.begin(state, properties_, first, dt, lastStep_);
+  speciesDiffusion_.prepare(state, properties_);
+  heatConduction_.prepare(state, properties_);
+  if (first) state.keepStart();
+  if (several && first) keepStart(state);
+  if (several) average(state);
+  const State& start = several ? *start_ : state;
+  const State& mean = several ? *mean_ : state;
+  // The state's own mass fractions are written over before the step is done with them.
+  faces_.prepare(mean, several ? mean.Y : state.start.Y);
+
+  coupleReactions(mean, state, time, dt);
+  predictContents(start, mean, state, dt);
+  if (!first) addCompression();
+  advanceDiffusion(mean, state, dt);
+
+  // Velocity, pressure and mass flux for exactly this diffusion.
+  const auto divergence = expansion_.complete(state, properties_, content_, heat_, first);
+  const std::vector<double>& startViscosity = several ? startViscosity_ : properties_.viscosity;
+  const std::vector<double>& boundaryViscosity = several ? startBoundaryViscosity_ : properties_.boundaryViscosity;
+  const auto projected = momentum_.advance(
+      state, {start, mean, startViscosity, boundaryViscosity, divergence, 0.5 * (lastStep_ + dt)}, faceVelocity_);
+  diagnostics_.continuityError = projected.continuityError;
+  diagnostics_.pressureIterations = projected.iterations;
+
+  correctContents(mean, state, dt);
+  addCompression();
+  const std::vector<double>& meanViscosity = several ? meanViscosity_ : properties_.viscosity;
+  carried_.advance(state, {start, mean, meanViscosity, faces_, faceVelocity_, newMass_, properties_, heat_.heat}, dt);
+  if (sweep_ == options_.sweeps) recordBoundary(state, dt);
+  finish(state);
+  state.thermodynamicPressure = state.start.thermodynamicPressure + expansion_.pressureRise();
+  state.updateHalo(context_.halo);
+  if (sweep_ < options_.sweeps) return;
+  sweep_ = 0;
+  lastStep_ = dt;
+  momentum_.endStep();
+  for (const auto& watcher : watchers_) watcher(boundary_);
+}
+
+double TransportOperator::pressureDrift(const State& state) {
+  double largest = 0.0;
+  for (const double drift : expansion_.pressureDrift(state)) largest = std::max(largest, std::abs(drift));
+  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, context_.mesh.comm);
+  return largest;
+}
+
+double TransportOperator::largestStep(const State& state) {
+  return convectiveTimeStep(context_.mesh, state, options_.courant);
+}
+
+std::vector<Quantity> TransportOperator::historyColumns() const {
+  return {{"pressure_drift", "1", "largest |p_eos - p0| / p0 at the end of the step, reactions and particles included"},
+          {"thermodynamic_pressure", "Pa", "uniform part of the pressure, which changes in a closed vessel"},
+          {"continuity_error", "1/s", "largest error of the projected velocity's divergence"},
+          {"pressure_iterations", "1", "of the pressure solve"},
+          {"species_iterations", "1", "of the implicit species diffusion"},
+          {"kinetic_energy", integralUnit(context_.mesh, "J"), "integral of half the density times velocity squared"},
+          {"enstrophy", integralUnit(context_.mesh, "kg/s^2"), "integral of half the density times vorticity squared"}};
+}
+
+std::vector<double> TransportOperator::historyValues(const State& state) {
+  const Integrals whole = integrals(state);
+  return {pressureDrift(state),
+          state.thermodynamicPressure,
+          diagnostics_.continuityError,
+          static_cast<double>(diagnostics_.pressureIterations),
+          static_cast<double>(diagnostics_.speciesIterations),
+          whole.kineticEnergy,
+          whole.enstrophy};
+}
+
+void TransportOperator::fields(const State& state, const FieldSink& sink) const {
+  const auto owned = static_cast<std::size_t>(context_.mesh.owned);
+  sink({"viscosity", "Pa s", "dynamic viscosity"}, {properties_.viscosity.data(), owned});
+  sink({"conductivity", "W/m/K", "thermal conductivity"}, {properties_.conductivity.data(), owned});
+  if (state.swirls) sink({"swirl_velocity", "m/s", "gas velocity about the axis"}, {state.swirl.data(), owned});
+}
+
+}  // namespace lampblack::flow
