@@ -17,7 +17,7 @@ struct PlaceInCell {
   std::array<int, 4> vertex{};  // in Mesh::vertex
   std::array<double, 4> weight{};
 
-  // One of several components a cell and a vertex.
+  // The value there, of one of several components a cell and a vertex.
   [[nodiscard]] double of(std::span<const double> cells, std::span<const double> vertices, int components = 1,
                           int component = 0) const {
     const auto at = [&](int i) { return static_cast<std::size_t>(i) * components + component; };

@@ -44,8 +44,8 @@ struct Bound {
   bool exclusive = false;
 };
 
-// That something counts only where another key, a choice or true or false, has one of these values. A `*` or `[]` of
-// its path is the same name or item as in the path of what it is said of.
+// A condition: a key counts only where another key, a choice or true or false, has one of these values. A `*` or `[]`
+// of its path is the same name or item as in the path of what it is said of.
 struct DeckCondition {
   std::string key;
   std::vector<std::string> choices;

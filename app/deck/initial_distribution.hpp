@@ -16,7 +16,7 @@ namespace lampblack::app {
 // A size of a particle, as its volume or as the diameter of the sphere that has it: keys `volume` and `diameter`.
 void addParticleSize(DeckSchema& schema, const std::string& section, const std::string& what,
                      const std::vector<DeckCondition>& conditions = {});
-// Its volume (m3). InputError, in which `who` needs a size, unless it is given once.
+// The volume (m3) of such a size. InputError, in which `who` needs a size, unless it is given once.
 double readParticleSize(const Deck& deck, const std::string& section, const std::string& who);
 
 // Keys of one distribution: which, `number`, a size, `file`. Presence::optional: there may be particles without one,

@@ -26,11 +26,11 @@ struct TreeRequest {
 // The section, described for the problem, with the keys that all problems have; `particles`: the default number of
 // numerical particles.
 void addTreeKeys(DeckSchema& schema, const std::string& description, const std::string& particles);
-// Those of the particles that are there at the start.
+// Adds the keys of the particles that are there at the start.
 void addTreeStartKeys(DeckSchema& schema);
-// With those of a reactor.
+// Adds the keys of the section and those of a reactor.
 void addTreeReactorKeys(DeckSchema& schema);
-// With those of particles along a given gas.
+// Adds the keys of the section and those of particles along a given gas.
 void addTreePrescribedGasKeys(DeckSchema& schema);
 
 // Of a deck with the section, what all problems have. InputError, pointing into the deck.

@@ -11,8 +11,8 @@ namespace lampblack::app::flowcase {
 // Keys `initial.flame1d.*`.
 void addInitialFlameKeys(DeckSchema& schema);
 
-// Its gas, its velocity along the axis and, of a flame that spreads, across it. InputError where the file is no such
-// profile or the flame has species that the mechanism has not.
+// Gas, velocity along the axis and, of a flame that spreads, across the axis, of an earlier flame. InputError where the
+// file is no such profile or the flame has species that the mechanism has not.
 InitialFields readInitialFlame(const Deck& deck, const FlowCase& flowCase);
 
 }  // namespace lampblack::app::flowcase

@@ -14,7 +14,7 @@ namespace lampblack::app::flowcase {
 // Keys `initial.flow.*`.
 void addInitialFlowKeys(DeckSchema& schema);
 
-// Its gas, velocity and the scalars it carried, between its cells linearly. `scalars`: names of those that this run
+// Gas, velocity and carried scalars of an earlier flow, between cells linearly. `scalars`: names of those that this run
 // carries. InputError where the file holds no such results, or those of another geometry, a smaller domain, other
 // species or other scalars.
 InitialFields readInitialFlow(const Deck& deck, const FlowCase& flowCase, const std::vector<std::string>& scalars);

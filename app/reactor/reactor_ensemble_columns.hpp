@@ -16,7 +16,7 @@ namespace lampblack::app {
 // Bins of the distributions of numbers from zero to one.
 inline constexpr std::size_t shareBins = 50;
 
-// One, but for a network.
+// The number of reactors: one, but for a network.
 [[nodiscard]] std::size_t numReactors(const ReactorCase& reactorCase);
 // Stirred, alone or in a network.
 [[nodiscard]] bool isOpen(const ReactorCase& reactorCase);

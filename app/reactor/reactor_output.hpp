@@ -36,7 +36,7 @@ void writeIgnition(ResultsWriter& results, const ReactorCase& reactorCase,
 
 // A line for the console on a stirred reactor that is out; empty for others.
 std::string outLine(const std::string& name, const ReactorSteadyState& reactor);
-// Its fields of the record.
+// The fields of a stirred reactor that is out, in the record of the run.
 void recordOut(JsonWriter& json, const ReactorSteadyState& reactor);
 
 // "largest dT/dt": a criterion in words.

@@ -17,7 +17,7 @@ std::optional<std::filesystem::path> findProgram(const std::string& name);
 // itself.
 int runQuietly(const std::vector<std::string>& words);
 
-// This process becomes another program, the first of the words. SystemError where it does not start.
+// Replaces this process by another program, the first of the words. SystemError where it does not start.
 [[noreturn]] void replaceBy(const std::vector<std::string>& words);
 
 // The exit code of a program that this process starts and waits for, 128 and the signal's number where one ended it.

@@ -11,7 +11,7 @@ namespace lampblack::chemistry {
 
 // A keyword of auxiliary data, whether Lampblack can use it or not; letters in either case.
 bool isChemkinKeyword(std::string_view word);
-// One that Lampblack cannot use; `meaning` says what it is for.
+// A keyword that Lampblack cannot use; `meaning` says what such a keyword is for.
 bool isUnsupportedChemkinKeyword(std::string_view word, std::string_view& meaning);
 // "; did you mean 'TROE'?" or nothing
 std::string suggestChemkinKeyword(std::string_view word);

@@ -16,7 +16,7 @@ namespace lampblack::chemistry {
 
 struct StirredReactor {
   std::string name;
-  // One of them: the volume (m3), or the residence time (s), from which the volume follows.
+  // Either the volume (m3), or the residence time (s), from which the volume follows.
   std::optional<double> volume, residenceTime;
   std::optional<double> temperature;  // K, where it is given; the energy equation otherwise
   double conductance = 0;             // W/K, of the wall to the surroundings

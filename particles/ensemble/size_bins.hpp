@@ -14,7 +14,7 @@ struct SizeBins {
   std::size_t count = 60;
 
   [[nodiscard]] double width() const { return (logMax - logMin) / static_cast<double>(count); }
-  // That of a diameter (m); `count` outside.
+  // The bin of a diameter (m); `count` outside.
   [[nodiscard]] std::size_t of(double diameter) const { return ofLog(std::log10(diameter)); }
   [[nodiscard]] std::size_t ofLog(double logDiameter) const {  // log10(d/m)
     const double x = (logDiameter - logMin) / width();

@@ -44,7 +44,7 @@ class PrimaryTrees {
     measure(*head);
     return Tree(head);
   }
-  // One of this volume, as methods ask for; no process makes it.
+  // A single primary of this volume, for methods that ask for one; no process makes such a particle.
   [[nodiscard]] Tree make(double volume) const {
     TreeUnits units{1};
     units[0] = volume / material_->volume(units);

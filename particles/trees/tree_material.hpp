@@ -89,7 +89,7 @@ struct TreeMaterial {
 
   // Species of the gas by name, in the order in which particles see them.
   [[nodiscard]] std::vector<std::string> species() const;
-  // Those of them that particles are born of.
+  // The species that particles are born of.
   [[nodiscard]] std::vector<std::string> precursors() const;
   // Whether a gas, with these species, has what particles are born of, to speak of.
   [[nodiscard]] bool hasPrecursors(const ParticleGas& gas) const;

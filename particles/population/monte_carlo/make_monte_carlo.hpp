@@ -8,7 +8,7 @@
 
 namespace lampblack::particles {
 
-// One for each family of methods, defined in equal_weight_solver.hpp, weighted_solver.hpp and hybrid_solver.hpp.
+// One maker for each family of methods, defined in equal_weight_solver.hpp, weighted_solver.hpp and hybrid_solver.hpp.
 template <ParticleType Type>
 std::unique_ptr<PopulationSolver> makeEqualWeight(const Type&, const PopulationModel&, const InitialPopulation&,
                                                   const MonteCarloOptions&);
