@@ -209,7 +209,8 @@ std::vector<Quantity> StepControl::historyColumns() const {
   std::vector<Quantity> columns{
       {"temperature_change", "K", "largest change of a cell's temperature in a step since the last row"},
       {"heat_release_change", "1",
-       "largest change of a cell's heat release in a step since the last row, over the largest of any cell"}};
+       "largest change of a cell's heat release in a step since the last row, over the largest of any cell"},
+      {"heat_release", integralUnit(context_.mesh, "W"), "heat set free by the gas reactions in the last step"}};
   if (options_.tolerance)
     columns.push_back({"step_error", "1",
                        "largest change of a cell's temperature, relative, or of a mass fraction by the last sweep"});
@@ -217,7 +218,10 @@ std::vector<Quantity> StepControl::historyColumns() const {
 }
 
 std::vector<double> StepControl::historyValues(const State&) {
-  std::vector<double> values{std::exchange(changeSinceRow_, 0.0), std::exchange(heatChangeSinceRow_, 0.0)};
+  double heat = 0.0;
+  for (std::size_t c = 0; c < heat_.size(); ++c) heat += context_.mesh.volume[c] * heat_[c];
+  MPI_Allreduce(MPI_IN_PLACE, &heat, 1, MPI_DOUBLE, MPI_SUM, context_.mesh.comm);
+  std::vector<double> values{std::exchange(changeSinceRow_, 0.0), std::exchange(heatChangeSinceRow_, 0.0), heat};
   if (options_.tolerance) values.push_back(error_);
   return values;
 }

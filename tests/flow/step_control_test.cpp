@@ -54,17 +54,17 @@ TEST_F(StepControls, TheLastCorrectionIsTheError) {
   change(7, 2.0, 0.0);
   change(9, 0.0, 3e-3);
   control.advance(state, 0.0, 2e-5);
-  EXPECT_NEAR(control.historyValues(state).at(2), std::max(2.0 / 502.0, 3e-3), 1e-15);
+  EXPECT_NEAR(control.historyValues(state).at(3), std::max(2.0 / 502.0, 3e-3), 1e-15);
   control.endStep(state);
   EXPECT_NEAR(control.largestStep(state), 2e-5 * 0.9 * std::cbrt(1e-3 / (2.0 / 502.0)), 1e-18);
   for (int sweep = 0; sweep < 3; ++sweep) {
     if (sweep == 2) change(9, 0.0, 0.5);
     control.advance(state, 0.0, 1e-5);
   }
-  EXPECT_NEAR(control.historyValues(state).at(2), 0.5, 1e-12);
+  EXPECT_NEAR(control.historyValues(state).at(3), 0.5, 1e-12);
   EXPECT_DOUBLE_EQ(control.largestStep(state), 0.2e-5) << "not less than a fifth at once";
   for (int sweep = 0; sweep < 3; ++sweep) control.advance(state, 0.0, 1e-5);
-  EXPECT_EQ(control.historyValues(state).at(2), 0.0) << "of the last step alone";
+  EXPECT_EQ(control.historyValues(state).at(3), 0.0) << "of the last step alone";
 }
 
 TEST_F(StepControls, NeedsTwoSweeps) {
@@ -119,6 +119,21 @@ TEST_F(StepControls, TellsTheLargestChangeOfHeatRelease) {
   EXPECT_NEAR(changeIn(), 0.25, 1e-14) << "in units of the largest of any cell";
   release(7, 1.0);
   EXPECT_NEAR(changeIn(), 0.75, 1e-14) << "before or after";
+}
+
+TEST_F(StepControls, TellsTheHeatReleaseOfTheWholeDomain) {
+  StepControl control(box.context, {});
+  std::vector<double> enthalpies(air.size());
+  gas.thermo.speciesEnthalpies(500.0, enthalpies);
+  const std::size_t water = gas.mechanism.speciesIndex("H2O");
+  EXPECT_EQ(control.historyValues(state).at(2), 0.0);
+  for (const std::int64_t number : {5, 7})
+    if (const int c = box.mesh.findOwned(number); c >= 0)
+      state.balance.reactions[at(c) * air.size() + water] = static_cast<double>(number);  // kg/m3/s
+  control.endStep(state);
+  control.advance(state, 0.0, 1e-5);
+  EXPECT_NEAR(control.historyValues(state).at(2) / (-enthalpies[water] * (5.0 + 7.0) / 12.0), 1.0, 1e-14)
+      << "of cells of a twelfth of a square metre";
 }
 
 // What a step in one sweep leaves in a cell, and what is said of it; nothing: the step is taken.
