@@ -13,6 +13,7 @@
 #include "core/stop_request.hpp"
 #include "core/system_error.hpp"
 #include "core/wall_clock.hpp"
+#include "flow/steady/flame_steepness.hpp"
 #include "io/json.hpp"
 #include "io/report.hpp"
 
@@ -39,6 +40,16 @@ std::string meshJson(const MeshQuality& quality) {
   add("aspect_ratio", quality.aspect);
   json.endObject();
   return json.text();
+}
+
+std::string steepnessText(const flow::FlameSteepness& flame, int dimension) {
+  return fmt::format(
+      "flame: where it burns temperatures of neighbouring cells differ by {:.4g} K, at {}: {:.1f} cells from cold to "
+      "hot{}",
+      flame.difference, placeText(flame.place, dimension), flame.cells,
+      flame.cells < flow::FlameSteepness::fewCells
+          ? "; so thin a premixed flame, or foot of a flame, stands where the cells are: smaller cells there"
+          : "");
 }
 
 // Rows of a history that was written with the last columns that are asked for now, or without: NaN is what they do not
@@ -176,6 +187,7 @@ void FlowLoop::report(double wallTime, RunRecord& record) {
       closing.imbalances.push_back({op->name(), imbalance->before, imbalance->after});
   count(record);
   if (!isGasFrozen()) record.resultsJson = steadyJson();
+  const auto steepness = flow::flameSteepness(domain_->context, domain_->state);
   if (domain_->mesh.rank != 0) return;
   std::cout << formatReport(closing);
   for (const std::string& line : quality_.lines()) fmt::print("{}\n", line);
@@ -185,6 +197,7 @@ void FlowLoop::report(double wallTime, RunRecord& record) {
   fmt::print("peak temperature {:.1f} K at {} = ({:.3f}, {:.3f}) mm\n", last_.extremes.maximumTemperature,
              domain_->mesh.axisymmetric() ? "(r, z)" : "(x, y)", 1e3 * peakTemperature_.place[0],
              1e3 * peakTemperature_.place[1]);
+  if (steepness) fmt::print("{}\n", steepnessText(*steepness, domain_->mesh.dimension));
   for (const Operator* op : operators_)
     for (const std::string& line : op->closingLines()) fmt::print("{}\n", line);
   for (const std::string& line : steadyLines()) fmt::print("{}\n", line);
