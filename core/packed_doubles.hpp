@@ -24,6 +24,21 @@ void packDoubles(std::vector<double>& state, const T& value) {
   state.insert(state.end(), values.begin(), values.end());
 }
 
+// In place of the first values.
+template <Doubles T>
+void setFront(std::vector<double>& state, const T& value) {
+  std::ranges::copy(std::bit_cast<std::array<double, sizeof(T) / sizeof(double)>>(value), state.begin());
+}
+
+// So many more values behind those that are there, to be filled. Rows asked for before may have moved.
+inline std::span<double> addRow(std::vector<double>& state, std::size_t count) {
+  state.resize(state.size() + count);
+  return std::span(state).last(count);
+}
+inline void addRow(std::vector<double>& state, std::span<const double> row) {
+  state.insert(state.end(), row.begin(), row.end());
+}
+
 // Reads them back in order. InputError where there are no more.
 class PackedDoubles {
  public:
@@ -36,6 +51,13 @@ class PackedDoubles {
     std::copy_n(rest_.begin(), values.size(), values.begin());
     rest_ = rest_.subspan(values.size());
     return std::bit_cast<T>(values);
+  }
+  // The next values, where they are.
+  std::span<const double> nextRow(std::size_t count) {
+    if (rest_.size() < count) throw InputError("the saved state ends too early");
+    const std::span<const double> row = rest_.first(count);
+    rest_ = rest_.subspan(count);
+    return row;
   }
   // How many of something follow, of one double each at least.
   std::size_t nextCount() {

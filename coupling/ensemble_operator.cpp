@@ -1,7 +1,5 @@
 #include "coupling/ensemble_operator.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -11,16 +9,6 @@
 
 namespace lampblack::coupling {
 namespace {
-
-// How a cell is packed for the trip to another rank: place, number, gas, step, and how many values have arrived; then
-// the concentrations, the population, and what has arrived.
-struct Task {
-  double x, y, z, cell, temperature, pressure, density, viscosity, molecularWeight, dt, arrived;
-};
-constexpr std::size_t taskWidth = sizeof(Task) / sizeof(double);
-
-// And back come the cost, what the gas gets (mol/m3), what the particles gained of each element and what was resampled
-// of it (kg/m3), and the population.
 
 // Microseconds, about, of a cell. Estimated as CellParticles::costPerParticle(), to weigh cells against each other and,
 // to a factor of two or so, against the gas.
@@ -52,13 +40,12 @@ EnsembleOperator::EnsembleOperator(const FlowContext& context, const TransportOp
       transport_(context, {particles_->sizes().type, waldmannThermophoresis(), options_.diffusion, options_.secondOrder,
                            options_.seed, particles_->rows()}),
       exchange_(context),
-      sharing_(context.mesh.comm, options_.shareWork),
+      work_(context, {"ensemble", "the ensemble", options_.shareWork}),
       populations_(static_cast<std::size_t>(context.mesh.owned)),
       arrived_(populations_.size()),
       waiting_(populations_.size(), 0.0),
       reserve_(populations_.size() * reserveWidth()),
       rate_(reserve_.size()),
-      cost_(populations_.size()),
       outflow_(amounts_.count()),
       resampled_(amounts_.held),
       resampledBefore_(amounts_.held) {
@@ -108,51 +95,33 @@ std::vector<double>& EnsembleOperator::openPopulation(int cell) {
   return population;
 }
 
-void EnsembleOperator::pack(const State& state, int cell, double dt, std::vector<double>& in) {
-  const Mesh& m = context_.mesh;
+EnsembleOperator::Packed EnsembleOperator::pack(const State& state, int cell, RowWriter rows) {
   const ParticleGas gas = gasOf(state, cell, concentrations_);
-  const std::vector<double>& arrived = arrived_[cell];
-  packDoubles(in, Task{m.centre[cell][0], m.centre[cell][1], m.centre[cell][2],
-                       static_cast<double>(m.naturalCell[cell]), gas.temperature, gas.pressure, gas.density,
-                       gas.viscosity, gas.meanMolecularWeight, dt, static_cast<double>(arrived.size())});
-  in.insert(in.end(), concentrations_.begin(), concentrations_.end());
-  const std::vector<double>& population = openPopulation(cell);
-  in.insert(in.end(), population.begin(), population.end());
-  in.insert(in.end(), arrived.begin(), arrived.end());
+  rows.add(concentrations_);
+  rows.add(openPopulation(cell));
+  rows.add(arrived_[cell]);
+  return {gas, static_cast<double>(arrived_[cell].size())};
 }
 
-void EnsembleOperator::solve(double time, std::span<const double> in, std::vector<double>& out) {
-  PackedDoubles packed(in);
-  const auto task = packed.next<Task>();
+EnsembleOperator::Result EnsembleOperator::solve(double dt, const SharedCellWork::Task<Packed>& task, RowWriter rows) {
   const std::size_t species = particles_->species().size();
-  const ParticleGas gas{{task.temperature, task.pressure, task.density, task.viscosity, task.molecularWeight},
-                        in.subspan(taskWidth, species)};
-  const std::span<const double> rows = in.subspan(taskWidth + species);
-  const auto arrivedSize = static_cast<std::size_t>(task.arrived);
-  CellParticles::Change change;
-  try {
-    particles_->unpack(rows.first(rows.size() - arrivedSize));
-    if (arrivedSize > 0) particles_->join(rows.last(arrivedSize));
-    change = particles_->advance(gas, task.dt);
-  } catch (const NumericsError& error) {
-    throw NumericsError(fmt::format("the ensemble of cell {:.0f} at {} failed at time {:.6g} s: {}", task.cell,
-                                    placeText({task.x, task.y, task.z}, context_.mesh.dimension), time, error.what()));
-  }
-  out.push_back(costOfCell + particles_->costPerParticle() * particles_->cost());
-  for (const std::vector<double>* values : {&change.gas, &change.elements, &change.resampled})
-    out.insert(out.end(), values->begin(), values->end());
-  const std::vector<double> population = particles_->pack();
-  out.insert(out.end(), population.begin(), population.end());
+  const std::span<const double> particles = task.rows.subspan(species);
+  const auto arrived = static_cast<std::size_t>(task.input.arrived);
+  particles_->unpack(particles.first(particles.size() - arrived));
+  if (arrived > 0) particles_->join(particles.last(arrived));
+  const CellParticles::Change change = particles_->advance({task.input.gas, task.rows.first(species)}, dt);
+  for (const std::vector<double>* values : {&change.gas, &change.elements, &change.resampled}) rows.add(*values);
+  rows.add(particles_->pack());
+  return {costOfCell + particles_->costPerParticle() * particles_->cost()};
 }
 
-void EnsembleOperator::unpack(State& state, int cell, bool isHeld, std::span<const double> out) {
+void EnsembleOperator::take(State& state, int cell, bool isHeld, std::span<const double> rows) {
   const std::vector<std::size_t>& species = particles_->species();
   const std::size_t held = amounts_.held;
-  cost_[cell] = out[0];
-  const std::span<const double> change = out.subspan(1, species.size());
-  const std::span<const double> gained = out.subspan(1 + species.size(), held);
-  const std::span<const double> resampled = out.subspan(1 + species.size() + held, held);
-  const std::span<const double> population = out.subspan(1 + species.size() + 2 * held);
+  PackedDoubles values(rows);
+  const std::span<const double> change = values.nextRow(species.size());
+  const std::span<const double> gained = values.nextRow(held), resampled = values.nextRow(held);
+  const std::span<const double> population = values.nextRow(values.left());
   populations_[cell].assign(population.begin(), population.end());
   for (std::size_t e = 0; e < held; ++e) resampled_[e] += context_.mesh.volume[cell] * resampled[e];
   if (options_.exchange == Exchange::OneWay) return;
@@ -183,9 +152,10 @@ void EnsembleOperator::advance(State& state, double time, double dt) {
     }
   }
   inStep_ = true;
+  work_.beginStep();
   lastStep_ = dt;
   stepEnd_ = time + dt;
-  const bool isHeld = isGasFrozen(time);
+  const bool isHeld = holdsOthers(time);
   if (isHeld)
     state.start.density.assign(state.density.begin(), state.density.begin() + m.owned);
   else  // transport and chemistry have paid out of the reserves
@@ -193,30 +163,30 @@ void EnsembleOperator::advance(State& state, double time, double dt) {
   separateArrivals();
   move(state, dt, EnsembleTransport::Half::First);
 
-  std::vector<int> busy;
-  WorkSharing::Items items;
+  std::vector<SharedCellWork::Item> busy;
   for (int cell = 0; cell < m.owned; ++cell) {
-    const double before = std::exchange(cost_[cell], 0.0);
     const ParticleRows& rows = particles_->rows();
     const std::size_t count = rows.count(rows.of(populations_[cell])) + rows.count(arrived_[cell]);
     if (count == 0 && !particles_->hasPrecursors(gasOf(state, cell, concentrations_))) {
       populations_[cell] = {};
       setOwed(state, cell);
+      work_.setExpectedCost(cell, 0.0);
       continue;
     }
-    busy.push_back(cell);
-    // What it cost in the last step, or once each particle.
-    items.cost.push_back(before > 0.0 ? before
-                                      : costOfCell + particles_->costPerParticle() * static_cast<double>(count));
+    // What it cost the last time, or once each particle.
+    const double expected = work_.expectedCost(cell);
+    busy.push_back(
+        {cell, expected > 0.0 ? expected : costOfCell + particles_->costPerParticle() * static_cast<double>(count)});
   }
-  items.pack = [&](std::size_t i, std::vector<double>& in) { pack(state, busy[i], dt, in); };
-  items.advance = [&](std::span<const double> in, std::vector<double>& out) { solve(time, in, out); };
-  items.unpack = [&](std::size_t i, std::span<const double> out) { unpack(state, busy[i], isHeld, out); };
-  items.work = [](std::span<const double> out) { return out[0]; };
-  const WorkSharing::Statistics statistics = sharing_.run(items);
-  imbalances_.before += statistics.imbalanceBefore;
-  imbalances_.after += statistics.imbalanceAfter;
-  ++stages_;
+  SharedCellWork::Work<Packed, Result> work;
+  work.pack = [&](std::size_t i, RowWriter rows) { return pack(state, busy[i].cell, rows); };
+  work.advance = [&](const auto& tasks, const auto& results, const auto& rows) {
+    results.front() = solve(dt, tasks.front(), rows.front());
+  };
+  work.unpack = [&](std::size_t i, const Result&, std::span<const double> rows) {
+    take(state, busy[i].cell, isHeld, rows);
+  };
+  work_.advance(busy, time, work);
   state.updateHalo(context_.halo);
   for (std::vector<double>& rows : arrived_) rows.clear();
   move(state, dt, EnsembleTransport::Half::Second);
@@ -294,6 +264,7 @@ void EnsembleOperator::endStep(State& state) {
     addToStatistics(state);
   }
   inStep_ = false;
+  work_.endStep();
   if (!(options_.average > 0.0)) return;
   const double over = std::max(options_.average, lastStep_);
   for (std::size_t i = 0; i < reserve_.size(); ++i) rate_[i] = reserve_[i] / over;
@@ -316,22 +287,14 @@ void EnsembleOperator::saveOrLoad(StateArchive& archive) {
   archive.rows("ensembles", populations_);
   archive.cells("ensemble_waiting", waiting_, 1);
   archive.cells("ensemble_reserve", reserve_, static_cast<int>(reserveWidth()));
-  archive.cells("ensemble_cost", cost_, 1);
+  work_.saveOrLoad(archive);
   archive.sums("ensemble_resampled", resampled_);
   if (archive.loading()) resampledBefore_ = resampled_;
-  std::vector<double> shared{static_cast<double>(steps_), lastStep_, imbalances_.before, imbalances_.after,
-                             static_cast<double>(stages_)};
+  std::vector<double> shared{static_cast<double>(steps_), lastStep_};
   archive.shared("ensemble_steps", shared);
   steps_ = static_cast<std::int64_t>(shared.at(0));
   lastStep_ = shared.at(1);
-  imbalances_ = {shared.at(2), shared.at(3)};
-  stages_ = static_cast<int>(shared.at(4));
   EnsembleStatistics::saveOrLoad(archive, statistics_ ? &*statistics_ : nullptr);
-}
-
-void EnsembleOperator::addCost(const Mesh&, CellCost& cost) const {
-  std::vector<double>& to = options_.shareWork ? cost.shared : cost.own;
-  for (std::size_t cell = 0; cell < to.size(); ++cell) to[cell] += cost_[cell];
 }
 
 }  // namespace lampblack::coupling

@@ -24,12 +24,12 @@
 #include <vector>
 
 #include "core/modules.hpp"
-#include "core/work_sharing.hpp"
 #include "coupling/cell_particles.hpp"
 #include "coupling/ensemble_sizes.hpp"
 #include "coupling/ensemble_statistics.hpp"
 #include "coupling/ensemble_transport.hpp"
 #include "flow/models/gas_exchange.hpp"
+#include "flow/models/shared_cell_work.hpp"
 #include "flow/operator.hpp"
 #include "flow/stepping/transport_operator.hpp"
 
@@ -78,9 +78,20 @@ class EnsembleOperator : public Operator {
   [[nodiscard]] std::vector<double> historyValues(const State& state) override;
   [[nodiscard]] std::string status() const override;
   [[nodiscard]] std::vector<std::string> closingLines() const override;
-  [[nodiscard]] std::optional<Imbalance> imbalance() const override;
+  [[nodiscard]] std::optional<Imbalance> imbalance() const override { return work_.imbalance(); }
+  void beginRun() override { work_.beginRun(); }
   void fields(const State& state, const FieldSink& sink) const override;
-  void addCost(const Mesh& mesh, CellCost& cost) const override;
+  // Edges of the bins of sizes.
+  [[nodiscard]] std::vector<Dataset> datasets() const override;
+  // Sizes, and of aggregates their primaries.
+  [[nodiscard]] std::vector<RegionTable> regionTables() const override;
+  [[nodiscard]] std::vector<double> regionRows(std::size_t table, const MeshRegion& region) const override;
+  // In a frozen gas.
+  [[nodiscard]] bool holdsOthers(double time) const override {
+    return options_.frozenFrom && time >= *options_.frozenFrom;
+  }
+  [[nodiscard]] bool isStochastic() const override { return true; }
+  void addCost(const Mesh&, CellCost& cost) const override { work_.addCost(cost); }
 
   // Is called at the end of each step: each amount that came with numerical particles that come and go, and that left
   // through the boundary in it, of this rank's cells, per metre depth or radian.
@@ -90,13 +101,11 @@ class EnsembleOperator : public Operator {
   // radian.
   using FaceWatcher = std::function<void(double dt, std::span<const double> gone)>;
   void watchFaces(FaceWatcher watcher) { faceWatchers_.push_back(std::move(watcher)); }
-  [[nodiscard]] const Options& options() const { return options_; }
   [[nodiscard]] const CellParticles& particles() const { return *particles_; }
   // Averages over time; null without.
   [[nodiscard]] const EnsembleStatistics* statistics() const { return statistics_ ? &*statistics_ : nullptr; }
   // Packed, of the owned cells, with what has arrived since; empty where there is none.
   [[nodiscard]] const std::vector<std::vector<double>>& populations() const { return populations_; }
-  [[nodiscard]] bool isGasFrozen(double time) const { return options_.frozenFrom && time >= *options_.frozenFrom; }
   // Replaces the population of an owned cell by a packed one.
   void initialise(State& state, int cell, std::vector<double> population);
 
@@ -104,9 +113,19 @@ class EnsembleOperator : public Operator {
   // A reserve: mol/m3 of each exchanged species, then J/m3.
   [[nodiscard]] std::size_t reserveWidth() const { return particles_->species().size() + 1; }
   [[nodiscard]] ParticleGas gasOf(const State& state, int cell, std::vector<double>& concentrations) const;
-  void pack(const State& state, int cell, double dt, std::vector<double>& in);
-  void solve(double time, std::span<const double> in, std::vector<double>& out);
-  void unpack(State& state, int cell, bool isHeld, std::span<const double> out);
+  // How a cell travels to whoever advances its particles: behind it the concentrations, the population, and what has
+  // arrived.
+  struct Packed {
+    CarrierGas gas;
+    double arrived;  // how many values
+  };
+  // And how it comes back: behind it what CellParticles::Change has, and the population.
+  struct Result {
+    double cost;
+  };
+  Packed pack(const State& state, int cell, RowWriter rows);
+  Result solve(double dt, const SharedCellWork::Task<Packed>& task, RowWriter rows);
+  void take(State& state, int cell, bool isHeld, std::span<const double> rows);
   void setAmounts(State& state, int cell) const;
   // The packed population of a cell, to put particles behind it.
   std::vector<double>& openPopulation(int cell);
@@ -126,12 +145,11 @@ class EnsembleOperator : public Operator {
   AmountPlaces amounts_;
   EnsembleTransport transport_;
   GasExchange exchange_;
-  WorkSharing sharing_;
+  SharedCellWork work_;
   std::vector<std::vector<double>> populations_, arrived_;
   std::vector<double> waiting_;  // how many of the last values of a population have arrived since it was advanced
   std::vector<double> reserve_;  // of the owned cells
   std::vector<double> rate_;     // what the balance has of it, per s
-  std::vector<double> cost_;     // of each owned cell's last advance
   // What several sweeps of a step begin with.
   std::vector<std::vector<double>> startPopulations_;
   std::vector<double> startWaiting_, startReserve_;
@@ -149,8 +167,6 @@ class EnsembleOperator : public Operator {
   std::vector<double> resampled_, resampledBefore_;
   std::vector<double> concentrations_;
   std::optional<EnsembleStatistics> statistics_;
-  Imbalance imbalances_{0.0, 0.0};  // sums over the stages
-  int stages_ = 0;
   // Of the last row.
   double peak_ = 0.0;
   Vector3 place_{};

@@ -34,11 +34,6 @@ ParticleProperties propertiesOf(std::span<const double> amount, const CellPartic
 
 }  // namespace
 
-std::optional<Operator::Imbalance> EnsembleOperator::imbalance() const {
-  if (stages_ == 0) return {};
-  return Imbalance{imbalances_.before / stages_, imbalances_.after / stages_};
-}
-
 std::vector<Quantity> EnsembleOperator::historyColumns() const {
   const std::string& name = particles_->material();
   return {{"peak_" + name + "_volume_fraction", "1", "largest volume fraction of " + name},
@@ -125,6 +120,24 @@ void EnsembleOperator::fields(const State& state, const FieldSink& sink) const {
         sizes);
   }
   if (statistics_) statistics_->fields(sink);
+}
+
+std::vector<Operator::Dataset> EnsembleOperator::datasets() const {
+  return {{{fmt::format("/{}_sizes/bin_edges", particles_->material()), "m",
+            "mobility diameters between the bins of the size distributions"},
+           options_.bins.edges()}};
+}
+
+std::vector<Operator::RegionTable> EnsembleOperator::regionTables() const {
+  std::vector<RegionTable> tables{{"sizes", regionSizeColumns()}};
+  // Of spheres one follows from the other.
+  if (!particles_->sizes().type.coalescing()) tables.push_back({"joint", regionJointColumns()});
+  return tables;
+}
+
+std::vector<double> EnsembleOperator::regionRows(std::size_t table, const MeshRegion& region) const {
+  const auto rows = table == 0 ? regionSizeRows : regionJointRows;
+  return rows(particles_->sizes(), options_.bins, region, populations_);
 }
 
 }  // namespace lampblack::coupling

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/mesh.hpp"
+#include "core/mesh_region.hpp"
 #include "core/modules.hpp"
 #include "core/quantity.hpp"
 #include "particles/ensemble/particle_rows.hpp"
@@ -26,27 +26,14 @@ void addSizes(const RowSizes& of, const SizeBins& bins, std::span<const double> 
 // Of the mobility diameter by number; 1 where there are no particles.
 [[nodiscard]] double geometricDeviation(const RowSizes& of, std::span<const double> population);
 
-// The cells of a box, by their centres.
-class EnsembleRegion {
- public:
-  // Collective. `from` is below `to` along each axis of the mesh.
-  EnsembleRegion(const Mesh& mesh, const Vector3& from, const Vector3& to);
-
-  [[nodiscard]] bool isEmpty() const { return !(volume_ > 0.0); }
-
-  // Rows of a table, the same on all ranks and to the last bit on any number of them: a row a bin. Collective.
-  [[nodiscard]] static std::vector<Quantity> sizeColumns();
-  [[nodiscard]] std::vector<double> sizeRows(const RowSizes& of, const SizeBins& bins,
-                                             std::span<const std::vector<double>> populations) const;
-  // The same of those bins where there are particles.
-  [[nodiscard]] static std::vector<Quantity> jointColumns();
-  [[nodiscard]] std::vector<double> jointRows(const RowSizes& of, const SizeBins& bins,
-                                              std::span<const std::vector<double>> populations) const;
-
- private:
-  const Mesh& mesh_;
-  std::vector<int> cells_;
-  double volume_ = 0.0;  // of the region
-};
+// Rows of tables of a region, the same on all ranks and to the last bit on any number of them, from the populations of
+// the owned cells: a row a bin of the mobility diameter. Collective.
+[[nodiscard]] std::vector<Quantity> regionSizeColumns();
+[[nodiscard]] std::vector<double> regionSizeRows(const RowSizes& of, const SizeBins& bins, const MeshRegion& region,
+                                                 std::span<const std::vector<double>> populations);
+// And one a bin of the primaries' diameter and number, where there are particles.
+[[nodiscard]] std::vector<Quantity> regionJointColumns();
+[[nodiscard]] std::vector<double> regionJointRows(const RowSizes& of, const SizeBins& bins, const MeshRegion& region,
+                                                  std::span<const std::vector<double>> populations);
 
 }  // namespace lampblack::coupling

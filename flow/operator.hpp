@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/mesh_region.hpp"
 #include "core/modules.hpp"
 #include "core/quantity.hpp"
 #include "core/state_archive.hpp"
@@ -27,9 +28,20 @@ struct CellCost {
 
 class Operator {
  public:
-  // Load imbalance: cost of the busiest rank over the mean, without and with work sharing; means over all stages.
+  // Load imbalance: cost of the busiest rank over the mean, without and with work sharing; means over the stages of a
+  // run.
   struct Imbalance {
     double before = 1.0, after = 1.0;
+  };
+  // Of the results, for the whole run: the name is its path in them, "/soot_sizes/bin_edges".
+  struct Dataset {
+    Quantity quantity;
+    std::vector<double> values;
+  };
+  // Of a region of the mesh, rows at each output: "sizes".
+  struct RegionTable {
+    std::string kind;
+    std::vector<Quantity> columns;
   };
   // Receives one field: for each owned cell as many values as the field has components.
   struct FieldSink {
@@ -64,6 +76,11 @@ class Operator {
   // Largest step (s) that `advance` allows in this state. Collective.
   [[nodiscard]] virtual double largestStep(const State&) { return std::numeric_limits<double>::infinity(); }
 
+  // Whether, in a step from this time (s), the operator alone advances, in a gas that stays as it is.
+  [[nodiscard]] virtual bool holdsOthers(double) const { return false; }
+  // Whether carried scalars are noise by what it does, which does not come to rest in a steady flow.
+  [[nodiscard]] virtual bool isStochastic() const { return false; }
+
   // Adds the cost of each owned cell in the last step. Costs are counted, not timed: every run has the same.
   virtual void addCost(const Mesh&, CellCost&) const {}
 
@@ -74,9 +91,16 @@ class Operator {
   [[nodiscard]] virtual std::string status() const { return {}; }
   // Lines of the closing report, of the last row of the history.
   [[nodiscard]] virtual std::vector<std::string> closingLines() const { return {}; }
+  // Since beginRun().
   [[nodiscard]] virtual std::optional<Imbalance> imbalance() const { return {}; }
+  // The run begins, or goes on from a checkpoint, after loading: what its report counts is counted from here.
+  virtual void beginRun() {}
 
   virtual void fields(const State&, const FieldSink&) const {}
+  [[nodiscard]] virtual std::vector<Dataset> datasets() const { return {}; }
+  [[nodiscard]] virtual std::vector<RegionTable> regionTables() const { return {}; }
+  // Rows of one of these, one behind the other; the same on all ranks. Collective.
+  [[nodiscard]] virtual std::vector<double> regionRows(std::size_t, const MeshRegion&) const { return {}; }
 };
 
 }  // namespace lampblack::flow

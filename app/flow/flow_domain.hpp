@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/flow/flow_case.hpp"
+#include "app/flow/flow_tables.hpp"
 #include "core/halo_exchange.hpp"
 #include "core/modules.hpp"
 #include "coupling/ensemble_operator.hpp"
@@ -32,6 +33,11 @@ struct FlowDomain {
   void beginBudget(const FlowCase& flowCase);
   // kg per metre depth or radian that each boundary face lets out of what the case's model carries, in the last step.
   [[nodiscard]] std::vector<double> carriedThroughFaces(const CarriedModel& model, double dt) const;
+
+  // Of the case's operators and others.
+  [[nodiscard]] FlowTables::Source tableSource(const std::vector<Operator*>& all) {
+    return {state, flow, all, deposition.get()};
+  }
 
   Mesh mesh;
   HaloExchange halo;

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "app/flow/flow_mesh.hpp"
-#include "app/flow/trajectories.hpp"
 #include "app/run/warnings.hpp"
 #include "core/errors.hpp"
 #include "core/wall_clock.hpp"
@@ -22,9 +21,11 @@ FlowLoop::FlowLoop(MPI_Comm comm, FlowCase flowCase)
       domain_(std::make_unique<FlowDomain>(makeMesh(comm, case_), case_, thermo_, transport_,
                                            withFailedCellFiles(case_.chemistry))),
       operators_(domain_->operators),
+      closing_(closingStages(case_)),
       quality_(domain_->mesh),
       steadiness_(domain_->context, domain_->state,
-                  {case_.time.steady ? case_.time.steady->time : std::nullopt, !case_.ensembles}),
+                  {case_.time.steady ? case_.time.steady->time : std::nullopt,
+                   std::ranges::none_of(domain_->operators, &Operator::isStochastic)}),
       costs_(domain_->mesh),
       repartitions_(case_.repartition.has_value() && domain_->mesh.ranks > 1),
       backup_(domain_->mesh.owned, domain_->mesh.faces),
@@ -34,9 +35,15 @@ FlowLoop::FlowLoop(MPI_Comm comm, FlowCase flowCase)
   steadiness_.begin(domain_->state, time_);
   domain_->beginBudget(case_);
   tables_ = std::make_unique<FlowTables>(domain_->context, case_, tableSource());
-  if (case_.trajectories) requireStartsInside(domain_->context, *case_.trajectories);
+  for (const auto& stage : closing_) stage->check(domain_->context);
   dt_ = case_.time.firstStep;
   nextOutput_ = case_.output.interval;
+}
+
+void FlowLoop::addOperator(Operator& added) {
+  added_.push_back(&added);
+  operators_.push_back(&added);
+  tables_ = std::make_unique<FlowTables>(domain_->context, case_, tableSource());  // with what it has
 }
 
 void FlowLoop::load(const WholeCheckpoint& checkpoint) {
@@ -64,6 +71,7 @@ void FlowLoop::load(const WholeCheckpoint& checkpoint) {
 
 void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
   folder_ = folder;
+  for (Operator* op : operators_) op->beginRun();
   Outputs outputs{
       folder, ResultsWriter(comm_, folder.results(), info, meshOutput(domain_->mesh), case_.output.storage),
       HistoryWriter(comm_, folder.history(), columns()), Progress(comm_, time_, case_.time.end),
@@ -75,12 +83,10 @@ void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
   results.texts("/species/name", species, "species of the mechanism");
   results.dataset("/species/molar_mass", {static_cast<std::int64_t>(species.size())},
                   case_.mechanism->molecularWeights(), "kg/mol", "molar masses of the species");
-  if (case_.ensembles) {
-    const std::vector<double> edges = case_.ensembles->bins.edges();
-    results.dataset(fmt::format("/{}_sizes/bin_edges", case_.cellParticles->material()),
-                    {static_cast<std::int64_t>(edges.size())}, edges, "m",
-                    "mobility diameters between the bins of the size distributions");
-  }
+  for (const Operator* op : operators_)
+    for (const auto& [quantity, values] : op->datasets())
+      results.dataset(quantity.name, {static_cast<std::int64_t>(values.size())}, values, quantity.unit,
+                      quantity.description);
   if (restart_) {
     restore(results, history);
     checkpoints.startedFrom(*restart_, steps_);
@@ -120,14 +126,14 @@ void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
     if (!problem.empty()) printWarnings({problem});
   }
   if (last_.step != steps_) observe();  // a restart at the very end
-  // A trajectory that fails takes nothing from the flow: its results are closed first.
+  // What fails after the last step takes nothing from the flow: its results are closed first.
   std::exception_ptr failure;
-  if (case_.trajectories) {
-    const Timers::Scope scope(timers_, "trajectories");
+  for (const auto& stage : closing_) {
+    const Timers::Scope scope(timers_, stage->name());
     try {
-      runTrajectories(domain_->context, case_, domain_->state, domain_->flow.properties(), results, &*folder_);
+      stage->run(domain_->context, domain_->state, domain_->flow.properties(), results, &*folder_);
     } catch (const NumericsError&) {
-      failure = std::current_exception();
+      if (!failure) failure = std::current_exception();
     }
   }
   const Timers::Scope scope(timers_, "output");
@@ -180,12 +186,16 @@ void FlowLoop::resumeFromLoadedState() {
   beginNextStep();
 }
 
+const Operator* FlowLoop::holder() const {
+  const auto found = std::ranges::find_if(operators_, [this](const Operator* op) { return op->holdsOthers(time_); });
+  return found == operators_.end() ? nullptr : *found;
+}
+
 void FlowLoop::step(double dt) {
-  const EnsembleOperator* ensembles = domain_->ensembles.get();
-  const bool isHeld = ensembles != nullptr && ensembles->isGasFrozen(time_);
+  const Operator* alone = holder();
   for (int sweep = 0; sweep < case_.flow.sweeps; ++sweep) {
     for (Operator* op : operators_) {
-      if (isHeld && op != ensembles) continue;
+      if (alone != nullptr && op != alone) continue;
       const Timers::Scope scope(timers_, op->name());
       op->advance(domain_->state, time_, dt);
     }

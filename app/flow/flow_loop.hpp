@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "app/flow/cell_costs.hpp"
+#include "app/flow/closing_stage.hpp"
 #include "app/flow/flow_case.hpp"
 #include "app/flow/flow_checkpoint.hpp"
 #include "app/flow/flow_domain.hpp"
@@ -47,10 +48,8 @@ class FlowLoop {
   [[nodiscard]] const std::vector<std::string>& notes() const { return case_.notes; }
 
   // A further operator of each step, behind the case's own, which has to live as long; before load() and run().
-  void addOperator(Operator& added) {
-    added_.push_back(&added);
-    operators_.push_back(&added);
-  }
+  // Collective.
+  void addOperator(Operator& added);
 
   void run(const RunFolder& folder, const RunInfo& info);
 
@@ -128,12 +127,11 @@ class FlowLoop {
   HistoryRow observe();
   // Writes the present state as a row of the history and of its tables.
   HistoryRow writeRow(HistoryWriter& history);
-  [[nodiscard]] FlowTables::Source tableSource() {
-    return {domain_->state, domain_->flow, operators_, domain_->ensembles.get(), domain_->deposition.get()};
-  }
+  [[nodiscard]] FlowTables::Source tableSource() { return domain_->tableSource(operators_); }
 
   [[nodiscard]] std::string status(const HistoryRow& row) const;
-  [[nodiscard]] bool isGasFrozen() const { return domain_->ensembles && domain_->ensembles->isGasFrozen(time_); }
+  // The operator that alone advances from now on, in a gas that stays as it is; null: all do.
+  [[nodiscard]] const Operator* holder() const;
   // How far from steady the run ended, for the closing report.
   [[nodiscard]] std::vector<std::string> steadyLines() const;
   [[nodiscard]] std::string steadyJson() const;  // the same for the record
@@ -162,6 +160,7 @@ class FlowLoop {
   Transport transport_;
   std::unique_ptr<FlowDomain> domain_;
   std::vector<Operator*> added_, operators_;  // those of others; all, each advances over the step, one after the other
+  std::vector<std::unique_ptr<ClosingStage>> closing_;
   MeshQuality quality_;
   Steadiness steadiness_;
   CellCosts costs_;

@@ -129,7 +129,7 @@ std::string FlowLoop::status(const HistoryRow& row) const {
 }
 
 std::vector<std::string> FlowLoop::steadyLines() const {
-  if (isGasFrozen()) return {};
+  if (holder() != nullptr) return {};
   std::vector<std::string> lines = steadiness_.lines();
   if (case_.time.steady)
     lines.push_back(fmt::format("{} (time.steady.tolerance {:.2g}, {} norm)",
@@ -186,7 +186,7 @@ void FlowLoop::report(double wallTime, RunRecord& record) {
     if (const auto imbalance = op->imbalance())
       closing.imbalances.push_back({op->name(), imbalance->before, imbalance->after});
   count(record);
-  if (!isGasFrozen()) record.resultsJson = steadyJson();
+  if (holder() == nullptr) record.resultsJson = steadyJson();
   const auto steepness = flow::flameSteepness(domain_->context, domain_->state);
   if (domain_->mesh.rank != 0) return;
   std::cout << formatReport(closing);

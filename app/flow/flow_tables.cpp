@@ -28,12 +28,6 @@ bool isUsual(const std::string& field) {
   return usual.contains(field) || field.starts_with("X_") || field.ends_with("_volume_fraction");
 }
 
-// Of the results.
-std::string groupOf(const std::string& kind, const std::string& name) {
-  if (kind == "sizes" || kind == "joint") return "/regions/" + name + "/" + kind;
-  return (kind == "boundary" ? "/boundaries/" : "/" + kind + "s/") + name;
-}
-
 std::vector<Quantity> joined(std::vector<Quantity> first, const std::vector<Quantity>& more) {
   first.insert(first.end(), more.begin(), more.end());
   return first;
@@ -65,21 +59,23 @@ FlowTables::FlowTables(const FlowContext& context, const FlowCase& flowCase, con
     std::vector<Vector3> places;
     for (const OutputTables::Probe& probe : tables.probes) {
       places.push_back(probe.at);
-      tables_.push_back({"probe", probe.name, columnsOf(momentColumns)});
+      tables_.push_back({"probe", probe.name, "/probes/" + probe.name, columnsOf(momentColumns)});
     }
     probes_ = std::make_unique<FieldSampler>(context, std::move(places));
     requireInside(
         *probes_, [&](int p) { return "output.probes." + tables.probes[p].name + ".at"; }, "the probe");
   }
-  for (const std::size_t b : tables.boundaries)
-    tables_.push_back({"boundary", flowcase::fileNameOf(flowCase.boundaries[b].name), boundaryColumns(b)});
+  for (const std::size_t b : tables.boundaries) {
+    const std::string name = flowcase::fileNameOf(flowCase.boundaries[b].name);
+    tables_.push_back({"boundary", name, "/boundaries/" + name, boundaryColumns(b)});
+  }
   for (const OutputTables::Line& line : tables.lines) {
     std::vector<Vector3> places;
     for (int p = 0; p < line.points; ++p) places.push_back(placeOn(line, p));
     std::vector<Quantity> first = momentColumns;
     first.push_back({"distance", "m", "from the line's first point"});
     for (const std::string& axis : axes) first.push_back({axis, "m", "coordinate along the axis " + axis});
-    tables_.push_back({"line", line.name, columnsOf(first)});
+    tables_.push_back({"line", line.name, "/lines/" + line.name, columnsOf(first)});
     lines_.emplace_back(context, std::move(places));
     requireInside(
         lines_.back(), [&](int) { return "output.lines." + line.name; }, "a point of the line");
@@ -91,7 +87,8 @@ FlowTables::FlowTables(const FlowContext& context, const FlowCase& flowCase, con
     columns.push_back({"area", integralUnit(context.mesh, "m^2"), "of the face"});
     columns.push_back({"deposition", "kg/m^2/s", "of particles on the face, mean of the step"});
     columns.push_back({"deposited", "kg/m^2", "of particles on the face since the start"});
-    tables_.push_back({"deposit", flowcase::fileNameOf(flowCase.boundaries[b].name), columns});
+    const std::string name = flowcase::fileNameOf(flowCase.boundaries[b].name);
+    tables_.push_back({"deposit", name, "/deposits/" + name, columns});
   }
   makeRegions();
   for (std::size_t r = 0; r < regions_.size(); ++r) {
@@ -99,10 +96,10 @@ FlowTables::FlowTables(const FlowContext& context, const FlowCase& flowCase, con
     if (regions_[r].isEmpty())
       raiseTogether(context.mesh.comm, tables.deck->error("stochastic.regions." + name,
                                                           "no cell of the mesh has its centre in this region"));
-    tables_.push_back({"sizes", name, joined(momentColumns, EnsembleRegion::sizeColumns())});
-    // Of spheres one follows from the other.
-    if (!flowCase.cellParticles->sizes().type.coalescing())
-      tables_.push_back({"joint", name, joined(momentColumns, EnsembleRegion::jointColumns())});
+    for (const Operator* op : source.operators)
+      for (const Operator::RegionTable& table : op->regionTables())
+        tables_.push_back(
+            {table.kind, name, "/regions/" + name + "/" + table.kind, joined(momentColumns, table.columns)});
   }
 }
 
@@ -303,22 +300,16 @@ void FlowTables::outputRows(const Moment& moment, const Source& source) {
     }
     writers_[table++].row(rows);
   }
-  if (!source.ensembles) return;
-  const EnsembleOperator& of = *source.ensembles;
-  for (const EnsembleRegion& region : regions_) {
-    writers_[table++].row(withMoment(moment,
-                                     region.sizeRows(of.particles().sizes(), of.options().bins, of.populations()),
-                                     EnsembleRegion::sizeColumns().size()));
-    if (of.particles().sizes().type.coalescing()) continue;
-    writers_[table++].row(withMoment(moment,
-                                     region.jointRows(of.particles().sizes(), of.options().bins, of.populations()),
-                                     EnsembleRegion::jointColumns().size()));
-  }
+  for (const MeshRegion& region : regions_)
+    for (const Operator* op : source.operators) {
+      const std::vector<Operator::RegionTable> of = op->regionTables();
+      for (std::size_t t = 0; t < of.size(); ++t)
+        writers_[table++].row(withMoment(moment, op->regionRows(t, region), of[t].columns.size()));
+    }
 }
 
 void FlowTables::writeTo(ResultsWriter& results) const {
-  for (std::size_t t = 0; t < writers_.size(); ++t)
-    writers_[t].writeTo(results, groupOf(tables_[t].kind, tables_[t].name));
+  for (std::size_t t = 0; t < writers_.size(); ++t) writers_[t].writeTo(results, tables_[t].group);
 }
 
 void FlowTables::save(CheckpointWriter& archive) const {

@@ -1,5 +1,5 @@
 // Tables of a flow: fields at probes and boundaries' sums, a row each row of the history; fields along lines, what the
-// faces of walls have taken of the particles, and sizes of the particles in regions, at each output. A CSV file each in
+// faces of walls have taken of the particles, and what operators tell of regions, at each output. A CSV file each in
 // the folder `tables` of the run, and a group each of the results (docs/formats.md).
 #pragma once
 
@@ -11,9 +11,8 @@
 #include <vector>
 
 #include "app/flow/flow_case.hpp"
+#include "core/mesh_region.hpp"
 #include "core/modules.hpp"
-#include "coupling/ensemble_operator.hpp"
-#include "coupling/ensemble_sizes.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/models/deposition_operator.hpp"
 #include "flow/operator.hpp"
@@ -33,8 +32,7 @@ class FlowTables {
     const State& state;
     TransportOperator& transport;
     const std::vector<Operator*>& operators;
-    const EnsembleOperator* ensembles = nullptr;
-    const DepositionOperator* deposition = nullptr;
+    const DepositionOperator* deposition = nullptr;  // null: walls take nothing
   };
   struct Moment {
     std::int64_t step = 0;
@@ -60,7 +58,8 @@ class FlowTables {
 
  private:
   struct Table {
-    std::string kind, name;  // "probe", "wake"; of regions "sizes" or "joint"
+    std::string kind, name;  // "probe", "wake"; of regions Operator::RegionTable::kind
+    std::string group;       // of the results
     std::vector<Quantity> columns;
     [[nodiscard]] std::string id() const { return kind + "_" + name; }
     [[nodiscard]] std::string header() const;  // what tells it from others
@@ -87,7 +86,7 @@ class FlowTables {
   std::vector<Wanted> wanted_;
   std::unique_ptr<FieldSampler> probes_;  // a place a probe; null without any
   std::vector<FieldSampler> lines_;
-  std::vector<EnsembleRegion> regions_;
+  std::vector<MeshRegion> regions_;
   bool hasDeposition_;
   std::vector<Table> tables_;  // probes, boundaries, lines, walls' faces, regions
   std::vector<HistoryWriter> writers_;

@@ -196,7 +196,14 @@ const std::string* outletAt(const FlowContext& context, int cell, const Vector3&
 
 }  // namespace
 
-void requireStartsInside(const FlowContext& context, const TrajectoryRequest& request) {
+std::vector<std::unique_ptr<ClosingStage>> closingStages(const FlowCase& flowCase) {
+  std::vector<std::unique_ptr<ClosingStage>> stages;
+  if (flowCase.trajectories) stages.push_back(std::make_unique<Trajectories>(flowCase));
+  return stages;
+}
+
+void Trajectories::check(const FlowContext& context) const {
+  const TrajectoryRequest& request = *case_.trajectories;
   const Mesh& m = context.mesh;
   const FoundCells found = findCells(m, request.starts);
   const auto item = [](std::size_t i) { return fmt::format("trajectories.start[{}]", i); };
@@ -217,9 +224,9 @@ void requireStartsInside(const FlowContext& context, const TrajectoryRequest& re
   });
 }
 
-void runTrajectories(const FlowContext& context, const FlowCase& flowCase, const State& state,
-                     const GasProperties& properties, ResultsWriter& results, const RunFolder* folder) {
-  const TrajectoryRequest& request = *flowCase.trajectories;
+void Trajectories::run(const FlowContext& context, const State& state, const GasProperties& properties,
+                       ResultsWriter& results, const RunFolder* folder) const {
+  const TrajectoryRequest& request = *case_.trajectories;
   const Mesh& m = context.mesh;
   const std::vector<std::size_t> species = indicesOfSootSpecies(context.mechanism, request.soot);
   const Streamlines streamlines(context, state, properties, waldmannThermophoresis());
@@ -237,7 +244,7 @@ void runTrajectories(const FlowContext& context, const FlowCase& flowCase, const
   EnsembleOptions options;
   options.particles = static_cast<std::size_t>(request.particles);
   options.splitTolerance = request.splitTolerance;
-  options.seed = flowCase.seed;
+  options.seed = case_.seed;
   options.soot = request.soot;
 
   std::vector<Trajectory> trajectories(request.starts.size());

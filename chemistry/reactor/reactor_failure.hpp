@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "chemistry/reactor/reactor.hpp"
-#include "core/errors.hpp"
+#include "core/group_failure.hpp"
 #include "core/modules.hpp"
 
 namespace lampblack::chemistry {
@@ -24,16 +24,14 @@ struct FailedCell {
   std::string reason;
 };
 
-class ReactorFailure : public NumericsError {
+class ReactorFailure : public FailureInGroup {
  public:
   ReactorFailure(const std::string& message, FailedCell cell, std::size_t place)
-      : NumericsError(message), cell_(std::move(cell)), place_(place) {}
+      : FailureInGroup(message, place), cell_(std::move(cell)) {}
   const FailedCell& cell() const { return cell_; }
-  std::size_t place() const { return place_; }  // among the cells that were advanced together
 
  private:
   FailedCell cell_;
-  std::size_t place_;
 };
 
 }  // namespace lampblack::chemistry

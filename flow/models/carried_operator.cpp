@@ -1,7 +1,5 @@
 #include "flow/models/carried_operator.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -10,10 +8,6 @@
 
 namespace lampblack::flow {
 namespace {
-
-// How a cell is packed for the trip to another rank and back. In: place, number, gas, densities, concentrations, and
-// what brings them; out: cost, steps, densities, concentrations.
-constexpr std::size_t inHeader = 9, outHeader = 2;
 
 constexpr double firstModelCost = 1.0;  // before a cell was ever advanced: that of all others
 
@@ -58,12 +52,10 @@ CarriedOperator::CarriedOperator(const FlowContext& context, CarriedModel& model
       first_(first),
       scalars_(model.scalars().size()),
       options_(std::move(options)),
-      sharing_(context.mesh.comm, options_.shareWork),
-      cost_(context.mesh.owned, firstModelCost),
-      costOfStep_(cost_.size()),
-      before_(cost_.size() * (scalars_ + model.exchanged().size())),
+      work_(context, {"carried", model.material(), options_.shareWork, firstModelCost}),
+      before_(static_cast<std::size_t>(context.mesh.owned) * (scalars_ + model.exchanged().size())),
       rate_(before_.size()),
-      heat_(cost_.size()),
+      heat_(static_cast<std::size_t>(context.mesh.owned)),
       exchange_(context),
       values_(scalars_ + model.exchanged().size()),
       enthalpy_(scalars_),
@@ -86,19 +78,14 @@ double CarriedOperator::viscosityOf(const State& state, int cell) const {
   return context_.transport.mixture(state.temperature[cell], state.thermodynamicPressure, X, D).viscosity;
 }
 
-void CarriedOperator::solve(double time, double dt, std::span<const double> in, std::span<double> out) const {
-  const std::span<double> values = out.subspan(outHeader);
-  const std::span<const double> supply = in.subspan(inHeader + values.size());
-  std::ranges::copy(in.subspan(inHeader, values.size()), values.begin());
-  try {
-    const ParticleAdvance done = model_.advance({in[3], in[4], in[5], in[6], in[7]}, dt, values.first(scalars_),
-                                                values.subspan(scalars_), supply);
-    out[1] = done.steps + done.rejected;
-  } catch (const NumericsError& error) {
-    throw NumericsError(fmt::format("{} failed in cell {:.0f} at {} at time {:.6g} s: {}", model_.material(), in[2],
-                                    placeText({in[0], in[1], in[8]}, context_.mesh.dimension), time, error.what()));
-  }
-  out[0] = costOfAdvance(scalars_, out[1]);
+CarriedOperator::Result CarriedOperator::solve(double dt, const SharedCellWork::Task<CarrierGas>& task,
+                                               RowWriter rows) const {
+  const std::span<double> values = rows.add(values_.size());
+  std::ranges::copy(task.rows.first(values.size()), values.begin());
+  const ParticleAdvance done = model_.advance(task.input, dt, values.first(scalars_), values.subspan(scalars_),
+                                              task.rows.subspan(values.size()));
+  const double steps = done.steps + done.rejected;
+  return {costOfAdvance(scalars_, steps), steps};
 }
 
 void CarriedOperator::valuesOf(const State& state, int cell, std::span<double> values) const {
@@ -109,35 +96,19 @@ void CarriedOperator::valuesOf(const State& state, int cell, std::span<double> v
     values[scalars_ + i] = state.density[cell] * state.Y[at(cell, state.species) + species[i]] / W[species[i]];
 }
 
-void CarriedOperator::pack(const State& state, const BusyCell& busy, double dt, std::vector<double>& in) const {
-  const Mesh& m = context_.mesh;
+CarrierGas CarriedOperator::pack(const State& state, const BusyCell& busy, double dt, RowWriter rows) const {
   const int c = busy.cell;
-  in = {m.centre[c][0],
-        m.centre[c][1],
-        static_cast<double>(m.naturalCell[c]),
-        state.temperature[c],
-        state.thermodynamicPressure,
-        state.density[c],
-        busy.viscosity,
-        busy.meanMolecularWeight,
-        m.centre[c][2]};
   const std::size_t n = values_.size();
-  in.resize(inHeader + 2 * n);
-  const std::span<double> start = std::span(in).subspan(inHeader, n);
+  const std::span<double> values = rows.add(2 * n), start = values.first(n), supply = values.last(n);
   valuesOf(state, c, start);
   // Since the end of the last step, without what these particles did in it: at a constant rate.
   for (std::size_t i = 0; i < n; ++i) {
     const double before = before_[at(c, n) + i];
-    in[inHeader + n + i] = (start[i] - before) / dt - rate_[at(c, n) + i];
+    supply[i] = (start[i] - before) / dt - rate_[at(c, n) + i];
     start[i] = before;
   }
-}
-
-void CarriedOperator::unpack(State& state, int cell, double dt, std::span<const double> out) {
-  cost_[cell] = out[0];
-  costOfStep_[cell] += out[0];
-  steps_ += static_cast<long>(out[1]);
-  take(state, cell, dt, out.subspan(outHeader));
+  return {state.temperature[c], state.thermodynamicPressure, state.density[c], busy.viscosity,
+          busy.meanMolecularWeight};
 }
 
 void CarriedOperator::take(State& state, int cell, double dt, std::span<const double> after) {
@@ -180,10 +151,9 @@ void CarriedOperator::rest(State& state, int cell, double dt) {
 void CarriedOperator::advance(State& state, double time, double dt) {
   const Mesh& m = context_.mesh;
   lastStep_ = dt;
-  if (!inStep_) std::ranges::fill(costOfStep_, 0.0);
-  inStep_ = true;
+  work_.beginStep();
   std::vector<BusyCell> busy;
-  WorkSharing::Items items;
+  std::vector<SharedCellWork::Item> items;
   collectively(m.comm, [&] {
     for (int c = 0; c < m.owned; ++c) {
       const ParticleGas still = gasOfCell(context_, state, c, 0.0, model_.exchanged(), concentrations_);
@@ -192,23 +162,20 @@ void CarriedOperator::advance(State& state, double time, double dt) {
         continue;
       }
       busy.push_back({c, viscosityOf(state, c), still.meanMolecularWeight});
-      items.cost.push_back(cost_[c]);
+      items.push_back({c, work_.expectedCost(c)});
     }
   });
-  items.pack = [&](std::size_t i, std::vector<double>& in) { pack(state, busy[i], dt, in); };
-  items.advance = [&](std::span<const double> in, std::vector<double>& out) {
-    out.resize(outHeader + values_.size());
-    solve(time, dt, in, out);
+  SharedCellWork::Work<CarrierGas, Result> work;
+  work.pack = [&](std::size_t i, RowWriter rows) { return pack(state, busy[i], dt, rows); };
+  work.advance = [&](const auto& tasks, const auto& results, const auto& rows) {
+    results.front() = solve(dt, tasks.front(), rows.front());
   };
-  items.unpack = [&](std::size_t i, std::span<const double> out) {
-    unpack(state, busy[i].cell, dt, out);
+  work.unpack = [&](std::size_t i, const Result& result, std::span<const double> values) {
+    steps_ += static_cast<long>(result.steps);
+    take(state, busy[i].cell, dt, values);
     setDiffusivities(state, busy[i].cell, busy[i].viscosity);
   };
-  items.work = [](std::span<const double> out) { return out[0]; };
-  const WorkSharing::Statistics statistics = sharing_.run(items);
-  imbalances_.before += statistics.imbalanceBefore;
-  imbalances_.after += statistics.imbalanceAfter;
-  ++stages_;
+  work_.advance(items, time, work);
   state.updateHalo(context_.halo);
 }
 
@@ -222,13 +189,8 @@ double CarriedOperator::shareForTransport(std::span<const double> present, const
   return share;
 }
 
-void CarriedOperator::addCost(const Mesh&, CellCost& cost) const {
-  std::vector<double>& to = options_.shareWork ? cost.shared : cost.own;
-  for (std::size_t cell = 0; cell < to.size(); ++cell) to[cell] += costOfStep_[cell];
-}
-
 void CarriedOperator::endStep(State& state) {
-  inStep_ = false;
+  work_.endStep();
   for (int c = 0; c < context_.mesh.owned; ++c) valuesOf(state, c, {&before_[at(c, values_.size())], values_.size()});
 }
 
@@ -250,20 +212,13 @@ void CarriedOperator::endSweep(State& state) {
 }
 
 void CarriedOperator::saveOrLoad(StateArchive& archive) {
-  if (archive.loading()) {
-    lastStep_ = 0.0;  // the rates are what endSweep() left
-    inStep_ = false;
-  }
-  archive.cells("carried_cost", cost_, 1);
+  if (archive.loading()) lastStep_ = 0.0;  // the rates are what endSweep() left
+  work_.saveOrLoad(archive);
   archive.cells("carried_rate", rate_, static_cast<int>(values_.size()));
   archive.cells("carried_heat", heat_, 1);
   std::array<double, 1> counted{static_cast<double>(steps_)};
   archive.sums("carried_counts", counted);
   steps_ = static_cast<long>(counted[0]);
-  std::vector<double> stages{imbalances_.before, imbalances_.after, static_cast<double>(stages_)};
-  archive.shared("carried_stages", stages);
-  imbalances_ = {stages.at(0), stages.at(1)};
-  stages_ = static_cast<int>(stages.at(2));
 }
 
 }  // namespace lampblack::flow

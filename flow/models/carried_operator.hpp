@@ -16,10 +16,10 @@
 
 #include "core/modules.hpp"
 #include "core/particle_gas.hpp"
-#include "core/work_sharing.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/models/carried_model.hpp"
 #include "flow/models/gas_exchange.hpp"
+#include "flow/models/shared_cell_work.hpp"
 #include "flow/operator.hpp"
 
 namespace lampblack::flow {
@@ -55,9 +55,10 @@ class CarriedOperator : public Operator {
   [[nodiscard]] std::vector<double> historyValues(const State& state) override;
   [[nodiscard]] std::string status() const override;
   [[nodiscard]] std::vector<std::string> closingLines() const override;
-  [[nodiscard]] std::optional<Imbalance> imbalance() const override;
+  [[nodiscard]] std::optional<Imbalance> imbalance() const override { return work_.imbalance(); }
+  void beginRun() override { work_.beginRun(); }
   void fields(const State& state, const FieldSink& sink) const override;
-  void addCost(const Mesh& mesh, CellCost& cost) const override;
+  void addCost(const Mesh&, CellCost& cost) const override { work_.addCost(cost); }
 
   // Of a cell, in the order of the model.
   [[nodiscard]] std::span<double> densities(State& state, int cell) const;
@@ -71,9 +72,13 @@ class CarriedOperator : public Operator {
   };
   // Densities of the scalars (per m3), then concentrations of the exchanged species (mol/m3).
   void valuesOf(const State& state, int cell, std::span<double> values) const;
-  void pack(const State& state, const BusyCell& busy, double dt, std::vector<double>& in) const;
-  void solve(double time, double dt, std::span<const double> in, std::span<double> out) const;
-  void unpack(State& state, int cell, double dt, std::span<const double> out);
+  // How a cell comes back from whoever advanced its particles.
+  struct Result {
+    double cost, steps;
+  };
+  // Behind the gas, and behind the result: values as valuesOf(); behind the gas's also what else brings them.
+  [[nodiscard]] CarrierGas pack(const State& state, const BusyCell& busy, double dt, RowWriter rows) const;
+  [[nodiscard]] Result solve(double dt, const SharedCellWork::Task<CarrierGas>& task, RowWriter rows) const;
   // Gives the cell the values `after` in place of those it has.
   void take(State& state, int cell, double dt, std::span<const double> after);
   void rest(State& state, int cell, double dt);
@@ -84,17 +89,12 @@ class CarriedOperator : public Operator {
   CarriedModel& model_;
   std::size_t first_, scalars_;
   Options options_;
-  WorkSharing sharing_;
-  std::vector<double> cost_;        // of each owned cell's last advance
-  std::vector<double> costOfStep_;  // the sum of these over the step's sweeps; 0 where nothing was to be done
+  SharedCellWork work_;
   // Of each owned cell: its values at the end of the last step; their mean rates by the particles in it, and
   // the power that these gave to the gas, W/m3.
   std::vector<double> before_, rate_, heat_;
   double lastStep_ = 0.0;  // s
-  bool inStep_ = false;
-  long steps_ = 0;                  // since the start, on this rank
-  Imbalance imbalances_{0.0, 0.0};  // sums over the stages
-  int stages_ = 0;
+  long steps_ = 0;         // since the start, on this rank
   // Of the last row.
   double peak_ = 0.0;
   Vector3 place_{};

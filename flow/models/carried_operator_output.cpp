@@ -10,11 +10,6 @@
 
 namespace lampblack::flow {
 
-std::optional<Operator::Imbalance> CarriedOperator::imbalance() const {
-  if (stages_ == 0) return {};
-  return Imbalance{imbalances_.before / stages_, imbalances_.after / stages_};
-}
-
 std::vector<Quantity> CarriedOperator::historyColumns() const {
   const std::string material = model_.material();
   return {{"peak_" + material + "_volume_fraction", "1", "largest volume fraction of " + material},

@@ -8,6 +8,7 @@
 
 #include "core/errors.hpp"
 #include "core/gather.hpp"
+#include "core/packed_doubles.hpp"
 
 namespace lampblack::flow {
 namespace {
@@ -15,22 +16,10 @@ namespace {
 constexpr double solved = 1e-6;       // of the largest change, what the last iteration of an implicit part changed
 constexpr int mostIterations = 1000;  // of an implicit part
 
-// Reads values of a row one after the other.
-class Values {
- public:
-  explicit Values(std::span<const double> values) : values_(values) {}
-  [[nodiscard]] bool isAtEnd() const { return place_ == values_.size(); }
-  double next() { return values_[place_++]; }
-  std::vector<double> next(std::size_t count) {
-    const std::span<const double> row = values_.subspan(place_, count);
-    place_ += count;
-    return {row.begin(), row.end()};
-  }
-
- private:
-  std::span<const double> values_;
-  std::size_t place_ = 0;
-};
+std::vector<double> nextRow(PackedDoubles& values, std::size_t count) {
+  const std::span<const double> row = values.nextRow(count);
+  return {row.begin(), row.end()};
+}
 
 }  // namespace
 
@@ -53,20 +42,20 @@ void CoupledCells::gather(MPI_Comm comm) {
   links_.clear();
   const std::vector<double> allCells = gatheredFromAll<double>(comm, cells);
   const std::vector<double> allLinks = gatheredFromAll<double>(comm, links);
-  for (Values values(allCells); !values.isAtEnd();) {
+  for (PackedDoubles values(allCells); values.left() > 0;) {
     Cell& cell = cells_.emplace_back();
     cell.number = static_cast<std::int64_t>(values.next());
     for (double* value : {&cell.mass, &cell.pressure, &cell.temperature, &cell.enthalpy, &cell.referenceTemperature,
                           &cell.referenceEnthalpy, &cell.heat})
       *value = values.next();
-    for (auto* row : {&cell.Y, &cell.reference, &cell.brought, &cell.reacts}) *row = values.next(n_);
+    for (auto* row : {&cell.Y, &cell.reference, &cell.brought, &cell.reacts}) *row = nextRow(values, n_);
   }
-  for (Values values(allLinks); !values.isAtEnd();) {
+  for (PackedDoubles values(allLinks); values.left() > 0;) {
     Link& link = links_.emplace_back();
     for (std::int64_t* number : {&link.face, &link.low, &link.high}) *number = static_cast<std::int64_t>(values.next());
     link.flow = values.next();
     link.conducts = values.next();
-    link.diffuses = values.next(n_);
+    link.diffuses = nextRow(values, n_);
   }
   std::ranges::sort(cells_, {}, &Cell::number);
   std::ranges::sort(links_,
@@ -149,23 +138,26 @@ void CoupledCells::advanceReactions(MPI_Comm comm, const React& react, double pa
   std::vector<Reacting> reacting;
   for (const std::size_t i : own_) {
     Cell& cell = cells_[i];
-    reacting.push_back({cell.number, cell.temperature, cell.enthalpy, cell.pressure, heating_[i], initialStep_[i],
-                        cost_[i], cell.Y, source_[i]});
+    reacting.push_back({cell.number,
+                        {cell.enthalpy, heating_[i], cell.temperature, cell.pressure, firstStep_[i]},
+                        cost_[i],
+                        cell.Y,
+                        source_[i]});
   }
   react(reacting, part);
   std::vector<double> found;
   for (std::size_t own = 0; own < own_.size(); ++own) {
     const Reacting& cell = reacting[own];
-    initialStep_[own_[own]] = cell.initialStep;
+    firstStep_[own_[own]] = cell.gas.firstStep;
     cost_[own_[own]] = cell.cost;
-    found.insert(found.end(), {static_cast<double>(cell.number), cell.temperature});
+    found.insert(found.end(), {static_cast<double>(cell.number), cell.gas.temperature});
     found.insert(found.end(), cell.Y.begin(), cell.Y.end());
   }
   const std::vector<double> ofAll = gatheredFromAll<double>(comm, found);
-  for (Values values(ofAll); !values.isAtEnd();) {
+  for (PackedDoubles values(ofAll); values.left() > 0;) {
     Cell& cell = cells_[placeOf(static_cast<std::int64_t>(values.next()))];
     cell.temperature = values.next();
-    cell.Y = values.next(n_);
+    cell.Y = nextRow(values, n_);
   }
 }
 
@@ -176,7 +168,7 @@ void CoupledCells::advance(MPI_Comm comm, const React& react, const Thermo& ther
   made_.assign(count, std::vector<double>(n_, 0.0));
   source_.assign(count, std::vector<double>(n_));
   heating_.assign(count, 0.0);
-  initialStep_.assign(count, 0.0);
+  firstStep_.assign(count, 0.0);
   cost_.assign(count, 0.0);
   std::vector<double> masses(count), inertia(count), x(count), enthalpies(n_), h(n_), mean(n_), Y(n_);
   std::vector<std::vector<double>> moved(count, std::vector<double>(n_));  // differences after diffusion

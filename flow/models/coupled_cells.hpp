@@ -18,6 +18,7 @@
 
 #include "chemistry/thermo/thermo.hpp"
 #include "core/modules.hpp"
+#include "flow/models/cell_reactor.hpp"
 
 namespace lampblack::flow {
 
@@ -50,11 +51,7 @@ class CoupledCells {
   // A cell whose reactions are to be advanced, with all else as a constant source.
   struct Reacting {
     std::int64_t number = 0;
-    double temperature = 0.0;        // K, in and out
-    double enthalpy = 0.0;           // J/kg
-    double pressure = 0.0;           // Pa
-    double heating = 0.0;            // W/kg
-    double initialStep = 0.0;        // s, ConstantPressureReactor::Cell::initialStep, in and out
+    CellReactor::Gas gas;            // temperature and first step in and out
     double cost = 0.0;               // of the last part, out; zero at first
     std::span<double> Y;             // in and out
     std::span<const double> source;  // 1/s
@@ -88,7 +85,7 @@ class CoupledCells {
   std::vector<std::vector<double>> made_;
   // Of each cell: what everything but the reactions brings in the present part, 1/s and W/kg; and its reactor's.
   std::vector<std::vector<double>> source_;
-  std::vector<double> heating_, initialStep_, cost_;
+  std::vector<double> heating_, firstStep_, cost_;
 };
 
 }  // namespace lampblack::flow

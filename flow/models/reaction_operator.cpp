@@ -1,30 +1,18 @@
 #include "flow/models/reaction_operator.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
-#include "core/errors.hpp"
+#include "chemistry/reactor/reactor_failure.hpp"
+#include "core/group_failure.hpp"
+#include "flow/models/constant_pressure_cells.hpp"
 
 namespace lampblack::flow {
 
-// How a cell is packed for the trip to another rank and back.
-struct ReactionOperator::Layout {
-  // in: centre (2), enthalpy, its constant source, guess of the temperature, pressure, first step, natural number, Y,
-  // their constant sources
-  static constexpr std::size_t inHeader = 9;
-  // out: temperature, next first step, work, solver steps, retries, skipped, handed over, Y
-  static constexpr std::size_t outHeader = 7;
-};
-
 namespace {
-
-// Cells that are handed to the reactor at once: many more than it has lanes, so that few lanes wait for the last ones,
-// and few enough for their states to stay in the processor's cache.
-constexpr std::size_t cellsTogether = 256;
 
 // Steps of cells that are coupled with their neighbours: how much their reactions grow in a part, and in how many parts
 // at most, beyond which the step has to be shorter.
@@ -43,23 +31,26 @@ constexpr double firstCost = 1.0;  // before a cell was ever advanced: that of a
 
 }  // namespace
 
-ReactionOperator::ReactionOperator(const FlowContext& context, Options options)
+ReactionOperator::ReactionOperator(const FlowContext& context, const Options& options)
+    : ReactionOperator(context, options,
+                       std::make_unique<ConstantPressureCells>(context.mechanism, context.thermo, options.reactor)) {}
+
+ReactionOperator::ReactionOperator(const FlowContext& context, Options options, std::unique_ptr<CellReactor> reactor)
     : context_(context),
-      options_(options),
-      reactor_(context.mechanism, options.reactor),
-      sharing_(context.mesh.comm, options.shareWork),
-      cost_(context.mesh.owned, firstCost),
-      costOfStep_(cost_.size()),
-      initialStep_(context.mesh.owned, 0.0),
-      isLimited_(cost_.size()),
-      heatRelease_(cost_.size()),
-      growthRate_(context.mechanism, -100.0 * options.reactor.absoluteTolerance),
-      outruns_(cost_.size()),
-      isTaken_(cost_.size()),
-      grows_(cost_.size()),
-      fastest_(cost_.size()),
-      askedChange_(cost_.size()),
-      askedAgo_(cost_.size()) {}
+      options_(std::move(options)),
+      reactor_(std::move(reactor)),
+      // Some cells change between the methods from step to step: their costs are smoothed.
+      work_(context, {"chemistry", "chemistry", options_.shareWork, firstCost, true}),
+      initialStep_(static_cast<std::size_t>(context.mesh.owned)),
+      isLimited_(initialStep_.size()),
+      heatRelease_(initialStep_.size()),
+      growthRate_(context.mechanism, -100.0 * options_.reactor.absoluteTolerance),
+      outruns_(initialStep_.size()),
+      isTaken_(initialStep_.size()),
+      grows_(initialStep_.size()),
+      fastest_(initialStep_.size()),
+      askedChange_(initialStep_.size()),
+      askedAgo_(initialStep_.size()) {}
 
 // Of the gas in which transport counts the rate as one per mass.
 double ReactionOperator::densityOfRate(const State& state, std::size_t cell) const {
@@ -71,108 +62,57 @@ double ReactionOperator::meanDensity(const State& state, std::size_t cell) const
   return state.start.Y.empty() ? state.density[cell] : 0.5 * (state.start.density[cell] + state.density[cell]);
 }
 
-// What solve() reads in front of a cell's mass fractions and sources. `reactor`: enthalpy, heating, guess of the
-// temperature, pressure and first step.
-void ReactionOperator::packHead(std::size_t cell, const std::array<double, 5>& reactor, std::span<double> in) const {
-  const Vector3& centre = context_.mesh.centre[cell];
-  in[0] = centre[0];
-  in[1] = centre[1];
-  std::ranges::copy(reactor, in.begin() + 2);
-  in[7] = static_cast<double>(context_.mesh.naturalCell[cell]);
-  in[8] = centre[2];
-}
-
-void ReactionOperator::pack(const State& state, std::size_t cell, double dt, std::span<double> in) const {
-  const auto n = static_cast<std::size_t>(state.species);
-  const double* Y = &state.Y[cell * n];
-  const double* before = state.start.Y.empty() ? Y : &state.start.Y[cell * n];
-  const double enthalpy = state.start.Y.empty() ? state.enthalpy[cell] : state.start.enthalpy[cell];
-  const double pressure = state.start.Y.empty()
-                              ? state.thermodynamicPressure
-                              : 0.5 * (state.start.thermodynamicPressure + state.thermodynamicPressure);
-  packHead(cell,
-           {enthalpy, (state.enthalpy[cell] - enthalpy) / dt, state.temperature[cell], pressure, initialStep_[cell]},
-           in);
-  const std::span<double> start = in.subspan(Layout::inHeader, n);
-  const std::span<double> source = in.subspan(Layout::inHeader + n, n);
-  std::copy_n(before, n, start.begin());
-  // What transport alone has changed since then, at a constant rate.
-  const double density = densityOfRate(state, cell);
-  const double* rate = &state.balance.reactions[cell * n];
-  for (std::size_t k = 0; k < n; ++k) source[k] = (Y[k] - before[k]) / dt - rate[k] / density;
-}
-
-void ReactionOperator::solve(double time, double dt, std::span<const std::span<const double>> in,
-                             std::span<std::vector<double>> out) {
-  const std::size_t n = context_.mechanism.numSpecies(), count = in.size();
-  const auto failure = [&](std::size_t i, const std::string& reason) {
-    return NumericsError(fmt::format("chemistry failed in cell {:.0f} at {} at time {:.6g} s: {}", in[i][7],
-                                     placeText({in[i][0], in[i][1], in[i][8]}, context_.mesh.dimension), time, reason));
-  };
-  cells_.resize(count);
-  results_.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    out[i].resize(Layout::outHeader + n);
-    const std::span<double> Y = std::span(out[i]).subspan(Layout::outHeader);
-    std::ranges::copy(in[i].subspan(Layout::inHeader, n), Y.begin());
-    try {
-      cells_[i] = {context_.thermo.temperatureFromEnthalpy(in[i][2], Y, in[i][4]),
-                   in[i][5],
-                   Y,
-                   in[i].subspan(Layout::inHeader + n),
-                   in[i][6],
-                   in[i][3]};
-    } catch (const NumericsError& error) {
-      throw failure(i, error.what());
-    }
+void ReactionOperator::solve(double dt, std::span<const SharedCellWork::Task<CellReactor::Gas>> tasks,
+                             std::span<CellReactor::Result> results, std::span<RowWriter> rows) {
+  const std::size_t n = context_.mechanism.numSpecies();
+  cells_.resize(tasks.size());
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    const std::span<double> Y = rows[i].add(n);
+    std::ranges::copy(tasks[i].rows.first(n), Y.begin());
+    cells_[i] = {tasks[i].input, Y, tasks[i].rows.subspan(n)};
   }
   try {
-    reactor_.advance(cells_, dt, results_);
+    reactor_->advance(cells_, dt, results);
   } catch (const ReactorFailure& error) {
-    const std::size_t i = error.place();
-    const auto kept =
-        options_.keepFailed ? options_.keepFailed(static_cast<std::int64_t>(in[i][7]), error.cell()) : std::string();
-    throw failure(i, error.what() + kept);
-  }
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto& result = results_[i];
-    out[i][0] = cells_[i].temperature;
-    out[i][1] = cells_[i].initialStep;
-    out[i][2] = result.work;
-    out[i][3] = result.steps;
-    out[i][4] = result.retries;
-    out[i][5] = result.skipped ? 1.0 : 0.0;
-    out[i][6] = result.handedOver ? 1.0 : 0.0;
+    if (!options_.keepFailed) throw;
+    const auto number = static_cast<std::int64_t>(tasks[error.place()].label.number);
+    throw FailureInGroup(error.what() + options_.keepFailed(number, error.cell()), error.place());
   }
 }
 
-void ReactionOperator::unpack(State& state, std::size_t cell, double dt, std::span<const double> out) {
+ReactionOperator::Work ReactionOperator::workOver(double dt) {
+  Work work;
+  work.together = reactor_->cellsTogether();
+  work.advance = [this, dt](const auto& tasks, const auto& results, const auto& rows) {
+    solve(dt, tasks, results, rows);
+  };
+  return work;
+}
+
+void ReactionOperator::take(State& state, std::size_t cell, double dt, const CellReactor::Result& result,
+                            std::span<const double> reacted) {
   const auto n = static_cast<std::size_t>(state.species);
   const double density = meanDensity(state, cell), densityOfLast = densityOfRate(state, cell);
   for (std::size_t k = 0; k < n; ++k) {
     double& Y = state.Y[cell * n + k];
     double& rate = state.balance.reactions[cell * n + k];
-    const double reacted = out[Layout::outHeader + k];
-    rate = density * ((reacted - Y) / dt + rate / densityOfLast);
-    Y = reacted;
+    rate = density * ((reacted[k] - Y) / dt + rate / densityOfLast);
+    Y = reacted[k];
   }
   isLimited_[cell] = 0.0;
   // The reactor keeps the sum of Y, so that round-off in the rate would feed on itself.
   removeNetMass(state, cell);
-  state.temperature[cell] = out[0];
-  initialStep_[cell] = out[1];
-  cost_[cell] = 0.5 * (cost_[cell] + out[2]);  // some cells change between the methods from step to step
-  count(cell, out);
+  state.temperature[cell] = result.temperature;
+  initialStep_[cell] = result.firstStep;
+  count(result);
 }
 
-// What the reactor has done in a cell.
-void ReactionOperator::count(std::size_t cell, std::span<const double> out) {
-  costOfStep_[cell] += out[2];
-  diagnostics_.solverSteps += out[3];
-  diagnostics_.retries += out[4];
-  diagnostics_.skippedCells += out[5];
-  diagnostics_.integratedCells += 1.0 - out[5];
-  diagnostics_.handedOverCells += out[6];
+void ReactionOperator::count(const CellReactor::Result& result) {
+  diagnostics_.solverSteps += result.steps;
+  diagnostics_.retries += result.retries;
+  diagnostics_.skippedCells += result.isSkipped;
+  diagnostics_.integratedCells += 1.0 - result.isSkipped;
+  diagnostics_.handedOverCells += result.isHandedOver;
 }
 
 void ReactionOperator::removeNetMass(State& state, std::size_t cell) {
@@ -252,69 +192,64 @@ double ReactionOperator::largestStep(const State&) {
 }
 
 void ReactionOperator::react(std::span<CoupledCells::Reacting> cells, double time, double part) {
-  const std::size_t n = context_.mechanism.numSpecies();
-  WorkSharing::Items items;
-  std::vector<std::size_t> local;
+  std::vector<SharedCellWork::Item> items;
   for (const CoupledCells::Reacting& cell : cells) {
-    local.push_back(static_cast<std::size_t>(context_.mesh.findOwned(cell.number)));
-    items.cost.push_back(cell.cost > 0.0 ? cell.cost : cost_[local.back()]);
+    const int local = context_.mesh.findOwned(cell.number);
+    items.push_back({local, cell.cost > 0.0 ? cell.cost : work_.expectedCost(local)});
   }
-  items.pack = [&](std::size_t item, std::vector<double>& in) {
-    const CoupledCells::Reacting& cell = cells[item];
-    in.resize(Layout::inHeader);
-    packHead(local[item], {cell.enthalpy, cell.heating, cell.temperature, cell.pressure, cell.initialStep}, in);
-    in.insert(in.end(), cell.Y.begin(), cell.Y.end());
-    in.insert(in.end(), cell.source.begin(), cell.source.end());
+  Work work = workOver(part);
+  work.pack = [&](std::size_t item, RowWriter rows) {
+    rows.add(cells[item].Y);
+    rows.add(cells[item].source);
+    return cells[item].gas;
   };
-  items.groupSize = cellsTogether;
-  items.advanceGroup = [&](std::span<const std::span<const double>> in, std::span<std::vector<double>> out) {
-    solve(time, part, in, out);
-  };
-  items.unpack = [&](std::size_t item, std::span<const double> out) {
+  work.unpack = [&](std::size_t item, const CellReactor::Result& result, std::span<const double> Y) {
     CoupledCells::Reacting& cell = cells[item];
-    cell.temperature = out[0];
-    cell.initialStep = out[1];
-    cell.cost = out[2];
-    std::ranges::copy(out.subspan(Layout::outHeader, n), cell.Y.begin());
-    count(local[item], out);
+    cell.gas.temperature = result.temperature;
+    cell.gas.firstStep = result.firstStep;
+    cell.cost = result.cost;
+    std::ranges::copy(Y, cell.Y.begin());
+    count(result);
   };
-  items.work = [](std::span<const double> out) { return out[2]; };
-  sharing_.run(items);
+  work_.advance(items, time, work, SharedCellWork::Over::Part);
 }
 
 // Called by whatever comes first in a step.
 void ReactionOperator::begin(double dt) {
-  if (step_ == 0.0) std::ranges::fill(costOfStep_, 0.0);
+  work_.beginStep();
   step_ = dt;
 }
 
 void ReactionOperator::advance(State& state, double time, double dt) {
   begin(dt);
   const auto n = static_cast<std::size_t>(state.species);
-  WorkSharing::Items items;
-  std::vector<std::size_t> cells;
-  for (std::size_t cell = 0; cell < cost_.size(); ++cell) {
-    if (isTaken_[cell]) continue;
-    cells.push_back(cell);
-    items.cost.push_back(cost_[cell]);
-  }
-  items.pack = [&](std::size_t item, std::vector<double>& in) {
-    in.resize(Layout::inHeader + 2 * n);
-    pack(state, cells[item], dt, in);
+  const bool isFirst = state.start.Y.empty();  // no step was taken: there is but the present state
+  const std::vector<double>& startY = isFirst ? state.Y : state.start.Y;
+  const std::vector<double>& startEnthalpy = isFirst ? state.enthalpy : state.start.enthalpy;
+  const double pressure =
+      isFirst ? state.thermodynamicPressure : 0.5 * (state.start.thermodynamicPressure + state.thermodynamicPressure);
+  std::vector<SharedCellWork::Item> items;
+  for (int cell = 0; cell < context_.mesh.owned; ++cell)
+    if (!isTaken_[static_cast<std::size_t>(cell)]) items.push_back({cell, work_.expectedCost(cell)});
+  const auto cellOf = [&](std::size_t item) { return static_cast<std::size_t>(items[item].cell); };
+  Work work = workOver(dt);
+  work.pack = [&](std::size_t item, RowWriter rows) -> CellReactor::Gas {
+    const std::size_t cell = cellOf(item);
+    const double* Y = &state.Y[cell * n];
+    const double* before = &startY[cell * n];
+    const std::span<double> values = rows.add(2 * n), start = values.first(n), source = values.last(n);
+    std::copy_n(before, n, start.begin());
+    // What transport alone has changed since then, at a constant rate.
+    const double density = densityOfRate(state, cell);
+    const double* rate = &state.balance.reactions[cell * n];
+    for (std::size_t k = 0; k < n; ++k) source[k] = (Y[k] - before[k]) / dt - rate[k] / density;
+    return {startEnthalpy[cell], (state.enthalpy[cell] - startEnthalpy[cell]) / dt, state.temperature[cell], pressure,
+            initialStep_[cell]};
   };
-  items.groupSize = cellsTogether;
-  items.advanceGroup = [&](std::span<const std::span<const double>> in, std::span<std::vector<double>> out) {
-    solve(time, dt, in, out);
+  work.unpack = [&](std::size_t item, const CellReactor::Result& result, std::span<const double> Y) {
+    take(state, cellOf(item), dt, result, Y);
   };
-  items.unpack = [&](std::size_t item, std::span<const double> out) { unpack(state, cells[item], dt, out); };
-  items.work = [](std::span<const double> out) { return out[2]; };
-  const auto statistics = sharing_.run(items);
-  diagnostics_.imbalanceBefore += statistics.imbalanceBefore;
-  diagnostics_.imbalanceAfter += statistics.imbalanceAfter;
-  ++diagnostics_.stages;
-  imbalances_.before += statistics.imbalanceBefore;
-  imbalances_.after += statistics.imbalanceAfter;
-  ++stages_;
+  diagnostics_.imbalance.add(work_.advance(items, time, work));
   state.updateHalo(context_.halo);
 }
 
@@ -328,7 +263,7 @@ double heatRelease(const FlowContext& context, const State& state, std::size_t c
 
 void ReactionOperator::endStep(State& state) {
   if (step_ > 0.0 && !state.start.Y.empty())  // else the state is a new one
-    for (std::size_t cell = 0; cell < cost_.size(); ++cell) {
+    for (std::size_t cell = 0; cell < isLimited_.size(); ++cell) {
       limitRates(state, cell);
       diagnostics_.limitedCells += isLimited_[cell];
     }
@@ -336,6 +271,7 @@ void ReactionOperator::endStep(State& state) {
     diagnostics_.coupledCells += isTaken;
     isTaken = 0;
   }
+  work_.endStep();
   step_ = 0.0;
 }
 
@@ -345,7 +281,7 @@ void ReactionOperator::saveOrLoad(StateArchive& archive) {
     step_ = 0.0;
     std::ranges::fill(isTaken_, 0);
   }
-  archive.cells("chemistry_cost", cost_, 1);
+  work_.saveOrLoad(archive);
   archive.cells("chemistry_first_step", initialStep_, 1);
   archive.cells("chemistry_rate_is_limited", isLimited_, 1);
   archive.cells("heat_release", heatRelease_, 1);
@@ -357,21 +293,11 @@ void ReactionOperator::saveOrLoad(StateArchive& archive) {
                                 diagnostics_.handedOverCells, diagnostics_.retries,         diagnostics_.coupledCells,
                                 diagnostics_.limitedCells};
   archive.sums("chemistry_counts", counted);
-  std::vector<double> stages{diagnostics_.imbalanceBefore,
-                             diagnostics_.imbalanceAfter,
-                             static_cast<double>(diagnostics_.stages),
-                             imbalances_.before,
-                             imbalances_.after,
-                             static_cast<double>(stages_),
-                             growth_,
-                             growthInStep_};
-  archive.shared("chemistry_stages", stages);
-  diagnostics_ = {counted[0], counted[1], counted[2],   counted[3],   counted[4],
-                  counted[5], counted[6], stages.at(0), stages.at(1), static_cast<int>(stages.at(2))};
-  imbalances_ = {stages.at(3), stages.at(4)};
-  stages_ = static_cast<int>(stages.at(5));
-  growth_ = stages.at(6);
-  growthInStep_ = stages.at(7);
+  diagnostics_.imbalance.saveOrLoad(archive, "chemistry_imbalance_since_row");
+  diagnostics_ = {counted[0], counted[1], counted[2], counted[3],
+                  counted[4], counted[5], counted[6], diagnostics_.imbalance};
+  archive.shared("reaction_largest_growth", growth_);
+  archive.shared("reaction_growth_in_step", growthInStep_);
 }
 
 ReactionOperator::Diagnostics ReactionOperator::takeDiagnostics() {
@@ -386,10 +312,6 @@ ReactionOperator::Diagnostics ReactionOperator::takeDiagnostics() {
   all.retries = sums[4];
   all.limitedCells = sums[5];
   all.coupledCells = sums[6];
-  if (all.stages > 0) {
-    all.imbalanceBefore /= all.stages;
-    all.imbalanceAfter /= all.stages;
-  }
   diagnostics_ = {};
   return all;
 }
@@ -411,8 +333,9 @@ std::vector<Quantity> ReactionOperator::historyColumns() const {
 
 std::vector<double> ReactionOperator::historyValues(const State&) {
   const Diagnostics d = takeDiagnostics();
+  const Imbalance mean = d.imbalance.mean();
   return {d.solverSteps,  d.integratedCells, d.skippedCells, d.handedOverCells, d.retries,
-          d.limitedCells, d.coupledCells,    growthInStep_,  d.imbalanceBefore, d.imbalanceAfter};
+          d.limitedCells, d.coupledCells,    growthInStep_,  mean.before,       mean.after};
 }
 
 void ReactionOperator::fields(const State& state, const FieldSink& sink) const {
@@ -420,16 +343,6 @@ void ReactionOperator::fields(const State& state, const FieldSink& sink) const {
   for (std::size_t cell = 0; cell < heat.size(); ++cell)
     if (isLimited_[cell] == 0.0) heat[cell] = heatRelease(context_, state, cell, enthalpies);
   sink({"heat_release", "W/m^3", "heat set free by the gas reactions, mean of the last step"}, heat);
-}
-
-void ReactionOperator::addCost(const Mesh&, CellCost& cost) const {
-  std::vector<double>& to = options_.shareWork ? cost.shared : cost.own;
-  for (std::size_t cell = 0; cell < to.size(); ++cell) to[cell] += costOfStep_[cell];
-}
-
-std::optional<Operator::Imbalance> ReactionOperator::imbalance() const {
-  if (stages_ == 0) return {};
-  return Imbalance{imbalances_.before / stages_, imbalances_.after / stages_};
 }
 
 }  // namespace lampblack::flow

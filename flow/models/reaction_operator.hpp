@@ -1,5 +1,5 @@
-// Chemistry in every cell: a stiff solve at constant pressure and enthalpy, many cells at once, shared between the
-// ranks.
+// Chemistry in every cell by a CellReactor, a stiff solve at constant pressure and enthalpy where nothing else is asked
+// for: many cells at once, shared between the ranks.
 //
 // Coupling with transport. The reactions are integrated from the step's start with the transport of species and
 // enthalpy as a constant source, while transport was given the last sweep's mean reaction rate (by State::balance):
@@ -8,9 +8,10 @@
 // the transport, needs few steps.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,9 +20,10 @@
 #include "chemistry/reactor/reactor.hpp"
 #include "chemistry/reactor/reactor_failure.hpp"
 #include "core/modules.hpp"
-#include "core/work_sharing.hpp"
 #include "flow/flow_context.hpp"
+#include "flow/models/cell_reactor.hpp"
 #include "flow/models/coupled_cells.hpp"
+#include "flow/models/shared_cell_work.hpp"
 #include "flow/operator.hpp"
 
 namespace lampblack::flow {
@@ -42,13 +44,15 @@ class ReactionOperator : public Operator {
   struct Diagnostics {  // of all ranks and all stages since the last call of takeDiagnostics()
     double solverSteps = 0.0;
     double integratedCells = 0.0, skippedCells = 0.0, handedOverCells = 0.0, retries = 0.0;
-    double coupledCells = 0.0;                           // whose rates were found with their neighbours
-    double limitedCells = 0.0;                           // whose rates the next transport takes only in part
-    double imbalanceBefore = 0.0, imbalanceAfter = 0.0;  // means over stages
-    int stages = 0;
+    double coupledCells = 0.0;  // whose rates were found with their neighbours
+    double limitedCells = 0.0;  // whose rates the next transport takes only in part
+    MeanImbalance imbalance;
   };
 
-  ReactionOperator(const FlowContext& context, Options options);
+  // Closed vessels at constant pressure.
+  ReactionOperator(const FlowContext& context, const Options& options);
+  // What else `reactor` makes of cells.
+  ReactionOperator(const FlowContext& context, Options options, std::unique_ptr<CellReactor> reactor);
 
   void advance(State& state, double time, double dt) override;
   void endStep(State& state) override;
@@ -56,9 +60,10 @@ class ReactionOperator : public Operator {
   [[nodiscard]] const char* name() const override { return "chemistry"; }
   [[nodiscard]] std::vector<Quantity> historyColumns() const override;
   [[nodiscard]] std::vector<double> historyValues(const State& state) override;
-  [[nodiscard]] std::optional<Imbalance> imbalance() const override;
+  [[nodiscard]] std::optional<Imbalance> imbalance() const override { return work_.imbalance(); }
+  void beginRun() override { work_.beginRun(); }
   void fields(const State& state, const FieldSink& sink) const override;
-  void addCost(const Mesh& mesh, CellCost& cost) const override;
+  void addCost(const Mesh&, CellCost& cost) const override { work_.addCost(cost); }
   Diagnostics takeDiagnostics();  // collective
 
   // Cells whose reactions grow by more than a factor of e within a step (GrowthRate), or have done so since they burn:
@@ -81,27 +86,25 @@ class ReactionOperator : public Operator {
   [[nodiscard]] double largestStep(const State& state) override;
 
  private:
-  struct Layout;
+  using Work = SharedCellWork::Work<CellReactor::Gas, CellReactor::Result>;
   [[nodiscard]] double meanDensity(const State& state, std::size_t cell) const;
   [[nodiscard]] double densityOfRate(const State& state, std::size_t cell) const;
-  void packHead(std::size_t cell, const std::array<double, 5>& reactor, std::span<double> in) const;
-  void pack(const State& state, std::size_t cell, double dt, std::span<double> in) const;
-  void solve(double time, double dt, std::span<const std::span<const double>> in, std::span<std::vector<double>> out);
-  void unpack(State& state, std::size_t cell, double dt, std::span<const double> out);
-  void count(std::size_t cell, std::span<const double> out);
+  // Work whose items have mass fractions and their sources behind the gas; mass fractions come back.
+  [[nodiscard]] Work workOver(double dt);
+  void solve(double dt, std::span<const SharedCellWork::Task<CellReactor::Gas>> tasks,
+             std::span<CellReactor::Result> results, std::span<RowWriter> rows);
+  void take(State& state, std::size_t cell, double dt, const CellReactor::Result& result, std::span<const double> Y);
+  void count(const CellReactor::Result& result);
   void begin(double dt);
   void removeNetMass(State& state, std::size_t cell);
   void limitRates(State& state, std::size_t cell);
 
   const FlowContext& context_;
   Options options_;
-  ConstantPressureReactor reactor_;
-  std::vector<ConstantPressureReactor::Cell> cells_;  // of solve()
-  std::vector<ConstantPressureReactor::Result> results_;
-  WorkSharing sharing_;
-  std::vector<double> cost_;         // ConstantPressureReactor::Result::work, smoothed, of each owned cell
-  std::vector<double> costOfStep_;   // the sum of these over the step's sweeps
-  std::vector<double> initialStep_;  // s, ConstantPressureReactor::Cell::initialStep of the next solve
+  std::unique_ptr<CellReactor> reactor_;
+  std::vector<CellReactor::Cell> cells_;  // of solve()
+  SharedCellWork work_;
+  std::vector<double> initialStep_;  // s, CellReactor::Gas::firstStep of the next solve
   double step_ = 0.0;                // s, the present; zero between steps
   std::vector<double> isLimited_;    // 1 or 0, owned cells: whether rates are less than found (limitRates)
   std::vector<double> heatRelease_;  // W/m3, of the last step, where rates are limited
@@ -115,8 +118,6 @@ class ReactionOperator : public Operator {
   double growthInStep_ = 0.0;            // the largest of the last step's start, times that step
   int parts_ = 1;
   Diagnostics diagnostics_;
-  Imbalance imbalances_{0.0, 0.0};  // sums over all stages
-  int stages_ = 0;
 };
 
 }  // namespace lampblack::flow

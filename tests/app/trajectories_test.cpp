@@ -56,7 +56,7 @@ void writeTrajectories(MPI_Comm comm, const fs::path& path, std::uint64_t seed,
   flame.flowCase.trajectories->starts = starts;
   flame.flowCase.trajectories->duration = 2e-3;
   ResultsWriter results(comm, path, {}, meshOutput(flame.mesh));
-  runTrajectories(flame.context, flame.flowCase, flame.state, flame.properties, results);
+  Trajectories(flame.flowCase).run(flame.context, flame.state, flame.properties, results);
   results.close();
 }
 
@@ -82,7 +82,7 @@ TEST(Trajectories, TheTableOfTheGasIsThePath) {
   request.gasTables = true;
   request.particles = 6000;
   ResultsWriter results(MPI_COMM_WORLD, folder.results(), {}, meshOutput(flame.mesh));
-  runTrajectories(flame.context, flame.flowCase, flame.state, flame.properties, results, &folder);
+  Trajectories(flame.flowCase).run(flame.context, flame.state, flame.properties, results, &folder);
   results.close();
   MPI_Barrier(MPI_COMM_WORLD);
   const Datasets all = readTrajectories(folder.results());
@@ -181,7 +181,7 @@ TEST(Trajectories, StartWhereThereAreCells) {
                     sides = sidesOfPlane + "  rod: {type: wall, solid: rod}\n";
   const auto check = [&](const std::string& start) {
     Starts starts(pathsDeck("planar", axesOfPlane, solid, start, sides));
-    requireStartsInside(starts.context, *starts.flowCase.trajectories);
+    Trajectories(starts.flowCase).check(starts.context);
   };
   EXPECT_NO_THROW(check("{x: 1.5 mm, y: 2 mm}"));
   for (const auto& [start, expected] :
@@ -206,7 +206,7 @@ Datasets pathsBesideASolid(const fs::path& folder, double timeStep, double durat
   GasProperties properties;
   properties.update(flow.context, state);
   ResultsWriter results(MPI_COMM_WORLD, folder / "results.h5", {}, meshOutput(flow.mesh));
-  runTrajectories(flow.context, flow.flowCase, state, properties, results);
+  Trajectories(flow.flowCase).run(flow.context, state, properties, results);
   results.close();
   return test::worldRank() == 0 ? readTrajectories(folder / "results.h5") : Datasets{};
 }

@@ -224,7 +224,7 @@ TEST(EnsembleOperator, GoesOnInAGasThatIsHeld) {
   o.frozenFrom = 4.5 * Vessel::dt;
   Vessel v(o);
   for (int s = 0; s < 5; ++s) v.step();
-  ASSERT_TRUE(v.ensembles.isGasFrozen(v.time));
+  ASSERT_TRUE(v.ensembles.holdsOthers(v.time));
   const std::vector<double> T = v.state.temperature;
   const double carbon = v.contentOf("C"), soot = v.state.carried[CellSoot::carbon];
   const auto hold = [](Vessel& vessel) {

@@ -80,10 +80,11 @@ TEST(EnsembleSizes, OfARegionAreTheSameBitsOnAnyRanks) {
   for (const bool coalescing : {true, false}) {
     const RowSizes of{SootAggregate(density, coalescing), {packedHead}};
     const auto whole = populations(alone, coalescing), parts = populations(shared, coalescing);
-    const EnsembleRegion one(alone, from, to), same(shared, from, to);
-    const std::vector<double> sizes = one.sizeRows(of, bins, whole), joint = one.jointRows(of, bins, whole);
-    EXPECT_EQ(same.sizeRows(of, bins, parts), sizes);
-    EXPECT_EQ(same.jointRows(of, bins, parts), joint);
+    const MeshRegion one(alone, from, to), same(shared, from, to);
+    const std::vector<double> sizes = regionSizeRows(of, bins, one, whole),
+                              joint = regionJointRows(of, bins, one, whole);
+    EXPECT_EQ(regionSizeRows(of, bins, same, parts), sizes);
+    EXPECT_EQ(regionJointRows(of, bins, same, parts), joint);
     // Against the particles, one by one.
     double volume = 0.0, number = 0.0, mass = 0.0, surface = 0.0, large = 0.0;
     for (int c = 0; c < alone.owned; ++c) {
@@ -123,7 +124,7 @@ TEST(EnsembleSizes, OfARegionAreTheSameBitsOnAnyRanks) {
     EXPECT_NEAR(sums[2] * volume / surface, 1.0, 1e-12);
     EXPECT_NEAR(sums[3] * volume, large, 1e-12 * number);
   }
-  EXPECT_TRUE(EnsembleRegion(shared, {2.1e-3, 1e-3, 0.0}, {2.4e-3, 5e-3, 0.0}).isEmpty());
+  EXPECT_TRUE(MeshRegion(shared, {2.1e-3, 1e-3, 0.0}, {2.4e-3, 5e-3, 0.0}).isEmpty());
 }
 
 }  // namespace

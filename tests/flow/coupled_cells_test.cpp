@@ -8,6 +8,7 @@
 
 #include "chemistry/reactor/growth_rate.hpp"
 #include "core/errors.hpp"
+#include "flow/models/constant_pressure_cells.hpp"
 #include "flow/models/reaction_operator.hpp"
 #include "flow/stepping/budget.hpp"
 #include "flow/stepping/transport_operator.hpp"
@@ -48,19 +49,15 @@ TEST(GrowthRates, OfWhatDecaysAreNone) {
 }
 
 // Cells one by one.
-CoupledCells::React reactEachWith(ConstantPressureReactor& reactor) {
-  return [&reactor](std::span<CoupledCells::Reacting> own, double part) {
-    const Thermo& thermo = Gas::hydrogen().thermo;
+CoupledCells::React reactEach() {
+  return [](std::span<CoupledCells::Reacting> own, double part) {
+    ConstantPressureCells reactor(Gas::hydrogen().mechanism, Gas::hydrogen().thermo, {});
     for (CoupledCells::Reacting& one : own) {
-      ConstantPressureReactor::Cell cell{thermo.temperatureFromEnthalpy(one.enthalpy, one.Y, one.temperature),
-                                         one.pressure,
-                                         one.Y,
-                                         one.source,
-                                         one.initialStep,
-                                         one.heating};
-      reactor.advance(cell, part);
-      one.temperature = cell.temperature;
-      one.initialStep = cell.initialStep;
+      const CellReactor::Cell cell{one.gas, one.Y, one.source};
+      CellReactor::Result result;
+      reactor.advance({&cell, 1}, part, {&result, 1});
+      one.gas.temperature = result.temperature;
+      one.gas.firstStep = result.firstStep;
     }
   };
 }
@@ -83,7 +80,7 @@ TEST(CoupledCell, AloneIsAReactor) {
   int advanced = 0;
   const auto react = [&](std::span<CoupledCells::Reacting> own, double part) {
     advanced += static_cast<int>(own.size());
-    reactEachWith(reactor)(own, part);
+    reactEach()(own, part);
   };
   cells.advance(MPI_COMM_WORLD, react, gas.thermo, dt, 4);
   EXPECT_EQ(advanced, rank == 0 ? 4 : 0) << "each rank its own";
@@ -122,8 +119,7 @@ TEST(CoupledCell, WithAnotherIsTheSameOnAnyRank) {
     }
     if (rank == 0) cells.add(CoupledCells::Link{4, 3, 8, 2e-5, 1e-2, std::vector<double>(n, 4e-5)});
     cells.gather(MPI_COMM_WORLD);
-    ConstantPressureReactor reactor(gas.mechanism);
-    cells.advance(MPI_COMM_WORLD, reactEachWith(reactor), gas.thermo, 4e-5, 5);
+    cells.advance(MPI_COMM_WORLD, reactEach(), gas.thermo, 4e-5, 5);
     std::vector<double> made;
     for (const int number : {3, 8}) made.insert(made.end(), cells.made(number).begin(), cells.made(number).end());
     return made;

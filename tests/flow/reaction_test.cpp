@@ -76,7 +76,7 @@ TEST_F(Reacting, ColdCellsAreSkipped) {
   EXPECT_EQ(diagnostics.skippedCells, 24.0);
   EXPECT_EQ(diagnostics.integratedCells, 24.0);
   EXPECT_GT(diagnostics.solverSteps, 24.0);
-  EXPECT_EQ(chemistry.takeDiagnostics().stages, 0);
+  EXPECT_EQ(chemistry.takeDiagnostics().imbalance.stages(), 0);
   for (int c = 0; c < box.mesh.owned; ++c)
     if (box.mesh.centre[at(c)][0] < 0.004) {
       EXPECT_NEAR(state.temperature[at(c)], 300.0, 1e-6);
@@ -241,6 +241,70 @@ TEST_F(Reacting, WhatVanishesInAStepLeavesNoHole) {
   EXPECT_GT(maxOverRanks(heat), 0.0);
   EXPECT_GT(minOverRanks(smallest), -1e-9 * started);  // with all of the rates: -1e-6
   for (const auto& line : budget.lines(state)) EXPECT_LE(line.error, 1e-11) << line.name;
+}
+
+// Another way to advance a cell: a stirred reactor that takes in air, whose gas does not react.
+class StirredCells final : public CellReactor {
+ public:
+  StirredCells(std::vector<double> inflow, double residenceTime)
+      : inflow_(std::move(inflow)), residenceTime_(residenceTime) {}
+  [[nodiscard]] std::size_t cellsTogether() const override { return 3; }
+  void advance(std::span<const Cell> cells, double dt, std::span<Result> results) override {
+    ASSERT_LE(cells.size(), cellsTogether());
+    const double stays = std::exp(-dt / residenceTime_);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      for (std::size_t k = 0; k < inflow_.size(); ++k)
+        cells[i].Y[k] = inflow_[k] + stays * (cells[i].Y[k] - inflow_[k]);
+      const double at = cells[i].gas.temperature;
+      results[i] = {
+          at + 1.0, cells[i].gas.firstStep + dt, 2.0, 5.0, 1.0, at < 301.0 ? 1.0 : 0.0, at < 301.0 ? 0.0 : 1.0};
+    }
+  }
+
+ private:
+  std::vector<double> inflow_;
+  double residenceTime_;
+};
+
+TEST_F(Reacting, CellsAreAdvancedByAnyReactor) {
+  State state = box.state([&](const auto& x) { return halfHot(x); });
+  const State start = state;
+  const double dt = 1e-4, residenceTime = 3e-4;
+  ReactionOperator chemistry(box.context, options(true), std::make_unique<StirredCells>(air, residenceTime));
+  chemistry.advance(state, 0.0, dt);
+  const std::size_t n = gas.mechanism.numSpecies();
+  const double stays = std::exp(-dt / residenceTime);
+  for (int c = 0; c < box.mesh.owned; ++c) {
+    EXPECT_EQ(state.temperature[at(c)], start.temperature[at(c)] + 1.0);
+    for (std::size_t k = 0; k < n; ++k) {
+      const double Y = air[k] + stays * (start.Y[at(c) * n + k] - air[k]);
+      EXPECT_NEAR(state.Y[at(c) * n + k], Y, 4.0 * epsilon);
+      EXPECT_NEAR(state.balance.reactions[at(c) * n + k], start.density[at(c)] * (Y - start.Y[at(c) * n + k]) / dt,
+                  1e-9);
+    }
+  }
+  CellCost cost(box.mesh.owned);
+  chemistry.addCost(box.mesh, cost);
+  for (const double one : cost.shared) EXPECT_EQ(one, 2.0);
+  const auto found = chemistry.takeDiagnostics();
+  EXPECT_EQ(found.solverSteps, 48.0 * 5.0);
+  EXPECT_EQ(found.retries, 48.0);
+  EXPECT_EQ(found.skippedCells, 24.0);
+  EXPECT_EQ(found.integratedCells, 24.0);
+  EXPECT_EQ(found.handedOverCells, 24.0);
+
+  // Cells that go together with their neighbours are advanced by it too, each from where its part begins.
+  std::vector<double> Y = premixed, source(n, 0.0);
+  std::vector<CoupledCells::Reacting> together;
+  if (box.mesh.owned > 2)
+    together.push_back({box.mesh.naturalCell[2], {1e5, 0.0, 700.0, 101325.0, 2e-6}, 0.0, Y, source});
+  chemistry.react(together, 0.0, dt);
+  for (const CoupledCells::Reacting& cell : together) {
+    EXPECT_EQ(cell.gas.temperature, 701.0);
+    EXPECT_EQ(cell.gas.firstStep, 2e-6 + dt);
+    EXPECT_EQ(cell.cost, 2.0);
+    for (std::size_t k = 0; k < n; ++k) EXPECT_NEAR(Y[k], air[k] + stays * (premixed[k] - air[k]), 4.0 * epsilon);
+  }
 }
 
 TEST_F(Reacting, FailureNamesTheCellOnAllRanks) {

@@ -1,0 +1,30 @@
+#include "flow/models/constant_pressure_cells.hpp"
+
+#include "core/group_failure.hpp"
+
+namespace lampblack::flow {
+
+void ConstantPressureCells::advance(std::span<const Cell> cells, double dt, std::span<Result> results) {
+  cells_.resize(cells.size());
+  found_.resize(cells.size());
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const auto& [gas, Y, source] = cells[i];
+    try {
+      const double temperature = thermo_.temperatureFromEnthalpy(gas.enthalpy, Y, gas.temperature);
+      cells_[i] = {temperature, gas.pressure, Y, source, gas.firstStep, gas.heating};
+    } catch (const NumericsError& error) {
+      throw FailureInGroup(error.what(), i);
+    }
+  }
+  reactor_.advance(cells_, dt, found_);
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    results[i] = {cells_[i].temperature,
+                  cells_[i].initialStep,
+                  found_[i].work,
+                  static_cast<double>(found_[i].steps),
+                  static_cast<double>(found_[i].retries),
+                  found_[i].skipped ? 1.0 : 0.0,
+                  found_[i].handedOver ? 1.0 : 0.0};
+}
+
+}  // namespace lampblack::flow
