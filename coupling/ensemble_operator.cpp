@@ -31,12 +31,13 @@ double EnsembleOperator::absorption(const CellParticles& particles, Exchange exc
 }
 
 EnsembleOperator::EnsembleOperator(const FlowContext& context, const TransportOperator& flow,
-                                   std::shared_ptr<CellParticles> particles, Options options)
+                                   std::shared_ptr<CellParticles> particles, Options options, std::size_t first)
     : context_(context),
       flow_(flow),
       options_(std::move(options)),
       particles_(std::move(particles)),
       amounts_(particles_->amounts()),
+      first_(first),
       transport_(context, {particles_->sizes().type, waldmannThermophoresis(), options_.diffusion, options_.secondOrder,
                            options_.seed, particles_->rows()}),
       exchange_(context),
@@ -72,14 +73,13 @@ void EnsembleOperator::initialise(State& state, int cell, std::vector<double> po
 }
 
 void EnsembleOperator::setAmounts(State& state, int cell) const {
-  const std::span<double> amount(&state.carried[static_cast<std::size_t>(cell) * state.scalars.size()],
-                                 amounts_.owedElement(0));
+  const std::span<double> amount(&state.carried[amountsAt(state, cell)], amounts_.owedElement(0));
   std::ranges::fill(amount, 0.0);
   particles_->addAmounts(populations_[cell], amount);
 }
 
 void EnsembleOperator::setOwed(State& state, int cell) const {
-  double* amount = &state.carried[static_cast<std::size_t>(cell) * state.scalars.size()];
+  double* amount = &state.carried[amountsAt(state, cell)];
   const double* reserve = &reserve_[static_cast<std::size_t>(cell) * reserveWidth()];
   const std::size_t species = particles_->species().size();
   for (std::size_t element = 0; element < amounts_.owed; ++element) {
@@ -242,7 +242,7 @@ void EnsembleOperator::countOutflow() {
 void EnsembleOperator::addToStatistics(const State& state) {
   if (!statistics_) return;
   const auto amountsOf = [&](int cell) {
-    const double* amount = &state.carried[static_cast<std::size_t>(cell) * state.scalars.size()];
+    const double* amount = &state.carried[amountsAt(state, cell)];
     return EnsembleStatistics::CellAmounts{
         amount[AmountPlaces::number], particles_->volumeOf({amount, amounts_.count()}), amount[amounts_.primaries()],
         amount[amounts_.surface()], amount[amounts_.diameters()]};

@@ -63,10 +63,10 @@ class EnsembleOperator : public Operator {
   [[nodiscard]] static double absorption(const CellParticles& particles, Exchange exchange, double temperature,
                                          std::span<const double> amounts);
 
-  // `flow` moves the gas, before this operator in every sweep. The amounts of the particles (AmountPlaces) stand first
-  // in State::carried.
+  // `flow` moves the gas, before this operator in every sweep. The amounts of the particles (AmountPlaces) stand in
+  // State::carried from `first` on.
   EnsembleOperator(const FlowContext& context, const TransportOperator& flow, std::shared_ptr<CellParticles> particles,
-                   Options options);
+                   Options options, std::size_t first = 0);
 
   [[nodiscard]] const char* name() const override { return "ensembles"; }
   void advance(State& state, double time, double dt) override;
@@ -126,6 +126,10 @@ class EnsembleOperator : public Operator {
   Packed pack(const State& state, int cell, RowWriter rows);
   Result solve(double dt, const SharedCellWork::Task<Packed>& task, RowWriter rows);
   void take(State& state, int cell, bool isHeld, std::span<const double> rows);
+  // The first of a cell's amounts.
+  [[nodiscard]] std::size_t amountsAt(const State& state, int cell) const {
+    return static_cast<std::size_t>(cell) * state.scalars.size() + first_;
+  }
   void setAmounts(State& state, int cell) const;
   // The packed population of a cell, to put particles behind it.
   std::vector<double>& openPopulation(int cell);
@@ -143,6 +147,7 @@ class EnsembleOperator : public Operator {
   Options options_;
   std::shared_ptr<CellParticles> particles_;
   AmountPlaces amounts_;
+  std::size_t first_;
   EnsembleTransport transport_;
   GasExchange exchange_;
   SharedCellWork work_;

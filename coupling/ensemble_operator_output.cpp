@@ -51,7 +51,7 @@ std::vector<Quantity> EnsembleOperator::historyColumns() const {
 std::vector<double> EnsembleOperator::historyValues(const State& state) {
   const Mesh& m = context_.mesh;
   const Peak peak = peakOf(m, [&](int cell) {
-    const double* amount = &state.carried[static_cast<std::size_t>(cell) * state.scalars.size()];
+    const double* amount = &state.carried[amountsAt(state, cell)];
     return particles_->volumeOf({amount, amounts_.count()});
   });
   peak_ = peak.value;
@@ -89,17 +89,17 @@ std::vector<std::string> EnsembleOperator::closingLines() const {
 
 void EnsembleOperator::fields(const State& state, const FieldSink& sink) const {
   const auto owned = static_cast<std::size_t>(context_.mesh.owned);
-  const std::size_t n = state.scalars.size();
   const std::string& material = particles_->material();
   const ParticleRows& rows = particles_->rows();
   std::vector<double> column(owned);
   for (std::size_t s = 0; s < amounts_.count(); ++s) {
-    for (std::size_t c = 0; c < owned; ++c) column[c] = state.carried[c * n + s];
-    sink({state.scalars[s].name, state.scalars[s].unit, state.scalars[s].description}, column);
+    for (std::size_t c = 0; c < owned; ++c) column[c] = state.carried[amountsAt(state, static_cast<int>(c)) + s];
+    const CarriedScalar& scalar = state.scalars[first_ + s];
+    sink({scalar.name, scalar.unit, scalar.description}, column);
   }
   std::vector<ParticleProperties> all;
   for (std::size_t c = 0; c < owned; ++c)
-    all.push_back(propertiesOf({&state.carried[c * n], amounts_.count()}, *particles_));
+    all.push_back(propertiesOf({&state.carried[amountsAt(state, static_cast<int>(c))], amounts_.count()}, *particles_));
   for (const ParticlePropertyName& property : particlePropertyNames) {
     for (std::size_t c = 0; c < owned; ++c) column[c] = all[c].*property.value;
     sink({material + "_" + property.name, property.unit, property.description}, column);

@@ -19,7 +19,7 @@ void setInitialFields(const FlowContext& context, const InitialFields& fields, S
         if (fields.velocity[i]) state.velocity[d * c + i] = fields.velocity[i](m.centre[c], 0.0);
       if (fields.swirl) state.swirl[c] = fields.swirl(m.centre[c], 0.0);
       for (std::size_t s = 0; s < fields.carried.size(); ++s)
-        state.carried[c * fields.carried.size() + s] = fields.carried[s](m.centre[c], 0.0);
+        state.carried[c * state.scalars.size() + s] = fields.carried[s](m.centre[c], 0.0);
       Y.assign(&state.Y[c * n], &state.Y[c * n] + n);
       double T = state.temperature[c];
       fields.gas.apply(m.centre[c], 0.0, context.thermo, T, Y);

@@ -17,7 +17,7 @@ struct InitialFields {
   std::array<FieldFunction, 3> velocity;        // m/s, along the mesh's axes; empty: at rest
   FieldFunction swirl;                          // m/s, about the axis; empty: none, or at rest
   std::optional<double> thermodynamicPressure;  // Pa, of a closed vessel; none: that of before
-  std::vector<FieldFunction> carried;           // per m3, of each carried scalar; empty: none
+  std::vector<FieldFunction> carried;           // per m3, of each carried scalar of all blocks; empty: none
 
   [[nodiscard]] bool isEmpty() const {
     return gas.isEmpty() && !velocity[0] && !velocity[1] && !velocity[2] && !swirl && carried.empty();

@@ -1,32 +1,29 @@
 #include "flow/state.hpp"
 
 #include <algorithm>
-#include <utility>
+#include <stdexcept>
+
+#include "flow/field_registry.hpp"
 
 namespace lampblack::flow {
 
-State::State(const Mesh& mesh, std::size_t speciesCount, std::vector<CarriedScalar> carriedScalars, bool turns)
-    : species(static_cast<int>(speciesCount)),
-      dimension(mesh.dimension),
-      swirls(turns),
-      scalars(std::move(carriedScalars)) {
-  const auto cells = static_cast<std::size_t>(mesh.cells);
-  velocity.assign(static_cast<std::size_t>(dimension) * cells, 0.0);
-  if (swirls) swirl.assign(cells, 0.0);
-  pressure.assign(cells, 0.0);
-  temperature.assign(cells, 0.0);
-  density.assign(cells, 0.0);
-  enthalpy.assign(cells, 0.0);
-  Y.assign(cells * speciesCount, 0.0);
-  carried.assign(cells * scalars.size(), 0.0);
-  carriedDiffusivity.assign(cells * scalars.size(), 0.0);
-  const auto owned = static_cast<std::size_t>(mesh.owned);
-  balance = {std::vector<double>(owned * speciesCount),
-             {},
-             {},
-             std::vector<double>(owned),
-             std::vector<double>(owned * scalars.size())};
-  massFlux.assign(static_cast<std::size_t>(mesh.faces), 0.0);
+State::State(const Mesh& mesh, std::size_t speciesCount, const std::vector<ScalarBlock>& carriedBlocks, bool turns)
+    : species(static_cast<int>(speciesCount)), dimension(mesh.dimension), swirls(turns) {
+  for (const ScalarBlock& block : carriedBlocks) {
+    if (std::ranges::find(blocks, block.owner, &ScalarRange::owner) != blocks.end())
+      throw std::logic_error("two blocks of carried scalars of " + block.owner);
+    blocks.push_back({block.owner, carriedCount(), static_cast<int>(block.scalars.size())});
+    scalars.insert(scalars.end(), block.scalars.begin(), block.scalars.end());
+  }
+  for (const FieldDeclaration& field : fieldRegistry())
+    field.of(*this).assign(
+        static_cast<std::size_t>(field.countIn(mesh)) * static_cast<std::size_t>(field.widthIn(*this)), 0.0);
+}
+
+const ScalarRange& State::block(const std::string& owner) const {
+  const auto found = std::ranges::find(blocks, owner, &ScalarRange::owner);
+  if (found == blocks.end()) throw std::logic_error("nothing is carried for " + owner);
+  return *found;
 }
 
 void State::Balance::ofSpecies(std::size_t cell, std::span<double> rate) const {
@@ -53,39 +50,28 @@ void State::Balance::clear() {
 }
 
 void State::keepStart() {
-  const auto owned = static_cast<std::ptrdiff_t>(balance.enthalpy.size());
-  start.Y = Y;
-  start.density.assign(density.begin(), density.begin() + owned);
-  start.enthalpy.assign(enthalpy.begin(), enthalpy.begin() + owned);
+  for (const FieldDeclaration& field : fieldRegistry())
+    if (field.start) start.*field.start = field.of(*this);
   start.thermodynamicPressure = thermodynamicPressure;
 }
 
 void State::updateHalo(HaloExchange& halo) {
-  std::vector<FieldView> fields{{velocity, dimension}, {pressure, 1}, {temperature, 1},
-                                {density, 1},          {enthalpy, 1}, {Y, species}};
-  if (swirls) fields.push_back({swirl, 1});
-  if (!scalars.empty()) {
-    fields.push_back({carried, carriedCount()});
-    fields.push_back({carriedDiffusivity, carriedCount()});
-  }
+  std::vector<FieldView> fields;
+  for (const FieldDeclaration& field : fieldRegistry())
+    if (const int width = field.widthIn(*this); field.isInHalo && width > 0) fields.push_back({field.of(*this), width});
   halo.update(fields);
 }
 
 void State::saveOrLoad(StateArchive& archive) {
   archive.shared("thermodynamic_pressure", thermodynamicPressure);
-  archive.cells("velocity", velocity, dimension);
-  if (swirls) archive.cells("swirl", swirl, 1);
-  archive.cells("pressure", pressure, 1);
-  archive.cells("temperature", temperature, 1);
-  archive.cells("density", density, 1);
-  archive.cells("enthalpy", enthalpy, 1);
-  archive.cells("Y", Y, species);
-  if (!scalars.empty()) {
-    archive.cells("carried", carried, carriedCount());
-    archive.cells("carried_diffusivity", carriedDiffusivity, carriedCount());
+  for (const FieldDeclaration& field : fieldRegistry()) {
+    const int width = field.widthIn(*this);
+    if (!field.archived || width == 0) continue;
+    if (field.kind == FieldDeclaration::Kind::FaceFlux)
+      archive.faces(field.archived, field.of(*this), width);
+    else
+      archive.cells(field.archived, field.of(*this), width);
   }
-  archive.faces("mass_flux", massFlux, 1);
-  archive.cells("reaction_rates", balance.reactions, species);
 }
 
 }  // namespace lampblack::flow

@@ -9,29 +9,21 @@
 #include "core/mesh.hpp"
 #include "core/modules.hpp"
 #include "core/state_archive.hpp"
+#include "flow/scalar_block.hpp"
 
 namespace lampblack::flow {
 
-// A quantity that the flow carries without knowing what it means (soot number, sections, moments): its density per
-// volume is transported by the gas velocity, thermophoresis, and a diffusivity that its model sets.
-struct CarriedScalar {
-  std::string name;
-  std::string unit;
-  std::string description;
-  // Drift velocity -thermophoresis * (mu/rho) * grad T / T; 0: none.
-  double thermophoresis = 0.0;
-  // false: its owner moves what it stands for, and sets it anew in every step; transport leaves it as it is.
-  bool isTransported = true;
-};
-
 struct State {
-  // `turns`: an axisymmetric flow with swirl.
-  State(const Mesh& mesh, std::size_t species, std::vector<CarriedScalar> carried, bool turns = false);
+  // `turns`: an axisymmetric flow with swirl. Fields have their sizes by fieldRegistry(). std::logic_error for two
+  // blocks of one owner.
+  State(const Mesh& mesh, std::size_t species, const std::vector<ScalarBlock>& carried, bool turns = false);
 
   int species = 0;
   int dimension = 2;
   bool swirls = false;
-  std::vector<CarriedScalar> scalars;
+  std::vector<ScalarRange> blocks;                                         // of carried scalars, one behind the other
+  std::vector<CarriedScalar> scalars;                                      // of all blocks
+  [[nodiscard]] const ScalarRange& block(const std::string& owner) const;  // std::logic_error
   [[nodiscard]] int carriedCount() const { return static_cast<int>(scalars.size()); }
 
   double thermodynamicPressure = 101325.0;  // Pa, uniform
@@ -65,19 +57,18 @@ struct State {
   // The step's start, which the first operator of a step keeps and the others read: what they change is counted from
   // there. Empty before the first step: nothing has changed yet.
   struct Start {
-    std::vector<double> Y;                  // of all local cells
-    std::vector<double> density, enthalpy;  // of the owned cells
-    double thermodynamicPressure = 0.0;     // Pa
+    std::vector<double> Y, density, enthalpy;
+    double thermodynamicPressure = 0.0;  // Pa
   } start;
   void keepStart();
 
   // kg/s (per metre depth or radian) through each face, positive from low to high or outwards.
   std::vector<double> massFlux;
 
-  // Fills the halo of everything a neighbour needs.
+  // Fills the halo of every field that a neighbour needs.
   void updateHalo(HaloExchange& halo);
 
-  // Everything above but the start. The halo of a loaded state has to be updated.
+  // The thermodynamic pressure, and every field that checkpoints have. The halo of a loaded state has to be updated.
   void saveOrLoad(StateArchive& archive);
 };
 

@@ -50,7 +50,8 @@ Stream streamOf(const Deck& deck, const std::string& key, const FlowCase& flowCa
 std::vector<std::string> carriedNames(const FlowCase& flowCase) {
   std::vector<std::string> names;
   if (flowCase.carried)
-    for (const CarriedScalar& scalar : CarriedOperator::scalarsOf(*flowCase.carried)) names.push_back(scalar.name);
+    for (const CarriedScalar& scalar : CarriedOperator::blockOf(*flowCase.carried, {}).scalars)
+      names.push_back(scalar.name);
   return names;
 }
 

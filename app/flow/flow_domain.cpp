@@ -23,9 +23,18 @@ std::vector<double> distancesFromWalls(const Mesh& mesh, HaloExchange& halo, con
   return wallDistance(mesh, halo, walls);
 }
 
-std::vector<CarriedScalar> carriedScalars(const FlowCase& flowCase) {
-  if (flowCase.ensembles) return flowCase.cellParticles->scalars();
-  return flowCase.carried ? CarriedOperator::scalarsOf(*flowCase.carried) : std::vector<CarriedScalar>{};
+// What the state carries: a row an owner.
+std::vector<ScalarBlock> carriedBlocks(const FlowCase& flowCase) {
+  std::vector<ScalarBlock> blocks;
+  if (flowCase.ensembles) blocks.push_back({flowCase.cellParticles->material(), flowCase.cellParticles->scalars()});
+  if (flowCase.carried) blocks.push_back(CarriedOperator::blockOf(*flowCase.carried, flowCase.boundaries));
+  return blocks;
+}
+
+// The block of the particles; none without.
+ScalarRange particleBlock(const FlowCase& flowCase, const State& state) {
+  if (flowCase.ensembles) return state.block(flowCase.cellParticles->material());
+  return flowCase.carried ? state.block(flowCase.carried->material()) : ScalarRange{};
 }
 
 RadiationOperator::Absorption particleAbsorption(const FlowCase& flowCase) {
@@ -57,7 +66,7 @@ FlowDomain::FlowDomain(Mesh partitioned, const FlowCase& flowCase, const Thermo&
               varyingValues(mesh, flowCase, thermo),
               flowCase.transport,
               distancesFromWalls(mesh, halo, flowCase)},
-      state(mesh, flowCase.mechanism->numSpecies(), carriedScalars(flowCase), flowCase.swirls),
+      state(mesh, flowCase.mechanism->numSpecies(), carriedBlocks(flowCase), flowCase.swirls),
       flow(context, state, flowCase.flow),
       chemistry(context, chemistryOptions),
       undershoots(context, flowCase.flow.sweeps),
@@ -67,12 +76,14 @@ FlowDomain::FlowDomain(Mesh partitioned, const FlowCase& flowCase, const Thermo&
   if (context.varying) context.varying->set(0.0, 0.0);
   flow.coupleWith(chemistry);
   operators = {&flow, &chemistry};
+  const ScalarRange block = particleBlock(flowCase, state);
+  const auto first = static_cast<std::size_t>(block.first);
   if (flowCase.carried) {
-    carried = std::make_unique<CarriedOperator>(context, *flowCase.carried, 0, flowCase.carriedOptions);
+    carried = std::make_unique<CarriedOperator>(context, *flowCase.carried, first, flowCase.carriedOptions);
     operators.push_back(carried.get());
   }
   if (flowCase.ensembles) {
-    ensembles = std::make_unique<EnsembleOperator>(context, flow, flowCase.cellParticles, *flowCase.ensembles);
+    ensembles = std::make_unique<EnsembleOperator>(context, flow, flowCase.cellParticles, *flowCase.ensembles, first);
     operators.push_back(ensembles.get());
   }
   if ((carried || ensembles) && DepositionOperator::isNeeded(flowCase.boundaries)) {
@@ -87,8 +98,8 @@ FlowDomain::FlowDomain(Mesh partitioned, const FlowCase& flowCase, const Thermo&
       ensembles->watchFaces([this](double dt, std::span<const double> gone) { deposition->record(dt, gone); });
   }
   if (flowCase.radiation.on) {
-    radiation =
-        std::make_unique<RadiationOperator>(context, flowCase.radiation.surroundings, particleAbsorption(flowCase));
+    radiation = std::make_unique<RadiationOperator>(context, flowCase.radiation.surroundings,
+                                                    particleAbsorption(flowCase), block);
     operators.push_back(radiation.get());
   }
   operators.push_back(&undershoots);
@@ -112,29 +123,40 @@ std::vector<double> FlowDomain::carriedThroughFaces(const CarriedModel& model, d
   for (std::size_t s = 0; s < n; ++s)
     for (const double mass : model.scalars()[s].elements) unit[s] += mass;
   std::vector<double> through;
-  const std::span<const double> flux = flow.carriedFlux().subspan(static_cast<std::size_t>(mesh.interiorFaces) * n);
-  for (std::size_t i = 0; i < flux.size(); i += n) {
+  const ScalarRange& block = state.block(model.material());
+  for (int face = mesh.interiorFaces; face < mesh.faces; ++face) {
+    const std::span<const double> flux = flow.carriedFlux(block, face);
     double mass = 0.0;
-    for (std::size_t s = 0; s < n; ++s) mass += unit[s] * flux[i + s];
+    for (std::size_t s = 0; s < n; ++s) mass += unit[s] * flux[s];
     through.push_back(dt * mass);
   }
   return through;
 }
 
 void FlowDomain::beginBudget(const FlowCase& flowCase) {
-  std::vector<std::vector<double>> carriedMass;
+  // Of all that is carried; what is not of particles has no mass of its own.
+  const auto first = static_cast<std::size_t>(particleBlock(flowCase, state).first);
+  std::vector<std::vector<double>> carriedMass(state.scalars.size(),
+                                               std::vector<double>(flowCase.mechanism->numElements(), 0.0));
+  const auto set = [&](std::size_t scalar, const std::vector<double>& elements) {
+    carriedMass[first + scalar] = elements;
+  };
   if (flowCase.carried)
-    for (const CarriedModel::Scalar& scalar : flowCase.carried->scalars()) carriedMass.push_back(scalar.elements);
-  if (flowCase.ensembles)
-    carriedMass =
+    for (std::size_t s = 0; s < flowCase.carried->scalars().size(); ++s)
+      set(s, flowCase.carried->scalars()[s].elements);
+  if (flowCase.ensembles) {
+    const auto amounts =
         EnsembleOperator::unitElements(*flowCase.mechanism, *flowCase.cellParticles, flowCase.ensembles->exchange);
+    for (std::size_t i = 0; i < amounts.size(); ++i) set(i, amounts[i]);
+  }
   budget = std::make_unique<Budget>(context, massAndElements(*flowCase.mechanism, carriedMass), state);
   flow.watchBoundary([this](const TransportOperator::BoundaryAmounts& amounts) { budget->addStep(amounts); });
   if (!ensembles) return;
-  ensembles->watchAmounts([this](std::span<const double> resampled, std::span<const double> gone) {
+  ensembles->watchAmounts([this, first](std::span<const double> resampled, std::span<const double> gone) {
     TransportOperator::BoundaryAmounts amounts;
-    amounts.carriedOut.assign(gone.begin(), gone.end());
-    amounts.carriedIn.assign(resampled.begin(), resampled.end());
+    for (std::vector<double>* all : {&amounts.carriedIn, &amounts.carriedOut}) all->resize(state.scalars.size());
+    std::ranges::copy(gone, amounts.carriedOut.begin() + static_cast<std::ptrdiff_t>(first));
+    std::ranges::copy(resampled, amounts.carriedIn.begin() + static_cast<std::ptrdiff_t>(first));
     budget->addStep(amounts);
   });
 }

@@ -4,6 +4,8 @@
 #include <array>
 #include <numeric>
 
+#include "flow/field_registry.hpp"
+
 namespace lampblack::app {
 
 namespace {
@@ -65,9 +67,6 @@ void flowFields(const FlowContext& context, const FlowCase& flowCase, const Stat
                 bool future) {
   const auto owned = static_cast<std::size_t>(context.mesh.owned);
   const auto n = static_cast<std::size_t>(state.species);
-  const auto part = [owned](const std::vector<double>& field, std::size_t components) {
-    return std::span<const double>{field.data(), owned * components};
-  };
   std::size_t left = wanted ? wanted->size() : 1;  // to be found
   const auto counts = [&](const std::string& name) {
     if (!wanted) return true;
@@ -78,11 +77,10 @@ void flowFields(const FlowContext& context, const FlowCase& flowCase, const Stat
   const auto give = [&](const Quantity& field, int components, std::span<const double> values) {
     if (counts(field.name)) sink(field, components, values);
   };
-  give({"temperature", "K", "gas temperature"}, 1, part(state.temperature, 1));
-  give({"density", "kg/m^3", "gas density"}, 1, part(state.density, 1));
-  give({"velocity", "m/s", "gas velocity along the mesh's axes"}, state.dimension,
-       part(state.velocity, static_cast<std::size_t>(state.dimension)));
-  give({"pressure", "Pa", "hydrodynamic pressure"}, 1, part(state.pressure, 1));
+  for (const FieldDeclaration& field : fieldRegistry())
+    if (const int width = field.widthIn(state); field.isWritten && width > 0)
+      give({field.name, field.unit, field.description}, width,
+           {field.of(state).data(), owned * static_cast<std::size_t>(width)});
   if (!context.wallDistance.empty())
     give({"wall_distance", "m", "distance of the cell's centre from the nearest wall"}, 1, context.wallDistance);
   std::vector<double> column(owned), weight;

@@ -10,6 +10,7 @@
 #include "app/flow/flow_output.hpp"
 #include "core/first_error.hpp"
 #include "flow/equations/heat_conduction.hpp"
+#include "flow/field_registry.hpp"
 #include "io/csv.hpp"
 
 namespace lampblack::app {
@@ -24,8 +25,9 @@ Vector3 placeOn(const OutputTables::Line& line, int point) {
 
 // Fields that tables have where the deck names none.
 bool isUsual(const std::string& field) {
-  static const std::set<std::string> usual{"temperature", "velocity", "swirl_velocity", "pressure", "density"};
-  return usual.contains(field) || field.starts_with("X_") || field.ends_with("_volume_fraction");
+  const auto isOfState = [&](const FieldDeclaration& one) { return one.isWritten && one.name == field; };
+  return std::ranges::any_of(fieldRegistry(), isOfState) || field.starts_with("X_") ||
+         field.ends_with("_volume_fraction");
 }
 
 std::vector<Quantity> joined(std::vector<Quantity> first, const std::vector<Quantity>& more) {

@@ -1,10 +1,12 @@
-// What a wall takes of particles that drift and diffuse to it and stay there: no particles at its surface. Between the
-// place where an amount c per mass of gas is known, at a distance d, and the wall, the flux w c - rho D grad c is
-// constant, so that
+// What a wall takes of what drifts and diffuses to it, of particles that stay there first of all: then there are none
+// at its surface. Between the place where an amount c per mass of gas is known, at a distance d, and the wall, the flux
+// w c - rho D grad c is constant, so that
 //
-//   J = w c / (1 - exp(-w/g)),   g = rho A D / d,
+//   J = w c / (1 - exp(-w/g)) - w c_w / (exp(w/g) - 1) = takenByWall(w, g) c - takenByWall(-w, g) c_w,   g = rho A D /
+//   d,
 //
-// with w (kg/s) the mass of gas that would flow to the wall as the particles drift: w c where the drift rules, as the
+// with c_w the amount at the surface, of particles zero, and w (kg/s) the mass of gas that would flow to the wall as
+// they drift: w c where the drift rules, as the
 // layer in which they diffuse is then thinner than the cell, and g c without drift (Scharfetter and Gummel 1969, eq. 8,
 // have this flux of drift and diffusion). Derivation and limits: docs/theory/flow.md, "Particles at walls".
 #pragma once

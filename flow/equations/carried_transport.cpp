@@ -6,6 +6,21 @@
 #include "flow/discretisation/face_fluxes.hpp"
 
 namespace lampblack::flow {
+namespace {
+
+// Those that their owner moves have no fluxes here; `perFace`: a value a scalar of each face.
+void leaveOut(const State& state, std::span<double> perFace) {
+  for (std::size_t s = 0; s < state.scalars.size(); ++s)
+    if (!state.scalars[s].isTransported)
+      for (std::size_t i = s; i < perFace.size(); i += state.scalars.size()) perFace[i] = 0.0;
+}
+
+}  // namespace
+
+bool CarriedTransport::hasDriftToWall(const FaceState& faces, int face) const {
+  return context_.mesh.area[face] > 0.0 && context_.boundaryOf(face).kind == BoundaryKind::Wall &&
+         (context_.takesParticles(face) || faces.carriedBoundaries().holdsAny(face));
+}
 
 void CarriedTransport::findDrift(const Gas& gas) {
   const Mesh& m = context_.mesh;
@@ -19,7 +34,7 @@ void CarriedTransport::findDrift(const Gas& gas) {
     driftFlux_[face] = gas.faces.density[face] * m.area[face] * drift;
   }
   for (int face = m.interiorFaces; face < m.faces; ++face)
-    driftFlux_[face] = context_.takesParticles(face) && m.area[face] > 0.0 ? driftToWall(gas, face) : 0.0;
+    driftFlux_[face] = hasDriftToWall(gas.faces, face) ? driftToWall(gas, face) : 0.0;
 }
 
 // -A mu (grad T . n)/T at a wall, by the heat that it takes: viscosity over conductivity hardly changes with the
@@ -34,7 +49,7 @@ double CarriedTransport::driftToWall(const Gas& gas, int face) const {
   return gas.properties.boundaryViscosity[b] / conductivity * gas.heat[face] / T;
 }
 
-// kg/s of gas: the conductance of diffusion to a wall.
+// kg/s of gas: the conductance of diffusion to a wall or an inlet.
 double CarriedTransport::wallDiffusion(const State& state, const FaceState& faces, int face, int scalar) const {
   const Mesh& m = context_.mesh;
   return faces.density[face] * m.area[face] / m.distance[face] *
@@ -50,13 +65,17 @@ void CarriedTransport::convectiveFlux(const State& state, const Gas& gas) {
     const int low = m.low[face];
     if (m.area[face] <= 0.0) continue;
     if (m.high[face] < 0) {
-      // Particles leave with the gas; nothing enters with it. What walls take is implicit but for how particles outside
-      // the layer in which they diffuse to the wall change over the half cell.
-      if (state.massFlux[face] > 0.0)
-        for (int s = 0; s < n; ++s)
-          flux[s] = state.massFlux[face] * gas.mean.carried[low * n + s] / gas.mean.density[low];
-      if (context_.takesParticles(face))  // nothing flows through these
-        for (int s = 0; s < n; ++s) {
+      // What walls take is implicit but for how scalars outside the layer in which they diffuse to the wall change over
+      // the half cell.
+      const double gasFlux = state.massFlux[face];
+      const std::span<const ScalarBoundary> given = gas.faces.carriedBoundaries().at(face);
+      if (gasFlux > 0.0)
+        for (int s = 0; s < n; ++s) flux[s] = gasFlux * gas.mean.carried[low * n + s] / gas.mean.density[low];
+      if (gasFlux < 0.0)
+        for (int s = 0; s < n; ++s) flux[s] = gasFlux * given[s].value;
+      if (gas.faces.carriedBoundaries().holdsAny(face) && context_.boundaryOf(face).kind == BoundaryKind::Wall)
+        for (int s = 0; s < n; ++s) {  // nothing flows through these
+          if (!given[s].isHeld) continue;
           const double drift = state.scalars[s].thermophoresis * driftFlux_[face];
           const double share = outsideWallLayer(drift, wallDiffusion(state, gas.faces, face, s));
           if (share > 0.0) flux[s] = drift * share * gas.faces.carriedRiseToWall(face, s);
@@ -69,6 +88,7 @@ void CarriedTransport::convectiveFlux(const State& state, const Gas& gas) {
       flux[s] = carrying * gas.faces.carriedPerMass(face, s, carrying);
     }
   }
+  leaveOut(state, flux_);
 }
 
 void CarriedTransport::advance(State& state, const Gas& gas, double dt) {
@@ -102,12 +122,17 @@ void CarriedTransport::presentFlux(const State& state, const FaceState& faces, s
     context_.halo.update(perMassGradient_, n * m.dimension);
   }
   for (int face = m.interiorFaces; face < m.faces; ++face) {
-    if (!context_.takesParticles(face) || m.area[face] <= 0.0) continue;
+    if (!faces.carriedBoundaries().holdsAny(face) || m.area[face] <= 0.0) continue;
+    const std::span<const ScalarBoundary> given = faces.carriedBoundaries().at(face);
     for (int s = 0; s < n; ++s) {
+      if (!given[s].isHeld) continue;
       const int i = m.low[face] * n + s;
+      const double drift = state.scalars[s].thermophoresis * driftFlux_[face];
+      const double diffusion = wallDiffusion(state, faces, face, s);
       double& g = conductance[face * n + s];
-      g = takenByWall(state.scalars[s].thermophoresis * driftFlux_[face], wallDiffusion(state, faces, face, s));
-      flux[face * n + s] = g * state.carried[i] / state.density[m.low[face]];
+      g = takenByWall(drift, diffusion);
+      flux[face * n + s] =
+          g * state.carried[i] / state.density[m.low[face]] - takenByWall(-drift, diffusion) * given[s].value;
     }
   }
   for (int face = 0; face < m.interiorFaces; ++face) {
@@ -123,6 +148,8 @@ void CarriedTransport::presentFlux(const State& state, const FaceState& faces, s
         flux[face * n + s] -= g * m.distance[face] * faceSlope(m, face, m.oblique[face], perMassGradient_, n, s);
     }
   }
+  leaveOut(state, conductance);
+  leaveOut(state, flux);
 }
 
 // Through the boundary, beside what is there already.
@@ -130,6 +157,26 @@ void CarriedTransport::addCrossed(std::span<const double> flux) {
   const std::size_t first = flux.size() / static_cast<std::size_t>(context_.mesh.faces) *
                             static_cast<std::size_t>(context_.mesh.interiorFaces);
   for (std::size_t i = first; i < flux.size(); ++i) flux_[i] += flux[i];
+}
+
+// From rates to changes. Each block by itself: how one is iterated does not depend on what is beside it.
+void CarriedTransport::solveChanges(const State& state, std::span<const double> inertia,
+                                    std::span<const double> conductance, std::span<double> change) {
+  const auto n = static_cast<std::size_t>(state.carriedCount()), cells = static_cast<std::size_t>(context_.mesh.cells);
+  std::vector<double> own;
+  for (const ScalarRange& block : state.blocks) {
+    const auto first = static_cast<std::size_t>(block.first), count = static_cast<std::size_t>(block.count);
+    if (std::ranges::none_of(std::span(state.scalars).subspan(first, count), &CarriedScalar::isTransported)) continue;
+    const auto through = [&](int face, std::span<const int> scalars, double* g) {
+      const double* ofBlock = &conductance[static_cast<std::size_t>(face) * n + first];
+      for (std::size_t i = 0; i < scalars.size(); ++i) g[i] = ofBlock[scalars[i]];
+    };
+    own.resize(cells * count);
+    for (std::size_t c = 0; c < cells; ++c) std::copy_n(&change[c * n + first], count, &own[c * count]);
+    // Particles see how much there is of them where there is next to nothing.
+    diffusion_.changes(block.count, inertia, through, own, 1e-8);
+    for (std::size_t c = 0; c < cells; ++c) std::copy_n(&own[c * count], count, &change[c * n + first]);
+  }
 }
 
 // Implicit: particles of a nucleus's size diffuse almost like molecules. From the second sweep on corrected so that it
@@ -156,11 +203,7 @@ void CarriedTransport::diffuse(const State& state, const Gas& gas, double dt, st
       perMass[c * n + s] = content[c * n + s] / dt - inertia[c] * state.carried[c * n + s] / state.density[c];
   }
   addFaceFluxes(m, flux, n, 1.0, perMass);
-  const auto through = [&](int face, std::span<const int> scalars, double* g) {
-    for (std::size_t i = 0; i < scalars.size(); ++i) g[i] = conductance[face * n + scalars[i]];
-  };
-  // Particles see how much there is of them where there is next to nothing.
-  diffusion_.changes(n, inertia, through, perMass, 1e-8);
+  solveChanges(state, inertia, conductance, perMass);
   for (int face = 0; face < m.interiorFaces; ++face)
     for (int s = 0; s < n; ++s)
       flux[face * n + s] += conductance[face * n + s] * (perMass[m.low[face] * n + s] - perMass[m.high[face] * n + s]);

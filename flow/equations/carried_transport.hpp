@@ -1,7 +1,7 @@
-// Scalars that the flow carries for a model (State::carried): convection with the gas and thermophoresis by the limited
-// scheme, explicit, then implicit diffusion; in several sweeps as the gas (TransportOperator). Walls that take
-// particles have the flux of drift and diffusion to a place without particles (flow/boundaries/wall_flux.hpp), implicit
-// as diffusion is.
+// Scalars that the flow carries for their owners (State::carried): convection with the gas and thermophoresis by the
+// limited scheme, explicit, then implicit diffusion; in several sweeps as the gas (TransportOperator). Gas that comes
+// in has what the boundary says (ScalarBoundary). Walls that hold a scalar have the flux of drift and diffusion to the
+// value there (flow/boundaries/wall_flux.hpp), implicit as diffusion is, and so have inlets, without drift.
 #pragma once
 
 #include <span>
@@ -18,12 +18,12 @@ namespace lampblack::flow {
 
 class CarriedTransport {
  public:
-  CarriedTransport(const FlowContext& context, ImplicitDiffusion& diffusion, int scalars)
+  CarriedTransport(const FlowContext& context, const State& state, ImplicitDiffusion& diffusion)
       : context_(context),
         diffusion_(diffusion),
         gradient_(context.mesh),
-        flux_(static_cast<std::size_t>(context.mesh.faces) * static_cast<std::size_t>(scalars), 0.0),
-        driftFlux_(static_cast<std::size_t>(scalars > 0 ? context.mesh.faces : 0), 0.0),
+        flux_(static_cast<std::size_t>(context.mesh.faces) * state.scalars.size(), 0.0),
+        driftFlux_(static_cast<std::size_t>(state.scalars.empty() ? 0 : context.mesh.faces), 0.0),
         nothingPasses_(static_cast<std::size_t>(context.mesh.boundaryFaces()), BoundaryData::ZeroSlope) {}
 
   // The gas of a sweep: the step's start, and its mean with what the last sweep found (both the state itself in the
@@ -45,7 +45,8 @@ class CarriedTransport {
   // between cells the convective part.
   [[nodiscard]] std::span<const double> flux() const { return flux_; }
   // kg/s, what thermophoresis moves of the gas's mass through each face in the last step for a coefficient of one:
-  // particles drift as if so much gas flowed; of the boundary's faces to the walls that take particles alone.
+  // particles drift as if so much gas flowed; of the boundary's faces to the walls that take particles or hold a scalar
+  // alone.
   [[nodiscard]] std::vector<double>& driftFlux() { return driftFlux_; }
   [[nodiscard]] const std::vector<double>& driftFlux() const { return driftFlux_; }
 
@@ -56,6 +57,9 @@ class CarriedTransport {
   void convectiveFlux(const State& state, const Gas& gas);
   void diffuse(const State& state, const Gas& gas, double dt, std::span<double> content);
   void addCrossed(std::span<const double> flux);
+  [[nodiscard]] bool hasDriftToWall(const FaceState& faces, int face) const;
+  void solveChanges(const State& state, std::span<const double> inertia, std::span<const double> conductance,
+                    std::span<double> change);
   // Collective. Flux of the state by its own diffusivities, and the conductances (per s) it has through the faces.
   void presentFlux(const State& state, const FaceState& faces, std::span<double> conductance,
                    std::span<double> flux) const;

@@ -37,10 +37,11 @@ double behindFeed(double cell, double fed, double extrapolated) {
 
 }  // namespace
 
-FaceState::FaceState(const FlowContext& context, int species, int carried)
+FaceState::FaceState(const FlowContext& context, const State& state)
     : context_(context),
-      species_(species),
-      carried_(carried),
+      species_(state.species),
+      carried_(state.carriedCount()),
+      carriedBoundaries_(context, state),
       gradient_(context.mesh),
       temperatureKnown_(knownData(context, true, BoundaryData::Value)),
       YKnown_(knownData(context, false, BoundaryData::Value)),
@@ -48,10 +49,10 @@ FaceState::FaceState(const FlowContext& context, int species, int carried)
       YHeld_(knownData(context, false, BoundaryData::Nothing)),
       temperatureUpwind_(context, temperatureKnown_),
       YUpwind_(context, YKnown_),
-      YGradient_(context, species),
+      YGradient_(context, species_),
       temperatureBounds_(context, 1),
-      YBounds_(context, species),
-      carriedBounds_(context, carried) {
+      YBounds_(context, species_),
+      carriedBounds_(context, carried_) {
   const Mesh& m = context.mesh;
   const auto faces = static_cast<std::size_t>(m.faces);
   const auto boundary = static_cast<std::size_t>(m.boundaryFaces());
@@ -59,13 +60,13 @@ FaceState::FaceState(const FlowContext& context, int species, int carried)
   temperature.resize(faces);
   density.resize(faces);
   enthalpy.resize(faces);
-  for (std::vector<double>* row : {&slope_, &offsetSlope_}) row->resize(static_cast<std::size_t>(species));
+  for (std::vector<double>* row : {&slope_, &offsetSlope_}) row->resize(static_cast<std::size_t>(species_));
   boundaryTemperature_.resize(boundary);
-  boundaryY_.resize(boundary * species);
-  boundaryCarried_.resize(boundary * carried);
-  perMass_.resize(cells * carried);
+  boundaryY_.resize(boundary * species_);
+  boundaryCarried_.resize(boundary * carried_);
+  perMass_.resize(cells * carried_);
   temperatureGradient_.resize(cells * m.dimension);
-  carriedGradient_.resize(cells * carried * m.dimension);
+  carriedGradient_.resize(cells * carried_ * m.dimension);
 }
 
 void FaceState::setBoundaries(const State& state) {
@@ -82,14 +83,33 @@ void FaceState::setBoundaries(const State& state) {
     const bool isYGiven = YKnown_[b] == BoundaryData::Value;
     boundaryTemperature_[b] = isTemperatureGiven ? context_.boundaryTemperature(face) : state.temperature[c];
     std::copy_n(isYGiven ? context_.boundaryY(face).data() : &Y_[c * species_], species_, &boundaryY_[b * species_]);
-    // No particles come in.
-    for (int s = 0; s < carried_; ++s) boundaryCarried_[b * carried_ + s] = isYGiven ? 0.0 : perMass_[c * carried_ + s];
+    const std::span<const ScalarBoundary> given = carriedBoundaries_.at(face);
+    for (int s = 0; s < carried_; ++s)
+      boundaryCarried_[b * carried_ + s] = isYGiven ? given[s].value : perMass_[c * carried_ + s];
   }
   for (int face = m.interiorFaces; face < m.faces; ++face) limitFed(state, face);
-  if (carried_ == 0) return;
-  carriedKnown_ = YKnown_;
-  for (int face = m.interiorFaces; face < m.faces; ++face)
-    if (context_.takesParticles(face)) carriedKnown_[face - m.interiorFaces] = BoundaryData::Nothing;
+  if (carried_ > 0) setCarriedBoundaries();
+}
+
+// Where scalars are held: at inlets as they are, at walls by a layer next to them, of which the cells see nothing.
+void FaceState::setCarriedBoundaries() {
+  const Mesh& m = context_.mesh;
+  const int each = carriedBoundaries_.areAlike() ? 1 : carried_;
+  carriedKnown_.resize(YKnown_.size() * static_cast<std::size_t>(each));
+  for (int face = m.interiorFaces; face < m.faces; ++face) {
+    const int b = face - m.interiorFaces;
+    std::fill_n(&carriedKnown_[static_cast<std::size_t>(b * each)], each, YKnown_[b]);
+    if (!carriedBoundaries_.holdsAny(face)) continue;
+    const bool isWall = context_.boundaryOf(face).kind == BoundaryKind::Wall;
+    const std::span<const ScalarBoundary> given = carriedBoundaries_.at(face);
+    for (int s = 0; s < carried_; ++s) {
+      if (!given[s].isHeld) continue;
+      if (isWall)
+        carriedKnown_[b * each + s % each] = BoundaryData::Nothing;
+      else if (YKnown_[b] == BoundaryData::Value)
+        boundaryCarried_[b * carried_ + s] = given[s].value;
+    }
+  }
 }
 
 void FaceState::limitFed(const State& state, int face) {
@@ -128,7 +148,7 @@ void FaceState::prepare(const State& state, std::span<const double> Y) {
   if (!m.isSkewed()) return;
   temperatureBounds_.prepare(state.temperature, boundaryTemperature_, temperatureKnown_);
   YBounds_.prepare(Y_, boundaryY_, YKnown_);
-  if (carried_ > 0) carriedBounds_.prepare(perMass_, boundaryCarried_, carriedKnown_);
+  if (carried_ > 0) carriedBounds_.prepare(perMass_, boundaryCarried_, YKnown_);  // what walls hold does not count
 }
 
 bool FaceState::enters(int face, double direction) const {

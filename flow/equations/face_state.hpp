@@ -11,6 +11,7 @@
 #include "flow/discretisation/neighbour_bounds.hpp"
 #include "flow/discretisation/row_gradient.hpp"
 #include "flow/discretisation/upwind.hpp"
+#include "flow/equations/scalar_boundaries.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/state.hpp"
 
@@ -18,7 +19,7 @@ namespace lampblack::flow {
 
 class FaceState {
  public:
-  explicit FaceState(const FlowContext& context, int species, int carried);
+  FaceState(const FlowContext& context, const State& state);
 
   // Collective. Gradients and boundary values of the state's scalars, with these mass fractions of all local cells,
   // which have to stay.
@@ -36,6 +37,7 @@ class FaceState {
 
   // Limited value of a carried scalar per mass of gas at an interior face, upwind of `direction`.
   [[nodiscard]] double carriedPerMass(int face, int scalar, double direction) const;
+  [[nodiscard]] const ScalarBoundaries& carriedBoundaries() const { return carriedBoundaries_; }
   // What it is more at a wall than in the cell, as it changes in the cell on the other side: no more than its value.
   [[nodiscard]] double carriedRiseToWall(int face, int scalar) const;
   [[nodiscard]] std::span<const double> temperatureGradient() const { return temperatureGradient_; }
@@ -44,6 +46,7 @@ class FaceState {
 
  private:
   void setBoundaries(const State& state);
+  void setCarriedBoundaries();
   // Values at a face of what is fed with a given flux, where it is.
   void limitFed(const State& state, int face);
   // Limited value at an interior face of a field with its gradient in the cells.
@@ -55,10 +58,12 @@ class FaceState {
 
   const FlowContext& context_;
   int species_, carried_;
+  ScalarBoundaries carriedBoundaries_;
   std::span<const double> Y_;
   Gradient gradient_;
   std::vector<BoundaryData> temperatureKnown_, YKnown_;
-  std::vector<BoundaryData> carriedKnown_;             // as of Y, but at walls that take particles
+  // As of Y, but at walls that hold a scalar; of each scalar, where not all are alike.
+  std::vector<BoundaryData> carriedKnown_;
   std::vector<BoundaryData> temperatureHeld_, YHeld_;  // the same, without what is fed with a given flux alone
   UpwindGeometry temperatureUpwind_, YUpwind_;
   std::vector<double> boundaryTemperature_, boundaryY_, boundaryCarried_;

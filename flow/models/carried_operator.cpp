@@ -38,12 +38,12 @@ ParticleGas gasOfCell(const FlowContext& context, const State& state, int cell, 
           concentrations};
 }
 
-std::vector<CarriedScalar> CarriedOperator::scalarsOf(const CarriedModel& model) {
-  std::vector<CarriedScalar> scalars;
+ScalarBlock CarriedOperator::blockOf(const CarriedModel& model, const std::vector<BoundaryCondition>& boundaries) {
+  ScalarBlock block{model.material(), {}};
   for (const CarriedModel::Scalar& scalar : model.scalars())
-    scalars.push_back({model.material() + "_" + scalar.density.name, scalar.density.unit,
-                       scalar.density.description + ", per volume", scalar.thermophoresis});
-  return scalars;
+    block.scalars.push_back({model.material() + "_" + scalar.density.name, scalar.density.unit,
+                             scalar.density.description + ", per volume", scalar.thermophoresis});
+  return takenByWalls(std::move(block), boundaries);
 }
 
 CarriedOperator::CarriedOperator(const FlowContext& context, CarriedModel& model, std::size_t first, Options options)

@@ -39,8 +39,8 @@ class CarriedOperator : public Operator {
     std::string advice;
   };
 
-  // What a State has to carry for the model.
-  [[nodiscard]] static std::vector<CarriedScalar> scalarsOf(const CarriedModel& model);
+  // What a State has to carry for the model, whose material owns it.
+  [[nodiscard]] static ScalarBlock blockOf(const CarriedModel& model, const std::vector<BoundaryCondition>& boundaries);
 
   // The model's scalars stand in State::carried from `first` on.
   CarriedOperator(const FlowContext& context, CarriedModel& model, std::size_t first, Options options);

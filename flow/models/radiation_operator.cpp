@@ -4,10 +4,12 @@
 
 namespace lampblack::flow {
 
-RadiationOperator::RadiationOperator(const FlowContext& context, double surroundings, Absorption particles)
+RadiationOperator::RadiationOperator(const FlowContext& context, double surroundings, Absorption particles,
+                                     ScalarRange of)
     : context_(context),
       radiation_(context.mechanism, surroundings),
       particles_(std::move(particles)),
+      block_(std::move(of)),
       start_(static_cast<std::size_t>(context.mesh.owned)),
       loss_(start_),
       X_(context.mechanism.numSpecies()) {}
@@ -15,11 +17,12 @@ RadiationOperator::RadiationOperator(const FlowContext& context, double surround
 void RadiationOperator::evaluate(const State& state) {
   const std::size_t n = X_.size();
   const std::size_t scalars = state.scalars.size();
+  const auto first = static_cast<std::size_t>(block_.first), count = static_cast<std::size_t>(block_.count);
   for (std::size_t c = 0; c < loss_.size(); ++c) {
     const double T = state.temperature[c];
     context_.thermo.massToMole({&state.Y[c * n], n}, X_);
     double absorption = radiation_.absorption(T, state.thermodynamicPressure, X_);
-    if (particles_) absorption += particles_(T, {&state.carried[c * scalars], scalars});
+    if (particles_) absorption += particles_(T, {state.carried.data() + c * scalars + first, count});
     loss_[c] = radiation_.loss(absorption, T);
   }
 }

@@ -16,10 +16,10 @@ namespace lampblack::flow {
 
 class RadiationOperator : public Operator {
  public:
-  // Absorption coefficient (1/m) at a temperature of what the state carries in a cell.
+  // Absorption coefficient (1/m) at a temperature of what a block of the state carries in a cell.
   using Absorption = std::function<double(double temperature, std::span<const double> carried)>;
-  // `particles`: empty where nothing of what is carried radiates.
-  RadiationOperator(const FlowContext& context, double surroundings, Absorption particles);
+  // `particles`: of the block `of`; empty where nothing of what is carried radiates.
+  RadiationOperator(const FlowContext& context, double surroundings, Absorption particles, ScalarRange of = {});
 
   [[nodiscard]] const char* name() const override { return "radiation"; }
   void advance(State& state, double time, double dt) override;
@@ -36,6 +36,7 @@ class RadiationOperator : public Operator {
   const FlowContext& context_;
   ThinRadiation radiation_;
   Absorption particles_;
+  ScalarRange block_;
   std::vector<double> start_, loss_;  // W/m3 of owned cells: at the step's start, of the latest state
   std::vector<double> X_;
 };

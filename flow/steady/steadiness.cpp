@@ -16,10 +16,10 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double piecesOfTime = 4.0;
 // Least scales of fields that are the same all over the domain.
-constexpr double leastOfTemperature = 1e-3;  // of the largest temperature
-constexpr double leastOfVelocity = 1e-3;     // of the length of the domain over the time
+constexpr double leastOfValue = 1e-3;     // of the largest temperature
+constexpr double leastOfVelocity = 1e-3;  // of the length of the domain over the time
 constexpr double leastMassFraction = 1e-6;
-constexpr double leastOfOthers = 1e-3;  // of the largest range of carried scalars of one unit
+constexpr double leastOfOthers = 1e-3;  // of the largest range of one owner's scalars of one unit
 // The record of whole-domain quantities.
 constexpr double recordedTimes = 10.0;    // of time(), that it goes back
 constexpr double recordsPerTime = 500.0;  // at most
@@ -33,22 +33,28 @@ struct RecordedQuantity {
 // Behind the momentum along each axis.
 constexpr std::array<RecordedQuantity, 4> recorded{
     {{"kinetic energy", "J"}, {"mass in the domain", "kg"}, {"largest temperature", "K"}, {"heat release", "W"}}};
+
+// Owner and unit of a carried scalar.
+std::string peersOf(const State& state, int scalar) {
+  const auto isOf = [&](const ScalarRange& block) { return scalar < block.first + block.count; };
+  return std::ranges::find_if(state.blocks, isOf)->owner + " " + state.scalars[static_cast<std::size_t>(scalar)].unit;
+}
+
 }  // namespace
 
 Steadiness::Steadiness(const FlowContext& context, const State& state, Options options)
     : context_(&context), options_(options) {
-  const auto add = [this](Kind kind, std::string name, std::string unit, int components = 1) {
-    fields_.push_back({kind, std::move(name), std::move(unit), width_, components});
-    width_ += components;
-  };
-  add(Kind::Velocity, "velocity", "m/s", state.dimension);
-  // Whether it swirls or not: a run that goes on may do otherwise.
-  if (context.mesh.axisymmetric()) add(Kind::Velocity, "swirl velocity", "m/s");
-  add(Kind::Temperature, "temperature", "K");
-  for (std::size_t k = 0; k < static_cast<std::size_t>(state.species); ++k)
-    add(Kind::MassFraction, "mass fraction of " + context.mechanism.speciesName(k), "1");
-  if (options_.hasParticles)
-    for (const CarriedScalar& scalar : state.scalars) add(Kind::Carried, scalar.name, scalar.unit);
+  for (const FieldDeclaration& field : fieldRegistry()) {
+    if (!isWatched(field)) continue;
+    const int width = widthOf(field, state);
+    const bool isCarried = field.width == FieldDeclaration::Width::Carried;
+    const bool isEach = isCarried || field.width == FieldDeclaration::Width::Species;
+    for (int i = 0; i < (isEach ? width : 1) && width > 0; ++i) {
+      fields_.push_back({field.width, field.nameOf(i, state, context.mechanism),
+                         isCarried ? peersOf(state, i) : std::string(), width_, isEach ? 1 : width});
+      width_ += fields_.back().components;
+    }
+  }
   signals_.resize(static_cast<std::size_t>(state.dimension) + recorded.size());
   moveTo(context);
 }
@@ -63,21 +69,32 @@ void Steadiness::moveTo(const FlowContext& context) {
   MPI_Allreduce(MPI_IN_PLACE, &volume_, 1, MPI_DOUBLE, MPI_SUM, m.comm);
 }
 
+bool Steadiness::isWatched(const FieldDeclaration& field) const {
+  return field.isWatched && (options_.hasParticles || field.width != FieldDeclaration::Width::Carried);
+}
+
+// A flow that does not swirl may do so after a restart.
+int Steadiness::widthOf(const FieldDeclaration& field, const State& state) const {
+  if (field.width == FieldDeclaration::Width::Swirl) return context_->mesh.axisymmetric() ? 1 : 0;
+  return field.widthIn(state);
+}
+
 // Calls with (index in low_ and high_, value) of each owned cell.
 template <typename Take>
 void Steadiness::forEachValue(const State& state, Take take) const {
-  const auto owned = static_cast<std::size_t>(context_->mesh.owned);
-  const auto width = static_cast<std::size_t>(width_), d = static_cast<std::size_t>(state.dimension),
-             n = static_cast<std::size_t>(state.species), s = static_cast<std::size_t>(state.carriedCount());
-  for (std::size_t c = 0; c < owned; ++c) {
-    std::size_t i = c * width;
-    for (std::size_t axis = 0; axis < d; ++axis) take(i++, state.velocity[c * d + axis]);
-    if (context_->mesh.axisymmetric()) take(i++, state.swirls ? state.swirl[c] : 0.0);
-    take(i++, state.temperature[c]);
-    for (std::size_t k = 0; k < n; ++k) take(i++, state.Y[c * n + k]);
-    if (options_.hasParticles)
-      for (std::size_t k = 0; k < s; ++k) take(i++, state.carried[c * s + k]);
-  }
+  struct Part {
+    const double* values;  // null: zeros
+    std::size_t width;
+  };
+  std::vector<Part> parts;
+  for (const FieldDeclaration& field : fieldRegistry())
+    if (isWatched(field))
+      parts.push_back({field.widthIn(state) > 0 ? field.of(state).data() : nullptr,
+                       static_cast<std::size_t>(widthOf(field, state))});
+  std::size_t i = 0;
+  for (std::size_t c = 0; c < static_cast<std::size_t>(context_->mesh.owned); ++c)
+    for (const Part& part : parts)
+      for (std::size_t k = 0; k < part.width; ++k) take(i++, part.values ? part.values[c * part.width + k] : 0.0);
 }
 
 void Steadiness::startPiece(const State& state) {
@@ -206,21 +223,24 @@ std::vector<double> Steadiness::scales(const State& state) const {
   });
   MPI_Allreduce(MPI_IN_PLACE, ends.data(), static_cast<int>(ends.size()), MPI_DOUBLE, MPI_MAX, context_->mesh.comm);
   std::vector<double> scales(fields_.size());
-  std::map<std::string, double> largest;  // range of carried scalars, by unit
+  std::map<std::string, double> largest;  // range of carried scalars, by owner and unit
   for (std::size_t f = 0; f < fields_.size(); ++f) {
     scales[f] = ends[2 * f] + ends[2 * f + 1];
-    if (fields_[f].kind == Kind::Carried) largest[fields_[f].unit] = std::max(largest[fields_[f].unit], scales[f]);
+    if (fields_[f].peers.empty()) continue;
+    double& of = largest[fields_[f].peers];
+    of = std::max(of, scales[f]);
   }
   const auto leastOf = [&](std::size_t f) {
-    switch (fields_[f].kind) {
-      case Kind::Velocity:
+    switch (fields_[f].width) {
+      case FieldDeclaration::Width::Dimension:
+      case FieldDeclaration::Width::Swirl:
         return leastOfVelocity * lengthOfDomain() / timeOf(sums_);
-      case Kind::Temperature:
-        return leastOfTemperature * ends[2 * f];
-      case Kind::MassFraction:
+      case FieldDeclaration::Width::One:
+        return leastOfValue * ends[2 * f];
+      case FieldDeclaration::Width::Species:
         return leastMassFraction;
-      case Kind::Carried:
-        return leastOfOthers * largest[fields_[f].unit];
+      case FieldDeclaration::Width::Carried:
+        return leastOfOthers * largest[fields_[f].peers];
     }
     return 0.0;
   };

@@ -16,6 +16,7 @@
 
 #include "core/modules.hpp"
 #include "core/state_archive.hpp"
+#include "flow/field_registry.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/properties/gas_properties.hpp"
 #include "flow/state.hpp"
@@ -76,10 +77,11 @@ class Steadiness {
   // What integrals over time are made of, each times s.
   enum Sum { Duration, Mass, Through, KineticEnergy, Conduction, Sums };
   using Integrals = std::array<double, Sums>;
-  enum class Kind { Velocity, Temperature, MassFraction, Carried };
+  // What is looked at by itself: a field, a species or a carried scalar.
   struct Field {
-    Kind kind;
-    std::string name, unit;
+    FieldDeclaration::Width width;
+    std::string name;
+    std::string peers;  // of a carried scalar: the owner and the unit
     int first = 0, components = 1;
   };
   struct Piece {
@@ -88,6 +90,8 @@ class Steadiness {
     std::vector<double> places;        // m, three a field, of the maximum
   };
 
+  [[nodiscard]] bool isWatched(const FieldDeclaration& field) const;
+  [[nodiscard]] int widthOf(const FieldDeclaration& field, const State& state) const;
   template <typename Take>
   void forEachValue(const State& state, Take take) const;
   [[nodiscard]] double lengthOfDomain() const;

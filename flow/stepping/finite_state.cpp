@@ -11,6 +11,7 @@
 #include "core/errors.hpp"
 #include "core/first_error.hpp"
 #include "flow/cell_errors.hpp"
+#include "flow/field_registry.hpp"
 
 namespace lampblack::flow {
 namespace {
@@ -28,46 +29,29 @@ bool allFinite(const double* values, std::size_t count) {
   return sum == 0.0;
 }
 
-struct Field {
-  const char* name;
-  const std::vector<double>* values;
-  std::size_t width;
-};
-
-// All that has values of cells.
-std::array<Field, 8> fieldsOf(const State& state) {
-  const auto scalars = static_cast<std::size_t>(state.carriedCount());
-  return {{{"velocity", &state.velocity, static_cast<std::size_t>(state.dimension)},
-           {"swirl velocity", &state.swirl, state.swirls ? std::size_t{1} : 0},
-           {"pressure", &state.pressure, 1},
-           {"temperature", &state.temperature, 1},
-           {"density", &state.density, 1},
-           {"enthalpy", &state.enthalpy, 1},
-           {"mass fraction", &state.Y, static_cast<std::size_t>(state.species)},
-           {"carried scalar", &state.carried, scalars}}};
-}
-
-std::string nameOf(const FlowContext& context, const State& state, const Field& field, std::size_t i) {
-  if (field.values == &state.Y) return "mass fraction of " + context.mechanism.speciesName(i);
-  if (field.values == &state.carried) return state.scalars[i].name;
-  return field.name;
-}
-
-// What is wrong in a cell, or nothing.
-std::string faultIn(const FlowContext& context, const State& state, std::size_t cell) {
-  for (const Field& field : fieldsOf(state))
-    for (std::size_t i = 0; i < field.width; ++i)
-      if (const double value = (*field.values)[cell * field.width + i]; !std::isfinite(value))
-        return fmt::format("the {} is {}", nameOf(context, state, field, i), value);
+// What is wrong in a cell or at a face, or nothing.
+std::string faultIn(const FlowContext& context, const State& state, bool isFace, int which) {
+  for (const FieldDeclaration& field : fieldRegistry()) {
+    if (!field.isChecked || isFace != (field.kind == FieldDeclaration::Kind::FaceFlux)) continue;
+    const int width = field.widthIn(state);
+    for (int i = 0; i < width; ++i)
+      if (const double value = field.of(state)[static_cast<std::size_t>(which) * static_cast<std::size_t>(width) + i];
+          !std::isfinite(value))
+        return fmt::format("the {} is {}", field.nameOf(i, state, context.mechanism), value);
+  }
   return {};
 }
 
 }  // namespace
 
 bool isFinite(const Mesh& m, const State& state) {
-  const auto owned = static_cast<std::size_t>(m.owned);
-  bool finite = std::isfinite(state.thermodynamicPressure) && allFinite(state.massFlux.data(), state.massFlux.size());
-  for (const Field& field : fieldsOf(state)) finite = allFinite(field.values->data(), owned * field.width) && finite;
+  bool finite = std::isfinite(state.thermodynamicPressure);
+  for (const FieldDeclaration& field : fieldRegistry()) {
+    if (!field.isChecked) continue;
+    // The halo is that of other ranks.
+    const int count = field.kind == FieldDeclaration::Kind::FaceFlux ? m.faces : m.owned;
+    finite = allFinite(field.of(state).data(), static_cast<std::size_t>(count) * field.widthIn(state)) && finite;
+  }
   return finite;
 }
 
@@ -81,13 +65,12 @@ void raiseNotFinite(const FlowContext& context, const State& state) {
     first = std::make_exception_ptr(NumericsError(fmt::format("{} at {}", fault, placeText(place, m.dimension))));
   };
   for (int c = 0; c < m.owned; ++c)
-    if (const std::string fault = faultIn(context, state, static_cast<std::size_t>(c)); !fault.empty())
+    if (const std::string fault = faultIn(context, state, false, c); !fault.empty())
       blame(m.naturalCell[c], fault, m.centre[c]);
   // Faces, and what all cells have in common, stand behind the cells.
   for (int face = 0; face < m.faces; ++face)
-    if (!std::isfinite(state.massFlux[face]))
-      blame(m.totalCells + m.naturalCell[m.low[face]], fmt::format("the mass flux is {}", state.massFlux[face]),
-            m.faceCentre[face]);
+    if (const std::string fault = faultIn(context, state, true, face); !fault.empty())
+      blame(m.totalCells + m.naturalCell[m.low[face]], fault, m.faceCentre[face]);
   if (!std::isfinite(state.thermodynamicPressure))
     blame(3 * m.totalCells, fmt::format("the thermodynamic pressure is {}", state.thermodynamicPressure), {0.0, 0.0});
   raiseFirst(m.comm, first, number);

@@ -7,19 +7,20 @@
 #include "core/flush_denormals.hpp"
 #include "flow/cell_errors.hpp"
 #include "flow/discretisation/face_fluxes.hpp"
+#include "flow/field_registry.hpp"
 #include "flow/stepping/time_step.hpp"
 
 namespace lampblack::flow {
 TransportOperator::TransportOperator(const FlowContext& context, const State& state, Options options)
     : context_(context),
       options_(options),
-      faces_(context, state.species, state.carriedCount()),
+      faces_(context, state),
       diffusion_(context.mesh, context.halo),
       speciesDiffusion_(context, diffusion_),
       heatConduction_(context, diffusion_),
       expansion_(context),
       momentum_(context, state.swirls, options.velocityScheme),
-      carried_(context, diffusion_, state.carriedCount()),
+      carried_(context, state, diffusion_),
       movesForOthers_(std::ranges::any_of(state.scalars, [](const auto& scalar) { return !scalar.isTransported; })) {
   const auto faces = static_cast<std::size_t>(context.mesh.faces);
   const auto owned = static_cast<std::size_t>(context.mesh.owned);
@@ -70,10 +71,12 @@ void TransportOperator::initialise(State& state, double dt) {
 
 void TransportOperator::keepStart(const State& state) {
   start_ = state;
-  for (auto* kept : {&start_->Y, &start_->start.Y, &start_->balance.reactions})
-    *kept = {};  // State::start has the first
+  // The widest: State::start has the mass fractions, and nobody asks for the rates.
+  start_->start = {};
+  for (const FieldDeclaration& field : fieldRegistry())
+    if (field.kind == FieldDeclaration::Kind::Rate || field.width == FieldDeclaration::Width::Species)
+      field.of(*start_) = {};
   mean_ = start_;
-  mean_->Y.resize(state.Y.size());
   startViscosity_ = properties_.viscosity;
   startBoundaryViscosity_ = properties_.boundaryViscosity;
   startHeatFlux_.resize(heat_.heat.size());
@@ -85,10 +88,13 @@ void TransportOperator::average(const State& state) {
   const auto mean = [](std::span<const double> start, std::span<const double> latest, std::span<double> result) {
     for (std::size_t i = 0; i < result.size(); ++i) result[i] = 0.5 * (start[i] + latest[i]);
   };
-  for (const auto field :
-       {&State::velocity, &State::swirl, &State::temperature, &State::density, &State::carried, &State::massFlux})
-    mean((*start_).*field, state.*field, (*mean_).*field);
-  mean(state.start.Y, state.Y, mean_->Y);
+  for (const FieldDeclaration& field : fieldRegistry()) {
+    if (!field.isAveraged) continue;
+    const std::vector<double>&start = field.start ? state.start.*field.start : field.of(*start_),
+          &latest = field.of(state);
+    field.of(*mean_).resize(latest.size());
+    mean(start, latest, field.of(*mean_));
+  }
   mean_->thermodynamicPressure = 0.5 * (start_->thermodynamicPressure + state.thermodynamicPressure);
   meanViscosity_.resize(startViscosity_.size());
   mean(startViscosity_, properties_.viscosity, meanViscosity_);
@@ -359,11 +365,10 @@ std::vector<double> TransportOperator::historyValues(const State& state) {
           whole.enstrophy};
 }
 
-void TransportOperator::fields(const State& state, const FieldSink& sink) const {
+void TransportOperator::fields(const State&, const FieldSink& sink) const {
   const auto owned = static_cast<std::size_t>(context_.mesh.owned);
   sink({"viscosity", "Pa s", "dynamic viscosity"}, {properties_.viscosity.data(), owned});
   sink({"conductivity", "W/m/K", "thermal conductivity"}, {properties_.conductivity.data(), owned});
-  if (state.swirls) sink({"swirl_velocity", "m/s", "gas velocity about the axis"}, {state.swirl.data(), owned});
 }
 
 }  // namespace lampblack::flow

@@ -81,8 +81,13 @@ class TransportOperator : public Operator {
   // faces, kg/m3.
   [[nodiscard]] std::span<const double> driftFlux() const { return carried_.driftFlux(); }
   [[nodiscard]] std::span<const double> faceDensity() const { return faces_.density; }
-  // CarriedTransport::flux(), of the last step.
+  // CarriedTransport::flux(), of the last step; of one block's scalars through one face.
   [[nodiscard]] std::span<const double> carriedFlux() const { return carried_.flux(); }
+  [[nodiscard]] std::span<const double> carriedFlux(const ScalarRange& block, int face) const {
+    const std::size_t all = carried_.flux().size() / static_cast<std::size_t>(context_.mesh.faces);
+    return carried_.flux().subspan(static_cast<std::size_t>(face) * all + static_cast<std::size_t>(block.first),
+                                   static_cast<std::size_t>(block.count));
+  }
   // Largest |p_eos - p0| / p0 of all cells. Collective.
   [[nodiscard]] double pressureDrift(const State& state);
 

@@ -50,7 +50,8 @@ struct Flame {
         thermo(*flowCase.mechanism),
         transport(*flowCase.mechanism),
         context{mesh, halo, *flowCase.mechanism, thermo, transport, flowCase.boundaries},
-        state(mesh, flowCase.mechanism->numSpecies(), CarriedOperator::scalarsOf(*flowCase.carried)) {
+        state(mesh, flowCase.mechanism->numSpecies(),
+              {CarriedOperator::blockOf(*flowCase.carried, flowCase.boundaries)}) {
     state.thermodynamicPressure = flowCase.pressure;
     const std::size_t n = flowCase.mechanism->numSpecies();
     for (std::size_t c = 0; c < static_cast<std::size_t>(mesh.cells); ++c) {

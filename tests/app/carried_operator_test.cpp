@@ -249,7 +249,7 @@ TEST(CarriedOperator, ItsAtomsStandInTheBudgets) {
 // Towards the cold, all alike, under names of their own.
 TEST(CarriedOperator, ItsScalarsDriftByThermophoresis) {
   Flame flame(MPI_COMM_WORLD, test::sootingGas);
-  for (const CarriedScalar& scalar : CarriedOperator::scalarsOf(*flame.flowCase.carried)) {
+  for (const CarriedScalar& scalar : flame.state.scalars) {
     EXPECT_NEAR(scalar.thermophoresis, waldmannThermophoresis(), 1e-15) << scalar.name;
     EXPECT_EQ(scalar.name.rfind("soot_", 0), 0U) << scalar.name;
   }

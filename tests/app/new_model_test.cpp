@@ -75,7 +75,7 @@ TEST(NewModel, IsARowOfTheTableAndGoesIntoAFlow) {
   Flame flame(MPI_COMM_WORLD, test::sootingGas);
   const Mechanism& mechanism = *flame.flowCase.mechanism;
   CarriedParticles dust(mechanism, readSootModel(deck, mechanism, modelsAndDust()));
-  flame.state = State(flame.mesh, mechanism.numSpecies(), CarriedOperator::scalarsOf(dust));
+  flame.state = State(flame.mesh, mechanism.numSpecies(), {CarriedOperator::blockOf(dust, flame.flowCase.boundaries)});
   Flame gas(MPI_COMM_WORLD, test::sootingGas);
   for (auto field : {&State::temperature, &State::density, &State::enthalpy, &State::Y, &State::velocity})
     flame.state.*field = gas.state.*field;
@@ -99,7 +99,7 @@ TEST(NewModel, ASteadyStateDoesNotDependOnTheStep) {
   CarriedParticles dust(mechanism, std::make_unique<Dust>(rate));
   const State gas = flame.state;
   for (const double dt : {1e-4, 2e-3}) {
-    State state(flame.mesh, n, CarriedOperator::scalarsOf(dust));
+    State state(flame.mesh, n, {CarriedOperator::blockOf(dust, flame.flowCase.boundaries)});
     for (auto field : {&State::temperature, &State::density, &State::enthalpy, &State::Y}) state.*field = gas.*field;
     state.thermodynamicPressure = gas.thermodynamicPressure;
     std::fill(state.carried.begin(), state.carried.end(), 2e-3);
@@ -158,7 +158,7 @@ TEST(NewModel, TransportIsToldNoMoreThanThereIs) {
   const Mechanism& mechanism = *flame.flowCase.mechanism;
   const std::size_t n = mechanism.numSpecies(), h2 = mechanism.speciesIndex("H2");
   CarriedParticles dust(mechanism, std::make_unique<Dust>(1e3));
-  State state(flame.mesh, n, CarriedOperator::scalarsOf(dust));
+  State state(flame.mesh, n, {CarriedOperator::blockOf(dust, flame.flowCase.boundaries)});
   for (auto field : {&State::temperature, &State::density, &State::enthalpy, &State::Y})
     state.*field = flame.state.*field;
   state.thermodynamicPressure = flame.state.thermodynamicPressure;

@@ -200,7 +200,8 @@ Datasets pathsBesideASolid(const fs::path& folder, double timeStep, double durat
                     "  rod: {type: wall, solid: rod}\n"));
   flow.flowCase.trajectories->timeStep = timeStep;
   flow.flowCase.trajectories->duration = duration;
-  State state(flow.mesh, flow.flowCase.mechanism->numSpecies(), CarriedOperator::scalarsOf(*flow.flowCase.carried));
+  State state(flow.mesh, flow.flowCase.mechanism->numSpecies(),
+              {CarriedOperator::blockOf(*flow.flowCase.carried, flow.flowCase.boundaries)});
   setMixingLayer(flow.context, flow.flowCase.initial, state);
   for (int c = 0; c < flow.mesh.cells; ++c) state.velocity[3 * static_cast<std::size_t>(c)] = 2.0;
   GasProperties properties;

@@ -52,7 +52,7 @@ Faces facesOf(int refinement, bool isMirrored) {
     return Box::Local{{0.0, 0.0}, temperatureAt(x, y), Y};
   });
   state.updateHalo(box.halo);
-  FaceState faces(box.context, state.species, 0);
+  FaceState faces(box.context, state);
   faces.prepare(state, state.Y);
   Faces result;
   double count = 0.0;
@@ -107,7 +107,7 @@ TEST(FaceState, AFeedLeadsNoFurtherThanTheSlopeBehindIt) {
       return Box::Local{{0.0, 0.0}, 300.0, of(first + slope * (x[0] / width * cells - 0.5))};
     });
     state.updateHalo(box.halo);
-    FaceState faces(box.context, state.species, 0);
+    FaceState faces(box.context, state);
     faces.prepare(state, state.Y);
     double found = 0.0;
     std::vector<double> Y(gas.mechanism.numSpecies());

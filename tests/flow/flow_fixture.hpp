@@ -117,10 +117,17 @@ struct Box {
     double temperature = 300.0;
     std::vector<double> Y;
   };
+  // `carried`: particles, of one owner.
   State state(const std::function<Local(const Vector3&)>& set, std::vector<CarriedScalar> carried = {},
               bool swirls = false) {
+    std::vector<ScalarBlock> blocks;
+    if (!carried.empty()) blocks.push_back(takenByWalls({"particles", std::move(carried)}, context.boundaries));
+    return stateWith(blocks, set, swirls);
+  }
+  State stateWith(const std::vector<ScalarBlock>& blocks, const std::function<Local(const Vector3&)>& set,
+                  bool swirls = false) {
     const std::size_t n = gas.mechanism.numSpecies();
-    State s(mesh, n, std::move(carried), swirls);
+    State s(mesh, n, blocks, swirls);
     for (int c = 0; c < mesh.cells; ++c) {
       const Local local = set(mesh.centre[at(c)]);
       for (int i = 0; i < mesh.dimension; ++i) s.velocity[at(mesh.dimension * c + i)] = local.velocity[at(i)];

@@ -36,7 +36,7 @@ TEST(FlowMemory, AStepAndPathsTakeNothingOfTheSizeOfTheMesh) {
   std::optional<State> state;
   std::optional<TransportOperator> transport;
   const std::size_t ofStep = largestTaken([&] {
-    state.emplace(mesh, air.size(), std::vector<CarriedScalar>{});
+    state.emplace(mesh, air.size(), std::vector<ScalarBlock>{});
     for (int c = 0; c < mesh.cells; ++c) {
       const auto& Y = mesh.centre[at(c)][0] < 0.5 ? air : fuel;
       state->velocity[at(2 * c)] = 0.1 * mesh.centre[at(c)][1];

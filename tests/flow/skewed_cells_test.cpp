@@ -77,7 +77,7 @@ TEST(FaceStateOnSkewedCells, StaysWithinTheCellsAround) {
     State state = box.state([&](const Vector3& x) {
       return Box::Local{{0.0, 0.0, 0.0}, x[0] + 0.3 * x[1] < 6e-4 ? 300.0 : 900.0, x[0] + 0.3 * x[1] < 6e-4 ? n2 : o2};
     });
-    FaceState faces(box.context, state.species, 0);
+    FaceState faces(box.context, state);
     faces.prepare(state, state.Y);
     std::vector<double> row(n2.size());
     for (int face = 0; face < m.interiorFaces; ++face)

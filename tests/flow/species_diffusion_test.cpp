@@ -124,7 +124,7 @@ TEST_F(Diffusing, BothRanksComputeTheSameFluxThroughASharedFace) {
 
 TEST_F(Diffusing, FaceStateSumsToOneAndIsInPressureEquilibrium) {
   const State state = box.state([&](const auto& x) { return mixed(x); });
-  FaceState faces(box.context, state.species, 0);
+  FaceState faces(box.context, state);
   faces.prepare(state, state.Y);
   const auto n = gas.mechanism.numSpecies();
   for (const double sign : {1.0, -1.0}) {

@@ -1,0 +1,39 @@
+// What the boundaries have of the carried scalars (ScalarBoundary), as a table: a row a boundary.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/modules.hpp"
+#include "flow/flow_context.hpp"
+#include "flow/state.hpp"
+
+namespace lampblack::flow {
+
+class ScalarBoundaries {
+ public:
+  // std::logic_error for a scalar whose boundaries are others than the context's, or that is held where nothing can be.
+  ScalarBoundaries(const FlowContext& context, const State& state);
+
+  // Of every scalar at a boundary face.
+  [[nodiscard]] std::span<const ScalarBoundary> at(int face) const {
+    return {rows_.data() + patchOf(face) * scalars_, scalars_};
+  }
+  // Whether the boundary of this face holds any of them.
+  [[nodiscard]] bool holdsAny(int face) const { return holdsAny_[patchOf(face)] != 0; }
+  // Whether no boundary holds some scalars and lets others be.
+  [[nodiscard]] bool areAlike() const { return areAlike_; }
+
+ private:
+  [[nodiscard]] std::size_t patchOf(int face) const {
+    return static_cast<std::size_t>(mesh_.patch[face - mesh_.interiorFaces]);
+  }
+
+  const Mesh& mesh_;
+  std::size_t scalars_;
+  std::vector<ScalarBoundary> rows_;
+  std::vector<char> holdsAny_;
+  bool areAlike_ = true;
+};
+
+}  // namespace lampblack::flow

@@ -1,0 +1,300 @@
+// Blocks of carried scalars: what a boundary has of them, and that they stand side by side without knowing each other.
+#include "flow/scalar_block.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <numbers>
+
+#include "flow/stepping/transport_operator.hpp"
+#include "flow_fixture.hpp"
+#include "tests/every_module.hpp"
+
+namespace lampblack::test {
+namespace {
+
+// A passive scalar with values at boundaries, by their names, and a source: all that a new owner has to bring.
+struct Toy : Operator {
+  std::map<std::string, ScalarBoundary> given;
+  double diffusivity = 0.0, source = 0.0;  // m^2/s; per kg of gas and s
+
+  [[nodiscard]] ScalarBlock block(const FlowContext& context) const {
+    CarriedScalar scalar{.name = "toy", .unit = "1/m^3", .description = "nothing"};
+    for (const BoundaryCondition& boundary : context.boundaries)
+      scalar.boundaries.push_back(given.contains(boundary.name) ? given.at(boundary.name) : ScalarBoundary{});
+    return {name(), {scalar}};
+  }
+  [[nodiscard]] const char* name() const override { return "toy"; }
+  void advance(State&, double, double) override {}
+  void endSweep(State& state) override {
+    const auto first = at(state.block(name()).first), all = state.scalars.size();
+    for (std::size_t c = 0; c < state.density.size(); ++c) state.carriedDiffusivity[c * all + first] = diffusivity;
+    for (std::size_t c = 0; c < state.balance.enthalpy.size(); ++c)
+      state.balance.carried[c * all + first] += state.density[c] * source;
+  }
+};
+
+struct Channel {
+  static constexpr double speed = 0.1, temperature = 300.0;
+  Gas& gas = Gas::hydrogen();
+  std::vector<double> N2 = gas.massFractions("N2: 1");
+  Box box;
+  double density = gas.thermo.density(temperature, 101325.0, N2);
+
+  Channel(double half, int across, double length, int along)
+      : box(Geometry::Planar, {uniformAxis(half, across), uniformAxis(length, along)},
+            {side(BoundaryKind::Symmetry, 0, false), side(BoundaryKind::Wall, 0, true),
+             opening(BoundaryKind::Inlet, 1, false, speed, temperature, N2),
+             opening(BoundaryKind::Outlet, 1, true, 0.0, temperature, N2)}) {}
+  State stateOf(const std::vector<ScalarBlock>& blocks) {
+    return box.stateWith(blocks, [&](const auto&) { return Box::Local{{0.0, speed}, temperature, N2}; });
+  }
+};
+
+void march(State& state, TransportOperator& transport, Toy& toy, double dt, int steps) {
+  transport.initialise(state, dt);
+  toy.endSweep(state);
+  for (int i = 0; i < steps; ++i) {
+    transport.advance(state, i * dt, dt);
+    transport.endSweep(state);
+    toy.endSweep(state);
+  }
+}
+
+// Per s, of this name's boundary or of all of them, behind a place along the channel.
+double through(const Box& box, const TransportOperator& transport, const ScalarRange& block, std::string_view name,
+               double from = 0.0) {
+  double sum = 0.0;
+  for (int face = box.mesh.interiorFaces; face < box.mesh.faces; ++face)
+    if ((name.empty() || box.context.boundaryOf(face).name == name) && box.mesh.faceCentre[at(face)][1] >= from)
+      sum += transport.carriedFlux(block, face)[0];
+  return sumOverRanks(sum);
+}
+
+// Plug flow u between walls at +-h that hold cw, from an inlet that holds c0, with a source s: beside the parabola
+// cw + s (h^2 - x^2)/(2 D) modes cos(l x) with l = (n + 1/2) pi/h, each of which decays as exp(r y) with
+// D r^2 - u r - D l^2 = 0; no slope at the outlet.
+struct PlugFlow {
+  double h, length, u, D, s, c0, cw;
+  // With the slope along x, times D.
+  [[nodiscard]] std::array<double, 2> at(double x, double y) const {
+    std::array<double, 2> c{cw + s * (h * h - x * x) / (2.0 * D), -s * x};
+    for (int n = 0; n < 60; ++n) {
+      const double l = (n + 0.5) * std::numbers::pi / h, sign = n % 2 == 0 ? 1.0 : -1.0;
+      const double amplitude = sign * 2.0 / (l * h) * (c0 - cw - s / (D * l * l));
+      const double root = std::sqrt(u * u + 4.0 * D * D * l * l), r = (u - root) / (2.0 * D),
+                   R = (u + root) / (2.0 * D);
+      const double back = -r / R * std::exp((r - R) * length);
+      const double along =
+          amplitude / (1.0 + back) * (std::exp(r * y) - r / R * std::exp(r * length - R * (length - y)));
+      c[0] += std::cos(l * x) * along;
+      c[1] -= D * l * std::sin(l * x) * along;
+    }
+    return c;
+  }
+};
+
+TEST(ScalarBlocks, AToyIsHeldAtInletAndWallsOfAChannel) {
+  const double h = 1e-3, length = 3.0 * h, D = 1e-4;
+  double error[2];
+  for (int level = 0; level < 2; ++level) {
+    const int across = 5 << level, along = 3 * across;
+    Channel channel(h, across, length, along);
+    const Box& box = channel.box;
+    Toy toy;
+    toy.given = {{"ymin", {.value = 5.0, .isHeld = true}}, {"xmax", {.value = 2.0, .isHeld = true}}};
+    toy.diffusivity = D;
+    toy.source = 900.0;
+    State state = channel.stateOf({toy.block(box.context)});
+    TransportOperator transport(box.context, state);
+    march(state, transport, toy, 0.5 * length / along / Channel::speed, 4 * along);
+    const PlugFlow exact{h, length, Channel::speed, D, toy.source, 5.0, 2.0};
+    const auto perMass = [&](int c) { return state.carried[at(c)] / state.density[at(c)]; };
+    const auto off = [&](int c) {
+      const Vector3& x = box.mesh.centre[at(c)];
+      return std::abs(perMass(c) - exact.at(x[0], x[1])[0]);
+    };
+    error[level] = integral(box.mesh, off) / integral(box.mesh, [](int) { return 1.0; });
+    const ScalarRange& block = state.block("toy");
+    double taken = 0.0;  // by the wall in the last two fifths
+    for (int j = 0; j < along; ++j) {
+      const double y = (j + 0.5) * length / along;
+      if (y > 0.6 * length) taken -= channel.density * exact.at(h, y)[1] * length / along;
+    }
+    const double found = through(box, transport, block, "xmax", 0.6 * length);
+    const double made = channel.density * toy.source * h * length, lost = through(box, transport, block, "");
+    report(fmt::format("toy between walls, {} x {} cells: mean error {:.2e}, the wall takes {:.5f} of what it should",
+                       across, along, error[level], found / taken));
+    EXPECT_NEAR(lost / made, 1.0, 1e-6) << "not steady";
+    EXPECT_NEAR(found / taken, 1.0, level == 0 ? 1e-2 : 3e-3);
+  }
+  EXPECT_LT(error[1], 1.2e-2);
+  EXPECT_GT(error[0] / error[1], 3.0);
+}
+
+// What comes in with the gas, and no more: u c - D c' is that of the inlet, and c' = 0 at the outlet.
+TEST(ScalarBlocks, AToyIsFedAtTheInlet) {
+  const double length = 4e-3, D = 1e-4, u = Channel::speed, fed = 5.0;
+  for (const int sweeps : {1, 2}) {
+    Channel channel(1e-3, 2, length, 20);
+    const Box& box = channel.box;
+    Toy toy;
+    toy.given["ymin"].value = fed;
+    toy.diffusivity = D;
+    toy.source = 100.0;
+    State state = channel.stateOf({toy.block(box.context)});
+    TransportOperator transport(box.context, state, {.sweeps = sweeps});
+    const double dt = 0.5 * length / 20 / u;
+    transport.initialise(state, dt);
+    toy.endSweep(state);
+    for (int i = 0; i < 250; ++i)
+      for (int sweep = 0; sweep < sweeps; ++sweep) {
+        transport.advance(state, i * dt, dt);
+        transport.endSweep(state);
+        toy.endSweep(state);
+      }
+    const auto exact = [&](double y) {
+      return fed + D * toy.source / (u * u) + toy.source / u * (y - D / u * std::exp(u * (y - length) / D));
+    };
+    const double worst = largest(box.mesh, [&](int c) {
+      return std::abs(state.carried[at(c)] / state.density[at(c)] - exact(box.mesh.centre[at(c)][1]));
+    });
+    report(fmt::format("toy fed, {} sweeps: largest error {:.2e}", sweeps, worst));
+    EXPECT_LT(worst, 1e-2);
+    const double came = channel.density * u * 1e-3 * fed;
+    EXPECT_NEAR(through(box, transport, state.block("toy"), "ymin") / -came, 1.0, 1e-9);
+    EXPECT_NEAR(sumOverRanks(transport.boundaryAmounts().carriedIn[0]) / (dt * came), 1.0, 1e-9);
+  }
+}
+
+// Between a warm wall and a cold one that hold values, with a drift w from one to the other: the flux
+// w (c0 e^P - c1)/(e^P - 1) with P = w L/(rho D) is the same everywhere.
+TEST(ScalarBlocks, WallsHoldWhatDriftsBetweenThem) {
+  Gas& gas = Gas::hydrogen();
+  const std::vector<double> air = gas.massFractions("O2: 0.21, N2: 0.79");
+  const double length = 0.01, cold = 300.0, warmer = 0.03, v = 0.02, peclet = 4.0, low = 1.0, high = 3.0;
+  std::vector<double> X(air.size()), D(air.size());
+  gas.thermo.massToMole(air, X);
+  const double density = gas.thermo.density(cold, 101325.0, air);
+  const double viscosity = gas.transport.mixture(cold, 101325.0, X, D).viscosity;
+  std::vector<Side> sides{side(BoundaryKind::Symmetry, 0, false), side(BoundaryKind::Symmetry, 0, true),
+                          side(BoundaryKind::Wall, 1, false), side(BoundaryKind::Wall, 1, true)};
+  for (const std::size_t i : {2, 3}) {
+    sides[i].condition.isothermal = true;
+    sides[i].condition.temperature = i == 2 ? cold + warmer : cold;
+  }
+  Box box(Geometry::Planar, {uniformAxis(1e-3, 2), uniformAxis(length, 20)}, sides);
+  Toy toy;
+  toy.given = {{"ymin", {.value = low, .isHeld = true}}, {"ymax", {.value = high, .isHeld = true}}};
+  toy.diffusivity = v * length / peclet;
+  ScalarBlock block = toy.block(box.context);
+  block.scalars[0].thermophoresis = v * density * cold * length / (viscosity * warmer);
+  State state = box.stateWith({block}, [&](const auto& x) {
+    return Box::Local{{}, cold + warmer * (1.0 - x[1] / length), air};
+  });
+  TransportOperator transport(box.context, state);
+  march(state, transport, toy, 0.4 * length / 20 / v, 300);
+  const double J = v * density * (low * std::exp(peclet) - high) / std::expm1(peclet) * 1e-3;
+  EXPECT_NEAR(through(box, transport, state.block("toy"), "ymin") / -J, 1.0, 1e-2);
+  EXPECT_NEAR(through(box, transport, state.block("toy"), "ymax") / J, 1.0, 1e-2);
+  const auto exact = [&](double y) {
+    return low + (high - low) * std::expm1(peclet * y / length) / std::expm1(peclet);
+  };
+  EXPECT_LT(largest(box.mesh,
+                    [&](int c) {
+                      return std::abs(state.carried[at(c)] / state.density[at(c)] - exact(box.mesh.centre[at(c)][1]));
+                    }),
+            0.03);
+}
+
+// Particles of two sizes in a gas that is warmer than its walls, beside another block, before it and alone.
+struct Beside {
+  std::vector<double> particles, gas, through;
+};
+Beside particlesBeside(bool isToyFirst, bool isToyThere, int sweeps, std::optional<Split> split) {
+  Gas& gas = Gas::hydrogen();
+  const std::vector<double> air = gas.massFractions("O2: 0.21, N2: 0.79"), fuel = gas.massFractions("H2: 1, N2: 4");
+  std::vector<Side> sides{side(BoundaryKind::Symmetry, 0, false), side(BoundaryKind::Wall, 0, true),
+                          opening(BoundaryKind::Inlet, 1, false, 0.5, 400.0, air),
+                          opening(BoundaryKind::Outlet, 1, true, 0.0, 300.0, air)};
+  sides[1].condition.isothermal = sides[1].condition.takesParticles = true;
+  sides[1].condition.temperature = 350.0;
+  Box box(Geometry::Planar, {uniformAxis(0.006, 6), uniformAxis(0.012, 12)}, sides, gas, split);
+  Toy toy;
+  toy.given = {{"ymin", {.value = 3.0, .isHeld = true}}};
+  toy.diffusivity = 3e-3;
+  toy.source = 10.0;
+  std::vector<ScalarBlock> blocks{
+      takenByWalls({"soot", {{"small", "1/m^3", "", 0.55}, {"large", "1/m^3", "", 0.55}}}, box.context.boundaries)};
+  // Also one that its owner moves.
+  ScalarBlock others = toy.block(box.context);
+  others.scalars.push_back({.name = "moved", .unit = "1/m^3", .description = "", .isTransported = false});
+  if (isToyThere) blocks.insert(isToyFirst ? blocks.begin() : blocks.end(), others);
+  State state = box.stateWith(blocks, [&](const Vector3& x) {
+    return Box::Local{{0.0, 0.5}, 400.0 + 1e4 * x[0], x[1] < 0.005 ? air : fuel};
+  });
+  const ScalarRange soot = state.block("soot");
+  const auto of = [&](int c, int s) { return at(c) * state.scalars.size() + at(soot.first + s); };
+  for (int c = 0; c < box.mesh.cells; ++c)
+    for (int s = 0; s < 2; ++s) {
+      state.carried[of(c, s)] = 1.0 + std::sin(700.0 * box.mesh.centre[at(c)][0] + s) * (s + 1.0);
+      state.carriedDiffusivity[of(c, s)] = s == 0 ? 2e-4 : 1e-6;
+    }
+  TransportOperator transport(box.context, state, {.sweeps = sweeps});
+  const double dt = 1e-4;
+  transport.initialise(state, dt);
+  for (int i = 0; i < 4; ++i)
+    for (int sweep = 0; sweep < sweeps; ++sweep) {
+      if (isToyThere) toy.endSweep(state);
+      transport.advance(state, i * dt, dt);
+      transport.endSweep(state);
+    }
+  Beside found;
+  for (int c = 0; c < box.mesh.owned; ++c)
+    for (int s = 0; s < 2; ++s) found.particles.push_back(state.carried[of(c, s)]);
+  found.gas = state.temperature;
+  for (int face = box.mesh.interiorFaces; face < box.mesh.faces; ++face)
+    for (const double flux : transport.carriedFlux(soot, face)) found.through.push_back(flux);
+  if (!isToyThere) return found;
+  const auto moved = at(state.block("toy").first + 1);
+  EXPECT_EQ(transport.boundaryAmounts().carriedOut[moved] + transport.boundaryAmounts().carriedIn[moved], 0.0);
+  for (std::size_t c = 0; c < at(box.mesh.owned); ++c) EXPECT_EQ(state.carried[c * 4 + moved], 0.0);
+  EXPECT_GT(largest(box.mesh, [&](int c) { return state.carried[at(c) * 4 + moved - 1]; }), 0.1);
+  return found;
+}
+
+TEST(ScalarBlocks, StandSideBySideAndDoNotDisturbEachOther) {
+  for (const auto& split : {std::optional<Split>(), std::optional<Split>(Split{Cells::Triangles})})
+    for (const int sweeps : {1, 2}) {
+      SCOPED_TRACE(fmt::format("{} sweeps, {}", sweeps, split ? "triangles" : "rectangles"));
+      const Beside alone = particlesBeside(false, false, sweeps, split);
+      for (const bool isFirst : {false, true}) {
+        const Beside beside = particlesBeside(isFirst, true, sweeps, split);
+        EXPECT_EQ(beside.particles, alone.particles) << isFirst;
+        EXPECT_EQ(beside.gas, alone.gas) << isFirst;
+        EXPECT_EQ(beside.through, alone.through) << isFirst;
+      }
+    }
+}
+
+TEST(ScalarBlocks, AreFoundByTheirOwners) {
+  Channel channel(1e-3, 2, 1e-3, 4);
+  const FlowContext& context = channel.box.context;
+  Toy toy;
+  const ScalarBlock two{"two", {{"a", "1/m^3", ""}, {"b", "1/m^3", ""}}};
+  const State state = channel.stateOf({two, toy.block(context)});
+  EXPECT_EQ(state.block("toy").first, 2);
+  EXPECT_EQ(state.block("toy").count, 1);
+  EXPECT_EQ(state.block("two").first, 0);
+  EXPECT_THROW((void)state.block("three"), std::logic_error);
+  EXPECT_THROW(channel.stateOf({two, two}), std::logic_error);
+  ScalarBlock wrong = two;
+  wrong.scalars[1].boundaries.resize(2);
+  EXPECT_THROW(TransportOperator(context, channel.stateOf({wrong})), std::logic_error);
+  toy.given["ymax"].isHeld = true;  // an outlet
+  EXPECT_THROW(TransportOperator(context, channel.stateOf({toy.block(context)})), std::logic_error);
+}
+
+}  // namespace
+}  // namespace lampblack::test
