@@ -22,14 +22,19 @@ inline Gas& ethylene() {
 
 struct CellVessel {
   CellVessel(Gas& gas, const std::function<Box::Local(const Vector3&)>& start, std::shared_ptr<CellParticles> kind,
-             const EnsembleOperator::Options& o, MPI_Comm comm = MPI_COMM_WORLD)
+             const EnsembleOperator::Options& o, MPI_Comm comm = MPI_COMM_WORLD,
+             std::vector<ScalarBlock> carriedBefore = {})
       : box(closedBox(0.004, 6, 5), fourWalls(), {}, comm, gas),
-        state(box.state(start, kind->scalars())),
+        state(box.stateWith(withBlock(std::move(carriedBefore), *kind), start)),
         transport(box.context, state),
         particles(std::move(kind)),
-        ensembles(box.context, transport, particles, o) {
+        ensembles(box.context, transport, particles, o, at(state.block(particles->material()).first)) {
     transport.initialise(state, dt);
     begin();
+  }
+  static std::vector<ScalarBlock> withBlock(std::vector<ScalarBlock> blocks, const CellParticles& particles) {
+    blocks.push_back({particles.material(), particles.scalars()});
+    return blocks;
   }
   void begin() {
     for (Operator* op : std::initializer_list<Operator*>{&transport, &ensembles}) op->endStep(state);

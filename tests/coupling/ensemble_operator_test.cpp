@@ -51,7 +51,7 @@ Options options(Exchange exchange, double average = 0.0) {
 
 // A closed vessel of sooting gas, hotter and richer in PAH on one side.
 struct Vessel : CellVessel {
-  explicit Vessel(const Options& o, MPI_Comm comm = MPI_COMM_WORLD)
+  explicit Vessel(const Options& o, MPI_Comm comm = MPI_COMM_WORLD, const std::vector<ScalarBlock>& carriedBefore = {})
       : CellVessel(
             ethylene(),
             [](const Vector3& x) {
@@ -63,8 +63,28 @@ struct Vessel : CellVessel {
                                                        "H2O: 0.04, CO: 0.02, A2: {:.17g}",
                                                        2e-4 * part))};
             },
-            sootOf(o), o, comm) {}
+            sootOf(o), o, comm, carriedBefore) {}
 };
+
+// The amounts of the particles stand where their block stands.
+TEST(EnsembleOperator, DoesNotTouchWhatElseIsCarried) {
+  const Options o = options(Exchange::TwoWay);
+  Vessel alone(o), beside(o, MPI_COMM_WORLD, {{"other", {{"a", "1/m^3", ""}, {"b", "1/m^3", ""}}}});
+  const std::size_t n = alone.state.scalars.size();
+  for (std::size_t i = 0; i < beside.state.carried.size(); ++i)
+    if (i % (n + 2) < 2) beside.state.carried[i] = beside.state.density[i / (n + 2)];
+  for (int s = 0; s < 5; ++s)
+    for (Vessel* v : {&alone, &beside}) v->step();
+  EXPECT_EQ(beside.state.temperature, alone.state.temperature);
+  EXPECT_EQ(beside.ensembles.populations(), alone.ensembles.populations());
+  for (std::size_t c = 0; c < alone.state.density.size(); ++c) {
+    for (std::size_t s = 0; s < n; ++s)
+      ASSERT_EQ(beside.state.carried[c * (n + 2) + 2 + s], alone.state.carried[c * n + s]) << s;
+    for (std::size_t s = 0; s < 2; ++s)
+      ASSERT_NEAR(beside.state.carried[c * (n + 2) + s] / beside.state.density[c], 1.0, 1e-4);
+  }
+  EXPECT_EQ(beside.ensembles.historyValues(beside.state), alone.ensembles.historyValues(alone.state));
+}
 
 class ExchangeWithGas : public testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(Averages, ExchangeWithGas, testing::Values(0.0, 1e-4));

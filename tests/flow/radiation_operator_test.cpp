@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "core/constants.hpp"
 #include "flow/stepping/transport_operator.hpp"
 #include "flow_fixture.hpp"
@@ -63,6 +65,30 @@ TEST(RadiationOperator, CoolsAGasOfConstantVolume) {
   const double coarse = errorOf(2, 40), fine = errorOf(2, 80);
   EXPECT_GT(coarse / fine, 3.5);
   EXPECT_LT(fine, 0.1);
+}
+
+// What of several owners' scalars radiates are those of one.
+TEST(RadiationOperator, SeesTheBlockThatRadiates) {
+  Gas& gas = Gas::hydrogen();
+  const auto N2 = gas.massFractions("N2: 1");
+  Box box(Geometry::Planar, {uniformAxis(0.01, 2), uniformAxis(0.01, 2)},
+          {side(BoundaryKind::Wall, 0, false), side(BoundaryKind::Wall, 0, true), side(BoundaryKind::Wall, 1, false),
+           side(BoundaryKind::Wall, 1, true)});
+  State state = box.stateWith({{"other", {{"a", "1/m^3", ""}}}, {"soot", {{"b", "1/m^3", ""}, {"c", "1/m^3", ""}}}},
+                              [&](const auto&) {
+                                return Box::Local{{}, 1500.0, N2};
+                              });
+  for (std::size_t i = 0; i < state.carried.size(); ++i) state.carried[i] = std::array{100.0, 2.0, 3.0}[i % 3];
+  const auto sum = [](double, std::span<const double> carried) {
+    double all = 0.0;
+    for (const double one : carried) all += one;
+    return all;
+  };
+  RadiationOperator operation(box.context, 300.0, sum, state.block("soot"));
+  operation.endStep(state);
+  operation.endSweep(state);
+  const double loss = ThinRadiation(gas.mechanism, 300.0).loss(5.0, 1500.0);
+  for (const double heat : state.balance.enthalpy) EXPECT_NEAR(heat / -loss, 1.0, 1e-12);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/errors.hpp"
+#include "core/state_backup.hpp"
 #include "flow/field_registry.hpp"
 #include "flow/stepping/finite_state.hpp"
 #include "flow_fixture.hpp"
@@ -88,6 +89,32 @@ TEST(FieldRegistry, GivesTheStateItsSizesAndItsHalo) {
   for (const FieldDeclaration& field : fieldRegistry())
     for (std::size_t i = 0; field.isInHalo && i < field.of(state).size(); ++i)
       ASSERT_EQ(field.of(state)[i], box.mesh.naturalCell[i / at(field.widthIn(state))]) << field.name;
+}
+
+// What is kept goes back to where it was; the rest is left alone.
+TEST(FieldRegistry, KeepsWhatIsArchived) {
+  Box box(Geometry::Axisymmetric, {uniformAxis(1e-3, 4), uniformAxis(1e-3, 6)},
+          {side(BoundaryKind::Symmetry, 0, false), side(BoundaryKind::Wall, 0, true),
+           side(BoundaryKind::Wall, 1, false), side(BoundaryKind::Wall, 1, true)});
+  State state(box.mesh, box.gas.mechanism.numSpecies(), {{"one", {{"a", "1/m^3", ""}, {"b", "1/m^3", ""}}}}, true);
+  const auto fill = [&](double sign) {
+    for (const FieldDeclaration& field : fieldRegistry())
+      for (std::size_t i = 0; i < field.of(state).size(); ++i)
+        field.of(state)[i] = sign * (1.0 + static_cast<double>(i));
+  };
+  StateBackup backup(box.mesh.owned, box.mesh.faces);
+  const auto owner = [&](StateArchive& archive) { state.saveOrLoad(archive); };
+  fill(1.0);
+  backup.save(owner);
+  fill(-1.0);
+  backup.restore(owner);
+  for (const FieldDeclaration& field : fieldRegistry()) {
+    const bool isOfFaces = field.kind == FieldDeclaration::Kind::FaceFlux;
+    const std::size_t own = at(isOfFaces ? box.mesh.faces : box.mesh.owned) * at(field.widthIn(state));
+    for (std::size_t i = 0; i < field.of(state).size(); ++i)
+      ASSERT_EQ(field.of(state)[i], (field.archived && i < own ? 1.0 : -1.0) * (1.0 + static_cast<double>(i)))
+          << field.name << ' ' << i;
+  }
 }
 
 // Every value that has to be a number is looked at, and the message names it.
